@@ -1,0 +1,1 @@
+"""The angen command and what it is made of."""
