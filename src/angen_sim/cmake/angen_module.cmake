@@ -1,0 +1,33 @@
+# angen_module(NAME sources... [USES modules...] [LINK libraries...])
+# One folder, one shared library angen_NAME. It sees its own headers and those of the modules it uses, and no
+# others: each module's headers are reached through a link of its own, so a wrong include does not build.
+function(angen_module name)
+  cmake_parse_arguments(arg "" "" "USES;LINK" ${ARGN})
+  set(view ${CMAKE_BINARY_DIR}/angen_headers/${name})
+  file(MAKE_DIRECTORY ${view})
+  file(CREATE_LINK ${ANGEN_SIM_DIR}/${name} ${view}/${name} SYMBOLIC)
+  if(arg_UNPARSED_ARGUMENTS)
+    add_library(angen_${name} SHARED ${arg_UNPARSED_ARGUMENTS})
+    set(scope PUBLIC)
+    target_compile_options(angen_${name} PRIVATE ${ANGEN_WARNINGS})
+    install(TARGETS angen_${name} LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+  else()
+    add_library(angen_${name} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  target_include_directories(angen_${name} ${scope} ${view})
+  foreach(used ${arg_USES})
+    target_link_libraries(angen_${name} ${scope} angen_${used})
+  endforeach()
+  target_link_libraries(angen_${name} ${scope} ${arg_LINK})
+  install(DIRECTORY ${ANGEN_SIM_DIR}/${name} DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION}/..
+          FILES_MATCHING PATTERN "*.h")
+endfunction()
+
+# angen_plugin(FILE sources...): a plug-in library libFILE.so, loaded by name and never linked to.
+function(angen_plugin file)
+  add_library(${file} MODULE ${ARGN})
+  target_compile_options(${file} PRIVATE ${ANGEN_WARNINGS})
+  target_link_libraries(${file} PRIVATE angen_plugin angen_class_loader)
+  install(TARGETS ${file} LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+endfunction()

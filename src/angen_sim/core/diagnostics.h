@@ -1,0 +1,40 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace angen {
+
+/// Where in a user's file something stands; line 0 is "the file as a whole".
+struct Source {
+  std::string file;
+  int line = 0;
+};
+
+struct Diagnostic {
+  enum class Severity { kWarning, kError };
+  Severity severity = Severity::kError;
+  Source source;
+  std::string message;  // what is wrong, what would be right
+
+  std::string text() const;  // "file:line: message", or only the message without a file
+};
+
+/// One or more errors in what a user gave. what() has one line for each.
+class Error : public std::runtime_error {
+ public:
+  explicit Error(std::string message);
+  Error(Source source, std::string message);
+  explicit Error(std::vector<Diagnostic> diagnostics);
+
+  const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
+
+ private:
+  std::vector<Diagnostic> diagnostics_;
+};
+
+/// "a, b, c" for "known names are …"; at most `limit`, then how many more.
+std::string join_names(const std::vector<std::string>& names, std::size_t limit = 40);
+
+}  // namespace angen

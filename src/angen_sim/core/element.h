@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/diagnostics.h"
+
+namespace angen {
+
+/// A piece of XML as plain values: what a plug-in's parameters are read from.
+struct Element {
+  std::string name;
+  std::string text;  // trimmed
+  std::vector<std::pair<std::string, std::string>> attributes;
+  std::vector<Element> children;
+  Source source;
+
+  const Element* child(const std::string& child_name) const {
+    for (const Element& c : children) {
+      if (c.name == child_name) return &c;
+    }
+    return nullptr;
+  }
+  const std::string* attribute(const std::string& key) const {
+    for (const auto& [k, v] : attributes) {
+      if (k == key) return &v;
+    }
+    return nullptr;
+  }
+};
+
+}  // namespace angen

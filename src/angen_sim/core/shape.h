@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/pose.h"
+
+namespace angen {
+
+/// Triangles in the shape's own frame, metres, already scaled. Counter-clockwise seen from outside.
+struct TriangleMesh {
+  std::vector<Eigen::Vector3f> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// A solid in its own frame, centred on the origin; a plane passes through it with normal z.
+struct Shape {
+  enum class Type { kEmpty, kBox, kSphere, kCylinder, kCapsule, kPlane, kMesh };
+
+  Type type = Type::kEmpty;
+  Vec3 size = Vec3::Zero();  // box: full lengths; plane: x and y extents (for display), else unused
+  double radius = 0.0;       // sphere, cylinder, capsule
+  double length = 0.0;       // cylinder (along z); capsule: of its cylindrical part
+  std::shared_ptr<const TriangleMesh> mesh;  // mesh and heightmap, shared between copies
+  std::string mesh_file;                     // absolute path a viewer can load, empty for heightmaps
+  Vec3 mesh_scale = Vec3::Ones();            // what mesh_file must be scaled by to equal `mesh`
+};
+
+}  // namespace angen

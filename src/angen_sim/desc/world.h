@@ -1,0 +1,164 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/element.h"
+#include "core/pose.h"
+#include "core/shape.h"
+#include "core/time.h"
+
+/// Plain values that describe a world as its files say it, before anything moves. SI units and radians.
+namespace angen::desc {
+
+struct Material {
+  Eigen::Vector4f diffuse{0.7F, 0.7F, 0.7F, 1.0F};  // r g b a, 0..1; r g b also serve as albedo
+  Eigen::Vector4f emissive{0.0F, 0.0F, 0.0F, 1.0F};
+};
+
+struct Friction {
+  double mu = 1.0;
+  double mu2 = 1.0;
+  Vec3 direction1 = Vec3::Zero();  // in the collision's frame; zero = chosen by the engine
+  double slip1 = 0.0;
+  double slip2 = 0.0;
+};
+
+struct Collision {
+  std::string name;
+  Pose pose;  // in the link's frame
+  Shape shape;
+  Friction friction;
+  double restitution = 0.0;
+  std::optional<double> stiffness;  // N/m
+  std::optional<double> damping;    // N s/m
+  Source source;
+};
+
+struct Visual {
+  std::string name;
+  Pose pose;  // in the link's frame
+  Shape shape;
+  Material material;
+};
+
+struct Inertial {
+  double mass = 1.0;                                      // kg
+  Pose pose;                                              // centre of mass in the link's frame
+  Eigen::Matrix3d moment = Eigen::Matrix3d::Identity();   // kg m^2 about the centre, in pose's axes
+};
+
+struct Light {
+  enum class Type { kPoint, kSpot, kDirectional };
+  std::string name;
+  Type type = Type::kPoint;
+  Pose pose;                                         // in the link's frame, or the world's
+  Eigen::Vector3f diffuse{1.0F, 1.0F, 1.0F};         // chromaticity
+  double intensity = 1.0;                            // factor on its nominal flux
+  double range = 10.0;                               // m, SDF's attenuation range
+  Vec3 direction = -Vec3::UnitZ();                   // in its own frame, spot and directional
+  double inner_angle = 0.0;                          // rad, spot
+  double outer_angle = 0.0;
+  bool cast_shadows = true;
+  Source source;
+};
+
+struct Sensor {
+  std::string name;
+  std::string type;  // SDF's: ray, camera, contact, …
+  Pose pose;         // in the link's frame
+  double update_rate = 0.0;  // Hz; 0 = the plug-in's default
+  bool visualize = false;
+  std::string plugin;  // file name of its library, e.g. libpir_controller.so
+  Element plugin_element;
+  Element element;  // the whole <sensor>
+  Source source;
+};
+
+struct Link {
+  std::string name;
+  Pose pose;  // in the model's frame
+  Inertial inertial;
+  bool gravity = true;
+  bool kinematic = false;
+  bool upright = false;  // never tilts: rotates about world z only (people)
+  std::vector<Collision> collisions;
+  std::vector<Visual> visuals;
+  std::vector<Sensor> sensors;
+  std::vector<Light> lights;
+  Source source;
+};
+
+struct JointAxis {
+  Vec3 xyz = Vec3::UnitZ();  // unit, in the model's frame at position 0
+  double lower = -1e16;      // rad or m
+  double upper = 1e16;
+  double effort = -1.0;      // N m or N, negative = no limit
+  double velocity = -1.0;    // rad/s or m/s, negative = no limit
+  double damping = 0.0;      // N m s/rad or N s/m
+  double friction = 0.0;     // N m or N
+  double initial_position = 0.0;
+};
+
+struct Joint {
+  enum class Type { kFixed, kRevolute, kPrismatic, kBall, kUniversal };
+  std::string name;
+  Type type = Type::kFixed;
+  std::string parent;  // link name, or "world"
+  std::string child;   // link name
+  Vec3 anchor = Vec3::Zero();  // in the model's frame
+  std::vector<JointAxis> axes;  // 0, 1 or 2
+  Source source;
+};
+
+struct Plugin {
+  std::string name;
+  std::string filename;
+  Element element;
+  Source source;
+};
+
+struct Model {
+  std::string name;
+  Pose pose;  // in the world
+  bool is_static = false;
+  bool allow_auto_disable = true;
+  bool self_collide = false;
+  std::vector<Link> links;
+  std::vector<Joint> joints;
+  std::vector<Plugin> plugins;
+  std::string xml;  // as it stood in its file (an <include>, <model> or <actor>), for `save`
+  Source source;
+};
+
+struct Physics {
+  Nanoseconds step = 1'000'000;  // ns
+  double real_time_factor = 1.0;   // 0 = as fast as possible
+  int iterations = 50;
+  double erp = 0.2;
+  double cfm = 0.0;
+  double contact_max_correcting_vel = 100.0;  // m/s
+  double contact_surface_layer = 0.001;       // m
+};
+
+struct Scene {
+  Eigen::Vector4f ambient{0.4F, 0.4F, 0.4F, 1.0F};
+  Eigen::Vector4f background{0.7F, 0.7F, 0.7F, 1.0F};
+  bool shadows = true;
+};
+
+struct World {
+  std::string name = "default";
+  Vec3 gravity{0.0, 0.0, -9.81};  // m/s^2
+  Physics physics;
+  Scene scene;
+  std::vector<Light> lights;
+  std::vector<Model> models;
+  std::vector<Plugin> plugins;
+  std::vector<Diagnostic> warnings;
+  std::string xml;  // the world's own text without models, for `save`
+};
+
+}  // namespace angen::desc

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "desc/world.h"
+
+/// SDF and URDF files to plain descriptions. Every function throws Error (file:line) and changes nothing.
+namespace angen::load {
+
+/// Where model:// and file:// are looked for, first hit wins.
+struct SearchPaths {
+  std::vector<std::string> models;
+  std::vector<std::string> resources;
+
+  /// ANGEN_MODEL_PATH, GAZEBO_MODEL_PATH, `extra_models`, the installed worlds/models;
+  /// GAZEBO_RESOURCE_PATH for resources.
+  static SearchPaths from_environment(const std::string& extra_models = "");
+};
+
+/// A whole world file; worlds/models beside it is searched too.
+desc::World world(const std::string& path);
+
+/// A world from text; `name` stands for the file in messages.
+desc::World world_from_text(const std::string& xml, const std::string& name,
+                            const SearchPaths& paths);
+
+/// One model from a text (<sdf>, <model>, <include>, <actor>, or URDF <robot>), from a path, or from
+/// a model:// uri; `name` replaces its own unless empty, `pose` is where it stands in the world.
+desc::Model model(const std::string& what, const std::string& name, const Pose& pose,
+                  const SearchPaths& paths);
+
+/// True when `what` is a lone <sensor> element (or an <sdf> around one) for sensor().
+bool is_sensor(const std::string& what);
+
+/// A <sensor> element, to be attached to a link; `name` replaces its own unless empty.
+desc::Sensor sensor(const std::string& what, const std::string& name, const Pose& pose);
+
+/// What has changed since a model was described.
+struct ModelState {
+  const desc::Model* model = nullptr;
+  Pose pose;
+  std::vector<std::pair<std::string, std::vector<double>>> joint_positions;
+};
+
+/// The world as SDF that loads again: its own settings, every live model where it is now, sensors
+/// that were attached to links, and a <state> with poses and joint positions.
+std::string save(const desc::World& world, const std::vector<ModelState>& models);
+
+}  // namespace angen::load

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/contact.h"
+#include "core/id.h"
+#include "desc/world.h"
+
+/// Rigid bodies by ODE. One thread. SI units, world frame unless said otherwise.
+namespace angen::physics {
+
+using ModelId = Id<struct PhysicsModelTag>;
+using LinkId = Id<struct PhysicsLinkTag>;
+using JointId = Id<struct PhysicsJointTag>;
+
+struct LinkState {
+  Pose pose;  // of the link's frame (not its centre of mass)
+  Vec3 linear_velocity = Vec3::Zero();   // m/s at the link's origin
+  Vec3 angular_velocity = Vec3::Zero();  // rad/s
+};
+
+struct JointState {
+  double position = 0.0;  // rad or m, first axis
+  double velocity = 0.0;
+  double effort = 0.0;  // N m or N along the axis that joint and motor gave the child in the last step
+};
+
+class World {
+ public:
+  World(const desc::Physics& settings, const Vec3& gravity, std::uint64_t seed);
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  /// Adds bodies, joints and shapes; throws Error and adds nothing when the model cannot be built.
+  ModelId add(const desc::Model& model);
+  void remove(ModelId model);
+
+  /// Ids in the order of desc::Model::links and ::joints.
+  const std::vector<LinkId>& links(ModelId model) const;
+  const std::vector<JointId>& joints(ModelId model) const;
+
+  LinkState link(LinkId link) const;
+  double mass(LinkId link) const;  // kg, 0 for static links
+  bool awake(LinkId link) const;   // false for static and sleeping ones
+  void wake(LinkId link);
+  JointState joint(JointId joint) const;
+
+  /// Force (prismatic, N) or torque (revolute, N m) for the next step only; wakes the child unless 0.
+  void add_force(JointId joint, double force);
+
+  /// A velocity-controlled motor with a force limit (N m or N), until changed; max_force 0 frees it.
+  /// Velocity 0 is a brake: bodies may fall asleep under it. Wakes bodies when it changes.
+  void set_motor(JointId joint, double velocity, double max_force);
+
+  /// Drives a link in the plane: horizontal velocity (m/s) and yaw rate (rad/s) held by a motor of at
+  /// most max_force (N, in any direction); z stays free. max_force 0 frees it. Wakes when it changes.
+  void drive(LinkId link, const Vec3& velocity, double yaw_rate, double max_force);
+
+  /// Moves a whole model so that its frame is at `pose`, velocities zero.
+  void place(ModelId model, const Pose& pose);
+
+  /// Collides and integrates one step of settings.step. `tick` keys what randomness the solver needs.
+  void step(std::int64_t tick);
+
+  /// Links whose pose changed in the last step (or place), in id order.
+  const std::vector<LinkId>& moved() const;
+
+  /// What touches now, sorted by names' ids; sleeping bodies keep their last contacts and forces.
+  const std::vector<ContactPair>& contacts() const;
+
+  std::uint64_t failed_steps() const;  // steps that had to be redone by the other solver
+  std::size_t awake_count() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace angen::physics

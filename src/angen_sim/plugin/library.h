@@ -1,0 +1,45 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "plugin/plugin.h"
+
+namespace angen {
+
+/// The plug-ins of every library that was asked for, by file name. Looked for on ANGEN_PLUGIN_PATH,
+/// GAZEBO_PLUGIN_PATH, then beside Angen's own libraries.
+class Catalog {
+ public:
+  Catalog();
+  ~Catalog();
+  Catalog(const Catalog&) = delete;
+  Catalog& operator=(const Catalog&) = delete;
+
+  /// All plug-ins in `filename`; throws Error when it is not found, does not load, or holds none.
+  const std::vector<std::shared_ptr<const Plugin>>& library(const std::string& filename);
+
+  /// Adds plug-ins that live in this process (a Python class) under a file name of their own.
+  void add(const std::string& filename, std::shared_ptr<const Plugin> plugin);
+
+  /// File names of every library on the path that holds Angen plug-ins, sorted.
+  std::vector<std::string> available();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+struct PluginDoc {
+  std::string library;
+  std::string kind;
+  std::string doc;
+  std::vector<ParamDoc> params;
+};
+
+/// Every plug-in on the path with its parameters, read by configuring one of each on nothing.
+std::vector<PluginDoc> describe(Catalog& catalog);
+
+}  // namespace angen

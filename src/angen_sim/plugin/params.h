@@ -1,0 +1,68 @@
+#pragma once
+
+#include <limits>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/element.h"
+
+namespace angen {
+
+struct Range {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+};
+constexpr Range kPositive{std::numeric_limits<double>::min(),
+                          std::numeric_limits<double>::infinity()};
+constexpr Range kNotNegative{0.0, std::numeric_limits<double>::infinity()};
+
+/// One parameter as `angen plugins` lists it.
+struct ParamDoc {
+  std::string path;
+  std::string type;
+  std::string fallback;  // default, as text
+  std::string unit;
+  std::string doc;
+};
+
+/// A plug-in's parameters: children of <plugin>, then of the <sensor> around it. A path such as
+/// "ray/range/max" walks down. A wrong type, a value out of range or not finite throws Error with
+/// file and line; finish() does so for keys that nobody read.
+class Params {
+ public:
+  explicit Params(const Element& plugin, const Element* sensor = nullptr);
+
+  double number(const std::string& path, double fallback, const std::string& unit,
+                const std::string& doc, Range range = {});
+  int integer(const std::string& path, int fallback, const std::string& unit,
+              const std::string& doc, Range range = {});
+  bool flag(const std::string& path, bool fallback, const std::string& doc);
+  std::string text(const std::string& path, const std::string& fallback, const std::string& doc);
+  /// One of `choices`.
+  std::string choice(const std::string& path, const std::string& fallback,
+                     const std::vector<std::string>& choices, const std::string& doc);
+  /// Every <path> child of the plug-in as `count` numbers each.
+  std::vector<std::vector<double>> rows(const std::string& path, std::size_t count,
+                                        const std::string& unit, const std::string& doc);
+  bool has(const std::string& path) const;
+
+  /// An Error at the place of `path`, or of the plug-in when it is not given there.
+  Error error(const std::string& path, const std::string& message) const;
+
+  /// Throws for the first key of the plug-in that was not read, naming the known ones.
+  void finish() const;
+  const std::vector<ParamDoc>& docs() const { return docs_; }
+
+ private:
+  const Element* find(const std::string& path) const;
+  const Element* take(const std::string& path, const char* type, std::string fallback,
+                      const std::string& unit, const std::string& doc);
+
+  Element plugin_;
+  Element sensor_;
+  std::set<std::string> read_;
+  std::vector<ParamDoc> docs_;
+};
+
+}  // namespace angen

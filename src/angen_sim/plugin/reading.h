@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/time.h"
+
+namespace angen {
+
+using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>,
+                           std::vector<std::string>>;
+
+/// What a sensor measured or the state a device is in: named values. `ros` knows the built-in kinds
+/// and sends any other as a generic message.
+struct Reading {
+  std::string kind;  // "pir", "door", …
+  Nanoseconds stamp = 0;
+  std::vector<std::pair<std::string, Value>> fields;
+  bool urgent = false;  // a sensor sets it to have this reading sent before its period is over
+  std::string event;    // set when something worth an event happened: "motion", "opened"
+  std::string event_detail;
+
+  template <class T>
+  void set(const char* name, T value) {
+    for (auto& [key, old] : fields) {
+      if (key == name) {
+        old = Value(std::move(value));
+        return;
+      }
+    }
+    fields.emplace_back(name, Value(std::move(value)));
+  }
+  void set(const char* name, int value) { set(name, static_cast<std::int64_t>(value)); }
+  void set(const char* name, const char* value) { set(name, std::string(value)); }
+
+  const Value* find(const std::string& name) const {
+    for (const auto& [key, value] : fields) {
+      if (key == name) return &value;
+    }
+    return nullptr;
+  }
+  /// The field's value, or `fallback` where it is missing or of another type.
+  template <class T>
+  T get(const std::string& name, T fallback = T{}) const {
+    const Value* value = find(name);
+    const T* typed = value != nullptr ? std::get_if<T>(value) : nullptr;
+    return typed != nullptr ? *typed : fallback;
+  }
+  bool same_values(const Reading& other) const {
+    return kind == other.kind && fields == other.fields;
+  }
+};
+
+}  // namespace angen

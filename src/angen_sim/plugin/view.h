@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/contact.h"
+#include "core/pose.h"
+#include "core/time.h"
+#include "light/lighting.h"
+#include "rays/scene.h"
+
+namespace angen {
+
+/// Handles that Wiring gives at configuration; indices into what this instance asked for.
+struct JointRef {
+  int index = -1;
+};
+struct LinkRef {
+  int index = -1;
+};
+struct LightRef {
+  int index = -1;
+};
+struct ContactRef {
+  int index = -1;
+};
+
+struct JointView {
+  double position = 0.0;  // rad or m
+  double velocity = 0.0;
+  double effort = 0.0;  // N m or N that joint and motor gave along the axis in the last step
+};
+struct LinkView {
+  Pose pose;  // world
+  Vec3 linear_velocity = Vec3::Zero();
+  Vec3 angular_velocity = Vec3::Zero();
+  bool awake = false;
+};
+struct JointLimits {
+  double lower = 0.0;
+  double upper = 0.0;
+};
+
+/// What a plug-in may see while the world runs. Times are the tick's, never the wall clock's.
+class View {
+ public:
+  virtual ~View() = default;
+  virtual Nanoseconds time() const = 0;
+  virtual Nanoseconds step() const = 0;
+  virtual Pose pose() const = 0;  // world; of the sensor, or of the device's model
+  virtual JointView joint(JointRef joint) const = 0;
+  virtual LinkView link(LinkRef link) const = 0;
+  /// Pairs that the wired collision takes part in; it is `first` in each.
+  virtual std::vector<ContactPair> contacts(ContactRef collision) const = 0;
+  virtual light::Sample illuminance(light::Probe& probe, const Pose& pose) const = 0;
+};
+
+/// What a plug-in asks for by name, once, before the world runs. Unknown names throw Error and list
+/// the known ones.
+class Wiring {
+ public:
+  virtual ~Wiring() = default;
+  virtual std::string name() const = 0;   // of this instance: "bathroom1"
+  virtual std::string model() const = 0;  // of the model it belongs to
+  virtual Vec3 gravity() const = 0;       // m/s^2
+  virtual bool has_joint(const std::string& joint) const = 0;
+  virtual JointRef joint(const std::string& joint) = 0;
+  virtual JointLimits limits(JointRef joint) const = 0;
+  virtual LinkRef link(const std::string& link) = 0;
+  virtual std::string child_of(JointRef joint) const = 0;  // name of the link it moves
+  virtual double mass(LinkRef link) const = 0;             // kg
+  virtual LightRef light(const std::string& light) = 0;    // "" = the model's only one
+  virtual ContactRef collision(const std::string& collision) = 0;  // in the sensor's link
+};
+
+/// What a device may do to the world in one tick.
+class Outputs {
+ public:
+  virtual ~Outputs() = default;
+  /// N m or N, for this tick only; wakes the bodies unless 0.
+  virtual void force(JointRef joint, double force) = 0;
+  /// Velocity motor with a force limit, until changed. Velocity 0 is a brake; max_force 0 frees.
+  virtual void motor(JointRef joint, double velocity, double max_force) = 0;
+  /// Horizontal velocity (m/s) and yaw rate (rad/s) by a motor of at most max_force (N).
+  virtual void drive(LinkRef link, const Vec3& velocity, double yaw_rate, double max_force) = 0;
+  /// Light level 0..1 and the flux in lm that level 1 stands for.
+  virtual void light(LightRef light, double level, double luminous_flux) = 0;
+  /// Told to everybody on /angen/events.
+  virtual void event(const std::string& event, const std::string& detail) = 0;
+};
+
+/// Rays that a sensor asks for, in the world frame.
+using RayBatch = std::vector<rays::Ray>;
+
+/// Answers to a sensor's rays, in their order.
+struct Hits {
+  const rays::Hit* data = nullptr;
+  std::size_t count = 0;
+
+  const rays::Hit& operator[](std::size_t i) const { return data[i]; }
+  std::size_t size() const { return count; }
+  const rays::Hit* begin() const { return data; }
+  const rays::Hit* end() const { return data + count; }
+};
+
+}  // namespace angen

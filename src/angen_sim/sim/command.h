@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <future>
+#include <string>
+#include <variant>
+
+#include "desc/world.h"
+#include "plugin/plugin.h"
+
+namespace angen::sim {
+
+/// What became of a command.
+struct Outcome {
+  bool ok = true;
+  std::string message;
+};
+
+/// To the device `name` of `kind`; kind "" = whichever kind has the name alone; name "all" = each.
+struct ToDevice {
+  std::string kind;
+  std::string name;
+  Command command;
+};
+struct Spawn {
+  desc::Model model;
+};
+/// Attaches a sensor to a link that exists, `model::link`.
+struct Attach {
+  desc::Sensor sensor;
+  std::string link;
+};
+/// Removes a model, or an attached sensor, by name.
+struct Delete {
+  std::string name;
+};
+struct Pause {
+  bool paused = true;
+};
+/// Runs so many ticks although paused; answered when they are done.
+struct Step {
+  std::uint64_t ticks = 1;
+};
+/// Every model back to where it was when it was added; with_time: the clock to 0 as well.
+struct Reset {
+  bool with_time = true;
+};
+/// Something that could not become a command; only told to everybody as rejected.
+struct Reject {
+  std::string source;
+  std::string kind;
+  std::string reason;
+};
+
+using Action = std::variant<ToDevice, Spawn, Attach, Delete, Pause, Step, Reset, Reject>;
+
+struct Request {
+  Action action;
+  std::promise<Outcome> answer;
+};
+
+}  // namespace angen::sim

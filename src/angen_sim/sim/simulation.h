@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <future>
+#include <memory>
+#include <string>
+
+#include "plugin/library.h"
+#include "sim/command.h"
+#include "sim/snapshot.h"
+
+namespace angen::sim {
+
+/// A world that runs. One thread calls tick(); any thread may post().
+class Simulation {
+ public:
+  /// Builds everything; throws Error for what cannot be built (an unknown plug-in, a wrong parameter).
+  Simulation(desc::World world, std::uint64_t seed, std::shared_ptr<Catalog> catalog);
+  ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  /// Queues an action for the next tick. The future is answered there (a Step's when it is done).
+  std::future<Outcome> post(Action action);
+
+  /// Commands, devices, physics, sensors, snapshot; while paused commands and snapshot only.
+  /// Returns the snapshot it made.
+  std::shared_ptr<const Snapshot> tick();
+
+  /// The latest snapshot; never null.
+  std::shared_ptr<const Snapshot> snapshot() const;
+
+  /// True when the next tick will advance time: not paused, or steps are asked for.
+  bool running() const;
+
+  const desc::World& world() const;  // settings as loaded; its models are those of the file
+  std::uint64_t seed() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace angen::sim

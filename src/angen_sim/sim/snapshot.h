@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "desc/world.h"
+#include "plugin/reading.h"
+
+namespace angen::sim {
+
+/// One change worth telling.
+struct Event {
+  Nanoseconds stamp = 0;
+  std::string source;  // "bathroom1"
+  std::string kind;    // "door", "pir", "world", …
+  std::string event;   // "opened", "motion", "rejected", "spawned", …
+  std::string detail;
+};
+
+struct LinkEntry {
+  std::string name;  // model::link
+  std::uint32_t model = 0;
+  std::uint32_t link = 0;  // index in desc::Model::links
+  bool moves = false;      // not static
+};
+
+struct JointEntry {
+  std::string name;  // model::joint
+  std::uint32_t model = 0;
+  std::uint32_t joint = 0;  // index in desc::Model::joints
+};
+
+struct DeviceEntry {
+  std::string kind;
+  std::string name;
+  std::uint32_t model = 0;
+};
+
+struct SensorEntry {
+  std::string kind;
+  std::string name;
+  std::uint32_t model = 0;
+  std::uint32_t link = 0;  // index in Structure::links
+  Pose pose;               // in the link's frame
+  std::string topic;       // as its SDF says, or empty
+  std::string frame;       // as its SDF says, or empty
+  Nanoseconds period = 0;  // of publishing
+  bool attached = false;   // by a command, to a link that existed
+  std::shared_ptr<const desc::Sensor> desc;
+};
+
+struct LightEntry {
+  std::string name;        // model::light, or the light's own name for a world light
+  std::uint32_t model = UINT32_MAX;  // none for a world light
+  std::uint32_t link = UINT32_MAX;   // index in Structure::links
+  desc::Light light;
+};
+
+/// What exists. Replaced, never changed, when something is spawned or deleted.
+struct Structure {
+  std::uint64_t revision = 0;
+  std::vector<std::shared_ptr<const desc::Model>> models;
+  std::vector<LinkEntry> links;
+  std::vector<JointEntry> joints;
+  std::vector<DeviceEntry> devices;
+  std::vector<SensorEntry> sensors;
+  std::vector<LightEntry> lights;
+};
+
+struct Counts {
+  std::uint32_t awake_bodies = 0;
+  std::uint64_t readings = 0;      // made since the start
+  std::uint64_t failed_steps = 0;  // redone by the other solver
+};
+
+/// The world after a tick. Shared and immutable; parts that did not change are shared with the
+/// snapshot before, so that comparing pointers tells what changed.
+struct Snapshot {
+  std::int64_t tick = 0;
+  Nanoseconds time = 0;
+  Nanoseconds step = 0;
+  bool paused = false;
+  std::shared_ptr<const Structure> structure;
+  std::shared_ptr<const std::vector<Pose>> link_poses;      // world, as Structure::links
+  std::shared_ptr<const std::vector<double>> joint_positions;  // as Structure::joints, first axis
+  std::vector<std::shared_ptr<const Reading>> devices;      // as Structure::devices
+  std::vector<std::shared_ptr<const Reading>> sensors;      // as Structure::sensors; null before the first
+  std::shared_ptr<const std::vector<double>> light_levels;  // 0..1, as Structure::lights
+  std::vector<std::uint32_t> new_readings;  // indices of sensors that published in this tick
+  std::vector<std::uint32_t> new_states;    // indices of devices whose state changed in this tick
+  std::vector<Event> events;                // of this tick
+  Counts counts;
+};
+
+}  // namespace angen::sim
