@@ -7,6 +7,7 @@
 
 #include "desc/world.h"
 #include "plugin/reading.h"
+#include "sim/shared_array.h"
 
 namespace angen::sim {
 
@@ -83,11 +84,12 @@ struct Snapshot {
   Nanoseconds step = 0;
   bool paused = false;
   std::shared_ptr<const Structure> structure;
-  std::shared_ptr<const std::vector<Pose>> link_poses;      // world, as Structure::links
-  std::shared_ptr<const std::vector<double>> joint_positions;  // as Structure::joints, first axis
-  std::vector<std::shared_ptr<const Reading>> devices;      // as Structure::devices
-  std::vector<std::shared_ptr<const Reading>> sensors;      // as Structure::sensors; null before the first
+  SharedArray<Pose> link_poses;        // world, as Structure::links
+  SharedArray<double> joint_positions;  // rad or m, as Structure::joints, first axis
+  SharedArray<std::shared_ptr<const Reading>> devices;  // as Structure::devices
+  SharedArray<std::shared_ptr<const Reading>> sensors;  // as Structure::sensors; null before the first
   std::shared_ptr<const std::vector<double>> light_levels;  // 0..1, as Structure::lights
+  std::vector<std::uint32_t> moved_links;   // indices of links whose pose changed in this tick
   std::vector<std::uint32_t> new_readings;  // indices of sensors that published in this tick
   std::vector<std::uint32_t> new_states;    // indices of devices whose state changed in this tick
   std::vector<Event> events;                // of this tick
