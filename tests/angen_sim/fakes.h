@@ -1,0 +1,152 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "plugin/plugin.h"
+
+/// A world of plain values, for testing one device or sensor without a simulation.
+namespace angen::test {
+
+struct FakeJoint {
+  JointView state;
+  JointLimits limits{-1e16, 1e16};
+  std::string child = "child";
+  double force = 0.0;  // what the device asked for in this tick
+  double motor_velocity = 0.0;
+  double motor_force = 0.0;
+};
+
+struct FakeLink {
+  LinkView state;
+  double mass = 1.0;
+  Vec3 drive_velocity = Vec3::Zero();
+  double drive_yaw_rate = 0.0;
+  double drive_force = 0.0;
+};
+
+struct FakeLight {
+  double level = 0.0;
+  double luminous_flux = 0.0;
+};
+
+/// View, Wiring and Outputs of one instance over the same values. Fill joints, links, lights,
+/// collisions before configure(); names not filled in throw Error as the real ones do.
+class FakeWorld : public View, public Wiring, public Outputs {
+ public:
+  using Names = std::vector<std::string>;
+
+  Nanoseconds now = 0;
+  Nanoseconds dt = 1'000'000;
+  Pose at;
+  std::string instance = "it";
+  std::string model_name = "model";
+  Vec3 gravity_vector{0.0, 0.0, -9.81};
+  std::vector<std::pair<std::string, FakeJoint>> joints;
+  std::vector<std::pair<std::string, FakeLink>> links;
+  std::vector<std::pair<std::string, FakeLight>> lights;
+  Names collisions;
+  std::map<std::string, std::vector<ContactPair>> touching;  // by collision name
+  const light::Lighting* lighting = nullptr;
+  std::vector<std::pair<std::string, std::string>> events;
+
+  FakeJoint& joint_named(const std::string& name) { return joints[index(joints, name)].second; }
+  FakeLink& link_named(const std::string& name) { return links[index(links, name)].second; }
+  FakeLight& light_named(const std::string& name) { return lights[index(lights, name)].second; }
+  /// Forces hold for one tick: call before each Device::update.
+  void begin_tick() {
+    for (auto& [name, joint] : joints) joint.force = 0.0;
+  }
+
+  // View
+  Nanoseconds time() const override { return now; }
+  Nanoseconds step() const override { return dt; }
+  Pose pose() const override { return at; }
+  JointView joint(JointRef ref) const override { return joints.at(ref.index).second.state; }
+  LinkView link(LinkRef ref) const override { return links.at(ref.index).second.state; }
+  std::vector<ContactPair> contacts(ContactRef ref) const override {
+    const auto found = touching.find(collisions.at(ref.index));
+    return found == touching.end() ? std::vector<ContactPair>{} : found->second;
+  }
+  light::Sample illuminance(light::Probe& probe, const Pose& pose) const override {
+    return lighting == nullptr ? light::Sample{} : lighting->measure(probe, pose);
+  }
+
+  // Wiring
+  std::string name() const override { return instance; }
+  std::string model() const override { return model_name; }
+  Vec3 gravity() const override { return gravity_vector; }
+  bool has_joint(const std::string& joint) const override {
+    for (const auto& [name, value] : joints) {
+      if (name == joint) return true;
+    }
+    return false;
+  }
+  JointRef joint(const std::string& joint) override { return {index(joints, joint)}; }
+  JointLimits limits(JointRef ref) const override { return joints.at(ref.index).second.limits; }
+  LinkRef link(const std::string& link) override { return {index(links, link)}; }
+  std::string child_of(JointRef ref) const override { return joints.at(ref.index).second.child; }
+  double mass(LinkRef ref) const override { return links.at(ref.index).second.mass; }
+  LightRef light(const std::string& light) override {
+    if (light.empty() && lights.size() == 1) return {0};
+    return {index(lights, light)};
+  }
+  ContactRef collision(const std::string& collision) override {
+    for (std::size_t i = 0; i < collisions.size(); ++i) {
+      if (collisions[i] == collision) return {static_cast<int>(i)};
+    }
+    throw Error("no collision " + collision + "; known are " + join_names(collisions));
+  }
+
+  // Outputs
+  void force(JointRef ref, double force) override { joints.at(ref.index).second.force += force; }
+  void motor(JointRef ref, double velocity, double max_force) override {
+    joints.at(ref.index).second.motor_velocity = velocity;
+    joints.at(ref.index).second.motor_force = max_force;
+  }
+  void drive(LinkRef ref, const Vec3& velocity, double yaw_rate, double max_force) override {
+    FakeLink& link = links.at(ref.index).second;
+    link.drive_velocity = velocity;
+    link.drive_yaw_rate = yaw_rate;
+    link.drive_force = max_force;
+  }
+  void light(LightRef ref, double level, double luminous_flux) override {
+    lights.at(ref.index).second = {level, luminous_flux};
+  }
+  void event(const std::string& event, const std::string& detail) override {
+    events.emplace_back(event, detail);
+  }
+
+ private:
+  template <class T>
+  static int index(const std::vector<std::pair<std::string, T>>& all, const std::string& name) {
+    Names known;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (all[i].first == name) return static_cast<int>(i);
+      known.push_back(all[i].first);
+    }
+    throw Error("no " + name + "; known are " + join_names(known));
+  }
+};
+
+/// <name>text</name>, for building a plug-in's element in a test.
+inline Element element(std::string name, std::string text = "",
+                       std::vector<Element> children = {}) {
+  Element made;
+  made.name = std::move(name);
+  made.text = std::move(text);
+  made.children = std::move(children);
+  made.source = {"test.sdf", 1};
+  return made;
+}
+
+/// <plugin> with one child for each pair.
+inline Element plugin_element(const std::vector<std::pair<std::string, std::string>>& parameters) {
+  Element made = element("plugin");
+  for (const auto& [key, value] : parameters) made.children.push_back(element(key, value));
+  return made;
+}
+
+}  // namespace angen::test
