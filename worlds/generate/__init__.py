@@ -1,0 +1,1 @@
+"""Generators of Angen's models, meshes and worlds."""

@@ -1,0 +1,222 @@
+"""Furniture. Every piece faces +x, its origin on the floor under its middle."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from .sdf import Color, Part, add, add_link, add_plugin, new_model, spanned, write_model
+
+OAK: Color = (0.65, 0.47, 0.28)
+DARK: Color = (0.35, 0.23, 0.14)
+CREAM: Color = (0.92, 0.9, 0.86)
+CERAMIC: Color = (0.96, 0.96, 0.96)
+CLOTH: Color = (0.3, 0.4, 0.55)
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A piece of furniture; `touch` names the part whose contacts a sensor reports."""
+    title: str
+    parts: tuple[Part, ...]
+    static: bool = True
+    mesh: str | None = None         # file in its meshes/: then the parts are not shown
+    color: Color | None = None      # of an STL mesh, which has none of its own
+    touch: str | None = None
+
+
+def _legs(x: float, y: float, side: float, top: float, mass: float,
+          color: Color) -> tuple[Part, ...]:
+    """Returns four square legs whose outer corners stand at (+-x, +-y)."""
+    half = side / 2
+    return tuple(
+        spanned(f"leg_{name}", (sx * (x - half) - half, sy * (y - half) - half, 0.0),
+                (sx * (x - half) + half, sy * (y - half) + half, top), mass=mass, material=color)
+        for name, sx, sy in (("front_left", 1, 1), ("front_right", 1, -1),
+                             ("back_left", -1, 1), ("back_right", -1, -1)))
+
+
+def _table(length: float, width: float, height: float, mass: float, color: Color) -> Piece:
+    """Returns a table, `length` along y and `width` along x (m), of `mass` kg with its legs."""
+    top = spanned("top", (-width / 2, -length / 2, height - 0.04),
+                  (width / 2, length / 2, height), mass=mass * 0.8, material=color)
+    legs = _legs(width / 2 - 0.02, length / 2 - 0.02, 0.06, height - 0.04, mass * 0.05, color)
+    return Piece("Table", (top, *legs), static=False, touch="top")
+
+
+def _chair() -> Piece:
+    seat = spanned("seat", (-0.21, -0.21, 0.43), (0.21, 0.21, 0.47), mass=1.8)
+    back = spanned("back", (-0.21, -0.2, 0.47), (-0.17, 0.2, 0.9), mass=1.2)
+    legs = _legs(0.21, 0.21, 0.04, 0.43, 0.4, OAK)
+    return Piece("Chair", (seat, back, *legs), static=False, mesh="chair.dae", touch="seat")
+
+
+def _desk() -> Piece:
+    parts = (
+        spanned("top", (-0.35, -0.75, 0.71), (0.35, 0.75, 0.74), mass=14.0, material=OAK),
+        spanned("side_left", (-0.33, 0.7, 0.0), (0.33, 0.73, 0.71), mass=7.0, material=DARK),
+        spanned("side_right", (-0.33, -0.73, 0.0), (0.33, -0.7, 0.71), mass=7.0, material=DARK),
+        spanned("apron", (-0.33, -0.7, 0.4), (-0.31, 0.7, 0.71), mass=4.0, material=DARK),
+    )
+    return Piece("Desk", parts, static=False, touch="top")
+
+
+def _bookshelf() -> Piece:
+    colors: tuple[Color, ...] = ((0.6, 0.15, 0.12), (0.15, 0.3, 0.5), (0.2, 0.45, 0.25),
+                                 (0.8, 0.65, 0.2))
+    parts = [spanned("case", (-0.16, -0.6, 0.0), (-0.14, 0.6, 2.0), material=DARK)]
+    for name, y in (("left", 0.585), ("right", -0.585)):
+        parts.append(spanned(f"side_{name}", (-0.14, y - 0.015, 0.0), (0.16, y + 0.015, 2.0),
+                             material=OAK))
+    for i in range(6):
+        z = 0.05 + i * 0.385
+        parts.append(spanned(f"shelf_{i}", (-0.14, -0.57, z), (0.16, 0.57, z + 0.025),
+                             material=OAK))
+        if i < 5:
+            start, width = -0.55 + 0.09 * i, 0.62 - 0.07 * i
+            parts.append(spanned(f"books_{i}", (-0.13, start, z + 0.025),
+                                 (0.09, start + width, z + 0.25), material=colors[i % 4]))
+    return Piece("Bookshelf", tuple(parts))
+
+
+def _wardrobe() -> Piece:
+    body = spanned("body", (-0.3, -0.8, 0.0), (0.28, 0.8, 2.1), material=CREAM)
+    doors = tuple(
+        spanned(f"door_{i}", (0.28, -0.79 + 0.53 * i, 0.06), (0.3, -0.27 + 0.53 * i, 2.08),
+                material=OAK) for i in range(3))
+    return Piece("Wardrobe", (body, *doors))
+
+
+def _drawers(title: str, depth: float, width: float, height: float, rows: int,
+             color: Color) -> Piece:
+    """Returns a chest whose drawer fronts are looks on one solid box."""
+    half = width / 2
+    parts = [spanned("body", (-depth / 2, -half, 0.0), (depth / 2, half, height), material=color)]
+    step = (height - 0.06) / rows
+    for i in range(rows):
+        low = 0.05 + i * step
+        parts.append(spanned(f"drawer_{i}", (depth / 2, -half + 0.02, low),
+                             (depth / 2 + 0.008, half - 0.02, low + step - 0.02),
+                             material=OAK, collide=False))
+    return Piece(title, tuple(parts))
+
+
+def _counter() -> Piece:
+    parts = (
+        spanned("base", (-0.3, -0.9, 0.0), (0.27, 0.9, 0.86), material=CREAM),
+        spanned("top", (-0.3, -0.9, 0.86), (0.3, 0.9, 0.9), material=DARK),
+        spanned("sink", (-0.18, -0.6, 0.9), (0.2, -0.1, 0.904), material=(0.6, 0.62, 0.65),
+                collide=False),
+        Part("tap", (0.015, 0.22), (-0.22, -0.35, 1.01), material=(0.75, 0.75, 0.78)),
+    )
+    return Piece("Kitchen counter", parts)
+
+
+def _stove() -> Piece:
+    plates = tuple(
+        Part(f"plate_{i}", (0.085, 0.006), (x, y, 0.903), material=(0.1, 0.1, 0.1), collide=False)
+        for i, (x, y) in enumerate(((0.13, 0.14), (0.13, -0.14), (-0.13, 0.14), (-0.13, -0.14))))
+    body = spanned("body", (-0.3, -0.3, 0.0), (0.3, 0.3, 0.9), material=CERAMIC)
+    oven = spanned("oven", (0.3, -0.25, 0.2), (0.305, 0.25, 0.65), material=(0.12, 0.12, 0.14),
+                   collide=False)
+    return Piece("Stove", (body, oven, *plates))
+
+
+def _bed() -> Piece:
+    parts = (
+        spanned("frame", (-1.02, -0.8, 0.1), (1.02, 0.8, 0.3), material=DARK),
+        spanned("head", (-1.02, -0.8, 0.3), (-0.98, 0.8, 1.0), material=DARK),
+        spanned("mattress", (-0.98, -0.78, 0.3), (1.0, 0.78, 0.5), material=CREAM),
+        spanned("blanket", (-0.3, -0.79, 0.5), (1.01, 0.79, 0.53), material=CLOTH),
+        spanned("pillow_left", (-0.9, 0.1, 0.5), (-0.5, 0.7, 0.6)),
+        spanned("pillow_right", (-0.9, -0.7, 0.5), (-0.5, -0.1, 0.6)),
+        *(Part(f"foot_{i}", (0.04, 0.1), (x, y, 0.05), material=DARK)
+          for i, (x, y) in enumerate(((0.95, 0.73), (0.95, -0.73), (-0.95, 0.73),
+                                      (-0.95, -0.73)))),
+    )
+    return Piece("Bed", parts)
+
+
+def _sofa(title: str, width: float, mesh: str) -> Piece:
+    half = width / 2
+    parts = (
+        spanned("seat", (-0.25, -half + 0.18, 0.06), (0.45, half - 0.18, 0.45)),
+        spanned("back", (-0.45, -half, 0.06), (-0.25, half, 0.85)),
+        spanned("arm_left", (-0.25, half - 0.18, 0.06), (0.45, half, 0.62)),
+        spanned("arm_right", (-0.25, -half, 0.06), (0.45, -half + 0.18, 0.62)),
+    )
+    return Piece(title, parts, mesh=mesh)
+
+
+def _simple(title: str, low, high, color: Color, *looks: Part) -> Piece:
+    return Piece(title, (spanned("body", low, high, material=color), *looks))
+
+
+def pieces() -> dict[str, Piece]:
+    """Returns all furniture by model name."""
+    screen = spanned("screen", (-0.02, -0.55, 0.55), (0.02, 0.55, 1.2), material=(0.05, 0.05, 0.06))
+    fridge_line = spanned("line", (0.325, -0.3, 1.18), (0.327, 0.3, 1.19),
+                          material=(0.3, 0.3, 0.3), collide=False)
+    porthole = Part("porthole", (0.16, 0.01), (0.3, 0, 0.45), (0, 1.570796, 0),
+                    material=(0.25, 0.27, 0.3), collide=False)
+    return {
+        "armchair": _sofa("Armchair", 0.86, "armchair.dae"),
+        "bathtub": Piece("Bathtub", (
+            spanned("bottom", (-0.37, -0.85, 0.0), (0.37, 0.85, 0.16)),
+            spanned("front", (0.3, -0.85, 0.16), (0.37, 0.85, 0.56)),
+            spanned("rear", (-0.37, -0.85, 0.16), (-0.3, 0.85, 0.56)),
+            spanned("end_left", (-0.3, 0.75, 0.16), (0.3, 0.85, 0.56)),
+            spanned("end_right", (-0.3, -0.85, 0.16), (0.3, -0.75, 0.56)),
+        ), mesh="bathtub.stl", color=CERAMIC),
+        "bed": _bed(),
+        "bookshelf": _bookshelf(),
+        "cabinet": _drawers("Cabinet", 0.44, 0.8, 1.2, 4, CREAM),
+        "chair": _chair(),
+        "desk": _desk(),
+        "dresser": _drawers("Dresser", 0.42, 1.0, 0.9, 3, CREAM),
+        "fridge": _simple("Fridge", (-0.325, -0.32, 0.0), (0.325, 0.32, 1.8), CERAMIC,
+                          fridge_line),
+        "kitchen_counter": _counter(),
+        "kitchen_table": _table(1.1, 0.75, 0.75, 20.0, OAK),
+        "nightstand": _drawers("Nightstand", 0.38, 0.4, 0.5, 2, OAK),
+        "plant": Piece("Potted plant", (
+            Part("pot", (0.14, 0.26), (0, 0, 0.13)),
+            Part("leaves", (0.19, 0.8), (0, 0, 0.72)),
+        ), mesh="plant.dae"),
+        "shoe_cabinet": _drawers("Shoe cabinet", 0.28, 0.9, 0.9, 2, OAK),
+        "sofa": _sofa("Sofa", 2.0, "sofa.dae"),
+        "stove": _stove(),
+        "table": _table(1.0, 0.6, 0.45, 12.0, DARK),
+        "toilet": Piece("Toilet", (
+            spanned("bowl", (-0.13, -0.18, 0.0), (0.32, 0.18, 0.42)),
+            spanned("tank", (-0.32, -0.19, 0.0), (-0.13, 0.19, 0.82)),
+        ), mesh="toilet.stl", color=CERAMIC),
+        "tv_stand": _simple("TV stand", (-0.2, -0.7, 0.0), (0.18, 0.7, 0.5), DARK, screen,
+                            spanned("foot", (-0.1, -0.2, 0.5), (0.1, 0.2, 0.55),
+                                    material=(0.1, 0.1, 0.1))),
+        "wardrobe": _wardrobe(),
+        "washbasin": Piece("Wash basin", (
+            spanned("basin", (-0.24, -0.3, 0.68), (0.24, 0.3, 0.86)),
+            Part("pedestal", (0.09, 0.68), (-0.1, 0, 0.34)),
+        ), mesh="washbasin.stl", color=CERAMIC),
+        "washing_machine": _simple("Washing machine", (-0.3, -0.3, 0.0), (0.3, 0.3, 0.85),
+                                   CERAMIC, porthole),
+    }
+
+
+def write_piece(models: Path, name: str, piece: Piece) -> None:
+    """Writes models/<name>: one link `body`, with a contact sensor where the piece has one."""
+    root, model = new_model(name, static=piece.static)
+    parts = list(piece.parts)
+    if piece.mesh:
+        parts = [Part(p.name, p.size, p.at, p.rpy, mass=p.mass, show=False) for p in parts]
+        parts.append(Part("looks", mesh=f"model://{name}/meshes/{piece.mesh}",
+                          material=piece.color))
+    link = add_link(model, "body", parts, moves=not piece.static)
+    if piece.touch:
+        sensor = add(link, "sensor", name="contact", type="contact")
+        add(sensor, "always_on", "true")
+        add(sensor, "update_rate", 1)
+        add(add(sensor, "contact"), "collision", f"{piece.touch}_collision")
+        add_plugin(sensor, "bumper", "libgazebo_ros_bumper.so", noise_stddev=0.05)
+    how = "" if piece.static else "; moves when pushed, reports contacts"
+    write_model(root, models, piece.title, f"{piece.title}, faces +x{how}.")

@@ -1,0 +1,183 @@
+"""The flat as numbers: rooms, openings, doors, and what stands where. Metres and radians.
+
+Every pose holds for floor 0; the same things stand STOREY higher on each further floor.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+
+STOREY = 4.0
+FLOORS = 2
+WALL = 0.1              # thickness
+SLAB = 0.2              # floor slab, below z = 0
+CEILING = 2.8           # underside of the ceiling slab
+WALL_TOP = STOREY - SLAB    # outer walls reach the next storey's slab
+OPENING_WIDTH = 1.0
+OPENING_HEIGHT = 2.1
+CABIN_TRAVEL = STOREY
+
+# name: x0, y0, x1, y1 between wall axes
+ROOMS = {
+    "entrance": (0.0, 4.0, 6.8, 6.0),
+    "kitchen": (0.0, 0.0, 4.0, 4.0),
+    "livingroom": (4.0, 0.0, 10.0, 4.0),
+    "bedroom": (0.0, 6.0, 4.0, 9.6),
+    "workroom": (6.8, 4.0, 10.0, 9.6),
+    "bathroom": (4.0, 6.0, 6.8, 9.6),
+}
+LANDING = (-2.7, 3.3, 0.0, 6.7)
+# inside faces of the elevator's shaft; the landing's slab ends 5 cm inside the east face
+SHAFT = (-4.5, 3.9, -2.75, 6.1)
+LANDING_EDGE = -2.8
+ELEVATOR = (-3.65, 5.0)  # middle of the cabin
+
+
+@dataclass(frozen=True)
+class Wall:
+    """A wall along `axis` at the coordinate `at` of the other axis, with door openings' starts."""
+    name: str
+    axis: str
+    at: float
+    start: float
+    end: float
+    top: float
+    openings: tuple[float, ...] = ()
+
+
+INNER_TOP = CEILING + 0.05  # inner walls end inside the ceiling slab
+WALLS = (
+    Wall("wall_south", "x", 0.0, -0.05, 10.05, WALL_TOP),
+    Wall("wall_north", "x", 9.6, -0.05, 10.05, WALL_TOP),
+    Wall("wall_east", "y", 10.0, 0.05, 9.55, WALL_TOP),
+    Wall("wall_west", "y", 0.0, 0.05, 9.55, WALL_TOP, (4.5,)),
+    Wall("wall_hall_south", "x", 4.0, 0.0, 10.0, INNER_TOP, (2.4, 4.3)),
+    Wall("wall_hall_north", "x", 6.0, 0.0, 6.8, INNER_TOP, (2.8, 5.5)),
+    Wall("wall_workroom", "y", 6.8, 4.0, 9.6, INNER_TOP, (4.3,)),
+    Wall("wall_kitchen_livingroom", "y", 4.0, 0.0, 4.0, INNER_TOP),
+    Wall("wall_bedroom_bathroom", "y", 4.0, 6.0, 9.6, INNER_TOP),
+    Wall("landing_south", "x", 3.3, -2.75, -0.05, WALL_TOP),
+    Wall("landing_north", "x", 6.7, -2.75, -0.05, WALL_TOP),
+    Wall("landing_west", "y", -2.7, 3.3, 6.7, WALL_TOP, (4.5,)),
+)
+
+# name: centre x, y, length along the wall, wall's axis, bottom, top
+WINDOWS = {
+    "window_kitchen": (2.0, 0.0, 1.4, "x", 1.1, 2.1),
+    "window_livingroom_south": (7.2, 0.0, 1.8, "x", 1.0, 2.1),
+    "window_livingroom_east": (10.0, 1.0, 1.2, "y", 1.0, 2.1),
+    "window_bedroom": (1.6, 9.6, 1.6, "x", 1.0, 2.1),
+    "window_bathroom": (5.0, 9.6, 0.8, "x", 1.5, 2.1),
+    "window_workroom": (10.0, 7.6, 1.6, "y", 0.9, 2.1),
+}
+
+# A door's frame stands on the hinge at floor level: x along the shut leaf, it opens to -y.
+# hinge x, y, yaw
+DOORS = {
+    "entrance": (0.06, 4.505, pi / 2),
+    "kitchen": (2.405, 3.94, 0.0),
+    "livingroom": (4.305, 3.94, 0.0),
+    "bedroom": (3.795, 6.06, pi),
+    "workroom": (6.86, 4.305, pi / 2),
+    "bathroom": (6.495, 6.06, pi),
+}
+
+# an optical switch in its door's frame: the beam runs 0.5 m along x just below the lintel's front
+SWITCH_IN_DOOR = (0.25, -0.005, 2.125)
+
+# room: lamp x, y
+LAMPS = {
+    "entrance": (3.4, 5.0),
+    "kitchen": (2.0, 2.0),
+    "livingroom": (7.0, 2.0),
+    "bedroom": (2.0, 7.8),
+    "workroom": (8.4, 6.8),
+    "bathroom": (5.2, 7.8),
+}
+
+PIR_HEIGHT = 2.3
+PIR_PITCH = 0.45        # looks down
+# room: two corners x, y, yaw
+PIRS = {
+    "entrance": ((6.65, 5.85, -2.6), (0.15, 5.85, -0.55)),
+    "kitchen": ((0.15, 0.15, pi / 4), (3.85, 3.85, -3 * pi / 4)),
+    "livingroom": ((4.15, 0.15, pi / 4), (9.85, 3.85, -3 * pi / 4)),
+    "bedroom": ((0.15, 9.45, -pi / 4), (3.85, 9.45, -3 * pi / 4)),
+    "workroom": ((9.85, 9.45, -3 * pi / 4), (9.85, 4.15, 3 * pi / 4)),
+    "bathroom": ((4.15, 9.45, -pi / 4), (4.15, 6.15, pi / 4)),
+}
+NODDING_PIR = ("livingroom", "a")
+
+LUX_HEIGHT = 2.45
+LUX_PITCH = 0.15
+# room: x, y, yaw; on a wall, the lamp to the side
+LUX = {
+    "entrance": (2.2, 5.91, -pi / 2),
+    "kitchen": (3.5, 0.09, pi / 2),
+    "livingroom": (4.5, 0.09, pi / 2),
+    "bedroom": (3.4, 9.51, -pi / 2),
+    "workroom": (9.91, 4.8, pi),
+    "bathroom": (6.45, 9.51, -pi / 2),
+}
+
+# room: (model, suffix of the name, x, y, yaw); pieces face +x
+FURNITURE = {
+    "entrance": (
+        ("shoe_cabinet", "", 1.2, 5.78, -pi / 2),
+        ("plant", "", 4.65, 5.7, 0.0),
+    ),
+    "kitchen": (
+        ("kitchen_counter", "", 1.0, 0.37, pi / 2),
+        ("stove", "", 2.23, 0.37, pi / 2),
+        ("fridge", "", 2.92, 0.41, pi / 2),
+        ("kitchen_table", "", 0.95, 2.6, 0.0),
+        ("chair", "_a", 0.95, 3.5, -pi / 2),
+        ("chair", "_b", 0.95, 1.7, pi / 2),
+        ("chair", "_c", 1.6, 2.6, pi),
+    ),
+    "livingroom": (
+        ("sofa", "", 7.2, 0.53, pi / 2),
+        ("table", "", 7.2, 1.75, pi / 2),
+        ("tv_stand", "", 7.2, 3.72, -pi / 2),
+        ("bookshelf", "", 9.76, 2.6, pi),
+        ("armchair", "", 9.0, 1.2, pi),
+        ("plant", "", 9.6, 3.6, 0.0),
+        ("chair", "_a", 4.4, 1.0, 0.0),
+    ),
+    "bedroom": (
+        ("bed", "", 1.6, 8.5, -pi / 2),
+        ("nightstand", "_a", 0.5, 9.3, -pi / 2),
+        ("nightstand", "_b", 2.7, 9.3, -pi / 2),
+        ("wardrobe", "", 1.1, 6.37, pi / 2),
+        ("dresser", "", 3.7, 8.6, pi),
+        ("chair", "_a", 0.38, 7.1, 0.0),
+    ),
+    "workroom": (
+        ("desk", "", 8.6, 9.17, -pi / 2),
+        ("chair", "_a", 8.6, 8.5, pi / 2),
+        ("bookshelf", "", 7.04, 8.0, 0.0),
+        ("cabinet", "", 9.7, 6.4, pi),
+        ("plant", "", 9.65, 4.4, 0.0),
+    ),
+    "bathroom": (
+        ("bathtub", "", 4.97, 9.15, -pi / 2),
+        ("washing_machine", "", 6.42, 9.2, -pi / 2),
+        ("toilet", "", 4.42, 7.9, 0.0),
+        ("washbasin", "", 4.33, 6.9, 0.0),
+    ),
+}
+RAISED = {"chair", "kitchen_table", "table", "desk"}     # dynamic pieces start 1 mm up
+
+ROBOT = (1.5, 5.0, pi)
+
+OPEN_DOORS = ("kitchen_door0", "livingroom_door0", "bedroom_door0")
+# corners of the person's round on floor 0, walked at WALK_SPEED, TURN_TIME at each corner
+WALK = (
+    (4.82, 2.75), (8.8, 2.75), (5.6, 2.75), (5.6, 1.4), (4.82, 2.0),
+    (4.82, 4.9), (2.92, 4.9),
+    (2.92, 2.4), (3.3, 1.6), (2.6, 1.3), (2.5, 2.0), (2.92, 2.4), (2.92, 4.9),
+    (3.28, 4.9), (3.28, 7.07), (1.3, 7.07), (2.94, 7.07), (2.94, 8.4), (2.94, 7.07),
+    (3.28, 7.07), (3.28, 4.9), (4.82, 4.9), (4.82, 2.75),
+)
+WALK_SPEED = 1.0
+TURN_TIME = 0.5

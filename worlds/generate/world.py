@@ -1,0 +1,176 @@
+"""The worlds, assembled from <include> blocks."""
+from __future__ import annotations
+
+from math import atan2, cos, hypot, pi, sin
+from pathlib import Path
+
+from lxml import etree
+
+from . import plan
+from .building import add_ground
+from .sdf import SDF_VERSION, add, add_plugin, numbers, write
+
+Pose = tuple[float, float, float, float, float, float]
+
+
+def _new_world(name: str) -> tuple[etree._Element, etree._Element]:
+    """Returns (<sdf>, <world>) with physics, scene and the ground."""
+    root = etree.Element("sdf", version=SDF_VERSION)
+    world = add(root, "world", name=name)
+    add(world, "gravity", "0 0 -9.8")
+    physics = add(world, "physics", name="default_physics", type="ode")
+    for tag, value in (("max_step_size", 0.001), ("real_time_factor", 1),
+                       ("real_time_update_rate", 1000)):
+        add(physics, tag, value)
+    solver = add(add(physics, "ode"), "solver")
+    add(solver, "type", "world")
+    # night: the lamps are the only light
+    scene = add(world, "scene")
+    add(scene, "ambient", "0 0 0 1")
+    add(scene, "background", "0.05 0.06 0.1 1")
+    add(scene, "shadows", "true")
+    add_ground(world)
+    return root, world
+
+
+def _add_world_plugins(world: etree._Element) -> None:
+    """Appends the plug-ins that serve every door and every robot, also those spawned later."""
+    add_plugin(world, "door_controller", "libdoor_world_plugin.so", p=70, i=200, d=25, i_max=100,
+               i_min=-100, cmd_max=120, cmd_min=-120)
+    add_plugin(world, "robot_controller", "librobot_controller.so", wheelSeparation=0.23,
+               wheelDiameter=0.0704, wheelTorque=1.0, wheelAcceleration=1.8,
+               commandTopic="cmd_vel", odometryTopic="odom", odometryFrame="odom",
+               robotBaseFrame="base_footprint", leftJoint="left_wheel_joint",
+               rightJoint="right_wheel_joint", updateRate=50)
+
+
+def _include(world: etree._Element, model: str, name: str, pose: Pose) -> None:
+    block = add(world, "include")
+    add(block, "name", name)
+    add(block, "pose", numbers(*pose))
+    add(block, "uri", f"model://{model}")
+
+
+def door_pose(room: str, floor: int) -> Pose:
+    """Returns where a room's door stands on a floor."""
+    x, y, yaw = plan.DOORS[room]
+    return (x, y, floor * plan.STOREY, 0.0, 0.0, yaw)
+
+
+def switch_pose(room: str, floor: int) -> Pose:
+    """Returns where the optical switch of a room's door stands."""
+    x, y, yaw = plan.DOORS[room]
+    u, v, z = plan.SWITCH_IN_DOOR
+    return (x + u * cos(yaw) - v * sin(yaw), y + u * sin(yaw) + v * cos(yaw),
+            z + floor * plan.STOREY, 0.0, 0.0, yaw)
+
+
+def _add_devices(world: etree._Element, floor: int) -> None:
+    for room in plan.ROOMS:
+        _include(world, f"{room}_door", f"{room}_door{floor}", door_pose(room, floor))
+    for room, (x, y) in plan.LAMPS.items():
+        _include(world, "ceiling_lamp", f"{room}_lamp{floor}",
+                 (x, y, plan.CEILING + floor * plan.STOREY, 0, 0, 0))
+
+
+def _add_sensors(world: etree._Element, floor: int) -> None:
+    z = floor * plan.STOREY
+    for room in plan.ROOMS:
+        _include(world, "optical_switch", f"{room}_switch{floor}", switch_pose(room, floor))
+    for room, corners in plan.PIRS.items():
+        for suffix, (x, y, yaw) in zip("ab", corners):
+            nods = (room, suffix) == plan.NODDING_PIR
+            _include(world, "pir_nodding" if nods else "pir", f"{room}_pir{floor}_{suffix}",
+                     (x, y, plan.PIR_HEIGHT + z, 0, plan.PIR_PITCH, yaw))
+    for room, (x, y, yaw) in plan.LUX.items():
+        _include(world, "luminosity_sensor", f"{room}_lux{floor}",
+                 (x, y, plan.LUX_HEIGHT + z, 0, plan.LUX_PITCH, yaw))
+
+
+def _add_furniture(world: etree._Element, floor: int) -> None:
+    for room, pieces in plan.FURNITURE.items():
+        for model, suffix, x, y, yaw in pieces:
+            own = model if model.startswith(room) else f"{room}_{model}"
+            z = floor * plan.STOREY + (0.001 if model in plan.RAISED else 0.0)
+            _include(world, model, f"{own}{floor}{suffix}", (x, y, z, 0, 0, yaw))
+
+
+def walk() -> list[tuple[float, float, float, float]]:
+    """Returns the person's waypoints (t in s, x, y, yaw), turning on the spot at corners."""
+    points, t = [], 0.0
+    corners = plan.WALK
+    heading = None
+    for (x0, y0), (x1, y1) in zip(corners, corners[1:]):
+        wanted = atan2(y1 - y0, x1 - x0)
+        if heading is None:
+            heading = wanted
+        else:
+            heading += (wanted - heading + pi) % (2 * pi) - pi
+            t += plan.TURN_TIME
+        points.append((t, x0, y0, heading))
+        t += hypot(x1 - x0, y1 - y0) / plan.WALK_SPEED
+        points.append((t, x1, y1, heading))
+    first = points[0][3]
+    turned = heading + (first - heading + pi) % (2 * pi) - pi
+    points.append((t + plan.TURN_TIME, *corners[-1], turned))
+    return points
+
+
+def _add_person(world: etree._Element) -> None:
+    actor = add(world, "actor", name="person")
+    t, x, y, yaw = walk()[0]
+    add(actor, "pose", numbers(x, y, 0, 0, 0, yaw))
+    script = add(actor, "script")
+    add(script, "loop", "true")
+    add(script, "delay_start", 0)
+    add(script, "auto_start", "true")
+    trajectory = add(script, "trajectory", id="0", type="walk")
+    for t, x, y, yaw in walk():
+        waypoint = add(trajectory, "waypoint")
+        add(waypoint, "time", round(t, 3))
+        add(waypoint, "pose", numbers(x, y, 0, 0, 0, round(yaw, 5)))
+
+
+def _add_state(world: etree._Element, name: str) -> None:
+    """Appends the doors that stand open at the start."""
+    state = add(world, "state", world_name=name)
+    for door in plan.OPEN_DOORS:
+        model = add(state, "model", name=door)
+        room, floor = door[:-1].removesuffix("_door"), int(door[-1])
+        add(model, "pose", numbers(*door_pose(room, floor)))
+        joint = add(model, "joint", name="hinge")
+        add(joint, "angle", -1.57, axis="0")
+
+
+def _comment(world: etree._Element, text: str) -> None:
+    world.append(etree.Comment(f" {text} "))
+
+
+def write_angen(folder: Path) -> None:
+    """Writes angen.world: two storeys with all that stands in them."""
+    root, world = _new_world("angen")
+    _add_world_plugins(world)
+    _comment(world, "the building")
+    for floor in range(plan.FLOORS):
+        _include(world, "apartment", f"apartment{floor}", (0, 0, floor * plan.STOREY, 0, 0, 0))
+    _include(world, "elevator", "elevator", (*plan.ELEVATOR, 0, 0, 0, 0))
+    for floor in range(plan.FLOORS):
+        _comment(world, f"floor {floor}: doors and lamps")
+        _add_devices(world, floor)
+        _comment(world, f"floor {floor}: sensors")
+        _add_sensors(world, floor)
+        _comment(world, f"floor {floor}: furniture")
+        _add_furniture(world, floor)
+    x, y, yaw = plan.ROBOT
+    _comment(world, "who moves")
+    _include(world, "turtlebot", "turtlebot", (x, y, 0.001, 0, 0, yaw))
+    _add_person(world)
+    _add_state(world, "angen")
+    write(root, folder / "angen.world")
+
+
+def write_empty(folder: Path) -> None:
+    """Writes empty.world: the ground and the world's plug-ins."""
+    root, world = _new_world("empty")
+    _add_world_plugins(world)
+    write(root, folder / "empty.world")

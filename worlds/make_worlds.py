@@ -1,0 +1,55 @@
+#!/usr/bin/env python3
+"""Writes models/* (all but their meshes), angen.world and empty.world from generate/plan.py.
+
+    python3 worlds/make_worlds.py                 write everything
+    python3 worlds/make_worlds.py --list-doors    where to spawn the six doors of a floor
+"""
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from generate import building, devices, elevator, furniture, plan, world
+from generate.sdf import numbers
+
+HERE = Path(__file__).resolve().parent
+
+
+def write_all(folder: Path) -> None:
+    """Writes every model and both worlds under folder."""
+    models = folder / "models"
+    building.write_apartment(models)
+    for room in plan.ROOMS:
+        building.write_door(models, room)
+    elevator.write_elevator(models)
+    devices.write_lamp(models)
+    devices.write_pir(models, "pir", nods=False)
+    devices.write_pir(models, "pir_nodding", nods=True)
+    devices.write_switch(models)
+    devices.write_luminosity(models)
+    devices.write_turtlebot(models)
+    for name, piece in furniture.pieces().items():
+        furniture.write_piece(models, name, piece)
+    world.write_angen(folder)
+    world.write_empty(folder)
+
+
+def main() -> None:
+    """Writes the worlds, or lists the doors' poses on a floor."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0],
+                                     epilog="example: python3 worlds/make_worlds.py --list-doors")
+    parser.add_argument("--folder", type=Path, default=HERE, help="where to write (worlds/)")
+    parser.add_argument("--list-doors", action="store_true",
+                        help="print model and pose (x y z roll pitch yaw) of each door, and end")
+    parser.add_argument("--floor", type=int, default=0, help="the floor to list (0)")
+    options = parser.parse_args()
+    if options.list_doors:
+        for room in plan.ROOMS:
+            pose = numbers(*world.door_pose(room, options.floor))
+            print(f"model://{room}_door {room}_door{options.floor} \"{pose}\"")
+        return
+    write_all(options.folder)
+
+
+if __name__ == "__main__":
+    main()
