@@ -14,7 +14,8 @@ namespace angen::sim {
 /// A world that runs. One thread calls tick(); any thread may post().
 class Simulation {
  public:
-  /// Builds everything; throws Error for what cannot be built (an unknown plug-in, a wrong parameter).
+  /// Builds everything; throws Error for what cannot be built (an unknown plug-in, a wrong
+  /// parameter).
   Simulation(desc::World world, std::uint64_t seed, std::shared_ptr<Catalog> catalog);
   ~Simulation();
   Simulation(const Simulation&) = delete;

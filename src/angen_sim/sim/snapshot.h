@@ -53,7 +53,7 @@ struct SensorEntry {
 };
 
 struct LightEntry {
-  std::string name;        // model::light, or the light's own name for a world light
+  std::string name;                  // model::light, or the light's own name for a world light
   std::uint32_t model = UINT32_MAX;  // none for a world light
   std::uint32_t link = UINT32_MAX;   // index in Structure::links
   desc::Light light;
@@ -84,10 +84,11 @@ struct Snapshot {
   Nanoseconds step = 0;
   bool paused = false;
   std::shared_ptr<const Structure> structure;
-  SharedArray<Pose> link_poses;        // world, as Structure::links
+  SharedArray<Pose> link_poses;         // world, as Structure::links
   SharedArray<double> joint_positions;  // rad or m, as Structure::joints, first axis
   SharedArray<std::shared_ptr<const Reading>> devices;  // as Structure::devices
-  SharedArray<std::shared_ptr<const Reading>> sensors;  // as Structure::sensors; null before the first
+  SharedArray<std::shared_ptr<const Reading>>
+      sensors;  // as Structure::sensors; null before the first
   std::shared_ptr<const std::vector<double>> light_levels;  // 0..1, as Structure::lights
   std::vector<std::uint32_t> moved_links;   // indices of links whose pose changed in this tick
   std::vector<std::uint32_t> new_readings;  // indices of sensors that published in this tick

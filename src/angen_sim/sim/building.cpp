@@ -1,0 +1,225 @@
+#include "sim/building.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace angen::sim {
+
+namespace {
+
+Error taken(const Source& source, const std::string& what, const std::string& name,
+            const std::string& by) {
+  return Error(source, what + " '" + name + "' exists already, in model '" + by +
+                           "'; names of a kind must differ");
+}
+
+void start_at(SensorInstance& sensor, Nanoseconds now) {
+  sensor.start = now;
+  sensor.samples = 0;
+  sensor.published = 0;
+}
+
+}  // namespace
+
+Building::Building(const desc::World& world, std::uint64_t seed, std::shared_ptr<Catalog> catalog)
+    : world_(world), seed_(seed), catalog_(std::move(catalog)) {
+  raise_stage();
+  for (const desc::Plugin& plugin : world_.plugins) {
+    try {
+      catalog_->library(plugin.filename);
+    } catch (const Error& error) {
+      throw Error(plugin.source, error.diagnostics().front().message);
+    }
+  }
+  for (const desc::Model& model : world_.models) build(model, nullptr, 0);
+}
+
+void Building::raise_stage() {
+  stage_ = std::make_unique<Stage>(world_, seed_);
+  owners_.clear();
+  lights_.clear();
+  for (const desc::Light& light : world_.lights) {
+    lights_.push_back({light, stage_->add_light(light, light.pose)});
+  }
+}
+
+LiveModel* Building::find(const std::string& model) const {
+  for (const auto& live : models_) {
+    if (live->desc->name == model) return live.get();
+  }
+  return nullptr;
+}
+
+std::vector<std::string> Building::model_names() const {
+  std::vector<std::string> names;
+  for (const auto& live : models_) names.push_back(live->desc->name);
+  return names;
+}
+
+void Building::check_sensor_name(const SensorInstance& sensor) const {
+  for (const auto& other : models_) {
+    for (const SensorInstance& s : other->sensors) {
+      if (s.kind == sensor.kind && s.name == sensor.name) {
+        throw taken(sensor.desc->source, s.kind, s.name, other->desc->name);
+      }
+    }
+  }
+}
+
+void Building::check_names(const LiveModel& live) const {
+  if (find(live.desc->name) != nullptr) {
+    throw Error(live.desc->source,
+                "model '" + live.desc->name + "' exists already; choose another name");
+  }
+  for (const DeviceInstance& device : live.devices) {
+    for (const auto& other : models_) {
+      for (const DeviceInstance& d : other->devices) {
+        if (d.kind == device.kind && d.name == device.name) {
+          throw taken(live.desc->source, d.kind, d.name, other->desc->name);
+        }
+      }
+    }
+  }
+  for (const SensorInstance& sensor : live.sensors) check_sensor_name(sensor);
+}
+
+void Building::build(desc::Model model, const std::vector<SensorInstance>* attached,
+                     Nanoseconds now) {
+  auto live = std::make_unique<LiveModel>();
+  live->desc = std::make_shared<const desc::Model>(std::move(model));
+  make_instances(*live, world_.plugins, world_.gravity, *catalog_, warnings_);
+  for (std::size_t i = 0; attached != nullptr && i < attached->size(); ++i) {
+    const SensorInstance& old = (*attached)[i];
+    live->sensors.push_back(
+        make_sensor(*live, old.link, *old.desc, old.name, world_.gravity, *catalog_));
+    live->sensors.back().attached = true;
+  }
+  check_names(*live);
+  live->parts = stage_->add(*live->desc);
+  for (SensorInstance& sensor : live->sensors) start_at(sensor, now);
+  for (std::uint32_t i = 0; i < live->parts.links.size(); ++i) {
+    const std::uint32_t index = live->parts.links[i].index;
+    if (owners_.size() <= index) owners_.resize(index + 1);
+    owners_[index] = {live.get(), i};
+  }
+  models_.push_back(std::move(live));
+  ++revision_;
+}
+
+void Building::add(desc::Model model, Nanoseconds now) { build(std::move(model), nullptr, now); }
+
+void Building::attach(const desc::Sensor& sensor, const std::string& link, Nanoseconds now) {
+  const std::size_t split = link.find("::");
+  if (split == std::string::npos) {
+    throw Error("'" + link + "' is not the name of a link; links are written model::link");
+  }
+  LiveModel* live = find(link.substr(0, split));
+  if (live == nullptr) {
+    throw Error("no model named '" + link.substr(0, split) + "'; known are " +
+                join_names(model_names()));
+  }
+  std::vector<std::string> names;
+  for (const desc::Link& l : live->desc->links) names.push_back(l.name);
+  const auto at = std::find(names.begin(), names.end(), link.substr(split + 2));
+  if (at == names.end()) {
+    throw Error("model '" + live->desc->name + "' has no link '" + link.substr(split + 2) +
+                "'; known are " + join_names(names));
+  }
+  if (sensor.plugin.empty()) throw Error(sensor.source, "the sensor has no <plugin>");
+  SensorInstance instance = make_sensor(*live, static_cast<std::uint32_t>(at - names.begin()),
+                                        sensor, sensor.name, world_.gravity, *catalog_);
+  check_sensor_name(instance);
+  instance.attached = true;
+  start_at(instance, now);
+  live->sensors.push_back(std::move(instance));
+  ++revision_;
+}
+
+void Building::erase(const std::string& name) {
+  const auto model = std::find_if(models_.begin(), models_.end(),
+                                  [&](const auto& live) { return live->desc->name == name; });
+  if (model != models_.end()) {
+    stage_->remove((*model)->parts);
+    models_.erase(model);
+    ++revision_;
+    return;
+  }
+  for (auto& live : models_) {
+    for (auto sensor = live->sensors.begin(); sensor != live->sensors.end(); ++sensor) {
+      if (sensor->name != name) continue;
+      if (!sensor->attached) {
+        throw Error("sensor '" + name + "' is a part of model '" + live->desc->name +
+                    "'; delete that");
+      }
+      live->sensors.erase(sensor);
+      ++revision_;
+      return;
+    }
+  }
+  throw Error("no model or attached sensor named '" + name + "'; known models are " +
+              join_names(model_names()));
+}
+
+void Building::reset(Nanoseconds now) {
+  std::vector<std::unique_ptr<LiveModel>> old;
+  old.swap(models_);
+  raise_stage();
+  for (const auto& live : old) {
+    std::vector<SensorInstance> attached;
+    for (SensorInstance& sensor : live->sensors) {
+      if (sensor.attached) attached.push_back(std::move(sensor));
+    }
+    build(*live->desc, &attached, now);
+  }
+  warnings_.clear();
+}
+
+std::shared_ptr<const Structure> Building::structure() {
+  auto all = std::make_shared<Structure>();
+  all->revision = revision_;
+  for (const WorldLight& world_light : lights_) {
+    LightEntry entry;
+    entry.name = world_light.light.name;
+    entry.light = world_light.light;
+    all->lights.push_back(std::move(entry));
+  }
+  for (const auto& live : models_) {
+    const auto m = static_cast<std::uint32_t>(all->models.size());
+    const desc::Model& model = *live->desc;
+    all->models.push_back(live->desc);
+    live->first_link = static_cast<std::uint32_t>(all->links.size());
+    live->first_joint = static_cast<std::uint32_t>(all->joints.size());
+    live->first_device = static_cast<std::uint32_t>(all->devices.size());
+    live->first_sensor = static_cast<std::uint32_t>(all->sensors.size());
+    live->first_light = static_cast<std::uint32_t>(all->lights.size());
+    for (std::uint32_t i = 0; i < model.links.size(); ++i) {
+      all->links.push_back({model.name + "::" + model.links[i].name, m, i, !model.is_static});
+      for (const desc::Light& light : model.links[i].lights) {
+        all->lights.push_back({model.name + "::" + light.name, m, live->first_link + i, light});
+      }
+    }
+    for (std::uint32_t i = 0; i < model.joints.size(); ++i) {
+      all->joints.push_back({model.name + "::" + model.joints[i].name, m, i});
+    }
+    for (const DeviceInstance& device : live->devices) {
+      all->devices.push_back({device.kind, device.name, m});
+    }
+    for (const SensorInstance& s : live->sensors) {
+      all->sensors.push_back({s.kind, s.name, m, live->first_link + s.link, s.pose, s.topic,
+                              s.frame, s.period, s.attached, s.desc});
+    }
+  }
+  return all;
+}
+
+std::vector<double> Building::light_levels() const {
+  std::vector<double> levels(lights_.size(), 1.0);
+  for (const auto& live : models_) {
+    for (const Parts::Lamp& lamp : live->parts.lamps) levels.push_back(lamp.level);
+  }
+  return levels;
+}
+
+std::vector<std::string> Building::take_warnings() { return std::exchange(warnings_, {}); }
+
+}  // namespace angen::sim

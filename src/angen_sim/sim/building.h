@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/instance.h"
+
+namespace angen::sim {
+
+/// What exists: the models with their devices and sensors, on the stage that they share.
+class Building {
+ public:
+  Building(const desc::World& world, std::uint64_t seed, std::shared_ptr<Catalog> catalog);
+
+  /// Puts a model into the world at `now`, or throws Error and changes nothing.
+  void add(desc::Model model, Nanoseconds now);
+  /// Puts a sensor on `link` (model::link), or throws Error and changes nothing.
+  void attach(const desc::Sensor& sensor, const std::string& link, Nanoseconds now);
+  /// Removes the model or attached sensor called `name`, or throws Error.
+  void erase(const std::string& name);
+  /// Everything that is there back to where and how it was when it was added.
+  void reset(Nanoseconds now);
+
+  Stage& stage() { return *stage_; }
+  const Stage& stage() const { return *stage_; }
+  std::vector<std::unique_ptr<LiveModel>>& models() { return models_; }
+  const std::vector<std::unique_ptr<LiveModel>>& models() const { return models_; }
+
+  /// The model that a body's link belongs to, and the link's number in it.
+  struct Owner {
+    LiveModel* model = nullptr;
+    std::uint32_t link = 0;
+  };
+  Owner owner(physics::LinkId link) const { return owners_[link.index]; }
+
+  /// Grows with every change of what exists.
+  std::uint64_t revision() const { return revision_; }
+  /// A new Structure; also numbers every model's parts in it.
+  std::shared_ptr<const Structure> structure();
+  /// Levels (0..1) in the order of Structure::lights.
+  std::vector<double> light_levels() const;
+
+  /// Warnings of the last add or of construction, taken out.
+  std::vector<std::string> take_warnings();
+
+ private:
+  struct WorldLight {
+    desc::Light light;
+    Parts::Lamp lamp;
+  };
+
+  void build(desc::Model model, const std::vector<SensorInstance>* attached, Nanoseconds now);
+  void raise_stage();
+  void check_names(const LiveModel& live) const;
+  void check_sensor_name(const SensorInstance& sensor) const;
+  LiveModel* find(const std::string& model) const;
+  std::vector<std::string> model_names() const;
+
+  const desc::World& world_;
+  std::uint64_t seed_;
+  std::shared_ptr<Catalog> catalog_;
+  std::unique_ptr<Stage> stage_;
+  std::vector<std::unique_ptr<LiveModel>> models_;
+  std::vector<WorldLight> lights_;
+  std::vector<Owner> owners_;  // by index of physics::LinkId
+  std::vector<std::string> warnings_;
+  std::uint64_t revision_ = 0;
+};
+
+}  // namespace angen::sim

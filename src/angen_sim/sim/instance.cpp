@@ -1,0 +1,168 @@
+#include "sim/instance.h"
+
+#include <algorithm>
+
+#include "sim/wiring.h"
+
+namespace angen::sim {
+
+namespace {
+
+const char* type_name(desc::Joint::Type type) {
+  switch (type) {
+    case desc::Joint::Type::kFixed:
+      return "fixed";
+    case desc::Joint::Type::kRevolute:
+      return "revolute";
+    case desc::Joint::Type::kPrismatic:
+      return "prismatic";
+    case desc::Joint::Type::kBall:
+      return "ball";
+    case desc::Joint::Type::kUniversal:
+      return "universal";
+  }
+  return "";
+}
+
+// An error in a plug-in is told where the plug-in stands, unless it knows better.
+template <class F>
+auto told_at(const Source& source, F&& make) {
+  try {
+    return make();
+  } catch (const Error& error) {
+    std::vector<Diagnostic> diagnostics = error.diagnostics();
+    for (Diagnostic& d : diagnostics) {
+      if (d.source.file.empty()) d.source = source;
+    }
+    throw Error(std::move(diagnostics));
+  }
+}
+
+DeviceInstance make_device(const desc::Model& model, const ModelInfo& info,
+                           const desc::Plugin& described,
+                           const std::shared_ptr<const Plugin>& plugin, const Vec3& gravity) {
+  return told_at(described.source, [&] {
+    DeviceInstance instance;
+    instance.kind = plugin->kind();
+    instance.plugin = plugin;
+    instance.device = plugin->make_device();
+    instance.scratch.kind = instance.kind;
+    Params params(described.element);
+    instance.name =
+        params.text("device_name", plugin->instance_name(info), "the name that commands use");
+    ModelWiring wiring(model, instance.name, gravity);
+    instance.device->configure(params, wiring);
+    params.finish();
+    return instance;
+  });
+}
+
+bool has_own(const desc::Model& model, const std::string& filename) {
+  return std::any_of(model.plugins.begin(), model.plugins.end(),
+                     [&](const desc::Plugin& p) { return p.filename == filename; });
+}
+
+void make_devices(LiveModel& live, const std::vector<desc::Plugin>& world_plugins,
+                  const Vec3& gravity, Catalog& catalog) {
+  const desc::Model& model = *live.desc;
+  const ModelInfo info = info_of(model);
+  for (const desc::Plugin& described : model.plugins) {
+    bool served = false;
+    for (const auto& plugin :
+         told_at(described.source, [&] { return catalog.library(described.filename); })) {
+      if (!plugin->serves(info)) continue;
+      live.devices.push_back(make_device(model, info, described, plugin, gravity));
+      served = true;
+    }
+    if (!served) {
+      throw Error(described.source, described.filename + " has nothing that serves model '" +
+                                        model.name + "': it lacks the joints or lights of one");
+    }
+  }
+  for (const desc::Plugin& described : world_plugins) {
+    if (has_own(model, described.filename)) continue;
+    for (const auto& plugin :
+         told_at(described.source, [&] { return catalog.library(described.filename); })) {
+      if (plugin->serves(info)) {
+        live.devices.push_back(make_device(model, info, described, plugin, gravity));
+      }
+    }
+  }
+}
+
+std::size_t sensor_count(const desc::Model& model) {
+  std::size_t count = 0;
+  for (const desc::Link& link : model.links) count += link.sensors.size();
+  return count;
+}
+
+}  // namespace
+
+ModelInfo info_of(const desc::Model& model) {
+  ModelInfo info;
+  info.name = model.name;
+  info.pose = model.pose;
+  for (const desc::Link& link : model.links) {
+    info.links.push_back(link.name);
+    for (const desc::Light& light : link.lights) info.lights.push_back(light.name);
+  }
+  for (const desc::Joint& joint : model.joints) {
+    info.joints.push_back({joint.name, type_name(joint.type), joint.parent, joint.child});
+  }
+  return info;
+}
+
+SensorInstance make_sensor(const LiveModel& live, std::uint32_t link, const desc::Sensor& described,
+                           const std::string& name, const Vec3& gravity, Catalog& catalog) {
+  return told_at(described.source, [&] {
+    SensorInstance instance;
+    for (const auto& plugin : catalog.library(described.plugin)) {
+      instance.sensor = plugin->make_sensor();
+      instance.plugin = plugin;
+      if (instance.sensor) break;
+    }
+    if (!instance.sensor) throw Error(described.plugin + " holds no sensor");
+    instance.kind = instance.plugin->kind();
+    instance.name = name;
+    instance.key = hash_bytes(instance.kind + "/" + name);
+    instance.desc = std::make_shared<const desc::Sensor>(described);
+    instance.link = link;
+    instance.pose = described.pose;
+    instance.scratch.kind = instance.kind;
+    Params params(described.plugin_element, &described.element);
+    const double rate = params.number("update_rate", instance.sensor->default_rate(), "Hz",
+                                      "how often it publishes", kPositive);
+    instance.topic = params.text("topicName", "", "topic, instead of /angen/KIND/NAME");
+    instance.frame = params.text("frameName", "", "frame of its header, instead of its name");
+    ModelWiring wiring(*live.desc, name, gravity, live.desc->links[link].name);
+    instance.sensor->configure(params, wiring);
+    params.finish();
+    instance.collisions = wiring.collisions();
+    instance.period = from_seconds(1.0 / rate);
+    instance.sample_period = instance.sensor->sample_period();
+    if (instance.sample_period <= 0) instance.sample_period = instance.period;
+    return instance;
+  });
+}
+
+void make_instances(LiveModel& live, const std::vector<desc::Plugin>& world_plugins,
+                    const Vec3& gravity, Catalog& catalog, std::vector<std::string>& warnings) {
+  make_devices(live, world_plugins, gravity, catalog);
+  const desc::Model& model = *live.desc;
+  const bool alone = sensor_count(model) == 1;
+  for (std::uint32_t i = 0; i < model.links.size(); ++i) {
+    for (const desc::Sensor& described : model.links[i].sensors) {
+      if (described.plugin.empty()) {
+        warnings.push_back(Diagnostic{Diagnostic::Severity::kWarning, described.source,
+                                      "sensor '" + described.name + "' of model '" + model.name +
+                                          "' has no plug-in: it measures nothing"}
+                               .text());
+        continue;
+      }
+      const std::string name = alone ? model.name : model.name + "_" + described.name;
+      live.sensors.push_back(make_sensor(live, i, described, name, gravity, catalog));
+    }
+  }
+}
+
+}  // namespace angen::sim

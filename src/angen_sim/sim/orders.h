@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <future>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "sim/building.h"
+#include "sim/command.h"
+#include "sim/view.h"
+
+namespace angen::sim {
+
+/// The one queue that everything from outside goes through, and the world's running state.
+class Orders {
+ public:
+  ~Orders();
+
+  std::future<Outcome> post(Action action);  // any thread
+
+  struct Effects {
+    bool reset = false;
+    bool reset_time = false;
+  };
+  /// Carries out what waits, in order. Called between ticks.
+  Effects obey(Building& building, InstanceView::Clock clock, std::vector<Event>& events);
+
+  bool paused() const { return paused_; }
+  bool running() const { return !paused_ || !steps_.empty(); }
+  /// Counts a tick that took place.
+  void tick_done();
+  /// Answers what was carried out; called when the snapshot that shows it is out.
+  void answer();
+
+ private:
+  struct Pending {
+    std::uint64_t left;
+    std::promise<Outcome> answer;
+  };
+
+  Outcome carry_out(const Action& action, Building& building, InstanceView::Clock clock,
+                    std::vector<Event>& events, Effects& effects);
+
+  mutable std::mutex mutex_;  // of inbox_ only
+  std::vector<Request> inbox_;
+  std::deque<Pending> steps_;
+  std::vector<std::pair<std::promise<Outcome>, Outcome>> answers_;
+  bool paused_ = false;
+};
+
+}  // namespace angen::sim

@@ -1,0 +1,160 @@
+#include "sim/simulation.h"
+
+#include <mutex>
+#include <utility>
+
+#include "sim/acting.h"
+#include "sim/building.h"
+#include "sim/orders.h"
+#include "sim/sensing.h"
+
+namespace angen::sim {
+
+struct Simulation::Impl {
+  Impl(desc::World described, std::uint64_t seed_, std::shared_ptr<Catalog> catalog)
+      : world(std::move(described)),
+        seed(seed_),
+        building(world, seed_, std::move(catalog)),
+        sensing(seed_) {
+    next.step = world.physics.step;
+    publish();
+  }
+
+  InstanceView::Clock clock() const { return {next.time, next.step}; }
+
+  void obey() {
+    const Orders::Effects effects = orders.obey(building, clock(), next.events);
+    if (effects.reset) sensing.invalidate();
+    if (effects.reset_time) {
+      next.tick = 0;
+      next.time = 0;
+      next.counts.readings = 0;
+    }
+    restructure();
+  }
+
+  void act() { acting.act(building, clock(), next.events); }
+
+  void move() {
+    building.stage().physics.step(next.tick);
+    ++next.tick;
+    next.time = next.tick * next.step;
+    for (const physics::LinkId link : building.stage().physics.moved()) {
+      const Building::Owner owner = building.owner(link);
+      building.stage().follow(owner.model->parts, owner.link);
+      write_link(*owner.model, owner.link);
+      next.moved_links.push_back(owner.model->first_link + owner.link);
+    }
+  }
+
+  void look() {
+    sensing.look(building, clock(), next.tick, next);
+    acting.report(building, clock(), next);
+    if (acting.lights_changed()) write_lights();
+  }
+
+  std::shared_ptr<const Snapshot> publish() {
+    restructure();
+    next.paused = orders.paused();
+    next.counts.awake_bodies = static_cast<std::uint32_t>(building.stage().physics.awake_count());
+    next.counts.failed_steps = building.stage().physics.failed_steps();
+    auto made = std::make_shared<const Snapshot>(next);
+    next.moved_links.clear();
+    next.new_readings.clear();
+    next.new_states.clear();
+    next.events.clear();
+    const std::lock_guard<std::mutex> lock(latest_mutex);
+    latest = made;
+    return made;
+  }
+
+  // When something came or went, every index is new: all parts are written again.
+  void restructure() {
+    if (next.structure && next.structure->revision == building.revision()) return;
+    next.structure = building.structure();
+    sensing.invalidate();
+    next.link_poses.clear();
+    next.joint_positions.clear();
+    next.devices.clear();
+    next.sensors.clear();
+    next.moved_links.clear();
+    for (auto& live : building.models()) {
+      for (std::size_t i = 0; i < live->desc->links.size(); ++i) next.link_poses.push_back({});
+      for (std::size_t i = 0; i < live->desc->joints.size(); ++i) next.joint_positions.push_back(0);
+      for (std::uint32_t i = 0; i < live->desc->links.size(); ++i) write_link(*live, i);
+      write_joints(*live);
+      for (const DeviceInstance& device : live->devices) next.devices.push_back(device.last);
+      for (const SensorInstance& sensor : live->sensors) next.sensors.push_back(sensor.last);
+    }
+    write_lights();
+    for (const std::string& warning : building.take_warnings()) {
+      next.events.push_back({next.time, "world", "world", "warning", warning});
+    }
+  }
+
+  void write_link(const LiveModel& live, std::uint32_t link) {
+    next.link_poses.set(live.first_link + link,
+                        building.stage().physics.link(live.parts.links[link]).pose);
+    for (std::uint32_t i = 0; i < live.desc->joints.size(); ++i) {
+      if (live.desc->joints[i].child == live.desc->links[link].name) write_joint(live, i);
+    }
+  }
+
+  void write_joints(const LiveModel& live) {
+    for (std::uint32_t i = 0; i < live.desc->joints.size(); ++i) write_joint(live, i);
+  }
+
+  void write_joint(const LiveModel& live, std::uint32_t joint) {
+    next.joint_positions.set(live.first_joint + joint,
+                             building.stage().physics.joint(live.parts.joints[joint]).position);
+  }
+
+  void write_lights() {
+    next.light_levels = std::make_shared<const std::vector<double>>(building.light_levels());
+  }
+
+  desc::World world;
+  std::uint64_t seed;
+  Building building;
+  Orders orders;
+  Acting acting;
+  Sensing sensing;
+  Snapshot next;
+  mutable std::mutex latest_mutex;
+  std::shared_ptr<const Snapshot> latest;
+};
+
+Simulation::Simulation(desc::World world, std::uint64_t seed, std::shared_ptr<Catalog> catalog)
+    : impl_(std::make_unique<Impl>(std::move(world), seed, std::move(catalog))) {}
+
+Simulation::~Simulation() = default;
+
+std::future<Outcome> Simulation::post(Action action) {
+  return impl_->orders.post(std::move(action));
+}
+
+std::shared_ptr<const Snapshot> Simulation::tick() {
+  impl_->obey();
+  if (running()) {
+    impl_->act();
+    impl_->move();
+    impl_->look();
+    impl_->orders.tick_done();
+  }
+  std::shared_ptr<const Snapshot> made = impl_->publish();
+  impl_->orders.answer();
+  return made;
+}
+
+std::shared_ptr<const Snapshot> Simulation::snapshot() const {
+  const std::lock_guard<std::mutex> lock(impl_->latest_mutex);
+  return impl_->latest;
+}
+
+bool Simulation::running() const { return impl_->orders.running(); }
+
+const desc::World& Simulation::world() const { return impl_->world; }
+
+std::uint64_t Simulation::seed() const { return impl_->seed; }
+
+}  // namespace angen::sim

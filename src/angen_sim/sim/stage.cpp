@@ -1,0 +1,96 @@
+#include "sim/stage.h"
+
+#include <algorithm>
+
+namespace angen::sim {
+
+namespace {
+
+// SDF gives lights no photometric unit: intensity 1 at full diffuse stands for a common lamp, or
+// for overcast daylight.
+constexpr double kPointFlux = 800.0;             // lm
+constexpr double kDirectionalIlluminance = 1e3;  // lx
+
+Eigen::Vector3f with_luminance_one(const Eigen::Vector3f& color) {
+  const float luminance = Eigen::Vector3f(0.2126F, 0.7152F, 0.0722F).dot(color);  // Rec. 709
+  return luminance > 0.0F ? Eigen::Vector3f(color / luminance) : Eigen::Vector3f::Ones();
+}
+
+// The collision's surface looks like the visual of the same name, or like the link's first.
+Eigen::Vector3f reflectance(const desc::Link& link, const desc::Collision& collision) {
+  const auto same = std::find_if(link.visuals.begin(), link.visuals.end(),
+                                 [&](const desc::Visual& v) { return v.name == collision.name; });
+  if (same != link.visuals.end()) return same->material.diffuse.head<3>();
+  const desc::Material material =
+      link.visuals.empty() ? desc::Material{} : link.visuals.front().material;
+  return material.diffuse.head<3>();
+}
+
+}  // namespace
+
+Stage::Stage(const desc::World& world, std::uint64_t seed)
+    : physics(world.physics, world.gravity, seed) {}
+
+Parts Stage::add(const desc::Model& model) {
+  Parts parts;
+  parts.body = physics.add(model);
+  parts.links = physics.links(parts.body);
+  parts.joints = physics.joints(parts.body);
+  const auto mobility = model.is_static ? rays::Mobility::kStatic : rays::Mobility::kMoving;
+  for (std::uint32_t i = 0; i < model.links.size(); ++i) {
+    const desc::Link& link = model.links[i];
+    const Pose pose = physics.link(parts.links[i]).pose;
+    for (const desc::Collision& collision : link.collisions) {
+      parts.shapes.push_back(
+          {rays.add(collision.shape, pose * collision.pose, mobility, reflectance(link, collision)),
+           i, collision.pose});
+    }
+    for (const desc::Light& light : link.lights) {
+      Parts::Lamp lamp = add_light(light, pose * light.pose);
+      lamp.link = i;
+      lamp.offset = light.pose;
+      parts.lamps.push_back(lamp);
+    }
+  }
+  return parts;
+}
+
+void Stage::remove(const Parts& parts) {
+  for (const Parts::Shape& shape : parts.shapes) rays.remove(shape.id);
+  for (const Parts::Lamp& lamp : parts.lamps) light.remove(lamp.id);
+  physics.remove(parts.body);
+}
+
+Parts::Lamp Stage::add_light(const desc::Light& described, const Pose& pose) {
+  light::Lamp lamp;
+  lamp.pose = pose;
+  lamp.direction = described.direction;
+  lamp.color = with_luminance_one(described.diffuse);
+  lamp.inner_angle = described.inner_angle;
+  lamp.outer_angle = described.outer_angle;
+  lamp.cast_shadows = described.cast_shadows;
+  const double brightness = described.intensity * described.diffuse.maxCoeff();
+  lamp.luminous_flux = brightness * kPointFlux;
+  if (described.type == desc::Light::Type::kSpot) lamp.type = light::Lamp::Type::kSpot;
+  if (described.type == desc::Light::Type::kDirectional) {
+    lamp.type = light::Lamp::Type::kDirectional;
+    lamp.luminous_flux = brightness * kDirectionalIlluminance;
+  }
+  Parts::Lamp part;
+  part.id = light.add(lamp, 1.0);
+  part.nominal_flux = lamp.luminous_flux;
+  part.level = 1.0;
+  return part;
+}
+
+void Stage::follow(const Parts& parts, std::uint32_t link) {
+  const Pose pose = physics.link(parts.links[link]).pose;
+  for (const Parts::Shape& shape : parts.shapes) {
+    if (shape.link == link) rays.move(shape.id, pose * shape.offset);
+  }
+  for (const Parts::Lamp& lamp : parts.lamps) {
+    if (lamp.link == link) light.move(lamp.id, pose * lamp.offset);
+  }
+}
+
+}  // namespace angen::sim

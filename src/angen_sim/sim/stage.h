@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "desc/world.h"
+#include "light/lighting.h"
+#include "physics/world.h"
+#include "rays/scene.h"
+
+namespace angen::sim {
+
+/// A model's part in each engine.
+struct Parts {
+  struct Shape {
+    rays::ShapeId id;
+    std::uint32_t link = 0;
+    Pose offset;  // in the link's frame
+  };
+  struct Lamp {
+    light::LampId id;
+    std::uint32_t link = 0;
+    Pose offset;
+    double nominal_flux = 0.0;  // lm that level 1 stands for in the light engine
+    double level = 0.0;         // as the device set it, 0..1
+  };
+  physics::ModelId body;
+  std::vector<physics::LinkId> links;    // as desc::Model::links
+  std::vector<physics::JointId> joints;  // as desc::Model::joints
+  std::vector<Shape> shapes;
+  std::vector<Lamp> lamps;  // in the order of links and their lights
+};
+
+/// The three engines in step: where a body goes, its shapes and lamps go.
+class Stage {
+ public:
+  Stage(const desc::World& world, std::uint64_t seed);
+
+  Parts add(const desc::Model& model);  // throws Error and adds nothing
+  void remove(const Parts& parts);
+  Parts::Lamp add_light(const desc::Light& light, const Pose& pose);
+
+  /// Shapes and lamps of `link` follow its body.
+  void follow(const Parts& parts, std::uint32_t link);
+
+  physics::World physics;
+  rays::Scene rays;
+  light::Lighting light{rays};
+};
+
+}  // namespace angen::sim

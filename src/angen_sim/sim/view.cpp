@@ -1,0 +1,79 @@
+#include "sim/view.h"
+
+#include <utility>
+
+namespace angen::sim {
+
+namespace {
+
+template <class Ref>
+std::size_t at(Ref ref) {
+  return static_cast<std::size_t>(ref.index);
+}
+
+}  // namespace
+
+Pose InstanceView::pose() const {
+  const std::size_t link = sensor_ != nullptr ? sensor_->link : 0;
+  const Pose pose = stage_.physics.link(live_.parts.links.at(link)).pose;
+  if (sensor_ != nullptr) return pose * sensor_->pose;
+  return pose * live_.desc->links.front().pose.inverse();
+}
+
+JointView InstanceView::joint(JointRef joint) const {
+  const physics::JointState state = stage_.physics.joint(live_.parts.joints.at(at(joint)));
+  return {state.position, state.velocity, state.effort};
+}
+
+LinkView InstanceView::link(LinkRef link) const {
+  const physics::LinkId id = live_.parts.links.at(at(link));
+  const physics::LinkState state = stage_.physics.link(id);
+  return {state.pose, state.linear_velocity, state.angular_velocity, stage_.physics.awake(id)};
+}
+
+std::vector<ContactPair> InstanceView::contacts(ContactRef collision) const {
+  const std::string& name = sensor_->collisions.at(at(collision));
+  std::vector<ContactPair> found;
+  for (const ContactPair& pair : stage_.physics.contacts()) {
+    if (pair.first == name) found.push_back(pair);
+    if (pair.second != name) continue;
+    ContactPair turned = pair;
+    std::swap(turned.first, turned.second);
+    for (ContactPoint& point : turned.points) {
+      point.normal = -point.normal;
+      point.force = -point.force;
+    }
+    found.push_back(std::move(turned));
+  }
+  return found;
+}
+
+light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) const {
+  return stage_.light.measure(probe, pose);
+}
+
+void InstanceOutputs::force(JointRef joint, double force) {
+  stage_.physics.add_force(live_.parts.joints.at(at(joint)), force);
+}
+
+void InstanceOutputs::motor(JointRef joint, double velocity, double max_force) {
+  stage_.physics.set_motor(live_.parts.joints.at(at(joint)), velocity, max_force);
+}
+
+void InstanceOutputs::drive(LinkRef link, const Vec3& velocity, double yaw_rate, double max_force) {
+  stage_.physics.drive(live_.parts.links.at(at(link)), velocity, yaw_rate, max_force);
+}
+
+void InstanceOutputs::light(LightRef light, double level, double luminous_flux) {
+  Parts::Lamp& lamp = live_.parts.lamps.at(at(light));
+  lamp.level = level;
+  stage_.light.set_level(lamp.id, level * luminous_flux / lamp.nominal_flux);
+  lights_changed_ = true;
+}
+
+void InstanceOutputs::event(const std::string& event, const std::string& detail) {
+  events_.push_back({time_, device_.name, device_.kind, event, detail});
+  told_ = true;
+}
+
+}  // namespace angen::sim

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plugin/view.h"
+#include "sim/instance.h"
+
+namespace angen::sim {
+
+/// What one device or sensor sees of the stage at one moment.
+class InstanceView : public View {
+ public:
+  struct Clock {
+    Nanoseconds time = 0;
+    Nanoseconds step = 0;
+  };
+
+  InstanceView(const Stage& stage, const LiveModel& live, Clock clock,
+               const SensorInstance* sensor = nullptr)
+      : stage_(stage), live_(live), clock_(clock), sensor_(sensor) {}
+
+  Nanoseconds time() const override { return clock_.time; }
+  Nanoseconds step() const override { return clock_.step; }
+  Pose pose() const override;
+  JointView joint(JointRef joint) const override;
+  LinkView link(LinkRef link) const override;
+  std::vector<ContactPair> contacts(ContactRef collision) const override;
+  light::Sample illuminance(light::Probe& probe, const Pose& pose) const override;
+
+ private:
+  const Stage& stage_;
+  const LiveModel& live_;
+  Clock clock_;
+  const SensorInstance* sensor_;
+};
+
+/// What one device does to the stage.
+class InstanceOutputs : public Outputs {
+ public:
+  InstanceOutputs(Stage& stage, LiveModel& live, const DeviceInstance& device, Nanoseconds time,
+                  std::vector<Event>& events)
+      : stage_(stage), live_(live), device_(device), time_(time), events_(events) {}
+
+  void force(JointRef joint, double force) override;
+  void motor(JointRef joint, double velocity, double max_force) override;
+  void drive(LinkRef link, const Vec3& velocity, double yaw_rate, double max_force) override;
+  void light(LightRef light, double level, double luminous_flux) override;
+  void event(const std::string& event, const std::string& detail) override;
+
+  bool lights_changed() const { return lights_changed_; }
+  bool told() const { return told_; }
+
+ private:
+  Stage& stage_;
+  LiveModel& live_;
+  const DeviceInstance& device_;
+  Nanoseconds time_;
+  std::vector<Event>& events_;
+  bool lights_changed_ = false;
+  bool told_ = false;
+};
+
+}  // namespace angen::sim

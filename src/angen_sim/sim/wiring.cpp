@@ -1,0 +1,108 @@
+#include "sim/wiring.h"
+
+#include <set>
+#include <utility>
+
+namespace angen::sim {
+
+namespace {
+
+template <class List>
+std::vector<std::string> names_of(const List& list) {
+  std::vector<std::string> names;
+  for (const auto& item : list) names.push_back(item.name);
+  return names;
+}
+
+template <class List>
+int index_of(const List& list, const std::string& name) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i].name == name) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+[[noreturn]] void unknown(const std::string& model, const char* what, const std::string& name,
+                          const std::vector<std::string>& known) {
+  throw Error("model '" + model + "' has no " + what + " '" + name + "'; known are " +
+              join_names(known));
+}
+
+}  // namespace
+
+ModelWiring::ModelWiring(const desc::Model& model, std::string name, const Vec3& gravity,
+                         std::string sensor_link)
+    : model_(model),
+      name_(std::move(name)),
+      gravity_(gravity),
+      sensor_link_(std::move(sensor_link)) {}
+
+bool ModelWiring::has_joint(const std::string& joint) const {
+  return index_of(model_.joints, joint) >= 0;
+}
+
+JointRef ModelWiring::joint(const std::string& joint) {
+  const int index = index_of(model_.joints, joint);
+  if (index < 0) unknown(model_.name, "joint", joint, names_of(model_.joints));
+  return {index};
+}
+
+JointLimits ModelWiring::limits(JointRef joint) const {
+  const desc::Joint& described = model_.joints.at(static_cast<std::size_t>(joint.index));
+  if (described.axes.empty()) return {};
+  return {described.axes.front().lower, described.axes.front().upper};
+}
+
+LinkRef ModelWiring::link(const std::string& link) {
+  const int index = index_of(model_.links, link);
+  if (index < 0) unknown(model_.name, "link", link, names_of(model_.links));
+  return {index};
+}
+
+std::string ModelWiring::child_of(JointRef joint) const {
+  return model_.joints.at(static_cast<std::size_t>(joint.index)).child;
+}
+
+// Links on fixed joints move as one, so their masses count as one.
+double ModelWiring::mass(LinkRef link) const {
+  std::set<std::string> together{model_.links.at(static_cast<std::size_t>(link.index)).name};
+  for (std::size_t before = 0; before != together.size();) {
+    before = together.size();
+    for (const desc::Joint& joint : model_.joints) {
+      if (joint.type != desc::Joint::Type::kFixed) continue;
+      if (together.count(joint.parent) != 0) together.insert(joint.child);
+      if (together.count(joint.child) != 0) together.insert(joint.parent);
+    }
+  }
+  double mass = 0.0;
+  for (const desc::Link& l : model_.links) {
+    if (together.count(l.name) != 0) mass += l.inertial.mass;
+  }
+  return mass;
+}
+
+LightRef ModelWiring::light(const std::string& light) {
+  std::vector<std::string> names;
+  for (const desc::Link& link : model_.links) {
+    for (const desc::Light& l : link.lights) names.push_back(l.name);
+  }
+  if (light.empty() && names.size() == 1) return {0};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == light) return {static_cast<int>(i)};
+  }
+  unknown(model_.name, "light", light, names);
+}
+
+ContactRef ModelWiring::collision(const std::string& collision) {
+  const std::size_t scope = collision.rfind("::");
+  const std::string local = scope == std::string::npos ? collision : collision.substr(scope + 2);
+  const desc::Link& link =
+      model_.links.at(static_cast<std::size_t>(index_of(model_.links, sensor_link_)));
+  if (index_of(link.collisions, local) < 0) {
+    unknown(model_.name, "collision", collision, names_of(link.collisions));
+  }
+  collisions_.push_back(model_.name + "::" + link.name + "::" + local);
+  return {static_cast<int>(collisions_.size() - 1)};
+}
+
+}  // namespace angen::sim
