@@ -1,0 +1,89 @@
+"""The shell entry: what it says where it cannot work, and whose python3 it uses."""
+import os
+from pathlib import Path
+import subprocess
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+DEBIAN_12 = 'ID=debian\nVERSION_ID="12"\n'
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """A folder on which PATH can stand alone: bash and sed, but neither apt-get nor sudo."""
+    (tmp_path / 'bin').mkdir()
+    for name in ('bash', 'sed'):
+        (tmp_path / 'bin' / name).symlink_to(f'/usr/bin/{name}')
+    return tmp_path
+
+
+def program(path, text):
+    """Writes an executable shell script."""
+    path.write_text(f'#!/bin/sh\n{text}\n')
+    path.chmod(0o755)
+
+
+def require_installer(folder, os_release, user_id):
+    """Runs the check that stands before every installation, on a machine as described."""
+    (folder / 'os-release').write_text(os_release)
+    return subprocess.run(
+        ['/bin/bash', '-c', 'source "$1"; PATH=$2; require_installer "$3" "$4" 7; echo passed',
+         'test', ROOT / 'angen', folder / 'bin', folder / 'os-release', str(user_id)],
+        capture_output=True, text=True)
+
+
+def assert_one_line(result, *words):
+    assert result.returncode == 1
+    assert result.stdout == ''
+    assert len(result.stderr.splitlines()) == 1
+    assert all(word in result.stderr for word in words), result.stderr
+
+
+@pytest.mark.parametrize('os_release, name', [
+    ('ID=ubuntu\nVERSION_ID="22.04"\n', 'ubuntu 22.04'),
+    ('ID=debian\nVERSION_ID="13"\n', 'debian 13'),
+    ('not a shell file (', 'unknown'),
+])
+def test_another_system_is_named_in_one_line(folder, os_release, name):
+    assert_one_line(require_installer(folder, os_release, 0), 'needs Debian 12', name)
+
+
+def test_missing_apt_is_named_in_one_line(folder):
+    assert_one_line(require_installer(folder, DEBIAN_12, 0), 'needs apt-get')
+
+
+def test_neither_root_nor_sudo_says_what_root_should_run(folder):
+    program(folder / 'bin' / 'apt-get', 'exit 0')
+    result = require_installer(folder, DEBIAN_12, 1000)
+    assert_one_line(result, '7 packages', 'sudo', 'apt-get install')
+
+
+@pytest.mark.parametrize('user_id, programs', [(0, ['apt-get']), (1000, ['apt-get', 'sudo'])])
+def test_debian_12_with_apt_passes(folder, user_id, programs):
+    for name in programs:
+        program(folder / 'bin' / name, 'exit 0')
+    assert require_installer(folder, DEBIAN_12, user_id).stdout == 'passed\n'
+
+
+def test_every_dependency_has_a_purpose():
+    lines = (ROOT / 'dependencies.apt').read_text().splitlines()
+    packages = [line for line in lines if line and not line.startswith('#')]
+    assert packages
+    assert [line for line in packages if '#' not in line] == []
+
+
+def test_no_arguments_print_the_usage(folder):
+    result = subprocess.run([ROOT / 'angen'], capture_output=True, text=True)
+    assert result.returncode == 0
+    assert './angen run' in result.stdout
+
+
+def test_another_python_first_on_path_is_not_used(folder):
+    program(folder / 'bin' / 'python3', f'touch {folder}/used; exit 1')
+    environment = dict(os.environ, PATH=f'{folder}/bin:{os.environ["PATH"]}')
+    command = 'python3 -c "import rospy, angen_msgs.msg, sys; print(sys.executable)"'
+    result = subprocess.run([ROOT / 'angen', 'shell', '-c', command],
+                            capture_output=True, text=True, env=environment)
+    assert (result.returncode, result.stdout) == (0, '/usr/bin/python3\n'), result.stderr
+    assert not (folder / 'used').exists()
