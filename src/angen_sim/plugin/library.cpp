@@ -1,1 +1,173 @@
+#include "plugin/library.h"
 
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <class_loader/class_loader.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <mutex>
+#include <set>
+#include <sstream>
+#include <utility>
+
+namespace angen {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Plugins = std::vector<std::shared_ptr<const Plugin>>;
+
+// class_loader tells its story through console_bridge; what matters of it comes as exceptions.
+class Silence {
+ public:
+  Silence() : level_(console_bridge::getLogLevel()) {
+    console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_NONE);
+  }
+  ~Silence() { console_bridge::setLogLevel(level_); }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  console_bridge::LogLevel level_;
+};
+
+// A plug-in and the library that its code is in; members go in reverse order.
+struct Kept {
+  std::shared_ptr<class_loader::ClassLoader> loader;
+  std::shared_ptr<Plugin> plugin;
+  ~Kept() {
+    const Silence silence;
+    plugin.reset();
+    loader.reset();
+  }
+};
+
+fs::path own_directory() {
+  static const char here = 0;
+  Dl_info info;
+  if (dladdr(&here, &info) == 0 || info.dli_fname == nullptr) return {};
+  std::error_code ignored;
+  return fs::weakly_canonical(info.dli_fname, ignored).parent_path();
+}
+
+std::vector<fs::path> search_path() {
+  std::vector<fs::path> directories;
+  for (const char* variable : {"ANGEN_PLUGIN_PATH", "GAZEBO_PLUGIN_PATH"}) {
+    const char* value = std::getenv(variable);
+    std::istringstream list(value == nullptr ? "" : value);
+    for (std::string entry; std::getline(list, entry, ':');) {
+      if (!entry.empty()) directories.emplace_back(entry);
+    }
+  }
+  directories.push_back(own_directory());
+  return directories;
+}
+
+// True when the file's type names show a plug-in registered for angen::Plugin. Read, not loaded:
+// loading runs code, and a directory of libraries may hold anything.
+bool registers_plugins(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  return bytes.find("N12class_loader4impl10MetaObjectI") != std::string::npos &&
+         bytes.find("N5angen6PluginE") != std::string::npos;
+}
+
+std::string why_not_loadable(const std::string& path, const std::string& otherwise) {
+  void* handle = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
+  if (handle == nullptr) return dlerror();
+  dlclose(handle);
+  return otherwise;
+}
+
+// The file to load for `filename`; when only files without Angen plug-ins are found, the first of
+// them.
+fs::path locate(const std::string& filename) {
+  if (filename.find('/') != std::string::npos) {
+    if (!fs::is_regular_file(filename)) throw Error("there is no plug-in library " + filename);
+    return fs::absolute(filename);
+  }
+  fs::path unsuitable;
+  std::vector<std::string> searched;
+  for (const fs::path& directory : search_path()) {
+    const fs::path candidate = directory / filename;
+    searched.push_back(directory.string());
+    std::error_code ignored;
+    if (!fs::is_regular_file(candidate, ignored)) continue;
+    if (registers_plugins(candidate)) return candidate;
+    if (unsuitable.empty()) unsuitable = candidate;
+  }
+  if (!unsuitable.empty()) return unsuitable;
+  throw Error("plug-in library " + filename + " is not found; searched " + join_names(searched) +
+              " (set ANGEN_PLUGIN_PATH for more)");
+}
+
+Plugins load(const fs::path& file) {
+  const Silence silence;
+  Plugins plugins;
+  try {
+    const auto loader = std::make_shared<class_loader::ClassLoader>(file.string());
+    for (const std::string& type : loader->getAvailableClasses<Plugin>()) {
+      auto kept = std::make_shared<Kept>();
+      kept->loader = loader;
+      kept->plugin = loader->createInstance<Plugin>(type);
+      const Plugin* plugin = kept->plugin.get();
+      plugins.emplace_back(std::move(kept), plugin);
+    }
+  } catch (const std::exception& problem) {
+    throw Error("plug-in library " + file.string() +
+                " does not load: " + why_not_loadable(file.string(), problem.what()));
+  }
+  if (plugins.empty()) {
+    throw Error("no Angen plug-in in " + file.string() +
+                "; a plug-in library registers one with ANGEN_REGISTER_PLUGIN");
+  }
+  return plugins;
+}
+
+}  // namespace
+
+struct Catalog::Impl {
+  std::mutex mutex;
+  std::map<std::string, Plugins> libraries;
+};
+
+Catalog::Catalog() : impl_(std::make_unique<Impl>()) {}
+Catalog::~Catalog() = default;
+
+const Plugins& Catalog::library(const std::string& filename) {
+  const std::lock_guard<std::mutex> lock(impl_->mutex);
+  const auto known = impl_->libraries.find(filename);
+  if (known != impl_->libraries.end()) return known->second;
+  if (filename.empty()) throw Error("a plug-in has no filename, must be lib….so");
+  return impl_->libraries.emplace(filename, load(locate(filename))).first->second;
+}
+
+void Catalog::add(const std::string& filename, std::shared_ptr<const Plugin> plugin) {
+  const std::lock_guard<std::mutex> lock(impl_->mutex);
+  impl_->libraries[filename].push_back(std::move(plugin));
+}
+
+std::vector<std::string> Catalog::available() {
+  std::set<std::string> names;
+  {
+    const std::lock_guard<std::mutex> lock(impl_->mutex);
+    for (const auto& [name, plugins] : impl_->libraries) names.insert(name);
+  }
+  for (const fs::path& directory : search_path()) {
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(directory, ignored)) {
+      const std::string name = entry.path().filename();
+      if (entry.path().extension() == ".so" && names.count(name) == 0 &&
+          entry.is_regular_file(ignored) && registers_plugins(entry.path())) {
+        names.insert(name);
+      }
+    }
+  }
+  return {names.begin(), names.end()};
+}
+
+}  // namespace angen

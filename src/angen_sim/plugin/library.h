@@ -10,7 +10,9 @@
 namespace angen {
 
 /// The plug-ins of every library that was asked for, by file name. Looked for on ANGEN_PLUGIN_PATH,
-/// GAZEBO_PLUGIN_PATH, then beside Angen's own libraries.
+/// GAZEBO_PLUGIN_PATH, then beside Angen's own libraries; a library of that name that holds no
+/// Angen plug-in (Gazebo's own, say) is passed over. A Plugin keeps its library loaded: whoever
+/// holds what it made must hold it, or the catalog, longer. Calls from several threads are safe.
 class Catalog {
  public:
   Catalog();
@@ -18,13 +20,14 @@ class Catalog {
   Catalog(const Catalog&) = delete;
   Catalog& operator=(const Catalog&) = delete;
 
-  /// All plug-ins in `filename`; throws Error when it is not found, does not load, or holds none.
+  /// All plug-ins in `filename` (a name to look for, or a path with a '/'); throws Error when it is
+  /// not found, does not load, or holds none.
   const std::vector<std::shared_ptr<const Plugin>>& library(const std::string& filename);
 
   /// Adds plug-ins that live in this process (a Python class) under a file name of their own.
   void add(const std::string& filename, std::shared_ptr<const Plugin> plugin);
 
-  /// File names of every library on the path that holds Angen plug-ins, sorted.
+  /// File names of every library on the path that holds Angen plug-ins, sorted. Loads none of them.
   std::vector<std::string> available();
 
  private:
@@ -39,7 +42,8 @@ struct PluginDoc {
   std::vector<ParamDoc> params;
 };
 
-/// Every plug-in on the path with its parameters, read by configuring one of each on nothing.
+/// Every plug-in on the path with its parameters, read by configuring one of each on nothing. A
+/// library that does not load has an entry with an empty kind and the reason as doc.
 std::vector<PluginDoc> describe(Catalog& catalog);
 
 }  // namespace angen

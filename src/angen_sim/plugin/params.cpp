@@ -1,1 +1,214 @@
+#include "plugin/params.h"
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+#include <system_error>
+
+namespace angen {
+
+namespace {
+
+// What Gazebo's own plug-ins carry; whoever needs one of them reads it.
+const std::set<std::string> kAlwaysKnown = {
+    "alwaysOn",  "updateRate",      "update_rate",    "topicName",   "frameName",
+    "visualize", "bumperTopicName", "robotNamespace", "device_name",
+};
+
+std::string shown(double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof(buffer), value).ptr;
+  return {buffer, end};
+}
+
+std::string shown(const Range& range) {
+  const std::string low = range.min == kPositive.min ? "> 0" : ">= " + shown(range.min);
+  const std::string high = "<= " + shown(range.max);
+  if (!std::isfinite(range.max)) return low;
+  return std::isfinite(range.min) ? low + " and " + high : high;
+}
+
+std::string with_unit(const std::string& text, const std::string& unit) {
+  return unit.empty() ? text : text + " " + unit;
+}
+
+// The whole of `text` as a T, whatever the locale.
+template <class T>
+bool parse(const std::string& text, T& value) {
+  const char* begin = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
+  const char* end = text.data() + text.size();
+  const auto [stop, problem] = std::from_chars(begin, end, value);
+  return problem == std::errc() && stop == end;
+}
+
+bool parse_finite(const std::string& text, double& value) {
+  return parse(text, value) && std::isfinite(value);
+}
+
+void collect(const Element& parent, const std::string& path, std::vector<const Element*>& found) {
+  const std::size_t slash = path.find('/');
+  const std::string first = path.substr(0, slash);
+  for (const Element& child : parent.children) {
+    if (child.name != first) continue;
+    if (slash == std::string::npos) {
+      found.push_back(&child);
+    } else {
+      collect(child, path.substr(slash + 1), found);
+    }
+  }
+}
+
+}  // namespace
+
+Params::Params(const Element& plugin, const Element* sensor) : plugin_(plugin) {
+  if (sensor != nullptr) sensor_ = *sensor;
+}
+
+std::vector<const Element*> Params::all(const std::string& path) const {
+  std::vector<const Element*> found;
+  collect(plugin_, path, found);
+  if (found.empty()) collect(sensor_, path, found);
+  return found;
+}
+
+void Params::note(const std::string& path, const std::string& type, const std::string& fallback,
+                  const std::string& unit, const std::string& doc) {
+  if (read_.insert(path).second) docs_.push_back({path, type, fallback, unit, doc});
+}
+
+const Element* Params::take(const std::string& path, const std::string& type,
+                            const std::string& fallback, const std::string& unit,
+                            const std::string& doc) {
+  note(path, type, fallback, unit, doc);
+  const std::vector<const Element*> found = all(path);
+  if (found.size() > 1) {
+    throw Error(found[1]->source, "<" + path + "> is given twice, one is enough");
+  }
+  return found.empty() ? nullptr : found[0];
+}
+
+double Params::number(const std::string& path, double fallback, const std::string& unit,
+                      const std::string& doc, Range range) {
+  const Element* given = take(path, "number", shown(fallback), unit, doc);
+  if (given == nullptr) return fallback;
+  double value = 0.0;
+  if (!parse_finite(given->text, value)) {
+    throw error(path, "<" + path + "> is \"" + given->text + "\", must be a finite number" +
+                          (unit.empty() ? "" : " (" + unit + ")"));
+  }
+  if (value < range.min || value > range.max) {
+    throw error(path,
+                "<" + path + "> is " + with_unit(given->text, unit) + ", must be " + shown(range));
+  }
+  return value;
+}
+
+int Params::integer(const std::string& path, int fallback, const std::string& unit,
+                    const std::string& doc, Range range) {
+  const Element* given = take(path, "integer", std::to_string(fallback), unit, doc);
+  if (given == nullptr) return fallback;
+  int value = 0;
+  if (!parse(given->text, value)) {
+    throw error(path, "<" + path + "> is \"" + given->text + "\", must be a whole number");
+  }
+  if (value < range.min || value > range.max) {
+    throw error(path,
+                "<" + path + "> is " + with_unit(given->text, unit) + ", must be " + shown(range));
+  }
+  return value;
+}
+
+bool Params::flag(const std::string& path, bool fallback, const std::string& doc) {
+  const Element* given = take(path, "flag", fallback ? "true" : "false", "", doc);
+  if (given == nullptr) return fallback;
+  if (given->text == "true" || given->text == "1") return true;
+  if (given->text == "false" || given->text == "0") return false;
+  throw error(path, "<" + path + "> is \"" + given->text + "\", must be true or false");
+}
+
+std::string Params::text(const std::string& path, const std::string& fallback,
+                         const std::string& doc) {
+  const Element* given = take(path, "text", fallback, "", doc);
+  return given == nullptr ? fallback : given->text;
+}
+
+std::string Params::choice(const std::string& path, const std::string& fallback,
+                           const std::vector<std::string>& choices, const std::string& doc) {
+  const Element* given = take(path, join_names(choices), fallback, "", doc);
+  if (given == nullptr) return fallback;
+  if (std::find(choices.begin(), choices.end(), given->text) == choices.end()) {
+    throw error(path,
+                "<" + path + "> is \"" + given->text + "\", must be one of " + join_names(choices));
+  }
+  return given->text;
+}
+
+std::vector<std::vector<double>> Params::rows(const std::string& path, std::size_t count,
+                                              const std::string& unit, const std::string& doc) {
+  note(path, std::to_string(count) + " numbers, any number of times", "", unit, doc);
+  std::vector<std::vector<double>> result;
+  for (const Element* given : all(path)) {
+    std::istringstream words(given->text);
+    std::vector<double> row;
+    std::string word;
+    while (words >> word) {
+      double value = 0.0;
+      if (!parse_finite(word, value)) {
+        throw Error(given->source, "<" + path + "> has \"" + word + "\", must be a finite number");
+      }
+      row.push_back(value);
+    }
+    if (row.size() != count) {
+      throw Error(given->source, "<" + path + "> has " + std::to_string(row.size()) +
+                                     " numbers, must have " + std::to_string(count) +
+                                     (unit.empty() ? "" : " (" + unit + ")"));
+    }
+    result.push_back(std::move(row));
+  }
+  return result;
+}
+
+std::vector<std::string> Params::texts(const std::string& path, const std::string& unit,
+                                       const std::string& doc) {
+  note(path, "text, any number of times", "", unit, doc);
+  std::vector<std::string> result;
+  for (const Element* given : all(path)) result.push_back(given->text);
+  return result;
+}
+
+Nanoseconds Params::update_period(double fallback_rate) {
+  const Range range{0.0, 1e6};
+  const std::string path = has("updateRate") ? "updateRate" : "update_rate";
+  const double rate = number(path, fallback_rate, "Hz", "how often it publishes", range);
+  return from_seconds(1.0 / (rate > 0.0 ? rate : fallback_rate));
+}
+
+bool Params::has(const std::string& path) const { return !all(path).empty(); }
+
+Error Params::error(const std::string& path, const std::string& message) const {
+  const std::vector<const Element*> found = all(path);
+  return Error(found.empty() ? plugin_.source : found[0]->source, message);
+}
+
+void Params::finish() const { finish(plugin_, ""); }
+
+void Params::finish(const Element& parent, const std::string& prefix) const {
+  for (const Element& child : parent.children) {
+    const std::string path = prefix + child.name;
+    if (read_.count(path) > 0 || (prefix.empty() && kAlwaysKnown.count(path) > 0)) continue;
+    const auto below = read_.lower_bound(path + "/");
+    if (below != read_.end() && below->compare(0, path.size() + 1, path + "/") == 0) {
+      finish(child, path + "/");
+      continue;
+    }
+    const std::string* file = plugin_.attribute("filename");
+    std::vector<std::string> known;
+    for (const ParamDoc& doc : docs_) known.push_back(doc.path);
+    throw Error(child.source, "<" + path + "> is not a parameter of " +
+                                  (file != nullptr ? *file : "this plug-in") + "; known are " +
+                                  join_names(known));
+  }
+}
+
+}  // namespace angen

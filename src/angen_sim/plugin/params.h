@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/element.h"
+#include "core/time.h"
 
 namespace angen {
 
@@ -45,19 +46,29 @@ class Params {
   /// Every <path> child of the plug-in as `count` numbers each.
   std::vector<std::vector<double>> rows(const std::string& path, std::size_t count,
                                         const std::string& unit, const std::string& doc);
+  /// The text of every `path`, none when it is not given.
+  std::vector<std::string> texts(const std::string& path, const std::string& unit,
+                                 const std::string& doc);
+  /// <update_rate> (or the plug-in's <updateRate>) in Hz as a period in ns; 0 or none = the
+  /// fallback.
+  Nanoseconds update_period(double fallback_rate);
   bool has(const std::string& path) const;
 
   /// An Error at the place of `path`, or of the plug-in when it is not given there.
   Error error(const std::string& path, const std::string& message) const;
 
-  /// Throws for the first key of the plug-in that was not read, naming the known ones.
+  /// Throws for the first key of the plug-in that was not read, naming the known ones. Keys that
+  /// any of Gazebo's plug-ins may carry (topicName, alwaysOn, …) are always known.
   void finish() const;
   const std::vector<ParamDoc>& docs() const { return docs_; }
 
  private:
-  const Element* find(const std::string& path) const;
-  const Element* take(const std::string& path, const char* type, std::string fallback,
+  std::vector<const Element*> all(const std::string& path) const;
+  const Element* take(const std::string& path, const std::string& type, const std::string& fallback,
                       const std::string& unit, const std::string& doc);
+  void note(const std::string& path, const std::string& type, const std::string& fallback,
+            const std::string& unit, const std::string& doc);
+  void finish(const Element& parent, const std::string& prefix) const;
 
   Element plugin_;
   Element sensor_;

@@ -7,16 +7,24 @@
 
 #include "plugin/plugin.h"
 
-/// Puts a Plugin subclass into the library's list.
-#define ANGEN_REGISTER_PLUGIN(Type) CLASS_LOADER_REGISTER_CLASS(Type, angen::Plugin)
+/// Puts a Plugin subclass into the library's list. The name that class_loader keeps it under holds
+/// the file's too: two libraries may have classes of the same name.
+#define ANGEN_REGISTER_PLUGIN(Type) ANGEN_REGISTER_PLUGIN_HOP(Type, __COUNTER__)
+#define ANGEN_REGISTER_PLUGIN_HOP(Type, Number) ANGEN_REGISTER_PLUGIN_AS(Type, Number)
+#define ANGEN_REGISTER_PLUGIN_AS(Type, Number)                                       \
+  namespace {                                                                        \
+  [[maybe_unused]] const auto angen_registration_##Number =                          \
+      class_loader::impl::registerPlugin<Type, angen::Plugin>(#Type " in " __FILE__, \
+                                                              "angen::Plugin");      \
+  }
 
 /// A sensor class and its kind, with no Plugin subclass to write. Stands in the class's namespace.
-#define ANGEN_REGISTER_SENSOR(Type, Kind, Doc)                                               \
-  struct Type##Plugin : angen::Plugin {                                                      \
-    std::string kind() const override { return Kind; }                                       \
-    std::string doc() const override { return Doc; }                                         \
-    std::unique_ptr<angen::Sensor> make_sensor() const override {                            \
-      return std::make_unique<Type>();                                                       \
-    }                                                                                        \
-  };                                                                                         \
+#define ANGEN_REGISTER_SENSOR(Type, Kind, Doc)                    \
+  struct Type##Plugin : angen::Plugin {                           \
+    std::string kind() const override { return Kind; }            \
+    std::string doc() const override { return Doc; }              \
+    std::unique_ptr<angen::Sensor> make_sensor() const override { \
+      return std::make_unique<Type>();                            \
+    }                                                             \
+  };                                                              \
   ANGEN_REGISTER_PLUGIN(Type##Plugin)

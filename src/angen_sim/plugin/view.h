@@ -68,9 +68,9 @@ class Wiring {
   virtual JointRef joint(const std::string& joint) = 0;
   virtual JointLimits limits(JointRef joint) const = 0;
   virtual LinkRef link(const std::string& link) = 0;
-  virtual std::string child_of(JointRef joint) const = 0;  // name of the link it moves
-  virtual double mass(LinkRef link) const = 0;             // kg
-  virtual LightRef light(const std::string& light) = 0;    // "" = the model's only one
+  virtual std::string child_of(JointRef joint) const = 0;          // name of the link it moves
+  virtual double mass(LinkRef link) const = 0;                     // kg
+  virtual LightRef light(const std::string& light) = 0;            // "" = the model's only one
   virtual ContactRef collision(const std::string& collision) = 0;  // in the sensor's link
 };
 

@@ -1,0 +1,69 @@
+#include "plugin/library.h"
+
+namespace angen {
+
+namespace {
+
+// Answers any name, so that every plug-in can be configured on nothing.
+class AnyWiring : public Wiring {
+ public:
+  explicit AnyWiring(std::string kind) : kind_(std::move(kind)) {}
+  std::string name() const override { return kind_; }
+  std::string model() const override { return "model"; }
+  Vec3 gravity() const override { return {0.0, 0.0, -9.81}; }
+  bool has_joint(const std::string&) const override { return true; }
+  JointRef joint(const std::string&) override { return {0}; }
+  JointLimits limits(JointRef) const override { return {0.0, 1.0}; }
+  LinkRef link(const std::string&) override { return {0}; }
+  std::string child_of(JointRef) const override { return "link"; }
+  double mass(LinkRef) const override { return 1.0; }
+  LightRef light(const std::string&) override { return {0}; }
+  ContactRef collision(const std::string&) override { return {0}; }
+
+ private:
+  std::string kind_;
+};
+
+// What the simulator itself reads of every sensor.
+void read_common(Params& params, const std::string& kind, const Sensor& sensor) {
+  params.update_period(sensor.default_rate());
+  params.text("topicName", "/angen/" + kind + "/NAME", "where it publishes");
+  params.text("frameName", "NAME", "frame_id of its messages");
+}
+
+PluginDoc describe(const std::string& library, const Plugin& plugin) {
+  Element element;
+  element.name = "plugin";
+  element.attributes = {{"filename", library}};
+  Params params(element);
+  AnyWiring wiring(plugin.kind());
+  try {
+    if (const auto sensor = plugin.make_sensor()) {
+      sensor->configure(params, wiring);
+      read_common(params, plugin.kind(), *sensor);
+    } else if (const auto device = plugin.make_device()) {
+      device->configure(params, wiring);
+    }
+  } catch (const Error&) {
+    // It cannot do without something that nothing has; what it read until then is known.
+  }
+  return {library, plugin.kind(), plugin.doc(), params.docs()};
+}
+
+}  // namespace
+
+std::vector<PluginDoc> describe(Catalog& catalog) {
+  std::vector<PluginDoc> docs;
+  for (const std::string& library : catalog.available()) {
+    try {
+      for (const auto& plugin : catalog.library(library)) {
+        docs.push_back(describe(library, *plugin));
+      }
+    } catch (const Error& problem) {
+      docs.push_back({library, "", problem.what(), {}});
+    }
+  }
+  return docs;
+}
+
+}  // namespace angen
