@@ -99,7 +99,7 @@ PIR_HEIGHT = 2.3
 PIR_PITCH = 0.45        # looks down
 # room: two corners x, y, yaw
 PIRS = {
-    "entrance": ((6.65, 5.85, -2.6), (0.15, 5.85, -0.55)),
+    "entrance": ((6.65, 5.85, -2.44), (0.15, 5.85, -0.7)),
     "kitchen": ((0.15, 0.15, pi / 4), (3.85, 3.85, -3 * pi / 4)),
     "livingroom": ((4.15, 0.15, pi / 4), (9.85, 3.85, -3 * pi / 4)),
     "bedroom": ((0.15, 9.45, -pi / 4), (3.85, 9.45, -3 * pi / 4)),
