@@ -1,1 +1,101 @@
+#include <algorithm>
+#include <optional>
 
+#include "plugin/register.h"
+
+namespace angen::sensors {
+
+namespace {
+
+void append(std::vector<double>& flat, const Vec3& v) {
+  flat.insert(flat.end(), {v.x(), v.y(), v.z()});
+}
+
+/// Contact pairs as the flat lists that a reading holds.
+struct Lists {
+  std::vector<std::string> collision1, collision2;
+  std::vector<double> counts, positions, normals, depths, forces;
+
+  bool has(const std::string& first, const std::string& second) const {
+    for (std::size_t i = 0; i < collision1.size(); ++i) {
+      if (collision1[i] == first && collision2[i] == second) return true;
+    }
+    return false;
+  }
+
+  void add(const ContactPair& pair, double noise_stddev, Rng& rng) {
+    collision1.push_back(pair.first);
+    collision2.push_back(pair.second);
+    counts.push_back(static_cast<double>(pair.points.size()));
+    for (const ContactPoint& point : pair.points) {
+      append(positions, point.position);
+      append(normals, point.normal);
+      depths.push_back(point.depth);
+      Vec3 force = point.force;
+      if (noise_stddev > 0.0) {
+        for (int axis = 0; axis < 3; ++axis) force[axis] += noise_stddev * rng.gaussian();
+      }
+      append(forces, force);
+    }
+  }
+};
+
+}  // namespace
+
+/// Everything that touches some collisions of its link, also what lies still.
+class Contact : public Sensor {
+ public:
+  double default_rate() const override { return 1.0; }
+
+  void configure(Params& params, Wiring& wiring) override {
+    const std::vector<std::string> names =
+        params.texts("contact/collision", "", "collision of the sensor's link to watch");
+    noise_stddev_ =
+        params.number("noise_stddev", 0.0, "N", "of each component of a force", kNotNegative);
+    params.text("bumperTopicName", "/angen/contact/NAME", "where it publishes");
+    if (names.empty()) {
+      throw params.error("contact",
+                         "a contact sensor watches nothing, must have <contact>"
+                         "<collision>NAME</collision></contact>");
+    }
+    for (const std::string& name : names) {
+      try {
+        collisions_.push_back(wiring.collision(name));
+      } catch (const Error& problem) {
+        throw params.error("contact/collision", problem.diagnostics().front().message);
+      }
+    }
+  }
+
+  void read(const View& view, Hits, Rng& rng, Reading& reading) override {
+    Lists lists;
+    for (const ContactRef collision : collisions_) {
+      for (const ContactPair& pair : view.contacts(collision)) {
+        // Two watched collisions that touch each other see the same pair from both sides.
+        if (!lists.has(pair.second, pair.first)) lists.add(pair, noise_stddev_, rng);
+      }
+    }
+    const bool pressed = !lists.collision1.empty();
+    if (pressed_ && pressed != *pressed_) {
+      reading.event = pressed ? "pressed" : "released";
+      if (pressed) reading.event_detail = "by " + lists.collision2.front();
+    }
+    pressed_ = pressed;
+    reading.set("collision1", std::move(lists.collision1));
+    reading.set("collision2", std::move(lists.collision2));
+    reading.set("counts", std::move(lists.counts));
+    reading.set("positions", std::move(lists.positions));
+    reading.set("normals", std::move(lists.normals));
+    reading.set("depths", std::move(lists.depths));
+    reading.set("forces", std::move(lists.forces));
+  }
+
+ private:
+  std::vector<ContactRef> collisions_;
+  double noise_stddev_ = 0.0;
+  std::optional<bool> pressed_;  // none before the first reading
+};
+
+ANGEN_REGISTER_SENSOR(Contact, "contact", "what touches a body: names, points, depths, forces")
+
+}  // namespace angen::sensors
