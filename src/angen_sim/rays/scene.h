@@ -15,9 +15,9 @@ namespace angen::rays {
 using ShapeId = Id<struct RayShapeTag>;
 
 struct Ray {
-  Vec3 origin = Vec3::Zero();        // m, world frame
-  Vec3 direction = Vec3::UnitX();    // unit
-  double min = 0.0;                  // m; nearer surfaces are not seen
+  Vec3 origin = Vec3::Zero();      // m, world frame
+  Vec3 direction = Vec3::UnitX();  // unit (a range counts its lengths)
+  double min = 0.0;                // m; nearer surfaces are not seen
   double max = std::numeric_limits<double>::infinity();
 };
 
@@ -48,7 +48,10 @@ class Scene {
   void commit();
 
   /// Nearest hits; hits[i] answers rays[i]. Surfaces are met from both sides; a ray that starts
-  /// inside a shape meets its far side. Requires commit() since the last change.
+  /// inside a shape meets its far side; planes are infinite. Where several lie at bit-equal range,
+  /// static shapes come before moving ones and then the lowest index wins. A ray that is not finite
+  /// or has no direction meets nothing. Requires commit() since the last change. Casts may run in
+  /// several threads at once.
   void cast(const Ray* rays, Hit* hits, std::size_t count) const;
   void cast(const std::vector<Ray>& rays, std::vector<Hit>& hits) const;
 

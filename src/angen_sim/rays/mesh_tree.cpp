@@ -1,0 +1,102 @@
+#include "rays/mesh_tree.h"
+
+#include "rays/query.h"
+
+namespace angen::rays {
+namespace {
+
+struct Corners {
+  Vec3 a, b, c;
+};
+
+Corners corners(const TriangleMesh& mesh, std::uint32_t triangle) {
+  const auto& t = mesh.triangles[triangle];
+  return {mesh.vertices[t[0]].cast<double>(), mesh.vertices[t[1]].cast<double>(),
+          mesh.vertices[t[2]].cast<double>()};
+}
+
+struct Query {
+  RTCIntersectContext context;  // first: Embree hands back its address
+  const TriangleMesh* mesh;
+  Vec3 origin, direction;
+  double min, range;
+  std::uint32_t triangle;
+};
+
+/// Plücker's test: neighbours compute bit-equal opposites for a shared edge, so no ray slips
+/// through.
+bool meet_triangle(const Corners& in, const Query& q, double& range) {
+  const Vec3 a = in.a - q.origin, b = in.b - q.origin, c = in.c - q.origin;
+  const Vec3 ca = c - a, ab = a - b, bc = b - c;
+  const double u = ca.cross(c + a).dot(q.direction);
+  const double v = ab.cross(a + b).dot(q.direction);
+  const double w = bc.cross(b + c).dot(q.direction);
+  const bool front = u >= 0 && v >= 0 && w >= 0;
+  const bool back = u <= 0 && v <= 0 && w <= 0;
+  if (!front && !back) return false;
+  const Vec3 normal = ab.cross(ca);
+  const double along = normal.dot(q.direction);
+  if (along == 0.0) return false;
+  range = normal.dot(a) / along;
+  return std::isfinite(range);
+}
+
+void box_of_triangle(const RTCBoundsFunctionArguments* args) {
+  const auto& mesh = *static_cast<const TriangleMesh*>(args->geometryUserPtr);
+  const Corners t = corners(mesh, args->primID);
+  Eigen::AlignedBox3d box(t.a);
+  *args->bounds_o = padded(box.extend(t.b).extend(t.c));
+}
+
+bool nearer(Query& q, std::uint32_t triangle) {
+  double range = 0.0;
+  if (!meet_triangle(corners(*q.mesh, triangle), q, range)) return false;
+  if (range < q.min || range > q.range) return false;
+  if (range == q.range && triangle >= q.triangle) return false;
+  q.range = range;
+  q.triangle = triangle;
+  return true;
+}
+
+void intersect(const RTCIntersectFunctionNArguments* args) {
+  auto& q = *reinterpret_cast<Query*>(args->context);
+  if (!args->valid[0] || !nearer(q, args->primID)) return;
+  reinterpret_cast<RTCRayHit*>(args->rayhit)->ray.tfar = reach(q.range);
+}
+
+}  // namespace
+
+MeshTree::MeshTree(std::shared_ptr<const TriangleMesh> mesh)
+    : mesh_(std::move(mesh)), tree_(box_of_triangle, intersect, nullptr) {
+  for (const auto& triangle : mesh_->triangles) {
+    for (const std::uint32_t corner : triangle) {
+      bounds_.extend(mesh_->vertices.at(corner).cast<double>());
+    }
+  }
+  tree_.build(mesh_.get(), mesh_->triangles.size());
+}
+
+bool MeshTree::meet(const Vec3& origin, const Vec3& direction, double min, double max,
+                    double& range, std::uint32_t& triangle) const {
+  Query q{};
+  rtcInitIntersectContext(&q.context);
+  q.mesh = mesh_.get();
+  q.origin = origin;
+  q.direction = direction;
+  q.min = min;
+  q.range = max;
+  q.triangle = UINT32_MAX;
+  RTCRayHit ray{};
+  aim(ray.ray, origin, direction, min, max);
+  rtcIntersect1(tree_.scene.get(), &q.context, &ray);
+  range = q.range;
+  triangle = q.triangle;
+  return triangle != UINT32_MAX;
+}
+
+Vec3 MeshTree::normal(std::uint32_t triangle) const {
+  const Corners t = corners(*mesh_, triangle);
+  return (t.b - t.a).cross(t.c - t.a).normalized();
+}
+
+}  // namespace angen::rays

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+
+#include "core/shape.h"
+#include "rays/mesh_tree.h"
+
+namespace angen::rays {
+
+/// A shape placed in the world, as rays meet it.
+struct Solid {
+  Shape::Type type = Shape::Type::kEmpty;
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  // own frame to world
+  Vec3 position = Vec3::Zero();
+  Vec3 half = Vec3::Zero();  // box: half lengths; cylinder, capsule: z is half the length
+  double radius = 0.0;
+  std::uint32_t slot = UINT32_MAX;
+  bool aligned = true;  // rotation is exactly the identity
+  std::shared_ptr<const MeshTree> mesh;
+
+  void place(const Pose& pose);
+};
+
+/// The first surface of one solid at or beyond `min`. `feature` tells the face: a box's axis, a
+/// cylinder's wall (0) or end (1), a mesh's triangle.
+struct Meeting {
+  double range = std::numeric_limits<double>::infinity();
+  std::uint32_t feature = 0;
+};
+
+/// World box (m) around a solid; empty (min > max) when it cannot be met: bad sizes, bad pose.
+Eigen::AlignedBox3d bounds_of(const Solid& solid);
+
+/// Whether a ray meets the solid in [min, max]; all in double. Direction need not be unit: ranges
+/// are in its lengths. Where it does, the answer does not depend on max.
+bool meet(const Solid& solid, const Vec3& origin, const Vec3& direction, double min, double max,
+          Meeting& out);
+
+/// Unit normal in the world frame at what `meet` found, on the side the ray comes from.
+Vec3 normal_at(const Solid& solid, const Vec3& origin, const Vec3& direction,
+               const Meeting& meeting);
+
+}  // namespace angen::rays

@@ -1,0 +1,312 @@
+// What a scene promises beyond geometry: identity, change, ties, bad input.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <thread>
+
+#include "core/random.h"
+#include "shapes.h"
+
+namespace angen::rays::testing {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Vec3 random_point(Rng& rng, double half) {
+  const double x = rng.uniform(), y = rng.uniform(), z = rng.uniform();
+  return half * (2 * Vec3(x, y, z) - Vec3::Ones());
+}
+
+Shape random_shape(Rng& rng) {
+  const double a = 0.1 + rng.uniform(), b = 0.1 + rng.uniform(), c = 0.1 + rng.uniform();
+  switch (rng.next() % 5) {
+    case 0:
+      return box(a, b, c);
+    case 1:
+      return round(Shape::Type::kSphere, a / 2);
+    case 2:
+      return round(Shape::Type::kCylinder, a / 2, b);
+    case 3:
+      return round(Shape::Type::kCapsule, a / 2, b);
+    default:
+      return octahedron(static_cast<float>(a));
+  }
+}
+
+Pose random_pose(Rng& rng, double half) {
+  const Vec3 point = random_point(rng, half);
+  const Vec3 angles = random_point(rng, 3.0);
+  return {point, from_rpy(angles.x(), angles.y(), angles.z())};
+}
+
+std::vector<Ray> random_rays(Rng& rng, std::size_t count) {
+  std::vector<Ray> rays(count);
+  for (Ray& r : rays) {
+    r.origin = random_point(rng, 5.0);
+    r.direction = random_point(rng, 1.0).normalized();
+  }
+  return rays;
+}
+
+TEST(Scene, EmptyMeetsNothing) {
+  Scene scene;
+  scene.commit();
+  EXPECT_FALSE(cast_one(scene, Vec3(0, 0, 0), Vec3::UnitX()).hit());
+  EXPECT_FALSE(scene.blocked(Vec3(0, 0, 0), Vec3(9, 9, 9)));
+  EXPECT_EQ(cast_one(scene, Vec3(0, 0, 0), Vec3::UnitX()).range, kInfinity);
+}
+
+TEST(Scene, EmptyAndSenselessShapesAreNeverMet) {
+  Scene scene;
+  add(scene, Shape{});
+  add(scene, round(Shape::Type::kSphere, -1.0));
+  add(scene, box(kNan, 1, 1));
+  add(scene, box(1, 1, 1), at(kNan, 0, 0));
+  Shape no_mesh;
+  no_mesh.type = Shape::Type::kMesh;
+  add(scene, no_mesh);
+  scene.commit();
+  EXPECT_FALSE(cast_one(scene, Vec3(-5, 0, 0), Vec3::UnitX()).hit());
+}
+
+TEST(Scene, BadRaysMeetNothing) {
+  Scene scene;
+  add(scene, box(2, 2, 2));
+  add(scene, plane());
+  scene.commit();
+  Ray bad;
+  bad.direction = Vec3::Zero();
+  EXPECT_FALSE(cast_one(scene, bad).hit());
+  bad.direction = Vec3(kNan, 0, 0);
+  EXPECT_FALSE(cast_one(scene, bad).hit());
+  bad.direction = Vec3::UnitX();
+  bad.origin = Vec3(0, kInfinity, 0);
+  EXPECT_FALSE(cast_one(scene, bad).hit());
+  bad.origin = Vec3(0, 0, 0);
+  bad.max = kNan;
+  EXPECT_FALSE(cast_one(scene, bad).hit());
+  EXPECT_FALSE(scene.blocked(Vec3(3, 0, 0), Vec3(3, 0, 0)));
+}
+
+TEST(Scene, NearestOfStaticAndMoving) {
+  Scene scene;
+  const ShapeId wall = add(scene, box(1, 4, 4), at(5, 0, 0));
+  const ShapeId person = add(scene, box(1, 1, 1), at(3, 0, 0), Mobility::kMoving);
+  scene.commit();
+  EXPECT_EQ(cast_one(scene, Vec3(0, 0, 0), Vec3::UnitX()).shape, person.index);
+  EXPECT_EQ(cast_one(scene, Vec3(9, 0, 0), -Vec3::UnitX()).shape, wall.index);
+}
+
+TEST(Scene, MovedShapeIsMetWhereItIs) {
+  Scene scene;
+  for (const Mobility mobility : {Mobility::kStatic, Mobility::kMoving}) {
+    const ShapeId id = add(scene, box(1, 1, 1), at(3, 0, 0), mobility);
+    scene.commit();
+    ASSERT_EQ(cast_one(scene, Vec3(0, 0, 0), Vec3::UnitX()).range, 2.5);
+    scene.move(id, at(7, 0, 0));
+    scene.commit();
+    EXPECT_EQ(cast_one(scene, Vec3(0, 0, 0), Vec3::UnitX()).range, 6.5);
+    scene.remove(id);
+    scene.commit();
+    EXPECT_FALSE(cast_one(scene, Vec3(0, 0, 0), Vec3::UnitX()).hit());
+  }
+}
+
+TEST(Scene, MovedPlaneIsMetWhereItIs) {
+  Scene scene;
+  const ShapeId floor = add(scene, plane());
+  scene.commit();
+  scene.move(floor, at(0, 0, -2));
+  scene.commit();
+  EXPECT_EQ(cast_one(scene, Vec3(0, 0, 1), -Vec3::UnitZ()).range, 3.0);
+  scene.remove(floor);
+  scene.commit();
+  EXPECT_FALSE(cast_one(scene, Vec3(0, 0, 1), -Vec3::UnitZ()).hit());
+}
+
+TEST(Scene, IdOfRemovedShapeNeverNamesItsSuccessor) {
+  Scene scene;
+  const ShapeId old = add(scene, box(1, 1, 1));
+  scene.remove(old);
+  const ShapeId fresh = add(scene, box(1, 1, 1));
+  EXPECT_EQ(old.index, fresh.index);
+  EXPECT_THROW(scene.move(old, at(1, 0, 0)), std::out_of_range);
+  EXPECT_THROW(scene.remove(old), std::out_of_range);
+}
+
+TEST(Scene, TieGoesToTheLowerIndex) {
+  for (const Mobility mobility : {Mobility::kStatic, Mobility::kMoving}) {
+    Scene scene;
+    std::vector<ShapeId> ids;
+    for (int i = 0; i < 50; ++i) ids.push_back(add(scene, box(1, 1, 1), at(3, 0, 0), mobility));
+    scene.commit();
+    EXPECT_EQ(cast_one(scene, Vec3(0, 0, 0), Vec3::UnitX()).shape, ids[0].index);
+    scene.remove(ids[0]);
+    scene.commit();
+    EXPECT_EQ(cast_one(scene, Vec3(0, 0, 0), Vec3::UnitX()).shape, ids[1].index);
+  }
+}
+
+TEST(Scene, TieGoesToTheStaticShape) {
+  Scene scene;
+  add(scene, box(1, 1, 1), at(3, 0, 0), Mobility::kMoving);
+  const ShapeId fixed = add(scene, box(1, 2, 2), at(3, 0, 0));
+  scene.commit();
+  EXPECT_EQ(cast_one(scene, Vec3(0, 0, 0), Vec3::UnitX()).shape, fixed.index);
+}
+
+TEST(Scene, RevisionCountsOnlyChanges) {
+  Scene scene;
+  scene.commit();
+  const std::uint64_t start = scene.revision();
+  const ShapeId fixed = add(scene, box(1, 1, 1));
+  const ShapeId mover = add(scene, box(1, 1, 1), at(3, 0, 0), Mobility::kMoving);
+  scene.commit();
+  EXPECT_EQ(scene.revision(), start + 1);
+  const std::uint64_t static_start = scene.static_revision();
+  scene.move(mover, at(3, 0, 0));
+  scene.commit();
+  EXPECT_EQ(scene.revision(), start + 1);
+  scene.move(mover, at(4, 0, 0));
+  scene.commit();
+  EXPECT_EQ(scene.revision(), start + 2);
+  EXPECT_EQ(scene.static_revision(), static_start);
+  scene.remove(fixed);
+  scene.commit();
+  EXPECT_EQ(scene.revision(), start + 3);
+  EXPECT_EQ(scene.static_revision(), static_start + 1);
+}
+
+TEST(Scene, ReflectanceBelongsToTheShapeMet) {
+  Scene scene;
+  add(scene, box(1, 1, 1), at(-3, 0, 0));
+  scene.add(box(1, 1, 1), at(3, 0, 0), Mobility::kStatic, Eigen::Vector3f(0.1F, 0.2F, 0.3F));
+  scene.commit();
+  const Hit hit = cast_one(scene, Vec3(0, 0, 0), Vec3::UnitX());
+  EXPECT_EQ(scene.reflectance(hit.shape), Eigen::Vector3f(0.1F, 0.2F, 0.3F));
+}
+
+/// A scene that was changed again and again answers with the same bits as one built at once.
+TEST(Scene, HistoryLeavesNoTrace) {
+  Rng rng(7, 1, 0);
+  Scene grown;
+  std::vector<std::pair<ShapeId, std::pair<Shape, Pose>>> live;
+  for (int round_index = 0; round_index < 20; ++round_index) {
+    for (int i = 0; i < 8; ++i) {
+      const Shape shape = random_shape(rng);
+      const Pose pose = random_pose(rng, 4.0);
+      live.push_back({add(grown, shape, pose, Mobility::kMoving), {shape, pose}});
+    }
+    for (int i = 0; i < 3; ++i) {
+      const std::size_t victim = rng.next() % live.size();
+      grown.remove(live[victim].first);
+      live.erase(live.begin() + static_cast<std::ptrdiff_t>(victim));
+    }
+    for (auto& [id, what] : live) {
+      if (rng.next() % 3 != 0) continue;
+      what.second = random_pose(rng, 4.0);
+      grown.move(id, what.second);
+    }
+    grown.commit();
+    Scene fresh;
+    for (const auto& [id, what] : live) add(fresh, what.first, what.second);
+    fresh.commit();
+    std::vector<Hit> expected, got;
+    const std::vector<Ray> rays = random_rays(rng, 500);
+    fresh.cast(rays, expected);
+    grown.cast(rays, got);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      ASSERT_EQ(std::memcmp(&expected[i].range, &got[i].range, sizeof(double)), 0);
+      ASSERT_EQ(expected[i].normal, got[i].normal);
+    }
+  }
+}
+
+/// Cutting a ray's length where its answer is known changes no bit of the answer.
+TEST(Scene, ClippedRaysAreBitEqual) {
+  Rng rng(8, 1, 0);
+  Scene scene;
+  for (int i = 0; i < 600; ++i) {
+    add(scene, random_shape(rng), random_pose(rng, 4.0),
+        i % 4 == 0 ? Mobility::kMoving : Mobility::kStatic);
+  }
+  scene.commit();
+  const std::vector<Ray> rays = random_rays(rng, 20000);
+  std::vector<Hit> full, clipped;
+  scene.cast(rays, full);
+  std::vector<Ray> shorter = rays;
+  for (std::size_t i = 0; i < rays.size(); ++i) shorter[i].max = full[i].range;
+  scene.cast(shorter, clipped);
+  int met = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    ASSERT_EQ(full[i].range, clipped[i].range);
+    ASSERT_EQ(full[i].shape, clipped[i].shape);
+    met += full[i].hit() ? 1 : 0;
+  }
+  EXPECT_GT(met, 10000);
+}
+
+/// Embree's traversal against meeting every shape in turn, one scene a shape: none is missed.
+TEST(Scene, SameAsTryingEveryShape) {
+  Rng rng(9, 1, 0);
+  Scene all;
+  std::vector<std::unique_ptr<Scene>> singles;
+  for (int i = 0; i < 60; ++i) {
+    const Shape shape = random_shape(rng);
+    // Far from the origin floats have few digits: the traversal must still miss nothing.
+    Pose pose = random_pose(rng, 4.0);
+    pose.position += Vec3(2000, -1500, 300);
+    add(all, shape, pose, i % 2 == 0 ? Mobility::kMoving : Mobility::kStatic);
+    singles.push_back(std::make_unique<Scene>());
+    add(*singles.back(), shape, pose);
+    singles.back()->commit();
+  }
+  all.commit();
+  for (Ray ray : random_rays(rng, 3000)) {
+    ray.origin += Vec3(2000, -1500, 300);
+    double nearest = kInfinity;
+    for (const auto& single : singles) nearest = std::min(nearest, cast_one(*single, ray).range);
+    ASSERT_EQ(cast_one(all, ray).range, nearest);
+    if (nearest == kInfinity) continue;
+    const Vec3 end = ray.origin + nearest * ray.direction;
+    EXPECT_FALSE(all.blocked(ray.origin, end, 1e-4));
+    EXPECT_TRUE(all.blocked(ray.origin, ray.origin + (nearest + 0.01) * ray.direction, 1e-4));
+  }
+}
+
+TEST(Scene, ManyScenesInOneProcess) {
+  std::vector<std::unique_ptr<Scene>> scenes;
+  for (int i = 0; i < 100; ++i) {
+    scenes.push_back(std::make_unique<Scene>());
+    add(*scenes.back(), box(1, 1, 1), at(2 + i, 0, 0));
+    scenes.back()->commit();
+  }
+  for (std::size_t i = 0; i < scenes.size(); i += 2) scenes[i].reset();
+  for (std::size_t i = 1; i < scenes.size(); i += 2) {
+    EXPECT_EQ(cast_one(*scenes[i], Vec3(0, 0, 0), Vec3::UnitX()).range,
+              1.5 + static_cast<double>(i));
+  }
+}
+
+TEST(Scene, ScenesInSeveralThreadsShareTheDevice) {
+  std::vector<int> wrong(4, 0);
+  std::vector<std::thread> threads;
+  for (std::size_t t = 0; t < wrong.size(); ++t) {
+    threads.emplace_back([&wrong, t] {
+      Scene scene;
+      const ShapeId id = add(scene, box(1, 1, 1), at(2, 0, 0), Mobility::kMoving);
+      for (int i = 0; i < 500; ++i) {
+        scene.move(id, at(2 + i, 0, 0));
+        scene.commit();
+        if (cast_one(scene, Vec3(0, 0, 0), Vec3::UnitX()).range != 1.5 + i) ++wrong[t];
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(wrong, std::vector<int>(4, 0));
+}
+
+}  // namespace
+}  // namespace angen::rays::testing
