@@ -1,1 +1,195 @@
+#include "devices/door.h"
 
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "core/names.h"
+#include "devices/words.h"
+#include "plugin/register.h"
+
+namespace angen::devices {
+
+namespace {
+
+constexpr double kClosedWithin = 0.01;   // rad
+constexpr double kOpenWithin = 0.02;     // rad
+constexpr double kArriveError = 0.0015;  // rad
+constexpr double kArriveSpeed = 0.01;    // rad/s
+constexpr double kMaxLag = 0.08;         // rad
+constexpr double kStallSpeed = 0.01;     // rad/s
+
+const char* const kModeNames[] = {"CLOSED", "OPEN", "OPENING", "CLOSING", "BLOCKED", "AJAR"};
+const char* const kModeEvents[] = {"closed", "opened", "opening", "closing", "blocked", "ajar"};
+
+std::string range_text(const JointLimits& limits) {
+  std::ostringstream text;
+  text << limits.lower << " to " << limits.upper;
+  return text.str();
+}
+
+}  // namespace
+
+PidGains Door::read_gains(Params& params) {
+  PidGains gains;
+  gains.p = params.number("p", 70.0, "N m/rad", "proportional gain", kNotNegative);
+  gains.i = params.number("i", 200.0, "N m/(rad s)", "integral gain", kNotNegative);
+  gains.d = params.number("d", 25.0, "N m s/rad", "derivative gain", kNotNegative);
+  gains.i_max = params.number("i_max", 100.0, "N m", "limit of the integral's share", kNotNegative);
+  gains.i_min = params.number("i_min", -100.0, "N m", "limit of the integral's share", {-1e9, 0.0});
+  gains.cmd_max = params.number("cmd_max", 120.0, "N m", "greatest torque", kNotNegative);
+  gains.cmd_min = params.number("cmd_min", -120.0, "N m", "least torque", {-1e9, 0.0});
+  return gains;
+}
+
+void Door::configure(Params& params, Wiring& wiring) {
+  ServoSettings servo;
+  servo.gains = read_gains(params);
+  servo.max_velocity =
+      params.number("max_velocity", 1.0, "rad/s", "speed of the setpoint", kPositive);
+  servo.max_acceleration =
+      params.number("max_acceleration", 2.0, "rad/s^2", "acceleration of the setpoint", kPositive);
+  const double width =
+      params.number("width", 0.9, "m", "from the hinge to the far edge", kPositive);
+  const double edge_force =
+      params.number("edge_force_max", 150.0, "N", "greatest force at the far edge", kPositive);
+  open_position_ = params.number("open_position", -1.57, "rad", "where Open goes");
+  closed_position_ = params.number("closed_position", 0.0, "rad", "where Close goes");
+  brake_torque_ =
+      params.number("brake_torque", 20.0, "N m", "brake of a door that stands open", kNotNegative);
+  latch_torque_ = params.number("latch_torque", 200.0, "N m", "brake of a shut door", kNotNegative);
+  refresh_ = Refresh(params.number("update_rate", 50.0, "Hz",
+                                   "how often its state is told while it moves", kPositive));
+  params.text("topicName", "/gazebo/Door_controller", "where commands come from");
+  params.text("device_name", "", "the name commands use, instead of the model's and its floor");
+
+  hinge_ = wiring.joint("hinge");
+  limits_ = wiring.limits(hinge_);
+  for (const auto& [key, angle] : {std::pair<const char*, double>{"open_position", open_position_},
+                                   {"closed_position", closed_position_}}) {
+    if (limits_.lower < limits_.upper && (angle < limits_.lower || angle > limits_.upper)) {
+      throw params.error(
+          key, std::string(key) + " is outside the hinge's " + range_text(limits_) + " rad");
+    }
+  }
+  const double mass = wiring.mass(wiring.link(wiring.child_of(hinge_)));
+  torque_max_ = edge_force * width;
+  servo.inertia = mass * width * width / 3.0;
+  servo.max_lag = kMaxLag;
+  servo.arrive_error = kArriveError;
+  servo.arrive_speed = kArriveSpeed;
+  servo.stall_speed = kStallSpeed;
+  servo_ = Servo(servo);
+}
+
+Verdict Door::command(const Command& command, const View& view) {
+  const std::vector<std::string> words = words_of(command.text);
+  if (words.size() == 1 && words[0] == "open") {
+    go(open_position_, view);
+    return Verdict::accept();
+  }
+  if (words.size() == 1 && words[0] == "close") {
+    go(closed_position_, view);
+    return Verdict::accept();
+  }
+  if (words.size() == 2 && words[0] == "set") {
+    const std::optional<double> angle = number_of(words[1]);
+    if (!angle) return Verdict::reject("'" + words[1] + "' is no angle; Set takes radians");
+    if (*angle < limits_.lower || *angle > limits_.upper) {
+      return Verdict::reject("the angle " + words[1] + " is outside the hinge's " +
+                             range_text(limits_) + " rad");
+    }
+    go(*angle, view);
+    return Verdict::accept();
+  }
+  return Verdict::reject("a door knows Open, Close and Set <rad>, not '" + command.text + "'");
+}
+
+void Door::go(double target, const View& view) {
+  const double position = view.joint(hinge_).position;
+  target_ = target;
+  opening_ = std::abs(target - closed_position_) > std::abs(position - closed_position_);
+  if (resting_ && started_ && std::abs(target - position) < kArriveError) return;
+  leaving_ = resting_ || !started_;
+}
+
+void Door::update(const View& view, Outputs& outputs) {
+  if (!started_) {
+    if (!leaving_) target_ = view.joint(hinge_).position;
+    mode_ = mode_at_rest(view.joint(hinge_).position);
+    rest(view.joint(hinge_), outputs);
+    started_ = true;
+  }
+  const bool renew = refresh_.due(view.time());
+  if (resting_ && !leaving_) {
+    if (!renew) return;
+    const JointView hinge = view.joint(hinge_);
+    const Mode mode = mode_at_rest(hinge.position);
+    // Something moved it: the latch holds a shut door only.
+    if ((mode == Mode::kClosed) != (mode_ == Mode::kClosed)) rest(hinge, outputs);
+    show(mode, hinge, true, outputs);
+    return;
+  }
+  const JointView hinge = view.joint(hinge_);
+  if (leaving_) {
+    leaving_ = false;
+    resting_ = false;
+    outputs.motor(hinge_, 0.0, 0.0);
+    servo_.start(hinge.position, hinge.velocity);
+  }
+  const double torque =
+      servo_.update(target_, hinge.position, hinge.velocity, to_seconds(view.step()));
+  if (servo_.arrived()) {
+    rest(hinge, outputs);
+    show(mode_at_rest(hinge.position), hinge, true, outputs);
+    return;
+  }
+  outputs.force(hinge_, std::clamp(torque, -torque_max_, torque_max_));
+  const Mode going = opening_ ? Mode::kOpening : Mode::kClosing;
+  show(servo_.blocked() ? Mode::kBlocked : going, hinge, renew, outputs);
+}
+
+void Door::rest(const JointView& hinge, Outputs& outputs) {
+  const bool shut = mode_at_rest(hinge.position) == Mode::kClosed;
+  outputs.motor(hinge_, 0.0, shut ? latch_torque_ : brake_torque_);
+  resting_ = true;
+}
+
+Door::Mode Door::mode_at_rest(double position) const {
+  if (std::abs(position - closed_position_) < kClosedWithin) return Mode::kClosed;
+  if (std::abs(position - open_position_) < kOpenWithin) return Mode::kOpen;
+  return Mode::kAjar;
+}
+
+void Door::show(Mode mode, const JointView& hinge, bool renew, Outputs& outputs) {
+  if (mode != mode_) {
+    mode_ = mode;
+    outputs.event(kModeEvents[static_cast<int>(mode)], "");
+    renew = true;
+  }
+  if (renew) shown_ = hinge;
+}
+
+void Door::report(const View& view, Reading& state) const {
+  const JointView hinge = started_ ? shown_ : view.joint(hinge_);
+  state.set("mode", kModeNames[static_cast<int>(started_ ? mode_ : mode_at_rest(hinge.position))]);
+  state.set("position", hinge.position);
+  state.set("velocity", hinge.velocity);
+  state.set("target", started_ || leaving_ ? target_ : hinge.position);
+}
+
+std::string DoorPlugin::doc() const { return "A door: Open, Close, Set <rad>."; }
+
+bool DoorPlugin::serves(const ModelInfo& model) const {
+  const ModelInfo::Joint* hinge = model.joint("hinge");
+  return hinge != nullptr && hinge->type == "revolute" && hinge->parent == "base";
+}
+
+std::string DoorPlugin::instance_name(const ModelInfo& model) const {
+  return command_name(model.name, "door", model.pose.position.z());
+}
+
+}  // namespace angen::devices
+
+ANGEN_REGISTER_PLUGIN(angen::devices::DoorPlugin)

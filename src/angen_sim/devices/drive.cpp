@@ -1,1 +1,137 @@
+#include "devices/drive.h"
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "devices/words.h"
+#include "plugin/register.h"
+
+namespace angen::devices {
+
+namespace {
+
+constexpr double kRestSpeed = 1e-4;  // rad/s: slower wheels stand
+
+}  // namespace
+
+void Drive::configure(Params& params, Wiring& wiring) {
+  separation_ = params.number("wheelSeparation", 0.23, "m", "between the wheels", kPositive);
+  radius_ = params.number("wheelDiameter", 0.07, "m", "diameter of a wheel", kPositive) / 2.0;
+  torque_ = params.number("wheelTorque", 1.0, "N m", "greatest torque of a wheel", kPositive);
+  acceleration_ =
+      params.number("wheelAcceleration", 1.0, "m/s^2", "acceleration at a wheel's rim", kPositive);
+  max_linear_ = params.number("max_linear_velocity", 0.7, "m/s", "fastest drive", kPositive);
+  max_angular_ = params.number("max_angular_velocity", 3.1, "rad/s", "fastest turn", kPositive);
+  timeout_ = from_seconds(params.number("commandTimeout", 0.6, "s",
+                                        "it stops this long after the last command", kPositive));
+  refresh_ = Refresh(params.number("updateRate", 50.0, "Hz", "rate of odometry", kPositive));
+  params.text("commandTopic", "cmd_vel", "where commands come from");
+  params.text("odometryTopic", "odom", "where odometry goes to");
+  params.text("odometryFrame", "odom", "frame that odometry starts in");
+  params.text("robotBaseFrame", "base_footprint", "frame that odometry moves");
+  params.text("device_name", "", "the name commands use, instead of the model's");
+  left_.joint = wiring.joint(params.text("leftJoint", "left_wheel_joint", "joint, axis +y"));
+  right_.joint = wiring.joint(params.text("rightJoint", "right_wheel_joint", "joint, axis +y"));
+}
+
+Verdict Drive::command(const Command& command, const View& view) {
+  std::vector<double> values = command.values;
+  if (values.empty()) {
+    const std::vector<std::string> words = words_of(command.text);
+    if (words.size() == 1 && words[0] == "stop") values = {0.0, 0.0};
+    for (std::size_t i = 0; words.size() == 2 && i < 2; ++i) {
+      if (const std::optional<double> value = number_of(words[i])) values.push_back(*value);
+    }
+  }
+  if (values.size() != 2 || !std::isfinite(values[0]) || !std::isfinite(values[1])) {
+    return Verdict::reject("a drive knows <m/s> <rad/s> (two finite numbers) and Stop, not '" +
+                           command.text + "'");
+  }
+  v_ = std::clamp(values[0], -max_linear_, max_linear_);
+  w_ = std::clamp(values[1], -max_angular_, max_angular_);
+  commanded_at_ = view.time();
+  moving_ = moving_ || v_ != 0.0 || w_ != 0.0;
+  return Verdict::accept();
+}
+
+void Drive::update(const View& view, Outputs& outputs) {
+  if (!started_) {
+    started_ = true;
+    left_.angle = view.joint(left_.joint).position;
+    right_.angle = view.joint(right_.joint).position;
+    outputs.motor(left_.joint, 0.0, torque_);
+    outputs.motor(right_.joint, 0.0, torque_);
+  }
+  const bool renew = refresh_.due(view.time());
+  if (!moving_ && !renew) return;
+  count(view);
+  if (moving_) {
+    if (view.time() - commanded_at_ >= timeout_) v_ = w_ = 0.0;
+    const double step = acceleration_ * to_seconds(view.step());
+    const bool stands = lead(left_, v_ - w_ * separation_ / 2.0, step, outputs) &
+                        lead(right_, v_ + w_ * separation_ / 2.0, step, outputs);
+    if (stands) {
+      moving_ = false;
+      outputs.event("stopped", "");
+    }
+  }
+  if (renew) shown_ = odometry_;
+}
+
+// True when the wheel is told to stand and does.
+bool Drive::lead(Wheel& wheel, double wanted, double step, Outputs& outputs) {
+  const double next = std::clamp(wanted, wheel.speed - step, wheel.speed + step);
+  if (next != wheel.speed) {
+    wheel.speed = next;
+    outputs.motor(wheel.joint, next / radius_, torque_);
+  }
+  return wheel.speed == 0.0 && wanted == 0.0 && std::abs(wheel.velocity) < kRestSpeed;
+}
+
+double Drive::look(Wheel& wheel, const View& view) const {
+  const JointView joint = view.joint(wheel.joint);
+  // An angle that is told modulo a turn still gives the right difference.
+  const double turned = std::remainder(joint.position - wheel.angle, 2.0 * M_PI);
+  wheel.angle = joint.position;
+  wheel.turned += turned;
+  wheel.velocity = joint.velocity;
+  return turned * radius_;
+}
+
+void Drive::count(const View& view) {
+  const double left = look(left_, view);
+  const double right = look(right_, view);
+  const double turn = (right - left) / separation_;
+  const double middle = odometry_.yaw + turn / 2.0;
+  odometry_.x += (left + right) / 2.0 * std::cos(middle);
+  odometry_.y += (left + right) / 2.0 * std::sin(middle);
+  odometry_.yaw = std::remainder(odometry_.yaw + turn, 2.0 * M_PI);
+  odometry_.v = (left_.velocity + right_.velocity) / 2.0 * radius_;
+  odometry_.w = (right_.velocity - left_.velocity) / separation_ * radius_;
+  odometry_.left = left_.turned;
+  odometry_.right = right_.turned;
+}
+
+void Drive::report(const View&, Reading& state) const {
+  state.set("x", shown_.x);
+  state.set("y", shown_.y);
+  state.set("yaw", shown_.yaw);
+  state.set("v", shown_.v);
+  state.set("w", shown_.w);
+  state.set("left", shown_.left);
+  state.set("right", shown_.right);
+}
+
+std::string DrivePlugin::doc() const {
+  return "A differential drive with odometry: <m/s> <rad/s>, Stop.";
+}
+
+bool DrivePlugin::serves(const ModelInfo& model) const {
+  return model.joint("left_wheel_joint") != nullptr && model.joint("right_wheel_joint") != nullptr;
+}
+
+}  // namespace angen::devices
+
+ANGEN_REGISTER_PLUGIN(angen::devices::DrivePlugin)

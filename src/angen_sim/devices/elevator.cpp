@@ -1,1 +1,270 @@
+#include "devices/elevator.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "devices/words.h"
+#include "plugin/register.h"
+
+namespace angen::devices {
+
+namespace {
+
+constexpr double kLevelWithin = 0.005;    // m
+constexpr double kArriveError = 0.0005;   // m
+constexpr double kArriveSpeed = 0.002;    // m/s
+constexpr double kMaxLag = 0.02;          // m
+constexpr double kStallSpeed = 0.005;     // m/s
+constexpr double kWeighShare = 0.2;       // of each new weighing, at the rate of telling
+constexpr double kGreatestLoad = 2000.0;  // kg
+constexpr Nanoseconds kDwell = kSecond;   // between the doors' opening and their shutting
+
+const char* const kDoorModes[] = {"CLOSED", "OPEN", "OPENING", "CLOSING", "BLOCKED"};
+const char* const kDoorEvents[] = {"doors closed", "doors opened", "doors opening", "doors closing",
+                                   "doors blocked"};
+
+}  // namespace
+
+PidGains Elevator::read_gains(Params& params) {
+  PidGains gains;
+  gains.p = params.number("p", 200.0, "N/m per kg", "proportional gain, times the moving mass",
+                          kNotNegative);
+  gains.i = params.number("i", 200.0, "N/(m s) per kg", "integral gain, times the moving mass",
+                          kNotNegative);
+  gains.d = params.number("d", 25.0, "N s/m per kg", "derivative gain, times the moving mass",
+                          kNotNegative);
+  gains.i_max = params.number("i_max", 5.0, "N/kg", "limit of the integral's share", kNotNegative);
+  gains.i_min = params.number("i_min", -5.0, "N/kg", "limit of the integral's share", {-1e9, 0.0});
+  gains.cmd_max =
+      params.number("cmd_max", 5.0, "N/kg", "greatest force beyond the weight", kNotNegative);
+  gains.cmd_min =
+      params.number("cmd_min", -5.0, "N/kg", "least force beyond the weight", {-1e9, 0.0});
+  return gains;
+}
+
+void Elevator::configure(Params& params, Wiring& wiring) {
+  ServoSettings servo;
+  servo.gains = read_gains(params);
+  servo.max_velocity =
+      params.number("max_velocity", 1.0, "m/s", "speed of the cabin's setpoint", kPositive);
+  servo.max_acceleration = params.number("max_acceleration", 0.5, "m/s^2",
+                                         "acceleration of the cabin's setpoint", kPositive);
+  servo.max_lag = kMaxLag;
+  servo.arrive_error = kArriveError;
+  servo.arrive_speed = kArriveSpeed;
+  servo.stall_speed = kStallSpeed;
+  servo_ = Servo(servo);
+  floor_height_ =
+      params.number("floor_height", kStoreyHeight, "m", "from one floor to the next", kPositive);
+  floors_ = params.integer("floors", 2, "", "number of floors", {1, 1000});
+  brake_force_ =
+      params.number("brake_force", 30000.0, "N", "brake of the standing cabin", kPositive);
+  const double door_speed =
+      params.number("door_max_velocity", 0.5, "m/s", "speed of a door leaf", kPositive);
+  door_force_ =
+      params.number("door_force_max", 100.0, "N", "greatest force of a door leaf", kPositive);
+  doorway_ = Doorway(door_speed, door_force_);
+  refresh_ = Refresh(params.number("update_rate", 50.0, "Hz",
+                                   "how often its state is told while it moves", kPositive));
+  params.text("topicName", "/gazebo/Elevator_controller", "where commands come from");
+  params.text("device_name", "", "the name commands use, instead of the model's");
+  wire(params, wiring);
+}
+
+void Elevator::wire(Params& params, Wiring& wiring) {
+  lift_ = wiring.joint("lift");
+  limits_ = wiring.limits(lift_);
+  const double highest = (floors_ - 1) * floor_height_;
+  if (limits_.lower < limits_.upper && highest > limits_.upper + kLevelWithin) {
+    throw params.error("floors", "the highest floor is at " + std::to_string(highest) +
+                                     " m, the joint lift ends at " + std::to_string(limits_.upper) +
+                                     " m");
+  }
+  gravity_ = -wiring.gravity().z();
+  own_mass_ = wiring.mass(wiring.link(wiring.child_of(lift_)));
+  // A leaf stands open at whichever of its limits is further from 0.
+  const auto add = [&wiring](const std::string& name, std::vector<Doorway::Leaf>& leaves) {
+    if (!wiring.has_joint(name)) return false;
+    const JointRef joint = wiring.joint(name);
+    const JointLimits limits = wiring.limits(joint);
+    const double open = limits.upper > -limits.lower ? limits.upper : limits.lower;
+    if (open == 0.0 || std::abs(open) > 100.0) return false;
+    leaves.push_back({joint, open});
+    return true;
+  };
+  for (const char* side : {"left", "right"}) {
+    if (!add(std::string("cabin_door_") + side, cabin_leaves_)) continue;
+    own_mass_ += wiring.mass(wiring.link(wiring.child_of(cabin_leaves_.back().joint)));
+  }
+  landing_leaves_.resize(static_cast<std::size_t>(floors_));
+  for (int floor = 0; floor < floors_; ++floor) {
+    for (const char* side : {"left", "right"}) {
+      add("landing_door_" + std::to_string(floor) + "_" + side,
+          landing_leaves_[static_cast<std::size_t>(floor)]);
+    }
+  }
+  mass_ = own_mass_;
+}
+
+Verdict Elevator::command(const Command& command, const View&) {
+  const std::vector<std::string> words = words_of(command.text);
+  std::string number;
+  if (words.size() == 1 && words[0].compare(0, 5, "floor") == 0) number = words[0].substr(5);
+  if (words.size() == 2 && words[0] == "floor") number = words[1];
+  const bool digits = !number.empty() && number.size() < 5 &&
+                      number.find_first_not_of("0123456789") == std::string::npos;
+  const int floor = digits ? std::stoi(number) : -1;
+  if (floor < 0 || floor >= floors_) {
+    return Verdict::reject("an elevator knows Floor0 to Floor" + std::to_string(floors_ - 1) +
+                           ", not '" + command.text + "'");
+  }
+  const int last = !stops_.empty() ? stops_.back() : target_;
+  const bool waits_for_it = !stops_.empty() || phase_ != Phase::kStanding;
+  if (!waits_for_it || last != floor) stops_.push_back(floor);
+  return Verdict::accept();
+}
+
+void Elevator::start(const View& view, Outputs& outputs) {
+  started_ = true;
+  outputs.motor(lift_, 0.0, brake_force_);
+  for (const Doorway::Leaf& leaf : cabin_leaves_) Doorway::brake(leaf, door_force_, outputs);
+  for (const std::vector<Doorway::Leaf>& leaves : landing_leaves_) {
+    for (const Doorway::Leaf& leaf : leaves) Doorway::brake(leaf, door_force_, outputs);
+  }
+  const double position = view.joint(lift_).position;
+  const int floor = floor_at(position);
+  target_ = floor >= 0 ? floor
+                       : std::clamp(static_cast<int>(std::lround(position / floor_height_)), 0,
+                                    floors_ - 1);
+  stay_at(floor, view);
+  shown_ = {view.joint(lift_), doorway_.position(view)};
+  told_mode_ = mode();
+  told_door_ = doorway_.mode();
+}
+
+void Elevator::stay_at(int floor, const View& view) {
+  std::vector<Doorway::Leaf> leaves = cabin_leaves_;
+  if (floor >= 0) {
+    const auto& landing = landing_leaves_[static_cast<std::size_t>(floor)];
+    leaves.insert(leaves.end(), landing.begin(), landing.end());
+  }
+  doorway_.select(leaves, view);
+  if (floor >= 0 && !leaves.empty()) doorway_.open(view);
+}
+
+void Elevator::update(const View& view, Outputs& outputs) {
+  if (!started_) start(view, outputs);
+  if (phase_ == Phase::kStanding) {
+    stand(view, outputs);
+  } else if (phase_ == Phase::kShutting) {
+    if (doorway_.update(view, outputs)) {
+      // Somebody stands in the door: it opens, and the stop is tried again.
+      outputs.event("obstacle", "door");
+      stops_.push_front(target_);
+      ready_at_ = view.time() + kDwell;
+      phase_ = Phase::kStanding;
+    } else if (doorway_.mode() == Doorway::Mode::kClosed) {
+      outputs.motor(lift_, 0.0, 0.0);
+      const JointView lift = view.joint(lift_);
+      servo_.start(lift.position, lift.velocity);
+      phase_ = Phase::kMoving;
+    }
+  }
+  if (phase_ == Phase::kMoving) move(view, outputs);
+  tell(view, outputs);
+}
+
+void Elevator::stand(const View& view, Outputs& outputs) {
+  doorway_.update(view, outputs);
+  if (stops_.empty() || doorway_.moving() || view.time() < ready_at_) return;
+  serve_next_stop(view, outputs);
+}
+
+void Elevator::serve_next_stop(const View& view, Outputs& outputs) {
+  target_ = stops_.front();
+  stops_.pop_front();
+  if (floor_at(view.joint(lift_).position) == target_) {
+    outputs.event("arrived", "floor " + std::to_string(target_));
+    return;
+  }
+  doorway_.close(view);
+  phase_ = Phase::kShutting;
+}
+
+void Elevator::move(const View& view, Outputs& outputs) {
+  const JointView lift = view.joint(lift_);
+  const double command =
+      servo_.update(target_ * floor_height_, lift.position, lift.velocity, to_seconds(view.step()));
+  if (!servo_.arrived()) {
+    outputs.force(lift_, mass_ * (gravity_ + command));
+    return;
+  }
+  outputs.motor(lift_, 0.0, brake_force_);
+  phase_ = Phase::kStanding;
+  ready_at_ = view.time() + kDwell;
+  stay_at(target_, view);
+  outputs.event("arrived", "floor " + std::to_string(target_));
+}
+
+// The brake carries cabin and load, so what it gives tells the load.
+void Elevator::weigh(const JointView& lift) {
+  if (phase_ == Phase::kMoving || gravity_ <= 0.0) return;
+  const double felt = std::clamp(lift.effort / gravity_, own_mass_, own_mass_ + kGreatestLoad);
+  mass_ += kWeighShare * (felt - mass_);
+}
+
+int Elevator::floor_at(double position) const {
+  const int nearest = static_cast<int>(std::lround(position / floor_height_));
+  const bool level = std::abs(position - nearest * floor_height_) < kLevelWithin;
+  return level && nearest >= 0 && nearest < floors_ ? nearest : -1;
+}
+
+std::string Elevator::mode() const {
+  if (phase_ != Phase::kMoving) return "IDLE";
+  if (servo_.blocked()) return "BLOCKED";
+  return target_ * floor_height_ > shown_.lift.position ? "UP" : "DOWN";
+}
+
+void Elevator::tell(const View& view, Outputs& outputs) {
+  bool renew = refresh_.due(view.time());
+  if (renew) weigh(view.joint(lift_));
+  const std::string now = mode();
+  if (now != told_mode_) {
+    const char* event = now == "IDLE"      ? "idle"
+                        : now == "BLOCKED" ? "blocked"
+                        : now == "UP"      ? "up"
+                                           : "down";
+    outputs.event(event, "floor " + std::to_string(target_));
+    told_mode_ = now;
+    renew = true;
+  }
+  if (doorway_.mode() != told_door_) {
+    told_door_ = doorway_.mode();
+    outputs.event(kDoorEvents[static_cast<int>(told_door_)], "");
+    renew = true;
+  }
+  if (renew) shown_ = {view.joint(lift_), doorway_.position(view)};
+}
+
+void Elevator::report(const View& view, Reading& state) const {
+  const JointView lift = started_ ? shown_.lift : view.joint(lift_);
+  state.set("mode", started_ ? told_mode_ : std::string("IDLE"));
+  state.set("position", lift.position);
+  state.set("velocity", lift.velocity);
+  state.set("target", target_ * floor_height_);
+  state.set("floor", floor_at(lift.position));
+  state.set("target_floor", target_);
+  state.set("door_mode", kDoorModes[static_cast<int>(told_door_)]);
+  state.set("door_position", shown_.door_position);
+}
+
+std::string ElevatorPlugin::doc() const { return "An elevator with doors: Floor<N>."; }
+
+bool ElevatorPlugin::serves(const ModelInfo& model) const {
+  const ModelInfo::Joint* lift = model.joint("lift");
+  return lift != nullptr && lift->type == "prismatic";
+}
+
+}  // namespace angen::devices
+
+ANGEN_REGISTER_PLUGIN(angen::devices::ElevatorPlugin)

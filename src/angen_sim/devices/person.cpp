@@ -1,1 +1,157 @@
+#include "devices/person.h"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "devices/words.h"
+#include "plugin/register.h"
+
+namespace angen::devices {
+
+namespace {
+
+constexpr double kMaxLag = 0.15;      // m behind the path: further, and the path waits
+constexpr double kFollowGain = 4.0;   // 1/s, from the lag to a speed
+constexpr double kTurnGain = 6.0;     // 1/s, from the wrong heading to a yaw rate
+constexpr double kMaxTurn = 3.0;      // rad/s
+constexpr double kReturnSpeed = 0.8;  // m/s, back to a path it was pushed off
+constexpr double kCatchUp = 1.3;      // times the path's own speed
+constexpr double kThere = 0.01;       // m: nearer than this it may stand
+constexpr double kFacing = 0.02;      // rad
+constexpr double kPushedAway = 0.1;   // m: further than this it walks back
+constexpr double kProgress = 0.05;    // m: less than this in kStallTime is none
+constexpr Nanoseconds kStallTime = kSecond;
+
+const char* const kModeNames[] = {"STANDING", "WALKING", "BLOCKED"};
+const char* const kModeEvents[] = {"stands", "walks", "blocked"};
+
+}  // namespace
+
+Path Person::read_path(Params& params) {
+  std::vector<Path::Waypoint> waypoints;
+  for (const std::vector<double>& row :
+       params.rows("waypoint", 5, "s m m m rad", "t x y z yaw of a place on the way")) {
+    waypoints.push_back({from_seconds(row[0]), row[1], row[2], row[4]});
+    const std::size_t count = waypoints.size();
+    if (count > 1 && waypoints[count - 1].time <= waypoints[count - 2].time) {
+      throw params.error("waypoint", "the times of waypoints must rise");
+    }
+  }
+  return Path(std::move(waypoints), params.flag("loop", true, "walks it again and again"));
+}
+
+void Person::configure(Params& params, Wiring& wiring) {
+  path_ = read_path(params);
+  clock_ = -from_seconds(
+      params.number("delay_start", 0.0, "s", "stands so long before the first", kNotNegative));
+  force_max_ = params.number("force_max", 150.0, "N", "greatest force of its legs", kPositive);
+  params.number("mass", 70.0, "kg", "its mass", kPositive);
+  refresh_ = Refresh(params.number("update_rate", 20.0, "Hz",
+                                   "how often its state is told while it walks", kPositive));
+  params.text("device_name", "", "the name commands use, instead of the actor's");
+  body_ = wiring.link("body");
+}
+
+Verdict Person::command(const Command& command, const View&) {
+  const std::vector<std::string> words = words_of(command.text);
+  if (words.size() == 1 && (words[0] == "stop" || words[0] == "go")) {
+    paused_ = words[0] == "stop";
+    return Verdict::accept();
+  }
+  return Verdict::reject("a person knows Stop and Go, not '" + command.text + "'");
+}
+
+void Person::update(const View& view, Outputs& outputs) {
+  const bool renew = refresh_.due(view.time());
+  if (!started_) start(view.link(body_));
+  if (paused_) {
+    if (!resting_) stand(outputs);
+    if (renew) show(Mode::kStanding, view.link(body_), true, outputs);
+    return;
+  }
+  const Path::Place place = path_.at(clock_);
+  if (resting_ && place.still() && !renew) {
+    clock_ += view.step();
+    return;
+  }
+  walk(place, view, renew, outputs);
+}
+
+void Person::start(const LinkView& body) {
+  started_ = true;
+  came_to_ = body.pose.position;
+  shown_ = body;
+  if (!path_.empty()) return;
+  const Vec3& here = body.pose.position;
+  path_ = Path({{0, here.x(), here.y(), yaw_of(body.pose.rotation)}}, false);
+}
+
+void Person::walk(const Path::Place& place, const View& view, bool renew, Outputs& outputs) {
+  const LinkView body = view.link(body_);
+  const Vec3 behind(place.x - body.pose.position.x(), place.y - body.pose.position.y(), 0.0);
+  const double lag = behind.norm();
+  const double turn = std::remainder(place.yaw - yaw_of(body.pose.rotation), 2.0 * M_PI);
+  const bool waits = lag > kMaxLag;
+  if (!waits) clock_ += view.step();
+  watch(body, place.still() ? lag < kThere : !waits, view.step());
+
+  const bool there = lag < kThere && std::abs(turn) < kFacing;
+  if (place.still() && (there || (resting_ && lag < kPushedAway))) {
+    if (!resting_) stand(outputs);
+    show(Mode::kStanding, body, renew, outputs);
+    return;
+  }
+  resting_ = false;
+  Vec3 velocity = kFollowGain * behind;
+  if (!waits) velocity += Vec3(place.vx, place.vy, 0.0);
+  const double fastest = std::max(kReturnSpeed, kCatchUp * std::hypot(place.vx, place.vy));
+  if (velocity.norm() > fastest) velocity *= fastest / velocity.norm();
+  outputs.drive(body_, velocity, std::clamp(kTurnGain * turn, -kMaxTurn, kMaxTurn), force_max_);
+  show(stalled_ >= kStallTime ? Mode::kBlocked : Mode::kWalking, body, renew, outputs);
+}
+
+void Person::watch(const LinkView& body, bool on_path, Nanoseconds step) {
+  if (on_path || (body.pose.position - came_to_).head<2>().norm() > kProgress) {
+    came_to_ = body.pose.position;
+    stalled_ = 0;
+  } else {
+    stalled_ += step;
+  }
+}
+
+void Person::stand(Outputs& outputs) {
+  outputs.drive(body_, Vec3::Zero(), 0.0, force_max_);
+  resting_ = true;
+  stalled_ = 0;
+}
+
+void Person::show(Mode mode, const LinkView& body, bool renew, Outputs& outputs) {
+  if (mode != mode_) {
+    mode_ = mode;
+    outputs.event(kModeEvents[static_cast<int>(mode)], "");
+    renew = true;
+  }
+  if (renew) shown_ = body;
+}
+
+void Person::report(const View& view, Reading& state) const {
+  const LinkView body = started_ ? shown_ : view.link(body_);
+  state.set("mode", kModeNames[static_cast<int>(mode_)]);
+  state.set("x", body.pose.position.x());
+  state.set("y", body.pose.position.y());
+  state.set("z", body.pose.position.z());
+  state.set("yaw", yaw_of(body.pose.rotation));
+  state.set("speed", body.linear_velocity.head<2>().norm());
+}
+
+std::string PersonPlugin::doc() const { return "A person who walks a path: Stop, Go."; }
+
+bool PersonPlugin::serves(const ModelInfo& model) const {
+  return std::find(model.links.begin(), model.links.end(), "body") != model.links.end();
+}
+
+}  // namespace angen::devices
+
+ANGEN_REGISTER_PLUGIN(angen::devices::PersonPlugin)

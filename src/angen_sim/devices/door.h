@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "devices/refresh.h"
+#include "devices/servo.h"
+#include "plugin/plugin.h"
+
+namespace angen::devices {
+
+/// A leaf on a revolute joint `hinge`: a PID drives it, a brake holds it, a latch when it is shut.
+class Door : public Device {
+ public:
+  void configure(Params& params, Wiring& wiring) override;
+  Verdict command(const Command& command, const View& view) override;
+  void update(const View& view, Outputs& outputs) override;
+  void report(const View& view, Reading& state) const override;
+
+ private:
+  enum class Mode { kClosed, kOpen, kOpening, kClosing, kBlocked, kAjar };
+
+  PidGains read_gains(Params& params);
+  void go(double target, const View& view);
+  void rest(const JointView& hinge, Outputs& outputs);
+  Mode mode_at_rest(double position) const;
+  void show(Mode mode, const JointView& hinge, bool renew, Outputs& outputs);
+
+  JointRef hinge_;
+  Servo servo_;
+  Refresh refresh_;
+  double open_position_ = 0.0;
+  double closed_position_ = 0.0;
+  double torque_max_ = 0.0;
+  double brake_torque_ = 0.0;
+  double latch_torque_ = 0.0;
+  JointLimits limits_;
+
+  bool started_ = false;
+  bool resting_ = true;
+  bool leaving_ = false;  // a command came: the brake is to be let go
+  bool opening_ = false;
+  double target_ = 0.0;
+  Mode mode_ = Mode::kClosed;
+  JointView shown_;
+};
+
+class DoorPlugin : public Plugin {
+ public:
+  std::string kind() const override { return "door"; }
+  std::string doc() const override;
+  bool serves(const ModelInfo& model) const override;
+  std::string instance_name(const ModelInfo& model) const override;
+  std::unique_ptr<Device> make_device() const override { return std::make_unique<Door>(); }
+};
+
+}  // namespace angen::devices

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vector>
+
+#include "devices/profile.h"
+#include "plugin/view.h"
+
+namespace angen::devices {
+
+/// Sliding leaves that open and shut together, each shut at 0. Force-limited motors move them along
+/// one profile; what stands between them while they shut makes them open again.
+class Doorway {
+ public:
+  enum class Mode { kClosed, kOpen, kOpening, kClosing, kBlocked };
+  struct Leaf {
+    JointRef joint;
+    double open = 0.0;  // m, where it stands open
+  };
+
+  Doorway() = default;
+  /// Limits in m/s and N.
+  Doorway(double max_velocity, double max_force);
+
+  /// Which leaves move from now on. Their brakes must hold; the mode follows from where they stand.
+  void select(std::vector<Leaf> leaves, const View& view);
+  void open(const View& view);
+  void close(const View& view);
+  /// Moves what is to be moved. True when an obstacle has just made it open again.
+  bool update(const View& view, Outputs& outputs);
+
+  Mode mode() const { return mode_; }
+  bool moving() const { return moving_; }
+  double position(const View& view) const;  // m, mean opening of the leaves, 0 shut
+  static void brake(const Leaf& leaf, double max_force, Outputs& outputs);
+
+ private:
+  double share(const View& view) const;  // 0 shut, 1 open: mean of the leaves
+  void go(bool opening, const View& view);
+
+  std::vector<Leaf> leaves_;
+  Profile profile_;  // of the widest leaf, m
+  double max_velocity_ = 0.5;
+  double max_force_ = 100.0;
+  double travel_ = 0.0;   // m, of the widest leaf
+  double stalled_ = 0.0;  // s
+  bool moving_ = false;
+  bool opening_ = false;
+  Mode mode_ = Mode::kClosed;
+};
+
+}  // namespace angen::devices

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "devices/refresh.h"
+#include "plugin/plugin.h"
+
+namespace angen::devices {
+
+/// Two driven wheels: speeds come in, wheel motors turn, odometry is counted from the wheels.
+class Drive : public Device {
+ public:
+  void configure(Params& params, Wiring& wiring) override;
+  Verdict command(const Command& command, const View& view) override;
+  void update(const View& view, Outputs& outputs) override;
+  void report(const View& view, Reading& state) const override;
+
+ private:
+  struct Wheel {
+    JointRef joint;
+    double speed = 0.0;     // m/s at the rim, as the motor is told
+    double angle = 0.0;     // rad, last seen
+    double turned = 0.0;    // rad since the start
+    double velocity = 0.0;  // rad/s, measured
+  };
+  struct Odometry {
+    double x = 0.0, y = 0.0, yaw = 0.0;  // m, m, rad
+    double v = 0.0, w = 0.0;             // m/s, rad/s
+    double left = 0.0, right = 0.0;      // rad
+  };
+
+  double look(Wheel& wheel, const View& view) const;  // m it rolled since the last look
+  void count(const View& view);
+  bool lead(Wheel& wheel, double wanted, double step, Outputs& outputs);
+
+  Wheel left_;
+  Wheel right_;
+  Refresh refresh_;
+  double separation_ = 0.0;    // m
+  double radius_ = 0.0;        // m
+  double torque_ = 0.0;        // N m
+  double acceleration_ = 0.0;  // m/s^2
+  double max_linear_ = 0.0;    // m/s
+  double max_angular_ = 0.0;   // rad/s
+  Nanoseconds timeout_ = 0;
+
+  bool started_ = false;
+  bool moving_ = false;
+  double v_ = 0.0;  // m/s, wanted
+  double w_ = 0.0;  // rad/s, wanted
+  Nanoseconds commanded_at_ = 0;
+  Odometry odometry_;
+  Odometry shown_;
+};
+
+class DrivePlugin : public Plugin {
+ public:
+  std::string kind() const override { return "drive"; }
+  std::string doc() const override;
+  bool serves(const ModelInfo& model) const override;
+  std::unique_ptr<Device> make_device() const override { return std::make_unique<Drive>(); }
+};
+
+}  // namespace angen::devices

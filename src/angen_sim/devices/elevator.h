@@ -1,0 +1,77 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/names.h"
+#include "devices/doorway.h"
+#include "devices/refresh.h"
+#include "devices/servo.h"
+#include "plugin/plugin.h"
+
+namespace angen::devices {
+
+/// A cabin on a prismatic joint `lift` with sliding doors, and a landing door on each floor. It
+/// serves stops in the order they were asked for; doors are shut while it moves, open where it is.
+class Elevator : public Device {
+ public:
+  void configure(Params& params, Wiring& wiring) override;
+  Verdict command(const Command& command, const View& view) override;
+  void update(const View& view, Outputs& outputs) override;
+  void report(const View& view, Reading& state) const override;
+
+ private:
+  enum class Phase { kStanding, kShutting, kMoving };
+  struct Shown {
+    JointView lift;
+    double door_position = 0.0;
+  };
+
+  PidGains read_gains(Params& params);
+  void wire(Params& params, Wiring& wiring);
+  void start(const View& view, Outputs& outputs);
+  void stand(const View& view, Outputs& outputs);
+  void serve_next_stop(const View& view, Outputs& outputs);
+  void move(const View& view, Outputs& outputs);
+  void weigh(const JointView& lift);
+  int floor_at(double position) const;  // -1 between floors
+  void stay_at(int floor, const View& view);
+  std::string mode() const;
+  void tell(const View& view, Outputs& outputs);
+
+  JointRef lift_;
+  JointLimits limits_;
+  std::vector<Doorway::Leaf> cabin_leaves_;
+  std::vector<std::vector<Doorway::Leaf>> landing_leaves_;  // by floor
+  Servo servo_;
+  Doorway doorway_;
+  Refresh refresh_;
+  double floor_height_ = kStoreyHeight;
+  int floors_ = 2;
+  double gravity_ = 0.0;      // m/s^2, downward
+  double own_mass_ = 0.0;     // kg, cabin with its doors
+  double mass_ = 0.0;         // kg, with what is aboard
+  double brake_force_ = 0.0;  // N
+  double door_force_ = 0.0;   // N
+
+  Phase phase_ = Phase::kStanding;
+  std::deque<int> stops_;
+  bool started_ = false;
+  int target_ = 0;            // floor
+  Nanoseconds ready_at_ = 0;  // when the doors may shut
+  std::string told_mode_;
+  Doorway::Mode told_door_ = Doorway::Mode::kClosed;
+  Shown shown_;
+};
+
+class ElevatorPlugin : public Plugin {
+ public:
+  std::string kind() const override { return "elevator"; }
+  std::string doc() const override;
+  bool serves(const ModelInfo& model) const override;
+  std::unique_ptr<Device> make_device() const override { return std::make_unique<Elevator>(); }
+};
+
+}  // namespace angen::devices

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "plugin/plugin.h"
+
+namespace angen::devices {
+
+/// The light of a model: on, off, or dimmed in percent of its luminous flux.
+class Lamp : public Device {
+ public:
+  void configure(Params& params, Wiring& wiring) override;
+  Verdict command(const Command& command, const View& view) override;
+  void update(const View& view, Outputs& outputs) override;
+  void report(const View& view, Reading& state) const override;
+
+ private:
+  LightRef light_;
+  double full_flux_ = 0.0;  // lm at 100 %
+  double level_ = 0.0;      // percent
+  double lit_ = -1.0;       // percent that the world was given last
+};
+
+class LampPlugin : public Plugin {
+ public:
+  std::string kind() const override { return "lamp"; }
+  std::string doc() const override;
+  bool serves(const ModelInfo& model) const override { return !model.lights.empty(); }
+  std::string instance_name(const ModelInfo& model) const override;
+  std::unique_ptr<Device> make_device() const override { return std::make_unique<Lamp>(); }
+};
+
+}  // namespace angen::devices

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "devices/path.h"
+#include "devices/refresh.h"
+#include "plugin/plugin.h"
+
+namespace angen::devices {
+
+/// Walks a path by a motor of limited force. What does not give way stops it, and its path waits.
+class Person : public Device {
+ public:
+  void configure(Params& params, Wiring& wiring) override;
+  Verdict command(const Command& command, const View& view) override;
+  void update(const View& view, Outputs& outputs) override;
+  void report(const View& view, Reading& state) const override;
+
+ private:
+  enum class Mode { kStanding, kWalking, kBlocked };
+
+  static Path read_path(Params& params);
+  void start(const LinkView& body);
+  void walk(const Path::Place& place, const View& view, bool renew, Outputs& outputs);
+  void watch(const LinkView& body, bool on_path, Nanoseconds step);
+  void stand(Outputs& outputs);
+  void show(Mode mode, const LinkView& body, bool renew, Outputs& outputs);
+
+  LinkRef body_;
+  Path path_;
+  Refresh refresh_;
+  double force_max_ = 0.0;       // N
+  Nanoseconds clock_ = 0;        // time on the path; below 0 while the start is delayed
+  Nanoseconds stalled_ = 0;      // since it last came on
+  Vec3 came_to_ = Vec3::Zero();  // where that was
+  bool paused_ = false;
+  bool resting_ = false;
+  bool started_ = false;
+  Mode mode_ = Mode::kStanding;
+  LinkView shown_;
+};
+
+class PersonPlugin : public Plugin {
+ public:
+  std::string kind() const override { return "person"; }
+  std::string doc() const override;
+  bool serves(const ModelInfo& model) const override;
+  std::unique_ptr<Device> make_device() const override { return std::make_unique<Person>(); }
+};
+
+}  // namespace angen::devices

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <algorithm>
+
+namespace angen::devices {
+
+/// Gazebo's seven numbers. What comes out is in the unit of cmd_max; i_max and i_min limit the
+/// integral's share of it.
+struct PidGains {
+  double p = 0.0;
+  double i = 0.0;
+  double d = 0.0;
+  double i_max = 0.0;
+  double i_min = 0.0;
+  double cmd_max = 0.0;
+  double cmd_min = 0.0;
+};
+
+class Pid {
+ public:
+  Pid() = default;
+  explicit Pid(const PidGains& gains) : gains_(gains) {}
+
+  /// The command for an error (setpoint minus measured) and its rate, with a feed-forward in the
+  /// command's unit, after dt seconds. While the command is cut off the integral only shrinks.
+  double update(double error, double error_rate, double feed_forward, double dt) {
+    const double grown = std::clamp(integral_ + gains_.i * error * dt, gains_.i_min, gains_.i_max);
+    const double rest = gains_.p * error + gains_.d * error_rate + feed_forward;
+    const double wanted = rest + grown;
+    const bool winds_up = (wanted > gains_.cmd_max && grown > integral_) ||
+                          (wanted < gains_.cmd_min && grown < integral_);
+    if (!winds_up) integral_ = grown;
+    return std::clamp(rest + integral_, gains_.cmd_min, gains_.cmd_max);
+  }
+
+  void reset() { integral_ = 0.0; }
+  double integral() const { return integral_; }  // its share of the command
+
+ private:
+  PidGains gains_;
+  double integral_ = 0.0;
+};
+
+}  // namespace angen::devices

@@ -1,0 +1,49 @@
+#include "devices/servo.h"
+
+#include <cmath>
+
+namespace angen::devices {
+
+Servo::Servo(const ServoSettings& settings)
+    : settings_(settings),
+      profile_(settings.max_velocity, settings.max_acceleration),
+      pid_(settings.gains) {}
+
+void Servo::start(double position, double velocity) {
+  profile_.start(position, velocity);
+  pid_.reset();
+  stalled_ = 0.0;
+  blocked_ = false;
+  arrived_ = false;
+}
+
+double Servo::update(double target, double position, double velocity, double dt) {
+  watch(target, position, velocity, dt);
+  const double lag = profile_.position() - position;
+  if (std::abs(lag) > settings_.max_lag) {
+    profile_.start(position + std::copysign(settings_.max_lag, lag));
+  } else {
+    profile_.advance(target, dt);
+  }
+  return pid_.update(profile_.position() - position, profile_.velocity() - velocity,
+                     settings_.inertia * profile_.acceleration(), dt);
+}
+
+void Servo::watch(double target, double position, double velocity, double dt) {
+  const double to_go = target - position;
+  const bool slow = std::abs(velocity) < settings_.arrive_speed;
+  arrived_ = profile_.at(target) && std::abs(to_go) < settings_.arrive_error && slow;
+  if (blocked_) {
+    const double moved = (position - blocked_at_) * (to_go < 0.0 ? -1.0 : 1.0);
+    if (moved > settings_.freed_distance) start(position, velocity);
+    if (arrived_) blocked_ = false;
+    return;
+  }
+  stalled_ = std::abs(velocity) < settings_.stall_speed && !arrived_ ? stalled_ + dt : 0.0;
+  if (stalled_ >= kStallTime) {
+    blocked_ = true;
+    blocked_at_ = position;
+  }
+}
+
+}  // namespace angen::devices

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "devices/pid.h"
+#include "devices/profile.h"
+
+namespace angen::devices {
+
+struct ServoSettings {
+  PidGains gains;
+  double max_velocity = 1.0;
+  double max_acceleration = 1.0;
+  double inertia = 1.0;          // command per unit of acceleration, fed forward
+  double max_lag = 0.1;          // the setpoint waits when it is further ahead than this
+  double arrive_error = 0.01;    // at rest means nearer than this …
+  double arrive_speed = 0.01;    // … and slower than this
+  double stall_speed = 0.02;     // slower than this is no motion
+  double freed_distance = 0.02;  // moved on by this much since it was blocked means freed
+};
+
+/// A joint led along a profile by a PID. What holds the joint makes the profile wait; after
+/// kStallTime without motion it is blocked. When what held it lets go, the profile starts anew from
+/// where the joint is, so that the force gathered meanwhile does not fling it.
+class Servo {
+ public:
+  static constexpr double kStallTime = 0.6;  // s
+
+  Servo() = default;
+  explicit Servo(const ServoSettings& settings);
+
+  /// Takes over a joint as it stands or moves.
+  void start(double position, double velocity);
+  /// The command (unit of gains.cmd_max) for the next dt seconds.
+  double update(double target, double position, double velocity, double dt);
+
+  bool arrived() const { return arrived_; }
+  bool blocked() const { return blocked_; }
+
+ private:
+  void watch(double target, double position, double velocity, double dt);
+
+  ServoSettings settings_;
+  Profile profile_;
+  Pid pid_;
+  double stalled_ = 0.0;     // s
+  double blocked_at_ = 0.0;  // position
+  bool blocked_ = false;
+  bool arrived_ = false;
+};
+
+}  // namespace angen::devices
