@@ -312,7 +312,8 @@ def test_generated_files_are_what_the_script_makes(tmp_path):
         model, stem = name.split("/")
         path = tmp_path / "models" / model / "meshes" / stem
         make_meshes.write_collada(meshes, path.with_suffix(".dae"))
-        made.append(path.with_suffix(".dae"))
+        make_meshes.write_stl(meshes, path.with_suffix(".stl"))
+        made += [path.with_suffix(".dae"), path.with_suffix(".stl")]
     for path in made:
         assert path.read_bytes() == (geometry.WORLDS / path.relative_to(tmp_path)).read_bytes(), (
             f"{path.name} differs: run worlds/make_worlds.py and worlds/make_meshes.py")

@@ -136,13 +136,18 @@ def normals_of(mesh: Mesh) -> np.ndarray:
     return np.where(length > 1e-12, normals / np.maximum(length, 1e-12), (0.0, 0.0, 1.0))
 
 
+def _cleaned(mesh: Mesh) -> Mesh:
+    """Returns the mesh without triangles that have no area."""
+    a, b, c = (mesh.points[mesh.faces[:, k]] for k in range(3))
+    solid = np.linalg.norm(np.cross(b - a, c - a), axis=1) > 1e-9
+    return Mesh(mesh.points, mesh.faces[solid], mesh.color)
+
+
 def write_stl(meshes: Sequence[Mesh], path: Path) -> None:
     """Writes all meshes as one binary STL."""
-    corners = np.concatenate([m.points[m.faces] for m in meshes]).astype("<f4")
+    corners = np.concatenate([m.points[m.faces] for m in map(_cleaned, meshes)]).astype("<f4")
     flat = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    length = np.linalg.norm(flat, axis=1, keepdims=True)
-    keep = length[:, 0] > 1e-10
-    corners, flat = corners[keep], (flat / np.maximum(length, 1e-12))[keep]
+    flat /= np.linalg.norm(flat, axis=1, keepdims=True)
     record = np.zeros(len(corners), dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)),
                                            ("attribute", "<u2")])
     record["normal"], record["corners"] = flat, corners
@@ -200,7 +205,7 @@ def write_collada(meshes: Sequence[Mesh], path: Path) -> None:
     colors = sorted({m.color for m in meshes})
     for i, color in enumerate(colors):
         _material(effects, materials, i, color)
-        group = [m for m in meshes if m.color == color]
+        group = [_cleaned(m) for m in meshes if m.color == color]
         offsets = np.cumsum([0] + [len(m.points) for m in group])
         whole = Mesh(np.vstack([m.points for m in group]),
                      np.vstack([m.faces + k for m, k in zip(group, offsets)]), color)
