@@ -134,6 +134,12 @@ def shapes(model: Model, positions: dict[str, float] | None = None) -> list[Shap
     return result
 
 
+def nearby(solids: list[Shape], center: np.ndarray, radius: float) -> list[Shape]:
+    """Returns the shapes that may reach into a ball (m)."""
+    return [s for s in solids
+            if np.linalg.norm(s.pose[:3, 3] - center) - np.linalg.norm(s.half) < radius]
+
+
 def gaps(one: Shape, others: list[Shape]) -> np.ndarray:
     """Returns, per other shape, a lower bound of the gap in m; negative where boxes overlap.
 
