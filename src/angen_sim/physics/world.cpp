@@ -1,1 +1,196 @@
+#include "physics/world.h"
 
+#include <algorithm>
+
+#include "core/time.h"
+#include "physics/build.h"
+#include "physics/drive.h"
+#include "physics/impl.h"
+#include "physics/joints.h"
+#include "physics/sleep.h"
+
+namespace angen::physics {
+
+namespace {
+
+// Least CFM of joints: a brake under 1 kN creeps 1 um/s, and equations stay solvable.
+constexpr double kSoftestJoint = 1e-9;
+
+ode::WorldHandle make_world() {
+  ode::prepare_thread();
+  return ode::WorldHandle(dWorldCreate());
+}
+
+bool has_axis(const Joint& joint) {
+  return joint.first != nullptr && joint.type != desc::Joint::Type::kBall;
+}
+
+}  // namespace
+
+World::Impl::Impl(const desc::Physics& s, const Vec3& g, std::uint64_t seed_)
+    : h(to_seconds(s.step)),
+      settings(s),
+      gravity(g),
+      seed(seed_),
+      world(make_world()),
+      contacts(world.get(), s) {
+  dWorldID w = world.get();
+  dWorldSetGravity(w, g.x(), g.y(), g.z());
+  dWorldSetERP(w, s.erp);
+  dWorldSetCFM(w, std::max(s.cfm, kSoftestJoint));
+  dWorldSetQuickStepNumIterations(w, s.iterations);
+  dWorldSetContactMaxCorrectingVel(w, s.contact_max_correcting_vel);
+  dWorldSetContactSurfaceLayer(w, s.contact_surface_layer);
+  dWorldSetAutoDisableFlag(w, 0);
+}
+
+void World::Impl::wake(Body& body) {
+  if (body.dynamic()) wake_body(body, awake);
+}
+
+void World::Impl::wake_joint(const Joint& joint) {
+  wake(*joint.first);
+  wake(*joint.second);
+}
+
+void World::Impl::wake_near(ModelRecord& model) {
+  for (const auto& geom : model.geoms) {
+    grid.query(*geom, [&](Geom& other) {
+      if (may_touch(*geom, other) && other.body->model != &model) wake(*other.body);
+    });
+  }
+}
+
+void World::Impl::settle(ModelRecord& model, const Pose& pose) {
+  configure(model, pose);
+  for (const auto& geom : model.geoms) {
+    update_box(*geom);
+    grid.update(*geom);
+  }
+  for (const auto& body : model.bodies) wake(*body);
+  wake_near(model);
+}
+
+World::World(const desc::Physics& settings, const Vec3& gravity, std::uint64_t seed)
+    : impl_(std::make_unique<Impl>(settings, gravity, seed)) {}
+
+World::~World() = default;
+
+ModelId World::add(const desc::Model& model) {
+  ode::prepare_thread();
+  auto built = build_model(impl_->world.get(), model, impl_->shapes, impl_->serial);
+  ModelRecord& record = *built;
+  for (const LinkRecord& link : record.links) {
+    record.link_ids.push_back(impl_->links.add(link));
+    link.body->links.push_back(record.link_ids.back());
+  }
+  for (const auto& joint : record.joints) {
+    record.joint_ids.push_back(impl_->joints.add(joint.get()));
+  }
+  const ModelId id = impl_->models.add(std::move(built));
+  impl_->settle(record, model.pose);
+  return id;
+}
+
+void World::remove(ModelId id) {
+  Impl& w = *impl_;
+  ModelRecord& model = *w.models.at(id);
+  w.contacts.drop(model, [&](Body& body) { w.wake(body); });
+  w.list_is_old = true;
+  const auto of_model = [&](const Body* body) { return body->model == &model; };
+  w.awake.erase(std::remove_if(w.awake.begin(), w.awake.end(), of_model), w.awake.end());
+  for (const auto& geom : model.geoms) w.grid.erase(*geom);
+  const auto forget = [&](std::vector<LinkId>& list) {
+    const auto gone = [&](LinkId link) { return of_model(w.links.at(link).body); };
+    list.erase(std::remove_if(list.begin(), list.end(), gone), list.end());
+  };
+  forget(w.moved);
+  forget(w.placed);
+  for (const LinkId link : model.link_ids) w.links.remove(link);
+  for (const JointId joint : model.joint_ids) w.joints.remove(joint);
+  w.models.remove(id);
+}
+
+const std::vector<LinkId>& World::links(ModelId model) const {
+  return impl_->models.at(model)->link_ids;
+}
+
+const std::vector<JointId>& World::joints(ModelId model) const {
+  return impl_->models.at(model)->joint_ids;
+}
+
+LinkState World::link(LinkId id) const {
+  const LinkRecord& link = impl_->links.at(id);
+  LinkState state;
+  state.pose = link.body->at * link.in_body;
+  state.angular_velocity = link.body->spin();
+  state.linear_velocity = link.body->velocity() + state.angular_velocity.cross(
+                                                      state.pose.position - link.body->at.position);
+  return state;
+}
+
+double World::mass(LinkId link) const { return impl_->links.at(link).mass; }
+
+bool World::awake(LinkId link) const { return impl_->links.at(link).body->awake; }
+
+void World::wake(LinkId link) { impl_->wake(*impl_->links.at(link).body); }
+
+JointState World::joint(JointId id) const {
+  const Joint& joint = impl_->joint_at(id);
+  return {joint.position, joint_velocity(joint), joint.effort};
+}
+
+void World::add_force(JointId id, double force) {
+  Joint& joint = impl_->joint_at(id);
+  if (force == 0.0 || !has_axis(joint)) return;
+  impl_->wake_joint(joint);
+  push_joint(joint, force);
+}
+
+void World::set_motor(JointId id, double velocity, double max_force) {
+  Joint& joint = impl_->joint_at(id);
+  if (!has_axis(joint)) return;
+  const Axis& axis = joint.axes[0];
+  if (axis.velocity >= 0.0) velocity = std::clamp(velocity, -axis.velocity, axis.velocity);
+  if (axis.effort >= 0.0) max_force = std::min(max_force, axis.effort);
+  if (max_force <= 0.0) max_force = velocity = 0.0;
+  if (joint.motor_velocity == velocity && joint.motor_force == max_force) return;
+  joint.motor_velocity = velocity;
+  joint.motor_force = max_force;
+  apply_motor(joint);
+  impl_->wake_joint(joint);
+}
+
+void World::drive(LinkId id, const Vec3& velocity, double yaw_rate, double max_force) {
+  Body& body = *impl_->links.at(id).body;
+  if (!body.dynamic()) return;
+  if (set_drive(impl_->world.get(), body, velocity, yaw_rate, max_force)) impl_->wake(body);
+}
+
+void World::place(ModelId id, const Pose& pose) {
+  Impl& w = *impl_;
+  ModelRecord& model = *w.models.at(id);
+  w.contacts.drop(model, [&](Body& body) { w.wake(body); });
+  w.list_is_old = true;
+  w.settle(model, pose);
+  w.placed.insert(w.placed.end(), model.link_ids.begin(), model.link_ids.end());
+  w.moved.insert(w.moved.end(), model.link_ids.begin(), model.link_ids.end());
+  std::sort(w.moved.begin(), w.moved.end());
+  w.moved.erase(std::unique(w.moved.begin(), w.moved.end()), w.moved.end());
+}
+
+void World::step(std::int64_t tick) { impl_->take_step(tick); }
+
+const std::vector<LinkId>& World::moved() const { return impl_->moved; }
+
+const std::vector<ContactPair>& World::contacts() const {
+  if (impl_->list_is_old) impl_->listed = impl_->contacts.list();
+  impl_->list_is_old = false;
+  return impl_->listed;
+}
+
+std::uint64_t World::failed_steps() const { return impl_->failed; }
+
+std::size_t World::awake_count() const { return impl_->awake.size(); }
+
+}  // namespace angen::physics

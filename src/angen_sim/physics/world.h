@@ -16,7 +16,7 @@ using LinkId = Id<struct PhysicsLinkTag>;
 using JointId = Id<struct PhysicsJointTag>;
 
 struct LinkState {
-  Pose pose;  // of the link's frame (not its centre of mass)
+  Pose pose;                             // of the link's frame (not its centre of mass)
   Vec3 linear_velocity = Vec3::Zero();   // m/s at the link's origin
   Vec3 angular_velocity = Vec3::Zero();  // rad/s
 };
@@ -24,7 +24,8 @@ struct LinkState {
 struct JointState {
   double position = 0.0;  // rad or m, first axis
   double velocity = 0.0;
-  double effort = 0.0;  // N m or N along the axis that joint and motor gave the child in the last step
+  double effort =
+      0.0;  // N m or N along the axis that joint and motor gave the child in the last step
 };
 
 class World {
@@ -48,21 +49,24 @@ class World {
   void wake(LinkId link);
   JointState joint(JointId joint) const;
 
-  /// Force (prismatic, N) or torque (revolute, N m) for the next step only; wakes the child unless 0.
+  /// Force (prismatic, N) or torque (revolute, N m) for the next step only; wakes the child unless
+  /// 0.
   void add_force(JointId joint, double force);
 
-  /// A velocity-controlled motor with a force limit (N m or N), until changed; max_force 0 frees it.
-  /// Velocity 0 is a brake: bodies may fall asleep under it. Wakes bodies when it changes.
+  /// A velocity-controlled motor with a force limit (N m or N), until changed; max_force 0 frees
+  /// it. Velocity 0 is a brake: bodies may fall asleep under it. Wakes bodies when it changes.
   void set_motor(JointId joint, double velocity, double max_force);
 
-  /// Drives a link in the plane: horizontal velocity (m/s) and yaw rate (rad/s) held by a motor of at
-  /// most max_force (N, in any direction); z stays free. max_force 0 frees it. Wakes when it changes.
+  /// Drives a link in the plane: horizontal velocity (m/s) and yaw rate (rad/s) held by a motor of
+  /// at most max_force (N, in any direction); z stays free. max_force 0 frees it. Wakes when it
+  /// changes.
   void drive(LinkId link, const Vec3& velocity, double yaw_rate, double max_force);
 
   /// Moves a whole model so that its frame is at `pose`, velocities zero.
   void place(ModelId model, const Pose& pose);
 
-  /// Collides and integrates one step of settings.step. `tick` keys what randomness the solver needs.
+  /// Collides and integrates one step of settings.step. `tick` keys what randomness the solver
+  /// needs.
   void step(std::int64_t tick);
 
   /// Links whose pose changed in the last step (or place), in id order.

@@ -1,0 +1,351 @@
+#include "physics/build.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/diagnostics.h"
+#include "physics/joints.h"
+
+namespace angen::physics {
+
+namespace {
+
+using desc::Model;
+
+// So much inertia about x and y that no contact tilts a link that stays upright (kg m^2).
+constexpr double kUprightMoment = 1e8;
+constexpr double kNoLimit = 1e15;
+
+class Builder {
+ public:
+  Builder(dWorldID world, const Model& model, ShapeFactory& shapes, std::uint64_t& serial)
+      : world_(world), model_(model), shapes_(shapes), serial_(serial) {}
+
+  std::unique_ptr<ModelRecord> build() {
+    record_ = std::make_unique<ModelRecord>();
+    record_->name = model_.name;
+    record_->self_collide = model_.self_collide;
+    check_links();
+    group_links();
+    make_bodies();
+    make_geoms();
+    for (const desc::Joint& joint : model_.joints) make_joint(joint);
+    return std::move(record_);
+  }
+
+ private:
+  std::size_t root(std::size_t i) {
+    while (group_[i] != i) i = group_[i] = group_[group_[i]];
+    return i;
+  }
+
+  // The world counts as one link more.
+  std::size_t link_index(const std::string& name, const desc::Joint& joint) const {
+    if (name == "world") return model_.links.size();
+    std::vector<std::string> known;
+    for (std::size_t i = 0; i < model_.links.size(); ++i) {
+      if (model_.links[i].name == name) return i;
+      known.push_back(model_.links[i].name);
+    }
+    throw Error(joint.source, "joint \"" + model_.name + "::" + joint.name + "\" names no link \"" +
+                                  name + "\", known are " + join_names(known));
+  }
+
+  void check_links() const {
+    if (!model_.pose.finite()) {
+      throw Error(model_.source, "model \"" + model_.name + "\" has a pose that is not finite");
+    }
+    for (const desc::Link& link : model_.links) {
+      bool finite = link.pose.finite() && link.inertial.pose.finite();
+      for (const desc::Collision& c : link.collisions) finite = finite && c.pose.finite();
+      if (!finite) {
+        throw Error(link.source, "link \"" + model_.name + "::" + link.name +
+                                     "\" has a pose that is not finite");
+      }
+    }
+  }
+
+  void group_links() {
+    const std::size_t n = model_.links.size();
+    group_.resize(n + 1);
+    std::iota(group_.begin(), group_.end(), std::size_t{0});
+    // The smaller index stays the root, so that a body's frame has the axes of its first link.
+    const auto join = [this](std::size_t a, std::size_t b) {
+      a = root(a);
+      b = root(b);
+      group_[std::max(a, b)] = std::min(a, b);
+    };
+    for (const desc::Joint& joint : model_.joints) {
+      if (joint.type != desc::Joint::Type::kFixed) continue;
+      join(link_index(joint.parent, joint), link_index(joint.child, joint));
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      if (model_.is_static || model_.links[i].kinematic) join(i, n);
+    }
+  }
+
+  void make_bodies() {
+    const std::size_t n = model_.links.size();
+    body_of_.assign(n + 1, nullptr);
+    std::vector<Body*> of_root(n + 1, nullptr);
+    for (std::size_t i = 0; i <= n; ++i) {
+      Body*& body = of_root[root(i)];
+      if (body == nullptr) {
+        record_->bodies.push_back(std::make_unique<Body>());
+        body = record_->bodies.back().get();
+        body->model = record_.get();
+        body->serial = serial_++;
+        body->may_sleep = model_.allow_auto_disable;
+      }
+      body_of_[i] = body;
+    }
+    for (std::size_t i = 0; i <= n; ++i) {
+      if (of_root[i] != nullptr) make_body(*of_root[i], root(i));
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const desc::Link& link = model_.links[i];
+      Body& body = *body_of_[i];
+      const double mass = body.dynamic() ? link.inertial.mass : 0.0;
+      record_->links.push_back({&body, body.zero.inverse() * link.pose, mass});
+    }
+  }
+
+  void make_body(Body& body, std::size_t root_index) {
+    const std::size_t n = model_.links.size();
+    if (root_index < n) body.zero = model_.links[root_index].pose;
+    if (root(n) == root_index) return;
+    std::vector<const desc::Link*> links;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (body_of_[i] == &body) links.push_back(&model_.links[i]);
+    }
+    add_masses(body, links);
+    body.ode.reset(dBodyCreate(world_));
+    dBodySetFiniteRotationMode(body.ode.get(), 1);
+    for (const desc::Link* link : links) {
+      body.upright = body.upright || link->upright;
+      if (link->gravity) continue;
+      const Pose com = body.zero.inverse() * link->pose * link->inertial.pose;
+      body.weightless.push_back({com.position, link->inertial.mass});
+    }
+    if (body.weightless.size() == links.size()) {
+      dBodySetGravityMode(body.ode.get(), 0);
+      body.weightless.clear();
+    }
+  }
+
+  // Sums mass, centre and moment over the links, and puts the body's origin in the centre.
+  void add_masses(Body& body, const std::vector<const desc::Link*>& links) const {
+    Vec3 centre = Vec3::Zero();
+    for (const desc::Link* link : links) {
+      const double mass = link->inertial.mass;
+      if (!(std::isfinite(mass) && mass > 0.0)) {
+        throw Error(link->source, "link \"" + model_.name + "::" + link->name +
+                                      "\" has a mass of " + std::to_string(mass) +
+                                      " kg, it must be above 0");
+      }
+      body.mass += mass;
+      centre += mass * (link->pose * link->inertial.pose).position;
+    }
+    body.zero.position = centre / body.mass;
+    for (const desc::Link* link : links) {
+      const Pose com = body.zero.inverse() * link->pose * link->inertial.pose;
+      const Eigen::Matrix3d turn = com.rotation.toRotationMatrix();
+      const Vec3& d = com.position;
+      body.moment += turn * link->inertial.moment * turn.transpose();
+      body.moment +=
+          link->inertial.mass * (d.squaredNorm() * Eigen::Matrix3d::Identity() - d * d.transpose());
+    }
+    body.moment = 0.5 * (body.moment + body.moment.transpose()).eval();
+    const bool good =
+        body.moment.allFinite() &&
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(body.moment).eigenvalues().minCoeff() > 0.0;
+    if (!good) {
+      throw Error(links.front()->source, "link \"" + model_.name + "::" + links.front()->name +
+                                             "\" has an inertia that no body can have, its " +
+                                             "principal moments must be above 0");
+    }
+  }
+
+  void make_geoms() {
+    for (std::size_t i = 0; i < model_.links.size(); ++i) {
+      const desc::Link& link = model_.links[i];
+      const LinkRecord& at = record_->links[i];
+      for (const desc::Collision& collision : link.collisions) {
+        auto geom = shapes_.make(collision, model_.name + "::" + link.name + "::" + collision.name,
+                                 at.body->dynamic());
+        if (!geom) continue;
+        geom->serial = serial_++;
+        geom->body = at.body;
+        geom->in_body = at.in_body * collision.pose;
+        if (at.body->dynamic()) attach(*geom);
+        at.body->geoms.push_back(geom.get());
+        record_->geoms.push_back(std::move(geom));
+      }
+    }
+  }
+
+  static void attach(Geom& geom) {
+    const Vec3& p = geom.in_body.position;
+    const Quat& q = geom.in_body.rotation;
+    const dQuaternion turn{q.w(), q.x(), q.y(), q.z()};
+    dGeomSetBody(geom.ode.get(), geom.body->ode.get());
+    dGeomSetOffsetPosition(geom.ode.get(), p.x(), p.y(), p.z());
+    dGeomSetOffsetQuaternion(geom.ode.get(), turn);
+  }
+
+  void make_joint(const desc::Joint& from) {
+    auto joint = std::make_unique<Joint>();
+    joint->name = from.name;
+    joint->type = from.type;
+    joint->anchor = from.anchor;
+    check_axes(from);
+    Body* child = body_of_[link_index(from.child, from)];
+    Body* parent = body_of_[link_index(from.parent, from)];
+    const bool moves = child != parent && (child->dynamic() || parent->dynamic());
+    if (moves) {
+      joint->flipped = !child->dynamic();
+      joint->first = joint->flipped ? parent : child;
+      joint->second = joint->flipped ? child : parent;
+      joint->first->joints.push_back(joint.get());
+      joint->second->joints.push_back(joint.get());
+    }
+    for (const desc::JointAxis& axis : from.axes) {
+      joint->axes.push_back(make_axis(axis, joint->flipped));
+    }
+    create_joint(world_, *joint);
+    record_->joints.push_back(std::move(joint));
+  }
+
+  void check_axes(const desc::Joint& joint) const {
+    using Type = desc::Joint::Type;
+    const std::string what = "joint \"" + model_.name + "::" + joint.name + "\" ";
+    const std::size_t wanted = joint.type == Type::kUniversal ? 2
+                               : joint.type == Type::kRevolute || joint.type == Type::kPrismatic
+                                   ? 1
+                                   : 0;
+    if (joint.axes.size() < wanted) {
+      throw Error(joint.source, what + "has " + std::to_string(joint.axes.size()) +
+                                    " axes, it needs " + std::to_string(wanted));
+    }
+    if (!joint.anchor.allFinite()) throw Error(joint.source, what + "has no finite position");
+    for (std::size_t i = 0; i < wanted; ++i) {
+      const desc::JointAxis& axis = joint.axes[i];
+      if (!axis.xyz.allFinite() || axis.xyz.norm() < 1e-9) {
+        throw Error(joint.source, what + "has an axis without a direction");
+      }
+      if (!(axis.lower <= axis.upper)) {
+        throw Error(joint.source, what + "has a lower limit above its upper one");
+      }
+      if (!std::isfinite(axis.initial_position) || !(axis.damping >= 0.0) ||
+          !(axis.friction >= 0.0)) {
+        throw Error(joint.source, what +
+                                      "has a damping, friction or initial position that is "
+                                      "negative or no number");
+      }
+    }
+    if (joint.type != Type::kUniversal) return;
+    if (std::abs(joint.axes[0].xyz.normalized().dot(joint.axes[1].xyz.normalized())) > 0.999) {
+      throw Error(joint.source, what + "has two parallel axes, they must differ");
+    }
+  }
+
+  static Axis make_axis(const desc::JointAxis& from, bool flipped) {
+    Axis axis;
+    axis.in_model = (flipped ? -1.0 : 1.0) * from.xyz.normalized();
+    axis.lower = from.lower < -kNoLimit ? -dInfinity : from.lower;
+    axis.upper = from.upper > kNoLimit ? dInfinity : from.upper;
+    axis.effort = from.effort;
+    axis.velocity = from.velocity;
+    axis.damping = from.damping;
+    axis.friction = from.friction;
+    axis.initial = std::clamp(from.initial_position, axis.lower, axis.upper);
+    return axis;
+  }
+
+  dWorldID world_;
+  const Model& model_;
+  ShapeFactory& shapes_;
+  std::uint64_t& serial_;
+  std::unique_ptr<ModelRecord> record_;
+  std::vector<std::size_t> group_;  // of each link and, last, the world
+  std::vector<Body*> body_of_;
+};
+
+void set_mass(Body& body) {
+  Eigen::Matrix3d moment = body.moment;
+  if (body.upright) {
+    const Vec3 up = body.at.rotation.conjugate() * Vec3::UnitZ();
+    const double about_up = up.dot(moment * up);
+    moment = kUprightMoment * (Eigen::Matrix3d::Identity() - up * up.transpose()) +
+             about_up * up * up.transpose();
+  }
+  dMass mass;
+  dMassSetZero(&mass);
+  mass.mass = body.mass;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) mass.I[4 * row + column] = moment(row, column);
+  }
+  dBodySetMass(body.ode.get(), &mass);
+}
+
+void put(Body& body, const Pose& at) {
+  body.at = at;
+  if (!body.dynamic()) {
+    for (Geom* geom : body.geoms) place_static(*geom, at);
+    return;
+  }
+  ode::set_pose(body.ode.get(), at);
+  // What ODE keeps is the quaternion normalized once more.
+  body.at.rotation = ode::quat(dBodyGetQuaternion(body.ode.get()));
+}
+
+void put_at_rest(Body& body, const Pose& at) {
+  put(body, at);
+  if (!body.dynamic()) return;
+  dBodySetLinearVel(body.ode.get(), 0.0, 0.0, 0.0);
+  dBodySetAngularVel(body.ode.get(), 0.0, 0.0, 0.0);
+  dBodySetForce(body.ode.get(), 0.0, 0.0, 0.0);
+  dBodySetTorque(body.ode.get(), 0.0, 0.0, 0.0);
+  body.upright_at = body.at.rotation;
+  set_mass(body);
+}
+
+// Displaces what hangs on each joint by its initial position, from the roots outwards.
+void displace(ModelRecord& record) {
+  std::vector<std::pair<Body*, Pose>> queue;
+  std::vector<const Body*> seen;
+  for (const auto& body : record.bodies) {
+    const bool hangs = std::any_of(body->joints.begin(), body->joints.end(),
+                                   [&](const Joint* joint) { return joint->first == body.get(); });
+    if (!hangs) queue.emplace_back(body.get(), Pose{});
+  }
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    const auto [body, moved] = queue[i];
+    for (const Joint* joint : body->joints) {
+      if (joint->second != body || joint->first == body) continue;
+      if (std::find(seen.begin(), seen.end(), joint->first) != seen.end()) continue;
+      seen.push_back(joint->first);
+      queue.emplace_back(joint->first, moved * joint_displacement(*joint));
+    }
+    if (!(moved == Pose{})) put_at_rest(*body, record.pose * moved * body->zero);
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<ModelRecord> build_model(dWorldID world, const Model& model, ShapeFactory& shapes,
+                                         std::uint64_t& serial) {
+  return Builder(world, model, shapes, serial).build();
+}
+
+void configure(ModelRecord& record, const Pose& pose) {
+  record.pose = pose;
+  for (const auto& body : record.bodies) put_at_rest(*body, pose * body->zero);
+  for (const auto& joint : record.joints) anchor_joint(*joint, pose);
+  displace(record);
+  for (const auto& joint : record.joints) reset_joint(*joint);
+}
+
+}  // namespace angen::physics

@@ -1,0 +1,195 @@
+#include "physics/contacts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/time.h"
+#include "physics/reduce.h"
+
+namespace angen::physics {
+
+namespace {
+
+constexpr int kMostFound = 64;         // asked of ODE
+constexpr double kSoftest = 1e-8;      // least CFM of a contact: keeps redundant points solvable
+constexpr double kBounceSpeed = 0.05;  // m/s, nothing bounces below it
+constexpr double kStickMu = 1e6;       // from here on nothing slides
+
+bool joined(const Body& a, const Body& b) {
+  const Body& moving = a.dynamic() ? a : b;
+  const Body& other = a.dynamic() ? b : a;
+  return std::any_of(moving.joints.begin(), moving.joints.end(), [&](const Joint* joint) {
+    return joint->first == &other || joint->second == &other;
+  });
+}
+
+double usable_mu(double mu) { return mu >= kStickMu ? dInfinity : std::max(0.0, mu); }
+
+void set_friction(dContact& contact, const Geom& a, const Geom& b) {
+  dSurfaceParameters& s = contact.surface;
+  s.mode |= dContactApprox1;
+  s.mu = usable_mu(std::min(a.friction.mu, b.friction.mu));
+  s.mu2 = usable_mu(std::min(a.friction.mu2, b.friction.mu2));
+  if (s.mu2 != s.mu) s.mode |= dContactMu2;
+  s.slip1 = a.friction.slip1 + b.friction.slip1;
+  s.slip2 = a.friction.slip2 + b.friction.slip2;
+  if (s.slip1 > 0.0) s.mode |= dContactSlip1;
+  if (s.slip2 > 0.0) s.mode |= dContactSlip2;
+  const Geom& chooser = a.friction.direction1.isZero() ? b : a;
+  if (chooser.friction.direction1.isZero()) return;
+  const Vec3 normal = ode::vec(contact.geom.normal);
+  Vec3 along = chooser.body->at.rotation * (chooser.in_body.rotation * chooser.friction.direction1);
+  along -= normal.dot(along) * normal;
+  if (along.norm() < 1e-6) return;
+  along.normalize();
+  s.mode |= dContactFDir1;
+  for (int i = 0; i < 3; ++i) contact.fdir1[i] = along[i];
+}
+
+}  // namespace
+
+bool may_touch(const Geom& a, const Geom& b) {
+  const Body& one = *a.body;
+  const Body& two = *b.body;
+  if (&one == &two || (!one.dynamic() && !two.dynamic())) return false;
+  if (one.model != two.model) return true;
+  return one.model->self_collide && !joined(one, two);
+}
+
+Contacts::Contacts(dWorldID world, const desc::Physics& settings)
+    : world_(world),
+      step_(to_seconds(settings.step)),
+      erp_(settings.erp),
+      cfm_(std::max(settings.cfm, kSoftest)),
+      group_(dJointGroupCreate(0)) {}
+
+void Contacts::start() {
+  pairs_.clear();
+  found_.clear();
+  points_.clear();
+}
+
+bool Contacts::collide(Geom& a, Geom& b) {
+  Geom& first = a.serial < b.serial ? a : b;
+  Geom& second = a.serial < b.serial ? b : a;
+  std::array<dContactGeom, kMostFound> found;
+  const int n =
+      dCollide(first.ode.get(), second.ode.get(), kMostFound, found.data(), sizeof(dContactGeom));
+  if (n <= 0) return false;
+  const std::size_t kept = reduce_points(found.data(), static_cast<std::size_t>(n));
+  pairs_.push_back({&first, &second, found_.size(), kept});
+  found_.insert(found_.end(), found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept));
+  return true;
+}
+
+void Contacts::make_joints() {
+  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
+    return PairKey(a.first->serial, a.second->serial) < PairKey(b.first->serial, b.second->serial);
+  });
+  feedback_.assign(found_.size(), dJointFeedback{});
+  for (const Pair& pair : pairs_) {
+    for (std::size_t i = 0; i < pair.count; ++i) make_joint(pair, pair.begin + i);
+  }
+}
+
+void Contacts::make_joint(const Pair& pair, std::size_t index) {
+  const Geom& a = *pair.first;
+  const Geom& b = *pair.second;
+  dContact contact{};
+  contact.geom = found_[index];
+  dSurfaceParameters& s = contact.surface;
+  s.mode = dContactSoftERP | dContactSoftCFM;
+  s.soft_erp = erp_;
+  s.soft_cfm = cfm_;
+  set_friction(contact, a, b);
+  const double bounce = std::min(a.restitution, b.restitution);
+  if (bounce > 0.0) {
+    s.mode |= dContactBounce;
+    s.bounce = bounce;
+    s.bounce_vel = kBounceSpeed;
+  }
+  if (a.stiffness || b.stiffness) {
+    const double yield =
+        (a.stiffness ? 1.0 / *a.stiffness : 0.0) + (b.stiffness ? 1.0 / *b.stiffness : 0.0);
+    const double damping = a.damping.value_or(0.0) + b.damping.value_or(0.0);
+    s.soft_erp = step_ / (step_ + damping * yield);
+    s.soft_cfm = std::max(kSoftest, 1.0 / (step_ / yield + damping));
+  }
+  // ODE wants a moving body first, and the normal towards it.
+  dBodyID one = a.body->ode.get();
+  dBodyID two = b.body->ode.get();
+  if (one == nullptr) {
+    std::swap(one, two);
+    for (int i = 0; i < 3; ++i) contact.geom.normal[i] = -contact.geom.normal[i];
+  }
+  dJointID joint = dJointCreateContact(world_, group_.get(), &contact);
+  dJointAttach(joint, one, two);
+  dJointSetFeedback(joint, &feedback_[index]);
+}
+
+void Contacts::read_forces(const Pair& pair) {
+  const double sign = pair.first->body->dynamic() ? 1.0 : -1.0;
+  for (std::size_t i = pair.begin; i < pair.begin + pair.count; ++i) {
+    const dContactGeom& found = found_[i];
+    points_[i] = {ode::vec(found.pos), ode::vec(found.normal), found.depth,
+                  sign * ode::vec(feedback_[i].f1)};
+  }
+}
+
+void Contacts::finish() {
+  points_.resize(found_.size());
+  for (const Pair& pair : pairs_) read_forces(pair);
+  dJointGroupEmpty(group_.get());
+}
+
+void Contacts::put_to_rest() {
+  const auto asleep = [](const Pair& pair) {
+    return !pair.first->body->awake && !pair.second->body->awake;
+  };
+  for (const Pair& pair : pairs_) {
+    if (!asleep(pair)) continue;
+    const PairKey key{pair.first->serial, pair.second->serial};
+    const auto begin = points_.begin() + static_cast<std::ptrdiff_t>(pair.begin);
+    resting_[key] = {
+        pair.first, pair.second, {begin, begin + static_cast<std::ptrdiff_t>(pair.count)}};
+    for (Body* body : {pair.first->body, pair.second->body}) {
+      if (body->dynamic()) body->resting.push_back(key);
+    }
+  }
+  pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), asleep), pairs_.end());
+}
+
+void Contacts::forget(Body& body) {
+  for (const PairKey& key : body.resting) resting_.erase(key);
+  body.resting.clear();
+}
+
+void Contacts::drop_active(const ModelRecord& model) {
+  const auto gone = [&](const Pair& pair) {
+    return pair.first->body->model == &model || pair.second->body->model == &model;
+  };
+  pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), gone), pairs_.end());
+}
+
+std::vector<ContactPair> Contacts::list() const {
+  std::vector<ContactPair> all;
+  all.reserve(pairs_.size() + resting_.size());
+  auto sleeping = resting_.begin();
+  const auto take_sleeping = [&] {
+    const Resting& r = (sleeping++)->second;
+    all.push_back({r.first->name, r.second->name, r.points});
+  };
+  for (const Pair& pair : pairs_) {
+    const PairKey key{pair.first->serial, pair.second->serial};
+    while (sleeping != resting_.end() && sleeping->first < key) take_sleeping();
+    const auto begin = points_.begin() + static_cast<std::ptrdiff_t>(pair.begin);
+    all.push_back({pair.first->name,
+                   pair.second->name,
+                   {begin, begin + static_cast<std::ptrdiff_t>(pair.count)}});
+  }
+  while (sleeping != resting_.end()) take_sleeping();
+  return all;
+}
+
+}  // namespace angen::physics

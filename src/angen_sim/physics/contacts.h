@@ -1,0 +1,90 @@
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "core/contact.h"
+#include "physics/model.h"
+
+namespace angen::physics {
+
+/// True when two geoms are allowed to touch: not of one body, not both static, not joined, and of
+/// one model only if that collides with itself.
+bool may_touch(const Geom& a, const Geom& b);
+
+/// What touches now: pairs of awake bodies, made anew in each step, and pairs that fell asleep.
+class Contacts {
+ public:
+  struct Pair {
+    Geom* first = nullptr;  // the smaller serial
+    Geom* second = nullptr;
+    std::size_t begin = 0;  // in points
+    std::size_t count = 0;
+  };
+
+  Contacts(dWorldID world, const desc::Physics& settings);
+
+  /// Forgets the pairs of the last step.
+  void start();
+
+  /// Narrow phase; true when the geoms touch.
+  bool collide(Geom& a, Geom& b);
+
+  /// Sorts the pairs by serials and makes ODE's contact joints, in that order.
+  void make_joints();
+
+  /// Reads the forces of the step and takes the contact joints away.
+  void finish();
+
+  const std::vector<Pair>& active() const { return pairs_; }
+
+  /// Keeps those pairs of the last step whose bodies are all asleep now.
+  void put_to_rest();
+
+  /// Drops what a body kept while it slept.
+  void forget(Body& body);
+
+  /// Drops every pair of a model, and calls wake(Body&) for the sleeping bodies that it touched.
+  template <class F>
+  void drop(const ModelRecord& model, F&& wake) {
+    for (auto it = resting_.begin(); it != resting_.end();) {
+      const Resting& pair = it->second;
+      if (pair.first->body->model != &model && pair.second->body->model != &model) {
+        ++it;
+        continue;
+      }
+      for (Body* body : {pair.first->body, pair.second->body}) {
+        if (body->model != &model) wake(*body);
+      }
+      it = resting_.erase(it);
+    }
+    drop_active(model);
+  }
+
+  /// All pairs, by serials.
+  std::vector<ContactPair> list() const;
+
+ private:
+  struct Resting {
+    Geom* first = nullptr;
+    Geom* second = nullptr;
+    std::vector<ContactPoint> points;
+  };
+
+  void drop_active(const ModelRecord& model);
+  void make_joint(const Pair& pair, std::size_t index);
+  void read_forces(const Pair& pair);
+
+  dWorldID world_;
+  double step_;
+  double erp_;
+  double cfm_;
+  ode::JointGroupHandle group_;
+  std::vector<Pair> pairs_;
+  std::vector<dContactGeom> found_;
+  std::vector<ContactPoint> points_;
+  std::vector<dJointFeedback> feedback_;
+  std::map<PairKey, Resting> resting_;
+};
+
+}  // namespace angen::physics

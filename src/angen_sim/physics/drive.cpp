@@ -1,0 +1,76 @@
+#include "physics/drive.h"
+
+#include <cmath>
+
+namespace angen::physics {
+
+namespace {
+
+// Shares of the force along and across the way; their squares add up to just under 1.
+constexpr double kAlong = 0.95;
+constexpr double kAcross = 0.31;
+constexpr double kStanding = 0.707;
+constexpr double kArm = 0.25;  // m; the turning torque is the force on this arm
+
+void make_motors(dWorldID world, Body& body) {
+  Drive drive;
+  drive.linear.reset(dJointCreateLMotor(world, nullptr));
+  dJointAttach(drive.linear.get(), body.ode.get(), nullptr);
+  dJointSetLMotorNumAxes(drive.linear.get(), 2);
+  drive.angular.reset(dJointCreateAMotor(world, nullptr));
+  dJointAttach(drive.angular.get(), body.ode.get(), nullptr);
+  dJointSetAMotorNumAxes(drive.angular.get(), 1);
+  dJointSetAMotorAxis(drive.angular.get(), 0, 0, 0.0, 0.0, 1.0);
+  body.drive = std::move(drive);
+}
+
+void apply(Drive& drive) {
+  const double speed = drive.velocity.norm();
+  const bool walks = speed > 0.0;
+  const Vec3 along = walks ? Vec3(drive.velocity / speed) : Vec3(Vec3::UnitX());
+  const Vec3 across = Vec3::UnitZ().cross(along);
+  dJointID linear = drive.linear.get();
+  dJointSetLMotorAxis(linear, 0, 0, along.x(), along.y(), 0.0);
+  dJointSetLMotorAxis(linear, 1, 0, across.x(), across.y(), 0.0);
+  dJointSetLMotorParam(linear, dParamVel1, speed);
+  dJointSetLMotorParam(linear, dParamVel2, 0.0);
+  dJointSetLMotorParam(linear, dParamFMax1, (walks ? kAlong : kStanding) * drive.max_force);
+  dJointSetLMotorParam(linear, dParamFMax2, (walks ? kAcross : kStanding) * drive.max_force);
+  dJointSetAMotorParam(drive.angular.get(), dParamVel1, drive.yaw_rate);
+  dJointSetAMotorParam(drive.angular.get(), dParamFMax1, kArm * drive.max_force);
+}
+
+}  // namespace
+
+bool set_drive(dWorldID world, Body& body, const Vec3& velocity, double yaw_rate,
+               double max_force) {
+  const Vec3 flat(velocity.x(), velocity.y(), 0.0);
+  if (max_force <= 0.0) {
+    const bool had = body.drive.has_value();
+    body.drive.reset();
+    return had;
+  }
+  if (!body.drive) {
+    make_motors(world, body);
+  } else if (body.drive->velocity == flat && body.drive->yaw_rate == yaw_rate &&
+             body.drive->max_force == max_force) {
+    return false;
+  }
+  body.drive->velocity = flat;
+  body.drive->yaw_rate = yaw_rate;
+  body.drive->max_force = max_force;
+  apply(*body.drive);
+  return true;
+}
+
+void straighten(Body& body) {
+  dBodyID ode = body.ode.get();
+  const Quat turned = ode::quat(dBodyGetQuaternion(ode)) * body.upright_at.conjugate();
+  const double half_yaw = std::atan2(turned.z(), turned.w());
+  const Quat q = Quat(std::cos(half_yaw), 0.0, 0.0, std::sin(half_yaw)) * body.upright_at;
+  const dQuaternion straight{q.w(), q.x(), q.y(), q.z()};
+  dBodySetQuaternion(ode, straight);
+  dBodySetAngularVel(ode, 0.0, 0.0, body.spin().z());
+}
+
+}  // namespace angen::physics

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "physics/model.h"
+
+namespace angen::physics {
+
+/// Sets a body's motor in the plane; returns false when nothing changed. World::drive says the
+/// rest.
+bool set_drive(dWorldID world, Body& body, const Vec3& velocity, double yaw_rate, double max_force);
+
+/// Takes the tilt that rounding left out of an upright body, after a step.
+void straighten(Body& body);
+
+}  // namespace angen::physics

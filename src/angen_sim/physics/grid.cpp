@@ -1,0 +1,74 @@
+#include "physics/grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace angen::physics {
+
+namespace {
+
+constexpr double kCell = 2.0;      // m
+constexpr double kMost = 1 << 19;  // cells from the origin; what lies beyond is unbounded
+constexpr double kManyCells = 20000.0;
+
+bool cells_of(const Aabb& box, std::array<int, 6>& cells) {
+  double count = 1.0;
+  for (int i = 0; i < 3; ++i) {
+    const double first = std::floor(box.min[i] / kCell);
+    const double last = std::floor(box.max[i] / kCell);
+    if (!(first > -kMost && last < kMost)) return false;
+    count *= last - first + 1.0;
+    cells[2 * i] = static_cast<int>(first);
+    cells[2 * i + 1] = static_cast<int>(last);
+  }
+  return count <= kManyCells;
+}
+
+void take_out(std::vector<Geom*>& list, const Geom* geom) {
+  const auto it = std::find(list.begin(), list.end(), geom);
+  if (it == list.end()) return;
+  *it = list.back();
+  list.pop_back();
+}
+
+}  // namespace
+
+void Grid::update(Geom& geom) {
+  std::array<int, 6> cells{};
+  const bool bounded = cells_of(geom.box, cells);
+  if (geom.in_grid && geom.unbounded != bounded && (!bounded || cells == geom.cells)) return;
+  erase(geom);
+  geom.in_grid = true;
+  geom.unbounded = !bounded;
+  geom.cells = cells;
+  if (!bounded) {
+    unbounded_.push_back(&geom);
+    return;
+  }
+  for (int x = cells[0]; x <= cells[1]; ++x) {
+    for (int y = cells[2]; y <= cells[3]; ++y) {
+      for (int z = cells[4]; z <= cells[5]; ++z) cells_[key(x, y, z)].push_back(&geom);
+    }
+  }
+}
+
+void Grid::erase(Geom& geom) {
+  if (!geom.in_grid) return;
+  geom.in_grid = false;
+  if (geom.unbounded) {
+    take_out(unbounded_, &geom);
+    return;
+  }
+  const auto& c = geom.cells;
+  for (int x = c[0]; x <= c[1]; ++x) {
+    for (int y = c[2]; y <= c[3]; ++y) {
+      for (int z = c[4]; z <= c[5]; ++z) {
+        const auto cell = cells_.find(key(x, y, z));
+        take_out(cell->second, &geom);
+        if (cell->second.empty()) cells_.erase(cell);
+      }
+    }
+  }
+}
+
+}  // namespace angen::physics

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "physics/model.h"
+
+namespace angen::physics {
+
+/// Which geoms may touch: cubes of 2 m, and a list of those too large for them (planes). A query
+/// costs what is near, whatever the size of the world. Answers come in no particular order.
+class Grid {
+ public:
+  /// Files a geom by its box, anew when it has moved.
+  void update(Geom& geom);
+  void erase(Geom& geom);
+
+  /// Calls visit(Geom&) once for each other geom whose box overlaps that of `geom`.
+  template <class F>
+  void query(Geom& geom, F&& visit) {
+    ++query_;
+    geom.visited = query_;
+    const auto look = [&](Geom* other) {
+      if (other->visited == query_) return;
+      other->visited = query_;
+      if (geom.box.overlaps(other->box)) visit(*other);
+    };
+    for (Geom* other : unbounded_) look(other);
+    if (geom.unbounded) {
+      for (auto& [key, cell] : cells_) {
+        for (Geom* other : cell) look(other);
+      }
+      return;
+    }
+    const auto& c = geom.cells;
+    for (int x = c[0]; x <= c[1]; ++x) {
+      for (int y = c[2]; y <= c[3]; ++y) {
+        for (int z = c[4]; z <= c[5]; ++z) {
+          const auto cell = cells_.find(key(x, y, z));
+          if (cell == cells_.end()) continue;
+          for (Geom* other : cell->second) look(other);
+        }
+      }
+    }
+  }
+
+ private:
+  struct Spread {
+    std::size_t operator()(std::uint64_t k) const { return k * 0x9e3779b97f4a7c15ULL >> 16; }
+  };
+  static std::uint64_t key(int x, int y, int z) {
+    const auto part = [](int v) { return static_cast<std::uint64_t>(v + (1 << 20)) & 0x1fffff; };
+    return part(x) << 42 | part(y) << 21 | part(z);
+  }
+
+  std::unordered_map<std::uint64_t, std::vector<Geom*>, Spread> cells_;
+  std::vector<Geom*> unbounded_;
+  std::uint64_t query_ = 0;
+};
+
+}  // namespace angen::physics

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vector>
+
+#include "core/slots.h"
+#include "physics/contacts.h"
+#include "physics/grid.h"
+#include "physics/model.h"
+#include "physics/shapes.h"
+#include "physics/world.h"
+
+namespace angen::physics {
+
+/// What World is made of. Members are destroyed from the last to the first: the ODE world goes
+/// last.
+struct World::Impl {
+  Impl(const desc::Physics& settings, const Vec3& gravity, std::uint64_t seed);
+
+  void take_step(std::int64_t tick);
+  void wake(Body& body);
+  void wake_joint(const Joint& joint);
+  /// Wakes sleeping bodies whose boxes overlap those of a model that came, left or moved.
+  void wake_near(ModelRecord& model);
+  void settle(ModelRecord& model, const Pose& pose);
+  Joint& joint_at(JointId id) { return *joints.at(id); }
+
+  double h;  // s
+  desc::Physics settings;
+  Vec3 gravity;
+  std::uint64_t seed;
+  ode::WorldHandle world;
+  ShapeFactory shapes;
+  std::uint64_t serial = 0;
+  std::uint64_t steps = 0;
+  std::uint64_t failed = 0;
+  Slots<std::unique_ptr<ModelRecord>, PhysicsModelTag> models;
+  Slots<LinkRecord, PhysicsLinkTag> links;
+  Slots<Joint*, PhysicsJointTag> joints;
+  Grid grid;
+  Contacts contacts;
+  std::vector<Body*> awake;
+  std::vector<LinkId> moved;
+  std::vector<LinkId> placed;  // since the last step
+  std::vector<ContactPair> listed;
+  bool list_is_old = false;
+
+ private:
+  void collide();
+  void collide_body(Body& body);
+  void add_lift();
+  void integrate(std::int64_t tick);
+  void read_bodies();
+};
+
+}  // namespace angen::physics

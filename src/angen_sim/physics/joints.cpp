@@ -1,0 +1,267 @@
+#include "physics/joints.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace angen::physics {
+
+namespace {
+
+using Type = desc::Joint::Type;
+
+// Stops give a fifth of what went past them back in each step: a door comes to rest at its stop.
+constexpr double kStopErp = 0.2;
+constexpr double kStopCfm = 1e-9;
+
+dBodyID ode_of(const Body* body) { return body->ode.get(); }
+
+void set_param(const Joint& joint, int parameter, double value) {
+  switch (joint.type) {
+    case Type::kRevolute:
+      return dJointSetHingeParam(joint.main.get(), parameter, value);
+    case Type::kPrismatic:
+      return dJointSetSliderParam(joint.main.get(), parameter, value);
+    case Type::kUniversal:
+      return dJointSetUniversalParam(joint.main.get(), parameter, value);
+    default:
+      return;
+  }
+}
+
+void set_motor_param(const Joint& joint, int parameter, double value) {
+  switch (joint.type) {
+    case Type::kPrismatic:
+      return dJointSetLMotorParam(joint.motor.get(), parameter, value);
+    case Type::kUniversal:
+      return dJointSetUniversalParam(joint.main.get(), parameter, value);
+    default:
+      return dJointSetAMotorParam(joint.motor.get(), parameter, value);
+  }
+}
+
+void set_stops(const Joint& joint, const Axis& axis, int group) {
+  set_param(joint, dParamLoStop + group, axis.lower);
+  set_param(joint, dParamHiStop + group, axis.upper);
+  // Once more: a stop beyond the other one's old value may have been refused.
+  set_param(joint, dParamLoStop + group, axis.lower);
+  set_param(joint, dParamBounce + group, 0.0);
+  set_param(joint, dParamStopERP + group, kStopErp);
+  set_param(joint, dParamStopCFM + group, kStopCfm);
+}
+
+ode::JointHandle make_main(dWorldID world, Type type) {
+  switch (type) {
+    case Type::kRevolute:
+      return ode::JointHandle(dJointCreateHinge(world, nullptr));
+    case Type::kPrismatic:
+      return ode::JointHandle(dJointCreateSlider(world, nullptr));
+    case Type::kBall:
+      return ode::JointHandle(dJointCreateBall(world, nullptr));
+    default:
+      return ode::JointHandle(dJointCreateUniversal(world, nullptr));
+  }
+}
+
+// A damper is a motor of speed 0 whose row gives way by 1/d: implicit, so stable for any d.
+void set_damping(const Joint& joint) {
+  const double damping = joint.axes[0].damping;
+  if (damping <= 0.0) return;
+  const int group = dParamGroup2 - dParamGroup1;
+  set_motor_param(joint, dParamVel + group, 0.0);
+  set_motor_param(joint, dParamFMax + group, dInfinity);
+  set_motor_param(joint, dParamCFM + group, 1.0 / damping);
+}
+
+// Axes of a universal joint turn in its own two rows: SDF's first axis is fixed to the parent.
+int universal_group(const Joint& joint, std::size_t axis) {
+  const bool on_second = (axis == 0) != joint.flipped;
+  return on_second ? dParamGroup2 - dParamGroup1 : 0;
+}
+
+void make_universal_rows(Joint& joint) {
+  for (std::size_t i = 0; i < joint.axes.size(); ++i) {
+    const int group = universal_group(joint, i);
+    const Axis& axis = joint.axes[i];
+    set_stops(joint, axis, group);
+    if (axis.friction > 0.0) {
+      set_param(joint, dParamFMax + group, axis.friction);
+    } else if (axis.damping > 0.0) {
+      set_param(joint, dParamFMax + group, dInfinity);
+      set_param(joint, dParamCFM + group, 1.0 / axis.damping);
+    }
+  }
+}
+
+double read_angle(const Joint& joint) {
+  if (joint.type == Type::kRevolute) return dJointGetHingeAngle(joint.main.get());
+  return joint.flipped ? dJointGetUniversalAngle1(joint.main.get())
+                       : -dJointGetUniversalAngle2(joint.main.get());
+}
+
+// The body that the first axis is fixed to.
+const Body& axis_body(const Joint& joint) {
+  return joint.type == Type::kUniversal && !joint.flipped ? *joint.second : *joint.first;
+}
+
+Vec3 world_axis(const Joint& joint) { return axis_body(joint).at.rotation * joint.axis_in_body; }
+
+bool turns(const Joint& joint) {
+  return joint.type == Type::kRevolute || joint.type == Type::kUniversal;
+}
+
+}  // namespace
+
+void create_joint(dWorldID world, Joint& joint) {
+  if (joint.first == nullptr) return;
+  joint.main = make_main(world, joint.type);
+  dJointAttach(joint.main.get(), ode_of(joint.first), ode_of(joint.second));
+  dJointSetFeedback(joint.main.get(), &joint.main_feedback);
+  if (joint.type == Type::kRevolute) {
+    joint.motor.reset(dJointCreateAMotor(world, nullptr));
+    dJointSetAMotorNumAxes(joint.motor.get(), 2);
+  } else if (joint.type == Type::kPrismatic) {
+    joint.motor.reset(dJointCreateLMotor(world, nullptr));
+    dJointSetLMotorNumAxes(joint.motor.get(), 2);
+  } else if (joint.type == Type::kUniversal) {
+    make_universal_rows(joint);
+    return;
+  } else {
+    return;
+  }
+  dJointAttach(joint.motor.get(), ode_of(joint.first), ode_of(joint.second));
+  dJointSetFeedback(joint.motor.get(), &joint.motor_feedback);
+  set_stops(joint, joint.axes[0], 0);
+  set_damping(joint);
+  apply_motor(joint);
+}
+
+void anchor_joint(Joint& joint, const Pose& model) {
+  if (joint.first == nullptr) return;
+  const Vec3 anchor = model * joint.anchor;
+  const Pose to_first = joint.first->at.inverse();
+  joint.anchor_in_first = to_first * anchor;
+  dJointID main = joint.main.get();
+  if (joint.type == Type::kBall) {
+    dJointSetBallAnchor(main, anchor.x(), anchor.y(), anchor.z());
+    return;
+  }
+  const Vec3 axis = model.rotation * joint.axes[0].in_model;
+  joint.axis_in_body = axis_body(joint).at.rotation.conjugate() * axis;
+  if (joint.type == Type::kUniversal) {
+    const Vec3 other = model.rotation * joint.axes[1].in_model;
+    const Vec3& one = joint.flipped ? axis : other;
+    const Vec3& two = joint.flipped ? other : axis;
+    dJointSetUniversalAnchor(main, anchor.x(), anchor.y(), anchor.z());
+    dJointSetUniversalAxis1(main, one.x(), one.y(), one.z());
+    dJointSetUniversalAxis2(main, two.x(), two.y(), two.z());
+    return;
+  }
+  dJointID motor = joint.motor.get();
+  if (joint.type == Type::kRevolute) {
+    dJointSetHingeAnchor(main, anchor.x(), anchor.y(), anchor.z());
+    dJointSetHingeAxis(main, axis.x(), axis.y(), axis.z());
+    for (int row = 0; row < 2; ++row) {
+      dJointSetAMotorAxis(motor, row, 1, axis.x(), axis.y(), axis.z());
+    }
+  } else {
+    dJointSetSliderAxis(main, axis.x(), axis.y(), axis.z());
+    for (int row = 0; row < 2; ++row) {
+      dJointSetLMotorAxis(motor, row, 1, axis.x(), axis.y(), axis.z());
+    }
+  }
+}
+
+void reset_joint(Joint& joint) {
+  joint.effort = 0.0;
+  joint.turns = 0;
+  joint.position = 0.0;
+  if (joint.first == nullptr || joint.type == Type::kBall) return;
+  if (turns(joint)) {
+    joint.raw_angle = read_angle(joint);
+    const double initial = joint.type == Type::kRevolute ? joint.axes[0].initial : 0.0;
+    joint.turns = static_cast<int>(std::lround((initial - joint.raw_angle) / (2.0 * M_PI)));
+    joint.position = joint.raw_angle + 2.0 * M_PI * joint.turns;
+  } else {
+    joint.position = dJointGetSliderPosition(joint.main.get());
+  }
+}
+
+void apply_motor(Joint& joint) {
+  const bool on = joint.motor_force > 0.0;
+  const double velocity = on ? joint.motor_velocity : 0.0;
+  const double force = on ? joint.motor_force : joint.axes[0].friction;
+  const int group = joint.type == Type::kUniversal ? universal_group(joint, 0) : 0;
+  const double sign = group != 0 ? -1.0 : 1.0;
+  set_motor_param(joint, dParamVel + group, sign * velocity);
+  set_motor_param(joint, dParamFMax + group, force);
+}
+
+void update_joint(Joint& joint) {
+  if (joint.first == nullptr || joint.type == Type::kBall) return;
+  const Pose& at = joint.first->at;
+  const Vec3 axis = world_axis(joint);
+  const dJointFeedback& main = joint.main_feedback;
+  const dJointFeedback& motor = joint.motor_feedback;
+  if (turns(joint)) {
+    const double angle = read_angle(joint);
+    if (angle - joint.raw_angle > M_PI) --joint.turns;
+    if (angle - joint.raw_angle < -M_PI) ++joint.turns;
+    joint.raw_angle = angle;
+    joint.position = angle + 2.0 * M_PI * joint.turns;
+    const Vec3 arm = -(at.rotation * joint.anchor_in_first);
+    const Vec3 torque = ode::vec(main.t1) + arm.cross(ode::vec(main.f1)) + ode::vec(motor.t1);
+    joint.effort = axis.dot(torque);
+  } else {
+    joint.position = dJointGetSliderPosition(joint.main.get());
+    joint.effort = axis.dot(ode::vec(main.f1) + ode::vec(motor.f1));
+  }
+}
+
+double joint_velocity(const Joint& joint) {
+  if (joint.first == nullptr || joint.type == Type::kBall) return 0.0;
+  const Body& first = *joint.first;
+  const Body& second = *joint.second;
+  const Vec3 axis = world_axis(joint);
+  if (turns(joint)) return axis.dot(first.spin() - second.spin());
+  const Vec3 arm = first.at.position - second.at.position;
+  return axis.dot(first.velocity() - second.velocity() - second.spin().cross(arm));
+}
+
+void push_joint(Joint& joint, double force) {
+  const Axis& limits = joint.axes[0];
+  if (limits.effort >= 0.0) force = std::clamp(force, -limits.effort, limits.effort);
+  if (limits.velocity >= 0.0) {
+    const double speed = joint_velocity(joint);
+    if ((speed > limits.velocity && force > 0.0) || (speed < -limits.velocity && force < 0.0)) {
+      force = 0.0;
+    }
+  }
+  const Vec3 push = force * world_axis(joint);
+  dBodyID first = joint.first->ode.get();
+  dBodyID second = joint.second->ode.get();
+  if (joint.type == Type::kPrismatic) {
+    const Vec3& point = joint.first->at.position;
+    dBodyAddForce(first, push.x(), push.y(), push.z());
+    if (second != nullptr) {
+      dBodyAddForceAtPos(second, -push.x(), -push.y(), -push.z(), point.x(), point.y(), point.z());
+    }
+    return;
+  }
+  dBodyAddTorque(first, push.x(), push.y(), push.z());
+  if (second != nullptr) dBodyAddTorque(second, -push.x(), -push.y(), -push.z());
+}
+
+Pose joint_displacement(const Joint& joint) {
+  if (joint.first == nullptr || joint.axes.empty()) return {};
+  const Axis& axis = joint.axes[0];
+  Pose moved;
+  if (joint.type == Type::kPrismatic) {
+    moved.position = axis.initial * axis.in_model;
+  } else if (joint.type == Type::kRevolute) {
+    moved.rotation = Eigen::AngleAxisd(axis.initial, axis.in_model);
+    moved.position = joint.anchor - moved.rotation * joint.anchor;
+  }
+  return moved;
+}
+
+}  // namespace angen::physics

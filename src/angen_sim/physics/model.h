@@ -1,0 +1,158 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "desc/world.h"
+#include "physics/ode.h"
+#include "physics/world.h"
+
+/// What a model becomes: bodies (links fixed to each other), their geoms, and the joints between
+/// them.
+namespace angen::physics {
+
+struct Body;
+struct ModelRecord;
+
+/// Two geoms by their serials, the smaller first.
+using PairKey = std::pair<std::uint64_t, std::uint64_t>;
+
+/// An axis-aligned box in the world, metres.
+struct Aabb {
+  Vec3 min = Vec3::Zero();
+  Vec3 max = Vec3::Zero();
+
+  bool overlaps(const Aabb& o) const {
+    return (min.array() <= o.max.array()).all() && (o.min.array() <= max.array()).all();
+  }
+};
+
+/// Triangles as ODE wants them; keeps the vertices alive that ODE points to.
+struct MeshData {
+  std::shared_ptr<const TriangleMesh> mesh;
+  ode::MeshHandle data;
+};
+
+struct Geom {
+  std::string name;  // model::link::collision
+  std::uint64_t serial = 0;
+  Body* body = nullptr;
+  Pose in_body;
+  desc::Friction friction;
+  double restitution = 0.0;
+  std::optional<double> stiffness;
+  std::optional<double> damping;
+  std::shared_ptr<const MeshData> mesh;
+  ode::GeomHandle ode;
+  bool is_plane = false;
+  Aabb box;
+  std::array<int, 6> cells{};  // the grid's, first and last in x, y, z
+  bool in_grid = false;
+  bool unbounded = false;
+  std::uint64_t visited = 0;
+};
+
+/// One degree of freedom of a joint.
+struct Axis {
+  Vec3 in_model = Vec3::UnitZ();  // with all joints at 0, already turned for `flipped`
+  double lower = -dInfinity;
+  double upper = dInfinity;
+  double effort = -1.0;
+  double velocity = -1.0;
+  double damping = 0.0;
+  double friction = 0.0;
+  double initial = 0.0;
+};
+
+/// A joint between `first` (always dynamic) and `second`. When the description's child is static
+/// the two change places and the axes are negated: positions, speeds and efforts keep their signs.
+struct Joint {
+  std::string name;
+  desc::Joint::Type type = desc::Joint::Type::kFixed;
+  Body* first = nullptr;  // null when nothing can move: a fixed joint, or two static bodies
+  Body* second = nullptr;
+  bool flipped = false;
+  Vec3 anchor = Vec3::Zero();  // in the model's frame, all joints at 0
+  std::vector<Axis> axes;
+  ode::JointHandle main;   // the constraint with its stops
+  ode::JointHandle motor;  // first row: motor, brake or dry friction; second row: damping
+  dJointFeedback main_feedback{};
+  dJointFeedback motor_feedback{};
+  Vec3 axis_in_body = Vec3::UnitZ();  // the first body's; a universal joint's parent's
+  Vec3 anchor_in_first = Vec3::Zero();
+  double motor_velocity = 0.0;
+  double motor_force = 0.0;
+  double raw_angle = 0.0;  // in [-pi, pi]
+  int turns = 0;
+  double position = 0.0;
+  double effort = 0.0;
+};
+
+/// A motor on one body in the horizontal plane.
+struct Drive {
+  ode::JointHandle linear;
+  ode::JointHandle angular;
+  Vec3 velocity = Vec3::Zero();
+  double yaw_rate = 0.0;
+  double max_force = 0.0;
+};
+
+/// Part of a body that gravity leaves alone.
+struct Weightless {
+  Vec3 centre = Vec3::Zero();  // in the body's frame
+  double mass = 0.0;
+};
+
+/// One or more links that are fixed to each other. Its frame has the axes of its first link and its
+/// origin in the common centre of mass.
+struct Body {
+  ModelRecord* model = nullptr;
+  std::uint64_t serial = 0;
+  ode::BodyHandle ode;  // null: static
+  Pose zero;            // in the model's frame, all joints at 0
+  Pose at;              // in the world
+  double mass = 0.0;
+  Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();  // about the centre of mass, in its own axes
+  bool upright = false;
+  Quat upright_at = Quat::Identity();  // the rotation that yaw is counted from
+  bool may_sleep = true;
+  bool awake = false;
+  int idle_steps = 0;
+  std::uint64_t collided = 0;    // the last step in which its pairs were tested
+  std::uint32_t island = 0;      // scratch
+  std::vector<PairKey> resting;  // contacts kept since it fell asleep
+  std::vector<LinkId> links;
+  std::vector<Geom*> geoms;
+  std::vector<Joint*> joints;
+  std::vector<Weightless> weightless;
+  std::optional<Drive> drive;
+
+  bool dynamic() const { return ode != nullptr; }
+  Vec3 velocity() const { return ode ? ode::vec(dBodyGetLinearVel(ode.get())) : Vec3::Zero(); }
+  Vec3 spin() const { return ode ? ode::vec(dBodyGetAngularVel(ode.get())) : Vec3::Zero(); }
+};
+
+struct LinkRecord {
+  Body* body = nullptr;
+  Pose in_body;
+  double mass = 0.0;
+};
+
+struct ModelRecord {
+  std::string name;
+  Pose pose;
+  bool self_collide = false;
+  std::vector<LinkId> link_ids;
+  std::vector<JointId> joint_ids;
+  std::vector<LinkRecord> links;              // as in the description, until ids are given
+  std::vector<std::unique_ptr<Body>> bodies;  // destroyed after joints and geoms
+  std::vector<std::unique_ptr<Geom>> geoms;
+  std::vector<std::unique_ptr<Joint>> joints;  // as in the description
+};
+
+}  // namespace angen::physics

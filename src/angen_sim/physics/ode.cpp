@@ -1,0 +1,43 @@
+#include "physics/ode.h"
+
+#include <cstdarg>
+#include <cstdio>
+
+namespace angen::physics::ode {
+
+namespace {
+
+thread_local bool lcp_failed = false;
+
+void on_message(int number, const char* text, va_list arguments) {
+  if (number == d_ERR_LCP) {
+    lcp_failed = true;
+    return;
+  }
+  std::fputs("ODE: ", stderr);
+  std::vfprintf(stderr, text, arguments);
+  std::fputc('\n', stderr);
+}
+
+bool start() {
+  dInitODE2(0);
+  dSetMessageHandler(on_message);
+  return true;
+}
+
+}  // namespace
+
+void prepare_thread() {
+  static const bool started = start();
+  static_cast<void>(started);
+  thread_local const int allocated = dAllocateODEDataForThread(dAllocateMaskAll);
+  static_cast<void>(allocated);
+}
+
+bool take_lcp_failure() {
+  const bool failed = lcp_failed;
+  lcp_failed = false;
+  return failed;
+}
+
+}  // namespace angen::physics::ode

@@ -1,0 +1,128 @@
+#include "physics/shapes.h"
+
+#include <cmath>
+
+#include "core/diagnostics.h"
+
+namespace angen::physics {
+
+namespace {
+
+using Type = Shape::Type;
+
+void require_positive(double value, const char* what, const desc::Collision& collision,
+                      const std::string& name) {
+  if (std::isfinite(value) && value > 0.0) return;
+  throw Error(collision.source, "collision \"" + name + "\" has a " + what + " of " +
+                                    std::to_string(value) + " m, it must be above 0");
+}
+
+void require_size(const desc::Collision& collision, const std::string& name) {
+  const Shape& shape = collision.shape;
+  if (shape.type == Type::kBox) {
+    for (int i = 0; i < 3; ++i) require_positive(shape.size[i], "side", collision, name);
+  }
+  if (shape.type == Type::kSphere || shape.type == Type::kCylinder ||
+      shape.type == Type::kCapsule) {
+    require_positive(shape.radius, "radius", collision, name);
+  }
+  if (shape.type == Type::kCylinder || shape.type == Type::kCapsule) {
+    require_positive(shape.length, "length", collision, name);
+  }
+}
+
+dGeomID make_ode(const Shape& shape, const MeshData* mesh) {
+  switch (shape.type) {
+    case Type::kBox:
+      return dCreateBox(nullptr, shape.size.x(), shape.size.y(), shape.size.z());
+    case Type::kSphere:
+      return dCreateSphere(nullptr, shape.radius);
+    case Type::kCylinder:
+      return dCreateCylinder(nullptr, shape.radius, shape.length);
+    case Type::kCapsule:
+      return dCreateCapsule(nullptr, shape.radius, shape.length);
+    case Type::kPlane:
+      return dCreatePlane(nullptr, 0.0, 0.0, 1.0, 0.0);
+    default:
+      return dCreateTriMesh(nullptr, mesh->data.get(), nullptr, nullptr, nullptr);
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const MeshData> ShapeFactory::mesh_data(const desc::Collision& collision,
+                                                        const std::string& name) {
+  const std::shared_ptr<const TriangleMesh>& mesh = collision.shape.mesh;
+  if (!mesh || mesh->triangles.empty()) {
+    throw Error(collision.source, "collision \"" + name + "\" has a mesh without triangles");
+  }
+  for (const Eigen::Vector3f& v : mesh->vertices) {
+    if (!v.allFinite()) {
+      throw Error(collision.source, "collision \"" + name + "\" has a vertex that is not finite");
+    }
+  }
+  for (const auto& triangle : mesh->triangles) {
+    for (const std::uint32_t corner : triangle) {
+      if (corner >= mesh->vertices.size()) {
+        throw Error(collision.source, "collision \"" + name + "\" has a triangle with a corner " +
+                                          std::to_string(corner) + " of only " +
+                                          std::to_string(mesh->vertices.size()) + " vertices");
+      }
+    }
+  }
+  for (auto it = meshes_.begin(); it != meshes_.end();) {
+    it = it->second.expired() ? meshes_.erase(it) : std::next(it);
+  }
+  std::weak_ptr<const MeshData>& known = meshes_[mesh];
+  if (const auto shared = known.lock()) return shared;
+  auto data = std::make_shared<MeshData>();
+  data->mesh = mesh;
+  data->data.reset(dGeomTriMeshDataCreate());
+  dGeomTriMeshDataBuildSingle(data->data.get(), mesh->vertices.data(), sizeof(Eigen::Vector3f),
+                              static_cast<int>(mesh->vertices.size()), mesh->triangles.data(),
+                              static_cast<int>(3 * mesh->triangles.size()),
+                              sizeof(mesh->triangles[0]));
+  known = data;
+  return data;
+}
+
+std::unique_ptr<Geom> ShapeFactory::make(const desc::Collision& collision, const std::string& name,
+                                         bool dynamic) {
+  const Shape& shape = collision.shape;
+  if (shape.type == Type::kEmpty) return nullptr;
+  require_size(collision, name);
+  if (shape.type == Type::kPlane && dynamic) {
+    throw Error(collision.source,
+                "collision \"" + name + "\" is a plane on a link that moves, use a box");
+  }
+  auto geom = std::make_unique<Geom>();
+  geom->name = name;
+  geom->friction = collision.friction;
+  geom->restitution = collision.restitution;
+  geom->stiffness = collision.stiffness;
+  geom->damping = collision.damping;
+  geom->is_plane = shape.type == Type::kPlane;
+  if (shape.type == Type::kMesh) geom->mesh = mesh_data(collision, name);
+  geom->ode.reset(make_ode(shape, geom->mesh.get()));
+  dGeomSetData(geom->ode.get(), geom.get());
+  return geom;
+}
+
+void place_static(Geom& geom, const Pose& body) {
+  const Pose at = body * geom.in_body;
+  if (geom.is_plane) {
+    const Vec3 normal = at.rotation * Vec3::UnitZ();
+    dGeomPlaneSetParams(geom.ode.get(), normal.x(), normal.y(), normal.z(),
+                        normal.dot(at.position));
+  } else {
+    ode::set_pose(geom.ode.get(), at);
+  }
+}
+
+void update_box(Geom& geom) {
+  dReal b[6];
+  dGeomGetAABB(geom.ode.get(), b);
+  geom.box = {{b[0], b[2], b[4]}, {b[1], b[3], b[5]}};
+}
+
+}  // namespace angen::physics

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "physics/model.h"
+
+namespace angen::physics {
+
+/// Makes ODE geometries. Triangles are shared between shapes that share their mesh.
+class ShapeFactory {
+ public:
+  /// A geom of the collision's shape, not yet placed; null for an empty shape. Throws Error for a
+  /// size that is no size, a mesh without triangles, or a plane that could move.
+  std::unique_ptr<Geom> make(const desc::Collision& collision, const std::string& name,
+                             bool dynamic);
+
+ private:
+  std::shared_ptr<const MeshData> mesh_data(const desc::Collision& collision,
+                                            const std::string& name);
+
+  std::map<std::shared_ptr<const TriangleMesh>, std::weak_ptr<const MeshData>,
+           std::owner_less<std::shared_ptr<const TriangleMesh>>>
+      meshes_;
+};
+
+/// Puts a geom of a static body at `body * in_body`; those of dynamic bodies follow by themselves.
+void place_static(Geom& geom, const Pose& body);
+
+/// Reads the geom's box from ODE.
+void update_box(Geom& geom);
+
+}  // namespace angen::physics

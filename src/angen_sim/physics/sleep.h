@@ -1,0 +1,16 @@
+#pragma once
+
+#include "physics/contacts.h"
+#include "physics/model.h"
+
+namespace angen::physics {
+
+/// Wakes a body and starts its idle time anew. The body must be dynamic.
+void wake_body(Body& body, std::vector<Body*>& awake);
+
+/// Puts whole islands to sleep (bodies that touch or are jointed) when each of their bodies has
+/// been slower than 0.01 m/s and 0.01 rad/s for half a second and no motor turns. Takes them out of
+/// `awake`; returns true when something fell asleep. Must follow each step of h seconds.
+bool let_sleep(std::vector<Body*>& awake, const Contacts& contacts, double h);
+
+}  // namespace angen::physics

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "physics/model.h"
+
+namespace angen::physics {
+
+/// Integrates one step of h seconds. When `first_try` (dWorldStep unless a test says otherwise)
+/// fails, the awake bodies are put back to where they started and the step is taken by
+/// dWorldQuickStep, whose shuffling is seeded with (seed, tick). Bodies must be all that are
+/// enabled in the world. Returns false when the step had to be taken again.
+bool solve_step(dWorldID world, const std::vector<Body*>& awake, double h, std::uint64_t seed,
+                std::int64_t tick,
+                const std::function<void(dWorldID, double)>& first_try = dWorldStep);
+
+}  // namespace angen::physics

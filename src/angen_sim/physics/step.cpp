@@ -1,0 +1,103 @@
+#include <algorithm>
+
+#include "physics/drive.h"
+#include "physics/impl.h"
+#include "physics/joints.h"
+#include "physics/sleep.h"
+#include "physics/solver.h"
+
+namespace angen::physics {
+
+namespace {
+
+bool by_serial(const Body* a, const Body* b) { return a->serial < b->serial; }
+
+}  // namespace
+
+void World::Impl::take_step(std::int64_t tick) {
+  ode::prepare_thread();
+  ++steps;
+  moved.clear();
+  moved.swap(placed);
+  if (!awake.empty()) {
+    collide();
+    integrate(tick);
+    read_bodies();
+    if (let_sleep(awake, contacts, h)) contacts.put_to_rest();
+    list_is_old = true;
+  }
+  std::sort(moved.begin(), moved.end());
+  moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
+}
+
+// Whatever an awake body touches or is jointed to is awake too, and has its own pairs tested:
+// `awake` grows while it is gone through.
+void World::Impl::collide() {
+  contacts.start();
+  for (Body* body : awake) {
+    for (Geom* geom : body->geoms) {
+      update_box(*geom);
+      grid.update(*geom);
+    }
+  }
+  for (std::size_t i = 0; i < awake.size(); ++i) collide_body(*awake[i]);
+  std::sort(awake.begin(), awake.end(), by_serial);
+  contacts.make_joints();
+}
+
+void World::Impl::collide_body(Body& body) {
+  contacts.forget(body);
+  // Waking by contact keeps the idle time: a body that is only leant on falls asleep with its
+  // neighbour.
+  const auto wake_too = [this](Body& other) {
+    if (!other.dynamic() || other.awake) return;
+    const int idle = other.idle_steps;
+    wake_body(other, awake);
+    other.idle_steps = idle;
+  };
+  for (const Joint* joint : body.joints) {
+    wake_too(*joint->first);
+    wake_too(*joint->second);
+  }
+  for (Geom* geom : body.geoms) {
+    grid.query(*geom, [&](Geom& other) {
+      if (!may_touch(*geom, other) || other.body->collided == steps) return;
+      if (contacts.collide(*geom, other)) wake_too(*other.body);
+    });
+  }
+  body.collided = steps;
+}
+
+void World::Impl::add_lift() {
+  for (Body* body : awake) {
+    for (const Weightless& part : body->weightless) {
+      const Vec3 at = body->at * part.centre;
+      const Vec3 lift = -part.mass * gravity;
+      dBodyAddForceAtPos(body->ode.get(), lift.x(), lift.y(), lift.z(), at.x(), at.y(), at.z());
+    }
+  }
+}
+
+void World::Impl::integrate(std::int64_t tick) {
+  add_lift();
+  if (!solve_step(world.get(), awake, h, seed, tick)) ++failed;
+  contacts.finish();
+}
+
+void World::Impl::read_bodies() {
+  for (Body* body : awake) {
+    if (body->upright) straighten(*body);
+    const Pose at{ode::vec(dBodyGetPosition(body->ode.get())),
+                  ode::quat(dBodyGetQuaternion(body->ode.get()))};
+    if (at == body->at) continue;
+    body->at = at;
+    moved.insert(moved.end(), body->links.begin(), body->links.end());
+  }
+  for (Body* body : awake) {
+    for (Joint* joint : body->joints) {
+      if (joint->first == body) update_joint(*joint);
+    }
+  }
+}
+
+}  // namespace angen::physics

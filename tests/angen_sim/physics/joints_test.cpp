@@ -1,0 +1,253 @@
+#include <gtest/gtest.h>
+
+#include "models.h"
+
+namespace angen::physics::testing {
+namespace {
+
+using Type = desc::Joint::Type;
+
+constexpr double kStep = 1e-3;
+
+/// A point-like mass on an arm of length l below a hinge about y at the origin.
+desc::Model pendulum(double length, double initial) {
+  desc::Link bob = ghost_link("bob", 1.0, {1e-3, 1e-3, 1e-3}, {{0, 0, -length}, Quat::Identity()});
+  desc::Model model = model_of("pendulum", {bob});
+  model.joints = {joint_of(Type::kRevolute, "world", "bob", Vec3::UnitY())};
+  model.joints[0].axes[0].initial_position = initial;
+  return model;
+}
+
+/// Time of the n-th sign change of the position, interpolated.
+double crossing_time(TestWorld& world, JointId joint, int n) {
+  double last = world.joint(joint).position;
+  for (int i = 1;; ++i) {
+    world.run(kStep);
+    const double now = world.joint(joint).position;
+    if ((now < 0) != (last < 0) && --n == 0) return (i - 1 + last / (last - now)) * kStep;
+    last = now;
+    if (i > 100000) return -1.0;
+  }
+}
+
+TEST(Joints, PendulumOfSmallAmplitudeHasThePeriodOfTheLinearOne) {
+  TestWorld world;
+  const ModelId id = world.add(pendulum(1.0, 0.05));
+  const double half = crossing_time(world, world.joints(id)[0], 1);
+  const double period = crossing_time(world, world.joints(id)[0], 4) / 2.0;
+  EXPECT_NEAR(period, 2.0 * M_PI / std::sqrt(9.81) * (1.0 + 0.05 * 0.05 / 16.0), 1e-3);
+  EXPECT_NEAR(half, period / 4.0, 2e-3);
+}
+
+TEST(Joints, PendulumOfLargeAmplitudeHasTheEllipticPeriod) {
+  TestWorld world;
+  const double amplitude = 2.0;
+  const ModelId id = world.add(pendulum(1.0, amplitude));
+  crossing_time(world, world.joints(id)[0], 1);
+  const double period = crossing_time(world, world.joints(id)[0], 2);
+  const double exact = 4.0 / std::sqrt(9.81) * std::comp_ellint_1(std::sin(amplitude / 2.0));
+  EXPECT_NEAR(period, exact, 2e-3 * exact);
+}
+
+TEST(Joints, HingeThatMeetsItsStopRestsThere) {
+  TestWorld world;
+  const ModelId id = world.add(door_model("door"));
+  const JointId hinge = world.joints(id)[1];
+  for (int i = 0; i < 1500; ++i) {
+    world.add_force(hinge, -20.0);
+    world.run(kStep);
+    ASSERT_GT(world.joint(hinge).position, -1.57 - 0.003);
+  }
+  EXPECT_NEAR(world.joint(hinge).position, -1.57, 1e-4);
+  EXPECT_NEAR(world.joint(hinge).effort, 20.0, 0.01);
+  world.run(2.0);
+  EXPECT_FALSE(world.awake(world.links(id)[1]));
+}
+
+TEST(Joints, LinksThatAreFixedTogetherNeverPartTheirPoses) {
+  TestWorld world;
+  const ModelId id = world.add(door_model("door", {3, 4, 5}));
+  const Pose before =
+      world.link(world.links(id)[1]).pose.inverse() * world.link(world.links(id)[2]).pose;
+  for (int i = 0; i < 500; ++i) {
+    world.add_force(world.joints(id)[1], -30.0);
+    world.run(kStep);
+  }
+  const Pose after =
+      world.link(world.links(id)[1]).pose.inverse() * world.link(world.links(id)[2]).pose;
+  EXPECT_LT((before.position - after.position).norm(), 1e-12);
+  EXPECT_LT((before.rotation.coeffs() - after.rotation.coeffs()).norm(), 1e-12);
+  EXPECT_GT(std::abs(world.joint(world.joints(id)[1]).position), 0.1);
+}
+
+TEST(Joints, BrakeHoldsALoadWithoutMotionAndSleeps) {
+  TestWorld world;
+  desc::Link arm = ghost_link("arm", 50.0 / 9.81, {0.1, 0.1, 0.1}, {{1, 0, 0}, Quat::Identity()});
+  desc::Model model = model_of("crane", {arm});
+  model.joints = {joint_of(Type::kRevolute, "world", "arm", Vec3::UnitY())};
+  const ModelId id = world.add(model);
+  const JointId joint = world.joints(id)[0];
+  world.set_motor(joint, 0.0, 60.0);
+  world.run(0.4);
+  EXPECT_NEAR(world.joint(joint).effort, -50.0, 0.01);
+  world.run(2.0);
+  EXPECT_LT(std::abs(world.joint(joint).position), 1e-6);
+  EXPECT_FALSE(world.awake(world.links(id)[0]));
+  EXPECT_NEAR(world.joint(joint).effort, -50.0, 0.01);
+  world.set_motor(joint, 0.0, 40.0);
+  world.run(0.5);
+  // 10 N m too little: it goes down with 10 / (m r^2).
+  EXPECT_GT(world.joint(joint).position, 0.1);
+}
+
+TEST(Joints, DampingIsThatOfTheEquation) {
+  TestWorld world({}, Vec3::Zero());
+  desc::Model model = model_of("wheel", {ghost_link("w", 1.0, {0.2, 0.2, 0.2})});
+  model.joints = {joint_of(Type::kRevolute, "world", "w")};
+  const double inertia = 0.08 / 12.0;
+  model.joints[0].axes[0].damping = 2.0 * inertia;
+  const ModelId id = world.add(model);
+  const JointId joint = world.joints(id)[0];
+  world.add_force(joint, 10.0 * inertia / kStep);
+  world.run(kStep);
+  const double start = world.joint(joint).velocity;
+  EXPECT_NEAR(start, 10.0, 0.03);
+  world.run(1.0);
+  // Implicit Euler: (1 + 2 h)^-1000.
+  EXPECT_NEAR(world.joint(joint).velocity, start * std::pow(1.0 + 2.0 * kStep, -1000), 1e-4);
+  EXPECT_NEAR(world.joint(joint).position, start * (1.0 - std::exp(-2.0)) / 2.0, 0.02);
+}
+
+TEST(Joints, DampingOfAnySizeIsStable) {
+  TestWorld world({}, Vec3::Zero());
+  desc::Model model = model_of("wheel", {ghost_link("w", 0.01, {0.02, 0.02, 0.02})});
+  model.joints = {joint_of(Type::kRevolute, "world", "w")};
+  model.joints[0].axes[0].damping = 100.0;
+  const ModelId id = world.add(model);
+  for (int i = 0; i < 100; ++i) {
+    world.add_force(world.joints(id)[0], 1.0);
+    world.run(kStep);
+  }
+  EXPECT_NEAR(world.joint(world.joints(id)[0]).velocity, 0.01, 1e-6);
+}
+
+TEST(Joints, FrictionHoldsBelowItsTorqueAndSlipsAbove) {
+  TestWorld world({}, Vec3::Zero());
+  desc::Model model = model_of("wheel", {ghost_link("w", 1.0, {0.2, 0.2, 0.2})});
+  model.joints = {joint_of(Type::kRevolute, "world", "w")};
+  model.joints[0].axes[0].friction = 0.5;
+  const ModelId id = world.add(model);
+  const JointId joint = world.joints(id)[0];
+  for (int i = 0; i < 100; ++i) {
+    world.add_force(joint, 0.49);
+    world.run(kStep);
+  }
+  EXPECT_LT(std::abs(world.joint(joint).position), 1e-6);
+  for (int i = 0; i < 100; ++i) {
+    world.add_force(joint, 0.6);
+    world.run(kStep);
+  }
+  EXPECT_NEAR(world.joint(joint).velocity, 0.1 * 0.1 / (0.08 / 12.0), 1e-3);
+}
+
+TEST(Joints, MotorOfLimitedForceReachesItsSpeed) {
+  TestWorld world({}, Vec3::Zero());
+  desc::Model model = model_of("lift", {ghost_link("cabin", 10.0, {1, 1, 1})});
+  model.joints = {joint_of(Type::kPrismatic, "world", "cabin")};
+  const ModelId id = world.add(model);
+  const JointId joint = world.joints(id)[0];
+  world.set_motor(joint, 1.0, 20.0);
+  world.run(0.25);
+  EXPECT_NEAR(world.joint(joint).velocity, 0.5, 1e-6);
+  EXPECT_NEAR(world.joint(joint).effort, 20.0, 1e-6);
+  world.run(0.75);
+  EXPECT_NEAR(world.joint(joint).velocity, 1.0, 1e-6);
+  EXPECT_NEAR(world.joint(joint).position, 0.75, 0.005);
+}
+
+TEST(Joints, EffortOfALiftIsTheWeightThatItCarries) {
+  TestWorld world;
+  desc::Model model =
+      model_of("lift", {box_link("cabin", 10.0, {1, 1, 0.1}, {{0, 0, 1}, Quat::Identity()})});
+  model.joints = {joint_of(Type::kPrismatic, "world", "cabin")};
+  const ModelId id = world.add(model);
+  world.set_motor(world.joints(id)[0], 0.0, 1000.0);
+  world.add(box_model("load", 5.0, {0.2, 0.2, 0.2}, {0.3, 0, 1.15}));
+  world.run(2.0);
+  EXPECT_EQ(world.awake_count(), 0U);
+  EXPECT_NEAR(world.joint(world.joints(id)[0]).effort, 15.0 * 9.81, 0.5);
+}
+
+TEST(Joints, InitialPositionTakesDescendantsAlong) {
+  TestWorld world({}, Vec3::Zero());
+  desc::Model model =
+      model_of("arm",
+               {ghost_link("upper", 1.0, {0.1, 0.1, 0.1}, {{1, 0, 0}, Quat::Identity()}),
+                ghost_link("lower", 1.0, {0.1, 0.1, 0.1}, {{2, 0, 0}, Quat::Identity()})},
+               {{0, 0, 7}, Quat::Identity()});
+  model.joints = {joint_of(Type::kRevolute, "upper", "lower", Vec3::UnitZ(), {1.5, 0, 0}),
+                  joint_of(Type::kRevolute, "world", "upper")};
+  model.joints[0].axes[0].initial_position = M_PI / 2;
+  model.joints[1].axes[0].initial_position = M_PI / 2;
+  const ModelId id = world.add(model);
+  EXPECT_NEAR((world.link(world.links(id)[0]).pose.position - Vec3(0, 1, 7)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((world.link(world.links(id)[1]).pose.position - Vec3(-0.5, 1.5, 7)).norm(), 0.0,
+              1e-12);
+  EXPECT_NEAR(world.joint(world.joints(id)[0]).position, M_PI / 2, 1e-9);
+  EXPECT_NEAR(world.joint(world.joints(id)[1]).position, M_PI / 2, 1e-9);
+  world.run(1.0);
+  EXPECT_NEAR((world.link(world.links(id)[1]).pose.position - Vec3(-0.5, 1.5, 7)).norm(), 0.0,
+              1e-9);
+}
+
+/// Position and velocity have one sign, whoever of parent and child is static or moves.
+class JointSigns : public ::testing::TestWithParam<std::tuple<Type, int>> {};
+
+TEST_P(JointSigns, ForceMotorPositionAndEffortAgree) {
+  const auto [type, arrangement] = GetParam();
+  TestWorld world({}, Vec3::Zero());
+  desc::Model model =
+      model_of("m", {ghost_link("a", 1.0, {0.2, 0.2, 0.2}), ghost_link("b", 1.0, {0.2, 0.2, 0.2})});
+  const Vec3 axis = Vec3(1, 2, 3).normalized();
+  model.joints = {joint_of(type, "a", "b", axis)};
+  if (arrangement == 0) model.joints.push_back(joint_of(Type::kFixed, "world", "a"));
+  if (arrangement == 1) model.joints.push_back(joint_of(Type::kFixed, "world", "b"));
+  const ModelId id = world.add(model);
+  const JointId joint = world.joints(id)[0];
+  for (int i = 0; i < 10; ++i) {
+    world.add_force(joint, 0.1);
+    world.run(kStep);
+  }
+  EXPECT_GT(world.joint(joint).velocity, 0.0);
+  EXPECT_GT(world.joint(joint).position, 0.0);
+  const LinkState a = world.link(world.links(id)[0]);
+  const LinkState b = world.link(world.links(id)[1]);
+  const Vec3 apart = type == Type::kRevolute ? Vec3(b.angular_velocity - a.angular_velocity)
+                                             : Vec3(b.linear_velocity - a.linear_velocity);
+  EXPECT_NEAR(apart.dot(axis), world.joint(joint).velocity, 1e-9);
+  world.set_motor(joint, 0.5, 1.0);
+  world.run(kStep);
+  EXPECT_GT(world.joint(joint).effort, 0.0);
+  world.run(1.0);
+  EXPECT_NEAR(world.joint(joint).velocity, 0.5, 1e-6);
+  const double before = world.joint(joint).position;
+  world.run(1.0);
+  EXPECT_NEAR(world.joint(joint).position - before, 0.5, 1e-5);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, JointSigns,
+                         ::testing::Combine(::testing::Values(Type::kRevolute, Type::kPrismatic),
+                                            ::testing::Values(0, 1, 2)));
+
+TEST(Joints, WheelsCountTheirTurns) {
+  TestWorld world({}, Vec3::Zero());
+  desc::Model model = model_of("wheel", {ghost_link("w", 1.0, {0.2, 0.2, 0.2})});
+  model.joints = {joint_of(Type::kRevolute, "world", "w")};
+  const ModelId id = world.add(model);
+  world.set_motor(world.joints(id)[0], 20.0, 100.0);
+  world.run(2.0);
+  EXPECT_NEAR(world.joint(world.joints(id)[0]).position, 40.0, 0.05);
+}
+
+}  // namespace
+}  // namespace angen::physics::testing
