@@ -1,1 +1,67 @@
+#include "light/lighting.h"
 
+#include <algorithm>
+#include <optional>
+
+#include "light/paths.h"
+
+namespace angen::light {
+namespace {
+
+// Half of the colour range: about what a white wall returns at 200 lx.
+constexpr float kMiddleLuminance = 50.0F;  // cd/m^2
+
+const Transport* known(const Probe& probe, LampId lamp) {
+  const auto found = std::find_if(probe.transports.begin(), probe.transports.end(),
+                                  [&](const Transport& t) { return t.lamp == lamp; });
+  return found == probe.transports.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+Lighting::Lighting(const rays::Scene& scene) : scene_(scene) {}
+
+LampId Lighting::add(const Lamp& lamp, double level) {
+  ++lamps_revision_;
+  return lamps_.add({lamp, level});
+}
+
+void Lighting::remove(LampId lamp) {
+  lamps_.remove(lamp);
+  ++lamps_revision_;
+}
+
+void Lighting::set_level(LampId lamp, double level) { lamps_.at(lamp).level = level; }
+
+double Lighting::level(LampId lamp) const { return lamps_.at(lamp).level; }
+
+void Lighting::move(LampId lamp, const Pose& pose) {
+  Entry& entry = lamps_.at(lamp);
+  if (entry.lamp.pose == pose) return;
+  entry.lamp.pose = pose;
+  ++lamps_revision_;
+}
+
+Sample Lighting::measure(Probe& probe, const Pose& pose) const {
+  if (probe.pose != pose || probe.revision != scene_.revision() ||
+      probe.lamps_revision != lamps_revision_) {
+    probe = {pose, scene_.revision(), lamps_revision_, {}};
+  }
+  // A dark lamp's transport is left for when it is lit; each lamp's is independent of the others'.
+  std::optional<Paths> paths;
+  double illuminance = 0.0;
+  Eigen::Array3f radiance = Eigen::Array3f::Zero();
+  lamps_.each([&](LampId id, const Entry& entry) {
+    if (!(entry.level > 0.0)) return;
+    const Transport* sent = known(probe, id);
+    if (sent == nullptr) {
+      if (!paths) paths.emplace(scene_, pose);
+      sent = &probe.transports.emplace_back(paths->transport(id, entry.lamp));
+    }
+    illuminance += entry.level * sent->illuminance;
+    radiance += static_cast<float>(entry.level) * sent->radiance.array();
+  });
+  return {illuminance, (radiance / (radiance + kMiddleLuminance)).matrix()};
+}
+
+}  // namespace angen::light

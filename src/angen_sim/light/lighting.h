@@ -17,21 +17,21 @@ using LampId = Id<LampTag>;
 struct Lamp {
   enum class Type { kPoint, kSpot, kDirectional };
   Type type = Type::kPoint;
-  Pose pose;                                  // world; spots and directional ones shine along `direction`
-  Vec3 direction = -Vec3::UnitZ();            // unit, in its own frame
-  double luminous_flux = 800.0;               // lm at level 1 (point: isotropic); directional: lx
-  Eigen::Vector3f color{1.0F, 1.0F, 1.0F};    // linear r g b, scaled so that its luminance is 1
-  double radius = 0.05;                       // m, size of the luminous sphere
-  double inner_angle = 0.0;                   // rad, spot
-  double outer_angle = 0.0;                   // rad, spot
+  Pose pose;                        // world; spots and directional ones shine along `direction`
+  Vec3 direction = -Vec3::UnitZ();  // unit, in its own frame
+  double luminous_flux = 800.0;     // lm at level 1 (point: isotropic); directional: lx
+  Eigen::Vector3f color{1.0F, 1.0F, 1.0F};  // linear r g b, scaled so that its luminance is 1
+  double radius = 0.05;                     // m, size of the luminous sphere
+  double inner_angle = 0.0;                 // rad, spot
+  double outer_angle = 0.0;                 // rad, spot
   bool cast_shadows = true;
 };
 
 /// What one lamp at level 1 sends to one place.
 struct Transport {
   LampId lamp;
-  double illuminance = 0.0;                              // lx
-  Eigen::Vector3f radiance = Eigen::Vector3f::Zero();    // mean of a one-pixel view, r g b in cd/m^2
+  double illuminance = 0.0;                            // lx
+  Eigen::Vector3f radiance = Eigen::Vector3f::Zero();  // mean of a one-pixel view, r g b in cd/m^2
 };
 
 /// A place of measurement that remembers its transports while geometry stands still. A plain value,
@@ -44,8 +44,8 @@ struct Probe {
 };
 
 struct Sample {
-  double illuminance = 0.0;                           // lx on a plane through the point, normal x
-  Eigen::Vector3f color = Eigen::Vector3f::Zero();    // mean colour of the view, 0..1 (tone mapped)
+  double illuminance = 0.0;                         // lx on a plane through the point, normal x
+  Eigen::Vector3f color = Eigen::Vector3f::Zero();  // mean colour of the view, 0..1 (tone mapped)
 };
 
 class Lighting {
@@ -59,8 +59,8 @@ class Lighting {
   void move(LampId lamp, const Pose& pose);
 
   /// Illuminance at pose.position on the plane whose normal is pose's x axis, direct light with
-  /// shadows plus interreflection, and the mean colour seen along x in a field of view of 60 degrees.
-  /// The scene must be committed. Same scene, same lamps, same pose: same bits.
+  /// shadows plus interreflection, and the mean colour seen along x in a field of view of 60
+  /// degrees. The scene must be committed. Same scene, same lamps, same pose: same bits.
   Sample measure(Probe& probe, const Pose& pose) const;
 
  private:

@@ -1,0 +1,254 @@
+// What a measure does with rooms, shadows, switches and change.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "rooms.h"
+
+namespace angen::light::testing {
+namespace {
+
+/// A white room 4 x 4 x 2.6 m with a lamp below the ceiling and a sensor high on the wall x = 0.
+struct Room {
+  Room() {
+    add_room(scene, Vec3(0, 0, 0), Vec3(4, 4, 2.6), gray(0.7F));
+    scene.commit();
+    lamp = lighting.add(point_lamp(Vec3(2, 2, 2.2), 800.0), 1.0);
+  }
+  rays::Scene scene;
+  Lighting lighting{scene};
+  LampId lamp;
+  Pose sensor = facing(Vec3(0.05, 1.0, 2.0), Vec3::UnitX());
+};
+
+void expect_same_bits(const Sample& a, const Sample& b) {
+  EXPECT_EQ(a.illuminance, b.illuminance);
+  EXPECT_EQ(a.color, b.color);
+}
+
+TEST(Lighting, DarkWithoutLamps) {
+  Room room;
+  room.lighting.remove(room.lamp);
+  const Sample sample = measure(room.lighting, room.sensor);
+  EXPECT_EQ(sample.illuminance, 0.0);
+  EXPECT_EQ(sample.color, Eigen::Vector3f(0, 0, 0));
+}
+
+TEST(Lighting, DarkWhenSwitchedOff) {
+  Room room;
+  room.lighting.set_level(room.lamp, 0.0);
+  EXPECT_EQ(lux(room.lighting, room.sensor), 0.0);
+}
+
+TEST(Lighting, DimmingIsLinearToTheBit) {
+  Room room;
+  Probe probe;
+  const double full = room.lighting.measure(probe, room.sensor).illuminance;
+  ASSERT_GT(full, 10.0);
+  for (const double level : {0.5, 0.1, 0.37, 2.0}) {
+    room.lighting.set_level(room.lamp, level);
+    EXPECT_EQ(room.lighting.measure(probe, room.sensor).illuminance, level * full);
+  }
+}
+
+TEST(Lighting, ProbeRemembersWithTheSameBits) {
+  Room room;
+  const LampId other = room.lighting.add(point_lamp(Vec3(1, 3, 1), 300.0), 0.0);
+  Probe probe;
+  expect_same_bits(room.lighting.measure(probe, room.sensor), measure(room.lighting, room.sensor));
+  room.lighting.set_level(other, 0.6);
+  expect_same_bits(room.lighting.measure(probe, room.sensor), measure(room.lighting, room.sensor));
+  room.lighting.set_level(room.lamp, 0.0);
+  expect_same_bits(room.lighting.measure(probe, room.sensor), measure(room.lighting, room.sensor));
+}
+
+TEST(Lighting, OrderOfSwitchingLeavesNoTrace) {
+  Room first, second;
+  const LampId a = first.lighting.add(point_lamp(Vec3(1, 3, 1), 300.0), 1.0);
+  const LampId b = second.lighting.add(point_lamp(Vec3(1, 3, 1), 300.0), 1.0);
+  Probe probe_a, probe_b;
+  first.lighting.set_level(a, 0.0);
+  first.lighting.measure(probe_a, first.sensor);
+  second.lighting.set_level(second.lamp, 0.0);
+  second.lighting.measure(probe_b, second.sensor);
+  first.lighting.set_level(a, 1.0);
+  second.lighting.set_level(second.lamp, 1.0);
+  EXPECT_EQ(b, a);
+  expect_same_bits(first.lighting.measure(probe_a, first.sensor),
+                   second.lighting.measure(probe_b, second.sensor));
+}
+
+TEST(Lighting, ProbeFollowsEveryChange) {
+  Room room;
+  Probe probe;
+  const auto again = [&] {
+    const Sample sample = room.lighting.measure(probe, room.sensor);
+    expect_same_bits(sample, measure(room.lighting, room.sensor));
+    return sample.illuminance;
+  };
+  const double start = again();
+  const rays::ShapeId table =
+      add_box(room.scene, Vec3(2, 2, 0.7), Vec3(2, 2, 0.1), gray(0.1F), rays::Mobility::kMoving);
+  room.scene.commit();
+  const double with_table = again();
+  EXPECT_NE(with_table, start);
+  room.scene.move(table, {Vec3(1, 1, 0.7), Quat::Identity()});
+  room.scene.commit();
+  EXPECT_NE(again(), with_table);
+  room.scene.remove(table);
+  room.scene.commit();
+  EXPECT_EQ(again(), start);
+  room.lighting.move(room.lamp, {Vec3(1, 1, 2.2), Quat::Identity()});
+  EXPECT_NE(again(), start);
+  const LampId second = room.lighting.add(point_lamp(Vec3(3, 3, 1), 800.0), 1.0);
+  const double two = again();
+  room.lighting.remove(second);
+  EXPECT_LT(again(), two);
+  room.sensor.position.y() += 0.5;
+  again();
+}
+
+TEST(Lighting, LampsAddUp) {
+  Room room;
+  const double one = lux(room.lighting, room.sensor);
+  const LampId other = room.lighting.add(point_lamp(Vec3(3, 1, 1), 500.0), 1.0);
+  const double both = lux(room.lighting, room.sensor);
+  room.lighting.set_level(room.lamp, 0.0);
+  EXPECT_EQ(one + lux(room.lighting, room.sensor), both);
+  EXPECT_EQ(room.lighting.level(other), 1.0);
+}
+
+TEST(Lighting, StaleLampIsAnError) {
+  Room room;
+  room.lighting.remove(room.lamp);
+  EXPECT_THROW(room.lighting.set_level(room.lamp, 1.0), std::out_of_range);
+  EXPECT_THROW(room.lighting.level(room.lamp), std::out_of_range);
+}
+
+TEST(Lighting, ScreenBetweenLampAndSensorDarkens) {
+  Room room;
+  const double before = lux(room.lighting, room.sensor);
+  add_box(room.scene, Vec3(1.0, 1.5, 2.1), Vec3(0.02, 1, 0.6), gray(0.7F), rays::Mobility::kMoving);
+  room.scene.commit();
+  const double behind = lux(room.lighting, room.sensor);
+  EXPECT_LT(behind, 0.6 * before);
+  EXPECT_GT(behind, 0.0);
+}
+
+TEST(Lighting, ShadowHasASoftEdge) {
+  // A half-plane screen half way between lamp and point slides over the lamp's disc of 0.1 m.
+  rays::Scene scene;
+  const rays::ShapeId screen =
+      add_box(scene, Vec3(0, 0, 1), Vec3(4, 4, 0.01), gray(0.0F), rays::Mobility::kMoving);
+  Lighting lighting(scene);
+  lighting.add(point_lamp(Vec3(0, 0, 2), 4 * M_PI * 1000), 1.0);
+  double last = 0.0;
+  int between = 0;
+  for (int i = 0; i <= 40; ++i) {
+    const double edge = 0.04 * (i / 20.0 - 1);  // m, of the screen
+    scene.move(screen, {Vec3(edge + 2, 0, 1), Quat::Identity()});
+    scene.commit();
+    const double now = lux(lighting, facing(Vec3(0, 0, 0), Vec3::UnitZ()));
+    EXPECT_GE(now, last);
+    if (now > 0.0 && now < 249.0) ++between;
+    last = now;
+  }
+  EXPECT_NEAR(last, 250.0, 1e-6);
+  EXPECT_GT(between, 10);
+}
+
+TEST(Lighting, LampWithoutShadowsShinesThrough) {
+  rays::Scene scene;
+  add_box(scene, Vec3(0, 0, 1), Vec3(4, 4, 0.01), gray(0.0F));
+  scene.commit();
+  Lighting lighting(scene);
+  Lamp lamp = point_lamp(Vec3(0, 0, 2), 4 * M_PI * 1000);
+  lamp.cast_shadows = false;
+  lighting.add(lamp, 1.0);
+  EXPECT_NEAR(lux(lighting, facing(Vec3(0, 0, 0), Vec3::UnitZ())), 250.0, 1e-6);
+}
+
+TEST(Lighting, LampThatTouchesTheCeilingKeepsItsLight) {
+  rays::Scene scene;
+  add_box(scene, Vec3(0, 0, 2.06), Vec3(4, 4, 0.1), gray(0.0F));
+  scene.commit();
+  Lighting lighting(scene);
+  lighting.add(point_lamp(Vec3(0, 0, 2), 4 * M_PI * 1000), 1.0);
+  EXPECT_NEAR(lux(lighting, facing(Vec3(0, 0, 0), Vec3::UnitZ())), 250.0, 1e-6);
+}
+
+TEST(Lighting, RedWallTintsTheRoom) {
+  rays::Scene scene;
+  add_room(scene, Vec3(0, 0, 0), Vec3(4, 4, 2.6), gray(0.5F));
+  scene.commit();
+  Lighting lighting(scene);
+  lighting.add(point_lamp(Vec3(1, 2, 2.4), 800.0), 1.0);  // above the view
+  const Pose sensor = facing(Vec3(0.05, 2.0, 1.3), Vec3::UnitX());
+  const Sample plain = measure(lighting, sensor);
+  EXPECT_FLOAT_EQ(plain.color.x(), plain.color.y());
+  add_box(scene, Vec3(3.98, 2, 1.3), Vec3(0.04, 4, 2.6), Eigen::Vector3f(0.5F, 0.05F, 0.05F));
+  scene.commit();
+  const Sample tinted = measure(lighting, sensor);
+  EXPECT_GT(tinted.color.x(), 1.5F * tinted.color.y());
+  EXPECT_LT(tinted.illuminance, plain.illuminance);
+}
+
+TEST(Lighting, ColouredLampKeepsItsLux) {
+  Room room;
+  room.lighting.remove(room.lamp);
+  Lamp lamp = point_lamp(Vec3(2, 2, 2.2), 800.0);
+  const LampId white = room.lighting.add(lamp, 1.0);
+  const Sample plain = measure(room.lighting, room.sensor);
+  room.lighting.remove(white);
+  lamp.color = Eigen::Vector3f(2.0F, (1.0F - 2.0F * 0.2126F) / 0.7152F, 0.0F);  // luminance 1
+  room.lighting.add(lamp, 1.0);
+  const Sample warm = measure(room.lighting, room.sensor);
+  EXPECT_NEAR(warm.illuminance, plain.illuminance, 1e-4 * plain.illuminance);
+  EXPECT_GT(warm.color.x(), plain.color.x());
+  EXPECT_EQ(warm.color.z(), 0.0F);
+}
+
+/// Two rooms side by side with a doorway in the wall at x = 4 between them, and its door.
+struct TwoRooms {
+  TwoRooms() {
+    add_room(scene, Vec3(0, 0, 0), Vec3(8.1, 4, 2.6), gray(0.7F));
+    add_box(scene, Vec3(4.05, 0.75, 1.3), Vec3(0.1, 1.5, 2.6), gray(0.7F));
+    add_box(scene, Vec3(4.05, 3.2, 1.3), Vec3(0.1, 1.6, 2.6), gray(0.7F));
+    add_box(scene, Vec3(4.05, 1.95, 2.3), Vec3(0.1, 0.9, 0.6), gray(0.7F));
+    // As real doors do, it leaves gaps: 5 mm at the sides, 10 mm at the floor.
+    door = add_box(scene, Vec3(4.05, 1.95, 1.005), Vec3(0.04, 0.89, 1.99), gray(0.5F),
+                   rays::Mobility::kMoving);
+    scene.commit();
+    lighting.add(point_lamp(Vec3(2, 2, 2.2), 800.0), 1.0);
+  }
+  void open() {
+    // Turned by a quarter about its hinge, into the dark room.
+    scene.move(door, {Vec3(4.5, 1.5, 1.005), from_rpy(0, 0, M_PI / 2)});
+    scene.commit();
+  }
+  rays::Scene scene;
+  Lighting lighting{scene};
+  rays::ShapeId door;
+  Pose lit_sensor = facing(Vec3(0.05, 1.0, 2.0), Vec3::UnitX());
+  Pose dark_sensor = facing(Vec3(8.05, 1.0, 2.0), -Vec3::UnitX());
+};
+
+TEST(Lighting, ShutDoorKeepsTheNextRoomDark) {
+  const TwoRooms rooms;
+  EXPECT_GT(lux(rooms.lighting, rooms.lit_sensor), 20.0);
+  EXPECT_LT(lux(rooms.lighting, rooms.dark_sensor), 0.01 * lux(rooms.lighting, rooms.lit_sensor));
+}
+
+TEST(Lighting, OpenDoorLightsTheNextRoom) {
+  TwoRooms rooms;
+  const double shut = lux(rooms.lighting, rooms.dark_sensor);
+  rooms.open();
+  const double open = lux(rooms.lighting, rooms.dark_sensor);
+  EXPECT_GT(open, 2 * shut);
+  EXPECT_GT(open, 0.1);
+  EXPECT_LT(open, lux(rooms.lighting, rooms.lit_sensor));
+}
+
+}  // namespace
+}  // namespace angen::light::testing

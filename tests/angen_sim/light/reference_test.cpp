@@ -1,0 +1,160 @@
+// Illuminances that photometry has closed forms for.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "rooms.h"
+
+namespace angen::light::testing {
+namespace {
+
+constexpr double kThousandCandela = 4 * M_PI * 1000;  // lm, isotropic
+
+/// A lamp 2 m above the origin in empty space.
+struct Open {
+  explicit Open(const Lamp& lamp) {
+    scene.commit();
+    lighting.add(lamp, 1.0);
+  }
+  rays::Scene scene;
+  Lighting lighting{scene};
+};
+
+TEST(Reference, ThousandCandelaAtTwoMetres) {
+  const Open open(point_lamp(Vec3(0, 0, 2), kThousandCandela));
+  EXPECT_NEAR(lux(open.lighting, facing(Vec3(0, 0, 0), Vec3::UnitZ())), 250.0, 0.05);
+  EXPECT_NEAR(lux(open.lighting, facing(Vec3(1, 0, 0), Vec3::UnitZ())), 178.9, 0.05);
+  EXPECT_NEAR(lux(open.lighting, facing(Vec3(0, 2, 0), Vec3::UnitZ())), 88.39, 0.01);
+}
+
+TEST(Reference, InverseSquare) {
+  const Open open(point_lamp(Vec3(0, 0, 2), kThousandCandela));
+  for (const double distance : {0.1, 0.5, 1.0, 3.0, 10.0, 100.0}) {
+    const Pose below = facing(Vec3(0, 0, 2 - distance), Vec3::UnitZ());
+    EXPECT_NEAR(lux(open.lighting, below) * distance * distance, 1000.0, 1e-6) << distance;
+  }
+}
+
+TEST(Reference, WithinItsRadiusALampIsNoBrighterThanItsSurface) {
+  const Open open(point_lamp(Vec3(0, 0, 2), kThousandCandela));
+  EXPECT_NEAR(lux(open.lighting, facing(Vec3(0, 0, 1.99), Vec3::UnitZ())), 1000 / 0.0025, 1e-6);
+}
+
+TEST(Reference, CosineOfTheTilt) {
+  const Open open(point_lamp(Vec3(0, 0, 2), kThousandCandela));
+  for (int degrees = 0; degrees < 180; degrees += 15) {
+    const double tilt = degrees * M_PI / 180;
+    const Vec3 normal(std::sin(tilt), 0, std::cos(tilt));
+    const double expected = 250.0 * std::max(0.0, std::cos(tilt));
+    EXPECT_NEAR(lux(open.lighting, facing(Vec3(0, 0, 0), normal)), expected, 1e-9) << degrees;
+  }
+}
+
+TEST(Reference, SpotSpreadsItsFluxOverItsCone) {
+  Lamp spot = point_lamp(Vec3(0, 0, 2), 800.0);
+  spot.type = Lamp::Type::kSpot;
+  spot.inner_angle = spot.outer_angle = M_PI / 2;  // from side to side
+  const Open open(spot);
+  const double candela = 800.0 / (2 * M_PI * (1 - std::cos(M_PI / 4)));
+  EXPECT_NEAR(lux(open.lighting, facing(Vec3(0, 0, 0), Vec3::UnitZ())), candela / 4, 1e-9);
+  EXPECT_GT(lux(open.lighting, facing(Vec3(1.99, 0, 0), Vec3::UnitZ())), 0.0);
+  EXPECT_EQ(lux(open.lighting, facing(Vec3(2.01, 0, 0), Vec3::UnitZ())), 0.0);
+  EXPECT_EQ(lux(open.lighting, facing(Vec3(0, 0, 4), -Vec3::UnitZ())), 0.0);
+}
+
+TEST(Reference, SpotFluxIsTheIntegralOfItsSoftCone) {
+  Lamp spot = point_lamp(Vec3(0, 0, 2), 800.0);
+  spot.type = Lamp::Type::kSpot;
+  spot.inner_angle = 0.5;
+  spot.outer_angle = 1.5;
+  const Open open(spot);
+  double flux = 0.0;
+  constexpr int kRings = 4000;
+  const double outer = 1.05 * std::tan(0.75) * 2;  // m on the floor, beyond the cone
+  for (int i = 0; i < kRings; ++i) {
+    const double r = outer * (i + 0.5) / kRings;
+    flux +=
+        lux(open.lighting, facing(Vec3(r, 0, 0), Vec3::UnitZ())) * 2 * M_PI * r * outer / kRings;
+  }
+  EXPECT_NEAR(flux, 800.0, 0.5);
+}
+
+TEST(Reference, SunIsTheSameEverywhere) {
+  Lamp sun = point_lamp(Vec3(0, 0, 2), 1000.0);
+  sun.type = Lamp::Type::kDirectional;
+  sun.direction = Vec3(0, 3, -4) / 5;
+  const Open open(sun);
+  EXPECT_NEAR(lux(open.lighting, facing(Vec3(0, 0, 0), Vec3::UnitZ())), 800.0, 1e-9);
+  EXPECT_NEAR(lux(open.lighting, facing(Vec3(70, -80, 9), Vec3::UnitZ())), 800.0, 1e-9);
+  EXPECT_EQ(lux(open.lighting, facing(Vec3(0, 0, 0), -Vec3::UnitZ())), 0.0);
+}
+
+/// A closed cube of 4 m with 10,000 lm at its centre: direct and total, as means over a wall's
+/// points laid out evenly on all six walls.
+double mean_indirect(float albedo) {
+  rays::Scene scene;
+  add_room(scene, Vec3(-2, -2, -2), Vec3(2, 2, 2), gray(albedo));
+  scene.commit();
+  Lighting lighting(scene);
+  lighting.add(point_lamp(Vec3(0, 0, 0), 10000.0), 1.0);
+  constexpr int kSide = 8;
+  double sum = 0.0;
+  int count = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      for (int i = 0; i < kSide; ++i) {
+        for (int j = 0; j < kSide; ++j) {
+          Vec3 point;
+          point[axis] = side * (2 - 1e-3);
+          point[(axis + 1) % 3] = 4.0 * (i + 0.5) / kSide - 2;
+          point[(axis + 2) % 3] = 4.0 * (j + 0.5) / kSide - 2;
+          const double distance = point.norm();
+          const double direct =
+              10000.0 / (4 * M_PI) * std::abs(point[axis]) / std::pow(distance, 3);
+          sum += lux(lighting, facing(point, -side * Vec3::Unit(axis))) - direct;
+          ++count;
+        }
+      }
+    }
+  }
+  return sum / count;
+}
+
+TEST(Reference, ClosedCubeOfAlbedoHalf) { EXPECT_NEAR(mean_indirect(0.5F), 104.17, 0.05 * 104.17); }
+
+TEST(Reference, ClosedCubeOfHighAlbedo) {
+  EXPECT_NEAR(mean_indirect(0.8F), 416.7, 0.05 * 416.7);
+  EXPECT_NEAR(mean_indirect(0.9F), 937.5, 0.05 * 937.5);
+}
+
+TEST(Reference, ClosedCubeOfBlackHasNoIndirect) { EXPECT_NEAR(mean_indirect(0.0F), 0.0, 1e-6); }
+
+TEST(Reference, ViewOfAnEvenWallIsItsLuminance) {
+  // A wall so far from the lamp, and so large, that it is lit alike all over the view.
+  rays::Scene scene;
+  add_box(scene, Vec3(10.5, 0, 0), Vec3(1, 400, 400), gray(0.5F));
+  scene.commit();
+  Lighting lighting(scene);
+  Lamp sun = point_lamp(Vec3(0, 0, 0), 1000.0);
+  sun.type = Lamp::Type::kDirectional;
+  sun.direction = Vec3::UnitX();
+  lighting.add(sun, 1.0);
+  const Sample sample = measure(lighting, facing(Vec3(0, 0, 0), Vec3::UnitX()));
+  const double luminance = 1000 * 0.5 / M_PI;
+  EXPECT_NEAR(sample.color.x(), luminance / (luminance + 50), 1e-4);
+  EXPECT_NEAR(sample.illuminance, 1000 * 0.5, 0.03 * 500);  // the wall fills almost all it faces
+}
+
+TEST(Reference, ViewOfALampIsItsDiscsShareOfThePixel) {
+  const Open open(point_lamp(Vec3(4, 0, 0), kThousandCandela));
+  const Sample sample = measure(open.lighting, facing(Vec3(0, 0, 0), Vec3::UnitX()));
+  // 1000 cd 4 m away behind a square pixel of 60 degrees: its area is (2 tan 30)^2 at 1 m.
+  const double luminance = 1000.0 / 16 / (4.0 / 3);
+  EXPECT_NEAR(sample.color.x(), luminance / (luminance + 50), 1e-5);
+  const Sample beside = measure(open.lighting, facing(Vec3(0, 0, 0), Vec3(1, 1, 0)));
+  EXPECT_EQ(beside.color.x(), 0.0F);
+  EXPECT_GT(beside.illuminance, 0.0);
+}
+
+}  // namespace
+}  // namespace angen::light::testing
