@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -49,7 +50,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
   std::vector<std::pair<std::string, FakeLight>> lights;
   Names collisions;
   std::map<std::string, std::vector<ContactPair>> touching;  // by collision name
-  const light::Lighting* lighting = nullptr;
+  std::function<light::Sample(light::Probe&, const Pose&)> light_at;  // dark where not given
   std::vector<std::pair<std::string, std::string>> events;
 
   FakeJoint& joint_named(const std::string& name) { return joints[index(joints, name)].second; }
@@ -71,7 +72,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
     return found == touching.end() ? std::vector<ContactPair>{} : found->second;
   }
   light::Sample illuminance(light::Probe& probe, const Pose& pose) const override {
-    return lighting == nullptr ? light::Sample{} : lighting->measure(probe, pose);
+    return light_at ? light_at(probe, pose) : light::Sample{};
   }
 
   // Wiring

@@ -29,7 +29,8 @@ function(angen_plugin file)
   add_library(${file} MODULE ${ARGN})
   target_compile_options(${file} PRIVATE ${ANGEN_WARNINGS})
   target_link_libraries(${file} PRIVATE angen_plugin angen_class_loader)
-  # A function that is missing is found when the library is linked or loaded, not in the middle of a run.
-  target_link_options(${file} PRIVATE -Wl,-z,defs -Wl,-z,now)
+  # A function that is missing is found when the library is linked or loaded, not in the middle of a run; and a
+  # class is the library's own, also when another library has one of the same name.
+  target_link_options(${file} PRIVATE -Wl,-z,defs -Wl,-z,now -Wl,-Bsymbolic)
   install(TARGETS ${file} LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
 endfunction()

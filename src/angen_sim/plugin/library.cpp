@@ -35,23 +35,13 @@ class Silence {
   console_bridge::LogLevel level_;
 };
 
-// A plug-in and the library that its code is in; members go in reverse order.
-struct Kept {
-  std::shared_ptr<class_loader::ClassLoader> loader;
-  std::shared_ptr<Plugin> plugin;
-  ~Kept() {
-    const Silence silence;
-    plugin.reset();
-    loader.reset();
-  }
-};
-
-fs::path own_directory() {
+// The library that this code is in.
+fs::path own_library() {
   static const char here = 0;
   Dl_info info;
   if (dladdr(&here, &info) == 0 || info.dli_fname == nullptr) return {};
   std::error_code ignored;
-  return fs::weakly_canonical(info.dli_fname, ignored).parent_path();
+  return fs::weakly_canonical(info.dli_fname, ignored);
 }
 
 std::vector<fs::path> search_path() {
@@ -63,13 +53,14 @@ std::vector<fs::path> search_path() {
       if (!entry.empty()) directories.emplace_back(entry);
     }
   }
-  directories.push_back(own_directory());
+  directories.push_back(own_library().parent_path());
   return directories;
 }
 
 // True when the file's type names show a plug-in registered for angen::Plugin. Read, not loaded:
 // loading runs code, and a directory of libraries may hold anything.
 bool registers_plugins(const fs::path& file) {
+  if (file.filename() == own_library().filename()) return false;  // it holds the words searched for
   std::ifstream stream(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   return bytes.find("N12class_loader4impl10MetaObjectI") != std::string::npos &&
@@ -105,34 +96,42 @@ fs::path locate(const std::string& filename) {
               " (set ANGEN_PLUGIN_PATH for more)");
 }
 
-Plugins load(const fs::path& file) {
+// The library's plug-ins, which live as long as the process, and so does their code: devices and
+// sensors end after class_loader's own static objects where a static object holds them.
+Plugins load(const std::string& file) {
   const Silence silence;
   Plugins plugins;
   try {
-    const auto loader = std::make_shared<class_loader::ClassLoader>(file.string());
+    const auto loader = std::make_shared<class_loader::ClassLoader>(file);
     for (const std::string& type : loader->getAvailableClasses<Plugin>()) {
-      auto kept = std::make_shared<Kept>();
-      kept->loader = loader;
-      kept->plugin = loader->createInstance<Plugin>(type);
-      const Plugin* plugin = kept->plugin.get();
-      plugins.emplace_back(std::move(kept), plugin);
+      const std::shared_ptr<const Plugin> plugin = loader->createInstance<Plugin>(type);
+      plugins.emplace_back(plugin.get(), [loader, plugin](const Plugin*) {});
     }
   } catch (const std::exception& problem) {
-    throw Error("plug-in library " + file.string() +
-                " does not load: " + why_not_loadable(file.string(), problem.what()));
+    throw Error("plug-in library " + file +
+                " does not load: " + why_not_loadable(file, problem.what()));
   }
   if (plugins.empty()) {
-    throw Error("no Angen plug-in in " + file.string() +
+    throw Error("no Angen plug-in in " + file +
                 "; a plug-in library registers one with ANGEN_REGISTER_PLUGIN");
   }
+  dlopen(file.c_str(), RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);
   return plugins;
+}
+
+const Plugins& loaded(const std::string& file) {
+  static std::mutex mutex;
+  static auto* const all = new std::map<std::string, Plugins>;  // never destroyed, see load()
+  const std::lock_guard<std::mutex> lock(mutex);
+  const auto known = all->find(file);
+  return known != all->end() ? known->second : all->emplace(file, load(file)).first->second;
 }
 
 }  // namespace
 
 struct Catalog::Impl {
   std::mutex mutex;
-  std::map<std::string, Plugins> libraries;
+  std::map<std::string, Plugins> libraries;  // by the name that was asked for
 };
 
 Catalog::Catalog() : impl_(std::make_unique<Impl>()) {}
@@ -143,7 +142,7 @@ const Plugins& Catalog::library(const std::string& filename) {
   const auto known = impl_->libraries.find(filename);
   if (known != impl_->libraries.end()) return known->second;
   if (filename.empty()) throw Error("a plug-in has no filename, must be lib….so");
-  return impl_->libraries.emplace(filename, load(locate(filename))).first->second;
+  return impl_->libraries.emplace(filename, loaded(locate(filename))).first->second;
 }
 
 void Catalog::add(const std::string& filename, std::shared_ptr<const Plugin> plugin) {

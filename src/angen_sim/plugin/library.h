@@ -11,8 +11,8 @@ namespace angen {
 
 /// The plug-ins of every library that was asked for, by file name. Looked for on ANGEN_PLUGIN_PATH,
 /// GAZEBO_PLUGIN_PATH, then beside Angen's own libraries; a library of that name that holds no
-/// Angen plug-in (Gazebo's own, say) is passed over. A Plugin keeps its library loaded: whoever
-/// holds what it made must hold it, or the catalog, longer. Calls from several threads are safe.
+/// Angen plug-in (Gazebo's own, say) is passed over. A library once loaded stays so until the
+/// process ends: what it made may outlive the catalog. Calls from several threads are safe.
 class Catalog {
  public:
   Catalog();

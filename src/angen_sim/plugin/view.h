@@ -37,9 +37,13 @@ struct LinkView {
   Vec3 angular_velocity = Vec3::Zero();
   bool awake = false;
 };
+/// What a joint is like: where it stops, and what it takes to move it.
 struct JointLimits {
   double lower = 0.0;
   double upper = 0.0;
+  double damping = 0.0;   // N m s/rad or N s/m
+  double friction = 0.0;  // N m or N
+  double inertia = 0.0;   // kg m^2 about the axis, or kg: of the child and what is fixed to it
 };
 
 /// What a plug-in may see while the world runs. Times are the tick's, never the wall clock's.

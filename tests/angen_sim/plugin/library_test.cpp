@@ -1,0 +1,210 @@
+#include "plugin/library.h"
+
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "angen_sim/fakes.h"
+
+namespace angen {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Plug-in paths of a test's own, and a directory to put files in.
+class Library : public testing::Test {
+ protected:
+  void SetUp() override {
+    directory_ = fs::path(testing::TempDir()) / ("angen_library_" + std::to_string(::getpid()));
+    fs::create_directories(directory_);
+    unsetenv("GAZEBO_PLUGIN_PATH");
+    search(ANGEN_FIXTURES_DIR);
+  }
+  void TearDown() override { fs::remove_all(directory_); }
+
+  static void search(const std::string& path) { setenv("ANGEN_PLUGIN_PATH", path.c_str(), 1); }
+
+  std::string complaint(const std::string& filename) {
+    Catalog catalog;
+    try {
+      catalog.library(filename);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  fs::path directory_;
+};
+
+std::string twin_of(const Plugin& plugin) {
+  const auto sensor = plugin.make_sensor();
+  Reading reading;
+  Rng rng(1, 2, 3);
+  sensor->read(test::FakeWorld(), {}, rng, reading);
+  return reading.get<std::string>("twin");
+}
+
+TEST_F(Library, FindsAngensOwnBesideItsLibraries) {
+  unsetenv("ANGEN_PLUGIN_PATH");
+  Catalog catalog;
+  const auto& plugins = catalog.library("libpir_controller.so");
+  ASSERT_EQ(plugins.size(), 1U);
+  EXPECT_EQ(plugins[0]->kind(), "pir");
+  EXPECT_NE(plugins[0]->make_sensor(), nullptr);
+  EXPECT_EQ(plugins[0]->make_device(), nullptr);
+}
+
+TEST_F(Library, FindsAUsersOnEitherPath) {
+  for (const char* variable : {"ANGEN_PLUGIN_PATH", "GAZEBO_PLUGIN_PATH"}) {
+    unsetenv("ANGEN_PLUGIN_PATH");
+    unsetenv("GAZEBO_PLUGIN_PATH");
+    setenv(variable, ("/nowhere::" + std::string(ANGEN_FIXTURES_DIR)).c_str(), 1);
+    Catalog catalog;
+    EXPECT_EQ(catalog.library("libtwin_a.so").at(0)->kind(), "twin_a") << variable;
+  }
+}
+
+TEST_F(Library, TakesAPathAsItIs) {
+  unsetenv("ANGEN_PLUGIN_PATH");
+  Catalog catalog;
+  EXPECT_EQ(catalog.library(ANGEN_FIXTURES_DIR "/libtwin_a.so").at(0)->kind(), "twin_a");
+  EXPECT_EQ(complaint("/nowhere/libx.so"), "there is no plug-in library /nowhere/libx.so");
+}
+
+TEST_F(Library, AskedTwiceIsLoadedOnce) {
+  Catalog catalog;
+  EXPECT_EQ(&catalog.library("libtwin_a.so"), &catalog.library("libtwin_a.so"));
+}
+
+TEST_F(Library, ClassesOfTheSameNameDoNotMix) {
+  Catalog catalog;
+  const auto a = catalog.library("libtwin_a.so").at(0);
+  const auto b = catalog.library("libtwin_b.so").at(0);
+  EXPECT_EQ(twin_of(*a), "a");
+  EXPECT_EQ(twin_of(*b), "b");
+  Catalog second;
+  EXPECT_EQ(twin_of(*second.library("libtwin_a.so").at(0)), "a");
+}
+
+TEST_F(Library, APluginKeepsItsLibraryWhenTheCatalogIsGone) {
+  std::shared_ptr<const Plugin> plugin;
+  {
+    Catalog catalog;
+    plugin = catalog.library("libtwin_a.so").at(0);
+  }
+  EXPECT_EQ(twin_of(*plugin), "a");
+}
+
+TEST_F(Library, CatalogsMayComeAndGo) {
+  for (int i = 0; i < 50; ++i) {
+    Catalog catalog;
+    EXPECT_EQ(twin_of(*catalog.library("libtwin_b.so").at(0)), "b");
+  }
+}
+
+TEST_F(Library, NotFoundListsWhereItLooked) {
+  setenv("ANGEN_PLUGIN_PATH", "/one:/two", 1);
+  setenv("GAZEBO_PLUGIN_PATH", "/three", 1);
+  const std::string text = complaint("libnowhere.so");
+  EXPECT_EQ(text.find("plug-in library libnowhere.so is not found; searched /one, /two, /three, " +
+                      fs::canonical(ANGEN_PLUGIN_DIR).string()),
+            0U)
+      << text;
+}
+
+TEST_F(Library, WithoutAnAngenPluginSaysSo) {
+  EXPECT_NE(complaint("libempty.so").find("no Angen plug-in in"), std::string::npos);
+}
+
+TEST_F(Library, OfTheSameNameWithoutAngenPluginIsPassedOver) {
+  fs::copy_file(ANGEN_FIXTURES_DIR "/libempty.so", directory_ / "libtwin_a.so");
+  search(directory_.string() + ":" ANGEN_FIXTURES_DIR);
+  Catalog catalog;
+  EXPECT_EQ(catalog.library("libtwin_a.so").at(0)->kind(), "twin_a");
+}
+
+TEST_F(Library, NotLoadableGivesTheLoadersReason) {
+  EXPECT_NE(complaint("libunresolved.so").find("undefined symbol: _Z16missing_functionv"),
+            std::string::npos);
+  std::ofstream(directory_ / "libtext.so") << std::string(4096, 'x');
+  search(directory_);
+  const std::string text = complaint("libtext.so");
+  EXPECT_NE(text.find("does not load"), std::string::npos);
+  EXPECT_NE(text.find("invalid ELF header"), std::string::npos) << text;
+}
+
+TEST_F(Library, ListsThoseThatHoldPlugins) {
+  Catalog catalog;
+  const std::vector<std::string> names = catalog.available();
+  const auto has = [&](const char* name) {
+    return std::count(names.begin(), names.end(), name) == 1;
+  };
+  EXPECT_TRUE(has("libtwin_a.so"));
+  EXPECT_TRUE(has("libtwin_b.so"));
+  EXPECT_TRUE(has("libpir_controller.so"));
+  EXPECT_FALSE(has("libempty.so"));
+  EXPECT_FALSE(has("libangen_plugin.so"));
+  EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
+}
+
+TEST_F(Library, APluginOfThisProcessIsFoundByItsName) {
+  struct Local : Plugin {
+    std::string kind() const override { return "local"; }
+    std::string doc() const override { return ""; }
+  };
+  Catalog catalog;
+  catalog.add("local.py", std::make_shared<Local>());
+  EXPECT_EQ(catalog.library("local.py").at(0)->kind(), "local");
+}
+
+TEST_F(Library, DescribesEveryParameter) {
+  Catalog catalog;
+  const std::vector<PluginDoc> docs = describe(catalog);
+  const auto twin = std::find_if(docs.begin(), docs.end(),
+                                 [](const PluginDoc& doc) { return doc.kind == "twin_a"; });
+  ASSERT_NE(twin, docs.end());
+  ASSERT_FALSE(twin->params.empty());
+  EXPECT_EQ(twin->params[0].path, "parameter_a");
+  EXPECT_EQ(twin->params[0].unit, "m");
+  const auto pir = std::find_if(docs.begin(), docs.end(),
+                                [](const PluginDoc& doc) { return doc.kind == "pir"; });
+  ASSERT_NE(pir, docs.end());
+  std::vector<std::string> paths;
+  for (const ParamDoc& param : pir->params) paths.push_back(param.path);
+  for (const char* path :
+       {"threshold", "nod_period", "ray/range/max", "update_rate", "topicName"}) {
+    EXPECT_EQ(std::count(paths.begin(), paths.end(), path), 1) << path;
+  }
+}
+
+TEST_F(Library, DescribesWhatDoesNotLoadByItsReason) {
+  Catalog catalog;
+  bool found = false;
+  for (const PluginDoc& doc : describe(catalog)) {
+    if (doc.library != "libunresolved.so") continue;
+    found = true;
+    EXPECT_EQ(doc.kind, "");
+    EXPECT_NE(doc.doc.find("missing_function"), std::string::npos);
+  }
+  EXPECT_TRUE(found);
+}
+
+TEST_F(Library, AProcessThatStillHoldsLibrariesEndsWell) {
+  testing::GTEST_FLAG(death_test_style) = "threadsafe";
+  EXPECT_EXIT(
+      {
+        static Catalog catalog;
+        static const auto plugin = catalog.library("libtwin_a.so").at(0);
+        static const auto sensor = plugin->make_sensor();
+        std::exit(sensor == nullptr ? 1 : 0);
+      },
+      testing::ExitedWithCode(0), "^$");
+}
+
+}  // namespace
+}  // namespace angen
