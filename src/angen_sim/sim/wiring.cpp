@@ -28,6 +28,40 @@ int index_of(const List& list, const std::string& name) {
               join_names(known));
 }
 
+// Links on fixed joints move as one.
+std::vector<const desc::Link*> moving_with(const desc::Model& model, const std::string& link) {
+  std::set<std::string> together{link};
+  for (std::size_t before = 0; before != together.size();) {
+    before = together.size();
+    for (const desc::Joint& joint : model.joints) {
+      if (joint.type != desc::Joint::Type::kFixed) continue;
+      if (together.count(joint.parent) != 0) together.insert(joint.child);
+      if (together.count(joint.child) != 0) together.insert(joint.parent);
+    }
+  }
+  std::vector<const desc::Link*> links;
+  for (const desc::Link& l : model.links) {
+    if (together.count(l.name) != 0) links.push_back(&l);
+  }
+  return links;
+}
+
+// Of what a joint moves: kg m^2 about a revolute joint's axis, kg along a prismatic one's.
+double inertia(const desc::Model& model, const desc::Joint& joint) {
+  const bool turns = joint.type == desc::Joint::Type::kRevolute;
+  const Vec3& axis = joint.axes.front().xyz;
+  double sum = 0.0;
+  for (const desc::Link* link : moving_with(model, joint.child)) {
+    const desc::Inertial& inertial = link->inertial;
+    const Pose centre = link->pose * inertial.pose;
+    const Vec3 turned = centre.rotation.conjugate() * axis;
+    const Vec3 arm = axis.cross(centre.position - joint.anchor);
+    const double moment = turned.dot(inertial.moment * turned) + inertial.mass * arm.squaredNorm();
+    sum += turns ? moment : inertial.mass;
+  }
+  return sum;
+}
+
 }  // namespace
 
 ModelWiring::ModelWiring(const desc::Model& model, std::string name, const Vec3& gravity,
@@ -50,7 +84,8 @@ JointRef ModelWiring::joint(const std::string& joint) {
 JointLimits ModelWiring::limits(JointRef joint) const {
   const desc::Joint& described = model_.joints.at(static_cast<std::size_t>(joint.index));
   if (described.axes.empty()) return {};
-  return {described.axes.front().lower, described.axes.front().upper};
+  const desc::JointAxis& axis = described.axes.front();
+  return {axis.lower, axis.upper, axis.damping, axis.friction, inertia(model_, described)};
 }
 
 LinkRef ModelWiring::link(const std::string& link) {
@@ -63,21 +98,10 @@ std::string ModelWiring::child_of(JointRef joint) const {
   return model_.joints.at(static_cast<std::size_t>(joint.index)).child;
 }
 
-// Links on fixed joints move as one, so their masses count as one.
 double ModelWiring::mass(LinkRef link) const {
-  std::set<std::string> together{model_.links.at(static_cast<std::size_t>(link.index)).name};
-  for (std::size_t before = 0; before != together.size();) {
-    before = together.size();
-    for (const desc::Joint& joint : model_.joints) {
-      if (joint.type != desc::Joint::Type::kFixed) continue;
-      if (together.count(joint.parent) != 0) together.insert(joint.child);
-      if (together.count(joint.child) != 0) together.insert(joint.parent);
-    }
-  }
+  const std::string& name = model_.links.at(static_cast<std::size_t>(link.index)).name;
   double mass = 0.0;
-  for (const desc::Link& l : model_.links) {
-    if (together.count(l.name) != 0) mass += l.inertial.mass;
-  }
+  for (const desc::Link* l : moving_with(model_, name)) mass += l->inertial.mass;
   return mass;
 }
 

@@ -1,0 +1,48 @@
+#include "py/convert.h"
+
+#include "core/diagnostics.h"
+
+namespace angen::py {
+
+pyb::dict to_dict(const Reading& reading) {
+  pyb::dict all;
+  all["kind"] = reading.kind;
+  all["stamp"] = to_seconds(reading.stamp);
+  for (const auto& [name, value] : reading.fields) {
+    all[pyb::str(name)] =
+        std::visit([](const auto& v) { return pyb::object(pyb::cast(v)); }, value);
+  }
+  return all;
+}
+
+void from_dict(const pyb::dict& values, Reading& reading) {
+  for (const auto& [key, value] : values) {
+    const auto name = pyb::cast<std::string>(key);
+    if (pyb::isinstance<pyb::bool_>(value)) {
+      reading.set(name.c_str(), pyb::cast<bool>(value));
+    } else if (pyb::isinstance<pyb::int_>(value)) {
+      reading.set(name.c_str(), pyb::cast<std::int64_t>(value));
+    } else if (pyb::isinstance<pyb::float_>(value)) {
+      reading.set(name.c_str(), pyb::cast<double>(value));
+    } else if (pyb::isinstance<pyb::str>(value)) {
+      reading.set(name.c_str(), pyb::cast<std::string>(value));
+    } else {
+      reading.set(name.c_str(), pyb::cast<std::vector<double>>(value));
+    }
+  }
+}
+
+Pose to_pose(const std::vector<double>& xyzrpy) {
+  if (xyzrpy.size() != 6) throw Error("a pose has six numbers: x y z roll pitch yaw (m, rad)");
+  const Pose pose{{xyzrpy[0], xyzrpy[1], xyzrpy[2]}, from_rpy(xyzrpy[3], xyzrpy[4], xyzrpy[5])};
+  if (!pose.finite()) throw Error("a pose has six finite numbers");
+  return pose;
+}
+
+Eigen::Matrix<double, 1, 7> to_row(const Pose& pose) {
+  Eigen::Matrix<double, 1, 7> row;
+  row << pose.position.transpose(), pose.rotation.coeffs().transpose();
+  return row;
+}
+
+}  // namespace angen::py

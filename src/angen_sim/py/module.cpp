@@ -1,0 +1,246 @@
+// `import angen`: the simulator without ROS. SI units, radians, NumPy arrays.
+#include <pybind11/eval.h>
+
+#include <algorithm>
+
+#include "py/subclass.h"
+#include "py/world.h"
+
+namespace angen::py {
+
+namespace {
+
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>;
+
+std::shared_ptr<Catalog> catalog() {
+  static const auto the_catalog = std::make_shared<Catalog>();
+  return the_catalog;
+}
+
+template <class Entries>
+std::vector<std::string> names(const Entries& entries) {
+  std::vector<std::string> all;
+  for (const auto& entry : entries) all.push_back(entry.name);
+  return all;
+}
+
+template <class Entries>
+std::vector<std::string> names_of_kind(const Entries& entries, const std::string& kind) {
+  std::vector<std::string> all;
+  for (const auto& entry : entries) {
+    if (kind.empty() || entry.kind == kind) all.push_back(entry.name);
+  }
+  return all;
+}
+
+Rows link_poses(const World& world) {
+  const auto& poses = world.now().link_poses;
+  Rows rows(static_cast<Eigen::Index>(poses.size()), 7);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    rows.row(static_cast<Eigen::Index>(i)) = to_row(poses[i]);
+  }
+  return rows;
+}
+
+Eigen::VectorXd joint_positions(const World& world) {
+  const auto& positions = world.now().joint_positions;
+  Eigen::VectorXd all(static_cast<Eigen::Index>(positions.size()));
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    all[static_cast<Eigen::Index>(i)] = positions[i];
+  return all;
+}
+
+// Steps in slices so that Ctrl-C ends a long run.
+void run_interruptibly(World& world, std::uint64_t ticks) {
+  constexpr std::uint64_t kSlice = 1000;
+  while (ticks > 0) {
+    const std::uint64_t slice = std::min(ticks, kSlice);
+    {
+      const pyb::gil_scoped_release release;
+      world.step(slice);
+    }
+    ticks -= slice;
+    if (PyErr_CheckSignals() != 0) throw pyb::error_already_set();
+  }
+}
+
+void bind_world(pyb::module_& module) {
+  pyb::class_<World>(module, "World", "A world that runs when it is told to.")
+      .def(pyb::init([](const std::string& path, std::uint64_t seed) {
+             return std::make_unique<World>(path, seed, catalog());
+           }),
+           pyb::arg("path"), pyb::arg("seed") = 0, "Loads a world file (SDF).")
+      .def_static(
+          "from_text",
+          [](const std::string& text, std::uint64_t seed) {
+            return std::make_unique<World>(text, "<text>", seed, catalog());
+          },
+          pyb::arg("text"), pyb::arg("seed") = 0, "Loads a world from SDF text.")
+      .def("step", &run_interruptibly, pyb::arg("ticks") = 1, "Advances by ticks.")
+      .def(
+          "run", [](World& w, double seconds) { run_interruptibly(w, w.ticks_in(seconds)); },
+          pyb::arg("seconds"), "Advances by simulated seconds.")
+      .def("command", &World::command, pyb::arg("kind"), pyb::arg("name"), pyb::arg("text") = "",
+           pyb::arg("values") = std::vector<double>{},
+           "Commands a device, e.g. ('door', 'bathroom1', 'Open'); ('drive', 'turtlebot', "
+           "values=[0.3, 0.0]) in m/s and rad/s.")
+      .def("spawn", &World::spawn, pyb::arg("what"), pyb::arg("name") = "",
+           pyb::arg("pose") = std::vector<double>(6, 0.0), pyb::arg("on") = "",
+           "Adds a model (SDF text, path or model:// uri), or a <sensor> to the link `on`; pose is "
+           "x y z roll pitch yaw (m, rad).")
+      .def("delete", &World::remove, pyb::arg("name"))
+      .def("reset", &World::reset, "Everything back to its start, the time to 0.")
+      .def("save", &World::save, "The world as it stands, as SDF text.")
+      .def(
+          "sensor",
+          [](const World& w, const std::string& kind, const std::string& name) {
+            return to_dict(w.sensor(kind, name));
+          },
+          "The latest reading of a sensor, as a dict.")
+      .def(
+          "device",
+          [](const World& w, const std::string& kind, const std::string& name) {
+            return to_dict(w.device(kind, name));
+          },
+          "The latest state of a device, as a dict.")
+      .def(
+          "sensors",
+          [](const World& w, const std::string& kind) {
+            return names_of_kind(w.now().structure->sensors, kind);
+          },
+          pyb::arg("kind") = "")
+      .def(
+          "devices",
+          [](const World& w, const std::string& kind) {
+            return names_of_kind(w.now().structure->devices, kind);
+          },
+          pyb::arg("kind") = "")
+      .def_property_readonly(
+          "time", [](const World& w) { return to_seconds(w.now().time); }, "s")
+      .def_property_readonly("tick", [](const World& w) { return w.now().tick; })
+      .def_property_readonly("models",
+                             [](const World& w) {
+                               std::vector<std::string> all;
+                               for (const auto& model : w.now().structure->models)
+                                 all.push_back(model->name);
+                               return all;
+                             })
+      .def_property_readonly(
+          "links", [](const World& w) { return names(w.now().structure->links); },
+          "model::link, in the order of link_poses' rows")
+      .def_property_readonly("joints",
+                             [](const World& w) { return names(w.now().structure->joints); })
+      .def_property_readonly("lights",
+                             [](const World& w) { return names(w.now().structure->lights); })
+      .def_property_readonly("link_poses", &link_poses,
+                             "(links, 7): x y z qx qy qz qw, world frame")
+      .def_property_readonly("joint_positions", &joint_positions, "(joints,): rad or m")
+      .def_property_readonly(
+          "light_levels", [](const World& w) { return *w.now().light_levels; },
+          "0..1, in the order of lights")
+      .def_property_readonly("awake_bodies",
+                             [](const World& w) { return w.now().counts.awake_bodies; })
+      .def_property_readonly("failed_steps",
+                             [](const World& w) { return w.now().counts.failed_steps; })
+      .def_property_readonly("readings", [](const World& w) { return w.now().counts.readings; })
+      .def_property_readonly("fingerprint", &World::fingerprint,
+                             "a hash of every snapshot since the start or the last reset")
+      .def(
+          "events",
+          [](World& w) {
+            std::vector<pyb::tuple> all;
+            for (const sim::Event& e : w.take_events()) {
+              all.push_back(
+                  pyb::make_tuple(to_seconds(e.stamp), e.source, e.kind, e.event, e.detail));
+            }
+            return all;
+          },
+          "What happened since the last call: (time, source, kind, event, detail).");
+}
+
+// Pure-Python bases with answers that do nothing, to be overridden.
+void bind_bases(pyb::module_& module) {
+  pyb::exec(R"(
+class Sensor:
+    """A sensor in Python. Override configure(params, wiring), aim(view) -> (n, 8) rows of origin,
+    direction, min, max (m, world frame) or None, and read(view, ranges, rng) -> dict."""
+
+    rate = 10.0
+    sample_period = 0.0
+
+    def configure(self, params, wiring):
+        pass
+
+    def aim(self, view):
+        return None
+
+    def read(self, view, ranges, rng):
+        raise NotImplementedError('a sensor has to read')
+
+
+class Device:
+    """A device in Python. Override serves(model, joints, lights) -> bool (static), configure(params,
+    wiring), command(text, values, view) -> None or a reason to reject, update(view, outputs) and
+    report(view) -> dict."""
+
+    @staticmethod
+    def serves(model, joints, lights):
+        return True
+
+    def configure(self, params, wiring):
+        pass
+
+    def command(self, text, values, view):
+        return 'takes no commands'
+
+    def update(self, view, outputs):
+        pass
+
+    def report(self, view):
+        return {}
+)",
+            module.attr("__dict__"));
+}
+
+void bind_catalog(pyb::module_& module) {
+  module.def(
+      "register",
+      [](const std::string& filename, const std::string& kind, const pyb::object& type) {
+        const bool sensor =
+            PyObject_IsSubclass(type.ptr(), pyb::module_::import("angen").attr("Sensor").ptr()) ==
+            1;
+        catalog()->add(filename, sensor ? python_sensor(kind, type) : python_device(kind, type));
+      },
+      pyb::arg("filename"), pyb::arg("kind"), pyb::arg("type"),
+      "Makes a Python subclass of Sensor or Device a plug-in: <plugin filename=\"FILENAME\">.");
+  module.def(
+      "plugins",
+      [] {
+        pyb::list all;
+        for (const PluginDoc& plugin : describe(*catalog())) {
+          pyb::list params;
+          for (const ParamDoc& p : plugin.params) {
+            params.append(pyb::dict(pyb::arg("path") = p.path, pyb::arg("type") = p.type,
+                                    pyb::arg("default") = p.fallback, pyb::arg("unit") = p.unit,
+                                    pyb::arg("doc") = p.doc));
+          }
+          all.append(pyb::dict(pyb::arg("library") = plugin.library, pyb::arg("kind") = plugin.kind,
+                               pyb::arg("doc") = plugin.doc, pyb::arg("params") = params));
+        }
+        return all;
+      },
+      "Every plug-in on the path: library, kind, doc, params.");
+}
+
+}  // namespace
+
+PYBIND11_MODULE(angen, module) {
+  module.doc() = "Angen: a smart apartment building with robots and people in it.";
+  pyb::register_exception<Error>(module, "Error", PyExc_ValueError);
+  bind_plugin_types(module);
+  bind_bases(module);
+  bind_world(module);
+  bind_catalog(module);
+}
+
+}  // namespace angen::py

@@ -1,0 +1,213 @@
+#include "py/subclass.h"
+
+#include <utility>
+
+namespace angen::py {
+
+namespace {
+
+// Python objects may only be let go of with the GIL held, also from a thread that steps without it.
+class Held {
+ public:
+  explicit Held(pyb::object object) : object_(std::move(object)) {}
+  ~Held() {
+    const pyb::gil_scoped_acquire gil;
+    object_ = pyb::object();
+  }
+  Held(const Held&) = delete;
+  Held& operator=(const Held&) = delete;
+  const pyb::object& get() const { return object_; }
+
+ private:
+  pyb::object object_;
+};
+
+template <class T>
+pyb::object borrowed(const T& value) {
+  return pyb::cast(&value, pyb::return_value_policy::reference);
+}
+
+// What a Python method raises is told like any other error of a plug-in.
+template <class F>
+auto with_python(F&& call) {
+  const pyb::gil_scoped_acquire gil;
+  try {
+    return call();
+  } catch (pyb::error_already_set& error) {
+    if (error.matches(PyExc_KeyboardInterrupt)) throw;
+    throw Error(error.what());
+  }
+}
+
+class PythonSensor : public Sensor {
+ public:
+  explicit PythonSensor(pyb::object self) : self_(std::move(self)) {}
+
+  void configure(Params& params, Wiring& wiring) override {
+    with_python([&] { self_.get().attr("configure")(borrowed(params), borrowed(wiring)); });
+  }
+  Nanoseconds sample_period() const override {
+    return with_python(
+        [&] { return from_seconds(pyb::cast<double>(self_.get().attr("sample_period"))); });
+  }
+  double default_rate() const override {
+    return with_python([&] { return pyb::cast<double>(self_.get().attr("rate")); });
+  }
+  void aim(const View& view, RayBatch& batch) override {
+    with_python([&] {
+      const pyb::object asked = self_.get().attr("aim")(borrowed(view));
+      if (asked.is_none()) return;
+      // Rows of origin x y z, direction x y z, min and max range.
+      const auto rows = pyb::cast<Eigen::Matrix<double, Eigen::Dynamic, 8, Eigen::RowMajor>>(asked);
+      for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+        batch.push_back({rows.block<1, 3>(i, 0).transpose(),
+                         rows.block<1, 3>(i, 3).transpose().normalized(), rows(i, 6), rows(i, 7)});
+      }
+    });
+  }
+  void read(const View& view, Hits hits, Rng& rng, Reading& reading) override {
+    with_python([&] {
+      Eigen::VectorXd ranges(static_cast<Eigen::Index>(hits.size()));
+      for (std::size_t i = 0; i < hits.size(); ++i) {
+        ranges[static_cast<Eigen::Index>(i)] = hits[i].range;
+      }
+      from_dict(self_.get().attr("read")(borrowed(view), ranges, borrowed(rng)), reading);
+    });
+  }
+
+ private:
+  Held self_;
+};
+
+class PythonDevice : public Device {
+ public:
+  explicit PythonDevice(pyb::object self) : self_(std::move(self)) {}
+
+  void configure(Params& params, Wiring& wiring) override {
+    with_python([&] { self_.get().attr("configure")(borrowed(params), borrowed(wiring)); });
+  }
+  Verdict command(const Command& command, const View& view) override {
+    return with_python([&] {
+      const pyb::object reason =
+          self_.get().attr("command")(command.text, command.values, borrowed(view));
+      return reason.is_none() ? Verdict::accept() : Verdict::reject(pyb::cast<std::string>(reason));
+    });
+  }
+  void update(const View& view, Outputs& outputs) override {
+    with_python([&] { self_.get().attr("update")(borrowed(view), borrowed(outputs)); });
+  }
+  void report(const View& view, Reading& state) const override {
+    with_python([&] { from_dict(self_.get().attr("report")(borrowed(view)), state); });
+  }
+
+ private:
+  Held self_;
+};
+
+class PythonPlugin : public Plugin {
+ public:
+  PythonPlugin(std::string kind, pyb::object type, bool is_sensor)
+      : kind_(std::move(kind)), type_(std::move(type)), is_sensor_(is_sensor) {}
+
+  std::string kind() const override { return kind_; }
+  std::string doc() const override {
+    return with_python([&] {
+      const pyb::object doc = type_.get().attr("__doc__");
+      return doc.is_none() ? std::string() : pyb::cast<std::string>(doc);
+    });
+  }
+  bool serves(const ModelInfo& model) const override {
+    if (is_sensor_) return false;
+    return with_python([&] {
+      std::vector<std::string> joints;
+      for (const ModelInfo::Joint& joint : model.joints) joints.push_back(joint.name);
+      return pyb::cast<bool>(type_.get().attr("serves")(model.name, joints, model.lights));
+    });
+  }
+  std::unique_ptr<Device> make_device() const override {
+    if (is_sensor_) return nullptr;
+    return with_python([&] { return std::make_unique<PythonDevice>(type_.get()()); });
+  }
+  std::unique_ptr<Sensor> make_sensor() const override {
+    if (!is_sensor_) return nullptr;
+    return with_python([&] { return std::make_unique<PythonSensor>(type_.get()()); });
+  }
+
+ private:
+  std::string kind_;
+  Held type_;
+  bool is_sensor_;
+};
+
+void bind_params(pyb::module_& module) {
+  pyb::class_<Params>(module, "Params", "A plug-in's parameters; a wrong value raises angen.Error.")
+      .def(
+          "number",
+          [](Params& p, const std::string& path, double fallback, const std::string& unit,
+             const std::string& doc, double min, double max) {
+            return p.number(path, fallback, unit, doc, {min, max});
+          },
+          pyb::arg("path"), pyb::arg("default"), pyb::arg("unit") = "", pyb::arg("doc") = "",
+          pyb::arg("min") = Range{}.min, pyb::arg("max") = Range{}.max)
+      .def("flag", &Params::flag, pyb::arg("path"), pyb::arg("default"), pyb::arg("doc") = "")
+      .def("text", &Params::text, pyb::arg("path"), pyb::arg("default"), pyb::arg("doc") = "");
+}
+
+void bind_wiring(pyb::module_& module) {
+  pyb::class_<JointRef>(module, "JointRef");
+  pyb::class_<LinkRef>(module, "LinkRef");
+  pyb::class_<LightRef>(module, "LightRef");
+  pyb::class_<Wiring>(module, "Wiring", "Names of the model to handles; unknown names raise.")
+      .def_property_readonly("name", &Wiring::name)
+      .def_property_readonly("model", &Wiring::model)
+      .def("has_joint", &Wiring::has_joint)
+      .def("joint", &Wiring::joint)
+      .def("link", &Wiring::link)
+      .def("light", &Wiring::light)
+      .def("mass", &Wiring::mass, "kg, of the link and all that is fixed to it");
+}
+
+void bind_view(pyb::module_& module) {
+  pyb::class_<View>(module, "View", "What a plug-in may see; SI units, world frame.")
+      .def_property_readonly(
+          "time", [](const View& v) { return to_seconds(v.time()); }, "s")
+      .def_property_readonly(
+          "step", [](const View& v) { return to_seconds(v.step()); }, "s")
+      .def_property_readonly(
+          "pose", [](const View& v) { return to_row(v.pose()); }, "x y z qx qy qz qw")
+      .def_property_readonly(
+          "rotation", [](const View& v) { return v.pose().rotation.toRotationMatrix(); },
+          "3x3, of the pose")
+      .def("joint",
+           [](const View& v, JointRef ref) {
+             const JointView joint = v.joint(ref);
+             return pyb::make_tuple(joint.position, joint.velocity, joint.effort);
+           })
+      .def("link", [](const View& v, LinkRef ref) { return to_row(v.link(ref).pose); });
+  pyb::class_<Outputs>(module, "Outputs", "What a device may do in one tick.")
+      .def("force", &Outputs::force, "N or N m on a joint, for this tick")
+      .def("motor", &Outputs::motor, "velocity, greatest force; until changed")
+      .def("light", &Outputs::light, "level 0..1, luminous flux in lm at level 1")
+      .def("event", &Outputs::event, pyb::arg("event"), pyb::arg("detail") = "");
+  pyb::class_<Rng>(module, "Rng", "Random numbers of this sensor at this tick.")
+      .def("uniform", &Rng::uniform)
+      .def("gaussian", &Rng::gaussian);
+}
+
+}  // namespace
+
+std::shared_ptr<const Plugin> python_sensor(const std::string& kind, pyb::object type) {
+  return std::make_shared<PythonPlugin>(kind, std::move(type), true);
+}
+
+std::shared_ptr<const Plugin> python_device(const std::string& kind, pyb::object type) {
+  return std::make_shared<PythonPlugin>(kind, std::move(type), false);
+}
+
+void bind_plugin_types(pyb::module_& module) {
+  bind_params(module);
+  bind_wiring(module);
+  bind_view(module);
+}
+
+}  // namespace angen::py

@@ -1,0 +1,112 @@
+#include "py/world.h"
+
+#include <cmath>
+#include <future>
+#include <utility>
+
+namespace angen::py {
+
+namespace {
+
+template <class Entry>
+std::size_t index_of(const std::vector<Entry>& entries, const std::string& kind,
+                     const std::string& name) {
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (entries[i].kind != kind) continue;
+    if (entries[i].name == name) return i;
+    known.push_back(entries[i].name);
+  }
+  throw Error("no " + kind + " named '" + name + "'; known are " + join_names(known));
+}
+
+std::string folder_of(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string::npos ? "." : path.substr(0, slash);
+}
+
+}  // namespace
+
+World::World(const std::string& path, std::uint64_t seed, std::shared_ptr<Catalog> catalog)
+    : paths_(load::SearchPaths::from_environment(folder_of(path) + "/models")),
+      simulation_(load::world(path), seed, std::move(catalog)) {
+  begin();
+}
+
+World::World(const std::string& text, const std::string& name, std::uint64_t seed,
+             std::shared_ptr<Catalog> catalog)
+    : paths_(load::SearchPaths::from_environment()),
+      simulation_(load::world_from_text(text, name, paths_), seed, std::move(catalog)) {
+  begin();
+}
+
+void World::begin() {
+  simulation_.post(sim::Pause{true});
+  take(simulation_.tick());
+  events_.clear();
+}
+
+void World::take(std::shared_ptr<const sim::Snapshot> snapshot) {
+  snapshot_ = std::move(snapshot);
+  fingerprint_.add(*snapshot_);
+  events_.insert(events_.end(), snapshot_->events.begin(), snapshot_->events.end());
+}
+
+void World::step(std::uint64_t ticks) {
+  const std::future<sim::Outcome> done = simulation_.post(sim::Step{ticks});
+  for (std::uint64_t i = 0; i < ticks; ++i) take(simulation_.tick());
+}
+
+std::uint64_t World::ticks_in(double seconds) const {
+  if (!std::isfinite(seconds) || seconds < 0)
+    throw Error("seconds must be finite and not negative");
+  return static_cast<std::uint64_t>(from_seconds(seconds) / snapshot_->step);
+}
+
+// The world stays paused: a tick carries out what waits, and time moves by step() alone.
+void World::obey(sim::Action action) {
+  std::future<sim::Outcome> outcome = simulation_.post(std::move(action));
+  take(simulation_.tick());
+  const sim::Outcome result = outcome.get();
+  if (!result.ok) throw Error(result.message);
+}
+
+void World::command(const std::string& kind, const std::string& name, const std::string& text,
+                    const std::vector<double>& values) {
+  obey(sim::ToDevice{kind, name, {text, values}});
+}
+
+void World::spawn(const std::string& what, const std::string& name, const std::vector<double>& pose,
+                  const std::string& on) {
+  if (load::is_sensor(what)) {
+    obey(sim::Attach{load::sensor(what, name, to_pose(pose)), on});
+  } else {
+    obey(sim::Spawn{load::model(what, name, to_pose(pose), paths_)});
+  }
+}
+
+void World::remove(const std::string& name) { obey(sim::Delete{name}); }
+
+void World::reset() {
+  obey(sim::Reset{});
+  fingerprint_ = {};
+  begin();
+}
+
+Reading World::sensor(const std::string& kind, const std::string& name) const {
+  const auto& reading = snapshot_->sensors[index_of(snapshot_->structure->sensors, kind, name)];
+  if (!reading) throw Error(kind + " '" + name + "' has measured nothing yet; step first");
+  return *reading;
+}
+
+Reading World::device(const std::string& kind, const std::string& name) const {
+  const auto& state = snapshot_->devices[index_of(snapshot_->structure->devices, kind, name)];
+  if (!state) throw Error(kind + " '" + name + "' has reported nothing yet; step first");
+  return *state;
+}
+
+std::string World::save() const { return record::world_file(simulation_.world(), *snapshot_); }
+
+std::vector<sim::Event> World::take_events() { return std::exchange(events_, {}); }
+
+}  // namespace angen::py

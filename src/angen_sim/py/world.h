@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "load/load.h"
+#include "py/convert.h"
+#include "record/fingerprint.h"
+#include "record/world_file.h"
+#include "sim/simulation.h"
+
+namespace angen::py {
+
+/// A simulation as Python sees it: loads, steps, commands, reads. Not shared between threads.
+class World {
+ public:
+  World(const std::string& path, std::uint64_t seed, std::shared_ptr<Catalog> catalog);
+  World(const std::string& text, const std::string& name, std::uint64_t seed,
+        std::shared_ptr<Catalog> catalog);
+
+  void step(std::uint64_t ticks);
+  std::uint64_t ticks_in(double seconds) const;
+
+  /// These throw Error when the simulator refuses.
+  void command(const std::string& kind, const std::string& name, const std::string& text,
+               const std::vector<double>& values);
+  void spawn(const std::string& what, const std::string& name, const std::vector<double>& pose,
+             const std::string& on);
+  void remove(const std::string& name);
+  void reset();
+
+  Reading sensor(const std::string& kind, const std::string& name) const;
+  Reading device(const std::string& kind, const std::string& name) const;
+  std::string save() const;
+
+  const sim::Snapshot& now() const { return *snapshot_; }
+  std::vector<sim::Event> take_events();
+  std::string fingerprint() const { return fingerprint_.text(); }
+
+ private:
+  void begin();
+  void obey(sim::Action action);
+  void take(std::shared_ptr<const sim::Snapshot> snapshot);
+
+  load::SearchPaths paths_;
+  sim::Simulation simulation_;
+  std::shared_ptr<const sim::Snapshot> snapshot_;
+  std::vector<sim::Event> events_;
+  record::Fingerprint fingerprint_;
+};
+
+}  // namespace angen::py

@@ -1,0 +1,85 @@
+#include "record/fingerprint.h"
+
+#include <cstdio>
+#include <cstring>
+#include <type_traits>
+
+#include "core/random.h"
+
+namespace angen::record {
+
+namespace {
+
+// Whole words instead of FNV's bytes: a snapshot of a building has some 20 kB.
+class Mixer {
+ public:
+  explicit Mixer(std::uint64_t hash) : hash_(hash) {}
+
+  template <class T>
+  std::enable_if_t<std::is_integral_v<T>> add(T value) {
+    hash_ = (hash_ ^ static_cast<std::uint64_t>(value)) * 0x100000001b3ULL;
+    hash_ ^= hash_ >> 29;
+  }
+  void add(double value) {
+    std::uint64_t bits = 0;
+    static_assert(sizeof bits == sizeof value);
+    std::memcpy(&bits, &value, sizeof bits);
+    add(bits);
+  }
+  void add(const std::string& text) { add(hash_bytes(text)); }
+  void add(const Vec3& v) {
+    for (int i = 0; i < 3; ++i) add(v[i]);
+  }
+  void add(const Pose& pose) {
+    add(pose.position);
+    for (int i = 0; i < 4; ++i) add(pose.rotation.coeffs()[i]);
+  }
+  template <class T>
+  void add(const std::vector<T>& values) {
+    add(values.size());
+    for (const T& value : values) add(value);
+  }
+  void add(const Reading& reading) {
+    add(reading.kind);
+    add(reading.stamp);
+    for (const auto& [name, value] : reading.fields) {
+      add(name);
+      std::visit([this](const auto& v) { add(v); }, value);
+    }
+  }
+  void add(const sim::Event& event) {
+    add(event.stamp);
+    for (const std::string* s : {&event.source, &event.kind, &event.event, &event.detail}) add(*s);
+  }
+
+  std::uint64_t hash() const { return hash_; }
+
+ private:
+  std::uint64_t hash_;
+};
+
+}  // namespace
+
+void Fingerprint::add(const sim::Snapshot& snapshot) {
+  Mixer mixer(hash_);
+  mixer.add(snapshot.tick);
+  mixer.add(snapshot.time);
+  mixer.add(snapshot.paused);
+  for (std::size_t i = 0; i < snapshot.link_poses.size(); ++i) mixer.add(snapshot.link_poses[i]);
+  for (std::size_t i = 0; i < snapshot.joint_positions.size(); ++i) {
+    mixer.add(snapshot.joint_positions[i]);
+  }
+  mixer.add(*snapshot.light_levels);
+  for (const std::uint32_t i : snapshot.new_readings) mixer.add(*snapshot.sensors[i]);
+  for (const std::uint32_t i : snapshot.new_states) mixer.add(*snapshot.devices[i]);
+  mixer.add(snapshot.events);
+  hash_ = mixer.hash();
+}
+
+std::string Fingerprint::text() const {
+  char digits[17];
+  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash_));
+  return digits;
+}
+
+}  // namespace angen::record

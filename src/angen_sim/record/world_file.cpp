@@ -1,0 +1,28 @@
+#include "record/world_file.h"
+
+#include <vector>
+
+#include "load/load.h"
+
+namespace angen::record {
+
+std::string world_file(const desc::World& settings, const sim::Snapshot& snapshot) {
+  const sim::Structure& all = *snapshot.structure;
+  std::vector<load::ModelState> states;
+  for (const auto& model : all.models) states.push_back({model.get(), model->pose, {}});
+  for (std::size_t i = 0; i < all.links.size(); ++i) {
+    const sim::LinkEntry& link = all.links[i];
+    if (link.link != 0 || !link.moves) continue;
+    const Pose& rest = all.models[link.model]->links.front().pose;
+    states[link.model].pose = snapshot.link_poses[i] * rest.inverse();
+  }
+  for (std::size_t i = 0; i < all.joints.size(); ++i) {
+    const sim::JointEntry& joint = all.joints[i];
+    const desc::Joint& described = all.models[joint.model]->joints[joint.joint];
+    if (described.axes.size() != 1) continue;
+    states[joint.model].joint_positions.push_back({described.name, {snapshot.joint_positions[i]}});
+  }
+  return load::save(settings, states);
+}
+
+}  // namespace angen::record
