@@ -92,10 +92,19 @@ void make_universal_rows(Joint& joint) {
   }
 }
 
+// A direction parallel neither to the second axis that a universal joint has nor to the one it will
+// get: ODE complains about parallel axes even for the moment between two calls.
+Vec3 apart_from(dJointID universal, const Vec3& next) {
+  dVector3 now;
+  dJointGetUniversalAxis2(universal, now);
+  const Vec3 across = ode::vec(now).cross(next);
+  return across.norm() > 1e-3 ? across : next.unitOrthogonal();
+}
+
 double read_angle(const Joint& joint) {
   if (joint.type == Type::kRevolute) return dJointGetHingeAngle(joint.main.get());
   return joint.flipped ? dJointGetUniversalAngle1(joint.main.get())
-                       : -dJointGetUniversalAngle2(joint.main.get());
+                       : dJointGetUniversalAngle2(joint.main.get());
 }
 
 // The body that the first axis is fixed to.
@@ -152,8 +161,10 @@ void anchor_joint(Joint& joint, const Pose& model) {
     const Vec3& one = joint.flipped ? axis : other;
     const Vec3& two = joint.flipped ? other : axis;
     dJointSetUniversalAnchor(main, anchor.x(), anchor.y(), anchor.z());
-    dJointSetUniversalAxis1(main, one.x(), one.y(), one.z());
+    const Vec3 aside = apart_from(main, two);
+    dJointSetUniversalAxis1(main, aside.x(), aside.y(), aside.z());
     dJointSetUniversalAxis2(main, two.x(), two.y(), two.z());
+    dJointSetUniversalAxis1(main, one.x(), one.y(), one.z());
     return;
   }
   dJointID motor = joint.motor.get();
@@ -191,8 +202,7 @@ void apply_motor(Joint& joint) {
   const double velocity = on ? joint.motor_velocity : 0.0;
   const double force = on ? joint.motor_force : joint.axes[0].friction;
   const int group = joint.type == Type::kUniversal ? universal_group(joint, 0) : 0;
-  const double sign = group != 0 ? -1.0 : 1.0;
-  set_motor_param(joint, dParamVel + group, sign * velocity);
+  set_motor_param(joint, dParamVel + group, velocity);
   set_motor_param(joint, dParamFMax + group, force);
 }
 

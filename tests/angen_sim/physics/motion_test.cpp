@@ -1,0 +1,195 @@
+#include <gtest/gtest.h>
+
+#include "robot.h"
+
+namespace angen::physics::testing {
+namespace {
+
+constexpr double kStep = 1e-3;
+
+TEST(Drive, PersonWalksAtItsSpeedAndPushesAWallWithAtMostItsForce) {
+  TestWorld world;
+  world.add(floor_model());
+  world.add(static_box("wall", {0.1, 4, 2}, {2.0, 0, 1}));
+  const LinkId body = world.only_link(world.add(person_model("person", {0, 0, 0.001})));
+  world.drive(body, {1.0, 0, 0}, 0.0, 150.0);
+  world.run(1.0);
+  EXPECT_NEAR(world.link(body).linear_velocity.x(), 1.0, 1e-3);
+  world.run(2.0);
+  double most = 0.0;
+  for (int i = 0; i < 500; ++i) {
+    world.run(kStep);
+    most = std::max(most, std::abs(force_on(world, "wall::link::collision").x()));
+    ASSERT_LT(world.link(body).pose.position.x(), 1.95 - 0.25 + 1e-3);
+  }
+  EXPECT_LE(most, 150.0);
+  EXPECT_GT(most, 130.0);
+  EXPECT_TRUE(world.awake(body)) << "one that wants to go on must not fall asleep";
+  EXPECT_EQ(world.failed_steps(), 0U);
+}
+
+TEST(Drive, ForceIsLimitedInEachDirection) {
+  TestWorld world({}, Vec3::Zero());
+  const LinkId body = world.only_link(world.add(person_model("person", Vec3::Zero())));
+  for (int i = 0; i < 36; ++i) {
+    const Vec3 before = world.link(body).linear_velocity;
+    const double a = i * M_PI / 18;
+    world.drive(body, Vec3(std::cos(a), std::sin(a), 0) * 100.0, 0.0, 150.0);
+    world.run(kStep);
+    const double force = (world.link(body).linear_velocity - before).norm() * 70.0 / kStep;
+    EXPECT_LE(force, 150.0 * (1 + 1e-6));
+    EXPECT_GE(force, 140.0);
+  }
+}
+
+TEST(Drive, PersonTurnsAndNeverTilts) {
+  TestWorld world;
+  world.add(floor_model());
+  world.add(static_box("step", {0.3, 4, 0.3}, {1.0, 0, 0.15}));
+  const LinkId body = world.only_link(world.add(person_model("person", {0, 0.1, 0.001})));
+  world.drive(body, {1.0, 0, 0}, 0.5, 150.0);
+  world.run(5.0);
+  const Pose pose = world.link(body).pose;
+  EXPECT_NEAR((pose.rotation * Vec3::UnitZ() - Vec3::UnitZ()).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(yaw_of(pose.rotation), 2.5, 0.02);
+}
+
+TEST(Drive, StandingPersonSleepsAndIsPushedByNobody) {
+  TestWorld world;
+  world.add(floor_model());
+  const LinkId body = world.only_link(world.add(person_model("person", {0, 0, 0.001})));
+  world.drive(body, Vec3::Zero(), 0.0, 150.0);
+  world.run(2.0);
+  EXPECT_FALSE(world.awake(body));
+  const Vec3 before = world.link(body).pose.position;
+  world.drive(body, Vec3::Zero(), 0.0, 150.0);
+  EXPECT_FALSE(world.awake(body)) << "the same command again is no change";
+  world.run(1.0);
+  EXPECT_EQ(world.link(body).pose.position, before);
+  world.drive(body, {0, 1, 0}, 0.0, 150.0);
+  world.run(1.0);
+  EXPECT_NEAR(world.link(body).pose.position.y() - before.y(), 0.77, 0.02);
+}
+
+TEST(Drive, PersonPushesAFreeDoorOpen) {
+  TestWorld world;
+  world.add(floor_model());
+  const ModelId door = world.add(door_model("door"));
+  const LinkId body = world.only_link(world.add(person_model("person", {0.55, 1.0, 0.001})));
+  world.drive(body, {0, -0.8, 0}, 0.0, 150.0);
+  world.run(3.0);
+  EXPECT_LT(world.joint(world.joints(door)[1]).position, -0.8);
+}
+
+TEST(Robot, DrivesByFrictionAsFarAsItsWheelsTurn) {
+  TestWorld world;
+  world.add(floor_model());
+  const ModelId robot = world.add(robot_model("robot"));
+  const auto& joints = world.joints(robot);
+  world.run(0.2);
+  for (const JointId joint : joints) world.set_motor(joint, 0.3 / 0.035, 1.0);
+  world.run(4.0);
+  const Vec3 at = world.link(world.links(robot)[0]).pose.position;
+  EXPECT_NEAR(world.joint(joints[0]).position * 0.035, at.x(), 0.02);
+  EXPECT_NEAR(at.x(), 1.2, 0.05);
+  EXPECT_NEAR(at.y(), 0.0, 0.01);
+  EXPECT_NEAR(at.z(), 0.0, 2e-3);
+  EXPECT_EQ(world.failed_steps(), 0U);
+}
+
+TEST(Robot, TurnsOnTheSpotByTheDifferenceOfItsWheels) {
+  TestWorld world;
+  world.add(floor_model());
+  const ModelId robot = world.add(robot_model("robot"));
+  const auto& joints = world.joints(robot);
+  world.run(0.2);
+  world.set_motor(joints[0], -2.0, 1.0);
+  world.set_motor(joints[1], 2.0, 1.0);
+  world.run(5.0);
+  const Pose pose = world.link(world.links(robot)[0]).pose;
+  const double expected = 2.0 * 5.0 * 0.035 * 2.0 / 0.23;
+  EXPECT_NEAR(std::remainder(yaw_of(pose.rotation) - expected, 2 * M_PI), 0.0, 0.1);
+  EXPECT_LT(pose.position.head<2>().norm(), 0.02);
+}
+
+TEST(Robot, RidesALiftAndKeepsItsPlace) {
+  TestWorld world;
+  const ModelId lift = world.add(lift_model("lift"));
+  const ModelId robot = world.add(robot_model("robot", {0.1, 0.2, 0.0}));
+  const JointId joint = world.joints(lift)[0];
+  for (const JointId wheel : world.joints(robot)) world.set_motor(wheel, 0.0, 1.0);
+  world.set_motor(joint, 0.0, 1000.0);
+  world.run(1.0);
+  const Vec3 before = world.link(world.links(robot)[0]).pose.position;
+  EXPECT_EQ(world.awake_count(), 0U);
+  world.set_motor(joint, 0.5, 1000.0);
+  world.run(6.0);
+  world.set_motor(joint, 0.0, 1000.0);
+  world.run(1.0);
+  EXPECT_EQ(world.awake_count(), 0U);
+  const Vec3 after = world.link(world.links(robot)[0]).pose.position;
+  EXPECT_NEAR(world.joint(joint).position, 3.0, 2e-3);
+  EXPECT_NEAR(after.z() - before.z(), world.joint(joint).position, 1e-3);
+  EXPECT_LT((after - before).head<2>().norm(), 1e-3);
+  EXPECT_NEAR(world.joint(joint).effort, 14.2 * 9.81, 1.0);
+  EXPECT_EQ(world.failed_steps(), 0U);
+}
+
+TEST(Robot, DrivesOnALiftFloorToo) {
+  TestWorld world;
+  const ModelId lift = world.add(lift_model("lift"));
+  world.set_motor(world.joints(lift)[0], 0.0, 1000.0);
+  const ModelId robot = world.add(robot_model("robot", {-0.2, 0, 0}));
+  world.run(0.2);
+  for (const JointId wheel : world.joints(robot)) world.set_motor(wheel, 0.2 / 0.035, 1.0);
+  world.run(2.0);
+  EXPECT_NEAR(world.link(world.links(robot)[0]).pose.position.x(), 0.2, 0.02);
+}
+
+TEST(Lift, LiftedByAForceTakesABoxAlongThatKeepsItsPlace) {
+  TestWorld world;
+  const ModelId lift = world.add(lift_model("lift"));
+  const LinkId box =
+      world.only_link(world.add(box_model("box", 5.0, {0.3, 0.3, 0.3}, {0.2, -0.1, 0.15})));
+  const JointId joint = world.joints(lift)[0];
+  double setpoint = 0.0;
+  for (int i = 0; i < 5000; ++i) {
+    setpoint = std::min(2.0, setpoint + 0.5 * kStep);
+    const JointState s = world.joint(joint);
+    const double speed = setpoint < 2.0 ? 0.5 : 0.0;
+    world.add_force(joint,
+                    15.0 * (9.81 + 200.0 * (setpoint - s.position) + 25.0 * (speed - s.velocity)));
+    world.run(kStep);
+  }
+  EXPECT_NEAR(world.joint(joint).position, 2.0, 1e-3);
+  const Vec3 at = world.link(box).pose.position;
+  EXPECT_NEAR(at.z(), 2.15, 2e-3);
+  EXPECT_NEAR(at.x(), 0.2, 1e-3);
+  EXPECT_NEAR(at.y(), -0.1, 1e-3);
+}
+
+TEST(Door, FreeSwingLosesEnergyOnlyByDamping) {
+  TestWorld world;
+  desc::Model model = door_model("door");
+  model.joints[1].axes[0].lower = -1e16;
+  model.joints[1].axes[0].upper = 1e16;
+  const ModelId free_door = world.add(model);
+  model.name = "damped";
+  model.pose.position.x() = 5.0;
+  model.joints[1].axes[0].damping = 2.0;
+  const ModelId damped = world.add(model);
+  for (const ModelId id : {free_door, damped}) world.add_force(world.joints(id)[1], 9000.0);
+  world.run(kStep);
+  const double start = world.joint(world.joints(free_door)[1]).velocity;
+  EXPECT_GT(start, 0.5);
+  world.run(3.0);
+  EXPECT_NEAR(world.joint(world.joints(free_door)[1]).velocity, start, 1e-3 * start);
+  // Moment about the hinge: leaf, handles and strip.
+  const double moment =
+      40.0 * (0.64 / 3.0 + 0.04 * 0.04 / 12.0) + 2 * 0.2 * 0.75 * 0.75 + 0.1 * 0.49;
+  EXPECT_NEAR(world.joint(world.joints(damped)[1]).velocity, start * std::exp(-2.0 * 3.0 / moment),
+              0.01 * start);
+}
+
+}  // namespace
+}  // namespace angen::physics::testing

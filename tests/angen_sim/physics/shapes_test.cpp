@@ -1,0 +1,234 @@
+#include <gtest/gtest.h>
+
+#include "core/diagnostics.h"
+#include "robot.h"
+
+namespace angen::physics::testing {
+namespace {
+
+/// A closed box of twelve triangles, outside counter-clockwise.
+Shape mesh_box(const Vec3& size) {
+  auto mesh = std::make_shared<TriangleMesh>();
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 corner((i & 1) != 0 ? 0.5 : -0.5, (i & 2) != 0 ? 0.5 : -0.5,
+                      (i & 4) != 0 ? 0.5 : -0.5);
+    mesh->vertices.emplace_back(corner.cwiseProduct(size).cast<float>());
+  }
+  mesh->triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  Shape shape;
+  shape.type = Shape::Type::kMesh;
+  shape.mesh = mesh;
+  return shape;
+}
+
+/// A flat grid of triangles at z = 0, 1 m apart, as a heightmap makes it.
+Shape mesh_ground(int half) {
+  auto mesh = std::make_shared<TriangleMesh>();
+  const int n = 2 * half + 1;
+  for (int y = 0; y < n; ++y) {
+    for (int x = 0; x < n; ++x) {
+      mesh->vertices.emplace_back(static_cast<float>(x - half), static_cast<float>(y - half), 0.0F);
+    }
+  }
+  for (int y = 0; y + 1 < n; ++y) {
+    for (int x = 0; x + 1 < n; ++x) {
+      const auto at = static_cast<std::uint32_t>(y * n + x);
+      const auto up = static_cast<std::uint32_t>(at + static_cast<std::uint32_t>(n));
+      mesh->triangles.push_back({at, at + 1, up + 1});
+      mesh->triangles.push_back({at, up + 1, up});
+    }
+  }
+  Shape shape;
+  shape.type = Shape::Type::kMesh;
+  shape.mesh = mesh;
+  return shape;
+}
+
+desc::Model static_shape(const std::string& name, const Shape& shape) {
+  desc::Model model = static_box(name, {1, 1, 1});
+  model.links[0].collisions[0].shape = shape;
+  return model;
+}
+
+desc::Model plane_model() {
+  Shape plane;
+  plane.type = Shape::Type::kPlane;
+  plane.size = {1, 1, 0};
+  return static_shape("plane", plane);
+}
+
+struct Rest {
+  const char* name;
+  Shape shape;
+  double height;  // of its centre when it rests
+};
+
+std::vector<Rest> solids() {
+  return {{"box", box_shape({0.3, 0.3, 0.2}), 0.1},
+          {"sphere", round_shape(Shape::Type::kSphere, 0.1), 0.1},
+          {"cylinder", round_shape(Shape::Type::kCylinder, 0.15, 0.2), 0.1},
+          {"mesh", mesh_box({0.3, 0.3, 0.2}), 0.1}};
+}
+
+void expect_rest(const desc::Model& ground, const Rest& solid) {
+  SCOPED_TRACE(solid.name);
+  TestWorld world;
+  world.add(ground);
+  desc::Model model = box_model("body", 3.0, {0.3, 0.3, 0.2}, {0.13, 0.21, solid.height + 0.02});
+  model.links[0].collisions[0].shape = solid.shape;
+  const LinkId link = world.only_link(world.add(model));
+  world.run(3.0);
+  EXPECT_NEAR(world.link(link).pose.position.z(), solid.height, 1.5e-3);
+  EXPECT_FALSE(world.awake(link));
+  EXPECT_NEAR(force_on(world, "body::link::collision").z(), 3.0 * 9.81, 0.3);
+}
+
+TEST(Shapes, RestOnABox) {
+  for (const Rest& solid : solids()) expect_rest(floor_model(), solid);
+}
+
+TEST(Shapes, RestOnAPlane) {
+  for (const Rest& solid : solids()) expect_rest(plane_model(), solid);
+}
+
+TEST(Shapes, RestOnAHeightmap) {
+  for (const Rest& solid : solids()) {
+    if (solid.shape.type == Shape::Type::kMesh) continue;
+    expect_rest(static_shape("ground", mesh_ground(3)), solid);
+  }
+}
+
+TEST(Shapes, RobotDrivesOnAMesh) {
+  TestWorld world;
+  world.add(static_shape("ground", mesh_ground(3)));
+  const ModelId robot = world.add(robot_model("robot", {0.05, 0.03, 0}));
+  world.run(0.2);
+  for (const JointId wheel : world.joints(robot)) world.set_motor(wheel, 0.3 / 0.035, 1.0);
+  world.run(3.0);
+  const Vec3 at = world.link(world.links(robot)[0]).pose.position;
+  EXPECT_NEAR(at.x(), 0.95, 0.03);
+  EXPECT_NEAR(at.z(), 0.0, 3e-3);
+}
+
+TEST(Shapes, PlaneIsPlacedAndTilted) {
+  TestWorld world;
+  const ModelId plane = world.add(plane_model());
+  const LinkId box = world.only_link(world.add(box_model("box", 1, {0.2, 0.2, 0.2}, {0, 0, 0.1})));
+  world.run(1.5);
+  ASSERT_FALSE(world.awake(box));
+  // 10 degrees hold by friction 1, and the box lies as the plane does.
+  world.place(plane, {{0, 0, -0.2}, from_rpy(0.1745, 0, 0)});
+  world.run(3.0);
+  const Pose pose = world.link(box).pose;
+  EXPECT_NEAR((pose.rotation * Vec3::UnitZ()).dot(Vec3::UnitZ()), std::cos(0.1745), 1e-3);
+  EXPECT_FALSE(world.awake(box));
+}
+
+TEST(Shapes, WithoutASizeAreRefused) {
+  TestWorld world;
+  EXPECT_THROW(world.add(box_model("box", 1, {0.2, 0.0, 0.2})), Error);
+  desc::Model model = box_model("box", 1, {1, 1, 1});
+  model.links[0].collisions[0].shape = round_shape(Shape::Type::kCylinder, 0.1, -1);
+  EXPECT_THROW(world.add(model), Error);
+  model.links[0].collisions[0].shape.type = Shape::Type::kMesh;
+  EXPECT_THROW(world.add(model), Error);
+  Shape bad = mesh_box({1, 1, 1});
+  auto broken = std::make_shared<TriangleMesh>(*bad.mesh);
+  broken->triangles[0][0] = 99;
+  bad.mesh = broken;
+  model.links[0].collisions[0].shape = bad;
+  EXPECT_THROW(world.add(model), Error);
+  model.links[0].collisions[0].shape = plane_model().links[0].collisions[0].shape;
+  EXPECT_THROW(world.add(model), Error);
+}
+
+TEST(Shapes, FarAwayAndHugeOnesTouchToo) {
+  TestWorld world;
+  world.add(static_box("ground", {3000, 3000, 1}, {0, 0, -0.5}));
+  const LinkId near =
+      world.only_link(world.add(box_model("near", 1, {0.2, 0.2, 0.2}, {0, 0, 0.1})));
+  const LinkId far =
+      world.only_link(world.add(box_model("far", 1, {0.2, 0.2, 0.2}, {-1400, 900, 0.1})));
+  world.run(1.5);
+  EXPECT_NEAR(world.link(near).pose.position.z(), 0.1, 1e-3);
+  EXPECT_NEAR(world.link(far).pose.position.z(), 0.1, 1e-3);
+  EXPECT_EQ(world.awake_count(), 0U);
+}
+
+TEST(Shapes, BounceAsTheirRestitutionSays) {
+  TestWorld world;
+  desc::Model ground = floor_model();
+  ground.links[0].collisions[0].restitution = 1.0;
+  world.add(ground);
+  desc::Model ball = box_model("ball", 1, {0.1, 0.1, 0.1}, {0, 0, 1.1});
+  ball.links[0].collisions[0].shape = round_shape(Shape::Type::kSphere, 0.1);
+  ball.links[0].collisions[0].restitution = 0.5;
+  const LinkId link = world.only_link(world.add(ball));
+  double highest = 0.0;
+  bool hit = false;
+  for (int i = 0; i < 1000; ++i) {
+    world.run(1e-3);
+    hit = hit || !world.contacts().empty();
+    if (hit) highest = std::max(highest, world.link(link).pose.position.z() - 0.1);
+  }
+  EXPECT_NEAR(highest, 0.25, 0.02);
+}
+
+TEST(Shapes, SoftOnesSinkByTheirWeightOverTheirStiffness) {
+  desc::Physics settings;
+  settings.contact_surface_layer = 0.0;
+  TestWorld world(settings);
+  desc::Model ground = floor_model();
+  ground.links[0].collisions[0].stiffness = 2000.0;
+  ground.links[0].collisions[0].damping = 100.0;
+  world.add(ground);
+  const LinkId ball = [&] {
+    desc::Model model = box_model("ball", 2, {0.2, 0.2, 0.2}, {0, 0, 0.1});
+    model.links[0].collisions[0].shape = round_shape(Shape::Type::kSphere, 0.1);
+    return world.only_link(world.add(model));
+  }();
+  world.run(3.0);
+  EXPECT_NEAR(0.1 - world.link(ball).pose.position.z(), 2.0 * 9.81 / 2000.0, 2e-4);
+}
+
+TEST(Joints, BallHoldsItsPoint) {
+  TestWorld world;
+  desc::Model model =
+      model_of("m", {ghost_link("bob", 1, {0.1, 0.1, 0.1}, {{1, 0, 0}, Quat::Identity()})});
+  model.joints = {joint_of(desc::Joint::Type::kBall, "world", "bob")};
+  const ModelId id = world.add(model);
+  world.add_force(world.joints(id)[0], 5.0);
+  world.set_motor(world.joints(id)[0], 1.0, 5.0);
+  for (int i = 0; i < 2000; ++i) {
+    world.run(1e-3);
+    const Pose pose = world.link(world.only_link(id)).pose;
+    ASSERT_NEAR((pose * Vec3(-1, 0, 0)).norm(), 0.0, 1e-3);
+  }
+}
+
+TEST(Joints, UniversalTurnsAboutBothAxesAndMeasuresTheFirst) {
+  TestWorld world({}, Vec3::Zero());
+  desc::Model model = model_of("m", {ghost_link("bob", 1, {0.2, 0.2, 0.2})});
+  model.joints = {joint_of(desc::Joint::Type::kUniversal, "world", "bob")};
+  desc::JointAxis axis;
+  axis.xyz = Vec3::UnitX();
+  axis.lower = -0.5;
+  axis.upper = 0.5;
+  model.joints[0].axes.push_back(axis);
+  axis.xyz = Vec3::UnitY();
+  model.joints[0].axes.push_back(axis);
+  const ModelId id = world.add(model);
+  const JointId joint = world.joints(id)[0];
+  world.set_motor(joint, 0.4, 1.0);
+  world.run(1.0);
+  EXPECT_NEAR(world.joint(joint).velocity, 0.4, 1e-6);
+  EXPECT_NEAR(world.joint(joint).position, 0.4, 1e-3);
+  const Vec3 y = world.link(world.only_link(id)).pose.rotation * Vec3::UnitY();
+  EXPECT_NEAR(std::atan2(y.z(), y.y()), 0.4, 1e-3);
+  world.run(2.0);
+  EXPECT_NEAR(world.joint(joint).position, 0.5, 2e-3);
+}
+
+}  // namespace
+}  // namespace angen::physics::testing
