@@ -1,0 +1,34 @@
+#pragma once
+
+#include <angen_msgs/Command.h>
+#include <geometry_msgs/Twist.h>
+#include <ros/node_handle.h>
+#include <std_msgs/String.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "ros/frames.h"
+#include "ros/inbox.h"
+
+namespace angen::node {
+
+/// Command topics: one subscription serves all devices of a kind, a drive has its own cmd_vel.
+class Commands {
+ public:
+  Commands(ros::NodeHandle& node, Inbox& inbox);
+
+  /// Subscribes to the command topics of the drives that exist now, and to no others.
+  void follow(const std::vector<Robot>& robots);
+
+ private:
+  void drive(const std::string& robot, const geometry_msgs::Twist& twist);
+
+  ros::NodeHandle& node_;
+  Inbox& inbox_;
+  std::vector<ros::Subscriber> subscribers_;
+  std::map<std::pair<std::string, std::string>, ros::Subscriber> drives_;  // by topic and robot
+};
+
+}  // namespace angen::node

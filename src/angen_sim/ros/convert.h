@@ -1,0 +1,58 @@
+#pragma once
+
+#include <geometry_msgs/Point.h>
+#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/Transform.h>
+#include <geometry_msgs/Vector3.h>
+#include <ros/time.h>
+
+#include "core/pose.h"
+#include "core/time.h"
+
+namespace angen::node {
+
+inline ros::Time to_ros(Nanoseconds time) {
+  return ros::Time(static_cast<std::uint32_t>(time / kSecond),
+                   static_cast<std::uint32_t>(time % kSecond));
+}
+
+inline geometry_msgs::Point to_point(const Vec3& v) {
+  geometry_msgs::Point out;
+  out.x = v.x();
+  out.y = v.y();
+  out.z = v.z();
+  return out;
+}
+
+inline geometry_msgs::Vector3 to_vector(const Vec3& v) {
+  geometry_msgs::Vector3 out;
+  out.x = v.x();
+  out.y = v.y();
+  out.z = v.z();
+  return out;
+}
+
+inline geometry_msgs::Quaternion to_ros(const Quat& q) {
+  geometry_msgs::Quaternion out;
+  out.x = q.x();
+  out.y = q.y();
+  out.z = q.z();
+  out.w = q.w();
+  return out;
+}
+
+inline geometry_msgs::Pose to_ros(const Pose& pose) {
+  geometry_msgs::Pose out;
+  out.position = to_point(pose.position);
+  out.orientation = to_ros(pose.rotation);
+  return out;
+}
+
+inline geometry_msgs::Transform to_transform(const Pose& pose) {
+  geometry_msgs::Transform out;
+  out.translation = to_vector(pose.position);
+  out.rotation = to_ros(pose.rotation);
+  return out;
+}
+
+}  // namespace angen::node

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <ros/advertise_options.h>
+#include <ros/publisher.h>
+
+#include <string>
+
+#include "plugin/reading.h"
+
+namespace angen::node {
+
+/// What a message says besides the reading: whose it is.
+struct Label {
+  std::string name;
+  std::string frame;  // header.frame_id
+};
+
+/// The message that one kind of reading or state becomes.
+struct Format {
+  std::string type;  // angen_msgs/PirMsg
+  ros::AdvertiseOptions (*advertise)(const std::string& topic, std::uint32_t queue,
+                                     const ros::SubscriberStatusCallback& joined,
+                                     const ros::SubscriberStatusCallback& left);
+  void (*publish)(const ros::Publisher& publisher, const Reading& reading, const Label& label);
+};
+
+/// The one table: built-in kinds have messages of their own, any other goes out as
+/// angen_msgs/Reading.
+const Format& format_of(const std::string& kind);
+
+}  // namespace angen::node

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+
+#include "sim/simulation.h"
+
+namespace angen::node {
+
+/// The way from ROS's threads to the one that owns the world, and back.
+class Inbox {
+ public:
+  explicit Inbox(sim::Simulation& simulation) : simulation_(simulation) {}
+
+  /// Queues an action; nobody waits. A refusal is told on /angen/events and in the log.
+  void post(sim::Action action);
+
+  /// Queues an action and waits for what became of it, until the topics say so too. Gives up when
+  /// simulated time has stood still for kPatience of wall time, or when the node ends.
+  sim::Outcome ask(sim::Action action);
+
+  /// Main thread: everything that the last tick changed has been published.
+  void passed();
+  /// Main thread, paused: sleeps until an action comes or `limit` is over.
+  void wait(std::chrono::milliseconds limit);
+  void close();
+
+  sim::Simulation& simulation() { return simulation_; }
+
+  static constexpr std::chrono::seconds kPatience{10};
+
+ private:
+  sim::Simulation& simulation_;
+  std::mutex mutex_;
+  std::condition_variable wake_;  // of the main thread
+  std::condition_variable done_;  // of those who wait for a pass
+  bool waiting_ = false;          // an action was queued since the last wait
+  std::uint64_t passes_ = 0;
+  std::atomic<bool> closed_{false};
+};
+
+}  // namespace angen::node

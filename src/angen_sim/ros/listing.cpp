@@ -1,0 +1,108 @@
+#include "ros/listing.h"
+
+#include <ros/names.h>
+
+#include <algorithm>
+#include <memory>
+#include <tuple>
+
+#include "ros/convert.h"
+#include "ros/formats.h"
+#include "ros/frames.h"
+#include "ros/wire.h"
+
+namespace angen::node {
+namespace {
+
+std::vector<std::uint32_t> first_links(const sim::Structure& structure) {
+  std::vector<std::uint32_t> first(structure.models.size(), UINT32_MAX);
+  for (std::uint32_t i = 0; i < structure.links.size(); ++i) {
+    std::uint32_t& slot = first[structure.links[i].model];
+    slot = std::min(slot, i);
+  }
+  return first;
+}
+
+}  // namespace
+
+Pose model_pose(const sim::Snapshot& snapshot, std::uint32_t first_link) {
+  const sim::LinkEntry& entry = snapshot.structure->links[first_link];
+  const desc::Link& link = snapshot.structure->models[entry.model]->links[entry.link];
+  return snapshot.link_poses[first_link] * link.pose.inverse();
+}
+
+std::vector<angen_msgs::Entity> entities(const sim::Snapshot& snapshot,
+                                         const std::vector<desc::Plugin>& world_plugins,
+                                         const std::string& kind) {
+  const sim::Structure& structure = *snapshot.structure;
+  const std::vector<std::uint32_t> first = first_links(structure);
+  std::vector<angen_msgs::Entity> all;
+  const auto add = [&](const std::string& name, const std::string& its_kind, std::uint32_t model,
+                       const Pose& pose) -> angen_msgs::Entity* {
+    if (!kind.empty() && kind != its_kind) return nullptr;
+    angen_msgs::Entity entity;
+    entity.name = name;
+    entity.kind = its_kind;
+    entity.model = structure.models[model]->name;
+    entity.pose = to_ros(pose);
+    all.push_back(std::move(entity));
+    return &all.back();
+  };
+  const auto place = [&](std::uint32_t model) {
+    return first[model] == UINT32_MAX ? structure.models[model]->pose
+                                      : model_pose(snapshot, first[model]);
+  };
+  for (std::uint32_t m = 0; m < structure.models.size(); ++m) {
+    add(structure.models[m]->name, "model", m, place(m));
+  }
+  for (const sim::DeviceEntry& device : structure.devices) {
+    angen_msgs::Entity* entity = add(device.name, device.kind, device.model, place(device.model));
+    if (entity == nullptr || device.kind == "drive") continue;
+    entity->topic = topic_of(device.kind, device.name);
+    entity->type = format_of(device.kind).type;
+  }
+  for (const Robot& robot : find_robots(structure, world_plugins)) {
+    for (angen_msgs::Entity& entity : all) {
+      if (entity.kind != "drive" || entity.name != robot.name) continue;
+      entity.topic = robot.odometry_topics.front();
+      entity.type = format_of("drive").type;
+    }
+  }
+  for (const sim::SensorEntry& sensor : structure.sensors) {
+    angen_msgs::Entity* entity =
+        add(sensor.name, sensor.kind, sensor.model, snapshot.link_poses[sensor.link] * sensor.pose);
+    if (entity == nullptr) continue;
+    entity->topic = ros::names::resolve(topic_of(sensor.kind, sensor.name, sensor.topic));
+    entity->type = format_of(sensor.kind).type;
+  }
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.name, a.kind) < std::tie(b.name, b.kind);
+  });
+  return all;
+}
+
+std::string save(const sim::Snapshot& snapshot, const desc::World& world) {
+  const sim::Structure& structure = *snapshot.structure;
+  const std::vector<std::uint32_t> first = first_links(structure);
+  std::vector<std::shared_ptr<const desc::Model>> models = structure.models;
+  for (const sim::SensorEntry& sensor : structure.sensors) {
+    if (!sensor.attached) continue;
+    auto with_sensor = std::make_shared<desc::Model>(*models[sensor.model]);
+    with_sensor->links[structure.links[sensor.link].link].sensors.push_back(*sensor.desc);
+    models[sensor.model] = std::move(with_sensor);
+  }
+  std::vector<load::ModelState> states(models.size());
+  for (std::uint32_t m = 0; m < models.size(); ++m) {
+    states[m].model = models[m].get();
+    states[m].pose = first[m] == UINT32_MAX ? models[m]->pose : model_pose(snapshot, first[m]);
+  }
+  for (std::uint32_t i = 0; i < structure.joints.size(); ++i) {
+    const sim::JointEntry& entry = structure.joints[i];
+    const desc::Joint& joint = structure.models[entry.model]->joints[entry.joint];
+    if (joint.axes.empty()) continue;
+    states[entry.model].joint_positions.push_back({joint.name, {snapshot.joint_positions[i]}});
+  }
+  return load::save(world, states);
+}
+
+}  // namespace angen::node

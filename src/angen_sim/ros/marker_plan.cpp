@@ -1,0 +1,66 @@
+#include "ros/marker_plan.h"
+
+#include <algorithm>
+
+#include "core/names.h"
+
+namespace angen::node {
+namespace {
+
+constexpr std::size_t kBuildingLinks = 10;
+constexpr float kWallAlpha = 0.3F;  // one sees the rooms through it
+
+bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+
+bool is_ground(const desc::Link& link) {
+  return std::any_of(link.visuals.begin(), link.visuals.end(), [](const desc::Visual& visual) {
+    return visual.shape.type == Shape::Type::kPlane;
+  });
+}
+
+std::string device_group(const std::string& kind) {
+  return kind == "person" ? "people" : kind + "s";
+}
+
+}  // namespace
+
+std::string marker_group(const sim::Structure& structure, std::uint32_t link) {
+  const sim::LinkEntry& entry = structure.links[link];
+  const desc::Model& model = *structure.models[entry.model];
+  for (const sim::DeviceEntry& device : structure.devices) {
+    if (device.model == entry.model) return device_group(device.kind);
+  }
+  const desc::Link& described = model.links[entry.link];
+  if (is_ground(described)) return "ground";
+  if (model.is_static && model.links.size() > kBuildingLinks) {
+    const std::string floor = " " + std::to_string(floor_of(model.pose.position.z()));
+    if (has(described.name, "ceiling")) return "ceilings" + floor;
+    if (has(described.name, "floor")) return "floors" + floor;
+    return "walls" + floor;
+  }
+  return model.is_static && !described.sensors.empty() ? "sensors" : "furniture";
+}
+
+DrawnModel draw_model(const sim::Structure& structure, std::uint32_t first_link,
+                      std::int32_t& next_id) {
+  DrawnModel drawn;
+  drawn.model = structure.models[structure.links[first_link].model];
+  for (std::uint32_t l = 0; l < drawn.model->links.size(); ++l) {
+    const std::string group = marker_group(structure, first_link + l);
+    const bool see_through = group.rfind("walls", 0) == 0;
+    std::vector<Drawing> drawings;
+    for (const desc::Visual& visual : drawn.model->links[l].visuals) {
+      for (Drawing& drawing : draw(visual)) {
+        drawing.marker.header.frame_id = "world";
+        drawing.marker.ns = group;
+        drawing.marker.id = next_id++;
+        if (see_through) drawing.marker.color.a = std::min(drawing.marker.color.a, kWallAlpha);
+        drawings.push_back(std::move(drawing));
+      }
+    }
+    drawn.links.push_back(std::move(drawings));
+  }
+  return drawn;
+}
+
+}  // namespace angen::node

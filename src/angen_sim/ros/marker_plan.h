@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ros/marker_shapes.h"
+#include "sim/snapshot.h"
+
+namespace angen::node {
+
+/// rviz's switch that a link of this model stands under: `doors`, `walls 0`, `furniture`, …
+/// A static model of many links is a building: its links are told apart by their names.
+std::string marker_group(const sim::Structure& structure, std::uint32_t link);
+
+/// Markers of one model, with the groups and ids that they keep until the model is deleted.
+struct DrawnModel {
+  std::shared_ptr<const desc::Model> model;
+  std::vector<std::vector<Drawing>> links;  // as desc::Model::links
+};
+
+/// Numbers them from `next_id` on. `first_link` is the model's first in Structure::links.
+DrawnModel draw_model(const sim::Structure& structure, std::uint32_t first_link,
+                      std::int32_t& next_id);
+
+}  // namespace angen::node

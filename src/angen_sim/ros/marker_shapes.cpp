@@ -1,0 +1,174 @@
+#include "ros/marker_shapes.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+
+#include "ros/convert.h"
+
+namespace angen::node {
+namespace {
+
+using visualization_msgs::Marker;
+
+constexpr double kThin = 0.002;      // m, a plane's slab
+constexpr double kEndless = 100.0;   // m, a plane without a size
+constexpr double kRayWidth = 0.006;  // m
+
+Marker sized(int type, double x, double y, double z) {
+  Marker marker;
+  marker.type = type;
+  marker.scale.x = std::max(x, 1e-4);
+  marker.scale.y = std::max(y, 1e-4);
+  marker.scale.z = std::max(z, 1e-4);
+  return marker;
+}
+
+bool carries_colors(const std::string& file) {
+  const std::string ending = file.size() > 4 ? file.substr(file.size() - 4) : "";
+  return ending == ".dae" || ending == ".DAE" || ending == ".obj" || ending == ".OBJ";
+}
+
+Marker draw_file(const Shape& shape) {
+  Marker marker = sized(Marker::MESH_RESOURCE, shape.mesh_scale.x(), shape.mesh_scale.y(),
+                        shape.mesh_scale.z());
+  marker.mesh_resource = file_address(shape.mesh_file);
+  marker.mesh_use_embedded_materials = carries_colors(shape.mesh_file);
+  return marker;
+}
+
+Marker draw_triangles(const TriangleMesh& mesh) {
+  Marker marker = sized(Marker::TRIANGLE_LIST, 1.0, 1.0, 1.0);
+  marker.points.reserve(mesh.triangles.size() * 3);
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t vertex : triangle) {
+      marker.points.push_back(to_point(mesh.vertices[vertex].cast<double>()));
+    }
+  }
+  return marker;
+}
+
+double number_at(const Element* element, const char* name, double fallback) {
+  const Element* child = element != nullptr ? element->child(name) : nullptr;
+  return child != nullptr ? std::strtod(child->text.c_str(), nullptr) : fallback;
+}
+
+struct Angles {
+  int count = 1;
+  double min = 0.0;
+  double max = 0.0;
+
+  explicit Angles(const Element* scan)
+      : count(std::max(1, static_cast<int>(number_at(scan, "samples", 1)))),
+        min(number_at(scan, "min_angle", 0.0)),
+        max(number_at(scan, "max_angle", 0.0)) {}
+  double at(int i) const {
+    return count == 1 ? (min + max) / 2 : min + (max - min) * i / (count - 1);
+  }
+};
+
+}  // namespace
+
+std_msgs::ColorRGBA color(float r, float g, float b, float a) {
+  std_msgs::ColorRGBA out;
+  out.r = r;
+  out.g = g;
+  out.b = b;
+  out.a = a;
+  return out;
+}
+
+std::string file_address(const std::string& path) {
+  constexpr char kHex[] = "0123456789ABCDEF";
+  std::string out = "file://";
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (std::isalnum(byte) != 0 || std::string("/-_.~").find(c) != std::string::npos) {
+      out += c;
+    } else {
+      out += {'%', kHex[byte >> 4], kHex[byte & 15]};
+    }
+  }
+  return out;
+}
+
+std::vector<Drawing> draw(const desc::Visual& visual) {
+  const Shape& shape = visual.shape;
+  const double width = 2 * shape.radius;
+  std::vector<Drawing> drawings;
+  const auto add = [&](Marker marker, const Pose& offset = {}) {
+    const Eigen::Vector4f& c = visual.material.diffuse;
+    if (!marker.mesh_use_embedded_materials) marker.color = color(c[0], c[1], c[2], c[3]);
+    drawings.push_back({std::move(marker), visual.pose * offset});
+  };
+  switch (shape.type) {
+    case Shape::Type::kEmpty:
+      break;
+    case Shape::Type::kBox:
+      add(sized(Marker::CUBE, shape.size.x(), shape.size.y(), shape.size.z()));
+      break;
+    case Shape::Type::kSphere:
+      add(sized(Marker::SPHERE, width, width, width));
+      break;
+    case Shape::Type::kCylinder:
+      add(sized(Marker::CYLINDER, width, width, shape.length));
+      break;
+    case Shape::Type::kCapsule:
+      add(sized(Marker::CYLINDER, width, width, shape.length));
+      for (const double end : {-0.5, 0.5}) {
+        add(sized(Marker::SPHERE, width, width, width),
+            {Vec3(0, 0, end * shape.length), Quat::Identity()});
+      }
+      break;
+    case Shape::Type::kPlane: {
+      const double x = shape.size.x() > 0 ? shape.size.x() : kEndless;
+      const double y = shape.size.y() > 0 ? shape.size.y() : kEndless;
+      add(sized(Marker::CUBE, x, y, kThin), {Vec3(0, 0, -kThin / 2), Quat::Identity()});
+      break;
+    }
+    case Shape::Type::kMesh:
+      if (!shape.mesh_file.empty()) {
+        add(draw_file(shape));
+      } else if (shape.mesh != nullptr) {
+        add(draw_triangles(*shape.mesh));
+      }
+      break;
+  }
+  return drawings;
+}
+
+Marker draw(const desc::Light& light, double level) {
+  Marker marker = sized(Marker::SPHERE, 0.16, 0.16, 0.16);
+  const Eigen::Vector3f& c = light.diffuse;
+  const float strongest = std::max(c.maxCoeff(), 1e-3F);
+  const auto part = static_cast<float>(std::sqrt(std::clamp(level, 0.0, 1.0)));
+  const auto channel = [&](float lit, float dark) { return dark + (lit - dark) * part; };
+  marker.color = color(channel(c[0] / strongest, 0.25F), channel(c[1] / strongest, 0.25F),
+                       channel(0.6F * c[2] / strongest, 0.28F), 1.0F);
+  return marker;
+}
+
+Marker draw_rays(const desc::Sensor& sensor, const std::vector<double>& ranges) {
+  Marker marker;
+  marker.type = Marker::LINE_LIST;
+  marker.scale.x = kRayWidth;
+  const Element* ray = sensor.element.child("ray");
+  const Element* scan = ray != nullptr ? ray->child("scan") : nullptr;
+  const Angles across(scan != nullptr ? scan->child("horizontal") : nullptr);
+  const Angles upward(scan != nullptr ? scan->child("vertical") : nullptr);
+  const double reach = number_at(ray != nullptr ? ray->child("range") : nullptr, "max", 1.0);
+  std::size_t i = 0;
+  for (int v = 0; v < upward.count; ++v) {
+    for (int h = 0; h < across.count; ++h, ++i) {
+      const double range = i < ranges.size() && ranges[i] < reach ? ranges[i] : reach;
+      const Vec3 direction(std::cos(upward.at(v)) * std::cos(across.at(h)),
+                           std::cos(upward.at(v)) * std::sin(across.at(h)), std::sin(upward.at(v)));
+      marker.points.push_back(to_point(Vec3::Zero()));
+      marker.points.push_back(to_point(direction * range));
+    }
+  }
+  return marker;
+}
+
+}  // namespace angen::node

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+
+#include "ros/pacer.h"
+#include "ros/publishers.h"
+#include "sim/snapshot.h"
+
+namespace angen::node {
+
+/// /clock: so often a simulated second; while time stands still, ten times a second of wall time.
+class ClockTopic {
+ public:
+  /// Rate in Hz, positive.
+  ClockTopic(ros::NodeHandle& node, double rate);
+  void pass(const sim::Snapshot& snapshot, Pacer::Clock::time_point now);
+
+ private:
+  ros::Publisher publisher_;
+  Nanoseconds period_;
+  Nanoseconds slot_ = -1;
+  Pacer::Clock::time_point sent_{};
+};
+
+/// /angen/stats, once a second of wall time.
+class Stats {
+ public:
+  explicit Stats(ros::NodeHandle& node);
+  void pass(const sim::Snapshot& snapshot, Pacer::Clock::time_point now);
+
+ private:
+  Outlet outlet_;
+  Pacer::Clock::time_point start_ = Pacer::Clock::now();
+  Pacer::Clock::time_point sent_ = start_;
+  Nanoseconds sent_time_ = 0;
+};
+
+/// /angen/events; what was rejected, and warnings, also stand in the log.
+class Events {
+ public:
+  explicit Events(ros::NodeHandle& node);
+  void pass(const sim::Snapshot& snapshot);
+
+ private:
+  Outlet outlet_;
+};
+
+}  // namespace angen::node

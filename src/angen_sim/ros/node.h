@@ -1,0 +1,52 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+
+#include "ros/commands.h"
+#include "ros/inbox.h"
+#include "ros/markers.h"
+#include "ros/news.h"
+#include "ros/pacer.h"
+#include "ros/publishers.h"
+#include "ros/services.h"
+#include "ros/tf.h"
+
+namespace angen::node {
+
+struct Settings {
+  double rate = 1.0;          // simulated seconds a wall second; 0 = as fast as it goes
+  double clock_rate = 100.0;  // Hz
+  std::string models;         // a folder that model:// is looked for in, besides the usual ones
+};
+
+/// A simulation in ROS. The thread that calls run() owns the world and publishes; roscpp's threads
+/// only queue actions and wait for their answers.
+class Node {
+ public:
+  Node(sim::Simulation& simulation, const Settings& settings);
+
+  /// Ticks until `stop` or roscpp's end.
+  void run(const std::atomic<bool>& stop);
+
+ private:
+  void pass(const sim::Snapshot& snapshot);
+  void rest(const sim::Snapshot& snapshot);
+
+  sim::Simulation& simulation_;
+  ros::NodeHandle handle_;
+  Inbox inbox_;
+  Pacer pacer_;
+  std::uint64_t revision_ = UINT64_MAX;
+  ClockTopic clock_;
+  Stats stats_;
+  Events events_;
+  Transforms transforms_;
+  Markers markers_;
+  Publishers publishers_;
+  Commands commands_;
+  Services services_;
+};
+
+}  // namespace angen::node

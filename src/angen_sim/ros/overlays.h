@@ -1,0 +1,49 @@
+#pragma once
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ros/marker_shapes.h"
+#include "sim/snapshot.h"
+
+namespace angen::node {
+
+/// Markers that show a value: a ball for each lamp, beams for each ray sensor.
+class Overlays {
+ public:
+  using Array = visualization_msgs::MarkerArray;
+
+  /// Takes up what exists now; what is gone is added to `gone` as deleted.
+  void follow(const sim::Snapshot& snapshot, std::int32_t& next_id, Array& gone);
+
+  /// Appends what looks different than when it was appended last; with `all` everything.
+  void append(const sim::Snapshot& snapshot, bool all, Array& array);
+
+ private:
+  struct Overlay {
+    visualization_msgs::Marker marker;
+    std::uint32_t index = 0;          // in Structure::lights or Structure::sensors
+    std::uint32_t link = UINT32_MAX;  // in Structure::links; none for a world light
+    Pose offset;
+    Pose pose;                               // as appended last
+    double level = -1.0;                     // of a lamp, as appended last
+    std::shared_ptr<const Reading> reading;  // of a sensor, looked at last
+    std::vector<double> ranges;              // m, as appended last
+    bool fired = false;
+  };
+  using Named = std::map<std::string, Overlay>;
+
+  void add_lamp(const sim::Structure& structure, std::uint32_t light);
+  void add_beams(const sim::Structure& structure, std::uint32_t sensor);
+  bool relight(const sim::Snapshot& snapshot, Overlay& lamp) const;
+  bool redraw(const sim::Snapshot& snapshot, Overlay& beams) const;
+
+  Named lamps_;
+  Named beams_;
+};
+
+}  // namespace angen::node

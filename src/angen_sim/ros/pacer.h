@@ -1,0 +1,46 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+
+#include "core/time.h"
+
+namespace angen::node {
+
+/// Keeps simulated time beside the wall's on an absolute schedule, so that no error adds up. What
+/// the simulation cannot catch up within kMaxLag is given up.
+class Pacer {
+ public:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::nanoseconds kMaxLag = std::chrono::milliseconds(100);
+
+  /// Simulated seconds a wall second; 0 = as fast as it goes.
+  explicit Pacer(double rate) : rate_(rate) {}
+
+  /// Starts the schedule anew: after a pause, a jump of time, or at the first tick.
+  void restart() { anchored_ = false; }
+
+  /// How far `time` is ahead of the schedule; never negative, 0 at rate 0.
+  std::chrono::nanoseconds ahead(Nanoseconds time, Clock::time_point now) {
+    if (rate_ <= 0.0) return std::chrono::nanoseconds(0);
+    if (!anchored_ || time < start_time_) anchor(time, now);
+    const double due = static_cast<double>(time - start_time_) / rate_;
+    const Clock::time_point when = start_ + std::chrono::nanoseconds(static_cast<Nanoseconds>(due));
+    if (now - when > kMaxLag) anchor(time, now);
+    return std::max<std::chrono::nanoseconds>(when - now, std::chrono::nanoseconds(0));
+  }
+
+ private:
+  void anchor(Nanoseconds time, Clock::time_point now) {
+    anchored_ = true;
+    start_time_ = time;
+    start_ = now;
+  }
+
+  double rate_;
+  bool anchored_ = false;
+  Nanoseconds start_time_ = 0;
+  Clock::time_point start_;
+};
+
+}  // namespace angen::node

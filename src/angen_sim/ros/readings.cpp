@@ -1,0 +1,109 @@
+#include "ros/readings.h"
+
+#include <algorithm>
+#include <type_traits>
+
+#include "ros/convert.h"
+
+namespace angen::node {
+
+void fill(const Reading& reading, const Label&, angen_msgs::PirMsg& message) {
+  message.motion = reading.get<bool>("motion");
+  message.difference = reading.get<double>("difference");
+  message.threshold = reading.get<double>("threshold");
+  message.signal = reading.get<double>("signal");
+  message.signal_threshold = reading.get<double>("signal_threshold");
+}
+
+void fill(const Reading& reading, const Label&, angen_msgs::SwitchMsg& message) {
+  message.closed = reading.get<bool>("closed");
+  message.changed = reading.get<bool>("changed");
+  const auto ranges = reading.get<std::vector<double>>("ranges");
+  std::copy_n(ranges.begin(), std::min(ranges.size(), message.ranges.size()),
+              message.ranges.begin());
+  message.difference = reading.get<double>("difference");
+  message.threshold = reading.get<double>("threshold");
+}
+
+void fill(const Reading& reading, const Label&, angen_msgs::LightSensMsg& message) {
+  message.illuminance = reading.get<double>("illuminance");
+  message.r = static_cast<float>(reading.get<double>("r"));
+  message.g = static_cast<float>(reading.get<double>("g"));
+  message.b = static_cast<float>(reading.get<double>("b"));
+}
+
+void fill(const Reading& reading, const Label&, gazebo_msgs::ContactsState& message) {
+  message.header.frame_id = "world";
+  const auto first = reading.get<std::vector<std::string>>("collision1");
+  const auto second = reading.get<std::vector<std::string>>("collision2");
+  const auto counts = reading.get<std::vector<double>>("counts");
+  const auto positions = reading.get<std::vector<double>>("positions");
+  const auto normals = reading.get<std::vector<double>>("normals");
+  const auto depths = reading.get<std::vector<double>>("depths");
+  const auto forces = reading.get<std::vector<double>>("forces");
+  const std::size_t points =
+      std::min({positions.size() / 3, normals.size() / 3, depths.size(), forces.size() / 3});
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < std::min({first.size(), second.size(), counts.size()}); ++i) {
+    gazebo_msgs::ContactState state;
+    state.collision1_name = first[i];
+    state.collision2_name = second[i];
+    state.info = first[i] + " touches " + second[i];
+    Vec3 force_sum = Vec3::Zero();
+    Vec3 torque_sum = Vec3::Zero();
+    for (auto left = static_cast<std::size_t>(counts[i]); left > 0 && next < points;
+         --left, ++next) {
+      const Vec3 position = Vec3::Map(&positions[3 * next]);
+      const Vec3 force = Vec3::Map(&forces[3 * next]);
+      const Vec3 torque = position.cross(force);
+      geometry_msgs::Wrench wrench;
+      wrench.force = to_vector(force);
+      wrench.torque = to_vector(torque);
+      state.wrenches.push_back(wrench);
+      state.contact_positions.push_back(to_vector(position));
+      state.contact_normals.push_back(to_vector(Vec3::Map(&normals[3 * next])));
+      state.depths.push_back(depths[next]);
+      force_sum += force;
+      torque_sum += torque;
+    }
+    state.total_wrench.force = to_vector(force_sum);
+    state.total_wrench.torque = to_vector(torque_sum);
+    message.states.push_back(std::move(state));
+  }
+}
+
+void fill(const Reading& reading, const Label& label, angen_msgs::Reading& message) {
+  message.name = label.name;
+  message.kind = reading.kind;
+  const auto number = [&](const std::string& name, double value) {
+    message.names.push_back(name);
+    message.values.push_back(value);
+  };
+  const auto text = [&](const std::string& name, const std::string& value) {
+    message.text_names.push_back(name);
+    message.texts.push_back(value);
+  };
+  const auto each = [](const std::string& name, const auto& values, const auto& add) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      add(name + "[" + std::to_string(i) + "]", values[i]);
+    }
+  };
+  for (const auto& [name, value] : reading.fields) {
+    std::visit(
+        [&, &field = name](const auto& held) {
+          using T = std::decay_t<decltype(held)>;
+          if constexpr (std::is_arithmetic_v<T>) {
+            number(field, static_cast<double>(held));
+          } else if constexpr (std::is_same_v<T, std::string>) {
+            text(field, held);
+          } else if constexpr (std::is_same_v<T, std::vector<double>>) {
+            each(field, held, number);
+          } else {
+            each(field, held, text);
+          }
+        },
+        value);
+  }
+}
+
+}  // namespace angen::node

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <angen_msgs/LightSensMsg.h>
+#include <angen_msgs/PirMsg.h>
+#include <angen_msgs/Reading.h>
+#include <angen_msgs/SwitchMsg.h>
+#include <gazebo_msgs/ContactsState.h>
+
+#include "ros/formats.h"
+
+/// What sensors measured, as messages; the caller fills the headers.
+namespace angen::node {
+
+void fill(const Reading& reading, const Label& label, angen_msgs::PirMsg& message);
+void fill(const Reading& reading, const Label& label, angen_msgs::SwitchMsg& message);
+void fill(const Reading& reading, const Label& label, angen_msgs::LightSensMsg& message);
+/// In the world frame, whatever the label says; torques are about its origin.
+void fill(const Reading& reading, const Label& label, gazebo_msgs::ContactsState& message);
+
+/// Any reading: flags and counts as numbers, an array as NAME[0], NAME[1], …
+void fill(const Reading& reading, const Label& label, angen_msgs::Reading& message);
+
+}  // namespace angen::node

@@ -1,0 +1,145 @@
+#include "ros/services.h"
+
+#include <ros/console.h>
+
+#include <cmath>
+#include <exception>
+
+#include "core/diagnostics.h"
+#include "ros/convert.h"
+#include "ros/listing.h"
+#include "ros/text.h"
+
+namespace angen::node {
+namespace {
+
+void check_name(const std::string& name) {
+  if (name.empty()) throw Error("the name is empty; give one, as kitchen_pir");
+  if (!valid_utf8(name)) throw Error("the name '" + printable(name) + "' is not UTF-8");
+  const bool plain = printable(name, name.size()) == name && trimmed(name) == name;
+  if (!plain || name.find("::") != std::string::npos || name.find('/') != std::string::npos) {
+    throw Error("the name '" + printable(name) +
+                "' holds what names cannot: '::', '/', control characters or blanks at an end");
+  }
+}
+
+// A message whose quaternion nobody filled means no rotation.
+Pose to_pose(const geometry_msgs::Pose& message) {
+  Pose pose;
+  pose.position = {message.position.x, message.position.y, message.position.z};
+  const geometry_msgs::Quaternion& q = message.orientation;
+  pose.rotation = Quat(q.w, q.x, q.y, q.z);
+  if (!pose.finite()) throw Error("the pose holds a number that is not finite");
+  const double norm = pose.rotation.norm();
+  if (norm == 0.0) {
+    pose.rotation = Quat::Identity();
+  } else if (std::abs(norm - 1.0) > 0.01) {
+    throw Error("the pose's quaternion has length " + std::to_string(norm) + ", must have 1");
+  } else {
+    pose.rotation.normalize();
+  }
+  return pose;
+}
+
+// Runs `work`; what it throws becomes the answer.
+template <class Response, class Work>
+bool answered(Response& response, Work&& work) {
+  try {
+    const sim::Outcome outcome = work();
+    response.success = outcome.ok;
+    response.message = outcome.message;
+  } catch (const std::exception& problem) {
+    response.success = false;
+    response.message = problem.what();
+  }
+  return true;
+}
+
+}  // namespace
+
+Services::Services(ros::NodeHandle& node, Inbox& inbox, const std::string& models)
+    : inbox_(inbox), paths_(load::SearchPaths::from_environment(models)) {
+  const auto serve_empty = [&](const std::string& name, const sim::Action& action) {
+    const boost::function<bool(Empty::Request&, Empty::Response&)> called =
+        [this, action](Empty::Request&, Empty::Response&) { return empty(action); };
+    servers_.push_back(node.advertiseService(name, called));
+  };
+  serve_empty("/gazebo/pause_physics", sim::Pause{true});
+  serve_empty("/gazebo/unpause_physics", sim::Pause{false});
+  serve_empty("/gazebo/reset_simulation", sim::Reset{true});
+  serve_empty("/gazebo/reset_world", sim::Reset{false});
+  servers_.push_back(node.advertiseService("/angen/step", &Services::step, this));
+  servers_.push_back(node.advertiseService("/angen/spawn", &Services::spawn, this));
+  servers_.push_back(node.advertiseService("/angen/delete", &Services::erase, this));
+  servers_.push_back(node.advertiseService("/angen/list", &Services::list, this));
+  servers_.push_back(node.advertiseService("/angen/save", &Services::save, this));
+}
+
+// An Empty service has no message: false is all that it can say.
+bool Services::empty(sim::Action action) {
+  try {
+    const sim::Outcome outcome = inbox_.ask(std::move(action));
+    if (!outcome.ok) ROS_ERROR("%s", outcome.message.c_str());
+    return outcome.ok;
+  } catch (const std::exception& problem) {
+    ROS_ERROR("%s", problem.what());
+    return false;
+  }
+}
+
+bool Services::step(angen_msgs::Step::Request& request, angen_msgs::Step::Response& response) {
+  return answered(response, [&] {
+    const sim::Outcome outcome = inbox_.ask(sim::Step{request.ticks});
+    response.sim_time = to_ros(inbox_.simulation().snapshot()->time);
+    return outcome;
+  });
+}
+
+sim::Action Services::spawn_action(const angen_msgs::Spawn::Request& request) const {
+  check_name(request.name);
+  if (trimmed(request.xml).empty()) throw Error("nothing to spawn: xml is empty");
+  if (!valid_utf8(request.xml)) throw Error("xml is not UTF-8");
+  const Pose pose = to_pose(request.pose);
+  const bool lone_sensor = load::is_sensor(request.xml);
+  if (lone_sensor && request.on.empty()) {
+    throw Error("a lone <sensor> needs a link to sit on: give `on` as MODEL::LINK");
+  }
+  if (!lone_sensor && !request.on.empty()) {
+    throw Error("only a <sensor> can be put on a link, and xml holds none");
+  }
+  if (!valid_utf8(request.on)) throw Error("`on` is not UTF-8");
+  if (lone_sensor) return sim::Attach{load::sensor(request.xml, request.name, pose), request.on};
+  return sim::Spawn{load::model(request.xml, request.name, pose, paths_)};
+}
+
+bool Services::spawn(angen_msgs::Spawn::Request& request, angen_msgs::Spawn::Response& response) {
+  return answered(response, [&] { return inbox_.ask(spawn_action(request)); });
+}
+
+bool Services::erase(angen_msgs::Delete::Request& request, angen_msgs::Delete::Response& response) {
+  return answered(response, [&] {
+    check_name(request.name);
+    return inbox_.ask(sim::Delete{request.name});
+  });
+}
+
+bool Services::list(angen_msgs::List::Request& request, angen_msgs::List::Response& response) {
+  try {
+    const auto snapshot = inbox_.simulation().snapshot();
+    response.entities = entities(*snapshot, inbox_.simulation().world().plugins, request.kind);
+  } catch (const std::exception& problem) {
+    ROS_ERROR("/angen/list: %s", problem.what());
+    return false;
+  }
+  return true;
+}
+
+bool Services::save(angen_msgs::Save::Request&, angen_msgs::Save::Response& response) {
+  return answered(response, [&] {
+    const auto snapshot = inbox_.simulation().snapshot();
+    response.xml = node::save(*snapshot, inbox_.simulation().world());
+    return sim::Outcome{};
+  });
+}
+
+}  // namespace angen::node

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <angen_msgs/Delete.h>
+#include <angen_msgs/List.h>
+#include <angen_msgs/Save.h>
+#include <angen_msgs/Spawn.h>
+#include <angen_msgs/Step.h>
+#include <ros/node_handle.h>
+#include <std_srvs/Empty.h>
+
+#include <string>
+#include <vector>
+
+#include "load/load.h"
+#include "ros/inbox.h"
+
+namespace angen::node {
+
+/// What can be asked of the node. Parsing happens here, on the thread of the one who asks; the
+/// world changes in its own. Nothing is thrown out: what goes wrong is success = false and a
+/// message.
+class Services {
+ public:
+  /// `models` is a further folder that model:// is looked for in.
+  Services(ros::NodeHandle& node, Inbox& inbox, const std::string& models);
+
+ private:
+  using Empty = std_srvs::Empty;
+
+  bool empty(sim::Action action);
+  bool step(angen_msgs::Step::Request& request, angen_msgs::Step::Response& response);
+  bool spawn(angen_msgs::Spawn::Request& request, angen_msgs::Spawn::Response& response);
+  bool erase(angen_msgs::Delete::Request& request, angen_msgs::Delete::Response& response);
+  bool list(angen_msgs::List::Request& request, angen_msgs::List::Response& response);
+  bool save(angen_msgs::Save::Request& request, angen_msgs::Save::Response& response);
+  sim::Action spawn_action(const angen_msgs::Spawn::Request& request) const;
+
+  Inbox& inbox_;
+  load::SearchPaths paths_;
+  std::vector<ros::ServiceServer> servers_;
+};
+
+}  // namespace angen::node

@@ -1,0 +1,201 @@
+#include "ros/text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "core/diagnostics.h"
+
+namespace angen::node {
+namespace {
+
+constexpr char kDoorForms[] =
+    "right are `Open, NAME`, `Close, NAME`, `Set, NAME, RADIANS`; NAME "
+    "may be `all`";
+constexpr char kLampForms[] =
+    "right are `On, NAME`, `Off, NAME`, `Dim, NAME, PERCENT`; NAME may "
+    "be `all`";
+constexpr char kElevatorForms[] =
+    "right are `Floor0`, `Floor1`, … and, with several elevators, "
+    "`Floor1, NAME`";
+
+// Length of the UTF-8 character that starts at `i`, 0 where none does.
+std::size_t utf8_length(const std::string& text, std::size_t i) {
+  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+  const unsigned char first = byte(i);
+  if (first < 0x80) return 1;
+  const std::size_t length = first >= 0xC2 && first <= 0xDF   ? 2
+                             : first >= 0xE0 && first <= 0xEF ? 3
+                             : first >= 0xF0 && first <= 0xF4 ? 4
+                                                              : 0;
+  if (length == 0 || i + length > text.size()) return 0;
+  for (std::size_t k = 1; k < length; ++k) {
+    if ((byte(i + k) & 0xC0) != 0x80) return 0;
+  }
+  const unsigned char second = byte(i + 1);
+  const bool overlong = (first == 0xE0 && second < 0xA0) || (first == 0xF0 && second < 0x90);
+  const bool surrogate = first == 0xED && second > 0x9F;
+  const bool too_large = first == 0xF4 && second > 0x8F;
+  return overlong || surrogate || too_large ? 0 : length;
+}
+
+std::vector<std::string> fields_of(const std::string& text) {
+  std::vector<std::string> fields;
+  std::size_t start = 0;
+  while (true) {
+    const std::size_t comma = text.find(',', start);
+    fields.push_back(trimmed(text.substr(start, comma - start)));
+    if (comma == std::string::npos) return fields;
+    start = comma + 1;
+  }
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+std::optional<double> number(const std::string& text) {
+  const char* begin = text.data();
+  const char* end = begin + text.size();
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') ++begin;
+  double value = 0.0;
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  if (error != std::errc() || stop != end || !std::isfinite(value)) return {};
+  return value;
+}
+
+sim::Reject reject(const std::string& source, const std::string& kind, const std::string& text,
+                   const std::string& why, const std::string& forms) {
+  return {source, kind, "`" + printable(text) + "`: " + why + "; " + forms};
+}
+
+struct Verb {
+  const char* name;
+  const char* number;  // what its number is called, null when it takes none
+};
+
+// `VERB, NAME` or `VERB, NAME, NUMBER`.
+sim::Action listed_action(const std::string& text, const std::string& kind,
+                          const std::string& source, const std::vector<Verb>& verbs,
+                          const char* forms) {
+  const auto wrong = [&](const std::string& why) { return reject(source, kind, text, why, forms); };
+  if (!valid_utf8(text)) return wrong("not UTF-8");
+  const std::vector<std::string> fields = fields_of(text);
+  if (fields[0].empty()) return wrong("no verb");
+  const auto verb = std::find_if(verbs.begin(), verbs.end(), [&](const Verb& candidate) {
+    return lower(candidate.name) == lower(fields[0]);
+  });
+  if (verb == verbs.end()) return wrong("unknown verb `" + printable(fields[0]) + "`");
+  if (fields.size() < 2 || fields[1].empty()) return wrong("no name");
+  const std::size_t wanted = verb->number != nullptr ? 3 : 2;
+  if (fields.size() > wanted) return wrong("too many parts");
+  std::string command = verb->name;
+  if (verb->number != nullptr) {
+    if (fields.size() < wanted) return wrong(std::string("no ") + verb->number);
+    if (!number(fields[2])) {
+      return wrong("`" + printable(fields[2]) + "` is not a number of " + verb->number);
+    }
+    command += " " + fields[2];
+  }
+  return sim::ToDevice{kind, fields[1], {command, {}}};
+}
+
+}  // namespace
+
+bool valid_utf8(const std::string& text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = utf8_length(text, i);
+    if (length == 0) return false;
+    i += length;
+  }
+  return true;
+}
+
+std::string trimmed(const std::string& text) {
+  constexpr char kBlank[] = " \t\r\n\v\f";
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+std::string printable(const std::string& text, std::size_t limit) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = utf8_length(text, i);
+    const bool plain = length > 1 || (length == 1 && text[i] >= 0x20 && text[i] != 0x7F);
+    if (out.size() + std::max<std::size_t>(length, 1) > limit) return out + "…";
+    out += plain ? text.substr(i, length) : "?";
+    i += std::max<std::size_t>(length, 1);
+  }
+  return out;
+}
+
+sim::Action door_action(const std::string& text) {
+  return listed_action(text, "door", "Door_controller",
+                       {{"Open", nullptr}, {"Close", nullptr}, {"Set", "radians"}}, kDoorForms);
+}
+
+sim::Action lamp_action(const std::string& text) {
+  return listed_action(text, "lamp", "Light_controller",
+                       {{"On", nullptr}, {"Off", nullptr}, {"Dim", "percent"}}, kLampForms);
+}
+
+sim::Action elevator_action(const std::string& text, const std::vector<std::string>& elevators) {
+  const auto wrong = [&](const std::string& why) {
+    return reject("Elevator_controller", "elevator", text, why, kElevatorForms);
+  };
+  if (!valid_utf8(text)) return wrong("not UTF-8");
+  const std::vector<std::string> fields = fields_of(text);
+  if (fields[0].empty()) return wrong("no verb");
+  if (lower(fields[0].substr(0, 5)) != "floor") {
+    return wrong("unknown verb `" + printable(fields[0]) + "`");
+  }
+  const std::string floor = trimmed(fields[0].substr(5));
+  const bool digits = !floor.empty() && floor.size() <= 4 &&
+                      floor.find_first_not_of("0123456789") == std::string::npos;
+  if (!digits) return wrong("`" + printable(floor) + "` is not the number of a floor");
+  if (fields.size() > 2) return wrong("too many parts");
+  std::string name = fields.size() == 2 ? fields[1] : "";
+  if (fields.size() == 2 && name.empty()) return wrong("no name");
+  if (name.empty()) {
+    if (elevators.empty()) return wrong("there is no elevator");
+    if (elevators.size() > 1) return wrong("say which elevator of " + join_names(elevators));
+    name = elevators.front();
+  }
+  return sim::ToDevice{"elevator", name, {"Floor" + floor, {}}};
+}
+
+sim::Action any_action(const std::string& target, const std::string& text) {
+  const auto wrong = [&](const std::string& why) {
+    return reject("command", "command", target + ": " + text, why,
+                  "right is a device's name (or KIND/NAME) as target and its verb as text");
+  };
+  if (!valid_utf8(target) || !valid_utf8(text)) return wrong("not UTF-8");
+  const std::string name = trimmed(target);
+  if (name.empty()) return wrong("no target");
+  Command command{trimmed(text), {}};
+  if (command.text.empty()) return wrong("no text");
+  std::vector<double> values;
+  std::size_t start = 0;
+  while (start < command.text.size()) {
+    const std::size_t end = std::min(command.text.find_first_of(" ,", start), command.text.size());
+    if (end > start) {
+      const std::optional<double> value = number(command.text.substr(start, end - start));
+      if (!value) {
+        values.clear();
+        break;
+      }
+      values.push_back(*value);
+    }
+    start = end + 1;
+  }
+  command.values = std::move(values);
+  return sim::ToDevice{"", name, std::move(command)};
+}
+
+}  // namespace angen::node

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/command.h"
+
+/// The texts of command topics. `ros` is taken by roscpp, hence `node`.
+namespace angen::node {
+
+bool valid_utf8(const std::string& text);
+
+/// Without blanks at both ends.
+std::string trimmed(const std::string& text);
+
+/// `text` fit for a log line: at most `limit` bytes, bytes that are not printable ASCII or valid
+/// UTF-8 as `?`.
+std::string printable(const std::string& text, std::size_t limit = 80);
+
+/// Each returns what to post: a ToDevice, or a Reject that says why and lists the right forms.
+/// `Open, NAME|all`, `Close, NAME|all`, `Set, NAME|all, RADIANS`
+sim::Action door_action(const std::string& text);
+/// `On, NAME|all`, `Off, NAME|all`, `Dim, NAME|all, PERCENT`
+sim::Action lamp_action(const std::string& text);
+/// `Floor<N>`, `Floor<N>, NAME`; `elevators` are the ones that exist, for the form without a name.
+sim::Action elevator_action(const std::string& text, const std::vector<std::string>& elevators);
+/// /angen/command: NAME or KIND/NAME; a text of numbers alone becomes the command's values.
+sim::Action any_action(const std::string& target, const std::string& text);
+
+}  // namespace angen::node

@@ -1,0 +1,84 @@
+#include "ros/tf.h"
+
+#include <tf2_msgs/TFMessage.h>
+
+#include "ros/convert.h"
+#include "ros/states.h"
+
+namespace angen::node {
+namespace {
+
+constexpr Nanoseconds kPeriod = kSecond / 50;
+
+void add(tf2_msgs::TFMessage& message, Nanoseconds time, const std::string& parent,
+         const std::string& child, const Pose& pose) {
+  geometry_msgs::TransformStamped transform;
+  transform.header.stamp = to_ros(time);
+  transform.header.frame_id = parent;
+  transform.child_frame_id = child;
+  transform.transform = to_transform(pose);
+  message.transforms.push_back(std::move(transform));
+}
+
+}  // namespace
+
+Transforms::Transforms(ros::NodeHandle& node)
+    : fixed_(Outlet::of<tf2_msgs::TFMessage>(node, "/tf_static", true, 10)),
+      moving_(Outlet::of<tf2_msgs::TFMessage>(node, "/tf", false, 100)) {}
+
+void Transforms::follow(const sim::Snapshot& snapshot, const FrameTree& frames,
+                        const std::vector<Robot>& robots) {
+  frames_ = frames;
+  robots_ = robots;
+  moved_.clear();
+  marked_.assign(frames_.moving.size(), false);
+  tf2_msgs::TFMessage message;
+  for (const FixedFrame& frame : frames_.fixed) {
+    add(message, snapshot.time, frame.parent, frame.child, frame.pose);
+  }
+  fixed_.publisher().publish(message);
+  if (moving_.heard()) send(snapshot, true);
+}
+
+void Transforms::pass(const sim::Snapshot& snapshot) {
+  for (const std::uint32_t link : snapshot.moved_links) {
+    const std::int32_t frame = frames_.moved_by[link];
+    if (frame < 0 || marked_[frame]) continue;
+    marked_[frame] = true;
+    moved_.push_back(static_cast<std::uint32_t>(frame));
+  }
+  const std::uint64_t joined = moving_.joined();
+  const bool newcomer = joined != joined_;
+  const Nanoseconds slot = snapshot.time / kPeriod;
+  if (slot == slot_ && !(newcomer && snapshot.paused)) return;
+  joined_ = joined;
+  slot_ = slot;
+  const Nanoseconds second = snapshot.time / kSecond;
+  const bool all = newcomer || second != second_;
+  second_ = second;
+  if (moving_.heard()) send(snapshot, all);
+  for (const std::uint32_t frame : moved_) marked_[frame] = false;
+  moved_.clear();
+}
+
+void Transforms::send(const sim::Snapshot& snapshot, bool all) {
+  tf2_msgs::TFMessage message;
+  const auto add_moving = [&](const MovingFrame& frame) {
+    Pose pose = snapshot.link_poses[frame.link];
+    if (frame.parent_link) pose = snapshot.link_poses[*frame.parent_link].inverse() * pose;
+    add(message, snapshot.time, frame.parent, frame.child, pose);
+  };
+  if (all) {
+    for (const MovingFrame& frame : frames_.moving) add_moving(frame);
+  } else {
+    for (const std::uint32_t frame : moved_) add_moving(frames_.moving[frame]);
+  }
+  for (const Robot& robot : robots_) {
+    if (snapshot.devices[robot.device] == nullptr) continue;
+    add(message, snapshot.time, robot.odom_frame, robot.base_frame,
+        odometry_pose(*snapshot.devices[robot.device]));
+  }
+  if (!message.transforms.empty()) moving_.publisher().publish(message);
+}
+
+}  // namespace angen::node

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "ros/frames.h"
+#include "ros/publishers.h"
+#include "sim/snapshot.h"
+
+namespace angen::node {
+
+/// /tf_static once for each structure, /tf for what moves: when it has moved, at most 50 times a
+/// simulated second, and all of it once a second and for each newcomer.
+class Transforms {
+ public:
+  explicit Transforms(ros::NodeHandle& node);
+
+  void follow(const sim::Snapshot& snapshot, const FrameTree& frames,
+              const std::vector<Robot>& robots);
+  void pass(const sim::Snapshot& snapshot);
+
+ private:
+  void send(const sim::Snapshot& snapshot, bool all);
+
+  Outlet fixed_;
+  Outlet moving_;
+  FrameTree frames_;
+  std::vector<Robot> robots_;
+  std::vector<std::uint32_t> moved_;  // indices in frames_.moving since the last message
+  std::vector<bool> marked_;
+  Nanoseconds slot_ = 0;
+  Nanoseconds second_ = 0;
+  std::uint64_t joined_ = 0;
+};
+
+}  // namespace angen::node
