@@ -1,6 +1,7 @@
 #include "light/lighting.h"
 
 #include <algorithm>
+#include <atomic>
 #include <optional>
 
 #include "light/paths.h"
@@ -11,6 +12,12 @@ namespace {
 // Half of the colour range: about what a white wall returns at 200 lx.
 constexpr float kMiddleLuminance = 50.0F;  // cd/m^2
 
+/// A probe that outlives a Lighting (a world that was reset) knows nothing about the next one.
+std::uint64_t first_revision() {
+  static std::atomic<std::uint64_t> made{0};
+  return made++ << 32;
+}
+
 const Transport* known(const Probe& probe, LampId lamp) {
   const auto found = std::find_if(probe.transports.begin(), probe.transports.end(),
                                   [&](const Transport& t) { return t.lamp == lamp; });
@@ -19,7 +26,7 @@ const Transport* known(const Probe& probe, LampId lamp) {
 
 }  // namespace
 
-Lighting::Lighting(const rays::Scene& scene) : scene_(scene) {}
+Lighting::Lighting(const rays::Scene& scene) : scene_(scene), lamps_revision_(first_revision()) {}
 
 LampId Lighting::add(const Lamp& lamp, double level) {
   ++lamps_revision_;

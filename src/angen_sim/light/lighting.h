@@ -22,8 +22,8 @@ struct Lamp {
   double luminous_flux = 800.0;     // lm at level 1 (point: isotropic); directional: lx
   Eigen::Vector3f color{1.0F, 1.0F, 1.0F};  // linear r g b, scaled so that its luminance is 1
   double radius = 0.05;                     // m, size of the luminous sphere
-  double inner_angle = 0.0;                 // rad, spot
-  double outer_angle = 0.0;                 // rad, spot
+  double inner_angle = 0.0;                 // rad, spot: full angle of its evenly lit cone
+  double outer_angle = 0.0;                 // rad, spot: full angle beyond which it is dark
   bool cast_shadows = true;
 };
 
@@ -54,13 +54,16 @@ class Lighting {
 
   LampId add(const Lamp& lamp, double level);
   void remove(LampId lamp);
-  void set_level(LampId lamp, double level);  // 0..1
+  void set_level(LampId lamp, double level);  // share of luminous_flux; 0 and less is dark
   double level(LampId lamp) const;
   void move(LampId lamp, const Pose& pose);
 
   /// Illuminance at pose.position on the plane whose normal is pose's x axis, direct light with
-  /// shadows plus interreflection, and the mean colour seen along x in a field of view of 60
-  /// degrees. The scene must be committed. Same scene, same lamps, same pose: same bits.
+  /// shadows plus interreflection, and the mean colour that a square pixel of 60 degrees along x
+  /// sees: a mean luminance of L cd/m^2 gives L / (L + 50) in each channel. Albedos above 0.9 count
+  /// as 0.9. A shape around a lamp or around the place keeps the light out, the sensor's own
+  /// housing too: leave it out of the scene or put the place before it. The scene must be
+  /// committed. Same scene, same lamps, same pose: same bits.
   Sample measure(Probe& probe, const Pose& pose) const;
 
  private:
@@ -70,7 +73,7 @@ class Lighting {
   };
   const rays::Scene& scene_;
   Slots<Entry, LampTag> lamps_;
-  std::uint64_t lamps_revision_ = 0;
+  std::uint64_t lamps_revision_;  // no two Lightings share one
 };
 
 }  // namespace angen::light

@@ -63,6 +63,16 @@ TEST(Lighting, ProbeRemembersWithTheSameBits) {
   expect_same_bits(room.lighting.measure(probe, room.sensor), measure(room.lighting, room.sensor));
 }
 
+TEST(Lighting, ProbeForgetsAnotherWorld) {
+  Room first, second;
+  second.lighting.remove(second.lamp);
+  second.lighting.add(point_lamp(Vec3(1, 3, 1), 300.0), 1.0);
+  Probe probe;
+  first.lighting.measure(probe, first.sensor);
+  expect_same_bits(second.lighting.measure(probe, first.sensor),
+                   measure(second.lighting, first.sensor));
+}
+
 TEST(Lighting, OrderOfSwitchingLeavesNoTrace) {
   Room first, second;
   const LampId a = first.lighting.add(point_lamp(Vec3(1, 3, 1), 300.0), 1.0);

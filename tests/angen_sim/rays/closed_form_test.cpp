@@ -145,6 +145,52 @@ TEST(ClosedForm, NoRaySlipsBetweenTriangles) {
   }
 }
 
+/// 64 x 64 squares of two triangles over 4 x 4 m, tilted: z = x / 2 - y / 4, exact in floats.
+Shape tilted_grid() {
+  constexpr std::uint32_t kSide = 64;
+  auto mesh = std::make_shared<TriangleMesh>();
+  for (std::uint32_t i = 0; i <= kSide; ++i) {
+    for (std::uint32_t j = 0; j <= kSide; ++j) {
+      const float x = 4.0F * static_cast<float>(i) / kSide - 2;
+      const float y = 4.0F * static_cast<float>(j) / kSide - 2;
+      mesh->vertices.push_back({x, y, x / 2 - y / 4});
+      if (i == kSide || j == kSide) continue;
+      const std::uint32_t a = i * (kSide + 1) + j, b = a + kSide + 1;
+      mesh->triangles.push_back({a, b, b + 1});
+      mesh->triangles.push_back({a, b + 1, a + 1});
+    }
+  }
+  Shape shape;
+  shape.type = Shape::Type::kMesh;
+  shape.mesh = mesh;
+  return shape;
+}
+
+TEST(ClosedForm, GridOfTrianglesIsOneSurface) {
+  const Alone grid(tilted_grid(), at(10, 0, 0));
+  // Straight down through corners, edges and diagonals (1/32 m apart), then through faces.
+  for (int i = -63; i < 64; ++i) {
+    for (int j = -63; j < 64; ++j) {
+      const double x = i / 32.0, y = j / 32.0;
+      ASSERT_EQ(grid(Vec3(10 + x, y, 4), -Vec3::UnitZ()).range, 4 - (x / 2 - y / 4)) << x << y;
+      const double u = x + 0.011, v = y + 0.004;
+      ASSERT_NEAR(grid(Vec3(10 + u, v, 4), -Vec3::UnitZ()).range, 4 - (u / 2 - v / 4), kExact);
+    }
+  }
+}
+
+TEST(ClosedForm, OneMeshInTwoPlaces) {
+  Scene scene;
+  const Shape shape = octahedron(1.0F);
+  const ShapeId near = add(scene, shape, at(5, 0, 0));
+  add(scene, shape, at(9, 0, 0), Mobility::kMoving);
+  scene.commit();
+  EXPECT_NEAR(cast_one(scene, Vec3(0, 0.25, 0.125), Vec3::UnitX()).range, 4.375, kExact);
+  scene.remove(near);
+  scene.commit();
+  EXPECT_NEAR(cast_one(scene, Vec3(0, 0.25, 0.125), Vec3::UnitX()).range, 8.375, kExact);
+}
+
 TEST(ClosedForm, MinAndMaxAreInclusive) {
   const Alone box_alone(box(2, 2, 2), at(5, 0, 0));
   Ray ray;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <thread>
 
@@ -288,6 +289,20 @@ TEST(Scene, ManyScenesInOneProcess) {
     EXPECT_EQ(cast_one(*scenes[i], Vec3(0, 0, 0), Vec3::UnitX()).range,
               1.5 + static_cast<double>(i));
   }
+}
+
+std::ptrdiff_t threads_of_process() {
+  const std::filesystem::directory_iterator tasks("/proc/self/task");
+  return std::distance(begin(tasks), end(tasks));
+}
+
+TEST(Scene, BuildingStartsNoThread) {
+  const std::ptrdiff_t before = threads_of_process();
+  Scene scene;
+  Rng rng(10, 1, 0);
+  for (int i = 0; i < 20000; ++i) add(scene, random_shape(rng), random_pose(rng, 50.0));
+  scene.commit();
+  EXPECT_EQ(threads_of_process(), before);
 }
 
 TEST(Scene, ScenesInSeveralThreadsShareTheDevice) {
