@@ -16,6 +16,7 @@ namespace {
 constexpr double kClosedWithin = 0.01;   // rad
 constexpr double kOpenWithin = 0.02;     // rad
 constexpr double kArriveError = 0.0015;  // rad
+constexpr double kNearError = 0.005;     // rad
 constexpr double kArriveSpeed = 0.01;    // rad/s
 constexpr double kMaxLag = 0.08;         // rad
 constexpr double kStallSpeed = 0.01;     // rad/s
@@ -50,8 +51,9 @@ void Door::configure(Params& params, Wiring& wiring) {
       params.number("max_velocity", 1.0, "rad/s", "speed of the setpoint", kPositive);
   servo.max_acceleration =
       params.number("max_acceleration", 2.0, "rad/s^2", "acceleration of the setpoint", kPositive);
-  const double width =
-      params.number("width", 0.9, "m", "from the hinge to the far edge", kPositive);
+  double width = params.number("width", 0.0, "m",
+                               "from the hinge to the far edge; 0 = from the leaf's mass and moment",
+                               kNotNegative);
   const double edge_force =
       params.number("edge_force_max", 150.0, "N", "greatest force at the far edge", kPositive);
   open_position_ = params.number("open_position", -1.57, "rad", "where Open goes");
@@ -73,13 +75,19 @@ void Door::configure(Params& params, Wiring& wiring) {
           key, std::string(key) + " is outside the hinge's " + range_text(limits_) + " rad");
     }
   }
+  // A leaf is a slab: its mass and its moment tell its width, m w^2 / 3 = I.
   const double mass = wiring.mass(wiring.link(wiring.child_of(hinge_)));
+  if (width == 0.0) width = std::sqrt(3.0 * limits_.inertia / mass);
   torque_max_ = edge_force * width;
-  servo.inertia = mass * width * width / 3.0;
+  servo.inertia = limits_.inertia;
+  servo.damping = limits_.damping;
+  servo.friction = limits_.friction;
   servo.max_lag = kMaxLag;
   servo.arrive_error = kArriveError;
   servo.arrive_speed = kArriveSpeed;
+  servo.near_error = kNearError;
   servo.stall_speed = kStallSpeed;
+  servo.integrate_standing = true;
   servo_ = Servo(servo);
 }
 

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kLevelWithin = 0.005;    // m
 constexpr double kArriveError = 0.0005;   // m
+constexpr double kNearError = 0.002;      // m
 constexpr double kArriveSpeed = 0.002;    // m/s
 constexpr double kMaxLag = 0.02;          // m
 constexpr double kStallSpeed = 0.005;     // m/s
@@ -52,6 +53,7 @@ void Elevator::configure(Params& params, Wiring& wiring) {
   servo.max_lag = kMaxLag;
   servo.arrive_error = kArriveError;
   servo.arrive_speed = kArriveSpeed;
+  servo.near_error = kNearError;
   servo.stall_speed = kStallSpeed;
   servo_ = Servo(servo);
   floor_height_ =

@@ -23,8 +23,10 @@ class Pid {
 
   /// The command for an error (setpoint minus measured) and its rate, with a feed-forward in the
   /// command's unit, after dt seconds. While the command is cut off the integral only shrinks.
-  double update(double error, double error_rate, double feed_forward, double dt) {
-    const double grown = std::clamp(integral_ + gains_.i * error * dt, gains_.i_min, gains_.i_max);
+  double update(double error, double error_rate, double feed_forward, double dt,
+                bool integrate = true) {
+    const double more = integrate ? gains_.i * error * dt : 0.0;
+    const double grown = std::clamp(integral_ + more, gains_.i_min, gains_.i_max);
     const double rest = gains_.p * error + gains_.d * error_rate + feed_forward;
     const double wanted = rest + grown;
     const bool winds_up = (wanted > gains_.cmd_max && grown > integral_) ||

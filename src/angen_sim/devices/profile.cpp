@@ -15,7 +15,7 @@ void Profile::advance(double target, double dt) {
   const double change = max_acceleration_ * dt;
   const double to_go = target - position_;
   // The last step: what is left is what one step may cover, and it may end at rest.
-  if (std::abs(velocity_) <= 2.0 * change && std::abs(to_go) <= 2.0 * change * dt) {
+  if (std::abs(velocity_) <= change && std::abs(to_go) <= change * dt) {
     acceleration_ = -velocity_ / dt;
     position_ = target;
     velocity_ = 0.0;

@@ -25,14 +25,26 @@ double Servo::update(double target, double position, double velocity, double dt)
   } else {
     profile_.advance(target, dt);
   }
-  return pid_.update(profile_.position() - position, profile_.velocity() - velocity,
-                     settings_.inertia * profile_.acceleration(), dt);
+  const double error = profile_.position() - position;
+  bool integrate = true;
+  if (settings_.integrate_standing) {
+    integrate = std::abs(velocity) < 2.0 * settings_.stall_speed;
+    if (error * pid_.integral() < 0.0) pid_.reset();
+  }
+  return pid_.update(error, profile_.velocity() - velocity, feed_forward(), dt, integrate);
+}
+
+double Servo::feed_forward() const {
+  const double v = profile_.velocity();
+  const double rubs = v == 0.0 ? 0.0 : std::copysign(settings_.friction, v);
+  return settings_.inertia * profile_.acceleration() + settings_.damping * v + rubs;
 }
 
 void Servo::watch(double target, double position, double velocity, double dt) {
   const double to_go = target - position;
   const bool slow = std::abs(velocity) < settings_.arrive_speed;
-  arrived_ = profile_.at(target) && std::abs(to_go) < settings_.arrive_error && slow;
+  const double near = stalled_ > kNearTime ? settings_.near_error : settings_.arrive_error;
+  arrived_ = profile_.at(target) && std::abs(to_go) < near && slow;
   if (blocked_) {
     const double moved = (position - blocked_at_) * (to_go < 0.0 ? -1.0 : 1.0);
     if (moved > settings_.freed_distance) start(position, velocity);

@@ -10,11 +10,17 @@ struct ServoSettings {
   double max_velocity = 1.0;
   double max_acceleration = 1.0;
   double inertia = 1.0;          // command per unit of acceleration, fed forward
+  double damping = 0.0;          // command per unit of velocity, fed forward
+  double friction = 0.0;         // command that it takes to move at all, fed forward
   double max_lag = 0.1;          // the setpoint waits when it is further ahead than this
   double arrive_error = 0.01;    // at rest means nearer than this …
+  double near_error = 0.01;      // … or than this where friction has held it for kNearTime …
   double arrive_speed = 0.01;    // … and slower than this
   double stall_speed = 0.02;     // slower than this is no motion
   double freed_distance = 0.02;  // moved on by this much since it was blocked means freed
+  // The integral is for friction and for what holds the joint: it grows only while the joint
+  // stands, and is dropped when the error turns round. For gains that would swing otherwise.
+  bool integrate_standing = false;
 };
 
 /// A joint led along a profile by a PID. What holds the joint makes the profile wait; after
@@ -23,6 +29,7 @@ struct ServoSettings {
 class Servo {
  public:
   static constexpr double kStallTime = 0.6;  // s
+  static constexpr double kNearTime = 0.3;   // s
 
   Servo() = default;
   explicit Servo(const ServoSettings& settings);
@@ -36,6 +43,7 @@ class Servo {
   bool blocked() const { return blocked_; }
 
  private:
+  double feed_forward() const;
   void watch(double target, double position, double velocity, double dt);
 
   ServoSettings settings_;
