@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <sstream>
 
 #include "plugin/register.h"
@@ -46,11 +45,13 @@ class Pir : public Sensor {
   }
 
   void aim(const View& view, RayBatch& rays) override {
-    if (!first_time_ || view.time() < *first_time_) {
+    const bool first = last_time_ < 0 || view.time() < last_time_;  // or the clock was set back
+    if (first) {
       first_time_ = view.time();
       std::fill(previous_.begin(), previous_.end(), Ranges{});
     }
-    const Nanoseconds scans = (view.time() - *first_time_ + period_ / 2) / period_;
+    last_time_ = view.time();
+    const Nanoseconds scans = (view.time() - first_time_ + period_ / 2) / period_;
     phase_ = static_cast<std::size_t>(scans) % previous_.size();
     fan_.aim(view.pose(), directions_[phase_], rays);
   }
@@ -97,7 +98,8 @@ class Pir : public Sensor {
   Nanoseconds period_ = kSecond;
   std::vector<std::vector<Vec3>> directions_;  // by phase of the nod
   std::vector<Ranges> previous_;               // by phase; empty before its first scan
-  std::optional<Nanoseconds> first_time_;
+  Nanoseconds first_time_ = 0;
+  Nanoseconds last_time_ = -1;
   std::size_t phase_ = 0;
   bool motion_ = false;
 };

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "angen_sim/fakes.h"
+#include "plugin/library.h"
+#include "rays/scene.h"
+
+/// One sensor out of its library, in a scene of its own.
+namespace angen::test {
+
+inline Shape box(double x, double y, double z) {
+  Shape shape;
+  shape.type = Shape::Type::kBox;
+  shape.size = {x, y, z};
+  return shape;
+}
+
+inline Pose at(double x, double y = 0.0, double z = 0.0) { return {{x, y, z}, Quat::Identity()}; }
+
+/// <scan>'s <horizontal> or <vertical>.
+inline Element scan(const std::string& name, int samples, double min, double max) {
+  return element(
+      name, "",
+      {element("samples", std::to_string(samples)), element("min_angle", std::to_string(min)),
+       element("max_angle", std::to_string(max))});
+}
+
+inline Element noise(double stddev) {
+  return element("noise", "",
+                 {element("type", "gaussian"), element("mean", "0"),
+                  element("stddev", std::to_string(stddev))});
+}
+
+/// <sensor> of `children`, for a bench.
+inline Element sensor_element(std::vector<Element> children) {
+  return element("sensor", "", std::move(children));
+}
+
+class Bench {
+ public:
+  explicit Bench(const std::string& library, const Element& plugin = element("plugin"),
+                 const Element& sensor = element("sensor"), FakeWorld filled = {})
+      : world(std::move(filled)), params_(plugin, &sensor) {
+    static Catalog catalog;
+    sensor_ = catalog.library(library).at(0)->make_sensor();
+    sensor_->configure(params_, world);
+    params_.finish();
+  }
+
+  rays::ShapeId add(const Shape& shape, const Pose& pose) {
+    return scene.add(shape, pose, rays::Mobility::kMoving, Eigen::Vector3f::Constant(0.7F));
+  }
+
+  /// Looks once at world.now, then lets `period` pass.
+  Reading look(Nanoseconds period = 100'000'000) {
+    scene.commit();
+    RayBatch batch;
+    sensor_->aim(world, batch);
+    std::vector<rays::Hit> hits;
+    scene.cast(batch, hits);
+    Rng rng(seed, hash_bytes("sensor"), world.now / world.dt);
+    Reading reading;
+    sensor_->read(world, {hits.data(), hits.size()}, rng, reading);
+    world.now += period;
+    rays_cast = std::move(batch);
+    return reading;
+  }
+
+  const Sensor& sensor() const { return *sensor_; }
+
+  FakeWorld world;
+  rays::Scene scene;
+  RayBatch rays_cast;  // of the last look
+  std::uint64_t seed = 1;
+
+ private:
+  Params params_;
+  std::unique_ptr<Sensor> sensor_;
+};
+
+/// What configuring such a sensor complains of, "" when nothing.
+inline std::string complaint_of(const std::string& library, const Element& plugin,
+                                const Element& sensor = element("sensor"),
+                                const FakeWorld& filled = {}) {
+  try {
+    const Bench bench(library, plugin, sensor, filled);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace angen::test

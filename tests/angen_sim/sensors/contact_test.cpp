@@ -1,0 +1,109 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bench.h"
+
+namespace angen {
+namespace {
+
+using test::Bench;
+using test::element;
+using test::FakeWorld;
+using test::plugin_element;
+using Names = std::vector<std::string>;
+using Numbers = std::vector<double>;
+
+const char* const kContact = "libgazebo_ros_bumper.so";
+const char* const kSeat = "chair::link::seat";
+const char* const kBack = "chair::link::back";
+
+Element watching(const Names& collisions) {
+  Element contact = element("contact");
+  for (const std::string& name : collisions) {
+    contact.children.push_back(element("collision", name));
+  }
+  return test::sensor_element({contact});
+}
+
+FakeWorld chair() {
+  FakeWorld world;
+  world.collisions = {kSeat, kBack};
+  return world;
+}
+
+ContactPoint point(double x, double force) {
+  ContactPoint made;
+  made.position = {x, 0.0, 0.5};
+  made.depth = 0.001;
+  made.force = {0.0, 0.0, force};
+  return made;
+}
+
+TEST(Contact, ReadsPairsAndPoints) {
+  Bench bench(kContact, plugin_element({}), watching({kSeat}), chair());
+  bench.world.touching[kSeat] = {{kSeat, "cat::body::box", {point(0.1, -20.0), point(0.2, -22.0)}},
+                                 {kSeat, "cup::body::box", {point(0.3, -3.0)}}};
+  const Reading reading = bench.look();
+  EXPECT_EQ(reading.get<Names>("collision1"), (Names{kSeat, kSeat}));
+  EXPECT_EQ(reading.get<Names>("collision2"), (Names{"cat::body::box", "cup::body::box"}));
+  EXPECT_EQ(reading.get<Numbers>("counts"), (Numbers{2, 1}));
+  EXPECT_EQ(reading.get<Numbers>("positions"), (Numbers{0.1, 0, 0.5, 0.2, 0, 0.5, 0.3, 0, 0.5}));
+  EXPECT_EQ(reading.get<Numbers>("normals"), (Numbers{0, 0, 1, 0, 0, 1, 0, 0, 1}));
+  EXPECT_EQ(reading.get<Numbers>("depths"), (Numbers{0.001, 0.001, 0.001}));
+  EXPECT_EQ(reading.get<Numbers>("forces"), (Numbers{0, 0, -20, 0, 0, -22, 0, 0, -3}));
+  EXPECT_EQ(bench.sensor().default_rate(), 1.0);
+}
+
+TEST(Contact, WatchesOnlyTheCollisionsOfItsSdf) {
+  Bench bench(kContact, plugin_element({}), watching({kSeat}), chair());
+  bench.world.touching[kBack] = {{kBack, "wall::link::box", {point(0.0, 1.0)}}};
+  EXPECT_TRUE(bench.look().get<Names>("collision1").empty());
+}
+
+TEST(Contact, TwoWatchedCollisionsThatTouchAreOnePair) {
+  Bench bench(kContact, plugin_element({}), watching({kSeat, kBack}), chair());
+  bench.world.touching[kSeat] = {{kSeat, kBack, {point(0.0, 1.0)}}};
+  bench.world.touching[kBack] = {{kBack, kSeat, {point(0.0, -1.0)}}};
+  EXPECT_EQ(bench.look().get<Names>("collision1"), Names{kSeat});
+}
+
+TEST(Contact, TellsWhenItIsPressedAndReleased) {
+  Bench bench(kContact, plugin_element({}), watching({kSeat}), chair());
+  EXPECT_EQ(bench.look().event, "");
+  bench.world.touching[kSeat] = {{kSeat, "cat::body::box", {point(0.1, -20.0)}}};
+  const Reading pressed = bench.look();
+  EXPECT_EQ(pressed.event, "pressed");
+  EXPECT_EQ(pressed.event_detail, "by cat::body::box");
+  EXPECT_EQ(bench.look().event, "");
+  bench.world.touching.clear();
+  EXPECT_EQ(bench.look().event, "released");
+}
+
+TEST(Contact, NoiseIsOnForcesOnly) {
+  Bench bench(kContact, plugin_element({{"noise_stddev", "0.5"}}), watching({kSeat}), chair());
+  bench.world.touching[kSeat] = {{kSeat, "cat::body::box", {point(0.1, -20.0)}}};
+  double squares = 0.0;
+  const int n = 10'000;
+  for (int i = 0; i < n; ++i) {
+    const Reading reading = bench.look();
+    ASSERT_EQ(reading.get<Numbers>("positions"), (Numbers{0.1, 0, 0.5}));
+    ASSERT_EQ(reading.get<Numbers>("depths"), Numbers{0.001});
+    const Numbers force = reading.get<Numbers>("forces");
+    squares += std::pow(force[0], 2) + std::pow(force[1], 2) + std::pow(force[2] + 20.0, 2);
+  }
+  EXPECT_NEAR(std::sqrt(squares / n / 3.0), 0.5, 0.015);
+}
+
+TEST(Contact, RefusesNoCollisionAndUnknownOnesAtTheirPlace) {
+  EXPECT_NE(test::complaint_of(kContact, plugin_element({})).find("watches nothing"),
+            std::string::npos);
+  Element sensor = watching({"chair::link::leg"});
+  sensor.children[0].children[0].source = {"a.world", 40};
+  EXPECT_EQ(test::complaint_of(kContact, plugin_element({}), sensor, chair()),
+            "a.world:40: no collision chair::link::leg; known are chair::link::seat, "
+            "chair::link::back");
+}
+
+}  // namespace
+}  // namespace angen

@@ -1,0 +1,202 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bench.h"
+
+namespace angen {
+namespace {
+
+using test::at;
+using test::Bench;
+using test::box;
+using test::element;
+using test::plugin_element;
+
+const char* const kPir = "libpir_controller.so";
+
+/// A <sensor> with rows x columns rays within ±0.6 and ±0.3 rad, 6 m.
+Element fan(int columns, int rows, double noise_stddev = 0.0) {
+  const Element scan = element(
+      "scan", "",
+      {test::scan("horizontal", columns, -0.6, 0.6), test::scan("vertical", rows, -0.3, 0.3)});
+  const Element range = element("range", "", {element("min", "0.05"), element("max", "6")});
+  return test::sensor_element(
+      {element("update_rate", "10"), element("ray", "", {scan, range, test::noise(noise_stddev)})});
+}
+
+TEST(Pir, LooksAlongTheFanOfItsSdf) {
+  Bench bench(kPir, plugin_element({}), fan(3, 2));
+  bench.world.at = {{1.0, 2.0, 3.0}, from_rpy(0.0, 0.0, M_PI_2)};
+  bench.look();
+  ASSERT_EQ(bench.rays_cast.size(), 6U);
+  // First the lowest row from right to left; the sensor faces world y, so right is world x.
+  const Vec3 lowest_right(std::cos(0.3) * std::sin(0.6), std::cos(0.3) * std::cos(0.6),
+                          -std::sin(0.3));
+  EXPECT_LT((bench.rays_cast[0].direction - lowest_right).norm(), 1e-6);
+  const Vec3 highest_middle(0.0, std::cos(0.3), std::sin(0.3));
+  EXPECT_LT((bench.rays_cast[4].direction - highest_middle).norm(), 1e-6);
+  EXPECT_EQ(bench.rays_cast[0].origin, Vec3(1.0, 2.0, 3.0));
+  EXPECT_EQ(bench.rays_cast[0].max, 6.0);
+  EXPECT_EQ(bench.rays_cast[0].min, 0.05);
+}
+
+TEST(Pir, TheFirstScanIsNoMotion) {
+  Bench bench(kPir, plugin_element({}), fan(5, 1));
+  bench.add(box(1, 10, 10), at(3.5));
+  const Reading reading = bench.look();
+  EXPECT_FALSE(reading.get<bool>("motion", true));
+  EXPECT_EQ(reading.get<double>("difference", -1.0), 0.0);
+}
+
+TEST(Pir, MotionIsADifferenceAboveTheThreshold) {
+  Bench bench(kPir, plugin_element({{"threshold", "0.1"}}), fan(5, 1));
+  const auto wall = bench.add(box(1, 10, 10), at(3.5));
+  bench.look();
+  bench.scene.move(wall, at(3.57));
+  const Reading little = bench.look();
+  EXPECT_FALSE(little.get<bool>("motion", true));
+  // The outermost ray is the longest: 0.09 / cos(0.6).
+  EXPECT_NEAR(little.get<double>("difference"), 0.07 / std::cos(0.6), 1e-5);
+  bench.scene.move(wall, at(3.80));
+  const Reading much = bench.look();
+  EXPECT_TRUE(much.get<bool>("motion"));
+  EXPECT_NEAR(much.get<double>("difference"), 0.23 / std::cos(0.6), 1e-5);
+  EXPECT_EQ(much.get<double>("threshold"), 0.1);
+  EXPECT_EQ(much.get<double>("signal"), much.get<double>("difference"));
+  EXPECT_EQ(much.get<double>("signal_threshold"), 0.1);
+  EXPECT_FALSE(bench.look().get<bool>("motion", true));
+}
+
+TEST(Pir, WhatIsMissedCountsAsTheGreatestRange) {
+  Bench bench(kPir, plugin_element({}), fan(1, 1));
+  bench.look();
+  bench.add(box(1, 1, 1), at(4.5));
+  EXPECT_NEAR(bench.look().get<double>("difference"), 2.0, 1e-5);
+}
+
+TEST(Pir, TellsWhenMotionBeginsAndEnds) {
+  Bench bench(kPir, plugin_element({}), fan(1, 1));
+  EXPECT_EQ(bench.look().event, "");
+  const auto body = bench.add(box(1, 1, 1), at(4.5));
+  EXPECT_EQ(bench.look().event, "motion");
+  bench.scene.move(body, at(4.0));
+  EXPECT_EQ(bench.look().event, "");
+  EXPECT_EQ(bench.look().event, "still");
+  EXPECT_EQ(bench.look().event, "");
+}
+
+TEST(Pir, APersonWhoWalksByIsSeenFromAnyDistanceBelowItsRange) {
+  for (const double distance : {1.0, 3.0, 5.5}) {
+    Bench bench(kPir, plugin_element({}), fan(16, 4, 0.01));
+    Shape person;
+    person.type = Shape::Type::kCapsule;
+    person.radius = 0.25;
+    person.length = 1.2;
+    const auto id = bench.add(person, at(distance, -2.0));
+    bool seen = false;
+    for (int i = 0; i < 40; ++i) {
+      bench.scene.move(id, at(distance, -2.0 + 0.1 * i));
+      seen = bench.look().get<bool>("motion") || seen;
+    }
+    EXPECT_TRUE(seen) << distance;
+  }
+}
+
+TEST(Pir, NoiseMakesNoFalseAlarms) {
+  Bench bench(kPir, plugin_element({}), fan(16, 4, 0.01));
+  bench.add(box(1, 20, 20), at(4.5));
+  int alarms = 0;
+  double greatest = 0.0;
+  for (int i = 0; i < 20'000; ++i) {
+    const Reading reading = bench.look();
+    alarms += reading.get<bool>("motion") ? 1 : 0;
+    greatest = std::max(greatest, reading.get<double>("difference"));
+  }
+  EXPECT_EQ(alarms, 0);
+  EXPECT_GT(greatest, 0.05);  // there is noise: of 1.3 million differences some exceed 3.5 sigma
+}
+
+TEST(Pir, NoiseHasTheStandardDeviationOfTheSdf) {
+  Bench bench(kPir, plugin_element({{"threshold", "5"}}), fan(1, 1, 0.02));
+  bench.add(box(1, 1, 1), at(3.5));
+  bench.look();
+  double sum = 0.0;
+  const int n = 20'000;
+  for (int i = 0; i < n; ++i) {
+    const double difference = bench.look().get<double>("difference");
+    sum += difference * difference;
+  }
+  // Of two independent scans: 2 sigma^2, known to within 2 % at n = 20000.
+  EXPECT_NEAR(std::sqrt(sum / n / 2.0), 0.02, 0.0006);
+}
+
+TEST(Pir, AnotherSeedGivesOtherNoiseTheSameTheSame) {
+  const auto second_difference = [](std::uint64_t seed) {
+    Bench bench(kPir, plugin_element({}), fan(4, 1, 0.01));
+    bench.seed = seed;
+    bench.add(box(1, 9, 9), at(3.5));
+    bench.look();
+    return bench.look().get<double>("difference");
+  };
+  EXPECT_EQ(second_difference(7), second_difference(7));
+  EXPECT_NE(second_difference(7), second_difference(8));
+}
+
+Element nodding() { return plugin_element({{"nod_amplitude", "0.35"}, {"nod_period", "2"}}); }
+
+TEST(Pir, NodsAsASine) {
+  Bench bench(kPir, nodding(), fan(1, 1));
+  for (int k = 0; k < 45; ++k) {
+    bench.look();
+    const double pitch = 0.35 * std::sin(2.0 * M_PI * k * 0.1 / 2.0);
+    EXPECT_NEAR(bench.rays_cast[0].direction.z(), std::sin(pitch), 1e-9) << k;
+  }
+}
+
+TEST(Pir, ItsOwnNoddingIsNoMotion) {
+  Bench bench(kPir, nodding(), fan(16, 4, 0.01));
+  bench.add(box(20, 20, 0.1), at(0, 0, -1.0));  // a floor, whose ranges change as it nods
+  bench.add(box(1, 0.5, 0.5), at(3.0));
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(bench.look().get<bool>("motion", true)) << i;
+}
+
+TEST(Pir, ANoddingOneSeesWhatMovesWithinOnePeriod) {
+  Bench bench(kPir, nodding(), fan(16, 4));
+  bench.add(box(20, 20, 0.1), at(0, 0, -1.0));
+  for (int i = 0; i < 25; ++i) bench.look();
+  bench.add(box(0.5, 0.5, 1.7), at(3.0));
+  bool seen = false;
+  for (int i = 0; i < 20; ++i) seen = bench.look().get<bool>("motion") || seen;
+  EXPECT_TRUE(seen);
+}
+
+TEST(Pir, AClockThatGoesBackStartsAnew) {
+  Bench bench(kPir, plugin_element({}), fan(1, 1));
+  bench.look();
+  bench.look();
+  bench.add(box(1, 1, 1), at(3.0));
+  bench.world.now = 0;
+  EXPECT_FALSE(bench.look().get<bool>("motion", true));
+}
+
+TEST(Pir, RefusesANodThatItsScansDoNotDivide) {
+  const std::string text = test::complaint_of(
+      kPir, plugin_element({{"nod_amplitude", "0.3"}, {"nod_period", "0.25"}}), fan(1, 1));
+  EXPECT_EQ(text,
+            "test.sdf:1: <nod_period> is 0.25 s, must be a multiple of 0.1 s, the time between "
+            "two scans");
+  EXPECT_NE(test::complaint_of(kPir, plugin_element({{"nod_amplitude", "0.3"}}), fan(1, 1)), "");
+}
+
+TEST(Pir, RefusesWhatMakesNoSense) {
+  EXPECT_NE(test::complaint_of(kPir, plugin_element({{"threshold", "0"}})), "");
+  EXPECT_NE(test::complaint_of(kPir, plugin_element({{"model", "magic"}})), "");
+  EXPECT_NE(test::complaint_of(kPir, plugin_element({}), fan(0, 1)), "");
+  EXPECT_NE(test::complaint_of(kPir, plugin_element({}), fan(1, 1, -0.01)), "");
+  EXPECT_NE(test::complaint_of(kPir, plugin_element({{"thresold", "1"}})), "");
+  EXPECT_EQ(test::complaint_of(kPir, plugin_element({{"topicName", "/pir"}})), "");
+}
+
+}  // namespace
+}  // namespace angen
