@@ -10,7 +10,8 @@
 #include "core/shape.h"
 #include "core/time.h"
 
-/// Plain values that describe a world as its files say it, before anything moves. SI units and radians.
+/// Plain values that describe a world as its files say it, before anything moves. SI units and
+/// radians.
 namespace angen::desc {
 
 struct Material {
@@ -45,21 +46,21 @@ struct Visual {
 };
 
 struct Inertial {
-  double mass = 1.0;                                      // kg
-  Pose pose;                                              // centre of mass in the link's frame
-  Eigen::Matrix3d moment = Eigen::Matrix3d::Identity();   // kg m^2 about the centre, in pose's axes
+  double mass = 1.0;                                     // kg
+  Pose pose;                                             // centre of mass in the link's frame
+  Eigen::Matrix3d moment = Eigen::Matrix3d::Identity();  // kg m^2 about the centre, in pose's axes
 };
 
 struct Light {
   enum class Type { kPoint, kSpot, kDirectional };
   std::string name;
   Type type = Type::kPoint;
-  Pose pose;                                         // in the link's frame, or the world's
-  Eigen::Vector3f diffuse{1.0F, 1.0F, 1.0F};         // chromaticity
-  double intensity = 1.0;                            // factor on its nominal flux
-  double range = 10.0;                               // m, SDF's attenuation range
-  Vec3 direction = -Vec3::UnitZ();                   // in its own frame, spot and directional
-  double inner_angle = 0.0;                          // rad, spot
+  Pose pose;                                  // in the link's frame, or the world's
+  Eigen::Vector3f diffuse{1.0F, 1.0F, 1.0F};  // chromaticity
+  double intensity = 1.0;                     // factor on its nominal flux
+  double range = 10.0;                        // m, SDF's attenuation range
+  Vec3 direction = -Vec3::UnitZ();            // in its own frame, spot and directional
+  double inner_angle = 0.0;                   // rad, spot
   double outer_angle = 0.0;
   bool cast_shadows = true;
   Source source;
@@ -67,8 +68,8 @@ struct Light {
 
 struct Sensor {
   std::string name;
-  std::string type;  // SDF's: ray, camera, contact, …
-  Pose pose;         // in the link's frame
+  std::string type;          // SDF's: ray, camera, contact, …
+  Pose pose;                 // in the link's frame
   double update_rate = 0.0;  // Hz; 0 = the plug-in's default
   bool visualize = false;
   std::string plugin;  // file name of its library, e.g. libpir_controller.so
@@ -95,10 +96,10 @@ struct JointAxis {
   Vec3 xyz = Vec3::UnitZ();  // unit, in the model's frame at position 0
   double lower = -1e16;      // rad or m
   double upper = 1e16;
-  double effort = -1.0;      // N m or N, negative = no limit
-  double velocity = -1.0;    // rad/s or m/s, negative = no limit
-  double damping = 0.0;      // N m s/rad or N s/m
-  double friction = 0.0;     // N m or N
+  double effort = -1.0;    // N m or N, negative = no limit
+  double velocity = -1.0;  // rad/s or m/s, negative = no limit
+  double damping = 0.0;    // N m s/rad or N s/m
+  double friction = 0.0;   // N m or N
   double initial_position = 0.0;
 };
 
@@ -106,9 +107,9 @@ struct Joint {
   enum class Type { kFixed, kRevolute, kPrismatic, kBall, kUniversal };
   std::string name;
   Type type = Type::kFixed;
-  std::string parent;  // link name, or "world"
-  std::string child;   // link name
-  Vec3 anchor = Vec3::Zero();  // in the model's frame
+  std::string parent;           // link name, or "world"
+  std::string child;            // link name
+  Vec3 anchor = Vec3::Zero();   // in the model's frame
   std::vector<JointAxis> axes;  // 0, 1 or 2
   Source source;
 };
@@ -130,12 +131,14 @@ struct Model {
   std::vector<Joint> joints;
   std::vector<Plugin> plugins;
   std::string xml;  // as it stood in its file (an <include>, <model> or <actor>), for `save`
+  std::string expanded_xml;  // where xml holds includes: the same with them written out
+  std::vector<Diagnostic> warnings;  // of a model that was loaded by itself; else the world has them
   Source source;
 };
 
 struct Physics {
-  Nanoseconds step = 1'000'000;  // ns
-  double real_time_factor = 1.0;   // 0 = as fast as possible
+  Nanoseconds step = 1'000'000;   // ns
+  double real_time_factor = 1.0;  // 0 = as fast as possible
   int iterations = 50;
   double erp = 0.2;
   double cfm = 0.0;

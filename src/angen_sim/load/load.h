@@ -1,12 +1,13 @@
 #pragma once
 
-#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "desc/world.h"
 
-/// SDF and URDF files to plain descriptions. Every function throws Error (file:line) and changes nothing.
+/// SDF and URDF files to plain descriptions. Every function throws Error (file:line) and changes
+/// nothing.
 namespace angen::load {
 
 /// Where model:// and file:// are looked for, first hit wins.
@@ -26,8 +27,9 @@ desc::World world(const std::string& path);
 desc::World world_from_text(const std::string& xml, const std::string& name,
                             const SearchPaths& paths);
 
-/// One model from a text (<sdf>, <model>, <include>, <actor>, or URDF <robot>), from a path, or from
-/// a model:// uri; `name` replaces its own unless empty, `pose` is where it stands in the world.
+/// One model from a text (<sdf>, <model>, <include>, <actor>, or URDF <robot>), from a path, or
+/// from a model:// uri; `name` replaces its own unless empty, `pose` is where it stands in the
+/// world (an actor's waypoints are relative to it). A lone element is read as SDF 1.6 or later.
 desc::Model model(const std::string& what, const std::string& name, const Pose& pose,
                   const SearchPaths& paths);
 
@@ -37,15 +39,23 @@ bool is_sensor(const std::string& what);
 /// A <sensor> element, to be attached to a link; `name` replaces its own unless empty.
 desc::Sensor sensor(const std::string& what, const std::string& name, const Pose& pose);
 
+/// A sensor that was attached to a link at run time.
+struct AttachedSensor {
+  std::string link;
+  desc::Sensor sensor;
+};
+
 /// What has changed since a model was described.
 struct ModelState {
   const desc::Model* model = nullptr;
-  Pose pose;
-  std::vector<std::pair<std::string, std::vector<double>>> joint_positions;
+  Pose pose;                                                                 // in the world
+  std::vector<std::pair<std::string, std::vector<double>>> joint_positions;  // rad or m, by name
+  std::vector<AttachedSensor> attached{};
 };
 
-/// The world as SDF that loads again: its own settings, every live model where it is now, sensors
-/// that were attached to links, and a <state> with poses and joint positions.
+/// The world as SDF 1.9 that loads again: its own settings, every live model where it is now,
+/// sensors that were attached to links (their model is then written out instead of included), and a
+/// <state> with poses and joint positions. People keep their trajectory and start it anew.
 std::string save(const desc::World& world, const std::vector<ModelState>& models);
 
 }  // namespace angen::load

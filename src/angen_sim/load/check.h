@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/element.h"
+#include "load/expand.h"
+
+/// What is wrong with an expanded tree, found before libsdformat sees it. All throw Error.
+namespace angen::load {
+
+/// A name that an entity may bear: not empty, UTF-8, without "::", not "world" or "__…__".
+void check_name(const std::string& name, const std::string& what, const Source& at);
+
+/// Names, numbers and flags of a world's settings and lights; models are left to check_model.
+void check_settings(const Element& world);
+
+/// Names, numbers, joints and geometries of an expanded model. A revolute joint with a zero axis is
+/// rewritten as fixed, with a warning.
+void check_model(Element& model, Session& session);
+
+/// The same for a single <sensor> or <light>.
+void check_part(const Element& element);
+
+/// Every number and flag that SDF knows below `element`, plug-ins left out.
+void check_values(const Element& element);
+
+}  // namespace angen::load

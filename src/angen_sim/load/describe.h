@@ -1,0 +1,37 @@
+#pragma once
+
+#include "desc/world.h"
+#include "load/expand.h"
+#include "load/sdf.h"
+
+/// Checked trees to descriptions.
+namespace angen::load {
+
+/// An expanded, checked <model>. Its pose is left to the caller, and so are xml and expanded_xml.
+/// Nested models become links, joints and plug-ins named `child::name`.
+desc::Model describe_model(const Element& model, Session& session);
+
+/// The <inertial> of a link; the unit mass and moment where there is none. An impossible one throws
+/// Error, or is a warning and replaced where the link `never_moves`.
+desc::Inertial inertial_of(const Element& link, bool never_moves, Session& session);
+
+/// A checked <sensor>; `pose` is where it stands in its link.
+desc::Sensor sensor_of(const Element& sensor, const Pose& pose, Session& session);
+
+desc::Plugin plugin_of(const Element& plugin);
+
+/// A checked <joint>: `prefix` is put before its names, `place` is its model's frame in the
+/// outermost one.
+desc::Joint joint_of(const Element& element, const sdf::Joint& joint, const std::string& prefix,
+                     const Pose& place);
+
+/// An <actor> as a model that the person plug-in drives. Throws Error.
+desc::Model describe_actor(const Element& actor, Session& session);
+
+/// Physics, gravity and scene out of a checked <world>.
+void read_settings(const Element& world, desc::World& to);
+
+/// Applies the world's <state>: poses and joint positions. Throws Error for unknown names.
+void apply_state(const Element& state, desc::World& world);
+
+}  // namespace angen::load

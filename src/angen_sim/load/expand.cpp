@@ -1,0 +1,153 @@
+#include "load/expand.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "load/search.h"
+#include "load/urdf.h"
+#include "load/values.h"
+#include "load/xml.h"
+
+namespace angen::load {
+
+namespace {
+
+constexpr std::size_t kMaxDepth = 16;
+constexpr std::size_t kMaxExpanded = 400'000;
+
+int version_of(const Element& sdf) {
+  const std::string* text = sdf.attribute("version");
+  if (text == nullptr) {
+    throw Error(sdf.source, "<sdf> has no version; write <sdf version=\"1.6\">");
+  }
+  const int version = version_number(*text);
+  if (version < 104 || version > 109) {
+    throw Error(sdf.source, "SDF version '" + *text + "' is not read; versions 1.4 to 1.9 are");
+  }
+  return version;
+}
+
+void count(const Element& document, Session& session) {
+  session.elements += count_elements(document);
+  if (session.elements > kMaxExpanded) {
+    throw Error(document.source, "more than " + std::to_string(kMaxExpanded) +
+                                     " elements with all that is included; make the world smaller");
+  }
+}
+
+// The one <model>, <actor> or <light> of an included document.
+Element& included_root(Element& sdf) {
+  Element* found = nullptr;
+  for (Element& child : sdf.children) {
+    if (child.name != "model" && child.name != "actor" && child.name != "light") continue;
+    if (found != nullptr) {
+      throw Error(child.source, "a second " + tag_of(child) + " in an included file; keep one");
+    }
+    found = &child;
+  }
+  if (found == nullptr) {
+    throw Error(sdf.source,
+                "an included file holds a <model>, an <actor> or a <light>; this has "
+                "none");
+  }
+  return *found;
+}
+
+void apply_include(const Element& include, Element& to, Session& session) {
+  std::vector<Element> plugins;
+  for (const Element& child : include.children) {
+    if (child.name == "uri") continue;
+    if (child.name == "name") {
+      set_attribute(to, "name", child.text);
+    } else if (child.name == "pose") {
+      remove_children(to, "pose");
+      to.children.insert(to.children.begin(), child);
+    } else if (child.name == "static") {
+      remove_children(to, "static");
+      to.children.insert(to.children.begin(), child);
+    } else if (child.name == "plugin") {
+      plugins.push_back(child);
+    } else if (child.name == "placement_frame") {
+      throw Error(child.source, "<placement_frame> is not supported; give the model's own <pose>");
+    } else {
+      session.warn(child.source, "an <include> has no <" + child.name +
+                                     ">: it has no effect; it "
+                                     "takes uri, name, pose, static and plugin");
+    }
+  }
+  to.children.insert(to.children.end(), plugins.begin(), plugins.end());
+}
+
+}  // namespace
+
+void Session::warn(const Source& source, const std::string& message) {
+  for (const Diagnostic& old : warnings) {
+    if (old.source.line == source.line && old.source.file == source.file &&
+        old.message == message) {
+      return;
+    }
+  }
+  warnings.push_back({Diagnostic::Severity::kWarning, source, message});
+}
+
+Element read_document(const std::string& text, const std::string& file, Session& session) {
+  Element root = parse_xml(text, file);
+  if (root.name == "robot") root = convert_urdf(text, root);
+  if (root.name != "sdf") {
+    throw Error(root.source, "the file begins with <" + root.name +
+                                 ">; it must begin with <sdf> or "
+                                 "<robot>");
+  }
+  upgrade(root, version_of(root));
+  make_uris_absolute(root, session.paths);
+  count(root, session);
+  return root;
+}
+
+Element expand_include(const Element& include, Session& session) {
+  const Element* uri = include.child("uri");
+  if (uri == nullptr) {
+    throw Error(include.source, "<include> has no <uri>; write <uri>model://NAME</uri>");
+  }
+  const std::string* merge = include.attribute("merge");
+  if (merge != nullptr && *merge != "false" && *merge != "0") {
+    throw Error(include.source, "merge=\"" + *merge + "\" is not supported; include without it");
+  }
+  const std::string found = need_uri(uri->text, "model", uri->source, session.paths);
+  const std::string file = model_file(found, uri->source);
+  std::error_code failed;
+  std::string real = std::filesystem::canonical(file, failed).string();
+  if (failed) real = file;
+  if (std::find(session.open.begin(), session.open.end(), real) != session.open.end()) {
+    throw Error(uri->source, "a cycle of includes: '" + uri->text +
+                                 "' includes itself, by way of " + join_names(session.open));
+  }
+  if (session.open.size() >= kMaxDepth) {
+    throw Error(uri->source,
+                "includes stand more than " + std::to_string(kMaxDepth) + " deep in one another");
+  }
+  const Open open(session, real);
+  Element sdf = read_document(read_file(file), file, session);
+  Element& root = included_root(sdf);
+  if (root.name == "model") expand_model(root, session);
+  apply_include(include, root, session);
+  return std::move(root);
+}
+
+void expand_model(Element& model, Session& session) {
+  for (Element& child : model.children) {
+    if (child.name == "include") {
+      Element included = expand_include(child, session);
+      if (included.name != "model") {
+        throw Error(child.source, "an <include> in a <model> stands for a <model>; this is <" +
+                                      included.name + ">");
+      }
+      child = std::move(included);
+    } else if (child.name == "model") {
+      expand_model(child, session);
+    }
+  }
+}
+
+}  // namespace angen::load

@@ -1,0 +1,84 @@
+#include "load/geometry.h"
+
+#include "load/search.h"
+#include "load/values.h"
+#include "load/xml.h"
+
+namespace angen::load {
+
+namespace {
+
+Vec3 vector_of(const Element& parent, const std::string& name, const Vec3& fallback) {
+  const Element* child = parent.child(name);
+  if (child == nullptr) return fallback;
+  const std::vector<double> v = numbers_of(*child, 3);
+  return {v[0], v[1], v[2]};
+}
+
+Shape plane(const Element& element, Pose& pose) {
+  Shape shape;
+  shape.type = Shape::Type::kPlane;
+  const Element* size = element.child("size");
+  const std::vector<double> v =
+      size == nullptr ? std::vector<double>{1.0, 1.0} : numbers_of(*size, 2);
+  shape.size = {v[0], v[1], 0.0};
+  const Vec3 normal = vector_of(element, "normal", Vec3::UnitZ());
+  if (normal.norm() < 1e-9) {
+    throw Error(element.source, "the <normal> of this plane has length 0; give 0 0 1");
+  }
+  pose.rotation =
+      (pose.rotation * Quat::FromTwoVectors(Vec3::UnitZ(), normal.normalized())).normalized();
+  return shape;
+}
+
+Shape mesh(const Element& element, Session& session) {
+  Shape shape;
+  shape.type = Shape::Type::kMesh;
+  if (const Element* part = element.child("submesh")) {
+    throw Error(part->source, "<submesh> is not supported; write that part to a file of its own");
+  }
+  const Element& uri = *element.child("uri");
+  shape.mesh_scale = vector_of(element, "scale", Vec3::Ones());
+  if (shape.mesh_scale.cwiseAbs().minCoeff() < 1e-12) {
+    throw Error(element.child("scale")->source, "a scale of 0 leaves nothing; give 1 1 1");
+  }
+  shape.mesh_file = need_uri(uri.text, "mesh", uri.source, session.paths);
+  shape.mesh = read_mesh(shape.mesh_file, shape.mesh_scale, uri.source);
+  return shape;
+}
+
+Shape heightmap(const Element& element, Pose& pose, Session& session) {
+  Shape shape;
+  shape.type = Shape::Type::kMesh;
+  const Element& uri = *element.child("uri");
+  const std::string file = need_uri(uri.text, "heightmap", uri.source, session.paths);
+  shape.mesh = read_heightmap(file, vector_of(element, "size", Vec3::Ones()), uri.source);
+  pose.position += pose.rotation * vector_of(element, "pos", Vec3::Zero());
+  return shape;
+}
+
+}  // namespace
+
+Shape shape_of(const Element& geometry, Pose& pose, Session& session) {
+  const Element& element = geometry.children.at(0);
+  Shape shape;
+  if (element.name == "plane") return plane(element, pose);
+  if (element.name == "mesh") return mesh(element, session);
+  if (element.name == "heightmap") return heightmap(element, pose, session);
+  if (element.name == "box") {
+    shape.type = Shape::Type::kBox;
+    shape.size = vector_of(element, "size", Vec3::Ones());
+    return shape;
+  }
+  if (element.name == "empty") return shape;
+  shape.radius = child_number(element, "radius", 0.0);
+  if (element.name == "sphere") {
+    shape.type = Shape::Type::kSphere;
+    return shape;
+  }
+  shape.type = element.name == "capsule" ? Shape::Type::kCapsule : Shape::Type::kCylinder;
+  shape.length = child_number(element, "length", 0.0);
+  return shape;
+}
+
+}  // namespace angen::load

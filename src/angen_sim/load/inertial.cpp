@@ -1,0 +1,63 @@
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "load/describe.h"
+#include "load/values.h"
+#include "load/xml.h"
+
+namespace angen::load {
+
+namespace {
+
+// Moments of a body that exists: each positive, none above the sum of the others.
+std::string why_impossible(const desc::Inertial& inertial) {
+  if (!(inertial.mass > 0.0)) {
+    return "the mass is " + number_text(inertial.mass) + " kg; it must be greater than 0";
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertial.moment,
+                                                              Eigen::EigenvaluesOnly);
+  const Vec3 moments = solver.eigenvalues();
+  const std::string all = number_text(moments[0]) + ", " + number_text(moments[1]) + ", " +
+                          number_text(moments[2]) + " kg m^2";
+  if (!(moments[0] > 0.0)) {
+    return "the principal moments of inertia are " + all + "; all must be greater than 0";
+  }
+  if (moments[0] + moments[1] < moments[2] * (1.0 - 1e-6)) {
+    return "no body has the principal moments of inertia " + all +
+           ": the greatest must not exceed the sum of the others";
+  }
+  return "";
+}
+
+}  // namespace
+
+desc::Inertial inertial_of(const Element& link, bool never_moves, Session& session) {
+  desc::Inertial inertial;
+  const Element* element = link.child("inertial");
+  if (element == nullptr) return inertial;
+  Source at = element->source;
+  if (const Element* mass = element->child("mass")) {
+    inertial.mass = number_of(*mass);
+    at = mass->source;
+  }
+  inertial.pose = child_pose(*element);
+  if (const Element* inertia = element->child("inertia")) {
+    const auto value = [&](const char* name, double fallback) {
+      return child_number(*inertia, name, fallback);
+    };
+    const double xy = value("ixy", 0.0);
+    const double xz = value("ixz", 0.0);
+    const double yz = value("iyz", 0.0);
+    inertial.moment << value("ixx", 1.0), xy, xz, xy, value("iyy", 1.0), yz, xz, yz,
+        value("izz", 1.0);
+    if (inertial.mass > 0.0) at = inertia->source;
+  }
+  const std::string wrong = why_impossible(inertial);
+  if (wrong.empty()) return inertial;
+  const std::string message = tag_of(link) + ": " + wrong;
+  if (!never_moves) throw Error(at, message);
+  session.warn(at, message + " (the model is static, so it is not used)");
+  return {};
+}
+
+}  // namespace angen::load

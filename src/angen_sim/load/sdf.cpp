@@ -1,0 +1,139 @@
+#include "load/sdf.h"
+
+#include <console_bridge/console.h>
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include "load/xml.h"
+
+namespace angen::load {
+
+namespace {
+
+std::mutex& console_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+// What libsdformat need not see: plug-ins (they check their own parameters), what `load` reads
+// itself, and what later versions dropped.
+bool hidden(const Element& element, const std::string& parent) {
+  static const std::set<std::string> names = {"plugin",   "state",   "gui",
+                                              "inertial", "include", "initial_position"};
+  return names.count(element.name) != 0 || (element.name == "script" && parent == "material") ||
+         element.name.find(':') != std::string::npos;
+}
+
+Element bare(const Element& element) {
+  Element copy;
+  copy.name = element.name;
+  copy.text = element.text;
+  copy.attributes = element.attributes;
+  copy.source = element.source;
+  for (const Element& child : element.children) {
+    if (!hidden(child, element.name)) copy.children.push_back(bare(child));
+  }
+  return copy;
+}
+
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text.size() > 300 ? text.substr(0, 300) + " …" : text;
+}
+
+Source source_of(const sdf::Error& error, const std::vector<Source>& lines) {
+  const int line = error.LineNumber().value_or(0);
+  if (line >= 1 && static_cast<std::size_t>(line) <= lines.size()) {
+    return lines[static_cast<std::size_t>(line) - 1];
+  }
+  return lines.empty() ? Source{} : lines.front();
+}
+
+// For errors without a line libsdformat names what it means in brackets: name[x].
+Source named_in(const std::string& message, const Element& root) {
+  const Element* found = &root;
+  std::size_t at = 0;
+  while ((at = message.find("name[", at)) != std::string::npos) {
+    at += 5;
+    const std::string name = message.substr(at, message.find(']', at) - at);
+    for (const Element& model : root.children) {
+      if (name_of(model) == name) found = &model;
+      for (const Element& part : model.children) {
+        if (name_of(part) == name) return part.source;
+      }
+    }
+  }
+  return found->source;
+}
+
+}  // namespace
+
+struct Hush::Impl : console_bridge::OutputHandler {
+  std::lock_guard<std::mutex> lock{console_mutex()};
+  std::ostringstream text;
+  std::ostream* before = nullptr;
+
+  void log(const std::string& line, console_bridge::LogLevel, const char*, int) override {
+    text << line << '\n';
+  }
+};
+
+Hush::Hush() : impl_(std::make_unique<Impl>()) {
+  auto& stream = sdf::Console::Instance()->GetMsgStream();
+  impl_->before = stream.GetStream();
+  stream.SetStream(&impl_->text);
+  console_bridge::useOutputHandler(impl_.get());
+}
+
+Hush::~Hush() {
+  console_bridge::restorePreviousOutputHandler();
+  sdf::Console::Instance()->GetMsgStream().SetStream(impl_->before);
+}
+
+std::string Hush::heard() const { return impl_->text.str(); }
+
+sdf::Root parse_world(const Element& world, Session& session) {
+  Element document;
+  document.name = "sdf";
+  document.source = world.source;
+  document.attributes = {{"version", "1.9"}};
+  document.children = {bare(world)};
+  std::vector<Source> lines;
+  const std::string text = print_xml(document, 0, &lines);
+
+  sdf::ParserConfig config;
+  config.SetWarningsPolicy(sdf::EnforcementPolicy::LOG);
+  config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::ERR);
+  config.SetDeprecatedElementsPolicy(sdf::EnforcementPolicy::LOG);
+  sdf::Root root;
+  const sdf::Errors errors = root.LoadSdfString(text, config);
+  for (const sdf::Error& error : errors) {
+    if (error.Code() == sdf::ErrorCode::ELEMENT_INCORRECT_TYPE) {
+      session.warn(source_of(error, lines), one_line(error.Message()));
+      continue;
+    }
+    const Source at =
+        error.LineNumber() ? source_of(error, lines) : named_in(error.Message(), world);
+    throw Error(at, one_line(error.Message()) + " (libsdformat)");
+  }
+  if (root.WorldCount() != 1) throw Error(world.source, "libsdformat finds no world in it");
+  return root;
+}
+
+Pose resolve(const sdf::SemanticPose& pose, const std::string& frame, const Source& at) {
+  ignition::math::Pose3d resolved;
+  const sdf::Errors errors = pose.Resolve(resolved, frame);
+  if (!errors.empty()) throw Error(at, one_line(errors.front().Message()));
+  return to_pose(resolved);
+}
+
+Pose to_pose(const ignition::math::Pose3d& pose) {
+  const auto& q = pose.Rot();
+  return {to_vec(pose.Pos()), Quat(q.W(), q.X(), q.Y(), q.Z()).normalized()};
+}
+
+Vec3 to_vec(const ignition::math::Vector3d& v) { return {v.X(), v.Y(), v.Z()}; }
+
+}  // namespace angen::load

@@ -1,0 +1,172 @@
+#include "load/search.h"
+
+#include <charconv>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+#include "load/xml.h"
+
+namespace angen::load {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void add_path_list(const char* variable, std::vector<std::string>& to) {
+  const char* value = std::getenv(variable);
+  if (value == nullptr) return;
+  const std::string list = value;
+  for (std::size_t at = 0; at <= list.size();) {
+    const std::size_t end = std::min(list.find(':', at), list.size());
+    if (end > at) to.push_back(list.substr(at, end - at));
+    at = end + 1;
+  }
+}
+
+struct Address {
+  std::string scheme;  // "" or "model", "file", …
+  std::string path;
+};
+
+Address split(const std::string& uri) {
+  const std::size_t at = uri.find("://");
+  if (at == std::string::npos) return {"", uri};
+  return {uri.substr(0, at), uri.substr(at + 3)};
+}
+
+std::string folder_of(const std::string& document) {
+  std::error_code failed;
+  if (document.empty() || !fs::exists(document, failed)) return "";
+  return fs::absolute(document).parent_path().string();
+}
+
+// The folders in which the address is tried, in order; a full path is tried as it stands.
+std::vector<std::string> folders_for(const Address& address, const std::string& from,
+                                     const SearchPaths& paths) {
+  if (address.scheme == "model") return paths.models;
+  if (address.scheme != "file" && !address.scheme.empty()) return {};
+  std::vector<std::string> folders = paths.resources;
+  const std::string beside = folder_of(from);
+  if (!beside.empty()) folders.push_back(beside);
+  return folders;
+}
+
+std::optional<std::string> existing(const fs::path& path) {
+  std::error_code failed;
+  if (!fs::exists(path, failed) || failed) return std::nullopt;
+  const std::string found = fs::absolute(path).lexically_normal().string();
+  return found.size() > 1 && found.back() == '/' ? found.substr(0, found.size() - 1) : found;
+}
+
+}  // namespace
+
+SearchPaths SearchPaths::from_environment(const std::string& extra_models) {
+  SearchPaths paths;
+  add_path_list("ANGEN_MODEL_PATH", paths.models);
+  add_path_list("GAZEBO_MODEL_PATH", paths.models);
+  if (!extra_models.empty()) paths.models.push_back(extra_models);
+  for (const char* folder : {ANGEN_SOURCE_MODELS, ANGEN_INSTALLED_MODELS}) {
+    std::error_code failed;
+    if (fs::is_directory(folder, failed)) paths.models.emplace_back(folder);
+  }
+  add_path_list("GAZEBO_RESOURCE_PATH", paths.resources);
+  return paths;
+}
+
+std::optional<std::string> find_uri(const std::string& uri, const std::string& from,
+                                    const SearchPaths& paths) {
+  const Address address = split(uri);
+  if (address.path.empty()) return std::nullopt;
+  if (address.scheme != "model" && address.path[0] == '/') {
+    return address.scheme.empty() || address.scheme == "file" ? existing(address.path)
+                                                              : std::nullopt;
+  }
+  for (const std::string& folder : folders_for(address, from, paths)) {
+    if (auto found = existing(fs::path(folder) / address.path)) return found;
+  }
+  return std::nullopt;
+}
+
+std::string searched_places(const std::string& uri, const std::string& from,
+                            const SearchPaths& paths) {
+  const Address address = split(uri);
+  if (address.scheme != "model" && !address.path.empty() && address.path[0] == '/') {
+    return address.path;
+  }
+  std::vector<std::string> places = folders_for(address, from, paths);
+  if (!places.empty()) return join_names(places);
+  return address.scheme == "model" ? "nowhere (ANGEN_MODEL_PATH is empty)"
+                                   : "nowhere (GAZEBO_RESOURCE_PATH is empty)";
+}
+
+std::string need_uri(const std::string& uri, const std::string& what, const Source& at,
+                     const SearchPaths& paths) {
+  const Address address = split(uri);
+  if (address.path.empty()) {
+    throw Error(at, "the <uri> of this " + what + " is empty; write model://NAME/… or file://…");
+  }
+  if (address.scheme != "model" && address.scheme != "file" && !address.scheme.empty()) {
+    throw Error(
+        at, "unknown uri '" + uri + "'; " + what + "s are read from model://NAME/… and file://…");
+  }
+  if (auto found = find_uri(uri, at.file, paths)) return *found;
+  throw Error(
+      at, what + " '" + uri + "' is not found; searched: " + searched_places(uri, at.file, paths));
+}
+
+int version_number(const std::string& text) {
+  int minor = -1;
+  if (text.compare(0, 2, "1.") != 0 || text.size() > 4) return -1;
+  const char* end = text.data() + text.size();
+  const auto [stop, failed] = std::from_chars(text.data() + 2, end, minor);
+  return failed == std::errc{} && stop == end && minor >= 0 ? 100 + minor : -1;
+}
+
+std::string model_file(const std::string& path, const Source& at) {
+  std::error_code failed;
+  if (!fs::is_directory(path, failed)) return path;
+  const fs::path folder = path;
+  const fs::path config = folder / "model.config";
+  if (!fs::exists(config, failed)) {
+    if (auto found = existing(folder / "model.sdf")) return *found;
+    throw Error(at, "the model folder " + path + " has no model.config; add one with <sdf>");
+  }
+  const Element root = parse_xml(read_file(config.string()), config.string());
+  const Element* best = nullptr;
+  int best_version = -1;
+  for (const Element& child : root.children) {
+    if (child.name != "sdf") continue;
+    const std::string* version = child.attribute("version");
+    const int number = version == nullptr ? 100 : version_number(*version);
+    if (number > best_version && number <= 109) {
+      best = &child;
+      best_version = number;
+    }
+  }
+  if (best == nullptr) {
+    throw Error(root.source,
+                "no <sdf version=\"1.6\">model.sdf</sdf> of a version up to 1.9 in it");
+  }
+  if (auto found = existing(folder / best->text)) return *found;
+  throw Error(best->source, "the file '" + best->text + "' is not in " + path);
+}
+
+void make_uris_absolute(Element& element, const SearchPaths& paths) {
+  if (element.name == "plugin") return;
+  for (Element& child : element.children) {
+    if (child.name != "uri") {
+      make_uris_absolute(child, paths);
+      continue;
+    }
+    const Address address = split(child.text);
+    const bool relative = !address.path.empty() && address.path[0] != '/';
+    if (!relative || (!address.scheme.empty() && address.scheme != "file")) continue;
+    SearchPaths without_document = paths;
+    if (find_uri(child.text, "", without_document)) continue;
+    if (auto found = find_uri(child.text, child.source.file, paths))
+      child.text = "file://" + *found;
+  }
+}
+
+}  // namespace angen::load

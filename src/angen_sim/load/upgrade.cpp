@@ -1,0 +1,60 @@
+#include <algorithm>
+
+#include "load/expand.h"
+#include "load/xml.h"
+
+namespace angen::load {
+
+namespace {
+
+bool truthy(const std::string& text) {
+  return text == "true" || text == "1" || text == "True" || text == "TRUE";
+}
+
+// Until 1.4 an axis was given in the model's frame, in 1.5 and 1.6 where it said so.
+void upgrade_axis(Element& axis, int version) {
+  const bool in_model = version < 105 || truthy(child_text(axis, "use_parent_model_frame"));
+  remove_children(axis, "use_parent_model_frame");
+  Element* xyz = find_child(axis, "xyz");
+  if (xyz != nullptr && in_model) set_attribute(*xyz, "expressed_in", "__model__");
+}
+
+void upgrade_element(Element& element, int version) {
+  if (element.name == "plugin") return;
+  if (element.name == "joint" && version < 107) {
+    for (Element& child : element.children) {
+      if (child.name == "axis" || child.name == "axis2") upgrade_axis(child, version);
+    }
+  }
+  if (element.name == "pose") {
+    for (auto& [key, value] : element.attributes) {
+      if (key == "frame" && version < 107) key = "relative_to";
+    }
+    auto& all = element.attributes;
+    all.erase(
+        std::remove_if(all.begin(), all.end(),
+                       [](const auto& a) { return a.first == "relative_to" && a.second.empty(); }),
+        all.end());
+  }
+  if (element.name == "world" && version < 106) {
+    if (Element* physics = find_child(element, "physics")) {
+      const Element* gravity = physics->child("gravity");
+      if (gravity != nullptr && element.child("gravity") == nullptr) {
+        const Element moved = *gravity;
+        remove_children(*physics, "gravity");
+        remove_children(*physics, "magnetic_field");
+        element.children.push_back(moved);
+      }
+    }
+  }
+  for (Element& child : element.children) upgrade_element(child, version);
+}
+
+}  // namespace
+
+void upgrade(Element& sdf, int version) {
+  upgrade_element(sdf, version);
+  set_attribute(sdf, "version", "1.9");
+}
+
+}  // namespace angen::load

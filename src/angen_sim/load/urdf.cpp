@@ -1,0 +1,91 @@
+#include "load/urdf.h"
+
+#include <set>
+
+#include "load/sdf.h"
+#include "load/values.h"
+#include "load/xml.h"
+
+namespace angen::load {
+
+namespace {
+
+void need_link(const Element& joint, const char* end, const std::set<std::string>& links) {
+  const Element* element = joint.child(end);
+  const std::string* link = element == nullptr ? nullptr : element->attribute("link");
+  if (link == nullptr) {
+    throw Error(joint.source, tag_of(joint) + " has no <" + end + " link=\"…\"/>; name a link");
+  }
+  if (links.count(*link) == 0) {
+    throw Error(element->source, tag_of(joint) + " names an unknown link '" + *link +
+                                     "'; known are " + join_names({links.begin(), links.end()}));
+  }
+}
+
+void check_numbers(const Element& element) {
+  static const std::set<std::string> texts = {"name",        "link",      "type",
+                                              "filename",    "reference", "joint",
+                                              "xmlns:xacro", "version",   "value_type"};
+  if (element.name == "gazebo" || element.name == "transmission") return;
+  for (const auto& [key, value] : element.attributes) {
+    if (texts.count(key) != 0) continue;
+    const Numbers found = numbers_in(value);
+    if (!found.bad.empty()) {
+      throw Error(element.source, "<" + element.name + " " + key + "> holds '" + found.bad +
+                                      "', which is no number");
+    }
+  }
+  for (const Element& child : element.children) check_numbers(child);
+}
+
+void check_robot(const Element& robot) {
+  std::set<std::string> links;
+  std::set<std::string> joints;
+  for (const Element& child : robot.children) {
+    if (child.name != "link" && child.name != "joint") continue;
+    auto& names = child.name == "link" ? links : joints;
+    if (name_of(child).empty()) throw Error(child.source, "<" + child.name + "> has no name");
+    if (!names.insert(name_of(child)).second) {
+      throw Error(child.source, "the name '" + name_of(child) + "' is given twice; give this <" +
+                                    child.name + "> another");
+    }
+    check_numbers(child);
+  }
+  if (links.empty()) throw Error(robot.source, "<robot> has no <link>; give it one");
+  for (const Element& child : robot.children) {
+    if (child.name != "joint") continue;
+    need_link(child, "parent", links);
+    need_link(child, "child", links);
+  }
+}
+
+// Elements that libsdformat made keep the place of the URDF element of the same kind and name.
+void place(Element& element, const Element& robot, const Source& around) {
+  element.source = around;
+  for (const Element& original : robot.children) {
+    if (original.name == element.name && !name_of(original).empty() &&
+        name_of(original) == name_of(element)) {
+      element.source = original.source;
+    }
+  }
+  for (Element& child : element.children) place(child, robot, element.source);
+}
+
+}  // namespace
+
+Element convert_urdf(const std::string& text, const Element& robot) {
+  check_robot(robot);
+  const Hush hush;
+  const sdf::SDFPtr document(new sdf::SDF());
+  sdf::init(document);
+  sdf::Errors errors;
+  if (!sdf::readString(text, document, errors) || !errors.empty()) {
+    const std::string why = errors.empty() ? hush.heard() : errors.front().Message();
+    throw Error(robot.source, "this URDF cannot be converted to SDF: " + why.substr(0, 300));
+  }
+  Element root = parse_xml(document->Root()->ToString(""), robot.source.file);
+  place(root, robot, robot.source);
+  return root;
+}
+
+}  // namespace angen::load

@@ -1,0 +1,121 @@
+#include "load/values.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "load/xml.h"
+
+namespace angen::load {
+
+namespace {
+
+bool parse_number(const std::string& word, double& value) {
+  const char* begin = word.data();
+  const char* end = begin + word.size();
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') ++begin;
+  const auto [stop, failed] = std::from_chars(begin, end, value);
+  return stop == end && failed == std::errc{};
+}
+
+}  // namespace
+
+Numbers numbers_in(const std::string& text) {
+  Numbers found;
+  const char* blanks = " \t\r\n\f\v";
+  for (std::size_t at = text.find_first_not_of(blanks); at != std::string::npos;) {
+    const std::size_t end = text.find_first_of(blanks, at);
+    const std::string word = text.substr(at, end == std::string::npos ? end : end - at);
+    double value = 0.0;
+    if (!parse_number(word, value)) {
+      found.bad = word;
+      return found;
+    }
+    found.values.push_back(value);
+    at = end == std::string::npos ? end : text.find_first_not_of(blanks, end);
+  }
+  return found;
+}
+
+std::vector<double> numbers_of(const Element& element, std::size_t count) {
+  const Numbers found = numbers_in(element.text);
+  const std::string want = count == 1 ? "one number" : std::to_string(count) + " numbers";
+  if (!found.bad.empty()) {
+    throw Error(element.source, "<" + element.name + "> holds '" + found.bad +
+                                    "', which is no number; give " + want);
+  }
+  if (found.values.size() != count) {
+    throw Error(element.source, "<" + element.name + "> holds " +
+                                    std::to_string(found.values.size()) + " numbers; give " + want);
+  }
+  for (const double value : found.values) {
+    if (!std::isfinite(value)) {
+      throw Error(element.source, "<" + element.name + "> is not finite; give " + want);
+    }
+  }
+  return found.values;
+}
+
+double number_of(const Element& element) { return numbers_of(element, 1)[0]; }
+
+bool flag_of(const Element& element) {
+  const std::string& t = element.text;
+  if (t == "true" || t == "1" || t == "True" || t == "TRUE") return true;
+  if (t == "false" || t == "0" || t == "False" || t == "FALSE") return false;
+  throw Error(element.source, "<" + element.name + "> holds '" + t + "'; give true or false");
+}
+
+Pose pose_of(const Element& element) {
+  if (element.text.empty()) return {};
+  const std::string* format = element.attribute("rotation_format");
+  Pose pose;
+  if (format != nullptr && *format == "quat_xyzw") {
+    const std::vector<double> v = numbers_of(element, 7);
+    pose.rotation = Quat(v[6], v[3], v[4], v[5]);
+    if (pose.rotation.norm() < 1e-6) {
+      throw Error(element.source, "<pose> holds a quaternion of length 0; give a unit quaternion");
+    }
+    pose.rotation.normalize();
+    pose.position = {v[0], v[1], v[2]};
+    return pose;
+  }
+  const std::vector<double> v = numbers_of(element, 6);
+  const std::string* degrees = element.attribute("degrees");
+  const double unit =
+      degrees != nullptr && (*degrees == "true" || *degrees == "1") ? M_PI / 180.0 : 1.0;
+  pose.position = {v[0], v[1], v[2]};
+  pose.rotation = from_rpy(v[3] * unit, v[4] * unit, v[5] * unit);
+  return pose;
+}
+
+double child_number(const Element& element, const std::string& name, double fallback) {
+  const Element* child = element.child(name);
+  return child == nullptr ? fallback : number_of(*child);
+}
+
+bool child_flag(const Element& element, const std::string& name, bool fallback) {
+  const Element* child = element.child(name);
+  return child == nullptr ? fallback : flag_of(*child);
+}
+
+Pose child_pose(const Element& element) {
+  const Element* child = element.child("pose");
+  return child == nullptr ? Pose{} : pose_of(*child);
+}
+
+std::string number_text(double value) {
+  char buffer[32];
+  const auto [end, failed] = std::to_chars(buffer, buffer + sizeof(buffer), value);
+  return failed == std::errc{} ? std::string(buffer, end) : "0";
+}
+
+std::string pose_text(const Pose& pose) {
+  const Vec3 rpy = to_rpy(pose.rotation);
+  std::string text;
+  for (const double v :
+       {pose.position.x(), pose.position.y(), pose.position.z(), rpy.x(), rpy.y(), rpy.z()}) {
+    text += (text.empty() ? "" : " ") + number_text(v == 0.0 ? 0.0 : v);
+  }
+  return text;
+}
+
+}  // namespace angen::load

@@ -1,0 +1,165 @@
+#include <map>
+
+#include "load/check.h"
+#include "load/describe.h"
+#include "load/entry.h"
+#include "load/light.h"
+#include "load/load.h"
+#include "load/search.h"
+#include "load/values.h"
+#include "load/xml.h"
+
+namespace angen::load {
+
+namespace {
+
+bool relative(const Element& element) {
+  const Element* pose = element.child("pose");
+  return pose != nullptr && pose->attribute("relative_to") != nullptr;
+}
+
+// Models and settings of a <world>, includes written out.
+struct Parts {
+  Element own;       // the world without models, as its file has it
+  Element settings;  // the same with included lights written out
+  std::vector<Entry> entries;
+  std::vector<Element> states;
+};
+
+Parts split(const Element& world, Session& session) {
+  Parts parts;
+  parts.own.name = world.name;
+  parts.own.source = world.source;
+  parts.own.attributes = world.attributes;
+  parts.settings = parts.own;
+  for (const Element& child : world.children) {
+    if (child.name == "state") {
+      parts.states.push_back(child);
+      continue;
+    }
+    if (child.name == "population" || child.name == "road") {
+      session.warn(child.source, "<" + child.name + "> has no effect");
+      continue;
+    }
+    if (child.name != "model" && child.name != "actor" && child.name != "include") {
+      parts.own.children.push_back(child);
+      parts.settings.children.push_back(child);
+      continue;
+    }
+    Entry entry = expand_entry(child, session);
+    if (entry.expanded.name == "light") {
+      parts.own.children.push_back(child);
+      parts.settings.children.push_back(entry.expanded);
+    } else {
+      parts.entries.push_back(std::move(entry));
+    }
+  }
+  return parts;
+}
+
+void check_entry_names(const std::vector<Entry>& entries) {
+  std::map<std::string, Source> seen;
+  for (const Entry& entry : entries) {
+    const std::string name = name_of(entry.expanded);
+    check_name(name, "<" + entry.expanded.name + ">", entry.original.source);
+    const auto [there, fresh] = seen.insert({name, entry.original.source});
+    if (!fresh) {
+      throw Error(entry.original.source, "a model named '" + name + "' stands already at line " +
+                                             std::to_string(there->second.line) +
+                                             "; give this one another <name>");
+    }
+  }
+}
+
+// Poses that are given relative to something in the world need libsdformat, and models to refer to.
+Element with_stand_ins(const Parts& parts) {
+  Element world = parts.settings;
+  bool needed = false;
+  for (const Element& child : parts.settings.children) needed = needed || relative(child);
+  for (const Entry& entry : parts.entries) needed = needed || relative(entry.expanded);
+  if (!needed) return world;
+  for (const Entry& entry : parts.entries) {
+    Element model;
+    model.name = "model";
+    model.source = entry.original.source;
+    model.attributes = {{"name", name_of(entry.expanded)}};
+    if (const Element* pose = entry.expanded.child("pose")) model.children.push_back(*pose);
+    Element link;
+    link.name = "link";
+    link.source = model.source;
+    link.attributes = {{"name", "stand_in"}};
+    model.children.push_back(link);
+    world.children.push_back(model);
+  }
+  return world;
+}
+
+const sdf::Light* light_by_name(const sdf::World& world, const std::string& name) {
+  for (std::uint64_t i = 0; i < world.LightCount(); ++i) {
+    if (world.LightByIndex(i)->Name() == name) return world.LightByIndex(i);
+  }
+  return nullptr;
+}
+
+void place_all(const Parts& parts, const sdf::World& from, desc::World& to) {
+  for (const Element& child : parts.settings.children) {
+    if (child.name != "light") continue;
+    const sdf::Light* light = light_by_name(from, name_of(child));
+    const bool given = relative(child) && light != nullptr;
+    to.lights.push_back(light_of(
+        child, given ? resolve(light->SemanticPose(), "", child.source) : child_pose(child)));
+  }
+  for (std::size_t i = 0; i < parts.entries.size(); ++i) {
+    const Element& element = parts.entries[i].expanded;
+    if (element.name != "model") continue;
+    const sdf::Model* model = from.ModelByName(name_of(element));
+    to.models[i].pose = relative(element) && model != nullptr
+                            ? resolve(model->SemanticPose(), "", element.source)
+                            : child_pose(element);
+  }
+}
+
+desc::World describe_world(const Element& sdf, Session& session) {
+  const Element* found = nullptr;
+  for (const Element& child : sdf.children) {
+    if (child.name != "world") continue;
+    if (found != nullptr) throw Error(child.source, "a second <world> in one file; keep one");
+    found = &child;
+  }
+  if (found == nullptr)
+    throw Error(sdf.source, "the file holds no <world>; a world file needs one");
+  Parts parts = split(*found, session);
+  if (name_of(*found).empty())
+    throw Error(found->source, "<world> has no name; write name=\"home\"");
+  check_settings(parts.settings);
+  check_entry_names(parts.entries);
+
+  desc::World world;
+  world.name = name_of(*found);
+  world.xml = print_xml(parts.own);
+  read_settings(parts.settings, world);
+  for (const Element& child : parts.settings.children) {
+    if (child.name == "plugin") world.plugins.push_back(plugin_of(child));
+  }
+  Describer describer(session);
+  for (Entry& entry : parts.entries) world.models.push_back(describer.describe(entry));
+  {
+    const Hush hush;
+    const sdf::Root root = parse_world(with_stand_ins(parts), session);
+    place_all(parts, *root.WorldByIndex(0), world);
+  }
+  for (const Element& state : parts.states) apply_state(state, world);
+  world.warnings = session.warnings;
+  return world;
+}
+
+}  // namespace
+
+desc::World world_from_text(const std::string& xml, const std::string& name,
+                            const SearchPaths& paths) {
+  Session session{paths};
+  const Open open(session, name);
+  return describe_world(read_document(xml, name, session), session);
+}
+
+}  // namespace angen::load

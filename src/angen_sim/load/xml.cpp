@@ -1,0 +1,248 @@
+#include "load/xml.h"
+
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace angen::load {
+
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const char* blanks = " \t\r\n\f\v";
+  const auto begin = text.find_first_not_of(blanks);
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+}
+
+Element convert(const tinyxml2::XMLElement& from, const std::string& file, std::size_t& count) {
+  if (++count > kMaxElements) {
+    throw Error({file, from.GetLineNum()}, "more than " + std::to_string(kMaxElements) +
+                                               " elements; split the file into models");
+  }
+  Element to;
+  to.name = from.Name();
+  to.source = {file, from.GetLineNum()};
+  for (auto* a = from.FirstAttribute(); a != nullptr; a = a->Next()) {
+    if (to.attribute(a->Name()) != nullptr) {
+      throw Error(to.source, "<" + to.name + "> has two attributes '" + a->Name() + "'; keep one");
+    }
+    to.attributes.emplace_back(a->Name(), a->Value());
+  }
+  std::string text;
+  for (auto* node = from.FirstChild(); node != nullptr; node = node->NextSibling()) {
+    if (auto* child = node->ToElement()) {
+      to.children.push_back(convert(*child, file, count));
+    } else if (auto* piece = node->ToText()) {
+      text += piece->Value();
+    }
+  }
+  to.text = trimmed(text);
+  return to;
+}
+
+// tinyxml2's own message repeats the line and its source; the part after "XMLElement name=" or the
+// error's name is of use.
+std::string reason(const tinyxml2::XMLDocument& document) {
+  switch (document.ErrorID()) {
+    case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
+      return "the file is empty; it needs an <sdf> element";
+    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
+      return "an element opened here or before is not closed as it was opened; close each <x> with "
+             "</x>";
+    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
+      return "elements stand more than 100 deep in one another";
+    default: {
+      const std::string name = document.ErrorName();
+      return "this is not well-formed XML (" + name.substr(name.find("XML_") == 0 ? 4 : 0) +
+             "); is the file cut off?";
+    }
+  }
+}
+
+int line_at(const std::string& text, std::size_t offset) {
+  return 1 +
+         static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(offset), '\n'));
+}
+
+// The offset of the first byte that is not UTF-8 (or is a zero byte); npos when all are.
+std::size_t first_bad_byte(const std::string& text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  for (std::size_t i = 0; i < text.size();) {
+    const unsigned char c = byte(i);
+    const int more = c < 0x80                ? 0
+                     : c >= 0xc2 && c < 0xe0 ? 1
+                     : c >= 0xe0 && c < 0xf0 ? 2
+                     : c >= 0xf0 && c < 0xf5 ? 3
+                                             : -1;
+    if (more < 0 || c == 0 || i + static_cast<std::size_t>(more) >= text.size()) return i;
+    for (int k = 1; k <= more; ++k) {
+      if ((byte(i + static_cast<std::size_t>(k)) & 0xc0U) != 0x80U) return i;
+    }
+    if ((c == 0xe0 && byte(i + 1) < 0xa0) || (c == 0xed && byte(i + 1) > 0x9f) ||
+        (c == 0xf0 && byte(i + 1) < 0x90) || (c == 0xf4 && byte(i + 1) > 0x8f)) {
+      return i;
+    }
+    i += static_cast<std::size_t>(more) + 1;
+  }
+  return std::string::npos;
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      // A line break inside a value must not shift the table of lines.
+      case '\n':
+        out += "&#10;";
+        break;
+      case '\r':
+        out += "&#13;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+void print(const Element& element, int indent, std::string& out, std::vector<Source>* lines) {
+  const std::string margin(static_cast<std::size_t>(indent) * 2, ' ');
+  const auto end_line = [&] {
+    out += '\n';
+    if (lines != nullptr) lines->push_back(element.source);
+  };
+  out += margin + "<" + element.name;
+  for (const auto& [key, value] : element.attributes) {
+    out += " " + key + "=\"" + escaped(value) + "\"";
+  }
+  if (element.children.empty()) {
+    out += element.text.empty() ? "/>" : ">" + escaped(element.text) + "</" + element.name + ">";
+    end_line();
+    return;
+  }
+  out += ">" + escaped(element.text);
+  end_line();
+  for (const Element& child : element.children) print(child, indent + 1, out, lines);
+  out += margin + "</" + element.name + ">";
+  end_line();
+}
+
+}  // namespace
+
+Element parse_xml(const std::string& text, const std::string& file) {
+  if (text.size() > kMaxFileBytes)
+    throw Error({file, 0}, "larger than 64 MB; split it into models");
+  const std::size_t bad = first_bad_byte(text);
+  if (bad != std::string::npos) {
+    throw Error({file, line_at(text, bad)}, "a byte that is not UTF-8; save the file as UTF-8");
+  }
+  tinyxml2::XMLDocument document;
+  document.Parse(text.data(), text.size());
+  if (document.Error()) throw Error({file, std::max(1, document.ErrorLineNum())}, reason(document));
+  const tinyxml2::XMLElement* root = document.RootElement();
+  if (root == nullptr) throw Error({file, 1}, "no element in it; it needs an <sdf> element");
+  if (root->NextSiblingElement() != nullptr) {
+    throw Error({file, root->NextSiblingElement()->GetLineNum()},
+                "a second root element; put all into one <sdf>");
+  }
+  std::size_t count = 0;
+  return convert(*root, file, count);
+}
+
+std::string read_file(const std::string& path) {
+  std::error_code failed;
+  if (std::filesystem::is_directory(path, failed)) {
+    throw Error({path, 0}, "is a folder; give an SDF file");
+  }
+  std::ifstream stream(path, std::ios::binary);
+  const auto size = std::filesystem::file_size(path, failed);
+  if (!stream || failed) throw Error({path, 0}, "cannot be read; give a file that exists");
+  if (size > kMaxFileBytes) throw Error({path, 0}, "larger than 64 MB; split it into models");
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+std::string print_xml(const Element& element, int indent, std::vector<Source>* lines) {
+  std::string out;
+  print(element, indent, out, lines);
+  return out;
+}
+
+std::size_t count_elements(const Element& element) {
+  std::size_t count = 1;
+  for (const Element& child : element.children) count += count_elements(child);
+  return count;
+}
+
+bool valid_utf8(const std::string& text) { return first_bad_byte(text) == std::string::npos; }
+
+Element* find_child(Element& element, const std::string& name) {
+  for (Element& child : element.children) {
+    if (child.name == name) return &child;
+  }
+  return nullptr;
+}
+
+std::string child_text(const Element& element, const std::string& name,
+                       const std::string& fallback) {
+  const Element* child = element.child(name);
+  return child == nullptr ? fallback : child->text;
+}
+
+void set_child(Element& element, const std::string& name, const std::string& text) {
+  Element* child = find_child(element, name);
+  if (child == nullptr) {
+    Element fresh;
+    fresh.name = name;
+    fresh.source = element.source;
+    child = &*element.children.insert(element.children.begin(), std::move(fresh));
+  }
+  child->text = text;
+  child->attributes.clear();
+}
+
+void set_attribute(Element& element, const std::string& name, const std::string& value) {
+  for (auto& [key, old] : element.attributes) {
+    if (key == name) {
+      old = value;
+      return;
+    }
+  }
+  element.attributes.emplace_back(name, value);
+}
+
+void remove_children(Element& element, const std::string& name) {
+  auto& all = element.children;
+  all.erase(
+      std::remove_if(all.begin(), all.end(), [&](const Element& e) { return e.name == name; }),
+      all.end());
+}
+
+std::string name_of(const Element& element) {
+  const std::string* name = element.attribute("name");
+  return name == nullptr ? "" : *name;
+}
+
+std::string tag_of(const Element& element) {
+  const std::string name = name_of(element);
+  return name.empty() ? "<" + element.name + ">" : "<" + element.name + " name=\"" + name + "\">";
+}
+
+}  // namespace angen::load

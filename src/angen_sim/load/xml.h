@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/element.h"
+
+/// Text to Element trees with the line of each element, and back.
+namespace angen::load {
+
+constexpr std::size_t kMaxFileBytes = 64U << 20U;
+constexpr std::size_t kMaxElements = 100'000;
+
+/// The root element of a document; `file` stands for it in messages. Throws Error for text that is
+/// not well-formed, not UTF-8, or too large.
+Element parse_xml(const std::string& text, const std::string& file);
+
+/// A whole file; throws Error when it cannot be read or is larger than kMaxFileBytes.
+std::string read_file(const std::string& path);
+
+/// One element a line, indented. `lines` gets the source of each printed line, from line 1.
+std::string print_xml(const Element& element, int indent = 0, std::vector<Source>* lines = nullptr);
+
+std::size_t count_elements(const Element& element);
+bool valid_utf8(const std::string& text);
+
+Element* find_child(Element& element, const std::string& name);
+/// The text of a child, or `fallback` when there is none.
+std::string child_text(const Element& element, const std::string& name,
+                       const std::string& fallback = "");
+/// Sets a child's text, adding the child in front when there is none.
+void set_child(Element& element, const std::string& name, const std::string& text);
+void set_attribute(Element& element, const std::string& name, const std::string& value);
+void remove_children(Element& element, const std::string& name);
+/// The attribute `name`, or "".
+std::string name_of(const Element& element);
+/// `<link name="a">`, as it is called in messages.
+std::string tag_of(const Element& element);
+
+}  // namespace angen::load
