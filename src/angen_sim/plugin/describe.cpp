@@ -37,16 +37,15 @@ PluginDoc describe(const std::string& library, const Plugin& plugin) {
   element.attributes = {{"filename", library}};
   Params params(element);
   AnyWiring wiring(plugin.kind());
+  const auto sensor = plugin.make_sensor();
+  const auto device = sensor ? nullptr : plugin.make_device();
   try {
-    if (const auto sensor = plugin.make_sensor()) {
-      sensor->configure(params, wiring);
-      read_common(params, plugin.kind(), *sensor);
-    } else if (const auto device = plugin.make_device()) {
-      device->configure(params, wiring);
-    }
+    if (sensor) sensor->configure(params, wiring);
+    if (device) device->configure(params, wiring);
   } catch (const Error&) {
     // It cannot do without something that nothing has; what it read until then is known.
   }
+  if (sensor) read_common(params, plugin.kind(), *sensor);
   return {library, plugin.kind(), plugin.doc(), params.docs()};
 }
 

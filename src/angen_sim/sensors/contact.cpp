@@ -96,6 +96,6 @@ class Contact : public Sensor {
   std::optional<bool> pressed_;  // none before the first reading
 };
 
-ANGEN_REGISTER_SENSOR(Contact, "contact", "what touches a body: names, points, depths, forces")
+ANGEN_REGISTER_SENSOR(Contact, "contact", "What touches a body: names, points, depths, forces.")
 
 }  // namespace angen::sensors

@@ -48,6 +48,6 @@ class Luminosity : public Sensor {
   std::optional<double> told_;  // lx without noise
 };
 
-ANGEN_REGISTER_SENSOR(Luminosity, "luminosity", "illuminance in lux and the mean colour of a view")
+ANGEN_REGISTER_SENSOR(Luminosity, "luminosity", "Illuminance in lux and the mean colour of a view.")
 
 }  // namespace angen::sensors

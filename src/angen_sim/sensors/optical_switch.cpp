@@ -74,6 +74,6 @@ class OpticalSwitch : public Sensor {
   bool closed_ = false;
 };
 
-ANGEN_REGISTER_SENSOR(OpticalSwitch, "switch", "light barrier of two rays at a door")
+ANGEN_REGISTER_SENSOR(OpticalSwitch, "switch", "A light barrier of two rays at a door.")
 
 }  // namespace angen::sensors

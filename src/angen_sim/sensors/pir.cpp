@@ -104,6 +104,6 @@ class Pir : public Sensor {
   bool motion_ = false;
 };
 
-ANGEN_REGISTER_SENSOR(Pir, "pir", "motion detector: compares successive range scans")
+ANGEN_REGISTER_SENSOR(Pir, "pir", "A motion detector that compares successive range scans.")
 
 }  // namespace angen::sensors

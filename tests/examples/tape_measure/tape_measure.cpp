@@ -21,4 +21,4 @@ class TapeMeasure : public angen::Sensor {
   double noise_ = 0.0;
 };
 
-ANGEN_REGISTER_SENSOR(TapeMeasure, "tape", "distance straight ahead")
+ANGEN_REGISTER_SENSOR(TapeMeasure, "tape", "The distance straight ahead.")

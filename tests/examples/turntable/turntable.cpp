@@ -48,7 +48,9 @@ class Turntable : public angen::Device {
 class TurntablePlugin : public angen::Plugin {
  public:
   std::string kind() const override { return "turntable"; }
-  std::string doc() const override { return "a plate that turns"; }
+  std::string doc() const override {
+    return "A plate that turns: Start, Stop, or a speed in rad/s.";
+  }
   bool serves(const angen::ModelInfo& model) const override {
     const angen::ModelInfo::Joint* spindle = model.joint("spindle");
     return spindle != nullptr && spindle->type == "revolute";
