@@ -49,7 +49,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
   std::vector<std::pair<std::string, FakeLink>> links;
   std::vector<std::pair<std::string, FakeLight>> lights;
   Names collisions;
-  std::map<std::string, std::vector<ContactPair>> touching;  // by collision name
+  std::map<std::string, std::vector<ContactPair>> touching;           // by collision name
   std::function<light::Sample(light::Probe&, const Pose&)> light_at;  // dark where not given
   std::vector<std::pair<std::string, std::string>> events;
 
