@@ -4,7 +4,6 @@
 #include <ros/exceptions.h>
 
 #include "ros/text.h"
-#include "ros/wire.h"
 
 namespace angen::node {
 namespace {
@@ -45,8 +44,7 @@ Commands::Commands(ros::NodeHandle& node, Inbox& inbox) : node_(node), inbox_(in
 void Commands::follow(const std::vector<Robot>& robots) {
   decltype(drives_) kept;
   for (const Robot& robot : robots) {
-    for (const std::string& asked : robot.command_topics) {
-      const std::string topic = graph_name(asked);
+    for (const std::string& topic : robot.command_topics) {
       const auto old = drives_.find({topic, robot.name});
       if (old != drives_.end()) {
         kept.insert(*old);

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <set>
 
+#include "ros/wire.h"
+
 namespace angen::node {
 namespace {
 
@@ -60,6 +62,16 @@ std::string value_of(const std::vector<const Element*>& elements, const std::str
     if (const Element* found = element->child(key)) return found->text;
   }
   return fallback;
+}
+
+// A topic that starts with / means itself; others stand under the robot's name, and the first
+// robot's also without it.
+std::vector<std::string> robot_topics(const std::string& robot, const std::string& asked,
+                                      bool first) {
+  if (!asked.empty() && asked[0] == '/') return {graph_name(asked)};
+  std::vector<std::string> topics = {graph_name("/" + robot + "/" + asked)};
+  if (first) topics.push_back(graph_name("/" + asked));
+  return topics;
 }
 
 class Builder {
@@ -178,14 +190,11 @@ std::vector<Robot> find_robots(const sim::Structure& structure,
     const std::string base = value_of(elements, "robotBaseFrame", "base_footprint");
     robot.odom_frame = prefix + value_of(elements, "odometryFrame", "odom");
     robot.base_frame = prefix + base;
-    const std::string command = value_of(elements, "commandTopic", "cmd_vel");
-    const std::string odometry = value_of(elements, "odometryTopic", "odom");
-    robot.command_topics = {"/" + robot.name + "/" + command};
-    robot.odometry_topics = {"/" + robot.name + "/" + odometry};
-    if (robots.empty()) {
-      robot.command_topics.push_back("/" + command);
-      robot.odometry_topics.push_back("/" + odometry);
-    }
+    const bool first = robots.empty();
+    robot.command_topics =
+        robot_topics(robot.name, value_of(elements, "commandTopic", "cmd_vel"), first);
+    robot.odometry_topics =
+        robot_topics(robot.name, value_of(elements, "odometryTopic", "odom"), first);
     bool found = false;
     for (std::uint32_t l = 0; l < structure.links.size(); ++l) {
       const sim::LinkEntry& link = structure.links[l];

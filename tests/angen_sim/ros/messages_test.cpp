@@ -1,0 +1,174 @@
+#include <gtest/gtest.h>
+
+#include "ros/convert.h"
+#include "ros/formats.h"
+#include "ros/readings.h"
+#include "ros/states.h"
+#include "ros/wire.h"
+
+namespace angen::node {
+namespace {
+
+using Numbers = std::vector<double>;
+using Texts = std::vector<std::string>;
+
+TEST(Messages, KnownKindsHaveTheirOwnOthersTheGenericOne) {
+  EXPECT_EQ(format_of("pir").type, "angen_msgs/PirMsg");
+  EXPECT_EQ(format_of("contact").type, "gazebo_msgs/ContactsState");
+  EXPECT_EQ(format_of("smoke").type, "angen_msgs/Reading");
+}
+
+TEST(Messages, Pir) {
+  Reading reading;
+  reading.set("motion", true);
+  reading.set("difference", 0.4);
+  reading.set("threshold", 0.1);
+  reading.set("signal", 4.0);
+  reading.set("signal_threshold", 1.0);
+  angen_msgs::PirMsg message;
+  fill(reading, {}, message);
+  EXPECT_TRUE(message.motion);
+  EXPECT_EQ(message.difference, 0.4);
+  EXPECT_EQ(message.threshold, 0.1);
+  EXPECT_EQ(message.signal, 4.0);
+  EXPECT_EQ(message.signal_threshold, 1.0);
+}
+
+TEST(Messages, SwitchTakesTwoRanges) {
+  Reading reading;
+  reading.set("closed", true);
+  reading.set("ranges", Numbers{0.2, 0.3});
+  angen_msgs::SwitchMsg message;
+  fill(reading, {}, message);
+  EXPECT_TRUE(message.closed);
+  EXPECT_EQ(message.ranges[0], 0.2);
+  EXPECT_EQ(message.ranges[1], 0.3);
+}
+
+TEST(Messages, DoorModesByName) {
+  const auto mode = [](const char* name) {
+    Reading state;
+    state.set("mode", name);
+    angen_msgs::DoorState message;
+    fill(state, {"bathroom1", "world"}, message);
+    EXPECT_EQ(message.name, "bathroom1");
+    return message.mode;
+  };
+  EXPECT_EQ(mode("CLOSED"), angen_msgs::DoorState::CLOSED);
+  EXPECT_EQ(mode("OPEN"), angen_msgs::DoorState::OPEN);
+  EXPECT_EQ(mode("OPENING"), angen_msgs::DoorState::OPENING);
+  EXPECT_EQ(mode("CLOSING"), angen_msgs::DoorState::CLOSING);
+  EXPECT_EQ(mode("BLOCKED"), angen_msgs::DoorState::BLOCKED);
+  EXPECT_EQ(mode("AJAR"), angen_msgs::DoorState::AJAR);
+}
+
+TEST(Messages, Elevator) {
+  Reading state;
+  state.set("mode", "DOWN");
+  state.set("floor", -1);
+  state.set("target_floor", 1);
+  state.set("door_mode", "BLOCKED");
+  state.set("door_position", 0.3);
+  angen_msgs::ElevatorState message;
+  fill(state, {"elevator", "world"}, message);
+  EXPECT_EQ(message.mode, angen_msgs::ElevatorState::DOWN);
+  EXPECT_EQ(message.floor, -1);
+  EXPECT_EQ(message.target_floor, 1);
+  EXPECT_EQ(message.door_mode, angen_msgs::ElevatorState::DOOR_BLOCKED);
+  EXPECT_EQ(message.door_position, 0.3);
+}
+
+TEST(Messages, PersonAndOdometryStandWhereTheyAre) {
+  Reading state;
+  state.set("mode", "BLOCKED");
+  state.set("x", 1.0);
+  state.set("y", 2.0);
+  state.set("z", 4.9);
+  state.set("yaw", M_PI_2);
+  state.set("v", 0.5);
+  state.set("w", -1.0);
+  angen_msgs::PersonState person;
+  fill(state, {"person", "world"}, person);
+  EXPECT_EQ(person.mode, angen_msgs::PersonState::BLOCKED);
+  EXPECT_EQ(person.pose.position.z, 4.9);
+  EXPECT_NEAR(person.pose.orientation.z, M_SQRT1_2, 1e-12);
+  nav_msgs::Odometry odometry;
+  fill(state, {"base_footprint", "odom"}, odometry);
+  EXPECT_EQ(odometry.child_frame_id, "base_footprint");
+  EXPECT_EQ(odometry.pose.pose.position.y, 2.0);
+  EXPECT_EQ(odometry.pose.pose.position.z, 0.0);
+  EXPECT_EQ(odometry.twist.twist.linear.x, 0.5);
+  EXPECT_EQ(odometry.twist.twist.angular.z, -1.0);
+}
+
+TEST(Messages, ContactsAreSplitByPairAndSummed) {
+  Reading reading;
+  reading.set("collision1", Texts{"chair::body::seat", "chair::body::leg"});
+  reading.set("collision2", Texts{"person::body::feet", "flat::floor::box"});
+  reading.set("counts", Numbers{2, 1});
+  reading.set("positions", Numbers{0, 0, 0.5, 1, 0, 0.5, 0, 0, 0});
+  reading.set("normals", Numbers{0, 0, 1, 0, 0, 1, 0, 0, 1});
+  reading.set("depths", Numbers{0.001, 0.002, 0.003});
+  reading.set("forces", Numbers{0, 0, -10, 0, 0, -20, 0, 0, 30});
+  gazebo_msgs::ContactsState message;
+  fill(reading, {"chair", "somewhere"}, message);
+  EXPECT_EQ(message.header.frame_id, "world");
+  ASSERT_EQ(message.states.size(), 2U);
+  const gazebo_msgs::ContactState& seat = message.states[0];
+  EXPECT_EQ(seat.collision2_name, "person::body::feet");
+  ASSERT_EQ(seat.depths.size(), 2U);
+  EXPECT_EQ(seat.contact_positions[1].x, 1.0);
+  EXPECT_EQ(seat.total_wrench.force.z, -30.0);
+  EXPECT_EQ(seat.wrenches[1].torque.y, 20.0);  // 1 m out, 20 N down
+  EXPECT_EQ(seat.total_wrench.torque.y, 20.0);
+  ASSERT_EQ(message.states[1].depths.size(), 1U);
+  EXPECT_EQ(message.states[1].depths[0], 0.003);
+}
+
+TEST(Messages, ContactListsOfUnequalLengthGiveNoMoreThanTheyHold) {
+  Reading reading;
+  reading.set("collision1", Texts{"a"});
+  reading.set("collision2", Texts{"b"});
+  reading.set("counts", Numbers{5});
+  reading.set("positions", Numbers{0, 0, 0});
+  gazebo_msgs::ContactsState message;
+  fill(reading, {}, message);
+  ASSERT_EQ(message.states.size(), 1U);
+  EXPECT_TRUE(message.states[0].wrenches.empty());
+}
+
+TEST(Messages, TheGenericOneHoldsEveryField) {
+  Reading reading;
+  reading.kind = "smoke";
+  reading.set("alarm", true);
+  reading.set("count", 3);
+  reading.set("density", 0.5);
+  reading.set("state", "ok");
+  reading.set("levels", Numbers{1, 2});
+  angen_msgs::Reading message;
+  fill(reading, {"s1", "s1"}, message);
+  EXPECT_EQ(message.name, "s1");
+  EXPECT_EQ(message.kind, "smoke");
+  EXPECT_EQ(message.names, (Texts{"alarm", "count", "density", "levels[0]", "levels[1]"}));
+  EXPECT_EQ(message.values, (Numbers{1, 3, 0.5, 1, 2}));
+  EXPECT_EQ(message.text_names, Texts{"state"});
+  EXPECT_EQ(message.texts, Texts{"ok"});
+}
+
+TEST(Messages, StampsKeepTheirNanoseconds) {
+  const ros::Time stamp = to_ros(12'345'678'901);
+  EXPECT_EQ(stamp.sec, 12U);
+  EXPECT_EQ(stamp.nsec, 345678901U);
+}
+
+TEST(Names, TopicsAreGraphNames) {
+  EXPECT_EQ(topic_of("pir", "kitchen0"), "/angen/pir/kitchen0");
+  EXPECT_EQ(topic_of("pir", "my pir-1"), "/angen/pir/my_pir_1");
+  EXPECT_EQ(topic_of("pir", "p", "/scan"), "/scan");
+  EXPECT_EQ(topic_of("pir", "p", "scan"), "scan");
+  EXPECT_EQ(graph_name("1st"), "a1st");
+  EXPECT_EQ(graph_name("/a//b/"), "/a/b");
+}
+
+}  // namespace
+}  // namespace angen::node

@@ -1,0 +1,90 @@
+"""How the node begins and ends, and what it leaves behind."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+from angen_msgs.srv import Delete, Spawn
+from conftest import WORLD, Angen, Master, end, node_binary
+
+
+def check(world: Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([str(node_binary()), "--check", str(world)], text=True,
+                          capture_output=True, timeout=60, check=False)
+
+
+def test_a_world_that_loads(tmp_path: Path) -> None:
+    world = tmp_path / "small.world"
+    world.write_text(WORLD)
+    done = check(world)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == f"{world}: 5 models, 3 devices, 1 sensors\n"
+
+
+@pytest.mark.parametrize(("right", "wrong", "part"), [
+    ("model://pir", "model://no_such_model", "no_such_model"),
+    ("<max_step_size>0.001", "<max_step_size>quick", "quick"),
+    ("<wheelSeparation>0.23</wheelSeparation>", "<wheelSeperation>0.23</wheelSeperation>",
+     "wheelSeperation"),
+    ("libdoor_world_plugin.so", "libno_such_plugin.so", "libno_such_plugin.so"),
+    ("</world>", "", ""),
+])
+def test_a_broken_world_is_explained_without_a_master(tmp_path: Path, right: str, wrong: str,
+                                                      part: str) -> None:
+    world = tmp_path / "broken.world"
+    world.write_text(WORLD.replace(right, wrong))
+    done = check(world)
+    assert done.returncode == 1 and not done.stdout
+    lines = done.stderr.splitlines()
+    assert len(lines) == 1, done.stderr
+    file, line, message = lines[0].split(":", 2)
+    assert file == str(world) and int(line) > 0 and part in message
+
+
+def test_a_world_that_is_not_there(tmp_path: Path) -> None:
+    done = check(tmp_path / "none.world")
+    assert done.returncode == 1 and "none.world" in done.stderr
+
+
+def test_interrupt_ends_it(master: Master, tmp_path: Path) -> None:
+    own = Master(tmp_path)
+    try:
+        world = tmp_path / "small.world"
+        world.write_text(WORLD)
+        process = own.node(world, tmp_path / "log", rate=0)
+        process.send_signal(signal.SIGINT)
+        assert process.wait(20) == 0
+        assert not own.topics()
+    finally:
+        end(own.process)
+
+
+def threads_and_descriptors(pid: int) -> tuple[int, int]:
+    return len(os.listdir(f"/proc/{pid}/task")), len(os.listdir(f"/proc/{pid}/fd"))
+
+
+def test_what_comes_and_goes_leaves_nothing(angen: Angen) -> None:
+    pid = angen.process.pid
+
+    def cycle(count: int) -> None:
+        for i in range(count):
+            spawned = angen.call("/angen/spawn", Spawn, name=f"cycle{i % 3}", xml="model://pir")
+            assert spawned.success, spawned.message
+            assert angen.call("/angen/delete", Delete, name=f"cycle{i % 3}").success
+
+    cycle(3)
+    topics = angen.master.topics()
+    before = threads_and_descriptors(pid)
+    cycle(50)
+    assert angen.master.topics() == topics
+    for _ in range(100):  # roscpp closes the last service's connection when it next polls
+        after = threads_and_descriptors(pid)
+        if after[0] <= before[0] and after[1] <= before[1]:
+            break
+        time.sleep(0.05)
+    assert after[0] <= before[0] and after[1] <= before[1], (before, after)

@@ -1,0 +1,152 @@
+"""Time, spawning, deleting, listing and saving by service."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from angen_msgs.msg import PirMsg, Stats
+from angen_msgs.srv import Delete, List, Save, Spawn, Step
+from conftest import Angen, Heard, until
+from geometry_msgs.msg import Pose
+from rosgraph_msgs.msg import Clock
+from std_srvs.srv import Empty
+
+PIR = "model://pir"
+SENSOR = """<sensor name="beam" type="ray"><update_rate>10</update_rate>
+  <ray><scan><horizontal><samples>3</samples><min_angle>-0.5</min_angle><max_angle>0.5</max_angle>
+  </horizontal></scan><range><min>0.05</min><max>6</max></range></ray>
+  <plugin name="pir" filename="libpir_controller.so"/></sensor>"""
+
+
+def at(x: float, y: float, z: float) -> Pose:
+    pose = Pose()
+    pose.position.x, pose.position.y, pose.position.z = x, y, z
+    return pose
+
+
+def names(angen: Angen, kind: str = "") -> list[str]:
+    return [entity.name for entity in angen.call("/angen/list", List, kind=kind).entities]
+
+
+@pytest.fixture
+def paused(angen: Angen):
+    angen.call("/gazebo/pause_physics", Empty)
+    yield
+    angen.call("/gazebo/unpause_physics", Empty)
+
+
+def test_a_spawned_sensor_speaks_and_a_deleted_one_is_gone(angen: Angen) -> None:
+    answer = angen.call("/angen/spawn", Spawn, name="p1", xml=PIR, pose=at(1, 1, 1))
+    assert answer.success, answer.message
+    assert angen.master.topics()["/angen/pir/p1"] == "angen_msgs/PirMsg"
+    message = angen.wait("/angen/pir/p1", PirMsg)
+    assert message.header.frame_id == "p1" and message.threshold > 0
+    assert angen.call("/angen/delete", Delete, name="p1").success
+    assert "/angen/pir/p1" not in angen.master.topics()
+    assert "p1" not in names(angen)
+
+
+def test_a_sensor_on_a_link(angen: Angen) -> None:
+    answer = angen.call("/angen/spawn", Spawn, name="p2", xml=SENSOR,
+                        on="turtlebot::base_footprint", pose=at(0, 0, 0.5))
+    assert answer.success, answer.message
+    angen.wait("/angen/pir/p2", PirMsg)
+    entity, = [e for e in angen.call("/angen/list", List, kind="pir").entities if e.name == "p2"]
+    assert entity.model == "turtlebot" and entity.topic == "/angen/pir/p2"
+    assert abs(entity.pose.position.z - 0.5) < 0.05
+    assert "p2" in angen.call("/angen/save", Save).xml
+    assert angen.call("/angen/delete", Delete, name="p2").success
+
+
+def test_what_cannot_be_spawned_is_explained(angen: Angen) -> None:
+    before = names(angen)
+    nan = at(math.nan, 0, 0)
+    stretched = at(0, 0, 0)
+    stretched.orientation.w = 3.0
+    wrong = [
+        (dict(name="", xml=PIR), "empty"),
+        (dict(name="eye", xml=PIR), "eye"),
+        (dict(name="a::b", xml=PIR), "::"),
+        (dict(name=b"\xff", xml=PIR), "UTF-8"),
+        (dict(name="p3", xml=""), "empty"),
+        (dict(name="p3", xml=PIR, pose=nan), "finite"),
+        (dict(name="p3", xml=PIR, pose=stretched), "quaternion"),
+        (dict(name="p3", xml="model://no_such_model"), "no_such_model"),
+        (dict(name="p3", xml="<model name='m'><link"), ""),
+        (dict(name="p3", xml=SENSOR), "MODEL::LINK"),
+        (dict(name="p3", xml=SENSOR, on="turtlebot::nose"), "nose"),
+        (dict(name="p3", xml=PIR, on="turtlebot::base_footprint"), "<sensor>"),
+    ]
+    for fields, part in wrong:
+        answer = angen.call("/angen/spawn", Spawn, **fields)
+        assert not answer.success and answer.message and part in answer.message, (fields, answer)
+    assert names(angen) == before
+
+
+def test_what_cannot_be_deleted_is_explained(angen: Angen) -> None:
+    for name, part in (("", "empty"), ("nobody", "nobody")):
+        answer = angen.call("/angen/delete", Delete, name=name)
+        assert not answer.success and part in answer.message
+
+
+def test_paused_time_moves_by_steps_only(angen: Angen, paused: None) -> None:
+    first = angen.call("/angen/step", Step, ticks=1)
+    assert first.success
+    second = angen.call("/angen/step", Step, ticks=250)
+    assert second.success
+    assert (second.sim_time - first.sim_time).to_nsec() == 250_000_000
+    with Heard("/clock", Clock) as clock:
+        until(lambda: len(clock.messages) >= 3, "a clock for latecomers while time stands still")
+        assert {m.clock.to_nsec() for m in clock.messages} == {second.sim_time.to_nsec()}
+
+
+def test_a_paused_world_can_be_built(angen: Angen, paused: None) -> None:
+    assert angen.call("/angen/spawn", Spawn, name="p4", xml=PIR, pose=at(1, 1, 1)).success
+    assert "p4" in names(angen, "pir")
+    assert angen.call("/angen/delete", Delete, name="p4").success
+
+
+def test_time_rises(angen: Angen) -> None:
+    with Heard("/clock", Clock) as clock:
+        until(lambda: len(clock.messages) > 30, "30 clock messages")
+    stamps = [m.clock.to_nsec() for m in clock.messages]
+    assert stamps == sorted(stamps)
+    assert all(stamp % 1_000_000 == 0 for stamp in stamps)
+
+
+def test_reset_puts_time_and_world_back(angen: Angen, paused: None) -> None:
+    now = angen.call("/angen/step", Step, ticks=2000).sim_time
+    angen.call("/gazebo/reset_world", Empty)
+    assert angen.call("/angen/step", Step, ticks=0).sim_time == now
+    angen.call("/gazebo/reset_simulation", Empty)
+    assert angen.call("/angen/step", Step, ticks=3).sim_time.to_nsec() == 3_000_000
+
+
+def test_list_tells_kinds_topics_and_types(angen: Angen) -> None:
+    entities = {(e.kind, e.name): e for e in angen.call("/angen/list", List, kind="").entities}
+    assert entities["door", "bathroom0"].type == "angen_msgs/DoorState"
+    assert entities["drive", "turtlebot"].topic == "/turtlebot/odom"
+    assert entities["pir", "eye"].pose.position.y == pytest.approx(4.0)
+    published = angen.master.topics()
+    for entity in entities.values():
+        if entity.topic:
+            assert published[entity.topic] == entity.type, entity
+    assert names(angen) == sorted(names(angen))
+    assert names(angen, "lamp") == ["kitchen0"]
+    assert names(angen, "unicorn") == []
+
+
+def test_what_is_saved_can_be_spawned_from(angen: Angen) -> None:
+    saved = angen.call("/angen/save", Save)
+    assert saved.success, saved.message
+    for name in ("bathroom_door0", "kitchen_lamp0", "turtlebot", "eye", "libdoor_world_plugin.so"):
+        assert name in saved.xml
+
+
+def test_stats_count(angen: Angen) -> None:
+    stats = angen.wait("/angen/stats", Stats)
+    assert stats.step == 0.001
+    assert stats.models == len(names(angen, "model"))
+    assert stats.devices == 3 and stats.sensors == len(names(angen, "pir"))
+    assert stats.links > stats.models and stats.failed_steps == 0
