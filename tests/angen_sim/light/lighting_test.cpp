@@ -65,8 +65,11 @@ TEST(Lighting, ProbeRemembersWithTheSameBits) {
 
 TEST(Lighting, ProbeForgetsAnotherWorld) {
   Room first, second;
-  second.lighting.remove(second.lamp);
-  second.lighting.add(point_lamp(Vec3(1, 3, 1), 300.0), 1.0);
+  add_box(second.scene, Vec3(2, 2, 1), Vec3(1, 1, 1), gray(0.1F));
+  second.scene.commit();
+  add_box(first.scene, Vec3(2, 2, 1), Vec3(1, 1, 1), gray(0.9F));
+  first.scene.commit();
+  ASSERT_EQ(first.scene.revision(), second.scene.revision());
   Probe probe;
   first.lighting.measure(probe, first.sensor);
   expect_same_bits(second.lighting.measure(probe, first.sensor),

@@ -283,6 +283,9 @@ TEST(Scene, RimsFarFromTheOriginAreMet) {
   Scene scene;
   const Vec3 centre(2000.3, -1500.7, 300.2);
   add(scene, box(1, 1, 1), {centre, Quat::Identity()});
+  // Behind it, so that there is a hierarchy to lose it in.
+  for (int i = 1; i < 40; ++i)
+    add(scene, box(1, 1, 1), {centre - Vec3(3 * i, 0, 0), Quat::Identity()});
   scene.commit();
   for (int i = 0; i < 2000; ++i) {
     const double along = rng.uniform() - 0.5, rim = 0.5 - 1e-5;
