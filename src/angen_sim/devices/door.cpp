@@ -16,10 +16,10 @@ namespace {
 constexpr double kClosedWithin = 0.01;   // rad
 constexpr double kOpenWithin = 0.02;     // rad
 constexpr double kArriveError = 0.0015;  // rad
-constexpr double kNearError = 0.005;     // rad
-constexpr double kArriveSpeed = 0.01;    // rad/s
+constexpr double kNearError = 0.003;     // rad
+constexpr double kArriveSpeed = 0.02;    // rad/s
 constexpr double kMaxLag = 0.08;         // rad
-constexpr double kStallSpeed = 0.01;     // rad/s
+constexpr double kStallSpeed = 0.004;    // rad/s
 
 const char* const kModeNames[] = {"CLOSED", "OPEN", "OPENING", "CLOSING", "BLOCKED", "AJAR"};
 const char* const kModeEvents[] = {"closed", "opened", "opening", "closing", "blocked", "ajar"};
@@ -48,12 +48,12 @@ void Door::configure(Params& params, Wiring& wiring) {
   ServoSettings servo;
   servo.gains = read_gains(params);
   servo.max_velocity =
-      params.number("max_velocity", 1.0, "rad/s", "speed of the setpoint", kPositive);
+      params.number("max_velocity", 0.6, "rad/s", "speed of the setpoint", kPositive);
   servo.max_acceleration =
       params.number("max_acceleration", 2.0, "rad/s^2", "acceleration of the setpoint", kPositive);
-  double width = params.number("width", 0.0, "m",
-                               "from the hinge to the far edge; 0 = from the leaf's mass and moment",
-                               kNotNegative);
+  double width = params.number(
+      "width", 0.0, "m", "from the hinge to the far edge; 0 = from the leaf's mass and moment",
+      kNotNegative);
   const double edge_force =
       params.number("edge_force_max", 150.0, "N", "greatest force at the far edge", kPositive);
   open_position_ = params.number("open_position", -1.57, "rad", "where Open goes");

@@ -163,7 +163,6 @@ void Elevator::update(const View& view, Outputs& outputs) {
       // Somebody stands in the door: it opens, and the stop is tried again.
       outputs.event("obstacle", "door");
       stops_.push_front(target_);
-      ready_at_ = view.time() + kDwell;
       phase_ = Phase::kStanding;
     } else if (doorway_.mode() == Doorway::Mode::kClosed) {
       outputs.motor(lift_, 0.0, 0.0);
@@ -178,7 +177,8 @@ void Elevator::update(const View& view, Outputs& outputs) {
 
 void Elevator::stand(const View& view, Outputs& outputs) {
   doorway_.update(view, outputs);
-  if (stops_.empty() || doorway_.moving() || view.time() < ready_at_) return;
+  if (doorway_.moving()) ready_at_ = view.time() + kDwell;
+  if (stops_.empty() || view.time() < ready_at_) return;
   serve_next_stop(view, outputs);
 }
 
@@ -203,7 +203,6 @@ void Elevator::move(const View& view, Outputs& outputs) {
   }
   outputs.motor(lift_, 0.0, brake_force_);
   phase_ = Phase::kStanding;
-  ready_at_ = view.time() + kDwell;
   stay_at(target_, view);
   outputs.event("arrived", "floor " + std::to_string(target_));
 }

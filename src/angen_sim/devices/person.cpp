@@ -12,8 +12,8 @@ namespace angen::devices {
 
 namespace {
 
-constexpr double kMaxLag = 0.15;      // m behind the path: further, and the path waits
-constexpr double kFollowGain = 4.0;   // 1/s, from the lag to a speed
+constexpr double kMaxLag = 0.3;       // m behind the path: further, and the path waits
+constexpr double kAhead = 0.35;       // s: it makes for where its path will be then
 constexpr double kTurnGain = 6.0;     // 1/s, from the wrong heading to a yaw rate
 constexpr double kMaxTurn = 3.0;      // rad/s
 constexpr double kReturnSpeed = 0.8;  // m/s, back to a path it was pushed off
@@ -21,6 +21,7 @@ constexpr double kCatchUp = 1.3;      // times the path's own speed
 constexpr double kThere = 0.01;       // m: nearer than this it may stand
 constexpr double kFacing = 0.02;      // rad
 constexpr double kPushedAway = 0.1;   // m: further than this it walks back
+constexpr double kNearPath = 0.1;     // m: nearer than this it is not held
 constexpr double kProgress = 0.05;    // m: less than this in kStallTime is none
 constexpr Nanoseconds kStallTime = kSecond;
 
@@ -90,12 +91,15 @@ void Person::start(const LinkView& body) {
 
 void Person::walk(const Path::Place& place, const View& view, bool renew, Outputs& outputs) {
   const LinkView body = view.link(body_);
-  const Vec3 behind(place.x - body.pose.position.x(), place.y - body.pose.position.y(), 0.0);
-  const double lag = behind.norm();
-  const double turn = std::remainder(place.yaw - yaw_of(body.pose.rotation), 2.0 * M_PI);
-  const bool waits = lag > kMaxLag;
+  const Path::Place goal = path_.at(clock_ + from_seconds(kAhead));
+  const Vec3& at = body.pose.position;
+  const Vec3 to_goal(goal.x - at.x(), goal.y - at.y(), 0.0);
+  const double lag = std::hypot(place.x - at.x(), place.y - at.y());
+  const double turn = std::remainder(goal.yaw - yaw_of(body.pose.rotation), 2.0 * M_PI);
+  // Ahead of its place is no reason to wait, so it is the way to the goal that counts.
+  const bool waits = to_goal.norm() > kMaxLag + std::hypot(goal.x - place.x, goal.y - place.y);
   if (!waits) clock_ += view.step();
-  watch(body, place.still() ? lag < kThere : !waits, view.step());
+  watch(body, lag < (place.still() ? kThere : kNearPath), view.step());
 
   const bool there = lag < kThere && std::abs(turn) < kFacing;
   if (place.still() && (there || (resting_ && lag < kPushedAway))) {
@@ -104,8 +108,7 @@ void Person::walk(const Path::Place& place, const View& view, bool renew, Output
     return;
   }
   resting_ = false;
-  Vec3 velocity = kFollowGain * behind;
-  if (!waits) velocity += Vec3(place.vx, place.vy, 0.0);
+  Vec3 velocity = to_goal / kAhead;
   const double fastest = std::max(kReturnSpeed, kCatchUp * std::hypot(place.vx, place.vy));
   if (velocity.norm() > fastest) velocity *= fastest / velocity.norm();
   outputs.drive(body_, velocity, std::clamp(kTurnGain * turn, -kMaxTurn, kMaxTurn), force_max_);

@@ -12,6 +12,7 @@ Servo::Servo(const ServoSettings& settings)
 void Servo::start(double position, double velocity) {
   profile_.start(position, velocity);
   pid_.reset();
+  came_to_ = position;
   stalled_ = 0.0;
   blocked_ = false;
   arrived_ = false;
@@ -28,7 +29,7 @@ double Servo::update(double target, double position, double velocity, double dt)
   const double error = profile_.position() - position;
   bool integrate = true;
   if (settings_.integrate_standing) {
-    integrate = std::abs(velocity) < 2.0 * settings_.stall_speed;
+    integrate = std::abs(velocity) < settings_.arrive_speed;
     if (error * pid_.integral() < 0.0) pid_.reset();
   }
   return pid_.update(error, profile_.velocity() - velocity, feed_forward(), dt, integrate);
@@ -51,7 +52,9 @@ void Servo::watch(double target, double position, double velocity, double dt) {
     if (arrived_) blocked_ = false;
     return;
   }
-  stalled_ = std::abs(velocity) < settings_.stall_speed && !arrived_ ? stalled_ + dt : 0.0;
+  const bool comes_on = std::abs(position - came_to_) > settings_.stall_speed * kStallTime;
+  if (comes_on) came_to_ = position;
+  stalled_ = comes_on || arrived_ ? 0.0 : stalled_ + dt;
   if (stalled_ >= kStallTime) {
     blocked_ = true;
     blocked_at_ = position;

@@ -16,7 +16,7 @@ struct ServoSettings {
   double arrive_error = 0.01;    // at rest means nearer than this …
   double near_error = 0.01;      // … or than this where friction has held it for kNearTime …
   double arrive_speed = 0.01;    // … and slower than this
-  double stall_speed = 0.02;     // slower than this is no motion
+  double stall_speed = 0.01;     // slower than this, in the mean over kStallTime, is no motion
   double freed_distance = 0.02;  // moved on by this much since it was blocked means freed
   // The integral is for friction and for what holds the joint: it grows only while the joint
   // stands, and is dropped when the error turns round. For gains that would swing otherwise.
@@ -28,7 +28,7 @@ struct ServoSettings {
 /// where the joint is, so that the force gathered meanwhile does not fling it.
 class Servo {
  public:
-  static constexpr double kStallTime = 0.6;  // s
+  static constexpr double kStallTime = 0.8;  // s
   static constexpr double kNearTime = 0.3;   // s
 
   Servo() = default;
@@ -49,7 +49,8 @@ class Servo {
   ServoSettings settings_;
   Profile profile_;
   Pid pid_;
-  double stalled_ = 0.0;     // s
+  double came_to_ = 0.0;     // position
+  double stalled_ = 0.0;     // s since it came there
   double blocked_at_ = 0.0;  // position
   bool blocked_ = false;
   bool arrived_ = false;

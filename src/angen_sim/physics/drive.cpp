@@ -6,11 +6,13 @@ namespace angen::physics {
 
 namespace {
 
-// Shares of the force along and across the way; their squares add up to just under 1.
+// Shares of the force along and across the change of velocity that is asked for (of one who stands:
+// along x and y); their squares add up to just under 1.
 constexpr double kAlong = 0.95;
 constexpr double kAcross = 0.31;
 constexpr double kStanding = 0.707;
-constexpr double kArm = 0.25;  // m; the turning torque is the force on this arm
+constexpr double kSameSpeed = 1e-3;  // m/s
+constexpr double kArm = 0.25;        // m; the turning torque is the force on this arm
 
 void make_motors(dWorldID world, Body& body) {
   Drive drive;
@@ -24,16 +26,17 @@ void make_motors(dWorldID world, Body& body) {
   body.drive = std::move(drive);
 }
 
-void apply(Drive& drive) {
-  const double speed = drive.velocity.norm();
-  const bool walks = speed > 0.0;
-  const Vec3 along = walks ? Vec3(drive.velocity / speed) : Vec3(Vec3::UnitX());
+void apply(Drive& drive, const Vec3& velocity) {
+  const bool walks = !drive.velocity.isZero(0.0);
+  const Vec3 change(drive.velocity.x() - velocity.x(), drive.velocity.y() - velocity.y(), 0.0);
+  Vec3 along = Vec3::UnitX();
+  if (walks) along = change.norm() > kSameSpeed ? change.normalized() : drive.velocity.normalized();
   const Vec3 across = Vec3::UnitZ().cross(along);
   dJointID linear = drive.linear.get();
   dJointSetLMotorAxis(linear, 0, 0, along.x(), along.y(), 0.0);
   dJointSetLMotorAxis(linear, 1, 0, across.x(), across.y(), 0.0);
-  dJointSetLMotorParam(linear, dParamVel1, speed);
-  dJointSetLMotorParam(linear, dParamVel2, 0.0);
+  dJointSetLMotorParam(linear, dParamVel1, along.dot(drive.velocity));
+  dJointSetLMotorParam(linear, dParamVel2, across.dot(drive.velocity));
   dJointSetLMotorParam(linear, dParamFMax1, (walks ? kAlong : kStanding) * drive.max_force);
   dJointSetLMotorParam(linear, dParamFMax2, (walks ? kAcross : kStanding) * drive.max_force);
   dJointSetAMotorParam(drive.angular.get(), dParamVel1, drive.yaw_rate);
@@ -59,7 +62,7 @@ bool set_drive(dWorldID world, Body& body, const Vec3& velocity, double yaw_rate
   body.drive->velocity = flat;
   body.drive->yaw_rate = yaw_rate;
   body.drive->max_force = max_force;
-  apply(*body.drive);
+  apply(*body.drive, body.velocity());
   return true;
 }
 

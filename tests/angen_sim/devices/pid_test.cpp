@@ -1,0 +1,49 @@
+#include "devices/pid.h"
+
+#include <gtest/gtest.h>
+
+namespace angen::devices {
+namespace {
+
+constexpr double kDt = 0.001;
+
+TEST(Pid, AddsItsThreeShares) {
+  Pid pid({2.0, 10.0, 3.0, 100.0, -100.0, 100.0, -100.0});
+  EXPECT_NEAR(pid.update(0.5, -0.2, 7.0, kDt), 2.0 * 0.5 + 10.0 * 0.5 * kDt - 3.0 * 0.2 + 7.0,
+              1e-12);
+}
+
+TEST(Pid, IntegralIsErrorTimesTimeUpToItsLimit) {
+  Pid pid({0.0, 4.0, 0.0, 1.5, -0.5, 100.0, -100.0});
+  for (int i = 0; i < 250; ++i) pid.update(1.0, 0.0, 0.0, kDt);
+  EXPECT_NEAR(pid.integral(), 1.0, 1e-9);
+  for (int i = 0; i < 1000; ++i) pid.update(1.0, 0.0, 0.0, kDt);
+  EXPECT_DOUBLE_EQ(pid.integral(), 1.5);
+  for (int i = 0; i < 5000; ++i) pid.update(-1.0, 0.0, 0.0, kDt);
+  EXPECT_DOUBLE_EQ(pid.integral(), -0.5);
+}
+
+TEST(Pid, CommandStaysWithinItsLimits) {
+  Pid pid({100.0, 0.0, 0.0, 1.0, -1.0, 12.0, -8.0});
+  EXPECT_DOUBLE_EQ(pid.update(1.0, 0.0, 0.0, kDt), 12.0);
+  EXPECT_DOUBLE_EQ(pid.update(-1.0, 0.0, 0.0, kDt), -8.0);
+  EXPECT_DOUBLE_EQ(pid.update(0.0, 0.0, 50.0, kDt), 12.0);
+}
+
+TEST(Pid, DoesNotWindUpWhileCutOff) {
+  Pid pid({100.0, 50.0, 0.0, 1000.0, -1000.0, 10.0, -10.0});
+  for (int i = 0; i < 5000; ++i) pid.update(1.0, 0.0, 0.0, kDt);
+  EXPECT_DOUBLE_EQ(pid.integral(), 0.0);
+  EXPECT_LT(pid.update(-0.01, 0.0, 0.0, kDt), 0.0);
+}
+
+TEST(Pid, IntegralMayShrinkWhileCutOff) {
+  Pid pid({0.0, 10.0, 0.0, 1000.0, -1000.0, 100.0, -100.0});
+  for (int i = 0; i < 1000; ++i) pid.update(1.0, 0.0, 0.0, kDt);
+  const double before = pid.integral();
+  pid.update(-1.0, 0.0, 500.0, kDt);
+  EXPECT_LT(pid.integral(), before);
+}
+
+}  // namespace
+}  // namespace angen::devices

@@ -1,0 +1,165 @@
+#include "angen_sim/devices/rig.h"
+
+#include <stdexcept>
+
+#include "angen_sim/fakes.h"
+
+namespace angen::test {
+
+Bench::Bench(const desc::Physics& settings) : settings_(settings), world(settings, gravity_, 1) {}
+
+Bench::~Bench() = default;
+
+Rig& Bench::add(const desc::Model& model, const std::string& library, const std::string& kind,
+                const Parameters& parameters) {
+  for (const std::shared_ptr<const Plugin>& plugin : catalog_.library(library)) {
+    if (plugin->kind() != kind) continue;
+    rigs_.push_back(std::make_unique<Rig>(*this, model, plugin, parameters));
+    return *rigs_.back();
+  }
+  throw std::runtime_error("no " + kind + " in " + library);
+}
+
+void Bench::tick() {
+  for (const std::unique_ptr<Rig>& rig : rigs_) rig->update();
+  world.step(tick_);
+  ++tick_;
+}
+
+void Bench::run(double seconds, const std::function<void()>& each) {
+  const Nanoseconds end = now() + from_seconds(seconds);
+  while (now() < end) {
+    tick();
+    each();
+  }
+}
+
+double Bench::run_until(double seconds, const std::function<bool()>& done) {
+  const Nanoseconds begin = now();
+  while (now() < begin + from_seconds(seconds)) {
+    tick();
+    if (done()) return to_seconds(now() - begin);
+  }
+  return -1.0;
+}
+
+Vec3 Bench::contact_force(const std::string& one, const std::string& other) const {
+  const auto starts = [](const std::string& text, const std::string& with) {
+    return text.compare(0, with.size(), with) == 0;
+  };
+  Vec3 sum = Vec3::Zero();
+  for (const ContactPair& pair : world.contacts()) {
+    for (const ContactPoint& point : pair.points) {
+      if (starts(pair.first, one) && starts(pair.second, other)) sum += point.force;
+      if (starts(pair.first, other) && starts(pair.second, one)) sum -= point.force;
+    }
+  }
+  return sum;
+}
+
+Rig::Rig(Bench& bench, desc::Model model, std::shared_ptr<const Plugin> plugin,
+         const Parameters& parameters)
+    : bench_(bench), model_(std::move(model)), model_id_(bench.world.add(model_)) {
+  device_ = plugin->make_device();
+  Params params(plugin_element(parameters));
+  device_->configure(params, *this);
+  params.finish();
+}
+
+Reading Rig::state() const {
+  Reading reading;
+  device_->report(*this, reading);
+  return reading;
+}
+
+int Rig::joint_index(const std::string& joint) const {
+  for (std::size_t i = 0; i < model_.joints.size(); ++i) {
+    if (model_.joints[i].name == joint) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+int Rig::link_index(const std::string& link) const {
+  for (std::size_t i = 0; i < model_.links.size(); ++i) {
+    if (model_.links[i].name == link) return static_cast<int>(i);
+  }
+  throw Error("no link " + link);
+}
+
+physics::JointId Rig::id_of(JointRef joint) const {
+  return bench_.world.joints(model_id_).at(static_cast<std::size_t>(joint.index));
+}
+
+physics::LinkId Rig::id_of(LinkRef link) const {
+  return bench_.world.links(model_id_).at(static_cast<std::size_t>(link.index));
+}
+
+JointView Rig::at(const std::string& joint) const {
+  return this->joint(JointRef{joint_index(joint)});
+}
+
+LinkView Rig::body(const std::string& link) const { return this->link(LinkRef{link_index(link)}); }
+
+JointView Rig::joint(JointRef joint) const {
+  const physics::JointState state = bench_.world.joint(id_of(joint));
+  return {state.position, state.velocity, state.effort};
+}
+
+LinkView Rig::link(LinkRef link) const {
+  const physics::LinkState state = bench_.world.link(id_of(link));
+  return {state.pose, state.linear_velocity, state.angular_velocity,
+          bench_.world.awake(id_of(link))};
+}
+
+bool Rig::has_joint(const std::string& joint) const { return joint_index(joint) >= 0; }
+
+JointRef Rig::joint(const std::string& joint) {
+  if (!has_joint(joint)) throw Error("no joint " + joint);
+  return {joint_index(joint)};
+}
+
+JointLimits Rig::limits(JointRef joint) const {
+  const desc::Joint& described = model_.joints.at(static_cast<std::size_t>(joint.index));
+  const desc::JointAxis& axis = described.axes.at(0);
+  const desc::Link& child = model_.links.at(static_cast<std::size_t>(link_index(described.child)));
+  double inertia = child.inertial.mass;
+  if (described.type == desc::Joint::Type::kRevolute) {
+    const Pose centre = child.pose * child.inertial.pose;
+    const Vec3 turned = centre.rotation.conjugate() * axis.xyz;
+    inertia = turned.dot(child.inertial.moment * turned) +
+              inertia * axis.xyz.cross(centre.position - described.anchor).squaredNorm();
+  }
+  return {axis.lower, axis.upper, axis.damping, axis.friction, inertia};
+}
+
+LinkRef Rig::link(const std::string& link) { return {link_index(link)}; }
+
+std::string Rig::child_of(JointRef joint) const {
+  return model_.joints.at(static_cast<std::size_t>(joint.index)).child;
+}
+
+double Rig::mass(LinkRef link) const {
+  return model_.links.at(static_cast<std::size_t>(link.index)).inertial.mass;
+}
+
+LightRef Rig::light(const std::string&) { throw Error("no lights on this bench"); }
+
+ContactRef Rig::collision(const std::string&) { throw Error("no contacts on this bench"); }
+
+void Rig::force(JointRef joint, double force) {
+  if (force != 0.0) ++forces;
+  ++calls;
+  bench_.world.add_force(id_of(joint), force);
+}
+
+void Rig::motor(JointRef joint, double velocity, double max_force) {
+  ++calls;
+  bench_.world.set_motor(id_of(joint), velocity, max_force);
+}
+
+void Rig::drive(LinkRef link, const Vec3& velocity, double yaw_rate, double max_force) {
+  ++calls;
+  bench_.world.drive(id_of(link), velocity, yaw_rate, max_force);
+}
+
+}  // namespace angen::test
