@@ -1,7 +1,9 @@
 #include "physics/world.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "core/diagnostics.h"
 #include "core/time.h"
 #include "physics/build.h"
 #include "physics/drive.h"
@@ -142,14 +144,14 @@ JointState World::joint(JointId id) const {
 
 void World::add_force(JointId id, double force) {
   Joint& joint = impl_->joint_at(id);
-  if (force == 0.0 || !has_axis(joint)) return;
+  if (force == 0.0 || !std::isfinite(force) || !has_axis(joint)) return;
   impl_->wake_joint(joint);
   push_joint(joint, force);
 }
 
 void World::set_motor(JointId id, double velocity, double max_force) {
   Joint& joint = impl_->joint_at(id);
-  if (!has_axis(joint)) return;
+  if (!has_axis(joint) || !std::isfinite(velocity) || std::isnan(max_force)) return;
   const Axis& axis = joint.axes[0];
   if (axis.velocity >= 0.0) velocity = std::clamp(velocity, -axis.velocity, axis.velocity);
   if (axis.effort >= 0.0) max_force = std::min(max_force, axis.effort);
@@ -163,13 +165,15 @@ void World::set_motor(JointId id, double velocity, double max_force) {
 
 void World::drive(LinkId id, const Vec3& velocity, double yaw_rate, double max_force) {
   Body& body = *impl_->links.at(id).body;
-  if (!body.dynamic()) return;
+  if (!body.dynamic() || !velocity.allFinite() || !std::isfinite(yaw_rate + max_force)) return;
   if (set_drive(impl_->world.get(), body, velocity, yaw_rate, max_force)) impl_->wake(body);
 }
 
 void World::place(ModelId id, const Pose& pose) {
   Impl& w = *impl_;
   ModelRecord& model = *w.models.at(id);
+  if (!pose.finite())
+    throw Error("model \"" + model.name + "\" cannot be put at a pose not finite");
   w.contacts.drop(model, [&](Body& body) { w.wake(body); });
   w.list_is_old = true;
   w.settle(model, pose);

@@ -8,7 +8,12 @@
 #include "core/id.h"
 #include "desc/world.h"
 
-/// Rigid bodies by ODE. One thread. SI units, world frame unless said otherwise.
+/// Rigid bodies by ODE. One thread. SI units, world frame unless said otherwise. Links held
+/// together by fixed joints are one body; one fixed to the world, or kinematic, is static. Bodies
+/// that touch or are jointed fall asleep together when all have been slower than 0.01 m/s and 0.01
+/// rad/s for 0.5 s. Links of one model touch only if it collides with itself, parent and child of a
+/// joint never. The same calls give the same bits, whatever other worlds there are. Ids that were
+/// removed throw std::out_of_range.
 namespace angen::physics {
 
 using ModelId = Id<struct PhysicsModelTag>;
@@ -62,7 +67,8 @@ class World {
   /// changes.
   void drive(LinkId link, const Vec3& velocity, double yaw_rate, double max_force);
 
-  /// Moves a whole model so that its frame is at `pose`, velocities zero.
+  /// Puts a whole model as it was described, joints at their initial positions and velocities zero,
+  /// so that its frame is at `pose`. Motors stay as they are. Throws Error for a pose not finite.
   void place(ModelId model, const Pose& pose);
 
   /// Collides and integrates one step of settings.step. `tick` keys what randomness the solver

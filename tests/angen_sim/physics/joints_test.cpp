@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "models.h"
 
 namespace angen::physics::testing {
@@ -238,6 +240,51 @@ TEST_P(JointSigns, ForceMotorPositionAndEffortAgree) {
 INSTANTIATE_TEST_SUITE_P(All, JointSigns,
                          ::testing::Combine(::testing::Values(Type::kRevolute, Type::kPrismatic),
                                             ::testing::Values(0, 1, 2)));
+
+TEST(Joints, OnlyAForceThatIsOneWakesASleepingBody) {
+  TestWorld world;
+  const ModelId id = world.add(door_model("door"));
+  const JointId hinge = world.joints(id)[1];
+  const LinkId leaf = world.links(id)[1];
+  world.run(1.0);
+  ASSERT_FALSE(world.awake(leaf));
+  const Pose before = world.link(leaf).pose;
+  for (const double nothing : {0.0, std::nan(""), HUGE_VAL}) {
+    world.add_force(hinge, nothing);
+    world.run(0.1);
+    EXPECT_FALSE(world.awake(leaf));
+    EXPECT_EQ(world.link(leaf).pose, before);
+  }
+  world.add_force(hinge, -5.0);
+  EXPECT_TRUE(world.awake(leaf));
+  world.run(1e-3);
+  const double first_step = world.joint(hinge).velocity;
+  EXPECT_LT(first_step, 0.0);
+  EXPECT_GT(first_step, -5.0 * 1e-3 / 5.0) << "torques of the time asleep must not add up";
+}
+
+TEST(Joints, ForcesAndMotorsKeepTheLimitsOfTheirAxis) {
+  TestWorld world({}, Vec3::Zero());
+  desc::Model model = model_of("lift", {ghost_link("cabin", 10.0, {1, 1, 1})});
+  model.joints = {joint_of(Type::kPrismatic, "world", "cabin")};
+  model.joints[0].axes[0].effort = 50.0;
+  model.joints[0].axes[0].velocity = 0.8;
+  const ModelId id = world.add(model);
+  const JointId joint = world.joints(id)[0];
+  world.add_force(joint, 1000.0);
+  world.run(kStep);
+  EXPECT_NEAR(world.joint(joint).velocity, 5.0 * kStep, 1e-9);
+  for (int i = 0; i < 1000; ++i) {
+    world.add_force(joint, 1000.0);
+    world.run(kStep);
+  }
+  EXPECT_NEAR(world.joint(joint).velocity, 0.8, 0.006);
+  world.set_motor(joint, -3.0, 1000.0);
+  world.run(kStep);
+  EXPECT_NEAR(world.joint(joint).effort, -50.0, 1e-6);
+  world.run(1.0);
+  EXPECT_NEAR(world.joint(joint).velocity, -0.8, 1e-6);
+}
 
 TEST(Joints, WheelsCountTheirTurns) {
   TestWorld world({}, Vec3::Zero());
