@@ -1,0 +1,149 @@
+"""The tick: time, commands, spawn and delete, reset, and the same bytes for the same input."""
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import angen
+from conftest import box, pir
+
+
+def test_time_is_ticks_times_step(world):
+    w = world('')
+    w.step(7)
+    assert (w.tick, w.time) == (7, 0.007)
+    w.run(0.5)
+    assert w.tick == 507
+
+
+def test_free_fall_follows_the_closed_form(world):
+    """Semi-implicit Euler: z = z0 - g dt^2 n (n + 1) / 2."""
+    w = world(box('ball', '0 0 5 0 0 0', '0.1 0.1 0.1'))
+    w.step(500)
+    fall = 5.0 - w.link_poses[w.links.index('ball::link'), 2]
+    assert fall == pytest.approx(9.8 * 1e-6 * 500 * 501 / 2, rel=2e-3)
+
+
+def test_spawned_model_is_there_and_deleted_one_is_not(world):
+    w = world('')
+    w.spawn(box('crate', '0 0 0 0 0 0', '1 1 1'), pose=[1, 2, 0.5, 0, 0, 0])
+    assert np.allclose(w.link_poses[w.links.index('crate::link'), :3], [1, 2, 0.5])
+    w.delete('crate')
+    assert 'crate' not in w.models and 'crate::link' not in w.links
+
+
+def test_deleted_name_is_free_at_once(world):
+    w = world('')
+    for _ in range(3):
+        w.spawn(pir('p1', '0 0 1 0 0 0'))
+        w.step(101)
+        assert w.sensor('pir', 'p1')['motion'] is False
+        w.delete('p1')
+    assert w.sensors() == []
+
+
+def test_name_that_is_taken_is_refused_and_changes_nothing(world):
+    w = world(box('crate', '0 0 0.5 0 0 0', '1 1 1'))
+    with pytest.raises(angen.Error, match="'crate' exists already"):
+        w.spawn(box('crate', '0 0 0 0 0 0', '1 1 1'), pose=[3, 0, 1, 0, 0, 0])
+    assert w.models == ['floor', 'crate']
+
+
+def test_unknown_names_are_told_with_the_known_ones(world):
+    w = world(box('crate', '0 0 0.5 0 0 0', '1 1 1'))
+    with pytest.raises(angen.Error, match="no model or attached sensor named 'x'.*floor, crate"):
+        w.delete('x')
+    with pytest.raises(angen.Error, match=r'no door named .nowhere.; known are \(none\)'):
+        w.command('door', 'nowhere', 'Open')
+    assert [e[3] for e in w.events()] == ['rejected', 'rejected']
+
+
+def test_sensor_on_a_link_sees_from_where_the_link_is(world):
+    w = world(box('cart', '0 0 0.25 0 0 0', '0.5 0.5 0.5') + box('wall', '3 0 1 0 0 0', '0.1 4 2', True))
+    sensor = pir('', '0 0 0 0 0 0').split('<link name="link">')[1].split('</link>')[0]
+    w.spawn(sensor, 'eye', [0.3, 0, 0, 0, 0, 0], on='cart::link')
+    w.step(2)
+    assert w.sensors('pir') == ['eye']
+    w.delete('eye')
+    assert w.sensors('pir') == []
+
+
+def test_sensor_on_an_unknown_link_is_refused(world):
+    w = world('')
+    sensor = pir('', '0 0 0 0 0 0').split('<link name="link">')[1].split('</link>')[0]
+    with pytest.raises(angen.Error, match="no link 'roof'; known are link"):
+        w.spawn(sensor, 'eye', on='floor::roof')
+
+
+def test_reset_brings_everything_back(world):
+    w = world(box('ball', '0 0 3 0 0 0', '0.1 0.1 0.1'))
+    before = w.link_poses
+    w.run(0.4)
+    w.reset()
+    assert w.time == 0.0 and np.array_equal(w.link_poses, before)
+
+
+NOISY = pir('eye', '0 0 1 0 0 0').replace(
+    '</ray>', '<noise><type>gaussian</type><mean>0</mean><stddev>0.01</stddev></noise></ray>')
+
+
+def differences(w: angen.World, n: int) -> list:
+    found = []
+    for _ in range(n):
+        w.step(100)
+        found.append(w.sensor('pir', 'eye')['difference'])
+    return found
+
+
+def test_spawning_one_sensor_changes_no_others_noise(world):
+    wall = box('wall', '3 0 1 0 0 0', '0.1 6 2', True)
+    alone, with_other = world(wall + NOISY), world(wall + NOISY)
+    with_other.spawn(pir('other', '0 1 1 0 0 0'))
+    first = differences(alone, 10)
+    assert first == differences(with_other, 10)
+    assert len(set(first)) > 5
+
+
+def run_building(path: str, seed: int) -> str:
+    w = angen.World(path, seed=seed)
+    return drive_about(w)
+
+
+def drive_about(w: angen.World) -> str:
+    w.run(0.5)
+    w.command('door', 'bathroom1', 'Open')
+    w.command('lamp', 'kitchen0', 'On')
+    w.command('elevator', 'elevator', 'Floor1')
+    w.spawn(pir('extra', '0 0 0 0 0 0'), pose=[0.5, 0.5, 2, 0, 0, 0])
+    w.run(2)
+    w.delete('extra')
+    w.run(0.5)
+    return w.fingerprint
+
+
+def test_same_seed_and_commands_give_the_same_bytes(building):
+    w = angen.World(building, seed=3)
+    first = drive_about(w)
+    w.reset()
+    assert drive_about(w) == first, 'after reset'
+    assert run_building(building, 3) == first, 'a second world in one process'
+    assert run_building(building, 4) != first, 'another seed'
+    script = f'import test_simulation as t; print(t.run_building({building!r}, 3))'
+    other = subprocess.run([sys.executable, '-c', script], capture_output=True, text=True, check=True,
+                           cwd=str(__file__).rsplit('/', 1)[0])
+    assert other.stdout.strip() == first, 'another process'
+
+
+def test_saved_world_loads_again_in_its_state(building, tmp_path):
+    w = angen.World(building)
+    w.command('door', 'kitchen1', 'Open')
+    w.command('elevator', 'elevator', 'Floor1')
+    w.run(12)
+    saved = tmp_path / 'saved.world'
+    saved.write_text(w.save())
+    again = angen.World(str(saved))
+    assert again.models == w.models
+    moved = np.abs(again.link_poses[:, :3] - w.link_poses[:, :3]).max(axis=1)
+    people = [i for i, name in enumerate(w.links) if name.startswith('person')]
+    assert np.delete(moved, people).max() < 1e-3

@@ -1,0 +1,91 @@
+"""A sensor and a device written in Python, loaded as a world's plug-ins."""
+import numpy as np
+import pytest
+
+import angen
+from conftest import box
+
+
+class Rangefinder(angen.Sensor):
+    """Distance straight ahead, m."""
+
+    rate = 20.0
+
+    def configure(self, params, wiring):
+        self.reach = params.number('reach', 5.0, 'm', 'how far it looks', min=0.0)
+
+    def aim(self, view):
+        ahead = view.rotation[:, 0]
+        return np.hstack([view.pose[:3], ahead, [0.0, self.reach]])[None]
+
+    def read(self, view, ranges, rng):
+        return {'range': float(min(ranges[0], self.reach)), 'hit': bool(ranges[0] < self.reach)}
+
+
+class Pusher(angen.Device):
+    """Pushes its slider with the force that it was told, N."""
+
+    @staticmethod
+    def serves(model, joints, lights):
+        return 'slider' in joints
+
+    def configure(self, params, wiring):
+        self.joint = wiring.joint('slider')
+        self.force = 0.0
+
+    def command(self, text, values, view):
+        if text != 'Push' or len(values) != 1:
+            return 'write Push and a force in N'
+        self.force = values[0]
+
+    def update(self, view, outputs):
+        if self.force:
+            outputs.force(self.joint, self.force)
+
+    def report(self, view):
+        position, velocity, _ = view.joint(self.joint)
+        return {'position': position, 'velocity': velocity}
+
+
+angen.register('rangefinder.py', 'rangefinder', Rangefinder)
+angen.register('pusher.py', 'pusher', Pusher)
+
+RANGE = '''<model name="ranger"><static>true</static><pose>0 0 1 0 0 {yaw}</pose><link name="link">
+  <sensor name="s" type="ray"><plugin name="p" filename="rangefinder.py">{extra}</plugin></sensor>
+  </link></model>'''
+
+
+def test_python_sensor_measures_a_wall(world):
+    w = world(box('wall', '3 0 1 0 0 0', '0.2 4 2', True) + RANGE.format(yaw=0, extra=''))
+    w.step()
+    assert w.sensor('rangefinder', 'ranger')['range'] == pytest.approx(2.9, abs=1e-6)
+
+
+def test_python_sensor_turned_away_sees_nothing(world):
+    w = world(box('wall', '3 0 1 0 0 0', '0.2 4 2', True) + RANGE.format(yaw=3.14, extra=''))
+    w.step()
+    reading = w.sensor('rangefinder', 'ranger')
+    assert reading['hit'] is False and reading['range'] == 5.0
+
+
+def test_its_parameters_are_checked_like_any_other(world):
+    with pytest.raises(angen.Error, match='reach'):
+        world(RANGE.format(yaw=0, extra='<reach>far</reach>'))
+    with pytest.raises(angen.Error, match='raech'):
+        world(RANGE.format(yaw=0, extra='<raech>3</raech>'))
+
+
+def test_python_device_moves_its_joint_by_newtons_law(world):
+    w = world('''<model name="sled"><pose>0 0 1 0 0 0</pose><link name="rail"/>
+      <link name="mass"><gravity>false</gravity><inertial><mass>2</mass><inertia><ixx>0.1</ixx>
+      <iyy>0.1</iyy><izz>0.1</izz><ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia></inertial></link>
+      <joint name="fix" type="fixed"><parent>world</parent><child>rail</child></joint>
+      <joint name="slider" type="prismatic"><parent>rail</parent><child>mass</child>
+      <axis><xyz>1 0 0</xyz><limit><lower>-5</lower><upper>5</upper></limit></axis></joint>
+      <plugin name="p" filename="pusher.py"/></model>''')
+    with pytest.raises(angen.Error, match='write Push'):
+        w.command('pusher', 'sled', 'Pull')
+    w.command('pusher', 'sled', 'Push', [4.0])
+    w.run(1.0)
+    assert w.device('pusher', 'sled')['velocity'] == pytest.approx(2.0, rel=0.02)
+    assert w.joint_positions[w.joints.index('sled::slider')] == pytest.approx(1.0, rel=0.02)
