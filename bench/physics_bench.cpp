@@ -53,7 +53,7 @@ struct Doors {
     floor.is_static = true;
     floor.joints.clear();
     floor.links[0].collisions[0].shape.size = {2.0 * count + 4.0, 4.0, 0.2};
-    floor.links[0].collisions[0].pose.position = {count, 0.0, -0.1};
+    floor.links[0].collisions[0].pose.position = {1.0 * count, 0.0, -0.1};
     world.add(floor);
     for (int i = 0; i < count; ++i) hinges.push_back(world.joints(world.add(door(i)))[0]);
   }
