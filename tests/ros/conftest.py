@@ -138,7 +138,7 @@ class Angen:
     def log(self) -> str:
         return self._log.read_text()
 
-    def call(self, name: str, kind: type, **fields: Any) -> Any:
+    def call(self, name: str, kind: type, /, **fields: Any) -> Any:
         """Call a service; blank fields keep their defaults."""
         import rospy
         rospy.wait_for_service(name, timeout=20.0)
@@ -159,6 +159,18 @@ class Angen:
         with Heard(topic, kind) as heard:
             return until(lambda: next((m for m in list(heard.messages) if wanted(m)), None),
                          f"a message wanted on {topic}", timeout)
+
+
+class RawText(str):
+    """A text that goes out as bytes of its own, whatever their encoding."""
+
+    def __new__(cls, raw: bytes) -> RawText:
+        made = super().__new__(cls, repr(raw))
+        made.raw = raw
+        return made
+
+    def encode(self, *_: object) -> bytes:
+        return self.raw
 
 
 class Heard:

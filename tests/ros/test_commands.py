@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from angen_msgs.msg import Command, DoorState, Event, LampState
-from conftest import Angen, Heard, until
+from conftest import Angen, Heard, RawText, until
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from std_msgs.msg import String
@@ -63,9 +63,7 @@ def test_what_is_rejected_changes_nothing_and_is_told(angen: Angen) -> None:
 
 def test_text_that_is_not_utf8_is_rejected(angen: Angen) -> None:
     with Heard("/angen/events", Event) as events:
-        raw = String()
-        raw.data = b"Open, \xff\xfe"
-        angen.send("/gazebo/Door_controller", raw)
+        angen.send("/gazebo/Door_controller", String(RawText(b"Open, \xff\xfe")))
         rejected = events.wait(lambda e: e.event == "rejected", "an event")
         assert "not UTF-8" in rejected.detail
 

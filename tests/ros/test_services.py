@@ -7,7 +7,7 @@ import math
 import pytest
 from angen_msgs.msg import PirMsg, Stats
 from angen_msgs.srv import Delete, List, Save, Spawn, Step
-from conftest import Angen, Heard, until
+from conftest import Angen, Heard, RawText, until
 from geometry_msgs.msg import Pose
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import Empty
@@ -68,7 +68,7 @@ def test_what_cannot_be_spawned_is_explained(angen: Angen) -> None:
         (dict(name="", xml=PIR), "empty"),
         (dict(name="eye", xml=PIR), "eye"),
         (dict(name="a::b", xml=PIR), "::"),
-        (dict(name=b"\xff", xml=PIR), "UTF-8"),
+        (dict(name=RawText(b"\xff"), xml=PIR), "UTF-8"),
         (dict(name="p3", xml=""), "empty"),
         (dict(name="p3", xml=PIR, pose=nan), "finite"),
         (dict(name="p3", xml=PIR, pose=stretched), "quaternion"),

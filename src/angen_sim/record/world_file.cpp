@@ -9,7 +9,7 @@ namespace angen::record {
 std::string world_file(const desc::World& settings, const sim::Snapshot& snapshot) {
   const sim::Structure& all = *snapshot.structure;
   std::vector<load::ModelState> states;
-  for (const auto& model : all.models) states.push_back({model.get(), model->pose, {}});
+  for (const auto& model : all.models) states.push_back({model.get(), model->pose, {}, {}});
   for (std::size_t i = 0; i < all.links.size(); ++i) {
     const sim::LinkEntry& link = all.links[i];
     if (link.link != 0 || !link.moves) continue;
@@ -21,6 +21,12 @@ std::string world_file(const desc::World& settings, const sim::Snapshot& snapsho
     const desc::Joint& described = all.models[joint.model]->joints[joint.joint];
     if (described.axes.size() != 1) continue;
     states[joint.model].joint_positions.push_back({described.name, {snapshot.joint_positions[i]}});
+  }
+  for (const sim::SensorEntry& sensor : all.sensors) {
+    if (!sensor.attached) continue;
+    const sim::LinkEntry& link = all.links[sensor.link];
+    const std::string& name = all.models[sensor.model]->links[link.link].name;
+    states[sensor.model].attached.push_back({name, *sensor.desc});
   }
   return load::save(settings, states);
 }

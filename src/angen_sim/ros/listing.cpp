@@ -3,7 +3,6 @@
 #include <ros/names.h>
 
 #include <algorithm>
-#include <memory>
 #include <tuple>
 
 #include "ros/convert.h"
@@ -79,30 +78,6 @@ std::vector<angen_msgs::Entity> entities(const sim::Snapshot& snapshot,
     return std::tie(a.name, a.kind) < std::tie(b.name, b.kind);
   });
   return all;
-}
-
-std::string save(const sim::Snapshot& snapshot, const desc::World& world) {
-  const sim::Structure& structure = *snapshot.structure;
-  const std::vector<std::uint32_t> first = first_links(structure);
-  std::vector<std::shared_ptr<const desc::Model>> models = structure.models;
-  for (const sim::SensorEntry& sensor : structure.sensors) {
-    if (!sensor.attached) continue;
-    auto with_sensor = std::make_shared<desc::Model>(*models[sensor.model]);
-    with_sensor->links[structure.links[sensor.link].link].sensors.push_back(*sensor.desc);
-    models[sensor.model] = std::move(with_sensor);
-  }
-  std::vector<load::ModelState> states(models.size());
-  for (std::uint32_t m = 0; m < models.size(); ++m) {
-    states[m].model = models[m].get();
-    states[m].pose = first[m] == UINT32_MAX ? models[m]->pose : model_pose(snapshot, first[m]);
-  }
-  for (std::uint32_t i = 0; i < structure.joints.size(); ++i) {
-    const sim::JointEntry& entry = structure.joints[i];
-    const desc::Joint& joint = structure.models[entry.model]->joints[entry.joint];
-    if (joint.axes.empty()) continue;
-    states[entry.model].joint_positions.push_back({joint.name, {snapshot.joint_positions[i]}});
-  }
-  return load::save(world, states);
 }
 
 }  // namespace angen::node

@@ -6,10 +6,8 @@
 #include <vector>
 
 #include "desc/world.h"
-#include "load/load.h"
 #include "sim/snapshot.h"
 
-/// The world in words: what is in it, and as a file.
 namespace angen::node {
 
 /// Models, devices and sensors, ordered by name, then kind; of one kind unless `kind` is empty.
@@ -19,8 +17,5 @@ std::vector<angen_msgs::Entity> entities(const sim::Snapshot& snapshot,
 
 /// Where a model's own frame stands now: every model has a link, which gives it.
 Pose model_pose(const sim::Snapshot& snapshot, std::uint32_t first_link);
-
-/// The world as it stands, as SDF.
-std::string save(const sim::Snapshot& snapshot, const desc::World& world);
 
 }  // namespace angen::node

@@ -19,7 +19,8 @@ bool is_ground(const desc::Link& link) {
 }
 
 std::string device_group(const std::string& kind) {
-  return kind == "person" ? "people" : kind + "s";
+  if (kind == "person") return "people";
+  return kind == "drive" ? "robots" : kind + "s";
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "core/diagnostics.h"
+#include "record/world_file.h"
 #include "ros/convert.h"
 #include "ros/listing.h"
 #include "ros/text.h"
@@ -137,7 +138,7 @@ bool Services::list(angen_msgs::List::Request& request, angen_msgs::List::Respon
 bool Services::save(angen_msgs::Save::Request&, angen_msgs::Save::Response& response) {
   return answered(response, [&] {
     const auto snapshot = inbox_.simulation().snapshot();
-    response.xml = node::save(*snapshot, inbox_.simulation().world());
+    response.xml = record::world_file(inbox_.simulation().world(), *snapshot);
     return sim::Outcome{};
   });
 }
