@@ -118,8 +118,6 @@ def walk() -> list[tuple[float, float, float, float]]:
 
 def _add_person(world: etree._Element) -> None:
     actor = add(world, "actor", name="person")
-    t, x, y, yaw = walk()[0]
-    add(actor, "pose", numbers(x, y, 0, 0, 0, yaw))
     script = add(actor, "script")
     add(script, "loop", "true")
     add(script, "delay_start", 0)
