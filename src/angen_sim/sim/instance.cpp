@@ -57,8 +57,8 @@ DeviceInstance make_device(const desc::Model& model, const ModelInfo& info,
   });
 }
 
-bool has_own(const desc::Model& model, const std::string& filename) {
-  return std::any_of(model.plugins.begin(), model.plugins.end(),
+bool has_own(const desc::Model& model, const std::string& filename, std::size_t from = 0) {
+  return std::any_of(model.plugins.begin() + static_cast<std::ptrdiff_t>(from), model.plugins.end(),
                      [&](const desc::Plugin& p) { return p.filename == filename; });
 }
 
@@ -66,7 +66,10 @@ void make_devices(LiveModel& live, const std::vector<desc::Plugin>& world_plugin
                   const Vec3& gravity, Catalog& catalog) {
   const desc::Model& model = *live.desc;
   const ModelInfo info = info_of(model);
-  for (const desc::Plugin& described : model.plugins) {
+  for (std::size_t i = 0; i < model.plugins.size(); ++i) {
+    const desc::Plugin& described = model.plugins[i];
+    if (has_own(model, described.filename, i + 1))
+      continue;  // the <include>'s, which comes last, holds
     bool served = false;
     for (const auto& plugin :
          told_at(described.source, [&] { return catalog.library(described.filename); })) {
@@ -130,15 +133,16 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link, const desc
     instance.pose = described.pose;
     instance.scratch.kind = instance.kind;
     Params params(described.plugin_element, &described.element);
-    const double rate = params.number("update_rate", instance.sensor->default_rate(), "Hz",
-                                      "how often it publishes", kPositive);
+    instance.period = params.update_period(instance.sensor->default_rate());
     instance.topic = params.text("topicName", "", "topic, instead of /angen/KIND/NAME");
+    if (instance.topic.empty()) {
+      instance.topic = params.text("bumperTopicName", "", "the same, in a contact sensor");
+    }
     instance.frame = params.text("frameName", "", "frame of its header, instead of its name");
     ModelWiring wiring(*live.desc, name, gravity, live.desc->links[link].name);
     instance.sensor->configure(params, wiring);
     params.finish();
     instance.collisions = wiring.collisions();
-    instance.period = from_seconds(1.0 / rate);
     instance.sample_period = instance.sensor->sample_period();
     if (instance.sample_period <= 0) instance.sample_period = instance.period;
     return instance;
