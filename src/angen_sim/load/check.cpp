@@ -202,8 +202,16 @@ void check_joint(Element& joint, const std::set<std::string>& known, Session& se
   }
 }
 
+bool has_link(const Element& model) {
+  for (const Element& child : model.children) {
+    if (child.name == "link" || (child.name == "model" && has_link(child))) return true;
+  }
+  return false;
+}
+
 void check_model_parts(Element& model, Session& session) {
   static const std::set<std::string> idle = {"gripper", "projector", "battery"};
+  if (!has_link(model)) throw Error(model.source, tag_of(model) + " has no <link>; give it one");
   check_children_names(model);
   std::set<std::string> known;
   collect_frames(model, "", known);

@@ -124,6 +124,17 @@ void add_parts(const Element& element, const sdf::Model& from, const Place& plac
   }
 }
 
+desc::Model described_model(const Element& model, const sdf::Model& from, Session& session) {
+  desc::Model to;
+  to.is_static = child_flag(model, "static", false);
+  to.allow_auto_disable = child_flag(model, "allow_auto_disable", true);
+  to.self_collide = child_flag(model, "self_collide", false);
+  Place place;
+  place.never_moves = to.is_static;
+  add_parts(model, from, place, to, session);
+  return to;
+}
+
 }  // namespace
 
 desc::Plugin plugin_of(const Element& element) {
@@ -158,29 +169,22 @@ desc::Sensor sensor_of(const Element& element, const Pose& pose, Session& sessio
   return sensor;
 }
 
-desc::Model describe_model(const Element& model, Session& session) {
+std::vector<desc::Model> describe_models(const std::vector<Element>& models, Session& session) {
+  std::vector<desc::Model> described;
+  if (models.empty()) return described;
   Element world;
   world.name = "world";
-  world.source = model.source;
+  world.source = models.front().source;
   world.attributes = {{"name", "default"}};
-  world.children = {model};
-  Element& inside = world.children.front();
-  remove_children(inside, "pose");
+  world.children = models;
+  for (Element& model : world.children) remove_children(model, "pose");
   const Hush hush;
   const sdf::Root root = parse_world(world, session);
-  const sdf::Model& from = need(root.WorldByIndex(0)->ModelByName(name_of(model)), model);
-
-  desc::Model to;
-  to.name = name_of(model);
-  to.source = model.source;
-  to.is_static = child_flag(model, "static", false);
-  to.allow_auto_disable = child_flag(model, "allow_auto_disable", true);
-  to.self_collide = child_flag(model, "self_collide", false);
-  Place place;
-  place.never_moves = to.is_static;
-  add_parts(model, from, place, to, session);
-  if (to.links.empty()) throw Error(model.source, tag_of(model) + " has no <link>; give it one");
-  return to;
+  for (const Element& model : models) {
+    described.push_back(described_model(
+        model, need(root.WorldByIndex(0)->ModelByName(name_of(model)), model), session));
+  }
+  return described;
 }
 
 }  // namespace angen::load

@@ -7,9 +7,10 @@
 /// Checked trees to descriptions.
 namespace angen::load {
 
-/// An expanded, checked <model>. Its pose is left to the caller, and so are xml and expanded_xml.
-/// Nested models become links, joints and plug-ins named `child::name`.
-desc::Model describe_model(const Element& model, Session& session);
+/// Expanded, checked <model> elements with different names, in their order. The pose is left to the
+/// caller, and so are the texts for `save`. Nested models become links, joints and plug-ins named
+/// `child::name`.
+std::vector<desc::Model> describe_models(const std::vector<Element>& models, Session& session);
 
 /// The <inertial> of a link; the unit mass and moment where there is none. An impossible one throws
 /// Error, or is a warning and replaced where the link `never_moves`.

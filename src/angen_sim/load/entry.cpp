@@ -1,5 +1,7 @@
 #include "load/entry.h"
 
+#include <map>
+
 #include "load/check.h"
 #include "load/describe.h"
 #include "load/xml.h"
@@ -9,6 +11,7 @@ namespace angen::load {
 namespace {
 
 constexpr std::size_t kMaxModelElements = 20'000;
+constexpr std::size_t kBatchElements = 2'000;
 
 bool holds_include(const Element& element) {
   if (element.name == "include") return true;
@@ -33,6 +36,48 @@ std::string key_of(const Element& model) {
   return key;
 }
 
+void check_entry(Entry& entry, Session& session) {
+  Element& element = entry.expanded;
+  if (element.name != "model" && element.name != "actor") {
+    throw Error(element.source,
+                "<" + element.name + "> is no model; give <model>, <include> or <actor>");
+  }
+  if (count_elements(element) > kMaxModelElements) {
+    throw Error(entry.original.source, "more than " + std::to_string(kMaxModelElements) +
+                                           " elements in one model; split it into several");
+  }
+  if (element.name == "model") check_model(element, session);
+}
+
+// All different models by their keys. libsdformat takes tens of milliseconds a document and a
+// megabyte a link, so they go to it in batches.
+std::map<std::string, desc::Model> read_once(std::vector<Entry>& entries, Session& session) {
+  std::map<std::string, desc::Model> read;
+  std::vector<std::string> keys;
+  std::vector<Element> batch;
+  std::size_t size = 0;
+  const auto flush = [&] {
+    std::vector<desc::Model> models = describe_models(batch, session);
+    for (std::size_t i = 0; i < models.size(); ++i) read[keys[i]] = std::move(models[i]);
+    keys.clear();
+    batch.clear();
+    size = 0;
+  };
+  for (Entry& entry : entries) {
+    check_entry(entry, session);
+    if (entry.expanded.name != "model") continue;
+    const std::string key = key_of(entry.expanded);
+    if (!read.emplace(key, desc::Model{}).second) continue;
+    keys.push_back(key);
+    batch.push_back(entry.expanded);
+    remove_children(batch.back(), "plugin");
+    size += count_elements(batch.back());
+    if (size > kBatchElements) flush();
+  }
+  flush();
+  return read;
+}
+
 }  // namespace
 
 Entry expand_entry(const Element& element, Session& session) {
@@ -42,40 +87,25 @@ Entry expand_entry(const Element& element, Session& session) {
   return entry;
 }
 
-desc::Model Describer::describe_once(const Element& model) {
-  const std::string key = key_of(model);
-  const auto found = known_.find(key);
-  if (found != known_.end()) return found->second;
-  Element bare = model;
-  remove_children(bare, "plugin");
-  return known_.emplace(key, describe_model(bare, session_)).first->second;
-}
-
-desc::Model Describer::describe(Entry& entry) {
-  Element& element = entry.expanded;
-  if (count_elements(element) > kMaxModelElements) {
-    throw Error(entry.original.source, "more than " + std::to_string(kMaxModelElements) +
-                                           " elements in one model; split it into several");
-  }
-  desc::Model model;
-  if (element.name == "actor") {
-    model = describe_actor(element, session_);
-  } else if (element.name == "model") {
-    check_model(element, session_);
-    model = describe_once(element);
+std::vector<desc::Model> describe_entries(std::vector<Entry>& entries, Session& session) {
+  const std::map<std::string, desc::Model> read = read_once(entries, session);
+  std::vector<desc::Model> models;
+  for (const Entry& entry : entries) {
+    const Element& element = entry.expanded;
+    desc::Model model =
+        element.name == "actor" ? describe_actor(element, session) : read.at(key_of(element));
     for (const Element& child : element.children) {
-      if (child.name == "plugin") model.plugins.push_back(plugin_of(child));
+      if (element.name == "model" && child.name == "plugin") {
+        model.plugins.push_back(plugin_of(child));
+      }
     }
-  } else {
-    throw Error(element.source, "<" + element.name +
-                                    "> is no model; give <model>, <include> or "
-                                    "<actor>");
+    model.name = name_of(element);
+    model.source = entry.original.source;
+    model.xml = print_xml(entry.original);
+    if (holds_include(entry.original)) model.expanded_xml = print_xml(element);
+    models.push_back(std::move(model));
   }
-  model.name = name_of(element);
-  model.source = entry.original.source;
-  model.xml = print_xml(entry.original);
-  if (holds_include(entry.original)) model.expanded_xml = print_xml(element);
-  return model;
+  return models;
 }
 
 }  // namespace angen::load

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <map>
-#include <string>
+#include <vector>
 
 #include "desc/world.h"
 #include "load/expand.h"
@@ -16,19 +15,9 @@ struct Entry {
 
 Entry expand_entry(const Element& element, Session& session);
 
-/// Describes entries; one that includes the same file as another in the same way is described once.
-class Describer {
- public:
-  explicit Describer(Session& session) : session_(session) {}
-
-  /// With name, plug-ins and texts for `save`; the pose only of actors. Throws Error.
-  desc::Model describe(Entry& entry);
-
- private:
-  desc::Model describe_once(const Element& model);
-
-  Session& session_;
-  std::map<std::string, desc::Model> known_;
-};
+/// Each entry's model, with its name, plug-ins and texts for `save`; the pose only of actors. One
+/// that includes the same file as another in the same way is read once. Names must differ. Throws
+/// Error.
+std::vector<desc::Model> describe_entries(std::vector<Entry>& entries, Session& session);
 
 }  // namespace angen::load

@@ -71,9 +71,22 @@ Element model_from_file(const std::string& what) {
     }
     uri = "file://" + fs::absolute(what).lexically_normal().string();
   }
-  include.source = {kText, 1};
   set_child(include, "uri", uri);
   return include;
+}
+
+// A model whose one link holds the sensor.
+Element holder_of(const Element& sensor) {
+  Element link;
+  link.name = "link";
+  link.source = sensor.source;
+  link.attributes = {{"name", "link"}};
+  link.children = {sensor};
+  Element model = link;
+  model.name = "model";
+  model.attributes = {{"name", "model"}};
+  model.children = {link};
+  return model;
 }
 
 void give_name(Element& element, const std::string& name) {
@@ -100,12 +113,13 @@ desc::Model model(const std::string& what, const std::string& name, const Pose& 
   Element element = is_text(what) ? model_from_text(what, session) : model_from_file(what);
   give_name(element, name);
   set_child(element, "pose", pose_text(pose));
-  Entry entry = expand_entry(element, session);
+  std::vector<Entry> entries = {expand_entry(element, session)};
+  Entry& entry = entries.front();
   check_name(name_of(entry.expanded), "<" + entry.expanded.name + ">", element.source);
   if (element.name == "include" && name.empty()) {
     give_name(entry.original, name_of(entry.expanded));
   }
-  desc::Model model = Describer(session).describe(entry);
+  desc::Model model = std::move(describe_entries(entries, session).front());
   if (entry.expanded.name == "model") model.pose = pose;
   model.warnings = session.warnings;
   return model;
@@ -144,6 +158,8 @@ desc::Sensor sensor(const std::string& what, const std::string& name, const Pose
   set_child(root, "pose", pose_text(pose));
   const SearchPaths nowhere;
   Session session{nowhere};
+  // What libsdformat would refuse in a saved world is refused here.
+  describe_models({holder_of(root)}, session);
   return sensor_of(root, pose, session);
 }
 

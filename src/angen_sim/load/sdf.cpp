@@ -38,6 +38,18 @@ Element bare(const Element& element) {
   return copy;
 }
 
+// Reading the schema costs twice what copying it does. Under Hush's lock.
+sdf::SDFPtr fresh_document() {
+  static const sdf::SDFPtr schema = [] {
+    sdf::SDFPtr document(new sdf::SDF());
+    sdf::init(document);
+    return document;
+  }();
+  sdf::SDFPtr document(new sdf::SDF());
+  document->Root(schema->Root()->Clone());
+  return document;
+}
+
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text.size() > 300 ? text.substr(0, 300) + " …" : text;
@@ -51,21 +63,27 @@ Source source_of(const sdf::Error& error, const std::vector<Source>& lines) {
   return lines.empty() ? Source{} : lines.front();
 }
 
-// For errors without a line libsdformat names what it means in brackets: name[x].
-Source named_in(const std::string& message, const Element& root) {
-  const Element* found = &root;
-  std::size_t at = 0;
-  while ((at = message.find("name[", at)) != std::string::npos) {
+// For errors without a line libsdformat names what it means in brackets, "link with name[a] … in
+// model with name[m]": the model is found first, then the part of it.
+Source named_in(const std::string& message, const Element& world) {
+  std::vector<std::string> names;
+  for (std::size_t at = message.find("name[", 0); at != std::string::npos;
+       at = message.find("name[", at)) {
     at += 5;
-    const std::string name = message.substr(at, message.find(']', at) - at);
-    for (const Element& model : root.children) {
-      if (name_of(model) == name) found = &model;
-      for (const Element& part : model.children) {
-        if (name_of(part) == name) return part.source;
-      }
-    }
+    names.push_back(message.substr(at, message.find(']', at) - at));
   }
-  return found->source;
+  const auto named = [&](const Element& element) {
+    return std::find(names.begin(), names.end(), name_of(element)) != names.end();
+  };
+  const Element* model = world.children.size() == 1 ? &world.children.front() : nullptr;
+  for (const Element& child : world.children) {
+    if (named(child)) model = &child;
+  }
+  if (model == nullptr) return world.source;
+  for (const Element& part : model->children) {
+    if (!name_of(part).empty() && named(part)) return part.source;
+  }
+  return model->source;
 }
 
 }  // namespace
@@ -107,8 +125,12 @@ sdf::Root parse_world(const Element& world, Session& session) {
   config.SetWarningsPolicy(sdf::EnforcementPolicy::LOG);
   config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::ERR);
   config.SetDeprecatedElementsPolicy(sdf::EnforcementPolicy::LOG);
+  const sdf::SDFPtr parsed = fresh_document();
+  sdf::Errors errors;
+  sdf::readString(text, config, parsed, errors);
   sdf::Root root;
-  const sdf::Errors errors = root.LoadSdfString(text, config);
+  const sdf::Errors more = root.Load(parsed, config);
+  errors.insert(errors.end(), more.begin(), more.end());
   for (const sdf::Error& error : errors) {
     if (error.Code() == sdf::ErrorCode::ELEMENT_INCORRECT_TYPE) {
       session.warn(source_of(error, lines), one_line(error.Message()));
@@ -116,7 +138,7 @@ sdf::Root parse_world(const Element& world, Session& session) {
     }
     const Source at =
         error.LineNumber() ? source_of(error, lines) : named_in(error.Message(), world);
-    throw Error(at, one_line(error.Message()) + " (libsdformat)");
+    throw Error(at, one_line(error.Message()));
   }
   if (root.WorldCount() != 1) throw Error(world.source, "libsdformat finds no world in it");
   return root;

@@ -108,12 +108,24 @@ std::string number_text(double value) {
   return failed == std::errc{} ? std::string(buffer, end) : "0";
 }
 
+namespace {
+
+// To a picometre and a picoradian: what two saves one after the other agree on.
+double rounded(double value) {
+  constexpr double kSteps = 1e12;
+  if (std::abs(value) > 1e3) return value;
+  const double kept = std::round(value * kSteps) / kSteps;
+  return kept == 0.0 ? 0.0 : kept;
+}
+
+}  // namespace
+
 std::string pose_text(const Pose& pose) {
   const Vec3 rpy = to_rpy(pose.rotation);
   std::string text;
   for (const double v :
        {pose.position.x(), pose.position.y(), pose.position.z(), rpy.x(), rpy.y(), rpy.z()}) {
-    text += (text.empty() ? "" : " ") + number_text(v == 0.0 ? 0.0 : v);
+    text += (text.empty() ? "" : " ") + number_text(rounded(v));
   }
   return text;
 }

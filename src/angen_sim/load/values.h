@@ -9,7 +9,7 @@
 /// Numbers, flags and poses out of elements' texts; a wrong one throws Error with file and line.
 namespace angen::load {
 
-/// Every number of a text; nullopt-like: `ok` false when a word is not a number.
+/// The numbers of a text, up to the first word that is none.
 struct Numbers {
   std::vector<double> values;
   std::string bad;  // the first word that is no number, empty when all are
@@ -30,7 +30,7 @@ double child_number(const Element& element, const std::string& name, double fall
 bool child_flag(const Element& element, const std::string& name, bool fallback);
 Pose child_pose(const Element& element);
 
-/// "x y z roll pitch yaw", every digit kept.
+/// "x y z roll pitch yaw", to 1e-12.
 std::string pose_text(const Pose& pose);
 std::string number_text(double value);
 

@@ -141,8 +141,7 @@ desc::World describe_world(const Element& sdf, Session& session) {
   for (const Element& child : parts.settings.children) {
     if (child.name == "plugin") world.plugins.push_back(plugin_of(child));
   }
-  Describer describer(session);
-  for (Entry& entry : parts.entries) world.models.push_back(describer.describe(entry));
+  world.models = describe_entries(parts.entries, session);
   {
     const Hush hush;
     const sdf::Root root = parse_world(with_stand_ins(parts), session);

@@ -27,9 +27,6 @@ Element convert(const tinyxml2::XMLElement& from, const std::string& file, std::
   to.name = from.Name();
   to.source = {file, from.GetLineNum()};
   for (auto* a = from.FirstAttribute(); a != nullptr; a = a->Next()) {
-    if (to.attribute(a->Name()) != nullptr) {
-      throw Error(to.source, "<" + to.name + "> has two attributes '" + a->Name() + "'; keep one");
-    }
     to.attributes.emplace_back(a->Name(), a->Value());
   }
   std::string text;
@@ -44,15 +41,17 @@ Element convert(const tinyxml2::XMLElement& from, const std::string& file, std::
   return to;
 }
 
-// tinyxml2's own message repeats the line and its source; the part after "XMLElement name=" or the
-// error's name is of use.
+// tinyxml2's own message repeats the line; what its error means is of more use.
 std::string reason(const tinyxml2::XMLDocument& document) {
   switch (document.ErrorID()) {
     case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
       return "the file is empty; it needs an <sdf> element";
     case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
-      return "an element opened here or before is not closed as it was opened; close each <x> with "
-             "</x>";
+      return "the element opened here is not closed; close each <x> with </x>";
+    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
+      return "this is not well-formed XML: an attribute is malformed or given twice, or the file "
+             "is "
+             "cut off; write each attribute once, as name=\"value\"";
     case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
       return "elements stand more than 100 deep in one another";
     default: {

@@ -1,0 +1,154 @@
+#include <png.h>
+
+#include "angen_sim/load/texts.h"
+#include "load/geometry.h"
+
+namespace angen::load {
+namespace {
+
+// A right triangle in the file's own x-y plane, with its third corner one unit up z.
+std::string collada(const std::string& up, const std::string& metre) {
+  return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' "
+         "version='1.4.1'><asset><unit name='u' meter='" +
+         metre + "'/><up_axis>" + up +
+         "</up_axis></asset><library_geometries><geometry id='g' name='g'><mesh><source id='p'>"
+         "<float_array id='pa' count='9'>0 0 0 1 0 0 0 2 3</float_array><technique_common>"
+         "<accessor source='#pa' count='3' stride='3'><param name='X' type='float'/>"
+         "<param name='Y' type='float'/><param name='Z' "
+         "type='float'/></accessor></technique_common>"
+         "</source><vertices id='v'><input semantic='POSITION' source='#p'/></vertices>"
+         "<triangles count='1'><input semantic='VERTEX' source='#v' offset='0'/><p>0 1 2</p>"
+         "</triangles></mesh></geometry></library_geometries><library_visual_scenes>"
+         "<visual_scene id='s'><node id='n'><instance_geometry url='#g'/></node></visual_scene>"
+         "</library_visual_scenes><scene><instance_visual_scene url='#s'/></scene></COLLADA>";
+}
+
+const char* const kStl =
+    "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 2 3\nendloop\n"
+    "endfacet\nendsolid s\n";
+
+Eigen::Vector3f corner(const TriangleMesh& mesh, int index) {
+  return mesh.vertices.at(mesh.triangles.at(0)[static_cast<std::size_t>(index)]);
+}
+
+TEST(Mesh, ColladaZUpStaysAsItIs) {
+  const Folder folder;
+  const auto mesh = read_mesh(folder.write("z.dae", collada("Z_UP", "1")), Vec3::Ones(), {});
+  EXPECT_LT((corner(*mesh, 2) - Eigen::Vector3f(0, 2, 3)).norm(), 1e-5);
+}
+
+TEST(Mesh, ColladaYUpIsTurned) {
+  const Folder folder;
+  const auto mesh = read_mesh(folder.write("y.dae", collada("Y_UP", "1")), Vec3::Ones(), {});
+  EXPECT_LT((corner(*mesh, 2) - Eigen::Vector3f(0, -3, 2)).norm(), 1e-5);
+}
+
+TEST(Mesh, ColladaUnitIsApplied) {
+  const Folder folder;
+  const auto mesh = read_mesh(folder.write("i.dae", collada("Z_UP", "0.01")), Vec3::Ones(), {});
+  EXPECT_LT((corner(*mesh, 2) - Eigen::Vector3f(0, 0.02F, 0.03F)).norm(), 1e-6);
+}
+
+TEST(Mesh, StlIsScaled) {
+  const Folder folder;
+  const auto mesh = read_mesh(folder.write("s.stl", kStl), {1.0, 2.0, 3.0}, {});
+  EXPECT_LT((corner(*mesh, 2) - Eigen::Vector3f(0, 4, 9)).norm(), 1e-5);
+}
+
+TEST(Mesh, MirroringKeepsTheOutside) {
+  const Folder folder;
+  const auto mesh = read_mesh(folder.write("s.stl", kStl), {-1.0, 1.0, 1.0}, {});
+  const auto normal =
+      (corner(*mesh, 1) - corner(*mesh, 0)).cross(corner(*mesh, 2) - corner(*mesh, 0));
+  EXPECT_GT(normal.z(), 0.0F);
+}
+
+TEST(Mesh, IsSharedWhileTheFileStays) {
+  const Folder folder;
+  const std::string file = folder.write("s.stl", kStl);
+  const auto first = read_mesh(file, Vec3::Ones(), {});
+  EXPECT_EQ(first, read_mesh(file, Vec3::Ones(), {}));
+  EXPECT_NE(first, read_mesh(file, {2.0, 2.0, 2.0}, {}));
+}
+
+TEST(Mesh, BesideItsModelAndOnTheResourcePath) {
+  const Folder folder;
+  folder.write("part/meshes/s.stl", kStl);
+  const auto shape = [&](const std::string& uri, const SearchPaths& paths) {
+    return read(in_link("<visual name='v'><geometry><mesh><uri>" + uri +
+                        "</uri><scale>1 1 2</scale></mesh></geometry></visual>"),
+                paths)
+        .models[0]
+        .links[0]
+        .visuals[0]
+        .shape;
+  };
+  const Shape by_model = shape("model://part/meshes/s.stl", folder.paths());
+  EXPECT_EQ(by_model.type, Shape::Type::kMesh);
+  EXPECT_EQ(by_model.mesh_file, folder.path() + "/part/meshes/s.stl");
+  expect_near(by_model.mesh_scale, {1.0, 1.0, 2.0});
+  EXPECT_EQ(by_model.mesh->triangles.size(), 1U);
+  EXPECT_EQ(shape("file://meshes/s.stl", {{}, {folder.path() + "/part"}}).mesh, by_model.mesh);
+  folder.model("other", sdf("<model name='o'><link name='l'><visual name='v'><geometry><mesh><uri>"
+                            "meshes/s.stl</uri></mesh></geometry></visual></link></model>"));
+  folder.write("other/meshes/s.stl", kStl);
+  const desc::World w =
+      read(in_world("<include><uri>model://other</uri></include>"), folder.paths());
+  EXPECT_EQ(w.models[0].links[0].visuals[0].shape.mesh_file, folder.path() + "/other/meshes/s.stl");
+}
+
+TEST(Mesh, NoTrianglesOrUnknownKindIsAnError) {
+  const Folder folder;
+  EXPECT_THROW(read_mesh(folder.write("x.blend", "x"), Vec3::Ones(), {}), Error);
+  EXPECT_THROW(read_mesh(folder.write("x.stl", ""), Vec3::Ones(), {}), Error);
+  EXPECT_THROW(read_mesh(folder.write("x.dae", "<COLLADA"), Vec3::Ones(), {}), Error);
+}
+
+std::string grey_png(const Folder& folder, unsigned width, unsigned height,
+                     const std::vector<png_byte>& pixels) {
+  const std::string file = folder.write("h.png", "");
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = width;
+  image.height = height;
+  image.format = PNG_FORMAT_GRAY;
+  EXPECT_NE(png_image_write_to_file(&image, file.c_str(), 0, pixels.data(), 0, nullptr), 0);
+  return file;
+}
+
+TEST(Heightmap, SpansItsSizeAndRisesWithGrey) {
+  const Folder folder;
+  const std::string file = grey_png(folder, 3, 3, {255, 0, 0, 0, 0, 0, 0, 0, 51});
+  const auto mesh = read_heightmap(file, {4.0, 6.0, 10.0}, {});
+  ASSERT_EQ(mesh->vertices.size(), 9U);
+  EXPECT_EQ(mesh->triangles.size(), 8U);
+  EXPECT_LT((mesh->vertices[0] - Eigen::Vector3f(-2, 3, 10)).norm(), 1e-5);
+  EXPECT_LT((mesh->vertices[8] - Eigen::Vector3f(2, -3, 2)).norm(), 1e-5);
+  for (const auto& t : mesh->triangles) {
+    const Eigen::Vector3f a = mesh->vertices[t[0]];
+    EXPECT_GT((mesh->vertices[t[1]] - a).cross(mesh->vertices[t[2]] - a).z(), 0.0F);
+  }
+}
+
+TEST(Heightmap, StandsWhereItsPosSays) {
+  const Folder folder;
+  grey_png(folder, 2, 2, {0, 0, 0, 0});
+  const desc::Collision c =
+      read(in_link("<collision name='c'><geometry><heightmap><uri>model://h.png</uri><size>1 1 1"
+                   "</size><pos>0 0 5</pos></heightmap></geometry></collision>"),
+           folder.paths())
+          .models[0]
+          .links[0]
+          .collisions[0];
+  EXPECT_EQ(c.shape.type, Shape::Type::kMesh);
+  EXPECT_TRUE(c.shape.mesh_file.empty());
+  expect_near(c.pose.position, {0.0, 0.0, 5.0});
+}
+
+TEST(Heightmap, NoImageIsAnError) {
+  const Folder folder;
+  EXPECT_THROW(read_heightmap(folder.write("h.png", "not a png"), Vec3::Ones(), {}), Error);
+}
+
+}  // namespace
+}  // namespace angen::load
