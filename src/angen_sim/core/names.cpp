@@ -9,8 +9,8 @@ int floor_of(double z) { return static_cast<int>(std::floor((z + 0.5) / kStoreyH
 
 std::string command_name(const std::string& model, const std::string& kind, double z) {
   std::string base = model;
-  while (!base.empty() && (std::isdigit(static_cast<unsigned char>(base.back())) != 0 ||
-                           base.back() == '_')) {
+  while (!base.empty() &&
+         (std::isdigit(static_cast<unsigned char>(base.back())) != 0 || base.back() == '_')) {
     base.pop_back();
   }
   const std::string suffix = "_" + kind;

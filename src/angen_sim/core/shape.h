@@ -25,8 +25,8 @@ struct Shape {
   double radius = 0.0;       // sphere, cylinder, capsule
   double length = 0.0;       // cylinder (along z); capsule: of its cylindrical part
   std::shared_ptr<const TriangleMesh> mesh;  // mesh and heightmap, shared between copies
-  std::string mesh_file;                     // absolute path a viewer can load, empty for heightmaps
-  Vec3 mesh_scale = Vec3::Ones();            // what mesh_file must be scaled by to equal `mesh`
+  std::string mesh_file;           // absolute path a viewer can load, empty for heightmaps
+  Vec3 mesh_scale = Vec3::Ones();  // what mesh_file must be scaled by to equal `mesh`
 };
 
 }  // namespace angen

@@ -9,7 +9,8 @@
 
 namespace angen {
 
-/// Values addressed by generational ids, iterated in index order (the order decides no result by chance).
+/// Values addressed by generational ids, iterated in index order (the order decides no result by
+/// chance).
 template <class T, class Tag>
 class Slots {
  public:
