@@ -22,9 +22,10 @@ def box(name: str, pose: str, size: str, static: bool = False, mass: float = 1.0
     x, y, z = (float(v) for v in size.split())
     moments = [mass / 12 * v for v in (y * y + z * z, x * x + z * z, x * x + y * y)]
     return f'''<model name="{name}"><static>{str(static).lower()}</static><pose>{pose}</pose>
-  <link name="link"><inertial><mass>{mass}</mass><inertia><ixx>{moments[0]}</ixx><iyy>{moments[1]}</iyy>
-  <izz>{moments[2]}</izz><ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia></inertial>
-  <collision name="box"><geometry><box><size>{size}</size></box></geometry></collision></link></model>'''
+  <link name="link"><inertial><mass>{mass}</mass><inertia><ixx>{moments[0]}</ixx>
+  <iyy>{moments[1]}</iyy><izz>{moments[2]}</izz><ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia></inertial>
+  <collision name="box"><geometry><box><size>{size}</size></box></geometry></collision></link>
+  </model>'''
 
 
 def pir(name: str, pose: str, extra: str = '') -> str:

@@ -1,6 +1,7 @@
 """The tick: time, commands, spawn and delete, reset, and the same bytes for the same input."""
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -60,7 +61,8 @@ def test_unknown_names_are_told_with_the_known_ones(world):
 
 
 def test_sensor_on_a_link_sees_from_where_the_link_is(world):
-    w = world(box('cart', '0 0 0.25 0 0 0', '0.5 0.5 0.5') + box('wall', '3 0 1 0 0 0', '0.1 4 2', True))
+    w = world(box('cart', '0 0 0.25 0 0 0', '0.5 0.5 0.5')
+              + box('wall', '3 0 1 0 0 0', '0.1 4 2', True))
     sensor = pir('', '0 0 0 0 0 0').split('<link name="link">')[1].split('</link>')[0]
     w.spawn(sensor, 'eye', [0.3, 0, 0, 0, 0, 0], on='cart::link')
     w.step(2)
@@ -130,8 +132,8 @@ def test_same_seed_and_commands_give_the_same_bytes(building):
     assert run_building(building, 3) == first, 'a second world in one process'
     assert run_building(building, 4) != first, 'another seed'
     script = f'import test_simulation as t; print(t.run_building({building!r}, 3))'
-    other = subprocess.run([sys.executable, '-c', script], capture_output=True, text=True, check=True,
-                           cwd=str(__file__).rsplit('/', 1)[0])
+    other = subprocess.run([sys.executable, '-c', script], capture_output=True, text=True,
+                           check=True, cwd=Path(__file__).parent)
     assert other.stdout.strip() == first, 'another process'
 
 

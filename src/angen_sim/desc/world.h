@@ -132,7 +132,8 @@ struct Model {
   std::vector<Plugin> plugins;
   std::string xml;  // as it stood in its file (an <include>, <model> or <actor>), for `save`
   std::string expanded_xml;  // where xml holds includes: the same with them written out
-  std::vector<Diagnostic> warnings;  // of a model that was loaded by itself; else the world has them
+  std::vector<Diagnostic>
+      warnings;  // of a model that was loaded by itself; else the world has them
   Source source;
 };
 

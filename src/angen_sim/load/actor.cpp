@@ -121,7 +121,6 @@ desc::Model describe_actor(const Element& actor, Session& session) {
   model.name = name_of(actor);
   model.source = actor.source;
   model.pose = child_pose(actor);
-  model.allow_auto_disable = false;
   model.links = {body(actor.source)};
 
   Element plugin = leaf("plugin", "", actor.source);

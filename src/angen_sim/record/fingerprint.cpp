@@ -65,11 +65,22 @@ void Fingerprint::add(const sim::Snapshot& snapshot) {
   mixer.add(snapshot.tick);
   mixer.add(snapshot.time);
   mixer.add(snapshot.paused);
-  for (std::size_t i = 0; i < snapshot.link_poses.size(); ++i) mixer.add(snapshot.link_poses[i]);
-  for (std::size_t i = 0; i < snapshot.joint_positions.size(); ++i) {
-    mixer.add(snapshot.joint_positions[i]);
+  if (snapshot.structure != structure_) {
+    structure_ = snapshot.structure;
+    for (std::size_t i = 0; i < snapshot.link_poses.size(); ++i) mixer.add(snapshot.link_poses[i]);
+    for (std::size_t i = 0; i < snapshot.joint_positions.size(); ++i) {
+      mixer.add(snapshot.joint_positions[i]);
+    }
   }
-  mixer.add(*snapshot.light_levels);
+  // A joint's position follows from its links' poses, so these say all that moved.
+  for (const std::uint32_t i : snapshot.moved_links) {
+    mixer.add(i);
+    mixer.add(snapshot.link_poses[i]);
+  }
+  if (snapshot.light_levels != light_levels_) {
+    light_levels_ = snapshot.light_levels;
+    mixer.add(*light_levels_);
+  }
   for (const std::uint32_t i : snapshot.new_readings) mixer.add(*snapshot.sensors[i]);
   for (const std::uint32_t i : snapshot.new_states) mixer.add(*snapshot.devices[i]);
   mixer.add(snapshot.events);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "sim/snapshot.h"
 
@@ -19,6 +21,8 @@ class Fingerprint {
 
  private:
   std::uint64_t hash_ = 0xcbf29ce484222325ULL;
+  std::shared_ptr<const sim::Structure> structure_;
+  std::shared_ptr<const std::vector<double>> light_levels_;
 };
 
 }  // namespace angen::record
