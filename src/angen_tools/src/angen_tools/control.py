@@ -1,0 +1,170 @@
+"""angen set: commands to doors, elevators and lamps, checked before and after they are sent."""
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass
+from typing import Any, Callable
+
+from .client import CONNECT_LIMIT, Client, Mailbox
+from .failure import Failure
+from .listing import number
+
+TOPICS = {'door': '/gazebo/Door_controller', 'elevator': '/gazebo/Elevator_controller',
+          'lamp': '/gazebo/Light_controller'}
+TAKEN_LIMIT = 5.0  # s of wall time
+QUEUED_AFTER = 1.0  # s of wall time without a rejection
+DOOR_MODES = ('shut', 'open', 'opening', 'closing', 'blocked', 'ajar')
+ELEVATOR_MODES = ('at rest', 'going up', 'going down', 'blocked')
+CABIN_MODES = ('shut', 'open', 'opening', 'closing', 'blocked')
+
+
+@dataclass(frozen=True)
+class Order:
+    """A command: `text` has NAME in the name's place; taken(state) once the state follows it."""
+
+    text: str
+    taken: Callable[[Any], bool]
+
+
+def make_order(kind: str, value: str) -> Order:
+    """The command that sets a door, elevator or lamp to `value`; ValueError says what is right."""
+    return {'door': _door, 'elevator': _elevator, 'lamp': _lamp}[kind](value.strip().lower())
+
+
+def _door(value: str) -> Order:
+    if value == 'open':
+        return Order('Open, NAME', lambda s: s.mode in (s.OPEN, s.OPENING))
+    if value == 'close':
+        return Order('Close, NAME', lambda s: s.mode in (s.CLOSED, s.CLOSING))
+    angle = _number(value, 'a door takes open, close or an angle in rad')
+    return Order(f'Set, NAME, {angle!r}', lambda s: abs(s.target - angle) < 1e-9)
+
+
+def _elevator(value: str) -> Order:
+    if not value.isascii() or not value.isdigit():
+        raise ValueError(f"'{value}' is no floor; an elevator takes 0, 1, …")
+    return Order(f'Floor{int(value)}, NAME', lambda s: s.target_floor == int(value))
+
+
+def _lamp(value: str) -> Order:
+    words = {'on': 'On, NAME', 'off': 'Off, NAME'}
+    form = 'a lamp takes on, off or 0 to 100 percent'
+    level = {'on': 100.0, 'off': 0.0}.get(value)
+    if level is None:
+        level = _number(value.removesuffix('%'), form)
+    if not 0 <= level <= 100:
+        raise ValueError(f"'{value}' is out of range; {form}")
+    return Order(words.get(value, f'Dim, NAME, {level!r}'), lambda s: abs(s.level - level) < 1e-9)
+
+
+def _number(text: str, form: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        raise ValueError(f"'{text}' is no value; {form}")
+    return number
+
+
+def describe(state: Any) -> str:
+    """A DoorState, ElevatorState or LampState in a few words."""
+    kind = type(state).__name__
+    if kind == 'DoorState':
+        going = state.mode in (state.OPENING, state.CLOSING, state.BLOCKED)
+        to = f', to {number(state.target)} rad' if going else ''
+        return f'{DOOR_MODES[state.mode]} at {number(state.position)} rad{to}'
+    if kind == 'ElevatorState':
+        where = f'at floor {state.floor}' if state.floor >= 0 else f'at {number(state.position)} m'
+        to = f', to floor {state.target_floor}' if state.target_floor != state.floor else ''
+        return (f'{ELEVATOR_MODES[state.mode]} {where}{to}, doors '
+                f'{CABIN_MODES[state.door_mode]}')
+    return f'on at {state.level:g} %, {state.luminous_flux:.0f} lm' if state.on else 'off'
+
+
+def set_device(kind: str, name: str, value: str) -> str:
+    """Sends the command and waits until the states show it; returns what was done.
+
+    Failure where nothing has that name, the simulator rejects it, or no state follows.
+    """
+    from std_msgs.msg import String
+    order = make_order(kind, value)
+    client = Client()
+    devices = _chosen(kind, name, client.entities(kind))
+    watch = _Watch(client, kind, name, devices, order)
+    sender = client.publisher(TOPICS[kind], String)
+    sender.publish(String(watch.text))
+    client.fence()
+    return watch.outcome()
+
+
+def _chosen(kind: str, name: str, devices: list[Any]) -> list[Any]:
+    if name == 'all' and kind != 'elevator' and devices:
+        return devices
+    chosen = [device for device in devices if device.name == name]
+    if not chosen:
+        known = ', '.join(device.name for device in devices)
+        raise Failure(f"there is no {kind} '{name}'; " +
+                      (f'known are {known}' if known else f'the world has no {kind}'))
+    return chosen
+
+
+class _Watch:
+    """The states of the devices that a command is for, and whether it is rejected."""
+
+    def __init__(self, client: Client, kind: str, name: str, devices: list[Any], order: Order
+                 ) -> None:
+        from angen_msgs.msg import Event
+        self.text = order.text.replace('NAME', name)
+        self._order, self._kind, self._name = order, kind, name
+        self._states: dict[str, Any] = {}
+        self._wanted = {device.topic: device.name for device in devices}
+        self._mail = Mailbox(client)
+        self._mail.listen('/angen/events', Event)
+        for device in devices:
+            self._mail.listen(device.topic, device.type)
+        self._mail.connected('/angen/events')
+        if not self._mail.until(self._hear, CONNECT_LIMIT):
+            raise Failure(f'the state of {kind} {name} is not published')
+
+    def _hear(self, topic: str, message: Any) -> bool:
+        """Keeps a state; Failure on our rejection. True when every device has a state."""
+        if topic in self._wanted:
+            self._states[topic] = message
+        elif message.event == 'rejected' and (
+                (message.source == self._name and message.kind == self._kind)
+                or f'`{self.text}`' in message.detail):
+            raise Failure(f'rejected: {message.detail}')
+        return len(self._states) == len(self._wanted)
+
+    def _taken(self) -> bool:
+        return all(self._order.taken(state) for state in self._states.values())
+
+    def outcome(self) -> str:
+        """What the states say once they show the command, within the limit."""
+        start = time.monotonic()
+        while True:
+            while mail := self._mail.get(0.0):
+                self._hear(*mail)
+            if self._taken():
+                return self._tell()
+            waited = time.monotonic() - start
+            if waited > QUEUED_AFTER and self._is_queued():
+                return f'{self._tell()}; {self._verb()} comes next'
+            if waited > TAKEN_LIMIT:
+                raise Failure(f'not taken within {TAKEN_LIMIT:g} s; {self._tell()}')
+            time.sleep(0.02)
+
+    def _is_queued(self) -> bool:
+        """An elevator on its way takes further floors in their turn."""
+        return self._kind == 'elevator' and any(
+            s.mode != s.IDLE or s.door_mode != s.DOOR_OPEN for s in self._states.values())
+
+    def _verb(self) -> str:
+        return self.text.split(',')[0].lower()
+
+    def _tell(self) -> str:
+        if self._name == 'all':
+            return f'all {len(self._states)} {self._kind}s: {self._verb()}'
+        return f'{self._kind} {self._name}: {describe(next(iter(self._states.values())))}'

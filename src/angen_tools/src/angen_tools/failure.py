@@ -1,0 +1,8 @@
+"""What the angen command says when something is wrong."""
+
+
+class Failure(Exception):
+    """Ends the command with exit code 1 and its text as one line on stderr."""
+
+    def __str__(self) -> str:
+        return '; '.join(line.strip() for line in super().__str__().splitlines() if line.strip())

@@ -1,0 +1,50 @@
+"""Finds models and what stands in them, where the simulator finds them."""
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from lxml import etree
+
+from . import sdf
+from .failure import Failure
+
+
+def worlds_models() -> Path:
+    """worlds/models of this Angen."""
+    import rospkg
+    try:
+        return Path(rospkg.RosPack().get_path('angen_sim')) / 'worlds/models'
+    except rospkg.ResourceNotFound:
+        raise Failure('the package angen_sim is not found; use ./angen, or source '
+                      'devel/setup.bash') from None
+
+
+def find(uri: str) -> Path | None:
+    """The SDF file of a model:// address or path; None where there is none."""
+    if uri.startswith('model://'):
+        folders = [Path(folder) for variable in ('ANGEN_MODEL_PATH', 'GAZEBO_MODEL_PATH')
+                   for folder in os.environ.get(variable, '').split(':') if folder]
+        places = [folder / uri.removeprefix('model://') for folder in [*folders, worlds_models()]]
+    else:
+        places = [Path(uri.removeprefix('file://'))]
+    for place in places:
+        if place.exists():
+            return place / 'model.sdf' if place.is_dir() else place
+    return None
+
+
+def collisions(world: etree._Element, link: str) -> list[str]:
+    """Names of the collisions of MODEL::LINK in a saved world; empty where they are not found."""
+    model_name, link_name = link.split('::', 1)
+    for entry in world.iterfind('world/*'):
+        model = entry
+        if entry.tag == 'include':
+            file = find(entry.findtext('uri', '').strip())
+            model = sdf.read(file).find('model') if file and file.exists() else None
+        if model is None or model.tag != 'model':
+            continue
+        if (entry.findtext('name') or model.get('name', '')).strip() == model_name:
+            return [collision.get('name', '') for part in model.iterfind('link')
+                    if part.get('name') == link_name for collision in part.iterfind('collision')]
+    return []

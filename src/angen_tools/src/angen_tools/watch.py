@@ -1,0 +1,157 @@
+"""angen watch: every device and sensor, live."""
+from __future__ import annotations
+
+import select
+import shutil
+import sys
+import termios
+import time
+import tty
+from contextlib import contextmanager
+from typing import Any, Iterator
+
+from .client import Client, Mailbox
+from .control import describe
+from .failure import Failure
+from .listing import number, table, yaw
+
+ONCE_LIMIT = 3.0   # s of wall time that `--once` gives to sensors of 1 Hz
+REFRESH = 0.25     # s of wall time between two pictures
+RELIST = 2.0       # s of wall time between two looks at what there is
+PERSON_MODES = ('standing', 'walking', 'blocked')
+
+
+def value_of(message: Any) -> str:
+    """A state or reading in a few words, by the name of its type."""
+    kind = type(message).__name__
+    say = VALUES.get(kind)
+    return say(message) if say else ''
+
+
+def _pir(m: Any) -> str:
+    return f'{"MOTION" if m.motion else "still"}  {m.difference:.3f} m'
+
+
+def _switch(m: Any) -> str:
+    return f'{"closed" if m.closed else "open"}  {m.ranges[0]:.3f} {m.ranges[1]:.3f} m'
+
+
+def _light(m: Any) -> str:
+    return f'{m.illuminance:.2f} lx  rgb {m.r:.2f} {m.g:.2f} {m.b:.2f}'
+
+
+def _contacts(m: Any) -> str:
+    force = sum(state.total_wrench.force.z for state in m.states)
+    others = sorted({state.collision2_name.split('::')[0] for state in m.states})
+    return f'{", ".join(others)}  {force:.1f} N' if m.states else 'nothing'
+
+
+def _person(m: Any) -> str:
+    at = m.pose.position
+    return f'{PERSON_MODES[m.mode]} at {number(at.x)} {number(at.y)} {number(at.z)}'
+
+
+def _odometry(m: Any) -> str:
+    at, speed = m.pose.pose, m.twist.twist
+    return (f'at {number(at.position.x)} {number(at.position.y)} m, {number(yaw(at.orientation))} '
+            f'rad, {number(speed.linear.x)} m/s {number(speed.angular.z)} rad/s')
+
+
+def _reading(m: Any) -> str:
+    numbers = [f'{name}={value:g}' for name, value in zip(m.names, m.values)]
+    return ' '.join(numbers + [f'{n}={t}' for n, t in zip(m.text_names, m.texts)])
+
+
+VALUES = {'PirMsg': _pir, 'SwitchMsg': _switch, 'LightSensMsg': _light, 'ContactsState': _contacts,
+          'PersonState': _person, 'Odometry': _odometry, 'Reading': _reading,
+          'DoorState': describe, 'ElevatorState': describe, 'LampState': describe}
+
+
+class Board:
+    """The latest message of every device and sensor."""
+
+    def __init__(self) -> None:
+        self._client = Client()
+        self._mail = Mailbox(self._client)
+        self._entities: list[Any] = []
+        self._latest: dict[str, Any] = {}
+        self.relist()
+
+    def relist(self) -> None:
+        """Follows what was spawned and deleted."""
+        entities = [e for e in self._client.entities() if e.topic]
+        old = {e.topic for e in self._entities}
+        new = {e.topic: e.type for e in entities}
+        for topic in old - set(new):
+            self._mail.leave(topic)
+            self._latest.pop(topic, None)
+        for topic in sorted(set(new) - old):
+            self._mail.listen(topic, new[topic])
+        self._entities = sorted(entities, key=lambda e: (e.kind, e.name))
+
+    def hear(self, limit: float) -> None:
+        """Takes messages for `limit` s of wall time, or until all have spoken the first time."""
+        waiting = len(self._latest) < len(self._entities)
+        self._mail.until(lambda *mail: self._take(*mail) and waiting, limit)
+
+    def _take(self, topic: str, message: Any) -> bool:
+        self._latest[topic] = message
+        return len(self._latest) >= len({e.topic for e in self._entities})
+
+    def lines(self) -> list[str]:
+        """The table's lines."""
+        return table(('KIND', 'NAME', 'VALUE', 'TIME'),
+                     (self._row(entity) for entity in self._entities)).splitlines()
+
+    def _row(self, entity: Any) -> list[str]:
+        message = self._latest.get(entity.topic)
+        if message is None:
+            return [entity.kind, entity.name, '-', '']
+        return [entity.kind, entity.name, value_of(message),
+                f'{message.header.stamp.to_sec():.1f}']
+
+
+def watch_once() -> str:
+    """The table with what each device and sensor said, after at most ONCE_LIMIT s."""
+    board = Board()
+    board.hear(ONCE_LIMIT)
+    return '\n'.join(board.lines())
+
+
+def watch() -> None:
+    """Draws the table anew until q or Ctrl-C."""
+    if not sys.stdin.isatty() or not sys.stdout.isatty():
+        raise Failure('a live table needs a terminal; use --once for one table')
+    board = Board()
+    listed = time.monotonic()
+    with _raw_keys():
+        while not select.select([sys.stdin], [], [], 0)[0] or sys.stdin.read(1) not in 'qQ':
+            board.hear(REFRESH)
+            if time.monotonic() - listed > RELIST:
+                board.relist()
+                listed = time.monotonic()
+            _draw(board.lines())
+
+
+def _draw(lines: list[str]) -> None:
+    size = shutil.get_terminal_size()
+    room = size.lines - 1
+    shown = lines if len(lines) <= room else lines[:room - 1] + [
+        f'… {len(lines) - room + 1} more; a taller terminal shows them']
+    picture = ''.join(f'{line[:size.columns]}\x1b[K\n' for line in shown)
+    sys.stdout.write(f'\x1b[H{picture}\x1b[Jq quits')
+    sys.stdout.flush()
+
+
+@contextmanager
+def _raw_keys() -> Iterator[None]:
+    """Keys come one by one and unseen, on a screen of its own; all is put back at the end."""
+    before = termios.tcgetattr(sys.stdin)
+    try:
+        tty.setcbreak(sys.stdin)
+        sys.stdout.write('\x1b[?1049h\x1b[?25l')
+        yield
+    finally:
+        termios.tcsetattr(sys.stdin, termios.TCSADRAIN, before)
+        sys.stdout.write('\x1b[?25h\x1b[?1049l')
+        sys.stdout.flush()
