@@ -225,7 +225,8 @@ def make_parser() -> argparse.ArgumentParser:
                    'save out.world')
     save.add_argument('file', metavar='FILE', type=Path)
     watch = command(commands, 'watch', run_watch,
-                    'shows every device and sensor live; q quits', 'watch', 'watch --once')
+                    'shows every device and sensor live; space turns the page, q quits',
+                    'watch', 'watch --once')
     watch.add_argument('--once', action='store_true', help='prints one table')
     check = command(commands, 'check', run_check,
                     'says what is wrong with a world file; needs no simulator',
@@ -256,6 +257,9 @@ def run(arguments: Sequence[str]) -> int:
         return STOPPED
     except BrokenPipeError:
         return PIPE_CLOSED
+    except OSError as error:
+        print(f'angen: cannot write: {error.strerror}', file=sys.stderr)
+        return 1
 
 
 def main() -> None:
@@ -271,6 +275,6 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         try:
             stream.flush()
-        except (BrokenPipeError, ValueError):
+        except OSError:
             pass
     os._exit(code)

@@ -1,4 +1,4 @@
-"""The running simulator, as the angen command reaches it: every wait has a limit in wall seconds."""
+"""The running simulator, as the angen command reaches it; each wait has a limit (wall seconds)."""
 from __future__ import annotations
 
 import queue

@@ -56,8 +56,8 @@ def check_name(name: str) -> str:
     if not name.strip():
         raise ValueError('the name is empty; give one, as kitchen_pir')
     if '::' in name or '/' in name or name != name.strip() or not name.isprintable():
-        raise ValueError(f"the name {name!r} holds what names cannot: '::', '/', control characters "
-                         'or blanks at an end')
+        raise ValueError(f"the name {name!r} holds what names cannot: '::', '/', control "
+                         'characters or blanks at an end')
     return name
 
 

@@ -1,13 +1,15 @@
 """angen watch: every device and sensor, live."""
 from __future__ import annotations
 
+import math
+import os
 import select
 import shutil
 import sys
 import termios
 import time
 import tty
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any, Iterator
 
 from .client import Client, Mailbox
@@ -91,12 +93,15 @@ class Board:
 
     def hear(self, limit: float) -> None:
         """Takes messages for `limit` s of wall time, or until all have spoken the first time."""
-        waiting = len(self._latest) < len(self._entities)
+        waiting = any(entity.topic not in self._latest for entity in self._entities)
         self._mail.until(lambda *mail: self._take(*mail) and waiting, limit)
 
     def _take(self, topic: str, message: Any) -> bool:
-        self._latest[topic] = message
-        return len(self._latest) >= len({e.topic for e in self._entities})
+        """True when all have spoken. What was sent by what is deleted now is let go."""
+        topics = {entity.topic for entity in self._entities}
+        if topic in topics:
+            self._latest[topic] = message
+        return len(self._latest) >= len(topics)
 
     def lines(self) -> list[str]:
         """The table's lines."""
@@ -119,28 +124,38 @@ def watch_once() -> str:
 
 
 def watch() -> None:
-    """Draws the table anew until q or Ctrl-C."""
+    """Draws the table anew until q or Ctrl-C; space turns its pages."""
     if not sys.stdin.isatty() or not sys.stdout.isatty():
         raise Failure('a live table needs a terminal; use --once for one table')
     board = Board()
     listed = time.monotonic()
-    with _raw_keys():
-        while not select.select([sys.stdin], [], [], 0)[0] or sys.stdin.read(1) not in 'qQ':
+    page = 0
+    with _raw_keys(), suppress(KeyboardInterrupt):
+        while (key := _key()) not in ('q', 'Q'):
+            page += key == ' '
             board.hear(REFRESH)
             if time.monotonic() - listed > RELIST:
                 board.relist()
                 listed = time.monotonic()
-            _draw(board.lines())
+            sys.stdout.write(_picture(board.lines(), page))
+            sys.stdout.flush()
 
 
-def _draw(lines: list[str]) -> None:
+def _key() -> str:
+    """A key that was pressed, "" if none was."""
+    ready = select.select([sys.stdin], [], [], 0)[0]
+    return os.read(sys.stdin.fileno(), 1).decode(errors='replace') if ready else ''
+
+
+def _picture(lines: list[str], page: int) -> str:
     size = shutil.get_terminal_size()
-    room = size.lines - 1
-    shown = lines if len(lines) <= room else lines[:room - 1] + [
-        f'… {len(lines) - room + 1} more; a taller terminal shows them']
-    picture = ''.join(f'{line[:size.columns]}\x1b[K\n' for line in shown)
-    sys.stdout.write(f'\x1b[H{picture}\x1b[Jq quits')
-    sys.stdout.flush()
+    rows = max(1, size.lines - 2)
+    head, body = lines[0], lines[1:]
+    pages = max(1, math.ceil(len(body) / rows))
+    first = page % pages * rows
+    turn = f'page {page % pages + 1} of {pages}: space turns it; ' if pages > 1 else ''
+    shown = [line[:size.columns] for line in [head, *body[first:first + rows]]]
+    return '\x1b[H' + ''.join(f'{line}\x1b[K\n' for line in shown) + f'\x1b[J{turn}q quits'
 
 
 @contextmanager
