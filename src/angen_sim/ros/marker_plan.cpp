@@ -8,7 +8,9 @@ namespace angen::node {
 namespace {
 
 constexpr std::size_t kBuildingLinks = 10;
-constexpr float kWallAlpha = 0.3F;  // one sees the rooms through it
+// One sees the rooms through walls, and a storey through the floor of the next.
+constexpr float kWallAlpha = 0.22F;
+constexpr float kUpperFloorAlpha = 0.5F;
 
 bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
@@ -21,6 +23,11 @@ bool is_ground(const desc::Link& link) {
 std::string device_group(const std::string& kind) {
   if (kind == "person") return "people";
   return kind == "drive" ? "robots" : kind + "s";
+}
+
+float strongest_alpha(const std::string& group) {
+  if (group.rfind("walls", 0) == 0) return kWallAlpha;
+  return group.rfind("floors", 0) == 0 && group != "floors 0" ? kUpperFloorAlpha : 1.0F;
 }
 
 }  // namespace
@@ -48,14 +55,14 @@ DrawnModel draw_model(const sim::Structure& structure, std::uint32_t first_link,
   drawn.model = structure.models[structure.links[first_link].model];
   for (std::uint32_t l = 0; l < drawn.model->links.size(); ++l) {
     const std::string group = marker_group(structure, first_link + l);
-    const bool see_through = group.rfind("walls", 0) == 0;
+    const float alpha = strongest_alpha(group);
     std::vector<Drawing> drawings;
     for (const desc::Visual& visual : drawn.model->links[l].visuals) {
       for (Drawing& drawing : draw(visual)) {
         drawing.marker.header.frame_id = "world";
         drawing.marker.ns = group;
         drawing.marker.id = next_id++;
-        if (see_through) drawing.marker.color.a = std::min(drawing.marker.color.a, kWallAlpha);
+        drawing.marker.color.a = std::min(drawing.marker.color.a, alpha);
         drawings.push_back(std::move(drawing));
       }
     }

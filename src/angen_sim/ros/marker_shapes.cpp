@@ -12,9 +12,11 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr double kThin = 0.002;      // m, a plane's slab
-constexpr double kEndless = 100.0;   // m, a plane without a size
-constexpr double kRayWidth = 0.006;  // m
+constexpr double kThin = 0.002;     // m, a plane's slab
+constexpr double kEndless = 100.0;  // m, a plane without a size
+constexpr double kRayWidth = 0.01;  // m
+constexpr double kDarkBall = 0.1;   // m, diameter of a lamp's light
+constexpr double kLitBall = 0.5;    // m, its glow at full level
 
 Marker sized(int type, double x, double y, double z) {
   Marker marker;
@@ -139,13 +141,12 @@ std::vector<Drawing> draw(const desc::Visual& visual) {
 }
 
 Marker draw(const desc::Light& light, double level) {
-  Marker marker = sized(Marker::SPHERE, 0.16, 0.16, 0.16);
-  const Eigen::Vector3f& c = light.diffuse;
-  const float strongest = std::max(c.maxCoeff(), 1e-3F);
-  const auto part = static_cast<float>(std::sqrt(std::clamp(level, 0.0, 1.0)));
-  const auto channel = [&](float lit, float dark) { return dark + (lit - dark) * part; };
-  marker.color = color(channel(c[0] / strongest, 0.25F), channel(c[1] / strongest, 0.25F),
-                       channel(0.6F * c[2] / strongest, 0.28F), 1.0F);
+  const double part = std::sqrt(std::clamp(level, 0.0, 1.0));
+  const double width = part > 0.0 ? kDarkBall + (kLitBall - kDarkBall) * part : kDarkBall;
+  Marker marker = sized(Marker::SPHERE, width, width, width);
+  const Eigen::Vector3f c = light.diffuse / std::max(light.diffuse.maxCoeff(), 1e-3F);
+  marker.color =
+      part > 0.0 ? color(c[0], 0.95F * c[1], 0.4F * c[2], 0.75F) : color(0.25F, 0.25F, 0.28F, 1.0F);
   return marker;
 }
 

@@ -17,7 +17,7 @@ bool has_beams(const sim::SensorEntry& sensor) {
 std_msgs::ColorRGBA beam_color(const std::string& kind, bool fired) {
   if (kind == "switch")
     return fired ? color(0.1F, 0.8F, 0.2F, 1.0F) : color(0.9F, 0.1F, 0.1F, 1.0F);
-  return fired ? color(1.0F, 0.25F, 0.1F, 0.9F) : color(0.1F, 0.35F, 1.0F, 0.35F);
+  return fired ? color(1.0F, 0.25F, 0.1F, 0.8F) : color(0.1F, 0.3F, 1.0F, 0.45F);
 }
 
 bool apart(const std::vector<double>& a, const std::vector<double>& b) {

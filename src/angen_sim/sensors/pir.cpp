@@ -59,6 +59,7 @@ class Pir : public Sensor {
   void read(const View&, Hits hits, Rng& rng, Reading& reading) override {
     Ranges ranges = fan_.measure(hits, rng);
     const double difference = greatest_difference(ranges, previous_[phase_]);
+    reading.set("ranges", ranges);  // for those who draw the rays
     previous_[phase_] = std::move(ranges);
     const bool motion = difference > threshold_;
     reading.set("motion", motion);
