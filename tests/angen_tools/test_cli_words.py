@@ -191,6 +191,16 @@ def test_a_command_is_taken_when_its_state_follows(kind: str, value: str, yes: o
     assert taken(yes) and not taken(no)
 
 
+def test_what_a_command_may_wait_for() -> None:
+    standing = ElevatorState(door_mode=ElevatorState.DOOR_OPEN)
+    going = ElevatorState(mode=ElevatorState.UP)
+    assert control.waits_for('elevator', [standing], False) == ''
+    assert control.waits_for('elevator', [going], False) == 'next'
+    assert control.waits_for('elevator', [ElevatorState()], False) == 'next'
+    assert control.waits_for('door', [DoorState(mode=DoorState.BLOCKED)], False) == ''
+    assert 'paused' in control.waits_for('door', [DoorState()], True)
+
+
 @pytest.mark.parametrize('state, text', [
     (DoorState(mode=DoorState.OPENING, position=-0.5, target=-1.57),
      'opening at -0.50 rad, to -1.57 rad'),

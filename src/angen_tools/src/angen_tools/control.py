@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import dataclass
-from typing import Any, Callable
+from typing import Any, Callable, Iterable
 
 from .client import CONNECT_LIMIT, Client, Mailbox
 from .failure import Failure
@@ -83,6 +83,16 @@ def describe(state: Any) -> str:
     return f'on at {state.level:g} %, {state.luminous_flux:.0f} lm' if state.on else 'off'
 
 
+def waits_for(kind: str, states: Iterable[Any], paused: bool) -> str:
+    """What a command that was not rejected may wait for, "" if nothing."""
+    if paused:
+        return 'when time goes on: the simulation is paused'
+    # An elevator on its way takes further floors in their turn.
+    on_its_way = kind == 'elevator' and any(
+        s.mode != s.IDLE or s.door_mode != s.DOOR_OPEN for s in states)
+    return 'next' if on_its_way else ''
+
+
 def set_device(kind: str, name: str, value: str) -> str:
     """Sends the command and waits until the states show it; returns what was done.
 
@@ -115,13 +125,15 @@ class _Watch:
 
     def __init__(self, client: Client, kind: str, name: str, devices: list[Any], order: Order
                  ) -> None:
-        from angen_msgs.msg import Event
+        from angen_msgs.msg import Event, Stats
         self.text = order.text.replace('NAME', name)
         self._order, self._kind, self._name = order, kind, name
         self._states: dict[str, Any] = {}
+        self._paused = False
         self._wanted = {device.topic: device.name for device in devices}
         self._mail = Mailbox(client)
         self._mail.listen('/angen/events', Event)
+        self._mail.listen('/angen/stats', Stats)
         for device in devices:
             self._mail.listen(device.topic, device.type)
         self._mail.connected('/angen/events')
@@ -129,9 +141,11 @@ class _Watch:
             raise Failure(f'the state of {kind} {name} is not published')
 
     def _hear(self, topic: str, message: Any) -> bool:
-        """Keeps a state; Failure on our rejection. True when every device has a state."""
+        """Takes what a topic says; Failure on our rejection. True when every device has a state."""
         if topic in self._wanted:
             self._states[topic] = message
+        elif topic == '/angen/stats':
+            self._paused = message.paused
         elif message.event == 'rejected' and (
                 (message.source == self._name and message.kind == self._kind)
                 or f'`{self.text}`' in message.detail):
@@ -150,16 +164,12 @@ class _Watch:
             if self._taken():
                 return self._tell()
             waited = time.monotonic() - start
-            if waited > QUEUED_AFTER and self._is_queued():
-                return f'{self._tell()}; {self._verb()} comes next'
+            later = waits_for(self._kind, self._states.values(), self._paused)
+            if waited > QUEUED_AFTER and later:
+                return f'{self._tell()}; {self._verb()} comes {later}'
             if waited > TAKEN_LIMIT:
                 raise Failure(f'not taken within {TAKEN_LIMIT:g} s; {self._tell()}')
             time.sleep(0.02)
-
-    def _is_queued(self) -> bool:
-        """An elevator on its way takes further floors in their turn."""
-        return self._kind == 'elevator' and any(
-            s.mode != s.IDLE or s.door_mode != s.DOOR_OPEN for s in self._states.values())
 
     def _verb(self) -> str:
         return self.text.split(',')[0].lower()

@@ -1,0 +1,257 @@
+"""The angen command against the real node."""
+from __future__ import annotations
+
+import fcntl
+import json
+import os
+import pty
+import signal
+import subprocess
+import sys
+import termios
+from pathlib import Path
+from typing import Any, Iterator
+
+import pytest
+from angen_msgs.srv import Step
+from conftest import Angen, Master, end, until
+from lxml import etree
+from std_srvs.srv import Empty
+
+ROOT = Path(__file__).resolve().parents[2]
+SCRIPT = ROOT / 'src/angen_tools/scripts/angen'
+EMPTY = ROOT / 'worlds/empty.world'
+
+
+class Cli:
+    """The angen command in the environment of a master."""
+
+    def __init__(self, master: Master) -> None:
+        self.environment = dict(master.environment, PYTHONUNBUFFERED='1', TERM='xterm')
+        self.words = [sys.executable, str(SCRIPT)]
+
+    def run(self, *words: str) -> subprocess.CompletedProcess[str]:
+        return subprocess.run([*self.words, *words], env=self.environment, text=True,
+                              capture_output=True, stdin=subprocess.DEVNULL, timeout=120)
+
+    def does(self, *words: str) -> str:
+        """What it says when it succeeds, without the newline."""
+        done = self.run(*words)
+        assert (done.returncode, done.stderr) == (0, ''), done
+        return done.stdout.removesuffix('\n')
+
+    def fails(self, *words: str) -> str:
+        """The one line that it says when it fails."""
+        done = self.run(*words)
+        assert (done.returncode, done.stdout) == (1, ''), done
+        line, = done.stderr.splitlines()
+        assert line.startswith('angen: ')
+        return line.removeprefix('angen: ')
+
+    def listed(self, kind: str) -> list[str]:
+        return [e['name'] for e in json.loads(self.does('list', '--kind', kind, '--json'))]
+
+
+@pytest.fixture
+def cli(angen: Angen) -> Cli:
+    return Cli(angen.master)
+
+
+@pytest.fixture
+def spawned(cli: Cli) -> Iterator[list[str]]:
+    """Names that are deleted when the test ends."""
+    names: list[str] = []
+    yield names
+    for name in names:
+        cli.run('delete', name)
+
+
+def test_a_sensor_comes_and_goes(cli: Cli, angen: Angen, spawned: list[str]) -> None:
+    spawned.append('cli_pir')
+    said = cli.does('spawn', 'pir', 'cli_pir', '--pose', '-1 1 1.2 0 0 1.5',
+                    '--set', 'ray/range/max=4')
+    assert said == 'spawned the pir cli_pir, see /angen/pir/cli_pir'
+    assert angen.master.topics()['/angen/pir/cli_pir'] == 'angen_msgs/PirMsg'
+    entity, = [e for e in json.loads(cli.does('list', '--kind', 'pir', '--json'))
+               if e['name'] == 'cli_pir']
+    assert entity['pose']['position'] == pytest.approx([-1, 1, 1.2])
+    assert 'exists' in cli.fails('spawn', 'pir', 'cli_pir', '--pose', '0 0 1')
+    assert cli.does('delete', 'cli_pir') == 'deleted cli_pir'
+    assert '/angen/pir/cli_pir' not in angen.master.topics()
+    assert 'cli_pir' in cli.fails('delete', 'cli_pir')
+
+
+def test_a_contact_sensor_watches_every_collision_of_its_link(
+        cli: Cli, angen: Angen, spawned: list[str]) -> None:
+    from gazebo_msgs.msg import ContactsState
+    spawned += ['cli_touch', 'cli_table']
+    cli.does('spawn', 'model', 'model://kitchen_table', 'cli_table', '--pose', '-5 -5 0.01')
+    cli.does('spawn', 'contact', 'cli_touch', '--on', 'cli_table::body')
+    touched = angen.wait('/angen/contact/cli_touch', ContactsState, lambda m: len(m.states) == 4)
+    assert {state.collision2_name for state in touched.states} == {'ground::link::c'}
+    assert 'known are body' in cli.fails('spawn', 'contact', 'c9', '--on', 'cli_table::top')
+
+
+def test_a_model_of_the_users_own(cli: Cli, spawned: list[str], tmp_path: Path) -> None:
+    spawned.append('cli_box')
+    file = tmp_path / 'box.sdf'
+    file.write_text('<sdf version="1.6"><model name="b"><static>true</static><link name="l"/>'
+                    '</model></sdf>')
+    assert 'cli_box' in cli.does('spawn', 'model', str(file), 'cli_box', '--pose', '3 3 3')
+    assert 'cli_box' in cli.listed('model')
+    assert 'model://no_such' in cli.fails('spawn', 'model', 'model://no_such', 'x', '--pose',
+                                          '0 0 0')
+
+
+def test_delete_stops_at_the_first_that_is_not_there(cli: Cli, spawned: list[str]) -> None:
+    spawned += ['cli_a', 'cli_b']
+    for name in spawned:
+        cli.does('spawn', 'switch', name, '--pose', '0 -3 1')
+    line = cli.fails('delete', 'cli_a', 'cli_nobody', 'cli_b')
+    assert 'cli_nobody' in line and line.endswith('deleted before: cli_a')
+    assert [n for n in cli.listed('switch') if n.startswith('cli_')] == ['cli_b']
+
+
+def test_list_is_an_aligned_table(cli: Cli) -> None:
+    head, *rows = cli.does('list').splitlines()
+    columns = [head.index(word) for word in ('NAME', 'KIND', 'MODEL', 'X')]
+    assert all(row[at - 1:at] in ('', ' ') and row[at] != ' ' for row in rows for at in columns)
+    assert cli.does('list', '--kind', 'person').splitlines() == [
+        'NAME  KIND  MODEL  X  Y  Z  YAW  TOPIC']
+    assert 'door' in cli.fails('list', '--kind', 'dor')
+
+
+def test_a_door_is_set(cli: Cli) -> None:
+    assert cli.does('set', 'door', 'bathroom0', '-0.4').startswith('door bathroom0: opening')
+    assert cli.does('set', 'door', 'all', 'close') == 'all 1 doors: close'
+    assert cli.fails('set', 'door', 'cellar7', 'open') == (
+        "there is no door 'cellar7'; known are bathroom0")
+    assert 'outside the hinge' in cli.fails('set', 'door', 'bathroom0', '-3')
+
+
+def test_a_lamp_is_set(cli: Cli) -> None:
+    assert cli.does('set', 'lamp', 'kitchen0', '40') == 'lamp kitchen0: on at 40 %, 320 lm'
+    assert cli.does('set', 'lamp', 'kitchen0', 'off') == 'lamp kitchen0: off'
+    assert cli.does('set', 'lamp', 'kitchen0', 'off') == 'lamp kitchen0: off'
+
+
+def test_an_elevator_that_is_not_there(cli: Cli) -> None:
+    assert cli.fails('set', 'elevator', 'elevator', '1') == (
+        "there is no elevator 'elevator'; the world has no elevator")
+
+
+def test_what_an_accepted_command_waits_for(cli: Cli, angen: Angen, spawned: list[str]) -> None:
+    spawned.append('cli_lift')
+    cli.does('spawn', 'model', 'model://elevator', 'cli_lift', '--pose', '-9 -9 0.3')
+    angen.call('/gazebo/pause_physics', Empty)
+    try:
+        angen.call('/angen/step', Step, ticks=6000)
+        assert cli.does('set', 'elevator', 'cli_lift', '1').endswith(
+            'doors open; floor1 comes when time goes on: the simulation is paused')
+    finally:
+        angen.call('/gazebo/unpause_physics', Empty)
+    assert 'to floor 1' in cli.does('set', 'elevator', 'cli_lift', '1')
+    assert 'Floor0 to Floor1' in cli.fails('set', 'elevator', 'cli_lift', '2')
+
+
+def test_no_command_stays_with_the_master(cli: Cli, angen: Angen) -> None:
+    cli.does('set', 'lamp', 'kitchen0', 'on')
+    cli.does('watch', '--once')
+    state = angen.master.api.getSystemState('/test')[2]
+    nodes = {node for kind in state for _, names in kind for node in names}
+    assert not [node for node in nodes if 'angen_command' in node]
+
+
+def test_save_writes_a_world_that_loads(cli: Cli, tmp_path: Path) -> None:
+    out = tmp_path / 'out.world'
+    assert cli.does('save', str(out)) == f'saved {len(cli.listed("model"))} models to {out}'
+    assert 'nothing is wrong' in cli.does('check', str(out))
+    assert [path.name for path in tmp_path.iterdir()] == ['out.world']
+    assert 'cannot be written' in cli.fails('save', str(tmp_path / 'no/out.world'))
+
+
+def test_one_table_of_all_values(cli: Cli) -> None:
+    rows = {tuple(row.split()[:2]): row for row in cli.does('watch', '--once').splitlines()}
+    assert 'rad' in rows['door', 'bathroom0'] and 'm/s' in rows['drive', 'turtlebot']
+    assert ('lamp', 'kitchen0') in rows and ' m ' in rows['pir', 'eye']
+
+
+@pytest.mark.parametrize('key', [b'q', b'\x03'])
+def test_the_live_table_ends_by_a_key_and_cleans_the_terminal(cli: Cli, key: bytes) -> None:
+    ours, theirs = pty.openpty()
+    before = termios.tcgetattr(theirs)
+    watching = subprocess.Popen(
+        [*cli.words, 'watch'], env=cli.environment, stdin=theirs, stdout=theirs, stderr=theirs,
+        preexec_fn=own_terminal)
+    shown = b''
+    while b'kitchen0' not in shown:
+        shown += os.read(ours, 4096)
+    os.write(ours, key)
+    assert watching.wait(30) == 0
+    assert termios.tcgetattr(theirs) == before
+    os.close(theirs)
+    os.close(ours)
+
+
+def own_terminal() -> None:
+    """Makes stdin the terminal of a session, so that its Ctrl-C reaches the command."""
+    os.setsid()
+    fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+
+
+def test_ctrl_c_is_quiet(angen: Angen, cli: Cli) -> None:
+    """While it waits for a simulator that has stopped to answer."""
+    os.kill(angen.process.pid, signal.SIGSTOP)
+    try:
+        asking = subprocess.Popen([*cli.words, 'list'], env=cli.environment, text=True,
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        until(lambda: 'futex' in wchan(asking.pid), 'it waits for the answer')
+        asking.send_signal(signal.SIGINT)
+        said = asking.communicate(timeout=30)
+        assert (asking.returncode, said) == (130, ('', ''))
+    finally:
+        os.kill(angen.process.pid, signal.SIGCONT)
+
+
+def wchan(pid: int) -> str:
+    """What the kernel says that the process waits in."""
+    return Path(f'/proc/{pid}/wchan').read_text()
+
+
+@pytest.fixture
+def empty_house(tmp_path: Path) -> Iterator[Cli]:
+    """A node of its own with worlds/empty.world, as fast as it goes."""
+    folder = tmp_path / 'ros'
+    folder.mkdir()
+    master = Master(folder)
+    process: Any = None
+    try:
+        process = master.node(EMPTY, folder / 'log', rate=4)
+        yield Cli(master)
+    finally:
+        if process is not None:
+            end(process)
+        end(master.process)
+
+
+def test_three_apartments_from_the_empty_world(empty_house: Cli, tmp_path: Path) -> None:
+    blocks = subprocess.run([sys.executable, str(ROOT / 'worlds/make_worlds.py'), '--list-doors',
+                             '--floor', '0'], text=True, capture_output=True, check=True).stdout
+    for floor in range(3):
+        empty_house.does('spawn', 'model', 'model://apartment', f'apartment{floor}', '--pose',
+                         f'0 0 {4 * floor}')
+        for line in blocks.splitlines():
+            uri, name, pose = line.split(' ', 2)
+            x, y, _, *turn = pose.strip('"').split()
+            empty_house.does('spawn', 'model', uri, f'{name[:-1]}{floor}', '--pose',
+                             ' '.join([x, y, str(4 * floor), *turn]))
+    doors = empty_house.listed('door')
+    assert len(doors) == 18 and 'kitchen2' in doors
+    assert empty_house.does('set', 'door', 'kitchen2', 'open').startswith('door kitchen2: open')
+    empty_house.does('spawn', 'model', 'model://elevator', 'elevator', '--pose', '-3.65 5 0')
+    assert 'to floor 1' in empty_house.does('set', 'elevator', 'elevator', '1')
+    assert 'Floor0 to Floor1' in empty_house.fails('set', 'elevator', 'elevator', '2')
+    out = tmp_path / 'three.world'
+    empty_house.does('save', str(out))
+    assert len(etree.parse(str(out)).xpath('world/include')) == 22
+    assert '23 models' in empty_house.does('check', str(out))  # and the ground
