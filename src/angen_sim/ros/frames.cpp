@@ -64,6 +64,16 @@ std::string value_of(const std::vector<const Element*>& elements, const std::str
   return fallback;
 }
 
+// A topic that starts with / means itself; others stand under the robot's name, and the first
+// robot's also without it.
+std::vector<std::string> robot_topics(const std::string& robot, const std::string& asked,
+                                      bool first) {
+  if (!asked.empty() && asked[0] == '/') return {graph_name(asked)};
+  std::vector<std::string> topics = {graph_name("/" + robot + "/" + asked)};
+  if (first) topics.push_back(graph_name("/" + asked));
+  return topics;
+}
+
 class Builder {
  public:
   Builder(const sim::Snapshot& snapshot, const std::vector<Robot>& robots)
@@ -135,10 +145,6 @@ class Builder {
   void add_sensors() {
     for (const sim::SensorEntry& sensor : structure_.sensors) {
       std::string frame = sensor.frame.empty() ? sensor.name : sensor.frame;
-      const Robot* owner = robot(sensor.link);
-      if (owner != nullptr && !owner->first && !sensor.frame.empty()) {
-        frame = owner->name + "/" + frame;
-      }
       if (frame == frames_[sensor.link]) {  // an SDF that names its link's frame means it
         tree_.sensors.push_back(frame);
         continue;
@@ -163,20 +169,6 @@ class Builder {
 
 }  // namespace
 
-std::vector<std::string> robot_topics(const Robot& robot, const std::string& asked) {
-  if (!asked.empty() && asked[0] == '/') return {graph_name(asked)};
-  std::vector<std::string> topics = {graph_name("/" + robot.name + "/" + asked)};
-  if (robot.first) topics.push_back(graph_name("/" + asked));
-  return topics;
-}
-
-const Robot* robot_in(const std::vector<Robot>& robots, std::uint32_t model) {
-  for (const Robot& robot : robots) {
-    if (robot.model == model) return &robot;
-  }
-  return nullptr;
-}
-
 std::vector<Robot> find_robots(const sim::Structure& structure,
                                const std::vector<desc::Plugin>& world_plugins) {
   std::vector<Robot> robots;
@@ -198,9 +190,11 @@ std::vector<Robot> find_robots(const sim::Structure& structure,
     const std::string base = value_of(elements, "robotBaseFrame", "base_footprint");
     robot.odom_frame = prefix + value_of(elements, "odometryFrame", "odom");
     robot.base_frame = prefix + base;
-    robot.first = robots.empty();
-    robot.command_topics = robot_topics(robot, value_of(elements, "commandTopic", "cmd_vel"));
-    robot.odometry_topics = robot_topics(robot, value_of(elements, "odometryTopic", "odom"));
+    const bool first = robots.empty();
+    robot.command_topics =
+        robot_topics(robot.name, value_of(elements, "commandTopic", "cmd_vel"), first);
+    robot.odometry_topics =
+        robot_topics(robot.name, value_of(elements, "odometryTopic", "odom"), first);
     bool found = false;
     for (std::uint32_t l = 0; l < structure.links.size(); ++l) {
       const sim::LinkEntry& link = structure.links[l];

@@ -28,7 +28,7 @@ Node::Node(sim::Simulation& simulation, const Settings& settings)
       events_(handle_),
       transforms_(handle_),
       markers_(handle_),
-      publishers_(handle_, simulation),
+      publishers_(handle_),
       commands_(handle_, inbox_),
       services_(handle_, inbox_, settings.models) {}
 
