@@ -1,0 +1,87 @@
+#include "sim/simulation.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "load/load.h"
+
+namespace angen::sim {
+namespace {
+
+std::unique_ptr<Simulation> floor_only() {
+  const std::string text = R"(<sdf version="1.6"><world name="w"><model name="floor">
+      <static>true</static><link name="link"/></model></world></sdf>)";
+  return std::make_unique<Simulation>(load::world_from_text(text, "test", {}), 0,
+                                      std::make_shared<Catalog>());
+}
+
+bool ready(const std::future<Outcome>& future) {
+  return future.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+TEST(Simulation, PausedTimeStandsStillAndCommandsAreStillAnswered) {
+  const auto simulation = floor_only();
+  simulation->post(Pause{true});
+  simulation->tick();
+  std::future<Outcome> refused = simulation->post(Delete{"nothing"});
+  EXPECT_EQ(simulation->tick()->time, 0);
+  ASSERT_TRUE(ready(refused));
+  EXPECT_FALSE(refused.get().ok);
+}
+
+TEST(Simulation, AStepIsAnsweredWhenItsTicksAreDone) {
+  const auto simulation = floor_only();
+  simulation->post(Pause{true});
+  simulation->tick();
+  std::future<Outcome> done = simulation->post(Step{3});
+  for (int i = 1; i <= 3; ++i) {
+    EXPECT_FALSE(ready(done));
+    EXPECT_EQ(simulation->tick()->tick, i);
+  }
+  ASSERT_TRUE(ready(done));
+  EXPECT_FALSE(simulation->running());
+  EXPECT_EQ(simulation->tick()->tick, 3);
+}
+
+TEST(Simulation, CommandsFromManyThreadsAreEachAnsweredOnce) {
+  const auto simulation = floor_only();
+  std::vector<std::thread> threads;
+  std::vector<std::future<Outcome>> answers(80);
+  for (int t = 0; t < 4; ++t) {
+    threads.emplace_back([&, t] {
+      for (int i = 0; i < 20; ++i) {
+        answers[static_cast<std::size_t>(20 * t + i)] = simulation->post(Delete{"nothing"});
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(simulation->tick()->events.size(), 80U);
+  for (std::future<Outcome>& answer : answers) EXPECT_FALSE(answer.get().ok);
+}
+
+TEST(Simulation, WhatStillWaitsIsAnsweredAtTheEnd) {
+  auto simulation = floor_only();
+  std::future<Outcome> waiting = simulation->post(Delete{"floor"});
+  simulation.reset();
+  EXPECT_EQ(waiting.get().message, "the simulator ended");
+}
+
+TEST(Simulation, ASnapshotThatIsKeptDoesNotChange) {
+  const auto simulation = floor_only();
+  const auto before = simulation->tick();
+  simulation->post(Delete{"floor"});
+  simulation->tick();
+  EXPECT_EQ(before->structure->models.size(), 1U);
+  EXPECT_EQ(before->link_poses.size(), 1U);
+  EXPECT_TRUE(simulation->snapshot()->structure->models.empty());
+}
+
+TEST(Simulation, ATimeIsTicksTimesStepExactly) {
+  const auto simulation = floor_only();
+  for (int i = 0; i < 12345; ++i) simulation->tick();
+  EXPECT_EQ(simulation->snapshot()->time, 12345 * simulation->world().physics.step);
+}
+
+}  // namespace
+}  // namespace angen::sim
