@@ -13,7 +13,7 @@ from .sdf import SDF_VERSION, add, add_plugin, numbers, write
 Pose = tuple[float, float, float, float, float, float]
 
 
-def _new_world(name: str) -> tuple[etree._Element, etree._Element]:
+def new_world(name: str) -> tuple[etree._Element, etree._Element]:
     """Returns (<sdf>, <world>) with physics, scene and the ground."""
     root = etree.Element("sdf", version=SDF_VERSION)
     world = add(root, "world", name=name)
@@ -33,7 +33,7 @@ def _new_world(name: str) -> tuple[etree._Element, etree._Element]:
     return root, world
 
 
-def _add_world_plugins(world: etree._Element) -> None:
+def add_world_plugins(world: etree._Element) -> None:
     """Appends the plug-ins that serve every door and every robot, also those spawned later."""
     add_plugin(world, "door_controller", "libdoor_world_plugin.so", p=70, i=200, d=25, i_max=100,
                i_min=-100, cmd_max=120, cmd_min=-120)
@@ -44,7 +44,8 @@ def _add_world_plugins(world: etree._Element) -> None:
                rightJoint="right_wheel_joint", updateRate=50)
 
 
-def _include(world: etree._Element, model: str, name: str, pose: Pose) -> None:
+def include(world: etree._Element, model: str, name: str, pose: Pose) -> None:
+    """Appends a model of worlds/models as a block."""
     block = add(world, "include")
     add(block, "name", name)
     add(block, "pose", numbers(*pose))
@@ -65,34 +66,43 @@ def switch_pose(room: str, floor: int) -> Pose:
             z + floor * plan.STOREY, 0.0, 0.0, yaw)
 
 
-def _add_devices(world: etree._Element, floor: int) -> None:
+def add_devices(world: etree._Element, floor: int) -> None:
+    """Appends the doors and lamps of a floor."""
     for room in plan.ROOMS:
-        _include(world, f"{room}_door", f"{room}_door{floor}", door_pose(room, floor))
+        include(world, f"{room}_door", f"{room}_door{floor}", door_pose(room, floor))
     for room, (x, y) in plan.LAMPS.items():
-        _include(world, "ceiling_lamp", f"{room}_lamp{floor}",
-                 (x, y, plan.CEILING + floor * plan.STOREY, 0, 0, 0))
+        include(world, "ceiling_lamp", f"{room}_lamp{floor}",
+                (x, y, plan.CEILING + floor * plan.STOREY, 0, 0, 0))
 
 
 def _add_sensors(world: etree._Element, floor: int) -> None:
     z = floor * plan.STOREY
     for room in plan.ROOMS:
-        _include(world, "optical_switch", f"{room}_switch{floor}", switch_pose(room, floor))
+        include(world, "optical_switch", f"{room}_switch{floor}", switch_pose(room, floor))
     for room, corners in plan.PIRS.items():
         for suffix, (x, y, yaw) in zip("ab", corners):
             nods = (room, suffix) == plan.NODDING_PIR
-            _include(world, "pir_nodding" if nods else "pir", f"{room}_pir{floor}_{suffix}",
-                     (x, y, plan.PIR_HEIGHT + z, 0, plan.PIR_PITCH, yaw))
+            include(world, "pir_nodding" if nods else "pir", f"{room}_pir{floor}_{suffix}",
+                    (x, y, plan.PIR_HEIGHT + z, 0, plan.PIR_PITCH, yaw))
     for room, (x, y, yaw) in plan.LUX.items():
-        _include(world, "luminosity_sensor", f"{room}_lux{floor}",
-                 (x, y, plan.LUX_HEIGHT + z, 0, plan.LUX_PITCH, yaw))
+        include(world, "luminosity_sensor", f"{room}_lux{floor}",
+                (x, y, plan.LUX_HEIGHT + z, 0, plan.LUX_PITCH, yaw))
+
+
+def furniture_in(room: str, floor: int) -> list[tuple[str, str, Pose]]:
+    """Returns model, name and pose of each piece in a room."""
+    found = []
+    for model, suffix, x, y, yaw in plan.FURNITURE.get(room, ()):
+        own = model if model.startswith(room) else f"{room}_{model}"
+        z = floor * plan.STOREY + (0.001 if model in plan.RAISED else 0.0)
+        found.append((model, f"{own}{floor}{suffix}", (x, y, z, 0.0, 0.0, yaw)))
+    return found
 
 
 def _add_furniture(world: etree._Element, floor: int) -> None:
-    for room, pieces in plan.FURNITURE.items():
-        for model, suffix, x, y, yaw in pieces:
-            own = model if model.startswith(room) else f"{room}_{model}"
-            z = floor * plan.STOREY + (0.001 if model in plan.RAISED else 0.0)
-            _include(world, model, f"{own}{floor}{suffix}", (x, y, z, 0, 0, yaw))
+    for room in plan.FURNITURE:
+        for piece in furniture_in(room, floor):
+            include(world, *piece)
 
 
 def walk() -> list[tuple[float, float, float, float]]:
@@ -116,7 +126,8 @@ def walk() -> list[tuple[float, float, float, float]]:
     return points
 
 
-def _add_person(world: etree._Element) -> None:
+def add_person(world: etree._Element) -> None:
+    """Appends the person who walks round floor 0."""
     actor = add(world, "actor", name="person")
     script = add(actor, "script")
     add(script, "loop", "true")
@@ -129,7 +140,7 @@ def _add_person(world: etree._Element) -> None:
         add(waypoint, "pose", numbers(x, y, 0, 0, 0, round(yaw, 5)))
 
 
-def _add_state(world: etree._Element, name: str) -> None:
+def add_state(world: etree._Element, name: str) -> None:
     """Appends the doors that stand open at the start."""
     state = add(world, "state", world_name=name)
     for door in plan.OPEN_DOORS:
@@ -140,35 +151,36 @@ def _add_state(world: etree._Element, name: str) -> None:
         add(joint, "angle", -1.57, axis="0")
 
 
-def _comment(world: etree._Element, text: str) -> None:
+def comment(world: etree._Element, text: str) -> None:
+    """Appends a comment."""
     world.append(etree.Comment(f" {text} "))
 
 
 def write_angen(folder: Path) -> None:
     """Writes angen.world: two storeys with all that stands in them."""
-    root, world = _new_world("angen")
-    _add_world_plugins(world)
-    _comment(world, "the building")
+    root, world = new_world("angen")
+    add_world_plugins(world)
+    comment(world, "the building")
     for floor in range(plan.FLOORS):
-        _include(world, "apartment", f"apartment{floor}", (0, 0, floor * plan.STOREY, 0, 0, 0))
-    _include(world, "elevator", "elevator", (*plan.ELEVATOR, 0, 0, 0, 0))
+        include(world, "apartment", f"apartment{floor}", (0, 0, floor * plan.STOREY, 0, 0, 0))
+    include(world, "elevator", "elevator", (*plan.ELEVATOR, 0, 0, 0, 0))
     for floor in range(plan.FLOORS):
-        _comment(world, f"floor {floor}: doors and lamps")
-        _add_devices(world, floor)
-        _comment(world, f"floor {floor}: sensors")
+        comment(world, f"floor {floor}: doors and lamps")
+        add_devices(world, floor)
+        comment(world, f"floor {floor}: sensors")
         _add_sensors(world, floor)
-        _comment(world, f"floor {floor}: furniture")
+        comment(world, f"floor {floor}: furniture")
         _add_furniture(world, floor)
     x, y, yaw = plan.ROBOT
-    _comment(world, "who moves")
-    _include(world, "turtlebot", "turtlebot", (x, y, 0.001, 0, 0, yaw))
-    _add_person(world)
-    _add_state(world, "angen")
+    comment(world, "who moves")
+    include(world, "turtlebot", "turtlebot", (x, y, 0.001, 0, 0, yaw))
+    add_person(world)
+    add_state(world, "angen")
     write(root, folder / "angen.world")
 
 
 def write_empty(folder: Path) -> None:
     """Writes empty.world: the ground and the world's plug-ins."""
-    root, world = _new_world("empty")
-    _add_world_plugins(world)
+    root, world = new_world("empty")
+    add_world_plugins(world)
     write(root, folder / "empty.world")
