@@ -49,6 +49,14 @@ void Lighting::move(LampId lamp, const Pose& pose) {
   ++lamps_revision_;
 }
 
+std::vector<Lit> Lighting::lit() const {
+  std::vector<Lit> all;
+  lamps_.each([&](LampId, const Entry& entry) {
+    if (entry.level > 0.0) all.push_back({entry.lamp, entry.level});
+  });
+  return all;
+}
+
 Sample Lighting::measure(Probe& probe, const Pose& pose) const {
   if (probe.pose != pose || probe.revision != scene_.revision() ||
       probe.lamps_revision != lamps_revision_) {

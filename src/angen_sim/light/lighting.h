@@ -43,6 +43,12 @@ struct Probe {
   std::vector<Transport> transports;
 };
 
+/// A lamp that shines, and at what share of its flux.
+struct Lit {
+  Lamp lamp;
+  double level = 0.0;
+};
+
 struct Sample {
   double illuminance = 0.0;                         // lx on a plane through the point, normal x
   Eigen::Vector3f color = Eigen::Vector3f::Zero();  // mean colour of the view, 0..1 (tone mapped)
@@ -57,6 +63,7 @@ class Lighting {
   void set_level(LampId lamp, double level);  // share of luminous_flux; 0 and less is dark
   double level(LampId lamp) const;
   void move(LampId lamp, const Pose& pose);
+  std::vector<Lit> lit() const;  // those of a level above 0
 
   /// Illuminance at pose.position on the plane whose normal is pose's x axis, direct light with
   /// shadows plus interreflection, and the mean colour that a square pixel of 60 degrees along x

@@ -3,16 +3,13 @@
 #include <stdexcept>
 
 namespace angen::rays {
-namespace {
 
-/// One device for the process and no threads of its own: a second device would start a worker.
+// One for the process: a second device would start a worker.
 RTCDevice device() {
   static const Embree<RTCDevice> shared(rtcNewDevice("threads=1"));
   if (!shared) throw std::runtime_error("Embree gives no device on this machine");
   return shared.get();
 }
-
-}  // namespace
 
 Hierarchy::Hierarchy(RTCBoundsFunction bounds, RTCIntersectFunctionN intersect,
                      RTCOccludedFunctionN occluded)

@@ -16,6 +16,9 @@ struct ReleaseEmbree {
 template <class Handle>
 using Embree = std::unique_ptr<std::remove_pointer_t<Handle>, ReleaseEmbree>;
 
+/// The process's one device; it has no threads of its own.
+RTCDevice device();
+
 /// A scene whose only geometry is a list of primitives that our own functions bound and meet.
 struct Hierarchy {
   Embree<RTCScene> scene;

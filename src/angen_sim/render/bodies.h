@@ -1,0 +1,71 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "rays/device.h"
+#include "render/scene.h"
+
+namespace angen::render {
+
+/// A triangle's look, in the frame of the patch that it belongs to.
+struct Facet {
+  Eigen::Vector3f normal;
+  std::uint32_t look = 0;
+};
+
+struct Look {
+  Eigen::Vector3f color;
+  Eigen::Vector3f emissive;
+};
+
+/// Triangles that move as one, with a hierarchy of their own.
+class Patch {
+ public:
+  /// Bodies with their poses in the patch's frame.
+  explicit Patch(const std::vector<std::pair<const Body*, Pose>>& bodies);
+
+  const Facet& facet(std::uint32_t triangle) const { return facets_[triangle]; }
+  const Look& look(const Facet& facet) const { return looks_[facet.look]; }
+  RTCScene scene() const { return scene_.get(); }
+
+ private:
+  void append(const Surface& surface, const Pose& pose);
+
+  std::vector<Eigen::Vector3f> vertices_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::vector<Facet> facets_;
+  std::vector<Look> looks_;
+  rays::Embree<RTCScene> scene_;
+};
+
+/// A patch where it stands.
+struct Placed {
+  std::unique_ptr<Patch> patch;
+  Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();
+  bool shines_through = false;
+  rays::Embree<RTCGeometry> instance;
+};
+
+/// Every patch, in two hierarchies: all that is seen, and all that throws shadows.
+class Stand {
+ public:
+  Stand();
+
+  /// Puts a patch in; its number is the instance's in both hierarchies.
+  std::uint32_t add(std::unique_ptr<Patch> patch, const Pose& pose, bool throws_shadows);
+  void place(std::uint32_t number, const Pose& pose);
+  void clear();
+  void commit();
+
+  const Placed& operator[](std::uint32_t number) const { return placed_[number]; }
+  RTCScene seen() const { return seen_.get(); }
+  RTCScene opaque() const { return opaque_.get(); }
+
+ private:
+  std::vector<Placed> placed_;
+  rays::Embree<RTCScene> seen_;
+  rays::Embree<RTCScene> opaque_;
+};
+
+}  // namespace angen::render

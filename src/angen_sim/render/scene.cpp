@@ -1,0 +1,209 @@
+#include "render/scene.h"
+
+#include <limits>
+#include <utility>
+
+#include "core/slots.h"
+#include "render/shade.h"
+
+namespace angen::render {
+namespace {
+
+struct Entry {
+  Body body;
+  std::uint32_t number = 0;  // in the stand, of a body that stands alone
+  bool moved = false;
+};
+
+bool alone(const Body& body) { return body.moves || body.holds_lamp; }
+
+/// The camera's rays, a tile at a time. Directions are as long as makes their reach the depth.
+class Eye {
+ public:
+  Eye(const Lens& lens, const Pose& camera) : lens_(lens), origin_(camera.position.cast<float>()) {
+    const Eigen::Matrix3d rotation = camera.rotation.normalized().toRotationMatrix();
+    ahead_ = rotation.col(0);
+    right_ = -rotation.col(1) / lens.focal();
+    down_ = -rotation.col(2) / lens.focal();
+  }
+
+  void aim(int column, int row, int* valid, RTCRayHit16& rays) const {
+    for (int i = 0; i < kLanes; ++i) {
+      const int x = column + i % kTile;
+      const int y = row + i / kTile;
+      valid[i] = x < lens_.width && y < lens_.height ? -1 : 0;
+      const Eigen::Vector3f direction =
+          (ahead_ + (x - lens_.centre_x()) * right_ + (y - lens_.centre_y()) * down_).cast<float>();
+      rays.ray.org_x[i] = origin_.x();
+      rays.ray.org_y[i] = origin_.y();
+      rays.ray.org_z[i] = origin_.z();
+      rays.ray.dir_x[i] = direction.x();
+      rays.ray.dir_y[i] = direction.y();
+      rays.ray.dir_z[i] = direction.z();
+      rays.ray.tnear[i] = static_cast<float>(lens_.near);
+      rays.ray.tfar[i] = static_cast<float>(lens_.far);
+      rays.ray.time[i] = 0.0F;
+      rays.ray.mask[i] = UINT32_MAX;
+      rays.ray.id[i] = 0;
+      rays.ray.flags[i] = 0;
+      rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+  }
+
+ private:
+  const Lens& lens_;
+  Eigen::Vector3f origin_;
+  Vec3 ahead_, right_, down_;
+};
+
+bool met(const RTCRayHit16& rays, int i) { return rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID; }
+
+Eigen::Vector3f direction_of(const RTCRay16& ray, int i) {
+  return {ray.dir_x[i], ray.dir_y[i], ray.dir_z[i]};
+}
+
+/// Calls visit(column, row, valid, rays) for each tile, traced.
+template <class Visit>
+void trace(const Lens& lens, const Pose& camera, RTCScene scene, Visit&& visit) {
+  const Eye eye(lens, camera);
+  alignas(64) int valid[kLanes];
+  alignas(64) RTCRayHit16 rays;
+  for (int row = 0; row < lens.height; row += kTile) {
+    for (int column = 0; column < lens.width; column += kTile) {
+      eye.aim(column, row, valid, rays);
+      RTCIntersectContext context;
+      rtcInitIntersectContext(&context);
+      rtcIntersect16(valid, scene, &context, &rays);
+      visit(column, row, valid, rays);
+    }
+  }
+}
+
+void gather(const Stand& stand, const int* valid, const RTCRayHit16& rays,
+            const Eigen::Vector3f& ambient, Tile& tile) {
+  for (int i = 0; i < kLanes; ++i) {
+    tile.valid[i] = valid[i] != 0 && met(rays, i) ? -1 : 0;
+    if (tile.valid[i] == 0) continue;
+    const Placed& placed = stand[rays.hit.instID[0][i]];
+    const Facet& facet = placed.patch->facet(rays.hit.primID[i]);
+    const Eigen::Vector3f direction = direction_of(rays.ray, i);
+    const Eigen::Vector3f origin(rays.ray.org_x[i], rays.ray.org_y[i], rays.ray.org_z[i]);
+    tile.point[i] = origin + rays.ray.tfar[i] * direction;
+    tile.normal[i] = placed.rotation * facet.normal;
+    if (tile.normal[i].dot(direction) > 0.0F) tile.normal[i] = -tile.normal[i];
+    tile.through[i] = placed.shines_through;
+    tile.look[i] = &placed.patch->look(facet);
+    tile.light[i] = ambient;
+  }
+}
+
+void show(const Tile& tile, int i, std::uint8_t* pixel) {
+  const Look& look = *tile.look[i];
+  for (int c = 0; c < 3; ++c) {
+    const float reflected = look.color[c] * tile.light[i][c] / static_cast<float>(M_PI);
+    pixel[c] = shown(reflected + kMiddleLuminance * look.emissive[c]);
+  }
+}
+
+}  // namespace
+
+struct Scene::Impl {
+  Slots<Entry, BodyTag> entries;
+  Stand stand;
+  bool new_set = true;  // bodies came or went
+  bool moved = false;
+
+  void rebuild() {
+    stand.clear();
+    std::vector<std::pair<const Body*, Pose>> still;
+    entries.each([&](BodyId, Entry& entry) {
+      entry.moved = false;
+      if (!alone(entry.body)) {
+        still.emplace_back(&entry.body, entry.body.pose);
+      } else {
+        auto patch = std::make_unique<Patch>(
+            std::vector<std::pair<const Body*, Pose>>{{&entry.body, Pose{}}});
+        entry.number = stand.add(std::move(patch), entry.body.pose, !entry.body.holds_lamp);
+      }
+    });
+    stand.add(std::make_unique<Patch>(still), Pose{}, true);
+  }
+
+  void prepare() {
+    if (!new_set && !moved) return;
+    if (new_set) {
+      rebuild();
+    } else {
+      entries.each([&](BodyId, Entry& entry) {
+        if (std::exchange(entry.moved, false)) stand.place(entry.number, entry.body.pose);
+      });
+    }
+    stand.commit();
+    new_set = moved = false;
+  }
+};
+
+Scene::Scene() : impl_(std::make_unique<Impl>()) {}
+Scene::~Scene() = default;
+
+BodyId Scene::add(Body body) {
+  impl_->new_set = true;
+  return impl_->entries.add({std::move(body)});
+}
+
+void Scene::move(BodyId body, const Pose& pose) {
+  Entry& entry = impl_->entries.at(body);
+  if (entry.body.pose == pose) return;
+  entry.body.pose = pose;
+  entry.moved = impl_->moved = true;
+  if (!alone(entry.body)) impl_->new_set = true;
+}
+
+void Scene::remove(BodyId body) {
+  impl_->entries.remove(body);
+  impl_->new_set = true;
+}
+
+std::vector<std::uint8_t> Scene::colors(const Lens& lens, const Pose& camera,
+                                        const std::vector<light::Lit>& lamps,
+                                        const Ambience& ambience) const {
+  impl_->prepare();
+  const Stand& stand = impl_->stand;
+  const Eigen::Vector3f ambient = kAmbientIlluminance * ambience.ambient;
+  std::vector<std::uint8_t> pixels(3U * static_cast<std::size_t>(lens.width) * lens.height);
+  Tile tile;
+  trace(lens, camera, stand.seen(),
+        [&](int column, int row, const int* valid, const RTCRayHit16& rays) {
+          gather(stand, valid, rays, ambient, tile);
+          for (const light::Lit& lit : lamps) shine(lit, stand.opaque(), tile);
+          for (int i = 0; i < kLanes; ++i) {
+            if (valid[i] == 0) continue;
+            const std::size_t at =
+                static_cast<std::size_t>(row + i / kTile) * lens.width + column + i % kTile;
+            if (tile.valid[i] != 0) {
+              show(tile, i, &pixels[3 * at]);
+            } else {
+              for (int c = 0; c < 3; ++c) pixels[3 * at + c] = shown_as_is(ambience.background[c]);
+            }
+          }
+        });
+  return pixels;
+}
+
+std::vector<float> Scene::depths(const Lens& lens, const Pose& camera) const {
+  impl_->prepare();
+  std::vector<float> values(static_cast<std::size_t>(lens.width) * lens.height,
+                            std::numeric_limits<float>::quiet_NaN());
+  trace(lens, camera, impl_->stand.seen(),
+        [&](int column, int row, const int* valid, const RTCRayHit16& rays) {
+          for (int i = 0; i < kLanes; ++i) {
+            if (valid[i] == 0 || !met(rays, i)) continue;
+            values[static_cast<std::size_t>(row + i / kTile) * lens.width + column + i % kTile] =
+                rays.ray.tfar[i];
+          }
+        });
+  return values;
+}
+
+}  // namespace angen::render

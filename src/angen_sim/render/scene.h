@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/id.h"
+#include "core/shape.h"
+#include "light/lighting.h"
+#include "render/lens.h"
+
+/// What cameras see: colour under the lamps' light, and depth.
+namespace angen::render {
+
+using BodyId = Id<struct BodyTag>;
+
+struct Surface {
+  Shape shape;
+  Pose pose;                                           // in its body's frame
+  Eigen::Vector3f color{0.7F, 0.7F, 0.7F};             // diffuse albedo, r g b, 0..1
+  Eigen::Vector3f emissive = Eigen::Vector3f::Zero();  // 1: as bright as the middle of the range
+};
+
+struct Body {
+  std::vector<Surface> surfaces;
+  Pose pose;  // world
+  bool moves = false;
+  bool holds_lamp = false;  // it throws no shadows, and light shines through it
+};
+
+/// What light there is besides the lamps'.
+struct Ambience {
+  Eigen::Vector3f ambient{0.4F, 0.4F, 0.4F};     // r g b, 0..1, as SDF's <scene> gives it
+  Eigen::Vector3f background{0.7F, 0.7F, 0.7F};  // where nothing is, as displayed
+};
+
+/// Adding and moving cost next to nothing; hierarchies are built when the first picture is drawn.
+/// One thread at a time. Same scene, same lamps, same pose: same bits.
+class Scene {
+ public:
+  Scene();
+  ~Scene();
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+
+  BodyId add(Body body);
+  void move(BodyId body, const Pose& pose);
+  void remove(BodyId body);
+
+  /// height x width x 3 values, sRGB, row after row from the top. A surface of albedo a under
+  /// E lx has the luminance L = a E / pi; it is shown as L / (L + 10 cd/m^2), sRGB-encoded. E is
+  /// the lamps' direct light with hard shadows, and 2.5 lx times the ambient colour.
+  std::vector<std::uint8_t> colors(const Lens& lens, const Pose& camera,
+                                   const std::vector<light::Lit>& lamps,
+                                   const Ambience& ambience) const;
+
+  /// height x width distances along the camera's axis in m; NaN where nothing is between near and
+  /// far.
+  std::vector<float> depths(const Lens& lens, const Pose& camera) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace angen::render

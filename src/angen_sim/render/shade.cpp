@@ -1,0 +1,113 @@
+#include "render/shade.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "light/beam.h"
+
+namespace angen::render {
+namespace {
+
+constexpr float kLeast = 0.1F;    // lx; less is not worth a shadow ray
+constexpr float kLift = 1e-3F;    // m off the surface that a shadow ray starts
+constexpr float kFarAway = 1e4F;  // m, as far as anything stands before a directional lamp
+constexpr int kCodes = 1 << 14;
+
+/// sRGB bytes of evenly spaced linear values.
+std::array<std::uint8_t, kCodes + 1> make_codes() {
+  std::array<std::uint8_t, kCodes + 1> codes{};
+  for (int i = 0; i <= kCodes; ++i) {
+    const double v = static_cast<double>(i) / kCodes;
+    const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
+    codes[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::lround(255.0 * encoded));
+  }
+  return codes;
+}
+
+/// lx that a point lamp gives on a surface facing it, or any other lamp by way of `light`.
+struct Source {
+  explicit Source(const light::Lit& lit)
+      : lamp(lit.lamp), level(lit.level), position(lit.lamp.pose.position.cast<float>()) {
+    is_point = lamp.type == light::Lamp::Type::kPoint;
+    candela = static_cast<float>(level * lamp.luminous_flux / (4.0 * M_PI));
+    nearest2 = static_cast<float>(lamp.radius * lamp.radius);
+  }
+
+  /// `way` is from the point to the lamp, in m.
+  float illuminance(const Eigen::Vector3f& point, Eigen::Vector3f& way) const {
+    if (is_point) {
+      way = position - point;
+      return candela / std::max(nearest2, way.squaredNorm());
+    }
+    const light::Beam beam = light::beam(lamp, point.cast<double>());
+    const double length = std::min<double>(beam.distance, kFarAway);
+    way = (length * beam.towards).cast<float>();
+    return static_cast<float>(level * beam.illuminance);
+  }
+
+  const light::Lamp& lamp;
+  double level;
+  Eigen::Vector3f position;
+  bool is_point;
+  float candela;
+  float nearest2;
+};
+
+}  // namespace
+
+void shine(const light::Lit& lit, RTCScene opaque, Tile& tile) {
+  const Source source(lit);
+  alignas(64) int wanted[kLanes];
+  alignas(64) RTCRay16 rays;
+  float illuminance[kLanes];
+  bool any = false;
+  for (int i = 0; i < kLanes; ++i) {
+    wanted[i] = 0;
+    rays.tfar[i] = 0.0F;
+    if (tile.valid[i] == 0) continue;
+    Eigen::Vector3f way;
+    const float facing = source.illuminance(tile.point[i], way);
+    const float distance = way.norm();
+    float cosine = tile.normal[i].dot(way) / distance;
+    if (tile.through[i]) cosine = std::abs(cosine);
+    illuminance[i] = facing * cosine;
+    if (!(illuminance[i] > kLeast)) continue;
+    const Eigen::Vector3f origin = tile.point[i] + kLift * tile.normal[i];
+    wanted[i] = -1;
+    any = true;
+    rays.org_x[i] = origin.x();
+    rays.org_y[i] = origin.y();
+    rays.org_z[i] = origin.z();
+    rays.dir_x[i] = way.x();
+    rays.dir_y[i] = way.y();
+    rays.dir_z[i] = way.z();
+    rays.tnear[i] = 0.0F;
+    rays.tfar[i] = 1.0F;
+    rays.time[i] = 0.0F;
+    rays.mask[i] = UINT32_MAX;
+    rays.id[i] = 0;
+    rays.flags[i] = 0;
+  }
+  if (!any) return;
+  if (lit.lamp.cast_shadows) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded16(wanted, opaque, &context, &rays);
+  }
+  for (int i = 0; i < kLanes; ++i) {
+    if (wanted[i] != 0 && rays.tfar[i] >= 0.0F) tile.light[i] += illuminance[i] * lit.lamp.color;
+  }
+}
+
+std::uint8_t shown(float luminance) {
+  static const std::array<std::uint8_t, kCodes + 1> codes = make_codes();
+  const float value = std::max(0.0F, luminance) / (std::max(0.0F, luminance) + kMiddleLuminance);
+  return codes[static_cast<std::size_t>(value * kCodes + 0.5F)];
+}
+
+std::uint8_t shown_as_is(float value) {
+  return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(value, 0.0F, 1.0F)));
+}
+
+}  // namespace angen::render

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "core/shape.h"
+
+namespace angen::render {
+
+/// A shape as triangles in its own frame. Round ones lie within 0.2 % of their radius inside the
+/// true surface; a plane without a size is 1 km wide. Bad sizes give no triangles.
+TriangleMesh tessellate(const Shape& shape);
+
+}  // namespace angen::render
