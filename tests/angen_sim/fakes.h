@@ -51,6 +51,8 @@ class FakeWorld : public View, public Wiring, public Outputs {
   Names collisions;
   std::map<std::string, std::vector<ContactPair>> touching;           // by collision name
   std::function<light::Sample(light::Probe&, const Pose&)> light_at;  // dark where not given
+  std::function<std::vector<std::uint8_t>(const render::Lens&, const Pose&)> colors_at;
+  std::function<std::vector<float>(const render::Lens&, const Pose&)> depths_at;
   std::vector<std::pair<std::string, std::string>> events;
 
   FakeJoint& joint_named(const std::string& name) { return joints[index(joints, name)].second; }
@@ -73,6 +75,13 @@ class FakeWorld : public View, public Wiring, public Outputs {
   }
   light::Sample illuminance(light::Probe& probe, const Pose& pose) const override {
     return light_at ? light_at(probe, pose) : light::Sample{};
+  }
+
+  std::vector<std::uint8_t> colors(const render::Lens& lens, const Pose& pose) const override {
+    return colors_at ? colors_at(lens, pose) : std::vector<std::uint8_t>{};
+  }
+  std::vector<float> depths(const render::Lens& lens, const Pose& pose) const override {
+    return depths_at ? depths_at(lens, pose) : std::vector<float>{};
   }
 
   // Wiring

@@ -43,7 +43,9 @@ class Sensor {
   virtual void configure(Params& params, Wiring& wiring) = 0;
   /// How often it looks, ns; 0 = as often as it publishes (<update_rate>, or default_rate()).
   virtual Nanoseconds sample_period() const { return 0; }
-  virtual double default_rate() const { return 10.0; }                             // Hz
+  virtual double default_rate() const { return 10.0; }  // Hz
+  /// True for one that costs much: it looks only while somebody wants its readings.
+  virtual bool on_demand() const { return false; }
   virtual void aim(const View&, RayBatch&) {}                                      // ask
   virtual void read(const View& view, Hits hits, Rng& rng, Reading& reading) = 0;  // answer
 };

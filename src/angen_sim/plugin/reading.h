@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <variant>
@@ -10,8 +11,24 @@
 
 namespace angen {
 
+/// An image: height x width x channels values, row after row from the top. Copies share them.
+template <class T>
+struct Grid {
+  std::uint32_t height = 0;
+  std::uint32_t width = 0;
+  std::uint32_t channels = 0;
+  std::shared_ptr<const std::vector<T>> values;
+
+  bool operator==(const Grid& other) const {
+    return height == other.height && width == other.width && channels == other.channels &&
+           (values == other.values || (values && other.values && *values == *other.values));
+  }
+};
+using ByteGrid = Grid<std::uint8_t>;
+using FloatGrid = Grid<float>;
+
 using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>,
-                           std::vector<std::string>>;
+                           std::vector<std::string>, ByteGrid, FloatGrid>;
 
 /// What a sensor measured or the state a device is in: named values. `ros` knows the built-in kinds
 /// and sends any other as a generic message.

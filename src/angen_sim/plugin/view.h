@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "core/time.h"
 #include "light/lighting.h"
 #include "rays/scene.h"
+#include "render/lens.h"
 
 namespace angen {
 
@@ -58,6 +60,10 @@ class View {
   /// Pairs that the wired collision takes part in; it is `first` in each.
   virtual std::vector<ContactPair> contacts(ContactRef collision) const = 0;
   virtual light::Sample illuminance(light::Probe& probe, const Pose& pose) const = 0;
+  /// What a camera at `pose` (world, x ahead, z up) sees: height x width x 3 bytes, sRGB.
+  virtual std::vector<std::uint8_t> colors(const render::Lens& lens, const Pose& pose) const = 0;
+  /// height x width distances along its x axis in m, NaN where nothing is.
+  virtual std::vector<float> depths(const render::Lens& lens, const Pose& pose) const = 0;
 };
 
 /// What a plug-in asks for by name, once, before the world runs. Unknown names throw Error and list

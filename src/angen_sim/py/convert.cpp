@@ -4,13 +4,29 @@
 
 namespace angen::py {
 
+namespace {
+
+template <class T>
+pyb::object to_object(const T& value) {
+  return pyb::cast(value);
+}
+
+// (height, width), or (height, width, channels) where there are several.
+template <class T>
+pyb::object to_object(const Grid<T>& grid) {
+  std::vector<pyb::ssize_t> shape{grid.height, grid.width};
+  if (grid.channels != 1) shape.push_back(grid.channels);
+  return pyb::array_t<T>(shape, grid.values ? grid.values->data() : nullptr);
+}
+
+}  // namespace
+
 pyb::dict to_dict(const Reading& reading) {
   pyb::dict all;
   all["kind"] = reading.kind;
   all["stamp"] = to_seconds(reading.stamp);
   for (const auto& [name, value] : reading.fields) {
-    all[pyb::str(name)] =
-        std::visit([](const auto& v) { return pyb::object(pyb::cast(v)); }, value);
+    all[pyb::str(name)] = std::visit([](const auto& v) { return to_object(v); }, value);
   }
   return all;
 }

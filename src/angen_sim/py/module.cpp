@@ -89,6 +89,8 @@ void bind_world(pyb::module_& module) {
            "Adds a model (SDF text, path or model:// uri), or a <sensor> to the link `on`; pose is "
            "x y z roll pitch yaw (m, rad).")
       .def("delete", &World::remove, pyb::arg("name"))
+      .def("want", &World::want, pyb::arg("kind"), pyb::arg("name"), pyb::arg("wanted") = true,
+           "Lidars, cameras and depth cameras look only while they are wanted; others always do.")
       .def("reset", &World::reset, "Everything back to its start, the time to 0.")
       .def("save", &World::save, "The world as it stands, as SDF text.")
       .def(

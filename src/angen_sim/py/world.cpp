@@ -85,6 +85,11 @@ void World::spawn(const std::string& what, const std::string& name, const std::v
   }
 }
 
+void World::want(const std::string& kind, const std::string& name, bool wanted) {
+  index_of(snapshot_->structure->sensors, kind, name);
+  simulation_.want(kind, name, wanted);
+}
+
 void World::remove(const std::string& name) { obey(sim::Delete{name}); }
 
 void World::reset() {
@@ -94,8 +99,14 @@ void World::reset() {
 }
 
 Reading World::sensor(const std::string& kind, const std::string& name) const {
-  const auto& reading = snapshot_->sensors[index_of(snapshot_->structure->sensors, kind, name)];
-  if (!reading) throw Error(kind + " '" + name + "' has measured nothing yet; step first");
+  const sim::Structure& structure = *snapshot_->structure;
+  const std::size_t index = index_of(structure.sensors, kind, name);
+  const auto& reading = snapshot_->sensors[index];
+  if (!reading) {
+    const bool asleep = structure.sensors[index].on_demand && !simulation_.wanted(kind, name);
+    throw Error(kind + " '" + name + "' has measured nothing yet; " +
+                (asleep ? "want('" + kind + "', '" + name + "') and step first" : "step first"));
+  }
   return *reading;
 }
 

@@ -28,6 +28,7 @@ class World {
   void spawn(const std::string& what, const std::string& name, const std::vector<double>& pose,
              const std::string& on);
   void remove(const std::string& name);
+  void want(const std::string& kind, const std::string& name, bool wanted);
   void reset();
 
   Reading sensor(const std::string& kind, const std::string& name) const;

@@ -27,6 +27,14 @@ class Mixer {
     add(bits);
   }
   void add(const std::string& text) { add(hash_bytes(text)); }
+  void add(float value) { add(static_cast<double>(value)); }
+  template <class T>
+  void add(const Grid<T>& grid) {
+    add(grid.height);
+    add(grid.width);
+    add(grid.channels);
+    if (grid.values) add(*grid.values);
+  }
   void add(const Vec3& v) {
     for (int i = 0; i < 3; ++i) add(v[i]);
   }

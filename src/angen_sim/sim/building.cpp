@@ -206,7 +206,7 @@ std::shared_ptr<const Structure> Building::structure() {
     }
     for (const SensorInstance& s : live->sensors) {
       all->sensors.push_back({s.kind, s.name, m, live->first_link + s.link, s.pose, s.topic,
-                              s.frame, s.period, s.attached, s.desc});
+                              s.frame, s.period, s.attached, s.sensor->on_demand(), s.desc});
     }
   }
   return all;

@@ -23,9 +23,11 @@ void Sensing::aim(Building& building, InstanceView::Clock clock) {
     for (std::size_t i = 0; i < live->sensors.size(); ++i) {
       SensorInstance& sensor = live->sensors[i];
       if (clock.time >= sensor.next_sample()) {
-        const std::size_t first = rays_.size();
-        sensor.sensor->aim(InstanceView(building.stage(), *live, clock, &sensor), rays_);
-        due_.push_back({live.get(), i, first, rays_.size() - first});
+        if (!sensor.sensor->on_demand() || demand_.has(sensor.kind, sensor.name)) {
+          const std::size_t first = rays_.size();
+          sensor.sensor->aim(InstanceView(building.stage(), *live, clock, &sensor), rays_);
+          due_.push_back({live.get(), i, first, rays_.size() - first});
+        }
         while (sensor.next_sample() <= clock.time) ++sensor.samples;
       }
       earliest_ = std::min(earliest_, sensor.next_sample());

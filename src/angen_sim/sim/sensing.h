@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sim/building.h"
+#include "sim/demand.h"
 #include "sim/view.h"
 
 namespace angen::sim {
@@ -11,7 +12,7 @@ namespace angen::sim {
 /// The sensors' part of a tick: those that are due aim, one cast answers all, they read.
 class Sensing {
  public:
-  explicit Sensing(std::uint64_t seed) : seed_(seed) {}
+  Sensing(std::uint64_t seed, const Demand& demand) : seed_(seed), demand_(demand) {}
 
   void look(Building& building, InstanceView::Clock clock, std::int64_t tick, Snapshot& next);
 
@@ -31,6 +32,7 @@ class Sensing {
             Snapshot& next);
 
   std::uint64_t seed_;
+  const Demand& demand_;
   Nanoseconds earliest_ = 0;  // no sensor is due before
   std::vector<Due> due_;
   RayBatch rays_;

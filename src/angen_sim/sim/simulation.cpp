@@ -15,7 +15,7 @@ struct Simulation::Impl {
       : world(std::move(described)),
         seed(seed_),
         building(world, seed_, std::move(catalog)),
-        sensing(seed_) {
+        sensing(seed_, demand) {
     next.step = world.physics.step;
     publish();
   }
@@ -117,6 +117,7 @@ struct Simulation::Impl {
   std::uint64_t seed;
   Building building;
   Orders orders;
+  Demand demand;
   Acting acting;
   Sensing sensing;
   Snapshot next;
@@ -149,6 +150,14 @@ std::shared_ptr<const Snapshot> Simulation::tick() {
 std::shared_ptr<const Snapshot> Simulation::snapshot() const {
   const std::lock_guard<std::mutex> lock(impl_->latest_mutex);
   return impl_->latest;
+}
+
+void Simulation::want(const std::string& kind, const std::string& name, bool wanted) {
+  impl_->demand.set(kind, name, wanted);
+}
+
+bool Simulation::wanted(const std::string& kind, const std::string& name) const {
+  return impl_->demand.has(kind, name);
 }
 
 bool Simulation::running() const { return impl_->orders.running(); }

@@ -31,6 +31,11 @@ class Simulation {
   /// The latest snapshot; never null.
   std::shared_ptr<const Snapshot> snapshot() const;
 
+  /// Says whether somebody wants what this sensor measures; matters to those that look on demand
+  /// only. The sensor need not exist yet. Any thread.
+  void want(const std::string& kind, const std::string& name, bool wanted);
+  bool wanted(const std::string& kind, const std::string& name) const;
+
   /// True when the next tick will advance time: not paused, or steps are asked for.
   bool running() const;
 

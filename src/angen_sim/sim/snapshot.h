@@ -49,6 +49,7 @@ struct SensorEntry {
   std::string frame;       // as its SDF says, or empty
   Nanoseconds period = 0;  // of publishing
   bool attached = false;   // by a command, to a link that existed
+  bool on_demand = false;  // looks only while wanted, see Simulation::want
   std::shared_ptr<const desc::Sensor> desc;
 };
 

@@ -26,10 +26,29 @@ Eigen::Vector3f reflectance(const desc::Link& link, const desc::Collision& colli
   return material.diffuse.head<3>();
 }
 
+// Glass and the like, which lets more than half of the light through, is not seen.
+render::Body visible(const desc::Link& link, const Pose& pose, bool moves) {
+  render::Body body;
+  body.pose = pose;
+  body.moves = moves;
+  body.holds_lamp = !link.lights.empty();
+  for (const desc::Visual& visual : link.visuals) {
+    const desc::Material& material = visual.material;
+    if (material.diffuse.w() < 0.5F) continue;
+    body.surfaces.push_back({visual.shape, visual.pose, material.diffuse.head<3>(),
+                             body.holds_lamp ? Eigen::Vector3f(0.0F, 0.0F, 0.0F)
+                                             : Eigen::Vector3f(material.emissive.head<3>())});
+  }
+  return body;
+}
+
 }  // namespace
 
 Stage::Stage(const desc::World& world, std::uint64_t seed)
-    : physics(world.physics, world.gravity, seed) {}
+    : physics(world.physics, world.gravity, seed) {
+  ambience.ambient = world.scene.ambient.head<3>();
+  ambience.background = world.scene.background.head<3>();
+}
 
 Parts Stage::add(const desc::Model& model) {
   Parts parts;
@@ -45,6 +64,7 @@ Parts Stage::add(const desc::Model& model) {
           {rays.add(collision.shape, pose * collision.pose, mobility, reflectance(link, collision)),
            i, collision.pose});
     }
+    parts.bodies.push_back(visuals.add(visible(link, pose, !model.is_static)));
     for (const desc::Light& light : link.lights) {
       Parts::Lamp lamp = add_light(light, pose * light.pose);
       lamp.link = i;
@@ -57,6 +77,7 @@ Parts Stage::add(const desc::Model& model) {
 
 void Stage::remove(const Parts& parts) {
   for (const Parts::Shape& shape : parts.shapes) rays.remove(shape.id);
+  for (const render::BodyId body : parts.bodies) visuals.remove(body);
   for (const Parts::Lamp& lamp : parts.lamps) light.remove(lamp.id);
   physics.remove(parts.body);
 }
@@ -91,6 +112,7 @@ void Stage::follow(const Parts& parts, std::uint32_t link) {
   for (const Parts::Lamp& lamp : parts.lamps) {
     if (lamp.link == link) light.move(lamp.id, pose * lamp.offset);
   }
+  visuals.move(parts.bodies[link], pose);
 }
 
 }  // namespace angen::sim

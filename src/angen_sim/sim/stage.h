@@ -7,6 +7,7 @@
 #include "light/lighting.h"
 #include "physics/world.h"
 #include "rays/scene.h"
+#include "render/scene.h"
 
 namespace angen::sim {
 
@@ -28,7 +29,8 @@ struct Parts {
   std::vector<physics::LinkId> links;    // as desc::Model::links
   std::vector<physics::JointId> joints;  // as desc::Model::joints
   std::vector<Shape> shapes;
-  std::vector<Lamp> lamps;  // in the order of links and their lights
+  std::vector<render::BodyId> bodies;  // as links: what cameras see of them
+  std::vector<Lamp> lamps;             // in the order of links and their lights
 };
 
 /// The three engines in step: where a body goes, its shapes and lamps go.
@@ -45,6 +47,8 @@ class Stage {
 
   physics::World physics;
   rays::Scene rays;
+  render::Scene visuals;
+  render::Ambience ambience;
   light::Lighting light{rays};
 };
 

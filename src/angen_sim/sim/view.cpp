@@ -52,6 +52,14 @@ light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) c
   return stage_.light.measure(probe, pose);
 }
 
+std::vector<std::uint8_t> InstanceView::colors(const render::Lens& lens, const Pose& pose) const {
+  return stage_.visuals.colors(lens, pose, stage_.light.lit(), stage_.ambience);
+}
+
+std::vector<float> InstanceView::depths(const render::Lens& lens, const Pose& pose) const {
+  return stage_.visuals.depths(lens, pose);
+}
+
 void InstanceOutputs::force(JointRef joint, double force) {
   stage_.physics.add_force(live_.parts.joints.at(at(joint)), force);
 }

@@ -27,6 +27,8 @@ class InstanceView : public View {
   LinkView link(LinkRef link) const override;
   std::vector<ContactPair> contacts(ContactRef collision) const override;
   light::Sample illuminance(light::Probe& probe, const Pose& pose) const override;
+  std::vector<std::uint8_t> colors(const render::Lens& lens, const Pose& pose) const override;
+  std::vector<float> depths(const render::Lens& lens, const Pose& pose) const override;
 
  private:
   const Stage& stage_;

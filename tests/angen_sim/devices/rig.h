@@ -81,6 +81,8 @@ class Rig : public View, public Wiring, public Outputs {
   LinkView link(LinkRef link) const override;
   std::vector<ContactPair> contacts(ContactRef) const override { return {}; }
   light::Sample illuminance(light::Probe&, const Pose&) const override { return {}; }
+  std::vector<std::uint8_t> colors(const render::Lens&, const Pose&) const override { return {}; }
+  std::vector<float> depths(const render::Lens&, const Pose&) const override { return {}; }
 
   // Wiring
   std::string name() const override { return model_.name; }

@@ -1,0 +1,72 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "plugin/register.h"
+#include "sensors/fan.h"
+
+namespace angen::sensors {
+
+namespace {
+
+Fan default_fan() {
+  Fan fan;
+  fan.columns = 360;
+  fan.min_yaw = -M_PI;
+  fan.max_yaw = M_PI - 2.0 * M_PI / 360.0;
+  fan.min = 0.12;
+  fan.max = 10.0;
+  return fan;
+}
+
+}  // namespace
+
+/// A planar laser scanner. A ray that meets nothing is infinite, as REP 117 wants it.
+class Lidar : public Sensor {
+ public:
+  bool on_demand() const override { return true; }
+
+  void configure(Params& params, Wiring&) override {
+    fan_ = read_fan(params, default_fan());
+    if (fan_.rows != 1) {
+      throw params.error("ray/scan/vertical/samples",
+                         "a lidar has " + std::to_string(fan_.rows) + " rows of rays, must have 1");
+    }
+    directions_ = fan_.directions();
+    period_ = to_seconds(params.update_period(default_rate()));
+  }
+
+  void aim(const View& view, RayBatch& rays) override { fan_.aim(view.pose(), directions_, rays); }
+
+  void read(const View&, Hits hits, Rng& rng, Reading& reading) override {
+    std::vector<double> ranges;
+    ranges.reserve(hits.size());
+    for (const rays::Hit& hit : hits) {
+      double range = std::numeric_limits<double>::infinity();
+      if (hit.hit()) {
+        const double noise = fan_.noise_stddev > 0.0 ? fan_.noise_stddev * rng.gaussian() : 0.0;
+        range = std::clamp(hit.range + fan_.noise_mean + noise, fan_.min, fan_.max);
+      }
+      ranges.push_back(range);
+    }
+    const int steps = std::max(1, fan_.columns - 1);
+    reading.set("ranges", std::move(ranges));
+    reading.set("angle_min",
+                fan_.columns == 1 ? 0.5 * (fan_.min_yaw + fan_.max_yaw) : fan_.min_yaw);
+    reading.set("angle_max",
+                fan_.columns == 1 ? 0.5 * (fan_.min_yaw + fan_.max_yaw) : fan_.max_yaw);
+    reading.set("angle_increment", (fan_.max_yaw - fan_.min_yaw) / steps);
+    reading.set("scan_time", period_);
+    reading.set("range_min", fan_.min);
+    reading.set("range_max", fan_.max);
+  }
+
+ private:
+  Fan fan_;
+  std::vector<Vec3> directions_;
+  double period_ = 0.0;  // s
+};
+
+ANGEN_REGISTER_SENSOR(Lidar, "lidar", "A planar laser scanner.")
+
+}  // namespace angen::sensors

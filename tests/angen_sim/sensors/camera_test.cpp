@@ -1,0 +1,100 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bench.h"
+
+namespace angen {
+namespace {
+
+using test::Bench;
+using test::element;
+using test::plugin_element;
+
+const char* const kCamera = "libgazebo_ros_camera.so";
+const char* const kDepth = "libgazebo_ros_openni_kinect.so";
+
+Element lens(const std::string& width, const std::string& near = "0.1") {
+  return test::sensor_element(
+      {element("camera", "",
+               {element("horizontal_fov", "1.2"),
+                element("image", "", {element("width", width), element("height", "2")}),
+                element("clip", "", {element("near", near), element("far", "9")})})});
+}
+
+TEST(Camera, LooksThroughTheLensOfItsSdfFromItsPlace) {
+  Bench bench(kCamera, plugin_element({}), lens("3"));
+  bench.world.at = {{1.0, 2.0, 3.0}, from_rpy(0.1, 0.2, 0.3)};
+  const std::vector<std::uint8_t> seen{1, 2,  3,  4,  5,  6,  7,  8,  9,
+                                       9, 10, 11, 12, 13, 14, 15, 16, 17};
+  bench.world.colors_at = [&](const render::Lens& lens, const Pose& pose) {
+    EXPECT_EQ(lens.width, 3);
+    EXPECT_EQ(lens.height, 2);
+    EXPECT_EQ(lens.near, 0.1);
+    EXPECT_EQ(lens.far, 9.0);
+    EXPECT_EQ(pose, bench.world.at);
+    return seen;
+  };
+  const Reading reading = bench.look();
+  const auto image = reading.get<ByteGrid>("image");
+  ASSERT_NE(image.values, nullptr);
+  EXPECT_EQ(*image.values, seen);
+  EXPECT_EQ(image.width, 3U);
+  EXPECT_EQ(image.height, 2U);
+  EXPECT_EQ(image.channels, 3U);
+  EXPECT_NEAR(reading.get<double>("focal"), 1.5 / std::tan(0.6), 1e-12);
+  EXPECT_EQ(reading.get<double>("centre_x"), 1.0);
+  EXPECT_EQ(reading.get<double>("centre_y"), 0.5);
+}
+
+TEST(Camera, DepthIsAGridOfOneChannel) {
+  Bench bench(kDepth, plugin_element({}), lens("2"));
+  bench.world.depths_at = [](const render::Lens&, const Pose&) {
+    return std::vector<float>{1.0F, 2.0F, 3.0F, 4.0F};
+  };
+  const auto depth = bench.look().get<FloatGrid>("depth");
+  ASSERT_NE(depth.values, nullptr);
+  EXPECT_EQ(depth.values->at(3), 4.0F);
+  EXPECT_EQ(depth.channels, 1U);
+}
+
+TEST(Camera, LooksOnDemandThirtyTimesASecond) {
+  for (const char* library : {kCamera, kDepth}) {
+    const Bench bench(library);
+    EXPECT_TRUE(bench.sensor().on_demand());
+    EXPECT_EQ(bench.sensor().default_rate(), 30.0);
+  }
+}
+
+TEST(Camera, TakesTheTopicsOfGazebosPlugins) {
+  EXPECT_EQ(test::complaint_of(kCamera, plugin_element({{"cameraName", "camera"},
+                                                        {"imageTopicName", "rgb/image_raw"},
+                                                        {"cameraInfoTopicName", "rgb/info"}})),
+            "");
+  EXPECT_EQ(test::complaint_of(kDepth, plugin_element({{"cameraName", "camera"},
+                                                       {"depthImageTopicName", "depth/image_raw"},
+                                                       {"pointCloudTopicName", "depth/points"}})),
+            "");
+}
+
+TEST(Camera, RefusesALensThatSeesNothing) {
+  EXPECT_NE(test::complaint_of(kCamera, plugin_element({}), lens("0")).find("<camera/image/width>"),
+            std::string::npos);
+  EXPECT_NE(test::complaint_of(kDepth, plugin_element({}), lens("4", "9.5")).find("near is above"),
+            std::string::npos);
+}
+
+TEST(Camera, ImagesOfEqualPixelsAreEqualReadings) {
+  Bench bench(kDepth, plugin_element({}), lens("2"));
+  float last = 4.0F;
+  bench.world.depths_at = [&](const render::Lens&, const Pose&) {
+    return std::vector<float>{1.0F, 2.0F, 3.0F, last};
+  };
+  const Reading first = bench.look();
+  EXPECT_TRUE(first.same_values(bench.look()));
+  last = 5.0F;
+  EXPECT_FALSE(first.same_values(bench.look()));
+}
+
+}  // namespace
+}  // namespace angen

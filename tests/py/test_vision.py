@@ -1,0 +1,121 @@
+"""Lidars and cameras: looked at only when wanted; images are arrays, alike for like input."""
+import numpy as np
+import pytest
+
+import angen
+from conftest import box
+
+
+def camera(name: str, pose: str, kind: str = 'camera') -> str:
+    """A static model with a camera or depth camera of 64 x 48 pixels, 1 rad wide, 10 Hz."""
+    library = {'camera': 'libgazebo_ros_camera.so', 'depth': 'libgazebo_ros_openni_kinect.so'}[kind]
+    return f'''<model name="{name}"><static>true</static><pose>{pose}</pose><link name="link">
+  <sensor name="eye" type="{kind}"><update_rate>10</update_rate><camera>
+  <horizontal_fov>1</horizontal_fov><image><width>64</width><height>48</height></image>
+  <clip><near>0.1</near><far>10</far></clip></camera>
+  <plugin name="eye" filename="{library}"/></sensor></link></model>'''
+
+
+def lidar(name: str, pose: str) -> str:
+    """A static model with a lidar of 5 rays over 1 rad, with noise."""
+    return f'''<model name="{name}"><static>true</static><pose>{pose}</pose><link name="link">
+  <sensor name="lidar" type="ray"><ray><scan><horizontal><samples>5</samples>
+  <min_angle>-0.5</min_angle><max_angle>0.5</max_angle></horizontal></scan>
+  <range><min>0.1</min><max>8</max></range>
+  <noise><type>gaussian</type><mean>0</mean><stddev>0.01</stddev></noise></ray>
+  <plugin name="lidar" filename="libgazebo_ros_laser.so"/></sensor></link></model>'''
+
+
+def shown(name: str, pose: str, size: str, color: str) -> str:
+    """A static box that is seen but not touched."""
+    return f'''<model name="{name}"><static>true</static><pose>{pose}</pose><link name="link">
+  <visual name="v"><geometry><box><size>{size}</size></box></geometry>
+  <material><diffuse>{color} 1</diffuse></material></visual></link></model>'''
+
+
+LAMP = '''<include><uri>model://ceiling_lamp</uri><name>hall_lamp0</name>
+  <pose>1 0 2.5 0 0 0</pose></include>'''
+
+
+def test_one_that_nobody_wants_does_not_look(world):
+    w = world(lidar('l', '0 0 1 0 0 0') + box('wall', '4 0 1 0 0 0', '1 9 2', static=True))
+    w.step(500)
+    assert w.readings == 0
+    with pytest.raises(angen.Error, match=r"measured nothing yet; want\('lidar', 'l'\)"):
+        w.sensor('lidar', 'l')
+    w.want('lidar', 'l')
+    w.step(500)
+    assert w.readings == 5
+    assert w.sensor('lidar', 'l')['ranges'][2] == pytest.approx(3.5, abs=0.06)
+    w.want('lidar', 'l', False)
+    w.step(500)
+    assert w.readings == 5
+
+
+def test_wanting_one_that_is_not_there_is_refused(world):
+    with pytest.raises(angen.Error, match="no lidar named 'x'"):
+        world('').want('lidar', 'x')
+
+
+def test_wanting_one_changes_no_other(world):
+    """Noise is keyed by name and tick: the same scans with and without a camera that looks."""
+    scans = []
+    for wanted in (False, True):
+        w = world(lidar('l', '0 0 1 0 0 0') + camera('c', '0 0 1 0 0 0')
+                  + box('wall', '4 0 1 0 0 0', '1 9 2', static=True))
+        w.want('lidar', 'l')
+        w.want('camera', 'c', wanted)
+        w.step(750)
+        scans.append(w.sensor('lidar', 'l')['ranges'])
+    assert scans[0] == scans[1]
+
+
+def test_an_image_is_height_by_width_by_three_bytes(world):
+    w = world(shown('red', '3 0 1 0 0 0', '0.2 0.5 0.5', '1 0 0') + camera('c', '0 0 1 0 0 0'))
+    w.want('camera', 'c')
+    w.step(1)
+    image = w.sensor('camera', 'c')['image']
+    assert image.shape == (48, 64, 3) and image.dtype == np.uint8
+    middle = image[24, 32]
+    assert middle[0] > 30 and middle[1] == middle[2] == 0
+
+
+def test_depth_is_along_the_axis_and_nothing_is_nan(world):
+    w = world(shown('wall', '3 -5 1 0 0 0', '0.2 10 9', '1 1 1')
+              + camera('d', '0 0 1 0 0 0', 'depth'))
+    w.want('depth', 'd')
+    w.step(1)
+    reading = w.sensor('depth', 'd')
+    depth = reading['depth']
+    assert depth.shape == (48, 64) and depth.dtype == np.float32
+    # the wall is on the right; left of its edge is nothing, above the floor that has no looks
+    assert np.isnan(depth[:, :32]).all()
+    assert np.allclose(depth[:, 32:], 2.9, atol=1e-3)
+    assert reading['focal'] == pytest.approx(32 / np.tan(0.5))
+
+
+def test_a_lamp_makes_the_picture_brighter(world):
+    w = world(shown('wall', '3 0 1 0 0 0', '0.2 9 9', '0.7 0.7 0.7') + camera('c', '0 0 1 0 0 0')
+              + LAMP)
+    w.want('camera', 'c')
+    w.run(0.2)
+    dark = w.sensor('camera', 'c')['image'].mean()
+    w.command('lamp', 'hall0', 'On')
+    w.run(0.2)
+    lit = w.sensor('camera', 'c')['image'].mean()
+    w.command('lamp', 'hall0', 'Dim 30')
+    w.run(0.2)
+    assert dark + 20 < w.sensor('camera', 'c')['image'].mean() < lit - 10
+
+
+def test_the_same_input_gives_the_same_pixels(world):
+    def run() -> tuple[str, np.ndarray]:
+        w = world(box('crate', '3 0 4 0.3 0.2 0.1', '1 1 1') + LAMP + camera('c', '0 0 1 0 0 0')
+                  + shown('wall', '6 0 1 0 0 0', '0.2 9 9', '0.7 0.7 0.7'))
+        w.want('camera', 'c')
+        w.command('lamp', 'hall0', 'On')
+        w.run(0.5)
+        return w.fingerprint, w.sensor('camera', 'c')['image']
+    first, second = run(), run()
+    assert first[0] == second[0]
+    assert np.array_equal(first[1], second[1]) and first[1].std() > 1
