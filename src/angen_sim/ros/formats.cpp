@@ -3,6 +3,7 @@
 #include <map>
 
 #include "ros/convert.h"
+#include "ros/images.h"
 #include "ros/readings.h"
 #include "ros/states.h"
 
@@ -28,27 +29,38 @@ void publish(const ros::Publisher& publisher, const Reading& reading, const Labe
 }
 
 template <class Message>
-Format format() {
-  return {ros::message_traits::datatype<Message>(), &advertise<Message>, &publish<Message>};
+Format format(const std::string& leaf = "", const std::string& leaf_parameter = "") {
+  return {ros::message_traits::datatype<Message>(), leaf, leaf_parameter, &advertise<Message>,
+          &publish<Message>};
 }
 
 }  // namespace
 
-const Format& format_of(const std::string& kind) {
-  static const std::map<std::string, Format> table = {
-      {"pir", format<angen_msgs::PirMsg>()},
-      {"switch", format<angen_msgs::SwitchMsg>()},
-      {"luminosity", format<angen_msgs::LightSensMsg>()},
-      {"contact", format<gazebo_msgs::ContactsState>()},
-      {"door", format<angen_msgs::DoorState>()},
-      {"elevator", format<angen_msgs::ElevatorState>()},
-      {"lamp", format<angen_msgs::LampState>()},
-      {"person", format<angen_msgs::PersonState>()},
-      {"drive", format<nav_msgs::Odometry>()},
+const std::vector<Format>& formats_of(const std::string& kind) {
+  static const std::map<std::string, std::vector<Format>> table = {
+      {"pir", {format<angen_msgs::PirMsg>()}},
+      {"switch", {format<angen_msgs::SwitchMsg>()}},
+      {"luminosity", {format<angen_msgs::LightSensMsg>()}},
+      {"contact", {format<gazebo_msgs::ContactsState>()}},
+      {"lidar", {format<sensor_msgs::LaserScan>()}},
+      {"camera",
+       {format<sensor_msgs::Image>("image_raw", "imageTopicName"),
+        format<sensor_msgs::CameraInfo>("camera_info", "cameraInfoTopicName")}},
+      {"depth",
+       {format<sensor_msgs::Image>("image_raw", "depthImageTopicName"),
+        format<sensor_msgs::CameraInfo>("camera_info", "depthImageCameraInfoTopicName"),
+        format<sensor_msgs::PointCloud2>("points", "pointCloudTopicName")}},
+      {"door", {format<angen_msgs::DoorState>()}},
+      {"elevator", {format<angen_msgs::ElevatorState>()}},
+      {"lamp", {format<angen_msgs::LampState>()}},
+      {"person", {format<angen_msgs::PersonState>()}},
+      {"drive", {format<nav_msgs::Odometry>()}},
   };
-  static const Format generic = format<angen_msgs::Reading>();
+  static const std::vector<Format> generic = {format<angen_msgs::Reading>()};
   const auto found = table.find(kind);
   return found == table.end() ? generic : found->second;
 }
+
+const Format& format_of(const std::string& kind) { return formats_of(kind).front(); }
 
 }  // namespace angen::node

@@ -4,6 +4,7 @@
 #include <ros/publisher.h>
 
 #include <string>
+#include <vector>
 
 #include "plugin/reading.h"
 
@@ -18,6 +19,9 @@ struct Label {
 /// The message that one kind of reading or state becomes.
 struct Format {
   std::string type;  // angen_msgs/PirMsg
+  /// Of a kind that has several: the end of the topic, and the parameter that says otherwise.
+  std::string leaf;
+  std::string leaf_parameter;
   ros::AdvertiseOptions (*advertise)(const std::string& topic, std::uint32_t queue,
                                      const ros::SubscriberStatusCallback& joined,
                                      const ros::SubscriberStatusCallback& left);
@@ -25,7 +29,10 @@ struct Format {
 };
 
 /// The one table: built-in kinds have messages of their own, any other goes out as
-/// angen_msgs/Reading.
+/// angen_msgs/Reading. Never empty.
+const std::vector<Format>& formats_of(const std::string& kind);
+
+/// The first of them.
 const Format& format_of(const std::string& kind);
 
 }  // namespace angen::node

@@ -1,5 +1,6 @@
 #include "ros/frames.h"
 
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
@@ -10,6 +11,13 @@ namespace angen::node {
 namespace {
 
 constexpr char kWorld[] = "world";
+
+// REP 103: images are seen along z, with x to the right.
+const Quat kOptical = from_rpy(-M_PI_2, 0.0, -M_PI_2);
+
+bool looks(const sim::SensorEntry& sensor) {
+  return sensor.kind == "camera" || sensor.kind == "depth";
+}
 
 std::string link_frame(const sim::Structure& structure, std::uint32_t link) {
   const sim::LinkEntry& entry = structure.links[link];
@@ -62,16 +70,6 @@ std::string value_of(const std::vector<const Element*>& elements, const std::str
     if (const Element* found = element->child(key)) return found->text;
   }
   return fallback;
-}
-
-// A topic that starts with / means itself; others stand under the robot's name, and the first
-// robot's also without it.
-std::vector<std::string> robot_topics(const std::string& robot, const std::string& asked,
-                                      bool first) {
-  if (!asked.empty() && asked[0] == '/') return {graph_name(asked)};
-  std::vector<std::string> topics = {graph_name("/" + robot + "/" + asked)};
-  if (first) topics.push_back(graph_name("/" + asked));
-  return topics;
 }
 
 class Builder {
@@ -144,7 +142,12 @@ class Builder {
 
   void add_sensors() {
     for (const sim::SensorEntry& sensor : structure_.sensors) {
-      std::string frame = sensor.frame.empty() ? sensor.name : sensor.frame;
+      std::string frame = sensor.frame;
+      if (frame.empty()) frame = sensor.name + (looks(sensor) ? "_optical_frame" : "");
+      const Robot* owner = robot(sensor.link);
+      if (owner != nullptr && !owner->first && !sensor.frame.empty()) {
+        frame = owner->name + "/" + frame;
+      }
       if (frame == frames_[sensor.link]) {  // an SDF that names its link's frame means it
         tree_.sensors.push_back(frame);
         continue;
@@ -153,7 +156,8 @@ class Builder {
         frame = sensor.kind + "_" + sensor.name;
         used_.insert(frame);
       }
-      tree_.fixed.push_back({frames_[sensor.link], frame, sensor.pose});
+      const Pose in_sensor = looks(sensor) ? Pose{Vec3::Zero(), kOptical} : Pose{};
+      tree_.fixed.push_back({frames_[sensor.link], frame, sensor.pose * in_sensor});
       tree_.sensors.push_back(frame);
     }
   }
@@ -168,6 +172,20 @@ class Builder {
 };
 
 }  // namespace
+
+std::vector<std::string> robot_topics(const Robot& robot, const std::string& asked) {
+  if (!asked.empty() && asked[0] == '/') return {graph_name(asked)};
+  std::vector<std::string> topics = {graph_name("/" + robot.name + "/" + asked)};
+  if (robot.first) topics.push_back(graph_name("/" + asked));
+  return topics;
+}
+
+const Robot* robot_in(const std::vector<Robot>& robots, std::uint32_t model) {
+  for (const Robot& robot : robots) {
+    if (robot.model == model) return &robot;
+  }
+  return nullptr;
+}
 
 std::vector<Robot> find_robots(const sim::Structure& structure,
                                const std::vector<desc::Plugin>& world_plugins) {
@@ -190,11 +208,9 @@ std::vector<Robot> find_robots(const sim::Structure& structure,
     const std::string base = value_of(elements, "robotBaseFrame", "base_footprint");
     robot.odom_frame = prefix + value_of(elements, "odometryFrame", "odom");
     robot.base_frame = prefix + base;
-    const bool first = robots.empty();
-    robot.command_topics =
-        robot_topics(robot.name, value_of(elements, "commandTopic", "cmd_vel"), first);
-    robot.odometry_topics =
-        robot_topics(robot.name, value_of(elements, "odometryTopic", "odom"), first);
+    robot.first = robots.empty();
+    robot.command_topics = robot_topics(robot, value_of(elements, "commandTopic", "cmd_vel"));
+    robot.odometry_topics = robot_topics(robot, value_of(elements, "odometryTopic", "odom"));
     bool found = false;
     for (std::uint32_t l = 0; l < structure.links.size(); ++l) {
       const sim::LinkEntry& link = structure.links[l];

@@ -16,6 +16,7 @@ struct Robot {
   std::uint32_t model = 0;
   std::uint32_t base = 0;  // its base link, in Structure::links
   std::string name;
+  bool first = false;
   std::string odom_frame;  // `odom`; of a further robot NAME/odom
   std::string base_frame;
   std::vector<std::string> command_topics;  // of a first robot also without NAME/
@@ -26,6 +27,13 @@ struct Robot {
 /// own.
 std::vector<Robot> find_robots(const sim::Structure& structure,
                                const std::vector<desc::Plugin>& world_plugins);
+
+/// Where a robot's `asked` topic is: one that starts with / means itself; others stand under the
+/// robot's name, and the first robot's also without it.
+std::vector<std::string> robot_topics(const Robot& robot, const std::string& asked);
+
+/// The robot that model number `model` is, or null.
+const Robot* robot_in(const std::vector<Robot>& robots, std::uint32_t model);
 
 struct FixedFrame {
   std::string parent;

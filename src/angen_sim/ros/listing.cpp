@@ -7,7 +7,7 @@
 
 #include "ros/convert.h"
 #include "ros/formats.h"
-#include "ros/frames.h"
+#include "ros/topics.h"
 #include "ros/wire.h"
 
 namespace angen::node {
@@ -60,7 +60,8 @@ std::vector<angen_msgs::Entity> entities(const sim::Snapshot& snapshot,
     entity->topic = topic_of(device.kind, device.name);
     entity->type = format_of(device.kind).type;
   }
-  for (const Robot& robot : find_robots(structure, world_plugins)) {
+  const std::vector<Robot> robots = find_robots(structure, world_plugins);
+  for (const Robot& robot : robots) {
     for (angen_msgs::Entity& entity : all) {
       if (entity.kind != "drive" || entity.name != robot.name) continue;
       entity.topic = robot.odometry_topics.front();
@@ -71,8 +72,10 @@ std::vector<angen_msgs::Entity> entities(const sim::Snapshot& snapshot,
     angen_msgs::Entity* entity =
         add(sensor.name, sensor.kind, sensor.model, snapshot.link_poses[sensor.link] * sensor.pose);
     if (entity == nullptr) continue;
-    entity->topic = ros::names::resolve(topic_of(sensor.kind, sensor.name, sensor.topic));
-    entity->type = format_of(sensor.kind).type;
+    const Format& format = format_of(sensor.kind);
+    entity->topic =
+        ros::names::resolve(sensor_topics(sensor, format, robot_in(robots, sensor.model)).front());
+    entity->type = format.type;
   }
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
     return std::tie(a.name, a.kind) < std::tie(b.name, b.kind);

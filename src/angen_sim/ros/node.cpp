@@ -28,7 +28,8 @@ Node::Node(sim::Simulation& simulation, const Settings& settings)
       events_(handle_),
       transforms_(handle_),
       markers_(handle_),
-      publishers_(handle_),
+      publishers_(handle_, simulation),
+      joints_(handle_),
       commands_(handle_, inbox_),
       services_(handle_, inbox_, settings.models) {}
 
@@ -54,10 +55,12 @@ void Node::pass(const sim::Snapshot& snapshot) {
     const FrameTree frames = make_frames(snapshot, robots);
     transforms_.follow(snapshot, frames, robots);
     publishers_.follow(snapshot, frames, robots);
+    joints_.follow(snapshot, robots);
     commands_.follow(robots);
     markers_.follow(snapshot);
   }
   publishers_.pass(snapshot);
+  joints_.pass(snapshot);
   transforms_.pass(snapshot);
   markers_.pass(snapshot, now);
   events_.pass(snapshot);

@@ -6,6 +6,7 @@
 
 #include "ros/commands.h"
 #include "ros/inbox.h"
+#include "ros/joints.h"
 #include "ros/markers.h"
 #include "ros/news.h"
 #include "ros/pacer.h"
@@ -45,6 +46,7 @@ class Node {
   Transforms transforms_;
   Markers markers_;
   Publishers publishers_;
+  JointStates joints_;
   Commands commands_;
   Services services_;
 };

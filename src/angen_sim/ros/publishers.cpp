@@ -3,6 +3,9 @@
 #include <ros/console.h>
 #include <ros/exceptions.h>
 
+#include <algorithm>
+
+#include "ros/topics.h"
 #include "ros/wire.h"
 
 namespace angen::node {
@@ -32,8 +35,9 @@ ros::SubscriberStatusCallback Outlet::on_leave() const {
   return [listeners = listeners_](const ros::SingleSubscriberPublisher&) { --listeners->count; };
 }
 
-void Publishers::attach(Source& source, const std::string& topic, bool latch, Channels& kept) {
-  const Key key{topic, source.format->type};
+void Publishers::attach(Source& source, const Format& format, const std::string& topic, bool latch,
+                        Channels& kept) {
+  const Key key{topic, format.type};
   std::shared_ptr<Channel> channel;
   if (const auto old = channels_.find(key); old != channels_.end()) channel = old->second;
   if (const auto twin = kept.find(key); twin != kept.end()) channel = twin->second;
@@ -41,7 +45,7 @@ void Publishers::attach(Source& source, const std::string& topic, bool latch, Ch
     try {
       const std::uint32_t queue = latch ? kStateQueue : kReadingQueue;
       channel = std::make_shared<Channel>(
-          Channel{Outlet(node_, *source.format, topic, latch, queue), nullptr});
+          Channel{Outlet(node_, format, topic, latch, queue), nullptr, &format});
     } catch (const ros::Exception& error) {
       ROS_WARN("%s is not published: %s", source.label.name.c_str(), error.what());
       return;
@@ -58,36 +62,63 @@ void Publishers::follow(const sim::Snapshot& snapshot, const FrameTree& frames,
   std::vector<Source> sensors;
   for (std::size_t i = 0; i < structure.sensors.size(); ++i) {
     const sim::SensorEntry& entry = structure.sensors[i];
-    Source source{&format_of(entry.kind), {entry.name, frames.sensors[i]}, {}};
-    attach(source, topic_of(entry.kind, entry.name, entry.topic), false, kept);
+    Source source{{entry.name, frames.sensors[i]}, {}};
+    for (const Format& format : formats_of(entry.kind)) {
+      for (const std::string& topic : sensor_topics(entry, format, robot_in(robots, entry.model))) {
+        attach(source, format, topic, false, kept);
+      }
+    }
     sensors.push_back(std::move(source));
   }
   std::vector<Source> devices;
   for (const sim::DeviceEntry& entry : structure.devices) {
-    Source source{&format_of(entry.kind), {entry.name, "world"}, {}};
-    if (entry.kind != "drive") attach(source, topic_of(entry.kind, entry.name), true, kept);
+    Source source{{entry.name, "world"}, {}};
+    const Format& format = format_of(entry.kind);
+    if (entry.kind != "drive") attach(source, format, topic_of(entry.kind, entry.name), true, kept);
     devices.push_back(std::move(source));
   }
   robots_.clear();
   for (const Robot& robot : robots) {
     Source& source = devices[robot.device];
     source.label = {robot.base_frame, robot.odom_frame};
-    for (const std::string& topic : robot.odometry_topics) attach(source, topic, false, kept);
+    for (const std::string& topic : robot.odometry_topics) {
+      attach(source, format_of("drive"), topic, false, kept);
+    }
     robots_.push_back(robot.device);
   }
   channels_ = std::move(kept);  // what is not kept is shut down here
   sensors_ = std::move(sensors);
   devices_ = std::move(devices);
+  costly_.clear();
+  for (std::uint32_t i = 0; i < structure.sensors.size(); ++i) {
+    const sim::SensorEntry& entry = structure.sensors[i];
+    if (!entry.on_demand) continue;
+    costly_.push_back({i, simulation_.wanted(entry.kind, entry.name)});
+  }
   for (std::uint32_t i = 0; i < devices_.size(); ++i) send_state(snapshot, i);
 }
 
+// A sensor that looks on demand looks while anybody listens.
+void Publishers::ask_for(const sim::Structure& structure) {
+  for (Costly& costly : costly_) {
+    const std::vector<std::shared_ptr<Channel>>& channels = sensors_[costly.sensor].channels;
+    const bool wanted = std::any_of(channels.begin(), channels.end(),
+                                    [](const auto& channel) { return channel->outlet.heard(); });
+    if (wanted == costly.wanted) continue;
+    costly.wanted = wanted;
+    const sim::SensorEntry& entry = structure.sensors[costly.sensor];
+    simulation_.want(entry.kind, entry.name, wanted);
+  }
+}
+
 void Publishers::pass(const sim::Snapshot& snapshot) {
+  ask_for(*snapshot.structure);
   for (const std::uint32_t i : snapshot.new_states) send_state(snapshot, i);
   for (const std::uint32_t i : snapshot.new_readings) {
     const Source& source = sensors_[i];
     for (const auto& channel : source.channels) {
       if (!channel->outlet.heard() || snapshot.sensors[i] == nullptr) continue;
-      source.format->publish(channel->outlet.publisher(), *snapshot.sensors[i], source.label);
+      channel->format->publish(channel->outlet.publisher(), *snapshot.sensors[i], source.label);
     }
   }
   repeat_odometry(snapshot);
@@ -100,7 +131,7 @@ void Publishers::send_state(const sim::Snapshot& snapshot, std::uint32_t device)
     if (state == nullptr || channel->sent == state) continue;
     // A latched topic remembers its last message for those who come later.
     if (!channel->outlet.heard() && !channel->outlet.publisher().isLatched()) continue;
-    source.format->publish(channel->outlet.publisher(), *state, source.label);
+    channel->format->publish(channel->outlet.publisher(), *state, source.label);
     channel->sent = state;
   }
 }
@@ -118,7 +149,7 @@ void Publishers::repeat_odometry(const sim::Snapshot& snapshot) {
     now.stamp = snapshot.time;
     for (const auto& channel : source.channels) {
       if (channel->outlet.heard()) {
-        source.format->publish(channel->outlet.publisher(), now, source.label);
+        channel->format->publish(channel->outlet.publisher(), now, source.label);
       }
     }
   }

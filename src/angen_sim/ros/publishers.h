@@ -10,7 +10,7 @@
 
 #include "ros/formats.h"
 #include "ros/frames.h"
-#include "sim/snapshot.h"
+#include "sim/simulation.h"
 
 namespace angen::node {
 
@@ -55,7 +55,8 @@ class Outlet {
 /// The topics of all sensors and devices, kept equal to what exists.
 class Publishers {
  public:
-  explicit Publishers(ros::NodeHandle& node) : node_(node) {}
+  Publishers(ros::NodeHandle& node, sim::Simulation& simulation)
+      : node_(node), simulation_(simulation) {}
 
   /// Advertises and shuts down as `structure` differs from the last one. `frames` and `robots` are
   /// those of the same structure.
@@ -69,23 +70,33 @@ class Publishers {
   struct Channel {
     Outlet outlet;
     std::shared_ptr<const Reading> sent;  // of a state: what is latched
+    const Format* format = nullptr;
   };
   struct Source {
-    const Format* format = nullptr;
     Label label;
     std::vector<std::shared_ptr<Channel>> channels;
   };
   using Key = std::pair<std::string, std::string>;  // topic, type
   using Channels = std::map<Key, std::shared_ptr<Channel>>;
 
-  void attach(Source& source, const std::string& topic, bool latch, Channels& kept);
+  // A sensor that looks on demand only.
+  struct Costly {
+    std::uint32_t sensor = 0;  // in Structure::sensors
+    bool wanted = false;
+  };
+
+  void attach(Source& source, const Format& format, const std::string& topic, bool latch,
+              Channels& kept);
+  void ask_for(const sim::Structure& structure);
   void send_state(const sim::Snapshot& snapshot, std::uint32_t device);
   void repeat_odometry(const sim::Snapshot& snapshot);
 
   ros::NodeHandle& node_;
+  sim::Simulation& simulation_;
   Channels channels_;
-  std::vector<Source> sensors_;        // as Structure::sensors
-  std::vector<Source> devices_;        // as Structure::devices
+  std::vector<Source> sensors_;  // as Structure::sensors
+  std::vector<Source> devices_;  // as Structure::devices
+  std::vector<Costly> costly_;
   std::vector<std::uint32_t> robots_;  // indices of drives
   Nanoseconds odometry_slot_ = 0;
 };

@@ -32,6 +32,20 @@ void fill(const Reading& reading, const Label&, angen_msgs::LightSensMsg& messag
   message.b = static_cast<float>(reading.get<double>("b"));
 }
 
+void fill(const Reading& reading, const Label&, sensor_msgs::LaserScan& message) {
+  const auto number = [&](const char* name) {
+    return static_cast<float>(reading.get<double>(name));
+  };
+  message.angle_min = number("angle_min");
+  message.angle_max = number("angle_max");
+  message.angle_increment = number("angle_increment");
+  message.scan_time = number("scan_time");
+  message.range_min = number("range_min");
+  message.range_max = number("range_max");
+  const auto ranges = reading.get<std::vector<double>>("ranges");
+  message.ranges.assign(ranges.begin(), ranges.end());
+}
+
 void fill(const Reading& reading, const Label&, gazebo_msgs::ContactsState& message) {
   message.header.frame_id = "world";
   const auto first = reading.get<std::vector<std::string>>("collision1");
@@ -98,7 +112,7 @@ void fill(const Reading& reading, const Label& label, angen_msgs::Reading& messa
             text(field, held);
           } else if constexpr (std::is_same_v<T, std::vector<double>>) {
             each(field, held, number);
-          } else {
+          } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
             each(field, held, text);
           }
         },

@@ -5,6 +5,7 @@
 #include <angen_msgs/Reading.h>
 #include <angen_msgs/SwitchMsg.h>
 #include <gazebo_msgs/ContactsState.h>
+#include <sensor_msgs/LaserScan.h>
 
 #include "ros/formats.h"
 
@@ -14,6 +15,7 @@ namespace angen::node {
 void fill(const Reading& reading, const Label& label, angen_msgs::PirMsg& message);
 void fill(const Reading& reading, const Label& label, angen_msgs::SwitchMsg& message);
 void fill(const Reading& reading, const Label& label, angen_msgs::LightSensMsg& message);
+void fill(const Reading& reading, const Label& label, sensor_msgs::LaserScan& message);
 /// In the world frame, whatever the label says; torques are about its origin.
 void fill(const Reading& reading, const Label& label, gazebo_msgs::ContactsState& message);
 

@@ -117,6 +117,19 @@ TEST(Frames, TheFirstRobotHasTheUsualNames) {
   EXPECT_EQ(tree.fixed.back().pose.position.x(), 3.0);
 }
 
+TEST(Frames, ACamerasFrameLooksAlongItsZ) {
+  World world;
+  world.add(door());
+  world.add_sensor("eye", 0);
+  world.structure->sensors.back().kind = "camera";
+  const FrameTree tree = world.tree();
+  EXPECT_EQ(tree.sensors.back(), "eye_optical_frame");
+  const Quat& optical = tree.fixed.back().pose.rotation;
+  EXPECT_LT((optical * Vec3::UnitZ() - Vec3::UnitX()).norm(), 1e-12);  // ahead
+  EXPECT_LT((optical * Vec3::UnitX() + Vec3::UnitY()).norm(), 1e-12);  // right
+  EXPECT_LT((optical * Vec3::UnitY() + Vec3::UnitZ()).norm(), 1e-12);  // down
+}
+
 TEST(Frames, FurtherRobotsHaveTheirNamesInFront) {
   World world;
   world.add(robot("first"), "drive");

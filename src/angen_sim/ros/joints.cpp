@@ -1,0 +1,61 @@
+#include "ros/joints.h"
+
+#include <sensor_msgs/JointState.h>
+
+#include <utility>
+
+#include "ros/convert.h"
+
+namespace angen::node {
+namespace {
+
+constexpr Nanoseconds kPeriod = kSecond / 50;
+constexpr std::uint32_t kQueue = 20;
+
+}  // namespace
+
+void JointStates::follow(const sim::Snapshot& snapshot, const std::vector<Robot>& robots) {
+  const sim::Structure& structure = *snapshot.structure;
+  const std::map<std::string, Outlet> old = std::exchange(outlets_, {});
+  sources_.clear();
+  for (const Robot& robot : robots) {
+    Source source;
+    for (std::uint32_t i = 0; i < structure.joints.size(); ++i) {
+      const sim::JointEntry& entry = structure.joints[i];
+      if (entry.model != robot.model) continue;
+      const desc::Joint& joint = structure.models[entry.model]->joints[entry.joint];
+      if (joint.axes.size() != 1) continue;
+      source.joints.push_back(i);
+      source.names.push_back(joint.name);
+    }
+    for (const std::string& topic : robot_topics(robot, "joint_states")) {
+      const auto before = old.find(topic);
+      const Outlet outlet = before != old.end()
+                                ? before->second
+                                : Outlet::of<sensor_msgs::JointState>(node_, topic, false, kQueue);
+      outlets_.emplace(topic, outlet);
+      source.outlets.push_back(outlet);
+    }
+    sources_.push_back(std::move(source));
+  }
+}
+
+void JointStates::pass(const sim::Snapshot& snapshot) {
+  const Nanoseconds slot = snapshot.time / kPeriod;
+  if (slot == slot_) return;
+  slot_ = slot;
+  for (const Source& source : sources_) {
+    for (const Outlet& outlet : source.outlets) {
+      if (!outlet.heard()) continue;
+      sensor_msgs::JointState message;
+      message.header.stamp = to_ros(snapshot.time);
+      message.name = source.names;
+      for (const std::uint32_t joint : source.joints) {
+        message.position.push_back(snapshot.joint_positions[joint]);
+      }
+      outlet.publisher().publish(message);
+    }
+  }
+}
+
+}  // namespace angen::node

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "ros/publishers.h"
+
+namespace angen::node {
+
+/// Where each robot's joints stand (rad or m), 50 times a simulated second while anybody listens:
+/// what robot_state_publisher wants.
+class JointStates {
+ public:
+  explicit JointStates(ros::NodeHandle& node) : node_(node) {}
+
+  void follow(const sim::Snapshot& snapshot, const std::vector<Robot>& robots);
+  void pass(const sim::Snapshot& snapshot);
+
+ private:
+  struct Source {
+    std::vector<std::uint32_t> joints;  // in Structure::joints
+    std::vector<std::string> names;     // without the model's
+    std::vector<Outlet> outlets;
+  };
+
+  ros::NodeHandle& node_;
+  std::map<std::string, Outlet> outlets_;  // by topic
+  std::vector<Source> sources_;
+  Nanoseconds slot_ = -1;
+};
+
+}  // namespace angen::node

@@ -1,0 +1,29 @@
+#include "ros/topics.h"
+
+#include "ros/wire.h"
+
+namespace angen::node {
+namespace {
+
+std::string text_of(const sim::SensorEntry& sensor, const std::string& parameter) {
+  const Element* found = sensor.desc ? sensor.desc->plugin_element.child(parameter) : nullptr;
+  return found == nullptr ? "" : found->text;
+}
+
+}  // namespace
+
+std::vector<std::string> sensor_topics(const sim::SensorEntry& sensor, const Format& format,
+                                       const Robot* robot) {
+  std::string asked = sensor.topic;
+  if (!format.leaf.empty()) {  // one of several, as Gazebo's camera plug-ins name them
+    const std::string base = text_of(sensor, "cameraName");
+    const std::string leaf = text_of(sensor, format.leaf_parameter);
+    asked = (base.empty() ? topic_of(sensor.kind, sensor.name) : base) + "/" +
+            (leaf.empty() ? format.leaf : leaf);
+    if (!leaf.empty() && leaf[0] == '/') asked = leaf;
+  }
+  if (robot != nullptr && !asked.empty()) return robot_topics(*robot, asked);
+  return {topic_of(sensor.kind, sensor.name, asked)};
+}
+
+}  // namespace angen::node
