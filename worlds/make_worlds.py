@@ -27,6 +27,7 @@ def write_all(folder: Path) -> None:
     devices.write_pir(models, "pir_nodding", nods=True)
     devices.write_switch(models)
     devices.write_luminosity(models)
+    devices.write_camera(models)
     devices.write_turtlebot(models)
     for name, piece in furniture.pieces().items():
         furniture.write_piece(models, name, piece)

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from lxml import etree
 
+from . import urdf
 from .sdf import (Part, add, add_joint, add_link, add_plugin, add_pose, new_model,
                   spanned, write_model)
 
@@ -130,6 +131,8 @@ def write_luminosity(models: Path) -> None:
 
 
 WHEEL_RADIUS, SEPARATION = 0.0352, 0.23
+LIDAR_AT = (0.0, 0.0, 0.44)
+CAMERA_AT = (0.13, 0.0, 0.34)     # its lens, before the poles
 
 
 def _robot_body() -> list[Part]:
@@ -144,21 +147,93 @@ def _robot_body() -> list[Part]:
     for side, x in (("front", 0.125), ("back", -0.125)):
         parts.append(Part(f"caster_{side}", (0.017,), (x, 0, 0.0175), material="Gazebo/Grey",
                           mass=0.1, friction=0.0))
+    # housings weigh nothing and stop no rays
+    parts.append(Part("lidar", (0.035, 0.04), (0, 0, 0.44), material="Gazebo/Black",
+                      collide=False))
+    parts.append(spanned("camera", (0.085, -0.14, 0.315), (0.125, 0.14, 0.365), material=black,
+                         collide=False))
     return parts
 
 
 def write_turtlebot(models: Path) -> None:
-    """Writes models/turtlebot: origin on the floor between the wheels, x forward, 6.3 kg."""
+    """Writes models/turtlebot: origin on the floor between the wheels, x forward, 6.3 kg.
+
+    Its URDF has no sensors' frames: those come from the node.
+    """
     root, model = new_model("turtlebot")
-    add_link(model, "base_footprint", _robot_body())
+    robot = etree.Element("robot", name="turtlebot")
+    _add_robot_sensors(add_link(model, "base_footprint", _robot_body()))
+    urdf.add_link(robot, "base_footprint", _robot_body())
     for side, y in (("left", SEPARATION / 2), ("right", -SEPARATION / 2)):
         # a sphere rolls as the wheel does and meets the floor in one point, which keeps ODE calm
         tread = Part("tread", (WHEEL_RADIUS,), mass=0.0, show=False, friction=1.0)
         looks = Part("wheel", (WHEEL_RADIUS, 0.021), rpy=(pi / 2, 0, 0), material="Gazebo/Black",
                      mass=0.25, collide=False)
-        add_link(model, f"{side}_wheel", [tread, looks], at=(0, y, WHEEL_RADIUS))
+        at = (0, y, WHEEL_RADIUS)
+        add_link(model, f"{side}_wheel", [tread, looks], at)
         add_joint(model, f"{side}_wheel_joint", "revolute", "base_footprint", f"{side}_wheel",
                   (0, 1, 0))
+        urdf.add_link(robot, f"{side}_wheel", [tread, looks])
+        urdf.add_wheel_joint(robot, f"{side}_wheel_joint", "base_footprint", f"{side}_wheel", at)
+    urdf.write_robot(robot, models)
     write_model(root, models, "TurtleBot",
-                "A Kobuki-like base with a stack, 0.354 m wide, 0.42 m high, 6.3 kg. "
-                "Served by librobot_controller.so.")
+                "A Kobuki-like base with a stack, 0.354 m wide, 0.46 m high, 6.3 kg, with a lidar, "
+                "a colour and depth camera and a bumper. Served by librobot_controller.so.")
+
+
+def _add_lens(sensor: etree._Element, angle: float, size: tuple[int, int],
+              reach: tuple[float, float]) -> None:
+    """Appends <camera>: full horizontal angle in rad, size in pixels, near and far in m."""
+    camera = add(sensor, "camera")
+    add(camera, "horizontal_fov", angle)
+    image = add(camera, "image")
+    for tag, value in zip(("width", "height", "format"), (*size, "R8G8B8")):
+        add(image, tag, value)
+    clip = add(camera, "clip")
+    add(clip, "near", reach[0])
+    add(clip, "far", reach[1])
+
+
+def _add_robot_sensors(base: etree._Element) -> None:
+    """Lidar on the top plate, a Kinect-like camera before the poles, the body as a bumper."""
+    lidar = _add_sensor(base, "lidar", "ray", 10)
+    add_pose(lidar, LIDAR_AT)
+    _add_ray(lidar, (720, pi * 719 / 720), (1, 0.0), (0.12, 10.0), 0.01)
+    add_plugin(lidar, "lidar", "libgazebo_ros_laser.so", topicName="scan", frameName="base_scan")
+
+    color = _add_sensor(base, "camera", "camera", 30)
+    add_pose(color, CAMERA_AT)
+    _add_lens(color, 1.047198, (320, 240), (0.05, 100))
+    add_plugin(color, "camera", "libgazebo_ros_camera.so", cameraName="camera",
+               imageTopicName="rgb/image_raw", cameraInfoTopicName="rgb/camera_info",
+               frameName="camera_rgb_optical_frame")
+
+    depth = _add_sensor(base, "depth", "depth", 30)
+    add_pose(depth, CAMERA_AT)
+    _add_lens(depth, 1.047198, (320, 240), (0.3, 10))
+    add_plugin(depth, "depth", "libgazebo_ros_openni_kinect.so", cameraName="camera",
+               depthImageTopicName="depth/image_raw",
+               depthImageCameraInfoTopicName="depth/camera_info",
+               pointCloudTopicName="depth/points", frameName="camera_depth_optical_frame")
+
+    bumper = _add_sensor(base, "bumper", "contact", 10)
+    add(add(bumper, "contact"), "collision", "body_collision")
+    add_plugin(bumper, "bumper", "libgazebo_ros_bumper.so", bumperTopicName="bumper")
+
+
+def write_camera(models: Path) -> None:
+    """Writes models/camera: a room camera that looks along x."""
+    root, model = new_model("camera", static=True)
+    parts = [
+        spanned("housing", (-0.12, -0.03, -0.03), (-0.01, 0.03, 0.03), material=(0.2, 0.2, 0.22),
+                collide=False),
+        Part("lens", (0.02, 0.02), (-0.01, 0, 0), (0, pi / 2, 0), material="Gazebo/Black",
+             collide=False),
+    ]
+    link = add_link(model, "camera", parts, moves=False)
+    sensor = _add_sensor(link, "camera", "camera", 30)
+    _add_lens(sensor, 1.396263, (320, 240), (0.02, 100))
+    add_plugin(sensor, "camera", "libgazebo_ros_camera.so")
+    write_model(root, models, "Camera",
+                "A room camera, 320 x 240 at 30 Hz, 80 degrees wide, looking along x. "
+                "Served by libgazebo_ros_camera.so.")
