@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 from typing import Any, Callable, NoReturn, Sequence
 
+from . import bench_words
 from .client import leave
 from .failure import Failure
 
@@ -232,6 +233,8 @@ def make_parser() -> argparse.ArgumentParser:
                     'says what is wrong with a world file; needs no simulator',
                     'check worlds/angen.world')
     check.add_argument('world', metavar='WORLD')
+    bench_words.add_world(commands, command, checked)
+    bench_words.add_bench(commands, command, checked)
     completion = command(commands, 'completion', run_completion,
                          'prints what makes a shell complete angen',
                          'completion bash >> ~/.bash_completion')

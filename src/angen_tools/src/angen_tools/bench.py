@@ -1,0 +1,243 @@
+"""angen bench sensors: what sensors cost, with a master, nodes and rviz of its own."""
+from __future__ import annotations
+
+import sys
+import tempfile
+from collections import Counter
+from contextlib import ExitStack
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+from typing import Iterator, Sequence
+
+from . import sdf
+from .bench_measure import LISTENERS, Meter, Sample, deploy, due, load, share, spread, topic_of
+from .bench_report import Row, Session, combine, draw, say, say_fit, write_csv
+from .bench_run import Stage, end
+from .client import Client
+from .failure import Failure
+from .models import find
+from .placing import KINDS, Placement, floors_for
+from .world_maker import apartment, write_apartment
+
+FLOORS = 2
+SEED = 1
+WARM_UP = 2.0  # s of wall time
+COUNTS = {'added': [0, 1, 10, 50, 100, 200, 500], 'desired': [1, 2, 3, 10]}
+COUNTS['deployed'] = COUNTS['added']
+
+
+@dataclass(frozen=True)
+class Case:
+    """One world: a count of a kind, or a number of flats with all that is asked for."""
+    mode: str
+    kind: str
+    count: int
+    floors: int
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """How many sensors of each kind the case has in the end."""
+        if self.mode == 'desired':
+            rooms, places = 6 * self.count, 9 * self.count  # chairs and tables
+            return {'pir': 2 * rooms, 'luminosity': rooms, 'switch': rooms, 'contact': places + 1}
+        return {self.kind: self.count}
+
+    @property
+    def elevator(self) -> bool:
+        return self.mode == 'desired'
+
+    def sensors(self) -> list[Placement]:
+        return apartment(self.floors, self.counts, SEED, self.elevator)
+
+
+def cases(mode: str, kind: str, counts: Sequence[int] | None) -> list[list[Case]]:
+    """The cases of each figure. All counts of a kind stand in as many flats as the largest needs.
+
+    Failure where `desired` is asked for no flat at all.
+    """
+    counts = sorted(set(counts if counts is not None else COUNTS[mode]))
+    if mode == 'desired':
+        if counts[0] < 1:
+            raise Failure('desired counts flats; give 1 or more')
+        return [[Case(mode, 'all', count, count) for count in counts]]
+    groups = []
+    for name in KINDS if kind == 'all' else (kind,):
+        floors = floors_for(name, counts[-1], FLOORS)
+        groups.append([Case(mode, name, count, floors) for count in counts])
+    return groups
+
+
+@cache
+def rate_of(model: str) -> float:
+    """How often the sensor of a block reads, in Hz."""
+    path = find(f'model://{model}')
+    text = sdf.read(path).findtext('.//sensor/update_rate') if path else None
+    if not text:
+        raise Failure(f'model://{model} has no sensor with an <update_rate>')
+    return float(text)
+
+
+class Bar:
+    """Progress on stderr: a bar in a terminal, else a line a step."""
+
+    def __init__(self, steps: int) -> None:
+        self._steps, self._done = steps, 0
+
+    def step(self, what: str) -> None:
+        """Says what comes next."""
+        part = self._done / self._steps
+        self._done += 1
+        if sys.stderr.isatty():
+            filled = int(30 * part)
+            print(f'\r\033[K[{"#" * filled}{"." * (30 - filled)}] {100 * part:3.0f} %  {what}',
+                  end='', file=sys.stderr, flush=True)
+        else:
+            print(f'{self._done}/{self._steps}  {what}', file=sys.stderr, flush=True)
+
+    def close(self) -> None:
+        """Takes the bar away."""
+        if sys.stderr.isatty():
+            print('\r\033[K', end='', file=sys.stderr, flush=True)
+
+
+@dataclass
+class Bench:
+    """Runs cases on one master."""
+    stage: Stage
+    shows: bool  # whether there is an rviz to measure
+    window: float  # s of wall time
+    trouble: list[str] = field(default_factory=list)
+
+    def session(self, case: Case) -> Session:
+        """One repeat of a case."""
+        world = self.stage.folder / 'bench.world'
+        deployed = case.mode == 'deployed'
+        write_apartment(world, case.floors, {} if deployed else case.counts, SEED,
+                        case.elevator and not deployed)
+        session = Session()
+        self._in_time(case, world, session)
+        self._fast(case, world, session)
+        return session
+
+    def _in_time(self, case: Case, world: Path, session: Session) -> None:
+        with ExitStack() as open_now:
+            meter, client = self._start(open_now, world, 1.0, self.shows)
+            sensors = case.sensors()
+            listened = spread(sensors, LISTENERS)
+            meter.listen([topic_of(s) for s in listened])
+            if case.mode == 'deployed' and sensors:
+                meter.sample(0.0)
+                done = deploy(client, meter, sensors)
+                session.deploy_s, session.first_reading_ms = done.seconds, done.first_reading_ms
+                session.deploy_server_cpu = done.server_cpu
+                session.deploy_client_cpu = done.client_cpu
+            first, last = meter.window(WARM_UP, self.window)
+            seconds = last.wall - first.wall
+            session.rtf = (last.sim - first.sim) / seconds
+            session.server_cpu = load(first.server, last.server, seconds)
+            session.client_cpu = load(first.client, last.client, seconds)
+            session.rss_mb = last.rss / 1e6
+            session.delivered = share(last.readings - first.readings,
+                                      _expected(case, sensors, first, last))
+            session.heard = share(last.heard - first.heard, _expected(case, listened, first, last))
+
+    def _fast(self, case: Case, world: Path, session: Session) -> None:
+        with ExitStack() as open_now:
+            meter, client = self._start(open_now, world, 0.0, False)
+            sensors = case.sensors()
+            if case.mode == 'deployed' and sensors:
+                meter.listen([topic_of(s) for s in spread(sensors, LISTENERS)])
+                deploy(client, meter, sensors)
+            first, last = meter.window(WARM_UP, self.window)
+            session.rtf_fast = (last.sim - first.sim) / (last.wall - first.wall)
+            session.delivered_fast = share(last.readings - first.readings,
+                                           _expected(case, sensors, first, last))
+
+    def _start(self, open_now: ExitStack, world: Path, rate: float, shows: bool
+               ) -> tuple[Meter, Client]:
+        """A node with all lamps on, watched by a meter, with rviz if it `shows`."""
+        from std_msgs.msg import String
+        node = self.stage.node(world, rate)
+        open_now.callback(end, node)
+        client = Client()
+        lights = client.publisher('/gazebo/Light_controller', String)
+        open_now.callback(lights.unregister)
+        lights.publish(String('On, all'))
+        client.fence()
+        viewer = self.stage.rviz() if shows else None
+        if viewer:
+            open_now.callback(end, viewer)
+        elif shows:
+            self.trouble.append('rviz does not start')
+            self.shows = False
+        return open_now.enter_context(Meter(client, node, viewer)), client
+
+
+def _expected(case: Case, sensors: Sequence[Placement], first: Sample, last: Sample) -> float:
+    """How many readings are due between two samples."""
+    rates = Counter(rate_of(sensor.model) for sensor in sensors)
+    if case.mode == 'deployed':  # each counts from its own start
+        return sum(n * rate * (last.sim - first.sim) for rate, n in rates.items())
+    return sum(n * due(rate, first.sim, last.sim) for rate, n in rates.items())
+
+
+def rows_of(bench: Bench, group: Sequence[Case], repeats: int, bar: Bar, kept: list[Row]
+            ) -> Iterator[Row]:
+    """The row of each case, which `kept` has too; on Ctrl-C also that of the repeats so far."""
+    for case in group:
+        sessions: list[Session] = []
+        try:
+            for repeat in range(repeats):
+                bar.step(f'{case.mode} {case.kind} {case.count}, repeat {repeat + 1}')
+                sessions.append(bench.session(case))
+        finally:
+            if sessions:
+                kept.append(combine(sessions, mode=case.mode, kind=case.kind, count=case.count,
+                                    floors=case.floors, sensors=sum(case.counts.values())))
+        yield kept[-1]
+
+
+def measure(mode: str, kind: str, counts: Sequence[int] | None, repeats: int, window: float,
+            folder: Path) -> None:
+    """Measures, prints and writes into `folder` a CSV and a figure for each kind.
+
+    KeyboardInterrupt keeps what is measured, then goes on its way.
+    """
+    groups = cases(mode, kind, counts)
+    for group in groups:
+        group[-1].sensors()  # there is room for them
+    bar = Bar(repeats * sum(len(group) for group in groups))
+    with tempfile.TemporaryDirectory(prefix='angen_bench_') as work, Stage(Path(work)) as stage:
+        why = stage.display()
+        if why:
+            print(f'angen: the client is not measured: {why}', file=sys.stderr)
+        bench = Bench(stage, why is None, window)
+        for group in groups:
+            kept: list[Row] = []
+            try:
+                for _ in rows_of(bench, group, repeats, bar, kept):
+                    write_csv(_path(folder, group[0], 'csv'), kept)
+            finally:
+                bar.close()
+                _report(folder, group[0], kept)
+        for line in bench.trouble:
+            print(f'angen: the client is not measured: {line}', file=sys.stderr)
+
+
+def _report(folder: Path, case: Case, rows: list[Row]) -> None:
+    if not rows:
+        return
+    table, figure = _path(folder, case, 'csv'), _path(folder, case, 'png')
+    write_csv(table, rows)
+    draw(figure, rows)
+    print(f'{case.mode} {case.kind}')
+    for row in rows:
+        print(say(row))
+    for line in say_fit(rows):
+        print(line)
+    print(f'wrote {table} and {figure}', flush=True)
+
+
+def _path(folder: Path, case: Case, ending: str) -> Path:
+    return folder / f'sensors_{case.kind}_{case.mode}.{ending}'

@@ -1,0 +1,165 @@
+"""What the benches found: medians, CSV, a straight line, a figure."""
+from __future__ import annotations
+
+import csv
+import math
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+from statistics import median
+from typing import Sequence
+
+REAL_TIME = 0.99  # of simulated seconds a second, and of readings, that still count as real time
+
+
+@dataclass
+class Session:
+    """One repeat. CPU in % of one core; None where it was not measured."""
+    server_cpu: float | None = None
+    client_cpu: float | None = None
+    rtf: float | None = None
+    rtf_fast: float | None = None  # at rate 0
+    delivered: float | None = None  # readings made, of those expected
+    delivered_fast: float | None = None
+    heard: float | None = None  # messages received on topics with a listener, of those expected
+    rss_mb: float | None = None
+    deploy_s: float | None = None  # for all sensors together
+    deploy_server_cpu: float | None = None
+    deploy_client_cpu: float | None = None
+    first_reading_ms: float | None = None  # after the spawn of its sensor
+
+
+@dataclass
+class Row(Session):
+    """The medians of a count's repeats. `count` is of sensors, or with `desired` of flats."""
+    mode: str = ''
+    kind: str = ''
+    count: int = 0
+    sensors: int = 0
+    floors: int = 0
+    repeats: int = 0
+
+    @property
+    def real_time(self) -> bool:
+        """Whether time keeps up with the clock on the wall, and readings with time, if any."""
+        delivered = 1.0 if self.delivered is None else self.delivered
+        return min(self.rtf or 0.0, delivered) >= REAL_TIME
+
+
+@dataclass(frozen=True)
+class Line:
+    """CPU % = base + slope * count."""
+    base: float
+    slope: float
+
+
+def combine(sessions: Sequence[Session], **what: object) -> Row:
+    """The row of one count: each figure's median over the sessions that have it."""
+    row = Row(repeats=len(sessions), **what)  # type: ignore[arg-type]
+    for field in fields(Session):
+        values = [v for s in sessions if (v := getattr(s, field.name)) is not None]
+        setattr(row, field.name, median(values) if values else None)
+    return row
+
+
+def fit(counts: Sequence[float], values: Sequence[float | None]) -> Line | None:
+    """The least-squares line through the points that have a value; None below two counts."""
+    points = [(c, v) for c, v in zip(counts, values) if v is not None]
+    if len({c for c, _ in points}) < 2:
+        return None
+    mean_c, mean_v = (sum(p[i] for p in points) / len(points) for i in (0, 1))
+    slope = (sum((c - mean_c) * (v - mean_v) for c, v in points)
+             / sum((c - mean_c) ** 2 for c, _ in points))
+    return Line(mean_v - slope * mean_c, slope)
+
+
+COLUMNS = ('mode', 'kind', 'count', 'sensors', 'floors', 'repeats',
+           *(field.name for field in fields(Session)), 'real_time')
+
+
+def write_csv(path: Path, rows: Sequence[Row]) -> None:
+    """Writes the rows, empty where nothing was measured."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with path.open('w', newline='', encoding='utf-8') as file:
+        writer = csv.DictWriter(file, COLUMNS, lineterminator='\n')
+        writer.writeheader()
+        for row in rows:
+            cells = asdict(row) | {'real_time': 'yes' if row.real_time else 'no'}
+            writer.writerow({key: _cell(cells[key]) for key in COLUMNS})
+
+
+def _cell(value: object) -> object:
+    if isinstance(value, float):
+        return f'{value:.4g}' if math.isfinite(value) else ''
+    return '' if value is None else value
+
+
+def say(row: Row) -> str:
+    """A row as a line to read."""
+    parts = [f'{row.count:4d}', f'server {_number(row.server_cpu)} %',
+             f'client {_number(row.client_cpu)} %', f'RTF {_number(row.rtf, 2)}',
+             f'at rate 0 {_number(row.rtf_fast)}', f'delivered {_percent(row.delivered)}',
+             f'{_number(row.rss_mb, 0)} MB']
+    if row.first_reading_ms is not None:
+        parts.append(f'first reading {_number(row.first_reading_ms)} ms')
+    if row.mode == 'desired':
+        parts.append(f'{row.sensors} sensors: '
+                     + ('runs in real time' if row.real_time else 'does not run in real time'))
+    return '  '.join(parts)
+
+
+def _number(value: float | None, digits: int = 1) -> str:
+    return '-' if value is None else f'{value:.{digits}f}'
+
+
+def _percent(value: float | None) -> str:
+    return '-' if value is None else f'{100 * value:.0f} %'
+
+
+def say_fit(rows: Sequence[Row]) -> list[str]:
+    """The cost of one more sensor, or flat, for the server and the client."""
+    thing = 'flat' if rows and rows[0].mode == 'desired' else 'sensor'
+    lines = []
+    for who in ('server', 'client'):
+        line = fit([r.count for r in rows], [getattr(r, f'{who}_cpu') for r in rows])
+        if line:
+            lines.append(f'{who}: one more {thing} costs {line.slope:.3g} % of a core '
+                         f'({line.base:.1f} % without)')
+    return lines
+
+
+def draw(path: Path, rows: Sequence[Row]) -> None:
+    """Writes the figure: CPU of server and client over count, with their lines."""
+    import matplotlib
+    matplotlib.use('Agg')
+    from matplotlib import pyplot
+    desired = rows[0].mode == 'desired'
+    whos = [who for who in ('server', 'client')
+            if any(getattr(r, f'{who}_cpu') is not None for r in rows)]
+    figure, axes = pyplot.subplots(len(whos), 1, sharex=True, squeeze=False,
+                                   figsize=(6.4, 1 + 2.2 * len(whos)), layout='constrained')
+    for axis, who in zip(axes[:, 0], whos):
+        _panel(axis, who, rows, 'flat' if desired else 'sensor')
+    axes[-1, 0].set_xlabel('flats' if desired else f'{rows[0].kind} sensors')
+    figure.suptitle({'added': 'Sensors in the world when it starts',
+                     'deployed': 'Sensors spawned while it runs',
+                     'desired': 'Flats with all the sensors that they should have'}[rows[0].mode])
+    path.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(path, dpi=100)
+    pyplot.close(figure)
+
+
+def _panel(axis: object, who: str, rows: Sequence[Row], thing: str) -> None:
+    """One axis: the medians as points, their line, its slope."""
+    name = {'server': 'server (the node)', 'client': 'client (rviz)'}[who]
+    points = [(r.count, v) for r in rows if (v := getattr(r, f'{who}_cpu')) is not None]
+    counts, values = zip(*points)
+    axis.plot(counts, values, 'o', label=name)  # type: ignore[attr-defined]
+    line = fit(counts, values)
+    if line:
+        ends = [min(counts), max(counts)]
+        axis.plot(ends, [line.base + line.slope * c for c in ends],  # type: ignore[attr-defined]
+                  label=f'{line.slope:.3g} % a {thing}')
+    axis.set_ylim(0, 1.25 * max(values) or 1)  # type: ignore[attr-defined]
+    axis.set_ylabel('CPU, % of a core')  # type: ignore[attr-defined]
+    axis.grid(alpha=0.3)  # type: ignore[attr-defined]
+    axis.legend(loc='upper left', fontsize='small')  # type: ignore[attr-defined]

@@ -1,0 +1,139 @@
+"""Worlds with sensors: as many as asked for, the same each time, where they can sense."""
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+
+import angen
+import numpy as np
+import pytest
+import world_geometry as geometry
+from angen_tools import cli, placing, world_maker
+from angen_tools.failure import Failure
+
+COUNTS = {'pir': 30, 'switch': 15, 'luminosity': 14, 'contact': 25}
+
+
+def write(path: Path, counts: dict[str, int], **options: object) -> bytes:
+    world_maker.write_apartment(path, **{'floors': 2, 'counts': counts, 'seed': 1, **options})
+    return path.read_bytes()
+
+
+@pytest.fixture(scope='module')
+def path(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    made = tmp_path_factory.mktemp('world') / 'a.world'
+    write(made, COUNTS, elevator=True)
+    return made
+
+
+@pytest.fixture(scope='module')
+def world(path: Path) -> angen.World:
+    return angen.World(str(path))
+
+
+@pytest.mark.parametrize('kind', placing.KINDS)
+def test_the_simulator_finds_as_many_sensors_as_asked_for(world: angen.World, kind: str) -> None:
+    names = {sensor.name for sensor in world_maker.apartment(2, COUNTS, 1, True)
+             if sensor.kind == kind}
+    assert len(world.sensors(kind)) == COUNTS[kind] and set(world.sensors(kind)) == names
+
+
+def test_a_world_without_sensors_has_none(tmp_path: Path) -> None:
+    write(tmp_path / 'a.world', {})
+    bare = angen.World(str(tmp_path / 'a.world'))
+    assert not any(bare.sensors(kind) for kind in placing.KINDS)
+
+
+def test_the_same_options_give_the_same_bytes(tmp_path: Path) -> None:
+    first = write(tmp_path / 'a.world', COUNTS)
+    assert write(tmp_path / 'b.world', COUNTS) == first
+    assert write(tmp_path / 'c.world', COUNTS, seed=2) != first
+
+
+@pytest.mark.parametrize('kind', placing.KINDS)
+def test_one_more_sensor_moves_none(kind: str) -> None:
+    before = world_maker.apartment(2, COUNTS, 1)
+    after = world_maker.apartment(2, COUNTS | {kind: COUNTS[kind] + 1}, 1)
+    assert set(before) < set(after) and len(after) == len(before) + 1
+
+
+def test_sensors_go_round_the_rooms() -> None:
+    rooms = Counter(sensor.name.split('_')[0] + str(int(sensor.pose[2] // 4))
+                    for sensor in placing.placements('pir', 120, 2, 1))
+    assert len(rooms) == 12 and set(rooms.values()) == {10}
+
+
+def test_the_first_sensors_stand_where_the_building_has_them() -> None:
+    built = geometry.load(geometry.WORLDS / 'angen.world')
+    for kind, count in (('pir', 24), ('switch', 12), ('luminosity', 12), ('contact', 19)):
+        for sensor in placing.placements(kind, count, 2, 1, elevator=True):
+            pose = geometry.matrix(list(sensor.pose))
+            assert np.allclose(built[sensor.name].pose, pose, atol=1e-5), sensor.name
+
+
+def test_every_pir_stands_in_a_room_and_sees_its_walls(path: Path) -> None:
+    models = geometry.load(path)
+    plan = placing.generator('plan')
+    building = [s for m in models.values() if m.source == 'apartment' for s in geometry.shapes(m)]
+    eyes = [m for m in models.values() if m.source == 'pir']
+    assert len(eyes) == COUNTS['pir']
+    for eye in eyes:
+        sensor, pose = geometry.sensor_pose(eye)
+        x0, y0, x1, y1 = plan.ROOMS[eye.name.split('_')[0]]
+        assert x0 + 0.05 < pose[0, 3] < x1 - 0.05 and y0 + 0.05 < pose[1, 3] < y1 - 0.05
+        origins, directions, reach = geometry.ray_fan(sensor, pose)
+        ranges, _ = geometry.cast(origins, directions, geometry.nearby(building, pose[:3, 3], 7.0),
+                                  reach)
+        assert (ranges < reach).any() and ranges.max() > 1.0, eye.name
+
+
+def test_every_pir_of_the_running_world_measures_ranges(world: angen.World) -> None:
+    world.run(0.25)
+    for name in world.sensors('pir'):
+        ranges = np.array(world.sensor('pir', name)['ranges'])
+        assert np.mean(ranges < 6.0) > 0.3 and ranges.max() > 1.0, name
+
+
+def test_added_chairs_stand_free(path: Path) -> None:
+    models = geometry.load(path)
+    chairs = [m for m in models.values() if '_seat' in m.name]
+    assert chairs
+    opened = {'hinge': -1.57}
+    solids = [s for m in models.values()
+              for joints in ({}, opened) for s in geometry.shapes(m, joints)]
+    for chair in chairs:
+        near = [s for s in geometry.nearby(solids, chair.pose[:3, 3], 2.0)
+                if s.model != chair.name]
+        for shape in geometry.shapes(chair):
+            assert geometry.gaps(shape, near).min() > 1e-4, chair.name
+
+
+@pytest.mark.parametrize('kind', placing.KINDS)
+def test_more_than_fits_is_an_error(kind: str) -> None:
+    with pytest.raises(Failure, match=rf'a flat holds \d+ {kind} sensors, not 5000'):
+        placing.placements(kind, 5000, 1, 1)
+
+
+def test_floors_for_gives_the_fewest_that_hold_them() -> None:
+    floors = placing.floors_for('contact', 200, 2)
+    assert len(placing.placements('contact', 200, floors, 1)) == 200
+    with pytest.raises(Failure):
+        placing.placements('contact', 200, floors - 1, 1)
+
+
+def test_the_command_writes_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / 'out.world'
+    words = ['world', 'apartment', '--floors', '1', '--pir', '3', '-o', str(file)]
+    assert cli.run(words) == 0
+    assert capsys.readouterr().out == f'wrote {file}: 1 floor(s), 3 sensors\n'
+    assert len(angen.World(str(file)).sensors('pir')) == 3
+
+
+def test_the_command_refuses_in_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]
+                                         ) -> None:
+    file = tmp_path / 'out.world'
+    words = ['world', 'apartment', '--floors', '1', '-o', str(file)]
+    assert cli.run([*words, '--pir', '5000']) == 1
+    assert cli.run([*words, '--elevator']) == 1
+    said = capsys.readouterr()
+    assert said.out == '' and len(said.err.splitlines()) == 2 and not file.exists()
