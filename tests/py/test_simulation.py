@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import angen
-from conftest import box, pir
+from sdf_text import box, pir
 
 
 def test_time_is_ticks_times_step(world):

@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 import angen
-from conftest import box
+from sdf_text import box
 
 
 class Rangefinder(angen.Sensor):
