@@ -137,6 +137,8 @@ class Bench:
             session.rtf = (last.sim - first.sim) / seconds
             session.server_cpu = load(first.server, last.server, seconds)
             session.client_cpu = load(first.client, last.client, seconds)
+            session.others_cpu = (load(first.machine, last.machine, seconds)
+                                  - session.server_cpu - (session.client_cpu or 0.0))
             session.rss_mb = last.rss / 1e6
             session.delivered = share(last.readings - first.readings,
                                       _expected(case, sensors, first, last))

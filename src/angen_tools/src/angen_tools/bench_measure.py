@@ -25,12 +25,20 @@ class Sample:
     heard: int
     server: float
     client: float | None
+    machine: float  # of all processes
     rss: int  # bytes, of the node
 
 
 def due(rate: float, begin: float, end: float) -> int:
     """How often a sensor that started at time 0 reads in (begin, end]; rate in Hz, times in s."""
     return math.floor(end * rate + 1e-6) - math.floor(begin * rate + 1e-6)
+
+
+def machine_time() -> float:
+    """Processor time in s that all processes of the machine have used, on all cores."""
+    import psutil
+    times = psutil.cpu_times()
+    return sum(times) - times.idle - times.iowait - times.guest - times.guest_nice
 
 
 class Meter:
@@ -92,7 +100,7 @@ class Meter:
         except self._gone:
             return
         self._last = Sample(time.monotonic(), stats.sim_time.to_sec(), stats.readings, self._heard,
-                            server, client, rss)
+                            server, client, machine_time(), rss)
 
     def sample(self, after: float) -> Sample:
         """The first sample that came later than the wall time `after`; waits for it."""

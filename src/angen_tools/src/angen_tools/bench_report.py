@@ -16,6 +16,7 @@ class Session:
     """One repeat. CPU in % of one core; None where it was not measured."""
     server_cpu: float | None = None
     client_cpu: float | None = None
+    others_cpu: float | None = None  # of all other processes, the bench's own too
     rtf: float | None = None
     rtf_fast: float | None = None  # at rate 0
     delivered: float | None = None  # readings made, of those expected
@@ -98,7 +99,7 @@ def say(row: Row) -> str:
     parts = [f'{row.count:4d}', f'server {_number(row.server_cpu)} %',
              f'client {_number(row.client_cpu)} %', f'RTF {_number(row.rtf, 2)}',
              f'at rate 0 {_number(row.rtf_fast)}', f'delivered {_percent(row.delivered)}',
-             f'{_number(row.rss_mb, 0)} MB']
+             f'{_number(row.rss_mb, 0)} MB', f'others used {_number(row.others_cpu, 0)} %']
     if row.first_reading_ms is not None:
         parts.append(f'first reading {_number(row.first_reading_ms)} ms')
     if row.mode == 'desired':

@@ -1,0 +1,71 @@
+"""angen bench sensors against real nodes: what it writes, never how fast it was."""
+from __future__ import annotations
+
+import csv
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+SCRIPT = Path(__file__).resolve().parents[2] / 'src/angen_tools/scripts/angen'
+
+
+def start(folder: Path, *words: str) -> subprocess.Popen[str]:
+    command = [sys.executable, str(SCRIPT), 'bench', 'sensors', '--window', '2', '-o', str(folder)]
+    return subprocess.Popen([*command, *words], env=dict(os.environ, TMPDIR=str(folder)), text=True,
+                            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE)
+
+
+def read(path: Path) -> list[dict[str, str]]:
+    with path.open() as file:
+        return list(csv.DictReader(file))
+
+
+def running(folder: Path) -> list[int]:
+    """Processes that the bench has started and left."""
+    found = []
+    for environment in Path('/proc').glob('[0-9]*/environ'):
+        try:
+            if f'ROS_HOME={folder}/angen_bench_'.encode() in environment.read_bytes():
+                found.append(int(environment.parent.name))
+        except OSError:
+            continue
+    return found
+
+
+def test_a_small_bench_measures_and_leaves_nothing_behind(tmp_path: Path) -> None:
+    bench = start(tmp_path, '--kind', 'pir', '--counts', '0,1', '--repeats', '1', '--mode',
+                  'deployed')
+    said, trouble = bench.communicate(timeout=300)
+    assert bench.returncode == 0, trouble
+    none, one = read(tmp_path / 'sensors_pir_deployed.csv')
+    assert (none['count'], one['count'], one['repeats']) == ('0', '1', '1')
+    for row in (none, one):
+        assert float(row['server_cpu']) > 0 and float(row['rtf']) > 0 and float(row['rss_mb']) > 1
+        assert float(row['rtf_fast']) > 0
+    assert none['delivered'] == none['first_reading_ms'] == ''
+    assert float(one['delivered']) > 0 and float(one['heard']) > 0
+    assert float(one['first_reading_ms']) > 0 and float(one['deploy_s']) > 0
+    assert (tmp_path / 'sensors_pir_deployed.png').read_bytes().startswith(b'\x89PNG')
+    assert 'server: one more sensor costs' in said
+    assert not running(tmp_path) and not list(tmp_path.glob('angen_bench_*'))
+
+
+def test_ctrl_c_keeps_what_is_measured(tmp_path: Path) -> None:
+    bench = start(tmp_path, '--kind', 'switch', '--counts', '1,10', '--repeats', '1')
+    table = tmp_path / 'sensors_switch_added.csv'
+    end = time.monotonic() + 300
+    while not (table.exists() and read(table)):
+        assert bench.poll() is None and time.monotonic() < end
+        time.sleep(0.05)
+    bench.send_signal(signal.SIGINT)
+    bench.communicate(timeout=120)
+    assert bench.returncode == 130
+    first = read(table)[0]
+    assert first['count'] == '1' and float(first['delivered']) > 0
+    assert first['first_reading_ms'] == first['deploy_s'] == ''
+    assert (tmp_path / 'sensors_switch_added.png').exists()
+    assert not running(tmp_path)
