@@ -178,6 +178,7 @@ std::vector<desc::Model> describe_models(const std::vector<Element>& models, Ses
   world.attributes = {{"name", "default"}};
   world.children = models;
   for (Element& model : world.children) remove_children(model, "pose");
+  const Memory memory;
   const Hush hush;
   const sdf::Root root = parse_world(world, session);
   for (const Element& model : models) {

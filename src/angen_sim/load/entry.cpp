@@ -10,7 +10,7 @@ namespace angen::load {
 
 namespace {
 
-constexpr std::size_t kMaxModelElements = 20'000;
+constexpr std::size_t kMaxModelElements = 10'000;
 constexpr std::size_t kBatchElements = 2'000;
 
 bool holds_include(const Element& element) {

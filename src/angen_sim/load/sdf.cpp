@@ -1,6 +1,7 @@
 #include "load/sdf.h"
 
 #include <console_bridge/console.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <set>
@@ -109,6 +110,8 @@ Hush::~Hush() {
   console_bridge::restorePreviousOutputHandler();
   sdf::Console::Instance()->GetMsgStream().SetStream(impl_->before);
 }
+
+Memory::~Memory() { malloc_trim(0); }
 
 std::string Hush::heard() const { return impl_->text.str(); }
 

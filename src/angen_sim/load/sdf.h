@@ -27,6 +27,14 @@ class Hush {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Gives back to the system, at its end, what libsdformat needed: a megabyte a link.
+struct Memory {
+  Memory() = default;
+  ~Memory();
+  Memory(const Memory&) = delete;
+  Memory& operator=(const Memory&) = delete;
+};
+
 /// A <world> element of SDF 1.9 that has passed the checks, as libsdformat sees it. Its first error
 /// is thrown as Error at the place the element came from; unknown elements are warnings.
 sdf::Root parse_world(const Element& world, Session& session);

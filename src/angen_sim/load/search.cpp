@@ -110,7 +110,11 @@ std::string need_uri(const std::string& uri, const std::string& what, const Sour
     throw Error(
         at, "unknown uri '" + uri + "'; " + what + "s are read from model://NAME/… and file://…");
   }
-  if (auto found = find_uri(uri, at.file, paths)) return *found;
+  if (auto found = find_uri(uri, at.file, paths)) {
+    std::error_code failed;
+    if (what == "model" || fs::is_regular_file(*found, failed)) return *found;
+    throw Error(at, what + " '" + uri + "' is no file (" + *found + "); name one");
+  }
   throw Error(
       at, what + " '" + uri + "' is not found; searched: " + searched_places(uri, at.file, paths));
 }

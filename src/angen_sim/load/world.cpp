@@ -143,6 +143,7 @@ desc::World describe_world(const Element& sdf, Session& session) {
   }
   world.models = describe_entries(parts.entries, session);
   {
+    const Memory memory;
     const Hush hush;
     const sdf::Root root = parse_world(with_stand_ins(parts), session);
     place_all(parts, *root.WorldByIndex(0), world);

@@ -169,6 +169,9 @@ std::string read_file(const std::string& path) {
   if (std::filesystem::is_directory(path, failed)) {
     throw Error({path, 0}, "is a folder; give an SDF file");
   }
+  if (std::filesystem::exists(path, failed) && !std::filesystem::is_regular_file(path, failed)) {
+    throw Error({path, 0}, "is no ordinary file; give an SDF file");
+  }
   std::ifstream stream(path, std::ios::binary);
   const auto size = std::filesystem::file_size(path, failed);
   if (!stream || failed) throw Error({path, 0}, "cannot be read; give a file that exists");

@@ -1,3 +1,5 @@
+#include <sys/stat.h>
+
 #include "angen_sim/load/texts.h"
 
 namespace angen::load {
@@ -305,6 +307,17 @@ TEST(TooMuch, DepthIsBounded) {
   std::string deep;
   for (int i = 0; i < 5000; ++i) deep += "<model name='m'>";
   EXPECT_NE(error_of("<sdf version='1.6'>" + deep).find("w.world:1: "), std::string::npos);
+}
+
+TEST(MissingFile, FolderOrPipeIsNotRead) {
+  const Folder folder;
+  const std::string pipe = folder.path() + "/pipe.world";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW(world(pipe), Error);
+  EXPECT_THROW(world(folder.path()), Error);
+  const std::string mesh =
+      "<visual name='v'><geometry><mesh><uri>model://pipe.world</uri></mesh></geometry></visual>";
+  EXPECT_NE(error_of(in_link(mesh), folder.paths()).find("is no file"), std::string::npos);
 }
 
 TEST(MissingFile, IsNamed) { EXPECT_THROW(world("/nonexistent/x.world"), Error); }

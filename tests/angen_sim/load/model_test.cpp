@@ -1,3 +1,5 @@
+#include <thread>
+
 #include "angen_sim/load/texts.h"
 
 namespace angen::load {
@@ -347,6 +349,19 @@ TEST(Model, BrokenUrdfIsAnErrorWithItsLine) {
     EXPECT_NE(std::string(error.what()).find("unknown link 'zz'"), std::string::npos);
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Model, ReadByTwoThreadsAtOnce) {
+  const std::string text = sdf("<model name='m'>" + two_links() + "</model>");
+  std::size_t links = 0;
+  std::thread other([&] {
+    for (int i = 0; i < 5; ++i) links += model(text, "a", {}, {}).links.size();
+  });
+  std::size_t own = 0;
+  for (int i = 0; i < 5; ++i) own += model(text, "b", {}, {}).links.size();
+  other.join();
+  EXPECT_EQ(own, 10U);
+  EXPECT_EQ(links, 10U);
 }
 
 TEST(Model, BadNamesAndPoses) {

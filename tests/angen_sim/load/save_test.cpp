@@ -151,6 +151,20 @@ TEST(Save, DeletedAndSpawnedModels) {
   expect_same(second.models[1], by_text);
 }
 
+TEST(Save, UrdfBecomesSdf) {
+  const desc::World first = read(in_world(""));
+  const desc::Model robot = model(
+      "<robot name='r'><link name='a'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' "
+      "ixy='0' ixz='0' iyz='0'/></inertial></link><link name='b'><inertial><mass value='2'/>"
+      "<inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link>"
+      "<joint name='j' type='continuous'><parent link='a'/><child link='b'/>"
+      "<origin xyz='0 0 1' rpy='0 0 1'/><axis xyz='1 0 0'/></joint></robot>",
+      "bot", {}, {});
+  const desc::World second = read(save(first, {{&robot, {}, {}, {}}}));
+  ASSERT_EQ(second.models.size(), 1U);
+  expect_same(second.models[0], robot);
+}
+
 TEST(Save, AttachedSensorsStay) {
   const Folder folder;
   folder.model("inner", sdf("<model name='i'><link name='l'/></model>"));
