@@ -125,7 +125,7 @@ def test_the_command_writes_it(tmp_path: Path, capsys: pytest.CaptureFixture[str
     file = tmp_path / 'out.world'
     words = ['world', 'apartment', '--floors', '1', '--pir', '3', '-o', str(file)]
     assert cli.run(words) == 0
-    assert capsys.readouterr().out == f'wrote {file}: 1 floor(s), 3 sensors\n'
+    assert capsys.readouterr().out == f'wrote {file}: 1 floor, 3 sensors\n'
     assert len(angen.World(str(file)).sensors('pir')) == 3
 
 

@@ -142,7 +142,7 @@ class Stage:
 
 def end(process: subprocess.Popen[bytes]) -> None:
     """Ends a process: asks first."""
-    for order in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
+    for order in (signal.SIGTERM, signal.SIGKILL):
         if process.poll() is not None:
             return
         process.send_signal(order)

@@ -42,7 +42,7 @@ def run_world(args: argparse.Namespace) -> int:
     sensors = world_maker.write_apartment(
         args.output, args.floors, {kind: getattr(args, kind) for kind in KINDS}, args.seed,
         args.elevator)
-    print(f'wrote {args.output}: {args.floors} floor(s), {sensors} sensors')
+    print(f'wrote {args.output}: {args.floors} floor{"s"[:args.floors > 1]}, {sensors} sensors')
     return 0
 
 
