@@ -6,7 +6,7 @@ import math
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from statistics import median
-from typing import Sequence
+from typing import Any, Sequence
 
 REAL_TIME = 0.99  # of simulated seconds a second, and of readings, that still count as real time
 
@@ -53,9 +53,9 @@ class Line:
     slope: float
 
 
-def combine(sessions: Sequence[Session], **what: object) -> Row:
+def combine(sessions: Sequence[Session], **what: Any) -> Row:
     """The row of one count: each figure's median over the sessions that have it."""
-    row = Row(repeats=len(sessions), **what)  # type: ignore[arg-type]
+    row = Row(repeats=len(sessions), **what)
     for field in fields(Session):
         values = [v for s in sessions if (v := getattr(s, field.name)) is not None]
         setattr(row, field.name, median(values) if values else None)
@@ -149,18 +149,18 @@ def draw(path: Path, rows: Sequence[Row]) -> None:
     pyplot.close(figure)
 
 
-def _panel(axis: object, who: str, rows: Sequence[Row], thing: str) -> None:
+def _panel(axis: Any, who: str, rows: Sequence[Row], thing: str) -> None:
     """One axis: the medians as points, their line, its slope."""
     name = {'server': 'server (the node)', 'client': 'client (rviz)'}[who]
     points = [(r.count, v) for r in rows if (v := getattr(r, f'{who}_cpu')) is not None]
     counts, values = zip(*points)
-    axis.plot(counts, values, 'o', label=name)  # type: ignore[attr-defined]
+    axis.plot(counts, values, 'o', label=name)
     line = fit(counts, values)
     if line:
         ends = [min(counts), max(counts)]
-        axis.plot(ends, [line.base + line.slope * c for c in ends],  # type: ignore[attr-defined]
-                  label=f'{line.slope:.3g} % a {thing}')
-    axis.set_ylim(0, 1.25 * max(values) or 1)  # type: ignore[attr-defined]
-    axis.set_ylabel('CPU, % of a core')  # type: ignore[attr-defined]
-    axis.grid(alpha=0.3)  # type: ignore[attr-defined]
-    axis.legend(loc='upper left', fontsize='small')  # type: ignore[attr-defined]
+        axis.plot(ends, [line.base + line.slope * c for c in ends],
+                  label=f'{line.slope:.2g} % a {thing}')
+    axis.set_ylim(0, 1.25 * max(values) or 1)
+    axis.set_ylabel('CPU, % of a core')
+    axis.grid(alpha=0.3)
+    axis.legend(loc='upper left', fontsize='small')
