@@ -14,9 +14,9 @@ from angen_tools import cli, control, listing, watch
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / 'src/angen_tools/scripts/angen'
-COMMANDS = ['spawn', 'spawn pir', 'spawn switch', 'spawn luminosity', 'spawn contact',
-            'spawn model', 'delete', 'list', 'plugins', 'set', 'set door', 'set elevator',
-            'set lamp', 'save', 'watch', 'check', 'completion']
+COMMANDS = ['spawn', 'spawn pir', 'spawn switch', 'spawn luminosity', 'spawn camera',
+            'spawn contact', 'spawn model', 'delete', 'list', 'plugins', 'set', 'set door',
+            'set elevator', 'set lamp', 'save', 'watch', 'check', 'completion']
 
 
 @pytest.fixture
@@ -116,7 +116,7 @@ def test_plugins_lists_the_catalog() -> None:
     done = angen('plugins', '--json')
     kinds = {plugin['kind']: plugin for plugin in json.loads(done.stdout)}
     assert {'door', 'elevator', 'lamp', 'drive', 'person', 'pir', 'switch', 'luminosity',
-            'contact'} <= set(kinds)
+            'contact', 'lidar', 'camera', 'depth'} <= set(kinds)
     p, = [param for param in kinds['door']['params'] if param['path'] == 'p']
     assert (p['type'], p['default'], p['unit']) == ('number', '70', 'N m/rad') and p['doc']
     text = angen('plugins').stdout

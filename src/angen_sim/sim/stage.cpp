@@ -10,6 +10,7 @@ namespace {
 // for overcast daylight.
 constexpr double kPointFlux = 800.0;             // lm
 constexpr double kDirectionalIlluminance = 1e3;  // lx
+constexpr float kNight = 0.1F;  // of SDF's ambient: what a dark world gives a camera all the same
 
 Eigen::Vector3f with_luminance_one(const Eigen::Vector3f& color) {
   const float luminance = Eigen::Vector3f(0.2126F, 0.7152F, 0.0722F).dot(color);  // Rec. 709
@@ -46,7 +47,7 @@ render::Body visible(const desc::Link& link, const Pose& pose, bool moves) {
 
 Stage::Stage(const desc::World& world, std::uint64_t seed)
     : physics(world.physics, world.gravity, seed) {
-  ambience.ambient = world.scene.ambient.head<3>();
+  ambience.ambient = world.scene.ambient.head<3>().cwiseMax(kNight);
   ambience.background = world.scene.background.head<3>();
 }
 

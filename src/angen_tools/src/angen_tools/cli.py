@@ -149,6 +149,7 @@ def add_spawn(commands: Any) -> None:
                 'spawn pir p2 --on turtlebot::base_footprint --pose "0 0 0.5"'],
         'switch': ['spawn switch s1 --pose "2.1 3.94 2.125"'],
         'luminosity': ['spawn luminosity l1 --pose "2 0.1 2.2 0 0 1.57" --set update_rate=5'],
+        'camera': ['spawn camera c1 --pose "0.8 0.8 2.2 0 0.4 0.785"'],
         'contact': ['spawn contact c1 --on kitchen_chair0_a::body --set collision=seat_collision'],
     }
     for kind, lines in examples.items():
@@ -213,7 +214,7 @@ def make_parser() -> argparse.ArgumentParser:
     delete = command(commands, 'delete', run_delete, 'takes models and sensors out of the world',
                      'delete p1 chair1')
     delete.add_argument('names', metavar='NAME', nargs='+').completer = names_of(
-        'model', 'pir', 'switch', 'luminosity', 'contact')
+        'model', 'pir', 'switch', 'luminosity', 'contact', 'camera')
     lists = command(commands, 'list', run_list, 'lists what is in the world',
                     'list --kind door', 'list --json')
     lists.add_argument('--kind', default='', help='only door, elevator, lamp, pir, model, …')

@@ -10,7 +10,7 @@ from .client import Client
 from .failure import Failure
 
 KINDS = ('model', 'door', 'elevator', 'lamp', 'drive', 'person', 'pir', 'switch', 'luminosity',
-         'contact')
+         'contact', 'lidar', 'camera', 'depth')
 
 
 def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:

@@ -11,10 +11,11 @@ from .catalog import known_parameters
 from .failure import Failure
 
 # The model in worlds/models that each kind of sensor is taken from.
-BLOCKS = {'pir': 'pir', 'switch': 'optical_switch', 'luminosity': 'luminosity_sensor'}
+BLOCKS = {'pir': 'pir', 'switch': 'optical_switch', 'luminosity': 'luminosity_sensor',
+          'camera': 'camera'}
 KINDS = (*BLOCKS, 'contact')
 # Parameters that SDF has for every sensor; all others stand in the plug-in.
-SENSOR_KEYS = ('update_rate', 'ray/', 'contact/')
+SENSOR_KEYS = ('update_rate', 'ray/', 'contact/', 'camera/')
 CONTACT = '''<sensor name="contact" type="contact">
   <always_on>true</always_on>
   <update_rate>1</update_rate>
