@@ -148,5 +148,6 @@ def test_stats_count(angen: Angen) -> None:
     stats = angen.wait("/angen/stats", Stats)
     assert stats.step == 0.001
     assert stats.models == len(names(angen, "model"))
-    assert stats.devices == 3 and stats.sensors == len(names(angen, "pir"))
+    kinds = ("pir", "lidar", "camera", "depth", "contact")
+    assert stats.devices == 3 and stats.sensors == sum(len(names(angen, k)) for k in kinds) == 5
     assert stats.links > stats.models and stats.failed_steps == 0
