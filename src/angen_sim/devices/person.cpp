@@ -24,6 +24,11 @@ constexpr double kPushedAway = 0.1;   // m: further than this it walks back
 constexpr double kNearPath = 0.1;     // m: nearer than this it is not held
 constexpr double kProgress = 0.05;    // m: less than this in kStallTime is none
 constexpr Nanoseconds kStallTime = kSecond;
+constexpr Nanoseconds kPatience = 3 * kSecond;  // held for so long, it makes room
+constexpr Nanoseconds kAway = 5 * kSecond;      // and comes again: a door opens in less
+constexpr double kStepBack = 1.2;               // m, out of the way of a leaf that opens towards it
+constexpr Nanoseconds kLookBack = kSecond / 20;
+constexpr int kMostLooks = 200;
 
 const char* const kModeNames[] = {"STANDING", "WALKING", "BLOCKED"};
 const char* const kModeEvents[] = {"stands", "walks", "blocked"};
@@ -50,7 +55,7 @@ void Person::configure(Params& params, Wiring& wiring) {
   force_max_ = params.number("force_max", 150.0, "N", "greatest force of its legs", kPositive);
   params.number("mass", 70.0, "kg", "its mass", kPositive);
   refresh_ = Refresh(params.number("update_rate", 20.0, "Hz",
-                                   "how often its state is told while it walks", kPositive));
+                                   "how often its state is told while it walks", kRefreshRate));
   params.text("device_name", "", "the name commands use, instead of the actor's");
   body_ = wiring.link("body");
 }
@@ -91,6 +96,13 @@ void Person::start(const LinkView& body) {
 
 void Person::walk(const Path::Place& place, const View& view, bool renew, Outputs& outputs) {
   const LinkView body = view.link(body_);
+  if (stalled_ >= kPatience) make_room(body, view.time());
+  if (view.time() < away_until_) {
+    head_for(back_to_ - body.pose.position, kReturnSpeed, 0.0, outputs);
+    came_to_ = body.pose.position;
+    show(Mode::kBlocked, body, renew, outputs);
+    return;
+  }
   const Path::Place goal = path_.at(clock_ + from_seconds(kAhead));
   const Vec3& at = body.pose.position;
   const Vec3 to_goal(goal.x - at.x(), goal.y - at.y(), 0.0);
@@ -107,12 +119,30 @@ void Person::walk(const Path::Place& place, const View& view, bool renew, Output
     show(Mode::kStanding, body, renew, outputs);
     return;
   }
-  resting_ = false;
-  Vec3 velocity = to_goal / kAhead;
   const double fastest = std::max(kReturnSpeed, kCatchUp * std::hypot(place.vx, place.vy));
+  head_for(to_goal, fastest, turn, outputs);
+  show(stalled_ >= kStallTime ? Mode::kBlocked : Mode::kWalking, body, renew, outputs);
+}
+
+void Person::head_for(const Vec3& way, double fastest, double turn, Outputs& outputs) {
+  resting_ = false;
+  Vec3 velocity = Vec3(way.x(), way.y(), 0.0) / kAhead;
   if (velocity.norm() > fastest) velocity *= fastest / velocity.norm();
   outputs.drive(body_, velocity, std::clamp(kTurnGain * turn, -kMaxTurn, kMaxTurn), force_max_);
-  show(stalled_ >= kStallTime ? Mode::kBlocked : Mode::kWalking, body, renew, outputs);
+}
+
+// A door that opens towards whoever leans on it could never be opened: after a while the person
+// goes back the way it came, and tries again.
+void Person::make_room(const LinkView& body, Nanoseconds now) {
+  stalled_ = 0;
+  away_until_ = now + kAway;
+  back_to_ = body.pose.position;
+  Nanoseconds time = clock_;
+  for (int look = 0; look < kMostLooks; ++look, time -= kLookBack) {
+    const Path::Place place = path_.at(time);
+    back_to_.head<2>() << place.x, place.y;
+    if ((back_to_ - body.pose.position).head<2>().norm() >= kStepBack) return;
+  }
 }
 
 void Person::watch(const LinkView& body, bool on_path, Nanoseconds step) {

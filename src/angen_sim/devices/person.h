@@ -9,7 +9,8 @@
 
 namespace angen::devices {
 
-/// Walks a path by a motor of limited force. What does not give way stops it, and its path waits.
+/// Walks a path by a motor of limited force. What does not give way stops it, and its path waits;
+/// it steps back from time to time, so that a door can open towards it.
 class Person : public Device {
  public:
   void configure(Params& params, Wiring& wiring) override;
@@ -23,6 +24,8 @@ class Person : public Device {
   static Path read_path(Params& params);
   void start(const LinkView& body);
   void walk(const Path::Place& place, const View& view, bool renew, Outputs& outputs);
+  void head_for(const Vec3& way, double fastest, double turn, Outputs& outputs);
+  void make_room(const LinkView& body, Nanoseconds now);
   void watch(const LinkView& body, bool on_path, Nanoseconds step);
   void stand(Outputs& outputs);
   void show(Mode mode, const LinkView& body, bool renew, Outputs& outputs);
@@ -34,6 +37,8 @@ class Person : public Device {
   Nanoseconds clock_ = 0;        // time on the path; below 0 while the start is delayed
   Nanoseconds stalled_ = 0;      // since it last came on
   Vec3 came_to_ = Vec3::Zero();  // where that was
+  Nanoseconds away_until_ = 0;   // of stepping back
+  Vec3 back_to_ = Vec3::Zero();  // where it does so
   bool paused_ = false;
   bool resting_ = false;
   bool started_ = false;

@@ -99,7 +99,7 @@ TEST(Person, AWallStopsItItPushesWithNoMoreThanItsForceAndGoesOnWhenFreed) {
   EXPECT_LE(push, 151.0);
   EXPECT_LT(walk.place().x(), 1.81);
   walk.bench.world.remove(wall);
-  const double rest = walk.bench.run_until(6.0, [&] { return walk.rig->mode() == "STANDING"; });
+  const double rest = walk.bench.run_until(12.0, [&] { return walk.rig->mode() == "STANDING"; });
   EXPECT_GT(rest, 2.0);  // the path waited: what was left of it takes its time
   EXPECT_NEAR(walk.place().x(), 5.0, 0.02);
 }
