@@ -26,7 +26,7 @@ void Drive::configure(Params& params, Wiring& wiring) {
   max_angular_ = params.number("max_angular_velocity", 3.1, "rad/s", "fastest turn", kPositive);
   timeout_ = from_seconds(params.number("commandTimeout", 0.6, "s",
                                         "it stops this long after the last command", kPositive));
-  refresh_ = Refresh(params.number("updateRate", 50.0, "Hz", "rate of odometry", kPositive));
+  refresh_ = Refresh(params.number("updateRate", 50.0, "Hz", "rate of odometry", kRefreshRate));
   params.text("commandTopic", "cmd_vel", "where commands come from");
   params.text("odometryTopic", "odom", "where odometry goes to");
   params.text("odometryFrame", "odom", "frame that odometry starts in");

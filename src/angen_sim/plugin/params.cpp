@@ -178,9 +178,13 @@ std::vector<std::string> Params::texts(const std::string& path, const std::strin
 }
 
 Nanoseconds Params::update_period(double fallback_rate) {
-  const Range range{0.0, 1e6};
+  constexpr double kSlowest = 1e-6;  // Hz; what is much slower has no period in nanoseconds
   const std::string path = has("updateRate") ? "updateRate" : "update_rate";
-  const double rate = number(path, fallback_rate, "Hz", "how often it publishes", range);
+  const double rate = number(path, fallback_rate, "Hz", "how often it publishes", {0.0, 1e6});
+  if (rate > 0.0 && rate < kSlowest) {
+    throw error(path,
+                "<" + path + "> is " + shown(rate) + " Hz, must be 0 or >= " + shown(kSlowest));
+  }
   return from_seconds(1.0 / (rate > 0.0 ? rate : fallback_rate));
 }
 

@@ -272,6 +272,7 @@ TEST(Door, RefusesParametersThatDoNotFitTheHinge) {
   Bench bench;
   EXPECT_THROW(add_door(bench, {}, {{"open_position", "1.57"}}), Error);
   EXPECT_THROW(add_door(bench, {}, {{"p", "-1"}}), Error);
+  EXPECT_THROW(add_door(bench, {}, {{"update_rate", "1e10"}}), Error);
   EXPECT_THROW(add_door(bench, {}, {{"colour", "red"}}), Error);
 }
 

@@ -137,6 +137,12 @@ TEST(Params, TheUpdateRateBecomesAPeriod) {
   EXPECT_EQ(Params(plugin_element({})).update_period(10.0), 100'000'000);
 }
 
+TEST(Params, AnUpdateRateWithoutAPeriodInNanosecondsIsRefused) {
+  Params params(plugin_element({{"update_rate", "1e-300"}}));
+  EXPECT_EQ(complaint([&] { params.update_period(10.0); }),
+            "test.sdf:1: <update_rate> is 1e-300 Hz, must be 0 or >= 1e-06");
+}
+
 TEST(Params, NumbersDoNotDependOnTheLocale) {
   const std::string before = std::setlocale(LC_NUMERIC, nullptr);
   std::setlocale(LC_NUMERIC, "de_DE.UTF-8");  // where it is not installed nothing changes
