@@ -67,7 +67,7 @@ void Elevator::configure(Params& params, Wiring& wiring) {
       params.number("door_force_max", 100.0, "N", "greatest force of a door leaf", kPositive);
   doorway_ = Doorway(door_speed, door_force_);
   refresh_ = Refresh(params.number("update_rate", 50.0, "Hz",
-                                   "how often its state is told while it moves", kPositive));
+                                   "how often its state is told while it moves", kRefreshRate));
   params.text("topicName", "/gazebo/Elevator_controller", "where commands come from");
   params.text("device_name", "", "the name commands use, instead of the model's");
   wire(params, wiring);
@@ -168,6 +168,7 @@ void Elevator::update(const View& view, Outputs& outputs) {
       outputs.motor(lift_, 0.0, 0.0);
       const JointView lift = view.joint(lift_);
       servo_.start(lift.position, lift.velocity);
+      rises_ = target_ * floor_height_ > lift.position;
       phase_ = Phase::kMoving;
     }
   }
@@ -223,7 +224,7 @@ int Elevator::floor_at(double position) const {
 std::string Elevator::mode() const {
   if (phase_ != Phase::kMoving) return "IDLE";
   if (servo_.blocked()) return "BLOCKED";
-  return target_ * floor_height_ > shown_.lift.position ? "UP" : "DOWN";
+  return rises_ ? "UP" : "DOWN";
 }
 
 void Elevator::tell(const View& view, Outputs& outputs) {

@@ -60,6 +60,7 @@ class Elevator : public Device {
   std::deque<int> stops_;
   bool started_ = false;
   int target_ = 0;            // floor
+  bool rises_ = false;        // on the way there
   Nanoseconds ready_at_ = 0;  // when the doors may shut
   std::string told_mode_;
   Doorway::Mode told_door_ = Doorway::Mode::kClosed;

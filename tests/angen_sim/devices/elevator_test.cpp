@@ -186,6 +186,17 @@ TEST(Elevator, StandingItBrakesAndSpendsNothing) {
   EXPECT_FALSE(rig.body("cabin").awake);
 }
 
+TEST(Elevator, TellsOneDirectionAWay) {
+  Bench bench;
+  Rig& rig = add_elevator(bench, 84.0);
+  rig.command("Floor1");
+  ASSERT_GT(bench.run_until(15.0, [&] { return standing_open(rig, 1); }), 0.0);
+  rig.command("Floor0");
+  ASSERT_GT(bench.run_until(15.0, [&] { return standing_open(rig, 0); }), 0.0);
+  EXPECT_EQ(std::count(rig.events.begin(), rig.events.end(), "up"), 1);
+  EXPECT_EQ(std::count(rig.events.begin(), rig.events.end(), "down"), 1);
+}
+
 TEST(Elevator, RefusesFloorsThatItHasNot) {
   Bench bench;
   Rig& rig = add_elevator(bench);
