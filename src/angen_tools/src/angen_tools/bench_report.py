@@ -160,7 +160,7 @@ def _panel(axis: Any, who: str, rows: Sequence[Row], thing: str) -> None:
         ends = [min(counts), max(counts)]
         axis.plot(ends, [line.base + line.slope * c for c in ends],
                   label=f'{line.slope:.2g} % a {thing}')
-    axis.set_ylim(0, 1.25 * max(values) or 1)
+    axis.set_ylim(0, 1.2 * max(values) or 1)
     axis.set_ylabel('CPU, % of a core')
     axis.grid(alpha=0.3)
-    axis.legend(loc='upper left', fontsize='small')
+    axis.legend(loc='lower right', fontsize='small')
