@@ -63,7 +63,8 @@ void Door::configure(Params& params, Wiring& wiring) {
   latch_torque_ = params.number("latch_torque", 200.0, "N m", "brake of a shut door", kNotNegative);
   refresh_ = Refresh(params.number("update_rate", 50.0, "Hz",
                                    "how often its state is told while it moves", kRefreshRate));
-  params.text("topicName", "/gazebo/Door_controller", "where commands come from");
+  params.choice("topicName", "/gazebo/Door_controller", {"/gazebo/Door_controller"},
+                "where commands come from: one topic for all");
   params.text("device_name", "", "the name commands use, instead of the model's and its floor");
 
   hinge_ = wiring.joint("hinge");

@@ -68,7 +68,8 @@ void Elevator::configure(Params& params, Wiring& wiring) {
   doorway_ = Doorway(door_speed, door_force_);
   refresh_ = Refresh(params.number("update_rate", 50.0, "Hz",
                                    "how often its state is told while it moves", kRefreshRate));
-  params.text("topicName", "/gazebo/Elevator_controller", "where commands come from");
+  params.choice("topicName", "/gazebo/Elevator_controller", {"/gazebo/Elevator_controller"},
+                "where commands come from: one topic for all");
   params.text("device_name", "", "the name commands use, instead of the model's");
   wire(params, wiring);
 }

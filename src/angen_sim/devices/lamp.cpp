@@ -12,7 +12,8 @@ namespace angen::devices {
 void Lamp::configure(Params& params, Wiring& wiring) {
   full_flux_ = params.number("luminous_flux", 800.0, "lm", "luminous flux at 100 %", kPositive);
   level_ = params.number("level", 0.0, "%", "level at the start", {0.0, 100.0});
-  params.text("topicName", "/gazebo/Light_controller", "where commands come from");
+  params.choice("topicName", "/gazebo/Light_controller", {"/gazebo/Light_controller"},
+                "where commands come from: one topic for all");
   params.text("device_name", "", "the name commands use, instead of the model's and its floor");
   light_ = wiring.light("");
 }

@@ -11,6 +11,10 @@ class Held {
  public:
   explicit Held(pyb::object object) : object_(std::move(object)) {}
   ~Held() {
+    if (Py_IsInitialized() == 0) {  // the catalog outlives the interpreter; there is no GIL to get
+      object_.release();
+      return;
+    }
     const pyb::gil_scoped_acquire gil;
     object_ = pyb::object();
   }

@@ -25,7 +25,9 @@ Commands::Commands(ros::NodeHandle& node, Inbox& inbox) : node_(node), inbox_(in
   using Text = const std_msgs::String::ConstPtr&;
   const auto listen = [this](const std::string& topic, auto make) {
     const boost::function<void(Text)> heard = [this, make](Text text) {
-      inbox_.post(make(text->data));
+      sim::Action action = make(text->data);
+      if (auto* reject = std::get_if<sim::Reject>(&action)) add_known_names(*reject);
+      inbox_.post(std::move(action));
     };
     subscribers_.push_back(node_.subscribe<std_msgs::String>(topic, kQueue, heard));
   };
@@ -39,6 +41,12 @@ Commands::Commands(ros::NodeHandle& node, Inbox& inbox) : node_(node), inbox_(in
         inbox_.post(any_action(command->target, command->text));
       };
   subscribers_.push_back(node_.subscribe<angen_msgs::Command>("/angen/command", kQueue, any));
+}
+
+void Commands::add_known_names(sim::Reject& reject) const {
+  const std::vector<std::string> known =
+      names_of(*inbox_.simulation().snapshot()->structure, reject.kind);
+  reject.reason += "; known names are " + join_names(known);
 }
 
 void Commands::follow(const std::vector<Robot>& robots) {

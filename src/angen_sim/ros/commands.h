@@ -23,6 +23,7 @@ class Commands {
   void follow(const std::vector<Robot>& robots);
 
  private:
+  void add_known_names(sim::Reject& reject) const;
   void drive(const std::string& robot, const geometry_msgs::Twist& twist);
 
   ros::NodeHandle& node_;

@@ -112,6 +112,7 @@ int run(std::string path, std::optional<angen::desc::World> world) {
 
 int main(int argc, char** argv) {
   std::setlocale(LC_NUMERIC, "C");
+  std::setlocale(LC_CTYPE, "C.UTF-8");  // log4cxx writes other letters as ? otherwise
   try {
     const std::vector<std::string> raw(argv + 1, argv + argc);
     if (!raw.empty() && (raw[0] == "--help" || raw[0] == "-h")) {

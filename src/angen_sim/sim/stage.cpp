@@ -91,7 +91,8 @@ Parts::Lamp Stage::add_light(const desc::Light& described, const Pose& pose) {
   lamp.inner_angle = described.inner_angle;
   lamp.outer_angle = described.outer_angle;
   lamp.cast_shadows = described.cast_shadows;
-  const double brightness = described.intensity * described.diffuse.maxCoeff();
+  const double given = described.intensity * described.diffuse.maxCoeff();
+  const double brightness = given > 0.0 ? given : 1.0;  // a black light is one at level 0
   lamp.luminous_flux = brightness * kPointFlux;
   if (described.type == desc::Light::Type::kSpot) lamp.type = light::Lamp::Type::kSpot;
   if (described.type == desc::Light::Type::kDirectional) {
@@ -99,9 +100,9 @@ Parts::Lamp Stage::add_light(const desc::Light& described, const Pose& pose) {
     lamp.luminous_flux = brightness * kDirectionalIlluminance;
   }
   Parts::Lamp part;
-  part.id = light.add(lamp, 1.0);
+  part.level = given > 0.0 ? 1.0 : 0.0;
+  part.id = light.add(lamp, part.level);
   part.nominal_flux = lamp.luminous_flux;
-  part.level = 1.0;
   return part;
 }
 
