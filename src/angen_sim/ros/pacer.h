@@ -12,7 +12,7 @@ namespace angen::node {
 class Pacer {
  public:
   using Clock = std::chrono::steady_clock;
-  static constexpr std::chrono::nanoseconds kMaxLag = std::chrono::milliseconds(100);
+  static constexpr std::chrono::nanoseconds kMaxLag = std::chrono::seconds(1);
 
   /// Simulated seconds a wall second; 0 = as fast as it goes.
   explicit Pacer(double rate) : rate_(rate) {}
