@@ -155,7 +155,7 @@ def test_what_an_accepted_command_waits_for(cli: Cli, angen: Angen, spawned: lis
 
 
 def test_no_command_stays_with_the_master(cli: Cli, angen: Angen) -> None:
-    cli.does('set', 'lamp', 'kitchen0', 'on')
+    cli.does('set', 'lamp', 'kitchen0', 'off')
     cli.does('watch', '--once')
     state = angen.master.api.getSystemState('/test')[2]
     nodes = {node for kind in state for _, names in kind for node in names}
