@@ -4,6 +4,7 @@ from pathlib import Path
 import signal
 import socket
 import subprocess
+import threading
 import uuid
 
 import pytest
@@ -49,10 +50,13 @@ def start(environment):
                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                                env=environment, preexec_fn=hear_signals)
     said = []
+    alarm = threading.Timer(120, process.kill)  # a line that never comes must not hold up the tests
+    alarm.start()
     for line in process.stdout:
         said.append(line)
         if 'process[angen-' in line:
             break
+    alarm.cancel()
     return process, ''.join(said)
 
 
