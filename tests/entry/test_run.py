@@ -74,8 +74,8 @@ def test_a_signal_ends_all_that_it_started(environment, number):
 def test_a_running_roscore_is_used_and_left(environment):
     port = environment['ROS_MASTER_URI'].rpartition(':')[2]
     roscore = subprocess.Popen(['/usr/bin/roscore', '-p', port], stdout=subprocess.PIPE,
-                               stderr=subprocess.DEVNULL, text=True, env=environment,
-                               preexec_fn=hear_signals)
+                               stderr=subprocess.DEVNULL, text=True, preexec_fn=hear_signals,
+                               env=dict(environment, PYTHONUNBUFFERED='1'))
     for line in roscore.stdout:
         if 'started core service' in line:
             break
