@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import Any, Callable, NoReturn, Sequence
 
-from . import bench_words
+from . import bench_words, robot_words
 from .client import leave
 from .failure import Failure
 
@@ -234,6 +234,7 @@ def make_parser() -> argparse.ArgumentParser:
                     'says what is wrong with a world file; needs no simulator',
                     'check worlds/angen.world')
     check.add_argument('world', metavar='WORLD')
+    robot_words.add_map(commands, command, checked)
     bench_words.add_world(commands, command, checked)
     bench_words.add_bench(commands, command, checked)
     completion = command(commands, 'completion', run_completion,
