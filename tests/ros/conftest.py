@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import fcntl
+import json
 import os
 import signal
 import socket
 import subprocess
 import sys
+import termios
 import time
 import xmlrpc.client
 from pathlib import Path
@@ -14,6 +17,7 @@ from typing import Any, Callable, Iterator
 
 import pytest
 
+SCRIPT = Path(__file__).resolve().parents[2] / "src/angen_tools/scripts/angen"
 WORLD = """<?xml version="1.0"?>
 <sdf version="1.6">
   <world name="small">
@@ -192,6 +196,41 @@ class Heard:
                      timeout)
 
 
+class Cli:
+    """The angen command in the environment of a master."""
+
+    def __init__(self, master: Master) -> None:
+        self.environment = dict(master.environment, PYTHONUNBUFFERED="1", TERM="xterm")
+        self.words = [sys.executable, str(SCRIPT)]
+
+    def run(self, *words: str) -> subprocess.CompletedProcess[str]:
+        return subprocess.run([*self.words, *words], env=self.environment, text=True,
+                              capture_output=True, stdin=subprocess.DEVNULL, timeout=120)
+
+    def does(self, *words: str) -> str:
+        """What it says when it succeeds, without the newline."""
+        done = self.run(*words)
+        assert (done.returncode, done.stderr) == (0, ""), done
+        return done.stdout.removesuffix("\n")
+
+    def fails(self, *words: str) -> str:
+        """The one line that it says when it fails."""
+        done = self.run(*words)
+        assert (done.returncode, done.stdout) == (1, ""), done
+        line, = done.stderr.splitlines()
+        assert line.startswith("angen: ")
+        return line.removeprefix("angen: ")
+
+    def listed(self, kind: str) -> list[str]:
+        return [e["name"] for e in json.loads(self.does("list", "--kind", kind, "--json"))]
+
+
+def own_terminal() -> None:
+    """Makes stdin the terminal of a session, so that its Ctrl-C reaches the command."""
+    os.setsid()
+    fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+
+
 @pytest.fixture(scope="session")
 def master(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Master]:
     started = Master(tmp_path_factory.mktemp("ros"))
@@ -220,3 +259,8 @@ def angen(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFac
     process = master.node(world, folder / "log", seed=7)
     yield Angen(master, process, folder / "log")
     end(process)
+
+
+@pytest.fixture
+def cli(angen: Angen) -> Cli:
+    return Cli(angen.master)

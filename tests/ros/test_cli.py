@@ -1,7 +1,6 @@
 """The angen command against the real node."""
 from __future__ import annotations
 
-import fcntl
 import json
 import os
 import pty
@@ -14,47 +13,12 @@ from typing import Any, Iterator
 
 import pytest
 from angen_msgs.srv import Step
-from conftest import Angen, Master, end, until
+from conftest import Angen, Cli, Master, end, own_terminal, until
 from lxml import etree
 from std_srvs.srv import Empty
 
 ROOT = Path(__file__).resolve().parents[2]
-SCRIPT = ROOT / 'src/angen_tools/scripts/angen'
 EMPTY = ROOT / 'worlds/empty.world'
-
-
-class Cli:
-    """The angen command in the environment of a master."""
-
-    def __init__(self, master: Master) -> None:
-        self.environment = dict(master.environment, PYTHONUNBUFFERED='1', TERM='xterm')
-        self.words = [sys.executable, str(SCRIPT)]
-
-    def run(self, *words: str) -> subprocess.CompletedProcess[str]:
-        return subprocess.run([*self.words, *words], env=self.environment, text=True,
-                              capture_output=True, stdin=subprocess.DEVNULL, timeout=120)
-
-    def does(self, *words: str) -> str:
-        """What it says when it succeeds, without the newline."""
-        done = self.run(*words)
-        assert (done.returncode, done.stderr) == (0, ''), done
-        return done.stdout.removesuffix('\n')
-
-    def fails(self, *words: str) -> str:
-        """The one line that it says when it fails."""
-        done = self.run(*words)
-        assert (done.returncode, done.stdout) == (1, ''), done
-        line, = done.stderr.splitlines()
-        assert line.startswith('angen: ')
-        return line.removeprefix('angen: ')
-
-    def listed(self, kind: str) -> list[str]:
-        return [e['name'] for e in json.loads(self.does('list', '--kind', kind, '--json'))]
-
-
-@pytest.fixture
-def cli(angen: Angen) -> Cli:
-    return Cli(angen.master)
 
 
 @pytest.fixture
@@ -194,12 +158,6 @@ def test_the_live_table_ends_by_a_key_and_cleans_the_terminal(cli: Cli, key: byt
     assert termios.tcgetattr(theirs) == before
     os.close(theirs)
     os.close(ours)
-
-
-def own_terminal() -> None:
-    """Makes stdin the terminal of a session, so that its Ctrl-C reaches the command."""
-    os.setsid()
-    fcntl.ioctl(0, termios.TIOCSCTTY, 0)
 
 
 def test_ctrl_c_is_quiet(angen: Angen, cli: Cli) -> None:

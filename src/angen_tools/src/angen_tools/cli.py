@@ -235,6 +235,7 @@ def make_parser() -> argparse.ArgumentParser:
                     'check worlds/angen.world')
     check.add_argument('world', metavar='WORLD')
     robot_words.add_map(commands, command, checked)
+    robot_words.add_drive(commands, command, names_of('drive'))
     bench_words.add_world(commands, command, checked)
     bench_words.add_bench(commands, command, checked)
     completion = command(commands, 'completion', run_completion,

@@ -1,4 +1,4 @@
-"""The words of angen map; what they do is loaded when they are said."""
+"""The words of angen map and angen drive; what they do is loaded when they are said."""
 from __future__ import annotations
 
 import argparse
@@ -11,6 +11,12 @@ from .bench_words import at_least
 def run_map(args: argparse.Namespace) -> int:
     from . import map_command
     print(map_command.save_map(args.world, args.floor, args.doors, args.output))
+    return 0
+
+
+def run_drive(args: argparse.Namespace) -> int:
+    from . import drive
+    drive.drive(args.robot)
     return 0
 
 
@@ -28,3 +34,13 @@ def add_map(commands: Any, command: Callable[..., argparse.ArgumentParser],
                         help='away: doorways are free; otherwise as the leaves stand (away)')
     parser.add_argument('-o', '--output', metavar='NAME', type=Path, default=Path('map'),
                         help='writes NAME.pgm and NAME.yaml (map)')
+
+
+def add_drive(commands: Any, command: Callable[..., argparse.ArgumentParser],
+              names: Callable[..., list[str]]) -> None:
+    """angen drive; `names` completes robots' names."""
+    parser = command(commands, 'drive', run_drive, 'drives a robot by the arrow keys',
+                     'drive', 'drive --robot robot2')
+    parser.add_argument('--robot', metavar='NAME',
+                        help='as angen list --kind drive shows it; the first without'
+                        ).completer = names

@@ -6,9 +6,7 @@ import os
 import select
 import shutil
 import sys
-import termios
 import time
-import tty
 from contextlib import contextmanager, suppress
 from typing import Any, Iterator
 
@@ -16,6 +14,7 @@ from .client import Client, Mailbox
 from .control import describe
 from .failure import Failure
 from .listing import number, table, yaw
+from .terminal import single_keys
 
 ONCE_LIMIT = 3.0   # s of wall time that `--once` gives to sensors of 1 Hz
 REFRESH = 0.25     # s of wall time between two pictures
@@ -161,12 +160,10 @@ def _picture(lines: list[str], page: int) -> str:
 @contextmanager
 def _raw_keys() -> Iterator[None]:
     """Keys come one by one and unseen, on a screen of its own; all is put back at the end."""
-    before = termios.tcgetattr(sys.stdin)
-    try:
-        tty.setcbreak(sys.stdin)
-        sys.stdout.write('\x1b[?1049h\x1b[?25l')
-        yield
-    finally:
-        termios.tcsetattr(sys.stdin, termios.TCSADRAIN, before)
-        sys.stdout.write('\x1b[?25h\x1b[?1049l')
-        sys.stdout.flush()
+    with single_keys():
+        try:
+            sys.stdout.write('\x1b[?1049h\x1b[?25l')
+            yield
+        finally:
+            sys.stdout.write('\x1b[?25h\x1b[?1049l')
+            sys.stdout.flush()
