@@ -94,7 +94,7 @@ def test_rooms_hang_together_through_their_doors(floor: int, doors: str, free: b
 
 
 def hits(world: angen.World, lidar: str, robot: str) -> np.ndarray:
-    """Where a scan meets something, (n, 2) m in the world; the lidar is above the robot's origin."""
+    """Where a scan meets something, (n, 2) m in the world; the lidar is above the robot."""
     world.want('lidar', lidar)
     world.run(0.2)
     scan = world.sensor('lidar', lidar)

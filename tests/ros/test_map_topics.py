@@ -1,0 +1,77 @@
+"""The node that publishes maps: latched, one a floor."""
+from __future__ import annotations
+
+import signal
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from angen_tools.gridmap import load_world, make_map
+from conftest import Angen, Master, end
+from nav_msgs.msg import OccupancyGrid
+
+ROOT = Path(__file__).resolve().parents[2]
+SCRIPT = ROOT / 'src/angen_tools/scripts/map_publisher'
+
+
+def storey(floor: int, length: float) -> str:
+    """A slab of 4 x 4 m with two walls that cross on it."""
+    return ''.join(f'''<model name="{name}{floor}"><static>true</static>
+  <pose>0 0 {4 * floor + z} 0 0 0</pose><link name="link"><collision name="c">
+  <geometry><box><size>{size}</size></box></geometry></collision></link></model>'''
+                   for name, z, size in (('slab', -0.1, '4 4 0.2'),
+                                         ('wall', 0.5, f'{length} 0.1 1'),
+                                         ('across', 0.5, f'0.1 {length} 1')))
+
+
+def start(master: Master, world: Path) -> subprocess.Popen[str]:
+    return subprocess.Popen(['/usr/bin/python3', str(SCRIPT), f'_world:={world}'], text=True,
+                            env=master.environment, stderr=subprocess.PIPE)
+
+
+@pytest.fixture
+def two_floors(tmp_path: Path) -> Path:
+    path = tmp_path / 'two.world'
+    path.write_text(f'<sdf version="1.6"><world name="w">{storey(0, 3)}{storey(1, 2)}'
+                    '</world></sdf>')
+    return path
+
+
+def test_each_floor_has_its_map(angen: Angen, two_floors: Path) -> None:
+    process = start(angen.master, two_floors)
+    try:
+        for topic, floor in (('/map', 0), ('/floor0/map', 0), ('/floor1/map', 1)):
+            told = angen.wait(topic, OccupancyGrid)
+            grid = make_map(load_world(str(two_floors)), floor)
+            assert told.header.frame_id == 'world' and told.info.resolution == pytest.approx(0.05)
+            corner = told.info.origin
+            assert (corner.position.x, corner.position.y) == pytest.approx(grid.origin)
+            assert corner.position.z == 4 * floor and corner.orientation.w == 1
+            cells = np.reshape(told.data, (told.info.height, told.info.width))
+            assert (cells == grid.cells).all() and set(told.data) == {-1, 0, 100}
+        assert '/floor2/map' not in angen.master.topics()
+    finally:
+        process.stderr.close()
+        assert end(process) == 0
+
+
+def test_without_floors_it_ends(angen: Angen) -> None:
+    process = start(angen.master, ROOT / 'worlds/empty.world')
+    assert process.communicate(timeout=60) and process.returncode == 0
+    assert '/floor0/map' not in angen.master.topics()
+
+
+def test_a_world_that_does_not_load_is_one_line(angen: Angen, tmp_path: Path) -> None:
+    process = start(angen.master, tmp_path / 'none.world')
+    said = process.communicate(timeout=60)[1]
+    assert process.returncode == 1
+    line, = said.splitlines()
+    assert line.startswith('map_publisher: ') and 'none.world' in line
+
+
+def test_ctrl_c_is_quiet(angen: Angen, two_floors: Path) -> None:
+    process = start(angen.master, two_floors)
+    angen.wait('/floor1/map', OccupancyGrid)
+    process.send_signal(signal.SIGINT)
+    assert process.communicate(timeout=60)[1] == '' and process.returncode == 0
