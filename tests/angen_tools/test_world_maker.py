@@ -8,7 +8,7 @@ import angen
 import numpy as np
 import pytest
 import world_geometry as geometry
-from angen_tools import cli, placing, world_maker
+from angen_tools import bench, cli, placing, world_maker
 from angen_tools.failure import Failure
 
 COUNTS = {'pir': 30, 'switch': 15, 'luminosity': 14, 'contact': 25}
@@ -92,6 +92,39 @@ def test_every_pir_of_the_running_world_measures_ranges(world: angen.World) -> N
     for name in world.sensors('pir'):
         ranges = np.array(world.sensor('pir', name)['ranges'])
         assert np.mean(ranges < 6.0) > 0.3 and ranges.max() > 1.0, name
+
+
+def test_sensors_on_one_link_stand_where_models_would(path: Path, tmp_path: Path) -> None:
+    write(tmp_path / 'a.world', COUNTS, elevator=True, one_link=True)
+    apart, together = (angen.World(str(p)) for p in (path, tmp_path / 'a.world'))
+    assert len(together.models) < len(apart.models) - COUNTS['pir']
+    for kind in placing.KINDS:
+        names = apart.sensors(kind)
+        own = names if kind == 'contact' else [f'{kind}_sensors_{name}' for name in names]
+        assert set(together.sensors(kind)) == set(own)
+    for world in (apart, together):
+        world.run(0.15)
+    for name in apart.sensors('pir'):
+        ranges = apart.sensor('pir', name)['ranges']
+        others = together.sensor('pir', f'pir_sensors_{name}')['ranges']
+        assert np.allclose(ranges, others, atol=0.08), name  # each has noise of 0.01 m
+
+
+def test_the_robot_goes_round_by_one_order(tmp_path: Path) -> None:
+    write(tmp_path / 'a.world', {}, mover='robot')
+    world = angen.World(str(tmp_path / 'a.world'))
+    plan = placing.generator('plan')
+    x, y, radius = plan.ROUND
+    assert 'person' not in world.models and not world.sensors('lidar')
+    speed, turn = bench.robot_round()
+    world.command('drive', 'turtlebot', f'{speed} {turn}')
+    base = world.links.index('turtlebot::base_footprint')
+    places = []
+    for _ in range(20):
+        world.run(0.5)
+        places.append(world.link_poses[base][:2])
+    assert np.allclose(np.hypot(*(np.array(places) - (x, y + radius)).T), radius, atol=0.05)
+    assert np.ptp(places, axis=0).min() > 1.8 * radius
 
 
 def test_added_chairs_stand_free(path: Path) -> None:

@@ -8,16 +8,16 @@ from contextlib import ExitStack
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
-from typing import Iterator, Sequence
+from typing import Any, Iterator, Sequence
 
 from . import sdf
-from .bench_measure import LISTENERS, Meter, Sample, deploy, due, load, share, spread, topic_of
+from .bench_measure import LISTENERS, Meter, deploy, due, load, share, spread, topic_of
 from .bench_report import Row, Session, combine, draw, say, say_fit, write_csv
 from .bench_run import Stage, end
 from .client import Client
 from .failure import Failure
 from .models import find
-from .placing import KINDS, Placement, floors_for
+from .placing import KINDS, Placement, floors_for, generator
 from .world_maker import apartment, write_apartment
 
 FLOORS = 2
@@ -34,6 +34,7 @@ class Case:
     kind: str
     count: int
     floors: int
+    mover: str = 'person'
 
     @property
     def counts(self) -> dict[str, int]:
@@ -51,10 +52,11 @@ class Case:
         return apartment(self.floors, self.counts, SEED, self.elevator)
 
 
-def cases(mode: str, kind: str, counts: Sequence[int] | None) -> list[list[Case]]:
+def cases(mode: str, kind: str, counts: Sequence[int] | None, mover: str = 'person'
+          ) -> list[list[Case]]:
     """The cases of each figure. All counts of a kind stand in as many flats as the largest needs.
 
-    Failure where `desired` is asked for no flat at all.
+    Failure where `desired` is asked for no flat at all, or there is no room for the sensors.
     """
     counts = sorted(set(counts if counts is not None else COUNTS[mode]))
     if mode == 'desired':
@@ -64,7 +66,8 @@ def cases(mode: str, kind: str, counts: Sequence[int] | None) -> list[list[Case]
     groups = []
     for name in KINDS if kind == 'all' else (kind,):
         floors = floors_for(name, counts[-1], FLOORS)
-        groups.append([Case(mode, name, count, floors) for count in counts])
+        groups.append([Case(mode, name, count, floors, mover) for count in counts])
+        groups[-1][-1].sensors()
     return groups
 
 
@@ -111,77 +114,106 @@ class Bench:
 
     def session(self, case: Case) -> Session:
         """One repeat of a case."""
-        world = self.stage.folder / 'bench.world'
+        self.write(case)
+        found = Session()
+        with ExitStack() as open_now:
+            self.in_time(case, found, *self.start(open_now, case, 1.0, self.shows))
+        with ExitStack() as open_now:
+            self.fast(case, found, *self.start(open_now, case, 0.0, False))
+        return found
+
+    @property
+    def world(self) -> Path:
+        """The file of the case that is measured."""
+        return self.stage.folder / 'bench.world'
+
+    def write(self, case: Case, one_link: bool = False) -> None:
+        """Writes its world."""
         deployed = case.mode == 'deployed'
-        write_apartment(world, case.floors, {} if deployed else case.counts, SEED,
-                        case.elevator and not deployed)
-        session = Session()
-        self._in_time(case, world, session)
-        self._fast(case, world, session)
-        return session
+        write_apartment(self.world, case.floors, {} if deployed else case.counts, SEED,
+                        case.elevator and not deployed, case.mover, one_link)
 
-    def _in_time(self, case: Case, world: Path, session: Session) -> None:
-        with ExitStack() as open_now:
-            meter, client = self._start(open_now, world, 1.0, self.shows)
-            sensors = case.sensors()
-            listened = spread(sensors, LISTENERS)
-            meter.listen([topic_of(s) for s in listened])
-            if case.mode == 'deployed' and sensors:
-                meter.sample(0.0)
-                done = deploy(client, meter, sensors)
-                session.deploy_s, session.first_reading_ms = done.seconds, done.first_reading_ms
-                session.deploy_server_cpu = done.server_cpu
-                session.deploy_client_cpu = done.client_cpu
-            first, last = meter.window(WARM_UP, self.window)
-            seconds = last.wall - first.wall
-            session.rtf = (last.sim - first.sim) / seconds
-            session.server_cpu = load(first.server, last.server, seconds)
-            session.client_cpu = load(first.client, last.client, seconds)
-            session.others_cpu = (load(first.machine, last.machine, seconds)
-                                  - session.server_cpu - (session.client_cpu or 0.0))
-            session.rss_mb = last.rss / 1e6
-            session.delivered = share(last.readings - first.readings,
-                                      _expected(case, sensors, first, last))
-            session.heard = share(last.heard - first.heard, _expected(case, listened, first, last))
+    def in_time(self, case: Case, found: Session, meter: Meter, client: Client) -> None:
+        """What a node at rate 1 costs."""
+        sensors = case.sensors()
+        listened = spread(sensors, LISTENERS)
+        meter.listen([topic_of(s) for s in listened])
+        if case.mode == 'deployed' and sensors:
+            meter.sample(0.0)
+            done = deploy(client, meter, sensors)
+            found.deploy_s, found.first_reading_ms = done.seconds, done.first_reading_ms
+            found.deploy_server_cpu = done.server_cpu
+            found.deploy_client_cpu = done.client_cpu
+        first, last = meter.window(WARM_UP, self.window)
+        if meter.began is not None:
+            found.start_s = meter.began - self.stage.launched
+        seconds = last.wall - first.wall
+        found.rtf = (last.sim - first.sim) / seconds
+        found.server_cpu = load(first.server, last.server, seconds)
+        found.client_cpu = load(first.client, last.client, seconds)
+        found.others_cpu = (load(first.machine, last.machine, seconds)
+                            - found.server_cpu - (found.client_cpu or 0.0))
+        found.rss_mb = last.rss / 1e6
+        found.delivered = share(last.readings - first.readings,
+                                expected(case, sensors, first.sim, last.sim))
+        found.heard = share(last.heard - first.heard,
+                            expected(case, listened, first.sim, last.sim))
 
-    def _fast(self, case: Case, world: Path, session: Session) -> None:
-        with ExitStack() as open_now:
-            meter, client = self._start(open_now, world, 0.0, False)
-            sensors = case.sensors()
-            if case.mode == 'deployed' and sensors:
-                meter.listen([topic_of(s) for s in spread(sensors, LISTENERS)])
-                deploy(client, meter, sensors)
-            first, last = meter.window(WARM_UP, self.window)
-            session.rtf_fast = (last.sim - first.sim) / (last.wall - first.wall)
-            session.delivered_fast = share(last.readings - first.readings,
-                                           _expected(case, sensors, first, last))
+    def fast(self, case: Case, found: Session, meter: Meter, client: Client) -> None:
+        """How fast a node at rate 0 is."""
+        sensors = case.sensors()
+        if case.mode == 'deployed' and sensors:
+            meter.listen([topic_of(s) for s in spread(sensors, LISTENERS)])
+            deploy(client, meter, sensors)
+        first, last = meter.window(WARM_UP, self.window)
+        found.rtf_fast = (last.sim - first.sim) / (last.wall - first.wall)
+        found.sim_per_cpu = share(last.sim - first.sim, last.server - first.server)
+        found.delivered_fast = share(last.readings - first.readings,
+                                     expected(case, sensors, first.sim, last.sim))
 
-    def _start(self, open_now: ExitStack, world: Path, rate: float, shows: bool
-               ) -> tuple[Meter, Client]:
-        """A node with all lamps on, watched by a meter, with rviz if it `shows`."""
+    def start(self, open_now: ExitStack, case: Case, rate: float, shows: bool
+              ) -> tuple[Meter, Client]:
+        """A node with the case's world and all lamps on, and with rviz if it `shows`."""
+        from geometry_msgs.msg import Twist, Vector3
         from std_msgs.msg import String
-        node = self.stage.node(world, rate)
+        node = self.stage.node(self.world, rate)
         open_now.callback(end, node)
         client = Client()
-        lights = client.publisher('/gazebo/Light_controller', String)
-        open_now.callback(lights.unregister)
-        lights.publish(String('On, all'))
+        meter = open_now.enter_context(Meter(client, node))
+        self._tell(open_now, client, '/gazebo/Light_controller', String('On, all'))
+        if case.mover == 'robot':
+            speed, turn = robot_round()
+            self._tell(open_now, client, '/cmd_vel', Twist(Vector3(x=speed), Vector3(z=turn)))
+        if shows:
+            viewer = self.stage.rviz()
+            if viewer:
+                open_now.callback(end, viewer)
+                meter.watch(viewer)
+            else:
+                self.trouble.append('rviz does not start')
+                self.shows = False
+        return meter, client
+
+    @staticmethod
+    def _tell(open_now: ExitStack, client: Client, topic: str, message: Any) -> None:
+        publisher = client.publisher(topic, type(message))
+        open_now.callback(publisher.unregister)
+        publisher.publish(message)
         client.fence()
-        viewer = self.stage.rviz() if shows else None
-        if viewer:
-            open_now.callback(end, viewer)
-        elif shows:
-            self.trouble.append('rviz does not start')
-            self.shows = False
-        return open_now.enter_context(Meter(client, node, viewer)), client
 
 
-def _expected(case: Case, sensors: Sequence[Placement], first: Sample, last: Sample) -> float:
-    """How many readings are due between two samples."""
+def expected(case: Case, sensors: Sequence[Placement], begin: float, end: float) -> float:
+    """How many readings are due between two simulated times in s."""
     rates = Counter(rate_of(sensor.model) for sensor in sensors)
     if case.mode == 'deployed':  # each counts from its own start
-        return sum(n * rate * (last.sim - first.sim) for rate, n in rates.items())
-    return sum(n * due(rate, first.sim, last.sim) for rate, n in rates.items())
+        return sum(n * rate * (end - begin) for rate, n in rates.items())
+    return sum(n * due(rate, begin, end) for rate, n in rates.items())
+
+
+def robot_round() -> tuple[float, float]:
+    """m/s and rad/s of the robot that moves in a bench's world."""
+    plan = generator('plan')
+    return plan.ROUND_SPEED, plan.ROUND_SPEED / plan.ROUND[2]
 
 
 def rows_of(bench: Bench, group: Sequence[Case], repeats: int, bar: Bar, kept: list[Row]
@@ -200,15 +232,11 @@ def rows_of(bench: Bench, group: Sequence[Case], repeats: int, bar: Bar, kept: l
         yield kept[-1]
 
 
-def measure(mode: str, kind: str, counts: Sequence[int] | None, repeats: int, window: float,
-            folder: Path) -> None:
+def measure(groups: Sequence[Sequence[Case]], repeats: int, window: float, folder: Path) -> None:
     """Measures, prints and writes into `folder` a CSV and a figure for each kind.
 
     KeyboardInterrupt keeps what is measured, then goes on its way.
     """
-    groups = cases(mode, kind, counts)
-    for group in groups:
-        group[-1].sensors()  # there is room for them
     bar = Bar(repeats * sum(len(group) for group in groups))
     with tempfile.TemporaryDirectory(prefix='angen_bench_') as work, Stage(Path(work)) as stage:
         why = stage.display()

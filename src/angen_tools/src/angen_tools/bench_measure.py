@@ -42,20 +42,20 @@ def machine_time() -> float:
 
 
 class Meter:
-    """Watches a node and perhaps a client. A context: its end takes the subscriptions away."""
+    """Watches a node. A context: its end takes the subscriptions away."""
 
-    def __init__(self, client: Client, server: subprocess.Popen[bytes],
-                 viewer: subprocess.Popen[bytes] | None) -> None:
+    def __init__(self, client: Client, server: subprocess.Popen[bytes]) -> None:
         import psutil
         import rospy
         from angen_msgs.msg import Stats
         client.join()
         self._server = psutil.Process(server.pid)
-        self._viewer = psutil.Process(viewer.pid) if viewer else None
+        self._viewer: psutil.Process | None = None
         self._gone = psutil.NoSuchProcess
         self._last: Sample | None = None
         self._lock = threading.Lock()
         self._heard = 0
+        self.began: float | None = None  # wall time of the first tick, of a node at rate 1
         self.first: dict[str, float] = {}  # topic: wall time of its first message
         self._subscribers = [rospy.Subscriber('/angen/stats', Stats, self._take)]
 
@@ -65,6 +65,11 @@ class Meter:
     def __exit__(self, *_: object) -> None:
         for subscriber in self._subscribers:
             subscriber.unregister()
+
+    def watch(self, viewer: subprocess.Popen[bytes]) -> None:
+        """Watches a client too."""
+        import psutil
+        self._viewer = psutil.Process(viewer.pid)
 
     def listen(self, topics: Sequence[str]) -> None:
         """Listens to topics without looking into their messages; they may come later."""
@@ -99,8 +104,11 @@ class Meter:
             rss = self._server.memory_info().rss
         except self._gone:
             return
-        self._last = Sample(time.monotonic(), stats.sim_time.to_sec(), stats.readings, self._heard,
-                            server, client, machine_time(), rss)
+        wall, sim = time.monotonic(), stats.sim_time.to_sec()
+        if self.began is None:
+            self.began = wall - sim
+        self._last = Sample(wall, sim, stats.readings, self._heard, server, client,
+                            machine_time(), rss)
 
     def sample(self, after: float) -> Sample:
         """The first sample that came later than the wall time `after`; waits for it."""

@@ -19,10 +19,12 @@ class Session:
     others_cpu: float | None = None  # of all other processes, the bench's own too
     rtf: float | None = None
     rtf_fast: float | None = None  # at rate 0
+    sim_per_cpu: float | None = None  # at rate 0, simulated seconds a second of processor time
     delivered: float | None = None  # readings made, of those expected
     delivered_fast: float | None = None
     heard: float | None = None  # messages received on topics with a listener, of those expected
     rss_mb: float | None = None
+    start_s: float | None = None  # from the start of the process to the first tick
     deploy_s: float | None = None  # for all sensors together
     deploy_server_cpu: float | None = None
     deploy_client_cpu: float | None = None
@@ -53,10 +55,13 @@ class Line:
     slope: float
 
 
-def combine(sessions: Sequence[Session], **what: Any) -> Row:
-    """The row of one count: each figure's median over the sessions that have it."""
-    row = Row(repeats=len(sessions), **what)
-    for field in fields(Session):
+def combine(sessions: Sequence[Any], made: type[Any] = Row, **what: Any) -> Any:
+    """The row of one count: each figure's median over the sessions that have it.
+
+    `made` is the dataclass of the row, which adds to that of the sessions.
+    """
+    row = made(repeats=len(sessions), **what)
+    for field in fields(sessions[0]):
         values = [v for s in sessions if (v := getattr(s, field.name)) is not None]
         setattr(row, field.name, median(values) if values else None)
     return row
@@ -85,10 +90,11 @@ def write_csv(path: Path, rows: Sequence[Row]) -> None:
         writer.writeheader()
         for row in rows:
             cells = asdict(row) | {'real_time': 'yes' if row.real_time else 'no'}
-            writer.writerow({key: _cell(cells[key]) for key in COLUMNS})
+            writer.writerow({key: cell(cells[key]) for key in COLUMNS})
 
 
-def _cell(value: object) -> object:
+def cell(value: object) -> object:
+    """A value as a CSV has it: short, blank where there is none."""
     if isinstance(value, float):
         return f'{value:.4g}' if math.isfinite(value) else ''
     return '' if value is None else value

@@ -43,6 +43,7 @@ class Stage:
     def __init__(self, folder: Path) -> None:
         import xmlrpc.client
         self.folder = folder
+        self.launched = 0.0  # when the last node was started, s of wall time
         self._all = ExitStack()
         with socket.socket() as probe:
             probe.bind(('127.0.0.1', 0))
@@ -93,6 +94,7 @@ class Stage:
     def node(self, world: Path, rate: float) -> subprocess.Popen[bytes]:
         """The node with a world, once it serves."""
         wait(lambda: not self._names(2, '/angen/save'), 'the last node has not gone', START_LIMIT)
+        self.launched = time.monotonic()
         process = self.start([str(node_program()), str(world), f'_rate:={rate:g}'], 'node')
 
         def serves() -> bool:

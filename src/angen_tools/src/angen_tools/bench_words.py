@@ -5,7 +5,10 @@ import argparse
 from pathlib import Path
 from typing import Any, Callable
 
+from .failure import Failure
+
 KINDS = ('pir', 'switch', 'luminosity', 'contact')
+MOVERS = ('person', 'robot', 'nobody')
 
 
 def at_least(least: int) -> Callable[[str], int]:
@@ -41,14 +44,22 @@ def run_world(args: argparse.Namespace) -> int:
     from . import world_maker
     sensors = world_maker.write_apartment(
         args.output, args.floors, {kind: getattr(args, kind) for kind in KINDS}, args.seed,
-        args.elevator)
+        args.elevator, args.mover, args.one_link)
     print(f'wrote {args.output}: {args.floors} floor{"s"[:args.floors > 1]}, {sensors} sensors')
     return 0
 
 
 def run_bench(args: argparse.Namespace) -> int:
     from . import bench
-    bench.measure(args.mode, args.kind, args.counts, args.repeats, args.window, args.out)
+    if args.vs:
+        from . import bench_contest
+        if args.mode != 'added':
+            raise Failure('--vs compares sensors that are there at the start: give --mode added')
+        bench_contest.measure(bench.cases('added', args.kind, args.counts, 'robot'), args.repeats,
+                              args.window, args.out, args.chroot)
+    else:
+        bench.measure(bench.cases(args.mode, args.kind, args.counts), args.repeats, args.window,
+                      args.out)
     return 0
 
 
@@ -68,6 +79,12 @@ def add_world(commands: Any, command: Callable[..., argparse.ArgumentParser],
                           (', each with its chair or table (0)' if kind == 'contact' else ' (0)'))
     flat.add_argument('--elevator', action='store_true',
                       help='with the elevator, which holds one of the contact sensors')
+    flat.add_argument('--mover', choices=MOVERS, default='person', help='who is on floor 0: '
+                      'a person who walks; a robot, which drives in the workroom when it is sent '
+                      '(person)')
+    flat.add_argument('--one-link', action='store_true',
+                      help='puts all sensors of a kind on one link, not each in its own model; '
+                      'contact sensors stay on the furniture')
     flat.add_argument('--seed', metavar='S', type=checked(at_least(0)), default=1,
                       help='of the places that are left to chance (1)')
     flat.add_argument('-o', '--output', metavar='FILE', type=Path, required=True)
@@ -82,7 +99,7 @@ def add_bench(commands: Any, command: Callable[..., argparse.ArgumentParser],
     sensors = command(kinds, 'sensors', run_bench, 'measures what sensors cost: CPU of the node '
                       'and of rviz, speed, readings, memory',
                       'bench sensors --kind pir --counts 0,10,50,100',
-                      'bench sensors --mode desired')
+                      'bench sensors --mode desired', 'bench sensors --kind pir --vs gazebo')
     sensors.add_argument('--kind', choices=[*KINDS, 'all'], default='all',
                          help='of sensor; all: one after the other (all)')
     sensors.add_argument('--mode', choices=['added', 'deployed', 'desired'], default='added',
@@ -96,5 +113,10 @@ def add_bench(commands: Any, command: Callable[..., argparse.ArgumentParser],
                          help='of each count; figures are medians (3)')
     sensors.add_argument('--window', metavar='S', type=checked(seconds), default=5.0,
                          help='how long to measure, in s (5)')
+    sensors.add_argument('--vs', choices=['gazebo'], help='measures Gazebo 11 beside it, in a '
+                         'chroot of Debian 11 that is made at the first use, as root; a robot '
+                         'moves, no person')
+    sensors.add_argument('--chroot', metavar='DIR', type=Path, help='where that chroot is '
+                         '(~/.cache/angen/gazebo11)')
     sensors.add_argument('-o', '--out', metavar='DIR', type=Path, default=Path('out'),
                          help='where the CSV files and figures go (out)')

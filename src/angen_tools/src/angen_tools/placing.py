@@ -28,6 +28,7 @@ CHAIR_LATTICE = 0.55
 CHAIR_REACH = 0.31  # half a chair's diagonal, and a little air
 DOOR_REACH = 1.12  # of a leaf that swings, from the middle of its opening
 PERSON_REACH = 0.4
+ROBOT_REACH = 0.25
 Pose = tuple[float, float, float, float, float, float]
 Spot = tuple[str, str, Pose]  # model, ending of the name or whole name, pose
 
@@ -157,7 +158,7 @@ def _lattice(kind: str, room: str, floor: int, rng: Random) -> list[Spot]:
 
 
 def _free_chairs(_kind: str, room: str, floor: int, rng: Random) -> list[Spot]:
-    """Chairs that stand free of furniture, of doors that swing and of the person's way."""
+    """Chairs that stand free of furniture, of doors that swing and of what moves."""
     plan = generator('plan')
     points = list(_free_points(room, floor == 0))
     rng.shuffle(points)
@@ -167,15 +168,18 @@ def _free_chairs(_kind: str, room: str, floor: int, rng: Random) -> list[Spot]:
 
 
 @cache
-def _free_points(room: str, person: bool) -> list[tuple[float, float]]:
+def _free_points(room: str, ground_floor: bool) -> list[tuple[float, float]]:
     plan = generator('plan')
     boxes = [_footprint(*piece) for piece in generator('world').furniture_in(room, 0)]
     doors = [(x + cos(yaw) / 2, y + sin(yaw) / 2) for x, y, yaw in plan.DOORS.values()]
-    way = list(zip(plan.WALK, plan.WALK[1:])) if person else []
+    way = list(zip(plan.WALK, plan.WALK[1:])) if ground_floor else []
+    x, y, radius = plan.ROUND
+    middle, reach = (x, y + radius), radius + ROBOT_REACH + CHAIR_REACH if ground_floor else 0.0
     return [point for point in _points(room, CHAIR_LATTICE, CHAIR_REACH)
             if all(_outside(point, box) > CHAIR_REACH for box in boxes)
             and all(hypot(point[0] - x, point[1] - y) > DOOR_REACH + CHAIR_REACH for x, y in doors)
-            and all(_from_line(point, a, b) > PERSON_REACH + CHAIR_REACH for a, b in way)]
+            and all(_from_line(point, a, b) > PERSON_REACH + CHAIR_REACH for a, b in way)
+            and hypot(point[0] - middle[0], point[1] - middle[1]) > reach]
 
 
 def _footprint(model: str, _name: str, pose: Pose) -> tuple[float, float, float, float]:

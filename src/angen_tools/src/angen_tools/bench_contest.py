@@ -1,0 +1,195 @@
+"""Runs the worlds of a bench in Angen and in Gazebo, in turn."""
+from __future__ import annotations
+
+import tempfile
+import time
+from contextlib import ExitStack, suppress
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import median
+from typing import Sequence
+
+from lxml import etree
+
+from . import sdf
+from .bench import WARM_UP, Bar, Bench, Case, expected, robot_round
+from .bench_gazebo import STEPS, Gazebo, Tick, default_chroot, prepare
+from .bench_measure import Meter, load, share, topic_of
+from .bench_report import Session as OwnSession
+from .bench_report import combine
+from .bench_run import Stage, wait
+from .bench_vs import ANGEN, EACH, ONE_LINK, Row, Session, draw, table, write_csv
+from .client import Client, Mailbox
+from .failure import Failure
+from .models import find
+from .placing import Placement, generator
+
+TRIALS = 3  # spawns and deletions a repeat
+NEW = Placement('pir', 'pir', 'bench_new', (2.0, 2.0, 2.3, 0.0, 0.45, 0.0))
+NEWS_LIMIT = 20.0  # s of wall time
+
+
+@dataclass
+class Contest:
+    """Runs cases; `chroot` holds Gazebo."""
+    bench: Bench
+    chroot: Path
+
+    def session(self, simulator: str, case: Case) -> Session:
+        """One repeat of a case in one simulator."""
+        self.bench.write(case, simulator == ONE_LINK)
+        return self._angen(case) if simulator == ANGEN else self._gazebo(case)
+
+    def _angen(self, case: Case) -> Session:
+        own = OwnSession()
+        with ExitStack() as open_now:
+            meter, client = self.bench.start(open_now, case, 1.0, False)
+            self.bench.in_time(case, own, meter, client)
+            first_reading, gone = _spawn_and_delete(meter, client)
+        with ExitStack() as open_now:
+            self.bench.fast(case, own, *self.bench.start(open_now, case, 0.0, False))
+        return Session(own.server_cpu, own.rtf, own.delivered, own.rtf_fast, own.delivered_fast,
+                       own.sim_per_cpu, own.rss_mb, own.start_s, first_reading, gone)
+
+    def _gazebo(self, case: Case) -> Session:
+        folder = self.bench.stage.folder
+        (folder / 'new.sdf').write_text(_new_model(), encoding='utf-8')
+        sensors = case.sensors()
+        found = Session()
+        with Gazebo(self.chroot, folder, self.bench.world.name, self.bench.stage.environment
+                    ) as gazebo:
+            found.start_s = gazebo.start_s
+            gazebo.settle(len(sensors))
+            gazebo.order(f'drive turtlebot {" ".join(f"{w:g}" for w in _wheels())}')
+            first, last = gazebo.window(WARM_UP, self.bench.window)
+            found.rtf, found.delivered = _speed(case, sensors, first, last)
+            found.cpu = load(first.processor, last.processor, last.wall - first.wall)
+            found.rss_mb = last.rss / 1e6
+            gazebo.order('rate 0')
+            first, last = gazebo.window(WARM_UP, self.bench.window)
+            found.rtf_fast, found.delivered_fast = _speed(case, sensors, first, last)
+            found.sim_per_cpu = share(last.sim - first.sim, last.processor - first.processor)
+            gazebo.order(f'rate {STEPS}')
+            with suppress(Failure):  # it is known to stop answering; what it did until then counts
+                readings, ends = [], []
+                for trial in range(TRIALS):
+                    readings.append(gazebo.spawn(NEW.name, 'new.sdf'))
+                    found.first_reading_ms = 1000 * median(readings)
+                    ends.append(gazebo.delete(NEW.name))
+                    found.gone_ms = 1000 * median(ends)
+        return found
+
+
+def _speed(case: Case, sensors: Sequence[Placement], first: Tick, last: Tick
+           ) -> tuple[float, float | None]:
+    """Simulated seconds a second of wall time, and readings made of those due."""
+    made = share(last.readings - first.readings, expected(case, sensors, first.sim, last.sim))
+    return (last.sim - first.sim) / (last.wall - first.wall), made
+
+
+def _wheels() -> tuple[float, float]:
+    """rad/s of the left and the right wheel on the robot's round."""
+    (speed, turn), robot = robot_round(), generator('devices')
+    return ((speed - turn * robot.SEPARATION / 2) / robot.WHEEL_RADIUS,
+            (speed + turn * robot.SEPARATION / 2) / robot.WHEEL_RADIUS)
+
+
+def _new_model() -> str:
+    """The PIR that is spawned, as an SDF document."""
+    path = find(f'model://{NEW.model}')
+    if path is None:
+        raise Failure(f'model://{NEW.model} is not found')
+    root = sdf.read(path)
+    model = root.find('model')
+    model.set('name', NEW.name)
+    pose = etree.Element('pose')
+    pose.text = generator('sdf').numbers(*NEW.pose)
+    model.insert(0, pose)
+    return sdf.text(root)
+
+
+def _spawn_and_delete(meter: Meter, client: Client) -> tuple[float, float]:
+    """ms from the call to the first message of the new topic, and to the event of the deletion."""
+    from angen_msgs.srv import Delete, Spawn
+    from geometry_msgs.msg import Point, Pose, Quaternion
+    pose = Pose(Point(*NEW.pose[:3]), Quaternion(*sdf.quaternion(*NEW.pose[3:])))
+    topic = topic_of(NEW)
+    news = Mailbox(client)
+    news.listen('/angen/events', 'angen_msgs/Event')
+    news.connected('/angen/events')
+    meter.listen([topic])
+    readings, ends = [], []
+    for trial in range(TRIALS):
+        meter.first.pop(topic, None)
+        asked = time.monotonic()
+        client.call('/angen/spawn', Spawn, name=NEW.name, xml=f'model://{NEW.model}', pose=pose)
+        wait(lambda: topic in meter.first, 'a spawned sensor has not been heard', NEWS_LIMIT)
+        readings.append(1000 * (meter.first[topic] - asked))
+        asked = time.monotonic()
+        client.call('/angen/delete', Delete, name=NEW.name)
+        if not news.until(lambda _, event: (event.source, event.event) == (NEW.name, 'deleted'),
+                          NEWS_LIMIT):
+            raise Failure('the deletion of a sensor is not told on /angen/events')
+        ends.append(1000 * (time.monotonic() - asked))
+    news.leave('/angen/events')
+    return median(readings), median(ends)
+
+
+def measure(groups: Sequence[Sequence[Case]], repeats: int, window: float, folder: Path,
+            chroot: Path | None) -> None:
+    """Measures, prints and writes into `folder` a CSV, a table and a figure for each kind.
+
+    `chroot` is made where it is missing. KeyboardInterrupt keeps what is measured, then goes on its
+    way. Failure where Gazebo cannot be had.
+    """
+    chroot = (chroot or default_chroot()).resolve()
+    prepare(chroot)
+    bar = Bar(repeats * sum(len(group) * len(simulators(group[0].kind)) for group in groups))
+    with tempfile.TemporaryDirectory(prefix='angen_bench_') as work, Stage(Path(work)) as stage:
+        why = stage.display()
+        if why and any(group[0].kind == 'luminosity' for group in groups):
+            raise Failure(f"Gazebo's luminosity sensors are cameras, which need a display: {why}")
+        contest = Contest(Bench(stage, False, window), chroot)
+        for group in groups:
+            rows: list[Row] = []
+            try:
+                for case in group:
+                    _measure_case(contest, case, repeats, bar, rows)
+                    write_csv(_path(folder, case, 'csv'), rows)
+            finally:
+                bar.close()
+                _report(folder, group[0], rows)
+
+
+def simulators(kind: str) -> tuple[str, ...]:
+    """What is compared: contact sensors sit on furniture, not on one link."""
+    return (ANGEN, EACH) if kind == 'contact' else (ANGEN, EACH, ONE_LINK)
+
+
+def _measure_case(contest: Contest, case: Case, repeats: int, bar: Bar, rows: list[Row]) -> None:
+    """Appends a row a simulator, also on Ctrl-C."""
+    found: dict[str, list[Session]] = {simulator: [] for simulator in simulators(case.kind)}
+    try:
+        for repeat in range(repeats):
+            for simulator, sessions in found.items():
+                bar.step(f'{case.kind} {case.count}, {simulator}, repeat {repeat + 1}')
+                sessions.append(contest.session(simulator, case))
+    finally:
+        rows += [combine(sessions, Row, kind=case.kind, count=case.count, simulator=simulator)
+                 for simulator, sessions in found.items() if sessions]
+
+
+def _report(folder: Path, case: Case, rows: Sequence[Row]) -> None:
+    if not rows:
+        return
+    numbers, text, figure = (_path(folder, case, ending) for ending in ('csv', 'md', 'png'))
+    write_csv(numbers, rows)
+    lines = table(rows)
+    text.write_text('\n'.join(lines) + '\n', encoding='utf-8')
+    draw(figure, rows)
+    print('\n'.join(lines))
+    print(f'wrote {numbers}, {text} and {figure}', flush=True)
+
+
+def _path(folder: Path, case: Case, ending: str) -> Path:
+    return folder / f'sensors_{case.kind}_vs_gazebo.{ending}'
