@@ -4,12 +4,15 @@ from __future__ import annotations
 import csv
 import os
 import subprocess
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
 from angen_tools import bench_contest, bench_report, bench_vs, cli
+from angen_tools.bench import Bar, Case
 from angen_tools.bench_gazebo import parse
 from angen_tools.bench_vs import ANGEN, EACH, ONE_LINK, Row, Session
+from angen_tools.failure import Failure
 
 SCRIPT = Path(__file__).resolve().parents[2] / 'bench/gazebo/make_chroot'
 
@@ -88,6 +91,39 @@ def test_csv_has_a_line_a_count_and_simulator(tmp_path: Path) -> None:
     assert tuple(read[0]) == bench_vs.COLUMNS
     assert [(r['count'], r['simulator']) for r in read[:2]] == [('0', 'angen'), ('0', 'gazebo')]
     assert (read[3]['cpu'], read[3]['gone_ms']) == ('3', '')
+
+
+class Played:
+    """A contest whose Gazebo, or whose user, stops at a session of that number."""
+
+    def __init__(self, stops: int, error: BaseException) -> None:
+        self._left, self._error = stops, error
+
+    def session(self, simulator: str, case: Case) -> Session:
+        self._left -= 1
+        if self._left == 0:
+            raise self._error
+        return Session(cpu=1.0)
+
+
+def play(contest: Played) -> list[tuple[str, int]]:
+    """(simulator, repeats) of each row of two repeats."""
+    rows: list[Row] = []
+    with suppress(KeyboardInterrupt):
+        bench_contest.measure_case(contest, Case('added', 'pir', 5, 2), 2, Bar(6), rows)
+    return [(row.simulator, row.repeats) for row in rows]
+
+
+def test_where_gazebo_stops_the_bench_goes_on(capsys: pytest.CaptureFixture[str]) -> None:
+    assert play(Played(2, Failure('Gazebo has stopped'))) == [(ANGEN, 2), (EACH, 1), (ONE_LINK, 2)]
+    assert 'angen: pir 5: Gazebo has stopped\n' in capsys.readouterr().err
+    with pytest.raises(Failure, match='the node ended'):
+        play(Played(4, Failure('the node ended')))
+
+
+def test_ctrl_c_keeps_what_is_measured() -> None:
+    assert play(Played(5, KeyboardInterrupt())) == [(ANGEN, 2), (EACH, 1), (ONE_LINK, 1)]
+    assert play(Played(1, KeyboardInterrupt())) == []
 
 
 def test_contact_sensors_have_no_common_link() -> None:

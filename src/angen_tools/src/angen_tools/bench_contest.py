@@ -1,6 +1,7 @@
 """Runs the worlds of a bench in Angen and in Gazebo, in turn."""
 from __future__ import annotations
 
+import sys
 import tempfile
 import time
 from contextlib import ExitStack, suppress
@@ -12,7 +13,7 @@ from typing import Sequence
 from lxml import etree
 
 from . import sdf
-from .bench import WARM_UP, Bar, Bench, Case, expected, robot_round
+from .bench import WARM_UP, Bar, Bench, Case, rate_of, robot_round
 from .bench_gazebo import STEPS, Gazebo, Tick, default_chroot, prepare
 from .bench_measure import Meter, load, share, topic_of
 from .bench_report import Session as OwnSession
@@ -24,6 +25,7 @@ from .failure import Failure
 from .models import find
 from .placing import Placement, generator
 
+LEAST_READINGS = 5  # a sensor, for a share to be told
 TRIALS = 3  # spawns and deletions a repeat
 NEW = Placement('pir', 'pir', 'bench_new', (2.0, 2.0, 2.3, 0.0, 0.45, 0.0))
 NEWS_LIMIT = 20.0  # s of wall time
@@ -62,12 +64,12 @@ class Contest:
             gazebo.settle(len(sensors))
             gazebo.order(f'drive turtlebot {" ".join(f"{w:g}" for w in _wheels())}')
             first, last = gazebo.window(WARM_UP, self.bench.window)
-            found.rtf, found.delivered = _speed(case, sensors, first, last)
+            found.rtf, found.delivered = _speed(sensors, first, last)
             found.cpu = load(first.processor, last.processor, last.wall - first.wall)
             found.rss_mb = last.rss / 1e6
             gazebo.order('rate 0')
             first, last = gazebo.window(WARM_UP, self.bench.window)
-            found.rtf_fast, found.delivered_fast = _speed(case, sensors, first, last)
+            found.rtf_fast, found.delivered_fast = _speed(sensors, first, last)
             found.sim_per_cpu = share(last.sim - first.sim, last.processor - first.processor)
             gazebo.order(f'rate {STEPS}')
             with suppress(Failure):  # it is known to stop answering; what it did until then counts
@@ -80,11 +82,17 @@ class Contest:
         return found
 
 
-def _speed(case: Case, sensors: Sequence[Placement], first: Tick, last: Tick
-           ) -> tuple[float, float | None]:
-    """Simulated seconds a second of wall time, and readings made of those due."""
-    made = share(last.readings - first.readings, expected(case, sensors, first.sim, last.sim))
-    return (last.sim - first.sim) / (last.wall - first.wall), made
+def _speed(sensors: Sequence[Placement], first: Tick, last: Tick) -> tuple[float, float | None]:
+    """Simulated seconds a second of wall time, and readings made of those due.
+
+    No share where so little time went by that the edges of the window decide it.
+    """
+    seconds = last.sim - first.sim
+    rates = [rate_of(sensor.model) for sensor in sensors]
+    made = None
+    if rates and seconds * min(rates) >= LEAST_READINGS:
+        made = (last.readings - first.readings) / (seconds * sum(rates))
+    return seconds / (last.wall - first.wall), made
 
 
 def _wheels() -> tuple[float, float]:
@@ -154,7 +162,7 @@ def measure(groups: Sequence[Sequence[Case]], repeats: int, window: float, folde
             rows: list[Row] = []
             try:
                 for case in group:
-                    _measure_case(contest, case, repeats, bar, rows)
+                    measure_case(contest, case, repeats, bar, rows)
                     write_csv(_path(folder, case, 'csv'), rows)
             finally:
                 bar.close()
@@ -166,14 +174,19 @@ def simulators(kind: str) -> tuple[str, ...]:
     return (ANGEN, EACH) if kind == 'contact' else (ANGEN, EACH, ONE_LINK)
 
 
-def _measure_case(contest: Contest, case: Case, repeats: int, bar: Bar, rows: list[Row]) -> None:
-    """Appends a row a simulator, also on Ctrl-C."""
+def measure_case(contest: Contest, case: Case, repeats: int, bar: Bar, rows: list[Row]) -> None:
+    """Appends a row a simulator, also on Ctrl-C. What Gazebo fails at is said and left out."""
     found: dict[str, list[Session]] = {simulator: [] for simulator in simulators(case.kind)}
     try:
         for repeat in range(repeats):
             for simulator, sessions in found.items():
                 bar.step(f'{case.kind} {case.count}, {simulator}, repeat {repeat + 1}')
-                sessions.append(contest.session(simulator, case))
+                try:
+                    sessions.append(contest.session(simulator, case))
+                except Failure as failure:
+                    if simulator == ANGEN:
+                        raise
+                    print(f'angen: {case.kind} {case.count}: {failure}', file=sys.stderr)
     finally:
         rows += [combine(sessions, Row, kind=case.kind, count=case.count, simulator=simulator)
                  for simulator, sessions in found.items() if sessions]

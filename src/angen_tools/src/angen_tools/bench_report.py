@@ -134,18 +134,24 @@ def say_fit(rows: Sequence[Row]) -> list[str]:
     return lines
 
 
+PANELS = {'server_cpu': 'server (the node)', 'client_cpu': 'client (rviz)',
+          'deploy_server_cpu': 'server, while they are spawned',
+          'deploy_client_cpu': 'client, while they are spawned'}
+
+
 def draw(path: Path, rows: Sequence[Row]) -> None:
     """Writes the figure: CPU of server and client over count, with their lines."""
     import matplotlib
     matplotlib.use('Agg')
     from matplotlib import pyplot
+    from matplotlib.ticker import MaxNLocator
     desired = rows[0].mode == 'desired'
-    whos = [who for who in ('server', 'client')
-            if any(getattr(r, f'{who}_cpu') is not None for r in rows)]
-    figure, axes = pyplot.subplots(len(whos), 1, sharex=True, squeeze=False,
-                                   figsize=(6.4, 1 + 2.2 * len(whos)), layout='constrained')
-    for axis, who in zip(axes[:, 0], whos):
-        _panel(axis, who, rows, 'flat' if desired else 'sensor')
+    panels = [panel for panel in PANELS if any(getattr(r, panel) is not None for r in rows)]
+    figure, axes = pyplot.subplots(len(panels), 1, sharex=True, squeeze=False,
+                                   figsize=(6.4, 1 + 2.2 * len(panels)), layout='constrained')
+    for axis, panel in zip(axes[:, 0], panels):
+        _panel(axis, panel, rows, 'flat' if desired else 'sensor')
+    axes[-1, 0].xaxis.set_major_locator(MaxNLocator(integer=True))
     axes[-1, 0].set_xlabel('flats' if desired else f'{rows[0].kind} sensors')
     figure.suptitle({'added': 'Sensors in the world when it starts',
                      'deployed': 'Sensors spawned while it runs',
@@ -155,13 +161,12 @@ def draw(path: Path, rows: Sequence[Row]) -> None:
     pyplot.close(figure)
 
 
-def _panel(axis: Any, who: str, rows: Sequence[Row], thing: str) -> None:
-    """One axis: the medians as points, their line, its slope."""
-    name = {'server': 'server (the node)', 'client': 'client (rviz)'}[who]
-    points = [(r.count, v) for r in rows if (v := getattr(r, f'{who}_cpu')) is not None]
+def _panel(axis: Any, panel: str, rows: Sequence[Row], thing: str) -> None:
+    """One axis: the medians as points and, of a load that lasts, their line and its slope."""
+    points = [(r.count, v) for r in rows if (v := getattr(r, panel)) is not None]
     counts, values = zip(*points)
-    axis.plot(counts, values, 'o', label=name)
-    line = fit(counts, values)
+    axis.plot(counts, values, 'o', label=PANELS[panel])
+    line = None if panel.startswith('deploy') else fit(counts, values)
     if line:
         ends = [min(counts), max(counts)]
         axis.plot(ends, [line.base + line.slope * c for c in ends],

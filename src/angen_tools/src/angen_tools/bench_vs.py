@@ -141,6 +141,7 @@ def draw(path: Path, rows: Sequence[Row]) -> None:
     import matplotlib
     matplotlib.use('Agg')
     from matplotlib import pyplot
+    from matplotlib.ticker import MaxNLocator
     figure, (load, speed) = pyplot.subplots(2, 1, sharex=True, figsize=(6.4, 6.0),
                                             layout='constrained')
     simulators = [s for s in NAMES if any(row.simulator == s for row in rows)]
@@ -154,6 +155,7 @@ def draw(path: Path, rows: Sequence[Row]) -> None:
     load.set_ylim(bottom=0)
     speed.set_yscale('log')
     speed.set_ylabel('simulated s a CPU second at rate 0,\ntimes the share of readings made')
+    speed.xaxis.set_major_locator(MaxNLocator(integer=True))
     speed.set_xlabel(f'{rows[0].kind} sensors')
     for axis in (load, speed):
         axis.grid(alpha=0.3)
