@@ -6,9 +6,10 @@ import subprocess
 from pathlib import Path
 
 import numpy as np
+import psutil
 import pytest
 from angen_tools.gridmap import load_world, make_map
-from conftest import Angen, Master, end
+from conftest import Angen, Master, end, until
 from nav_msgs.msg import OccupancyGrid
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -26,7 +27,7 @@ def storey(floor: int, length: float) -> str:
 
 
 def start(master: Master, world: Path) -> subprocess.Popen[str]:
-    return subprocess.Popen(['/usr/bin/python3', str(SCRIPT), f'_world:={world}'], text=True,
+    return subprocess.Popen(['/usr/bin/python3', str(SCRIPT), str(world)], text=True,
                             env=master.environment, stderr=subprocess.PIPE)
 
 
@@ -75,3 +76,12 @@ def test_ctrl_c_is_quiet(angen: Angen, two_floors: Path) -> None:
     angen.wait('/floor1/map', OccupancyGrid)
     process.send_signal(signal.SIGINT)
     assert process.communicate(timeout=60)[1] == '' and process.returncode == 0
+
+
+@pytest.mark.parametrize('how', [signal.SIGINT, signal.SIGKILL])
+def test_ended_early_it_leaves_nothing_behind(angen: Angen, how: int) -> None:
+    process = start(angen.master, ROOT / 'worlds/angen.world')
+    helper, = until(psutil.Process(process.pid).children, 'a process makes the maps')
+    process.send_signal(how)
+    process.communicate(timeout=60)
+    until(lambda: not helper.is_running() or helper.status() == psutil.STATUS_ZOMBIE, 'it ends')
