@@ -158,12 +158,14 @@ def _robot_body() -> list[Part]:
 def write_turtlebot(models: Path) -> None:
     """Writes models/turtlebot: origin on the floor between the wheels, x forward, 6.3 kg.
 
-    Its URDF has no sensors' frames: those come from the node.
+    Its URDF has no sensors' frames: those come from the node. There the body is base_link, held
+    by base_footprint, as robot_state_publisher takes no mass at the root.
     """
     root, model = new_model("turtlebot")
     robot = etree.Element("robot", name="turtlebot")
     _add_robot_sensors(add_link(model, "base_footprint", _robot_body()))
-    urdf.add_link(robot, "base_footprint", _robot_body())
+    urdf.add_root(robot, "base_footprint", "base_link")
+    urdf.add_link(robot, "base_link", _robot_body())
     for side, y in (("left", SEPARATION / 2), ("right", -SEPARATION / 2)):
         # a sphere rolls as the wheel does and meets the floor in one point, which keeps ODE calm
         tread = Part("tread", (WHEEL_RADIUS,), mass=0.0, show=False, friction=1.0)
@@ -174,7 +176,7 @@ def write_turtlebot(models: Path) -> None:
         add_joint(model, f"{side}_wheel_joint", "revolute", "base_footprint", f"{side}_wheel",
                   (0, 1, 0))
         urdf.add_link(robot, f"{side}_wheel", [tread, looks])
-        urdf.add_wheel_joint(robot, f"{side}_wheel_joint", "base_footprint", f"{side}_wheel", at)
+        urdf.add_wheel_joint(robot, f"{side}_wheel_joint", "base_link", f"{side}_wheel", at)
     urdf.write_robot(robot, models)
     write_model(root, models, "TurtleBot",
                 "A Kobuki-like base with a stack, 0.354 m wide, 0.46 m high, 6.3 kg, with a lidar, "

@@ -182,6 +182,7 @@ WALK = (
 WALK_SPEED = 1.0
 TURN_TIME = 0.5
 
-# A robot's round in the workroom of floor 0, for benches: it starts at x, y towards +x and turns left all the time.
+# A robot's round in the workroom of floor 0, for benches: it starts at x, y towards +x and turns
+# left all the time.
 ROUND = (8.6, 6.2, 0.4)     # x, y, radius
 ROUND_SPEED = 0.3           # m/s

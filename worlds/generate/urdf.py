@@ -55,6 +55,14 @@ def add_link(robot: etree._Element, name: str, parts: Sequence[Part]) -> None:
                     rgba=numbers(*color, 1))
 
 
+def add_root(robot: etree._Element, root: str, body: str) -> None:
+    """Appends a link without mass and the joint by which it holds the body, at the same place."""
+    add(robot, "link", name=root)
+    joint = add(robot, "joint", name=f"{root}_joint", type="fixed")
+    add(joint, "parent", link=root)
+    add(joint, "child", link=body)
+
+
 def add_wheel_joint(robot: etree._Element, name: str, parent: str, child: str, at: Vector) -> None:
     """Appends a joint that turns endlessly about y."""
     joint = add(robot, "joint", name=name, type="continuous")
