@@ -27,7 +27,8 @@ def numbers(text: str) -> list[float]:
 
 
 def test_links_and_their_masses_are_the_same(sdf, urdf):
-    ours = {twin(link.get('name')): float(link.findtext('inertial/mass')) for link in sdf.iter('link')}
+    ours = {twin(link.get('name')): float(link.findtext('inertial/mass'))
+            for link in sdf.iter('link')}
     theirs = {link.get('name'): float(link.find('inertial/mass').get('value'))
               for link in urdf.iter('link') if len(link)}
     assert theirs == pytest.approx(ours) and len(ours) == 3
