@@ -28,6 +28,7 @@ def write_all(folder: Path) -> None:
     devices.write_switch(models)
     devices.write_luminosity(models)
     devices.write_camera(models)
+    devices.write_sitter(models)
     devices.write_turtlebot(models)
     for name, piece in furniture.pieces().items():
         furniture.write_piece(models, name, piece)

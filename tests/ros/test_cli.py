@@ -14,6 +14,7 @@ from typing import Any, Iterator
 import pytest
 from angen_msgs.srv import Step
 from conftest import Angen, Cli, Master, end, own_terminal, until
+from gazebo_msgs.msg import ContactsState
 from lxml import etree
 from std_srvs.srv import Empty
 
@@ -54,6 +55,19 @@ def test_a_contact_sensor_watches_every_collision_of_its_link(
     touched = angen.wait('/angen/contact/cli_touch', ContactsState, lambda m: len(m.states) == 4)
     assert {state.collision2_name for state in touched.states} == {'ground::link::c'}
     assert 'known are body' in cli.fails('spawn', 'contact', 'c9', '--on', 'cli_table::top')
+
+
+def test_a_sitter_is_seated_on_what_has_a_seat(
+        cli: Cli, angen: Angen, spawned: list[str]) -> None:
+    spawned += ['cli_sitter', 'cli_chair']
+    cli.does('spawn', 'model', 'model://chair', 'cli_chair', '--pose', '-5 3 0.001 0 0 1')
+    assert cli.does('spawn', 'sitter', 'cli_sitter', '--on', 'cli_chair') == (
+        'seated cli_sitter, 75 kg, on cli_chair')
+    angen.wait('/angen/contact/cli_chair', ContactsState, lambda message: abs(
+        sum(state.total_wrench.force.z for state in message.states) + 75 * 9.8) < 0.02 * 735)
+    assert "is 'cli_sitter'" in cli.fails('spawn', 'sitter', 'second', '--on', 'cli_chair')
+    assert 'seat_collision' in cli.fails('spawn', 'sitter', 'second', '--on', 'eye')
+    assert 'no model' in cli.fails('spawn', 'sitter', 'second', '--on', 'nothing')
 
 
 def test_a_model_of_the_users_own(cli: Cli, spawned: list[str], tmp_path: Path) -> None:

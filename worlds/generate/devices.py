@@ -155,6 +155,28 @@ def _robot_body() -> list[Part]:
     return parts
 
 
+def write_sitter(models: Path) -> None:
+    """Writes models/sitter: 75 kg who sits on what is under the origin and faces +x.
+
+    One rigid body: its feet hang 5 cm over the floor of a chair 0.47 m high, so that the seat
+    carries all of it. Masses of the parts: D. A. Winter, Biomechanics and Motor Control of Human
+    Movement, table 4.1 (trunk with head and arms 67.8 %, thighs 20 %, shanks and feet 12.2 %).
+    """
+    root, model = new_model("sitter")
+    skin, shirt, trousers = (0.85, 0.65, 0.53), (0.35, 0.45, 0.6), (0.25, 0.25, 0.3)
+    parts = [
+        spanned("thighs", (-0.13, -0.18, 0.0), (0.43, 0.18, 0.15), material=trousers, mass=15.0),
+        spanned("trunk", (-0.13, -0.18, 0.15), (0.09, 0.18, 0.62), material=shirt, mass=37.75),
+        *(spanned(f"arm_{side}", (-0.08, y - 0.04, 0.2), (0.02, y + 0.04, 0.6), material=shirt,
+                  mass=3.75) for side, y in (("left", 0.22), ("right", -0.22))),
+        Part("head", (0.11,), (-0.02, 0.0, 0.75), material=skin, mass=5.6),
+        *(spanned(f"shank_{side}", (0.32, y - 0.06, -0.42), (0.43, y + 0.06, 0.0),
+                  material=trousers, mass=4.575) for side, y in (("left", 0.1), ("right", -0.1))),
+    ]
+    add_link(model, "body", parts)
+    write_model(root, models, "Sitter", "A person of 75 kg who sits; angen spawn sitter seats it.")
+
+
 def write_turtlebot(models: Path) -> None:
     """Writes models/turtlebot: origin on the floor between the wheels, x forward, 6.3 kg.
 

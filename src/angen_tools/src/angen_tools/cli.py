@@ -57,6 +57,8 @@ def run_spawn(args: argparse.Namespace) -> int:
     from . import spawn
     if args.kind == 'model':
         print(spawn.spawn_model(args.source, args.name, args.pose))
+    elif args.kind == 'sitter':
+        print(spawn.seat_sitter(args.name, args.on))
     else:
         print(spawn.spawn_sensor(args.kind, args.name, args.pose, args.on or '', args.set))
     return 0
@@ -171,6 +173,13 @@ def add_spawn(commands: Any) -> None:
     model.add_argument('name', metavar='NAME', type=checked(new_name),
                        help='a name that nothing has yet')
     add_pose(model, required=True)
+    sitter = command(kinds, 'sitter', run_spawn, 'seats a person of 75 kg on a chair',
+                     'spawn sitter ann --on kitchen_chair0_a')
+    sitter.add_argument('name', metavar='NAME', type=checked(new_name),
+                        help='a name that nothing has yet')
+    seat = sitter.add_argument('--on', metavar='MODEL', required=True,
+                               help='what has a seat: a chair, a sofa, an armchair')
+    seat.completer = names_of('model')
 
 
 def add_pose(parser: argparse.ArgumentParser, required: bool) -> None:

@@ -37,6 +37,32 @@ def find(uri: str) -> Path | None:
 def collisions(world: etree._Element, link: str) -> list[str]:
     """Names of the collisions of MODEL::LINK in a saved world; empty where they are not found."""
     model_name, link_name = link.split('::', 1)
+    model = _model_of(world, model_name)
+    return [collision.get('name', '') for part in _children(model, 'link')
+            if part.get('name') == link_name for collision in part.iterfind('collision')]
+
+
+def seat_of(world: etree._Element, name: str) -> tuple[float, ...] | None:
+    """x, y, z of the middle of the top of a model's box `seat_collision` in the model's frame, and
+    its depth along x, in m; None where the model of a saved world has none.
+    """
+    for link in _children(_model_of(world, name), 'link'):
+        for collision in link.iterfind("collision[@name='seat_collision']"):
+            size = collision.findtext('geometry/box/size', '').split()
+            if len(size) != 3:
+                return None
+            places = [sdf.parse_pose(part.findtext('pose', '0 0 0')) for part in (link, collision)]
+            x, y, z = (sum(place[k] for place in places) for k in range(3))
+            return x, y, z + float(size[2]) / 2, float(size[0])
+    return None
+
+
+def _children(model: etree._Element | None, tag: str) -> list[etree._Element]:
+    return [] if model is None else model.findall(tag)
+
+
+def _model_of(world: etree._Element, name: str) -> etree._Element | None:
+    """The <model> of that name, read from its file where the world includes it."""
     for entry in world.iterfind('world/*'):
         model = entry
         if entry.tag == 'include':
@@ -44,7 +70,6 @@ def collisions(world: etree._Element, link: str) -> list[str]:
             model = sdf.read(file).find('model') if file and file.exists() else None
         if model is None or model.tag != 'model':
             continue
-        if (entry.findtext('name') or model.get('name', '')).strip() == model_name:
-            return [collision.get('name', '') for part in model.iterfind('link')
-                    if part.get('name') == link_name for collision in part.iterfind('collision')]
-    return []
+        if (entry.findtext('name') or model.get('name', '')).strip() == name:
+            return model
+    return None

@@ -1,6 +1,7 @@
 """angen spawn, delete, save: what is in the world."""
 from __future__ import annotations
 
+import math
 import os
 import re
 import tempfile
@@ -9,9 +10,14 @@ from typing import Sequence
 
 from lxml import etree
 
-from . import models, sdf
+from . import listing, models, sdf
 from .client import Client
 from .failure import Failure
+
+SEAT_AIR = 0.001  # m over the seat, where a sitter comes to be
+LEANS = 0.05  # rad: what leans by more is no seat
+SHANKS = 0.31  # m ahead of a sitter's middle: they hang before the seat
+SITTER_WIDTH = 0.3  # m: nearer than this two do not sit
 
 
 def model_source(what: str) -> str:
@@ -49,6 +55,31 @@ def spawn_sensor(kind: str, name: str, pose: Sequence[float], on: str,
     _call_spawn(client, name, sdf.text(element), on, pose)
     topic = next((entity.topic for entity in client.entities(kind) if entity.name == name), '')
     return f'spawned the {kind} {name}{" on " + on if on else ""}, see {topic}'
+
+
+def seat_sitter(name: str, chair: str) -> str:
+    """Seats a person of 75 kg on a model that has a seat and stands; returns what was done."""
+    client = Client()
+    places = {entity.name: entity.pose for entity in client.entities('model')}
+    if chair not in places:
+        raise Failure(f"no model named '{chair}'; angen list --kind model shows them")
+    seat = models.seat_of(_saved(client), chair)
+    if seat is None:
+        raise Failure(f"'{chair}' has no box seat_collision to sit on, as a chair or a sofa has")
+    at, turn = places[chair].position, places[chair].orientation
+    if 1 - 2 * (turn.x * turn.x + turn.y * turn.y) < math.cos(LEANS):
+        raise Failure(f"'{chair}' does not stand upright")
+    heading = listing.yaw(turn)
+    ahead = seat[0] + max(0.0, seat[3] / 2 - SHANKS)
+    x = at.x + ahead * math.cos(heading) - seat[1] * math.sin(heading)
+    y = at.y + ahead * math.sin(heading) + seat[1] * math.cos(heading)
+    z = at.z + seat[2] + SEAT_AIR
+    for other, place in places.items():
+        there = place.position
+        if other != chair and math.dist((x, y, z), (there.x, there.y, there.z)) < SITTER_WIDTH:
+            raise Failure(f"on '{chair}' is '{other}'")
+    _call_spawn(client, name, 'model://sitter', '', (x, y, z, 0.0, 0.0, heading))
+    return f'seated {name}, 75 kg, on {chair}'
 
 
 def delete(names: Sequence[str]) -> list[str]:
@@ -111,9 +142,13 @@ def _call_spawn(client: Client, name: str, xml: str, on: str, pose: Sequence[flo
         raise Failure(re.sub(r'\(text\):\d+: ', '', str(error))) from None
 
 
+def _saved(client: Client) -> etree._Element:
+    from angen_msgs.srv import Save
+    return etree.fromstring(client.call('/angen/save', Save).xml.encode())
+
+
 def _watch_all(client: Client, sensor: etree._Element, on: str) -> None:
     """Lets a contact sensor watch every collision of its link."""
-    from angen_msgs.srv import Save
-    world = etree.fromstring(client.call('/angen/save', Save).xml.encode())
-    for name in models.collisions(world, on):  # none: the simulator says what is wrong with `on`
+    # Where there are none, the simulator says what is wrong with `on`.
+    for name in models.collisions(_saved(client), on):
         etree.SubElement(sensor.find('contact'), 'collision').text = name
