@@ -8,8 +8,10 @@ import pytest
 from angen_msgs.msg import PirMsg, Stats
 from angen_msgs.srv import Delete, List, Save, Spawn, Step
 from conftest import Angen, Heard, RawText, until
-from geometry_msgs.msg import Pose
+from geometry_msgs.msg import Pose, Twist
+from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
+from std_msgs.msg import String
 from std_srvs.srv import Empty
 
 PIR = "model://pir"
@@ -99,6 +101,29 @@ def test_paused_time_moves_by_steps_only(angen: Angen, paused: None) -> None:
     with Heard("/clock", Clock) as clock:
         until(lambda: len(clock.messages) >= 3, "a clock for latecomers while time stands still")
         assert {m.clock.to_nsec() for m in clock.messages} == {second.sim_time.to_nsec()}
+
+
+def test_a_step_counts_what_was_heard_and_told(angen: Angen, paused: None) -> None:
+    before = angen.call("/angen/step", Step, ticks=0)
+    angen.send("/gazebo/Light_controller", String("Dim, kitchen0, 31"))
+    until(lambda: angen.call("/angen/step", Step, ticks=0).commands == before.commands + 1,
+          "the command is counted")
+    after = angen.call("/angen/step", Step, ticks=1)
+    assert after.commands == before.commands + 1
+    assert after.events > before.events
+    angen.send("/gazebo/Light_controller", String("Off, kitchen0"))
+
+
+def test_odometry_is_told_at_each_tenth_of_a_second(angen: Angen, paused: None) -> None:
+    twist = Twist()
+    twist.linear.x = 0.2
+    with Heard("/odom", Odometry) as odometry:
+        now = angen.call("/angen/step", Step, ticks=0).sim_time.to_nsec()
+        angen.call("/angen/step", Step, ticks=(-now // 1_000_000) % 100)
+        for command in (Twist(), twist, twist, Twist(), Twist(), Twist(), Twist()):
+            angen.send("/cmd_vel", command)
+            end = angen.call("/angen/step", Step, ticks=100).sim_time
+            odometry.wait(lambda m: m.header.stamp == end, f"odometry of {end.to_sec()} s")
 
 
 def test_a_paused_world_can_be_built(angen: Angen, paused: None) -> None:

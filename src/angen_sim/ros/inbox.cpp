@@ -13,6 +13,7 @@ constexpr std::chrono::seconds kPassPatience(1);
 
 void Inbox::post(sim::Action action) {
   simulation_.post(std::move(action));
+  ++posted_;
   const std::lock_guard<std::mutex> lock(mutex_);
   waiting_ = true;
   wake_.notify_one();

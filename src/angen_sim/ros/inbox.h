@@ -21,6 +21,9 @@ class Inbox {
   /// simulated time has stood still for kPatience of wall time, or when the node ends.
   sim::Outcome ask(sim::Action action);
 
+  /// How many actions have been queued by post().
+  std::uint64_t posted() const { return posted_; }
+
   /// Main thread: everything that the last tick changed has been published.
   void passed();
   /// Main thread, paused: sleeps until an action comes or `limit` is over.
@@ -38,6 +41,7 @@ class Inbox {
   std::condition_variable done_;  // of those who wait for a pass
   bool waiting_ = false;          // an action was queued since the last wait
   std::uint64_t passes_ = 0;
+  std::atomic<std::uint64_t> posted_{0};
   std::atomic<bool> closed_{false};
 };
 

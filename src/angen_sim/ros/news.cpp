@@ -70,6 +70,7 @@ void Events::pass(const sim::Snapshot& snapshot) {
     if (event.event == "rejected" || event.event == "warning") {
       ROS_WARN("%s", printable(event.event + ": " + event.detail, 2000).c_str());
     }
+    ++told_;
     if (!outlet_.heard()) continue;
     angen_msgs::Event message;
     message.header.stamp = to_ros(event.stamp);

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <optional>
+#include <atomic>
+#include <cstdint>
 
 #include "ros/pacer.h"
 #include "ros/publishers.h"
@@ -40,9 +41,12 @@ class Events {
  public:
   explicit Events(ros::NodeHandle& node);
   void pass(const sim::Snapshot& snapshot);
+  /// How many there have been, heard by anybody or not.
+  std::uint64_t told() const { return told_; }
 
  private:
   Outlet outlet_;
+  std::atomic<std::uint64_t> told_{0};
 };
 
 }  // namespace angen::node

@@ -31,7 +31,7 @@ Node::Node(sim::Simulation& simulation, const Settings& settings)
       publishers_(handle_, simulation),
       joints_(handle_),
       commands_(handle_, inbox_),
-      services_(handle_, inbox_, settings.models) {}
+      services_(handle_, inbox_, events_, settings.models) {}
 
 void Node::run(const std::atomic<bool>& stop) {
   ros::AsyncSpinner spinner(kThreads);

@@ -144,7 +144,7 @@ void Publishers::repeat_odometry(const sim::Snapshot& snapshot) {
   for (const std::uint32_t device : robots_) {
     const Source& source = devices_[device];
     const std::shared_ptr<const Reading>& state = snapshot.devices[device];
-    if (state == nullptr || snapshot.time - state->stamp < kOdometryPeriod) continue;
+    if (state == nullptr || state->stamp == snapshot.time) continue;
     Reading now = *state;
     now.stamp = snapshot.time;
     for (const auto& channel : source.channels) {

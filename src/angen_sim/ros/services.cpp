@@ -58,8 +58,9 @@ bool answered(Response& response, Work&& work) {
 
 }  // namespace
 
-Services::Services(ros::NodeHandle& node, Inbox& inbox, const std::string& models)
-    : inbox_(inbox), paths_(load::SearchPaths::from_environment(models)) {
+Services::Services(ros::NodeHandle& node, Inbox& inbox, const Events& events,
+                   const std::string& models)
+    : inbox_(inbox), events_(events), paths_(load::SearchPaths::from_environment(models)) {
   const auto serve_empty = [&](const std::string& name, const sim::Action& action) {
     const boost::function<bool(Empty::Request&, Empty::Response&)> called =
         [this, action](Empty::Request&, Empty::Response&) { return empty(action); };
@@ -90,7 +91,10 @@ bool Services::empty(sim::Action action) {
 
 bool Services::step(angen_msgs::Step::Request& request, angen_msgs::Step::Response& response) {
   return answered(response, [&] {
+    // Counted before the step is queued: what came later may have taken effect later.
+    response.commands = inbox_.posted();
     const sim::Outcome outcome = inbox_.ask(sim::Step{request.ticks});
+    response.events = events_.told();
     response.sim_time = to_ros(inbox_.simulation().snapshot()->time);
     return outcome;
   });

@@ -13,6 +13,7 @@
 
 #include "load/load.h"
 #include "ros/inbox.h"
+#include "ros/news.h"
 
 namespace angen::node {
 
@@ -22,7 +23,7 @@ namespace angen::node {
 class Services {
  public:
   /// `models` is a further folder that model:// is looked for in.
-  Services(ros::NodeHandle& node, Inbox& inbox, const std::string& models);
+  Services(ros::NodeHandle& node, Inbox& inbox, const Events& events, const std::string& models);
 
  private:
   using Empty = std_srvs::Empty;
@@ -36,6 +37,7 @@ class Services {
   sim::Action spawn_action(const angen_msgs::Spawn::Request& request) const;
 
   Inbox& inbox_;
+  const Events& events_;
   load::SearchPaths paths_;
   std::vector<ros::ServiceServer> servers_;
 };

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import signal
 import socket
@@ -82,6 +83,16 @@ class Stage:
         return next((nodes for topic, nodes in self._api.getSystemState('/angen_bench')[2][which]
                      if topic == name), [])
 
+    def topics(self, pattern: str) -> set[str]:
+        """The published topics whose whole name matches a pattern."""
+        published = self._api.getSystemState('/angen_bench')[2][0]
+        return {topic for topic, _ in published if re.fullmatch(pattern, topic)}
+
+    def heard_by(self, name: str) -> set[str]:
+        """The topics that nodes with this in their name subscribe."""
+        subscribed = self._api.getSystemState('/angen_bench')[2][1]
+        return {topic for topic, nodes in subscribed if any(name in node for node in nodes)}
+
     def start(self, words: list[str], log: str, **options: object) -> subprocess.Popen[bytes]:
         """Starts a process that Ctrl-C does not reach; its output goes to a file named `log`."""
         with (self.folder / f'{log}.log').open('wb') as out:
@@ -91,11 +102,12 @@ class Stage:
         self._all.callback(end, process)
         return process
 
-    def node(self, world: Path, rate: float) -> subprocess.Popen[bytes]:
-        """The node with a world, once it serves."""
+    def node(self, world: Path, rate: float, **params: object) -> subprocess.Popen[bytes]:
+        """The node with a world, once it serves; `params` are more of its parameters."""
         wait(lambda: not self._names(2, '/angen/save'), 'the last node has not gone', START_LIMIT)
         self.launched = time.monotonic()
-        process = self.start([str(node_program()), str(world), f'_rate:={rate:g}'], 'node')
+        words = [f'_{key}:={value}' for key, value in {'rate': f'{rate:g}', **params}.items()]
+        process = self.start([str(node_program()), str(world), *words], 'node')
 
         def serves() -> bool:
             if process.poll() is not None:

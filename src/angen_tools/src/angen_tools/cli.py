@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import Any, Callable, NoReturn, Sequence
 
-from . import bench_words, robot_words
+from . import bench_words, robot_words, task_words
 from .client import leave
 from .failure import Failure
 
@@ -245,6 +245,7 @@ def make_parser() -> argparse.ArgumentParser:
     check.add_argument('world', metavar='WORLD')
     robot_words.add_map(commands, command, checked)
     robot_words.add_drive(commands, command, names_of('drive'))
+    task_words.add_task(commands, command, checked)
     bench_words.add_world(commands, command, checked)
     bench_words.add_bench(commands, command, checked)
     completion = command(commands, 'completion', run_completion,

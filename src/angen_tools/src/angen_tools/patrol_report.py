@@ -1,0 +1,220 @@
+"""What a patrol leaves: events.csv, rooms.csv, and what a person is told of it."""
+from __future__ import annotations
+
+import csv
+import math
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import sdf
+from .gridmap import STOREY, load_world
+from .patrol import CYCLE, Scene, Track, floor_of
+from .sight import Sight, sensor_element, view_of
+
+BEGINS = {'pir': ('motion',), 'switch': ('opened', 'closed'), 'luminosity': ('changed',)}
+LEVEL = 0.005  # m
+TOLD = 0.02  # s between two angles that a moving door tells
+STILL = 0.002  # m, rad: less in a cycle is no motion
+
+
+@dataclass(frozen=True)
+class Row:
+    """A sensor's first sight of the robot and its first detection, s; None: there was none."""
+
+    room: str
+    sensor: str
+    kind: str
+    sight: float | None
+    detection: float | None
+
+    @property
+    def delay(self) -> float | None:
+        if self.sight is None or self.detection is None:
+            return None
+        return max(0.0, self.detection - self.sight)
+
+
+@dataclass(frozen=True)
+class Run:
+    """All that a patrol's report is made of."""
+
+    robot: str
+    start: tuple[float, float, float, float]  # x, y, z (m), yaw of the robot in its world
+    scene: Scene
+    track: Track
+    events: list[Any]  # angen_msgs/Event
+    sensors: list[Any]  # angen_msgs/Entity
+    angles: dict[str, list[tuple[float, float]]]  # of doors: s, rad from shut
+    bumper: str
+
+    def of(self, source: str, kind: str) -> list[tuple[float, str, str]]:
+        """Time (s), name and detail of a source's events."""
+        return [(e.header.stamp.to_sec(), e.event, e.detail) for e in self.events
+                if (e.source, e.kind) == (source, kind)]
+
+    def collisions(self) -> list[tuple[float, str]]:
+        """When the robot touched what it must not, and what."""
+        return [(t, detail) for t, event, detail in self.of(self.bumper, 'contact')
+                if event == 'pressed']
+
+
+def room_of(sensor: str) -> str:
+    """`kitchen0` of `kitchen_pir0_a`; the whole name where it has no such form."""
+    found = re.match(r'([a-z]+)_[a-z_]*?(\d+)', sensor)
+    return found[1] + found[2] if found else sensor
+
+
+def begun(events: list[tuple[float, str, str]], kind: str) -> list[tuple[float, float]]:
+    """From when to when a sensor detected something, s."""
+    found: list[tuple[float, float]] = []
+    for t, event, _ in events:
+        if event in BEGINS[kind]:
+            found.append((t, math.inf if kind == 'pir' else t))
+        elif found:
+            found[-1] = (found[-1][0], t)
+    return found
+
+
+def make_rows(run: Run, world: Path) -> list[Row]:
+    """A row for each sensor that could have noticed the robot or did, by floor and room."""
+    sight = Sight(load_world(str(world)), np.array(run.start),
+                  [door for doors in run.scene.doors.values() for door in doors],
+                  {name: np.array(angles) for name, angles in run.angles.items()})
+    track = np.array(run.track.rows)
+    floors = np.floor((track[:, 3] + 0.5) / STOREY)
+    described, moved = sdf.read(world), moving(track)
+    rows = []
+    for entity in run.sensors:
+        if entity.kind == 'contact':
+            rows += contact_row(run, entity)
+            continue
+        detected = begun(run.of(entity.name, entity.kind), entity.kind)
+        if entity.kind == 'switch':
+            seen = beam_change(run, entity)
+            first = next((t for t, _ in detected if seen is not None and t >= seen - TOLD), None)
+        else:
+            here = track[floors == floor_of(entity.pose.position.z)]
+            seen = sight.first(view_of(entity, sensor_element(described, entity)), here)
+            first = first_detection(seen, detected, moved)
+        rows.append(Row(room_of(entity.name), entity.name, entity.kind, seen, first))
+    return sorted(rows, key=lambda row: (row.room[-1:], row.room, row.kind, row.sensor))
+
+
+def moving(track: np.ndarray) -> np.ndarray:
+    """The times in a track (rows t, x, y, z, yaw) before which the robot has moved."""
+    steps = np.diff(track, axis=0)
+    return track[1:, 0][(np.linalg.norm(steps[:, 1:3], axis=1) > STILL)
+                        | (np.abs(np.sin(steps[:, 4])) > STILL)]
+
+
+def first_detection(seen: float | None, detected: list[tuple[float, float]], moved: np.ndarray
+                    ) -> float | None:
+    """When a sensor that detected something from … to … (s) first did so because of the robot.
+
+    The robot stands while doors turn: what is detected then is a door.
+    """
+    if seen is None:
+        return None
+    for start, end in detected:
+        because = moved[(moved >= max(start, seen) - 1e-6) & (moved <= max(start, end) + CYCLE)]
+        if len(because):
+            return max(start, seen, float(because[0]) - CYCLE)
+    return None
+
+
+def contact_row(run: Run, entity: Any) -> list[Row]:
+    """A contact sensor's row, if the robot touched it: there is no line of sight to a touch."""
+    touched = [t for t, event, detail in run.of(entity.name, 'contact')
+               if event == 'pressed' and f'{run.robot}::' in detail]
+    if not touched or entity.name == run.bumper:
+        return []
+    return [Row(room_of(entity.name), entity.name, 'contact', None, touched[0])]
+
+
+def beam_change(run: Run, entity: Any) -> float | None:
+    """When the door of a switch first passed the angle at which its beam comes free, s."""
+    angles = run.angles.get(room_of(entity.name))
+    limit = run.scene.beams.get(entity.name)
+    if not angles or limit is None:
+        return None
+    return crossing([(t, abs(angle)) for t, angle in angles], limit)
+
+
+def crossing(told: list[tuple[float, float]], limit: float) -> float | None:
+    """When values told at times first pass a limit, either way; straight between two of them."""
+    for (t, a), (then, b) in zip(told, told[1:]):
+        if (a < limit) != (b < limit):
+            return t + (then - t) * (limit - a) / (b - a)
+    return None
+
+
+def write_tables(run: Run, rows: list[Row], out: Path) -> None:
+    """Writes events.csv, rooms.csv and track.csv into a folder; times in s, blank where there is
+    none."""
+    write_track(run.track, out)
+    with (out / 'events.csv').open('w', newline='') as file:
+        lines = csv.writer(file)
+        lines.writerow(['time_s', 'source', 'kind', 'event', 'detail'])
+        lines.writerows([f'{e.header.stamp.to_sec():.3f}', e.source, e.kind, e.event, e.detail]
+                        for e in run.events)
+    with (out / 'rooms.csv').open('w', newline='') as file:
+        lines = csv.writer(file)
+        lines.writerow(['room', 'sensor', 'kind', 'first_sight_s', 'first_detection_s', 'delay_s'])
+        lines.writerows([row.room, row.sensor, row.kind, *times(row, '')]
+                        for row in rows)
+
+
+def write_track(track: Track, out: Path) -> None:
+    """Writes track.csv: where the robot was, took itself to be, and would by its wheels alone."""
+    with (out / 'track.csv').open('w', newline='') as file:
+        lines = csv.writer(file)
+        lines.writerow(['time_s', 'x_m', 'y_m', 'z_m', 'yaw_rad', 'believed_x_m', 'believed_y_m',
+                        'wheels_x_m', 'wheels_y_m'])
+        for row, believed, wheels in zip(track.rows, track.believed, track.odometry):
+            lines.writerow([f'{value:.4f}' for value in (*row, *believed, *wheels)])
+
+
+def times(row: Row, none: str) -> list[str]:
+    """Sight, detection and delay as text."""
+    return [none if value is None else f'{value:.2f}'
+            for value in (row.sight, row.detection, row.delay)]
+
+
+def summary(run: Run, rows: list[Row], route: str, walls: tuple[float, float], out: Path) -> str:
+    """What happened; `walls`: s of wall time of the drive, and of all."""
+    track = np.array(run.track.rows)
+    length = float(np.linalg.norm(np.diff(track[:, 1:3], axis=0), axis=1).sum())
+    lines = [f'{"room":14}{"sensor":22}{"sight s":>9}{"detected s":>12}{"delay s":>9}']
+    for row in rows:
+        sight, detection, delay = times(row, '-')
+        if (sight, detection) != ('-', '-'):
+            lines.append(f'{row.room:14}{row.sensor:22}{sight:>9}{detection:>12}{delay:>9}')
+    stops = ', '.join(f'floor {floor} {1000 * error:+.2f} mm' for floor, error in
+                      run.track.levels)
+    touched = run.collisions()
+    believed, wheels = (np.linalg.norm(np.array(places) - track[:, 1:3], axis=1)
+                        for places in (run.track.believed, run.track.odometry))
+    lines += [
+        f'{route}: {len(run.track.reached)} waypoints, {length:.1f} m in {track[-1, 0]:.1f} s, '
+        f'{walls[0]:.0f} s of wall time ({walls[1]:.0f} s in all)',
+        f'elevator stops beside their level: {stops or "none"}',
+        f'collisions: {len(touched)}' + ''.join(f'\n  {t:.2f} s {what}' for t, what in touched),
+        f'beside the truth: {100 * believed.max():.1f} cm at most, by wheels alone '
+        f'{100 * wheels.max():.0f} cm, at the end {100 * wheels[-1]:.0f} cm',
+        f'wrote {out}/rooms.csv, events.csv, track.csv, {", ".join(figures(run))}, patrol.bag']
+    return '\n'.join(lines)
+
+
+def figures(run: Run) -> list[str]:
+    """Names of the figures, by floor."""
+    return [f'floor_{floor}.png' for floor in sorted(run.scene.maps)]
+
+
+def verdict(run: Run) -> int:
+    """0, or 1 where the robot touched something or the elevator stopped beside a level."""
+    level = all(abs(error) <= LEVEL for _, error in run.track.levels)
+    return 0 if level and not run.collisions() else 1

@@ -1,0 +1,141 @@
+"""angen task patrol in two rooms with a door between them: what it leaves, and that it repeats."""
+from __future__ import annotations
+
+import csv
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+SCRIPT = Path(__file__).resolve().parents[2] / 'src/angen_tools/scripts/angen'
+WALLS = {'south': (3, -0.06, 6.24, 0.12), 'north': (3, 3.06, 6.24, 0.12),
+         'west': (-0.06, 1.5, 0.12, 3), 'east': (6.06, 1.5, 0.12, 3),
+         'low': (3, 0.4975, 0.12, 0.995), 'high': (3, 2.5, 0.12, 1.0)}
+ROUTE = '''waypoints:
+- {name: kitchen, floor: 0, at: [4.8, 1.5]}
+- {name: back, floor: 0, at: [1.0, 1.5]}
+'''
+
+
+def world_text() -> str:
+    walls = ''.join(
+        f'<collision name="{name}"><pose>{x} {y} 1.2 0 0 0</pose><geometry><box><size>{wide} '
+        f'{deep} 2.4</size></box></geometry></collision>'
+        for name, (x, y, wide, deep) in WALLS.items())
+    parts = [('kitchen_door0', 'kitchen_door', '3.0 1.0 0 0 0 1.570796'),
+             ('kitchen_switch0', 'optical_switch', '3.005 1.25 2.125 0 0 1.570796'),
+             ('kitchen_pir0', 'pir', '5.95 1.5 1.0 0 0.2 3.141593'),
+             ('turtlebot', 'turtlebot', '1.0 1.5 0.001 0 0 0')]
+    models = ''.join(f'<include><name>{name}</name><pose>{pose}</pose><uri>model://{uri}</uri>'
+                     '</include>' for name, uri, pose in parts)
+    return f'''<sdf version="1.6"><world name="rooms"><gravity>0 0 -9.8</gravity>
+      <model name="house"><static>true</static><link name="link">
+        <collision name="floor"><pose>3 1.5 -0.05 0 0 0</pose><geometry><box>
+          <size>6.24 3.24 0.1</size></box></geometry></collision>{walls}</link></model>
+      {models}<actor name="person"><script><trajectory id="0" type="walk">
+        <waypoint><time>0</time><pose>2 1.5 0 0 0 0</pose></waypoint>
+        <waypoint><time>9</time><pose>2 2.5 0 0 0 0</pose></waypoint></trajectory></script></actor>
+      <plugin name="doors" filename="libdoor_world_plugin.so"/>
+      <plugin name="robots" filename="librobot_controller.so"/></world></sdf>'''
+
+
+def start(folder: Path, name: str, route: str = ROUTE) -> subprocess.Popen[str]:
+    (folder / 'rooms.world').write_text(world_text())
+    (folder / 'route.yaml').write_text(route)
+    command = [sys.executable, str(SCRIPT), 'task', 'patrol',
+               '--world', str(folder / 'rooms.world'),
+               '--route', str(folder / 'route.yaml'), '--seed', '3', '-o', str(folder / name)]
+    return subprocess.Popen(command, text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE,
+                            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+
+
+def running(folder: Path) -> list[int]:
+    """Processes that a patrol has started and left."""
+    found = []
+    for environment in Path('/proc').glob('[0-9]*/environ'):
+        try:
+            if f'ROS_HOME={folder}/'.encode() in environment.read_bytes():
+                found.append(int(environment.parent.name))
+        except OSError:
+            continue
+    return found
+
+
+def read(path: Path) -> list[dict[str, str]]:
+    with path.open() as file:
+        return list(csv.DictReader(file))
+
+
+@pytest.fixture(scope='module')
+def run(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
+    """The folder of a whole patrol, and what it said."""
+    folder = tmp_path_factory.mktemp('patrol')
+    patrol = start(folder, 'out')
+    said, trouble = patrol.communicate(timeout=300)
+    assert patrol.returncode == 0, said + trouble
+    return folder, said
+
+
+def test_the_door_is_opened_before_the_robot_and_shut_behind_it(run: tuple[Path, str]) -> None:
+    events = read(run[0] / 'out/events.csv')
+    assert [e['event'] for e in events if (e['source'], e['kind']) == ('kitchen0', 'door')] == [
+        'opening', 'opened', 'closing', 'closed'] * 2
+    assert not [e for e in events if e['kind'] == 'person']
+    assert 'collisions: 0' in run[1]
+
+
+def test_the_sensors_notice_it_after_they_could(run: tuple[Path, str]) -> None:
+    rows = {row['sensor']: row for row in read(run[0] / 'out/rooms.csv')}
+    for sensor in ('kitchen_pir0', 'kitchen_switch0'):
+        assert 0 <= float(rows[sensor]['delay_s']) < 5, rows[sensor]
+    opening = next(float(e['time_s']) for e in read(run[0] / 'out/events.csv')
+                   if e['event'] == 'opening')
+    assert float(rows['kitchen_switch0']['first_sight_s']) > opening
+    assert float(rows['kitchen_pir0']['first_sight_s']) > opening
+
+
+def test_it_leaves_a_bag_and_a_figure_and_no_process(run: tuple[Path, str]) -> None:
+    import rosbag
+    with rosbag.Bag(str(run[0] / 'out/patrol.bag')) as bag:
+        counts = {name: topic.message_count for name, topic in
+                  bag.get_type_and_topic_info().topics.items()}
+        seconds = bag.get_end_time() - bag.get_start_time()
+    assert counts['/angen/pir/kitchen_pir0'] == pytest.approx(10 * seconds, abs=5)
+    assert counts['/turtlebot/cmd_vel'] == pytest.approx(10 * seconds, abs=5)
+    assert (run[0] / 'out/floor_0.png').read_bytes().startswith(b'\x89PNG')
+    assert not running(run[0])
+
+
+def test_the_same_seed_gives_the_same_run(run: tuple[Path, str]) -> None:
+    again = start(run[0], 'again')
+    said, trouble = again.communicate(timeout=300)
+    assert again.returncode == 0, said + trouble
+    for name in ('events.csv', 'rooms.csv'):
+        assert (run[0] / 'again' / name).read_text() == (run[0] / 'out' / name).read_text()
+
+
+def test_an_unreachable_waypoint_is_named_before_anything_moves(tmp_path: Path) -> None:
+    patrol = start(tmp_path, 'out', ROUTE + '- {name: garden, floor: 0, at: [8, 1]}\n')
+    said, trouble = patrol.communicate(timeout=300)
+    assert patrol.returncode == 1 and said == ''
+    assert trouble.startswith(f'angen: {tmp_path}/route.yaml:4: waypoint garden: ')
+    assert not (tmp_path / 'out/patrol.bag').exists()
+    assert not running(tmp_path)
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_all(tmp_path: Path, number: int) -> None:
+    patrol = start(tmp_path, 'out')
+    for line in patrol.stderr:
+        if 'patrol' in line:
+            break
+    assert running(tmp_path)
+    os.kill(patrol.pid, number)
+    _, trouble = patrol.communicate(timeout=60)
+    assert patrol.returncode == 128 + number, trouble
+    assert 'Traceback' not in trouble
+    assert not running(tmp_path)
