@@ -1,4 +1,5 @@
-// A system plug-in of gzserver: counts what its sensors read and does what the bench says on stdin.
+// A system plug-in of gzserver: counts what its sensors read and does what the bench says on stdin,
+// whose end ends it.
 //
 //   rate HZ            steps a second of wall time, 0: as fast as it goes
 //   drive MODEL L R    the wheels left_wheel_joint and right_wheel_joint turn at L and R rad/s
@@ -8,11 +9,12 @@
 // It writes lines to stdout: WHAT, seconds of CLOCK_MONOTONIC, and
 //   probe first TIME                            the first step has begun
 //   probe sample TIME SIM_TIME READINGS SENSORS four times a second
-//   probe heard TIME, probe gone TIME           the spawned model's sensor has read; the deleted
-//   model is gone
+//   probe heard TIME                            the sensor of the spawned model has read
+//   probe gone TIME                             the deleted model is gone
 #include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <gazebo/gazebo.hh>
 #include <gazebo/physics/physics.hh>
@@ -125,6 +127,7 @@ class Probe : public gazebo::SystemPlugin {
       if (verb == "spawn") coming_ = name;
       orders_.push_back(line);
     }
+    std::_Exit(0);  // the bench has ended
   }
 
   // Counts every sensor from the moment it is there. A thread of its own, so that steps go

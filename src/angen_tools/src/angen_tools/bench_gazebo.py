@@ -160,8 +160,10 @@ class Gazebo:
         raise Failure('Gazebo has stopped')
 
     def window(self, warm_up: float, length: float) -> tuple[Tick, Tick]:
-        """Two samples `length` s of wall time apart or a little more."""
+        """Two samples as those of bench_measure.Meter."""
         first = self.sample(time.monotonic() + warm_up)
+        while first.sim < warm_up:
+            first = self.sample(first.wall)
         return first, self.sample(first.wall + length)
 
     def settle(self, sensors: int) -> None:

@@ -122,8 +122,13 @@ class Meter:
             time.sleep(0.01)
 
     def window(self, warm_up: float, length: float) -> tuple[Sample, Sample]:
-        """Two samples `length` s of wall time apart or a little more."""
+        """Two samples `length` s of wall time apart or a little more.
+
+        The first comes when `warm_up` s have passed, of wall time and since the world's start.
+        """
         first = self.sample(time.monotonic() + warm_up)
+        while first.sim < warm_up:
+            first = self.sample(first.wall)
         return first, self.sample(first.wall + length)
 
 
