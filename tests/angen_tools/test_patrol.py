@@ -8,10 +8,10 @@ import pytest
 from angen_tools.doors import find_door, find_hinge
 from angen_tools.gridmap import FREE, OCCUPIED, GridMap
 from angen_tools.localizer import Localizer
-from angen_tools.patrol_report import first_detection, moving, room_of
+from angen_tools.patrol_report import first_detection, moving
 from angen_tools.pilot import Pilot, Pose
 from angen_tools.planner import Door
-from angen_tools.sight import View, hidden
+from angen_tools.sight import View, hidden, room_of
 
 
 def box(width: int = 80, height: int = 60) -> GridMap:

@@ -87,3 +87,11 @@ def test_another_python_first_on_path_is_not_used(folder):
                             capture_output=True, text=True, env=environment)
     assert (result.returncode, result.stdout) == (0, '/usr/bin/python3\n'), result.stderr
     assert not (folder / 'used').exists()
+
+
+def test_the_demo_hands_on_options_and_exit_code(tmp_path):
+    result = subprocess.run([ROOT / 'angen', 'demo', '--route', tmp_path / 'none.yaml'],
+                            capture_output=True, text=True, cwd=tmp_path)
+    assert result.returncode == 1
+    assert result.stderr.splitlines()[-1] == (
+        f'angen: {tmp_path}/none.yaml: cannot be read: No such file or directory')

@@ -118,6 +118,16 @@ def test_the_same_seed_gives_the_same_run(run: tuple[Path, str]) -> None:
         assert (run[0] / 'again' / name).read_text() == (run[0] / 'out' / name).read_text()
 
 
+def test_a_touch_is_felt_and_told(tmp_path: Path) -> None:
+    """Nearer to a wall than a robot of 0.177 m radius can come."""
+    patrol = start(tmp_path, 'out', 'clearance: 0.05\nwaypoints:\n'
+                   '- {name: wall, floor: 0, at: [1.5, 0.1]}\n')
+    said, trouble = patrol.communicate(timeout=300)
+    assert patrol.returncode == 1, said + trouble
+    last = trouble.splitlines()[-1]
+    assert last.startswith('angen: the robot is stuck at 1.') and 'house::link::south' in last
+
+
 def test_an_unreachable_waypoint_is_named_before_anything_moves(tmp_path: Path) -> None:
     patrol = start(tmp_path, 'out', ROUTE + '- {name: garden, floor: 0, at: [8, 1]}\n')
     said, trouble = patrol.communicate(timeout=300)

@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt, map_coordinates
+from scipy.ndimage import distance_transform_edt
 
 from .gridmap import OCCUPIED, GridMap
 from .pilot import Pose
@@ -12,6 +12,7 @@ from .pilot import Pose
 GATE = 0.25  # m: what lies farther from everything on the map is a door, or somebody
 ROUNDS = 10
 ENOUGH = 0.0005  # m, rad: a round that moves it less is the last
+EVERY = 3  # of a scan's returns one is taken
 FEWEST = 30  # returns without which a scan says nothing
 # How odometry is weighed against a scan: standard deviations since the last one, and of a return.
 PLACE, TURN, RANGE = 0.02, 0.02, 0.05
@@ -22,15 +23,23 @@ class Field:
 
     def __init__(self, grid: GridMap) -> None:
         self._grid = grid
-        self._far = distance_transform_edt(grid.cells != OCCUPIED) * grid.resolution
-        down, right = np.gradient(self._far, grid.resolution)
-        self._layers = (self._far, right, down)
+        far = distance_transform_edt(grid.cells != OCCUPIED) * grid.resolution
+        up, right = np.gradient(far, grid.resolution)
+        self._layers = np.stack([far, right, up])
 
     def at(self, points: np.ndarray) -> np.ndarray:
-        """(3, n): distance (m) and its slope along x and y at points (n, 2) in the world, m."""
-        cells = ((points - self._grid.origin) / self._grid.resolution - 0.5)[:, ::-1].T
-        return np.stack([map_coordinates(layer, cells, order=1, mode='nearest')
-                         for layer in self._layers])
+        """(3, n): distance (m) and its slope along x and y at points (n, 2) in the world, m.
+
+        Between the middles of four cells it is bilinear; off the map it is as at its edge.
+        """
+        rows, columns = self._grid.cells.shape
+        x, y = ((points - self._grid.origin) / self._grid.resolution - 0.5).T
+        x, y = np.clip(x, 0, columns - 1.001), np.clip(y, 0, rows - 1.001)
+        column, row = x.astype(int), y.astype(int)
+        x, y = x - column, y - row
+        cells = self._layers
+        return ((cells[:, row, column] * (1 - x) + cells[:, row, column + 1] * x) * (1 - y)
+                + (cells[:, row + 1, column] * (1 - x) + cells[:, row + 1, column + 1] * x) * y)
 
 
 class Localizer:
@@ -79,10 +88,10 @@ class Localizer:
 
 
 def returns_of(scan: object, mount: Pose) -> np.ndarray:
-    """A sensor_msgs/LaserScan's returns (n, 2) in the robot's frame, m; `mount`: the laser there.
+    """Returns (n, 2) of a sensor_msgs/LaserScan in the robot's frame, m; `mount`: the laser there.
     """
-    ranges = np.array(scan.ranges)
-    angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges)) + mount.yaw
+    ranges = np.array(scan.ranges[::EVERY])
+    angles = scan.angle_min + EVERY * scan.angle_increment * np.arange(len(ranges)) + mount.yaw
     met = np.isfinite(ranges) & (ranges >= scan.range_min) & (ranges <= scan.range_max)
     return (ranges[:, None] * np.stack([np.cos(angles), np.sin(angles)], axis=1))[met] + [
         mount.x, mount.y]

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import os
+from functools import cache
 from pathlib import Path
 
 from lxml import etree
@@ -10,6 +11,7 @@ from . import sdf
 from .failure import Failure
 
 
+@cache
 def worlds_models() -> Path:
     """worlds/models of this Angen."""
     import rospkg

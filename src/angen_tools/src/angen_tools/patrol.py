@@ -6,6 +6,8 @@ import random
 from dataclasses import dataclass, field
 from typing import Any, Callable
 
+import numpy as np
+
 from .failure import Failure
 from .gridmap import STOREY, GridMap
 from .localizer import Localizer, returns_of
@@ -15,6 +17,7 @@ from .planner import Door
 from .route import Action, Drive, Ride, Turn
 from .route_file import Route
 
+BUMPER = 'patrol_bumper'  # the sensor on the robot that feels all that it touches
 CYCLE = 0.1  # s from one command to the next
 DEVICE_LIMIT = 60.0  # s of simulated time that a door or elevator may take
 DRIVE_SLACK = 30.0  # s beyond thrice the time that a drive should take
@@ -47,6 +50,8 @@ class Scene:
     doors: dict[int, list[Door]]
     beams: dict[str, float]  # of a switch: rad of its door from shut at which its beam is free
     floor: int
+    body: np.ndarray  # (n, 3) points of the robot's surface, m
+    world: Any  # angen.World without robots, for rays
 
 
 def yaw_of(q: Any) -> float:
@@ -149,9 +154,8 @@ class Patrol:
         now = self._lockstep.run()
         self._take_states()
         odometry = self._odometry()
-        before = self._localizer.pose
         pose = self._localizer.move(odometry)
-        if pose != before:
+        if v or w:  # while it stands, doors turn, which are not on the map
             pose = self._localizer.see(self._returns())
         self._note(now, pose, odometry)
         self._watch(now, self._share, self._text)
@@ -185,8 +189,12 @@ class Patrol:
         while (command := pilot.steer(pose, CYCLE)) is not None:
             pose = self._cycle(*command)
             if self._lockstep.now > limit:
+                touched = [event.detail for event in self._lockstep.events
+                           if event.source == BUMPER and event.event == 'pressed']
+                x, y = drive.points[-1]
                 raise Failure(f'the robot is stuck at {pose.x:.2f}, {pose.y:.2f} on floor '
-                              f'{drive.floor}, on its way to {drive.points[-1]}')
+                              f'{drive.floor}, on its way to {x:.2f}, {y:.2f}'
+                              + (f'; it was touched {touched[-1]}' if touched else ''))
         if drive.name:
             self.track.reached.append((self._lockstep.now, drive.name))
 

@@ -14,14 +14,14 @@ from .bench_run import Stage, wait
 from .failure import Failure
 from .lockstep import Lockstep
 from .models import collisions, worlds_models
-from .patrol import CYCLE, Patrol, yaw_of
+from .patrol import BUMPER, CYCLE, Patrol
 from .patrol_figure import draw
-from .patrol_report import Run, figures, make_rows, summary, verdict, write_tables
+from .patrol_report import (Run, make_rows, measure, plans, summary, verdict, write_figures,
+                            write_tables)
 from .route_file import read_route
 from .sdf import read
 
 BASE = 'base_footprint'  # the robot's link that carries its body
-BUMPER = 'patrol_bumper'
 ROLLS = ('wheel', 'tread', 'caster')  # a collision with this in its name may touch the floor
 RECORDED = (f'/angen/(?!contact/{BUMPER})'
             '(pir|switch|luminosity|contact|door|elevator|lamp|events|stats).*'
@@ -75,16 +75,15 @@ def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, 
         drive.run(actions)
         took = clock.end()
         bag.close()
-    robot = next(e.pose for e in entities if (e.kind, e.name) == ('drive', route.robot))
-    start = robot.position.x, robot.position.y, robot.position.z, yaw_of(robot.orientation)
-    run = Run(route.robot, start, place, drive.track, lockstep.events,
-              [e for e in entities if e.kind in SENSORS], drive.door_angles(), BUMPER)
-    rows = make_rows(run, own_world)
+    run = Run(route.robot, place, drive.track, lockstep.events,
+              [e for e in entities if e.kind in SENSORS], drive.door_angles())
+    rows, found = make_rows(run, own_world), measure(run, seed, took)
     write_tables(run, rows, out)
-    for floor, name in zip(sorted(place.maps), figures(run)):
+    write_figures([found], out / 'summary.csv')
+    for floor, name in zip(sorted(place.maps), plans(run)):
         draw(run, rows, route, floor, out / name)
-    print(summary(run, rows, str(route.path.name), (took, time.monotonic() - began), out))
-    return verdict(run)
+    print(summary(run, rows, found, time.monotonic() - began, out))
+    return verdict(found)
 
 
 def leave(number: int, _: Any) -> NoReturn:

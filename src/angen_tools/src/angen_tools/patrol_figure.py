@@ -8,7 +8,7 @@ import numpy as np
 
 from .gridmap import FREE, OCCUPIED, STOREY
 from .patrol import floor_of
-from .patrol_report import Row, Run
+from .patrol_report import Row, Run, begun, moving
 from .route_file import Route
 from .sight import rotation
 
@@ -29,7 +29,10 @@ def draw(run: Run, rows: list[Row], route: Route, floor: int, path: Path) -> Non
     here = np.floor((track[:, 3] + 0.5) / STOREY) == floor
     line = np.where(here[:, None], track[:, 1:3], np.nan)
     axes.plot(line[:, 0], line[:, 1], color=TRACK, linewidth=1.2, label="the robot's track",
-              zorder=2)
+              zorder=3)
+    seen = np.where(noticed(run, track)[:, None], line, np.nan)
+    axes.plot(seen[:, 0], seen[:, 1], 'o', color=PIR, markersize=8, alpha=0.25, zorder=2,
+              markeredgewidth=0, label='a PIR detects it')
     entities = {entity.name: entity for entity in run.sensors}
     labelled: set[str] = set()
     for row in rows:
@@ -41,10 +44,22 @@ def draw(run: Run, rows: list[Row], route: Route, floor: int, path: Path) -> Non
     axes.set_ylabel('y (m)')
     axes.set_title(f'Floor {floor}: first detection of the robot, and its delay after the first '
                    'line of sight', fontsize=10)
-    figure.legend(loc='lower center', ncols=5, fontsize=8, frameon=False)
+    figure.legend(loc='lower center', ncols=6, fontsize=8, frameon=False, columnspacing=1.2,
+                  handletextpad=0.5)
     figure.tight_layout(rect=(0, 0.04, 1, 1))
     figure.savefig(path)
     pyplot.close(figure)
+
+
+def noticed(run: Run, track: np.ndarray) -> np.ndarray:
+    """The rows of a track (t, x, y, z, yaw) in which the robot moves and a PIR detects motion."""
+    times = track[:, 0]
+    found = np.zeros(len(track), bool)
+    for sensor in run.sensors:
+        if sensor.kind == 'pir':
+            for start, end in begun(run.of(sensor.name, 'pir'), 'pir'):
+                found |= (times >= start) & (times < end)
+    return found & np.isin(times, moving(track))
 
 
 def name_rooms(axes: Any, route: Route, floor: int) -> None:
@@ -94,12 +109,12 @@ def mark(axes: Any, row: Row, entity: Any, track: np.ndarray, labelled: set[str]
         ahead = ahead / np.linalg.norm(ahead)
     else:
         ahead = np.array([0.0, 0.5])
-    text = f'{row.delay:.1f} s' if row.delay is not None else 'not seen'
+    text = f'{row.delay:.1f} s' if row.delay is not None else 'none'
     if row.detection is not None:
         at = track[min(int(np.searchsorted(track[:, 0], row.detection)), len(track) - 1), 1:3]
         axes.plot(*at, 'o', color=colour, markersize=4.5, markeredgecolor='white', zorder=5,
                   markeredgewidth=0.5, linestyle='none',
-                  label=once(f'the robot at the first detection by {article} {name}'))
+                  label=once(f'first detection by {article} {name}'))
         axes.plot([place[0], at[0]], [place[1], at[1]], ':', color=colour, linewidth=0.8, zorder=3)
     axes.annotate(text, place + INWARD * ahead, fontsize=7.5, color=colour, ha='center',
                   va='center', zorder=6,

@@ -3,20 +3,19 @@ from __future__ import annotations
 
 import csv
 import math
-import re
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass, fields
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from . import sdf
-from .gridmap import STOREY, load_world
-from .patrol import CYCLE, Scene, Track, floor_of
-from .sight import Sight, sensor_element, view_of
+from .gridmap import STOREY
+from .patrol import BUMPER, CYCLE, Scene, Track, floor_of
+from .sight import Sight, room_of, sensor_element, view_of
 
 BEGINS = {'pir': ('motion',), 'switch': ('opened', 'closed'), 'luminosity': ('changed',)}
-LEVEL = 0.005  # m
+LEVEL = 5.0  # mm
 TOLD = 0.02  # s between two angles that a moving door tells
 STILL = 0.002  # m, rad: less in a cycle is no motion
 
@@ -43,13 +42,11 @@ class Run:
     """All that a patrol's report is made of."""
 
     robot: str
-    start: tuple[float, float, float, float]  # x, y, z (m), yaw of the robot in its world
     scene: Scene
     track: Track
     events: list[Any]  # angen_msgs/Event
     sensors: list[Any]  # angen_msgs/Entity
     angles: dict[str, list[tuple[float, float]]]  # of doors: s, rad from shut
-    bumper: str
 
     def of(self, source: str, kind: str) -> list[tuple[float, str, str]]:
         """Time (s), name and detail of a source's events."""
@@ -58,14 +55,8 @@ class Run:
 
     def collisions(self) -> list[tuple[float, str]]:
         """When the robot touched what it must not, and what."""
-        return [(t, detail) for t, event, detail in self.of(self.bumper, 'contact')
+        return [(t, detail) for t, event, detail in self.of(BUMPER, 'contact')
                 if event == 'pressed']
-
-
-def room_of(sensor: str) -> str:
-    """`kitchen0` of `kitchen_pir0_a`; the whole name where it has no such form."""
-    found = re.match(r'([a-z]+)_[a-z_]*?(\d+)', sensor)
-    return found[1] + found[2] if found else sensor
 
 
 def begun(events: list[tuple[float, str, str]], kind: str) -> list[tuple[float, float]]:
@@ -81,7 +72,7 @@ def begun(events: list[tuple[float, str, str]], kind: str) -> list[tuple[float, 
 
 def make_rows(run: Run, world: Path) -> list[Row]:
     """A row for each sensor that could have noticed the robot or did, by floor and room."""
-    sight = Sight(load_world(str(world)), np.array(run.start),
+    sight = Sight(run.scene.world, run.scene.body,
                   [door for doors in run.scene.doors.values() for door in doors],
                   {name: np.array(angles) for name, angles in run.angles.items()})
     track = np.array(run.track.rows)
@@ -130,7 +121,7 @@ def contact_row(run: Run, entity: Any) -> list[Row]:
     """A contact sensor's row, if the robot touched it: there is no line of sight to a touch."""
     touched = [t for t, event, detail in run.of(entity.name, 'contact')
                if event == 'pressed' and f'{run.robot}::' in detail]
-    if not touched or entity.name == run.bumper:
+    if not touched or entity.name == BUMPER:
         return []
     return [Row(room_of(entity.name), entity.name, 'contact', None, touched[0])]
 
@@ -184,10 +175,54 @@ def times(row: Row, none: str) -> list[str]:
             for value in (row.sight, row.detection, row.delay)]
 
 
-def summary(run: Run, rows: list[Row], route: str, walls: tuple[float, float], out: Path) -> str:
-    """What happened; `walls`: s of wall time of the drive, and of all."""
+@dataclass(frozen=True)
+class Figures:
+    """A run in numbers: m, s, mm; `aside` is where the robot took itself to be, beside the truth,
+    once it had had a second to find out."""
+
+    seed: int
+    waypoints: int
+    distance_m: float
+    time_s: float
+    wall_s: float
+    collisions: int
+    elevator_mm: float
+    aside_m: float
+    wheels_m: float
+    wheels_end_m: float
+
+
+def measure(run: Run, seed: int, wall: float) -> Figures:
+    """The figures of a run that took `wall` s of wall time."""
     track = np.array(run.track.rows)
-    length = float(np.linalg.norm(np.diff(track[:, 1:3], axis=0), axis=1).sum())
+    aside, wheels = (np.linalg.norm(np.array(places) - track[:, 1:3], axis=1)
+                     for places in (run.track.believed, run.track.odometry))
+    return Figures(
+        seed, len(run.track.reached),
+        float(np.linalg.norm(np.diff(track[:, 1:3], axis=0), axis=1).sum()),
+        float(track[-1, 0]), wall, len(run.collisions()),
+        max((1000 * abs(error) for _, error in run.track.levels), default=0.0),
+        float(aside[track[:, 0] > 1.0].max()), float(wheels.max()), float(wheels[-1]))
+
+
+def write_figures(found: list[Figures], path: Path) -> None:
+    """Writes a line a run."""
+    with path.open('w', newline='') as file:
+        lines = csv.writer(file)
+        lines.writerow([field.name for field in fields(Figures)])
+        lines.writerows([f'{value:.4f}' if isinstance(value, float) else value
+                         for value in astuple(figures)] for figures in found)
+
+
+def read_figures(path: Path) -> list[Figures]:
+    """What write_figures wrote."""
+    with path.open() as file:
+        return [Figures(**{field.name: (int if field.type == 'int' else float)(row[field.name])
+                           for field in fields(Figures)}) for row in csv.DictReader(file)]
+
+
+def summary(run: Run, rows: list[Row], found: Figures, whole: float, out: Path) -> str:
+    """What happened; `whole`: s of wall time of all."""
     lines = [f'{"room":14}{"sensor":22}{"sight s":>9}{"detected s":>12}{"delay s":>9}']
     for row in rows:
         sight, detection, delay = times(row, '-')
@@ -195,26 +230,24 @@ def summary(run: Run, rows: list[Row], route: str, walls: tuple[float, float], o
             lines.append(f'{row.room:14}{row.sensor:22}{sight:>9}{detection:>12}{delay:>9}')
     stops = ', '.join(f'floor {floor} {1000 * error:+.2f} mm' for floor, error in
                       run.track.levels)
-    touched = run.collisions()
-    believed, wheels = (np.linalg.norm(np.array(places) - track[:, 1:3], axis=1)
-                        for places in (run.track.believed, run.track.odometry))
     lines += [
-        f'{route}: {len(run.track.reached)} waypoints, {length:.1f} m in {track[-1, 0]:.1f} s, '
-        f'{walls[0]:.0f} s of wall time ({walls[1]:.0f} s in all)',
+        f'{found.waypoints} waypoints, {found.distance_m:.1f} m in {found.time_s:.1f} s, '
+        f'{found.wall_s:.0f} s of wall time ({whole:.0f} s with all preparation)',
         f'elevator stops beside their level: {stops or "none"}',
-        f'collisions: {len(touched)}' + ''.join(f'\n  {t:.2f} s {what}' for t, what in touched),
-        f'beside the truth: {100 * believed.max():.1f} cm at most, by wheels alone '
-        f'{100 * wheels.max():.0f} cm, at the end {100 * wheels[-1]:.0f} cm',
-        f'wrote {out}/rooms.csv, events.csv, track.csv, {", ".join(figures(run))}, patrol.bag']
+        f'collisions: {found.collisions}' + ''.join(f'\n  {t:.2f} s {what}'
+                                                    for t, what in run.collisions()),
+        f'took itself to be at most {100 * found.aside_m:.1f} cm beside the truth; wheels alone: '
+        f'{100 * found.wheels_m:.0f} cm, at the end {100 * found.wheels_end_m:.0f} cm',
+        f'wrote {out}/rooms.csv, events.csv, track.csv, summary.csv, {", ".join(plans(run))}, '
+        'patrol.bag']
     return '\n'.join(lines)
 
 
-def figures(run: Run) -> list[str]:
-    """Names of the figures, by floor."""
+def plans(run: Run) -> list[str]:
+    """Names of the figures of floors."""
     return [f'floor_{floor}.png' for floor in sorted(run.scene.maps)]
 
 
-def verdict(run: Run) -> int:
+def verdict(found: Figures) -> int:
     """0, or 1 where the robot touched something or the elevator stopped beside a level."""
-    level = all(abs(error) <= LEVEL for _, error in run.track.levels)
-    return 0 if level and not run.collisions() else 1
+    return 0 if found.elevator_mm <= LEVEL and not found.collisions else 1

@@ -12,14 +12,14 @@ from lxml import etree
 from . import sdf
 from .doors import find_door, find_hinge, find_top, link_poses
 from .failure import Failure
-from .gridmap import STOREY, GridMap, load_world, make_map
-from .patrol import Scene, floor_of, pose_of
+from .gridmap import STOREY, GridMap, floors, load_world, make_map
+from .patrol import Scene, floor_of, pose_of, yaw_of
 from .pilot import Pose
 from .planner import Door, Planner
 from .rays import Caster
 from .route import Action, Router
 from .route_file import Route
-from .sight import beam_angles
+from .sight import beam_angles, outline
 
 START_PLACE, START_YAW = 0.1, 0.1  # m, rad: how far a start may lie from the world's own
 
@@ -53,31 +53,35 @@ def write_world(world: Path, robot: str, seed: int, to: Path) -> None:
 
 
 class Survey:
-    """Maps of a world's floors with doors open and shut, and the doors between the two."""
+    """A world's geometry: its floors' maps with doors open and shut, the doors, the robot."""
 
-    def __init__(self, world: str, entities: list[Any], floors: list[int]) -> None:
-        opened, shut = load_world(world), load_world(world)
+    def __init__(self, world: str, entities: list[Any], robot: Any, wanted: set[int]) -> None:
+        self.world, shut = load_world(world), load_world(world)
+        place = robot.pose.position
+        self.body = outline(self.world, np.array([place.x, place.y, place.z,
+                                                  yaw_of(robot.pose.orientation)]))
         self.maps: dict[int, GridMap] = {}
-        self.doors: dict[int, list[Door]] = {}
         self.landmarks: dict[int, GridMap] = {}
         shut_maps = {}
-        for floor in floors:
-            self.maps[floor] = make_map(opened, floor, 'open')
+        for floor in sorted(wanted & set(floors(self.world))):
+            self.maps[floor] = make_map(self.world, floor, 'open')
             shut_maps[floor] = make_map(shut, floor, 'shut')
             both = np.maximum(self.maps[floor].cells, shut_maps[floor].cells)
             self.landmarks[floor] = replace(shut_maps[floor], cells=both)
-        open_poses, shut_poses = link_poses(opened), link_poses(shut)
+        self.doors: dict[int, list[Door]] = {floor: [] for floor in self.maps}
+        by_model = {}
+        opened_poses, shut_poses = link_poses(self.world), link_poses(shut)
         for entity in entities:
             floor = floor_of(entity.pose.position.z)
             if entity.kind != 'door' or floor not in self.maps:
                 continue
-            hinge = find_hinge(shut_poses[entity.model], open_poses[entity.model])
+            hinge = find_hinge(shut_poses[entity.model], opened_poses[entity.model])
             door = hinge and find_door(entity.name, hinge, shut_maps[floor], self.maps[floor])
             if door:
-                top = find_top(Caster(shut), door, STOREY * floor)
-                self.doors.setdefault(floor, []).append(replace(door, top=top))
-        all_doors = [door for doors in self.doors.values() for door in doors]
-        self.beams = beam_angles(shut, all_doors, [e for e in entities if e.kind == 'switch'])
+                door = replace(door, top=find_top(Caster(shut), door, STOREY * floor))
+                self.doors[floor].append(door)
+                by_model[entity.model] = door
+        self.beams = beam_angles(shut, by_model, [e for e in entities if e.kind == 'switch'])
 
 
 def make_scene(route: Route, world: str, entities: list[Any], offset: tuple[float, float, float]
@@ -97,18 +101,12 @@ def make_scene(route: Route, world: str, entities: list[Any], offset: tuple[floa
     truth = pose_of(robot.pose)
     told = Pose(truth.x - offset[0], truth.y - offset[1], truth.yaw - offset[2])
     floor = floor_of(robot.pose.position.z)
-    survey = _survey(route, world, entities, floor)
+    survey = Survey(world, entities, robot, {floor} | {p.floor for p in route.waypoints})
     scene = Scene(told, truth.inverse().then(pose_of(laser.pose)), laser.topic, robot.topic,
-                  survey.maps, survey.landmarks, survey.doors, survey.beams, floor)
+                  survey.maps, survey.landmarks, survey.doors, survey.beams, floor, survey.body,
+                  survey.world)
     planners = {number: Planner(grid, route.clearance) for number, grid in survey.maps.items()}
     return scene, Router(route, planners, survey.doors).actions((told.x, told.y), floor)
-
-
-def _survey(route: Route, world: str, entities: list[Any], floor: int) -> Survey:
-    from .gridmap import floors
-    there = floors(load_world(world))
-    wanted = sorted({floor} | {point.floor for point in route.waypoints if point.floor in there})
-    return Survey(world, entities, wanted)
 
 
 def _one(entities: list[Any], kind: str, name: str, otherwise: str) -> Any:

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,10 +20,8 @@ SIDES, HEIGHTS = 16, np.arange(0.03, 1.5, 0.06)  # rays that find a robot's outl
 BEAM = 0.5  # m
 FAR = 20.0  # m: how far a sensor without a range sees
 CHUNK = 50  # positions at a time
-STEP = 0.005  # rad, and how often it is taken to find where a door's strip leaves a beam
-STEPS = 40
+LOOK, LOOKS = 5, 120  # ticks between two looks at the beams of opening doors, and how many
 CHANGED = 0.05  # m by which a cut beam is shorter
-SETTLE = 0.7  # s for a door to turn by STEP
 
 
 @dataclass(frozen=True)
@@ -94,34 +93,36 @@ def hidden(origin: np.ndarray, points: np.ndarray, door: Door, turned: np.ndarra
     return meets & (origin[2] + along_line * (points[:, 2] - origin[2]) < door.top)
 
 
-class Sight:
-    """Lines of sight in a world without its doors and robots; leaves stand as was recorded.
+def outline(world: Any, start: np.ndarray) -> np.ndarray:
+    """Points (n, 3) of the surface of the robot that stands at `start` (x, y, z, yaw; m), in its
+    own frame. Takes all robots out of the world."""
+    caster = Caster(world)
+    turns = np.arange(SIDES) * 2 * math.pi / SIDES
+    ways = np.repeat(np.stack([np.cos(turns), np.sin(turns), 0 * turns], axis=1), len(HEIGHTS),
+                     axis=0)
+    origins = start[:3] - AROUND * ways + np.outer(np.tile(HEIGHTS, SIDES), [0, 0, 1])
+    before = caster.cast(origins, ways, AROUND)
+    for name in models_with(world, 'left_wheel_joint'):
+        world.delete(name)
+    met = before < caster.cast(origins, ways, AROUND) - 1e-6
+    points = (origins + before[:, None] * ways)[met] - start[:3]
+    c, s = math.cos(start[3]), math.sin(start[3])
+    return points @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
 
-    `start` is where the robot stands in that world: x, y, z (m), yaw. `angles` has, for each door,
-    (n, 2) times (s) and radians from shut.
+
+class Sight:
+    """Lines of sight in a world, out of which it takes the doors; leaves stand as was recorded.
+
+    `body` (n, 3): points of the robot's surface. `angles` has, for each door, (n, 2) times (s) and
+    radians from shut. The world must be without robots.
     """
 
-    def __init__(self, world: Any, start: np.ndarray, doors: list[Door],
+    def __init__(self, world: Any, body: np.ndarray, doors: list[Door],
                  angles: dict[str, np.ndarray]) -> None:
         self._caster = Caster(world)
-        self._doors, self._angles = doors, angles
+        self._body, self._doors, self._angles = body, doors, angles
         for name in models_with(world, 'hinge'):
             world.delete(name)
-        self._body = self._outline(world, start)
-
-    def _outline(self, world: Any, start: np.ndarray) -> np.ndarray:
-        """Points (n, 3) of the robot's surface in its own frame; takes robots out of the world."""
-        turns = np.arange(SIDES) * 2 * math.pi / SIDES
-        ways = np.repeat(np.stack([np.cos(turns), np.sin(turns), 0 * turns], axis=1),
-                         len(HEIGHTS), axis=0)
-        origins = start[:3] - AROUND * ways + np.outer(np.tile(HEIGHTS, SIDES), [0, 0, 1])
-        before = self._caster.cast(origins, ways, AROUND)
-        for name in models_with(world, 'left_wheel_joint'):
-            world.delete(name)
-        met = before < self._caster.cast(origins, ways, AROUND) - 1e-6
-        points = (origins + before[:, None] * ways)[met] - start[:3]
-        c, s = math.cos(start[3]), math.sin(start[3])
-        return points @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
 
     def _bodies(self, track: np.ndarray) -> np.ndarray:
         """(rows, points, 3): the robot's surface along a track with rows t, x, y, z, yaw."""
@@ -159,24 +160,32 @@ class Sight:
         return free
 
 
-def beam_angles(world: Any, doors: list[Door], switches: list[Any]) -> dict[str, float]:
+def beam_angles(world: Any, doors: dict[str, Door], switches: list[Any]) -> dict[str, float]:
     """How far (rad) each switch's door has turned from shut when its beam comes free.
 
-    The doors must be shut; a switch belongs to the door whose strip cuts its beam.
+    `doors` by model, all shut; they are opened for it. A switch belongs to the door of its room.
     """
     caster = Caster(world)
     origins = np.array([[s.pose.position.x, s.pose.position.y, s.pose.position.z]
                         for s in switches]).reshape(-1, 3)
     ways = np.array([rotation(s.pose.orientation)[:, 0] for s in switches]).reshape(-1, 3)
+    joints = {door.name: world.joints.index(f'{model}::hinge') for model, door in doors.items()}
     shut = caster.cast(origins, ways, BEAM)
+    for name in joints:
+        world.command('door', name, 'Open')
     found: dict[str, float] = {}
-    for step in range(1, STEPS + 1):
-        for door in doors:
-            turn = math.copysign(step * STEP, door.open - door.shut)
-            world.command('door', door.name, f'Set {turn:.3f}')
-        world.run(SETTLE)
+    for _ in range(LOOKS):
+        world.step(LOOK)
         longer = caster.cast(origins, ways, BEAM) > shut + CHANGED
+        positions = world.joint_positions
         for switch, free in zip(switches, longer):
-            if free:
-                found.setdefault(switch.name, step * STEP)
+            room = room_of(switch.name)
+            if free and room in joints:
+                found.setdefault(switch.name, abs(float(positions[joints[room]])))
     return found
+
+
+def room_of(sensor: str) -> str:
+    """`kitchen0` of `kitchen_pir0_a`; the whole name where it has no such form."""
+    found = re.match(r'([a-z]+)_[a-z_]*?(\d+)', sensor)
+    return found[1] + found[2] if found else sensor

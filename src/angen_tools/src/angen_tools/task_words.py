@@ -9,6 +9,12 @@ from .bench_words import at_least
 
 
 def run_patrol(args: argparse.Namespace) -> int:
+    if args.seeds > 1:
+        from . import patrol_seeds
+        words = [word for name in ('route', 'world') if getattr(args, name)
+                 for word in (f'--{name}', str(getattr(args, name)))]
+        return patrol_seeds.patrols([*words, '--rate', f'{args.rate:g}'],
+                                    range(args.seed, args.seed + args.seeds), args.out)
     from . import patrol_command
     return patrol_command.patrol(args.route, args.world, args.seed, args.rate, args.out)
 
@@ -33,12 +39,15 @@ def add_task(commands: Any, command: Callable[..., argparse.ArgumentParser],
     patrol = command(kinds, 'patrol', run_patrol, 'drives the TurtleBot through every room, '
                      'watched by the sensors, and leaves a table, figures and a rosbag',
                      'task patrol', 'task patrol --seed 7 --rate 1',
-                     'task patrol --route my.yaml --out my_run')
+                     'task patrol --route my.yaml --out my_run', 'task patrol --seeds 20')
     patrol.add_argument('--route', metavar='FILE', type=Path,
                         help="where to go and how fast; config/patrol.yaml of angen_tools without")
     patrol.add_argument('--world', metavar='FILE', type=Path, help='worlds/angen.world without')
     patrol.add_argument('--seed', metavar='S', type=checked(at_least(0)), default=1,
                         help='of start, noise and timing (1)')
+    patrol.add_argument('--seeds', metavar='N', type=checked(at_least(1)), default=1,
+                        help='so many patrols, with this seed and the next ones, each in a folder '
+                        'of its own, and a table of them (1)')
     patrol.add_argument('--rate', metavar='R', type=checked(pace), default=0.0,
                         help='simulated seconds a second, with rviz where there is a display; '
                         '0: as fast as it goes, without (0)')
