@@ -11,6 +11,7 @@ from typing import Iterator
 import pytest
 from conftest import Angen, Cli, Heard, own_terminal, until
 from nav_msgs.msg import Odometry
+from std_srvs.srv import Empty
 
 UP, LEFT = b'\x1b[A', b'\x1b[D'
 
@@ -51,6 +52,13 @@ class Driver:
             self.process.wait()
         os.close(self._ours)
         os.close(self._theirs)
+
+
+@pytest.fixture(scope='module', autouse=True)
+def put_back(angen: Angen) -> Iterator[None]:
+    """The robot stands where other tests expect it, when these are done."""
+    yield
+    angen.call('/gazebo/reset_world', Empty)
 
 
 @pytest.fixture

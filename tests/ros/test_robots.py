@@ -8,6 +8,7 @@ from conftest import Angen, Cli, Heard, until
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Image, LaserScan
+from std_srvs.srv import Empty
 from tf2_msgs.msg import TFMessage
 
 FIRST = {'base_footprint', 'base_scan', 'camera_rgb_optical_frame', 'camera_depth_optical_frame'}
@@ -20,6 +21,7 @@ def second(angen: Angen) -> Iterator[str]:
     cli.does('spawn', 'model', 'model://turtlebot', 'robot2', '--pose', '3 5 0.01')
     yield 'robot2'
     cli.does('delete', 'robot2')
+    angen.call('/gazebo/reset_world', Empty)  # the first one stands where other tests expect it
 
 
 def pose(message: Odometry) -> tuple[float, float, float, float]:
