@@ -1,4 +1,6 @@
-"""Contact sensors in a world: a sitter's weight."""
+"""Contact sensors in a world: a sitter's weight, and what bounces."""
+import math
+
 import numpy as np
 import pytest
 
@@ -40,3 +42,57 @@ def test_a_sitter_weighs_what_it_weighs_also_asleep(world):
     w.delete('ann')
     w.run(1.1)
     assert weight(w) == 0.0
+
+
+RESTITUTION = 0.6
+FALL = 0.5  # m
+SURFACE = f'''<surface><bounce><restitution_coefficient>{RESTITUTION}</restitution_coefficient>
+  <threshold>0</threshold></bounce></surface>'''
+BALL = f'''<model name="ball"><pose>0 0 {FALL + 0.15} 0 0 0</pose><link name="link"><inertial>
+  <mass>1</mass><inertia><ixx>4e-3</ixx><iyy>4e-3</iyy><izz>4e-3</izz></inertia></inertial>
+  <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry>{SURFACE}
+  </collision></link></model>'''
+
+
+def plate(debounce: float) -> str:
+    """A plate with a sensor that looks at every tick; its top is at 0.05 m."""
+    return f'''<model name="plate"><static>true</static><link name="link"><collision name="c">
+      <pose>0 0 0.025 0 0 0</pose><geometry><box><size>1 1 0.05</size></box></geometry>{SURFACE}
+      </collision><sensor name="touch" type="contact"><update_rate>1000</update_rate>
+      <contact><collision>c</collision></contact>
+      <plugin name="bumper" filename="libgazebo_ros_bumper.so"><debounce>{debounce}</debounce>
+      <sample_rate>1000</sample_rate></plugin></sensor></link></model>'''
+
+
+def told(world: angen.World) -> list[tuple[float, str]]:
+    """Time and name of each event of the plate's sensor."""
+    return [(t, event) for t, source, _, event, _ in world.events() if source == 'plate']
+
+
+def flights() -> list[float]:
+    """How long the ball is in the air between two touches, s; nothing bounces below 0.05 m/s."""
+    speeds = [RESTITUTION ** k * math.sqrt(2 * G * FALL) for k in range(1, 20)]
+    return [2 * speed / G for speed in speeds if RESTITUTION * speed > 0.05]
+
+
+def test_without_a_debounce_each_bounce_is_told(world):
+    w = world(BALL + plate(0))
+    w.run(4)
+    events = told(w)
+    touches = [t for t, event in events if event == 'pressed']
+    assert touches[0] == pytest.approx(math.sqrt(2 * FALL / G), abs=0.005)
+    for gap, flight in zip(np.diff(touches), flights()):
+        assert gap == pytest.approx(flight, abs=0.01 + 0.02 * flight)
+    assert len(touches) > 5 and events[-1][1] == 'pressed'
+
+
+def test_a_debounced_one_tells_when_it_has_come_to_lie(world):
+    w = world(BALL + plate(0.05))
+    w.run(4)
+    events = told(w)
+    assert [event for _, event in events] == ['pressed']
+    lies = math.sqrt(2 * FALL / G) + sum(flights())
+    assert events[0][0] == pytest.approx(lies + 0.05, abs=0.05)
+    w.delete('ball')
+    w.run(0.2)
+    assert [event for _, event in told(w)] == ['released']

@@ -21,6 +21,9 @@ constexpr double kArriveSpeed = 0.02;    // rad/s
 constexpr double kMaxLag = 0.08;         // rad
 constexpr double kStallSpeed = 0.004;    // rad/s
 
+constexpr PidGains kGains{70.0, 200.0, 25.0, 100.0, -100.0, 120.0, -120.0};
+constexpr PidUnits kUnits{"N m/rad", "N m/(rad s)", "N m s/rad", "N m"};
+
 const char* const kModeNames[] = {"CLOSED", "OPEN", "OPENING", "CLOSING", "BLOCKED", "AJAR"};
 const char* const kModeEvents[] = {"closed", "opened", "opening", "closing", "blocked", "ajar"};
 
@@ -32,21 +35,9 @@ std::string range_text(const JointLimits& limits) {
 
 }  // namespace
 
-PidGains Door::read_gains(Params& params) {
-  PidGains gains;
-  gains.p = params.number("p", 70.0, "N m/rad", "proportional gain", kNotNegative);
-  gains.i = params.number("i", 200.0, "N m/(rad s)", "integral gain", kNotNegative);
-  gains.d = params.number("d", 25.0, "N m s/rad", "derivative gain", kNotNegative);
-  gains.i_max = params.number("i_max", 100.0, "N m", "limit of the integral's share", kNotNegative);
-  gains.i_min = params.number("i_min", -100.0, "N m", "limit of the integral's share", {-1e9, 0.0});
-  gains.cmd_max = params.number("cmd_max", 120.0, "N m", "greatest torque", kNotNegative);
-  gains.cmd_min = params.number("cmd_min", -120.0, "N m", "least torque", {-1e9, 0.0});
-  return gains;
-}
-
 void Door::configure(Params& params, Wiring& wiring) {
   ServoSettings servo;
-  servo.gains = read_gains(params);
+  servo.gains = read_gains(params, kGains, kUnits);
   servo.max_velocity =
       params.number("max_velocity", 0.6, "rad/s", "speed of the setpoint", kPositive);
   servo.max_acceleration =
@@ -94,14 +85,11 @@ void Door::configure(Params& params, Wiring& wiring) {
 
 Verdict Door::command(const Command& command, const View& view) {
   const std::vector<std::string> words = words_of(command.text);
-  if (words.size() == 1 && words[0] == "open") {
-    go(open_position_, view);
-    return Verdict::accept();
-  }
-  if (words.size() == 1 && words[0] == "close") {
-    go(closed_position_, view);
-    return Verdict::accept();
-  }
+  const auto accept = [this, position = view.joint(hinge_).position](double target) {
+    return Verdict::accept([this, target, position] { go(target, position); });
+  };
+  if (words.size() == 1 && words[0] == "open") return accept(open_position_);
+  if (words.size() == 1 && words[0] == "close") return accept(closed_position_);
   if (words.size() == 2 && words[0] == "set") {
     const std::optional<double> angle = number_of(words[1]);
     if (!angle) return Verdict::reject("'" + words[1] + "' is no angle; Set takes radians");
@@ -109,14 +97,12 @@ Verdict Door::command(const Command& command, const View& view) {
       return Verdict::reject("the angle " + words[1] + " is outside the hinge's " +
                              range_text(limits_) + " rad");
     }
-    go(*angle, view);
-    return Verdict::accept();
+    return accept(*angle);
   }
   return Verdict::reject("a door knows Open, Close and Set <rad>, not '" + command.text + "'");
 }
 
-void Door::go(double target, const View& view) {
-  const double position = view.joint(hinge_).position;
+void Door::go(double target, double position) {
   target_ = target;
   opening_ = std::abs(target - closed_position_) > std::abs(position - closed_position_);
   if (resting_ && started_ && std::abs(target - position) < kArriveError) return;

@@ -20,8 +20,7 @@ class Door : public Device {
  private:
   enum class Mode { kClosed, kOpen, kOpening, kClosing, kBlocked, kAjar };
 
-  PidGains read_gains(Params& params);
-  void go(double target, const View& view);
+  void go(double target, double position);
   void rest(const JointView& hinge, Outputs& outputs);
   Mode mode_at_rest(double position) const;
   void show(Mode mode, const JointView& hinge, bool renew, Outputs& outputs);

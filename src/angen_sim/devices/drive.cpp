@@ -49,11 +49,12 @@ Verdict Drive::command(const Command& command, const View& view) {
     return Verdict::reject("a drive knows <m/s> <rad/s> (two finite numbers) and Stop, not '" +
                            command.text + "'");
   }
-  v_ = std::clamp(values[0], -max_linear_, max_linear_);
-  w_ = std::clamp(values[1], -max_angular_, max_angular_);
-  commanded_at_ = view.time();
-  moving_ = moving_ || v_ != 0.0 || w_ != 0.0;
-  return Verdict::accept();
+  return Verdict::accept([this, v = values[0], w = values[1], now = view.time()] {
+    v_ = std::clamp(v, -max_linear_, max_linear_);
+    w_ = std::clamp(w, -max_angular_, max_angular_);
+    commanded_at_ = now;
+    moving_ = moving_ || v_ != 0.0 || w_ != 0.0;
+  });
 }
 
 void Drive::update(const View& view, Outputs& outputs) {

@@ -20,32 +20,19 @@ constexpr double kWeighShare = 0.2;       // of each new weighing, at the rate o
 constexpr double kGreatestLoad = 2000.0;  // kg
 constexpr Nanoseconds kDwell = kSecond;   // between the doors' opening and their shutting
 
+// Gains and limits are times the moving mass; the limits are of what is beyond the weight.
+constexpr PidGains kGains{200.0, 200.0, 25.0, 5.0, -5.0, 5.0, -5.0};
+constexpr PidUnits kUnits{"N/m per kg", "N/(m s) per kg", "N s/m per kg", "N/kg"};
+
 const char* const kDoorModes[] = {"CLOSED", "OPEN", "OPENING", "CLOSING", "BLOCKED"};
 const char* const kDoorEvents[] = {"doors closed", "doors opened", "doors opening", "doors closing",
                                    "doors blocked"};
 
 }  // namespace
 
-PidGains Elevator::read_gains(Params& params) {
-  PidGains gains;
-  gains.p = params.number("p", 200.0, "N/m per kg", "proportional gain, times the moving mass",
-                          kNotNegative);
-  gains.i = params.number("i", 200.0, "N/(m s) per kg", "integral gain, times the moving mass",
-                          kNotNegative);
-  gains.d = params.number("d", 25.0, "N s/m per kg", "derivative gain, times the moving mass",
-                          kNotNegative);
-  gains.i_max = params.number("i_max", 5.0, "N/kg", "limit of the integral's share", kNotNegative);
-  gains.i_min = params.number("i_min", -5.0, "N/kg", "limit of the integral's share", {-1e9, 0.0});
-  gains.cmd_max =
-      params.number("cmd_max", 5.0, "N/kg", "greatest force beyond the weight", kNotNegative);
-  gains.cmd_min =
-      params.number("cmd_min", -5.0, "N/kg", "least force beyond the weight", {-1e9, 0.0});
-  return gains;
-}
-
 void Elevator::configure(Params& params, Wiring& wiring) {
   ServoSettings servo;
-  servo.gains = read_gains(params);
+  servo.gains = read_gains(params, kGains, kUnits);
   servo.max_velocity =
       params.number("max_velocity", 1.0, "m/s", "speed of the cabin's setpoint", kPositive);
   servo.max_acceleration = params.number("max_acceleration", 0.5, "m/s^2",
@@ -121,10 +108,13 @@ Verdict Elevator::command(const Command& command, const View&) {
     return Verdict::reject("an elevator knows Floor0 to Floor" + std::to_string(floors_ - 1) +
                            ", not '" + command.text + "'");
   }
+  return Verdict::accept([this, floor] { call(floor); });
+}
+
+void Elevator::call(int floor) {
   const int last = !stops_.empty() ? stops_.back() : target_;
   const bool waits_for_it = !stops_.empty() || phase_ != Phase::kStanding;
   if (!waits_for_it || last != floor) stops_.push_back(floor);
-  return Verdict::accept();
 }
 
 void Elevator::start(const View& view, Outputs& outputs) {

@@ -29,8 +29,8 @@ class Elevator : public Device {
     double door_position = 0.0;
   };
 
-  PidGains read_gains(Params& params);
   void wire(Params& params, Wiring& wiring);
+  void call(int floor);
   void start(const View& view, Outputs& outputs);
   void stand(const View& view, Outputs& outputs);
   void serve_next_stop(const View& view, Outputs& outputs);

@@ -20,21 +20,17 @@ void Lamp::configure(Params& params, Wiring& wiring) {
 
 Verdict Lamp::command(const Command& command, const View&) {
   const std::vector<std::string> words = words_of(command.text);
-  if (words.size() == 1 && words[0] == "on") {
-    level_ = 100.0;
-    return Verdict::accept();
-  }
-  if (words.size() == 1 && words[0] == "off") {
-    level_ = 0.0;
-    return Verdict::accept();
-  }
+  const auto accept = [this](double level) {
+    return Verdict::accept([this, level] { level_ = level; });
+  };
+  if (words.size() == 1 && words[0] == "on") return accept(100.0);
+  if (words.size() == 1 && words[0] == "off") return accept(0.0);
   if (words.size() == 2 && words[0] == "dim") {
     const std::optional<double> level = number_of(words[1]);
     if (!level || *level < 0.0 || *level > 100.0) {
       return Verdict::reject("'" + words[1] + "' is no level; Dim takes 0 to 100 percent");
     }
-    level_ = *level;
-    return Verdict::accept();
+    return accept(*level);
   }
   return Verdict::reject("a lamp knows On, Off and Dim <percent>, not '" + command.text + "'");
 }

@@ -63,8 +63,7 @@ void Person::configure(Params& params, Wiring& wiring) {
 Verdict Person::command(const Command& command, const View&) {
   const std::vector<std::string> words = words_of(command.text);
   if (words.size() == 1 && (words[0] == "stop" || words[0] == "go")) {
-    paused_ = words[0] == "stop";
-    return Verdict::accept();
+    return Verdict::accept([this, stop = words[0] == "stop"] { paused_ = stop; });
   }
   return Verdict::reject("a person knows Stop and Go, not '" + command.text + "'");
 }
@@ -111,7 +110,7 @@ void Person::walk(const Path::Place& place, const View& view, bool renew, Output
   // Ahead of its place is no reason to wait, so it is the way to the goal that counts.
   const bool waits = to_goal.norm() > kMaxLag + std::hypot(goal.x - place.x, goal.y - place.y);
   if (!waits) clock_ += view.step();
-  watch(body, lag < (place.still() ? kThere : kNearPath), view.step());
+  watch(at, goal, lag < (place.still() ? kThere : kNearPath), view.step());
 
   const bool there = lag < kThere && std::abs(turn) < kFacing;
   if (place.still() && (there || (resting_ && lag < kPushedAway))) {
@@ -145,9 +144,13 @@ void Person::make_room(const LinkView& body, Nanoseconds now) {
   }
 }
 
-void Person::watch(const LinkView& body, bool on_path, Nanoseconds step) {
-  if (on_path || (body.pose.position - came_to_).head<2>().norm() > kProgress) {
-    came_to_ = body.pose.position;
+// Nearer to the goal is progress; along a leaf that one leans on is none.
+void Person::watch(const Vec3& at, const Path::Place& goal, bool on_path, Nanoseconds step) {
+  const auto way_from = [&](const Vec3& from) {
+    return std::hypot(goal.x - from.x(), goal.y - from.y());
+  };
+  if (on_path || way_from(came_to_) - way_from(at) > kProgress) {
+    came_to_ = at;
     stalled_ = 0;
   } else {
     stalled_ += step;

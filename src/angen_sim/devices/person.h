@@ -26,7 +26,7 @@ class Person : public Device {
   void walk(const Path::Place& place, const View& view, bool renew, Outputs& outputs);
   void head_for(const Vec3& way, double fastest, double turn, Outputs& outputs);
   void make_room(const LinkView& body, Nanoseconds now);
-  void watch(const LinkView& body, bool on_path, Nanoseconds step);
+  void watch(const Vec3& at, const Path::Place& goal, bool on_path, Nanoseconds step);
   void stand(Outputs& outputs);
   void show(Mode mode, const LinkView& body, bool renew, Outputs& outputs);
 

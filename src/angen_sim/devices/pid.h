@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "plugin/params.h"
+
 namespace angen::devices {
 
 /// Gazebo's seven numbers. What comes out is in the unit of cmd_max; i_max and i_min limit the
@@ -15,6 +17,17 @@ struct PidGains {
   double cmd_max = 0.0;
   double cmd_min = 0.0;
 };
+
+/// What the numbers are given in; i_max … cmd_min share the command's unit.
+struct PidUnits {
+  const char* p;
+  const char* i;
+  const char* d;
+  const char* command;
+};
+
+/// The seven as parameters; `fallback` stands for what is not given.
+PidGains read_gains(Params& params, const PidGains& fallback, const PidUnits& units);
 
 class Pid {
  public:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -20,10 +21,13 @@ struct Command {
 
 struct Verdict {
   bool accepted = true;
-  std::string reason;  // why not, what would be right
+  std::string reason;         // why not, what would be right
+  std::function<void()> act;  // what obeying is; may be empty
 
   static Verdict accept() { return {}; }
-  static Verdict reject(std::string why) { return {false, std::move(why)}; }
+  /// `act` is done once each device that the command is for has accepted it: all obey, or none.
+  static Verdict accept(std::function<void()> act) { return {true, "", std::move(act)}; }
+  static Verdict reject(std::string why) { return {false, std::move(why), {}}; }
 };
 
 /// Something that acts: a door, a lamp. One instance a model.

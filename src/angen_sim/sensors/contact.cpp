@@ -46,12 +46,18 @@ struct Lists {
 class Contact : public Sensor {
  public:
   double default_rate() const override { return 1.0; }
+  Nanoseconds sample_period() const override { return debounce_ > 0 ? sample_period_ : 0; }
 
   void configure(Params& params, Wiring& wiring) override {
     const std::vector<std::string> names =
         params.texts("contact/collision", "", "collision of the sensor's link to watch");
     noise_stddev_ =
         params.number("noise_stddev", 0.0, "N", "of each component of a force", kNotNegative);
+    debounce_ = from_seconds(params.number(
+        "debounce", 0.0, "s", "touch and release count once they have lasted so long", {0.0, 1e6}));
+    const double sample_rate = params.number("sample_rate", 100.0, "Hz",
+                                             "how often it looks, given a debounce", {1e-3, 1e6});
+    sample_period_ = from_seconds(1.0 / sample_rate);
     params.text("bumperTopicName", "/angen/contact/NAME", "where it publishes");
     if (names.empty()) {
       throw params.error("contact",
@@ -75,12 +81,13 @@ class Contact : public Sensor {
         if (!lists.has(pair.second, pair.first)) lists.add(pair, noise_stddev_, rng);
       }
     }
-    const bool pressed = !lists.collision1.empty();
-    if (pressed_ && pressed != *pressed_) {
-      reading.event = pressed ? "pressed" : "released";
-      if (pressed) reading.event_detail = "by " + lists.collision2.front();
+    const bool touched = !lists.collision1.empty();
+    if (settled(touched, view.time())) {
+      reading.urgent = debounce_ > 0;
+      reading.event = touched ? "pressed" : "released";
+      if (touched) reading.event_detail = "by " + lists.collision2.front();
     }
-    pressed_ = pressed;
+    reading.set("pressed", *pressed_);
     reading.set("collision1", std::move(lists.collision1));
     reading.set("collision2", std::move(lists.collision2));
     reading.set("counts", std::move(lists.counts));
@@ -91,9 +98,26 @@ class Contact : public Sensor {
   }
 
  private:
+  // True when a change that began a debounce ago or earlier has lasted until now.
+  bool settled(bool touched, Nanoseconds now) {
+    if (!pressed_) pressed_ = touched;
+    if (touched == *pressed_) {
+      changed_at_.reset();
+      return false;
+    }
+    if (!changed_at_) changed_at_ = now;
+    if (now - *changed_at_ < debounce_) return false;
+    changed_at_.reset();
+    pressed_ = touched;
+    return true;
+  }
+
   std::vector<ContactRef> collisions_;
   double noise_stddev_ = 0.0;
-  std::optional<bool> pressed_;  // none before the first reading
+  Nanoseconds debounce_ = 0;
+  Nanoseconds sample_period_ = kSecond / 100;
+  std::optional<bool> pressed_;            // none before the first reading
+  std::optional<Nanoseconds> changed_at_;  // since when it has looked otherwise
 };
 
 ANGEN_REGISTER_SENSOR(Contact, "contact", "What touches a body: names, points, depths, forces.")

@@ -60,10 +60,16 @@ Outcome to_device(const ToDevice& given, Building& building, InstanceView::Clock
                        targets[1].device->kind + "; write " + targets[0].device->kind + "/" +
                        order.name};
   }
+  std::vector<Verdict> verdicts;
   for (const Target& target : targets) {
     const InstanceView view(building.stage(), *target.live, clock);
-    const Verdict verdict = target.device->device->command(order.command, view);
-    if (!verdict.accepted) return {false, target.device->name + ": " + verdict.reason};
+    verdicts.push_back(target.device->device->command(order.command, view));
+    if (verdicts.back().accepted) continue;
+    const char* others = targets.size() > 1 ? "; none of the others was commanded" : "";
+    return {false, target.device->name + ": " + verdicts.back().reason + others};
+  }
+  for (const Verdict& verdict : verdicts) {
+    if (verdict.act) verdict.act();
   }
   return {true, ""};
 }

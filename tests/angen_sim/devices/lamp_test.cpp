@@ -25,6 +25,7 @@ struct Lit {
   }
   Verdict say(const std::string& text) {
     const Verdict verdict = lamp->command({text, {}}, world);
+    if (verdict.act) verdict.act();
     lamp->update(world, world);
     return verdict;
   }

@@ -104,6 +104,23 @@ TEST(Person, AWallStopsItItPushesWithNoMoreThanItsForceAndGoesOnWhenFreed) {
   EXPECT_NEAR(walk.place().x(), 5.0, 0.02);
 }
 
+TEST(Person, SlidingAlongALeafIsNoProgress) {
+  Walk walk(kStraight);
+  desc::Model leaf = box("leaf", {2.0, 0, 1}, {0.05, 6, 2});
+  leaf.pose.rotation = from_rpy(0, 0, 0.3);
+  walk.bench.add(leaf);
+  ASSERT_GT(walk.bench.run_until(
+                4.0, [&] { return walk.bench.contact_force("leaf", "person").norm() > 0.0; }),
+            0.0);
+  const Vec3 touched = walk.place();
+  const double took = walk.bench.run_until(5.0, [&] { return walk.rig->mode() == "BLOCKED"; });
+  printf("person leaning on a leaf: slid %.2f m, BLOCKED after %.2f s\n",
+         (walk.place() - touched).head<2>().norm(), took);
+  EXPECT_GT((walk.place() - touched).head<2>().norm(), 0.1);
+  EXPECT_GT(took, 0.0);
+  EXPECT_LE(took, 1.5);
+}
+
 TEST(Person, PushesALightBoxAlong) {
   Walk walk(kStraight);
   walk.bench.add(box("crate", {1.5, 0, 0.151}, {0.3, 0.3, 0.3}, 5.0));

@@ -72,6 +72,12 @@ Reading Rig::state() const {
   return reading;
 }
 
+Verdict Rig::obey(const Command& command) {
+  Verdict verdict = device_->command(command, *this);
+  if (verdict.act) verdict.act();
+  return verdict;
+}
+
 int Rig::joint_index(const std::string& joint) const {
   for (std::size_t i = 0; i < model_.joints.size(); ++i) {
     if (model_.joints[i].name == joint) return static_cast<int>(i);

@@ -60,8 +60,8 @@ class Rig : public View, public Wiring, public Outputs {
   Rig(Bench& bench, desc::Model model, std::shared_ptr<const Plugin> plugin,
       const Parameters& parameters);
 
-  Verdict command(const std::string& text) { return device_->command({text, {}}, *this); }
-  Verdict command(double v, double w) { return device_->command({"", {v, w}}, *this); }
+  Verdict command(const std::string& text) { return obey({text, {}}); }
+  Verdict command(double v, double w) { return obey({"", {v, w}}); }
   void update() { device_->update(*this, *this); }
   Reading state() const;
   std::string mode() const { return state().get<std::string>("mode"); }
@@ -105,6 +105,7 @@ class Rig : public View, public Wiring, public Outputs {
   void event(const std::string& event, const std::string&) override { events.push_back(event); }
 
  private:
+  Verdict obey(const Command& command);
   int joint_index(const std::string& joint) const;
   int link_index(const std::string& link) const;
   physics::JointId id_of(JointRef joint) const;

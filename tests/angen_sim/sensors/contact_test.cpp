@@ -80,6 +80,38 @@ TEST(Contact, TellsWhenItIsPressedAndReleased) {
   EXPECT_EQ(bench.look().event, "released");
 }
 
+TEST(Contact, ADebouncedOneTellsOnlyWhatLasts) {
+  constexpr Nanoseconds kLook = 10'000'000;
+  Bench bench(kContact, plugin_element({{"debounce", "0.05"}}), watching({kSeat}), chair());
+  EXPECT_EQ(bench.sensor().sample_period(), kLook);
+  const auto touch = [&](bool on) {
+    bench.world.touching.clear();
+    if (on) bench.world.touching[kSeat] = {{kSeat, "cat::body::box", {point(0.1, -20.0)}}};
+  };
+  bench.look(kLook);
+  for (int bounce = 0; bounce < 20; ++bounce) {
+    touch(bounce % 5 != 4);  // 40 ms on, 10 ms off
+    const Reading reading = bench.look(kLook);
+    ASSERT_EQ(reading.event, "");
+    ASSERT_FALSE(reading.get<bool>("pressed", true));
+    ASSERT_FALSE(reading.urgent);
+  }
+  touch(true);
+  for (int i = 0; i < 5; ++i) ASSERT_EQ(bench.look(kLook).event, "");
+  const Reading pressed = bench.look(kLook);
+  EXPECT_EQ(pressed.event, "pressed");
+  EXPECT_TRUE(pressed.get<bool>("pressed"));
+  EXPECT_TRUE(pressed.urgent) << "told at once, not at the next period";
+  touch(false);
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(bench.look(kLook).get<bool>("pressed"));
+  EXPECT_EQ(bench.look(kLook).event, "released");
+}
+
+TEST(Contact, WithoutADebounceItLooksOnlyWhenItPublishes) {
+  const Bench bench(kContact, plugin_element({{"sample_rate", "500"}}), watching({kSeat}), chair());
+  EXPECT_EQ(bench.sensor().sample_period(), 0);
+}
+
 TEST(Contact, NoiseIsOnForcesOnly) {
   Bench bench(kContact, plugin_element({{"noise_stddev", "0.5"}}), watching({kSeat}), chair());
   bench.world.touching[kSeat] = {{kSeat, "cat::body::box", {point(0.1, -20.0)}}};
