@@ -49,6 +49,9 @@ class FakeWorld : public View, public Wiring, public Outputs {
   std::vector<std::pair<std::string, FakeLink>> links;
   std::vector<std::pair<std::string, FakeLight>> lights;
   Names collisions;
+  double ambient = 295.15;  // K
+  std::vector<rays::WarmShape> warm;
+  std::uint64_t revision = 0;
   std::map<std::string, std::vector<ContactPair>> touching;           // by collision name
   std::function<light::Sample(light::Probe&, const Pose&)> light_at;  // dark where not given
   std::function<std::vector<std::uint8_t>(const render::Lens&, const Pose&)> colors_at;
@@ -77,6 +80,9 @@ class FakeWorld : public View, public Wiring, public Outputs {
     return light_at ? light_at(probe, pose) : light::Sample{};
   }
 
+  double ambient_temperature() const override { return ambient; }
+  const std::vector<rays::WarmShape>& warm_shapes() const override { return warm; }
+  std::uint64_t scene_revision() const override { return revision; }
   std::vector<std::uint8_t> colors(const render::Lens& lens, const Pose& pose) const override {
     return colors_at ? colors_at(lens, pose) : std::vector<std::uint8_t>{};
   }

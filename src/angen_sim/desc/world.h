@@ -43,6 +43,7 @@ struct Visual {
   Pose pose;  // in the link's frame
   Shape shape;
   Material material;
+  std::optional<double> temperature;  // K, of its surface; as the air around it where not given
 };
 
 struct Inertial {
@@ -158,6 +159,7 @@ struct World {
   Vec3 gravity{0.0, 0.0, -9.81};  // m/s^2
   Physics physics;
   Scene scene;
+  double ambient_temperature = 295.15;  // K, of the air and of all that has no temperature given
   std::vector<Light> lights;
   std::vector<Model> models;
   std::vector<Plugin> plugins;

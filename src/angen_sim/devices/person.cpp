@@ -54,6 +54,8 @@ void Person::configure(Params& params, Wiring& wiring) {
       params.number("delay_start", 0.0, "s", "stands so long before the first", kNotNegative));
   force_max_ = params.number("force_max", 150.0, "N", "greatest force of its legs", kPositive);
   params.number("mass", 70.0, "kg", "its mass", kPositive);
+  params.number("skin_temperature", 307.0, "K", "of head and hands, seen by PIRs", kPositive);
+  params.number("clothing_temperature", 299.0, "K", "of the rest of its surface", kPositive);
   refresh_ = Refresh(params.number("update_rate", 20.0, "Hz",
                                    "how often its state is told while it walks", kRefreshRate));
   params.text("device_name", "", "the name commands use, instead of the actor's");

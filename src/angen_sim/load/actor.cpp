@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "load/check.h"
 #include "load/describe.h"
 #include "load/values.h"
@@ -7,9 +9,12 @@ namespace angen::load {
 
 namespace {
 
-constexpr double kHeight = 1.75;  // m
-constexpr double kRadius = 0.25;  // m: half a person's width
-constexpr double kMass = 70.0;    // kg
+constexpr double kHeight = 1.75;     // m
+constexpr double kRadius = 0.25;     // m: half a person's width
+constexpr double kMass = 70.0;       // kg
+constexpr double kSkin = 307.0;      // K: of a bare face and hands
+constexpr double kClothed = 299.0;   // K: of clothes, in a room
+constexpr double kBareShare = 0.12;  // of a clothed person's surface: head and hands
 
 Element leaf(const std::string& name, const std::string& text, const Source& source) {
   Element element;
@@ -55,6 +60,18 @@ std::string row(const Waypoint& w) {
   for (const double v : {p.x(), p.y(), p.z(), yaw_of(w.pose.rotation)})
     text += " " + number_text(v);
   return text;
+}
+
+// What a surface of both temperatures radiates as.
+double mean_temperature(double skin, double clothed) {
+  return std::pow(kBareShare * std::pow(skin, 4) + (1.0 - kBareShare) * std::pow(clothed, 4), 0.25);
+}
+
+double given_temperature(const Element& plugin, const std::string& name, double fallback) {
+  const double kelvin = child_number(plugin, name, fallback);
+  if (kelvin > 0.0) return kelvin;
+  throw Error(plugin.child(name)->source,
+              "<" + name + "> is " + number_text(kelvin) + " K; it must be greater than 0");
 }
 
 desc::Visual visual(const std::string& name, double z, Shape shape, const Eigen::Vector4f& colour) {
@@ -157,6 +174,11 @@ desc::Model describe_actor(const Element& actor, Session& session) {
   }
   model.links[0].inertial.mass = mass;
   model.links[0].inertial.moment *= mass / kMass;
+  // Rays meet one capsule, which is like the first visual: its temperature is the whole body's.
+  const double temperature =
+      mean_temperature(given_temperature(plugin, "skin_temperature", kSkin),
+                       given_temperature(plugin, "clothing_temperature", kClothed));
+  for (desc::Visual& each : model.links[0].visuals) each.temperature = temperature;
   model.plugins = {plugin_of(plugin)};
   for (const Element& other : others) model.plugins.push_back(plugin_of(other));
   return model;

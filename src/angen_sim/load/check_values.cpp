@@ -78,6 +78,7 @@ const std::map<Key, Rule>& rules() {
       {{"scene", "background"}, kColour},
       {{"scene", "shadows"}, kFlag},
       {{"world", "gravity"}, kThree},
+      {{"atmosphere", "temperature"}, kPositive},
       {{"link", "gravity"}, kFlag},
       {{"link", "kinematic"}, kFlag},
       {{"link", "self_collide"}, kFlag},

@@ -60,12 +60,31 @@ desc::Collision collision_of(const Element& element, const sdf::Collision& from,
   return collision;
 }
 
+// As gz-sim's Thermal system has it: <plugin filename="gz-sim-thermal-system"><temperature>.
+std::optional<double> temperature_of(const Element& visual) {
+  for (const Element& plugin : visual.children) {
+    const std::string* file = plugin.attribute("filename");
+    if (plugin.name != "plugin" || file == nullptr) continue;
+    if (file->find("thermal-system") == std::string::npos) continue;
+    const Element* given = plugin.child("temperature");
+    if (given == nullptr) continue;
+    const double kelvin = number_of(*given);
+    if (!(kelvin > 0.0)) {
+      throw Error(given->source,
+                  "<temperature> is " + number_text(kelvin) + " K; it must be greater than 0");
+    }
+    return kelvin;
+  }
+  return std::nullopt;
+}
+
 desc::Visual visual_of(const Element& element, const sdf::Visual& from, Session& session) {
   desc::Visual visual;
   visual.name = name_of(element);
   visual.pose = resolve(from.SemanticPose(), "", element.source);
   visual.shape = shape_of(*element.child("geometry"), visual.pose, session);
   visual.material = material_of(element, session);
+  visual.temperature = temperature_of(element);
   return visual;
 }
 

@@ -52,6 +52,9 @@ void read_settings(const Element& world, desc::World& to) {
     const std::vector<double> v = numbers_of(*gravity, 3);
     to.gravity = {v[0], v[1], v[2]};
   }
+  if (const Element* atmosphere = world.child("atmosphere")) {
+    to.ambient_temperature = child_number(*atmosphere, "temperature", to.ambient_temperature);
+  }
   if (const Element* scene = world.child("scene")) {
     if (const Element* ambient = scene->child("ambient")) to.scene.ambient = colour_of(*ambient);
     if (const Element* background = scene->child("background")) {

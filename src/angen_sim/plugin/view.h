@@ -60,6 +60,11 @@ class View {
   /// Pairs that the wired collision takes part in; it is `first` in each.
   virtual std::vector<ContactPair> contacts(ContactRef collision) const = 0;
   virtual light::Sample illuminance(light::Probe& probe, const Pose& pose) const = 0;
+  virtual double ambient_temperature() const = 0;  // K
+  /// What is warmer or colder than the air, and where.
+  virtual const std::vector<rays::WarmShape>& warm_shapes() const = 0;
+  /// Grows when shapes come, go or move: where it is the same, rays get the same answers.
+  virtual std::uint64_t scene_revision() const = 0;
   /// What a camera at `pose` (world, x ahead, z up) sees: height x width x 3 bytes, sRGB.
   virtual std::vector<std::uint8_t> colors(const render::Lens& lens, const Pose& pose) const = 0;
   /// height x width distances along its x axis in m, NaN where nothing is.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "core/slots.h"
 #include "rays/device.h"
@@ -116,6 +117,8 @@ struct Scene::Impl {
   Slots<Entry, RayShapeTag> entries;
   std::vector<Eigen::Vector3f> reflectances;  // by index
   std::vector<std::uint32_t> places;          // by index: where in its layer's list
+  std::vector<std::pair<ShapeId, WarmShape>> warmed;
+  std::vector<WarmShape> warm;  // of these, as of the last commit
   Layer fixed{intersect<Mobility::kStatic>};
   Layer moving{intersect<Mobility::kMoving>};
   std::map<const TriangleMesh*, std::weak_ptr<const MeshTree>> meshes;
@@ -135,6 +138,15 @@ struct Scene::Impl {
   void forget_unused_meshes() {
     for (auto it = meshes.begin(); it != meshes.end();) {
       it = it->second.expired() ? meshes.erase(it) : std::next(it);
+    }
+  }
+
+  void bound_warm_shapes() {
+    warm.clear();
+    for (const auto& [id, shape] : warmed) {
+      const Entry& entry = entries.at(id);
+      warm.push_back(shape);
+      warm.back().box = bounds_of(layer(entry.mobility).list(entry.type)[places[id.index]]);
     }
   }
 
@@ -187,6 +199,13 @@ ShapeId Scene::add(const Shape& shape, const Pose& pose, Mobility mobility,
   return id;
 }
 
+void Scene::warm(ShapeId shape, double temperature) {
+  const Entry& entry = impl_->entries.at(shape);
+  if (entry.type == Shape::Type::kEmpty) return;
+  impl_->warmed.push_back({shape, {shape.index, temperature, {}}});
+  impl_->layer(entry.mobility).dirty = true;
+}
+
 void Scene::move(ShapeId shape, const Pose& pose) {
   Entry& entry = impl_->entries.at(shape);
   if (entry.pose == pose) return;
@@ -201,6 +220,10 @@ void Scene::remove(ShapeId shape) {
   const Entry entry = impl_->entries.at(shape);
   impl_->entries.remove(shape);
   if (entry.type == Shape::Type::kEmpty) return;
+  auto& warmed = impl_->warmed;
+  warmed.erase(std::remove_if(warmed.begin(), warmed.end(),
+                              [&](const auto& each) { return each.first == shape; }),
+               warmed.end());
   Layer& layer = impl_->layer(entry.mobility);
   std::vector<Solid>& list = layer.list(entry.type);
   const std::uint32_t place = impl_->places[shape.index];
@@ -218,6 +241,7 @@ void Scene::commit() {
   if (!static_changed && !impl_->moving.dirty) return;
   impl_->fixed.rebuild();
   impl_->moving.rebuild();
+  impl_->bound_warm_shapes();
   ++impl_->revision;
   if (static_changed) ++impl_->static_revision;
 }
@@ -250,6 +274,8 @@ bool Scene::blocked(const Vec3& from, const Vec3& to, double margin) const {
 Eigen::Vector3f Scene::reflectance(std::uint32_t shape_index) const {
   return impl_->reflectances.at(shape_index);
 }
+
+const std::vector<WarmShape>& Scene::warm_shapes() const { return impl_->warm; }
 
 std::uint64_t Scene::revision() const { return impl_->revision; }
 std::uint64_t Scene::static_revision() const { return impl_->static_revision; }

@@ -31,6 +31,13 @@ struct Hit {
 
 enum class Mobility { kStatic, kMoving };
 
+/// A shape whose surface has a temperature of its own; all others are as warm as the air.
+struct WarmShape {
+  std::uint32_t shape = UINT32_MAX;  // index of its ShapeId, as in Hit
+  double temperature = 0.0;          // K
+  Eigen::AlignedBox3d box;           // m, world, around it
+};
+
 class Scene {
  public:
   Scene();
@@ -41,6 +48,8 @@ class Scene {
   /// Reflectance is the diffuse albedo (r g b, 0..1) that `light` uses. Empty shapes are never met.
   ShapeId add(const Shape& shape, const Pose& pose, Mobility mobility,
               const Eigen::Vector3f& reflectance);
+  /// Gives a shape that is not empty a surface temperature in K.
+  void warm(ShapeId shape, double temperature);
   void move(ShapeId shape, const Pose& pose);
   void remove(ShapeId shape);
 
@@ -59,6 +68,8 @@ class Scene {
   bool blocked(const Vec3& from, const Vec3& to, double margin = 1e-4) const;
 
   Eigen::Vector3f reflectance(std::uint32_t shape_index) const;
+  /// In the order in which they were warmed, as of the last commit().
+  const std::vector<WarmShape>& warm_shapes() const;
 
   /// Counts commits that changed something: equal revisions mean equal answers.
   std::uint64_t revision() const;

@@ -17,14 +17,12 @@ Eigen::Vector3f with_luminance_one(const Eigen::Vector3f& color) {
   return luminance > 0.0F ? Eigen::Vector3f(color / luminance) : Eigen::Vector3f::Ones();
 }
 
-// The collision's surface looks like the visual of the same name, or like the link's first.
-Eigen::Vector3f reflectance(const desc::Link& link, const desc::Collision& collision) {
+// The collision's surface is like the visual of the same name, or like the link's first.
+desc::Visual surface(const desc::Link& link, const desc::Collision& collision) {
   const auto same = std::find_if(link.visuals.begin(), link.visuals.end(),
                                  [&](const desc::Visual& v) { return v.name == collision.name; });
-  if (same != link.visuals.end()) return same->material.diffuse.head<3>();
-  const desc::Material material =
-      link.visuals.empty() ? desc::Material{} : link.visuals.front().material;
-  return material.diffuse.head<3>();
+  if (same != link.visuals.end()) return *same;
+  return link.visuals.empty() ? desc::Visual{} : link.visuals.front();
 }
 
 // Glass and the like, which lets more than half of the light through, is not seen.
@@ -46,7 +44,7 @@ render::Body visible(const desc::Link& link, const Pose& pose, bool moves) {
 }  // namespace
 
 Stage::Stage(const desc::World& world, std::uint64_t seed)
-    : physics(world.physics, world.gravity, seed) {
+    : physics(world.physics, world.gravity, seed), ambient_temperature(world.ambient_temperature) {
   ambience.ambient = world.scene.ambient.head<3>().cwiseMax(kNight);
   ambience.background = world.scene.background.head<3>();
 }
@@ -61,9 +59,11 @@ Parts Stage::add(const desc::Model& model) {
     const desc::Link& link = model.links[i];
     const Pose pose = physics.link(parts.links[i]).pose;
     for (const desc::Collision& collision : link.collisions) {
-      parts.shapes.push_back(
-          {rays.add(collision.shape, pose * collision.pose, mobility, reflectance(link, collision)),
-           i, collision.pose});
+      const desc::Visual looks = surface(link, collision);
+      const rays::ShapeId shape = rays.add(collision.shape, pose * collision.pose, mobility,
+                                           looks.material.diffuse.head<3>());
+      if (looks.temperature) rays.warm(shape, *looks.temperature);
+      parts.shapes.push_back({shape, i, collision.pose});
     }
     parts.bodies.push_back(visuals.add(visible(link, pose, !model.is_static)));
     for (const desc::Light& light : link.lights) {

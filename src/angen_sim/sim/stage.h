@@ -49,6 +49,7 @@ class Stage {
   rays::Scene rays;
   render::Scene visuals;
   render::Ambience ambience;
+  double ambient_temperature;  // K
   light::Lighting light{rays};
 };
 

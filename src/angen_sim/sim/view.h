@@ -27,6 +27,11 @@ class InstanceView : public View {
   LinkView link(LinkRef link) const override;
   std::vector<ContactPair> contacts(ContactRef collision) const override;
   light::Sample illuminance(light::Probe& probe, const Pose& pose) const override;
+  double ambient_temperature() const override { return stage_.ambient_temperature; }
+  const std::vector<rays::WarmShape>& warm_shapes() const override {
+    return stage_.rays.warm_shapes();
+  }
+  std::uint64_t scene_revision() const override { return stage_.rays.revision(); }
   std::vector<std::uint8_t> colors(const render::Lens& lens, const Pose& pose) const override;
   std::vector<float> depths(const render::Lens& lens, const Pose& pose) const override;
 

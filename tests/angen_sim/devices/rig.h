@@ -81,6 +81,9 @@ class Rig : public View, public Wiring, public Outputs {
   LinkView link(LinkRef link) const override;
   std::vector<ContactPair> contacts(ContactRef) const override { return {}; }
   light::Sample illuminance(light::Probe&, const Pose&) const override { return {}; }
+  double ambient_temperature() const override { return 295.15; }
+  const std::vector<rays::WarmShape>& warm_shapes() const override { return warm_; }
+  std::uint64_t scene_revision() const override { return 0; }
   std::vector<std::uint8_t> colors(const render::Lens&, const Pose&) const override { return {}; }
   std::vector<float> depths(const render::Lens&, const Pose&) const override { return {}; }
 
@@ -112,6 +115,7 @@ class Rig : public View, public Wiring, public Outputs {
   physics::LinkId id_of(LinkRef link) const;
 
   Bench& bench_;
+  std::vector<rays::WarmShape> warm_;
   desc::Model model_;
   physics::ModelId model_id_;
   std::unique_ptr<Device> device_;

@@ -173,6 +173,17 @@ const Broken kBroken[] = {
      "<model name='m'>\n<joint name='j'><angle axis='0'>1</angle></joint></model></state></world>"
      "</sdf>",
      "w.world:2: ", "unknown joint 'j' of model 'm'"},
+    {"colder_than_cold",
+     "<sdf version='1.6'><world name='w'><model name='m'><link name='l'><visual name='v'><geometry>"
+     "<sphere><radius>1</radius></sphere></geometry><plugin name='p' "
+     "filename='gz-sim-thermal-system'>\n<temperature>-3</temperature></plugin></visual></link>"
+     "</model></world></sdf>",
+     "w.world:2: ", "<temperature> is -3 K; it must be greater than 0"},
+    {"a_cold_world",
+     "<sdf version='1.6'><world name='w'><atmosphere "
+     "type='adiabatic'>\n<temperature>0</temperature>"
+     "</atmosphere></world></sdf>",
+     "w.world:2: ", "it must be greater than 0"},
     {"waypoints_back_in_time",
      "<sdf version='1.6'><world name='w'><actor name='a'><script><trajectory id='0' type='walk'>"
      "<waypoint><time>2</time><pose>0 0 0 0 0 0</pose></waypoint>\n<waypoint><time>1</time>"

@@ -317,6 +317,34 @@ TEST(Model, ActorStartsAtItsFirstWaypoint) {
   expect_near(m.pose.position, {1.0, 0.0, 4.0});
 }
 
+TEST(Model, AVisualHasTheTemperatureOfItsThermalPlugin) {
+  const desc::Model m = model(
+      "<model name='m'><link name='l'><visual name='hot'><geometry><sphere><radius>1</radius>"
+      "</sphere></geometry><plugin name='gz::sim::systems::Thermal' "
+      "filename='gz-sim-thermal-system'><temperature>307</temperature></plugin></visual>"
+      "<visual name='as_the_air'><geometry><sphere><radius>1</radius></sphere></geometry></visual>"
+      "</link></model>",
+      "", {}, {});
+  EXPECT_EQ(m.links[0].visuals.at(0).temperature, 307.0);
+  EXPECT_EQ(m.links[0].visuals.at(1).temperature, std::nullopt);
+}
+
+TEST(Model, AnActorIsAsWarmAsItsSkinAndClothesTogether) {
+  const auto warmth = [](const std::string& plugin) {
+    return model("<actor name='a'><plugin name='p' filename='libperson_controller.so'>" + plugin +
+                     "</plugin></actor>",
+                 "", {}, {})
+        .links.at(0)
+        .visuals.at(0)
+        .temperature.value_or(0.0);
+  };
+  EXPECT_NEAR(warmth(""), 300.0, 0.05);  // 12 % at 307 K, 88 % at 299 K
+  EXPECT_NEAR(warmth("<skin_temperature>290</skin_temperature>"
+                     "<clothing_temperature>290</clothing_temperature>"),
+              290.0, 1e-9);
+  EXPECT_THROW(warmth("<skin_temperature>0</skin_temperature>"), Error);
+}
+
 TEST(Model, UrdfRobot) {
   const desc::Model m = model(
       "<robot name='r'><link name='a'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' "

@@ -52,6 +52,12 @@ TEST(World, GravityStoodInPhysicsUntil15) {
   expect_near(w.gravity, {0.0, 0.0, -1.6});
 }
 
+TEST(World, TheAirHasTheAtmospheresTemperature) {
+  EXPECT_DOUBLE_EQ(read(in_world("")).ambient_temperature, 295.15);
+  const char* cold = "<atmosphere type='adiabatic'><temperature>281</temperature></atmosphere>";
+  EXPECT_DOUBLE_EQ(read(in_world(cold)).ambient_temperature, 281.0);
+}
+
 TEST(World, ReadsScene) {
   const desc::Scene s = read(in_world("<scene><ambient>0.1 0.2 0.3 1</ambient><background>0 0 1 1"
                                       "</background><shadows>false</shadows></scene>"))
