@@ -25,6 +25,7 @@ def write_all(folder: Path) -> None:
     devices.write_lamp(models)
     devices.write_pir(models, "pir", nods=False)
     devices.write_pir(models, "pir_nodding", nods=True)
+    devices.write_pyroelectric(models)
     devices.write_switch(models)
     devices.write_luminosity(models)
     devices.write_camera(models)

@@ -71,7 +71,8 @@ def test_the_rate_is_obeyed(world: angen.World) -> None:
 def test_every_known_parameter_can_be_set_to_its_default(world: angen.World) -> None:
     from angen_tools.catalog import known_parameters
     for kind in sdf.BLOCKS:
-        settings = [f'{key}={param["default"]}' for key, param in known_parameters(kind).items()]
+        settings = [f'{key}={param["default"]}' for key, param in known_parameters(kind).items()
+                    if not param['doc'].startswith('with ')]
         world.spawn(sdf.text(build(kind, *settings)), kind, [0, 0, 1, 0, 0, 0])
     assert set(sdf.BLOCKS) <= set(world.models)
 
@@ -176,3 +177,10 @@ def test_collisions_are_found_in_models_and_includes(monkeypatch: pytest.MonkeyP
     assert models.collisions(world, 'table::body') == ['top', 'leg']
     assert models.collisions(world, 'table::foot') == []
     assert models.collisions(world, 'nobody::body') == []
+
+
+def test_a_pyroelectric_pir_takes_its_own_parameters(world: angen.World) -> None:
+    own = build('pir', 'model=pyroelectric', 'lens=curtain', 'tape=0 1 -1 1', 'hold_time=3')
+    world.spawn(sdf.text(own), 's1', [0, 0, 2, 0, 0, 0])
+    world.run(0.2)
+    assert world.sensor('pir', 's1')['signal_threshold'] == 0.0003

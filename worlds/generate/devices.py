@@ -66,16 +66,21 @@ def _add_sensor(link: etree._Element, name: str, kind: str, rate: float) -> etre
     return sensor
 
 
-def write_pir(models: Path, name: str, nods: bool) -> None:
-    """Writes a PIR: 16 x 3 rays, 100 x 40 degrees, 6 m, 10 Hz; x looks into the room."""
+def _new_pir(name: str) -> tuple[etree._Element, etree._Element]:
+    """The root of a PIR's model, and its sensor; x looks into the room."""
     root, model = new_model(name, static=True)
     parts = [
         spanned("housing", (-0.05, -0.035, -0.05), (-0.01, 0.035, 0.05), collide=False),
         Part("lens", (0.022,), (-0.005, 0, 0), material=(0.93, 0.93, 0.9), collide=False),
     ]
-    link = add_link(model, "pir", parts, moves=False)
-    sensor = _add_sensor(link, "pir", "ray", 10)
+    sensor = _add_sensor(add_link(model, "pir", parts, moves=False), "pir", "ray", 10)
     add(sensor, "visualize", "true")
+    return root, sensor
+
+
+def write_pir(models: Path, name: str, nods: bool) -> None:
+    """Writes a PIR: 16 x 3 rays, 100 x 40 degrees, 6 m, 10 Hz."""
+    root, sensor = _new_pir(name)
     _add_ray(sensor, (16, radians(50)), (3, radians(20)), (0.02, 6.0), 0.01)
     values = {"threshold": 0.1}
     if nods:
@@ -85,6 +90,18 @@ def write_pir(models: Path, name: str, nods: bool) -> None:
     write_model(root, models, title,
                 f"Motion detector, 6 m, 100 x 40 degrees, 10 Hz{how}. "
                 "Served by libpir_controller.so.")
+
+
+def write_pyroelectric(models: Path) -> None:
+    """Writes models/pir_pyroelectric: for a wall at 2.2 m; warm already when the world starts."""
+    root, sensor = _new_pir("pir_pyroelectric")
+    # what rviz draws: the zones of the wide lens are in the plug-in
+    _add_ray(sensor, (13, radians(51)), (1, 0.0), (0.05, 20.0), 0.0)
+    add_plugin(sensor, "pir_controller", "libpir_controller.so", model="pyroelectric", lens="area",
+               warm_up=0)
+    write_model(root, models, "Pyroelectric PIR",
+                "Motion detector by heat behind a wide-angle Fresnel lens, 12 m, 102 degrees, for "
+                "a wall at 2.2 m. Served by libpir_controller.so.")
 
 
 def write_switch(models: Path) -> None:

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <utility>
+
 #include "plugin/library.h"
 
 namespace angen {
@@ -31,10 +34,13 @@ void read_common(Params& params, const std::string& kind, const Sensor& sensor) 
   params.text("frameName", "NAME", "frame_id of its messages");
 }
 
-PluginDoc describe(const std::string& library, const Plugin& plugin) {
+// The parameters that one asks for when it is configured on nothing but these.
+std::vector<ParamDoc> asked_for(const std::string& library, const Plugin& plugin,
+                                std::vector<Element> given) {
   Element element;
   element.name = "plugin";
   element.attributes = {{"filename", library}};
+  element.children = std::move(given);
   Params params(element);
   AnyWiring wiring(plugin.kind());
   const auto sensor = plugin.make_sensor();
@@ -46,7 +52,30 @@ PluginDoc describe(const std::string& library, const Plugin& plugin) {
     // It cannot do without something that nothing has; what it read until then is known.
   }
   if (sensor) read_common(params, plugin.kind(), *sensor);
-  return {library, plugin.kind(), plugin.doc(), params.docs()};
+  return params.docs();
+}
+
+// Some ask for more once they know the model, say, that they are to be.
+PluginDoc describe(const std::string& library, const Plugin& plugin) {
+  std::vector<ParamDoc> docs = asked_for(library, plugin, {});
+  const std::vector<ParamDoc> first = docs;
+  for (const ParamDoc& param : first) {
+    if (param.path.find('/') != std::string::npos) continue;
+    for (const std::string& choice : param.choices) {
+      if (choice == param.fallback) continue;
+      Element element;
+      element.name = param.path;
+      element.text = choice;
+      for (ParamDoc& more : asked_for(library, plugin, {element})) {
+        const bool known = std::any_of(docs.begin(), docs.end(),
+                                       [&](const ParamDoc& doc) { return doc.path == more.path; });
+        if (known) continue;
+        more.doc = "with " + param.path + " " + choice + ": " + more.doc;
+        docs.push_back(std::move(more));
+      }
+    }
+  }
+  return {library, plugin.kind(), plugin.doc(), docs};
 }
 
 }  // namespace

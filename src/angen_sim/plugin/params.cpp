@@ -74,7 +74,7 @@ std::vector<const Element*> Params::all(const std::string& path) const {
 
 void Params::note(const std::string& path, const std::string& type, const std::string& fallback,
                   const std::string& unit, const std::string& doc) {
-  if (read_.insert(path).second) docs_.push_back({path, type, fallback, unit, doc});
+  if (read_.insert(path).second) docs_.push_back({path, type, fallback, unit, doc, {}});
 }
 
 const Element* Params::take(const std::string& path, const std::string& type,
@@ -136,6 +136,9 @@ std::string Params::text(const std::string& path, const std::string& fallback,
 std::string Params::choice(const std::string& path, const std::string& fallback,
                            const std::vector<std::string>& choices, const std::string& doc) {
   const Element* given = take(path, join_names(choices), fallback, "", doc);
+  for (ParamDoc& known : docs_) {
+    if (known.path == path) known.choices = choices;
+  }
   if (given == nullptr) return fallback;
   if (std::find(choices.begin(), choices.end(), given->text) == choices.end()) {
     throw error(path,

@@ -25,6 +25,7 @@ struct ParamDoc {
   std::string fallback;  // default, as text
   std::string unit;
   std::string doc;
+  std::vector<std::string> choices;  // where it is one of some words
 };
 
 /// A plug-in's parameters: children of <plugin>, then of the <sensor> around it. A path such as

@@ -58,6 +58,8 @@ class Bench {
   /// Looks once at world.now, then lets `period` pass.
   Reading look(Nanoseconds period = 100'000'000) {
     scene.commit();
+    if (!own_warmth) world.warm = scene.warm_shapes();
+    world.revision = scene.revision() + moves;
     RayBatch batch;
     sensor_->aim(world, batch);
     std::vector<rays::Hit> hits;
@@ -76,6 +78,8 @@ class Bench {
   rays::Scene scene;
   RayBatch rays_cast;  // of the last look
   std::uint64_t seed = 1;
+  bool own_warmth = false;  // world.warm is the test's
+  std::uint64_t moves = 0;  // of which the scene does not know
 
  private:
   Params params_;

@@ -13,6 +13,7 @@ from .failure import Failure
 # The model in worlds/models that each kind of sensor is taken from.
 BLOCKS = {'pir': 'pir', 'switch': 'optical_switch', 'luminosity': 'luminosity_sensor',
           'camera': 'camera'}
+PYROELECTRIC = 'pir_pyroelectric'  # of a pir with --set model=pyroelectric
 KINDS = (*BLOCKS, 'contact')
 # Parameters that SDF has for every sensor; all others stand in the plug-in.
 SENSOR_KEYS = ('update_rate', 'ray/', 'contact/', 'camera/')
@@ -113,7 +114,8 @@ def build_sensor(kind: str, name: str, settings: list[tuple[str, str]], lone: bo
             raise Failure('a contact sensor sits on a link: give --on MODEL::LINK')
         root = sensor = etree.fromstring(CONTACT)
     else:
-        root = read(blocks / BLOCKS[kind] / 'model.sdf')
+        block = PYROELECTRIC if ('model', 'pyroelectric') in settings else BLOCKS[kind]
+        root = read(blocks / block / 'model.sdf')
         sensor = root.find('.//sensor')
         root.find('model').set('name', name)
     if settings:

@@ -1,0 +1,125 @@
+#include "sensors/pir/heat.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace angen::sensors {
+
+namespace {
+
+constexpr double kTurn = 2.0 * M_PI;
+constexpr double kStefanBoltzmann = 5.670374419e-8;  // W/m^2 K^4, CODATA 2018
+constexpr double kNearest = 0.05;                    // m: the detector's own housing is not seen
+constexpr double kCellWidth = 0.012;                 // rad: a third of a zone of a wide lens
+constexpr double kCellHeight = 0.024;
+constexpr int kFewest = 12;  // cells on a side
+constexpr int kMost = 64;
+constexpr int kWaits = 4;  // looks left out at what was hidden at the last one
+
+double azimuth_of(const Vec3& p) { return std::atan2(p.y(), p.x()); }
+
+/// A window about the x axis of `pose` that holds the box; `whole` where it goes round. Azimuths
+/// are near that of the box's middle, also beyond pi.
+Window window_of(const Eigen::AlignedBox3d& box, const Pose& pose, const Window& whole) {
+  if (box.contains(pose.position)) return whole;
+  const Pose inverse = pose.inverse();
+  const double middle = azimuth_of(inverse * Vec3(box.center()));
+  Window window{kTurn, -kTurn, kTurn, -kTurn};
+  // Corners are not enough: what passes in front is highest in the middle of an edge.
+  for (int i = 0; i < 27; ++i) {
+    const Vec3 part(i % 3 / 2.0, i / 3 % 3 / 2.0, i / 9 / 2.0);
+    const Vec3 p = inverse * Vec3(box.min() + part.cwiseProduct(box.sizes()));
+    const double azimuth = middle + std::remainder(azimuth_of(p) - middle, kTurn);
+    const double elevation = std::atan2(p.z(), std::hypot(p.x(), p.y()));
+    window.right = std::min(window.right, azimuth);
+    window.left = std::max(window.left, azimuth);
+    window.low = std::min(window.low, elevation);
+    window.high = std::max(window.high, elevation);
+  }
+  return window.left - window.right > M_PI ? whole : window;
+}
+
+/// What two windows have in common, one turned to the left by `turn`; right >= left where nothing.
+Window common(const Window& a, const Window& b, double turn) {
+  return {std::max(a.right, b.right + turn), std::min(a.left, b.left + turn),
+          std::max(a.low, b.low), std::min(a.high, b.high)};
+}
+
+int cells(double angle, double size) {
+  return std::clamp(static_cast<int>(std::ceil(angle / size)), kFewest, kMost);
+}
+
+}  // namespace
+
+void Heat::aim(const View& view, RayBatch& rays) {
+  const Pose pose = view.pose();
+  looked_ = false;
+  if (view.scene_revision() == revision_ && pose == pose_) return;
+  if (unseen_lately()) return;
+  looked_ = true;
+  revision_ = view.scene_revision();
+  pose_ = pose;
+  samples_.clear();
+  const double air = std::pow(view.ambient_temperature(), 4);
+  for (const rays::WarmShape& shape : view.warm_shapes()) {
+    const double radiance = kStefanBoltzmann / M_PI * (std::pow(shape.temperature, 4) - air);
+    if (radiance != 0.0) aim_at(shape, radiance, pose, rays);
+  }
+}
+
+// What stands behind a wall is looked for less often.
+bool Heat::unseen_lately() {
+  const bool hidden = !samples_.empty() && flux_ == 0.0;
+  if (hidden && waits_ < kWaits) {
+    ++waits_;
+    return true;
+  }
+  waits_ = 0;
+  return false;
+}
+
+void Heat::aim_at(const rays::WarmShape& shape, double radiance, const Pose& pose, RayBatch& rays) {
+  if (shape.box.isEmpty() || shape.box.exteriorDistance(pose.position) > range_) return;
+  const Window box = window_of(shape.box, pose, lens_.window());
+  for (const double turn : {0.0, kTurn, -kTurn}) {
+    const Window seen = common(lens_.window(), box, turn);
+    if (seen.right < seen.left && seen.low < seen.high) {
+      scan(shape.shape, radiance, seen, pose, rays);
+    }
+  }
+}
+
+// A grid of rays that goes with the shape, so that its outline makes no noise as it moves.
+void Heat::scan(std::uint32_t shape, double radiance, const Window& seen, const Pose& pose,
+                RayBatch& rays) {
+  const int columns = cells(seen.left - seen.right, kCellWidth);
+  const int rows = cells(seen.high - seen.low, kCellHeight);
+  const double width = (seen.left - seen.right) / columns;
+  const double height = (seen.high - seen.low) / rows;
+  const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
+  for (int row = 0; row < rows; ++row) {
+    const double elevation = seen.low + (row + 0.5) * height;
+    const double shift = std::fmod(0.5 + row * 0.6180339887498949, 1.0);  // no edge falls on all
+    for (int column = 0; column < columns; ++column) {
+      const double azimuth = seen.right + (column + shift) * width;
+      const double sensitivity = lens_.sensitivity(azimuth, elevation);
+      if (sensitivity == 0.0) continue;
+      const Vec3 direction(std::cos(elevation) * std::cos(azimuth),
+                           std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+      const double solid_angle = width * height * std::cos(elevation);
+      rays.push_back({pose.position, (rotation * direction).normalized(), kNearest, range_});
+      samples_.push_back({shape, radiance * solid_angle * sensitivity * opening_});
+    }
+  }
+}
+
+double Heat::flux(Hits hits) {
+  if (!looked_) return flux_;
+  flux_ = 0.0;
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    if (hits[i].shape == samples_[i].shape) flux_ += samples_[i].flux;
+  }
+  return flux_;
+}
+
+}  // namespace angen::sensors

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "plugin/view.h"
+#include "sensors/pir/lens.h"
+
+namespace angen::sensors {
+
+/// What reaches a detector's elements from surfaces that are warmer or colder than the air.
+class Heat {
+ public:
+  Heat() = default;
+  /// Sees to `range` in m. `opening` in m^2 is the area of a facet times what the lens and the
+  /// detector's window let through.
+  Heat(Lens lens, double range, double opening)
+      : lens_(std::move(lens)), range_(range), opening_(opening) {}
+
+  /// Asks for rays towards every such surface; none where nothing moved since the last time.
+  void aim(const View& view, RayBatch& rays);
+
+  /// Flux on the positive element less that on the negative one, in W.
+  double flux(Hits hits);
+
+  /// Looks anew at the next aim(), whatever moved.
+  void forget() { revision_ = UINT64_MAX; }
+
+ private:
+  /// A part of a surface's surroundings that one ray stands for.
+  struct Sample {
+    std::uint32_t shape;
+    double flux;  // W on the elements' difference, where the ray meets the shape
+  };
+
+  void aim_at(const rays::WarmShape& shape, double radiance, const Pose& pose, RayBatch& rays);
+  void scan(std::uint32_t shape, double radiance, const Window& seen, const Pose& pose,
+            RayBatch& rays);
+  bool unseen_lately();
+
+  Lens lens_;
+  double range_ = 0.0;
+  double opening_ = 0.0;
+  std::vector<Sample> samples_;
+  std::uint64_t revision_ = UINT64_MAX;
+  Pose pose_;
+  bool looked_ = false;  // whether aim() has asked
+  int waits_ = 0;        // looks left out since the last one
+  double flux_ = 0.0;
+};
+
+}  // namespace angen::sensors

@@ -1,0 +1,145 @@
+#include "sensors/pir/pyroelectric.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace angen::sensors {
+
+namespace {
+
+constexpr Range kAngles{-M_PI, M_PI};
+
+Window window_of(const std::vector<double>& row, std::size_t first, const char* key,
+                 const Params& params) {
+  const Window window{row[first], row[first + 1], row[first + 2], row[first + 3]};
+  const bool fits = window.right >= kAngles.min && window.left <= kAngles.max &&
+                    window.low >= -M_PI_2 && window.high <= M_PI_2;
+  if (window.right < window.left && window.low < window.high && fits) return window;
+  throw params.error(key, std::string("<") + key +
+                              "> must end with azimuth from, to (-pi to pi), elevation from, to "
+                              "(-pi/2 to pi/2), each rising, in rad");
+}
+
+Lens read_lens(Params& params) {
+  std::vector<Lens::Row> rows = lens_rows(params.choice(
+      "lens", "area", lens_names(), "where its zones are; long_range and curtain for walls"));
+  const auto own = params.rows("zone_row", 5, "1 rad rad rad rad",
+                               "instead of a lens: pairs of zones, azimuth from, to (left is "
+                               "positive), elevation from, to");
+  if (!own.empty()) rows.clear();
+  for (const std::vector<double>& row : own) {
+    const double pairs = row[0];
+    if (pairs < 1.0 || pairs > 1000.0 || pairs != std::round(pairs)) {
+      throw params.error("zone_row", "<zone_row> must begin with a whole number of zone pairs");
+    }
+    rows.push_back({static_cast<int>(pairs), window_of(row, 1, "zone_row", params)});
+  }
+  Lens lens(rows);
+  for (const std::vector<double>& row :
+       params.rows("tape", 4, "rad rad rad rad",
+                   "covers zones with their middle in azimuth from, to, elevation from, to")) {
+    lens.tape(window_of(row, 0, "tape", params));
+  }
+  return lens;
+}
+
+BandPass::Corners read_corners(Params& params) {
+  BandPass::Corners corners;
+  corners.thermal_time = params.number("thermal_time_constant", corners.thermal_time, "s",
+                                       "of the elements' warming", {1e-3, 1e3});
+  corners.electrical_time = params.number("electrical_time_constant", corners.electrical_time, "s",
+                                          "of their discharge", {1e-3, 1e3});
+  corners.low = params.number("low_cutoff", corners.low, "Hz", "of the amplifier", {1e-3, 20.0});
+  corners.high = params.number("high_cutoff", corners.high, "Hz", "of the amplifier", {0.1, 20.0});
+  return corners;
+}
+
+Trigger::Times read_times(Params& params) {
+  Trigger::Times times;
+  const auto time = [&](const char* key, double fallback, const char* doc) {
+    return from_seconds(params.number(key, fallback, "s", doc, {0.0, 1e6}));
+  };
+  times.hold = time("hold_time", 1.25, "motion lasts so long after the last crossing");
+  times.blocking = time("blocking_time", 2.5, "and nothing is detected for so long after it");
+  times.warm_up = time("warm_up", 60.0, "nor for so long after the start");
+  times.retrigger = params.flag("retrigger", true, "whether each crossing prolongs motion");
+  return times;
+}
+
+}  // namespace
+
+void Pyroelectric::configure(Params& params, Wiring&) {
+  Lens lens = read_lens(params);
+  const double range = params.number("ray/range/max", 20.0, "m", "farther is not seen", kPositive);
+  const double facet =
+      params.number("facet_area", 2.5e-5, "m^2", "of the lens, for one zone pair", kPositive);
+  const double passes = params.number("transmission", 0.4, "",
+                                      "of lens and window, of all heat radiation", {1e-6, 1.0});
+  heat_ = Heat(std::move(lens), range, facet * passes);
+  const double rate =
+      params.number("sample_rate", 100.0, "Hz", "how often it looks", {50.0, 1000.0});
+  period_ = from_seconds(1.0 / rate);
+  const BandPass::Corners corners = read_corners(params);
+  const double responsivity =
+      params.number("responsivity", 3300.0, "V/W", "of the elements, at 1 Hz", kPositive);
+  band_ = BandPass(corners, responsivity, to_seconds(period_));
+  noise_ = params.number("noise_stddev", 3e-6, "V", "while it is awake", kNotNegative);
+  threshold_ =
+      params.number("signal_threshold", 3e-4, "V", "motion beyond plus or minus this", kPositive);
+  rest_ = params.number("rest_threshold", 1e-6, "V", "a filter nearer than this to rest is at rest",
+                        kPositive);
+  times_ = read_times(params);
+  false_alarm_rate_ = params.number("false_alarm_rate", 0.0, "1/h", "without any cause", {0, 3600});
+}
+
+void Pyroelectric::aim(const View& view, RayBatch& rays) {
+  if (view.time() < last_time_) heat_.forget();  // the clock was set back
+  heat_.aim(view, rays);
+}
+
+void Pyroelectric::read(const View& view, Hits hits, Rng& rng, Reading& reading) {
+  const double flux = heat_.flux(hits);
+  if (last_time_ < 0 || view.time() < last_time_) {
+    trigger_ = Trigger(times_, view.time());
+    band_.settle(flux);
+    asleep_ = true;
+    flux_ = flux;
+  }
+  last_time_ = view.time();
+  const double signal = listen(flux, rng);
+  const bool was_on = trigger_.on();
+  const bool alarm = false_alarm(rng);
+  const bool motion = trigger_.step(view.time(), std::abs(signal) > threshold_ || alarm);
+  reading.set("motion", motion);
+  reading.set("signal", signal);
+  reading.set("signal_threshold", threshold_);
+  reading.set("flux", flux);
+  if (motion == was_on) return;
+  reading.urgent = true;
+  reading.event = motion ? "motion" : "still";
+  std::ostringstream detail;
+  if (alarm) {
+    detail << "false alarm";
+  } else {
+    detail << "signal " << 1e6 * signal << " uV";
+  }
+  reading.event_detail = detail.str();
+}
+
+// Volts for this sample. A flux that stands still lets the filter fall asleep.
+double Pyroelectric::listen(double flux, Rng& rng) {
+  if (asleep_ && flux == flux_) return 0.0;
+  const double signal = band_.step(flux);
+  asleep_ = flux == flux_ && band_.settled(flux, rest_);
+  flux_ = flux;
+  if (!asleep_) return signal + noise_ * rng.gaussian();
+  band_.settle(flux);
+  return 0.0;
+}
+
+bool Pyroelectric::false_alarm(Rng& rng) const {
+  if (false_alarm_rate_ == 0.0) return false;
+  return rng.uniform() < false_alarm_rate_ / 3600.0 * to_seconds(period_);
+}
+
+}  // namespace angen::sensors

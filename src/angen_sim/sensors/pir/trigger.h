@@ -1,0 +1,44 @@
+#pragma once
+
+#include <limits>
+
+#include "core/time.h"
+
+namespace angen::sensors {
+
+/// When a detector's output is on, from when its comparator fires.
+class Trigger {
+ public:
+  struct Times {
+    Nanoseconds hold = 0;      // on for so long
+    Nanoseconds blocking = 0;  // then deaf for so long
+    Nanoseconds warm_up = 0;   // deaf for so long after the start
+    bool retrigger = true;     // whether the hold begins anew with each firing
+  };
+
+  Trigger() = default;
+  Trigger(const Times& times, Nanoseconds start)
+      : times_(times), deaf_until_(start + times.warm_up) {}
+
+  /// Whether the output is on at `now`.
+  bool step(Nanoseconds now, bool fires) {
+    if (on_ && now >= off_at_ && !(fires && times_.retrigger)) {
+      on_ = false;
+      deaf_until_ = off_at_ + times_.blocking;
+    }
+    if (!fires || now < deaf_until_ || (on_ && !times_.retrigger)) return on_;
+    on_ = true;
+    off_at_ = now + times_.hold;
+    return true;
+  }
+
+  bool on() const { return on_; }
+
+ private:
+  Times times_;
+  Nanoseconds deaf_until_ = 0;
+  Nanoseconds off_at_ = 0;
+  bool on_ = false;
+};
+
+}  // namespace angen::sensors

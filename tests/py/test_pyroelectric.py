@@ -1,0 +1,97 @@
+"""What a pyroelectric PIR makes of people, robots, doors and lamps."""
+import angen
+import pytest
+
+DEVICES = '''
+  <plugin name="door" filename="libdoor_world_plugin.so"/>
+  <plugin name="lamp" filename="libros_plugin.so"/>
+  <plugin name="robot" filename="librobot_controller.so"/>'''
+
+
+def model(source: str, name: str, pose: str) -> str:
+    return f'''<include><uri>model://{source}</uri><name>{name}</name><pose>{pose}</pose>
+      </include>'''
+
+
+PIR = model('pir_pyroelectric', 'eye', '0 0 2.2 0 0 0')
+
+
+def walker(waypoints: list[str], plugin: str = '') -> str:
+    """An actor who goes from each "t x y" to the next, once."""
+    points = ''.join(f'<waypoint><time>{t}</time><pose>{x} {y} 0 0 0 0</pose></waypoint>'
+                     for t, x, y in (point.split() for point in waypoints))
+    return f'''<actor name="anna"><script><loop>false</loop>
+      <trajectory id="0" type="walk">{points}</trajectory></script>
+      <plugin name="person" filename="libperson_controller.so">{plugin}</plugin></actor>'''
+
+
+def motions(world: angen.World) -> list[float]:
+    """Times at which the PIR went on."""
+    return [time for time, source, _, event, _ in world.events()
+            if source == 'eye' and event == 'motion']
+
+
+def test_sees_a_person_who_walks_by_and_no_more_once_he_stands(world):
+    w = world(PIR + walker(['0 5 -3', '2 5 -3', '8 5 3']))
+    w.run(2)
+    assert motions(w) == []
+    w.run(7)
+    assert motions(w)
+    w.run(15)
+    motions(w)
+    w.run(30)
+    assert motions(w) == []
+    reading = w.sensor('pir', 'eye')
+    assert reading['signal'] == 0.0 and not reading['motion']
+    assert reading['signal_threshold'] == pytest.approx(300e-6)
+
+
+def test_does_not_see_a_person_as_warm_as_the_room(world):
+    ambient = ('<skin_temperature>295.15</skin_temperature>'
+               '<clothing_temperature>295.15</clothing_temperature>')
+    w = world(PIR + walker(['0 5 -3', '2 5 -3', '8 5 3'], ambient))
+    w.run(10)
+    assert motions(w) == []
+
+
+def test_the_world_says_how_warm_the_room_is():
+    text = '''<sdf version="1.6"><world name="w">
+      <atmosphere type="adiabatic"><temperature>{}</temperature></atmosphere>
+      <model name="plate"><static>true</static><pose>3 -0.15 1.8 0 0 0</pose><link name="l">
+        <collision name="c"><geometry><box><size>0.1 0.2 0.2</size></box></geometry></collision>
+        <visual name="v"><geometry><box><size>0.1 0.2 0.2</size></box></geometry>
+          <plugin name="gz::sim::systems::Thermal" filename="gz-sim-thermal-system">
+          <temperature>320</temperature></plugin></visual></link></model>''' + PIR \
+        + '</world></sdf>'
+    fluxes = []
+    for ambient in (280, 320):
+        w = angen.World.from_text(text.format(ambient))
+        w.step(20)
+        fluxes.append(abs(w.sensor('pir', 'eye')['flux']))
+    assert fluxes[0] > 1e-7 and fluxes[1] == 0.0
+
+
+def test_does_not_see_a_turtlebot_a_door_or_a_lamp(world):
+    w = world(PIR + model('turtlebot', 'turtlebot', '3 -1 0 0 0 1.57')
+              + model('kitchen_door', 'kitchen_door0', '3 1 0 0 0 0')
+              + model('ceiling_lamp', 'kitchen_lamp0', '2 0 3 0 0 0'), DEVICES)
+    w.run(1)
+    moved = w.device('door', 'kitchen0')['position']
+    w.command('door', 'kitchen0', 'Open')
+    w.command('lamp', 'kitchen0', 'On')
+    for _ in range(10):
+        w.command('drive', 'turtlebot', values=[0.3, 0.0])
+        w.run(0.5)
+    assert abs(w.device('door', 'kitchen0')['position'] - moved) > 1.0
+    assert w.light_levels[w.lights.index('kitchen_lamp0::bulb')] == 1.0
+    assert motions(w) == []
+    assert w.sensor('pir', 'eye')['signal'] == 0.0
+
+
+def test_a_door_between_hides_the_person(world):
+    wall = '''<model name="wall"><static>true</static><pose>3 0 1.5 0 0 0</pose><link name="l">
+      <collision name="c"><geometry><box><size>0.1 20 3</size></box></geometry></collision></link>
+      </model>'''
+    w = world(PIR + wall + walker(['0 5 -3', '2 5 -3', '8 5 3']))
+    w.run(10)
+    assert motions(w) == []
