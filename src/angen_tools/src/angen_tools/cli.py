@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import Any, Callable, NoReturn, Sequence
 
-from . import bench_words, robot_words, task_words
+from . import bench_words, robot_words, task_words, walktest_words
 from .client import leave
 from .failure import Failure
 
@@ -248,6 +248,7 @@ def make_parser() -> argparse.ArgumentParser:
     task_words.add_task(commands, command, checked)
     bench_words.add_world(commands, command, checked)
     bench_words.add_bench(commands, command, checked)
+    walktest_words.add_walktest(commands, command, checked, setting)
     completion = command(commands, 'completion', run_completion,
                          'prints what makes a shell complete angen',
                          'completion bash >> ~/.bash_completion')
