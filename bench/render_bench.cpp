@@ -39,7 +39,13 @@ void color_frame(benchmark::State& state) {
     benchmark::DoNotOptimize(room.scene.colors(room.lens, room.camera, room.lamps, {}));
   }
 }
-BENCHMARK(color_frame)->ArgName("lamps")->Arg(0)->Arg(1)->Arg(6)->Unit(benchmark::kMillisecond);
+BENCHMARK(color_frame)
+    ->ArgName("lamps")
+    ->Arg(0)
+    ->Arg(1)
+    ->Arg(3)
+    ->Arg(6)
+    ->Unit(benchmark::kMillisecond);
 
 void depth_frame(benchmark::State& state) {
   const Room room;

@@ -17,7 +17,7 @@ SCRIPT = ROOT / 'src/angen_tools/scripts/angen'
 COMMANDS = ['spawn', 'spawn pir', 'spawn switch', 'spawn luminosity', 'spawn camera',
             'spawn contact', 'spawn model', 'delete', 'list', 'plugins', 'set', 'set door',
             'set elevator', 'set lamp', 'save', 'watch', 'drive', 'map', 'task',
-            'task patrol', 'check', 'completion']
+            'task patrol', 'check', 'luxcheck', 'completion']
 
 
 @pytest.fixture

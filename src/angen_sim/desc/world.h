@@ -53,16 +53,19 @@ struct Inertial {
 };
 
 struct Light {
-  enum class Type { kPoint, kSpot, kDirectional };
+  enum class Type { kPoint, kSpot, kDirectional, kRectangle, kDisc };
   std::string name;
   Type type = Type::kPoint;
   Pose pose;                                  // in the link's frame, or the world's
   Eigen::Vector3f diffuse{1.0F, 1.0F, 1.0F};  // chromaticity
   double intensity = 1.0;                     // factor on its nominal flux
   double range = 10.0;                        // m, SDF's attenuation range
-  Vec3 direction = -Vec3::UnitZ();            // in its own frame, spot and directional
+  Vec3 direction = -Vec3::UnitZ();            // in its own frame, all but point
   double inner_angle = 0.0;                   // rad, spot
   double outer_angle = 0.0;
+  double width = 0.0;   // m, rectangle: along its own x axis (y, where it shines along x)
+  double height = 0.0;  // m, rectangle: across
+  double radius = 0.0;  // m, disc
   bool cast_shadows = true;
   Source source;
 };

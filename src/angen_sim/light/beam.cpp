@@ -1,6 +1,7 @@
 #include "light/beam.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -9,30 +10,154 @@
 namespace angen::light {
 namespace {
 
-constexpr double kFar = 1e4;  // m, as far as anything can stand before a directional lamp
+constexpr double kFar = 1e4;         // m, as far as anything can stand before a directional lamp
+constexpr double kOnSurface = 1e-9;  // m
+constexpr std::size_t kSides = 64;   // of the polygon that stands for a disc
 
 /// Candela along `away` (unit, from the lamp). A spot's flux is spread evenly over its inner cone
-/// and falls off linearly in the cosine to its outer one; SDF gives both cones' full angles.
+/// and falls off linearly in the cosine to its outer one; SDF gives both cones' full angles. A flat
+/// lamp is Lambertian on the side it shines to.
 double intensity(const Lamp& lamp, const Vec3& away) {
   if (lamp.type == Lamp::Type::kPoint) return lamp.luminous_flux / (4.0 * M_PI);
+  const double cosine = away.dot(lamp.pose.rotation * lamp.direction);
+  if (lamp.flat()) return std::max(0.0, cosine) * lamp.luminous_flux / M_PI;
   const double outer = std::cos(std::min(lamp.outer_angle, 2.0 * M_PI) / 2.0);
   const double inner =
       std::max(outer, std::cos(std::min(lamp.inner_angle, lamp.outer_angle) / 2.0));
-  const double cosine = away.dot(lamp.pose.rotation * lamp.direction);
   if (cosine <= outer) return 0.0;
   const double share = cosine >= inner ? 1.0 : (cosine - outer) / (inner - outer);
   return share * lamp.luminous_flux / (2.0 * M_PI * (1.0 - (inner + outer) / 2.0));
 }
 
-bool sees(const rays::Scene& scene, const Lamp& lamp, const Beam& beam, const Vec3& point,
-          const Vec3& on_sphere) {
-  if (lamp.type == Lamp::Type::kDirectional) {
-    return !scene.blocked(point, point + kFar * beam.towards);
+/// Unit vectors along a flat lamp's width and height.
+struct Axes {
+  Vec3 along, across;
+};
+
+Axes axes_of(const Lamp& lamp) {
+  // Its own x axis unless it shines along that.
+  const Vec3 guide = std::abs(lamp.direction.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitY();
+  const Vec3 across = lamp.direction.cross(guide).normalized();
+  return {lamp.pose.rotation * across.cross(lamp.direction), lamp.pose.rotation * across};
+}
+
+double area_of(const Lamp& lamp) {
+  return lamp.type == Lamp::Type::kDisc ? M_PI * lamp.radius * lamp.radius
+                                        : lamp.width * lamp.height;
+}
+
+struct Corners {
+  std::array<Vec3, kSides + 1> at;  // clipping by a plane adds at most one
+  std::size_t count = 0;
+};
+
+/// Seen from `point`.
+Corners corners_of(const Lamp& lamp, const Vec3& point) {
+  const Axes axes = axes_of(lamp);
+  const Vec3 middle = lamp.pose.position - point;
+  Corners out;
+  if (lamp.type == Lamp::Type::kRectangle) {
+    const Vec3 half_along = lamp.width / 2 * axes.along;
+    const Vec3 half_across = lamp.height / 2 * axes.across;
+    for (const auto& [u, v] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+      out.at[out.count++] = middle + u * half_along + v * half_across;
+    }
+    return out;
   }
-  return !scene.blocked(point, lamp.pose.position + lamp.radius * on_sphere);
+  // As large as the disc: a regular polygon's area is n/2 R^2 sin(2 pi/n).
+  const double step = 2.0 * M_PI / kSides;
+  const double reach = lamp.radius * std::sqrt(step / std::sin(step));
+  for (std::size_t i = 0; i < kSides; ++i) {
+    const double angle = step * static_cast<double>(i);
+    out.at[out.count++] =
+        middle + reach * (std::cos(angle) * axes.along + std::sin(angle) * axes.across);
+  }
+  return out;
+}
+
+/// What of the polygon lies before the plane through the origin.
+Corners clipped(const Corners& all, const Vec3& normal) {
+  Corners out;
+  for (std::size_t i = 0; i < all.count; ++i) {
+    const Vec3& a = all.at[i];
+    const Vec3& b = all.at[(i + 1) % all.count];
+    const double before_a = a.dot(normal), before_b = b.dot(normal);
+    if (before_a > 0.0) out.at[out.count++] = a;
+    if ((before_a > 0.0) != (before_b > 0.0)) {
+      out.at[out.count++] = a + before_a / (before_a - before_b) * (b - a);
+    }
+  }
+  return out;
+}
+
+/// Lambert 1760: the sum over the edges of the angle each fills, times its plane's cosine.
+double flat_illuminance(const Lamp& lamp, const Vec3& point, const Vec3& normal) {
+  const Vec3 shines = lamp.pose.rotation * lamp.direction;
+  if ((point - lamp.pose.position).dot(shines) <= kOnSurface) return 0.0;
+  const Corners corners = clipped(corners_of(lamp, point), normal);
+  if (corners.count < 3) return 0.0;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < corners.count; ++i) {
+    const Vec3& a = corners.at[i];
+    const Vec3& b = corners.at[(i + 1) % corners.count];
+    const Vec3 across = a.cross(b);
+    const double length = across.norm();
+    if (length < 1e-15) continue;
+    sum += std::atan2(length, a.dot(b)) * across.dot(normal) / length;
+  }
+  const double luminance = lamp.luminous_flux / (M_PI * area_of(lamp));
+  return luminance * std::abs(sum) / 2.0;
+}
+
+bool sees(const rays::Scene& scene, const Lamp& lamp, const Vec3& point, const Vec3& on_lamp,
+          rays::Mobilities among) {
+  if (lamp.type != Lamp::Type::kDirectional) return !scene.blocked(point, on_lamp, 1e-4, among);
+  const Vec3 towards = -(lamp.pose.rotation * lamp.direction);
+  return !scene.blocked(point, point + kFar * towards, 1e-4, among);
+}
+
+/// What a lamp's point gives on the plane, in a measure of its own.
+double weight_of(const Lamp& lamp, const Vec3& on_lamp, const Vec3& point, const Vec3& normal) {
+  if (!lamp.flat()) return 1.0;
+  const Vec3 way = on_lamp - point;
+  const double distance2 = way.squaredNorm();
+  const Vec3 shines = lamp.pose.rotation * lamp.direction;
+  return std::max(0.0, way.dot(normal)) * std::max(0.0, -way.dot(shines)) / (distance2 * distance2);
+}
+
+struct Count {
+  double free = 0.0, seen = 0.0;
+  double share() const { return free > 0.0 ? seen / free : 0.0; }
+};
+
+Count look(const rays::Scene& scene, const Lamp& lamp, const Vec3& point, const Vec3& normal,
+           rays::Mobilities among, std::size_t points) {
+  Count count;
+  for (std::size_t i = 0; i < points; ++i) {
+    const Vec3 on_lamp = lamp_point(lamp, i);
+    // A ceiling that the sphere dips into takes none of its light.
+    if (!lamp.flat() && scene.blocked(lamp.pose.position, on_lamp, 0.0, among)) continue;
+    const double weight = weight_of(lamp, on_lamp, point, normal);
+    count.free += weight;
+    if (weight > 0.0 && sees(scene, lamp, point, on_lamp, among)) count.seen += weight;
+  }
+  return count;
 }
 
 }  // namespace
+
+Vec3 lamp_point(const Lamp& lamp, std::size_t which) {
+  const std::size_t i = which % kLampPoints;
+  if (!lamp.flat()) return lamp.pose.position + lamp.radius * lamp_points()[i];
+  const Axes axes = axes_of(lamp);
+  const auto [u, v] = square_points()[i];
+  if (lamp.type == Lamp::Type::kRectangle) {
+    return lamp.pose.position + (u - 0.5) * lamp.width * axes.along +
+           (v - 0.5) * lamp.height * axes.across;
+  }
+  const double out = lamp.radius * std::sqrt(u), angle = 2.0 * M_PI * v;
+  return lamp.pose.position + out * (std::cos(angle) * axes.along + std::sin(angle) * axes.across);
+}
 
 Beam beam(const Lamp& lamp, const Vec3& point) {
   Beam out;
@@ -44,32 +169,34 @@ Beam beam(const Lamp& lamp, const Vec3& point) {
   }
   const Vec3 offset = lamp.pose.position - point;
   out.distance = offset.norm();
-  if (out.distance < 1e-9) return out;
+  if (out.distance < kOnSurface) return out;
   out.towards = offset / out.distance;
   const double clamped = std::max(out.distance, lamp.radius);
   out.illuminance = intensity(lamp, -out.towards) / (clamped * clamped);
   return out;
 }
 
-double visible_share(const rays::Scene& scene, const Lamp& lamp, const Beam& beam,
-                     const Vec3& point) {
-  if (!lamp.cast_shadows) return 1.0;
-  if (lamp.type == Lamp::Type::kDirectional)
-    return sees(scene, lamp, beam, point, Vec3::Zero()) ? 1.0 : 0.0;
-  int free = 0, seen = 0;
-  for (const Vec3& on_sphere : lamp_points()) {
-    // A ceiling that the sphere dips into takes none of its light.
-    const Vec3 surface = lamp.pose.position + lamp.radius * on_sphere;
-    if (scene.blocked(lamp.pose.position, surface, 0.0)) continue;
-    ++free;
-    if (sees(scene, lamp, beam, point, on_sphere)) ++seen;
-  }
-  return free == 0 ? 0.0 : static_cast<double>(seen) / free;
+double illuminance(const Lamp& lamp, const Vec3& point, const Vec3& normal) {
+  if (lamp.flat()) return flat_illuminance(lamp, point, normal);
+  const Beam from_lamp = beam(lamp, point);
+  return from_lamp.illuminance * std::max(0.0, normal.dot(from_lamp.towards));
 }
 
-bool sees_one(const rays::Scene& scene, const Lamp& lamp, const Beam& beam, const Vec3& point,
-              std::size_t which) {
-  return !lamp.cast_shadows || sees(scene, lamp, beam, point, lamp_points()[which % kLampPoints]);
+double visible_share(const rays::Scene& scene, const Lamp& lamp, const Vec3& point,
+                     const Vec3& normal, rays::Mobilities among) {
+  if (!lamp.cast_shadows) return 1.0;
+  if (lamp.type == Lamp::Type::kDirectional) {
+    return sees(scene, lamp, point, Vec3::Zero(), among) ? 1.0 : 0.0;
+  }
+  // A few points tell whether a shadow's edge is near; only there many are worth their cost.
+  const double coarse = look(scene, lamp, point, normal, among, kLampPoints / 8).share();
+  if (coarse == 0.0 || coarse == 1.0) return coarse;
+  return look(scene, lamp, point, normal, among, kLampPoints).share();
+}
+
+bool sees_one(const rays::Scene& scene, const Lamp& lamp, const Vec3& point, std::size_t which,
+              rays::Mobilities among) {
+  return !lamp.cast_shadows || sees(scene, lamp, point, lamp_point(lamp, which), among);
 }
 
 }  // namespace angen::light

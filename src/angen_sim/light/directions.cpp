@@ -1,51 +1,31 @@
 #include "light/directions.h"
 
 #include <cmath>
-#include <numeric>
-#include <utility>
-
-#include "core/random.h"
 
 namespace angen::light {
 namespace {
 
-/// Van der Corput's sequence: the bits of i behind the binary point, last bit first.
-double radical_inverse(unsigned i) {
-  double value = 0.0;
-  for (double digit = 0.5; i != 0; i >>= 1, digit /= 2) value += digit * (i & 1U);
-  return value;
-}
+// Points i / g, i / g^2 with g^3 = g + 1: any first few of them are spread evenly (Roberts 2018).
+constexpr double kPlastic = 1.3247179572447460;
 
-/// Malley's way: a disc filled evenly, lifted onto the hemisphere.
-Vec3 cosine_weighted(double u, double v) {
-  const double radius = std::sqrt(u);
-  const double angle = 2.0 * M_PI * v;
-  return {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1.0 - u)};
-}
+double fraction(double value) { return value - std::floor(value); }
 
-Directions make_directions() {
-  Directions all;
-  for (int bounce = 0; bounce < kBounces; ++bounce) {
-    // Each bounce hands out the same even set in another order, so that bounces are independent.
-    std::array<unsigned, kPaths> order;
-    std::iota(order.begin(), order.end(), 0U);
-    Rng rng(0, hash_bytes("light directions"), bounce);
-    for (std::size_t i = kPaths - 1; i > 0; --i) std::swap(order[i], order[rng.next() % (i + 1)]);
-    for (std::size_t i = 0; i < kPaths; ++i) {
-      all[static_cast<std::size_t>(bounce)][i] =
-          cosine_weighted((order[i] + 0.5) / kPaths, radical_inverse(order[i]));
-    }
+std::array<std::pair<double, double>, kLampPoints> make_square_points() {
+  std::array<std::pair<double, double>, kLampPoints> points;
+  for (std::size_t i = 0; i < kLampPoints; ++i) {
+    const double k = static_cast<double>(i);
+    points[i] = {fraction(0.5 + k / kPlastic), fraction(0.5 + k / (kPlastic * kPlastic))};
   }
-  return all;
+  return points;
 }
 
 std::array<Vec3, kLampPoints> make_lamp_points() {
   std::array<Vec3, kLampPoints> points;
-  const double golden = M_PI * (3.0 - std::sqrt(5.0));
   for (std::size_t i = 0; i < kLampPoints; ++i) {
-    const double z = 1.0 - (2.0 * static_cast<double>(i) + 1.0) / kLampPoints;
-    const double angle = golden * static_cast<double>(i);
+    const auto [u, v] = square_points()[i];
+    const double z = 1.0 - 2.0 * u;
     const double around = std::sqrt(1.0 - z * z);
+    const double angle = 2.0 * M_PI * v;
     points[i] = {around * std::cos(angle), around * std::sin(angle), z};
   }
   return points;
@@ -53,13 +33,34 @@ std::array<Vec3, kLampPoints> make_lamp_points() {
 
 }  // namespace
 
-const Directions& directions() {
-  static const Directions all = make_directions();
+double radical_inverse(unsigned i) {
+  double value = 0.0;
+  for (double digit = 0.5; i != 0; i >>= 1, digit /= 2) value += digit * (i & 1U);
+  return value;
+}
+
+Vec3 cosine_direction(double u, double v) {
+  const double radius = std::sqrt(u);
+  const double angle = 2.0 * M_PI * v;
+  return {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1.0 - u)};
+}
+
+std::vector<Vec3> cosine_directions(std::size_t count) {
+  std::vector<Vec3> all;
+  for (std::size_t i = 0; i < count; ++i) {
+    all.push_back(cosine_direction((static_cast<double>(i) + 0.5) / static_cast<double>(count),
+                                   radical_inverse(static_cast<unsigned>(i))));
+  }
   return all;
 }
 
+const std::array<std::pair<double, double>, kLampPoints>& square_points() {
+  static const auto points = make_square_points();
+  return points;
+}
+
 const std::array<Vec3, kLampPoints>& lamp_points() {
-  static const std::array<Vec3, kLampPoints> points = make_lamp_points();
+  static const auto points = make_lamp_points();
   return points;
 }
 

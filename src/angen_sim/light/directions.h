@@ -1,22 +1,31 @@
 #pragma once
 
 #include <array>
+#include <utility>
+#include <vector>
 
 #include "core/pose.h"
 
+/// Fixed directions and points, spread evenly. Always the same, so that a reading changes only when
+/// the world does.
 namespace angen::light {
 
-constexpr int kPaths = 256;  // a measure follows
-constexpr int kBounces = 4;  // surfaces on each path, beyond which the rest is estimated
-constexpr int kLampPoints = 16;
+constexpr std::size_t kLampPoints = 128;
 
-/// Cosine-weighted directions about z, one for each path and bounce: at each bounce they fill the
-/// hemisphere evenly. Always the same, so that a reading changes only when the world does.
-using Directions = std::array<std::array<Vec3, kPaths>, kBounces>;
-const Directions& directions();
+/// `count` cosine-weighted directions about z that fill the hemisphere evenly.
+std::vector<Vec3> cosine_directions(std::size_t count);
 
-/// Points spread evenly over the unit sphere.
+/// Points spread evenly over the unit sphere; so are the first sixteen.
 const std::array<Vec3, kLampPoints>& lamp_points();
+
+/// Points spread evenly over the unit square; so are the first sixteen.
+const std::array<std::pair<double, double>, kLampPoints>& square_points();
+
+/// Van der Corput's sequence: the bits of i behind the binary point, last bit first.
+double radical_inverse(unsigned i);
+
+/// Malley's way: a point of the unit square as a cosine-weighted direction about z.
+Vec3 cosine_direction(double u, double v);
 
 /// A right-handed frame whose z axis is the unit `normal`.
 Eigen::Matrix3d frame_about(const Vec3& normal);

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <optional>
+#include <utility>
 
-#include "light/paths.h"
+#include "light/field.h"
+#include "light/gather.h"
 
 namespace angen::light {
 namespace {
@@ -26,11 +27,14 @@ const Transport* known(const Probe& probe, LampId lamp) {
 
 }  // namespace
 
-Lighting::Lighting(const rays::Scene& scene) : scene_(scene), lamps_revision_(first_revision()) {}
+Lighting::Lighting(const rays::Scene& scene)
+    : scene_(scene), field_(std::make_unique<Field>(scene)), lamps_revision_(first_revision()) {}
+
+Lighting::~Lighting() = default;
 
 LampId Lighting::add(const Lamp& lamp, double level) {
   ++lamps_revision_;
-  return lamps_.add({lamp, level});
+  return lamps_.add({lamp, level, nullptr});
 }
 
 void Lighting::remove(LampId lamp) {
@@ -46,6 +50,7 @@ void Lighting::move(LampId lamp, const Pose& pose) {
   Entry& entry = lamps_.at(lamp);
   if (entry.lamp.pose == pose) return;
   entry.lamp.pose = pose;
+  entry.solution.reset();
   ++lamps_revision_;
 }
 
@@ -57,21 +62,45 @@ std::vector<Lit> Lighting::lit() const {
   return all;
 }
 
+/// Drops what lamps' light did where walls or doors have moved since.
+void Lighting::follow() const {
+  std::vector<Eigen::AlignedBox3d> touched;
+  const bool same = field_->follow(touched);
+  if (same && touched.empty()) return;
+  lamps_.each([&](LampId, Entry& entry) {
+    const auto meets = [&](const Eigen::AlignedBox3d& box) {
+      return entry.solution->bounds.intersects(box);
+    };
+    if (entry.solution == nullptr) return;
+    if (!same || std::any_of(touched.begin(), touched.end(), meets)) entry.solution.reset();
+  });
+}
+
 Sample Lighting::measure(Probe& probe, const Pose& pose) const {
+  follow();
   if (probe.pose != pose || probe.revision != scene_.revision() ||
       probe.lamps_revision != lamps_revision_) {
-    probe = {pose, scene_.revision(), lamps_revision_, {}};
+    const bool here = probe.pose == pose && probe.lamps_revision >> 32 == lamps_revision_ >> 32;
+    probe = {pose, scene_.revision(), lamps_revision_, {}, here ? probe.gather : nullptr};
+    if (probe.gather) probe.gather->forget([&](LampId id) { return !lamps_.contains(id); });
   }
   // A dark lamp's transport is left for when it is lit; each lamp's is independent of the others'.
-  std::optional<Paths> paths;
+  bool looked = false;
   double illuminance = 0.0;
   Eigen::Array3f radiance = Eigen::Array3f::Zero();
-  lamps_.each([&](LampId id, const Entry& entry) {
+  lamps_.each([&](LampId id, Entry& entry) {
     if (!(entry.level > 0.0)) return;
     const Transport* sent = known(probe, id);
     if (sent == nullptr) {
-      if (!paths) paths.emplace(scene_, pose);
-      sent = &probe.transports.emplace_back(paths->transport(id, entry.lamp));
+      if (probe.gather == nullptr || !probe.gather->stands()) {
+        probe.gather = std::make_shared<Gather>(scene_, *field_, pose);
+      }
+      if (!std::exchange(looked, true)) probe.gather->look();
+      if (entry.solution == nullptr) {
+        entry.solution = std::make_shared<const Solution>(field_->solve(entry.lamp));
+      }
+      sent =
+          &probe.transports.emplace_back(probe.gather->transport(id, entry.lamp, *entry.solution));
     }
     illuminance += entry.level * sent->illuminance;
     radiance += static_cast<float>(entry.level) * sent->radiance.array();

@@ -1,31 +1,20 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
-#include "core/id.h"
 #include "core/pose.h"
 #include "core/slots.h"
+#include "light/lamp.h"
 #include "rays/scene.h"
 
 /// Lux at a point from lamps, surfaces and rays.
 namespace angen::light {
 
-struct LampTag;
-using LampId = Id<LampTag>;
-
-struct Lamp {
-  enum class Type { kPoint, kSpot, kDirectional };
-  Type type = Type::kPoint;
-  Pose pose;                        // world; spots and directional ones shine along `direction`
-  Vec3 direction = -Vec3::UnitZ();  // unit, in its own frame
-  double luminous_flux = 800.0;     // lm at level 1 (point: isotropic); directional: lx
-  Eigen::Vector3f color{1.0F, 1.0F, 1.0F};  // linear r g b, scaled so that its luminance is 1
-  double radius = 0.05;                     // m, size of the luminous sphere
-  double inner_angle = 0.0;                 // rad, spot: full angle of its evenly lit cone
-  double outer_angle = 0.0;                 // rad, spot: full angle beyond which it is dark
-  bool cast_shadows = true;
-};
+class Field;
+class Gather;
+struct Solution;
 
 /// What one lamp at level 1 sends to one place.
 struct Transport {
@@ -41,6 +30,7 @@ struct Probe {
   std::uint64_t revision = UINT64_MAX;  // of the scene and lamp set that `transports` belong to
   std::uint64_t lamps_revision = UINT64_MAX;
   std::vector<Transport> transports;
+  std::shared_ptr<Gather> gather;  // what the place sees of what stands still
 };
 
 /// A lamp that shines, and at what share of its flux.
@@ -57,6 +47,7 @@ struct Sample {
 class Lighting {
  public:
   explicit Lighting(const rays::Scene& scene);
+  ~Lighting();
 
   LampId add(const Lamp& lamp, double level);
   void remove(LampId lamp);
@@ -65,21 +56,27 @@ class Lighting {
   void move(LampId lamp, const Pose& pose);
   std::vector<Lit> lit() const;  // those of a level above 0
 
-  /// Illuminance at pose.position on the plane whose normal is pose's x axis, direct light with
-  /// shadows plus interreflection, and the mean colour that a square pixel of 60 degrees along x
-  /// sees: a mean luminance of L cd/m^2 gives L / (L + 50) in each channel. Albedos above 0.9 count
-  /// as 0.9. A shape around a lamp or around the place keeps the light out, the sensor's own
-  /// housing too: leave it out of the scene or put the place before it. The scene must be
-  /// committed. Same scene, same lamps, same pose: same bits.
+  /// Illuminance at pose.position on the plane whose normal is pose's x axis, and the mean colour
+  /// that a square pixel of 60 degrees along x sees: a mean luminance of L cd/m^2 gives L / (L +
+  /// 50) in each channel. Direct light with shadows, plus what diffuse surfaces reflect: balanced
+  /// between patches of all that is static or anchored, then gathered here over 2048 directions, in
+  /// which moving shapes block and reflect. Albedos above 0.9 count as 0.9. A shape around a lamp
+  /// or around the place keeps the light out, the sensor's own housing too: leave it out of the
+  /// scene or put the place before it. The scene must be committed. Same scene, same lamps, same
+  /// pose: same bits, whatever was measured before. One thread at a time.
   Sample measure(Probe& probe, const Pose& pose) const;
 
  private:
   struct Entry {
     Lamp lamp;
     double level;
+    std::shared_ptr<const Solution> solution;  // made when the lamp is lit and somebody measures
   };
+  void follow() const;
+
   const rays::Scene& scene_;
-  Slots<Entry, LampTag> lamps_;
+  mutable Slots<Entry, LampTag> lamps_;
+  std::unique_ptr<Field> field_;
   std::uint64_t lamps_revision_;  // no two Lightings share one
 };
 

@@ -67,6 +67,8 @@ const std::map<Key, Rule>& rules() {
       {{"light", "direction"}, kThree},
       {{"light", "intensity"}, kNotNegative},
       {{"light", "cast_shadows"}, kFlag},
+      {{"light", "angen:rectangle"}, {2, 2, Want::kPositive}},
+      {{"light", "angen:disc"}, kPositive},
       {{"attenuation", "range"}, kPositive},
       {{"attenuation", "constant"}, kNotNegative},
       {{"attenuation", "linear"}, kNotNegative},

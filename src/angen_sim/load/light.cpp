@@ -34,6 +34,16 @@ desc::Light light_of(const Element& element, const Pose& pose) {
     light.inner_angle = child_number(*spot, "inner_angle", 0.0);
     light.outer_angle = child_number(*spot, "outer_angle", 0.0);
   }
+  // Angen's own: SDF knows no lights with an area.
+  if (const Element* size = element.child("angen:rectangle")) {
+    const std::vector<double> v = numbers_of(*size, 2);
+    light.type = desc::Light::Type::kRectangle;
+    light.width = v[0];
+    light.height = v[1];
+  } else if (const Element* disc = element.child("angen:disc")) {
+    light.type = desc::Light::Type::kDisc;
+    light.radius = numbers_of(*disc, 1)[0];
+  }
   return light;
 }
 

@@ -19,16 +19,22 @@ struct Query {
   Meeting best;        // range starts at the ray's max
   std::uint64_t rank;  // of the best so far; the lower wins a tie
   const Solid* solid;
+  bool anchored, moving;  // which of those that can move are met
 
   /// Static shapes before moving ones, then by index.
-  static std::uint64_t rank_of(const Solid& solid, Mobility mobility) {
-    return (mobility == Mobility::kMoving ? 1ULL << 32 : 0ULL) | solid.slot;
+  static std::uint64_t rank_of(const Solid& solid, bool fixed) {
+    return (fixed ? 0ULL : 1ULL << 32) | solid.slot;
   }
 
-  bool try_solid(const Solid& candidate, Mobility mobility) {
+  bool wants(const Solid& candidate, bool fixed) const {
+    return fixed || (candidate.anchored ? anchored : moving);
+  }
+
+  bool try_solid(const Solid& candidate, bool fixed) {
     Meeting found;
+    if (!wants(candidate, fixed)) return false;
     if (!meet(candidate, origin, direction, min, best.range, found)) return false;
-    const std::uint64_t found_rank = rank_of(candidate, mobility);
+    const std::uint64_t found_rank = rank_of(candidate, fixed);
     if (found.range == best.range && found_rank >= rank) return false;
     best = found;
     rank = found_rank;
@@ -42,28 +48,47 @@ void bounds(const RTCBoundsFunctionArguments* args) {
   *args->bounds_o = padded(bounds_of(solids[args->primID]));
 }
 
-template <Mobility mobility>
+template <bool fixed>
 void intersect(const RTCIntersectFunctionNArguments* args) {
   if (!args->valid[0]) return;
   auto& q = *reinterpret_cast<Query*>(args->context);
   const auto* solids = static_cast<const Solid*>(args->geometryUserPtr);
-  if (!q.try_solid(solids[args->primID], mobility)) return;
+  if (!q.try_solid(solids[args->primID], fixed)) return;
   reinterpret_cast<RTCRayHit*>(args->rayhit)->ray.tfar = reach(q.best.range);
 }
 
+template <bool fixed>
 void occluded(const RTCOccludedFunctionNArguments* args) {
   if (!args->valid[0]) return;
   auto& q = *reinterpret_cast<Query*>(args->context);
-  const auto* solids = static_cast<const Solid*>(args->geometryUserPtr);
+  const Solid& solid = static_cast<const Solid*>(args->geometryUserPtr)[args->primID];
   Meeting found;
-  if (!meet(solids[args->primID], q.origin, q.direction, q.min, q.best.range, found)) return;
-  q.solid = &solids[args->primID];
+  if (!q.wants(solid, fixed)) return;
+  if (!meet(solid, q.origin, q.direction, q.min, q.best.range, found)) return;
+  q.solid = &solid;
   reinterpret_cast<RTCRay*>(args->ray)->tfar = -std::numeric_limits<float>::infinity();
 }
 
-/// The shapes of one mobility: those with a box in a hierarchy, planes (which have none) beside it.
+struct Cover {
+  RTCPointQueryContext context;  // first, as in Query
+  const std::vector<Solid>* solids;
+  Vec3 point;
+  std::uint32_t except;
+  bool found = false;
+};
+
+bool look_inside(RTCPointQueryFunctionArguments* args) {
+  auto& cover = *static_cast<Cover*>(args->userPtr);
+  const Solid& solid = (*cover.solids)[args->primID];
+  cover.found = cover.found || (solid.slot != cover.except && contains(solid, cover.point));
+  return false;  // the query's radius stays
+}
+
+/// The shapes that stand, or those that can move: those with a box in a hierarchy, planes (which
+/// have none) beside it.
 struct Layer {
-  explicit Layer(RTCIntersectFunctionN intersect) : tree(bounds, intersect, occluded) {}
+  Layer(RTCIntersectFunctionN intersect, RTCOccludedFunctionN occluded)
+      : tree(bounds, intersect, occluded) {}
 
   std::vector<Solid> bounded;
   std::vector<Solid> planes;
@@ -86,6 +111,13 @@ struct Entry {
   Pose pose;
 };
 
+/// Where in its layer's lists a shape is.
+struct Place {
+  Layer* layer = nullptr;
+  Shape::Type type = Shape::Type::kEmpty;
+  std::uint32_t at = 0;
+};
+
 Solid make_solid(const Shape& shape, const Pose& pose) {
   Solid solid;
   solid.type = shape.type;
@@ -99,7 +131,8 @@ Solid make_solid(const Shape& shape, const Pose& pose) {
 bool finite_as_floats(const Vec3& v) { return v.cast<float>().allFinite(); }
 
 /// False for a ray that meets nothing by definition: not finite, no direction, an empty interval.
-bool prepare(Query& q, const Vec3& origin, const Vec3& direction, double min, double max) {
+bool prepare(Query& q, const Vec3& origin, const Vec3& direction, double min, double max,
+             Mobilities among) {
   rtcInitIntersectContext(&q.context);
   q.origin = origin;
   q.direction = direction;
@@ -107,8 +140,15 @@ bool prepare(Query& q, const Vec3& origin, const Vec3& direction, double min, do
   q.best.range = max;
   q.rank = UINT64_MAX;
   q.solid = nullptr;
+  q.anchored = (among & only(Mobility::kAnchored)) != 0;
+  q.moving = (among & only(Mobility::kMoving)) != 0;
   const double length2 = direction.squaredNorm();
   return finite_as_floats(origin) && finite_as_floats(direction) && length2 > 1e-30 && q.min <= max;
+}
+
+Hit hit_of(const Query& q) {
+  const Vec3 normal = normal_at(*q.solid, q.origin, q.direction, q.best);
+  return {q.best.range, q.solid->slot, normal.cast<float>()};
 }
 
 }  // namespace
@@ -116,14 +156,21 @@ bool prepare(Query& q, const Vec3& origin, const Vec3& direction, double min, do
 struct Scene::Impl {
   Slots<Entry, RayShapeTag> entries;
   std::vector<Eigen::Vector3f> reflectances;  // by index
-  std::vector<std::uint32_t> places;          // by index: where in its layer's list
+  std::vector<Place> places;                  // by index
   std::vector<std::pair<ShapeId, WarmShape>> warmed;
   std::vector<WarmShape> warm;  // of these, as of the last commit
-  Layer fixed{intersect<Mobility::kStatic>};
-  Layer moving{intersect<Mobility::kMoving>};
+  Layer fixed{intersect<true>, occluded<true>};
+  Layer moving{intersect<false>, occluded<false>};
   std::map<const TriangleMesh*, std::weak_ptr<const MeshTree>> meshes;
   std::uint64_t revision = 0;
   std::uint64_t static_revision = 0;
+  std::uint64_t anchored_revision = 0;
+  bool anchored_dirty = false;
+
+  void touch(Mobility mobility) {
+    layer(mobility).dirty = true;
+    if (mobility == Mobility::kAnchored) anchored_dirty = true;
+  }
 
   Layer& layer(Mobility mobility) { return mobility == Mobility::kStatic ? fixed : moving; }
 
@@ -144,17 +191,26 @@ struct Scene::Impl {
   void bound_warm_shapes() {
     warm.clear();
     for (const auto& [id, shape] : warmed) {
-      const Entry& entry = entries.at(id);
       warm.push_back(shape);
-      warm.back().box = bounds_of(layer(entry.mobility).list(entry.type)[places[id.index]]);
+      warm.back().box = bounds_of(solid(id.index));
     }
   }
 
-  void nearest(Query& q) const {
-    for (const Solid& plane : fixed.planes) q.try_solid(plane, Mobility::kStatic);
-    for (const Solid& plane : moving.planes) q.try_solid(plane, Mobility::kMoving);
+  const Solid& solid(std::uint32_t index) const {
+    const Place& place = places.at(index);
+    return place.layer->list(place.type)[place.at];
+  }
+
+  bool wants(const Layer& layer, Mobilities among) const {
+    const Mobilities standing = only(Mobility::kStatic);
+    return (among & (&layer == &fixed ? standing : kAll & ~standing)) != 0;
+  }
+
+  void nearest(Query& q, Mobilities among) const {
     RTCRayHit ray{};
     for (const Layer* layer : {&fixed, &moving}) {
+      if (!wants(*layer, among)) continue;
+      for (const Solid& plane : layer->planes) q.try_solid(plane, layer == &fixed);
       if (layer->bounded.empty()) continue;
       aim(ray.ray, q.origin, q.direction, q.min, q.best.range);
       ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -162,11 +218,14 @@ struct Scene::Impl {
     }
   }
 
-  bool any(Query& q) const {
+  bool any(Query& q, Mobilities among) const {
     Meeting found;
     for (const Layer* layer : {&fixed, &moving}) {
+      if (!wants(*layer, among)) continue;
       for (const Solid& plane : layer->planes) {
-        if (meet(plane, q.origin, q.direction, q.min, q.best.range, found)) return true;
+        if (q.wants(plane, layer == &fixed) &&
+            meet(plane, q.origin, q.direction, q.min, q.best.range, found))
+          return true;
       }
       if (layer->bounded.empty()) continue;
       RTCRay ray{};
@@ -191,11 +250,12 @@ ShapeId Scene::add(const Shape& shape, const Pose& pose, Mobility mobility,
   impl_->reflectances[id.index] = reflectance;
   if (shape.type == Shape::Type::kEmpty) return id;
   solid.slot = id.index;
+  solid.anchored = mobility == Mobility::kAnchored;
   Layer& layer = impl_->layer(mobility);
   std::vector<Solid>& list = layer.list(shape.type);
-  impl_->places[id.index] = static_cast<std::uint32_t>(list.size());
+  impl_->places[id.index] = {&layer, shape.type, static_cast<std::uint32_t>(list.size())};
   list.push_back(std::move(solid));
-  layer.dirty = true;
+  impl_->touch(mobility);
   return id;
 }
 
@@ -212,8 +272,8 @@ void Scene::move(ShapeId shape, const Pose& pose) {
   entry.pose = pose;
   if (entry.type == Shape::Type::kEmpty) return;
   Layer& layer = impl_->layer(entry.mobility);
-  layer.list(entry.type)[impl_->places[shape.index]].place(pose);
-  layer.dirty = true;
+  layer.list(entry.type)[impl_->places[shape.index].at].place(pose);
+  impl_->touch(entry.mobility);
 }
 
 void Scene::remove(ShapeId shape) {
@@ -226,13 +286,13 @@ void Scene::remove(ShapeId shape) {
                warmed.end());
   Layer& layer = impl_->layer(entry.mobility);
   std::vector<Solid>& list = layer.list(entry.type);
-  const std::uint32_t place = impl_->places[shape.index];
-  if (place + 1 != list.size()) {
-    list[place] = std::move(list.back());
-    impl_->places[list[place].slot] = place;
+  const std::uint32_t at = impl_->places[shape.index].at;
+  if (at + 1 != list.size()) {
+    list[at] = std::move(list.back());
+    impl_->places[list[at].slot].at = at;
   }
   list.pop_back();
-  layer.dirty = true;
+  impl_->touch(entry.mobility);
   if (entry.type == Shape::Type::kMesh) impl_->forget_unused_meshes();
 }
 
@@ -244,18 +304,17 @@ void Scene::commit() {
   impl_->bound_warm_shapes();
   ++impl_->revision;
   if (static_changed) ++impl_->static_revision;
+  if (std::exchange(impl_->anchored_dirty, false)) ++impl_->anchored_revision;
 }
 
-void Scene::cast(const Ray* rays, Hit* hits, std::size_t count) const {
+void Scene::cast(const Ray* rays, Hit* hits, std::size_t count, Mobilities among) const {
   Query q;
   for (std::size_t i = 0; i < count; ++i) {
     hits[i] = {};
     const Ray& ray = rays[i];
-    if (!prepare(q, ray.origin, ray.direction, ray.min, ray.max)) continue;
-    impl_->nearest(q);
-    if (q.solid == nullptr) continue;
-    const Vec3 normal = normal_at(*q.solid, q.origin, q.direction, q.best);
-    hits[i] = {q.best.range, q.solid->slot, normal.cast<float>()};
+    if (!prepare(q, ray.origin, ray.direction, ray.min, ray.max, among)) continue;
+    impl_->nearest(q, among);
+    if (q.solid != nullptr) hits[i] = hit_of(q);
   }
 }
 
@@ -264,11 +323,30 @@ void Scene::cast(const std::vector<Ray>& rays, std::vector<Hit>& hits) const {
   cast(rays.data(), hits.data(), rays.size());
 }
 
-bool Scene::blocked(const Vec3& from, const Vec3& to, double margin) const {
+bool Scene::blocked(const Vec3& from, const Vec3& to, double margin, Mobilities among) const {
   Query q;
   const double length = (to - from).norm();
   const Vec3 direction = (to - from) / length;
-  return prepare(q, from, direction, margin, length - margin) && impl_->any(q);
+  return prepare(q, from, direction, margin, length - margin, among) && impl_->any(q, among);
+}
+
+Hit Scene::cast_at(std::uint32_t shape_index, const Ray& ray) const {
+  Query q;
+  if (!prepare(q, ray.origin, ray.direction, ray.min, ray.max, kAll)) return {};
+  return q.try_solid(impl_->solid(shape_index), true) ? hit_of(q) : Hit{};
+}
+
+bool Scene::covered(const Vec3& point, std::uint32_t except) const {
+  if (impl_->fixed.bounded.empty()) return false;
+  Cover cover;
+  rtcInitPointQueryContext(&cover.context);
+  cover.solids = &impl_->fixed.bounded;
+  cover.point = point;
+  cover.except = except;
+  const Eigen::Vector3f at = point.cast<float>();
+  RTCPointQuery query{at.x(), at.y(), at.z(), 0.0F, 1e-5F};  // m, what floats lose
+  rtcPointQuery(impl_->fixed.tree.scene.get(), &query, &cover.context, look_inside, &cover);
+  return cover.found;
 }
 
 Eigen::Vector3f Scene::reflectance(std::uint32_t shape_index) const {
@@ -276,8 +354,34 @@ Eigen::Vector3f Scene::reflectance(std::uint32_t shape_index) const {
 }
 
 const std::vector<WarmShape>& Scene::warm_shapes() const { return impl_->warm; }
+Mobility Scene::mobility(std::uint32_t shape_index) const {
+  const Place& place = impl_->places.at(shape_index);
+  if (place.layer == &impl_->fixed) return Mobility::kStatic;
+  return impl_->solid(shape_index).anchored ? Mobility::kAnchored : Mobility::kMoving;
+}
+
+Placement Scene::placement(std::uint32_t shape_index) const {
+  const Solid& solid = impl_->solid(shape_index);
+  return {solid.type, {solid.position, Quat(solid.rotation)}, own_box(solid)};
+}
+
+Eigen::AlignedBox3d Scene::static_bounds() const {
+  Eigen::AlignedBox3d all;
+  for (const Solid& solid : impl_->fixed.bounded) all.extend(bounds_of(solid));
+  return all;
+}
+
+std::vector<std::pair<ShapeId, Eigen::AlignedBox3d>> Scene::anchored() const {
+  std::vector<std::pair<ShapeId, Eigen::AlignedBox3d>> all;
+  impl_->entries.each([&](ShapeId id, const Entry& entry) {
+    if (entry.mobility != Mobility::kAnchored || entry.type == Shape::Type::kEmpty) return;
+    all.emplace_back(id, bounds_of(impl_->solid(id.index)));
+  });
+  return all;
+}
 
 std::uint64_t Scene::revision() const { return impl_->revision; }
 std::uint64_t Scene::static_revision() const { return impl_->static_revision; }
+std::uint64_t Scene::anchored_revision() const { return impl_->anchored_revision; }
 
 }  // namespace angen::rays

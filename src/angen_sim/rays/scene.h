@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/id.h"
@@ -29,7 +30,20 @@ struct Hit {
   bool hit() const { return shape != UINT32_MAX; }
 };
 
-enum class Mobility { kStatic, kMoving };
+/// Anchored: moves, but only as its joints to the static world let it, as a door does.
+enum class Mobility { kStatic, kAnchored, kMoving };
+
+/// Which mobilities a cast meets.
+using Mobilities = unsigned;
+constexpr Mobilities only(Mobility mobility) { return 1U << static_cast<unsigned>(mobility); }
+constexpr Mobilities kAll = 7U;
+
+/// A shape's place, and its box in its own frame; a plane's is infinite along x and y.
+struct Placement {
+  Shape::Type type = Shape::Type::kEmpty;
+  Pose pose;
+  Eigen::AlignedBox3d box;
+};
 
 /// A shape whose surface has a temperature of its own; all others are as warm as the air.
 struct WarmShape {
@@ -61,19 +75,34 @@ class Scene {
   /// static shapes come before moving ones and then the lowest index wins. A ray that is not finite
   /// or has no direction meets nothing. Requires commit() since the last change. Casts may run in
   /// several threads at once.
-  void cast(const Ray* rays, Hit* hits, std::size_t count) const;
+  void cast(const Ray* rays, Hit* hits, std::size_t count, Mobilities among = kAll) const;
   void cast(const std::vector<Ray>& rays, std::vector<Hit>& hits) const;
 
   /// True when anything lies on the segment (both ends shortened by `margin` m).
-  bool blocked(const Vec3& from, const Vec3& to, double margin = 1e-4) const;
+  bool blocked(const Vec3& from, const Vec3& to, double margin = 1e-4,
+               Mobilities among = kAll) const;
+
+  /// The nearest hit on one shape alone.
+  Hit cast_at(std::uint32_t shape_index, const Ray& ray) const;
+  /// Whether a static solid other than `except` has the point inside; meshes and planes have none.
+  bool covered(const Vec3& point, std::uint32_t except) const;
 
   Eigen::Vector3f reflectance(std::uint32_t shape_index) const;
   /// In the order in which they were warmed, as of the last commit().
   const std::vector<WarmShape>& warm_shapes() const;
 
+  Mobility mobility(std::uint32_t shape_index) const;
+  Placement placement(std::uint32_t shape_index) const;
+
+  /// Around all static shapes but planes, world frame.
+  Eigen::AlignedBox3d static_bounds() const;
+  /// World boxes of the anchored shapes, by index.
+  std::vector<std::pair<ShapeId, Eigen::AlignedBox3d>> anchored() const;
+
   /// Counts commits that changed something: equal revisions mean equal answers.
   std::uint64_t revision() const;
   std::uint64_t static_revision() const;
+  std::uint64_t anchored_revision() const;
 
  private:
   struct Impl;

@@ -157,6 +157,36 @@ void Solid::place(const Pose& pose) {
   aligned = rotation == Eigen::Matrix3d::Identity();
 }
 
+Eigen::AlignedBox3d own_box(const Solid& solid) {
+  if (solid.type == Shape::Type::kMesh) {
+    return solid.mesh ? solid.mesh->bounds() : Eigen::AlignedBox3d{};
+  }
+  if (solid.type == Shape::Type::kPlane) {
+    return {Vec3(-kInfinity, -kInfinity, 0.0), Vec3(kInfinity, kInfinity, 0.0)};
+  }
+  Solid upright = solid;
+  upright.place({});
+  return bounds_of(upright);
+}
+
+bool contains(const Solid& solid, const Vec3& point) {
+  const Vec3 local = solid.rotation.transpose() * (point - solid.position);
+  const double above = std::max(0.0, std::abs(local.z()) - solid.half.z());
+  const double round2 = solid.radius * solid.radius;
+  switch (solid.type) {
+    case Shape::Type::kBox:
+      return (local.cwiseAbs().array() <= solid.half.array()).all();
+    case Shape::Type::kSphere:
+      return local.squaredNorm() <= round2;
+    case Shape::Type::kCylinder:
+      return above == 0.0 && local.head<2>().squaredNorm() <= round2;
+    case Shape::Type::kCapsule:
+      return local.head<2>().squaredNorm() + above * above <= round2;
+    default:
+      return false;
+  }
+}
+
 Eigen::AlignedBox3d bounds_of(const Solid& solid) {
   if (!solid.position.allFinite() || !solid.rotation.allFinite()) return {};
   if (solid.type == Shape::Type::kMesh) {

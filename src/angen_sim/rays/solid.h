@@ -18,6 +18,7 @@ struct Solid {
   double radius = 0.0;
   std::uint32_t slot = UINT32_MAX;
   bool aligned = true;  // rotation is exactly the identity
+  bool anchored = false;
   std::shared_ptr<const MeshTree> mesh;
 
   void place(const Pose& pose);
@@ -29,6 +30,12 @@ struct Meeting {
   double range = std::numeric_limits<double>::infinity();
   std::uint32_t feature = 0;
 };
+
+/// The solid's box in its own frame; empty when its sizes make no sense.
+Eigen::AlignedBox3d own_box(const Solid& solid);
+
+/// Whether a convex solid has the point inside; false for a mesh or a plane.
+bool contains(const Solid& solid, const Vec3& point);
 
 /// World box (m) around a solid; empty (min > max) when it cannot be met: bad sizes, bad pose.
 Eigen::AlignedBox3d bounds_of(const Solid& solid);

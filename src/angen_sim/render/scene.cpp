@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/slots.h"
+#include "render/reach.h"
 #include "render/shade.h"
 
 namespace angen::render {
@@ -74,10 +75,20 @@ void trace(const Lens& lens, const Pose& camera, RTCScene scene, Visit&& visit) 
       eye.aim(column, row, valid, rays);
       RTCIntersectContext context;
       rtcInitIntersectContext(&context);
+      context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
       rtcIntersect16(valid, scene, &context, &rays);
       visit(column, row, valid, rays);
     }
   }
+}
+
+/// Around what of the tile was met; empty where nothing was.
+Eigen::AlignedBox3f bounds_of(const Tile& tile) {
+  Eigen::AlignedBox3f box;
+  for (int i = 0; i < kLanes; ++i) {
+    if (tile.valid[i] != 0) box.extend(tile.point[i]);
+  }
+  return box;
 }
 
 void gather(const Stand& stand, const int* valid, const RTCRayHit16& rays,
@@ -111,6 +122,7 @@ void show(const Tile& tile, int i, std::uint8_t* pixel) {
 struct Scene::Impl {
   Slots<Entry, BodyTag> entries;
   Stand stand;
+  Reaches reaches;      // of lamps among the bodies that stand still
   bool new_set = true;  // bodies came or went
   bool moved = false;
 
@@ -127,7 +139,8 @@ struct Scene::Impl {
         entry.number = stand.add(std::move(patch), entry.body.pose, !entry.body.holds_lamp);
       }
     });
-    stand.add(std::make_unique<Patch>(still), Pose{}, true);
+    const std::uint32_t fixed = stand.add(std::make_unique<Patch>(still), Pose{}, true);
+    reaches.start(stand[fixed].patch->scene());
   }
 
   void prepare() {
@@ -172,11 +185,16 @@ std::vector<std::uint8_t> Scene::colors(const Lens& lens, const Pose& camera,
   const Stand& stand = impl_->stand;
   const Eigen::Vector3f ambient = kAmbientIlluminance * ambience.ambient;
   std::vector<std::uint8_t> pixels(3U * static_cast<std::size_t>(lens.width) * lens.height);
+  std::vector<Eigen::AlignedBox3f> reaches;
+  for (const light::Lit& lit : lamps) reaches.push_back(impl_->reaches.of(lit.lamp));
   Tile tile;
   trace(lens, camera, stand.seen(),
         [&](int column, int row, const int* valid, const RTCRayHit16& rays) {
           gather(stand, valid, rays, ambient, tile);
-          for (const light::Lit& lit : lamps) shine(lit, stand.opaque(), tile);
+          const Eigen::AlignedBox3f seen = bounds_of(tile);
+          for (std::size_t i = 0; i < lamps.size(); ++i) {
+            if (reaches[i].intersects(seen)) shine(lamps[i], stand.opaque(), tile);
+          }
           for (int i = 0; i < kLanes; ++i) {
             if (valid[i] == 0) continue;
             const std::size_t at =

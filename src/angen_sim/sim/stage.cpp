@@ -1,6 +1,8 @@
 #include "sim/stage.h"
 
 #include <algorithm>
+#include <set>
+#include <string>
 
 namespace angen::sim {
 
@@ -23,6 +25,18 @@ desc::Visual surface(const desc::Link& link, const desc::Collision& collision) {
                                  [&](const desc::Visual& v) { return v.name == collision.name; });
   if (same != link.visuals.end()) return *same;
   return link.visuals.empty() ? desc::Visual{} : link.visuals.front();
+}
+
+// A door is, and the leaf's handles; a robot is not.
+std::set<std::string> links_joined_to_world(const desc::Model& model) {
+  std::set<std::string> joined{"world"};
+  for (std::size_t before = 0; before != joined.size();) {
+    before = joined.size();
+    for (const desc::Joint& joint : model.joints) {
+      if (joined.count(joint.parent) != 0) joined.insert(joint.child);
+    }
+  }
+  return joined;
 }
 
 // Glass and the like, which lets more than half of the light through, is not seen.
@@ -54,10 +68,13 @@ Parts Stage::add(const desc::Model& model) {
   parts.body = physics.add(model);
   parts.links = physics.links(parts.body);
   parts.joints = physics.joints(parts.body);
-  const auto mobility = model.is_static ? rays::Mobility::kStatic : rays::Mobility::kMoving;
+  const auto anchored = links_joined_to_world(model);
   for (std::uint32_t i = 0; i < model.links.size(); ++i) {
     const desc::Link& link = model.links[i];
     const Pose pose = physics.link(parts.links[i]).pose;
+    const auto mobility = model.is_static             ? rays::Mobility::kStatic
+                          : anchored.count(link.name) ? rays::Mobility::kAnchored
+                                                      : rays::Mobility::kMoving;
     for (const desc::Collision& collision : link.collisions) {
       const desc::Visual looks = surface(link, collision);
       const rays::ShapeId shape = rays.add(collision.shape, pose * collision.pose, mobility,
@@ -98,6 +115,15 @@ Parts::Lamp Stage::add_light(const desc::Light& described, const Pose& pose) {
   if (described.type == desc::Light::Type::kDirectional) {
     lamp.type = light::Lamp::Type::kDirectional;
     lamp.luminous_flux = brightness * kDirectionalIlluminance;
+  }
+  if (described.type == desc::Light::Type::kRectangle) {
+    lamp.type = light::Lamp::Type::kRectangle;
+    lamp.width = described.width;
+    lamp.height = described.height;
+  }
+  if (described.type == desc::Light::Type::kDisc) {
+    lamp.type = light::Lamp::Type::kDisc;
+    lamp.radius = described.radius;
   }
   Parts::Lamp part;
   part.level = given > 0.0 ? 1.0 : 0.0;

@@ -222,35 +222,30 @@ TEST(Lighting, ColouredLampKeepsItsLux) {
   EXPECT_EQ(warm.color.z(), 0.0F);
 }
 
-/// Two rooms side by side with a doorway in the wall at x = 4 between them, and its door.
-struct TwoRooms {
-  TwoRooms() {
-    add_room(scene, Vec3(0, 0, 0), Vec3(8.1, 4, 2.6), gray(0.7F));
-    add_box(scene, Vec3(4.05, 0.75, 1.3), Vec3(0.1, 1.5, 2.6), gray(0.7F));
-    add_box(scene, Vec3(4.05, 3.2, 1.3), Vec3(0.1, 1.6, 2.6), gray(0.7F));
-    add_box(scene, Vec3(4.05, 1.95, 2.3), Vec3(0.1, 0.9, 0.6), gray(0.7F));
-    // As real doors do, it leaves gaps: 5 mm at the sides, 10 mm at the floor.
-    door = add_box(scene, Vec3(4.05, 1.95, 1.005), Vec3(0.04, 0.89, 1.99), gray(0.5F),
-                   rays::Mobility::kMoving);
-    scene.commit();
-    lighting.add(point_lamp(Vec3(2, 2, 2.2), 800.0), 1.0);
-  }
-  void open() {
-    // Turned by a quarter about its hinge, into the dark room.
-    scene.move(door, {Vec3(4.5, 1.5, 1.005), from_rpy(0, 0, M_PI / 2)});
-    scene.commit();
-  }
-  rays::Scene scene;
-  Lighting lighting{scene};
-  rays::ShapeId door;
-  Pose lit_sensor = facing(Vec3(0.05, 1.0, 2.0), Vec3::UnitX());
-  Pose dark_sensor = facing(Vec3(8.05, 1.0, 2.0), -Vec3::UnitX());
-};
-
 TEST(Lighting, ShutDoorKeepsTheNextRoomDark) {
   const TwoRooms rooms;
   EXPECT_GT(lux(rooms.lighting, rooms.lit_sensor), 20.0);
   EXPECT_LT(lux(rooms.lighting, rooms.dark_sensor), 0.01 * lux(rooms.lighting, rooms.lit_sensor));
+}
+
+TEST(Lighting, ADoorsWayLeavesNoTrace) {
+  TwoRooms moved, stood;
+  const Pose side = facing(Vec3(4.2, 3.5, 1.5), Vec3::UnitX());
+  lux(moved.lighting, moved.dark_sensor);
+  moved.open();
+  stood.open();
+  expect_same_bits(measure(moved.lighting, side), measure(stood.lighting, side));
+  moved.shut();
+  const TwoRooms fresh;
+  expect_same_bits(measure(moved.lighting, side), measure(fresh.lighting, side));
+}
+
+TEST(Lighting, WhatWasMeasuredBeforeLeavesNoTrace) {
+  const TwoRooms asked, fresh;
+  lux(asked.lighting, asked.lit_sensor);
+  lux(asked.lighting, facing(Vec3(6, 3, 0.05), Vec3::UnitZ()));
+  expect_same_bits(measure(asked.lighting, asked.dark_sensor),
+                   measure(fresh.lighting, fresh.dark_sensor));
 }
 
 TEST(Lighting, OpenDoorLightsTheNextRoom) {

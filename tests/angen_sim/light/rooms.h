@@ -57,4 +57,34 @@ inline double lux(const Lighting& lighting, const Pose& pose) {
   return measure(lighting, pose).illuminance;
 }
 
+/// Two rooms side by side with a doorway in the wall at x = 4 between them, and its door.
+struct TwoRooms {
+  TwoRooms() {
+    add_room(scene, Vec3(0, 0, 0), Vec3(8.1, 4, 2.6), gray(0.7F));
+    add_box(scene, Vec3(4.05, 0.75, 1.3), Vec3(0.1, 1.5, 2.6), gray(0.7F));
+    add_box(scene, Vec3(4.05, 3.2, 1.3), Vec3(0.1, 1.6, 2.6), gray(0.7F));
+    add_box(scene, Vec3(4.05, 1.95, 2.3), Vec3(0.1, 0.9, 0.6), gray(0.7F));
+    // As real doors do, it leaves gaps: 5 mm at the sides, 10 mm at the floor.
+    door = add_box(scene, Vec3(4.05, 1.95, 1.005), Vec3(0.04, 0.89, 1.99), gray(0.5F),
+                   rays::Mobility::kAnchored);
+    scene.commit();
+    lighting.add(lamp, 1.0);
+  }
+  void open() {
+    // Turned by a quarter about its hinge, into the dark room.
+    scene.move(door, {Vec3(4.5, 1.5, 1.005), from_rpy(0, 0, M_PI / 2)});
+    scene.commit();
+  }
+  void shut() {
+    scene.move(door, {Vec3(4.05, 1.95, 1.005), Quat::Identity()});
+    scene.commit();
+  }
+  Lamp lamp = point_lamp(Vec3(2, 2, 2.2), 800.0);
+  rays::Scene scene;
+  Lighting lighting{scene};
+  rays::ShapeId door;
+  Pose lit_sensor = facing(Vec3(0.05, 1.0, 2.0), Vec3::UnitX());
+  Pose dark_sensor = facing(Vec3(8.05, 1.0, 2.0), -Vec3::UnitX());
+};
+
 }  // namespace angen::light::testing

@@ -84,6 +84,18 @@ TEST(World, ReadsLights) {
   EXPECT_DOUBLE_EQ(w.lights[1].range, 7.0);
 }
 
+TEST(World, ReadsLightsWithAnArea) {
+  const desc::World w = read(in_world(
+      "<light name='panel' type='point'><angen:rectangle>1.2 0.6</angen:rectangle></light>"
+      "<light name='spot' type='spot'><angen:disc>0.3</angen:disc></light>"));
+  ASSERT_EQ(w.lights.size(), 2U);
+  EXPECT_EQ(w.lights[0].type, desc::Light::Type::kRectangle);
+  EXPECT_DOUBLE_EQ(w.lights[0].width, 1.2);
+  EXPECT_DOUBLE_EQ(w.lights[0].height, 0.6);
+  EXPECT_EQ(w.lights[1].type, desc::Light::Type::kDisc);
+  EXPECT_DOUBLE_EQ(w.lights[1].radius, 0.3);
+}
+
 TEST(World, PluginKeepsItsChildrenWithLines) {
   const desc::World w =
       read(in_world("\n<plugin name='p' filename='libp.so'>\n<a>1 2</a>\n"

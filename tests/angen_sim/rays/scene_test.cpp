@@ -333,6 +333,65 @@ TEST(Scene, ManyScenesInOneProcess) {
   }
 }
 
+TEST(Scene, ACastMeetsOnlyTheMobilitiesItAsksFor) {
+  Scene scene;
+  add(scene, box(1, 1, 1), at(6, 0, 0));
+  const ShapeId door = add(scene, box(1, 1, 1), at(4, 0, 0), Mobility::kAnchored);
+  const ShapeId person = add(scene, box(1, 1, 1), at(2, 0, 0), Mobility::kMoving);
+  scene.commit();
+  const Ray ahead = ray(Vec3(0, 0, 0), Vec3::UnitX());
+  const auto range = [&](Mobilities among) {
+    Hit hit;
+    scene.cast(&ahead, &hit, 1, among);
+    EXPECT_EQ(scene.blocked(Vec3(0, 0, 0), Vec3(5.9, 0, 0), 1e-4, among), hit.range < 5.9);
+    return hit.range;
+  };
+  EXPECT_EQ(range(kAll), 1.5);
+  EXPECT_EQ(range(only(Mobility::kStatic) | only(Mobility::kAnchored)), 3.5);
+  EXPECT_EQ(range(only(Mobility::kStatic)), 5.5);
+  EXPECT_EQ(range(only(Mobility::kMoving)), 1.5);
+  EXPECT_EQ(scene.mobility(door.index), Mobility::kAnchored);
+  EXPECT_EQ(scene.mobility(person.index), Mobility::kMoving);
+  EXPECT_EQ(scene.cast_at(door.index, ahead).range, 3.5);
+}
+
+TEST(Scene, AnchoredShapesHaveARevisionOfTheirOwn) {
+  Scene scene;
+  const ShapeId door = add(scene, box(1, 1, 1), at(4, 0, 0), Mobility::kAnchored);
+  const ShapeId person = add(scene, box(1, 1, 1), at(2, 0, 0), Mobility::kMoving);
+  scene.commit();
+  const std::uint64_t before = scene.anchored_revision();
+  scene.move(person, at(1, 0, 0));
+  scene.commit();
+  EXPECT_EQ(scene.anchored_revision(), before);
+  scene.move(door, at(5, 0, 0));
+  scene.commit();
+  EXPECT_NE(scene.anchored_revision(), before);
+  ASSERT_EQ(scene.anchored().size(), 1U);
+  EXPECT_EQ(scene.anchored()[0].second.min().x(), 4.5);
+}
+
+TEST(Scene, CoveredIsWithinAStaticSolidButNotTheOneLeftOut) {
+  Scene scene;
+  const ShapeId crate = add(scene, box(1, 1, 1));
+  add(scene, round(Shape::Type::kSphere, 0.5), at(3, 0, 0));
+  add(scene, round(Shape::Type::kCylinder, 0.5, 2.0), at(6, 0, 0));
+  add(scene, round(Shape::Type::kCapsule, 0.5, 2.0), at(9, 0, 0));
+  add(scene, box(1, 1, 1), at(12, 0, 0), Mobility::kMoving);
+  scene.commit();
+  const auto covered = [&](double x, double z) { return scene.covered(Vec3(x, 0, z), UINT32_MAX); };
+  EXPECT_TRUE(covered(0.49, 0.49));
+  EXPECT_FALSE(covered(0.51, 0.0));
+  EXPECT_FALSE(scene.covered(Vec3(0.2, 0, 0), crate.index));
+  EXPECT_TRUE(covered(3.3, 0.3));
+  EXPECT_FALSE(covered(3.4, 0.4));
+  EXPECT_TRUE(covered(6.4, 0.9));
+  EXPECT_FALSE(covered(6.4, 1.1));
+  EXPECT_TRUE(covered(9.0, 1.4));
+  EXPECT_FALSE(covered(9.4, 1.4));
+  EXPECT_FALSE(covered(12.0, 0.0));
+}
+
 std::ptrdiff_t threads_of_process() {
   const std::filesystem::directory_iterator tasks("/proc/self/task");
   return std::distance(begin(tasks), end(tasks));

@@ -113,6 +113,13 @@ def run_check(args: argparse.Namespace) -> int:
     return 1 if wrong else 0
 
 
+def run_luxcheck(_: argparse.Namespace) -> int:
+    from . import luxcheck
+    table, right = luxcheck.check()
+    print(table)
+    return 0 if right else 1
+
+
 def run_completion(args: argparse.Namespace) -> int:
     import argcomplete
     print(argcomplete.shellcode(['angen'], shell=args.shell))
@@ -243,6 +250,8 @@ def make_parser() -> argparse.ArgumentParser:
                     'says what is wrong with a world file; needs no simulator',
                     'check worlds/angen.world')
     check.add_argument('world', metavar='WORLD')
+    command(commands, 'luxcheck', run_luxcheck,
+            'compares the simulated light with closed forms; needs no simulator', 'luxcheck')
     robot_words.add_map(commands, command, checked)
     robot_words.add_drive(commands, command, names_of('drive'))
     task_words.add_task(commands, command, checked)

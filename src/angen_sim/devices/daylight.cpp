@@ -1,0 +1,79 @@
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/names.h"
+#include "devices/words.h"
+#include "plugin/register.h"
+
+namespace angen::devices {
+
+constexpr double kBrightest = 100'000.0;  // lx outdoors, a clear summer noon; level 1 of its light
+
+/// Daylight through a window: the model's light is a pane that scatters evenly into the room what
+/// falls on it from an overcast sky.
+class Daylight : public Device {
+ public:
+  void configure(Params& params, Wiring& wiring) override {
+    const double area = params.number("area", 1.0, "m^2", "of the glass", kPositive);
+    const double passes = params.number(
+        "transmittance", 0.7, "", "share of the light that the glass lets through", {0.0, 1.0});
+    const double share =
+        params.number("sky_share", 0.5, "",
+                      "illuminance on the pane outside over that on open ground: half of "
+                      "an even sky stands before an upright pane",
+                      {0.0, 1.0});
+    outdoors_ = params.number("illuminance", 0.0, "lx", "outdoors on open ground, at the start",
+                              {0.0, kBrightest});
+    params.text("device_name", "", "the name commands use, instead of the model's and its floor");
+    flux_per_lux_ = area * passes * share;
+    light_ = wiring.light("");
+  }
+
+  Verdict command(const Command& command, const View&) override {
+    const std::vector<std::string> words = words_of(command.text);
+    if (words.size() != 2 || words[0] != "set") {
+      return Verdict::reject("daylight knows Set <lx outdoors>, not '" + command.text + "'");
+    }
+    const std::optional<double> lux = number_of(words[1]);
+    if (!lux || *lux < 0.0 || *lux > kBrightest) {
+      return Verdict::reject("'" + words[1] + "' is no daylight; Set takes 0 to 100000 lx");
+    }
+    return Verdict::accept([this, outdoors = *lux] { outdoors_ = outdoors; });
+  }
+
+  void update(const View&, Outputs& outputs) override {
+    if (given_ == outdoors_) return;
+    const bool first = given_ < 0.0;
+    given_ = outdoors_;
+    outputs.light(light_, outdoors_ / kBrightest, kBrightest * flux_per_lux_);
+    if (!first) outputs.event("changed", "");
+  }
+
+  void report(const View&, Reading& state) const override {
+    state.set("illuminance", outdoors_);
+    state.set("luminous_flux", flux_per_lux_ * outdoors_);
+  }
+
+ private:
+  LightRef light_;
+  double flux_per_lux_ = 0.0;  // lm into the room for each lx outdoors
+  double outdoors_ = 0.0;      // lx
+  double given_ = -1.0;        // lx that the world was given last
+};
+
+class DaylightPlugin : public Plugin {
+ public:
+  std::string kind() const override { return "daylight"; }
+  std::string doc() const override { return "Daylight through a window: Set <lx outdoors>."; }
+  bool serves(const ModelInfo& model) const override { return !model.lights.empty(); }
+  std::string instance_name(const ModelInfo& model) const override {
+    return command_name(model.name, "window", model.pose.position.z());
+  }
+  std::unique_ptr<Device> make_device() const override { return std::make_unique<Daylight>(); }
+};
+
+}  // namespace angen::devices
+
+ANGEN_REGISTER_PLUGIN(angen::devices::DaylightPlugin)

@@ -1,0 +1,304 @@
+#include "light/gather.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "light/beam.h"
+#include "light/directions.h"
+
+namespace angen::light {
+namespace {
+
+constexpr std::size_t kDirections = 2048;
+constexpr std::size_t kLooks = 1024;  // from all points of movers, about
+constexpr double kGrazing = 0.15;     // cosine: areas seen at less are not trusted
+constexpr std::size_t kStride = 797;  // odd: every direction is taken once
+constexpr std::uint32_t kNoMover = UINT32_MAX;
+constexpr double kMargin = 1e-4;  // m, a surface does not meet its own rays
+constexpr rays::Mobilities kMovable = rays::kAll & ~rays::only(rays::Mobility::kStatic);
+constexpr std::size_t kViewPoints = 16;  // of a flat lamp
+
+const double kViewTangent = std::tan(M_PI / 6);            // half of 60 degrees
+const double kViewArea = 4 * kViewTangent * kViewTangent;  // on the plane 1 m ahead
+const Rgb kLuminance = {0.2126F, 0.7152F, 0.0722F, 0.0F};  // Rec. 709
+
+/// Where the view's square image sees a direction of the probe's own frame (x ahead).
+bool in_view(const Vec3& local) {
+  const double edge = local.x() * kViewTangent;
+  return local.x() > 0 && std::abs(local.y()) <= edge && std::abs(local.z()) <= edge;
+}
+
+/// In the probe's frame: about x instead of z.
+const std::vector<Vec3>& directions() {
+  static const std::vector<Vec3> all = [] {
+    std::vector<Vec3> turned;
+    for (const Vec3& d : cosine_directions(kDirections)) turned.emplace_back(d.z(), d.x(), d.y());
+    return turned;
+  }();
+  return all;
+}
+
+/// By direction: cosine-weighted directions as an image plane weighs them, all its points alike.
+const std::vector<float>& view_weights() {
+  static const std::vector<float> weights = [] {
+    std::vector<double> all;
+    double sum = 0.0;
+    for (const Vec3& local : directions()) {
+      all.push_back(in_view(local) ? 1.0 / std::pow(local.x(), 4) : 0.0);
+      sum += all.back();
+    }
+    std::vector<float> shares;
+    for (const double weight : all) shares.push_back(static_cast<float>(weight / sum));
+    return shares;
+  }();
+  return weights;
+}
+
+}  // namespace
+
+Gather::Gather(const rays::Scene& scene, Field& field, const Pose& pose)
+    : scene_(scene), field_(field), pose_(pose), static_revision_(scene.static_revision()) {
+  const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
+  for (const Vec3& local : directions()) {
+    rays_.push_back({pose.position, (rotation * local).normalized(), kMargin});
+  }
+  std::vector<rays::Hit> hits(kDirections);
+  scene_.cast(rays_.data(), hits.data(), kDirections, rays::only(rays::Mobility::kStatic));
+  for (std::size_t i = 0; i < kDirections; ++i) {
+    surfaces_.push_back(surface(rays_[i], hits[i]));
+    if (!hits[i].hit()) continue;
+    Surface& seen = surfaces_.back();
+    seen.patch = field_.patch_at(hits[i].shape, seen.position, seen.normal);
+  }
+  for (std::size_t i = 0; i < kDirections; ++i) {
+    rays::Hit hit;
+    const rays::Ray ray = next(i);
+    if (surfaces_[i].patch != kNoPatch) {
+      scene_.cast(&ray, &hit, 1, rays::only(rays::Mobility::kStatic));
+    }
+    next_ranges_.push_back(static_cast<float>(hit.range));
+  }
+}
+
+/// One way that light may come to the surface in direction i: all of them together fill each
+/// surface's hemisphere.
+rays::Ray Gather::next(std::size_t i) const {
+  const Vec3& about_x = directions()[(i * kStride) % kDirections];
+  const Vec3 way = frame_about(surfaces_[i].normal) * Vec3(about_x.y(), about_x.z(), about_x.x());
+  return {surfaces_[i].position, way.normalized(), kMargin};
+}
+
+Gather::Surface Gather::surface(const rays::Ray& ray, const rays::Hit& hit) const {
+  Surface out;
+  out.range = hit.range;
+  out.albedo = Rgb::Zero();
+  if (!hit.hit()) return out;
+  out.position = ray.origin + hit.range * ray.direction;
+  out.normal = hit.normal.cast<double>().normalized();
+  out.albedo = field_.albedo(hit.shape);
+  return out;
+}
+
+void Gather::forget(const std::function<bool(LampId)>& gone) {
+  for (auto it = received_.begin(); it != received_.end();) {
+    it = gone(it->first) ? received_.erase(it) : std::next(it);
+  }
+}
+
+void Gather::look() {
+  movers_.clear();
+  std::vector<rays::Ray> rays = rays_;
+  std::vector<rays::Hit> hits(kDirections);
+  for (std::size_t i = 0; i < kDirections; ++i) rays[i].max = surfaces_[i].range;
+  scene_.cast(rays.data(), hits.data(), kDirections, kMovable);
+  before_.assign(kDirections, kNoMover);
+  for (std::size_t i = 0; i < kDirections; ++i) {
+    if (!hits[i].hit()) continue;
+    before_[i] = static_cast<std::uint32_t>(movers_.size());
+    movers_.push_back(
+        {surface(rays[i], hits[i]), scene_.mobility(hits[i].shape) == rays::Mobility::kAnchored});
+    Surface& seen = movers_.back().surface;
+    if (!movers_.back().anchored) continue;
+    seen.patch = field_.patch_at(hits[i].shape, seen.position, seen.normal);
+  }
+  look_next();
+  look_around();
+  weigh();
+}
+
+void Gather::look_next() {
+  between_.assign(kDirections, Rgb::Constant(-1.0F));
+  for (std::size_t i = 0; i < kDirections; ++i) {
+    if (surfaces_[i].patch == kNoPatch) continue;
+    rays::Ray ray = next(i);
+    ray.max = next_ranges_[i];
+    rays::Hit hit;
+    scene_.cast(&ray, &hit, 1, rays::only(rays::Mobility::kMoving));
+    if (hit.hit()) between_[i] = field_.albedo(hit.shape);
+  }
+}
+
+/// Points of free movers look for the light they reflect: the more points, the fewer ways each.
+void Gather::look_around() {
+  around_.clear();
+  const auto free = static_cast<std::size_t>(std::count_if(
+      movers_.begin(), movers_.end(), [](const Mover& mover) { return !mover.anchored; }));
+  ways_ = free <= kLooks / 4 ? 4 : free <= kLooks / 2 ? 2 : 1;
+  unsigned count = 0;
+  for (Mover& mover : movers_) {
+    if (mover.anchored) continue;
+    mover.around = static_cast<std::uint32_t>(around_.size());
+    const Eigen::Matrix3d frame = frame_about(mover.surface.normal);
+    for (std::size_t k = 0; k < ways_; ++k, ++count) {
+      const double u = radical_inverse(count);
+      const double v = square_points()[count % kLampPoints].second;
+      const rays::Ray ray{mover.surface.position, (frame * cosine_direction(u, v)).normalized(),
+                          kMargin};
+      rays::Hit hit;
+      scene_.cast(&ray, &hit, 1, kStanding);
+      Surface& seen = around_.emplace_back(surface(ray, hit));
+      if (hit.hit()) seen.patch = field_.patch_at(hit.shape, seen.position, seen.normal);
+    }
+  }
+}
+
+/// As in an integrating sphere: free movers take their share of the light that goes to and fro, by
+/// what they and the room absorb. Areas are those seen from here; a body has another half. The two
+/// last surfaces on the light's way are looked at one by one, so only what was reflected before
+/// counts: of each bounce's light the mean albedo's share.
+void Gather::weigh() {
+  double room = 0.0, movers = 0.0, albedos = 0.0;
+  for (std::size_t i = 0; i < kDirections; ++i) {
+    const bool mover = before_[i] != kNoMover;
+    const Surface& seen = mover ? movers_[before_[i]].surface : surfaces_[i];
+    albedos += surfaces_[i].albedo.head<3>().mean() / static_cast<double>(kDirections);
+    if (!std::isfinite(seen.range)) continue;
+    const double leaving = std::max(kGrazing, directions()[i].x());
+    const double arriving = std::max(kGrazing, -seen.normal.dot(rays_[i].direction));
+    const double area = seen.range * seen.range / (leaving * arriving);
+    const double absorbed = area * (1.0 - seen.albedo.head<3>().mean());
+    if (mover && !movers_[before_[i]].anchored) {
+      movers += 2.0 * absorbed;
+    } else {
+      room += absorbed;
+    }
+  }
+  const double kept = movers > 0.0 ? room / (room + movers) : 1.0;
+  left_ = static_cast<float>(1.0 - albedos * (1.0 - kept));
+}
+
+bool Gather::shaded(const Lamp& lamp, const Surface& surface, std::size_t i) const {
+  return !sees_one(scene_, lamp, surface.position, i, kMovable);
+}
+
+Gather::Direct Gather::direct(const Lamp& lamp) const {
+  const Vec3 normal = pose_.rotation * Vec3::UnitX();
+  const double free = illuminance(lamp, pose_.position, normal);
+  if (free <= 0.0) return {};
+  const double share = visible_share(scene_, lamp, pose_.position, normal, rays::kAll);
+  Direct out;
+  out.illuminance = free * share;
+  if (lamp.type == Lamp::Type::kDirectional) return out;
+  // The lamp covers (1 / x^3) of its solid angle on the image plane: what it sends is the same
+  // whatever its size.
+  const std::size_t points = lamp.flat() ? kViewPoints : 1;
+  for (std::size_t i = 0; i < points; ++i) {
+    Lamp part = lamp;
+    if (lamp.flat()) part.pose.position = lamp_point(lamp, i);
+    part.radius = lamp.flat() ? 0.0 : lamp.radius;
+    const Beam from = beam(part, pose_.position);
+    const Vec3 local = pose_.rotation.conjugate() * from.towards;
+    if (!in_view(local)) continue;
+    out.radiance += share * from.illuminance / static_cast<double>(points) /
+                    (std::pow(local.x(), 3) * kViewArea);
+  }
+  return out;
+}
+
+const Gather::Received& Gather::received(LampId id, const Lamp& lamp, const Solution& solution) {
+  Received& from = received_[id];
+  if (from.stamp == solution.stamp) return from;
+  from.stamp = solution.stamp;
+  from.direct.assign(kDirections, 0.0F);
+  from.reflected.assign(kDirections, Rgb::Zero());
+  bool any = false;
+  for (std::size_t i = 0; i < kDirections; ++i) {
+    const Surface& seen = surfaces_[i];
+    if ((seen.albedo == 0.0F).all()) continue;
+    if (!solution.bounds.contains(seen.position)) continue;
+    const double lux = illuminance(lamp, seen.position, seen.normal);
+    if (lux > 0.0 &&
+        sees_one(scene_, lamp, seen.position, i, rays::only(rays::Mobility::kStatic))) {
+      from.direct[i] = static_cast<float>(lux);
+    }
+    from.reflected[i] = field_.reflected(solution, seen.patch);
+    any = any || from.direct[i] > 0.0F || (from.reflected[i] > 0.0F).any();
+  }
+  if (!any) {
+    from.direct.clear();
+    from.reflected.clear();
+  }
+  return from;
+}
+
+Rgb Gather::on_mover(const Mover& mover, const Lamp& lamp, const Solution& solution,
+                     std::size_t i) const {
+  const Surface& seen = mover.surface;
+  const double lux = illuminance(lamp, seen.position, seen.normal);
+  Rgb direct = Rgb::Zero(), reflected = Rgb::Zero();
+  if (lux > 0.0 && sees_one(scene_, lamp, seen.position, i, rays::kAll)) {
+    direct += static_cast<float>(lux);
+  }
+  if (mover.anchored) return direct + left_ * field_.reflected(solution, seen.patch);
+  for (std::size_t k = mover.around; k < mover.around + ways_; ++k) {
+    const Surface& from = around_[k];
+    if (from.patch == kNoPatch) continue;
+    const float first = field_.direct(solution, from.patch);
+    if (first > 0.0F && !shaded(lamp, from, i + k)) reflected += from.albedo * first;
+    reflected += left_ * from.albedo * field_.reflected(solution, from.patch);
+  }
+  return direct + reflected / static_cast<float>(ways_);
+}
+
+Transport Gather::transport(LampId id, const Lamp& lamp, const Solution& solution) {
+  const Received& from = received(id, lamp, solution);
+  const auto count = static_cast<float>(kDirections);
+  std::vector<Rgb> on_movers;  // lx
+  Rgb mean = Rgb::Zero();      // of those
+  for (std::size_t i = 0; i < kDirections; ++i) {
+    if (before_[i] == kNoMover) continue;
+    on_movers.push_back(on_mover(movers_[before_[i]], lamp, solution, i));
+    mean += on_movers.back();
+  }
+  if (!on_movers.empty()) mean /= static_cast<float>(on_movers.size());
+  for (std::size_t i = 0; on_movers.empty() && i < from.direct.size(); ++i) {
+    mean += (from.direct[i] + from.reflected[i]) / count;
+  }
+  Rgb hemisphere = Rgb::Zero(), view = Rgb::Zero();
+  const std::vector<float>& weights = view_weights();
+  for (std::size_t i = 0; i < kDirections; ++i) {
+    Rgb leaving = Rgb::Zero();
+    if (before_[i] != kNoMover) {
+      leaving = movers_[before_[i]].surface.albedo * on_movers[before_[i]];
+    } else if (!from.direct.empty()) {
+      const bool dark = from.direct[i] == 0.0F || shaded(lamp, surfaces_[i], i);
+      const Rgb reflected =
+          between_[i].x() < 0.0F ? Rgb(left_ * from.reflected[i]) : Rgb(between_[i] * mean);
+      leaving = surfaces_[i].albedo * ((dark ? 0.0F : from.direct[i]) + reflected);
+    }
+    hemisphere += leaving / count;
+    view += leaving * weights[i];
+  }
+  const Direct own = direct(lamp);
+  Rgb color = Rgb::Zero();
+  color.head<3>() = lamp.color.array();
+  Transport out;
+  out.lamp = id;
+  out.illuminance = own.illuminance + (kLuminance * color * hemisphere).sum();
+  const Rgb radiance = color * (static_cast<float>(own.radiance) + view / static_cast<float>(M_PI));
+  out.radiance = radiance.head<3>().matrix();
+  return out;
+}
+
+}  // namespace angen::light

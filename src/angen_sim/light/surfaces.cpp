@@ -1,0 +1,202 @@
+#include "light/surfaces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace angen::light {
+namespace {
+
+constexpr double kCell = 0.4;       // m
+constexpr double kPlaneCell = 1.0;  // m: planes go on for ever
+constexpr int kFine = 4;            // parts of a cell's side where a wall stands across it
+constexpr int kSitesPerSide = 4;    // of a cell
+constexpr int kFineSitesPerSide = 2;
+constexpr double kLift = 0.01;  // m: how far off a surface its sites must see each other
+constexpr double kOff = 1e-3;   // m: what is nearer than this covers a surface
+constexpr std::uint32_t kDivided = kNoPatch - 1;
+
+bool rounded(Shape::Type type) {
+  return type == Shape::Type::kSphere || type == Shape::Type::kCylinder ||
+         type == Shape::Type::kCapsule;
+}
+
+int dominant(const Vec3& v) {
+  int axis = 0;
+  v.cwiseAbs().maxCoeff(&axis);
+  return axis;
+}
+
+}  // namespace
+
+std::size_t Surfaces::HashKey::operator()(const Key& key) const {
+  std::uint64_t hash = 0x9e3779b97f4a7c15ULL;
+  for (const std::int32_t part : key) {
+    hash = (hash ^ static_cast<std::uint32_t>(part)) * 0xff51afd7ed558ccdULL;
+    hash ^= hash >> 32;
+  }
+  return hash;
+}
+
+Surfaces::Lattice Surfaces::lattice(std::uint32_t shape, int face) const {
+  Lattice out;
+  out.placement = scene_.placement(shape);
+  out.axis = face / 2;
+  out.sign = face % 2 == 0 ? 1.0 : -1.0;
+  const Eigen::AlignedBox3d& box = out.placement.box;
+  for (int side = 0; side < 2; ++side) {
+    const int axis = (out.axis + 1 + side) % 3;
+    const double size = box.max()[axis] - box.min()[axis];
+    const bool endless = !std::isfinite(size);
+    out.low[side] = endless ? 0.0 : box.min()[axis];
+    out.step[side] = endless ? kPlaneCell : size / std::max(1.0, std::ceil(size / kCell - 1e-9));
+  }
+  return out;
+}
+
+std::uint32_t Surfaces::at(std::uint32_t shape, const Vec3& point, const Vec3& normal) {
+  const rays::Placement placement = scene_.placement(shape);
+  const Eigen::Matrix3d back = placement.pose.rotation.toRotationMatrix().transpose();
+  const Vec3 local = back * (point - placement.pose.position);
+  const Vec3 outward = back * normal;
+  const int axis = dominant(outward);
+  const int face = 2 * axis + (outward[axis] > 0.0 ? 0 : 1);
+  const Lattice cells = lattice(shape, face);
+  // Which of the sheets that lie one behind the other along the axis.
+  int depth = 0;
+  if (placement.type == Shape::Type::kBox) depth = local[axis] > 0.0 ? 1 : 0;
+  if (rounded(placement.type)) depth = local.dot(outward) > 0.0 ? 1 : 0;
+  if (placement.type == Shape::Type::kMesh) {
+    depth = static_cast<int>(std::floor((local[axis] - placement.box.min()[axis]) / kCell));
+  }
+  const Eigen::Array2d in_plane(local[(axis + 1) % 3], local[(axis + 2) % 3]);
+  const Eigen::Array2d cell = (in_plane - cells.low) / cells.step;
+  const Eigen::Array2d whole = cell.floor().max(-1e6).min(1e6);
+  Key key{static_cast<std::int32_t>(shape), face, depth, static_cast<int>(whole.x()),
+          static_cast<int>(whole.y()),      0};
+  std::uint32_t patch = make(key);
+  if (patch != kDivided) return patch;
+  const Eigen::Array2d part =
+      ((cell - whole) * static_cast<double>(kFine)).floor().max(0.0).min(kFine - 1.0);
+  key[3] = key[3] * kFine + static_cast<int>(part.x());
+  key[4] = key[4] * kFine + static_cast<int>(part.y());
+  key[5] = 1;
+  return make(key);
+}
+
+std::uint32_t Surfaces::make(const Key& key) {
+  const auto [found, fresh] = known_.try_emplace(key, kNoPatch);
+  if (!fresh) return found->second;
+  keys_[static_cast<std::uint32_t>(key[0])].push_back(key);
+  const bool fine = key[5] == 1;
+  Patch patch{key, HashKey{}(key), sites(key, fine ? kFineSitesPerSide : kSitesPerSide)};
+  if (!fine && (patch.sites.empty() || divided(patch.sites))) return found->second = kDivided;
+  if (patch.sites.empty()) return kNoPatch;
+  if (free_.empty()) {
+    found->second = static_cast<std::uint32_t>(patches_.size());
+    patches_.push_back(std::move(patch));
+  } else {
+    found->second = free_.back();
+    free_.pop_back();
+    patches_[found->second] = std::move(patch);
+  }
+  return found->second;
+}
+
+std::vector<Site> Surfaces::sites(const Key& key, int per_side) const {
+  const Lattice cells = lattice(static_cast<std::uint32_t>(key[0]), key[1]);
+  const double scale = key[5] == 1 ? 1.0 / kFine : 1.0;
+  std::vector<Site> all;
+  Site found;
+  for (int i = 0; i < per_side * per_side; ++i) {
+    const double u = (key[3] + (i % per_side + 0.5) / per_side) * scale;
+    const double v = (key[4] + (i / per_side + 0.5) / per_side) * scale;
+    if (site(cells, key, cells.low.x() + u * cells.step.x(), cells.low.y() + v * cells.step.y(),
+             found)) {
+      all.push_back(found);
+    }
+  }
+  return all;
+}
+
+/// Looks at the shape alone, straight along the face's axis.
+bool Surfaces::site(const Lattice& cells, const Key& key, double u, double v, Site& out) const {
+  const rays::Placement& placement = cells.placement;
+  const int axis = cells.axis;
+  const Eigen::AlignedBox3d& box = placement.box;
+  const bool far_side = placement.type == Shape::Type::kBox ? key[2] == 1 : cells.sign > 0.0;
+  double start = (far_side ? box.max()[axis] : box.min()[axis]) + cells.sign * kOff;
+  double reach = box.max()[axis] - box.min()[axis] + 2 * kOff;
+  if (rounded(placement.type) && key[2] == 0) start = (box.max()[axis] + box.min()[axis]) / 2;
+  if (placement.type == Shape::Type::kMesh) {
+    start = box.min()[axis] + kCell * (key[2] + (cells.sign > 0.0 ? 1 : 0));
+    reach = kCell;
+  }
+  Vec3 from;
+  from[axis] = start;
+  from[(axis + 1) % 3] = u;
+  from[(axis + 2) % 3] = v;
+  const Vec3 way = -cells.sign * Vec3::Unit(axis);
+  rays::Ray ray;
+  ray.origin = placement.pose * from;
+  ray.direction = placement.pose.rotation * way;
+  ray.max = reach;
+  const auto shape = static_cast<std::uint32_t>(key[0]);
+  const rays::Hit hit = scene_.cast_at(shape, ray);
+  if (!hit.hit()) return false;
+  out.position = ray.origin + hit.range * ray.direction;
+  out.normal = hit.normal.cast<double>().normalized();
+  const Vec3 local = placement.pose.rotation.conjugate() * out.normal;
+  return dominant(local) == axis && !scene_.covered(out.position + kOff * out.normal, shape);
+}
+
+/// Whether the sites fall into groups that do not see each other, along the surface.
+bool Surfaces::divided(const std::vector<Site>& sites) const {
+  std::vector<std::size_t> reached{0};
+  std::vector<bool> seen(sites.size(), false);
+  seen[0] = true;
+  double spacing2 = 0.0;
+  for (const Site& site : sites) {
+    spacing2 = std::max(spacing2, (site.position - sites[0].position).squaredNorm());
+  }
+  // Neighbours are a third of the cell's side apart; twice that bridges a covered one.
+  const double near2 = 0.3 * spacing2;
+  for (std::size_t next = 0; next < reached.size(); ++next) {
+    const Site from = sites[reached[next]];
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+      if (seen[i] || (sites[i].position - from.position).squaredNorm() > near2) continue;
+      if (scene_.blocked(from.position + kLift * from.normal,
+                         sites[i].position + kLift * sites[i].normal, 1e-4,
+                         rays::only(rays::Mobility::kStatic))) {
+        continue;
+      }
+      seen[i] = true;
+      reached.push_back(i);
+    }
+  }
+  return reached.size() != sites.size();
+}
+
+void Surfaces::clear() {
+  known_.clear();
+  keys_.clear();
+  patches_.clear();
+  free_.clear();
+}
+
+std::vector<std::uint32_t> Surfaces::forget(std::uint32_t shape) {
+  std::vector<std::uint32_t> gone;
+  const auto found = keys_.find(shape);
+  if (found == keys_.end()) return gone;
+  for (const Key& key : found->second) {
+    const auto entry = known_.find(key);
+    if (entry->second < kDivided) gone.push_back(entry->second);
+    known_.erase(entry);
+  }
+  keys_.erase(found);
+  free_.insert(free_.end(), gone.begin(), gone.end());
+  return gone;
+}
+
+}  // namespace angen::light

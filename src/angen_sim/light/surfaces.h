@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "rays/scene.h"
+
+namespace angen::light {
+
+constexpr std::uint32_t kNoPatch = UINT32_MAX;
+
+/// A point of a patch where nothing covers it.
+struct Site {
+  Vec3 position;
+  Vec3 normal;
+};
+
+/// A piece of one shape's surface of about 0.4 m (0.1 m where a wall stands across it), seen from
+/// one side, lit as one.
+struct Patch {
+  std::array<std::int32_t, 6> key;  // shape, face, depth, u, v, level
+  std::uint64_t hash = 0;
+  std::vector<Site> sites;
+};
+
+/// Patches, found when something looks at them. What a patch is depends on the shapes alone, not on
+/// what looked first.
+class Surfaces {
+ public:
+  explicit Surfaces(const rays::Scene& scene) : scene_(scene) {}
+
+  /// The patch at a hit on a static or anchored shape, or kNoPatch for a sliver that has none.
+  std::uint32_t at(std::uint32_t shape, const Vec3& point, const Vec3& normal);
+
+  const Patch& operator[](std::uint32_t patch) const { return patches_[patch]; }
+  std::size_t size() const { return patches_.size(); }  // numbers given so far, removed or not
+
+  void clear();
+
+  /// Forgets the patches of one shape and returns their numbers, which may be given anew.
+  std::vector<std::uint32_t> forget(std::uint32_t shape);
+
+ private:
+  using Key = std::array<std::int32_t, 6>;
+  struct HashKey {
+    std::size_t operator()(const Key& key) const;
+  };
+  struct Lattice {  // of one face of a shape
+    rays::Placement placement;
+    int axis = 0;
+    double sign = 1.0;
+    Eigen::Array2d low, step;
+  };
+
+  Lattice lattice(std::uint32_t shape, int face) const;
+  std::uint32_t make(const Key& key);
+  std::vector<Site> sites(const Key& key, int per_side) const;
+  bool site(const Lattice& lattice, const Key& key, double u, double v, Site& out) const;
+  bool divided(const std::vector<Site>& sites) const;
+
+  const rays::Scene& scene_;
+  std::unordered_map<Key, std::uint32_t, HashKey> known_;     // looked up, never iterated
+  std::unordered_map<std::uint32_t, std::vector<Key>> keys_;  // by shape
+  std::vector<Patch> patches_;
+  std::vector<std::uint32_t> free_;
+};
+
+}  // namespace angen::light

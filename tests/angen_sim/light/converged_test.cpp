@@ -1,0 +1,105 @@
+// Readings against converged values, which a path tracer finds.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "oracle.h"
+
+namespace angen::light::testing {
+namespace {
+
+/// Within 2 % or 0.05 lx, and what the oracle itself may be off by.
+void expect_converged(const rays::Scene& scene, const Lighting& lighting, const Lamp& lamp,
+                      const Pose& pose, int paths = 60'000) {
+  const Traced truth = trace(scene, lamp, pose, paths);
+  const double allowed = std::max(0.05, 0.02 * truth.lux) + 2.0 * truth.deviation;
+  EXPECT_NEAR(lux(lighting, pose), truth.lux, allowed) << "deviation " << truth.deviation;
+}
+
+struct Furnished {
+  explicit Furnished(const Lamp& with) : lamp(with) {
+    add_room(scene, Vec3(0, 0, 0), Vec3(4, 4, 2.6), gray(0.7F));
+    add_box(scene, Vec3(2.6, 2.8, 0.7), Vec3(1.4, 0.8, 0.05), gray(0.4F));  // a table's top
+    add_box(scene, Vec3(0.3, 3.2, 1.0), Vec3(0.6, 1.2, 2.0), gray(0.3F));   // a wardrobe
+    Shape pillar;
+    pillar.type = Shape::Type::kCylinder;
+    pillar.radius = 0.2;
+    pillar.length = 2.6;
+    scene.add(pillar, {Vec3(1.2, 0.8, 1.3), Quat::Identity()}, rays::Mobility::kStatic, gray(0.6F));
+    scene.commit();
+    lighting.add(lamp, 1.0);
+  }
+  Lamp lamp;
+  rays::Scene scene;
+  Lighting lighting{scene};
+};
+
+Lamp window() {
+  Lamp lamp = point_lamp(Vec3(0.01, 1.5, 1.5), 2000.0);
+  lamp.type = Lamp::Type::kRectangle;
+  lamp.direction = Vec3::UnitX();
+  lamp.width = 1.4;  // along y
+  lamp.height = 1.0;
+  return lamp;
+}
+
+TEST(Converged, LitRoom) {
+  const Furnished room(point_lamp(Vec3(2, 2, 2.2), 800.0));
+  for (const Pose& at :
+       {facing(Vec3(0.05, 1, 2), Vec3::UnitX()), facing(Vec3(3.5, 0.5, 0.05), Vec3::UnitZ()),
+        facing(Vec3(2.6, 2.8, 0.3), Vec3::UnitZ()), facing(Vec3(1, 2, 2.5), -Vec3::UnitZ())}) {
+    expect_converged(room.scene, room.lighting, room.lamp, at);
+  }
+}
+
+TEST(Converged, DaylightFromAWindow) {
+  const Furnished room(window());
+  for (const Pose& at :
+       {facing(Vec3(3.9, 2, 2), -Vec3::UnitX()), facing(Vec3(2.5, 3, 1), Vec3::UnitX()),
+        facing(Vec3(2.6, 2.8, 0.1), Vec3::UnitZ())}) {
+    expect_converged(room.scene, room.lighting, room.lamp, at);
+  }
+}
+
+TEST(Converged, LitThroughADoorway) {
+  TwoRooms rooms;
+  rooms.open();
+  for (const Pose& at : {rooms.dark_sensor, facing(Vec3(6, 3, 0.05), Vec3::UnitZ()),
+                         facing(Vec3(4.2, 3.5, 1.5), Vec3::UnitX())}) {
+    expect_converged(rooms.scene, rooms.lighting, rooms.lamp, at, 100'000);
+  }
+  expect_converged(rooms.scene, rooms.lighting, rooms.lamp, rooms.lit_sensor);
+}
+
+TEST(Converged, ShutDoor) {
+  const TwoRooms rooms;
+  expect_converged(rooms.scene, rooms.lighting, rooms.lamp, rooms.dark_sensor);
+  expect_converged(rooms.scene, rooms.lighting, rooms.lamp, rooms.lit_sensor);
+}
+
+TEST(Converged, Corridor) {
+  rays::Scene scene;
+  add_room(scene, Vec3(0, 0, 0), Vec3(12, 1.4, 2.6), gray(0.7F));
+  scene.commit();
+  Lighting lighting(scene);
+  const Lamp lamp = point_lamp(Vec3(1, 0.7, 2.2), 800.0);
+  lighting.add(lamp, 1.0);
+  expect_converged(scene, lighting, lamp, facing(Vec3(11.9, 0.7, 2), -Vec3::UnitX()), 100'000);
+  expect_converged(scene, lighting, lamp, facing(Vec3(6, 0.7, 1.5), Vec3::UnitX()), 100'000);
+}
+
+TEST(Converged, PersonInTheRoom) {
+  Furnished room(point_lamp(Vec3(2, 2, 2.2), 800.0));
+  const rays::ShapeId person = add_box(room.scene, Vec3(0, 0, 0.85), Vec3(0.3, 0.5, 1.7),
+                                       gray(0.4F), rays::Mobility::kMoving);
+  for (const Vec3& stands : {Vec3(1.2, 1.6, 0.85), Vec3(2.1, 2.0, 0.85), Vec3(1.0, 2.6, 0.85)}) {
+    room.scene.move(person, {stands, Quat::Identity()});
+    room.scene.commit();
+    expect_converged(room.scene, room.lighting, room.lamp, facing(Vec3(0.05, 1, 2), Vec3::UnitX()));
+    expect_converged(room.scene, room.lighting, room.lamp,
+                     facing(Vec3(3.5, 0.5, 0.05), Vec3::UnitZ()));
+  }
+}
+
+}  // namespace
+}  // namespace angen::light::testing

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cmath>
+
+#include "core/random.h"
+#include "light/beam.h"
+#include "light/directions.h"
+#include "light/field.h"
+#include "rooms.h"
+
+/// A path tracer, slow and plain: random walks, with the lamp asked at every vertex. It shares rays
+/// and the lamp's direct light with what it judges, and nothing else.
+namespace angen::light::testing {
+
+struct Traced {
+  double lux = 0.0;
+  double deviation = 0.0;  // lx, standard deviation of the mean
+};
+
+inline double arriving(const rays::Scene& scene, const Lamp& lamp, const Vec3& point,
+                       const Vec3& normal, Rng& rng) {
+  const double lux = illuminance(lamp, point, normal);
+  return lux > 0.0 && sees_one(scene, lamp, point, rng.next() >> 32, rays::kAll) ? lux : 0.0;
+}
+
+inline double walk(const rays::Scene& scene, const Lamp& lamp, const Pose& pose, Rng& rng) {
+  Vec3 point = pose.position, normal = pose.rotation * Vec3::UnitX();
+  double value = arriving(scene, lamp, point, normal, rng);
+  for (;;) {
+    rays::Ray ray;
+    ray.origin = point;
+    const double u = rng.uniform(), v = rng.uniform();
+    ray.direction = (frame_about(normal) * cosine_direction(u, v)).normalized();
+    ray.min = 1e-4;
+    rays::Hit hit;
+    scene.cast(&ray, &hit, 1);
+    // It goes on with the chance that light would be reflected.
+    if (!hit.hit() || rng.uniform() >= std::min(kLargestAlbedo, scene.reflectance(hit.shape).y())) {
+      return value;
+    }
+    point = ray.origin + hit.range * ray.direction;
+    normal = hit.normal.cast<double>().normalized();
+    value += arriving(scene, lamp, point, normal, rng);
+  }
+}
+
+/// lx at `pose` among grey surfaces from one lamp.
+inline Traced trace(const rays::Scene& scene, const Lamp& lamp, const Pose& pose, int paths) {
+  Rng rng(7, hash_bytes("oracle"), 0);
+  double sum = 0.0, squares = 0.0;
+  for (int i = 0; i < paths; ++i) {
+    const double value = walk(scene, lamp, pose, rng);
+    sum += value;
+    squares += value * value;
+  }
+  const double mean = sum / paths;
+  return {mean, std::sqrt((squares / paths - mean * mean) / paths)};
+}
+
+}  // namespace angen::light::testing

@@ -1,0 +1,126 @@
+"""Light in worlds as users have them: what a luminosity sensor reads beside what a camera sees,
+behind doors and people, and by day.
+"""
+import numpy as np
+import pytest
+
+import angen
+
+SIZE = 48  # pixels
+
+
+def world_of(content: str) -> angen.World:
+    """A world without a floor, sky or ambient light."""
+    return angen.World.from_text(f'''<sdf version="1.9"><world name="w"><scene>
+  <ambient>0 0 0 1</ambient><background>0 0 0 1</background></scene>{content}</world></sdf>''')
+
+
+def slab(name: str, pose: str, size: str, color: str) -> str:
+    """A static box."""
+    box = f'<geometry><box><size>{size}</size></box></geometry>'
+    return f'''<model name="{name}"><static>true</static><pose>{pose}</pose><link name="link">
+  <collision name="c">{box}</collision><visual name="v">{box}
+  <material><diffuse>{color} 1</diffuse></material></visual></link></model>'''
+
+
+def room(albedo: float = 0.7) -> str:
+    """4 x 4 x 2.6 m of grey slabs about x = y = 2."""
+    color = f'{albedo} {albedo} {albedo}'
+    sides = [('2 2 -0.1', '4.4 4.4 0.2'), ('2 2 2.7', '4.4 4.4 0.2'), ('-0.1 2 1.3', '0.2 4.4 3'),
+             ('4.1 2 1.3', '0.2 4.4 3'), ('2 -0.1 1.3', '4.4 0.2 3'), ('2 4.1 1.3', '4.4 0.2 3')]
+    return ''.join(slab(f'side{i}', f'{at} 0 0 0', size, color)
+                   for i, (at, size) in enumerate(sides))
+
+
+def lux(name: str, pose: str) -> str:
+    """A luminosity sensor without noise."""
+    return f'''<model name="{name}"><static>true</static><pose>{pose}</pose><link name="link">
+  <sensor name="s" type="camera"><update_rate>10</update_rate>
+  <plugin name="p" filename="libluminosity_sensor_controller.so"/></sensor></link></model>'''
+
+
+CAMERA = f'''<model name="eye"><static>true</static><pose>0 0 1 0 0 0</pose><link name="link">
+  <sensor name="c" type="camera"><update_rate>10</update_rate><camera>
+  <horizontal_fov>1.0471976</horizontal_fov><image><width>{SIZE}</width><height>{SIZE}</height>
+  </image><clip><near>0.05</near><far>20</far></clip></camera>
+  <plugin name="p" filename="libgazebo_ros_camera.so"/></sensor></link></model>'''
+
+LAMP = '''<model name="hall_lamp0"><static>true</static><pose>0 0.3 2.6 0 0 0</pose>
+  <link name="link"><light name="l" type="point"><diffuse>1 1 1</diffuse></light></link>
+  <plugin name="p" filename="libros_plugin.so"><luminous_flux>2000</luminous_flux>
+  <level>100</level></plugin></model>'''
+
+WINDOW = '''<model name="study_window0"><static>true</static><pose>0.01 2 1.5 0 0 0</pose>
+  <link name="pane"><light name="sky" type="point"><direction>1 0 0</direction>
+  <angen:rectangle>1.4 1.0</angen:rectangle></light></link>
+  <plugin name="p" filename="libdaylight_plugin.so"><area>1.4</area></plugin></model>'''
+
+
+def luminances(image: np.ndarray) -> np.ndarray:
+    """The mean over (h, w, 3) sRGB bytes of the cd/m^2 that a camera shows as L / (L + 10)."""
+    v = image / 255.0
+    linear = np.where(v <= 0.04045, v / 12.92, ((v + 0.055) / 1.055) ** 2.4)
+    return (10.0 * linear / (1.0 - linear)).mean(axis=(0, 1))
+
+
+def test_the_one_pixel_view_is_the_mean_of_a_cameras_picture():
+    w = world_of(slab('wall', '3 0.4 1 0 0 0', '0.1 2.5 2.2', '0.9 0.5 0.2') + CAMERA
+                 + LAMP.replace('2000', '20000') + lux('l', '0 0 1 0 0 0'))
+    w.want('camera', 'eye')
+    w.step(1)
+    reading = w.sensor('luminosity', 'l')
+    seen = np.array([50.0 * c / (1.0 - c) for c in (reading['r'], reading['g'], reading['b'])])
+    shown = luminances(w.sensor('camera', 'eye')['image'])
+    # the sensor looks in some 600 directions where the camera has 2304 pixels
+    assert seen[0] > 10.0
+    np.testing.assert_allclose(seen, shown, rtol=0.05)
+
+
+def test_shutting_the_door_darkens_the_next_room(building):
+    w = angen.World(building)
+    w.command('lamp', 'kitchen0', 'On')
+    w.command('door', 'kitchen0', 'Open')
+    w.run(3.1)
+    lit = w.sensor('luminosity', 'entrance_lux0')['illuminance']
+    w.command('door', 'kitchen0', 'Close')
+    w.run(3.1)
+    assert w.sensor('luminosity', 'entrance_lux0')['illuminance'] < 0.2 * lit
+    assert lit > 0.2
+    assert w.sensor('luminosity', 'kitchen_lux0')['illuminance'] > 10 * lit
+
+
+def test_somebody_between_lamp_and_sensor_throws_a_shadow():
+    box = '<geometry><box><size>0.3 1 1.8</size></box></geometry>'
+    body = f'''<model name="who"><link name="link"><gravity>false</gravity>
+  <collision name="c">{box}</collision><visual name="v">{box}
+  <material><diffuse>0.4 0.4 0.4 1</diffuse></material></visual></link></model>'''
+    lamp = LAMP.replace('0 0.3 2.6', '3 2 1.5')
+    readings = []
+    for place in ('1 3.4 0.95', '1.5 2 0.95'):
+        w = world_of(room() + lamp + lux('l', '0.05 2 1.5 0 0 0')
+                     + body.replace('<link', f'<pose>{place} 0 0 0</pose><link', 1))
+        w.step(1)
+        readings.append(w.sensor('luminosity', 'l')['illuminance'])
+    assert readings[1] < readings[0] - 0.9 * 2000 / (4 * np.pi * 2.95 ** 2)
+
+
+def test_daylight_follows_its_command():
+    w = world_of(room() + WINDOW + lux('l', '3.9 2 1.5 0 0 3.1415926'))
+    w.step(1)
+    assert w.sensor('luminosity', 'l')['illuminance'] == 0.0
+    readings = []
+    for outdoors in (10000, 2500):
+        w.command('daylight', 'all', f'Set {outdoors}')
+        w.run(0.2)
+        readings.append(w.sensor('luminosity', 'l')['illuminance'])
+        assert w.device('daylight', 'study0')['luminous_flux'] == pytest.approx(0.49 * outdoors)
+    # the pane's flux is L pi A; straight before it it gives about L A / d^2, and reflections more
+    assert readings[0] > 10000 * 0.49 / np.pi / 3.89 ** 2
+    assert readings[1] == pytest.approx(readings[0] / 4, rel=1e-6)
+    with pytest.raises(angen.Error, match='Set takes 0 to 100000 lx'):
+        w.command('daylight', 'study0', 'Set -1')
+
+
+def test_a_flat_light_needs_two_lengths():
+    with pytest.raises(angen.Error, match='angen:rectangle'):
+        world_of(WINDOW.replace('1.4 1.0', '1.4'))
