@@ -38,4 +38,14 @@ double Rng::gaussian() {
   return radius * std::cos(angle);
 }
 
+// A pair's radius bounds both; the margin is for the rounding of gaussian().
+bool Rng::gaussians_within(std::size_t count, double limit) {
+  const double least = std::exp(-0.5 * 0.998 * limit * limit);  // of 1 - uniform()
+  for (std::size_t i = 0; i < count; i += 2) {
+    if (1.0 - uniform() < least) return false;
+    next();
+  }
+  return true;
+}
+
 }  // namespace angen

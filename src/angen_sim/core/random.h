@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -23,6 +24,10 @@ class Rng {
   std::uint64_t next();
   double uniform();   // [0, 1)
   double gaussian();  // mean 0, standard deviation 1
+
+  /// Whether the first `count` gaussian() of a new generator are surely within ±limit; costs less
+  /// than drawing them, and leaves no generator to draw from.
+  bool gaussians_within(std::size_t count, double limit);
 
  private:
   std::uint64_t state_;

@@ -116,7 +116,7 @@ void Door::update(const View& view, Outputs& outputs) {
     rest(view.joint(hinge_), outputs);
     started_ = true;
   }
-  const bool renew = refresh_.due(view.time());
+  const bool renew = refresh_.due(view.time(), view.step());
   if (resting_ && !leaving_) {
     if (!renew) return;
     const JointView hinge = view.joint(hinge_);
@@ -143,6 +143,14 @@ void Door::update(const View& view, Outputs& outputs) {
   outputs.force(hinge_, std::clamp(torque, -torque_max_, torque_max_));
   const Mode going = opening_ ? Mode::kOpening : Mode::kClosing;
   show(servo_.blocked() ? Mode::kBlocked : going, hinge, renew, outputs);
+}
+
+Nanoseconds Door::idle_until(const View& view) const {
+  if (!resting_ || leaving_) return 0;
+  const JointView hinge = view.joint(hinge_);
+  const bool told = hinge.position == shown_.position && hinge.velocity == shown_.velocity &&
+                    mode_at_rest(hinge.position) == mode_;
+  return told ? kForever : refresh_.next(view.time());
 }
 
 void Door::rest(const JointView& hinge, Outputs& outputs) {

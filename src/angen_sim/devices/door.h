@@ -16,6 +16,7 @@ class Door : public Device {
   Verdict command(const Command& command, const View& view) override;
   void update(const View& view, Outputs& outputs) override;
   void report(const View& view, Reading& state) const override;
+  Nanoseconds idle_until(const View& view) const override;
 
  private:
   enum class Mode { kClosed, kOpen, kOpening, kClosing, kBlocked, kAjar };

@@ -65,7 +65,7 @@ void Drive::update(const View& view, Outputs& outputs) {
     outputs.motor(left_.joint, 0.0, torque_);
     outputs.motor(right_.joint, 0.0, torque_);
   }
-  const bool renew = refresh_.due(view.time());
+  const bool renew = refresh_.due(view.time(), view.step());
   if (!moving_ && !renew) return;
   count(view);
   if (moving_) {
@@ -113,6 +113,16 @@ void Drive::count(const View& view) {
   odometry_.w = (right_.velocity - left_.velocity) / separation_ * radius_;
   odometry_.left = left_.turned;
   odometry_.right = right_.turned;
+}
+
+Nanoseconds Drive::idle_until(const View& view) const {
+  if (moving_ || !started_) return 0;
+  const auto counted = [&](const Wheel& wheel) {
+    const JointView joint = view.joint(wheel.joint);
+    return joint.position == wheel.angle && joint.velocity == wheel.velocity;
+  };
+  const bool told = shown_ == odometry_ && counted(left_) && counted(right_);
+  return told ? kForever : refresh_.next(view.time());
 }
 
 void Drive::report(const View&, Reading& state) const {

@@ -15,6 +15,7 @@ class Drive : public Device {
   Verdict command(const Command& command, const View& view) override;
   void update(const View& view, Outputs& outputs) override;
   void report(const View& view, Reading& state) const override;
+  Nanoseconds idle_until(const View& view) const override;
 
  private:
   struct Wheel {
@@ -28,6 +29,11 @@ class Drive : public Device {
     double x = 0.0, y = 0.0, yaw = 0.0;  // m, m, rad
     double v = 0.0, w = 0.0;             // m/s, rad/s
     double left = 0.0, right = 0.0;      // rad
+
+    bool operator==(const Odometry& o) const {
+      return x == o.x && y == o.y && yaw == o.yaw && v == o.v && w == o.w && left == o.left &&
+             right == o.right;
+    }
   };
 
   double look(Wheel& wheel, const View& view) const;  // m it rolled since the last look

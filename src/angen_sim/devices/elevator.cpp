@@ -200,10 +200,20 @@ void Elevator::move(const View& view, Outputs& outputs) {
 }
 
 // The brake carries cabin and load, so what it gives tells the load.
-void Elevator::weigh(const JointView& lift) {
-  if (phase_ == Phase::kMoving || gravity_ <= 0.0) return;
+double Elevator::weigh(const JointView& lift) const {
+  if (phase_ == Phase::kMoving || gravity_ <= 0.0) return mass_;
   const double felt = std::clamp(lift.effort / gravity_, own_mass_, own_mass_ + kGreatestLoad);
-  mass_ += kWeighShare * (felt - mass_);
+  return mass_ + kWeighShare * (felt - mass_);
+}
+
+Nanoseconds Elevator::idle_until(const View& view) const {
+  if (phase_ != Phase::kStanding || !stops_.empty() || doorway_.moving()) return 0;
+  const JointView lift = view.joint(lift_);
+  const bool told = lift.position == shown_.lift.position &&
+                    lift.velocity == shown_.lift.velocity &&
+                    doorway_.position(view) == shown_.door_position && mode() == told_mode_ &&
+                    doorway_.mode() == told_door_ && weigh(lift) == mass_;
+  return told ? kForever : refresh_.next(view.time());
 }
 
 int Elevator::floor_at(double position) const {
@@ -219,8 +229,8 @@ std::string Elevator::mode() const {
 }
 
 void Elevator::tell(const View& view, Outputs& outputs) {
-  bool renew = refresh_.due(view.time());
-  if (renew) weigh(view.joint(lift_));
+  bool renew = refresh_.due(view.time(), view.step());
+  if (renew) mass_ = weigh(view.joint(lift_));
   const std::string now = mode();
   if (now != told_mode_) {
     const char* event = now == "IDLE"      ? "idle"

@@ -21,6 +21,7 @@ class Elevator : public Device {
   Verdict command(const Command& command, const View& view) override;
   void update(const View& view, Outputs& outputs) override;
   void report(const View& view, Reading& state) const override;
+  Nanoseconds idle_until(const View& view) const override;
 
  private:
   enum class Phase { kStanding, kShutting, kMoving };
@@ -35,7 +36,7 @@ class Elevator : public Device {
   void stand(const View& view, Outputs& outputs);
   void serve_next_stop(const View& view, Outputs& outputs);
   void move(const View& view, Outputs& outputs);
-  void weigh(const JointView& lift);
+  double weigh(const JointView& lift) const;
   int floor_at(double position) const;  // -1 between floors
   void stay_at(int floor, const View& view);
   std::string mode() const;

@@ -28,9 +28,13 @@ class Path {
   Path(std::vector<Waypoint> waypoints, bool loop);
 
   Place at(Nanoseconds time) const;
+  /// The first time from `time` on at which it is not still; kForever when there is none.
+  Nanoseconds still_until(Nanoseconds time) const;
   bool empty() const { return waypoints_.empty(); }
 
  private:
+  static bool stands(const Waypoint& from, const Waypoint& to);
+
   std::vector<Waypoint> waypoints_;
   bool loop_ = false;
 };

@@ -71,7 +71,7 @@ Verdict Person::command(const Command& command, const View&) {
 }
 
 void Person::update(const View& view, Outputs& outputs) {
-  const bool renew = refresh_.due(view.time());
+  const bool renew = refresh_.due(view.time(), view.step());
   if (!started_) start(view.link(body_));
   if (paused_) {
     if (!resting_) stand(outputs);
@@ -117,6 +117,7 @@ void Person::walk(const Path::Place& place, const View& view, bool renew, Output
   const bool there = lag < kThere && std::abs(turn) < kFacing;
   if (place.still() && (there || (resting_ && lag < kPushedAway))) {
     if (!resting_) stand(outputs);
+    stalled_ = 0;
     show(Mode::kStanding, body, renew, outputs);
     return;
   }
@@ -172,6 +173,25 @@ void Person::show(Mode mode, const LinkView& body, bool renew, Outputs& outputs)
     renew = true;
   }
   if (renew) shown_ = body;
+}
+
+Nanoseconds Person::idle_until(const View& view) const {
+  if (!resting_ || mode_ != Mode::kStanding || view.time() < away_until_) return 0;
+  const LinkView body = view.link(body_);
+  if (body.pose != shown_.pose || body.linear_velocity != shown_.linear_velocity) {
+    return refresh_.next(view.time());
+  }
+  if (paused_) return kForever;
+  const Path::Place place = path_.at(clock_);
+  const Vec3& at = body.pose.position;
+  const bool near = std::hypot(place.x - at.x(), place.y - at.y()) < kPushedAway;
+  if (!near) return refresh_.next(view.time());
+  const Nanoseconds leaves = path_.still_until(clock_);
+  return leaves == kForever ? kForever : view.time() + view.step() + (leaves - clock_);
+}
+
+void Person::skip(Nanoseconds time) {
+  if (!paused_) clock_ += time;
 }
 
 void Person::report(const View& view, Reading& state) const {

@@ -17,6 +17,8 @@ class Person : public Device {
   Verdict command(const Command& command, const View& view) override;
   void update(const View& view, Outputs& outputs) override;
   void report(const View& view, Reading& state) const override;
+  Nanoseconds idle_until(const View& view) const override;
+  void skip(Nanoseconds time) override;
 
  private:
   enum class Mode { kStanding, kWalking, kBlocked };

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "core/time.h"
 #include "plugin/params.h"
 
@@ -16,16 +18,18 @@ class Refresh {
   /// Rate in Hz, in kRefreshRate.
   explicit Refresh(double rate) : period_(from_seconds(1.0 / rate)) {}
 
-  bool due(Nanoseconds time) {
-    const Nanoseconds count = time / period_;
-    if (count == last_) return false;
-    last_ = count;
-    return true;
+  /// Whether a multiple of the period lies in the step that ends at `time`; also the first time.
+  bool due(Nanoseconds time, Nanoseconds step) {
+    const bool first = std::exchange(first_, false);
+    return first || time < step || time / period_ != (time - step) / period_;
   }
+
+  /// When it will be due next, after `time`.
+  Nanoseconds next(Nanoseconds time) const { return (time / period_ + 1) * period_; }
 
  private:
   Nanoseconds period_ = kSecond / 50;
-  Nanoseconds last_ = -1;
+  bool first_ = true;
 };
 
 }  // namespace angen::devices

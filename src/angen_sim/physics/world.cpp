@@ -195,6 +195,12 @@ const std::vector<ContactPair>& World::contacts() const {
 
 std::uint64_t World::failed_steps() const { return impl_->failed; }
 
+void World::list_awake(std::vector<LinkId>& links) const {
+  for (const Body* body : impl_->awake) {
+    links.insert(links.end(), body->links.begin(), body->links.end());
+  }
+}
+
 std::size_t World::awake_count() const { return impl_->awake.size(); }
 
 }  // namespace angen::physics

@@ -83,6 +83,8 @@ class World {
 
   std::uint64_t failed_steps() const;  // steps that had to be redone by the other solver
   std::size_t awake_count() const;
+  /// Adds the links of all that is awake.
+  void list_awake(std::vector<LinkId>& links) const;
 
  private:
   struct Impl;

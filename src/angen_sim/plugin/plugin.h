@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -38,11 +39,27 @@ class Device {
   virtual Verdict command(const Command& command, const View& view);  // rejects unless overridden
   virtual void update(const View& view, Outputs& outputs) = 0;        // before physics, every tick
   virtual void report(const View& view, Reading& state) const = 0;    // what is published on change
+  /// Asked after update(): the time up to which it needs no other, as long as it gets no command
+  /// and its model sleeps. By default it needs one every tick.
+  virtual Nanoseconds idle_until(const View&) const { return 0; }
+  /// Told before update() or command() that so much time (ns) went by without updates.
+  virtual void skip(Nanoseconds) {}
+};
+constexpr Nanoseconds kForever = INT64_MAX;
+
+/// How a sensor's readings go on while its pose and all that it asked of the world (its rays' hits,
+/// illuminance, contacts, …) stay as they are.
+enum class Rest {
+  kBusy,   // nothing is known: it looks each time
+  kSame,   // with the last one's values, no event, not urgent: it is not asked for them again
+  kNoise,  // they vary, but tell no event and are not urgent wherever quiet() says so
 };
 
 /// Something that looks. The world gives it rays' answers; it gives a reading.
 class Sensor {
  public:
+  static constexpr int kNoStance = -1;
+
   virtual ~Sensor() = default;
   virtual void configure(Params& params, Wiring& wiring) = 0;
   /// How often it looks, ns; 0 = as often as it publishes (<update_rate>, or default_rate()).
@@ -50,8 +67,18 @@ class Sensor {
   virtual double default_rate() const { return 10.0; }  // Hz
   /// True for one that costs much: it looks only while somebody wants its readings.
   virtual bool on_demand() const { return false; }
+  /// Asked before each look, with the time in `view`: which of its sets of rays it needs. For one
+  /// that it had before, at the same pose, aim() is not called: it would ask for the same rays.
+  virtual int stance(const View&) { return kNoStance; }
   virtual void aim(const View&, RayBatch&) {}                                      // ask
   virtual void read(const View& view, Hits hits, Rng& rng, Reading& reading) = 0;  // answer
+  /// Asked after each read().
+  virtual Rest rest() const { return Rest::kBusy; }
+  /// Of one at Rest::kNoise: that a reading made with `rng` tells no event and is not urgent. Such
+  /// readings may be left out, save the last ones: as many as memory() and one more.
+  virtual bool quiet(Rng) const { return false; }
+  /// How many readings back a reading at Rest::kNoise depends on.
+  virtual int memory() const { return 0; }
 };
 
 /// What a plug-in sees of a model before deciding to serve it.

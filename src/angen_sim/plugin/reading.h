@@ -33,8 +33,8 @@ using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<
 /// What a sensor measured or the state a device is in: named values. `ros` knows the built-in kinds
 /// and sends any other as a generic message.
 struct Reading {
-  std::string kind;  // "pir", "door", …
-  Nanoseconds stamp = 0;
+  std::string kind;       // "pir", "door", …
+  Nanoseconds stamp = 0;  // when it was made; it stands until another is
   std::vector<std::pair<std::string, Value>> fields;
   bool urgent = false;  // a sensor sets it to have this reading sent before its period is over
   std::string event;    // set when something worth an event happened: "motion", "opened"

@@ -50,14 +50,14 @@ Eigen::VectorXd joint_positions(const World& world) {
   return all;
 }
 
-// Steps in slices so that Ctrl-C ends a long run.
-void run_interruptibly(World& world, std::uint64_t ticks) {
-  constexpr std::uint64_t kSlice = 1000;
+// In slices so that Ctrl-C ends a long run.
+void advance(World& world, std::uint64_t ticks, void (World::*advance)(std::uint64_t)) {
+  constexpr std::uint64_t kSlice = 10000;
   while (ticks > 0) {
     const std::uint64_t slice = std::min(ticks, kSlice);
     {
       const pyb::gil_scoped_release release;
-      world.step(slice);
+      (world.*advance)(slice);
     }
     ticks -= slice;
     if (PyErr_CheckSignals() != 0) throw pyb::error_already_set();
@@ -76,10 +76,13 @@ void bind_world(pyb::module_& module) {
             return std::make_unique<World>(text, "<text>", seed, catalog());
           },
           pyb::arg("text"), pyb::arg("seed") = 0, "Loads a world from SDF text.")
-      .def("step", &run_interruptibly, pyb::arg("ticks") = 1, "Advances by ticks.")
       .def(
-          "run", [](World& w, double seconds) { run_interruptibly(w, w.ticks_in(seconds)); },
-          pyb::arg("seconds"), "Advances by simulated seconds.")
+          "step", [](World& w, std::uint64_t ticks) { advance(w, ticks, &World::step); },
+          pyb::arg("ticks") = 1, "Advances by ticks, each of them taken.")
+      .def(
+          "run", [](World& w, double seconds) { advance(w, w.ticks_in(seconds), &World::run); },
+          pyb::arg("seconds"),
+          "Advances by simulated seconds; ticks in which nothing happens are leapt over.")
       .def("command", &World::command, pyb::arg("kind"), pyb::arg("name"), pyb::arg("text") = "",
            pyb::arg("values") = std::vector<double>{},
            "Commands a device, e.g. ('door', 'bathroom1', 'Open'); ('drive', 'turtlebot', "

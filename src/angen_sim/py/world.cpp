@@ -57,6 +57,13 @@ void World::step(std::uint64_t ticks) {
   for (std::uint64_t i = 0; i < ticks; ++i) take(simulation_.tick());
 }
 
+void World::run(std::uint64_t ticks) {
+  if (ticks == 0) return;
+  const std::future<sim::Outcome> done = simulation_.post(sim::Step{ticks});
+  const std::int64_t last = snapshot_->tick + static_cast<std::int64_t>(ticks);
+  while (snapshot_->tick < last) take(simulation_.leap(last * snapshot_->step));
+}
+
 std::uint64_t World::ticks_in(double seconds) const {
   if (!std::isfinite(seconds) || seconds < 0)
     throw Error("seconds must be finite and not negative");
@@ -107,7 +114,9 @@ Reading World::sensor(const std::string& kind, const std::string& name) const {
     throw Error(kind + " '" + name + "' has measured nothing yet; " +
                 (asleep ? "want('" + kind + "', '" + name + "') and step first" : "step first"));
   }
-  return *reading;
+  Reading copy = *reading;
+  copy.stamp = snapshot_->stamp(index);
+  return copy;
 }
 
 Reading World::device(const std::string& kind, const std::string& name) const {

@@ -20,6 +20,8 @@ class World {
         std::shared_ptr<Catalog> catalog);
 
   void step(std::uint64_t ticks);
+  /// The same, leaping over the ticks in which nothing happens.
+  void run(std::uint64_t ticks);
   std::uint64_t ticks_in(double seconds) const;
 
   /// These throw Error when the simulator refuses.

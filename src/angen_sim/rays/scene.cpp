@@ -22,8 +22,8 @@ struct Query {
   bool anchored, moving;  // which of those that can move are met
 
   /// Static shapes before moving ones, then by index.
-  static std::uint64_t rank_of(const Solid& solid, bool fixed) {
-    return (fixed ? 0ULL : 1ULL << 32) | solid.slot;
+  static std::uint64_t rank_of(std::uint32_t slot, bool fixed) {
+    return (fixed ? 0ULL : 1ULL << 32) | slot;
   }
 
   bool wants(const Solid& candidate, bool fixed) const {
@@ -34,12 +34,16 @@ struct Query {
     Meeting found;
     if (!wants(candidate, fixed)) return false;
     if (!meet(candidate, origin, direction, min, best.range, found)) return false;
-    const std::uint64_t found_rank = rank_of(candidate, fixed);
+    const std::uint64_t found_rank = rank_of(candidate.slot, fixed);
     if (found.range == best.range && found_rank >= rank) return false;
     best = found;
     rank = found_rank;
     solid = &candidate;
     return true;
+  }
+
+  Hit hit() const {
+    return {best.range, solid->slot, normal_at(*solid, origin, direction, best).cast<float>()};
   }
 };
 
@@ -146,9 +150,8 @@ bool prepare(Query& q, const Vec3& origin, const Vec3& direction, double min, do
   return finite_as_floats(origin) && finite_as_floats(direction) && length2 > 1e-30 && q.min <= max;
 }
 
-Hit hit_of(const Query& q) {
-  const Vec3 normal = normal_at(*q.solid, q.origin, q.direction, q.best);
-  return {q.best.range, q.solid->slot, normal.cast<float>()};
+bool prepare(Query& q, const Ray& ray, Mobilities among) {
+  return prepare(q, ray.origin, ray.direction, ray.min, ray.max, among);
 }
 
 }  // namespace
@@ -311,16 +314,37 @@ void Scene::cast(const Ray* rays, Hit* hits, std::size_t count, Mobilities among
   Query q;
   for (std::size_t i = 0; i < count; ++i) {
     hits[i] = {};
-    const Ray& ray = rays[i];
-    if (!prepare(q, ray.origin, ray.direction, ray.min, ray.max, among)) continue;
+    if (!prepare(q, rays[i], among)) continue;
     impl_->nearest(q, among);
-    if (q.solid != nullptr) hits[i] = hit_of(q);
+    if (q.solid != nullptr) hits[i] = q.hit();
   }
 }
 
 void Scene::cast(const std::vector<Ray>& rays, std::vector<Hit>& hits) const {
   hits.resize(rays.size());
   cast(rays.data(), hits.data(), rays.size());
+}
+
+void Scene::better(ShapeId moving, const Ray& ray, Hit& hit) const {
+  Query q;
+  const Entry& entry = impl_->entries.at(moving);
+  if (entry.type == Shape::Type::kEmpty || !prepare(q, ray, kAll)) return;
+  if (hit.hit()) {
+    q.best.range = hit.range;
+    q.rank = Query::rank_of(hit.shape, impl_->places[hit.shape].layer == &impl_->fixed);
+  }
+  if (q.try_solid(impl_->solid(moving.index), false)) hit = q.hit();
+}
+
+Eigen::AlignedBox3d Scene::bounds(ShapeId shape) const {
+  const Entry& entry = impl_->entries.at(shape);
+  Eigen::AlignedBox3d box;
+  if (entry.type == Shape::Type::kEmpty) return box;
+  if (entry.type == Shape::Type::kPlane) {
+    const Vec3 corner = Vec3::Constant(std::numeric_limits<double>::infinity());
+    return {-corner, corner};
+  }
+  return bounds_of(impl_->solid(shape.index));
 }
 
 bool Scene::blocked(const Vec3& from, const Vec3& to, double margin, Mobilities among) const {
@@ -332,8 +356,8 @@ bool Scene::blocked(const Vec3& from, const Vec3& to, double margin, Mobilities 
 
 Hit Scene::cast_at(std::uint32_t shape_index, const Ray& ray) const {
   Query q;
-  if (!prepare(q, ray.origin, ray.direction, ray.min, ray.max, kAll)) return {};
-  return q.try_solid(impl_->solid(shape_index), true) ? hit_of(q) : Hit{};
+  if (!prepare(q, ray, kAll)) return {};
+  return q.try_solid(impl_->solid(shape_index), true) ? q.hit() : Hit{};
 }
 
 bool Scene::covered(const Vec3& point, std::uint32_t except) const {

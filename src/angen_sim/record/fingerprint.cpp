@@ -89,7 +89,10 @@ void Fingerprint::add(const sim::Snapshot& snapshot) {
     light_levels_ = snapshot.light_levels;
     mixer.add(*light_levels_);
   }
-  for (const std::uint32_t i : snapshot.new_readings) mixer.add(*snapshot.sensors[i]);
+  for (const std::uint32_t i : snapshot.new_readings) {
+    mixer.add(i);
+    if (snapshot.sensors[i]->stamp == snapshot.time) mixer.add(*snapshot.sensors[i]);
+  }
   for (const std::uint32_t i : snapshot.new_states) mixer.add(*snapshot.devices[i]);
   mixer.add(snapshot.events);
   hash_ = mixer.hash();

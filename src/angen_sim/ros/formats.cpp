@@ -20,9 +20,10 @@ ros::AdvertiseOptions advertise(const std::string& topic, std::uint32_t queue,
 }
 
 template <class Message>
-void publish(const ros::Publisher& publisher, const Reading& reading, const Label& label) {
+void publish(const ros::Publisher& publisher, const Reading& reading, Nanoseconds stamp,
+             const Label& label) {
   Message message;
-  message.header.stamp = to_ros(reading.stamp);
+  message.header.stamp = to_ros(stamp);
   message.header.frame_id = label.frame;
   fill(reading, label, message);
   publisher.publish(message);

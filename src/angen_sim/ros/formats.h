@@ -25,7 +25,8 @@ struct Format {
   ros::AdvertiseOptions (*advertise)(const std::string& topic, std::uint32_t queue,
                                      const ros::SubscriberStatusCallback& joined,
                                      const ros::SubscriberStatusCallback& left);
-  void (*publish)(const ros::Publisher& publisher, const Reading& reading, const Label& label);
+  void (*publish)(const ros::Publisher& publisher, const Reading& reading, Nanoseconds stamp,
+                  const Label& label);
 };
 
 /// The one table: built-in kinds have messages of their own, any other goes out as

@@ -118,7 +118,8 @@ void Publishers::pass(const sim::Snapshot& snapshot) {
     const Source& source = sensors_[i];
     for (const auto& channel : source.channels) {
       if (!channel->outlet.heard() || snapshot.sensors[i] == nullptr) continue;
-      channel->format->publish(channel->outlet.publisher(), *snapshot.sensors[i], source.label);
+      channel->format->publish(channel->outlet.publisher(), *snapshot.sensors[i], snapshot.stamp(i),
+                               source.label);
     }
   }
   repeat_odometry(snapshot);
@@ -131,7 +132,7 @@ void Publishers::send_state(const sim::Snapshot& snapshot, std::uint32_t device)
     if (state == nullptr || channel->sent == state) continue;
     // A latched topic remembers its last message for those who come later.
     if (!channel->outlet.heard() && !channel->outlet.publisher().isLatched()) continue;
-    channel->format->publish(channel->outlet.publisher(), *state, source.label);
+    channel->format->publish(channel->outlet.publisher(), *state, state->stamp, source.label);
     channel->sent = state;
   }
 }
@@ -145,11 +146,9 @@ void Publishers::repeat_odometry(const sim::Snapshot& snapshot) {
     const Source& source = devices_[device];
     const std::shared_ptr<const Reading>& state = snapshot.devices[device];
     if (state == nullptr || state->stamp == snapshot.time) continue;
-    Reading now = *state;
-    now.stamp = snapshot.time;
     for (const auto& channel : source.channels) {
       if (channel->outlet.heard()) {
-        channel->format->publish(channel->outlet.publisher(), now, source.label);
+        channel->format->publish(channel->outlet.publisher(), *state, snapshot.time, source.label);
       }
     }
   }

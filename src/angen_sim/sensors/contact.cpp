@@ -97,6 +97,9 @@ class Contact : public Sensor {
     reading.set("forces", std::move(lists.forces));
   }
 
+  Rest rest() const override { return noise_stddev_ > 0.0 ? Rest::kNoise : Rest::kSame; }
+  bool quiet(Rng) const override { return true; }  // noise neither presses nor releases
+
  private:
   // True when a change that began a debounce ago or earlier has lasted until now.
   bool settled(bool touched, Nanoseconds now) {

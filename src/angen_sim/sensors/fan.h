@@ -35,6 +35,13 @@ struct Fan {
 
   /// The scan that `hits` are, with noise. Noise takes no range below `min` or above `max`.
   Ranges measure(Hits hits, Rng& rng) const;
+
+  bool noisy() const { return noise_mean != 0.0 || noise_stddev > 0.0; }
+
+  /// Whether a scan with the noise of `rng` has it within ±limit (m) of its mean at every ray.
+  bool quiet(Rng rng, double limit) const {
+    return noise_stddev == 0.0 || rng.gaussians_within(size(), limit / noise_stddev);
+  }
 };
 
 /// Reads <ray>; `fallback` stands for what it leaves out.

@@ -36,6 +36,7 @@ class Lidar : public Sensor {
     period_ = to_seconds(params.update_period(default_rate()));
   }
 
+  int stance(const View&) override { return 0; }
   void aim(const View& view, RayBatch& rays) override { fan_.aim(view.pose(), directions_, rays); }
 
   void read(const View&, Hits hits, Rng& rng, Reading& reading) override {

@@ -28,6 +28,9 @@ class Luminosity : public Sensor {
     tell_change(sample.illuminance, reading);
   }
 
+  Rest rest() const override { return noise_stddev_ > 0.0 ? Rest::kNoise : Rest::kSame; }
+  bool quiet(Rng) const override { return true; }  // events are told of what it is without noise
+
  private:
   static constexpr double kRelativeChange = 0.15;  // of what was told last; CASAS' sensors do so
   static constexpr double kLeastChange = 0.01;     // lx: darkness has no relative changes

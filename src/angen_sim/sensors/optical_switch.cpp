@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "plugin/register.h"
 #include "sensors/fan.h"
@@ -43,9 +44,11 @@ class OpticalSwitch : public Sensor {
     sample_period_ = from_seconds(1.0 / sample_rate);
   }
 
+  int stance(const View&) override { return 0; }
   void aim(const View& view, RayBatch& rays) override { fan_.aim(view.pose(), directions_, rays); }
 
   void read(const View&, Hits hits, Rng& rng, Reading& reading) override {
+    const bool loud = !quiet(rng);
     Ranges ranges = fan_.measure(hits, rng);
     const bool first = previous_.empty();
     const double difference = greatest_difference(ranges, previous_);
@@ -62,9 +65,27 @@ class OpticalSwitch : public Sensor {
     if (flipped) reading.event = closed ? "closed" : "opened";
     closed_ = closed;
     previous_ = std::move(ranges);
+    if (!fan_.noisy()) {
+      rest_ = first || difference > 0.0 || flipped ? Rest::kBusy : Rest::kSame;
+    } else {
+      rest_ = loud || changed || flipped || !decided(hits) ? Rest::kBusy : Rest::kNoise;
+    }
   }
 
+  Rest rest() const override { return rest_; }
+  bool quiet(Rng rng) const override { return fan_.quiet(rng, threshold_ / 2.0); }
+  int memory() const override { return 1; }
+
  private:
+  /// Whether quiet noise cannot turn closed to open or back.
+  bool decided(Hits hits) const {
+    double nearest = fan_.max;
+    for (const rays::Hit& hit : hits) {
+      if (hit.range < fan_.max) nearest = std::min(nearest, hit.range + fan_.noise_mean);
+    }
+    return std::abs(nearest - (beam_length_ - threshold_)) > threshold_ / 2.0;
+  }
+
   Fan fan_;
   std::vector<Vec3> directions_;
   double threshold_ = 0.0;
@@ -72,6 +93,7 @@ class OpticalSwitch : public Sensor {
   Nanoseconds sample_period_ = kSecond / 100;
   Ranges previous_;
   bool closed_ = false;
+  Rest rest_ = Rest::kBusy;
 };
 
 ANGEN_REGISTER_SENSOR(OpticalSwitch, "switch", "A light barrier of two rays at a door.")

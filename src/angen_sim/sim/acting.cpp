@@ -8,39 +8,85 @@ namespace {
 
 constexpr Nanoseconds kReportPeriod = kSecond / 50;
 
+// What fell asleep in the last tick was awake in it.
+bool is_idle(const LiveModel& live, const DeviceInstance& device, InstanceView::Clock clock) {
+  return clock.time < device.idle_until && live.awake_at < clock.time / clock.step - 1;
+}
+
 }  // namespace
 
-void Acting::act(Building& building, InstanceView::Clock clock, std::vector<Event>& events) {
-  told_.clear();
-  lights_changed_ = false;
+void Acting::list(Building& building) {
+  list_is_old_ = false;
+  parts_.clear();
+  to_report_.clear();
   for (auto& live : building.models()) {
     for (DeviceInstance& device : live->devices) {
-      const InstanceView view(building.stage(), *live, clock);
-      InstanceOutputs outputs(building.stage(), *live, device, clock.time, events);
-      device.device->update(view, outputs);
-      if (outputs.told()) told_.push_back(&device);
-      lights_changed_ = lights_changed_ || outputs.lights_changed();
+      if (device.to_report) to_report_.push_back(static_cast<std::uint32_t>(parts_.size()));
+      parts_.push_back({live.get(), &device});
     }
   }
 }
 
+void Acting::act(Building& building, InstanceView::Clock clock, std::vector<Event>& events) {
+  if (list_is_old_) list(building);
+  told_.clear();
+  lights_changed_ = false;
+  bool reports_added = false;
+  for (std::uint32_t i = 0; i < parts_.size(); ++i) {
+    DeviceInstance& device = *parts_[i].device;
+    LiveModel& live = *parts_[i].live;
+    if (is_idle(live, device, clock)) continue;
+    device.catch_up(clock.time, clock.step);
+    const InstanceView view(building.stage(), live, clock);
+    InstanceOutputs outputs(building.stage(), live, device, clock.time, events);
+    device.device->update(view, outputs);
+    device.updated = clock.time;
+    device.idle_until = device.device->idle_until(view);
+    if (!device.to_report) {
+      device.to_report = reports_added = true;
+      to_report_.push_back(i);
+    }
+    if (outputs.told()) told_.push_back(i);
+    lights_changed_ = lights_changed_ || outputs.lights_changed();
+  }
+  if (reports_added) std::sort(to_report_.begin(), to_report_.end());
+}
+
+std::int64_t Acting::next_tick(Building& building, InstanceView::Clock clock) {
+  if (list_is_old_) list(building);
+  Nanoseconds first = kForever - clock.step;
+  for (const Part& part : parts_) {
+    if (!is_idle(*part.live, *part.device, clock)) return clock.time / clock.step;
+    first = std::min(first, part.device->idle_until);
+  }
+  std::int64_t tick = (first + clock.step - 1) / clock.step;
+  if (!to_report_.empty()) {  // the next report is at the end of the tick before
+    const Nanoseconds report = (clock.time / kReportPeriod + 1) * kReportPeriod;
+    tick = std::min(tick, (report + clock.step - 1) / clock.step - 1);
+  }
+  return tick;
+}
+
+void Acting::note_awake(Building& building, std::int64_t tick) {
+  awake_.clear();
+  building.stage().physics.list_awake(awake_);
+  for (const physics::LinkId link : awake_) building.owner(link).model->awake_at = tick;
+}
+
 void Acting::report(Building& building, InstanceView::Clock clock, Snapshot& next) {
   const bool all = clock.time % kReportPeriod < clock.step;
-  if (!all && told_.empty()) return;
-  for (auto& live : building.models()) {
-    for (std::size_t i = 0; i < live->devices.size(); ++i) {
-      DeviceInstance& device = live->devices[i];
-      const bool told = std::find(told_.begin(), told_.end(), &device) != told_.end();
-      if (!all && !told && device.last) continue;
-      device.device->report(InstanceView(building.stage(), *live, clock), device.scratch);
-      if (device.last && device.last->same_values(device.scratch)) continue;
-      device.scratch.stamp = clock.time;
-      device.last = std::make_shared<const Reading>(device.scratch);
-      const auto index = live->first_device + static_cast<std::uint32_t>(i);
-      next.devices.set(index, device.last);
-      next.new_states.push_back(index);
-    }
+  for (const std::uint32_t index : all ? to_report_ : told_) {
+    DeviceInstance& device = *parts_[index].device;
+    device.device->report(InstanceView(building.stage(), *parts_[index].live, clock),
+                          device.scratch);
+    if (all) device.to_report = false;
+    if (device.last && device.last->same_values(device.scratch)) continue;
+    device.scratch.stamp = clock.time;
+    device.last = std::make_shared<const Reading>(device.scratch);
+    next.devices.set(index, device.last);
+    next.new_states.push_back(index);
   }
+  if (all) to_report_.clear();
 }
 
 }  // namespace angen::sim

@@ -10,17 +10,37 @@ namespace angen::sim {
 /// The devices' part of a tick.
 class Acting {
  public:
-  /// Every device acts, in the order in which they came into the world.
+  /// Every device that is not idle acts, in the order in which they came into the world.
   void act(Building& building, InstanceView::Clock clock, std::vector<Event>& events);
+
+  /// After physics has made tick number `tick`: what is awake keeps its devices from being idle.
+  void note_awake(Building& building, std::int64_t tick);
 
   /// States that differ from the last ones go into `next`: those of devices that told an event at
   /// once, the others 50 times a second.
   void report(Building& building, InstanceView::Clock clock, Snapshot& next);
 
+  /// The tick that must be taken next for a device's sake, while nothing is awake.
+  std::int64_t next_tick(Building& building, InstanceView::Clock clock);
+
   bool lights_changed() const { return lights_changed_; }
 
+  /// To be called when devices came or went.
+  void invalidate() { list_is_old_ = true; }
+
  private:
-  std::vector<const DeviceInstance*> told_;
+  struct Part {
+    LiveModel* live;
+    DeviceInstance* device;
+  };
+
+  void list(Building& building);
+
+  bool list_is_old_ = true;
+  std::vector<Part> parts_;               // as Structure::devices
+  std::vector<std::uint32_t> to_report_;  // of parts_, ascending
+  std::vector<std::uint32_t> told_;       // those of them that told an event in this tick
+  std::vector<physics::LinkId> awake_;
   bool lights_changed_ = false;
 };
 

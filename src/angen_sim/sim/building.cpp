@@ -13,10 +13,9 @@ Error taken(const Source& source, const std::string& what, const std::string& na
                            "'; names of a kind must differ");
 }
 
-void start_at(SensorInstance& sensor, Nanoseconds now) {
-  sensor.start = now;
-  sensor.samples = 0;
-  sensor.published = 0;
+void start_at(SensorInstance& sensor, Nanoseconds now, Nanoseconds step) {
+  sensor.rhythm.start = now;
+  sensor.rhythm.step = step;
 }
 
 }  // namespace
@@ -96,7 +95,8 @@ void Building::build(desc::Model model, const std::vector<SensorInstance>* attac
   }
   check_names(*live);
   live->parts = stage_->add(*live->desc);
-  for (SensorInstance& sensor : live->sensors) start_at(sensor, now);
+  for (SensorInstance& sensor : live->sensors) start_at(sensor, now, world_.physics.step);
+  for (DeviceInstance& device : live->devices) device.updated = now - world_.physics.step;
   for (std::uint32_t i = 0; i < live->parts.links.size(); ++i) {
     const std::uint32_t index = live->parts.links[i].index;
     if (owners_.size() <= index) owners_.resize(index + 1);
@@ -130,7 +130,7 @@ void Building::attach(const desc::Sensor& sensor, const std::string& link, Nanos
                                         sensor, sensor.name, world_.gravity, *catalog_);
   check_sensor_name(instance);
   instance.attached = true;
-  start_at(instance, now);
+  start_at(instance, now, world_.physics.step);
   live->sensors.push_back(std::move(instance));
   ++revision_;
 }
@@ -163,6 +163,9 @@ void Building::erase(const std::string& name) {
 void Building::reset(Nanoseconds now) {
   std::vector<std::unique_ptr<LiveModel>> old;
   old.swap(models_);
+  for (const auto& live : old) {
+    for (SensorInstance& sensor : live->sensors) sensor.looks.clear();  // they stand on the stage
+  }
   raise_stage();
   for (const auto& live : old) {
     std::vector<SensorInstance> attached;
@@ -206,7 +209,8 @@ std::shared_ptr<const Structure> Building::structure() {
     }
     for (const SensorInstance& s : live->sensors) {
       all->sensors.push_back({s.kind, s.name, m, live->first_link + s.link, s.pose, s.topic,
-                              s.frame, s.period, s.attached, s.sensor->on_demand(), s.desc});
+                              s.frame, s.rhythm.publish, s.rhythm, s.attached,
+                              s.sensor->on_demand(), s.desc});
     }
   }
   return all;

@@ -133,7 +133,7 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link, const desc
     instance.pose = described.pose;
     instance.scratch.kind = instance.kind;
     Params params(described.plugin_element, &described.element);
-    instance.period = params.update_period(instance.sensor->default_rate());
+    instance.rhythm.publish = params.update_period(instance.sensor->default_rate());
     instance.topic = params.text("topicName", "", "topic, instead of /angen/KIND/NAME");
     if (instance.topic.empty()) {
       instance.topic = params.text("bumperTopicName", "", "the same, in a contact sensor");
@@ -143,8 +143,9 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link, const desc
     instance.sensor->configure(params, wiring);
     params.finish();
     instance.collisions = wiring.collisions();
-    instance.sample_period = instance.sensor->sample_period();
-    if (instance.sample_period <= 0) instance.sample_period = instance.period;
+    instance.rhythm.sample = instance.sensor->sample_period();
+    if (instance.rhythm.sample <= 0) instance.rhythm.sample = instance.rhythm.publish;
+    instance.link_moves = !live.desc->is_static;
     return instance;
   });
 }

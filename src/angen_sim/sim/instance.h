@@ -3,9 +3,12 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "plugin/library.h"
+#include "rays/gaze.h"
+#include "sim/rhythm.h"
 #include "sim/snapshot.h"
 #include "sim/stage.h"
 
@@ -18,6 +21,25 @@ struct DeviceInstance {
   std::unique_ptr<Device> device;
   Reading scratch;  // what it reports is written here, then compared
   std::shared_ptr<const Reading> last;
+  Nanoseconds updated = 0;     // when it last was
+  Nanoseconds idle_until = 0;  // unless it is commanded or its model wakes
+  bool to_report = true;       // it was updated since its last report
+
+  /// Tells it of the ticks that it was left out of, before the one of `now`.
+  void catch_up(Nanoseconds now, Nanoseconds step) {
+    if (now - step > updated) device->skip(now - step - updated);
+    updated = now - step;
+  }
+};
+
+/// One of a sensor's sets of rays, measured at the pose that it has now.
+struct Look {
+  Look(RayBatch rays, Stage& stage)
+      : gaze(std::move(rays), stage.rays), view(stage.sights, gaze.reach()) {}
+
+  rays::Gaze gaze;
+  Sights::View view;
+  bool met_mover = false;  // when it was last looked at
 };
 
 struct SensorInstance {
@@ -33,16 +55,20 @@ struct SensorInstance {
   std::string frame;
   bool attached = false;
   std::vector<std::string> collisions;  // full names, by ContactRef
-  Nanoseconds period = 0;               // of publishing
-  Nanoseconds sample_period = 0;        // of looking
-  Nanoseconds start = 0;
-  std::int64_t samples = 0;  // due times are start + k * period, k counted
-  std::int64_t published = 0;
-  Reading scratch;
-  std::shared_ptr<const Reading> last;
+  Rhythm rhythm;
+  Reading scratch;                      // the latest
+  std::shared_ptr<const Reading> last;  // the latest published
+  bool published = false;               // that is what `scratch` says
 
-  Nanoseconds next_sample() const { return start + samples * sample_period; }
-  Nanoseconds next_publish() const { return start + published * period; }
+  bool link_moves = true;                    // or stands where it is for ever
+  Pose seen_from;                            // when it last looked, if its link moves
+  std::vector<std::unique_ptr<Look>> looks;  // by stance, from where it stands
+  Rest rest = Rest::kBusy;
+  bool asks_more = true;        // of the world than its pose and `looks`
+  Sights::Moment seen = 0;      // it has seen all that happened before
+  int calm = 0;                 // so many looks in a row found nothing changed since the one before
+  Nanoseconds quiet_until = 0;  // known of its noise, for leaps
+  Nanoseconds loud_at = 0;      // as well, when later than now
 };
 
 /// A model that is in the world, with all that acts and looks in it.
@@ -51,6 +77,7 @@ struct LiveModel {
   Parts parts;
   std::vector<DeviceInstance> devices;
   std::vector<SensorInstance> sensors;
+  std::int64_t awake_at = 0;     // the last tick at whose end some of it was awake
   std::uint32_t first_link = 0;  // index of its first link in Structure::links
   std::uint32_t first_joint = 0;
   std::uint32_t first_device = 0;

@@ -1,5 +1,7 @@
 #include "sim/orders.h"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace angen::sim {
@@ -63,6 +65,8 @@ Outcome to_device(const ToDevice& given, Building& building, InstanceView::Clock
   std::vector<Verdict> verdicts;
   for (const Target& target : targets) {
     const InstanceView view(building.stage(), *target.live, clock);
+    target.device->catch_up(clock.time, clock.step);
+    target.device->idle_until = 0;
     verdicts.push_back(target.device->device->command(order.command, view));
     if (verdicts.back().accepted) continue;
     const char* others = targets.size() > 1 ? "; none of the others was commanded" : "";
@@ -104,7 +108,9 @@ Orders::Effects Orders::obey(Building& building, InstanceView::Clock clock,
       if (step->ticks == 0) {
         answers_.emplace_back(std::move(request.answer), Outcome{true, "no ticks"});
       } else {
-        steps_.push_back({step->ticks, std::move(request.answer)});
+        const auto ticks = static_cast<std::int64_t>(
+            std::min<std::uint64_t>(step->ticks, std::numeric_limits<std::int64_t>::max()));
+        steps_.push_back({ticks, std::move(request.answer)});
       }
       continue;
     }
@@ -114,8 +120,12 @@ Orders::Effects Orders::obey(Building& building, InstanceView::Clock clock,
   return effects;
 }
 
-void Orders::tick_done() {
-  if (steps_.empty() || --steps_.front().left > 0) return;
+std::int64_t Orders::ticks_to_go() const {
+  return steps_.empty() ? INT64_MAX : steps_.front().left;
+}
+
+void Orders::ticks_done(std::int64_t count) {
+  if (steps_.empty() || (steps_.front().left -= count) > 0) return;
   answers_.emplace_back(std::move(steps_.front().answer), Outcome{});
   steps_.pop_front();
 }

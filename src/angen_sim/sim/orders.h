@@ -29,14 +29,16 @@ class Orders {
 
   bool paused() const { return paused_; }
   bool running() const { return !paused_ || !steps_.empty(); }
-  /// Counts a tick that took place.
-  void tick_done();
+  /// How many ticks may take place before somebody is to be told.
+  std::int64_t ticks_to_go() const;
+  /// Counts ticks that took place.
+  void ticks_done(std::int64_t count);
   /// Answers what was carried out; called when the snapshot that shows it is out.
   void answer();
 
  private:
   struct Pending {
-    std::uint64_t left;
+    std::int64_t left;
     std::promise<Outcome> answer;
   };
 

@@ -1,61 +1,194 @@
 #include "sim/sensing.h"
 
 #include <algorithm>
-#include <limits>
+#include <map>
+#include <memory>
+#include <utility>
 
 namespace angen::sim {
 
+namespace {
+
+constexpr int kMostStances = 256;  // of one sensor that are remembered
+
+bool publishes(const SensorInstance& sensor, InstanceView::Clock clock) {
+  return !sensor.last || sensor.rhythm.last_publication(clock.time) > clock.time - clock.step;
+}
+
+/// Whether it is where it was at its last look; else what it measured there is void.
+bool stands_still(SensorInstance& sensor, const InstanceView& view) {
+  if (!sensor.link_moves) return true;
+  const Pose pose = view.pose();
+  if (pose == sensor.seen_from) return true;
+  sensor.seen_from = pose;
+  sensor.looks.clear();
+  return false;
+}
+
+}  // namespace
+
 void Sensing::look(Building& building, InstanceView::Clock clock, std::int64_t tick,
                    Snapshot& next) {
-  if (clock.time < earliest_) return;
-  building.stage().rays.commit();
-  aim(building, clock);
-  hits_.resize(rays_.size());
-  building.stage().rays.cast(rays_.data(), hits_.data(), rays_.size());
-  for (const Due& due : due_) read(building, due, clock, tick, next);
+  if (schedule_is_old_) schedule(building, clock.time - clock.step);
+  Stage& stage = building.stage();
+  if (collect_due(clock.time)) {
+    looking_.clear();
+    rays_.clear();
+    for (const std::uint32_t index : due_) visit(stage, index, clock, next);
+    const auto shared = static_cast<std::ptrdiff_t>(next.new_readings.size());
+    cast(stage);
+    for (const Looking& looking : looking_) read(stage, looking, clock, tick, next);
+    std::inplace_merge(next.new_readings.begin(), next.new_readings.begin() + shared,
+                       next.new_readings.end());
+  }
+  stage.sights.pass();
 }
 
-void Sensing::aim(Building& building, InstanceView::Clock clock) {
-  due_.clear();
-  rays_.clear();
-  earliest_ = std::numeric_limits<Nanoseconds>::max();
+void Sensing::cast(Stage& stage) {
+  if (rays_.empty()) return;
+  stage.rays.commit();
+  hits_.resize(rays_.size());
+  stage.rays.cast(rays_.data(), hits_.data(), rays_.size());
+}
+
+void Sensing::schedule(Building& building, Nanoseconds now) {
+  schedule_is_old_ = false;
+  watched_.clear();
+  groups_.clear();
+  std::map<std::pair<Nanoseconds, Nanoseconds>, std::uint32_t> known;  // by due time and period
   for (auto& live : building.models()) {
-    for (std::size_t i = 0; i < live->sensors.size(); ++i) {
-      SensorInstance& sensor = live->sensors[i];
-      if (clock.time >= sensor.next_sample()) {
-        if (!sensor.sensor->on_demand() || demand_.has(sensor.kind, sensor.name)) {
-          const std::size_t first = rays_.size();
-          sensor.sensor->aim(InstanceView(building.stage(), *live, clock, &sensor), rays_);
-          due_.push_back({live.get(), i, first, rays_.size() - first});
-        }
-        while (sensor.next_sample() <= clock.time) ++sensor.samples;
-      }
-      earliest_ = std::min(earliest_, sensor.next_sample());
+    for (SensorInstance& sensor : live->sensors) {
+      const std::pair<Nanoseconds, Nanoseconds> key(sensor.rhythm.next(now), sensor.rhythm.sample);
+      const auto count = static_cast<std::uint32_t>(groups_.size());
+      const auto [at, is_new] = known.emplace(key, count);
+      if (is_new) groups_.emplace_back();
+      groups_[at->second].push_back(static_cast<std::uint32_t>(watched_.size()));
+      watched_.push_back({live.get(), &sensor});
     }
   }
+  requeue(now);
 }
 
-void Sensing::read(Building& building, const Due& due, InstanceView::Clock clock, std::int64_t tick,
-                   Snapshot& next) {
-  SensorInstance& sensor = due.live->sensors[due.sensor];
-  Reading& reading = sensor.scratch;
-  reading.stamp = clock.time;
-  reading.urgent = false;
-  reading.event.clear();
-  reading.event_detail.clear();
-  Rng rng(seed_, sensor.key, tick);
-  sensor.sensor->read(InstanceView(building.stage(), *due.live, clock, &sensor),
-                      Hits{hits_.data() + due.first_ray, due.ray_count}, rng, reading);
-  if (!reading.event.empty()) {
-    next.events.push_back(
-        {clock.time, sensor.name, sensor.kind, reading.event, reading.event_detail});
+void Sensing::requeue(Nanoseconds now) {
+  queue_ = {};
+  for (std::uint32_t i = 0; i < groups_.size(); ++i) {
+    queue_.push({watched_[groups_[i].front()].sensor->rhythm.next(now), i});
   }
-  const bool periodic = clock.time >= sensor.next_publish();
-  if (!periodic && !reading.urgent) return;
-  while (sensor.next_publish() <= clock.time) ++sensor.published;
-  sensor.last = std::make_shared<const Reading>(reading);
-  const auto index = due.live->first_sensor + static_cast<std::uint32_t>(due.sensor);
-  next.sensors.set(index, sensor.last);
+}
+
+bool Sensing::collect_due(Nanoseconds now) {
+  due_.clear();
+  while (!queue_.empty() && queue_.top().due <= now) {
+    const std::uint32_t index = queue_.top().index;
+    const std::vector<std::uint32_t>& group = groups_[index];
+    queue_.pop();
+    const auto middle = static_cast<std::ptrdiff_t>(due_.size());
+    due_.insert(due_.end(), group.begin(), group.end());
+    std::inplace_merge(due_.begin(), due_.begin() + middle, due_.end());
+    queue_.push({watched_[group.front()].sensor->rhythm.next(now), index});
+  }
+  return !due_.empty();
+}
+
+void Sensing::visit(Stage& stage, std::uint32_t index, InstanceView::Clock clock, Snapshot& next) {
+  SensorInstance& sensor = *watched_[index].sensor;
+  if (sensor.sensor->on_demand()) {
+    if (!demand_.has(sensor.kind, sensor.name)) return;
+  } else if (undisturbed(stage, sensor)) {
+    ++sensor.calm;
+    if (sensor.rest == Rest::kSame) {
+      if (publishes(sensor, clock)) publish(index, clock.time, next);
+      return;
+    }
+  } else {
+    sensor.calm = 0;
+  }
+  aim(stage, index, clock);
+}
+
+bool Sensing::undisturbed(const Stage& stage, const SensorInstance& sensor) {
+  if ((sensor.asks_more || sensor.link_moves) && stage.changed() >= sensor.seen) return false;
+  return std::none_of(sensor.looks.begin(), sensor.looks.end(), [&](const auto& look) {
+    return look != nullptr && look->view.stirred(sensor.seen);
+  });
+}
+
+void Sensing::aim(Stage& stage, std::uint32_t index, InstanceView::Clock clock) {
+  SensorInstance& sensor = *watched_[index].sensor;
+  const InstanceView view(stage, *watched_[index].live, clock, &sensor);
+  Looking looking{index, nullptr, false, false, rays_.size(), 0};
+  const int stance = sensor.sensor->stance(view);
+  if (stance >= 0 && stance < kMostStances && stands_still(sensor, view)) {
+    if (sensor.looks.size() <= static_cast<std::size_t>(stance)) sensor.looks.resize(stance + 1);
+    std::unique_ptr<Look>& look = sensor.looks[stance];
+    if (!look) {
+      RayBatch rays;
+      sensor.sensor->aim(view, rays);
+      stage.rays.commit();
+      look = std::make_unique<Look>(std::move(rays), stage);
+      looking.measured = true;
+    } else if (look->view.take_altered()) {
+      stage.rays.commit();
+      look->gaze.measure(stage.rays);
+      look->view.resize(look->gaze.reach());
+      looking.measured = true;
+    }
+    looking.look = look.get();
+  } else {
+    sensor.sensor->aim(view, rays_);
+    looking.ray_count = rays_.size() - looking.first_ray;
+  }
+  looking.asked_more = view.asked_more();
+  looking_.push_back(looking);
+}
+
+/// `same`: they are those of the look before.
+Hits Sensing::hits_of(Stage& stage, const Looking& looking, bool& same) {
+  if (looking.look == nullptr) return {hits_.data() + looking.first_ray, looking.ray_count};
+  Look& look = *looking.look;
+  gaze_hits_.resize(look.gaze.size());
+  const bool meets = look.gaze.look(stage.rays, look.view.near(), gaze_hits_.data());
+  same = !looking.measured && !meets && !look.met_mover;
+  look.met_mover = meets;
+  return {gaze_hits_.data(), gaze_hits_.size()};
+}
+
+void Sensing::read(Stage& stage, const Looking& looking, InstanceView::Clock clock,
+                   std::int64_t tick, Snapshot& next) {
+  SensorInstance& sensor = *watched_[looking.index].sensor;
+  bool same = false;
+  const Hits hits = hits_of(stage, looking, same);
+  sensor.seen = stage.sights.now() + 1;
+  Reading& reading = sensor.scratch;
+  if (!same || sensor.rest != Rest::kSame || sensor.asks_more) {
+    reading.stamp = clock.time;
+    reading.urgent = false;
+    reading.event.clear();
+    reading.event_detail.clear();
+    Rng rng(seed_, sensor.key, tick);
+    const InstanceView view(stage, *watched_[looking.index].live, clock, &sensor);
+    sensor.sensor->read(view, hits, rng, reading);
+    sensor.rest = sensor.sensor->on_demand() ? Rest::kBusy : sensor.sensor->rest();
+    sensor.asks_more = looking.asked_more || view.asked_more() || looking.ray_count > 0;
+    sensor.published = false;
+    if (!reading.event.empty()) {
+      next.events.push_back(
+          {clock.time, sensor.name, sensor.kind, reading.event, reading.event_detail});
+    }
+  }
+  if (publishes(sensor, clock) || (reading.urgent && !sensor.published)) {
+    publish(looking.index, clock.time, next);
+  }
+}
+
+void Sensing::publish(std::uint32_t index, Nanoseconds now, Snapshot& next) {
+  SensorInstance& sensor = *watched_[index].sensor;
+  if (!sensor.published) {
+    sensor.published = true;
+    sensor.scratch.stamp = now;
+    sensor.last = std::make_shared<const Reading>(sensor.scratch);
+    next.sensors.set(index, sensor.last);
+  }
   next.new_readings.push_back(index);
   ++next.counts.readings;
 }

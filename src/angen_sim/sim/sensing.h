@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <queue>
 #include <vector>
 
 #include "sim/building.h"
@@ -9,34 +10,72 @@
 
 namespace angen::sim {
 
-/// The sensors' part of a tick: those that are due aim, one cast answers all, they read.
+/// The sensors' part of a tick: those that are due aim, one cast answers all, they read. One at
+/// rest is not asked again before something that it looks at has changed, and the rays of one that
+/// stands still are cast against movers only; the readings are the same as if each had cast all its
+/// rays.
 class Sensing {
  public:
   Sensing(std::uint64_t seed, const Demand& demand) : seed_(seed), demand_(demand) {}
 
   void look(Building& building, InstanceView::Clock clock, std::int64_t tick, Snapshot& next);
 
-  /// Forgets what is due when; to be called when sensors came, went, or started anew.
-  void invalidate() { earliest_ = 0; }
+  /// The tick that must be taken next for a sensor's sake, `tick` at the latest, while nothing
+  /// moves.
+  std::int64_t next_tick(Building& building, InstanceView::Clock clock, std::int64_t tick);
+  /// What the sensors do in the ticks from that of `clock` up to `tick`, which next_tick() allowed.
+  void pass_over(Building& building, InstanceView::Clock clock, std::int64_t tick, Snapshot& next);
+
+  /// To be called when sensors came, went, or started anew.
+  void invalidate() { schedule_is_old_ = true; }
 
  private:
-  struct Due {
+  struct Watched {
     LiveModel* live;
-    std::size_t sensor;
+    SensorInstance* sensor;
+  };
+  /// Sensors that look at the same times.
+  struct Group {
+    Nanoseconds due;
+    std::uint32_t index;  // in groups_
+    bool operator>(const Group& o) const { return due != o.due ? due > o.due : index > o.index; }
+  };
+  struct Looking {
+    std::uint32_t index;  // in Structure::sensors
+    Look* look;           // null for one whose rays are in the batch
+    bool measured;        // the look is new
+    bool asked_more;      // of the view, to aim
     std::size_t first_ray;
     std::size_t ray_count;
   };
 
-  void aim(Building& building, InstanceView::Clock clock);
-  void read(Building& building, const Due& due, InstanceView::Clock clock, std::int64_t tick,
+  void schedule(Building& building, Nanoseconds now);
+  void requeue(Nanoseconds now);
+  bool collect_due(Nanoseconds now);
+  /// Whether a look would find what the last one did, noise and changing stances aside.
+  static bool undisturbed(const Stage& stage, const SensorInstance& sensor);
+  void visit(Stage& stage, std::uint32_t index, InstanceView::Clock clock, Snapshot& next);
+  void aim(Stage& stage, std::uint32_t index, InstanceView::Clock clock);
+  void cast(Stage& stage);
+  Hits hits_of(Stage& stage, const Looking& looking, bool& same);
+  void read(Stage& stage, const Looking& looking, InstanceView::Clock clock, std::int64_t tick,
             Snapshot& next);
+  void publish(std::uint32_t index, Nanoseconds now, Snapshot& next);
+  bool may_be_passed_over(const Stage& stage, const SensorInstance& sensor) const;
+  Nanoseconds first_loud(SensorInstance& sensor, InstanceView::Clock clock,
+                         Nanoseconds until) const;
 
   std::uint64_t seed_;
   const Demand& demand_;
-  Nanoseconds earliest_ = 0;  // no sensor is due before
-  std::vector<Due> due_;
+  bool schedule_is_old_ = true;
+  std::vector<Watched> watched_;                    // as Structure::sensors
+  std::vector<std::vector<std::uint32_t>> groups_;  // of watched_, ascending
+  std::priority_queue<Group, std::vector<Group>, std::greater<>> queue_;
+  std::vector<std::uint32_t> due_;
+  std::vector<Looking> looking_;
   RayBatch rays_;
   std::vector<rays::Hit> hits_;
+  std::vector<rays::Hit> gaze_hits_;
 };
 
 }  // namespace angen::sim

@@ -1,5 +1,6 @@
 #include "sim/simulation.h"
 
+#include <algorithm>
 #include <mutex>
 #include <utility>
 
@@ -33,11 +34,44 @@ struct Simulation::Impl {
     restructure();
   }
 
+  void pass_over(Nanoseconds until) {
+    std::int64_t tick = until / next.step - 1;
+    if (tick <= next.tick || !next.events.empty()) return;
+    if (building.stage().physics.awake_count() > 0) return;
+    tick = std::min(tick, acting.next_tick(building, clock()));
+    const std::int64_t most = orders.ticks_to_go() - 1;
+    if (most < tick - next.tick) tick = next.tick + most;
+    if (tick <= next.tick) return;
+    tick = sensing.next_tick(building, clock(), tick);
+    if (tick <= next.tick) return;
+    sensing.pass_over(building, clock(), tick, next);
+    orders.ticks_done(tick - next.tick);
+    next.tick = tick;
+    next.time = tick * next.step;
+  }
+
+  std::shared_ptr<const Snapshot> take_tick(Nanoseconds until) {
+    obey();
+    if (orders.running()) {
+      pass_over(until);
+      act();
+      move();
+      look();
+      orders.ticks_done(1);
+    }
+    std::shared_ptr<const Snapshot> made = publish();
+    orders.answer();
+    return made;
+  }
+
   void act() { acting.act(building, clock(), next.events); }
 
   void move() {
-    building.stage().physics.step(next.tick);
+    Stage& stage = building.stage();
+    stage.physics.step(next.tick);
+    if (stage.physics.awake_count() > 0 || !stage.physics.moved().empty()) stage.note_change();
     ++next.tick;
+    acting.note_awake(building, next.tick);
     next.time = next.tick * next.step;
     for (const physics::LinkId link : building.stage().physics.moved()) {
       const Building::Owner owner = building.owner(link);
@@ -72,6 +106,7 @@ struct Simulation::Impl {
   void restructure() {
     if (next.structure && next.structure->revision == building.revision()) return;
     next.structure = building.structure();
+    acting.invalidate();
     sensing.invalidate();
     next.link_poses.clear();
     next.joint_positions.clear();
@@ -134,17 +169,10 @@ std::future<Outcome> Simulation::post(Action action) {
   return impl_->orders.post(std::move(action));
 }
 
-std::shared_ptr<const Snapshot> Simulation::tick() {
-  impl_->obey();
-  if (running()) {
-    impl_->act();
-    impl_->move();
-    impl_->look();
-    impl_->orders.tick_done();
-  }
-  std::shared_ptr<const Snapshot> made = impl_->publish();
-  impl_->orders.answer();
-  return made;
+std::shared_ptr<const Snapshot> Simulation::tick() { return impl_->take_tick(0); }
+
+std::shared_ptr<const Snapshot> Simulation::leap(Nanoseconds until) {
+  return impl_->take_tick(until);
 }
 
 std::shared_ptr<const Snapshot> Simulation::snapshot() const {

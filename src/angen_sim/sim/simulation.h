@@ -28,6 +28,12 @@ class Simulation {
   /// Returns the snapshot it made.
   std::shared_ptr<const Snapshot> tick();
 
+  /// As tick(), but first passes over ticks in which nothing happens: none is awake, no device and
+  /// no sensor has anything to do but to publish again what it published before, or, with noise,
+  /// nothing that anybody is told of. The snapshot is bit for bit what as many tick() would have
+  /// ended with. Its tick ends at `until` at the latest, unless that has passed.
+  std::shared_ptr<const Snapshot> leap(Nanoseconds until);
+
   /// The latest snapshot; never null.
   std::shared_ptr<const Snapshot> snapshot() const;
 

@@ -7,6 +7,7 @@
 
 #include "desc/world.h"
 #include "plugin/reading.h"
+#include "sim/rhythm.h"
 #include "sim/shared_array.h"
 
 namespace angen::sim {
@@ -48,6 +49,7 @@ struct SensorEntry {
   std::string topic;       // as its SDF says, or empty
   std::string frame;       // as its SDF says, or empty
   Nanoseconds period = 0;  // of publishing
+  Rhythm rhythm;           // of all its due times
   bool attached = false;   // by a command, to a link that existed
   bool on_demand = false;  // looks only while wanted, see Simulation::want
   std::shared_ptr<const desc::Sensor> desc;
@@ -92,10 +94,15 @@ struct Snapshot {
       sensors;  // as Structure::sensors; null before the first
   std::shared_ptr<const std::vector<double>> light_levels;  // 0..1, as Structure::lights
   std::vector<std::uint32_t> moved_links;   // indices of links whose pose changed in this tick
-  std::vector<std::uint32_t> new_readings;  // indices of sensors that published in this tick
+  std::vector<std::uint32_t> new_readings;  // indices of sensors that published in this tick: a
+                                            // reading of now, or again the last, if nothing changed
   std::vector<std::uint32_t> new_states;    // indices of devices whose state changed in this tick
   std::vector<Event> events;                // of this tick
   Counts counts;
+
+  /// When a sensor that has a reading last published it: its own stamp, or the due time that found
+  /// nothing changed since.
+  Nanoseconds stamp(std::size_t sensor) const;
 };
 
 }  // namespace angen::sim

@@ -66,9 +66,11 @@ Stage::Stage(const desc::World& world, std::uint64_t seed)
 Parts Stage::add(const desc::Model& model) {
   Parts parts;
   parts.body = physics.add(model);
+  parts.is_static = model.is_static;
   parts.links = physics.links(parts.body);
   parts.joints = physics.joints(parts.body);
   const auto anchored = links_joined_to_world(model);
+  note_change();
   for (std::uint32_t i = 0; i < model.links.size(); ++i) {
     const desc::Link& link = model.links[i];
     const Pose pose = physics.link(parts.links[i]).pose;
@@ -81,6 +83,7 @@ Parts Stage::add(const desc::Model& model) {
                                            looks.material.diffuse.head<3>());
       if (looks.temperature) rays.warm(shape, *looks.temperature);
       parts.shapes.push_back({shape, i, collision.pose});
+      show(parts, shape);
     }
     parts.bodies.push_back(visuals.add(visible(link, pose, !model.is_static)));
     for (const desc::Light& light : link.lights) {
@@ -94,7 +97,15 @@ Parts Stage::add(const desc::Model& model) {
 }
 
 void Stage::remove(const Parts& parts) {
-  for (const Parts::Shape& shape : parts.shapes) rays.remove(shape.id);
+  note_change();
+  for (const Parts::Shape& shape : parts.shapes) {
+    if (parts.is_static) {
+      sights.alter(rays.bounds(shape.id));
+    } else {
+      sights.drop(shape.id);
+    }
+    rays.remove(shape.id);
+  }
   for (const render::BodyId body : parts.bodies) visuals.remove(body);
   for (const Parts::Lamp& lamp : parts.lamps) light.remove(lamp.id);
   physics.remove(parts.body);
@@ -132,10 +143,21 @@ Parts::Lamp Stage::add_light(const desc::Light& described, const Pose& pose) {
   return part;
 }
 
+void Stage::show(const Parts& parts, rays::ShapeId shape) {
+  if (parts.is_static) {
+    sights.alter(rays.bounds(shape));
+  } else {
+    sights.put(shape, rays.bounds(shape));
+  }
+}
+
 void Stage::follow(const Parts& parts, std::uint32_t link) {
   const Pose pose = physics.link(parts.links[link]).pose;
   for (const Parts::Shape& shape : parts.shapes) {
-    if (shape.link == link) rays.move(shape.id, pose * shape.offset);
+    if (shape.link != link) continue;
+    if (parts.is_static) sights.alter(rays.bounds(shape.id));
+    rays.move(shape.id, pose * shape.offset);
+    show(parts, shape.id);
   }
   for (const Parts::Lamp& lamp : parts.lamps) {
     if (lamp.link == link) light.move(lamp.id, pose * lamp.offset);

@@ -8,6 +8,7 @@
 #include "physics/world.h"
 #include "rays/scene.h"
 #include "render/scene.h"
+#include "sim/sights.h"
 
 namespace angen::sim {
 
@@ -26,6 +27,7 @@ struct Parts {
     double level = 0.0;         // as the device set it, 0..1
   };
   physics::ModelId body;
+  bool is_static = false;
   std::vector<physics::LinkId> links;    // as desc::Model::links
   std::vector<physics::JointId> joints;  // as desc::Model::joints
   std::vector<Shape> shapes;
@@ -51,6 +53,16 @@ class Stage {
   render::Ambience ambience;
   double ambient_temperature;  // K
   light::Lighting light{rays};
+  Sights sights;  // which sensors' rays may meet what moves
+
+  /// Something that sensors may ask for besides rays has changed: a pose, a light, a contact.
+  void note_change() { changed_ = sights.now(); }
+  Sights::Moment changed() const { return changed_; }  // when last
+
+ private:
+  void show(const Parts& parts, rays::ShapeId shape);
+
+  Sights::Moment changed_ = 0;
 };
 
 }  // namespace angen::sim

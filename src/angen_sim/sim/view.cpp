@@ -21,17 +21,20 @@ Pose InstanceView::pose() const {
 }
 
 JointView InstanceView::joint(JointRef joint) const {
+  asked_more_ = true;
   const physics::JointState state = stage_.physics.joint(live_.parts.joints.at(at(joint)));
   return {state.position, state.velocity, state.effort};
 }
 
 LinkView InstanceView::link(LinkRef link) const {
+  asked_more_ = true;
   const physics::LinkId id = live_.parts.links.at(at(link));
   const physics::LinkState state = stage_.physics.link(id);
   return {state.pose, state.linear_velocity, state.angular_velocity, stage_.physics.awake(id)};
 }
 
 std::vector<ContactPair> InstanceView::contacts(ContactRef collision) const {
+  asked_more_ = true;
   const std::string& name = sensor_->collisions.at(at(collision));
   std::vector<ContactPair> found;
   for (const ContactPair& pair : stage_.physics.contacts()) {
@@ -49,14 +52,30 @@ std::vector<ContactPair> InstanceView::contacts(ContactRef collision) const {
 }
 
 light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) const {
+  asked_more_ = true;
+  stage_.rays.commit();
   return stage_.light.measure(probe, pose);
 }
 
+const std::vector<rays::WarmShape>& InstanceView::warm_shapes() const {
+  asked_more_ = true;
+  stage_.rays.commit();
+  return stage_.rays.warm_shapes();
+}
+
+std::uint64_t InstanceView::scene_revision() const {
+  asked_more_ = true;
+  stage_.rays.commit();
+  return stage_.rays.revision();
+}
+
 std::vector<std::uint8_t> InstanceView::colors(const render::Lens& lens, const Pose& pose) const {
+  asked_more_ = true;
   return stage_.visuals.colors(lens, pose, stage_.light.lit(), stage_.ambience);
 }
 
 std::vector<float> InstanceView::depths(const render::Lens& lens, const Pose& pose) const {
+  asked_more_ = true;
   return stage_.visuals.depths(lens, pose);
 }
 
@@ -76,6 +95,7 @@ void InstanceOutputs::light(LightRef light, double level, double luminous_flux) 
   Parts::Lamp& lamp = live_.parts.lamps.at(at(light));
   lamp.level = level;
   stage_.light.set_level(lamp.id, level * luminous_flux / lamp.nominal_flux);
+  stage_.note_change();
   lights_changed_ = true;
 }
 

@@ -16,7 +16,7 @@ class InstanceView : public View {
     Nanoseconds step = 0;
   };
 
-  InstanceView(const Stage& stage, const LiveModel& live, Clock clock,
+  InstanceView(Stage& stage, const LiveModel& live, Clock clock,
                const SensorInstance* sensor = nullptr)
       : stage_(stage), live_(live), clock_(clock), sensor_(sensor) {}
 
@@ -28,18 +28,20 @@ class InstanceView : public View {
   std::vector<ContactPair> contacts(ContactRef collision) const override;
   light::Sample illuminance(light::Probe& probe, const Pose& pose) const override;
   double ambient_temperature() const override { return stage_.ambient_temperature; }
-  const std::vector<rays::WarmShape>& warm_shapes() const override {
-    return stage_.rays.warm_shapes();
-  }
-  std::uint64_t scene_revision() const override { return stage_.rays.revision(); }
+  const std::vector<rays::WarmShape>& warm_shapes() const override;
+  std::uint64_t scene_revision() const override;
   std::vector<std::uint8_t> colors(const render::Lens& lens, const Pose& pose) const override;
   std::vector<float> depths(const render::Lens& lens, const Pose& pose) const override;
 
+  /// Whether it was asked for more than time and its own pose.
+  bool asked_more() const { return asked_more_; }
+
  private:
-  const Stage& stage_;
+  Stage& stage_;
   const LiveModel& live_;
   Clock clock_;
   const SensorInstance* sensor_;
+  mutable bool asked_more_ = false;
 };
 
 /// What one device does to the stage.

@@ -38,7 +38,7 @@ void RangeDifference::configure(Params& params, Wiring&) {
   previous_.resize(phases);
 }
 
-void RangeDifference::aim(const View& view, RayBatch& rays) {
+int RangeDifference::stance(const View& view) {
   const bool first = last_time_ < 0 || view.time() < last_time_;  // or the clock was set back
   if (first) {
     first_time_ = view.time();
@@ -47,10 +47,15 @@ void RangeDifference::aim(const View& view, RayBatch& rays) {
   last_time_ = view.time();
   const Nanoseconds scans = (view.time() - first_time_ + period_ / 2) / period_;
   phase_ = static_cast<std::size_t>(scans) % previous_.size();
+  return static_cast<int>(phase_);
+}
+
+void RangeDifference::aim(const View& view, RayBatch& rays) {
   fan_.aim(view.pose(), directions_[phase_], rays);
 }
 
 void RangeDifference::read(const View&, Hits hits, Rng& rng, Reading& reading) {
+  const bool loud = !quiet(rng);
   Ranges ranges = fan_.measure(hits, rng);
   const double difference = greatest_difference(ranges, previous_[phase_]);
   reading.set("ranges", ranges);  // for those who draw the rays
@@ -68,6 +73,13 @@ void RangeDifference::read(const View&, Hits hits, Rng& rng, Reading& reading) {
     reading.event_detail = detail.str();
   }
   motion_ = motion;
+  changes_ = difference > 0.0;
+  quiet_scans_ = loud || motion ? 0 : quiet_scans_ + 1;
+}
+
+Rest RangeDifference::rest() const {
+  if (previous_.size() == 1 && !fan_.noisy()) return changes_ ? Rest::kBusy : Rest::kSame;
+  return quiet_scans_ >= previous_.size() ? Rest::kNoise : Rest::kBusy;
 }
 
 std::size_t RangeDifference::count_phases(const Params& params, double nod_period) const {

@@ -12,8 +12,13 @@ namespace angen::sensors {
 class RangeDifference : public Sensor {
  public:
   void configure(Params& params, Wiring& wiring) override;
+  int stance(const View& view) override;
   void aim(const View& view, RayBatch& rays) override;
   void read(const View& view, Hits hits, Rng& rng, Reading& reading) override;
+  Rest rest() const override;
+  /// Two scans that are both within half the threshold do not differ by more than it.
+  bool quiet(Rng rng) const override { return fan_.quiet(rng, threshold_ / 2.0); }
+  int memory() const override { return static_cast<int>(previous_.size()); }
 
  private:
   std::size_t count_phases(const Params& params, double nod_period) const;
@@ -27,6 +32,8 @@ class RangeDifference : public Sensor {
   Nanoseconds last_time_ = -1;
   std::size_t phase_ = 0;
   bool motion_ = false;
+  bool changes_ = true;  // the last scan differs from the one before
+  std::size_t quiet_scans_ = 0;
 };
 
 }  // namespace angen::sensors

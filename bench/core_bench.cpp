@@ -1,0 +1,199 @@
+// What the core costs without ROS: many sensors, rest, towers, a day. A batch starts in a world
+// that has just been loaded, or in one that nothing changes.
+#include <benchmark/benchmark.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "worlds.h"
+
+namespace angen::bench {
+namespace {
+
+void run(sim::Simulation& simulation, double seconds) {
+  const Nanoseconds end = simulation.snapshot()->time + from_seconds(seconds);
+  while (simulation.snapshot()->time < end) simulation.tick();
+}
+
+double cpu_now() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+         1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+}
+
+double resident_bytes() {
+  std::ifstream file("/proc/self/statm");
+  double pages = 0.0, resident = 0.0;
+  file >> pages >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+/// Simulated seconds a second of this thread's core.
+struct Factor {
+  double cpu = cpu_now();
+  double simulated = 0.0;
+  void tell(benchmark::State& state) const {
+    state.counters["real_time_factor"] = simulated / (cpu_now() - cpu);
+  }
+};
+
+/// PIRs of 96 rays at 10 Hz in the rooms of angen.world; so many people walk through them.
+void pirs(benchmark::State& state) {
+  desc::World world = apartment();
+  put_persons(world, static_cast<int>(state.range(1)));
+  put_pirs(world, static_cast<int>(state.range(0)));
+  const auto simulation = simulate(std::move(world));
+  run(*simulation, 0.5);
+  Factor factor;
+  const std::uint64_t before = simulation->snapshot()->counts.readings;
+  for (auto _ : state) {
+    run(*simulation, 1.0);
+    factor.simulated += 1.0;
+  }
+  factor.tell(state);
+  state.counters["readings"] =
+      static_cast<double>(simulation->snapshot()->counts.readings - before) / factor.simulated;
+}
+BENCHMARK(pirs)
+    ->ArgNames({"pirs", "people"})
+    ->ArgsProduct({{0, 500, 3000, 30000}, {0, 1, 10}})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(5);
+
+/// The whole of angen.world as it is: a person, a robot, 50 sensors with noise.
+void apartment_as_it_is(benchmark::State& state) {
+  const auto simulation = simulate(apartment());
+  run(*simulation, 1.0);
+  Factor factor;
+  for (auto _ : state) {
+    run(*simulation, 1.0);
+    factor.simulated += 1.0;
+  }
+  factor.tell(state);
+}
+BENCHMARK(apartment_as_it_is)->Unit(benchmark::kMillisecond)->Iterations(10);
+
+desc::Model door(const desc::World& world) {
+  for (const desc::Model& model : world.models) {
+    if (model.name.find("_door") != std::string::npos) return model;
+  }
+  return {};
+}
+
+/// An empty world with so many doors at rest, per tick.
+void doors_at_rest(benchmark::State& state) {
+  desc::World world = apartment();
+  const desc::Model one = door(world);
+  world.models.clear();
+  for (int i = 0; i < state.range(0); ++i) {
+    desc::Model model = one;
+    model.name = "bench" + std::to_string(i) + "_door";
+    model.pose.position.x() += 3.0 * i;
+    world.models.push_back(std::move(model));
+  }
+  const auto simulation = simulate(std::move(world));
+  run(*simulation, 3.0);
+  for (auto _ : state) simulation->tick();
+}
+BENCHMARK(doors_at_rest)->ArgName("doors")->Arg(0)->Arg(100)->Arg(1000);
+
+/// So many floors like the lower one of angen.world, a person on the lowest, per tick.
+void storeys(benchmark::State& state) {
+  desc::World world = apartment();
+  const auto on_ground = [](const desc::Model& model) {
+    return model.pose.position.z() < 3.5 && model.name != "elevator" && model.name != "turtlebot" &&
+           model.name != "apartment" && !is_person(model);
+  };
+  std::vector<desc::Model> floor;
+  std::copy_if(world.models.begin(), world.models.end(), std::back_inserter(floor), on_ground);
+  world.models.erase(
+      std::remove_if(world.models.begin(), world.models.end(),
+                     [&](const desc::Model& model) { return model.pose.position.z() >= 3.5; }),
+      world.models.end());
+  for (int i = 1; i < state.range(0); ++i) {
+    for (desc::Model model : floor) {
+      const std::string number = std::to_string(i);
+      if (!model.name.empty() && model.name.back() == '0') model.name.pop_back();
+      model.name += "_" + number;
+      model.pose.position.z() += 4.0 * i;
+      world.models.push_back(std::move(model));
+    }
+  }
+  const auto simulation = simulate(std::move(world));
+  run(*simulation, 3.0);
+  for (auto _ : state) {
+    for (int i = 0; i < 1000; ++i) simulation->tick();
+  }
+  state.counters["us_a_tick"] =
+      benchmark::Counter(1e-3 * static_cast<double>(state.iterations()),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(storeys)
+    ->ArgName("floors")
+    ->Arg(2)
+    ->Arg(20)
+    ->Arg(100)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(3);
+
+/// A person whose walk of about `walk` s is followed by nine times as long a stand.
+void let_rest(desc::World& world) {
+  const auto person = std::find_if(world.models.begin(), world.models.end(), is_person);
+  std::vector<Element>& children = person->plugins[0].element.children;
+  const auto is_waypoint = [](const Element& e) { return e.name == "waypoint"; };
+  const auto last = std::find_if(children.rbegin(), children.rend(), is_waypoint);
+  Element wait = *last;
+  const std::size_t space = wait.text.find(' ');
+  wait.text = std::to_string(10.0 * std::stod(wait.text)) + wait.text.substr(space);
+  children.insert(last.base(), wait);
+}
+
+/// An hour of angen.world in which the person moves a tenth of the time; events are gathered.
+void an_hour(benchmark::State& state) {
+  desc::World world = apartment();
+  let_rest(world);
+  const auto simulation = simulate(std::move(world));
+  Factor factor;
+  std::size_t events = 0, ticks = 0;
+  for (auto _ : state) {
+    const Nanoseconds end = simulation->snapshot()->time + 3600 * kSecond;
+    while (simulation->snapshot()->time < end) {
+      events += simulation->leap(end)->events.size();
+      ++ticks;
+    }
+    factor.simulated += 3600.0;
+  }
+  factor.tell(state);
+  state.counters["s_a_day"] = 86400.0 / factor.simulated * (cpu_now() - factor.cpu);
+  state.counters["events"] = static_cast<double>(events);
+  state.counters["ticks"] = static_cast<double>(ticks);
+}
+BENCHMARK(an_hour)->Unit(benchmark::kMillisecond)->Iterations(1);
+
+/// Bytes that a PIR of 96 rays takes, when it has looked.
+void memory_of_a_pir(benchmark::State& state) {
+  constexpr int kMany = 4000;
+  double bytes = 0.0;
+  for (auto _ : state) {
+    double resident[2];
+    for (const int many : {0, 1}) {
+      desc::World world = apartment();
+      put_pirs(world, many * kMany);
+      const auto simulation = simulate(std::move(world));
+      run(*simulation, 0.3);
+      resident[many] = resident_bytes();
+    }
+    bytes = (resident[1] - resident[0]) / kMany;
+  }
+  state.counters["bytes"] = bytes;
+}
+BENCHMARK(memory_of_a_pir)->Iterations(1)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace angen::bench
+
+BENCHMARK_MAIN();

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "load/load.h"
+#include "sim/simulation.h"
+
+/// Worlds that the benchmarks of `sim` run.
+namespace angen::bench {
+
+inline desc::World apartment() { return load::world(ANGEN_WORLDS_DIR "/angen.world"); }
+
+inline std::unique_ptr<sim::Simulation> simulate(desc::World world) {
+  static const auto catalog = std::make_shared<Catalog>();
+  return std::make_unique<sim::Simulation>(std::move(world), 1, catalog);
+}
+
+inline bool is_person(const desc::Model& model) {
+  return !model.plugins.empty() && model.plugins[0].filename == "libperson_controller.so";
+}
+
+inline void drop_persons(desc::World& world) {
+  auto& models = world.models;
+  models.erase(std::remove_if(models.begin(), models.end(), is_person), models.end());
+}
+
+inline void drop_sensors(desc::World& world) {
+  for (desc::Model& model : world.models) {
+    for (desc::Link& link : model.links) link.sensors.clear();
+  }
+}
+
+/// The child called `name`, made where there is none.
+inline Element& child(Element& element, const std::string& name) {
+  for (Element& c : element.children) {
+    if (c.name == name) return c;
+  }
+  element.children.emplace_back();
+  element.children.back().name = name;
+  return element.children.back();
+}
+
+/// As many people on the way of the world's own, one behind the other, half of them a floor up.
+inline void put_persons(desc::World& world, int count) {
+  const auto first = std::find_if(world.models.begin(), world.models.end(), is_person);
+  const desc::Model one = *first;
+  drop_persons(world);
+  for (int i = 0; i < count; ++i) {
+    desc::Model person = one;
+    person.name += std::to_string(i);
+    person.pose.position.z() += 4.0 * (i % 2);
+    child(person.plugins[0].element, "delay_start").text = std::to_string(6.0 * (i / 2));
+    world.models.push_back(std::move(person));
+  }
+}
+
+/// What a PIR of the world is like with 24 x 4 rays and no noise.
+inline desc::Model quiet_pir(const desc::Model& pir) {
+  desc::Model model = pir;
+  Element& ray = child(model.links[0].sensors[0].element, "ray");
+  child(child(ray, "noise"), "type").text = "none";
+  Element& scan = child(ray, "scan");
+  child(child(scan, "horizontal"), "samples").text = "24";
+  child(child(scan, "vertical"), "samples").text = "4";
+  return model;
+}
+
+/// Puts `count` PIRs into the rooms: each beside one of the world's own and turned a little.
+inline void put_pirs(desc::World& world, int count) {
+  std::vector<desc::Model> own;
+  for (const desc::Model& model : world.models) {
+    if (!model.links.empty() && !model.links[0].sensors.empty() &&
+        model.links[0].sensors[0].plugin == "libpir_controller.so") {
+      own.push_back(quiet_pir(model));
+    }
+  }
+  drop_sensors(world);
+  Rng rng(1, hash_bytes("pirs"), 0);
+  for (int i = 0; i < count; ++i) {
+    desc::Model pir = own[static_cast<std::size_t>(i) % own.size()];
+    pir.name = "bench_pir" + std::to_string(i);
+    const double along = rng.uniform(), down = rng.uniform(), turn = rng.uniform();
+    pir.pose.position += pir.pose.rotation * Vec3(0.02 + 0.3 * along, 0.0, -0.1 * down);
+    pir.pose.rotation = pir.pose.rotation * from_rpy(0, 0, 0.4 * (turn - 0.5));
+    world.models.push_back(std::move(pir));
+  }
+}
+
+}  // namespace angen::bench

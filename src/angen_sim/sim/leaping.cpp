@@ -1,0 +1,96 @@
+// The part of Sensing that lets time jump: what is due meanwhile, and what is left of it.
+#include <algorithm>
+#include <set>
+
+#include "sim/sensing.h"
+
+namespace angen::sim {
+
+namespace {
+
+constexpr Nanoseconds kFarthest = 10 * kSecond;  // that noise is looked ahead
+
+/// The looks after `from`, up to `to`, whose readings a sensor with noise must have made to be at
+/// `to` what it would be with all of them.
+std::set<Nanoseconds> needed_looks(const SensorInstance& sensor, Nanoseconds from, Nanoseconds to) {
+  const Rhythm& rhythm = sensor.rhythm;
+  std::set<Nanoseconds> looks;
+  for (Nanoseconds at : {rhythm.last_look(to), rhythm.last_publication(to)}) {
+    for (int back = 0; back <= sensor.sensor->memory() && at > from; ++back) {
+      looks.insert(at);
+      at = rhythm.last_look(at - rhythm.step);
+    }
+  }
+  return looks;
+}
+
+}  // namespace
+
+bool Sensing::may_be_passed_over(const Stage& stage, const SensorInstance& sensor) const {
+  if (!undisturbed(stage, sensor)) return false;
+  if (sensor.rest == Rest::kSame) return sensor.published;
+  return sensor.rest == Rest::kNoise && sensor.calm > sensor.sensor->memory();
+}
+
+/// The first look at or before `until` that may tell something because of its noise; else kForever.
+Nanoseconds Sensing::first_loud(SensorInstance& sensor, InstanceView::Clock clock,
+                                Nanoseconds until) const {
+  if (sensor.loud_at > clock.time) return sensor.loud_at;
+  Nanoseconds at = std::max(clock.time, sensor.quiet_until);
+  for (at = sensor.rhythm.next_look(at); at <= until; at = sensor.rhythm.next_look(at)) {
+    if (sensor.sensor->quiet(Rng(seed_, sensor.key, at / clock.step))) continue;
+    sensor.loud_at = at;
+    return at;
+  }
+  sensor.quiet_until = std::max(sensor.quiet_until, until);
+  return kForever;
+}
+
+std::int64_t Sensing::next_tick(Building& building, InstanceView::Clock clock, std::int64_t tick) {
+  if (schedule_is_old_) schedule(building, clock.time);
+  const auto stop_before = [&](Nanoseconds look) {
+    tick = std::min(tick, look / clock.step - 1);  // the tick that ends with it
+  };
+  const std::int64_t here = clock.time / clock.step;
+  for (const Watched& watched : watched_) {
+    SensorInstance& sensor = *watched.sensor;
+    if (sensor.sensor->on_demand()) {
+      if (demand_.has(sensor.kind, sensor.name)) stop_before(sensor.rhythm.next_look(clock.time));
+    } else if (!may_be_passed_over(building.stage(), sensor)) {
+      stop_before(sensor.rhythm.next_look(clock.time));
+    }
+    if (tick <= here) return here;
+  }
+  tick = std::min(tick, (clock.time + kFarthest) / clock.step);
+  for (const Watched& watched : watched_) {
+    if (watched.sensor->rest != Rest::kNoise) continue;
+    const Nanoseconds loud = first_loud(*watched.sensor, clock, tick * clock.step);
+    if (loud != kForever) stop_before(loud);
+  }
+  return tick;
+}
+
+void Sensing::pass_over(Building& building, InstanceView::Clock clock, std::int64_t tick,
+                        Snapshot& next) {
+  const Nanoseconds to = tick * clock.step;
+  std::uint64_t readings = next.counts.readings;
+  for (std::uint32_t index = 0; index < watched_.size(); ++index) {
+    SensorInstance& sensor = *watched_[index].sensor;
+    if (sensor.sensor->on_demand()) continue;
+    readings += static_cast<std::uint64_t>(sensor.rhythm.publications(to) -
+                                           sensor.rhythm.publications(clock.time));
+    if (sensor.rest != Rest::kNoise) continue;
+    for (const Nanoseconds look : needed_looks(sensor, clock.time, to)) {
+      looking_.clear();
+      rays_.clear();
+      aim(building.stage(), index, {look, clock.step});
+      cast(building.stage());
+      read(building.stage(), looking_.front(), {look, clock.step}, look / clock.step, next);
+    }
+  }
+  next.new_readings.clear();
+  next.counts.readings = readings;
+  requeue(to);
+}
+
+}  // namespace angen::sim

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "core/time.h"
+
+namespace angen::sim {
+
+/// When a sensor looks and when it publishes: at the first tick at or after start + k * sample, and
+/// at the first such look at or after start + k * publish. In closed form, so that due times of a
+/// sensor at rest need not be counted.
+struct Rhythm {
+  Nanoseconds start = 0;  // a multiple of step
+  Nanoseconds sample = kSecond;
+  Nanoseconds publish = kSecond;
+  Nanoseconds step = 1'000'000;
+
+  /// The first due time after `time`; start itself is due at the first tick after it.
+  Nanoseconds next(Nanoseconds time) const {
+    return time <= start ? start : start + ((time - start) / sample + 1) * sample;
+  }
+
+  /// The tick of the first look after the tick of `time`.
+  Nanoseconds next_look(Nanoseconds time) const { return tick_of(next(time) - start); }
+
+  /// The tick of the last look at or before `time`; before `start` when there was none.
+  Nanoseconds last_look(Nanoseconds time) const {
+    if (time < start) return start - step;
+    const Nanoseconds count = (time - start) / sample;
+    const Nanoseconds at = tick_of(count * sample);
+    return at <= time ? at : tick_of((count - 1) * sample);
+  }
+
+  /// The tick of the last publication at or before `time` (>= start).
+  Nanoseconds last_publication(Nanoseconds time) const {
+    const Nanoseconds count = (time - start) / publish;
+    const Nanoseconds at = look_for(count * publish);
+    if (at <= time) return at;
+    if (sample < publish) return look_for((count - 1) * publish);
+    return tick_of((time - start) / sample * sample);
+  }
+
+  /// How many publications there were at or before `time`, when each is at the first look.
+  std::int64_t publications(Nanoseconds time) const {
+    if (time < start) return 0;
+    const Nanoseconds slower = std::max(sample, publish);
+    const std::int64_t count = (time - start) / slower;
+    return look_for(count * slower) <= time ? count + 1 : count;
+  }
+
+ private:
+  static Nanoseconds up(Nanoseconds value, Nanoseconds unit) {
+    return (value + unit - 1) / unit * unit;
+  }
+  Nanoseconds tick_of(Nanoseconds since_start) const { return start + up(since_start, step); }
+  Nanoseconds look_for(Nanoseconds since_start) const { return tick_of(up(since_start, sample)); }
+};
+
+}  // namespace angen::sim

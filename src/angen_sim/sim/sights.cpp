@@ -1,0 +1,189 @@
+#include "sim/sights.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace angen::sim {
+
+namespace {
+
+constexpr double kCell = 4.0;       // m
+constexpr double kSlack = 0.25;     // m, that a mover's box is larger by, on each side
+constexpr double kManyCells = 512;  // a box in more is looked at in each query
+constexpr double kFarthest = 1 << 20;
+
+using Cells = std::array<int, 6>;  // first and last along x, y, z
+
+bool cells_of(const Sights::Box& box, Cells& cells) {
+  double count = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double first = std::floor(box.min()[axis] / kCell);
+    const double last = std::floor(box.max()[axis] / kCell);
+    if (!(first > -kFarthest && last < kFarthest)) return false;
+    count *= last - first + 1.0;
+    cells[2 * axis] = static_cast<int>(first);
+    cells[2 * axis + 1] = static_cast<int>(last);
+  }
+  return count <= kManyCells;
+}
+
+template <class F>
+void each_cell(const Cells& cells, F&& visit) {
+  const auto part = [](int v) { return static_cast<std::uint64_t>(v + (1 << 20)) & 0x1fffff; };
+  for (int x = cells[0]; x <= cells[1]; ++x) {
+    for (int y = cells[2]; y <= cells[3]; ++y) {
+      for (int z = cells[4]; z <= cells[5]; ++z) visit(part(x) << 42 | part(y) << 21 | part(z));
+    }
+  }
+}
+
+template <class T>
+void take_out(std::vector<T>& list, const T& value) {
+  const auto at = std::find(list.begin(), list.end(), value);
+  if (at == list.end()) return;
+  *at = list.back();
+  list.pop_back();
+}
+
+Sights::Box wider(const Sights::Box& box) {
+  return {box.min().array() - kSlack, box.max().array() + kSlack};
+}
+
+}  // namespace
+
+Sights::View::View(Sights& sights, const Box& box) : sights_(sights), index_(sights.open(box)) {}
+
+Sights::View::~View() { sights_.close(index_); }
+
+void Sights::View::resize(const Box& box) {
+  sights_.close(index_);
+  index_ = sights_.open(box);
+}
+
+const std::vector<rays::ShapeId>& Sights::View::near() const { return sights_.views_[index_].near; }
+
+bool Sights::View::stirred(Moment since) const {
+  const Place& place = sights_.views_[index_];
+  if (place.altered || place.left >= since) return true;
+  return std::any_of(place.near.begin(), place.near.end(), [&](rays::ShapeId mover) {
+    return sights_.movers_[mover.index].moved >= since;
+  });
+}
+
+bool Sights::View::take_altered() { return std::exchange(sights_.views_[index_].altered, false); }
+
+template <class F>
+void Sights::each_view_in(const Box& box, F&& visit) {
+  ++query_;
+  const auto look = [&](std::uint32_t view) {
+    Place& place = views_[view];
+    if (place.visited == query_) return;
+    place.visited = query_;
+    if (place.box.intersects(box)) visit(view, place);
+  };
+  for (const std::uint32_t view : wide_) look(view);
+  Cells cells{};
+  if (!cells_of(box, cells)) {
+    for (std::uint32_t view = 0; view < views_.size(); ++view) {
+      if (views_[view].used) look(view);
+    }
+    return;
+  }
+  each_cell(cells, [&](std::uint64_t key) {
+    const auto cell = cells_.find(key);
+    if (cell == cells_.end()) return;
+    for (const std::uint32_t view : cell->second) look(view);
+  });
+}
+
+std::uint32_t Sights::open(const Box& box) {
+  std::uint32_t view = static_cast<std::uint32_t>(views_.size());
+  if (free_.empty()) {
+    views_.emplace_back();
+  } else {
+    view = free_.back();
+    free_.pop_back();
+  }
+  views_[view].box = box;
+  views_[view].used = true;
+  if (box.isEmpty()) return view;
+  file(view);
+  for (Mover& mover : movers_) {
+    if (!mover.id.valid() || !mover.box.intersects(box)) continue;
+    mover.views.push_back(view);
+    views_[view].near.push_back(mover.id);
+  }
+  return view;
+}
+
+void Sights::close(std::uint32_t view) {
+  unfile(view);
+  for (const rays::ShapeId mover : views_[view].near) take_out(movers_[mover.index].views, view);
+  views_[view] = {};
+  free_.push_back(view);
+}
+
+void Sights::file(std::uint32_t view) {
+  Cells cells{};
+  views_[view].wide = !cells_of(views_[view].box, cells);
+  if (views_[view].wide) {
+    wide_.push_back(view);
+  } else {
+    each_cell(cells, [&](std::uint64_t key) { cells_[key].push_back(view); });
+  }
+}
+
+void Sights::unfile(std::uint32_t view) {
+  if (views_[view].box.isEmpty()) return;
+  Cells cells{};
+  if (views_[view].wide) {
+    take_out(wide_, view);
+  } else if (cells_of(views_[view].box, cells)) {
+    each_cell(cells, [&](std::uint64_t key) { take_out(cells_[key], view); });
+  }
+}
+
+void Sights::link(Mover& mover) {
+  each_view_in(mover.box, [&](std::uint32_t view, Place& place) {
+    mover.views.push_back(view);
+    place.near.push_back(mover.id);
+  });
+}
+
+void Sights::unlink(Mover& mover) {
+  for (const std::uint32_t view : mover.views) {
+    take_out(views_[view].near, mover.id);
+    views_[view].left = now_;
+  }
+  mover.views.clear();
+}
+
+void Sights::put(rays::ShapeId id, const Box& box) {
+  if (box.isEmpty()) {
+    drop(id);
+    return;
+  }
+  if (movers_.size() <= id.index) movers_.resize(id.index + 1);
+  Mover& mover = movers_[id.index];
+  mover.moved = now_;
+  if (mover.id == id && mover.box.contains(box)) return;
+  unlink(mover);
+  mover.id = id;
+  mover.box = wider(box);
+  link(mover);
+}
+
+void Sights::drop(rays::ShapeId id) {
+  if (movers_.size() <= id.index || movers_[id.index].id != id) return;
+  unlink(movers_[id.index]);
+  movers_[id.index].id = {};
+}
+
+void Sights::alter(const Box& box) {
+  if (box.isEmpty()) return;
+  each_view_in(box, [](std::uint32_t, Place& place) { place.altered = true; });
+}
+
+}  // namespace angen::sim

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "rays/scene.h"
+
+namespace angen::sim {
+
+/// Which moving shapes each view may meet, a view being a box in which rays run. A mover is filed
+/// by a box somewhat larger than its own and looked for anew only when it has left that, so that a
+/// tick costs what moved in it, whatever the number of views.
+class Sights {
+ public:
+  using Box = Eigen::AlignedBox3d;
+  using Moment = std::uint64_t;  // counts calls of pass()
+
+  /// A view's place among the others; gives it up at its end, which must come before that of
+  /// Sights.
+  class View {
+   public:
+    View(Sights& sights, const Box& box);
+    ~View();
+    View(const View&) = delete;
+    View& operator=(const View&) = delete;
+
+    void resize(const Box& box);
+    /// Moving shapes that may be in the box; in no particular order, each once.
+    const std::vector<rays::ShapeId>& near() const;
+    /// Whether any of them has moved, come or gone at `since` or later.
+    bool stirred(Moment since) const;
+    /// Whether static shapes in it came or went; forgets it.
+    bool take_altered();
+
+   private:
+    Sights& sights_;
+    std::uint32_t index_;
+  };
+
+  /// A moving shape came or moved; its box (m) is infinite for a plane, empty where it cannot be
+  /// met.
+  void put(rays::ShapeId mover, const Box& box);
+  void drop(rays::ShapeId mover);
+  /// A static shape of this box came or goes.
+  void alter(const Box& box);
+
+  /// What happens from now on is later than all before.
+  void pass() { ++now_; }
+  Moment now() const { return now_; }
+
+ private:
+  struct Place {
+    Box box;
+    std::vector<rays::ShapeId> near;
+    Moment left = 0;  // when a mover was last taken off `near`
+    bool altered = false;
+    bool used = false;
+    bool wide = false;  // in too many cells to be filed by them
+    std::uint64_t visited = 0;
+  };
+  struct Mover {
+    rays::ShapeId id;
+    Box box;  // larger than its own
+    std::vector<std::uint32_t> views;
+    Moment moved = 0;
+  };
+
+  std::uint32_t open(const Box& box);
+  void close(std::uint32_t view);
+  void file(std::uint32_t view);
+  void unfile(std::uint32_t view);
+  void link(Mover& mover);
+  void unlink(Mover& mover);
+  template <class F>
+  void each_view_in(const Box& box, F&& visit);
+
+  std::vector<Place> views_;
+  std::vector<std::uint32_t> free_;
+  std::vector<Mover> movers_;  // by index of the shape; one without an id is none
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+  std::vector<std::uint32_t> wide_;
+  Moment now_ = 1;
+  std::uint64_t query_ = 0;
+};
+
+}  // namespace angen::sim
