@@ -63,6 +63,12 @@ def run_bench(args: argparse.Namespace) -> int:
     return 0
 
 
+def run_bench_core(args: argparse.Namespace) -> int:
+    from . import bench_core
+    bench_core.measure(args.out)
+    return 0
+
+
 def add_world(commands: Any, command: Callable[..., argparse.ArgumentParser],
               checked: Callable[[Any], Any]) -> None:
     """angen world apartment."""
@@ -92,7 +98,7 @@ def add_world(commands: Any, command: Callable[..., argparse.ArgumentParser],
 
 def add_bench(commands: Any, command: Callable[..., argparse.ArgumentParser],
               checked: Callable[[Any], Any]) -> None:
-    """angen bench sensors."""
+    """angen bench sensors, angen bench core."""
     bench = command(commands, 'bench', run_bench, 'measures what things cost; starts its own node',
                     'bench sensors --kind pir --counts 0,10,50,100')
     kinds = bench.add_subparsers(dest='what', metavar='WHAT', required=True)
@@ -120,3 +126,7 @@ def add_bench(commands: Any, command: Callable[..., argparse.ArgumentParser],
                          '(~/.cache/angen/gazebo11)')
     sensors.add_argument('-o', '--out', metavar='DIR', type=Path, default=Path('out'),
                          help='where the CSV files and figures go (out)')
+    core = command(kinds, 'core', run_bench_core, 'measures the core without ROS: doors, rays, '
+                   'PIRs, towers, an hour; some minutes', 'bench core', 'bench core -o out')
+    core.add_argument('-o', '--out', metavar='DIR', type=Path, default=Path('out'),
+                      help='where core.csv goes (out)')
