@@ -23,6 +23,9 @@ class Heat {
   /// Flux on the positive element less that on the negative one, in W.
   double flux(Hits hits);
 
+  /// Whether it has yet to look at what moved.
+  bool pending() const { return waits_ > 0; }
+
   /// Looks anew at the next aim(), whatever moved.
   void forget() { revision_ = UINT64_MAX; }
 

@@ -126,6 +126,11 @@ void Pyroelectric::read(const View& view, Hits hits, Rng& rng, Reading& reading)
   reading.event_detail = detail.str();
 }
 
+Rest Pyroelectric::rest() const {
+  const bool still = asleep_ && !heat_.pending() && !trigger_.on() && false_alarm_rate_ == 0.0;
+  return still ? Rest::kSame : Rest::kBusy;
+}
+
 // Volts for this sample. A flux that stands still lets the filter fall asleep.
 double Pyroelectric::listen(double flux, Rng& rng) {
   if (asleep_ && flux == flux_) return 0.0;

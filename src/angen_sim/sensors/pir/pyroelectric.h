@@ -15,6 +15,7 @@ class Pyroelectric : public Sensor {
   Nanoseconds sample_period() const override { return period_; }
   void aim(const View& view, RayBatch& rays) override;
   void read(const View& view, Hits hits, Rng& rng, Reading& reading) override;
+  Rest rest() const override;
 
  private:
   double listen(double flux, Rng& rng);
