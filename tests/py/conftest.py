@@ -1,12 +1,8 @@
 """Worlds for the tests of `import angen`; none of them needs ROS."""
-from pathlib import Path
-
 import pytest
 
 import angen
-from sdf_text import sdf_world
-
-WORLDS = Path(__file__).resolve().parents[2] / 'worlds'
+from sdf_text import WORLDS, sdf_world
 
 
 @pytest.fixture(scope='session')

@@ -1,4 +1,7 @@
 """Pieces of SDF for the tests of `import angen`."""
+from pathlib import Path
+
+WORLDS = Path(__file__).resolve().parents[2] / 'worlds'
 
 
 def sdf_world(content: str, plugins: str = '') -> str:

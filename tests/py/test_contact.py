@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import angen
-from conftest import WORLDS
+from sdf_text import WORLDS
 
 G = 9.8  # m/s2, SDF's default
 CHAIR = '<include><uri>model://chair</uri><name>chair1</name><pose>0 0 0.001 0 0 0</pose></include>'

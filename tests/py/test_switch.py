@@ -5,7 +5,7 @@ import numpy as np
 from lxml import etree
 
 import angen
-from conftest import WORLDS
+from sdf_text import WORLDS
 
 LEAST = math.radians(0.5)
 REACH, THRESHOLD, SPREAD = 0.5, 0.05, 0.004  # of models/optical_switch: m, m, rad

@@ -79,8 +79,8 @@ class Scene {
   void cast(const std::vector<Ray>& rays, std::vector<Hit>& hits) const;
 
   /// Takes into account one more moving shape than `hit` does. A cast() among the static
-  /// ones bettered by every moving shape on the ray's way, in any order, is bit for bit what cast() gives. Needs no
-  /// commit().
+  /// ones bettered by every moving shape on the ray's way, in any order, is bit for bit what cast()
+  /// gives. Needs no commit().
   void better(ShapeId moving, const Ray& ray, Hit& hit) const;
 
   /// World box (m) around a shape: infinite for a plane, empty for what is never met.

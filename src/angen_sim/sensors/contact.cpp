@@ -97,7 +97,10 @@ class Contact : public Sensor {
     reading.set("forces", std::move(lists.forces));
   }
 
-  Rest rest() const override { return noise_stddev_ > 0.0 ? Rest::kNoise : Rest::kSame; }
+  Rest rest() const override {
+    if (changed_at_) return Rest::kBusy;  // it waits for the end of a debounce
+    return noise_stddev_ > 0.0 ? Rest::kNoise : Rest::kSame;
+  }
   bool quiet(Rng) const override { return true; }  // noise neither presses nor releases
 
  private:

@@ -85,9 +85,9 @@ TEST(World, ReadsLights) {
 }
 
 TEST(World, ReadsLightsWithAnArea) {
-  const desc::World w = read(in_world(
-      "<light name='panel' type='point'><angen:rectangle>1.2 0.6</angen:rectangle></light>"
-      "<light name='spot' type='spot'><angen:disc>0.3</angen:disc></light>"));
+  const desc::World w = read(
+      in_world("<light name='panel' type='point'><angen:rectangle>1.2 0.6</angen:rectangle></light>"
+               "<light name='spot' type='spot'><angen:disc>0.3</angen:disc></light>"));
   ASSERT_EQ(w.lights.size(), 2U);
   EXPECT_EQ(w.lights[0].type, desc::Light::Type::kRectangle);
   EXPECT_DOUBLE_EQ(w.lights[0].width, 1.2);

@@ -20,10 +20,14 @@ class Pir : public Sensor {
     model_->configure(params, wiring);
   }
   Nanoseconds sample_period() const override { return model_->sample_period(); }
+  int stance(const View& view) override { return model_->stance(view); }
   void aim(const View& view, RayBatch& rays) override { model_->aim(view, rays); }
   void read(const View& view, Hits hits, Rng& rng, Reading& reading) override {
     model_->read(view, hits, rng, reading);
   }
+  Rest rest() const override { return model_->rest(); }
+  bool quiet(Rng rng) const override { return model_->quiet(rng); }
+  int memory() const override { return model_->memory(); }
 
  private:
   std::unique_ptr<Sensor> model_;
