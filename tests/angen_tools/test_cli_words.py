@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / 'src/angen_tools/scripts/angen'
 COMMANDS = ['spawn', 'spawn pir', 'spawn switch', 'spawn luminosity', 'spawn camera',
             'spawn contact', 'spawn model', 'delete', 'list', 'plugins', 'set', 'set door',
-            'set elevator', 'set lamp', 'save', 'watch', 'drive', 'map', 'task',
+            'set elevator', 'set lamp', 'save', 'watch', 'top', 'drive', 'map', 'task',
             'task patrol', 'check', 'luxcheck', 'completion']
 
 
@@ -67,7 +67,8 @@ def test_help_needs_neither_ros_nor_lxml() -> None:
 @pytest.mark.parametrize('words', [
     ['list'], ['delete', 'p1'], ['spawn', 'pir', 'p1', '--pose', '1 2 3'],
     ['spawn', 'model', 'model://chair', 'c1', '--pose', '-1 2 3 0 0 0'],
-    ['set', 'door', 'kitchen0', '-1.2'], ['save', 'out.world'], ['watch', '--once']])
+    ['set', 'door', 'kitchen0', '-1.2'], ['save', 'out.world'], ['watch', '--once'],
+    ['top', '--once'], ['top']])
 def test_without_a_simulator_one_line_says_so(words: list[str], no_master: str) -> None:
     done = angen(*words)
     assert done.returncode == 1 and done.stdout == ''

@@ -154,18 +154,32 @@ def test_one_table_of_all_values(cli: Cli) -> None:
     assert ('lamp', 'kitchen0') in rows and ' m ' in rows['pir', 'eye']
 
 
+def test_one_table_of_all_costs(cli: Cli) -> None:
+    once = cli.does('top', '--once').splitlines()
+    assert ' s simulated in ' in once[0] and 'physics' in once[1]
+    rows = [line.split() for line in once[3:]]
+    everything = {(e['kind'], e['name']) for e in json.loads(cli.does('list', '--json'))
+                  if e['kind'] != 'model'}
+    assert {(row[0], row[1]) for row in rows} == everything
+    costs = [float(row[2]) for row in rows]
+    assert costs == sorted(costs, reverse=True) and costs[0] > 0
+    assert cli.does('top').splitlines()[2] == once[2]  # as much where there is no terminal
+
+
+@pytest.mark.parametrize('word, row', [('watch', b'kitchen0'), ('top', b'bathroom0')])
 @pytest.mark.parametrize('key', [b'q', b'\x03'])
-def test_the_live_table_ends_by_a_key_and_cleans_the_terminal(cli: Cli, key: bytes) -> None:
+def test_a_live_table_ends_by_a_key_and_cleans_the_terminal(cli: Cli, key: bytes, word: str,
+                                                            row: bytes) -> None:
     try:
         ours, theirs = pty.openpty()
     except OSError as error:  # a chroot may have no /dev/pts
         pytest.skip(f'no pseudo-terminal here: {error}')
     before = termios.tcgetattr(theirs)
     watching = subprocess.Popen(
-        [*cli.words, 'watch'], env=cli.environment, stdin=theirs, stdout=theirs, stderr=theirs,
+        [*cli.words, word], env=cli.environment, stdin=theirs, stdout=theirs, stderr=theirs,
         preexec_fn=own_terminal)
     shown = b''
-    while b'kitchen0' not in shown:
+    while row not in shown:
         shown += os.read(ours, 4096)
     os.write(ours, key)
     assert watching.wait(30) == 0

@@ -26,6 +26,7 @@ Node::Node(sim::Simulation& simulation, const Settings& settings)
       clock_(handle_, settings.clock_rate),
       stats_(handle_),
       events_(handle_),
+      cost_(handle_, simulation),
       transforms_(handle_),
       markers_(handle_),
       publishers_(handle_, simulation),
@@ -47,6 +48,7 @@ void Node::run(const std::atomic<bool>& stop) {
 }
 
 void Node::pass(const sim::Snapshot& snapshot) {
+  cost_.start();
   const Pacer::Clock::time_point now = Pacer::Clock::now();
   clock_.pass(snapshot, now);
   if (snapshot.structure->revision != revision_) {
@@ -65,6 +67,7 @@ void Node::pass(const sim::Snapshot& snapshot) {
   markers_.pass(snapshot, now);
   events_.pass(snapshot);
   stats_.pass(snapshot, now);
+  cost_.pass(snapshot, now);
 }
 
 void Node::rest(const sim::Snapshot& snapshot) {

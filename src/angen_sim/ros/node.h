@@ -5,6 +5,7 @@
 #include <string>
 
 #include "ros/commands.h"
+#include "ros/cost.h"
 #include "ros/inbox.h"
 #include "ros/joints.h"
 #include "ros/markers.h"
@@ -43,6 +44,7 @@ class Node {
   ClockTopic clock_;
   Stats stats_;
   Events events_;
+  CostTopic cost_;
   Transforms transforms_;
   Markers markers_;
   Publishers publishers_;

@@ -36,6 +36,7 @@ void Acting::act(Building& building, InstanceView::Clock clock, std::vector<Even
     DeviceInstance& device = *parts_[i].device;
     LiveModel& live = *parts_[i].live;
     if (is_idle(live, device, clock)) continue;
+    meter_.rest.devices += meter_.watch.lap();
     device.catch_up(clock.time, clock.step);
     const InstanceView view(building.stage(), live, clock);
     InstanceOutputs outputs(building.stage(), live, device, clock.time, events);
@@ -48,8 +49,10 @@ void Acting::act(Building& building, InstanceView::Clock clock, std::vector<Even
     }
     if (outputs.told()) told_.push_back(i);
     lights_changed_ = lights_changed_ || outputs.lights_changed();
+    device.cost += meter_.watch.lap();
   }
   if (reports_added) std::sort(to_report_.begin(), to_report_.end());
+  meter_.rest.devices += meter_.watch.lap();
 }
 
 std::int64_t Acting::next_tick(Building& building, InstanceView::Clock clock) {
@@ -79,6 +82,7 @@ void Acting::report(Building& building, InstanceView::Clock clock, Snapshot& nex
     DeviceInstance& device = *parts_[index].device;
     device.device->report(InstanceView(building.stage(), *parts_[index].live, clock),
                           device.scratch);
+    device.cost += meter_.watch.lap();
     if (all) device.to_report = false;
     if (device.last && device.last->same_values(device.scratch)) continue;
     device.scratch.stamp = clock.time;
@@ -87,6 +91,7 @@ void Acting::report(Building& building, InstanceView::Clock clock, Snapshot& nex
     next.new_states.push_back(index);
   }
   if (all) to_report_.clear();
+  meter_.rest.devices += meter_.watch.lap();
 }
 
 }  // namespace angen::sim

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "sim/building.h"
+#include "sim/meter.h"
 #include "sim/view.h"
 
 namespace angen::sim {
@@ -10,6 +11,8 @@ namespace angen::sim {
 /// The devices' part of a tick.
 class Acting {
  public:
+  explicit Acting(Meter& meter) : meter_(meter) {}
+
   /// Every device that is not idle acts, in the order in which they came into the world.
   void act(Building& building, InstanceView::Clock clock, std::vector<Event>& events);
 
@@ -36,6 +39,7 @@ class Acting {
 
   void list(Building& building);
 
+  Meter& meter_;
   bool list_is_old_ = true;
   std::vector<Part> parts_;               // as Structure::devices
   std::vector<std::uint32_t> to_report_;  // of parts_, ascending

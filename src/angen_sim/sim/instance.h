@@ -24,6 +24,7 @@ struct DeviceInstance {
   Nanoseconds updated = 0;     // when it last was
   Nanoseconds idle_until = 0;  // unless it is commanded or its model wakes
   bool to_report = true;       // it was updated since its last report
+  Nanoseconds cost = 0;        // CPU time that the meter counts
 
   /// Tells it of the ticks that it was left out of, before the one of `now`.
   void catch_up(Nanoseconds now, Nanoseconds step) {
@@ -69,6 +70,7 @@ struct SensorInstance {
   int calm = 0;                 // so many looks in a row found nothing changed since the one before
   Nanoseconds quiet_until = 0;  // known of its noise, for leaps
   Nanoseconds loud_at = 0;      // as well, when later than now
+  Nanoseconds cost = 0;         // CPU time that the meter counts
 };
 
 /// A model that is in the world, with all that acts and looks in it.

@@ -62,9 +62,11 @@ std::int64_t Sensing::next_tick(Building& building, InstanceView::Clock clock, s
     if (tick <= here) return here;
   }
   tick = std::min(tick, (clock.time + kFarthest) / clock.step);
+  meter_.rest.sensors += meter_.watch.lap();
   for (const Watched& watched : watched_) {
     if (watched.sensor->rest != Rest::kNoise) continue;
     const Nanoseconds loud = first_loud(*watched.sensor, clock, tick * clock.step);
+    watched.sensor->cost += meter_.watch.lap();
     if (loud != kForever) stop_before(loud);
   }
   return tick;
@@ -91,6 +93,7 @@ void Sensing::pass_over(Building& building, InstanceView::Clock clock, std::int6
   next.new_readings.clear();
   next.counts.readings = readings;
   requeue(to);
+  meter_.rest.sensors += meter_.watch.lap();
 }
 
 }  // namespace angen::sim

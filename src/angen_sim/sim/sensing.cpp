@@ -34,7 +34,11 @@ void Sensing::look(Building& building, InstanceView::Clock clock, std::int64_t t
   if (collect_due(clock.time)) {
     looking_.clear();
     rays_.clear();
-    for (const std::uint32_t index : due_) visit(stage, index, clock, next);
+    meter_.rest.sensors += meter_.watch.lap();
+    for (const std::uint32_t index : due_) {
+      visit(stage, index, clock, next);
+      watched_[index].sensor->cost += meter_.watch.lap();
+    }
     const auto shared = static_cast<std::ptrdiff_t>(next.new_readings.size());
     cast(stage);
     for (const Looking& looking : looking_) read(stage, looking, clock, tick, next);
@@ -42,6 +46,7 @@ void Sensing::look(Building& building, InstanceView::Clock clock, std::int64_t t
                        next.new_readings.end());
   }
   stage.sights.pass();
+  meter_.rest.sensors += meter_.watch.lap();
 }
 
 void Sensing::cast(Stage& stage) {
@@ -49,6 +54,13 @@ void Sensing::cast(Stage& stage) {
   stage.rays.commit();
   hits_.resize(rays_.size());
   stage.rays.cast(rays_.data(), hits_.data(), rays_.size());
+  const Nanoseconds spent = meter_.watch.lap();
+  if (spent == 0) return;
+  const auto all = static_cast<Nanoseconds>(rays_.size());
+  for (const Looking& looking : looking_) {  // each sensor pays for its rays
+    watched_[looking.index].sensor->cost +=
+        spent * static_cast<Nanoseconds>(looking.ray_count) / all;
+  }
 }
 
 void Sensing::schedule(Building& building, Nanoseconds now) {
@@ -179,6 +191,7 @@ void Sensing::read(Stage& stage, const Looking& looking, InstanceView::Clock clo
   if (publishes(sensor, clock) || (reading.urgent && !sensor.published)) {
     publish(looking.index, clock.time, next);
   }
+  sensor.cost += meter_.watch.lap();
 }
 
 void Sensing::publish(std::uint32_t index, Nanoseconds now, Snapshot& next) {

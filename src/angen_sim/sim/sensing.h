@@ -6,6 +6,7 @@
 
 #include "sim/building.h"
 #include "sim/demand.h"
+#include "sim/meter.h"
 #include "sim/view.h"
 
 namespace angen::sim {
@@ -16,7 +17,8 @@ namespace angen::sim {
 /// rays.
 class Sensing {
  public:
-  Sensing(std::uint64_t seed, const Demand& demand) : seed_(seed), demand_(demand) {}
+  Sensing(std::uint64_t seed, const Demand& demand, Meter& meter)
+      : seed_(seed), demand_(demand), meter_(meter) {}
 
   void look(Building& building, InstanceView::Clock clock, std::int64_t tick, Snapshot& next);
 
@@ -67,6 +69,7 @@ class Sensing {
 
   std::uint64_t seed_;
   const Demand& demand_;
+  Meter& meter_;
   bool schedule_is_old_ = true;
   std::vector<Watched> watched_;                    // as Structure::sensors
   std::vector<std::vector<std::uint32_t>> groups_;  // of watched_, ascending

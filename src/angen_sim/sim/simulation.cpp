@@ -16,7 +16,8 @@ struct Simulation::Impl {
       : world(std::move(described)),
         seed(seed_),
         building(world, seed_, std::move(catalog)),
-        sensing(seed_, demand) {
+        acting(meter),
+        sensing(seed_, demand, meter) {
     next.step = world.physics.step;
     publish();
   }
@@ -51,15 +52,21 @@ struct Simulation::Impl {
   }
 
   std::shared_ptr<const Snapshot> take_tick(Nanoseconds until) {
+    meter.watch.start(meter.on);
     obey();
+    meter.rest.commands += meter.watch.lap();
     if (orders.running()) {
+      const Nanoseconds from = next.time;
       pass_over(until);
       act();
       move();
+      meter.rest.physics += meter.watch.lap();
       look();
       orders.ticks_done(1);
+      if (meter.on) meter.rest.simulated += next.time - from;
     }
     std::shared_ptr<const Snapshot> made = publish();
+    meter.rest.snapshots += meter.watch.lap();
     orders.answer();
     return made;
   }
@@ -100,6 +107,22 @@ struct Simulation::Impl {
     const std::lock_guard<std::mutex> lock(latest_mutex);
     latest = made;
     return made;
+  }
+
+  Cost take_cost() {
+    Cost cost = std::exchange(meter.rest, {});
+    cost.structure = next.structure;
+    for (auto& live : building.models()) {
+      for (DeviceInstance& device : live->devices) {
+        cost.each_device.push_back(std::exchange(device.cost, 0));
+        cost.devices += cost.each_device.back();
+      }
+      for (SensorInstance& sensor : live->sensors) {
+        cost.each_sensor.push_back(std::exchange(sensor.cost, 0));
+        cost.sensors += cost.each_sensor.back();
+      }
+    }
+    return cost;
   }
 
   // When something came or went, every index is new: all parts are written again.
@@ -153,6 +176,7 @@ struct Simulation::Impl {
   Building building;
   Orders orders;
   Demand demand;
+  Meter meter;
   Acting acting;
   Sensing sensing;
   Snapshot next;
@@ -187,6 +211,10 @@ void Simulation::want(const std::string& kind, const std::string& name, bool wan
 bool Simulation::wanted(const std::string& kind, const std::string& name) const {
   return impl_->demand.has(kind, name);
 }
+
+void Simulation::measure(bool on) { impl_->meter.on = on; }
+
+Cost Simulation::take_cost() { return impl_->take_cost(); }
 
 bool Simulation::running() const { return impl_->orders.running(); }
 

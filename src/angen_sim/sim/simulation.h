@@ -7,6 +7,7 @@
 
 #include "plugin/library.h"
 #include "sim/command.h"
+#include "sim/meter.h"
 #include "sim/snapshot.h"
 
 namespace angen::sim {
@@ -41,6 +42,12 @@ class Simulation {
   /// only. The sensor need not exist yet. Any thread.
   void want(const std::string& kind, const std::string& name, bool wanted);
   bool wanted(const std::string& kind, const std::string& name) const;
+
+  /// Whether ticks are to measure what they cost, from the next one on. No result depends on it.
+  /// The thread that ticks.
+  void measure(bool on);
+  /// What the ticks have cost that were measured since the last call. The thread that ticks.
+  Cost take_cost();
 
   /// True when the next tick will advance time: not paused, or steps are asked for.
   bool running() const;

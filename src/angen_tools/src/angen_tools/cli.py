@@ -103,6 +103,15 @@ def run_watch(args: argparse.Namespace) -> int:
     return 0
 
 
+def run_top(args: argparse.Namespace) -> int:
+    from . import top
+    if args.once:
+        print(top.top_once())
+    else:
+        top.top()
+    return 0
+
+
 def run_check(args: argparse.Namespace) -> int:
     from . import listing
     wrong, right = listing.check_world(args.world)
@@ -246,6 +255,10 @@ def make_parser() -> argparse.ArgumentParser:
                     'shows every device and sensor live; space turns the page, q quits',
                     'watch', 'watch --once')
     watch.add_argument('--once', action='store_true', help='prints one table')
+    top = command(commands, 'top', run_top,
+                  'shows live what each device and sensor costs; space turns the page, q quits',
+                  'top', 'top --once')
+    top.add_argument('--once', action='store_true', help='prints one table')
     check = command(commands, 'check', run_check,
                     'says what is wrong with a world file; needs no simulator',
                     'check worlds/angen.world')

@@ -1,12 +1,16 @@
-"""A terminal whose keys come one by one."""
+"""A terminal whose keys come one by one, and pictures that fill it."""
 from __future__ import annotations
 
+import math
+import os
+import select
+import shutil
 import signal
 import sys
 import termios
 import tty
 from contextlib import contextmanager
-from typing import Any, Iterator
+from typing import Any, Iterator, Sequence
 
 
 @contextmanager
@@ -25,3 +29,32 @@ def single_keys() -> Iterator[None]:
 
 def _end(number: int, _: Any) -> None:
     sys.exit(128 + number)  # as a shell says of a command that a signal ended
+
+
+@contextmanager
+def own_screen() -> Iterator[None]:
+    """Keys come one by one and unseen, on a screen of its own; all is put back at the end."""
+    with single_keys():
+        try:
+            sys.stdout.write('\x1b[?1049h\x1b[?25l')
+            yield
+        finally:
+            sys.stdout.write('\x1b[?25h\x1b[?1049l')
+            sys.stdout.flush()
+
+
+def pressed_key() -> str:
+    """A key that was pressed, "" if none was."""
+    ready = select.select([sys.stdin], [], [], 0)[0]
+    return os.read(sys.stdin.fileno(), 1).decode(errors='replace') if ready else ''
+
+
+def picture(head: Sequence[str], body: Sequence[str], page: int) -> str:
+    """What draws `head` and as many lines of `body` as fit under it, page by page."""
+    size = shutil.get_terminal_size()
+    rows = max(1, size.lines - 1 - len(head))
+    pages = max(1, math.ceil(len(body) / rows))
+    first = page % pages * rows
+    turn = f'page {page % pages + 1} of {pages}: space turns it; ' if pages > 1 else ''
+    shown = [line[:size.columns] for line in [*head, *body[first:first + rows]]]
+    return '\x1b[H' + ''.join(f'{line}\x1b[K\n' for line in shown) + f'\x1b[J{turn}q quits'

@@ -1,20 +1,16 @@
 """angen watch: every device and sensor, live."""
 from __future__ import annotations
 
-import math
-import os
-import select
-import shutil
 import sys
 import time
-from contextlib import contextmanager, suppress
-from typing import Any, Iterator
+from contextlib import suppress
+from typing import Any
 
 from .client import Client, Mailbox
 from .control import describe
 from .failure import Failure
 from .listing import number, table, yaw
-from .terminal import single_keys
+from .terminal import own_screen, picture, pressed_key
 
 ONCE_LIMIT = 3.0   # s of wall time that `--once` gives to sensors of 1 Hz
 REFRESH = 0.25     # s of wall time between two pictures
@@ -129,41 +125,13 @@ def watch() -> None:
     board = Board()
     listed = time.monotonic()
     page = 0
-    with _raw_keys(), suppress(KeyboardInterrupt):
-        while (key := _key()) not in ('q', 'Q'):
+    with own_screen(), suppress(KeyboardInterrupt):
+        while (key := pressed_key()) not in ('q', 'Q'):
             page += key == ' '
             board.hear(REFRESH)
             if time.monotonic() - listed > RELIST:
                 board.relist()
                 listed = time.monotonic()
-            sys.stdout.write(_picture(board.lines(), page))
-            sys.stdout.flush()
-
-
-def _key() -> str:
-    """A key that was pressed, "" if none was."""
-    ready = select.select([sys.stdin], [], [], 0)[0]
-    return os.read(sys.stdin.fileno(), 1).decode(errors='replace') if ready else ''
-
-
-def _picture(lines: list[str], page: int) -> str:
-    size = shutil.get_terminal_size()
-    rows = max(1, size.lines - 2)
-    head, body = lines[0], lines[1:]
-    pages = max(1, math.ceil(len(body) / rows))
-    first = page % pages * rows
-    turn = f'page {page % pages + 1} of {pages}: space turns it; ' if pages > 1 else ''
-    shown = [line[:size.columns] for line in [head, *body[first:first + rows]]]
-    return '\x1b[H' + ''.join(f'{line}\x1b[K\n' for line in shown) + f'\x1b[J{turn}q quits'
-
-
-@contextmanager
-def _raw_keys() -> Iterator[None]:
-    """Keys come one by one and unseen, on a screen of its own; all is put back at the end."""
-    with single_keys():
-        try:
-            sys.stdout.write('\x1b[?1049h\x1b[?25l')
-            yield
-        finally:
-            sys.stdout.write('\x1b[?25h\x1b[?1049l')
+            head, *body = board.lines()
+            sys.stdout.write(picture([head], body, page))
             sys.stdout.flush()

@@ -1,0 +1,82 @@
+#include "ros/cost.h"
+
+#include <time.h>
+
+#include <chrono>
+
+#include "ros/convert.h"
+
+namespace angen::node {
+namespace {
+
+constexpr std::chrono::seconds kPeriod(1);
+
+Nanoseconds process_time() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return now.tv_sec * kSecond + now.tv_nsec;
+}
+
+}  // namespace
+
+angen_msgs::Cost to_message(const Spent& spent) {
+  const sim::Cost& ticks = spent.ticks;
+  const double simulated = to_seconds(ticks.simulated);
+  const auto rate = [&](Nanoseconds cost) {
+    return simulated > 0.0 ? to_seconds(cost) * 1e6 / simulated : 0.0;
+  };
+  angen_msgs::Cost message;
+  message.simulated = simulated;
+  message.elapsed = to_seconds(spent.elapsed);
+  message.process = rate(spent.process);
+  message.physics = rate(ticks.physics);
+  message.devices = rate(ticks.devices);
+  message.sensors = rate(ticks.sensors);
+  message.commands = rate(ticks.commands);
+  message.snapshots = rate(ticks.snapshots);
+  message.publishing = rate(spent.publishing);
+  const auto add = [&](const auto& entry, Nanoseconds cost) {
+    angen_msgs::InstanceCost instance;
+    instance.kind = entry.kind;
+    instance.name = entry.name;
+    instance.cost = rate(cost);
+    message.instances.push_back(std::move(instance));
+  };
+  const sim::Structure& structure = *ticks.structure;
+  for (std::size_t i = 0; i < structure.devices.size(); ++i) {
+    add(structure.devices[i], ticks.each_device[i]);
+  }
+  for (std::size_t i = 0; i < structure.sensors.size(); ++i) {
+    add(structure.sensors[i], ticks.each_sensor[i]);
+  }
+  return message;
+}
+
+CostTopic::CostTopic(ros::NodeHandle& node, sim::Simulation& simulation)
+    : simulation_(simulation),
+      outlet_(Outlet::of<angen_msgs::Cost>(node, "/angen/cost", false, 10)) {}
+
+void CostTopic::restart(Pacer::Clock::time_point now) {
+  since_ = now;
+  process_since_ = process_time();
+  publishing_ = 0;
+}
+
+void CostTopic::pass(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {
+  publishing_ += watch_.lap();
+  if (outlet_.heard() != measuring_) {
+    measuring_ = !measuring_;
+    simulation_.measure(measuring_);
+    simulation_.take_cost();
+    restart(now);
+  }
+  if (!measuring_ || now - since_ < kPeriod) return;
+  const Spent spent{simulation_.take_cost(), publishing_, process_time() - process_since_,
+                    std::chrono::nanoseconds(now - since_).count()};
+  restart(now);
+  angen_msgs::Cost message = to_message(spent);
+  message.header.stamp = to_ros(snapshot.time);
+  outlet_.publisher().publish(message);
+}
+
+}  // namespace angen::node

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/stopwatch.h"
+#include "sim/snapshot.h"
+
+namespace angen::sim {
+
+/// What ticks cost: CPU time of the thread that took them, ns.
+struct Cost {
+  Nanoseconds simulated = 0;  // by these ticks
+  std::shared_ptr<const Structure> structure;
+  std::vector<Nanoseconds> each_device;  // as Structure::devices
+  std::vector<Nanoseconds> each_sensor;  // as Structure::sensors
+  Nanoseconds commands = 0;              // carrying out what was asked for
+  Nanoseconds devices = 0;               // all of them, and finding those that have to act
+  Nanoseconds physics = 0;               // and telling the other engines what moved
+  Nanoseconds sensors = 0;               // all of them, and finding those that are due
+  Nanoseconds snapshots = 0;             // putting them together
+};
+
+/// Measures while it is on: each part of a tick ends with a lap, charged to who caused it. What
+/// instances cost stands in them; here is the rest.
+struct Meter {
+  bool on = false;
+  Stopwatch watch;
+  Cost rest;
+};
+
+}  // namespace angen::sim
