@@ -13,7 +13,7 @@ from typing import Any, Iterator
 
 import pytest
 from angen_msgs.srv import Step
-from conftest import Angen, Cli, Master, end, own_terminal, until
+from harness import Angen, Cli, Master, end, own_terminal, until
 from gazebo_msgs.msg import ContactsState
 from lxml import etree
 from std_srvs.srv import Empty

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from angen_msgs.msg import Command, DoorState, Event, LampState
-from conftest import Angen, Heard, RawText, until
+from harness import Angen, Heard, RawText, until
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from std_msgs.msg import String

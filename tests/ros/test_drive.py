@@ -9,7 +9,7 @@ import termios
 from typing import Iterator
 
 import pytest
-from conftest import Angen, Cli, Heard, own_terminal, until
+from harness import Angen, Cli, Heard, own_terminal, until
 from nav_msgs.msg import Odometry
 from std_srvs.srv import Empty
 

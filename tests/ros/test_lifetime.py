@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 from angen_msgs.srv import Delete, Spawn
-from conftest import WORLD, Angen, Master, end, node_binary
+from harness import WORLD, Angen, Master, end, node_binary
 
 
 def check(world: Path) -> subprocess.CompletedProcess[str]:

@@ -9,7 +9,7 @@ import numpy as np
 import psutil
 import pytest
 from angen_tools.gridmap import load_world, make_map
-from conftest import Angen, Master, end, until
+from harness import Angen, Master, end, until
 from nav_msgs.msg import OccupancyGrid
 
 ROOT = Path(__file__).resolve().parents[2]

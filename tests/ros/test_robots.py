@@ -4,7 +4,7 @@ from __future__ import annotations
 from typing import Iterator
 
 import pytest
-from conftest import Angen, Cli, Heard, until
+from harness import Angen, Cli, Heard, until
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Image, LaserScan

@@ -7,7 +7,7 @@ from typing import Any
 
 from angen_msgs.msg import DoorState, Stats
 from angen_msgs.srv import Delete, Spawn
-from conftest import Angen, Heard, until
+from harness import Angen, Heard, until
 from lxml import etree
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage

@@ -7,7 +7,7 @@ import struct
 
 import pytest
 from angen_msgs.srv import Delete, List, Spawn
-from conftest import Angen, until
+from harness import Angen, until
 from gazebo_msgs.msg import ContactsState
 from geometry_msgs.msg import Pose
 from sensor_msgs.msg import CameraInfo, Image, JointState, LaserScan, PointCloud2

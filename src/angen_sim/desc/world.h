@@ -147,8 +147,8 @@ struct Physics {
   int iterations = 50;
   double erp = 0.2;
   double cfm = 0.0;
-  double contact_max_correcting_vel = 100.0;  // m/s
-  double contact_surface_layer = 0.001;       // m
+  double contact_max_correcting_vel = 1.0;  // m/s; SDF's 100 lets what overlaps deeply fly away
+  double contact_surface_layer = 0.001;     // m
 };
 
 struct Scene {

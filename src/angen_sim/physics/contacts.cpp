@@ -5,16 +5,18 @@
 #include <cmath>
 
 #include "core/time.h"
+#include "physics/boxes.h"
 #include "physics/reduce.h"
 
 namespace angen::physics {
 
 namespace {
 
-constexpr int kMostFound = 64;         // asked of ODE
-constexpr double kSoftest = 1e-8;      // least CFM of a contact: keeps redundant points solvable
-constexpr double kBounceSpeed = 0.05;  // m/s, nothing bounces below it
-constexpr double kStickMu = 1e6;       // from here on nothing slides
+constexpr std::size_t kMostFound = 64;  // asked of ODE
+constexpr double kSoftest = 1e-8;       // least CFM of a contact: keeps redundant points solvable
+constexpr double kBounceSpeed = 0.05;   // m/s, nothing bounces below it
+constexpr double kStickMu = 1e6;        // from here on nothing slides
+constexpr double kApart = 1e-9;         // m, centres that are less apart coincide
 
 bool joined(const Body& a, const Body& b) {
   const Body& moving = a.dynamic() ? a : b;
@@ -47,6 +49,31 @@ void set_friction(dContact& contact, const Geom& a, const Geom& b) {
   for (int i = 0; i < 3; ++i) contact.fdir1[i] = along[i];
 }
 
+// ODE's cylinders have no normal (NaN) where a centre lies on an axis or two stand exactly side by
+// side: they are parted along the line between them, else the moving one upward.
+void mend_normals(const Geom& first, const Geom& second, dContactGeom* points, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    if (ode::vec(points[i].normal).allFinite()) continue;
+    Vec3 away =
+        ode::vec(dGeomGetPosition(first.ode.get())) - ode::vec(dGeomGetPosition(second.ode.get()));
+    if (away.norm() < kApart) away = Vec3(0.0, 0.0, first.body->dynamic() ? 1.0 : -1.0);
+    away.normalize();
+    for (int axis = 0; axis < 3; ++axis) points[i].normal[axis] = away[axis];
+  }
+}
+
+std::size_t touching_points(const Geom& first, const Geom& second, dContactGeom* points) {
+  dGeomID a = first.ode.get();
+  dGeomID b = second.ode.get();
+  if (dGeomGetClass(a) == dBoxClass && dGeomGetClass(b) == dBoxClass) {
+    return collide_boxes(a, b, points, kMostFound);
+  }
+  const int most = static_cast<int>(kMostFound);
+  const auto n = static_cast<std::size_t>(dCollide(a, b, most, points, sizeof(dContactGeom)));
+  mend_normals(first, second, points, n);
+  return n;
+}
+
 }  // namespace
 
 bool may_touch(const Geom& a, const Geom& b) {
@@ -74,10 +101,9 @@ bool Contacts::collide(Geom& a, Geom& b) {
   Geom& first = a.serial < b.serial ? a : b;
   Geom& second = a.serial < b.serial ? b : a;
   std::array<dContactGeom, kMostFound> found;
-  const int n =
-      dCollide(first.ode.get(), second.ode.get(), kMostFound, found.data(), sizeof(dContactGeom));
-  if (n <= 0) return false;
-  const std::size_t kept = reduce_points(found.data(), static_cast<std::size_t>(n));
+  const std::size_t n = touching_points(first, second, found.data());
+  if (n == 0) return false;
+  const std::size_t kept = reduce_points(found.data(), n);
   pairs_.push_back({&first, &second, found_.size(), kept});
   found_.insert(found_.end(), found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept));
   return true;

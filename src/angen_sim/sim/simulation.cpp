@@ -75,8 +75,9 @@ struct Simulation::Impl {
 
   void move() {
     Stage& stage = building.stage();
+    const bool was_awake = stage.physics.awake_count() > 0;
     stage.physics.step(next.tick);
-    if (stage.physics.awake_count() > 0 || !stage.physics.moved().empty()) stage.note_change();
+    if (was_awake || !stage.physics.moved().empty()) stage.note_change();
     ++next.tick;
     acting.note_awake(building, next.tick);
     next.time = next.tick * next.step;

@@ -1,0 +1,229 @@
+"""A ROS master of the tests' own, and the node in it. Ends what it starts, by pid."""
+
+from __future__ import annotations
+
+import fcntl
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import termios
+import time
+import xmlrpc.client
+from pathlib import Path
+from typing import Any, Callable
+
+SCRIPT = Path(__file__).resolve().parents[2] / "src/angen_tools/scripts/angen"
+WORLD = """<?xml version="1.0"?>
+<sdf version="1.6">
+  <world name="small">
+    <gravity>0 0 -9.8</gravity>
+    <physics name="steps" type="ode"><max_step_size>0.001</max_step_size></physics>
+    <model name="ground">
+      <static>true</static>
+      <link name="link">
+        <collision name="c"><geometry><plane><normal>0 0 1</normal></plane></geometry></collision>
+        <visual name="v"><geometry><plane><normal>0 0 1</normal></plane></geometry></visual>
+      </link>
+    </model>
+    <include>
+      <uri>model://bathroom_door</uri><name>bathroom_door0</name><pose>0 0 0.02 0 0 0</pose>
+    </include>
+    <include>
+      <uri>model://ceiling_lamp</uri><name>kitchen_lamp0</name><pose>0 3 2.5 0 0 0</pose>
+    </include>
+    <include><uri>model://turtlebot</uri><pose>5 5 0.01 0 0 0</pose></include>
+    <include><uri>model://pir</uri><name>eye</name><pose>0 4 1.5 0 0 0</pose></include>
+    <plugin name="doors" filename="libdoor_world_plugin.so"/>
+    <plugin name="robots" filename="librobot_controller.so">
+      <wheelSeparation>0.23</wheelSeparation>
+      <wheelDiameter>0.0704</wheelDiameter>
+    </plugin>
+  </world>
+</sdf>
+"""
+
+
+def until(condition: Callable[[], Any], what: str, timeout: float = 30.0) -> Any:
+    """Return the first true value of `condition`; fail after `timeout` wall seconds."""
+    end = time.monotonic() + timeout
+    while time.monotonic() < end:
+        value = condition()
+        if value:
+            return value
+        time.sleep(0.02)
+    raise AssertionError(f"not within {timeout} s: {what}")
+
+
+def node_binary() -> Path:
+    """The built node; the first on CMAKE_PREFIX_PATH, as rosrun would find it."""
+    for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(":"):
+        path = Path(prefix) / "lib/angen_sim/angen_node"
+        if prefix and path.exists():
+            return path
+    raise RuntimeError("angen_node is not built, or devel/setup.bash is not sourced")
+
+
+def free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+def end(process: subprocess.Popen[str], timeout: float = 20.0) -> int:
+    """Interrupt the process and return its exit code; kill it when it does not listen."""
+    if process.poll() is None:
+        process.send_signal(signal.SIGINT)
+    try:
+        return process.wait(timeout)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
+        raise
+
+
+class Master:
+    """A rosmaster process at `uri`, and the environment that points to it."""
+
+    def __init__(self, folder: Path) -> None:
+        port = free_port()
+        self.uri = f"http://127.0.0.1:{port}"
+        self.environment = dict(
+            os.environ, ROS_MASTER_URI=self.uri, ROS_IP="127.0.0.1", ROS_LOG_DIR=str(folder),
+            ROS_HOME=str(folder))
+        self.environment.pop("ROS_HOSTNAME", None)
+        self.process = subprocess.Popen(
+            [sys.executable, "/usr/bin/rosmaster", "--core", "-p", str(port)],
+            env=self.environment, text=True,
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.api = xmlrpc.client.ServerProxy(self.uri)
+        until(self._answers, "the master answers")
+
+    def _answers(self) -> bool:
+        try:
+            return bool(self.api.getUri("/test")[0] == 1)
+        except OSError:
+            return False
+
+    def topics(self) -> dict[str, str]:
+        """Every topic that somebody publishes, with its type."""
+        published = {name for name, _ in self.api.getSystemState("/test")[2][0]}
+        return {name: kind for name, kind in self.api.getTopicTypes("/test")[2]
+                if name in published}
+
+    def node(self, world: Path, log: Path, **params: object) -> subprocess.Popen[str]:
+        """Start the node and wait until it serves."""
+        arguments = [f"_{key}:={value}" for key, value in params.items()]
+        with log.open("w") as out:
+            process = subprocess.Popen([str(node_binary()), str(world), *arguments],
+                                       env=self.environment, text=True, stdout=out, stderr=out)
+
+        def serves() -> bool:
+            assert process.poll() is None, log.read_text()
+            names = {name for name, _ in self.api.getSystemState("/test")[2][2]}
+            return "/angen/save" in names and "/clock" in self.topics()
+
+        until(serves, "the node serves")
+        return process
+
+
+class Angen:
+    """The node under test, as its users reach it."""
+
+    def __init__(self, master: Master, process: subprocess.Popen[str], log: Path) -> None:
+        self.master = master
+        self.process = process
+        self._log = log
+
+    def log(self) -> str:
+        return self._log.read_text()
+
+    def call(self, name: str, kind: type, /, **fields: Any) -> Any:
+        """Call a service; blank fields keep their defaults."""
+        import rospy
+        rospy.wait_for_service(name, timeout=20.0)
+        return rospy.ServiceProxy(name, kind)(**fields)
+
+    def send(self, topic: str, message: Any) -> None:
+        """Publish one message when the node listens."""
+        import rospy
+        publisher = rospy.Publisher(topic, type(message), queue_size=10)
+        until(lambda: publisher.get_num_connections() > 0, f"the node listens to {topic}")
+        publisher.publish(message)
+        time.sleep(0.1)
+        publisher.unregister()
+
+    def wait(self, topic: str, kind: type, wanted: Callable[[Any], bool] = lambda _: True,
+             timeout: float = 30.0) -> Any:
+        """Subscribe and return the first message that is `wanted`."""
+        with Heard(topic, kind) as heard:
+            return until(lambda: next((m for m in list(heard.messages) if wanted(m)), None),
+                         f"a message wanted on {topic}", timeout)
+
+
+class RawText(str):
+    """A text that goes out as bytes of its own, whatever their encoding."""
+
+    def __new__(cls, raw: bytes) -> RawText:
+        made = super().__new__(cls, repr(raw))
+        made.raw = raw
+        return made
+
+    def encode(self, *_: object) -> bytes:
+        return self.raw
+
+
+class Heard:
+    """Collects the messages of a topic while it is open."""
+
+    def __init__(self, topic: str, kind: type) -> None:
+        import rospy
+        self.messages: list[Any] = []
+        self._subscriber = rospy.Subscriber(topic, kind, self.messages.append)
+
+    def __enter__(self) -> Heard:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._subscriber.unregister()
+
+    def wait(self, wanted: Callable[[Any], bool], what: str, timeout: float = 30.0) -> Any:
+        return until(lambda: next((m for m in list(self.messages) if wanted(m)), None), what,
+                     timeout)
+
+
+class Cli:
+    """The angen command in the environment of a master."""
+
+    def __init__(self, master: Master) -> None:
+        self.environment = dict(master.environment, PYTHONUNBUFFERED="1", TERM="xterm")
+        self.words = [sys.executable, str(SCRIPT)]
+
+    def run(self, *words: str) -> subprocess.CompletedProcess[str]:
+        return subprocess.run([*self.words, *words], env=self.environment, text=True,
+                              capture_output=True, stdin=subprocess.DEVNULL, timeout=120)
+
+    def does(self, *words: str) -> str:
+        """What it says when it succeeds, without the newline."""
+        done = self.run(*words)
+        assert (done.returncode, done.stderr) == (0, ""), done
+        return done.stdout.removesuffix("\n")
+
+    def fails(self, *words: str) -> str:
+        """The one line that it says when it fails."""
+        done = self.run(*words)
+        assert (done.returncode, done.stdout) == (1, ""), done
+        line, = done.stderr.splitlines()
+        assert line.startswith("angen: ")
+        return line.removeprefix("angen: ")
+
+    def listed(self, kind: str) -> list[str]:
+        return [e["name"] for e in json.loads(self.does("list", "--kind", kind, "--json"))]
+
+
+def own_terminal() -> None:
+    """Makes stdin the terminal of a session, so that its Ctrl-C reaches the command."""
+    os.setsid()
+    fcntl.ioctl(0, termios.TIOCSCTTY, 0)
