@@ -100,7 +100,7 @@ Element read_document(const std::string& text, const std::string& file, Session&
                                  "<robot>");
   }
   upgrade(root, version_of(root));
-  make_uris_absolute(root, session.paths);
+  make_uris_absolute(root, session);
   count(root, session);
   return root;
 }
@@ -114,8 +114,8 @@ Element expand_include(const Element& include, Session& session) {
   if (merge != nullptr && *merge != "false" && *merge != "0") {
     throw Error(include.source, "merge=\"" + *merge + "\" is not supported; include without it");
   }
-  const std::string found = need_uri(uri->text, "model", uri->source, session.paths);
-  const std::string file = model_file(found, uri->source);
+  const std::string found = need_uri(uri->text, "model", uri->source, session);
+  const std::string file = model_file(found, uri->source, session);
   std::error_code failed;
   std::string real = std::filesystem::canonical(file, failed).string();
   if (failed) real = file;
@@ -128,7 +128,7 @@ Element expand_include(const Element& include, Session& session) {
                 "includes stand more than " + std::to_string(kMaxDepth) + " deep in one another");
   }
   const Open open(session, real);
-  Element sdf = read_document(read_file(file), file, session);
+  Element sdf = read_document(session.sources.read(file), file, session);
   Element& root = included_root(sdf);
   if (root.name == "model") expand_model(root, session);
   apply_include(include, root, session);

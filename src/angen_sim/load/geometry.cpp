@@ -42,7 +42,8 @@ Shape mesh(const Element& element, Session& session) {
   if (shape.mesh_scale.cwiseAbs().minCoeff() < 1e-12) {
     throw Error(element.child("scale")->source, "a scale of 0 leaves nothing; give 1 1 1");
   }
-  shape.mesh_file = need_uri(uri.text, "mesh", uri.source, session.paths);
+  shape.mesh_file = need_uri(uri.text, "mesh", uri.source, session);
+  session.sources.will_be_read(shape.mesh_file);
   shape.mesh = read_mesh(shape.mesh_file, shape.mesh_scale, uri.source);
   return shape;
 }
@@ -51,7 +52,8 @@ Shape heightmap(const Element& element, Pose& pose, Session& session) {
   Shape shape;
   shape.type = Shape::Type::kMesh;
   const Element& uri = *element.child("uri");
-  const std::string file = need_uri(uri.text, "heightmap", uri.source, session.paths);
+  const std::string file = need_uri(uri.text, "heightmap", uri.source, session);
+  session.sources.will_be_read(file);
   shape.mesh = read_heightmap(file, vector_of(element, "size", Vec3::Ones()), uri.source);
   pose.position += pose.rotation * vector_of(element, "pos", Vec3::Zero());
   return shape;

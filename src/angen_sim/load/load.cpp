@@ -56,7 +56,7 @@ Element model_from_text(const std::string& text, Session& session) {
                                  "<actor> or <robot>");
   }
   upgrade(root, kLoneVersion);
-  make_uris_absolute(root, session.paths);
+  make_uris_absolute(root, session);
   return root;
 }
 
@@ -99,11 +99,6 @@ void give_name(Element& element, const std::string& name) {
 }
 
 }  // namespace
-
-desc::World world(const std::string& path) {
-  const std::string models = (fs::absolute(path).parent_path() / "models").string();
-  return world_from_text(read_file(path), path, SearchPaths::from_environment(models));
-}
 
 desc::Model model(const std::string& what, const std::string& name, const Pose& pose,
                   const SearchPaths& paths) {

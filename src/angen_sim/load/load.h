@@ -20,7 +20,8 @@ struct SearchPaths {
   static SearchPaths from_environment(const std::string& extra_models = "");
 };
 
-/// A whole world file; worlds/models beside it is searched too.
+/// A whole world file; worlds/models beside it is searched too. What an earlier load of the same
+/// files gave is taken from the user's cache, unless ANGEN_NO_CACHE is set.
 desc::World world(const std::string& path);
 
 /// A world from text; `name` stands for the file in messages.

@@ -35,26 +35,24 @@ Address split(const std::string& uri) {
   return {uri.substr(0, at), uri.substr(at + 3)};
 }
 
-std::string folder_of(const std::string& document) {
-  std::error_code failed;
-  if (document.empty() || !fs::exists(document, failed)) return "";
+std::string folder_of(const std::string& document, Sources& sources) {
+  if (document.empty() || !sources.exists(document)) return "";
   return fs::absolute(document).parent_path().string();
 }
 
 // The folders in which the address is tried, in order; a full path is tried as it stands.
 std::vector<std::string> folders_for(const Address& address, const std::string& from,
-                                     const SearchPaths& paths) {
-  if (address.scheme == "model") return paths.models;
+                                     Session& session) {
+  if (address.scheme == "model") return session.paths.models;
   if (address.scheme != "file" && !address.scheme.empty()) return {};
-  std::vector<std::string> folders = paths.resources;
-  const std::string beside = folder_of(from);
+  std::vector<std::string> folders = session.paths.resources;
+  const std::string beside = folder_of(from, session.sources);
   if (!beside.empty()) folders.push_back(beside);
   return folders;
 }
 
-std::optional<std::string> existing(const fs::path& path) {
-  std::error_code failed;
-  if (!fs::exists(path, failed) || failed) return std::nullopt;
+std::optional<std::string> existing(const fs::path& path, Sources& sources) {
+  if (!sources.exists(path.string())) return std::nullopt;
   const std::string found = fs::absolute(path).lexically_normal().string();
   return found.size() > 1 && found.back() == '/' ? found.substr(0, found.size() - 1) : found;
 }
@@ -75,33 +73,33 @@ SearchPaths SearchPaths::from_environment(const std::string& extra_models) {
 }
 
 std::optional<std::string> find_uri(const std::string& uri, const std::string& from,
-                                    const SearchPaths& paths) {
+                                    Session& session) {
   const Address address = split(uri);
   if (address.path.empty()) return std::nullopt;
   if (address.scheme != "model" && address.path[0] == '/') {
-    return address.scheme.empty() || address.scheme == "file" ? existing(address.path)
-                                                              : std::nullopt;
+    return address.scheme.empty() || address.scheme == "file"
+               ? existing(address.path, session.sources)
+               : std::nullopt;
   }
-  for (const std::string& folder : folders_for(address, from, paths)) {
-    if (auto found = existing(fs::path(folder) / address.path)) return found;
+  for (const std::string& folder : folders_for(address, from, session)) {
+    if (auto found = existing(fs::path(folder) / address.path, session.sources)) return found;
   }
   return std::nullopt;
 }
 
-std::string searched_places(const std::string& uri, const std::string& from,
-                            const SearchPaths& paths) {
+std::string searched_places(const std::string& uri, const std::string& from, Session& session) {
   const Address address = split(uri);
   if (address.scheme != "model" && !address.path.empty() && address.path[0] == '/') {
     return address.path;
   }
-  std::vector<std::string> places = folders_for(address, from, paths);
+  std::vector<std::string> places = folders_for(address, from, session);
   if (!places.empty()) return join_names(places);
   return address.scheme == "model" ? "nowhere (ANGEN_MODEL_PATH is empty)"
                                    : "nowhere (GAZEBO_RESOURCE_PATH is empty)";
 }
 
 std::string need_uri(const std::string& uri, const std::string& what, const Source& at,
-                     const SearchPaths& paths) {
+                     Session& session) {
   const Address address = split(uri);
   if (address.path.empty()) {
     throw Error(at, "the <uri> of this " + what + " is empty; write model://NAME/… or file://…");
@@ -110,13 +108,13 @@ std::string need_uri(const std::string& uri, const std::string& what, const Sour
     throw Error(
         at, "unknown uri '" + uri + "'; " + what + "s are read from model://NAME/… and file://…");
   }
-  if (auto found = find_uri(uri, at.file, paths)) {
+  if (auto found = find_uri(uri, at.file, session)) {
     std::error_code failed;
     if (what == "model" || fs::is_regular_file(*found, failed)) return *found;
     throw Error(at, what + " '" + uri + "' is no file (" + *found + "); name one");
   }
-  throw Error(
-      at, what + " '" + uri + "' is not found; searched: " + searched_places(uri, at.file, paths));
+  throw Error(at, what + " '" + uri +
+                      "' is not found; searched: " + searched_places(uri, at.file, session));
 }
 
 int version_number(const std::string& text) {
@@ -127,16 +125,16 @@ int version_number(const std::string& text) {
   return failed == std::errc{} && stop == end && minor >= 0 ? 100 + minor : -1;
 }
 
-std::string model_file(const std::string& path, const Source& at) {
-  std::error_code failed;
-  if (!fs::is_directory(path, failed)) return path;
+std::string model_file(const std::string& path, const Source& at, Session& session) {
+  Sources& sources = session.sources;
+  if (!sources.is_folder(path)) return path;
   const fs::path folder = path;
   const fs::path config = folder / "model.config";
-  if (!fs::exists(config, failed)) {
-    if (auto found = existing(folder / "model.sdf")) return *found;
+  if (!sources.exists(config.string())) {
+    if (auto found = existing(folder / "model.sdf", sources)) return *found;
     throw Error(at, "the model folder " + path + " has no model.config; add one with <sdf>");
   }
-  const Element root = parse_xml(read_file(config.string()), config.string());
+  const Element root = parse_xml(sources.read(config.string()), config.string());
   const Element* best = nullptr;
   int best_version = -1;
   for (const Element& child : root.children) {
@@ -152,23 +150,22 @@ std::string model_file(const std::string& path, const Source& at) {
     throw Error(root.source,
                 "no <sdf version=\"1.6\">model.sdf</sdf> of a version up to 1.9 in it");
   }
-  if (auto found = existing(folder / best->text)) return *found;
+  if (auto found = existing(folder / best->text, sources)) return *found;
   throw Error(best->source, "the file '" + best->text + "' is not in " + path);
 }
 
-void make_uris_absolute(Element& element, const SearchPaths& paths) {
+void make_uris_absolute(Element& element, Session& session) {
   if (element.name == "plugin") return;
   for (Element& child : element.children) {
     if (child.name != "uri") {
-      make_uris_absolute(child, paths);
+      make_uris_absolute(child, session);
       continue;
     }
     const Address address = split(child.text);
     const bool relative = !address.path.empty() && address.path[0] != '/';
     if (!relative || (!address.scheme.empty() && address.scheme != "file")) continue;
-    SearchPaths without_document = paths;
-    if (find_uri(child.text, "", without_document)) continue;
-    if (auto found = find_uri(child.text, child.source.file, paths))
+    if (find_uri(child.text, "", session)) continue;
+    if (auto found = find_uri(child.text, child.source.file, session))
       child.text = "file://" + *found;
   }
 }

@@ -1,5 +1,7 @@
+#include <filesystem>
 #include <map>
 
+#include "load/cache.h"
 #include "load/check.h"
 #include "load/describe.h"
 #include "load/entry.h"
@@ -10,6 +12,8 @@
 #include "load/xml.h"
 
 namespace angen::load {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -153,13 +157,28 @@ desc::World describe_world(const Element& sdf, Session& session) {
   return world;
 }
 
+desc::World read_world(const std::string& xml, const std::string& name, Session& session) {
+  const Open open(session, name);
+  return describe_world(read_document(xml, name, session), session);
+}
+
 }  // namespace
 
 desc::World world_from_text(const std::string& xml, const std::string& name,
                             const SearchPaths& paths) {
   Session session{paths};
-  const Open open(session, name);
-  return describe_world(read_document(xml, name, session), session);
+  return read_world(xml, name, session);
+}
+
+desc::World world(const std::string& path) {
+  const std::string models = (fs::absolute(path).parent_path() / "models").string();
+  const SearchPaths paths = SearchPaths::from_environment(models);
+  const Cache cache(path, paths);
+  if (std::optional<desc::World> kept = cache.recall()) return *std::move(kept);
+  Session session{paths};
+  desc::World world = read_world(session.sources.read(path), path, session);
+  cache.keep(world, session.sources);
+  return world;
 }
 
 }  // namespace angen::load

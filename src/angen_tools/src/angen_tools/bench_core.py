@@ -4,11 +4,15 @@ from __future__ import annotations
 import csv
 import json
 import os
+import resource
 import subprocess
+import sys
+import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
 from .failure import Failure
+from .world_maker import write_apartment
 
 PROGRAMS = ('core_bench', 'rays_bench', 'physics_bench')
 COLUMNS = ('ratio', 'against', 'case', 'cpu_ns', 'counters', 'commit')
@@ -17,11 +21,12 @@ COLUMNS = ('ratio', 'against', 'case', 'cpu_ns', 'counters', 'commit')
 AGAINST = {
     'doors_awake/12': 'doors_in_bare_ode/12',
     'doors_awake/120': 'doors_in_bare_ode/120',
-    'BM_Ours/pir_rays': 'BM_RawEmbree/pir_rays',
-    'BM_Ours/random_rays': 'BM_RawEmbree/random_rays',
+    'BM_Ours/pir': 'BM_RawEmbree/pir',
+    'BM_Ours/random': 'BM_RawEmbree/random',
     'storeys/floors:20': 'storeys/floors:2',
     'storeys/floors:100': 'storeys/floors:2',
     'doors_at_rest/doors:1000': 'doors_at_rest/doors:0',
+    'start/cached:1': 'start/cached:0',
     'pirs/pirs:3000/people:1': 'pirs/pirs:0/people:1',
     'pirs/pirs:30000/people:10': 'pirs/pirs:0/people:10',
 }
@@ -58,6 +63,29 @@ def cases_of(report: str) -> list[Case]:
     return cases
 
 
+def start_cases() -> list[Case]:
+    """What a process needs that loads flats with 200 PIRs and takes a tick, without and with the
+    world in the cache; the median of five.
+    """
+    program = 'import sys, angen; angen.World(sys.argv[1]).step(1)'
+    cases = []
+    with tempfile.TemporaryDirectory() as folder:
+        world = Path(folder) / 'flats.world'
+        write_apartment(world, 2, {'pir': 200}, 1)
+        for cached in (0, 1):
+            environment = {**os.environ, 'XDG_CACHE_HOME': folder,
+                           'ANGEN_NO_CACHE': '' if cached else '1'}
+            times = []
+            for _ in range(cached + 5):
+                before = resource.getrusage(resource.RUSAGE_CHILDREN)
+                subprocess.run([sys.executable, '-c', program, str(world)], env=environment,
+                               check=True)
+                after = resource.getrusage(resource.RUSAGE_CHILDREN)
+                times.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+            cases.append(Case(f'start/cached:{cached}', sorted(times[cached:])[2] * 1e9, {}))
+    return cases
+
+
 def rows_of(cases: list[Case], commit: str) -> list[dict[str, str]]:
     """CSV rows, those with a ratio first."""
     times = {case.name: case.cpu_ns for case in cases}
@@ -89,6 +117,8 @@ def measure(out: Path) -> None:
         if run.returncode != 0:
             raise Failure(f'{path.name} ended with exit code {run.returncode}')
         cases += cases_of(run.stdout)
+    print('start …', flush=True)
+    cases += start_cases()
     rows = rows_of(cases, commit_of(Path(__file__).resolve().parent))
     out.mkdir(parents=True, exist_ok=True)
     with (out / 'core.csv').open('w', newline='', encoding='utf-8') as file:

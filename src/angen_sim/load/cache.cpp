@@ -1,0 +1,156 @@
+#include "load/cache.h"
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cereal/archives/binary.hpp>
+#include <cereal/types/map.hpp>
+#include <cereal/types/string.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "core/random.h"
+#include "load/pack.h"
+#include "load/xml.h"
+
+namespace angen::load {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::uintmax_t kMostBytes = 128U << 20U;  // in the folder
+
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+// By the XDG base directory specification, which has relative paths ignored.
+fs::path folder() {
+  if (!variable("ANGEN_NO_CACHE").empty()) return {};
+  const fs::path given = variable("XDG_CACHE_HOME");
+  if (given.is_absolute()) return given / "angen";
+  const fs::path home = variable("HOME");
+  return home.is_absolute() ? home / ".cache" / "angen" : fs::path{};
+}
+
+// Another build of this library may read the same files otherwise.
+std::string this_library() {
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<const void*>(&this_library), &info) == 0) return "";
+  std::error_code failed;
+  const auto size = fs::file_size(info.dli_fname, failed);
+  const auto changed = fs::last_write_time(info.dli_fname, failed).time_since_epoch().count();
+  return failed ? ""
+                : std::string(info.dli_fname) + "\n" + std::to_string(size) + "\n" +
+                      std::to_string(changed);
+}
+
+void add_path(std::string& key, const std::string& path) {
+  std::error_code failed;
+  key += "\n" + path + "\n" + fs::absolute(path, failed).string();
+}
+
+std::string hex(std::uint64_t number) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016lx", static_cast<unsigned long>(number));
+  return text;
+}
+
+// The files that were not asked for for the longest time go first.
+void make_room(const fs::path& folder) {
+  struct File {
+    fs::file_time_type used;
+    fs::path path;
+    std::uintmax_t size;
+    bool operator<(const File& o) const { return used > o.used; }
+  };
+  std::vector<File> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    files.push_back({entry.last_write_time(), entry.path(), entry.file_size()});
+  }
+  std::sort(files.begin(), files.end());
+  std::uintmax_t total = 0;
+  for (const File& file : files) {
+    total += file.size;
+    if (total > kMostBytes) fs::remove(file.path);
+  }
+}
+
+void write_whole(const fs::path& file, const std::string& bytes) {
+  static std::atomic<int> count{0};
+  const fs::path fresh =
+      file.string() + "." + std::to_string(getpid()) + "." + std::to_string(++count);
+  std::ofstream stream(fresh, std::ios::binary);
+  stream << bytes;
+  stream.close();
+  if (stream) {
+    fs::rename(fresh, file);
+  } else {
+    fs::remove(fresh);
+  }
+}
+
+}  // namespace
+
+Cache::Cache(const std::string& world, const SearchPaths& paths) {
+  const fs::path where = folder();
+  key_ = this_library();
+  if (where.empty() || key_.empty()) return;
+  add_path(key_, world);
+  for (const std::string& path : paths.models) add_path(key_, path);
+  key_ += "\nresources";
+  for (const std::string& path : paths.resources) add_path(key_, path);
+  file_ = (where / (hex(hash_bytes(key_)) + ".world")).string();
+}
+
+std::optional<desc::World> Cache::recall() const {
+  if (file_.empty()) return std::nullopt;
+  try {
+    std::ifstream stream(file_, std::ios::binary);
+    std::string sum(16, ' ');
+    std::ostringstream rest;
+    if (!stream.read(sum.data(), 16) || !(rest << stream.rdbuf())) return std::nullopt;
+    if (sum != hex(hash_bytes(rest.str()))) return std::nullopt;
+    std::istringstream bytes(rest.str(), std::ios::binary);
+    cereal::BinaryInputArchive archive(bytes);
+    std::string key;
+    Sources sources;
+    archive(key);
+    if (key != key_) return std::nullopt;
+    archive(sources);
+    if (!sources.unchanged()) return std::nullopt;
+    std::string packed;
+    archive(packed);
+    desc::World world = unpack(packed);
+    std::error_code failed;
+    fs::last_write_time(file_, fs::file_time_type::clock::now(), failed);
+    return world;
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+void Cache::keep(const desc::World& world, const Sources& sources) const {
+  if (file_.empty()) return;
+  try {
+    std::ostringstream rest(std::ios::binary);
+    cereal::BinaryOutputArchive archive(rest);
+    archive(key_, sources, pack(world));
+    const fs::path where = fs::path(file_).parent_path();
+    fs::create_directories(where);
+    const std::string bytes = rest.str();
+    write_whole(file_, hex(hash_bytes(bytes)) + bytes);
+    make_room(where);
+  } catch (const std::exception&) {
+    return;  // it will be read again
+  }
+}
+
+}  // namespace angen::load

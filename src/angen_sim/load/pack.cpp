@@ -1,0 +1,189 @@
+#include "load/pack.h"
+
+#include <cereal/archives/binary.hpp>
+#include <cereal/types/memory.hpp>
+#include <cereal/types/optional.hpp>
+#include <cereal/types/string.hpp>
+#include <cereal/types/utility.hpp>
+#include <cereal/types/vector.hpp>
+#include <sstream>
+
+// The bindings name every member of a struct: one that is added does not compile before it is
+// packed, too.
+namespace cereal {
+
+template <class A, class Scalar, int rows, int columns>
+void serialize(A& a, Eigen::Matrix<Scalar, rows, columns>& v) {
+  static_assert(rows > 0 && columns > 0);
+  a(binary_data(v.data(), sizeof(Scalar) * rows * columns));
+}
+
+template <class A>
+void serialize(A& a, angen::Quat& v) {
+  a(v.coeffs());
+}
+
+template <class A>
+void serialize(A& a, angen::Pose& v) {
+  auto& [position, rotation] = v;
+  a(position, rotation);
+}
+
+template <class A>
+void serialize(A& a, angen::Source& v) {
+  auto& [file, line] = v;
+  a(file, line);
+}
+
+template <class A>
+void serialize(A& a, angen::Diagnostic& v) {
+  auto& [severity, source, message] = v;
+  a(severity, source, message);
+}
+
+template <class A>
+void serialize(A& a, angen::Element& v) {
+  auto& [name, text, attributes, children, source] = v;
+  a(name, text, attributes, children, source);
+}
+
+template <class A, class T>
+void serialize_plain(A& a, std::vector<T>& v) {
+  auto size = static_cast<std::uint64_t>(v.size());
+  a(size);
+  v.resize(size);
+  a(binary_data(v.data(), size * sizeof(T)));
+}
+
+template <class A>
+void serialize(A& a, angen::TriangleMesh& v) {
+  auto& [vertices, triangles] = v;
+  serialize_plain(a, vertices);
+  serialize_plain(a, triangles);
+}
+
+template <class A>
+void serialize(A& a, angen::Shape& v) {
+  auto& [type, size, radius, length, mesh, mesh_file, mesh_scale] = v;
+  a(type, size, radius, length, mesh, mesh_file, mesh_scale);
+}
+
+template <class A>
+void serialize(A& a, angen::desc::Material& v) {
+  auto& [diffuse, emissive] = v;
+  a(diffuse, emissive);
+}
+
+template <class A>
+void serialize(A& a, angen::desc::Friction& v) {
+  auto& [mu, mu2, direction1, slip1, slip2] = v;
+  a(mu, mu2, direction1, slip1, slip2);
+}
+
+template <class A>
+void serialize(A& a, angen::desc::Collision& v) {
+  auto& [name, pose, shape, friction, restitution, stiffness, damping, source] = v;
+  a(name, pose, shape, friction, restitution, stiffness, damping, source);
+}
+
+template <class A>
+void serialize(A& a, angen::desc::Visual& v) {
+  auto& [name, pose, shape, material, temperature] = v;
+  a(name, pose, shape, material, temperature);
+}
+
+template <class A>
+void serialize(A& a, angen::desc::Inertial& v) {
+  auto& [mass, pose, moment] = v;
+  a(mass, pose, moment);
+}
+
+template <class A>
+void serialize(A& a, angen::desc::Light& v) {
+  auto& [name, type, pose, diffuse, intensity, range, direction, inner_angle, outer_angle, width,
+         height, radius, cast_shadows, source] = v;
+  a(name, type, pose, diffuse, intensity, range, direction, inner_angle, outer_angle, width, height,
+    radius, cast_shadows, source);
+}
+
+template <class A>
+void serialize(A& a, angen::desc::Sensor& v) {
+  auto& [name, type, pose, update_rate, visualize, plugin, plugin_element, element, source] = v;
+  a(name, type, pose, update_rate, visualize, plugin, plugin_element, element, source);
+}
+
+template <class A>
+void serialize(A& a, angen::desc::Link& v) {
+  auto& [name, pose, inertial, gravity, kinematic, upright, collisions, visuals, sensors, lights,
+         source] = v;
+  a(name, pose, inertial, gravity, kinematic, upright, collisions, visuals, sensors, lights,
+    source);
+}
+
+template <class A>
+void serialize(A& a, angen::desc::JointAxis& v) {
+  auto& [xyz, lower, upper, effort, velocity, damping, friction, initial_position] = v;
+  a(xyz, lower, upper, effort, velocity, damping, friction, initial_position);
+}
+
+template <class A>
+void serialize(A& a, angen::desc::Joint& v) {
+  auto& [name, type, parent, child, anchor, axes, source] = v;
+  a(name, type, parent, child, anchor, axes, source);
+}
+
+template <class A>
+void serialize(A& a, angen::desc::Plugin& v) {
+  auto& [name, filename, element, source] = v;
+  a(name, filename, element, source);
+}
+
+template <class A>
+void serialize(A& a, angen::desc::Model& v) {
+  auto& [name, pose, is_static, allow_auto_disable, self_collide, links, joints, plugins, xml,
+         expanded_xml, warnings, source] = v;
+  a(name, pose, is_static, allow_auto_disable, self_collide, links, joints, plugins, xml,
+    expanded_xml, warnings, source);
+}
+
+template <class A>
+void serialize(A& a, angen::desc::Physics& v) {
+  auto& [step, real_time_factor, iterations, erp, cfm, contact_max_correcting_vel,
+         contact_surface_layer] = v;
+  a(step, real_time_factor, iterations, erp, cfm, contact_max_correcting_vel,
+    contact_surface_layer);
+}
+
+template <class A>
+void serialize(A& a, angen::desc::Scene& v) {
+  auto& [ambient, background, shadows] = v;
+  a(ambient, background, shadows);
+}
+
+template <class A>
+void serialize(A& a, angen::desc::World& v) {
+  auto& [name, gravity, physics, scene, ambient_temperature, lights, models, plugins, warnings,
+         xml] = v;
+  a(name, gravity, physics, scene, ambient_temperature, lights, models, plugins, warnings, xml);
+}
+
+}  // namespace cereal
+
+namespace angen::load {
+
+std::string pack(const desc::World& world) {
+  std::ostringstream stream(std::ios::binary);
+  cereal::BinaryOutputArchive archive(stream);
+  archive(world);
+  return stream.str();
+}
+
+desc::World unpack(const std::string& bytes) {
+  std::istringstream stream(bytes, std::ios::binary);
+  cereal::BinaryInputArchive archive(stream);
+  desc::World world;
+  archive(world);
+  return world;
+}
+
+}  // namespace angen::load

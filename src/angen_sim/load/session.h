@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/element.h"
+#include "load/load.h"
+#include "load/sources.h"
+
+namespace angen::load {
+
+/// What one load carries along: where to search, what it saw there, what to say, how much was read.
+struct Session {
+  const SearchPaths& paths;
+  Sources sources{};
+  std::vector<Diagnostic> warnings{};
+  std::size_t elements = 0;         // of all documents so far
+  std::vector<std::string> open{};  // documents being read, outermost first
+
+  /// Once for each place: a file that is included ten times warns as often as if it were once.
+  void warn(const Source& source, const std::string& message);
+};
+
+/// Keeps a document on the list of open ones while it is read.
+class Open {
+ public:
+  Open(Session& session, const std::string& file) : session_(session) {
+    session_.open.push_back(file);
+  }
+  ~Open() { session_.open.pop_back(); }
+  Open(const Open&) = delete;
+  Open& operator=(const Open&) = delete;
+
+ private:
+  Session& session_;
+};
+
+}  // namespace angen::load
