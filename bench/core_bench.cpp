@@ -106,7 +106,7 @@ void storeys(benchmark::State& state) {
   desc::World world = apartment();
   const auto on_ground = [](const desc::Model& model) {
     return model.pose.position.z() < 3.5 && model.name != "elevator" && model.name != "turtlebot" &&
-           model.name != "apartment" && !is_person(model);
+           model.name != "ground_plane" && !is_person(model);
   };
   std::vector<desc::Model> floor;
   std::copy_if(world.models.begin(), world.models.end(), std::back_inserter(floor), on_ground);

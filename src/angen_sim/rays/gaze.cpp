@@ -49,7 +49,19 @@ void Gaze::measure(const Scene& scene) {
     reach_.min().array() -= kMargin;
     reach_.max().array() += kMargin;
   }
+  settled_.clear();
   pack();
+  clip(fixed_);
+}
+
+void Gaze::settle(const Scene& scene, const std::vector<ShapeId>& movers) {
+  settled_ = fixed_;
+  clip(fixed_);
+  if (take_in_all(scene, movers, settled_.data())) {
+    clip(settled_);
+  } else {
+    settled_ = {};
+  }
 }
 
 void Gaze::pack() {
@@ -62,12 +74,26 @@ void Gaze::pack() {
       packet.origin[axis][lane] = used ? static_cast<float>(rays_[i].origin[axis]) : 0.0F;
       packet.inverse[axis][lane] = used ? inverse(rays_[i].direction[axis]) : 1.0F;
     }
-    packet.range[lane] = used ? rays::reach(std::min(fixed_[i].range, rays_[i].max)) : -1.0F;
+    packet.range[lane] = -1.0F;
+  }
+}
+
+/// Nothing farther than these hits is of interest.
+void Gaze::clip(const std::vector<Hit>& hits) {
+  for (std::size_t i = 0; i < rays_.size(); ++i) {
+    if (!usable(rays_[i])) continue;
+    packets_[i / kLanes].range[static_cast<Eigen::Index>(i % kLanes)] =
+        rays::reach(std::min(hits[i].range, rays_[i].max));
   }
 }
 
 bool Gaze::look(const Scene& scene, const std::vector<ShapeId>& movers, Hit* hits) const {
-  std::copy(fixed_.begin(), fixed_.end(), hits);
+  const std::vector<Hit>& known = settled_.empty() ? fixed_ : settled_;
+  std::copy(known.begin(), known.end(), hits);
+  return take_in_all(scene, movers, hits);
+}
+
+bool Gaze::take_in_all(const Scene& scene, const std::vector<ShapeId>& movers, Hit* hits) const {
   bool met = false;
   for (const ShapeId mover : movers) {
     const Eigen::AlignedBox3d box = scene.bounds(mover);

@@ -7,8 +7,8 @@
 namespace angen::rays {
 
 /// Rays that stay where they are. What they meet of the static shapes is measured once; a look then
-/// takes in the movers that it is told of, and casts only those rays that may meet one. Its hits
-/// are bit for bit those of Scene::cast.
+/// takes in the movers that it is told of, and casts only those rays that may meet one. Movers that
+/// stand still may be taken in once, too. Its hits are bit for bit those of Scene::cast.
 class Gaze {
  public:
   /// Measures; the scene must be committed.
@@ -23,8 +23,12 @@ class Gaze {
 
   std::size_t size() const { return rays_.size(); }
 
-  /// hits[i] answers ray i. `movers` must hold every moving shape whose box overlaps reach(), each
-  /// once. Returns whether any of them is met.
+  /// Takes in these movers, and none that was taken in before, for all looks until one of them
+  /// moves or goes; then, and after measure(), it is to be called anew.
+  void settle(const Scene& scene, const std::vector<ShapeId>& movers);
+
+  /// hits[i] answers ray i. `movers` must hold every moving shape whose box overlaps reach() but
+  /// those that have been settled, each once. Returns whether any of them is met.
   bool look(const Scene& scene, const std::vector<ShapeId>& movers, Hit* hits) const;
 
  private:
@@ -36,10 +40,13 @@ class Gaze {
   };
 
   void pack();
+  void clip(const std::vector<Hit>& hits);
+  bool take_in_all(const Scene& scene, const std::vector<ShapeId>& movers, Hit* hits) const;
   bool take_in(const Scene& scene, ShapeId mover, const Eigen::AlignedBox3d& box, Hit* hits) const;
 
   std::vector<Ray> rays_;
-  std::vector<Hit> fixed_;  // of static shapes
+  std::vector<Hit> fixed_;    // of static shapes
+  std::vector<Hit> settled_;  // of these and settled movers; empty where none of those is met
   std::vector<Packet> packets_;
   Eigen::AlignedBox3d reach_;
 };

@@ -13,6 +13,11 @@ Error taken(const Source& source, const std::string& what, const std::string& na
                            "'; names of a kind must differ");
 }
 
+template <class Instance>
+std::string key_of(const Instance& instance) {
+  return instance.kind + "/" + instance.name;
+}
+
 void start_at(SensorInstance& sensor, Nanoseconds now, Nanoseconds step) {
   sensor.rhythm.start = now;
   sensor.rhythm.step = step;
@@ -43,10 +48,8 @@ void Building::raise_stage() {
 }
 
 LiveModel* Building::find(const std::string& model) const {
-  for (const auto& live : models_) {
-    if (live->desc->name == model) return live.get();
-  }
-  return nullptr;
+  const auto at = by_name_.find(model);
+  return at == by_name_.end() ? nullptr : at->second;
 }
 
 std::vector<std::string> Building::model_names() const {
@@ -56,13 +59,9 @@ std::vector<std::string> Building::model_names() const {
 }
 
 void Building::check_sensor_name(const SensorInstance& sensor) const {
-  for (const auto& other : models_) {
-    for (const SensorInstance& s : other->sensors) {
-      if (s.kind == sensor.kind && s.name == sensor.name) {
-        throw taken(sensor.desc->source, s.kind, s.name, other->desc->name);
-      }
-    }
-  }
+  const auto other = sensors_.find(key_of(sensor));
+  if (other == sensors_.end()) return;
+  throw taken(sensor.desc->source, sensor.kind, sensor.name, other->second->desc->name);
 }
 
 void Building::check_names(const LiveModel& live) const {
@@ -71,15 +70,23 @@ void Building::check_names(const LiveModel& live) const {
                 "model '" + live.desc->name + "' exists already; choose another name");
   }
   for (const DeviceInstance& device : live.devices) {
-    for (const auto& other : models_) {
-      for (const DeviceInstance& d : other->devices) {
-        if (d.kind == device.kind && d.name == device.name) {
-          throw taken(live.desc->source, d.kind, d.name, other->desc->name);
-        }
-      }
-    }
+    const auto other = devices_.find(key_of(device));
+    if (other == devices_.end()) continue;
+    throw taken(live.desc->source, device.kind, device.name, other->second->desc->name);
   }
   for (const SensorInstance& sensor : live.sensors) check_sensor_name(sensor);
+}
+
+void Building::list_names(LiveModel& live) {
+  by_name_[live.desc->name] = &live;
+  for (const DeviceInstance& device : live.devices) devices_[key_of(device)] = &live;
+  for (const SensorInstance& sensor : live.sensors) sensors_[key_of(sensor)] = &live;
+}
+
+void Building::strike_names(const LiveModel& live) {
+  by_name_.erase(live.desc->name);
+  for (const DeviceInstance& device : live.devices) devices_.erase(key_of(device));
+  for (const SensorInstance& sensor : live.sensors) sensors_.erase(key_of(sensor));
 }
 
 void Building::build(desc::Model model, const std::vector<SensorInstance>* attached,
@@ -102,6 +109,7 @@ void Building::build(desc::Model model, const std::vector<SensorInstance>* attac
     if (owners_.size() <= index) owners_.resize(index + 1);
     owners_[index] = {live.get(), i};
   }
+  list_names(*live);
   models_.push_back(std::move(live));
   ++revision_;
 }
@@ -131,6 +139,7 @@ void Building::attach(const desc::Sensor& sensor, const std::string& link, Nanos
   check_sensor_name(instance);
   instance.attached = true;
   start_at(instance, now, world_.physics.step);
+  sensors_[key_of(instance)] = live;
   live->sensors.push_back(std::move(instance));
   ++revision_;
 }
@@ -140,6 +149,7 @@ void Building::erase(const std::string& name) {
                                   [&](const auto& live) { return live->desc->name == name; });
   if (model != models_.end()) {
     stage_->remove((*model)->parts);
+    strike_names(**model);
     models_.erase(model);
     ++revision_;
     return;
@@ -151,6 +161,7 @@ void Building::erase(const std::string& name) {
         throw Error("sensor '" + name + "' is a part of model '" + live->desc->name +
                     "'; delete that");
       }
+      sensors_.erase(key_of(*sensor));
       live->sensors.erase(sensor);
       ++revision_;
       return;
@@ -163,6 +174,7 @@ void Building::erase(const std::string& name) {
 void Building::reset(Nanoseconds now) {
   std::vector<std::unique_ptr<LiveModel>> old;
   old.swap(models_);
+  for (auto* names : {&by_name_, &devices_, &sensors_}) names->clear();
   for (const auto& live : old) {
     for (SensorInstance& sensor : live->sensors) sensor.looks.clear();  // they stand on the stage
   }

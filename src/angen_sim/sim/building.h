@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "sim/instance.h"
@@ -58,12 +59,17 @@ class Building {
   void check_sensor_name(const SensorInstance& sensor) const;
   LiveModel* find(const std::string& model) const;
   std::vector<std::string> model_names() const;
+  void list_names(LiveModel& live);
+  void strike_names(const LiveModel& live);
 
   const desc::World& world_;
   std::uint64_t seed_;
   std::shared_ptr<Catalog> catalog_;
   std::unique_ptr<Stage> stage_;
   std::vector<std::unique_ptr<LiveModel>> models_;
+  std::unordered_map<std::string, LiveModel*> by_name_;  // the models
+  std::unordered_map<std::string, LiveModel*> devices_;  // whose model it is, by kind/name
+  std::unordered_map<std::string, LiveModel*> sensors_;  // as well
   std::vector<WorldLight> lights_;
   std::vector<Owner> owners_;  // by index of physics::LinkId
   std::vector<std::string> warnings_;

@@ -8,6 +8,8 @@ namespace angen::sim {
 
 namespace {
 
+constexpr Sights::Moment kUnmoved = 1000;  // ticks, after which a mover is taken for still
+
 const char* type_name(desc::Joint::Type type) {
   switch (type) {
     case desc::Joint::Type::kFixed:
@@ -100,6 +102,32 @@ std::size_t sensor_count(const desc::Model& model) {
 }
 
 }  // namespace
+
+void Look::measure(Stage& stage) {
+  gaze.measure(stage.rays);
+  view.resize(gaze.reach());
+  changed = true;
+  settled_at = 0;
+  settled = 0;
+}
+
+bool Look::look(const Stage& stage, Sights::Parted& scratch, std::vector<rays::Hit>& hits) {
+  const Sights::Moment now = stage.sights.now();
+  hits.resize(gaze.size());
+  view.part(settled_at, scratch);
+  // Nothing comes to those that have not moved since some moment: as many are the same.
+  if (scratch.still.size() != settled || scratch.longest + kUnmoved < now) {
+    settled_at = now - std::min(now, kUnmoved);
+    view.part(settled_at, scratch);
+    settled = scratch.still.size();
+    gaze.settle(stage.rays, scratch.still);
+    changed = true;
+  }
+  const bool meets = gaze.look(stage.rays, scratch.moving, hits.data());
+  const bool same = !changed && !meets;
+  changed = meets;
+  return same;
+}
 
 ModelInfo info_of(const desc::Model& model) {
   ModelInfo info;

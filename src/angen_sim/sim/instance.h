@@ -38,9 +38,16 @@ struct Look {
   Look(RayBatch rays, Stage& stage)
       : gaze(std::move(rays), stage.rays), view(stage.sights, gaze.reach()) {}
 
+  /// Measures anew, after static shapes came or went; the stage must be committed.
+  void measure(Stage& stage);
+  /// The hits of now. Returns whether they are surely those of the look before.
+  bool look(const Stage& stage, Sights::Parted& scratch, std::vector<rays::Hit>& hits);
+
   rays::Gaze gaze;
   Sights::View view;
-  bool met_mover = false;  // when it was last looked at
+  bool changed = true;            // since it was last looked at, or met what moves then
+  Sights::Moment settled_at = 0;  // movers that have not moved since are settled in the gaze
+  std::size_t settled = 0;        // how many
 };
 
 struct SensorInstance {

@@ -128,7 +128,7 @@ bool Sensing::undisturbed(const Stage& stage, const SensorInstance& sensor) {
 void Sensing::aim(Stage& stage, std::uint32_t index, InstanceView::Clock clock) {
   SensorInstance& sensor = *watched_[index].sensor;
   const InstanceView view(stage, *watched_[index].live, clock, &sensor);
-  Looking looking{index, nullptr, false, false, rays_.size(), 0};
+  Looking looking{index, nullptr, false, rays_.size(), 0};
   const int stance = sensor.sensor->stance(view);
   if (stance >= 0 && stance < kMostStances && stands_still(sensor, view)) {
     if (sensor.looks.size() <= static_cast<std::size_t>(stance)) sensor.looks.resize(stance + 1);
@@ -138,12 +138,9 @@ void Sensing::aim(Stage& stage, std::uint32_t index, InstanceView::Clock clock) 
       sensor.sensor->aim(view, rays);
       stage.rays.commit();
       look = std::make_unique<Look>(std::move(rays), stage);
-      looking.measured = true;
     } else if (look->view.take_altered()) {
       stage.rays.commit();
-      look->gaze.measure(stage.rays);
-      look->view.resize(look->gaze.reach());
-      looking.measured = true;
+      look->measure(stage);
     }
     looking.look = look.get();
   } else {
@@ -157,11 +154,7 @@ void Sensing::aim(Stage& stage, std::uint32_t index, InstanceView::Clock clock) 
 /// `same`: they are those of the look before.
 Hits Sensing::hits_of(Stage& stage, const Looking& looking, bool& same) {
   if (looking.look == nullptr) return {hits_.data() + looking.first_ray, looking.ray_count};
-  Look& look = *looking.look;
-  gaze_hits_.resize(look.gaze.size());
-  const bool meets = look.gaze.look(stage.rays, look.view.near(), gaze_hits_.data());
-  same = !looking.measured && !meets && !look.met_mover;
-  look.met_mover = meets;
+  same = looking.look->look(stage, parted_, gaze_hits_);
   return {gaze_hits_.data(), gaze_hits_.size()};
 }
 

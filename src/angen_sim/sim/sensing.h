@@ -45,7 +45,6 @@ class Sensing {
   struct Looking {
     std::uint32_t index;  // in Structure::sensors
     Look* look;           // null for one whose rays are in the batch
-    bool measured;        // the look is new
     bool asked_more;      // of the view, to aim
     std::size_t first_ray;
     std::size_t ray_count;
@@ -79,6 +78,7 @@ class Sensing {
   RayBatch rays_;
   std::vector<rays::Hit> hits_;
   std::vector<rays::Hit> gaze_hits_;
+  Sights::Parted parted_;
 };
 
 }  // namespace angen::sim

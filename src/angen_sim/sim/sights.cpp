@@ -64,6 +64,17 @@ void Sights::View::resize(const Box& box) {
 
 const std::vector<rays::ShapeId>& Sights::View::near() const { return sights_.views_[index_].near; }
 
+void Sights::View::part(Moment since, Parted& parted) const {
+  parted.still.clear();
+  parted.moving.clear();
+  parted.longest = sights_.now_;
+  for (const rays::ShapeId id : near()) {
+    const Moment moved = sights_.movers_[id.index].moved;
+    (moved < since ? parted.still : parted.moving).push_back(id);
+    if (moved >= since) parted.longest = std::min(parted.longest, moved);
+  }
+}
+
 bool Sights::View::stirred(Moment since) const {
   const Place& place = sights_.views_[index_];
   if (place.altered || place.left >= since) return true;

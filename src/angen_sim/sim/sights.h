@@ -18,6 +18,12 @@ class Sights {
   using Box = Eigen::AlignedBox3d;
   using Moment = std::uint64_t;  // counts calls of pass()
 
+  struct Parted {
+    std::vector<rays::ShapeId> still;
+    std::vector<rays::ShapeId> moving;
+    Moment longest = 0;  // of `moving`, when the one that rests for the longest time came to rest
+  };
+
   /// A view's place among the others; gives it up at its end, which must come before that of
   /// Sights.
   class View {
@@ -30,6 +36,8 @@ class Sights {
     void resize(const Box& box);
     /// Moving shapes that may be in the box; in no particular order, each once.
     const std::vector<rays::ShapeId>& near() const;
+    /// near() in two: those that have not moved or come at `since` or later, and the others.
+    void part(Moment since, Parted& parted) const;
     /// Whether any of them has moved, come or gone at `since` or later.
     bool stirred(Moment since) const;
     /// Whether static shapes in it came or went; forgets it.

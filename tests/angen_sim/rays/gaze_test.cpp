@@ -122,6 +122,28 @@ TEST_P(RandomRooms, SeenAsByTheCastOfAllRaysWhileThingsMoveComeAndGo) {
     }
   }
 }
+TEST_P(RandomRooms, SeenAsByTheCastOfAllRaysWhileSomeMoversAreSettled) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Room room(seed);
+    room.scene.commit();
+    const std::vector<Ray> rays = fan(room.rng, GetParam());
+    Gaze gaze(rays, room.scene);
+    for (int turn = 0; turn < 6; ++turn) {
+      const auto middle = room.movers.begin() + 2 * turn;
+      const std::vector<ShapeId> still(room.movers.begin(), middle);
+      const std::vector<ShapeId> moving(middle, room.movers.end());
+      for (const ShapeId id : still) room.scene.move(id, random_pose(room.rng, 4.0));
+      gaze.settle(room.scene, still);
+      for (const ShapeId id : moving) room.scene.move(id, random_pose(room.rng, 4.0));
+      std::vector<Hit> all;
+      room.scene.commit();
+      room.scene.cast(rays, all);
+      std::vector<Hit> seen(rays.size());
+      gaze.look(room.scene, moving, seen.data());
+      expect_same(seen, all);
+    }
+  }
+}
 INSTANTIATE_TEST_SUITE_P(Reach, RandomRooms,
                          ::testing::Values(6.0, std::numeric_limits<double>::infinity()));
 
