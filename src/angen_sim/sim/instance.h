@@ -51,6 +51,16 @@ struct Look {
 };
 
 struct SensorInstance {
+  // What a due time at rest looks at stands together: with many sensors it comes from far away.
+  std::vector<std::unique_ptr<Look>> looks;  // by stance, from where it stands
+  Rhythm rhythm;
+  Sights::Moment seen = 0;  // it has seen all that happened before
+  int calm = 0;             // so many looks in a row found nothing changed since the one before
+  Rest rest = Rest::kBusy;
+  bool asks_more = true;   // of the world than its pose and `looks`
+  bool link_moves = true;  // or stands where it is for ever
+  bool published = false;  // `scratch`, as `last`
+
   std::string kind;
   std::string name;
   std::uint64_t key = 0;  // of its random numbers
@@ -63,21 +73,12 @@ struct SensorInstance {
   std::string frame;
   bool attached = false;
   std::vector<std::string> collisions;  // full names, by ContactRef
-  Rhythm rhythm;
   Reading scratch;                      // the latest
   std::shared_ptr<const Reading> last;  // the latest published
-  bool published = false;               // that is what `scratch` says
-
-  bool link_moves = true;                    // or stands where it is for ever
-  Pose seen_from;                            // when it last looked, if its link moves
-  std::vector<std::unique_ptr<Look>> looks;  // by stance, from where it stands
-  Rest rest = Rest::kBusy;
-  bool asks_more = true;        // of the world than its pose and `looks`
-  Sights::Moment seen = 0;      // it has seen all that happened before
-  int calm = 0;                 // so many looks in a row found nothing changed since the one before
-  Nanoseconds quiet_until = 0;  // known of its noise, for leaps
-  Nanoseconds loud_at = 0;      // as well, when later than now
-  Nanoseconds cost = 0;         // CPU time that the meter counts
+  Pose seen_from;                       // when it last looked, if its link moves
+  Nanoseconds quiet_until = 0;          // known of its noise, for leaps
+  Nanoseconds loud_at = 0;              // as well, when later than now
+  Nanoseconds cost = 0;                 // CPU time that the meter counts
 };
 
 /// A model that is in the world, with all that acts and looks in it.

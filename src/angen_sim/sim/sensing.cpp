@@ -104,7 +104,7 @@ bool Sensing::collect_due(Nanoseconds now) {
 
 void Sensing::visit(Stage& stage, std::uint32_t index, InstanceView::Clock clock, Snapshot& next) {
   SensorInstance& sensor = *watched_[index].sensor;
-  if (sensor.sensor->on_demand()) {
+  if (sensor.rest == Rest::kBusy && sensor.sensor->on_demand()) {
     if (!demand_.has(sensor.kind, sensor.name)) return;
   } else if (undisturbed(stage, sensor)) {
     ++sensor.calm;

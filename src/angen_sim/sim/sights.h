@@ -61,13 +61,13 @@ class Sights {
 
  private:
   struct Place {
-    Box box;
     std::vector<rays::ShapeId> near;
     Moment left = 0;  // when a mover was last taken off `near`
     bool altered = false;
     bool used = false;
     bool wide = false;  // in too many cells to be filed by them
     std::uint64_t visited = 0;
+    Box box;
   };
   struct Mover {
     rays::ShapeId id;
