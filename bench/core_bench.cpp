@@ -128,6 +128,7 @@ void storeys(benchmark::State& state) {
   for (auto _ : state) {
     for (int i = 0; i < 1000; ++i) simulation->tick();
   }
+  state.counters["awake"] = simulation->snapshot()->counts.awake_bodies;
   state.counters["us_a_tick"] =
       benchmark::Counter(1e-3 * static_cast<double>(state.iterations()),
                          benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
