@@ -97,7 +97,7 @@ void Building::build(desc::Model model, const std::vector<SensorInstance>* attac
   for (std::size_t i = 0; attached != nullptr && i < attached->size(); ++i) {
     const SensorInstance& old = (*attached)[i];
     live->sensors.push_back(
-        make_sensor(*live, old.link, *old.desc, old.name, world_.gravity, *catalog_));
+        make_sensor(*live, old.link, old.desc, old.name, world_.gravity, *catalog_));
     live->sensors.back().attached = true;
   }
   check_names(*live);
@@ -135,7 +135,8 @@ void Building::attach(const desc::Sensor& sensor, const std::string& link, Nanos
   }
   if (sensor.plugin.empty()) throw Error(sensor.source, "the sensor has no <plugin>");
   SensorInstance instance = make_sensor(*live, static_cast<std::uint32_t>(at - names.begin()),
-                                        sensor, sensor.name, world_.gravity, *catalog_);
+                                        std::make_shared<const desc::Sensor>(sensor), sensor.name,
+                                        world_.gravity, *catalog_);
   check_sensor_name(instance);
   instance.attached = true;
   start_at(instance, now, world_.physics.step);

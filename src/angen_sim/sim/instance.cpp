@@ -143,8 +143,10 @@ ModelInfo info_of(const desc::Model& model) {
   return info;
 }
 
-SensorInstance make_sensor(const LiveModel& live, std::uint32_t link, const desc::Sensor& described,
-                           const std::string& name, const Vec3& gravity, Catalog& catalog) {
+SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
+                           std::shared_ptr<const desc::Sensor> shared, const std::string& name,
+                           const Vec3& gravity, Catalog& catalog) {
+  const desc::Sensor& described = *shared;
   return told_at(described.source, [&] {
     SensorInstance instance;
     for (const auto& plugin : catalog.library(described.plugin)) {
@@ -156,7 +158,7 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link, const desc
     instance.kind = instance.plugin->kind();
     instance.name = name;
     instance.key = hash_bytes(instance.kind + "/" + name);
-    instance.desc = std::make_shared<const desc::Sensor>(described);
+    instance.desc = shared;
     instance.link = link;
     instance.pose = described.pose;
     instance.scratch.kind = instance.kind;
@@ -193,7 +195,7 @@ void make_instances(LiveModel& live, const std::vector<desc::Plugin>& world_plug
         continue;
       }
       const std::string name = alone ? model.name : model.name + "_" + described.name;
-      live.sensors.push_back(make_sensor(live, i, described, name, gravity, catalog));
+      live.sensors.push_back(make_sensor(live, i, {live.desc, &described}, name, gravity, catalog));
     }
   }
 }

@@ -102,8 +102,9 @@ ModelInfo info_of(const desc::Model& model);
 void make_instances(LiveModel& live, const std::vector<desc::Plugin>& world_plugins,
                     const Vec3& gravity, Catalog& catalog, std::vector<std::string>& warnings);
 
-/// A sensor of `live`, on its link number `link`.
-SensorInstance make_sensor(const LiveModel& live, std::uint32_t link, const desc::Sensor& described,
-                           const std::string& name, const Vec3& gravity, Catalog& catalog);
+/// A sensor of `live`, on its link number `link`; shares its description.
+SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
+                           std::shared_ptr<const desc::Sensor> shared, const std::string& name,
+                           const Vec3& gravity, Catalog& catalog);
 
 }  // namespace angen::sim
