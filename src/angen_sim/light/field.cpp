@@ -21,6 +21,7 @@ constexpr double kMargin = 1e-4;       // m, a surface does not meet its own ray
 constexpr double kNear = 1e-3;         // m, as near as touches
 constexpr double kFarthest = 1e4;      // m
 constexpr double kReach = 15.0;  // m that the reflected light of an 800 lm lamp is followed from it
+constexpr float kDark = 2e-4F;   // lx: what throws back less is not followed farther
 constexpr double kBeyondSites = 0.5;  // m
 constexpr double kSettled = 1e-4;     // of the mean: a change that ends the bounces
 constexpr int kMostBounces = 200;
@@ -122,6 +123,10 @@ Rgb Field::albedo(std::uint32_t shape) const {
   Rgb out = Rgb::Zero();
   out.head<3>() = scene_.reflectance(shape).array().max(0.0F).min(kLargestAlbedo);
   return out;
+}
+
+Rgb Field::albedo_of(std::uint32_t patch) const {
+  return albedo(static_cast<std::uint32_t>(surfaces_[patch].key[0]));
 }
 
 std::uint32_t Field::patch_at(std::uint32_t shape, const Vec3& point, const Vec3& normal) {
@@ -237,7 +242,8 @@ void Field::start(const Lamp& lamp, Solution& solution) {
   }
 }
 
-/// Follows the light from patch to patch as far as it matters.
+/// Follows the light from patch to patch as far as it matters, with a first guess of what each
+/// gets: what those before it throw back.
 void Field::spread(const Lamp& lamp, Solution& solution) {
   const double reach = reach_of(lamp);
   const Eigen::AlignedBox3d world = scene_.static_bounds();
@@ -247,8 +253,20 @@ void Field::spread(const Lamp& lamp, Solution& solution) {
                ? world.squaredExteriorDistance(at) < kReach * kReach
                : (at - lamp.pose.position).norm() < reach;
   };
+  std::vector<Rgb> leaving;  // lx, of the patches before
   for (std::size_t i = 0; i < solution.patches.size(); ++i) {
-    for (const Link& link : links(solution.patches[i])) {
+    const std::uint32_t patch = solution.patches[i];
+    const std::vector<Link>& seen = links(patch);
+    Rgb sum = Rgb::Zero();
+    for (const Link& link : seen) {
+      const auto place = solution.places.find(link.patch);
+      if (place != solution.places.end() && place->second < i) sum += leaving[place->second];
+    }
+    solution.direct.push_back(direct(lamp, patch));
+    solution.reflected.push_back(sum / static_cast<float>(kLinks));
+    leaving.push_back(albedo_of(patch) * (solution.direct[i] + solution.reflected[i]));
+    if (leaving[i].maxCoeff() < kDark) continue;
+    for (const Link& link : seen) {
       if (link.patch == kNoPatch || solution.places.count(link.patch) != 0 || !near(link.patch)) {
         continue;
       }
@@ -258,25 +276,27 @@ void Field::spread(const Lamp& lamp, Solution& solution) {
   }
 }
 
-/// Bounce after bounce until no patch's light changes: each takes what it sees of the last.
+/// Bounce after bounce until no patch's light changes: each takes what it sees of the others, of
+/// those before it what they throw back by now (Gauss and Seidel).
 void Field::balance(Solution& solution) {
   const std::size_t count = solution.patches.size();
+  std::vector<std::uint32_t> places(surfaces_.size(), static_cast<std::uint32_t>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    places[solution.patches[i]] = static_cast<std::uint32_t>(i);
+  }
   std::vector<std::uint32_t> seen;
   seen.reserve(count * kLinks);
-  std::vector<Rgb> albedos, leaving(count + 1, Rgb::Zero());  // the last is the dark
-  for (const std::uint32_t patch : solution.patches) {
-    albedos.push_back(albedo(static_cast<std::uint32_t>(surfaces_[patch].key[0])));
-    for (const Link& link : links(patch)) {
-      const auto place = solution.places.find(link.patch);
-      seen.push_back(place == solution.places.end() ? static_cast<std::uint32_t>(count)
-                                                    : place->second);
+  std::vector<Rgb> albedos, leaving;
+  for (std::size_t i = 0; i < count; ++i) {
+    albedos.push_back(albedo_of(solution.patches[i]));
+    leaving.push_back(albedos[i] * (solution.direct[i] + solution.reflected[i]));
+    for (const Link& link : links(solution.patches[i])) {
+      seen.push_back(link.patch == kNoPatch ? static_cast<std::uint32_t>(count)
+                                            : places[link.patch]);
     }
   }
-  solution.reflected.assign(count, Rgb::Zero());
+  leaving.push_back(Rgb::Zero());  // the dark
   for (int bounce = 0; bounce < kMostBounces; ++bounce) {
-    for (std::size_t i = 0; i < count; ++i) {
-      leaving[i] = albedos[i] * (solution.direct[i] + solution.reflected[i]);
-    }
     float change = 0.0F;
     double total = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -287,6 +307,7 @@ void Field::balance(Solution& solution) {
       change = std::max(change, (sum - solution.reflected[i]).abs().maxCoeff());
       total += solution.direct[i] + sum.maxCoeff();
       solution.reflected[i] = sum;
+      leaving[i] = albedos[i] * (solution.direct[i] + sum);
     }
     if (change <= kSettled * total / static_cast<double>(count)) break;
   }
@@ -301,7 +322,6 @@ Solution Field::solve(const Lamp& lamp) {
   spread(lamp, solution);
   if (lamp.type != Lamp::Type::kDirectional) solution.bounds.extend(lamp.pose.position);
   for (const std::uint32_t patch : solution.patches) {
-    solution.direct.push_back(direct(lamp, patch));
     for (const Site& site : surfaces_[patch].sites) solution.bounds.extend(site.position);
   }
   // A patch goes on beyond its outermost sites.
@@ -320,14 +340,16 @@ Rgb Field::reflected(const Solution& solution, std::uint32_t patch) {
   if (patch == kNoPatch) return Rgb::Zero();
   const auto place = solution.places.find(patch);
   if (place != solution.places.end()) return solution.reflected[place->second];
+  const auto [known, is_new] = solution.beyond.try_emplace(patch, Rgb::Zero());
+  if (!is_new) return known->second;
   Rgb sum = Rgb::Zero();
   for (const Link& link : links(patch)) {
     const auto seen = solution.places.find(link.patch);
     if (seen == solution.places.end()) continue;
-    sum += albedo(static_cast<std::uint32_t>(surfaces_[link.patch].key[0])) *
-           (solution.direct[seen->second] + solution.reflected[seen->second]);
+    sum +=
+        albedo_of(link.patch) * (solution.direct[seen->second] + solution.reflected[seen->second]);
   }
-  return sum / static_cast<float>(kLinks);
+  return known->second = sum / static_cast<float>(kLinks);
 }
 
 }  // namespace angen::light

@@ -26,6 +26,7 @@ struct Solution {
   std::unordered_map<std::uint32_t, std::uint32_t> places;  // of a patch in the other lists
   std::vector<float> direct;                                // lx
   std::vector<Rgb> reflected;                               // lx, from other patches
+  mutable std::unordered_map<std::uint32_t, Rgb> beyond;    // lx, of other patches, once asked
   Eigen::AlignedBox3d bounds;                               // of the patches and the lamp
   bool valid = false;
   std::uint64_t stamp = 0;  // no two are alike
@@ -43,6 +44,7 @@ class Field {
 
   std::uint32_t patch_at(std::uint32_t shape, const Vec3& point, const Vec3& normal);
   Rgb albedo(std::uint32_t shape) const;
+  Rgb albedo_of(std::uint32_t patch) const;
 
   Solution solve(const Lamp& lamp);
 
