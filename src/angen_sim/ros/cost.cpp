@@ -53,8 +53,7 @@ angen_msgs::Cost to_message(const Spent& spent) {
 }
 
 CostTopic::CostTopic(ros::NodeHandle& node, sim::Simulation& simulation)
-    : simulation_(simulation),
-      outlet_(Outlet::of<angen_msgs::Cost>(node, "/angen/cost", false, 10)) {}
+    : simulation_(simulation), outlet_(Outlet::of<angen_msgs::Cost>(node, "/angen/cost", 10)) {}
 
 void CostTopic::restart(Pacer::Clock::time_point now) {
   since_ = now;
@@ -74,9 +73,11 @@ void CostTopic::pass(const sim::Snapshot& snapshot, Pacer::Clock::time_point now
   const Spent spent{simulation_.take_cost(), publishing_, process_time() - process_since_,
                     std::chrono::nanoseconds(now - since_).count()};
   restart(now);
-  angen_msgs::Cost message = to_message(spent);
-  message.header.stamp = to_ros(snapshot.time);
-  outlet_.publisher().publish(message);
+  outlet_.send([&] {
+    angen_msgs::Cost message = to_message(spent);
+    message.header.stamp = to_ros(snapshot.time);
+    return message;
+  });
 }
 
 }  // namespace angen::node

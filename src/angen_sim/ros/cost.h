@@ -3,8 +3,8 @@
 #include <angen_msgs/Cost.h>
 
 #include "core/stopwatch.h"
+#include "ros/outlet.h"
 #include "ros/pacer.h"
-#include "ros/publishers.h"
 #include "sim/simulation.h"
 
 namespace angen::node {

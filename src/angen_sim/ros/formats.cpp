@@ -1,48 +1,131 @@
 #include "ros/formats.h"
 
+#include <angen_msgs/ContactsArray.h>
+#include <angen_msgs/LightSensArray.h>
+#include <angen_msgs/PirArray.h>
+#include <angen_msgs/ReadingArray.h>
+#include <angen_msgs/SwitchArray.h>
+
 #include <map>
+#include <utility>
 
 #include "ros/convert.h"
 #include "ros/images.h"
+#include "ros/outlet.h"
 #include "ros/readings.h"
 #include "ros/states.h"
 
 namespace angen::node {
 namespace {
 
+constexpr std::uint32_t kStateQueue = 100;  // a second of all that a moving door says
+constexpr std::uint32_t kReadingQueue = 20;
+
 template <class Message>
-ros::AdvertiseOptions advertise(const std::string& topic, std::uint32_t queue,
-                                const ros::SubscriberStatusCallback& joined,
-                                const ros::SubscriberStatusCallback& left) {
-  ros::AdvertiseOptions options;
-  options.init<Message>(topic, queue, joined, left);
-  return options;
+Message to_message(const Parcel& parcel) {
+  Message message;
+  message.header.stamp = to_ros(parcel.stamp);
+  message.header.frame_id = parcel.label->frame;
+  fill(*parcel.reading, *parcel.label, message);
+  return message;
 }
 
 template <class Message>
-void publish(const ros::Publisher& publisher, const Reading& reading, Nanoseconds stamp,
-             const Label& label) {
-  Message message;
-  message.header.stamp = to_ros(stamp);
-  message.header.frame_id = label.frame;
-  fill(reading, label, message);
-  publisher.publish(message);
+class Each : public Channel {
+ public:
+  Each(ros::NodeHandle& node, const std::string& topic)
+      : outlet_(Outlet::of<Message>(node, topic, kReadingQueue)) {}
+  bool heard() const override { return outlet_.heard(); }
+  void put(const Parcel& parcel) override {
+    outlet_.send([&] { return to_message<Message>(parcel); });
+  }
+
+ private:
+  Outlet outlet_;
+};
+
+template <class Message>
+class Latched : public Channel {
+ public:
+  Latched(ros::NodeHandle& node, const std::string& topic) : outlet_(node, topic, kStateQueue) {}
+  bool heard() const override { return true; }
+  void put(const Parcel& parcel) override {
+    if (parcel.reading == last_) return;
+    last_ = parcel.reading;
+    outlet_.set([parcel] { return to_message<Message>(parcel); });
+  }
+
+ private:
+  LatchedOutlet<Message> outlet_;
+  std::shared_ptr<const Reading> last_;
+};
+
+template <class Array, class Message>
+class Together : public Channel {
+ public:
+  Together(ros::NodeHandle& node, const std::string& topic)
+      : outlet_(Outlet::of<Array>(node, topic, kReadingQueue)) {}
+  bool heard() const override { return outlet_.heard(); }
+  bool collects() const override { return true; }
+  void put(const Parcel& parcel) override {
+    if (heard()) parcels_.push_back(parcel);
+  }
+  void flush(Nanoseconds now) override {
+    if (parcels_.empty()) return;
+    outlet_.send([&] { return collect(now); });
+    parcels_.clear();
+  }
+
+ private:
+  Array collect(Nanoseconds now) const {
+    Array array;
+    array.header.stamp = to_ros(now);
+    array.names.reserve(parcels_.size());
+    array.readings.reserve(parcels_.size());
+    for (const Parcel& parcel : parcels_) {
+      array.names.push_back(parcel.label->name);
+      array.readings.push_back(to_message<Message>(parcel));
+    }
+    return array;
+  }
+
+  Outlet outlet_;
+  std::vector<Parcel> parcels_;
+};
+
+template <class Kind>
+std::unique_ptr<Channel> open(ros::NodeHandle& node, const std::string& topic) {
+  return std::make_unique<Kind>(node, topic);
 }
 
 template <class Message>
 Format format(const std::string& leaf = "", const std::string& leaf_parameter = "") {
-  return {ros::message_traits::datatype<Message>(), leaf, leaf_parameter, &advertise<Message>,
-          &publish<Message>};
+  Format made;
+  made.type = ros::message_traits::datatype<Message>();
+  made.leaf = leaf;
+  made.leaf_parameter = leaf_parameter;
+  made.open = &open<Each<Message>>;
+  made.latched = &open<Latched<Message>>;
+  return made;
+}
+
+/// Of a kind of which there may be thousands.
+template <class Message, class Array>
+Format format_with_array() {
+  Format made = format<Message>();
+  made.array_type = ros::message_traits::datatype<Array>();
+  made.array = &open<Together<Array, Message>>;
+  return made;
 }
 
 }  // namespace
 
 const std::vector<Format>& formats_of(const std::string& kind) {
   static const std::map<std::string, std::vector<Format>> table = {
-      {"pir", {format<angen_msgs::PirMsg>()}},
-      {"switch", {format<angen_msgs::SwitchMsg>()}},
-      {"luminosity", {format<angen_msgs::LightSensMsg>()}},
-      {"contact", {format<gazebo_msgs::ContactsState>()}},
+      {"pir", {format_with_array<angen_msgs::PirMsg, angen_msgs::PirArray>()}},
+      {"switch", {format_with_array<angen_msgs::SwitchMsg, angen_msgs::SwitchArray>()}},
+      {"luminosity", {format_with_array<angen_msgs::LightSensMsg, angen_msgs::LightSensArray>()}},
+      {"contact", {format_with_array<gazebo_msgs::ContactsState, angen_msgs::ContactsArray>()}},
       {"lidar", {format<sensor_msgs::LaserScan>()}},
       {"camera",
        {format<sensor_msgs::Image>("image_raw", "imageTopicName"),
@@ -57,7 +140,8 @@ const std::vector<Format>& formats_of(const std::string& kind) {
       {"person", {format<angen_msgs::PersonState>()}},
       {"drive", {format<nav_msgs::Odometry>()}},
   };
-  static const std::vector<Format> generic = {format<angen_msgs::Reading>()};
+  static const std::vector<Format> generic = {
+      format_with_array<angen_msgs::Reading, angen_msgs::ReadingArray>()};
   const auto found = table.find(kind);
   return found == table.end() ? generic : found->second;
 }

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <ros/advertise_options.h>
-#include <ros/publisher.h>
+#include <ros/node_handle.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,17 +16,36 @@ struct Label {
   std::string frame;  // header.frame_id
 };
 
+/// A reading on its way to a topic.
+struct Parcel {
+  std::shared_ptr<const Reading> reading;
+  Nanoseconds stamp = 0;
+  std::shared_ptr<const Label> label;
+};
+
+/// A topic of one sensor or device, or of several. It makes messages only for those who listen.
+class Channel {
+ public:
+  virtual ~Channel() = default;
+  virtual bool heard() const = 0;
+  virtual void put(const Parcel& parcel) = 0;
+  /// Whether what is put waits for flush(), which sends all of it in one message.
+  virtual bool collects() const { return false; }
+  virtual void flush(Nanoseconds) {}
+};
+
 /// The message that one kind of reading or state becomes.
 struct Format {
+  using Open = std::unique_ptr<Channel> (*)(ros::NodeHandle& node, const std::string& topic);
+
   std::string type;  // angen_msgs/PirMsg
   /// Of a kind that has several: the end of the topic, and the parameter that says otherwise.
   std::string leaf;
   std::string leaf_parameter;
-  ros::AdvertiseOptions (*advertise)(const std::string& topic, std::uint32_t queue,
-                                     const ros::SubscriberStatusCallback& joined,
-                                     const ros::SubscriberStatusCallback& left);
-  void (*publish)(const ros::Publisher& publisher, const Reading& reading, Nanoseconds stamp,
-                  const Label& label);
+  Open open = nullptr;     // a message for each reading; throws what roscpp throws
+  Open latched = nullptr;  // the same for states: the last stays
+  std::string array_type;  // angen_msgs/PirArray, or empty: there is none
+  Open array = nullptr;    // a message for all readings between two flushes
 };
 
 /// The one table: built-in kinds have messages of their own, any other goes out as

@@ -32,7 +32,7 @@ void JointStates::follow(const sim::Snapshot& snapshot, const std::vector<Robot>
       const auto before = old.find(topic);
       const Outlet outlet = before != old.end()
                                 ? before->second
-                                : Outlet::of<sensor_msgs::JointState>(node_, topic, false, kQueue);
+                                : Outlet::of<sensor_msgs::JointState>(node_, topic, kQueue);
       outlets_.emplace(topic, outlet);
       source.outlets.push_back(outlet);
     }
@@ -46,14 +46,15 @@ void JointStates::pass(const sim::Snapshot& snapshot) {
   slot_ = slot;
   for (const Source& source : sources_) {
     for (const Outlet& outlet : source.outlets) {
-      if (!outlet.heard()) continue;
-      sensor_msgs::JointState message;
-      message.header.stamp = to_ros(snapshot.time);
-      message.name = source.names;
-      for (const std::uint32_t joint : source.joints) {
-        message.position.push_back(snapshot.joint_positions[joint]);
-      }
-      outlet.publisher().publish(message);
+      outlet.send([&] {
+        sensor_msgs::JointState message;
+        message.header.stamp = to_ros(snapshot.time);
+        message.name = source.names;
+        for (const std::uint32_t joint : source.joints) {
+          message.position.push_back(snapshot.joint_positions[joint]);
+        }
+        return message;
+      });
     }
   }
 }

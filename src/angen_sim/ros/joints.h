@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "ros/publishers.h"
+#include "ros/frames.h"
+#include "ros/outlet.h"
 
 namespace angen::node {
 

@@ -7,7 +7,6 @@
 
 #include "ros/convert.h"
 #include "ros/formats.h"
-#include "ros/topics.h"
 #include "ros/wire.h"
 
 namespace angen::node {
@@ -32,7 +31,7 @@ Pose model_pose(const sim::Snapshot& snapshot, std::uint32_t first_link) {
 
 std::vector<angen_msgs::Entity> entities(const sim::Snapshot& snapshot,
                                          const std::vector<desc::Plugin>& world_plugins,
-                                         const std::string& kind) {
+                                         Topics topics, const std::string& kind) {
   const sim::Structure& structure = *snapshot.structure;
   const std::vector<std::uint32_t> first = first_links(structure);
   std::vector<angen_msgs::Entity> all;
@@ -73,9 +72,11 @@ std::vector<angen_msgs::Entity> entities(const sim::Snapshot& snapshot,
         add(sensor.name, sensor.kind, sensor.model, snapshot.link_poses[sensor.link] * sensor.pose);
     if (entity == nullptr) continue;
     const Format& format = format_of(sensor.kind);
-    entity->topic =
-        ros::names::resolve(sensor_topics(sensor, format, robot_in(robots, sensor.model)).front());
-    entity->type = format.type;
+    const Robot* robot = robot_in(robots, sensor.model);
+    const bool together = goes_with_its_kind(topics, format, robot);
+    entity->topic = together ? kind_topic(sensor.kind)
+                             : ros::names::resolve(sensor_topics(sensor, format, robot).front());
+    entity->type = together ? format.array_type : format.type;
   }
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
     return std::tie(a.name, a.kind) < std::tie(b.name, b.kind);

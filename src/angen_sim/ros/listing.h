@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "desc/world.h"
+#include "ros/topics.h"
 #include "sim/snapshot.h"
 
 namespace angen::node {
@@ -13,7 +14,7 @@ namespace angen::node {
 /// Models, devices and sensors, ordered by name, then kind; of one kind unless `kind` is empty.
 std::vector<angen_msgs::Entity> entities(const sim::Snapshot& snapshot,
                                          const std::vector<desc::Plugin>& world_plugins,
-                                         const std::string& kind);
+                                         Topics topics, const std::string& kind);
 
 /// Where a model's own frame stands now: every model has a link, which gives it.
 Pose model_pose(const sim::Snapshot& snapshot, std::uint32_t first_link);

@@ -28,6 +28,7 @@ using angen::sim::Simulation;
 
 constexpr char kUsage[] =
     "usage: angen_node [WORLD] [_rate:=1] [_paused:=false] [_seed:=1] [_clock_rate:=100]\n"
+    "                  [_topics:=sensor|kind]\n"
     "       angen_node --check WORLD    only loads; exit code 1 when it cannot\n"
     "WORLD may also stand in the parameter ~world.\n";
 
@@ -97,6 +98,7 @@ int run(std::string path, std::optional<angen::desc::World> world) {
   settings.rate = number_param("~rate", 1.0, 0.0);
   settings.clock_rate = number_param("~clock_rate", 100.0, 0.01);
   settings.models = folder_of(path) + "/models";
+  settings.topics = angen::node::topics_named(ros::param::param<std::string>("~topics", "sensor"));
   const auto seed = static_cast<std::uint64_t>(number_param("~seed", 1.0, 0.0));
   const auto simulation = make(std::move(*world), seed);
   if (ros::param::param("~paused", false)) simulation->post(angen::sim::Pause{true});

@@ -14,7 +14,7 @@ constexpr std::chrono::milliseconds kPeriod(66);
 }  // namespace
 
 Markers::Markers(ros::NodeHandle& node)
-    : outlet_(Outlet::of<visualization_msgs::MarkerArray>(node, "/angen/markers", false, 100)) {}
+    : outlet_(Outlet::of<visualization_msgs::MarkerArray>(node, "/angen/markers", 100)) {}
 
 void Markers::follow(const sim::Snapshot& snapshot) {
   const sim::Structure& structure = *snapshot.structure;
@@ -46,6 +46,7 @@ void Markers::follow(const sim::Snapshot& snapshot) {
     }
   }
   overlays_.follow(snapshot, next_id_, gone_);
+  structure_ = snapshot.structure;  // the models of the one before were known by their addresses
 }
 
 void Markers::mark(std::uint32_t link) {
@@ -55,17 +56,16 @@ void Markers::mark(std::uint32_t link) {
 }
 
 void Markers::pass(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {
-  if (!outlet_.heard()) {
-    gone_.markers.clear();
-    return;
-  }
+  if (!outlet_.heard()) return;
+  if (snapshot.structure != structure_) follow(snapshot);
   for (const std::uint32_t link : snapshot.moved_links) mark(link);
   if (now < next_send_) return;
   next_send_ = now + kPeriod;
   const std::uint64_t joined = outlet_.joined();
   const Array array = collect(snapshot, joined != joined_);
   joined_ = joined;
-  if (!array.markers.empty()) outlet_.publisher().publish(array);
+  if (array.markers.empty()) return;
+  outlet_.send([&]() -> const Array& { return array; });
 }
 
 Markers::Array Markers::collect(const sim::Snapshot& snapshot, bool all) {

@@ -7,30 +7,31 @@
 #include <vector>
 
 #include "ros/marker_plan.h"
+#include "ros/outlet.h"
 #include "ros/overlays.h"
 #include "ros/pacer.h"
-#include "ros/publishers.h"
 #include "sim/snapshot.h"
 
 namespace angen::node {
 
 /// /angen/markers: all of the world for each newcomer, after that only what has changed, at most 15
-/// times a second of wall time. Nothing is built while nobody looks.
+/// times a second of wall time. Nothing is built or followed while nobody looks.
 class Markers {
  public:
   explicit Markers(ros::NodeHandle& node);
 
-  void follow(const sim::Snapshot& snapshot);
   void pass(const sim::Snapshot& snapshot, Pacer::Clock::time_point now);
 
  private:
   using Array = visualization_msgs::MarkerArray;
 
+  void follow(const sim::Snapshot& snapshot);
   void mark(std::uint32_t link);
   void put_link(const sim::Snapshot& snapshot, std::uint32_t link, Array& array) const;
   Array collect(const sim::Snapshot& snapshot, bool all);
 
   Outlet outlet_;
+  std::shared_ptr<const sim::Structure> structure_;  // that all this is about
   std::int32_t next_id_ = 0;
   std::map<const desc::Model*, DrawnModel> models_;
   std::vector<const std::vector<Drawing>*> links_;  // as Structure::links

@@ -1,7 +1,6 @@
 #include "ros/news.h"
 
 #include <angen_msgs/Event.h>
-#include <angen_msgs/Stats.h>
 #include <ros/console.h>
 #include <rosgraph_msgs/Clock.h>
 
@@ -22,7 +21,7 @@ double seconds(Pacer::Clock::duration d) { return std::chrono::duration<double>(
 }  // namespace
 
 ClockTopic::ClockTopic(ros::NodeHandle& node, double rate)
-    : publisher_(node.advertise<rosgraph_msgs::Clock>("/clock", 100)),
+    : outlet_(Outlet::of<rosgraph_msgs::Clock>(node, "/clock", 100)),
       period_(std::max<Nanoseconds>(1, from_seconds(1.0 / rate))) {}
 
 void ClockTopic::pass(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {
@@ -30,13 +29,15 @@ void ClockTopic::pass(const sim::Snapshot& snapshot, Pacer::Clock::time_point no
   if (slot == slot_ && now - sent_ < kStill) return;
   slot_ = slot;
   sent_ = now;
-  rosgraph_msgs::Clock message;
-  message.clock = to_ros(snapshot.time);
-  publisher_.publish(message);
+  outlet_.send([&] {
+    rosgraph_msgs::Clock message;
+    message.clock = to_ros(snapshot.time);
+    return message;
+  });
 }
 
 Stats::Stats(ros::NodeHandle& node)
-    : outlet_(Outlet::of<angen_msgs::Stats>(node, "/angen/stats", false, 10)) {}
+    : outlet_(Outlet::of<angen_msgs::Stats>(node, "/angen/stats", 10)) {}
 
 void Stats::pass(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {
   if (now - sent_ < kStatsPeriod) return;
@@ -44,11 +45,15 @@ void Stats::pass(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {
   const double simulated = to_seconds(snapshot.time - sent_time_);
   sent_ = now;
   sent_time_ = snapshot.time;
-  if (!outlet_.heard()) return;
+  outlet_.send([&] { return message_of(snapshot, now, std::max(0.0, simulated / wall)); });
+}
+
+angen_msgs::Stats Stats::message_of(const sim::Snapshot& snapshot, Pacer::Clock::time_point now,
+                                    double factor) const {
   angen_msgs::Stats message;
   message.header.stamp = message.sim_time = to_ros(snapshot.time);
   message.real_time = ros::Duration(seconds(now - start_));
-  message.real_time_factor = std::max(0.0, simulated / wall);
+  message.real_time_factor = factor;
   message.step = to_seconds(snapshot.step);
   message.tick = static_cast<std::uint64_t>(snapshot.tick);
   message.paused = snapshot.paused;
@@ -59,11 +64,12 @@ void Stats::pass(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {
   message.sensors = static_cast<std::uint32_t>(snapshot.structure->sensors.size());
   message.readings = snapshot.counts.readings;
   message.failed_steps = snapshot.counts.failed_steps;
-  outlet_.publisher().publish(message);
+  message.messages = Traffic::sent();
+  return message;
 }
 
 Events::Events(ros::NodeHandle& node)
-    : outlet_(Outlet::of<angen_msgs::Event>(node, "/angen/events", false, 1000)) {}
+    : outlet_(Outlet::of<angen_msgs::Event>(node, "/angen/events", 1000)) {}
 
 void Events::pass(const sim::Snapshot& snapshot) {
   for (const sim::Event& event : snapshot.events) {
@@ -71,14 +77,15 @@ void Events::pass(const sim::Snapshot& snapshot) {
       ROS_WARN("%s", printable(event.event + ": " + event.detail, 2000).c_str());
     }
     ++told_;
-    if (!outlet_.heard()) continue;
-    angen_msgs::Event message;
-    message.header.stamp = to_ros(event.stamp);
-    message.source = event.source;
-    message.kind = event.kind;
-    message.event = event.event;
-    message.detail = event.detail;
-    outlet_.publisher().publish(message);
+    outlet_.send([&] {
+      angen_msgs::Event message;
+      message.header.stamp = to_ros(event.stamp);
+      message.source = event.source;
+      message.kind = event.kind;
+      message.event = event.event;
+      message.detail = event.detail;
+      return message;
+    });
   }
 }
 

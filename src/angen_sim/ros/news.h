@@ -1,10 +1,12 @@
 #pragma once
 
+#include <angen_msgs/Stats.h>
+
 #include <atomic>
 #include <cstdint>
 
+#include "ros/outlet.h"
 #include "ros/pacer.h"
-#include "ros/publishers.h"
 #include "sim/snapshot.h"
 
 namespace angen::node {
@@ -17,7 +19,7 @@ class ClockTopic {
   void pass(const sim::Snapshot& snapshot, Pacer::Clock::time_point now);
 
  private:
-  ros::Publisher publisher_;
+  Outlet outlet_;
   Nanoseconds period_;
   Nanoseconds slot_ = -1;
   Pacer::Clock::time_point sent_{};
@@ -30,6 +32,9 @@ class Stats {
   void pass(const sim::Snapshot& snapshot, Pacer::Clock::time_point now);
 
  private:
+  angen_msgs::Stats message_of(const sim::Snapshot& snapshot, Pacer::Clock::time_point now,
+                               double factor) const;
+
   Outlet outlet_;
   Pacer::Clock::time_point start_ = Pacer::Clock::now();
   Pacer::Clock::time_point sent_ = start_;

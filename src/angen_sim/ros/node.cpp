@@ -29,10 +29,10 @@ Node::Node(sim::Simulation& simulation, const Settings& settings)
       cost_(handle_, simulation),
       transforms_(handle_),
       markers_(handle_),
-      publishers_(handle_, simulation),
+      publishers_(handle_, simulation, settings.topics),
       joints_(handle_),
       commands_(handle_, inbox_),
-      services_(handle_, inbox_, events_, settings.models) {}
+      services_(handle_, inbox_, events_, settings.models, settings.topics) {}
 
 void Node::run(const std::atomic<bool>& stop) {
   ros::AsyncSpinner spinner(kThreads);
@@ -59,7 +59,6 @@ void Node::pass(const sim::Snapshot& snapshot) {
     publishers_.follow(snapshot, frames, robots);
     joints_.follow(snapshot, robots);
     commands_.follow(robots);
-    markers_.follow(snapshot);
   }
   publishers_.pass(snapshot);
   joints_.pass(snapshot);

@@ -20,7 +20,8 @@ namespace angen::node {
 struct Settings {
   double rate = 1.0;          // simulated seconds a wall second; 0 = as fast as it goes
   double clock_rate = 100.0;  // Hz
-  std::string models;         // a folder that model:// is looked for in, besides the usual ones
+  Topics topics = Topics::kSensor;
+  std::string models;  // a folder that model:// is looked for in, besides the usual ones
 };
 
 /// A simulation in ROS. The thread that calls run() owns the world and publishes; roscpp's threads

@@ -5,54 +5,47 @@
 
 #include <algorithm>
 
-#include "ros/topics.h"
 #include "ros/wire.h"
 
 namespace angen::node {
 namespace {
 
-constexpr std::uint32_t kStateQueue = 100;  // a second of all that a moving door says
-constexpr std::uint32_t kReadingQueue = 20;
 constexpr Nanoseconds kOdometryPeriod = kSecond / 10;  // of a robot that stands still
 
 }  // namespace
 
-Outlet::Outlet(ros::NodeHandle& node, const Format& format, const std::string& topic, bool latch,
-               std::uint32_t queue) {
-  ros::AdvertiseOptions options = format.advertise(topic, queue, on_join(), on_leave());
-  options.latch = latch;
-  publisher_ = node.advertise(options);
-}
-
-ros::SubscriberStatusCallback Outlet::on_join() const {
-  return [listeners = listeners_](const ros::SingleSubscriberPublisher&) {
-    ++listeners->count;
-    ++listeners->joined;
-  };
-}
-
-ros::SubscriberStatusCallback Outlet::on_leave() const {
-  return [listeners = listeners_](const ros::SingleSubscriberPublisher&) { --listeners->count; };
-}
-
-void Publishers::attach(Source& source, const Format& format, const std::string& topic, bool latch,
-                        Channels& kept) {
-  const Key key{topic, format.type};
+void Publishers::attach(Source& source, const std::string& type, Format::Open open,
+                        const std::string& topic, Channels& kept) {
+  const Key key{topic, type};
   std::shared_ptr<Channel> channel;
   if (const auto old = channels_.find(key); old != channels_.end()) channel = old->second;
   if (const auto twin = kept.find(key); twin != kept.end()) channel = twin->second;
   if (channel == nullptr) {
     try {
-      const std::uint32_t queue = latch ? kStateQueue : kReadingQueue;
-      channel = std::make_shared<Channel>(
-          Channel{Outlet(node_, format, topic, latch, queue), nullptr, &format});
+      channel = open(node_, topic);
     } catch (const ros::Exception& error) {
-      ROS_WARN("%s is not published: %s", source.label.name.c_str(), error.what());
+      ROS_WARN("%s is not published: %s", source.label->name.c_str(), error.what());
       return;
     }
   }
   kept[key] = channel;
-  if (channel->outlet.works()) source.channels.push_back(std::move(channel));
+  source.channels.push_back(std::move(channel));
+}
+
+Publishers::Source Publishers::sensor_source(const sim::SensorEntry& entry,
+                                             const std::string& frame, const Robot* robot,
+                                             Channels& kept) {
+  Source source{std::make_shared<const Label>(Label{entry.name, frame}), {}};
+  for (const Format& format : formats_of(entry.kind)) {
+    if (goes_with_its_kind(topics_, format, robot)) {
+      attach(source, format.array_type, format.array, kind_topic(entry.kind), kept);
+      continue;
+    }
+    for (const std::string& topic : sensor_topics(entry, format, robot)) {
+      attach(source, format.type, format.open, topic, kept);
+    }
+  }
+  return source;
 }
 
 void Publishers::follow(const sim::Snapshot& snapshot, const FrameTree& frames,
@@ -62,40 +55,47 @@ void Publishers::follow(const sim::Snapshot& snapshot, const FrameTree& frames,
   std::vector<Source> sensors;
   for (std::size_t i = 0; i < structure.sensors.size(); ++i) {
     const sim::SensorEntry& entry = structure.sensors[i];
-    Source source{{entry.name, frames.sensors[i]}, {}};
-    for (const Format& format : formats_of(entry.kind)) {
-      for (const std::string& topic : sensor_topics(entry, format, robot_in(robots, entry.model))) {
-        attach(source, format, topic, false, kept);
-      }
-    }
-    sensors.push_back(std::move(source));
+    sensors.push_back(sensor_source(entry, frames.sensors[i], robot_in(robots, entry.model), kept));
   }
   std::vector<Source> devices;
   for (const sim::DeviceEntry& entry : structure.devices) {
-    Source source{{entry.name, "world"}, {}};
+    Source source{std::make_shared<const Label>(Label{entry.name, "world"}), {}};
     const Format& format = format_of(entry.kind);
-    if (entry.kind != "drive") attach(source, format, topic_of(entry.kind, entry.name), true, kept);
+    if (entry.kind != "drive") {
+      attach(source, format.type, format.latched, topic_of(entry.kind, entry.name), kept);
+    }
     devices.push_back(std::move(source));
   }
+  const Format& odometry = format_of("drive");
   robots_.clear();
   for (const Robot& robot : robots) {
     Source& source = devices[robot.device];
-    source.label = {robot.base_frame, robot.odom_frame};
+    source.label = std::make_shared<const Label>(Label{robot.base_frame, robot.odom_frame});
     for (const std::string& topic : robot.odometry_topics) {
-      attach(source, format_of("drive"), topic, false, kept);
+      attach(source, odometry.type, odometry.open, topic, kept);
     }
     robots_.push_back(robot.device);
   }
   channels_ = std::move(kept);  // what is not kept is shut down here
+  together_.clear();
+  for (const auto& [key, channel] : channels_) {
+    if (channel->collects()) together_.push_back(channel);
+  }
   sensors_ = std::move(sensors);
   devices_ = std::move(devices);
+  list_costly(structure);
+  for (std::uint32_t i = 0; i < devices_.size(); ++i) {
+    if (structure.devices[i].kind != "drive") put_state(snapshot, i);
+  }
+}
+
+void Publishers::list_costly(const sim::Structure& structure) {
   costly_.clear();
   for (std::uint32_t i = 0; i < structure.sensors.size(); ++i) {
     const sim::SensorEntry& entry = structure.sensors[i];
     if (!entry.on_demand) continue;
     costly_.push_back({i, simulation_.wanted(entry.kind, entry.name)});
   }
-  for (std::uint32_t i = 0; i < devices_.size(); ++i) send_state(snapshot, i);
 }
 
 // A sensor that looks on demand looks while anybody listens.
@@ -103,7 +103,7 @@ void Publishers::ask_for(const sim::Structure& structure) {
   for (Costly& costly : costly_) {
     const std::vector<std::shared_ptr<Channel>>& channels = sensors_[costly.sensor].channels;
     const bool wanted = std::any_of(channels.begin(), channels.end(),
-                                    [](const auto& channel) { return channel->outlet.heard(); });
+                                    [](const auto& channel) { return channel->heard(); });
     if (wanted == costly.wanted) continue;
     costly.wanted = wanted;
     const sim::SensorEntry& entry = structure.sensors[costly.sensor];
@@ -113,28 +113,23 @@ void Publishers::ask_for(const sim::Structure& structure) {
 
 void Publishers::pass(const sim::Snapshot& snapshot) {
   ask_for(*snapshot.structure);
-  for (const std::uint32_t i : snapshot.new_states) send_state(snapshot, i);
+  for (const std::uint32_t i : snapshot.new_states) put_state(snapshot, i);
   for (const std::uint32_t i : snapshot.new_readings) {
+    if (snapshot.sensors[i] == nullptr) continue;
     const Source& source = sensors_[i];
     for (const auto& channel : source.channels) {
-      if (!channel->outlet.heard() || snapshot.sensors[i] == nullptr) continue;
-      channel->format->publish(channel->outlet.publisher(), *snapshot.sensors[i], snapshot.stamp(i),
-                               source.label);
+      if (channel->heard()) channel->put({snapshot.sensors[i], snapshot.stamp(i), source.label});
     }
   }
+  for (const auto& channel : together_) channel->flush(snapshot.time);
   repeat_odometry(snapshot);
 }
 
-void Publishers::send_state(const sim::Snapshot& snapshot, std::uint32_t device) {
-  const Source& source = devices_[device];
+void Publishers::put_state(const sim::Snapshot& snapshot, std::uint32_t device) {
   const std::shared_ptr<const Reading>& state = snapshot.devices[device];
-  for (const auto& channel : source.channels) {
-    if (state == nullptr || channel->sent == state) continue;
-    // A latched topic remembers its last message for those who come later.
-    if (!channel->outlet.heard() && !channel->outlet.publisher().isLatched()) continue;
-    channel->format->publish(channel->outlet.publisher(), *state, state->stamp, source.label);
-    channel->sent = state;
-  }
+  if (state == nullptr) return;
+  const Source& source = devices_[device];
+  for (const auto& channel : source.channels) channel->put({state, state->stamp, source.label});
 }
 
 // Navigation takes an odometry that has stopped for one that has died.
@@ -147,9 +142,7 @@ void Publishers::repeat_odometry(const sim::Snapshot& snapshot) {
     const std::shared_ptr<const Reading>& state = snapshot.devices[device];
     if (state == nullptr || state->stamp == snapshot.time) continue;
     for (const auto& channel : source.channels) {
-      if (channel->outlet.heard()) {
-        channel->format->publish(channel->outlet.publisher(), *state, snapshot.time, source.label);
-      }
+      channel->put({state, snapshot.time, source.label});
     }
   }
 }

@@ -59,8 +59,11 @@ bool answered(Response& response, Work&& work) {
 }  // namespace
 
 Services::Services(ros::NodeHandle& node, Inbox& inbox, const Events& events,
-                   const std::string& models)
-    : inbox_(inbox), events_(events), paths_(load::SearchPaths::from_environment(models)) {
+                   const std::string& models, Topics topics)
+    : inbox_(inbox),
+      events_(events),
+      paths_(load::SearchPaths::from_environment(models)),
+      topics_(topics) {
   const auto serve_empty = [&](const std::string& name, const sim::Action& action) {
     const boost::function<bool(Empty::Request&, Empty::Response&)> called =
         [this, action](Empty::Request&, Empty::Response&) { return empty(action); };
@@ -131,7 +134,8 @@ bool Services::erase(angen_msgs::Delete::Request& request, angen_msgs::Delete::R
 bool Services::list(angen_msgs::List::Request& request, angen_msgs::List::Response& response) {
   try {
     const auto snapshot = inbox_.simulation().snapshot();
-    response.entities = entities(*snapshot, inbox_.simulation().world().plugins, request.kind);
+    response.entities =
+        entities(*snapshot, inbox_.simulation().world().plugins, topics_, request.kind);
   } catch (const std::exception& problem) {
     ROS_ERROR("/angen/list: %s", problem.what());
     return false;

@@ -14,6 +14,7 @@
 #include "load/load.h"
 #include "ros/inbox.h"
 #include "ros/news.h"
+#include "ros/topics.h"
 
 namespace angen::node {
 
@@ -23,7 +24,8 @@ namespace angen::node {
 class Services {
  public:
   /// `models` is a further folder that model:// is looked for in.
-  Services(ros::NodeHandle& node, Inbox& inbox, const Events& events, const std::string& models);
+  Services(ros::NodeHandle& node, Inbox& inbox, const Events& events, const std::string& models,
+           Topics topics);
 
  private:
   using Empty = std_srvs::Empty;
@@ -39,6 +41,7 @@ class Services {
   Inbox& inbox_;
   const Events& events_;
   load::SearchPaths paths_;
+  Topics topics_;
   std::vector<ros::ServiceServer> servers_;
 };
 

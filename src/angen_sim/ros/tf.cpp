@@ -23,8 +23,7 @@ void add(tf2_msgs::TFMessage& message, Nanoseconds time, const std::string& pare
 }  // namespace
 
 Transforms::Transforms(ros::NodeHandle& node)
-    : fixed_(Outlet::of<tf2_msgs::TFMessage>(node, "/tf_static", true, 10)),
-      moving_(Outlet::of<tf2_msgs::TFMessage>(node, "/tf", false, 100)) {}
+    : fixed_(node, "/tf_static", 10), moving_(Outlet::of<tf2_msgs::TFMessage>(node, "/tf", 100)) {}
 
 void Transforms::follow(const sim::Snapshot& snapshot, const FrameTree& frames,
                         const std::vector<Robot>& robots) {
@@ -32,12 +31,15 @@ void Transforms::follow(const sim::Snapshot& snapshot, const FrameTree& frames,
   robots_ = robots;
   moved_.clear();
   marked_.assign(frames_.moving.size(), false);
-  tf2_msgs::TFMessage message;
-  for (const FixedFrame& frame : frames_.fixed) {
-    add(message, snapshot.time, frame.parent, frame.child, frame.pose);
-  }
-  fixed_.publisher().publish(message);
-  if (moving_.heard()) send(snapshot, true);
+  fixed_.set([fixed = std::make_shared<const std::vector<FixedFrame>>(frames_.fixed),
+              time = snapshot.time] {
+    tf2_msgs::TFMessage message;
+    for (const FixedFrame& frame : *fixed) {
+      add(message, time, frame.parent, frame.child, frame.pose);
+    }
+    return message;
+  });
+  send(snapshot, true);
 }
 
 void Transforms::pass(const sim::Snapshot& snapshot) {
@@ -56,12 +58,17 @@ void Transforms::pass(const sim::Snapshot& snapshot) {
   const Nanoseconds second = snapshot.time / kSecond;
   const bool all = newcomer || second != second_;
   second_ = second;
-  if (moving_.heard()) send(snapshot, all);
+  send(snapshot, all);
   for (const std::uint32_t frame : moved_) marked_[frame] = false;
   moved_.clear();
 }
 
 void Transforms::send(const sim::Snapshot& snapshot, bool all) {
+  if (robots_.empty() && (all ? frames_.moving.empty() : moved_.empty())) return;
+  moving_.send([&] { return collect(snapshot, all); });
+}
+
+tf2_msgs::TFMessage Transforms::collect(const sim::Snapshot& snapshot, bool all) const {
   tf2_msgs::TFMessage message;
   const auto add_moving = [&](const MovingFrame& frame) {
     Pose pose = snapshot.link_poses[frame.link];
@@ -78,7 +85,7 @@ void Transforms::send(const sim::Snapshot& snapshot, bool all) {
     add(message, snapshot.time, robot.odom_frame, robot.base_frame,
         odometry_pose(*snapshot.devices[robot.device]));
   }
-  if (!message.transforms.empty()) moving_.publisher().publish(message);
+  return message;
 }
 
 }  // namespace angen::node

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <tf2_msgs/TFMessage.h>
+
+#include <memory>
 #include <vector>
 
 #include "ros/frames.h"
-#include "ros/publishers.h"
+#include "ros/outlet.h"
 #include "sim/snapshot.h"
 
 namespace angen::node {
@@ -20,8 +23,9 @@ class Transforms {
 
  private:
   void send(const sim::Snapshot& snapshot, bool all);
+  tf2_msgs::TFMessage collect(const sim::Snapshot& snapshot, bool all) const;
 
-  Outlet fixed_;
+  LatchedOutlet<tf2_msgs::TFMessage> fixed_;
   Outlet moving_;
   FrameTree frames_;
   std::vector<Robot> robots_;

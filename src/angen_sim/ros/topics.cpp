@@ -1,5 +1,6 @@
 #include "ros/topics.h"
 
+#include "core/diagnostics.h"
 #include "ros/wire.h"
 
 namespace angen::node {
@@ -25,5 +26,17 @@ std::vector<std::string> sensor_topics(const sim::SensorEntry& sensor, const For
   if (robot != nullptr && !asked.empty()) return robot_topics(*robot, asked);
   return {topic_of(sensor.kind, sensor.name, asked)};
 }
+
+Topics topics_named(const std::string& word) {
+  if (word == "sensor") return Topics::kSensor;
+  if (word == "kind") return Topics::kKind;
+  throw Error("~topics is '" + word + "', must be sensor or kind");
+}
+
+bool goes_with_its_kind(Topics topics, const Format& format, const Robot* robot) {
+  return topics == Topics::kKind && !format.array_type.empty() && robot == nullptr;
+}
+
+std::string kind_topic(const std::string& kind) { return graph_name("/angen/" + kind); }
 
 }  // namespace angen::node

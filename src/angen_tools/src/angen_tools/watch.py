@@ -4,7 +4,7 @@ from __future__ import annotations
 import sys
 import time
 from contextlib import suppress
-from typing import Any
+from typing import Any, Iterable
 
 from .client import Client, Mailbox
 from .control import describe
@@ -64,6 +64,18 @@ VALUES = {'PirMsg': _pir, 'SwitchMsg': _switch, 'LightSensMsg': _light, 'Contact
           'DoorState': describe, 'ElevatorState': describe, 'LampState': describe}
 
 
+def said_by(message: Any) -> Iterable[tuple[str, Any]]:
+    """(name, reading) of all whose readings a message holds, with "" for a topic of its own."""
+    if hasattr(message, 'readings'):
+        return zip(message.names, message.readings)
+    return [('', message)]
+
+
+def _speaker(entity: Any) -> tuple[str, str]:
+    """Where an entity is heard, and by which name if it shares the topic."""
+    return entity.topic, entity.name if entity.type.endswith('Array') else ''
+
+
 class Board:
     """The latest message of every device and sensor."""
 
@@ -71,7 +83,8 @@ class Board:
         self._client = Client()
         self._mail = Mailbox(self._client)
         self._entities: list[Any] = []
-        self._latest: dict[str, Any] = {}
+        self._latest: dict[tuple[str, str], Any] = {}  # by topic and who spoke there
+        self._waiting: set[tuple[str, str]] = set()
         self.relist()
 
     def relist(self) -> None:
@@ -81,22 +94,26 @@ class Board:
         new = {e.topic: e.type for e in entities}
         for topic in old - set(new):
             self._mail.leave(topic)
-            self._latest.pop(topic, None)
         for topic in sorted(set(new) - old):
             self._mail.listen(topic, new[topic])
         self._entities = sorted(entities, key=lambda e: (e.kind, e.name))
+        speakers = {_speaker(entity) for entity in entities}
+        self._latest = {who: said for who, said in self._latest.items() if who in speakers}
+        self._waiting = speakers - set(self._latest)
 
     def hear(self, limit: float) -> None:
         """Takes messages for `limit` s of wall time, or until all have spoken the first time."""
-        waiting = any(entity.topic not in self._latest for entity in self._entities)
+        waiting = bool(self._waiting)
         self._mail.until(lambda *mail: self._take(*mail) and waiting, limit)
 
     def _take(self, topic: str, message: Any) -> bool:
         """True when all have spoken. What was sent by what is deleted now is let go."""
-        topics = {entity.topic for entity in self._entities}
-        if topic in topics:
-            self._latest[topic] = message
-        return len(self._latest) >= len(topics)
+        for name, reading in said_by(message):
+            who = (topic, name)
+            if who in self._latest or who in self._waiting:
+                self._latest[who] = reading
+                self._waiting.discard(who)
+        return not self._waiting
 
     def lines(self) -> list[str]:
         """The table's lines."""
@@ -104,7 +121,7 @@ class Board:
                      (self._row(entity) for entity in self._entities)).splitlines()
 
     def _row(self, entity: Any) -> list[str]:
-        message = self._latest.get(entity.topic)
+        message = self._latest.get(_speaker(entity))
         if message is None:
             return [entity.kind, entity.name, '-', '']
         return [entity.kind, entity.name, value_of(message),
