@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / 'src/angen_tools/scripts/angen'
 COMMANDS = ['spawn', 'spawn pir', 'spawn switch', 'spawn luminosity', 'spawn camera',
             'spawn contact', 'spawn model', 'delete', 'list', 'plugins', 'set', 'set door',
-            'set elevator', 'set lamp', 'save', 'watch', 'top', 'drive', 'map', 'task',
+            'set elevator', 'set lamp', 'save', 'watch', 'top', 'run', 'drive', 'map', 'task',
             'task patrol', 'check', 'luxcheck', 'completion']
 
 

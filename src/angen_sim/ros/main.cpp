@@ -28,7 +28,7 @@ using angen::sim::Simulation;
 
 constexpr char kUsage[] =
     "usage: angen_node [WORLD] [_rate:=1] [_paused:=false] [_seed:=1] [_clock_rate:=100]\n"
-    "                  [_topics:=sensor|kind]\n"
+    "                  [_fast:=false] [_topics:=sensor|kind]\n"
     "       angen_node --check WORLD    only loads; exit code 1 when it cannot\n"
     "WORLD may also stand in the parameter ~world.\n";
 
@@ -95,7 +95,11 @@ int run(std::string path, std::optional<angen::desc::World> world) {
     make(*world, 1);  // what is wrong with it is told before there is a master to wait for
   }
   angen::node::Settings settings;
-  settings.rate = number_param("~rate", 1.0, 0.0);
+  settings.fast = ros::param::param("~fast", false);
+  settings.rate = number_param("~rate", settings.fast ? 0.0 : 1.0, 0.0);
+  if (settings.fast && settings.rate > 0.0) {
+    throw angen::Error("~fast goes as fast as it can, with ~rate 0 or none");
+  }
   settings.clock_rate = number_param("~clock_rate", 100.0, 0.01);
   settings.models = folder_of(path) + "/models";
   settings.topics = angen::node::topics_named(ros::param::param<std::string>("~topics", "sensor"));

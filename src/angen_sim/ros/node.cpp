@@ -17,10 +17,13 @@ constexpr std::chrono::milliseconds kLongestNap(100);  // Ctrl-C is seen that so
 // Sleeping for single milliseconds would wake the processor more often than anybody can see.
 constexpr std::chrono::milliseconds kShortestNap(2);
 
+constexpr Nanoseconds kLongestLeap = 10 * kSecond;  // so far may /clock jump
+
 }  // namespace
 
 Node::Node(sim::Simulation& simulation, const Settings& settings)
     : simulation_(simulation),
+      fast_(settings.fast),
       inbox_(simulation),
       pacer_(settings.rate),
       clock_(handle_, settings.clock_rate),
@@ -38,13 +41,17 @@ void Node::run(const std::atomic<bool>& stop) {
   ros::AsyncSpinner spinner(kThreads);
   spinner.start();
   while (!stop && ros::ok()) {
-    const std::shared_ptr<const sim::Snapshot> snapshot = simulation_.tick();
+    const std::shared_ptr<const sim::Snapshot> snapshot = advance();
     pass(*snapshot);
     inbox_.passed();
     rest(*snapshot);
   }
   inbox_.close();
   spinner.stop();
+}
+
+std::shared_ptr<const sim::Snapshot> Node::advance() {
+  return fast_ ? simulation_.leap(simulation_.snapshot()->time + kLongestLeap) : simulation_.tick();
 }
 
 void Node::pass(const sim::Snapshot& snapshot) {

@@ -19,6 +19,7 @@ namespace angen::node {
 
 struct Settings {
   double rate = 1.0;          // simulated seconds a wall second; 0 = as fast as it goes
+  bool fast = false;          // leaps over ticks in which nothing happens; needs rate 0
   double clock_rate = 100.0;  // Hz
   Topics topics = Topics::kSensor;
   std::string models;  // a folder that model:// is looked for in, besides the usual ones
@@ -34,10 +35,12 @@ class Node {
   void run(const std::atomic<bool>& stop);
 
  private:
+  std::shared_ptr<const sim::Snapshot> advance();
   void pass(const sim::Snapshot& snapshot);
   void rest(const sim::Snapshot& snapshot);
 
   sim::Simulation& simulation_;
+  bool fast_;
   ros::NodeHandle handle_;
   Inbox inbox_;
   Pacer pacer_;

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from typing import Any, Callable, NoReturn, Sequence
 
-from . import bench_words, robot_words, task_words, walktest_words
+from . import bench_words, fast_words, robot_words, task_words, walktest_words
 from .client import leave
 from .failure import Failure
 
@@ -267,6 +267,7 @@ def make_parser() -> argparse.ArgumentParser:
             'compares the simulated light with closed forms; needs no simulator', 'luxcheck')
     robot_words.add_map(commands, command, checked)
     robot_words.add_drive(commands, command, names_of('drive'))
+    fast_words.add_run(commands, command, checked)
     task_words.add_task(commands, command, checked)
     bench_words.add_world(commands, command, checked)
     bench_words.add_bench(commands, command, checked)

@@ -58,3 +58,18 @@ def picture(head: Sequence[str], body: Sequence[str], page: int) -> str:
     turn = f'page {page % pages + 1} of {pages}: space turns it; ' if pages > 1 else ''
     shown = [line[:size.columns] for line in [*head, *body[first:first + rows]]]
     return '\x1b[H' + ''.join(f'{line}\x1b[K\n' for line in shown) + f'\x1b[J{turn}q quits'
+
+
+class Progress:
+    """A line that says how far it is, where somebody looks."""
+
+    def __init__(self, what: str) -> None:
+        self._what = what
+
+    def say(self, share: float) -> None:
+        if sys.stderr.isatty():
+            print(f'\r\033[K{self._what}: {100 * share:.0f} %', end='', file=sys.stderr, flush=True)
+
+    def end(self) -> None:
+        if sys.stderr.isatty():
+            print('\r\033[K', end='', file=sys.stderr, flush=True)

@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import math
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Mapping, Sequence
@@ -12,6 +11,7 @@ import yaml
 from . import models, sdf, walktest_report
 from .catalog import angen_module
 from .failure import Failure
+from .terminal import Progress
 from .walktest_arm import ARM_LIBRARY, arm_model, register_arm
 from .walktest_plan import Area, Probe, Walk, probes_of, walk
 
@@ -103,21 +103,6 @@ def _test(standard: Mapping[str, Any], test: Mapping[str, Any], tested: Detector
             _walk(standard, tested, area, walk(probes, test['speed'], test['stop']), test['name'])
         all_probes += probes
     return Result(test['name'], area, all_probes, test['required'], test.get('cell'))
-
-
-class Progress:
-    """A line that says how far it is, where somebody looks."""
-
-    def __init__(self, what: str) -> None:
-        self._what = what
-
-    def say(self, share: float) -> None:
-        if sys.stderr.isatty():
-            print(f'\r\033[K{self._what}: {100 * share:.0f} %', end='', file=sys.stderr, flush=True)
-
-    def end(self) -> None:
-        if sys.stderr.isatty():
-            print('\r\033[K', end='', file=sys.stderr, flush=True)
 
 
 def _world(standard: Mapping[str, Any], tested: Detector, area: Area, content: str) -> Any:

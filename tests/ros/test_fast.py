@@ -1,0 +1,58 @@
+"""A node that leaps over time in which nothing happens."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+from harness import Cli, Master, end, node_binary, until
+
+STILL = '''<sdf version="1.6"><world name="still">
+  <include>
+    <uri>model://bathroom_door</uri><name>bathroom_door0</name><pose>0 0 0.02 0 0 0</pose>
+  </include>
+  <include><uri>model://pir</uri><name>eye</name><pose>0 4 1.5 0 0 0</pose></include>
+  <plugin name="doors" filename="libdoor_world_plugin.so"/>
+</world></sdf>
+'''
+
+
+def clocks(master: Master, count: int) -> list[float]:
+    """So many messages of /clock in a row, s."""
+    done = subprocess.run(['/usr/bin/rostopic', 'echo', '-n', str(count), '-p', '/clock'],
+                          env=master.environment, text=True, capture_output=True, timeout=60)
+    return [int(line.split(',')[1]) * 1e-9 for line in done.stdout.splitlines()[1:]]
+
+
+def test_it_leaps_and_tells_every_event_and_state(tmp_path: Path) -> None:
+    master = Master(tmp_path)
+    world = tmp_path / 'still.world'
+    world.write_text(STILL)
+    cli = Cli(master)
+    node = master.node(world, tmp_path / 'log', fast='true')
+    try:
+        told = clocks(master, 20)
+        assert max(b - a for a, b in zip(told, told[1:])) > 1.0
+        said = (tmp_path / 'said').open('w')
+        listening = subprocess.Popen(['/usr/bin/rostopic', 'echo', '/angen/events/event'],
+                                     env=master.environment, stdout=said)
+        until(lambda: any('/rostopic' in name for _, names in
+                          master.api.getSystemState('/test')[2][1] for name in names
+                          if _ == '/angen/events'), 'somebody listens')
+        assert 'open' in cli.does('set', 'door', 'bathroom0', 'open')
+        until(lambda: '"opened"' in (tmp_path / 'said').read_text(), 'the door says so')
+        end(listening)
+        assert 'open at -1.57 rad' in cli.does('set', 'door', 'bathroom0', 'open')
+    finally:
+        end(node)
+        end(master.process)
+
+
+def test_fast_needs_no_rate(master: Master, tmp_path: Path) -> None:
+    world = tmp_path / 'still.world'
+    world.write_text(STILL)
+    done = subprocess.run(
+        [str(node_binary()), str(world), '_fast:=true', '_rate:=2', '__name:=refused'],
+        env=master.environment, text=True, capture_output=True, timeout=60)
+    assert done.returncode == 1
+    assert done.stderr.splitlines()[-1] == '~fast goes as fast as it can, with ~rate 0 or none'
