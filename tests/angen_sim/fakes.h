@@ -33,6 +33,14 @@ struct FakeLight {
   double luminous_flux = 0.0;
 };
 
+struct FakeDevice {
+  std::string kind;
+  std::string name;
+  std::string model;
+  Pose pose;
+  Reading state;
+};
+
 /// View, Wiring and Outputs of one instance over the same values. Fill joints, links, lights,
 /// collisions before configure(); names not filled in throw Error as the real ones do.
 class FakeWorld : public View, public Wiring, public Outputs {
@@ -56,6 +64,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
   std::function<light::Sample(light::Probe&, const Pose&)> light_at;  // dark where not given
   std::function<std::vector<std::uint8_t>(const render::Lens&, const Pose&)> colors_at;
   std::function<std::vector<float>(const render::Lens&, const Pose&)> depths_at;
+  std::vector<FakeDevice> others;
   std::vector<std::pair<std::string, std::string>> events;
 
   FakeJoint& joint_named(const std::string& name) { return joints[index(joints, name)].second; }
@@ -75,6 +84,11 @@ class FakeWorld : public View, public Wiring, public Outputs {
   std::vector<ContactPair> contacts(ContactRef ref) const override {
     const auto found = touching.find(collisions.at(ref.index));
     return found == touching.end() ? std::vector<ContactPair>{} : found->second;
+  }
+  std::vector<DeviceView> devices() const override {
+    std::vector<DeviceView> all;
+    for (const FakeDevice& d : others) all.push_back({d.kind, d.name, d.model, d.pose, d.state});
+    return all;
   }
   light::Sample illuminance(light::Probe& probe, const Pose& pose) const override {
     return light_at ? light_at(probe, pose) : light::Sample{};

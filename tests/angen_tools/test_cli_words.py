@@ -15,9 +15,11 @@ from angen_tools import cli, control, listing, watch
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / 'src/angen_tools/scripts/angen'
 COMMANDS = ['spawn', 'spawn pir', 'spawn switch', 'spawn luminosity', 'spawn camera',
-            'spawn contact', 'spawn model', 'delete', 'list', 'plugins', 'set', 'set door',
-            'set elevator', 'set lamp', 'save', 'watch', 'top', 'run', 'drive', 'map', 'task',
-            'task patrol', 'check', 'luxcheck', 'completion']
+            'spawn contact', 'spawn proximity', 'spawn pressure', 'spawn reed', 'spawn rfid',
+            'spawn plug', 'spawn temperature', 'spawn humidity', 'spawn model', 'delete', 'list',
+            'plugins', 'set', 'set door', 'set elevator', 'set lamp', 'set window', 'set cabinet',
+            'set heater', 'save', 'watch', 'top', 'run', 'drive', 'map', 'task', 'task patrol',
+            'check', 'luxcheck', 'completion']
 
 
 @pytest.fixture
@@ -85,10 +87,12 @@ def test_without_a_simulator_one_line_says_so(words: list[str], no_master: str) 
     (['spawn', 'pir', 'p1', '--pose', '1 2 3', '--set', 'threshold'], 'KEY=VALUE'),
     (['spawn', 'pir', 'p1', '--pose', '1 2 3', '--on', 'table'], 'MODEL::LINK'),
     (['spawn', 'contact', 'c1'], '--on'),
+    (['spawn', 'reed', 'r1', '--pose', '1 2 3'], '--on'),
     (['set', 'door', 'kitchen0', 'ajar'], 'open, close or an angle in rad'),
     (['set', 'door', 'kitchen0', 'nan'], 'open, close or an angle in rad'),
     (['set', 'elevator', 'elevator', '1.5'], 'no floor'),
     (['set', 'lamp', 'kitchen0', '101'], '0 to 100'),
+    (['set', 'heater', 'h1', 'warm'], '0 to 100'),
     (['delete'], 'NAME'),
     (['completion', 'fish'], 'bash'),
 ])

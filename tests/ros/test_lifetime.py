@@ -23,7 +23,7 @@ def test_a_world_that_loads(tmp_path: Path) -> None:
     world.write_text(WORLD)
     done = check(world)
     assert done.returncode == 0, done.stderr
-    assert done.stdout == f"{world}: 5 models, 3 devices, 5 sensors\n"
+    assert done.stdout == f"{world}: 5 models, 4 devices, 5 sensors\n"
 
 
 @pytest.mark.parametrize(("right", "wrong", "part"), [

@@ -176,6 +176,6 @@ def test_stats_count(angen: Angen) -> None:
     stats = angen.wait("/angen/stats", Stats)
     assert stats.step == 0.001
     assert stats.models == count("model") >= 5
-    assert stats.devices == count("door", "lamp", "drive") >= 3
+    assert stats.devices == count("door", "lamp", "drive", "battery") >= 4
     assert stats.sensors == count("pir", "lidar", "camera", "depth", "contact") >= 5
     assert stats.links > stats.models and stats.failed_steps == 0

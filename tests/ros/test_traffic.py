@@ -121,7 +121,7 @@ def test_who_comes_later_speaks_where_the_others_do(house_of_kinds: House) -> No
 def test_other_words_for_topics_are_refused(master: Master, tmp_path: Path) -> None:
     world = tmp_path / 'small.world'
     world.write_text(WORLD)
-    done = subprocess.run([str(node_binary()), str(world), '_topics:=all', '__name:=refused'],
+    done = subprocess.run([str(node_binary()), str(world), '_topics:=all', '__name:=odd_topics'],
                           env=master.environment, text=True, capture_output=True, timeout=60)
     assert done.returncode == 1
     assert done.stderr.splitlines()[-1] == "~topics is 'all', must be sensor or kind"

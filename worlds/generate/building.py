@@ -4,8 +4,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from . import plan
-from .sdf import (Part, add, add_fixed, add_joint, add_link, add_pose, new_model, spanned,
-                  write_model)
+from .sdf import (Part, add, add_fixed, add_joint, add_link, add_plugin, add_pose, new_model,
+                  numbers, spanned, write_model)
 
 FLOOR_MATERIAL = "Gazebo/Wood"
 WALL_MATERIAL = "Gazebo/White"
@@ -89,6 +89,10 @@ def write_apartment(models: Path) -> None:
     for part in apartment_parts():
         local = Part(part.name, part.size, material=part.material)
         add_link(model, part.name, [local], at=part.at, moves=False)
+    climate = add_plugin(model, "climate", "libroom_climate.so", outside_temperature=5)
+    half = plan.WALL / 2
+    for x0, y0, x1, y1 in (*plan.ROOMS.values(), plan.LANDING):
+        add(climate, "room", numbers(x0 + half, y0 + half, 0, x1 - half, y1 - half, plan.CEILING))
     write_model(root, models, "Apartment",
                 "One storey: entrance, five rooms, landing and elevator shaft. "
                 "Stack at z = 0, 4, 8 ...")

@@ -39,8 +39,8 @@ def write_lamp(models: Path) -> None:
                 "A point light of 800 lm in a shade, off at the start. Served by libros_plugin.so.")
 
 
-def _add_ray(sensor: etree._Element, horizontal: tuple[int, float], vertical: tuple[int, float],
-             reach: tuple[float, float], stddev: float) -> None:
+def add_ray(sensor: etree._Element, horizontal: tuple[int, float], vertical: tuple[int, float],
+            reach: tuple[float, float], stddev: float) -> None:
     """Appends <ray>; each scan is (samples, half angle in rad); reach is min, max in m."""
     ray = add(sensor, "ray")
     scan = add(ray, "scan")
@@ -59,7 +59,8 @@ def _add_ray(sensor: etree._Element, horizontal: tuple[int, float], vertical: tu
     add(noise, "stddev", stddev)
 
 
-def _add_sensor(link: etree._Element, name: str, kind: str, rate: float) -> etree._Element:
+def add_sensor(link: etree._Element, name: str, kind: str, rate: float) -> etree._Element:
+    """Appends <sensor> of an SDF type; rate in Hz."""
     sensor = add(link, "sensor", name=name, type=kind)
     add(sensor, "always_on", "true")
     add(sensor, "update_rate", rate)
@@ -73,7 +74,7 @@ def _new_pir(name: str) -> tuple[etree._Element, etree._Element]:
         spanned("housing", (-0.05, -0.035, -0.05), (-0.01, 0.035, 0.05), collide=False),
         Part("lens", (0.022,), (-0.005, 0, 0), material=(0.93, 0.93, 0.9), collide=False),
     ]
-    sensor = _add_sensor(add_link(model, "pir", parts, moves=False), "pir", "ray", 10)
+    sensor = add_sensor(add_link(model, "pir", parts, moves=False), "pir", "ray", 10)
     add(sensor, "visualize", "true")
     return root, sensor
 
@@ -81,7 +82,7 @@ def _new_pir(name: str) -> tuple[etree._Element, etree._Element]:
 def write_pir(models: Path, name: str, nods: bool) -> None:
     """Writes a PIR: 16 x 3 rays, 100 x 40 degrees, 6 m, 10 Hz."""
     root, sensor = _new_pir(name)
-    _add_ray(sensor, (16, radians(50)), (3, radians(20)), (0.02, 6.0), 0.01)
+    add_ray(sensor, (16, radians(50)), (3, radians(20)), (0.02, 6.0), 0.01)
     values = {"threshold": 0.1}
     if nods:
         values.update(nod_amplitude=0.35, nod_period=4.0)
@@ -96,7 +97,7 @@ def write_pyroelectric(models: Path) -> None:
     """Writes models/pir_pyroelectric: for a wall at 2.2 m; warm already when the world starts."""
     root, sensor = _new_pir("pir_pyroelectric")
     # what rviz draws: the zones of the wide lens are in the plug-in
-    _add_ray(sensor, (13, radians(51)), (1, 0.0), (0.05, 20.0), 0.0)
+    add_ray(sensor, (13, radians(51)), (1, 0.0), (0.05, 20.0), 0.0)
     add_plugin(sensor, "pir_controller", "libpir_controller.so", model="pyroelectric", lens="area",
                warm_up=0)
     write_model(root, models, "Pyroelectric PIR",
@@ -112,9 +113,9 @@ def write_switch(models: Path) -> None:
         spanned("detector", (0.502, -0.012, -0.02), (0.52, 0.012, 0.02), collide=False),
     ]
     link = add_link(model, "switch", parts, moves=False)
-    sensor = _add_sensor(link, "switch", "ray", 1)
+    sensor = add_sensor(link, "switch", "ray", 1)
     add(sensor, "visualize", "true")
-    _add_ray(sensor, (2, 0.004), (1, 0.0), (0.01, 0.5), 0.005)
+    add_ray(sensor, (2, 0.004), (1, 0.0), (0.01, 0.5), 0.005)
     add_plugin(sensor, "switch_controller", "liboptical_switch_controller.so", sample_rate=100,
                threshold=0.05)
     write_model(root, models, "Optical switch",
@@ -131,7 +132,7 @@ def write_luminosity(models: Path) -> None:
              collide=False),
     ]
     link = add_link(model, "sensor", parts, moves=False)
-    sensor = _add_sensor(link, "luminosity", "camera", 1)
+    sensor = add_sensor(link, "luminosity", "camera", 1)
     camera = add(sensor, "camera")
     add(camera, "horizontal_fov", 0.8)
     image = add(camera, "image")
@@ -216,6 +217,7 @@ def write_turtlebot(models: Path) -> None:
                   (0, 1, 0))
         urdf.add_link(robot, f"{side}_wheel", [tread, looks])
         urdf.add_wheel_joint(robot, f"{side}_wheel_joint", "base_link", f"{side}_wheel", at)
+    add_plugin(model, "battery", "librobot_battery.so", voltage=14.8, capacity=2.2, idle_power=10)
     urdf.write_robot(robot, models)
     write_model(root, models, "TurtleBot",
                 "A Kobuki-like base with a stack, 0.354 m wide, 0.46 m high, 6.3 kg, with a lidar, "
@@ -237,19 +239,19 @@ def _add_lens(sensor: etree._Element, angle: float, size: tuple[int, int],
 
 def _add_robot_sensors(base: etree._Element) -> None:
     """Lidar on the top plate, a Kinect-like camera before the poles, the body as a bumper."""
-    lidar = _add_sensor(base, "lidar", "ray", 10)
+    lidar = add_sensor(base, "lidar", "ray", 10)
     add_pose(lidar, LIDAR_AT)
-    _add_ray(lidar, (720, pi * 719 / 720), (1, 0.0), (0.12, 10.0), 0.01)
+    add_ray(lidar, (720, pi * 719 / 720), (1, 0.0), (0.12, 10.0), 0.01)
     add_plugin(lidar, "lidar", "libgazebo_ros_laser.so", topicName="scan", frameName="base_scan")
 
-    color = _add_sensor(base, "camera", "camera", 30)
+    color = add_sensor(base, "camera", "camera", 30)
     add_pose(color, CAMERA_AT)
     _add_lens(color, 1.047198, (320, 240), (0.05, 100))
     add_plugin(color, "camera", "libgazebo_ros_camera.so", cameraName="camera",
                imageTopicName="rgb/image_raw", cameraInfoTopicName="rgb/camera_info",
                frameName="camera_rgb_optical_frame")
 
-    depth = _add_sensor(base, "depth", "depth", 30)
+    depth = add_sensor(base, "depth", "depth", 30)
     add_pose(depth, CAMERA_AT)
     _add_lens(depth, 1.047198, (320, 240), (0.3, 10))
     add_plugin(depth, "depth", "libgazebo_ros_openni_kinect.so", cameraName="camera",
@@ -257,7 +259,7 @@ def _add_robot_sensors(base: etree._Element) -> None:
                depthImageCameraInfoTopicName="depth/camera_info",
                pointCloudTopicName="depth/points", frameName="camera_depth_optical_frame")
 
-    bumper = _add_sensor(base, "bumper", "contact", 10)
+    bumper = add_sensor(base, "bumper", "contact", 10)
     add(add(bumper, "contact"), "collision", "body_collision")
     add_plugin(bumper, "bumper", "libgazebo_ros_bumper.so", bumperTopicName="bumper")
 
@@ -272,7 +274,7 @@ def write_camera(models: Path) -> None:
              collide=False),
     ]
     link = add_link(model, "camera", parts, moves=False)
-    sensor = _add_sensor(link, "camera", "camera", 30)
+    sensor = add_sensor(link, "camera", "camera", 30)
     _add_lens(sensor, 1.396263, (320, 240), (0.02, 100))
     add_plugin(sensor, "camera", "libgazebo_ros_camera.so")
     write_model(root, models, "Camera",

@@ -199,11 +199,13 @@ def add_joint(model: etree._Element, name: str, kind: str, parent: str, child: s
             add(motion, tag, value)
 
 
-def add_plugin(parent: etree._Element, name: str, filename: str, **values: object) -> None:
-    """Appends <plugin> with one child per value."""
+def add_plugin(parent: etree._Element, name: str, filename: str, **values: object
+               ) -> etree._Element:
+    """Appends <plugin> with one child per value and returns it."""
     plugin = add(parent, "plugin", name=name, filename=filename)
     for tag, value in values.items():
         add(plugin, tag, value)
+    return plugin
 
 
 def new_model(name: str, static: bool = False) -> tuple[etree._Element, etree._Element]:

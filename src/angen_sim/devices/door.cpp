@@ -42,9 +42,11 @@ void Door::configure(Params& params, Wiring& wiring) {
       params.number("max_velocity", 0.6, "rad/s", "speed of the setpoint", kPositive);
   servo.max_acceleration =
       params.number("max_acceleration", 2.0, "rad/s^2", "acceleration of the setpoint", kPositive);
-  double width = params.number(
-      "width", 0.0, "m", "from the hinge to the far edge; 0 = from the leaf's mass and moment",
-      kNotNegative);
+  width_ = params.number("width", 0.0, "m",
+                         "from the hinge to the far edge; 0 = from the leaf's mass and moment",
+                         kNotNegative);
+  height_ = params.number("height", kind_.height, "m",
+                          "of the opening that air flows through; 0 = none does", kNotNegative);
   const double edge_force =
       params.number("edge_force_max", 150.0, "N", "greatest force at the far edge", kPositive);
   open_position_ = params.number("open_position", -1.57, "rad", "where Open goes");
@@ -54,11 +56,11 @@ void Door::configure(Params& params, Wiring& wiring) {
   latch_torque_ = params.number("latch_torque", 200.0, "N m", "brake of a shut door", kNotNegative);
   refresh_ = Refresh(params.number("update_rate", 50.0, "Hz",
                                    "how often its state is told while it moves", kRefreshRate));
-  params.choice("topicName", "/gazebo/Door_controller", {"/gazebo/Door_controller"},
+  params.choice("topicName", kind_.topic, {kind_.topic},
                 "where commands come from: one topic for all");
   params.text("device_name", "", "the name commands use, instead of the model's and its floor");
 
-  hinge_ = wiring.joint("hinge");
+  hinge_ = wiring.joint(kind_.joint);
   limits_ = wiring.limits(hinge_);
   for (const auto& [key, angle] : {std::pair<const char*, double>{"open_position", open_position_},
                                    {"closed_position", closed_position_}}) {
@@ -69,8 +71,8 @@ void Door::configure(Params& params, Wiring& wiring) {
   }
   // A leaf is a slab: its mass and its moment tell its width, m w^2 / 3 = I.
   const double mass = wiring.mass(wiring.link(wiring.child_of(hinge_)));
-  if (width == 0.0) width = std::sqrt(3.0 * limits_.inertia / mass);
-  torque_max_ = edge_force * width;
+  if (width_ == 0.0) width_ = std::sqrt(3.0 * limits_.inertia / mass);
+  torque_max_ = edge_force * width_;
   servo.inertia = limits_.inertia;
   servo.damping = limits_.damping;
   servo.friction = limits_.friction;
@@ -99,7 +101,8 @@ Verdict Door::command(const Command& command, const View& view) {
     }
     return accept(*angle);
   }
-  return Verdict::reject("a door knows Open, Close and Set <rad>, not '" + command.text + "'");
+  return Verdict::reject("a " + std::string(kind_.kind) +
+                         " knows Open, Close and Set <rad>, not '" + command.text + "'");
 }
 
 void Door::go(double target, double position) {
@@ -174,25 +177,39 @@ void Door::show(Mode mode, const JointView& hinge, bool renew, Outputs& outputs)
   if (renew) shown_ = hinge;
 }
 
+// From the leaf's edge to the jamb, at most all of the opening; none where it is shut.
+double Door::free_width(double position) const {
+  const double angle = std::abs(position - closed_position_);
+  if (angle < kClosedWithin) return 0.0;
+  return std::min(width_, 2.0 * width_ * std::sin(0.5 * std::min(angle, M_PI)));
+}
+
 void Door::report(const View& view, Reading& state) const {
   const JointView hinge = started_ ? shown_ : view.joint(hinge_);
   state.set("mode", kModeNames[static_cast<int>(started_ ? mode_ : mode_at_rest(hinge.position))]);
   state.set("position", hinge.position);
   state.set("velocity", hinge.velocity);
   state.set("target", started_ || leaving_ ? target_ : hinge.position);
+  if (height_ > 0.0) {
+    state.set("gap", free_width(hinge.position));
+    state.set("width", width_);
+    state.set("height", height_);
+  }
 }
 
-std::string DoorPlugin::doc() const { return "A door: Open, Close, Set <rad>."; }
+std::string LeafPlugin::doc() const { return "A " + kind() + ": Open, Close, Set <rad>."; }
 
-bool DoorPlugin::serves(const ModelInfo& model) const {
-  const ModelInfo::Joint* hinge = model.joint("hinge");
+bool LeafPlugin::serves(const ModelInfo& model) const {
+  const ModelInfo::Joint* hinge = model.joint(kind_.joint);
   return hinge != nullptr && hinge->type == "revolute" && hinge->parent == "base";
 }
 
-std::string DoorPlugin::instance_name(const ModelInfo& model) const {
-  return command_name(model.name, "door", model.pose.position.z());
+std::string LeafPlugin::instance_name(const ModelInfo& model) const {
+  return command_name(model.name, kind(), model.pose.position.z());
 }
 
 }  // namespace angen::devices
 
 ANGEN_REGISTER_PLUGIN(angen::devices::DoorPlugin)
+ANGEN_REGISTER_PLUGIN(angen::devices::WindowPlugin)
+ANGEN_REGISTER_PLUGIN(angen::devices::CabinetPlugin)

@@ -9,9 +9,18 @@
 
 namespace angen::devices {
 
-/// A leaf on a revolute joint `hinge`: a PID drives it, a brake holds it, a latch when it is shut.
+/// What a door, a window or a cabinet's front is called, and the joint that its leaf turns on.
+struct LeafKind {
+  const char* kind;
+  const char* joint;  // revolute; its parent is the link `base`
+  const char* topic;  // where commands come from
+  double height;      // m, of the opening, unless its SDF says
+};
+
+/// A leaf on a revolute joint: a PID drives it, a brake holds it, a latch when it is shut.
 class Door : public Device {
  public:
+  explicit Door(const LeafKind& kind) : kind_(kind) {}
   void configure(Params& params, Wiring& wiring) override;
   Verdict command(const Command& command, const View& view) override;
   void update(const View& view, Outputs& outputs) override;
@@ -24,8 +33,10 @@ class Door : public Device {
   void go(double target, double position);
   void rest(const JointView& hinge, Outputs& outputs);
   Mode mode_at_rest(double position) const;
+  double free_width(double position) const;
   void show(Mode mode, const JointView& hinge, bool renew, Outputs& outputs);
 
+  LeafKind kind_;
   JointRef hinge_;
   Servo servo_;
   Refresh refresh_;
@@ -35,6 +46,8 @@ class Door : public Device {
   double brake_torque_ = 0.0;
   double latch_torque_ = 0.0;
   JointLimits limits_;
+  double width_ = 0.0;   // m
+  double height_ = 0.0;  // m
 
   bool started_ = false;
   bool resting_ = true;
@@ -45,13 +58,32 @@ class Door : public Device {
   JointView shown_;
 };
 
-class DoorPlugin : public Plugin {
+class LeafPlugin : public Plugin {
  public:
-  std::string kind() const override { return "door"; }
+  explicit LeafPlugin(const LeafKind& kind) : kind_(kind) {}
+  std::string kind() const override { return kind_.kind; }
   std::string doc() const override;
   bool serves(const ModelInfo& model) const override;
   std::string instance_name(const ModelInfo& model) const override;
-  std::unique_ptr<Device> make_device() const override { return std::make_unique<Door>(); }
+  std::unique_ptr<Device> make_device() const override { return std::make_unique<Door>(kind_); }
+
+ private:
+  LeafKind kind_;
+};
+
+class DoorPlugin : public LeafPlugin {
+ public:
+  DoorPlugin() : LeafPlugin({"door", "hinge", "/gazebo/Door_controller", 2.1}) {}
+};
+
+class WindowPlugin : public LeafPlugin {
+ public:
+  WindowPlugin() : LeafPlugin({"window", "sash", "/gazebo/Window_controller", 1.2}) {}
+};
+
+class CabinetPlugin : public LeafPlugin {
+ public:
+  CabinetPlugin() : LeafPlugin({"cabinet", "front", "/gazebo/Cabinet_controller", 0.0}) {}
 };
 
 }  // namespace angen::devices

@@ -32,6 +32,7 @@ void Drive::configure(Params& params, Wiring& wiring) {
   params.text("odometryFrame", "odom", "frame that odometry starts in");
   params.text("robotBaseFrame", "base_footprint", "frame that odometry moves");
   params.text("device_name", "", "the name commands use, instead of the model's");
+  model_ = wiring.model();
   left_.joint = wiring.joint(params.text("leftJoint", "left_wheel_joint", "joint, axis +y"));
   right_.joint = wiring.joint(params.text("rightJoint", "right_wheel_joint", "joint, axis +y"));
 }
@@ -49,6 +50,7 @@ Verdict Drive::command(const Command& command, const View& view) {
     return Verdict::reject("a drive knows <m/s> <rad/s> (two finite numbers) and Stop, not '" +
                            command.text + "'");
   }
+  if (!powered(view)) values = {0.0, 0.0};
   return Verdict::accept([this, v = values[0], w = values[1], now = view.time()] {
     v_ = std::clamp(v, -max_linear_, max_linear_);
     w_ = std::clamp(w, -max_angular_, max_angular_);
@@ -67,9 +69,10 @@ void Drive::update(const View& view, Outputs& outputs) {
   }
   const bool renew = refresh_.due(view.time(), view.step());
   if (!moving_ && !renew) return;
+  if (renew) powered_ = powered(view);
   count(view);
   if (moving_) {
-    if (view.time() - commanded_at_ >= timeout_) v_ = w_ = 0.0;
+    if (!powered_ || view.time() - commanded_at_ >= timeout_) v_ = w_ = 0.0;
     const double step = acceleration_ * to_seconds(view.step());
     const bool stands = lead(left_, v_ - w_ * separation_ / 2.0, step, outputs) &
                         lead(right_, v_ + w_ * separation_ / 2.0, step, outputs);
@@ -79,6 +82,14 @@ void Drive::update(const View& view, Outputs& outputs) {
     }
   }
   if (renew) shown_ = odometry_;
+}
+
+// A robot whose battery is empty stands.
+bool Drive::powered(const View& view) const {
+  for (const DeviceView& device : view.devices()) {
+    if (device.model == model_ && device.state.get<bool>("empty")) return false;
+  }
+  return true;
 }
 
 // True when the wheel is told to stand and does.
@@ -98,6 +109,7 @@ double Drive::look(Wheel& wheel, const View& view) const {
   wheel.angle = joint.position;
   wheel.turned += turned;
   wheel.velocity = joint.velocity;
+  wheel.effort = joint.effort;
   return turned * radius_;
 }
 
@@ -111,6 +123,11 @@ void Drive::count(const View& view) {
   odometry_.yaw = std::remainder(odometry_.yaw + turn, 2.0 * M_PI);
   odometry_.v = (left_.velocity + right_.velocity) / 2.0 * radius_;
   odometry_.w = (right_.velocity - left_.velocity) / separation_ * radius_;
+  if (moving_) {
+    const double power = std::max(0.0, left_.effort * left_.velocity) +
+                         std::max(0.0, right_.effort * right_.velocity);
+    odometry_.work += power * to_seconds(view.step());
+  }
   odometry_.left = left_.turned;
   odometry_.right = right_.turned;
 }
@@ -133,6 +150,7 @@ void Drive::report(const View&, Reading& state) const {
   state.set("w", shown_.w);
   state.set("left", shown_.left);
   state.set("right", shown_.right);
+  state.set("work", shown_.work);
 }
 
 std::string DrivePlugin::doc() const {

@@ -24,20 +24,23 @@ class Drive : public Device {
     double angle = 0.0;     // rad, last seen
     double turned = 0.0;    // rad since the start
     double velocity = 0.0;  // rad/s, measured
+    double effort = 0.0;    // N m, measured
   };
   struct Odometry {
     double x = 0.0, y = 0.0, yaw = 0.0;  // m, m, rad
     double v = 0.0, w = 0.0;             // m/s, rad/s
     double left = 0.0, right = 0.0;      // rad
+    double work = 0.0;                   // J that the motors gave; braking gives none back
 
     bool operator==(const Odometry& o) const {
       return x == o.x && y == o.y && yaw == o.yaw && v == o.v && w == o.w && left == o.left &&
-             right == o.right;
+             right == o.right && work == o.work;
     }
   };
 
   double look(Wheel& wheel, const View& view) const;  // m it rolled since the last look
   void count(const View& view);
+  bool powered(const View& view) const;
   bool lead(Wheel& wheel, double wanted, double step, Outputs& outputs);
 
   Wheel left_;
@@ -51,7 +54,9 @@ class Drive : public Device {
   double max_angular_ = 0.0;   // rad/s
   Nanoseconds timeout_ = 0;
 
+  std::string model_;
   bool started_ = false;
+  bool powered_ = true;
   bool moving_ = false;
   double v_ = 0.0;  // m/s, wanted
   double w_ = 0.0;  // rad/s, wanted

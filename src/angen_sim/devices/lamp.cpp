@@ -9,9 +9,17 @@
 
 namespace angen::devices {
 
+namespace {
+
+constexpr double kEfficacy = 80.0;  // lm/W, of a household's LED lamp
+
+}  // namespace
+
 void Lamp::configure(Params& params, Wiring& wiring) {
   full_flux_ = params.number("luminous_flux", 800.0, "lm", "luminous flux at 100 %", kPositive);
   level_ = params.number("level", 0.0, "%", "level at the start", {0.0, 100.0});
+  full_power_ = params.number("power", full_flux_ / kEfficacy, "W",
+                              "electric power at 100 %; 80 lm/W unless given", kNotNegative);
   params.choice("topicName", "/gazebo/Light_controller", {"/gazebo/Light_controller"},
                 "where commands come from: one topic for all");
   params.text("device_name", "", "the name commands use, instead of the model's and its floor");
@@ -50,6 +58,7 @@ void Lamp::report(const View&, Reading& state) const {
   state.set("on", level_ > 0.0);
   state.set("level", level_);
   state.set("luminous_flux", full_flux_ * level_ / 100.0);
+  state.set("power", full_power_ * level_ / 100.0);
 }
 
 std::string LampPlugin::doc() const { return "A lamp: On, Off, Dim <percent>."; }

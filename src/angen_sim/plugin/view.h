@@ -3,12 +3,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/contact.h"
 #include "core/pose.h"
 #include "core/time.h"
 #include "light/lighting.h"
+#include "plugin/reading.h"
 #include "rays/scene.h"
 #include "render/lens.h"
 
@@ -48,6 +50,15 @@ struct JointLimits {
   double inertia = 0.0;   // kg m^2 about the axis, or kg: of the child and what is fixed to it
 };
 
+/// Another device as everybody sees it: where it is, and what it told last.
+struct DeviceView {
+  std::string_view kind;
+  std::string_view name;
+  std::string_view model;
+  Pose pose;             // world, of its model
+  const Reading& state;  // its stamp is the time of the last change
+};
+
 /// What a plug-in may see while the world runs. Times are the tick's, never the wall clock's.
 class View {
  public:
@@ -59,6 +70,9 @@ class View {
   virtual LinkView link(LinkRef link) const = 0;
   /// Pairs that the wired collision takes part in; it is `first` in each.
   virtual std::vector<ContactPair> contacts(ContactRef collision) const = 0;
+  /// All devices that have told a state, in the order in which they came into the world. Costs a
+  /// walk through them: not for every tick.
+  virtual std::vector<DeviceView> devices() const = 0;
   virtual light::Sample illuminance(light::Probe& probe, const Pose& pose) const = 0;
   virtual double ambient_temperature() const = 0;  // K
   /// What is warmer or colder than the air, and where.

@@ -31,7 +31,13 @@ Commands::Commands(ros::NodeHandle& node, Inbox& inbox) : node_(node), inbox_(in
     };
     subscribers_.push_back(node_.subscribe<std_msgs::String>(topic, kQueue, heard));
   };
-  listen("/gazebo/Door_controller", &door_action);
+  for (const auto& [kind, source] : {std::pair("door", "Door_controller"),
+                                     {"window", "Window_controller"},
+                                     {"cabinet", "Cabinet_controller"}}) {
+    listen(std::string("/gazebo/") + source, [kind = kind, source = source](const std::string& t) {
+      return door_action(t, kind, source);
+    });
+  }
   listen("/gazebo/Light_controller", &lamp_action);
   listen("/gazebo/Elevator_controller", [this](const std::string& text) {
     return elevator_action(text, names_of(*inbox_.simulation().snapshot()->structure, "elevator"));

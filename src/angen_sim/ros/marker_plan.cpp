@@ -20,6 +20,11 @@ bool is_ground(const desc::Link& link) {
   });
 }
 
+// What a model carries says nothing of what it is.
+bool is_carried(const std::string& kind) {
+  return kind == "tag" || kind == "battery" || kind == "climate";
+}
+
 std::string device_group(const std::string& kind) {
   if (kind == "person") return "people";
   return kind == "drive" ? "robots" : kind + "s";
@@ -36,7 +41,7 @@ std::string marker_group(const sim::Structure& structure, std::uint32_t link) {
   const sim::LinkEntry& entry = structure.links[link];
   const desc::Model& model = *structure.models[entry.model];
   for (const sim::DeviceEntry& device : structure.devices) {
-    if (device.model == entry.model) return device_group(device.kind);
+    if (device.model == entry.model && !is_carried(device.kind)) return device_group(device.kind);
   }
   const desc::Link& described = model.links[entry.link];
   if (is_ground(described)) return "ground";

@@ -1,8 +1,10 @@
 #include "ros/overlays.h"
 
 #include <cmath>
+#include <map>
 #include <utility>
 
+#include "ros/captions.h"
 #include "ros/convert.h"
 
 namespace angen::node {
@@ -10,14 +12,27 @@ namespace {
 
 constexpr double kNewRange = 0.15;  // m: beams are drawn again when one differs by more
 
-bool has_beams(const sim::SensorEntry& sensor) {
-  return sensor.kind == "pir" || sensor.kind == "switch";
-}
+const Vec3 kOverSensor(0.0, 0.0, 0.12);  // m, where its words stand in the world
 
-std_msgs::ColorRGBA beam_color(const std::string& kind, bool fired) {
-  if (kind == "switch")
-    return fired ? color(0.1F, 0.8F, 0.2F, 1.0F) : color(0.9F, 0.1F, 0.1F, 1.0F);
-  return fired ? color(1.0F, 0.25F, 0.1F, 0.8F) : color(0.1F, 0.3F, 1.0F, 0.45F);
+/// How the beams of a kind of sensor are shown.
+struct Beams {
+  const char* group;
+  const char* flag;  // the field that is true while it sees what it looks for
+  std_msgs::ColorRGBA idle;
+  std_msgs::ColorRGBA fired;
+};
+
+const Beams* beams_of(const std::string& kind) {
+  static const std::map<std::string, Beams> kinds = {
+      {"pir",
+       {"PIR rays", "motion", color(0.1F, 0.3F, 1.0F, 0.45F), color(1.0F, 0.25F, 0.1F, 0.8F)}},
+      {"switch",
+       {"switch beams", "closed", color(0.9F, 0.1F, 0.1F, 1.0F), color(0.1F, 0.8F, 0.2F, 1.0F)}},
+      {"proximity",
+       {"proximity cones", "near", color(0.1F, 0.5F, 0.9F, 0.45F), color(0.9F, 0.5F, 0.1F, 0.8F)}},
+  };
+  const auto found = kinds.find(kind);
+  return found == kinds.end() ? nullptr : &found->second;
 }
 
 bool apart(const std::vector<double>& a, const std::vector<double>& b) {
@@ -40,23 +55,28 @@ void Overlays::add_lamp(const sim::Structure& structure, std::uint32_t light) {
   lamps_.emplace(entry.name, std::move(overlay));
 }
 
-void Overlays::add_beams(const sim::Structure& structure, std::uint32_t sensor) {
+void Overlays::add_sensor(const sim::Structure& structure, std::uint32_t sensor) {
   const sim::SensorEntry& entry = structure.sensors[sensor];
-  if (!has_beams(entry)) return;
   Overlay overlay;
   overlay.index = sensor;
   overlay.link = entry.link;
   overlay.offset = entry.pose;
-  beams_.emplace(entry.kind + "/" + entry.name, std::move(overlay));
+  if (beams_of(entry.kind) != nullptr) {
+    beams_.emplace(entry.kind + "/" + entry.name, std::move(overlay));
+  } else if (has_caption(entry.kind)) {
+    captions_.emplace(entry.kind + "/" + entry.name, std::move(overlay));
+  }
 }
 
 void Overlays::follow(const sim::Snapshot& snapshot, std::int32_t& next_id, Array& gone) {
   const sim::Structure& structure = *snapshot.structure;
   const Named old_lamps = std::exchange(lamps_, {});
   const Named old_beams = std::exchange(beams_, {});
+  const Named old_captions = std::exchange(captions_, {});
   for (std::uint32_t i = 0; i < structure.lights.size(); ++i) add_lamp(structure, i);
-  for (std::uint32_t i = 0; i < structure.sensors.size(); ++i) add_beams(structure, i);
-  for (const auto& [old, now] : {std::pair(&old_lamps, &lamps_), std::pair(&old_beams, &beams_)}) {
+  for (std::uint32_t i = 0; i < structure.sensors.size(); ++i) add_sensor(structure, i);
+  for (const auto& [old, now] : {std::pair(&old_lamps, &lamps_), std::pair(&old_beams, &beams_),
+                                 std::pair(&old_captions, &captions_)}) {
     for (auto& [name, overlay] : *now) {
       const auto before = old->find(name);
       overlay.marker.id = before != old->end() ? before->second.marker.id : next_id++;
@@ -76,10 +96,13 @@ void Overlays::append(const sim::Snapshot& snapshot, bool all, Array& array) {
     overlay.pose = pose;
     overlay.marker.header.frame_id = "world";
     overlay.marker.pose = to_ros(pose);
+    if (!overlay.marker.text.empty())
+      overlay.marker.pose.position = to_point(pose.position + kOverSensor);
     array.markers.push_back(overlay.marker);
   };
   for (auto& [name, lamp] : lamps_) update(lamp, relight(snapshot, lamp));
   for (auto& [name, beams] : beams_) update(beams, redraw(snapshot, beams));
+  for (auto& [name, caption] : captions_) update(caption, rewrite(snapshot, caption));
 }
 
 bool Overlays::relight(const sim::Snapshot& snapshot, Overlay& lamp) const {
@@ -96,6 +119,7 @@ bool Overlays::relight(const sim::Snapshot& snapshot, Overlay& lamp) const {
 bool Overlays::redraw(const sim::Snapshot& snapshot, Overlay& beams) const {
   const sim::SensorEntry& entry = snapshot.structure->sensors[beams.index];
   const std::shared_ptr<const Reading>& reading = snapshot.sensors[beams.index];
+  const Beams& style = *beams_of(entry.kind);
   const bool first = beams.marker.points.empty();
   if (reading == beams.reading && !first) return false;
   beams.reading = reading;
@@ -103,17 +127,29 @@ bool Overlays::redraw(const sim::Snapshot& snapshot, Overlay& beams) const {
   bool fired = false;
   if (reading != nullptr) {
     ranges = reading->get<std::vector<double>>("ranges");
-    fired = reading->get<bool>(entry.kind == "pir" ? "motion" : "closed");
+    fired = reading->get<bool>(style.flag);
   }
   if (!first && fired == beams.fired && !apart(ranges, beams.ranges)) return false;
   beams.fired = fired;
   beams.ranges = std::move(ranges);
   const std::int32_t id = beams.marker.id;
   beams.marker = draw_rays(*entry.desc, beams.ranges);
-  beams.marker.ns = entry.kind == "pir" ? "PIR rays" : "switch beams";
+  beams.marker.ns = style.group;
   beams.marker.id = id;
-  beams.marker.color = beam_color(entry.kind, fired);
+  beams.marker.color = fired ? style.fired : style.idle;
   return true;
+}
+
+bool Overlays::rewrite(const sim::Snapshot& snapshot, Overlay& caption) const {
+  const std::shared_ptr<const Reading>& reading = snapshot.sensors[caption.index];
+  if (reading == caption.reading && !caption.marker.ns.empty()) return false;
+  caption.reading = reading;
+  const std::int32_t id = caption.marker.id;
+  const visualization_msgs::Marker before = std::move(caption.marker);
+  caption.marker = draw_caption(snapshot.structure->sensors[caption.index].kind, reading.get());
+  caption.marker.ns = "readings";
+  caption.marker.id = id;
+  return caption.marker.text != before.text || caption.marker.color != before.color;
 }
 
 }  // namespace angen::node

@@ -12,7 +12,7 @@
 
 namespace angen::node {
 
-/// Markers that show a value: a ball for each lamp, beams for each ray sensor.
+/// Markers that show a value: a ball for each lamp, beams for each ray sensor, words for others.
 class Overlays {
  public:
   using Array = visualization_msgs::MarkerArray;
@@ -38,12 +38,14 @@ class Overlays {
   using Named = std::map<std::string, Overlay>;
 
   void add_lamp(const sim::Structure& structure, std::uint32_t light);
-  void add_beams(const sim::Structure& structure, std::uint32_t sensor);
+  void add_sensor(const sim::Structure& structure, std::uint32_t sensor);
   bool relight(const sim::Snapshot& snapshot, Overlay& lamp) const;
   bool redraw(const sim::Snapshot& snapshot, Overlay& beams) const;
+  bool rewrite(const sim::Snapshot& snapshot, Overlay& caption) const;
 
   Named lamps_;
   Named beams_;
+  Named captions_;
 };
 
 }  // namespace angen::node

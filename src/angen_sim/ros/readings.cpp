@@ -46,6 +46,53 @@ void fill(const Reading& reading, const Label&, sensor_msgs::LaserScan& message)
   message.ranges.assign(ranges.begin(), ranges.end());
 }
 
+void fill(const Reading& reading, const Label&, sensor_msgs::Range& message) {
+  const auto number = [&](const char* name) {
+    return static_cast<float>(reading.get<double>(name));
+  };
+  message.radiation_type =
+      reading.get<bool>("infrared") ? sensor_msgs::Range::INFRARED : sensor_msgs::Range::ULTRASOUND;
+  message.field_of_view = number("field_of_view");
+  message.min_range = number("min_range");
+  message.max_range = number("max_range");
+  message.range = number("range");
+}
+
+void fill(const Reading& reading, const Label&, angen_msgs::PressureMsg& message) {
+  message.pressed = reading.get<bool>("pressed");
+  message.load = reading.get<double>("load");
+  message.threshold = reading.get<double>("threshold");
+}
+
+void fill(const Reading& reading, const Label&, angen_msgs::ReedMsg& message) {
+  message.closed = reading.get<bool>("closed");
+  message.distance = reading.get<double>("distance");
+  message.operate_distance = reading.get<double>("operate_distance");
+  message.release_distance = reading.get<double>("release_distance");
+}
+
+void fill(const Reading& reading, const Label&, angen_msgs::RfidMsg& message) {
+  message.ids = reading.get<std::vector<std::string>>("ids");
+  message.distances = reading.get<std::vector<double>>("distances");
+}
+
+void fill(const Reading& reading, const Label&, angen_msgs::PlugMsg& message) {
+  message.load = reading.get<std::string>("load");
+  message.connected = reading.get<bool>("connected");
+  message.power = reading.get<double>("power");
+  message.energy = reading.get<double>("energy");
+}
+
+void fill(const Reading& reading, const Label&, sensor_msgs::Temperature& message) {
+  message.temperature = reading.get<double>("temperature");
+  message.variance = reading.get<double>("variance");
+}
+
+void fill(const Reading& reading, const Label&, sensor_msgs::RelativeHumidity& message) {
+  message.relative_humidity = reading.get<double>("humidity") / 100.0;
+  message.variance = reading.get<double>("variance") / 1e4;
+}
+
 void fill(const Reading& reading, const Label&, gazebo_msgs::ContactsState& message) {
   message.header.frame_id = "world";
   const auto first = reading.get<std::vector<std::string>>("collision1");

@@ -1,6 +1,7 @@
 #include "ros/states.h"
 
 #include <array>
+#include <limits>
 
 #include "ros/convert.h"
 
@@ -67,6 +68,22 @@ void fill(const Reading& state, const Label& label, angen_msgs::PersonState& mes
   message.mode = mode(state, "mode", kPersonModes);
   message.pose = to_ros(flat_pose(state, state.get<double>("z")));
   message.speed = state.get<double>("speed");
+}
+
+void fill(const Reading& state, const Label&, sensor_msgs::BatteryState& message) {
+  using Message = sensor_msgs::BatteryState;
+  constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();  // as its definition says
+  const auto number = [&](const char* name) { return static_cast<float>(state.get<double>(name)); };
+  message.voltage = number("voltage");
+  message.current = -number("drawn") / message.voltage;
+  message.charge = number("charge");
+  message.capacity = message.design_capacity = number("capacity");
+  message.percentage = number("percentage");
+  message.temperature = kUnknown;
+  message.power_supply_status = Message::POWER_SUPPLY_STATUS_DISCHARGING;
+  message.power_supply_health = Message::POWER_SUPPLY_HEALTH_UNKNOWN;
+  message.power_supply_technology = Message::POWER_SUPPLY_TECHNOLOGY_LION;
+  message.present = true;
 }
 
 void fill(const Reading& state, const Label& label, nav_msgs::Odometry& message) {

@@ -5,6 +5,7 @@
 #include <angen_msgs/LampState.h>
 #include <angen_msgs/PersonState.h>
 #include <nav_msgs/Odometry.h>
+#include <sensor_msgs/BatteryState.h>
 
 #include "core/pose.h"
 #include "ros/formats.h"
@@ -16,6 +17,7 @@ void fill(const Reading& state, const Label& label, angen_msgs::DoorState& messa
 void fill(const Reading& state, const Label& label, angen_msgs::ElevatorState& message);
 void fill(const Reading& state, const Label& label, angen_msgs::LampState& message);
 void fill(const Reading& state, const Label& label, angen_msgs::PersonState& message);
+void fill(const Reading& state, const Label& label, sensor_msgs::BatteryState& message);
 /// child_frame_id is label.name here.
 void fill(const Reading& state, const Label& label, nav_msgs::Odometry& message);
 

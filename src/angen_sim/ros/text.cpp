@@ -135,8 +135,9 @@ std::string printable(const std::string& text, std::size_t limit) {
   return out;
 }
 
-sim::Action door_action(const std::string& text) {
-  return listed_action(text, "door", "Door_controller",
+sim::Action door_action(const std::string& text, const std::string& kind,
+                        const std::string& source) {
+  return listed_action(text, kind, source,
                        {{"Open", nullptr}, {"Close", nullptr}, {"Set", "radians"}}, kDoorForms);
 }
 

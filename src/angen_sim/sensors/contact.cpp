@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "plugin/register.h"
+#include "sensors/watched.h"
 
 namespace angen::sensors {
 
@@ -49,8 +50,6 @@ class Contact : public Sensor {
   Nanoseconds sample_period() const override { return debounce_ > 0 ? sample_period_ : 0; }
 
   void configure(Params& params, Wiring& wiring) override {
-    const std::vector<std::string> names =
-        params.texts("contact/collision", "", "collision of the sensor's link to watch");
     noise_stddev_ =
         params.number("noise_stddev", 0.0, "N", "of each component of a force", kNotNegative);
     debounce_ = from_seconds(params.number(
@@ -59,18 +58,7 @@ class Contact : public Sensor {
                                              "how often it looks, given a debounce", {1e-3, 1e6});
     sample_period_ = from_seconds(1.0 / sample_rate);
     params.text("bumperTopicName", "/angen/contact/NAME", "where it publishes");
-    if (names.empty()) {
-      throw params.error("contact",
-                         "a contact sensor watches nothing, must have <contact>"
-                         "<collision>NAME</collision></contact>");
-    }
-    for (const std::string& name : names) {
-      try {
-        collisions_.push_back(wiring.collision(name));
-      } catch (const Error& problem) {
-        throw params.error("contact/collision", problem.diagnostics().front().message);
-      }
-    }
+    collisions_ = read_watched(params, wiring, "a contact sensor");
   }
 
   void read(const View& view, Hits, Rng& rng, Reading& reading) override {

@@ -38,7 +38,7 @@ void Acting::act(Building& building, InstanceView::Clock clock, std::vector<Even
     if (is_idle(live, device, clock)) continue;
     meter_.rest.devices += meter_.watch.lap();
     device.catch_up(clock.time, clock.step);
-    const InstanceView view(building.stage(), live, clock);
+    const InstanceView view(building, live, clock);
     InstanceOutputs outputs(building.stage(), live, device, clock.time, events);
     device.device->update(view, outputs);
     device.updated = clock.time;
@@ -47,7 +47,7 @@ void Acting::act(Building& building, InstanceView::Clock clock, std::vector<Even
       device.to_report = reports_added = true;
       to_report_.push_back(i);
     }
-    if (outputs.told()) told_.push_back(i);
+    if (outputs.told() || !device.last) told_.push_back(i);
     lights_changed_ = lights_changed_ || outputs.lights_changed();
     device.cost += meter_.watch.lap();
   }
@@ -80,13 +80,13 @@ void Acting::report(Building& building, InstanceView::Clock clock, Snapshot& nex
   const bool all = clock.time % kReportPeriod < clock.step;
   for (const std::uint32_t index : all ? to_report_ : told_) {
     DeviceInstance& device = *parts_[index].device;
-    device.device->report(InstanceView(building.stage(), *parts_[index].live, clock),
-                          device.scratch);
+    device.device->report(InstanceView(building, *parts_[index].live, clock), device.scratch);
     device.cost += meter_.watch.lap();
     if (all) device.to_report = false;
     if (device.last && device.last->same_values(device.scratch)) continue;
     device.scratch.stamp = clock.time;
     device.last = std::make_shared<const Reading>(device.scratch);
+    building.stage().note_told();
     next.devices.set(index, device.last);
     next.new_states.push_back(index);
   }

@@ -57,9 +57,10 @@ struct SensorInstance {
   Sights::Moment seen = 0;  // it has seen all that happened before
   int calm = 0;             // so many looks in a row found nothing changed since the one before
   Rest rest = Rest::kBusy;
-  bool asks_more = true;   // of the world than its pose and `looks`
-  bool link_moves = true;  // or stands where it is for ever
-  bool published = false;  // `scratch`, as `last`
+  bool asks_more = true;      // of the world than its pose and `looks`
+  bool asks_devices = false;  // what devices tell
+  bool link_moves = true;     // or stands where it is for ever
+  bool published = false;     // `scratch`, as `last`
 
   std::string kind;
   std::string name;

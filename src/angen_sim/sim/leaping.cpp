@@ -85,9 +85,9 @@ void Sensing::pass_over(Building& building, InstanceView::Clock clock, std::int6
     for (const Nanoseconds look : needed_looks(sensor, clock.time, to)) {
       looking_.clear();
       rays_.clear();
-      aim(building.stage(), index, {look, clock.step});
+      aim(building, index, {look, clock.step});
       cast(building.stage());
-      read(building.stage(), looking_.front(), {look, clock.step}, look / clock.step, next);
+      read(building, looking_.front(), {look, clock.step}, look / clock.step, next);
     }
   }
   next.new_readings.clear();

@@ -64,7 +64,7 @@ Outcome to_device(const ToDevice& given, Building& building, InstanceView::Clock
   }
   std::vector<Verdict> verdicts;
   for (const Target& target : targets) {
-    const InstanceView view(building.stage(), *target.live, clock);
+    const InstanceView view(building, *target.live, clock);
     target.device->catch_up(clock.time, clock.step);
     target.device->idle_until = 0;
     verdicts.push_back(target.device->device->command(order.command, view));

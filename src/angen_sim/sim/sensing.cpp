@@ -36,12 +36,12 @@ void Sensing::look(Building& building, InstanceView::Clock clock, std::int64_t t
     rays_.clear();
     meter_.rest.sensors += meter_.watch.lap();
     for (const std::uint32_t index : due_) {
-      visit(stage, index, clock, next);
+      visit(building, index, clock, next);
       watched_[index].sensor->cost += meter_.watch.lap();
     }
     const auto shared = static_cast<std::ptrdiff_t>(next.new_readings.size());
     cast(stage);
-    for (const Looking& looking : looking_) read(stage, looking, clock, tick, next);
+    for (const Looking& looking : looking_) read(building, looking, clock, tick, next);
     std::inplace_merge(next.new_readings.begin(), next.new_readings.begin() + shared,
                        next.new_readings.end());
   }
@@ -102,11 +102,12 @@ bool Sensing::collect_due(Nanoseconds now) {
   return !due_.empty();
 }
 
-void Sensing::visit(Stage& stage, std::uint32_t index, InstanceView::Clock clock, Snapshot& next) {
+void Sensing::visit(Building& building, std::uint32_t index, InstanceView::Clock clock,
+                    Snapshot& next) {
   SensorInstance& sensor = *watched_[index].sensor;
   if (sensor.rest == Rest::kBusy && sensor.sensor->on_demand()) {
     if (!demand_.has(sensor.kind, sensor.name)) return;
-  } else if (undisturbed(stage, sensor)) {
+  } else if (undisturbed(building.stage(), sensor)) {
     ++sensor.calm;
     if (sensor.rest == Rest::kSame) {
       if (publishes(sensor, clock)) publish(index, clock.time, next);
@@ -115,20 +116,22 @@ void Sensing::visit(Stage& stage, std::uint32_t index, InstanceView::Clock clock
   } else {
     sensor.calm = 0;
   }
-  aim(stage, index, clock);
+  aim(building, index, clock);
 }
 
 bool Sensing::undisturbed(const Stage& stage, const SensorInstance& sensor) {
   if ((sensor.asks_more || sensor.link_moves) && stage.changed() >= sensor.seen) return false;
+  if (sensor.asks_devices && stage.told() >= sensor.seen) return false;
   return std::none_of(sensor.looks.begin(), sensor.looks.end(), [&](const auto& look) {
     return look != nullptr && look->view.stirred(sensor.seen);
   });
 }
 
-void Sensing::aim(Stage& stage, std::uint32_t index, InstanceView::Clock clock) {
+void Sensing::aim(Building& building, std::uint32_t index, InstanceView::Clock clock) {
+  Stage& stage = building.stage();
   SensorInstance& sensor = *watched_[index].sensor;
-  const InstanceView view(stage, *watched_[index].live, clock, &sensor);
-  Looking looking{index, nullptr, false, rays_.size(), 0};
+  const InstanceView view(building, *watched_[index].live, clock, &sensor);
+  Looking looking{index, nullptr, false, false, rays_.size(), 0};
   const int stance = sensor.sensor->stance(view);
   if (stance >= 0 && stance < kMostStances && stands_still(sensor, view)) {
     if (sensor.looks.size() <= static_cast<std::size_t>(stance)) sensor.looks.resize(stance + 1);
@@ -148,6 +151,7 @@ void Sensing::aim(Stage& stage, std::uint32_t index, InstanceView::Clock clock) 
     looking.ray_count = rays_.size() - looking.first_ray;
   }
   looking.asked_more = view.asked_more();
+  looking.asked_devices = view.asked_devices();
   looking_.push_back(looking);
 }
 
@@ -158,9 +162,10 @@ Hits Sensing::hits_of(Stage& stage, const Looking& looking, bool& same) {
   return {gaze_hits_.data(), gaze_hits_.size()};
 }
 
-void Sensing::read(Stage& stage, const Looking& looking, InstanceView::Clock clock,
+void Sensing::read(Building& building, const Looking& looking, InstanceView::Clock clock,
                    std::int64_t tick, Snapshot& next) {
   SensorInstance& sensor = *watched_[looking.index].sensor;
+  Stage& stage = building.stage();
   bool same = false;
   const Hits hits = hits_of(stage, looking, same);
   sensor.seen = stage.sights.now() + 1;
@@ -171,11 +176,13 @@ void Sensing::read(Stage& stage, const Looking& looking, InstanceView::Clock clo
     reading.event.clear();
     reading.event_detail.clear();
     Rng rng(seed_, sensor.key, tick);
-    const InstanceView view(stage, *watched_[looking.index].live, clock, &sensor);
+    const InstanceView view(building, *watched_[looking.index].live, clock, &sensor);
     sensor.sensor->read(view, hits, rng, reading);
     sensor.rest = sensor.sensor->on_demand() ? Rest::kBusy : sensor.sensor->rest();
     sensor.asks_more = looking.asked_more || view.asked_more() || looking.ray_count > 0;
-    sensor.published = false;
+    sensor.asks_devices = looking.asked_devices || view.asked_devices();
+    sensor.published = sensor.published && sensor.rest == Rest::kSame && !reading.urgent &&
+                       reading.event == sensor.last->event && reading.same_values(*sensor.last);
     if (!reading.event.empty()) {
       next.events.push_back(
           {clock.time, sensor.name, sensor.kind, reading.event, reading.event_detail});

@@ -46,6 +46,7 @@ class Sensing {
     std::uint32_t index;  // in Structure::sensors
     Look* look;           // null for one whose rays are in the batch
     bool asked_more;      // of the view, to aim
+    bool asked_devices;
     std::size_t first_ray;
     std::size_t ray_count;
   };
@@ -55,12 +56,12 @@ class Sensing {
   bool collect_due(Nanoseconds now);
   /// Whether a look would find what the last one did, noise and changing stances aside.
   static bool undisturbed(const Stage& stage, const SensorInstance& sensor);
-  void visit(Stage& stage, std::uint32_t index, InstanceView::Clock clock, Snapshot& next);
-  void aim(Stage& stage, std::uint32_t index, InstanceView::Clock clock);
+  void visit(Building& building, std::uint32_t index, InstanceView::Clock clock, Snapshot& next);
+  void aim(Building& building, std::uint32_t index, InstanceView::Clock clock);
   void cast(Stage& stage);
   Hits hits_of(Stage& stage, const Looking& looking, bool& same);
-  void read(Stage& stage, const Looking& looking, InstanceView::Clock clock, std::int64_t tick,
-            Snapshot& next);
+  void read(Building& building, const Looking& looking, InstanceView::Clock clock,
+            std::int64_t tick, Snapshot& next);
   void publish(std::uint32_t index, Nanoseconds now, Snapshot& next);
   bool may_be_passed_over(const Stage& stage, const SensorInstance& sensor) const;
   Nanoseconds first_loud(SensorInstance& sensor, InstanceView::Clock clock,

@@ -90,8 +90,8 @@ struct Simulation::Impl {
   }
 
   void look() {
-    sensing.look(building, clock(), next.tick, next);
     acting.report(building, clock(), next);
+    sensing.look(building, clock(), next.tick, next);
     if (acting.lights_changed()) write_lights();
   }
 

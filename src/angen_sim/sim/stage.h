@@ -58,11 +58,15 @@ class Stage {
   /// Something that sensors may ask for besides rays has changed: a pose, a light, a contact.
   void note_change() { changed_ = sights.now(); }
   Sights::Moment changed() const { return changed_; }  // when last
+  /// A device tells another state than before.
+  void note_told() { told_ = sights.now(); }
+  Sights::Moment told() const { return told_; }  // when last
 
  private:
   void show(const Parts& parts, rays::ShapeId shape);
 
   Sights::Moment changed_ = 0;
+  Sights::Moment told_ = 0;
 };
 
 }  // namespace angen::sim

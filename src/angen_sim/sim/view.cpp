@@ -11,13 +11,16 @@ std::size_t at(Ref ref) {
   return static_cast<std::size_t>(ref.index);
 }
 
+Pose model_pose(const Stage& stage, const LiveModel& live) {
+  const Pose first = stage.physics.link(live.parts.links.at(0)).pose;
+  return first * live.desc->links.front().pose.inverse();
+}
+
 }  // namespace
 
 Pose InstanceView::pose() const {
-  const std::size_t link = sensor_ != nullptr ? sensor_->link : 0;
-  const Pose pose = stage_.physics.link(live_.parts.links.at(link)).pose;
-  if (sensor_ != nullptr) return pose * sensor_->pose;
-  return pose * live_.desc->links.front().pose.inverse();
+  if (sensor_ == nullptr) return model_pose(stage_, live_);
+  return stage_.physics.link(live_.parts.links.at(sensor_->link)).pose * sensor_->pose;
 }
 
 JointView InstanceView::joint(JointRef joint) const {
@@ -49,6 +52,19 @@ std::vector<ContactPair> InstanceView::contacts(ContactRef collision) const {
     found.push_back(std::move(turned));
   }
   return found;
+}
+
+std::vector<DeviceView> InstanceView::devices() const {
+  asked_more_ = asked_devices_ = true;
+  std::vector<DeviceView> all;
+  for (const auto& live : building_.models()) {
+    for (const DeviceInstance& device : live->devices) {
+      if (device.last == nullptr) continue;
+      all.push_back(
+          {device.kind, device.name, live->desc->name, model_pose(stage_, *live), *device.last});
+    }
+  }
+  return all;
 }
 
 light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) const {

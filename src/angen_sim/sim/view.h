@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "plugin/view.h"
-#include "sim/instance.h"
+#include "sim/building.h"
 
 namespace angen::sim {
 
@@ -16,9 +16,13 @@ class InstanceView : public View {
     Nanoseconds step = 0;
   };
 
-  InstanceView(Stage& stage, const LiveModel& live, Clock clock,
+  InstanceView(Building& building, const LiveModel& live, Clock clock,
                const SensorInstance* sensor = nullptr)
-      : stage_(stage), live_(live), clock_(clock), sensor_(sensor) {}
+      : building_(building),
+        stage_(building.stage()),
+        live_(live),
+        clock_(clock),
+        sensor_(sensor) {}
 
   Nanoseconds time() const override { return clock_.time; }
   Nanoseconds step() const override { return clock_.step; }
@@ -26,6 +30,7 @@ class InstanceView : public View {
   JointView joint(JointRef joint) const override;
   LinkView link(LinkRef link) const override;
   std::vector<ContactPair> contacts(ContactRef collision) const override;
+  std::vector<DeviceView> devices() const override;
   light::Sample illuminance(light::Probe& probe, const Pose& pose) const override;
   double ambient_temperature() const override { return stage_.ambient_temperature; }
   const std::vector<rays::WarmShape>& warm_shapes() const override;
@@ -35,13 +40,17 @@ class InstanceView : public View {
 
   /// Whether it was asked for more than time and its own pose.
   bool asked_more() const { return asked_more_; }
+  /// Whether it was asked for what devices tell.
+  bool asked_devices() const { return asked_devices_; }
 
  private:
+  Building& building_;
   Stage& stage_;
   const LiveModel& live_;
   Clock clock_;
   const SensorInstance* sensor_;
   mutable bool asked_more_ = false;
+  mutable bool asked_devices_ = false;
 };
 
 /// What one device does to the stage.

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "ros/convert.h"
 #include "ros/formats.h"
 #include "ros/readings.h"
@@ -15,6 +18,8 @@ using Texts = std::vector<std::string>;
 TEST(Messages, KnownKindsHaveTheirOwnOthersTheGenericOne) {
   EXPECT_EQ(format_of("pir").type, "angen_msgs/PirMsg");
   EXPECT_EQ(format_of("contact").type, "gazebo_msgs/ContactsState");
+  EXPECT_EQ(format_of("proximity").type, "sensor_msgs/Range");
+  EXPECT_EQ(format_of("window").type, "angen_msgs/DoorState");
   EXPECT_EQ(format_of("smoke").type, "angen_msgs/Reading");
 }
 
@@ -43,6 +48,53 @@ TEST(Messages, SwitchTakesTwoRanges) {
   EXPECT_TRUE(message.closed);
   EXPECT_EQ(message.ranges[0], 0.2);
   EXPECT_EQ(message.ranges[1], 0.3);
+}
+
+TEST(Messages, RangeIsInfiniteWhereNothingIsNear) {
+  Reading reading;
+  reading.set("range", std::numeric_limits<double>::infinity());
+  reading.set("min_range", 0.02);
+  reading.set("max_range", 4.0);
+  reading.set("field_of_view", 0.26);
+  reading.set("infrared", true);
+  sensor_msgs::Range message;
+  fill(reading, {}, message);
+  EXPECT_TRUE(std::isinf(message.range) && message.range > 0.0F);
+  EXPECT_EQ(message.radiation_type, sensor_msgs::Range::INFRARED);
+  EXPECT_FLOAT_EQ(message.max_range, 4.0F);
+  EXPECT_FLOAT_EQ(message.field_of_view, 0.26F);
+}
+
+TEST(Messages, RfidListsIdsAndDistances) {
+  Reading reading;
+  reading.set("ids", Texts{"a", "b"});
+  reading.set("distances", Numbers{0.5, 1.5});
+  angen_msgs::RfidMsg message;
+  fill(reading, {}, message);
+  EXPECT_EQ(message.ids, (Texts{"a", "b"}));
+  EXPECT_EQ(message.distances, (Numbers{0.5, 1.5}));
+}
+
+TEST(Messages, HumidityIsAFraction) {
+  Reading reading;
+  reading.set("humidity", 45.0);
+  reading.set("variance", 4.0);
+  sensor_msgs::RelativeHumidity message;
+  fill(reading, {}, message);
+  EXPECT_DOUBLE_EQ(message.relative_humidity, 0.45);
+  EXPECT_DOUBLE_EQ(message.variance, 4e-4);
+}
+
+TEST(Messages, ABatteryDrawsANegativeCurrent) {
+  Reading state;
+  state.set("voltage", 14.8);
+  state.set("drawn", 29.6);
+  state.set("percentage", 0.25);
+  sensor_msgs::BatteryState message;
+  fill(state, {}, message);
+  EXPECT_FLOAT_EQ(message.current, -2.0F);
+  EXPECT_FLOAT_EQ(message.percentage, 0.25F);
+  EXPECT_TRUE(message.present);
 }
 
 TEST(Messages, DoorModesByName) {

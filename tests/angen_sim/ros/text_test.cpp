@@ -19,6 +19,7 @@ bool says(const std::string& text, const std::string& part) {
 TEST(DoorText, VerbsAndNames) {
   EXPECT_EQ(sent(door_action("Open, bathroom1")), "door/bathroom1: Open");
   EXPECT_EQ(sent(door_action("Close, all")), "door/all: Close");
+  EXPECT_EQ(sent(door_action("Open, hall0", "window", "Window_controller")), "window/hall0: Open");
   EXPECT_EQ(sent(door_action("Set, kitchen0, -1.2")), "door/kitchen0: Set -1.2");
 }
 

@@ -49,6 +49,42 @@ std::string text_of_world() {
   return text.replace(text.find(end), end.size(), more + end);
 }
 
+std::string custom(const std::string& name, const std::string& library, const std::string& more) {
+  return "<sensor name='" + name + "' type='custom'><update_rate>1</update_rate><plugin name='p' " +
+         "filename='lib" + library + ".so'>" + more + "</plugin></sensor>";
+}
+
+/// What changes by itself, and sensors of what devices tell.
+std::string text_of_household() {
+  const std::string none = "<box><size>0.05 0.05 0.05</size></box>";
+  const std::string mat =
+      "<sensor name='mat' type='contact'><contact><collision>c</collision></contact>"
+      "<plugin name='m' filename='libpressure_mat.so'><threshold>0.5</threshold></plugin></sensor>";
+  const std::string sensors =
+      custom("t", "temperature_sensor", "") + custom("h", "humidity_sensor", "") +
+      custom("noisy", "temperature_sensor", "<noise_stddev>0.2</noise_stddev>") +
+      custom("tags", "rfid_reader", "<beam_angle>6.2</beam_angle>") +
+      custom("meter", "smart_plug", "<load>heater/stove</load>") +
+      custom("other", "smart_plug", "<load>lamp/hall0</load><noise_stddev>0.1</noise_stddev>") +
+      ray_sensor("near", "libgazebo_ros_range.so", 10, 0.01);
+  std::string door = kDoor;
+  const std::string base = "</mass></inertial></link>";
+  door.insert(door.find(base) + base.size() - 7,
+              "<sensor name='reed' type='custom'><pose>0.8 0 0.01 0 0 0</pose><plugin name='r' "
+              "filename='libreed_contact.so'><magnet_link>leaf</magnet_link>"
+              "<magnet>0.4 0 0</magnet></plugin></sensor>");
+  return "<sdf version='1.6'><world name='w'>" + door + kLamp + kPerson +
+         "<model name='flat'><static>true</static><link name='l'/><plugin name='c' "
+         "filename='libroom_climate.so'><room>-3 -3 0 3 2 2.5</room><room>-3 2 0 3 4 2.5</room>"
+         "</plugin></model><model name='stove'><static>true</static><link name='l'/>"
+         "<plugin name='h' filename='libheater.so'/><plugin name='t' filename='librfid_tag.so'/>"
+         "<plugin name='b' filename='librobot_battery.so'/></model>" +
+         body("it", none, "-0.5 -2 0.8 0 0 0", true, sensors) +
+         body("floor", "<box><size>9 9 0.2</size></box>", "0 0 -0.1 0 0 0", true, mat) +
+         body("brick", "<box><size>0.4 0.2 0.6</size></box>", "1 0 1.2 0 0 0", false) +
+         "</world></sdf>";
+}
+
 void expect_same_world(const Snapshot& a, const Snapshot& b) {
   ASSERT_EQ(a.tick, b.tick);
   for (std::size_t i = 0; i < a.link_poses.size(); ++i) {
@@ -123,6 +159,35 @@ TEST(Leaping, AStillWorldTakesFewTicks) {
   race.landings = 0;
   race.run(600.0);
   EXPECT_LT(race.landings, 200U);
+}
+
+TEST(Leaping, WhatChangesByItselfIsNotLeaptOver) {
+  Race race(text_of_household());
+  race.run(12.0);
+  race.command("heater", "stove", "On");
+  race.run(10.5);
+  race.command("heater", "stove", "Off");
+  race.command("door", "hall0", "Open");
+  race.run(20.0);
+  race.command("lamp", "hall0", "On");
+  race.run(1.0);
+  race.command("lamp", "hall0", "Off");
+  race.command("person", "person", "Stop");
+  race.run(5.0);  // the person comes to a stand
+  race.landings = 0;
+  race.run(60.0);
+  EXPECT_LT(race.landings, 600U);
+  const auto last = race.leaps->snapshot();
+  const auto of = [&](const char* name) -> const Reading& {
+    std::size_t i = 0;
+    while (last->structure->sensors[i].name != name) ++i;
+    return *last->sensors[i];
+  };
+  EXPECT_NEAR(of("it_meter").get<double>("energy"), 10500.0, 10.0);
+  EXPECT_GT(of("it_t").get<double>("temperature"), 19.0);
+  EXPECT_LT(of("it_t").get<double>("temperature"), 21.0);
+  EXPECT_TRUE(of("floor").get<bool>("pressed"));
+  EXPECT_FALSE(of("hall_door").get<bool>("closed"));
 }
 
 TEST(Leaping, AStepIsAnsweredAtItsEnd) {

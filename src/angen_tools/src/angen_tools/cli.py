@@ -157,6 +157,10 @@ def command(commands: Any, name: str, run: Callable[[argparse.Namespace], int], 
     return parser
 
 
+SENSOR_WORDS = {'pressure': 'a pressure mat', 'reed': 'a reed contact', 'rfid': 'an RFID reader',
+                'plug': 'a smart plug'}
+
+
 def add_spawn(commands: Any) -> None:
     spawn = command(commands, 'spawn', run_spawn, 'adds a sensor or a model to the world',
                     'spawn pir p1 --pose "1 1 1.2 0 0 0"',
@@ -169,15 +173,24 @@ def add_spawn(commands: Any) -> None:
         'luminosity': ['spawn luminosity l1 --pose "2 0.1 2.2 0 0 1.57" --set update_rate=5'],
         'camera': ['spawn camera c1 --pose "0.8 0.8 2.2 0 0.4 0.785"'],
         'contact': ['spawn contact c1 --on kitchen_chair0_a::body --set collision=seat_collision'],
+        'proximity': ['spawn proximity d1 --pose "1 1 0.5 0 0 1.57" --set ray/range/max=2'],
+        'pressure': ['spawn pressure m1 --pose "1 2 0" --set threshold=20'],
+        'reed': ['spawn reed r1 --on kitchen_door0::base --pose "0.93 -0.015 2.09" '
+                 '--set magnet_link=door --set magnet="0.93 -0.015 2.078"'],
+        'rfid': ['spawn rfid gate --pose "0.2 5 1.2 0 0 0" --set max_range=1.5'],
+        'plug': ['spawn plug p1 --pose "0.1 1 0.3 0 0 0" --set load=lamp/kitchen0'],
+        'temperature': ['spawn temperature t1 --pose "0.1 2 1.5" --set noise_stddev=0.1'],
+        'humidity': ['spawn humidity h1 --pose "0.1 2.1 1.5"'],
     }
     for kind, lines in examples.items():
-        sensor = command(kinds, kind, run_spawn, f'adds a {kind} sensor', *lines)
+        what = SENSOR_WORDS.get(kind, f'a {kind} sensor')
+        sensor = command(kinds, kind, run_spawn, f'adds {what}', *lines)
         sensor.add_argument('name', metavar='NAME', type=checked(new_name),
                             help='a name that nothing has yet')
         sensor.add_argument('--on', metavar='MODEL::LINK', type=checked(link),
-                            required=kind == 'contact',
+                            required=kind in ('contact', 'reed'),
                             help='the link that carries it' + (
-                                '' if kind == 'contact' else '; a static model without'))
+                                '' if kind in ('contact', 'reed') else '; a static model without'))
         sensor.add_argument('--set', metavar='KEY=VALUE', action='append', default=[],
                             type=checked(setting), help='a parameter, as angen plugins lists them')
         add_pose(sensor, required=kind != 'contact')
@@ -205,13 +218,16 @@ def add_pose(parser: argparse.ArgumentParser, required: bool) -> None:
 
 
 def add_set(commands: Any) -> None:
-    parser = command(commands, 'set', run_set, 'commands a door, an elevator or a lamp',
+    parser = command(commands, 'set', run_set, 'commands a device: a door, a lamp, …',
                      'set door kitchen0 open', 'set elevator elevator 1', 'set lamp kitchen0 40')
     kinds = parser.add_subparsers(dest='kind', metavar='KIND', required=True)
     for kind, values, example, many in (
             ('door', 'open|close|RAD', 'set door bathroom1 -1.2', ', or all'),
+            ('window', 'open|close|RAD', 'set window window0 open', ', or all'),
+            ('cabinet', 'open|close|RAD', 'set cabinet wall0 open', ', or all'),
             ('elevator', 'FLOOR', 'set elevator elevator 1', ''),
-            ('lamp', 'on|off|PERCENT', 'set lamp all on', ', or all')):
+            ('lamp', 'on|off|PERCENT', 'set lamp all on', ', or all'),
+            ('heater', 'on|off|PERCENT', 'set heater heater1 40', '')):
         device = command(kinds, kind, run_set, f'commands {"an" if kind[0] == "e" else "a"} {kind}',
                          example)
         name = device.add_argument('name', metavar='NAME',
@@ -239,7 +255,8 @@ def make_parser() -> argparse.ArgumentParser:
     delete = command(commands, 'delete', run_delete, 'takes models and sensors out of the world',
                      'delete p1 chair1')
     delete.add_argument('names', metavar='NAME', nargs='+').completer = names_of(
-        'model', 'pir', 'switch', 'luminosity', 'contact', 'camera')
+        'model', 'pir', 'switch', 'luminosity', 'contact', 'camera', 'proximity', 'pressure',
+        'reed', 'rfid', 'plug', 'temperature', 'humidity')
     lists = command(commands, 'list', run_list, 'lists what is in the world',
                     'list --kind door', 'list --json')
     lists.add_argument('--kind', default='', help='only door, elevator, lamp, pir, model, …')

@@ -1,4 +1,4 @@
-"""angen set: commands to doors, elevators and lamps, checked before and after they are sent."""
+"""angen set: commands to devices, checked before and after they are sent."""
 from __future__ import annotations
 
 import math
@@ -10,7 +10,8 @@ from .client import CONNECT_LIMIT, Client, Mailbox
 from .failure import Failure
 from .listing import number
 
-TOPICS = {'door': '/gazebo/Door_controller', 'elevator': '/gazebo/Elevator_controller',
+TOPICS = {'door': '/gazebo/Door_controller', 'window': '/gazebo/Window_controller',
+          'cabinet': '/gazebo/Cabinet_controller', 'elevator': '/gazebo/Elevator_controller',
           'lamp': '/gazebo/Light_controller'}
 TAKEN_LIMIT = 5.0  # s of wall time
 QUEUED_AFTER = 1.0  # s of wall time without a rejection
@@ -28,8 +29,9 @@ class Order:
 
 
 def make_order(kind: str, value: str) -> Order:
-    """The command that sets a door, elevator or lamp to `value`; ValueError says what is right."""
-    return {'door': _door, 'elevator': _elevator, 'lamp': _lamp}[kind](value.strip().lower())
+    """The command that sets a device of a kind to `value`; ValueError says what is right."""
+    orders = {'elevator': _elevator, 'lamp': _lamp, 'heater': _heater}
+    return orders.get(kind, _door)(value.strip().lower())
 
 
 def _door(value: str) -> Order:
@@ -58,6 +60,21 @@ def _lamp(value: str) -> Order:
     return Order(words.get(value, f'Dim, NAME, {level!r}'), lambda s: abs(s.level - level) < 1e-9)
 
 
+def _heater(value: str) -> Order:
+    form = 'a heater takes on, off or 0 to 100 percent'
+    level = {'on': 100.0, 'off': 0.0}.get(value)
+    if level is None:
+        level = _number(value.removesuffix('%'), form)
+    if not 0 <= level <= 100:
+        raise ValueError(f"'{value}' is out of range; {form}")
+    return Order(f'Set, NAME, {level!r}', lambda s: abs(fields(s)['level'] - level) < 1e-9)
+
+
+def fields(reading: Any) -> dict[str, float]:
+    """The numbers of an angen_msgs/Reading by name."""
+    return dict(zip(reading.names, reading.values))
+
+
 def _number(text: str, form: str) -> float:
     try:
         number = float(text)
@@ -69,7 +86,7 @@ def _number(text: str, form: str) -> float:
 
 
 def describe(state: Any) -> str:
-    """A DoorState, ElevatorState or LampState in a few words."""
+    """A DoorState, ElevatorState, LampState or a heater's Reading in a few words."""
     kind = type(state).__name__
     if kind == 'DoorState':
         going = state.mode in (state.OPENING, state.CLOSING, state.BLOCKED)
@@ -80,6 +97,9 @@ def describe(state: Any) -> str:
         to = f', to floor {state.target_floor}' if state.target_floor != state.floor else ''
         return (f'{ELEVATOR_MODES[state.mode]} {where}{to}, doors '
                 f'{CABIN_MODES[state.door_mode]}')
+    if kind == 'Reading':
+        values = fields(state)
+        return f'on at {values["level"]:g} %, {values["power"]:.0f} W' if values['on'] else 'off'
     return f'on at {state.level:g} %, {state.luminous_flux:.0f} lm' if state.on else 'off'
 
 
@@ -98,13 +118,18 @@ def set_device(kind: str, name: str, value: str) -> str:
 
     Failure where nothing has that name, the simulator rejects it, or no state follows.
     """
+    from angen_msgs.msg import Command
     from std_msgs.msg import String
     order = make_order(kind, value)
     client = Client()
     devices = _chosen(kind, name, client.entities(kind))
     watch = _Watch(client, kind, name, devices, order)
-    sender = client.publisher(TOPICS[kind], String)
-    sender.publish(String(watch.text))
+    if kind in TOPICS:
+        client.publisher(TOPICS[kind], String).publish(String(watch.text))
+    else:
+        words = order.text.replace('NAME', '').replace(',', ' ').split()
+        client.publisher('/angen/command', Command).publish(
+            Command(f'{kind}/{name}', ' '.join(words)))
     client.fence()
     return watch.outcome()
 

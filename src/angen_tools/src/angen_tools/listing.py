@@ -9,8 +9,10 @@ from .catalog import angen_module, plugins
 from .client import Client
 from .failure import Failure
 
-KINDS = ('model', 'door', 'elevator', 'lamp', 'drive', 'person', 'pir', 'switch', 'luminosity',
-         'contact', 'lidar', 'camera', 'depth')
+KINDS = ('model', 'door', 'elevator', 'lamp', 'drive', 'person', 'window', 'cabinet', 'heater',
+         'climate', 'battery', 'tag',
+         'pir', 'switch', 'luminosity', 'contact', 'lidar', 'camera', 'depth', 'proximity',
+         'pressure', 'reed', 'rfid', 'plug', 'temperature', 'humidity')
 
 
 def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:

@@ -12,17 +12,27 @@ from .failure import Failure
 
 # The model in worlds/models that each kind of sensor is taken from.
 BLOCKS = {'pir': 'pir', 'switch': 'optical_switch', 'luminosity': 'luminosity_sensor',
-          'camera': 'camera'}
+          'camera': 'camera', 'proximity': 'proximity', 'pressure': 'pressure_mat',
+          'rfid': 'rfid_reader', 'plug': 'smart_plug', 'temperature': 'temperature_sensor',
+          'humidity': 'humidity_sensor'}
 PYROELECTRIC = 'pir_pyroelectric'  # of a pir with --set model=pyroelectric
-KINDS = (*BLOCKS, 'contact')
+TOUCHED = ('contact', 'pressure')  # watch collisions of the link that they are on
 # Parameters that SDF has for every sensor; all others stand in the plug-in.
 SENSOR_KEYS = ('update_rate', 'ray/', 'contact/', 'camera/')
-CONTACT = '''<sensor name="contact" type="contact">
+# Kinds that sit on a link of something else and have no model of their own.
+PARTS = {
+    'contact': '''<sensor name="contact" type="contact">
   <always_on>true</always_on>
   <update_rate>1</update_rate>
   <contact/>
   <plugin name="bumper" filename="libgazebo_ros_bumper.so"/>
-</sensor>'''
+</sensor>''',
+    'reed': '''<sensor name="reed" type="custom">
+  <always_on>true</always_on>
+  <update_rate>1</update_rate>
+  <plugin name="reed" filename="libreed_contact.so"/>
+</sensor>'''}
+KINDS = (*BLOCKS, *PARTS)
 
 
 def parse_pose(text: str) -> tuple[float, ...]:
@@ -106,18 +116,21 @@ def build_sensor(kind: str, name: str, settings: list[tuple[str, str]], lone: bo
 
     `blocks` is the folder of the models in BLOCKS.
 
-    Failure where a key of `settings` is unknown, a value is not XML, or a contact sensor is not
+    Failure where a key of `settings` is unknown, a value is not XML, or a sensor of PARTS is not
     lone.
     """
-    if kind == 'contact':
+    if kind in PARTS:
         if not lone:
-            raise Failure('a contact sensor sits on a link: give --on MODEL::LINK')
-        root = sensor = etree.fromstring(CONTACT)
+            raise Failure(f'a {kind} sensor sits on a link: give --on MODEL::LINK')
+        root = sensor = etree.fromstring(PARTS[kind])
     else:
         block = PYROELECTRIC if ('model', 'pyroelectric') in settings else BLOCKS[kind]
         root = read(blocks / block / 'model.sdf')
         sensor = root.find('.//sensor')
         root.find('model').set('name', name)
+    if lone:
+        for collision in sensor.findall('contact/collision'):  # its own model's
+            collision.getparent().remove(collision)
     if settings:
         _apply(sensor, kind, settings)
     if lone:

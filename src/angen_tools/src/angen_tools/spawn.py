@@ -50,7 +50,7 @@ def spawn_sensor(kind: str, name: str, pose: Sequence[float], on: str,
     """
     element = sdf.build_sensor(kind, name, settings, bool(on), models.worlds_models())
     client = Client()
-    if kind == 'contact' and element.find('contact/collision') is None:
+    if kind in sdf.TOUCHED and bool(on) and element.find('contact/collision') is None:
         _watch_all(client, element, on)
     _call_spawn(client, name, sdf.text(element), on, pose)
     topic = next((entity.topic for entity in client.entities(kind) if entity.name == name), '')

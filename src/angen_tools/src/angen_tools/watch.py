@@ -1,6 +1,7 @@
 """angen watch: every device and sensor, live."""
 from __future__ import annotations
 
+import math
 import sys
 import time
 from contextlib import suppress
@@ -15,6 +16,7 @@ from .terminal import own_screen, picture, pressed_key
 ONCE_LIMIT = 3.0   # s of wall time that `--once` gives to sensors of 1 Hz
 REFRESH = 0.25     # s of wall time between two pictures
 RELIST = 2.0       # s of wall time between two looks at what there is
+WIDEST = 72        # characters of a generic reading that are shown
 PERSON_MODES = ('standing', 'walking', 'blocked')
 
 
@@ -54,13 +56,50 @@ def _odometry(m: Any) -> str:
             f'rad, {number(speed.linear.x)} m/s {number(speed.angular.z)} rad/s')
 
 
+def _range(m: Any) -> str:
+    return f'{m.range:.3f} m' if math.isfinite(m.range) else 'nothing near'
+
+
+def _pressure(m: Any) -> str:
+    return f'{"PRESSED" if m.pressed else "free"}  {m.load:.1f} kg'
+
+
+def _reed(m: Any) -> str:
+    return f'{"closed" if m.closed else "open"}  {1000 * m.distance:.1f} mm'
+
+
+def _rfid(m: Any) -> str:
+    return ', '.join(f'{i} {d:.2f} m' for i, d in zip(m.ids, m.distances)) or 'no tag'
+
+
+def _plug(m: Any) -> str:
+    load = m.load if m.connected else 'no load'
+    return f'{load}  {m.power:.1f} W  {m.energy / 3.6e6:.4f} kWh'
+
+
+def _temperature(m: Any) -> str:
+    return f'{m.temperature:.2f} °C'
+
+
+def _humidity(m: Any) -> str:
+    return f'{100 * m.relative_humidity:.1f} %'
+
+
+def _battery(m: Any) -> str:
+    return f'{100 * m.percentage:.1f} %  {m.voltage * abs(m.current):.1f} W'
+
+
 def _reading(m: Any) -> str:
     numbers = [f'{name}={value:g}' for name, value in zip(m.names, m.values)]
-    return ' '.join(numbers + [f'{n}={t}' for n, t in zip(m.text_names, m.texts)])
+    text = ' '.join(numbers + [f'{n}={t}' for n, t in zip(m.text_names, m.texts)])
+    return text if len(text) <= WIDEST else text[:WIDEST - 1] + '…'
 
 
 VALUES = {'PirMsg': _pir, 'SwitchMsg': _switch, 'LightSensMsg': _light, 'ContactsState': _contacts,
           'PersonState': _person, 'Odometry': _odometry, 'Reading': _reading,
+          'Range': _range, 'PressureMsg': _pressure, 'ReedMsg': _reed, 'RfidMsg': _rfid,
+          'PlugMsg': _plug, 'Temperature': _temperature, 'RelativeHumidity': _humidity,
+          'BatteryState': _battery,
           'DoorState': describe, 'ElevatorState': describe, 'LampState': describe}
 
 

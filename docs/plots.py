@@ -1,0 +1,256 @@
+#!/usr/bin/env python3
+"""Draws the plots of docs/sensors and docs/devices from runs of the simulator, into docs/images.
+
+    ./angen shell
+    python3 docs/plots.py            # all of them, or the names of some
+"""
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Callable
+
+import matplotlib
+import numpy as np
+
+import angen
+
+matplotlib.use('Agg')
+import matplotlib.pyplot as plt  # noqa: E402
+
+IMAGES = Path(__file__).resolve().parent / 'images'
+PLUGINS = '''<plugin name="doors" filename="libdoor_world_plugin.so"/>
+<plugin name="robots" filename="librobot_controller.so">
+<wheelDiameter>0.0704</wheelDiameter></plugin>'''
+
+
+def world(content: str) -> angen.World:
+    """A floor, the plug-ins of doors and robots, and `content`."""
+    return angen.World.from_text(f'''<sdf version="1.6"><world name="plot">
+      <physics type="ode"><max_step_size>0.001</max_step_size></physics>{PLUGINS}
+      <model name="floor"><static>true</static><link name="link"><collision name="box">
+      <pose>0 0 -0.05 0 0 0</pose><geometry><box><size>20 20 0.1</size></box></geometry>
+      </collision></link></model>{content}</world></sdf>''', seed=1)
+
+
+def block(model: str, name: str, pose: str, plugin: str = '') -> str:
+    """A model of worlds/models."""
+    return (f'<include><uri>model://{model}</uri><name>{name}</name><pose>{pose}</pose>{plugin}'
+            '</include>')
+
+
+def box(name: str, pose: str, size: str, mass: float = 0.0) -> str:
+    """A box, static unless it has a mass in kg."""
+    x, y, z = (float(v) for v in size.split())
+    moments = [mass / 12 * v for v in (y * y + z * z, x * x + z * z, x * x + y * y)]
+    return f'''<model name="{name}"><static>{str(not mass).lower()}</static><pose>{pose}</pose>
+      <link name="link"><inertial><mass>{mass or 1}</mass><inertia><ixx>{moments[0] or 1}</ixx>
+      <iyy>{moments[1] or 1}</iyy><izz>{moments[2] or 1}</izz></inertia></inertial>
+      <collision name="box"><geometry><box><size>{size}</size></box></geometry></collision></link>
+      </model>'''
+
+
+def figure(rows: int, heading: str) -> tuple[plt.Figure, list[plt.Axes]]:
+    """Axes below each other that share their x."""
+    drawn, axes = plt.subplots(rows, 1, sharex=True, figsize=(7, 1.2 + 1.8 * rows), squeeze=False)
+    axes[0][0].set_title(heading, fontsize=10)
+    for ax in axes[:, 0]:
+        ax.grid(alpha=0.3)
+    return drawn, list(axes[:, 0])
+
+
+def proximity() -> plt.Figure:
+    w = world(block('proximity', 'd', '0 0 0.5 0 0 0'))
+    times, truth, read = [], [], []
+    for k in range(60):
+        away = 3.2 - 0.05 * k
+        post = 20 <= k < 35
+        w.spawn(box('wall', '0 0 0 0 0 0', '0.1 3 1'), 'wall', [away + 0.05, 0, 0.5, 0, 0, 0])
+        if post:
+            w.spawn(box('post', '0 0 0 0 0 0', '0.05 0.05 1'), 'post',
+                    [away - 0.3, 0, 0.5, 0, 0, 0])
+        w.run(0.1)
+        times.append(w.time)
+        truth.append(away - 0.325 if post else away)
+        read.append(w.sensor('proximity', 'd')['range'])
+        w.delete('wall')
+        if post:
+            w.delete('post')
+    drawn, (ax, error) = figure(2, 'Proximity')
+    ax.plot(times, truth, color='0.6', label='nearest face')
+    ax.plot(times, read, '.', label='range')
+    ax.set_ylabel('m')
+    ax.legend()
+    error.plot(times, 1000 * (np.array(read) - truth), '.')
+    error.set_ylabel('error, mm')
+    error.set_xlabel('s')
+    return drawn
+
+
+def pressure_mat() -> plt.Figure:
+    w = world(block('pressure_mat', 'm', '0 0 0 0 0 0'))
+    steps = {2.0: ('low', 9.0, 0.156), 6.0: ('high', 20.0, 0.457)}
+    times, load, pressed = [], [], []
+    while w.time < 16:
+        for at, (name, mass, z) in steps.items():
+            if abs(w.time - at) < 1e-6:
+                w.spawn(box(name, '0 0 0 0 0 0', '0.3 0.3 0.3', mass), name, [0, 0, z, 0, 0, 0])
+        for at, name in ((10.0, 'high'), (13.0, 'low')):
+            if abs(w.time - at) < 1e-6:
+                w.delete(name)
+        w.run(0.5)
+        times.append(w.time)
+        load.append(w.sensor('pressure', 'm')['load'])
+        pressed.append(w.sensor('pressure', 'm')['pressed'])
+    drawn, (ax, state) = figure(2, 'Pressure mat, threshold 10 kg, release 8 kg')
+    ax.step(times, load, where='post')
+    ax.axhline(10, color='tab:red', linewidth=0.8)
+    ax.axhline(8, color='tab:orange', linewidth=0.8)
+    ax.set_ylabel('load, kg')
+    state.step(times, pressed, where='post')
+    state.set_yticks([0, 1], ['free', 'pressed'])
+    state.set_xlabel('s')
+    return drawn
+
+
+def reed() -> plt.Figure:
+    w = world(block('window', 'hall_window0', '0 0 1 0 0 0'))
+    index = w.joints.index('hall_window0::sash')
+    times, angles, closed = [], [], []
+    for k in range(800):
+        if k == 50:
+            w.command('window', 'hall0', 'Set -0.2')
+        if k == 400:
+            w.command('window', 'hall0', 'Close')
+        w.run(0.01)
+        times.append(w.time)
+        angles.append(-w.joint_positions[index])
+        closed.append(w.sensor('reed', 'hall_window0')['closed'])
+    drawn, (ax, state) = figure(2, 'Reed contact of a window')
+    ax.plot(times, angles)
+    ax.axhline(0.0172, color='tab:red', linewidth=0.8, label='opens')
+    ax.axhline(0.0097, color='tab:orange', linewidth=0.8, label='closes')
+    ax.set_ylabel('sash, rad')
+    ax.legend()
+    state.step(times, closed, where='post')
+    state.set_yticks([0, 1], ['open', 'closed'])
+    state.set_xlabel('s')
+    return drawn
+
+
+def rfid() -> plt.Figure:
+    places = [(x, y) for x in np.arange(-0.5, 2.41, 0.1) for y in np.arange(-2.2, 2.21, 0.1)]
+    tags = ''.join(block('rfid_tag', f't{i}', f'{x + 0.013} {y + 0.007} 1 0 0 0')
+                   for i, (x, y) in enumerate(places))
+    w = world(block('rfid_reader', 'r', '0 0 1 0 0 0') + box('a', '1 0.7 1 0 0 0', '0.1 1 2')
+              + box('b', '1 -0.6 1 0 0 0', '0.1 0.6 2') + tags)
+    w.run(0.2)
+    seen = {int(name[1:]) for name in w.sensor('rfid', 'r')['ids']}
+    drawn, ax = plt.subplots(figsize=(5, 6))
+    for read, color in ((False, '0.85'), (True, 'tab:blue')):
+        chosen = [p for i, p in enumerate(places) if (i in seen) == read]
+        ax.plot(*zip(*chosen), '.', color=color, label='read' if read else 'not read')
+    for x, y, half in ((1, 0.7, 0.5), (1, -0.6, 0.3)):
+        ax.add_patch(plt.Rectangle((x - 0.05, y - half), 0.1, 2 * half, color='0.3'))
+    ax.plot(0, 0, '>', color='tab:red', markersize=10, label='reader')
+    ax.set_aspect('equal')
+    ax.set_xlabel('m')
+    ax.set_ylabel('m')
+    ax.legend(loc='lower right')
+    ax.set_title('RFID reader, 2 m, 120 degrees', fontsize=10)
+    return drawn
+
+
+def smart_plug() -> plt.Figure:
+    w = world(block('heater', 'heater1', '0 0 0 0 0 0') + '''<model name="p"><static>true</static>
+      <link name="l"><sensor name="p" type="custom"><update_rate>2</update_rate><plugin name="p"
+      filename="libsmart_plug.so"><load>heater/heater1</load></plugin></sensor></link></model>''')
+    times, power, energy = [], [], []
+    for k in range(240):
+        for at, text in ((20, 'On'), (100, 'Set 40'), (180, 'Off')):
+            if k == at:
+                w.command('heater', 'heater1', text)
+        w.run(0.5)
+        reading = w.sensor('plug', 'p')
+        times.append(w.time)
+        power.append(reading['power'])
+        energy.append(reading['energy'] / 3600)
+    drawn, (ax, sum_) = figure(2, 'Smart plug with a heater')
+    ax.step(times, power, where='post')
+    ax.set_ylabel('W')
+    sum_.plot(times, energy)
+    sum_.set_ylabel('Wh')
+    sum_.set_xlabel('s')
+    return drawn
+
+
+def temperature() -> plt.Figure:
+    rooms = '<room>0 0.05 0 4 3 2.5</room><room>0 -3 0 4 -0.05 2.5</room>'
+    w = world(f'''<model name="flat"><static>true</static><link name="l"/>
+      <plugin name="air" filename="libroom_climate.so">{rooms}<heat_capacity>5</heat_capacity>
+      </plugin></model>''' + block('heater', 'heater1', '0.1 1.5 0 0 0 0')
+              + block('kitchen_door', 'hall_door0', '1.5 0 0 0 0 0')
+              + block('temperature_sensor', 'warm', '2 1.5 1.5 0 0 0')
+              + block('temperature_sensor', 'cold', '2 -1.5 1.5 0 0 0')
+              + block('humidity_sensor', 'h', '2 1.4 1.5 0 0 0'))
+    w.command('heater', 'heater1', 'On')
+    times, rows = [], []
+    for k in range(180):
+        if k == 60:
+            w.command('door', 'hall0', 'Open')
+        w.run(5)
+        times.append(w.time / 60)
+        rows.append((w.sensor('temperature', 'warm')['temperature'],
+                     w.sensor('temperature', 'cold')['temperature'],
+                     w.sensor('humidity', 'h')['humidity']))
+    warm, cold, humidity = zip(*rows)
+    drawn, (ax, wet) = figure(2, 'A heater of 1 kW in one of two rooms; the door opens after 5 min')
+    ax.plot(times, warm, label='room with the heater')
+    ax.plot(times, cold, label='next room')
+    ax.set_ylabel('°C')
+    ax.legend()
+    wet.plot(times, humidity)
+    wet.set_ylabel('% RH by the heater')
+    wet.set_xlabel('min')
+    return drawn
+
+
+def battery() -> plt.Figure:
+    w = world(block('turtlebot', 'robot', '0 0 0.001 0 0 0', '''<plugin name="battery"
+      filename="librobot_battery.so"><capacity>0.08</capacity><level>9</level></plugin>'''))
+    times, charge, speed = [], [], []
+    for k in range(100):
+        if k > 20:
+            w.command('drive', 'robot', values=[0.4, 0.4])
+        w.run(0.5)
+        times.append(w.time)
+        charge.append(100 * w.device('battery', 'robot_battery')['percentage'])
+        speed.append(w.device('drive', 'robot')['v'])
+    drawn, (ax, fast) = figure(2, 'Battery of a TurtleBot')
+    ax.plot(times, charge)
+    ax.set_ylabel('%')
+    fast.plot(times, speed)
+    fast.set_ylabel('m/s')
+    fast.set_xlabel('s')
+    return drawn
+
+
+PLOTS: dict[str, Callable[[], plt.Figure]] = {
+    draw.__name__: draw for draw in (proximity, pressure_mat, reed, rfid, smart_plug, temperature,
+                                     battery)}
+
+
+def main(names: list[str]) -> None:
+    """Draws the named plots, or all."""
+    unknown = [name for name in names if name not in PLOTS]
+    if unknown:
+        sys.exit(f'no plot {", ".join(unknown)}; known are {", ".join(PLOTS)}')
+    for name in names or PLOTS:
+        drawn = PLOTS[name]()
+        drawn.tight_layout()
+        drawn.savefig(IMAGES / f'{name}.png', dpi=110)
+        print(IMAGES / f'{name}.png')
+
+
+if __name__ == '__main__':
+    main(sys.argv[1:])

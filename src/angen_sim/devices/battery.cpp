@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <optional>
+
+#include "devices/refresh.h"
+#include "devices/words.h"
+#include "plugin/register.h"
+
+namespace angen::devices {
+
+/// A robot's battery: it gives what the robot's electronics take, and the work of whatever else in
+/// its model reports `work`.
+class Battery : public Device {
+ public:
+  void configure(Params& params, Wiring& wiring) override {
+    voltage_ = params.number("voltage", 14.8, "V", "taken as constant", kPositive);
+    capacity_ = params.number("capacity", 2.2, "A h", "when full", kPositive);
+    idle_power_ = params.number("idle_power", 10.0, "W", "of the electronics", kNotNegative);
+    efficiency_ = params.number("efficiency", 0.6, "", "work of the wheels over what motors take",
+                                {1e-3, 1.0});
+    const double level = params.number("level", 100.0, "%", "charge at the start", {0.0, 100.0});
+    params.text("device_name", "", "the name commands use, instead of MODEL_battery");
+    energy_ = full() * level / 100.0;
+    model_ = wiring.model();
+  }
+
+  Verdict command(const Command& command, const View&) override {
+    const std::vector<std::string> words = words_of(command.text);
+    const std::optional<double> level =
+        words.size() == 2 && words[0] == "charge" ? number_of(words[1]) : std::nullopt;
+    if (!level || *level < 0.0 || *level > 100.0) {
+      return Verdict::reject("a battery knows Charge <0 to 100 percent>, not '" + command.text +
+                             "'");
+    }
+    return Verdict::accept([this, energy = full() * *level / 100.0] { energy_ = energy; });
+  }
+
+  void update(const View& view, Outputs& outputs) override {
+    if (!due_.due(view.time(), view.step())) return;
+    const double work = work_done(view);
+    if (counted_at_ >= 0 && energy_ > 0.0) {
+      const double seconds = to_seconds(view.time() - counted_at_);
+      const double used = idle_power_ * seconds + (work - work_) / efficiency_;
+      power_ = seconds > 0.0 ? used / seconds : 0.0;
+      energy_ = std::max(0.0, energy_ - used);
+    }
+    counted_at_ = view.time();
+    work_ = work;
+    const bool empty = energy_ <= 0.0;
+    if (empty) power_ = 0.0;
+    if (empty != empty_) outputs.event(empty ? "empty" : "charged", "");
+    empty_ = empty;
+  }
+
+  // What it gives goes on while all else rests.
+  Nanoseconds idle_until(const View& view) const override { return due_.next(view.time()); }
+
+  void report(const View&, Reading& state) const override {
+    state.set("voltage", voltage_);
+    state.set("capacity", capacity_);
+    state.set("charge", energy_ / voltage_ / 3600.0);
+    state.set("percentage", energy_ / full());
+    state.set("drawn", power_);
+    state.set("empty", empty_);
+  }
+
+ private:
+  double full() const { return capacity_ * 3600.0 * voltage_; }  // J
+
+  double work_done(const View& view) const {
+    double sum = 0.0;
+    for (const DeviceView& device : view.devices()) {
+      if (device.model == model_) sum += device.state.get<double>("work");
+    }
+    return sum;
+  }
+
+  std::string model_;
+  double voltage_ = 0.0;     // V
+  double capacity_ = 0.0;    // A h
+  double idle_power_ = 0.0;  // W
+  double efficiency_ = 1.0;
+  double energy_ = 0.0;  // J that are left
+  double power_ = 0.0;   // W in the last second
+  double work_ = 0.0;    // J, when it was counted last
+  bool empty_ = false;
+  Nanoseconds counted_at_ = -1;
+  Refresh due_{1.0};
+};
+
+class BatteryPlugin : public Plugin {
+ public:
+  std::string kind() const override { return "battery"; }
+  std::string doc() const override { return "A robot's battery: Charge <percent>."; }
+  bool serves(const ModelInfo&) const override { return true; }
+  // Not the model's own, which is that of its drive.
+  std::string instance_name(const ModelInfo& model) const override {
+    return model.name + "_battery";
+  }
+  std::unique_ptr<Device> make_device() const override { return std::make_unique<Battery>(); }
+};
+
+}  // namespace angen::devices
+
+ANGEN_REGISTER_PLUGIN(angen::devices::BatteryPlugin)

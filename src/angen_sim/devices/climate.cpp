@@ -1,0 +1,152 @@
+#include <cmath>
+#include <optional>
+
+#include "devices/refresh.h"
+#include "devices/room_air.h"
+#include "devices/words.h"
+#include "plugin/register.h"
+
+namespace angen::devices {
+
+namespace {
+
+constexpr double kRate = 1.0;     // Hz: rooms take minutes
+constexpr double kBesides = 0.4;  // m from the middle of an opening to the air on either side
+constexpr double kWall = 0.05;    // m: what hangs in a wall is in the room
+constexpr Range kCelsius{-60.0, 60.0};
+
+}  // namespace
+
+/// The air in the rooms of a model. Whatever reports a `power` heats the room that it stands in;
+/// whatever reports a `gap` lets air through between the rooms on its two sides.
+class Climate : public Device {
+ public:
+  void configure(Params& params, Wiring&) override {
+    rooms_ = params.rows("room", 6, "m", "x y z of two opposite corners in the model's frame");
+    RoomAir::Settings settings;
+    settings.heat_loss = params.number("heat_loss", 0.5, "W/(K m^3)",
+                                       "through walls and windows, a volume", kNotNegative);
+    settings.air_change =
+        params.number("air_change", 0.3, "1/h", "of each room with the outside, through cracks",
+                      kNotNegative) /
+        3600.0;
+    settings.heat_capacity = params.number(
+        "heat_capacity", 1.0, "", "of what is in a room, in that of its air", {1.0, 1000.0});
+    Air inside;
+    inside.temperature = params.number("temperature", 20.0, "degC", "at the start", kCelsius);
+    inside.moisture = moisture_of(
+        inside.temperature, params.number("humidity", 50.0, "%", "at the start", {0.0, 100.0}));
+    outside_.temperature =
+        params.number("outside_temperature", 5.0, "degC", "of the air outside", kCelsius);
+    outside_humidity_ =
+        params.number("outside_humidity", 80.0, "%", "of the air outside", {0.0, 100.0});
+    outside_.moisture = moisture_of(outside_.temperature, outside_humidity_);
+    params.text("device_name", "", "the name commands use, instead of the model's");
+    std::vector<double> volumes;
+    for (std::vector<double>& room : rooms_) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if (room[axis] > room[axis + 3]) std::swap(room[axis], room[axis + 3]);
+      }
+      volumes.push_back((room[3] - room[0]) * (room[4] - room[1]) * (room[5] - room[2]));
+      if (!(volumes.back() > 0.0)) throw params.error("room", "a <room> is flat; give two corners");
+    }
+    if (rooms_.empty()) throw params.error("room", "a climate needs a <room> at least");
+    air_ = RoomAir(settings, std::move(volumes), inside);
+  }
+
+  Verdict command(const Command& command, const View&) override {
+    const std::vector<std::string> words = words_of(command.text);
+    const std::optional<double> value =
+        words.size() == 2 && words[0] == "outside" ? number_of(words[1]) : std::nullopt;
+    if (!value || *value < kCelsius.min || *value > kCelsius.max) {
+      return Verdict::reject("a climate knows Outside <-60 to 60 degrees Celsius>, not '" +
+                             command.text + "'");
+    }
+    return Verdict::accept([this, temperature = *value] {
+      outside_.temperature = temperature;
+      outside_.moisture = moisture_of(temperature, outside_humidity_);
+    });
+  }
+
+  void update(const View& view, Outputs&) override {
+    if (!due_.due(view.time(), view.step())) return;
+    const Nanoseconds before = stepped_at_ < 0 ? view.time() : stepped_at_;
+    stepped_at_ = view.time();
+    const Pose here = view.pose().inverse();
+    std::vector<double> heat(rooms_.size(), 0.0);
+    std::vector<Opening> openings;
+    for (const DeviceView& device : view.devices()) {
+      if (device.state.find("power") != nullptr) {
+        const int room = room_at(here * device.pose.position);
+        if (room >= 0) heat[static_cast<std::size_t>(room)] += device.state.get<double>("power");
+      }
+      if (device.state.find("gap") != nullptr) add_opening(device, here, openings);
+    }
+    air_.step(to_seconds(stepped_at_ - before), outside_, heat, openings);
+  }
+
+  Nanoseconds idle_until(const View& view) const override { return due_.next(view.time()); }
+
+  void report(const View&, Reading& state) const override {
+    std::vector<double> boxes;
+    std::vector<double> temperatures;
+    std::vector<double> humidities;
+    for (std::size_t i = 0; i < rooms_.size(); ++i) {
+      boxes.insert(boxes.end(), rooms_[i].begin(), rooms_[i].end());
+      temperatures.push_back(air_.rooms()[i].temperature);
+      humidities.push_back(humidity_of(air_.rooms()[i]));
+    }
+    state.set("temperatures", std::move(temperatures));
+    state.set("humidities", std::move(humidities));
+    state.set("outside_temperature", outside_.temperature);
+    state.set("outside_humidity", outside_humidity_);
+    state.set("rooms", std::move(boxes));
+  }
+
+ private:
+  // -1: in none of them.
+  int room_at(const Vec3& point) const {
+    for (std::size_t i = 0; i < rooms_.size(); ++i) {
+      bool inside = true;
+      for (int axis = 0; axis < 3; ++axis) {
+        inside = inside && point[axis] >= rooms_[i][axis] - kWall &&
+                 point[axis] <= rooms_[i][axis + 3] + kWall;
+      }
+      if (inside) return static_cast<int>(i);
+    }
+    return -1;
+  }
+
+  // A leaf's model has its origin on the hinge at the opening's foot, x along the shut leaf.
+  void add_opening(const DeviceView& device, const Pose& here,
+                   std::vector<Opening>& openings) const {
+    Opening opening;
+    opening.width = device.state.get<double>("gap");
+    opening.height = device.state.get<double>("height");
+    if (!(opening.width > 0.0)) return;
+    const Vec3 middle(0.5 * device.state.get<double>("width"), 0.0, 0.5 * opening.height);
+    const Vec3 aside(0.0, kBesides, 0.0);
+    opening.first = room_at(here * (device.pose * Vec3(middle + aside)));
+    opening.second = room_at(here * (device.pose * Vec3(middle - aside)));
+    if (opening.first != opening.second) openings.push_back(opening);
+  }
+
+  std::vector<std::vector<double>> rooms_;  // x y z of the lower, then of the upper corner
+  RoomAir air_;
+  Air outside_;
+  double outside_humidity_ = 0.0;  // percent
+  Nanoseconds stepped_at_ = -1;
+  Refresh due_{kRate};
+};
+
+class ClimatePlugin : public Plugin {
+ public:
+  std::string kind() const override { return "climate"; }
+  std::string doc() const override { return "The air in a model's rooms: Outside <degrees>."; }
+  bool serves(const ModelInfo&) const override { return true; }
+  std::unique_ptr<Device> make_device() const override { return std::make_unique<Climate>(); }
+};
+
+}  // namespace angen::devices
+
+ANGEN_REGISTER_PLUGIN(angen::devices::ClimatePlugin)

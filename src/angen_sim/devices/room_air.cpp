@@ -1,0 +1,82 @@
+#include "devices/room_air.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace angen::devices {
+
+namespace {
+
+constexpr double kPressure = 101325.0;  // Pa
+constexpr double kDensity = 1.204;      // kg/m^3 of air at 20 degrees
+constexpr double kHeat = 1006.0;        // J/(kg K) of air
+constexpr double kVapour = 0.622;       // molar mass of water over that of dry air
+constexpr double kKelvin = 273.15;
+constexpr double kGravity = 9.81;
+constexpr double kDischarge = 0.6;  // of a sharp-edged opening
+
+// Pa over water, Magnus with Sonntag's constants (1990), -45 to 60 degrees.
+double saturation(double temperature) {
+  return 611.2 * std::exp(17.62 * temperature / (243.12 + temperature));
+}
+
+// Moist air is lighter: the temperature of dry air of its density, K.
+double buoyant(const Air& air) { return (air.temperature + kKelvin) * (1.0 + 0.61 * air.moisture); }
+
+}  // namespace
+
+double moisture_of(double temperature, double humidity) {
+  const double vapour = humidity / 100.0 * saturation(temperature);
+  return kVapour * vapour / (kPressure - vapour);
+}
+
+double humidity_of(const Air& air) {
+  const double vapour = kPressure * air.moisture / (kVapour + air.moisture);
+  return std::min(100.0, 100.0 * vapour / saturation(air.temperature));
+}
+
+double doorway_flow(const Opening& opening, const Air& a, const Air& b) {
+  const double warm = buoyant(a);
+  const double cold = buoyant(b);
+  const double drive = kGravity * std::abs(warm - cold) / (0.5 * (warm + cold));
+  return kDischarge / 3.0 * opening.width * std::sqrt(drive * std::pow(opening.height, 3));
+}
+
+RoomAir::RoomAir(const Settings& settings, std::vector<double> volumes, const Air& air)
+    : settings_(settings), volumes_(std::move(volumes)), rooms_(volumes_.size(), air) {}
+
+void RoomAir::step(double seconds, const Air& outside, const std::vector<double>& heat,
+                   const std::vector<Opening>& openings) {
+  const auto at = [&](int room) -> const Air& {
+    return room < 0 ? outside : rooms_[static_cast<std::size_t>(room)];
+  };
+  std::vector<double> power = heat;                // W
+  std::vector<double> vapour(rooms_.size(), 0.0);  // m^3/s times kg/kg
+  for (std::size_t i = 0; i < rooms_.size(); ++i) {
+    const double leak = settings_.air_change * volumes_[i];
+    const double loss = settings_.heat_loss * volumes_[i] + kDensity * kHeat * leak;
+    power[i] += loss * (outside.temperature - rooms_[i].temperature);
+    vapour[i] += leak * (outside.moisture - rooms_[i].moisture);
+  }
+  for (const Opening& opening : openings) {
+    const double flow = doorway_flow(opening, at(opening.first), at(opening.second));
+    for (const auto& [here, there] :
+         {std::pair(opening.first, opening.second), std::pair(opening.second, opening.first)}) {
+      if (here < 0) continue;
+      const auto i = static_cast<std::size_t>(here);
+      power[i] += kDensity * kHeat * flow * (at(there).temperature - rooms_[i].temperature);
+      vapour[i] += flow * (at(there).moisture - rooms_[i].moisture);
+    }
+  }
+  for (std::size_t i = 0; i < rooms_.size(); ++i) {
+    const double capacity = settings_.heat_capacity * kDensity * kHeat * volumes_[i];
+    Air& room = rooms_[i];
+    room.temperature += power[i] * seconds / capacity;
+    // What air cannot hold is dew on the panes.
+    room.moisture = std::clamp(room.moisture + vapour[i] * seconds / volumes_[i], 0.0,
+                               moisture_of(room.temperature, 100.0));
+  }
+}
+
+}  // namespace angen::devices

@@ -1,0 +1,41 @@
+#include "plugin/register.h"
+
+namespace angen::devices {
+
+/// An RFID tag on its model: an id, and where it sticks. It does nothing but be read.
+class Tag : public Device {
+ public:
+  void configure(Params& params, Wiring& wiring) override {
+    id_ = params.text("id", wiring.model(), "what a reader reads; the model's name unless given");
+    params.text("device_name", "", "the name commands use, instead of MODEL_tag");
+    const auto places = params.rows("position", 3, "m", "x y z in the model's frame; 0 0 0");
+    if (places.size() > 1) throw params.error("position", "a tag has one <position>");
+    if (!places.empty()) position_ = places.front();
+  }
+
+  void update(const View&, Outputs&) override {}
+  Nanoseconds idle_until(const View&) const override { return kForever; }
+
+  void report(const View&, Reading& state) const override {
+    state.set("id", id_);
+    state.set("position", position_);
+  }
+
+ private:
+  std::string id_;
+  std::vector<double> position_{0.0, 0.0, 0.0};
+};
+
+class TagPlugin : public Plugin {
+ public:
+  std::string kind() const override { return "tag"; }
+  std::string doc() const override { return "An RFID tag on a model."; }
+  bool serves(const ModelInfo&) const override { return true; }
+  // Not the model's own, which is that of what it does.
+  std::string instance_name(const ModelInfo& model) const override { return model.name + "_tag"; }
+  std::unique_ptr<Device> make_device() const override { return std::make_unique<Tag>(); }
+};
+
+}  // namespace angen::devices
+
+ANGEN_REGISTER_PLUGIN(angen::devices::TagPlugin)

@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <optional>
+#include <sstream>
+
+#include "plugin/register.h"
+#include "sensors/watched.h"
+
+namespace angen::sensors {
+
+namespace {
+
+constexpr double kStandardGravity = 9.80665;  // m/s^2, what scales are marked by
+
+}  // namespace
+
+/// A mat that closes its contact under a load: what presses on it, along its own -z.
+class PressureMat : public Sensor {
+ public:
+  double default_rate() const override { return 1.0; }
+  Nanoseconds sample_period() const override { return sample_period_; }
+
+  void configure(Params& params, Wiring& wiring) override {
+    threshold_ = params.number("threshold", 10.0, "kg", "it fires above this load", kPositive);
+    release_ = params.number("release", 0.8 * threshold_, "kg",
+                             "and is free below this one; 0.8 of the threshold unless given",
+                             {0.0, threshold_});
+    const double sample_rate =
+        params.number("sample_rate", 100.0, "Hz", "how often it looks", {1e-3, 1e6});
+    sample_period_ = from_seconds(1.0 / sample_rate);
+    debounce_ = from_seconds(params.number(
+        "debounce", 0.05, "s", "a load counts when it has been there so long", kNotNegative));
+    noise_stddev_ = params.number("noise_stddev", 0.0, "kg", "of a load", kNotNegative);
+    collisions_ = read_watched(params, wiring, "a pressure mat");
+  }
+
+  void read(const View& view, Hits, Rng& rng, Reading& reading) override {
+    const double load = load_on(view) + (noise_stddev_ > 0.0 ? noise_stddev_ * rng.gaussian() : 0);
+    const bool wanted = pressed_ ? load > release_ : load > threshold_;
+    if (settled(wanted, view.time())) {
+      std::ostringstream detail;
+      detail << "load " << load << " kg";
+      reading.event = pressed_ ? "pressed" : "released";
+      reading.event_detail = detail.str();
+      reading.urgent = true;
+    }
+    reading.set("pressed", pressed_);
+    reading.set("load", load);
+    reading.set("threshold", threshold_);
+  }
+
+  Rest rest() const override {
+    // Noise may press it, and it may wait for the end of a debounce.
+    return noise_stddev_ > 0.0 || changed_at_ ? Rest::kBusy : Rest::kSame;
+  }
+
+ private:
+  // True when a change that began a debounce ago or earlier has lasted until now.
+  bool settled(bool wanted, Nanoseconds now) {
+    if (wanted == pressed_) {
+      changed_at_.reset();
+      return false;
+    }
+    if (!changed_at_) changed_at_ = now;
+    if (now - *changed_at_ < debounce_) return false;
+    changed_at_.reset();
+    pressed_ = wanted;
+    return true;
+  }
+
+  // kg; what pulls it upwards is no load.
+  double load_on(const View& view) const {
+    const Vec3 down = view.pose().rotation * -Vec3::UnitZ();
+    double force = 0.0;
+    for (const ContactRef collision : collisions_) {
+      for (const ContactPair& pair : view.contacts(collision)) {
+        for (const ContactPoint& point : pair.points) force += point.force.dot(down);
+      }
+    }
+    return std::max(0.0, force) / kStandardGravity;
+  }
+
+  std::vector<ContactRef> collisions_;
+  double threshold_ = 0.0;     // kg
+  double release_ = 0.0;       // kg
+  double noise_stddev_ = 0.0;  // kg
+  Nanoseconds sample_period_ = kSecond / 100;
+  Nanoseconds debounce_ = 0;
+  std::optional<Nanoseconds> changed_at_;  // since when the load has said otherwise
+  bool pressed_ = false;
+};
+
+ANGEN_REGISTER_SENSOR(PressureMat, "pressure", "A mat that fires under a load.")
+
+}  // namespace angen::sensors

@@ -1,0 +1,72 @@
+#include <cmath>
+#include <optional>
+#include <sstream>
+
+#include "plugin/register.h"
+
+namespace angen::sensors {
+
+/// A reed contact: it closes when the magnet on another link of its model comes near, and opens
+/// when that has gone a little farther.
+class Reed : public Sensor {
+ public:
+  double default_rate() const override { return 1.0; }
+  Nanoseconds sample_period() const override { return sample_period_; }
+
+  void configure(Params& params, Wiring& wiring) override {
+    const std::string link =
+        params.text("magnet_link", "", "link of the same model that carries the magnet");
+    const auto places =
+        params.rows("magnet", 3, "m", "x y z of the magnet in the frame of its link; 0 0 0");
+    operate_ = params.number("operate_distance", 0.015, "m", "closes when it is nearer", kPositive);
+    release_ =
+        params.number("release_distance", 0.02, "m", "opens when it is farther", {operate_, 1e3});
+    const double sample_rate =
+        params.number("sample_rate", 100.0, "Hz", "how often it looks", {1e-3, 1e6});
+    sample_period_ = from_seconds(1.0 / sample_rate);
+
+    if (places.size() > 1) throw params.error("magnet", "a reed contact has one <magnet>");
+    if (!places.empty()) magnet_ = Vec3(places[0][0], places[0][1], places[0][2]);
+    if (link.empty()) {
+      throw params.error("magnet_link",
+                         "a reed contact needs the <magnet_link> that moves past it");
+    }
+    try {
+      magnet_link_ = wiring.link(link);
+    } catch (const Error& problem) {
+      throw params.error("magnet_link", problem.diagnostics().front().message);
+    }
+  }
+
+  void read(const View& view, Hits, Rng&, Reading& reading) override {
+    const Vec3 magnet = view.link(magnet_link_).pose * magnet_;
+    const double distance = (magnet - view.pose().position).norm();
+    const bool closed = closed_.value_or(false) ? distance <= release_ : distance <= operate_;
+    if (closed_ && closed != *closed_) {
+      std::ostringstream detail;
+      detail << "magnet at " << distance << " m";
+      reading.event = closed ? "closed" : "opened";
+      reading.event_detail = detail.str();
+      reading.urgent = true;
+    }
+    closed_ = closed;
+    reading.set("closed", closed);
+    reading.set("distance", distance);
+    reading.set("operate_distance", operate_);
+    reading.set("release_distance", release_);
+  }
+
+  Rest rest() const override { return Rest::kSame; }
+
+ private:
+  LinkRef magnet_link_;
+  Vec3 magnet_ = Vec3::Zero();  // m, in its link
+  double operate_ = 0.0;        // m
+  double release_ = 0.0;        // m
+  Nanoseconds sample_period_ = kSecond / 100;
+  std::optional<bool> closed_;  // none before the first look
+};
+
+ANGEN_REGISTER_SENSOR(Reed, "reed", "A reed contact and its magnet on what opens.")
+
+}  // namespace angen::sensors

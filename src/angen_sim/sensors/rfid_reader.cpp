@@ -1,0 +1,89 @@
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+
+#include "plugin/register.h"
+
+namespace angen::sensors {
+
+namespace {
+
+constexpr double kSkin = 0.01;  // m: a tag's own thickness on what carries it
+
+}  // namespace
+
+/// Reads the tags that it sees: nearer than its range, within its beam, with nothing between.
+class RfidReader : public Sensor {
+ public:
+  void configure(Params& params, Wiring&) override {
+    range_ = params.number("max_range", 2.0, "m", "farther tags are not read", kPositive);
+    const double beam = params.number("beam_angle", 2.1, "rad", "full angle of its cone about x",
+                                      {1e-3, 2.0 * M_PI});
+    least_cosine_ = std::cos(0.5 * beam);
+  }
+
+  void aim(const View& view, RayBatch& rays) override {
+    candidates_.clear();
+    const Pose reader = view.pose();
+    const Vec3 ahead = reader.rotation * Vec3::UnitX();
+    for (const DeviceView& device : view.devices()) {
+      if (device.kind != "tag") continue;
+      const auto place = device.state.get<std::vector<double>>("position");
+      if (place.size() != 3) continue;
+      const Vec3 way = device.pose * Vec3::Map(place.data()) - reader.position;
+      const double distance = way.norm();
+      if (distance > range_ || distance <= kSkin) continue;
+      if (ahead.dot(way) < least_cosine_ * distance) continue;
+      candidates_.push_back({device.state.get<std::string>("id"), distance});
+      rays.push_back({reader.position, way / distance, 0.0, distance - kSkin});
+    }
+  }
+
+  void read(const View&, Hits hits, Rng&, Reading& reading) override {
+    std::map<std::string, double> seen;  // by id
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      if (!hits[i].hit()) seen.emplace(candidates_[i].id, candidates_[i].distance);
+    }
+    std::vector<std::string> ids;
+    std::vector<double> distances;
+    for (const auto& [id, distance] : seen) {
+      ids.push_back(id);
+      distances.push_back(distance);
+    }
+    tell_change(ids, reading);
+    reading.set("ids", std::move(ids));
+    reading.set("distances", std::move(distances));
+  }
+
+  Rest rest() const override { return Rest::kSame; }
+
+ private:
+  struct Candidate {
+    std::string id;
+    double distance = 0.0;  // m
+  };
+
+  // One event a look: what came, or where nothing came what went.
+  void tell_change(const std::vector<std::string>& ids, Reading& reading) {
+    std::vector<std::string> came;
+    std::vector<std::string> gone;
+    std::set_difference(ids.begin(), ids.end(), last_.begin(), last_.end(),
+                        std::back_inserter(came));
+    std::set_difference(last_.begin(), last_.end(), ids.begin(), ids.end(),
+                        std::back_inserter(gone));
+    last_ = ids;
+    if (came.empty() && gone.empty()) return;
+    reading.event = came.empty() ? "lost" : "read";
+    reading.event_detail = join_names(came.empty() ? gone : came);
+  }
+
+  double range_ = 0.0;  // m
+  double least_cosine_ = 0.0;
+  std::vector<Candidate> candidates_;  // as the rays of this look
+  std::vector<std::string> last_;      // sorted
+};
+
+ANGEN_REGISTER_SENSOR(RfidReader, "rfid", "Reads RFID tags in its range and sight.")
+
+}  // namespace angen::sensors

@@ -1,0 +1,198 @@
+"""The small sensors of the catalog, and what they watch."""
+from __future__ import annotations
+
+from math import pi
+from pathlib import Path
+
+from .devices import add_ray, add_sensor
+from .sdf import (Color, Part, add, add_fixed, add_joint, add_link, add_plugin, add_pose, new_model,
+                  numbers, spanned, write_model)
+
+GREY: Color = (0.35, 0.36, 0.38)
+STEEL: Color = (0.75, 0.75, 0.78)
+REED_GAP = 0.012        # from the reed to the magnet where a leaf is shut
+WINDOW = (1.0, 1.2)     # width and height of its opening
+
+
+def write_catalog(models: Path) -> None:
+    """Writes every model of this module under models."""
+    write_proximity(models)
+    write_pressure_mat(models)
+    write_window(models)
+    write_wall_cabinet(models)
+    write_rfid_reader(models)
+    write_rfid_tag(models)
+    write_smart_plug(models)
+    write_heater(models)
+    for kind, title in (("temperature", "Temperature sensor"), ("humidity", "Humidity sensor")):
+        _write_air_sensor(models, kind, title)
+
+
+def write_proximity(models: Path) -> None:
+    """Writes models/proximity: an ultrasonic ranger whose two eyes look along x."""
+    root, model = new_model("proximity", static=True)
+    eyes = [Part(f"eye_{side}", (0.008, 0.012), (-0.006, y, 0), (0, pi / 2, 0), material=STEEL,
+                 collide=False) for side, y in (("left", 0.013), ("right", -0.013))]
+    board = spanned("board", (-0.02, -0.023, -0.01), (-0.012, 0.023, 0.01),
+                    material=(0.1, 0.25, 0.5), collide=False)
+    link = add_link(model, "sensor", [board, *eyes], moves=False)
+    sensor = add_sensor(link, "proximity", "ray", 10)
+    add(sensor, "visualize", "true")
+    add_ray(sensor, (5, 0.13), (5, 0.13), (0.02, 4.0), 0.002)
+    add_plugin(sensor, "proximity", "libgazebo_ros_range.so", radiation="ultrasound")
+    write_model(root, models, "Proximity sensor",
+                "The nearest thing within 15 degrees, 0.02 to 4 m, 10 Hz, looking along x. "
+                "Served by libgazebo_ros_range.so.")
+
+
+def write_pressure_mat(models: Path) -> None:
+    """Writes models/pressure_mat: 0.9 x 0.6 m, 5 mm high, origin at its middle on the floor."""
+    root, model = new_model("pressure_mat", static=True)
+    mat = spanned("mat", (-0.45, -0.3, 0.0), (0.45, 0.3, 0.005), material=GREY)
+    link = add_link(model, "mat", [mat], moves=False)
+    sensor = add_sensor(link, "pressure", "contact", 1)
+    add(add(sensor, "contact"), "collision", "mat_collision")
+    add_plugin(sensor, "pressure_mat", "libpressure_mat.so", threshold=10)
+    write_model(root, models, "Pressure mat",
+                "A mat of 0.9 x 0.6 m that fires above 10 kg. Served by libpressure_mat.so.")
+
+
+def _add_reed(base, place: tuple[float, float, float], leaf: str,
+              magnet: tuple[float, float, float]) -> None:
+    sensor = add_sensor(base, "reed", "custom", 1)
+    add_pose(sensor, place)
+    add_plugin(sensor, "reed", "libreed_contact.so", magnet_link=leaf, magnet=numbers(*magnet))
+
+
+def write_window(models: Path) -> None:
+    """Writes models/window: origin on the hinge at the sill, x along the shut sash.
+
+    It fits an opening of 1.0 x 1.2 m in a wall 0.1 m thick; the sash opens towards -y.
+    """
+    width, height = WINDOW
+    root, model = new_model("window")
+    trim = {"material": (0.93, 0.93, 0.92), "mass": 0.3, "collide": False}
+    frame = [
+        spanned("left", (-0.05, 0.003, -0.05), (-0.005, 0.06, height + 0.05), **trim),
+        spanned("right", (width - 0.005, 0.003, -0.05), (width + 0.04, 0.06, height + 0.05),
+                **trim),
+        spanned("sill", (-0.005, 0.003, -0.05), (width - 0.005, 0.06, -0.005), **trim),
+        spanned("head", (-0.005, 0.003, height), (width - 0.005, 0.06, height + 0.05), **trim),
+    ]
+    sash = [
+        spanned("pane", (0.0, 0.0, 0.005), (width - 0.01, 0.04, height - 0.005), mass=18.0,
+                material=(0.55, 0.68, 0.8)),
+        spanned("handle", (width - 0.07, -0.05, height / 2 - 0.06),
+                (width - 0.045, 0.0, height / 2 + 0.06), mass=0.2, material=STEEL, collide=False),
+    ]
+    base = add_link(model, "base", frame)
+    magnet = (width - 0.07, -0.008, height - 0.012)
+    _add_reed(base, (magnet[0], magnet[1], magnet[2] + REED_GAP), "pane", magnet)
+    add_fixed(model, "base_to_world", "world", "base")
+    add_link(model, "pane", sash)
+    add_joint(model, "sash", "revolute", "base", "pane", (0, 0, 1),
+              limits={"lower": -1.57, "upper": 0.001, "effort": 200, "velocity": 3},
+              dynamics={"damping": 0.2, "friction": 0.1})
+    write_model(root, models, "Window",
+                "A hinged window for an opening of 1.0 x 1.2 m, 18 kg, with a reed contact; opens "
+                "from 0 to -1.57 rad towards its -y. Served by libdoor_world_plugin.so.")
+
+
+def write_wall_cabinet(models: Path) -> None:
+    """Writes models/wall_cabinet: origin at its lower left corner on the wall; faces -y.
+
+    Seen from the front the hinge is on the left; x runs along the front.
+    """
+    wide, deep, high, thick = 0.6, 0.3, 0.7, 0.018
+    white: Color = (0.92, 0.9, 0.86)
+    root, model = new_model("wall_cabinet")
+    board = {"mass": 2.0, "material": white}
+    case = [
+        spanned("back", (0.0, -thick, 0.0), (wide, 0.0, high), **board),
+        spanned("left", (0.0, -deep, 0.0), (thick, -thick, high), **board),
+        spanned("right", (wide - thick, -deep, 0.0), (wide, -thick, high), **board),
+        spanned("bottom", (thick, -deep, 0.0), (wide - thick, -thick, thick), **board),
+        spanned("top", (thick, -deep, high - thick), (wide - thick, -thick, high), **board),
+        spanned("shelf", (thick, -deep + 0.03, 0.34), (wide - thick, -thick, 0.355), **board),
+    ]
+    front = [
+        spanned("panel", (0.0, -thick, 0.002), (wide, 0.0, high - 0.002), mass=4.0,
+                material=(0.65, 0.47, 0.28)),
+        spanned("knob", (wide - 0.06, -thick - 0.025, 0.1), (wide - 0.04, -thick, 0.12), mass=0.05,
+                material=STEEL, collide=False),
+    ]
+    base = add_link(model, "base", case)
+    hinge = (0.0, -deep - 0.002, 0.0)
+    magnet = (wide - 0.05, 0.0, high - 0.05)     # on the back of the panel
+    _add_reed(base, (magnet[0], hinge[1] + REED_GAP, magnet[2]), "panel", magnet)
+    add_fixed(model, "base_to_world", "world", "base")
+    add_link(model, "panel", front, at=hinge)
+    add_joint(model, "front", "revolute", "base", "panel", (0, 0, 1),
+              limits={"lower": -1.57, "upper": 0.001, "effort": 50, "velocity": 3},
+              dynamics={"damping": 0.05, "friction": 0.05})
+    add_plugin(model, "cabinet_controller", "libdoor_world_plugin.so", p=20, i=20, d=4,
+               brake_torque=1, latch_torque=10, edge_force_max=40)
+    write_model(root, models, "Wall cabinet",
+                "A cabinet of 0.6 x 0.3 x 0.7 m with a hinged front and a reed contact. "
+                "Served by libdoor_world_plugin.so.")
+
+
+def write_rfid_reader(models: Path) -> None:
+    """Writes models/rfid_reader: a flat antenna that looks along x."""
+    root, model = new_model("rfid_reader", static=True)
+    antenna = spanned("antenna", (-0.04, -0.12, -0.12), (-0.005, 0.12, 0.12), collide=False)
+    link = add_link(model, "reader", [antenna], moves=False)
+    sensor = add_sensor(link, "rfid", "custom", 10)
+    add_plugin(sensor, "rfid_reader", "librfid_reader.so", max_range=2.0)
+    write_model(root, models, "RFID reader",
+                "Reads tags that it sees within 2 m and 120 degrees. Served by librfid_reader.so.")
+
+
+def write_rfid_tag(models: Path) -> None:
+    """Writes models/rfid_tag: a card that lies flat."""
+    root, model = new_model("rfid_tag", static=True)
+    card = spanned("card", (-0.043, -0.027, 0.0), (0.043, 0.027, 0.001),
+                   material=(0.2, 0.55, 0.75), collide=False)
+    add_link(model, "card", [card], moves=False)
+    add_plugin(model, "tag", "librfid_tag.so")
+    write_model(root, models, "RFID tag",
+                "A card that an RFID reader reads by its model's name. Served by librfid_tag.so.")
+
+
+def write_smart_plug(models: Path) -> None:
+    """Writes models/smart_plug: a round plug on a wall, x into the room."""
+    root, model = new_model("smart_plug", static=True)
+    body = Part("body", (0.028, 0.06), (0.03, 0, 0), (0, pi / 2, 0), collide=False)
+    button = Part("button", (0.006, 0.004), (0.061, 0, 0.012), (0, pi / 2, 0), collide=False,
+                  material=(0.2, 0.7, 0.3))
+    link = add_link(model, "plug", [body, button], moves=False)
+    sensor = add_sensor(link, "plug", "custom", 1)
+    add_plugin(sensor, "smart_plug", "libsmart_plug.so", load="")
+    write_model(root, models, "Smart plug",
+                "Reports the power and energy of the device that its <load> names. "
+                "Served by libsmart_plug.so.")
+
+
+def write_heater(models: Path) -> None:
+    """Writes models/heater: a convector of 1 kW, back to the wall, x into the room."""
+    root, model = new_model("heater", static=True)
+    parts = [
+        spanned("body", (0.02, -0.3, 0.1), (0.12, 0.3, 0.5)),
+        spanned("grille", (0.03, -0.28, 0.5), (0.11, 0.28, 0.505), material=GREY, collide=False),
+        spanned("foot_left", (0.0, 0.2, 0.0), (0.16, 0.24, 0.1), material=GREY),
+        spanned("foot_right", (0.0, -0.24, 0.0), (0.16, -0.2, 0.1), material=GREY),
+    ]
+    add_link(model, "heater", parts, moves=False)
+    add_plugin(model, "heater", "libheater.so", power=1000)
+    write_model(root, models, "Heater",
+                "An electric convector of 1 kW, off at the start. Served by libheater.so.")
+
+
+def _write_air_sensor(models: Path, kind: str, title: str) -> None:
+    root, model = new_model(f"{kind}_sensor", static=True)
+    housing = spanned("housing", (-0.02, -0.03, -0.03), (-0.002, 0.03, 0.03), collide=False)
+    link = add_link(model, "sensor", [housing], moves=False)
+    sensor = add_sensor(link, kind, "custom", 1)
+    add_plugin(sensor, f"{kind}_sensor", f"lib{kind}_sensor.so")
+    write_model(root, models, title,
+                f"The {kind} of the air in its room, 1 Hz. Served by lib{kind}_sensor.so.")
