@@ -9,9 +9,9 @@ import socket
 import subprocess
 import sys
 import time
-from contextlib import ExitStack, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
-from typing import Callable
+from typing import Callable, Iterator
 
 from .failure import Failure
 
@@ -95,11 +95,11 @@ class Stage:
 
     def start(self, words: list[str], log: str, **options: object) -> subprocess.Popen[bytes]:
         """Starts a process that Ctrl-C does not reach; its output goes to a file named `log`."""
-        with (self.folder / f'{log}.log').open('wb') as out:
+        with (self.folder / f'{log}.log').open('wb') as out, uninterrupted():
             settings = {'env': self.environment, 'stdout': out, **options}
             process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stderr=out,
                                        start_new_session=True, **settings)  # type: ignore
-        self._all.callback(end, process)
+            self._all.callback(end, process)
         return process
 
     def node(self, world: Path, rate: float, **params: object) -> subprocess.Popen[bytes]:
@@ -152,6 +152,19 @@ class Stage:
             return str(failure)
         self.environment.update(DISPLAY=f':{number.read_text().strip()}', LIBGL_ALWAYS_SOFTWARE='1')
         return None
+
+
+@contextmanager
+def uninterrupted() -> Iterator[None]:
+    """Ctrl-C within it is heard at its end: no process is started and then forgotten."""
+    heard: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, _: heard.append(number))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+    if heard:
+        raise KeyboardInterrupt
 
 
 def end(process: subprocess.Popen[bytes]) -> None:
