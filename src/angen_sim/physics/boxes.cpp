@@ -1,7 +1,5 @@
 #include "physics/boxes.h"
 
-#include <cmath>
-
 namespace angen::physics {
 
 namespace {

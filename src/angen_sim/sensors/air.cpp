@@ -37,4 +37,14 @@ AirHere air_at(const View& view) {
   return outside;
 }
 
+void AirSensor::configure(Params& params, Wiring&) {
+  noise_stddev_ = params.number("noise_stddev", 0.0, unit_, "of a reading", kNotNegative);
+}
+
+void AirSensor::read(const View& view, Hits, Rng& rng, Reading& reading) {
+  const double noise = noise_stddev_ > 0.0 ? noise_stddev_ * rng.gaussian() : 0.0;
+  reading.set(name_, air_at(view).*number_ + noise);
+  reading.set("variance", noise_stddev_ * noise_stddev_);
+}
+
 }  // namespace angen::sensors

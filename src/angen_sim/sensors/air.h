@@ -1,6 +1,6 @@
 #pragma once
 
-#include "plugin/view.h"
+#include "plugin/plugin.h"
 
 namespace angen::sensors {
 
@@ -12,5 +12,24 @@ struct AirHere {
 /// The air at the sensor: its room's, or outside of all rooms that outside. Not a number where the
 /// world has no climate.
 AirHere air_at(const View& view);
+
+/// Reads one of its numbers, with noise.
+class AirSensor : public Sensor {
+ public:
+  AirSensor(const char* name, const char* unit, double AirHere::*number)
+      : name_(name), unit_(unit), number_(number) {}
+
+  double default_rate() const override { return 1.0; }
+  void configure(Params& params, Wiring& wiring) override;
+  void read(const View& view, Hits, Rng& rng, Reading& reading) override;
+  Rest rest() const override { return noise_stddev_ > 0.0 ? Rest::kNoise : Rest::kSame; }
+  bool quiet(Rng) const override { return true; }  // it tells no events
+
+ private:
+  const char* name_;
+  const char* unit_;
+  double AirHere::*number_;
+  double noise_stddev_ = 0.0;  // in that unit
+};
 
 }  // namespace angen::sensors

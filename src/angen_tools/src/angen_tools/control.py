@@ -49,24 +49,24 @@ def _elevator(value: str) -> Order:
     return Order(f'Floor{int(value)}, NAME', lambda s: s.target_floor == int(value))
 
 
-def _lamp(value: str) -> Order:
-    words = {'on': 'On, NAME', 'off': 'Off, NAME'}
-    form = 'a lamp takes on, off or 0 to 100 percent'
+def _percent(value: str, what: str) -> float:
+    form = f'a {what} takes on, off or 0 to 100 percent'
     level = {'on': 100.0, 'off': 0.0}.get(value)
     if level is None:
         level = _number(value.removesuffix('%'), form)
     if not 0 <= level <= 100:
         raise ValueError(f"'{value}' is out of range; {form}")
+    return level
+
+
+def _lamp(value: str) -> Order:
+    level = _percent(value, 'lamp')
+    words = {'on': 'On, NAME', 'off': 'Off, NAME'}
     return Order(words.get(value, f'Dim, NAME, {level!r}'), lambda s: abs(s.level - level) < 1e-9)
 
 
 def _heater(value: str) -> Order:
-    form = 'a heater takes on, off or 0 to 100 percent'
-    level = {'on': 100.0, 'off': 0.0}.get(value)
-    if level is None:
-        level = _number(value.removesuffix('%'), form)
-    if not 0 <= level <= 100:
-        raise ValueError(f"'{value}' is out of range; {form}")
+    level = _percent(value, 'heater')
     return Order(f'Set, NAME, {level!r}', lambda s: abs(fields(s)['level'] - level) < 1e-9)
 
 
