@@ -6,7 +6,9 @@
 #include <numeric>
 
 #include "core/diagnostics.h"
+#include "physics/embody.h"
 #include "physics/joints.h"
+#include "physics/shapes.h"
 
 namespace angen::physics {
 
@@ -14,14 +16,12 @@ namespace {
 
 using desc::Model;
 
-// So much inertia about x and y that no contact tilts a link that stays upright (kg m^2).
-constexpr double kUprightMoment = 1e8;
 constexpr double kNoLimit = 1e15;
 
 class Builder {
  public:
-  Builder(dWorldID world, const Model& model, ShapeFactory& shapes, std::uint64_t& serial)
-      : world_(world), model_(model), shapes_(shapes), serial_(serial) {}
+  Builder(const Model& model, ShapeFactory& shapes, std::uint64_t& serial)
+      : model_(model), shapes_(shapes), serial_(serial) {}
 
   std::unique_ptr<ModelRecord> build() {
     record_ = std::make_unique<ModelRecord>();
@@ -32,6 +32,7 @@ class Builder {
     make_bodies();
     make_geoms();
     for (const desc::Joint& joint : model_.joints) make_joint(joint);
+    make_mechanisms();
     return std::move(record_);
   }
 
@@ -121,18 +122,14 @@ class Builder {
       if (body_of_[i] == &body) links.push_back(&model_.links[i]);
     }
     add_masses(body, links);
-    body.ode.reset(dBodyCreate(world_));
-    dBodySetFiniteRotationMode(body.ode.get(), 1);
     for (const desc::Link* link : links) {
       body.upright = body.upright || link->upright;
       if (link->gravity) continue;
       const Pose com = body.zero.inverse() * link->pose * link->inertial.pose;
       body.weightless.push_back({com.position, link->inertial.mass});
     }
-    if (body.weightless.size() == links.size()) {
-      dBodySetGravityMode(body.ode.get(), 0);
-      body.weightless.clear();
-    }
+    body.floats = body.weightless.size() == links.size();
+    if (body.floats) body.weightless.clear();
   }
 
   // Sums mass, centre and moment over the links, and puts the body's origin in the centre.
@@ -179,20 +176,10 @@ class Builder {
         geom->serial = serial_++;
         geom->body = at.body;
         geom->in_body = at.in_body * collision.pose;
-        if (at.body->dynamic()) attach(*geom);
         at.body->geoms.push_back(geom.get());
         record_->geoms.push_back(std::move(geom));
       }
     }
-  }
-
-  static void attach(Geom& geom) {
-    const Vec3& p = geom.in_body.position;
-    const Quat& q = geom.in_body.rotation;
-    const dQuaternion turn{q.w(), q.x(), q.y(), q.z()};
-    dGeomSetBody(geom.ode.get(), geom.body->ode.get());
-    dGeomSetOffsetPosition(geom.ode.get(), p.x(), p.y(), p.z());
-    dGeomSetOffsetQuaternion(geom.ode.get(), turn);
   }
 
   void make_joint(const desc::Joint& from) {
@@ -214,8 +201,37 @@ class Builder {
     for (const desc::JointAxis& axis : from.axes) {
       joint->axes.push_back(make_axis(axis, joint->flipped));
     }
-    create_joint(world_, *joint);
+    if (moves) measure_joint(*joint);
     record_->joints.push_back(std::move(joint));
+  }
+
+  void make_mechanisms() {
+    for (const auto& body : record_->bodies) {
+      if (!body->dynamic() || body->mechanism != nullptr) continue;
+      record_->mechanisms.push_back(std::make_unique<Mechanism>());
+      Mechanism& mechanism = *record_->mechanisms.back();
+      take_in(*body, mechanism);
+      std::sort(mechanism.bodies.begin(), mechanism.bodies.end(),
+                [](const Body* a, const Body* b) { return a->serial < b->serial; });
+    }
+    for (const auto& joint : record_->joints) {
+      if (joint->first != nullptr) joint->first->mechanism->joints.push_back(joint.get());
+    }
+  }
+
+  static void take_in(Body& start, Mechanism& mechanism) {
+    const auto take = [&](Body& body) {
+      if (!body.dynamic() || body.mechanism != nullptr) return;
+      body.mechanism = &mechanism;
+      mechanism.bodies.push_back(&body);
+    };
+    take(start);
+    for (std::size_t i = 0; i < mechanism.bodies.size(); ++i) {
+      for (const Joint* joint : mechanism.bodies[i]->joints) {
+        take(*joint->first);
+        take(*joint->second);
+      }
+    }
   }
 
   void check_axes(const desc::Joint& joint) const {
@@ -264,7 +280,6 @@ class Builder {
     return axis;
   }
 
-  dWorldID world_;
   const Model& model_;
   ShapeFactory& shapes_;
   std::uint64_t& serial_;
@@ -272,45 +287,6 @@ class Builder {
   std::vector<std::size_t> group_;  // of each link and, last, the world
   std::vector<Body*> body_of_;
 };
-
-void set_mass(Body& body) {
-  Eigen::Matrix3d moment = body.moment;
-  if (body.upright) {
-    const Vec3 up = body.at.rotation.conjugate() * Vec3::UnitZ();
-    const double about_up = up.dot(moment * up);
-    moment = kUprightMoment * (Eigen::Matrix3d::Identity() - up * up.transpose()) +
-             about_up * up * up.transpose();
-  }
-  dMass mass;
-  dMassSetZero(&mass);
-  mass.mass = body.mass;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) mass.I[4 * row + column] = moment(row, column);
-  }
-  dBodySetMass(body.ode.get(), &mass);
-}
-
-void put(Body& body, const Pose& at) {
-  body.at = at;
-  if (!body.dynamic()) {
-    for (Geom* geom : body.geoms) place_static(*geom, at);
-    return;
-  }
-  ode::set_pose(body.ode.get(), at);
-  // What ODE keeps is the quaternion normalized once more.
-  body.at.rotation = ode::quat(dBodyGetQuaternion(body.ode.get()));
-}
-
-void put_at_rest(Body& body, const Pose& at) {
-  put(body, at);
-  if (!body.dynamic()) return;
-  dBodySetLinearVel(body.ode.get(), 0.0, 0.0, 0.0);
-  dBodySetAngularVel(body.ode.get(), 0.0, 0.0, 0.0);
-  dBodySetForce(body.ode.get(), 0.0, 0.0, 0.0);
-  dBodySetTorque(body.ode.get(), 0.0, 0.0, 0.0);
-  body.upright_at = body.at.rotation;
-  set_mass(body);
-}
 
 // Displaces what hangs on each joint by its initial position, from the roots outwards.
 void displace(ModelRecord& record) {
@@ -329,22 +305,31 @@ void displace(ModelRecord& record) {
       seen.push_back(joint->first);
       queue.emplace_back(joint->first, moved * joint_displacement(*joint));
     }
-    if (!(moved == Pose{})) put_at_rest(*body, record.pose * moved * body->zero);
+    if (!(moved == Pose{})) body->at = record.pose * moved * body->zero;
   }
 }
 
 }  // namespace
 
-std::unique_ptr<ModelRecord> build_model(dWorldID world, const Model& model, ShapeFactory& shapes,
+std::unique_ptr<ModelRecord> build_model(const Model& model, ShapeFactory& shapes,
                                          std::uint64_t& serial) {
-  return Builder(world, model, shapes, serial).build();
+  return Builder(model, shapes, serial).build();
 }
 
-void configure(ModelRecord& record, const Pose& pose) {
+void configure(dWorldID world, ModelRecord& record, const Pose& pose) {
   record.pose = pose;
-  for (const auto& body : record.bodies) put_at_rest(*body, pose * body->zero);
-  for (const auto& joint : record.joints) anchor_joint(*joint, pose);
+  for (const auto& body : record.bodies) body->at = pose * body->zero;
   displace(record);
+  for (const auto& mechanism : record.mechanisms) {
+    disembody(*mechanism);
+    for (Body* body : mechanism->bodies) body->upright_at = body->at.rotation;
+    embody(world, *mechanism);
+    // What ODE keeps is the quaternion normalized once more.
+    for (Body* body : mechanism->bodies) {
+      body->at.rotation = ode::quat(dBodyGetQuaternion(body->ode.get()));
+    }
+  }
+  for (const auto& geom : record.geoms) follow_body(*geom);
   for (const auto& joint : record.joints) reset_joint(*joint);
 }
 

@@ -9,11 +9,11 @@ namespace angen::physics {
 /// together become one body, so that they never sag; one fixed to the world is static, and so are
 /// kinematic links, which nothing but place() moves. Serials count on from `serial`.
 /// Throws Error for what no body can be made of.
-std::unique_ptr<ModelRecord> build_model(dWorldID world, const desc::Model& model,
-                                         ShapeFactory& shapes, std::uint64_t& serial);
+std::unique_ptr<ModelRecord> build_model(const desc::Model& model, ShapeFactory& shapes,
+                                         std::uint64_t& serial);
 
 /// Puts a model's frame at `pose`, its joints at their initial positions and all velocities to
-/// zero.
-void configure(ModelRecord& record, const Pose& pose);
+/// zero. ODE has all of it afterwards.
+void configure(dWorldID world, ModelRecord& record, const Pose& pose);
 
 }  // namespace angen::physics

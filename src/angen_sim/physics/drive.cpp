@@ -15,7 +15,7 @@ constexpr double kSameSpeed = 1e-3;  // m/s
 constexpr double kArm = 0.25;        // m; the turning torque is the force on this arm
 
 void make_motors(dWorldID world, Body& body) {
-  Drive drive;
+  Drive& drive = *body.drive;
   drive.linear.reset(dJointCreateLMotor(world, nullptr));
   dJointAttach(drive.linear.get(), body.ode.get(), nullptr);
   dJointSetLMotorNumAxes(drive.linear.get(), 2);
@@ -23,7 +23,6 @@ void make_motors(dWorldID world, Body& body) {
   dJointAttach(drive.angular.get(), body.ode.get(), nullptr);
   dJointSetAMotorNumAxes(drive.angular.get(), 1);
   dJointSetAMotorAxis(drive.angular.get(), 0, 0, 0.0, 0.0, 1.0);
-  body.drive = std::move(drive);
 }
 
 void apply(Drive& drive, const Vec3& velocity) {
@@ -45,6 +44,11 @@ void apply(Drive& drive, const Vec3& velocity) {
 
 }  // namespace
 
+void make_drive(dWorldID world, Body& body) {
+  make_motors(world, body);
+  apply(*body.drive, body.velocity());
+}
+
 bool set_drive(dWorldID world, Body& body, const Vec3& velocity, double yaw_rate,
                double max_force) {
   const Vec3 flat(velocity.x(), velocity.y(), 0.0);
@@ -53,16 +57,18 @@ bool set_drive(dWorldID world, Body& body, const Vec3& velocity, double yaw_rate
     body.drive.reset();
     return had;
   }
-  if (!body.drive) {
-    make_motors(world, body);
-  } else if (body.drive->velocity == flat && body.drive->yaw_rate == yaw_rate &&
-             body.drive->max_force == max_force) {
+  const bool had = body.drive.has_value();
+  if (!had) body.drive.emplace();
+  Drive& drive = *body.drive;
+  if (had && drive.velocity == flat && drive.yaw_rate == yaw_rate && drive.max_force == max_force) {
     return false;
   }
-  body.drive->velocity = flat;
-  body.drive->yaw_rate = yaw_rate;
-  body.drive->max_force = max_force;
-  apply(*body.drive, body.velocity());
+  drive.velocity = flat;
+  drive.yaw_rate = yaw_rate;
+  drive.max_force = max_force;
+  if (body.ode == nullptr) return true;
+  if (drive.linear == nullptr) make_motors(world, body);
+  apply(drive, body.velocity());
   return true;
 }
 

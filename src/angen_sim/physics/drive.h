@@ -4,6 +4,9 @@
 
 namespace angen::physics {
 
+/// Makes the motor of a body that ODE has, as body.drive says.
+void make_drive(dWorldID world, Body& body);
+
 /// Sets a body's motor in the plane; returns false when nothing changed. World::drive says the
 /// rest.
 bool set_drive(dWorldID world, Body& body, const Vec3& velocity, double yaw_rate, double max_force);

@@ -22,6 +22,8 @@ struct World::Impl {
   /// Wakes sleeping bodies whose boxes overlap those of a model that came, left or moved.
   void wake_near(ModelRecord& model);
   void settle(ModelRecord& model, const Pose& pose);
+  /// Lets ODE have a body that is awake.
+  void give_to_ode(Body& body);
   Joint& joint_at(JointId id) { return *joints.at(id); }
 
   double h;  // s

@@ -120,8 +120,13 @@ bool turns(const Joint& joint) {
 
 }  // namespace
 
+void measure_joint(Joint& joint) {
+  joint.anchor_in_first = joint.first->zero.inverse() * joint.anchor;
+  if (joint.type == Type::kBall) return;
+  joint.axis_in_body = axis_body(joint).zero.rotation.conjugate() * joint.axes[0].in_model;
+}
+
 void create_joint(dWorldID world, Joint& joint) {
-  if (joint.first == nullptr) return;
   joint.main = make_main(world, joint.type);
   dJointAttach(joint.main.get(), ode_of(joint.first), ode_of(joint.second));
   dJointSetFeedback(joint.main.get(), &joint.main_feedback);
@@ -144,18 +149,14 @@ void create_joint(dWorldID world, Joint& joint) {
   apply_motor(joint);
 }
 
-void anchor_joint(Joint& joint, const Pose& model) {
-  if (joint.first == nullptr) return;
+void anchor_joint(const Joint& joint, const Pose& model) {
   const Vec3 anchor = model * joint.anchor;
-  const Pose to_first = joint.first->at.inverse();
-  joint.anchor_in_first = to_first * anchor;
   dJointID main = joint.main.get();
   if (joint.type == Type::kBall) {
     dJointSetBallAnchor(main, anchor.x(), anchor.y(), anchor.z());
     return;
   }
   const Vec3 axis = model.rotation * joint.axes[0].in_model;
-  joint.axis_in_body = axis_body(joint).at.rotation.conjugate() * axis;
   if (joint.type == Type::kUniversal) {
     const Vec3 other = model.rotation * joint.axes[1].in_model;
     const Vec3& one = joint.flipped ? axis : other;
@@ -197,7 +198,7 @@ void reset_joint(Joint& joint) {
   }
 }
 
-void apply_motor(Joint& joint) {
+void apply_motor(const Joint& joint) {
   const bool on = joint.motor_force > 0.0;
   const double velocity = on ? joint.motor_velocity : 0.0;
   const double force = on ? joint.motor_force : joint.axes[0].friction;

@@ -4,19 +4,21 @@
 
 namespace angen::physics {
 
-/// Makes ODE's objects for a joint whose bodies are known; a joint without a dynamic body stays
-/// empty.
+/// Finds axis and anchor in the frames of the joint's bodies, of which one is dynamic.
+void measure_joint(Joint& joint);
+
+/// Makes ODE's objects for a joint whose dynamic bodies ODE has.
 void create_joint(dWorldID world, Joint& joint);
 
-/// Tells ODE anchor, axes and zero position; the bodies must stand where all joints are at 0.
-void anchor_joint(Joint& joint, const Pose& model);
+/// Tells ODE anchor, axes and zero position; its bodies must stand where all joints are at 0.
+void anchor_joint(const Joint& joint, const Pose& model);
 
 /// Reads the angle anew after its bodies were put somewhere, near `initial` for joints that turn
 /// on.
 void reset_joint(Joint& joint);
 
-/// Sets motor, or dry friction where there is none.
-void apply_motor(Joint& joint);
+/// Sets motor, or dry friction where there is none, of a joint that ODE has.
+void apply_motor(const Joint& joint);
 
 /// Reads position and effort after a step.
 void update_joint(Joint& joint);
@@ -24,7 +26,8 @@ void update_joint(Joint& joint);
 /// Speed of the first axis, rad/s or m/s.
 double joint_velocity(const Joint& joint);
 
-/// Adds a force or torque for the next step, within the axis' effort and velocity limits.
+/// Adds a force or torque for the next step, within the axis' effort and velocity limits. ODE must
+/// have the joint's bodies.
 void push_joint(Joint& joint, double force);
 
 /// The displacement that `position` of the first axis gives the child, in the model's frame at 0.

@@ -79,7 +79,7 @@ struct Joint {
   bool flipped = false;
   Vec3 anchor = Vec3::Zero();  // in the model's frame, all joints at 0
   std::vector<Axis> axes;
-  ode::JointHandle main;   // the constraint with its stops
+  ode::JointHandle main;   // the constraint with its stops; null as its bodies'
   ode::JointHandle motor;  // first row: motor, brake or dry friction; second row: damping
   dJointFeedback main_feedback{};
   dJointFeedback motor_feedback{};
@@ -95,7 +95,7 @@ struct Joint {
 
 /// A motor on one body in the horizontal plane.
 struct Drive {
-  ode::JointHandle linear;
+  ode::JointHandle linear;  // null as their body's
   ode::JointHandle angular;
   Vec3 velocity = Vec3::Zero();
   double yaw_rate = 0.0;
@@ -108,16 +108,24 @@ struct Weightless {
   double mass = 0.0;
 };
 
+/// Dynamic bodies that joints hold together, or one alone: they wake and sleep as one.
+struct Mechanism {
+  std::vector<Body*> bodies;   // by serial
+  std::vector<Joint*> joints;  // also those to static bodies
+};
+
 /// One or more links that are fixed to each other. Its frame has the axes of its first link and its
 /// origin in the common centre of mass.
 struct Body {
   ModelRecord* model = nullptr;
   std::uint64_t serial = 0;
-  ode::BodyHandle ode;  // null: static
-  Pose zero;            // in the model's frame, all joints at 0
-  Pose at;              // in the world
+  Mechanism* mechanism = nullptr;  // null: static
+  ode::BodyHandle ode;             // null while it sleeps
+  Pose zero;                       // in the model's frame, all joints at 0
+  Pose at;                         // in the world
   double mass = 0.0;
   Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();  // about the centre of mass, in its own axes
+  bool floats = false;                               // gravity leaves all of it alone
   bool upright = false;
   Quat upright_at = Quat::Identity();  // the rotation that yaw is counted from
   bool may_sleep = true;
@@ -132,7 +140,7 @@ struct Body {
   std::vector<Weightless> weightless;
   std::optional<Drive> drive;
 
-  bool dynamic() const { return ode != nullptr; }
+  bool dynamic() const { return mass > 0.0; }
   Vec3 velocity() const { return ode ? ode::vec(dBodyGetLinearVel(ode.get())) : Vec3::Zero(); }
   Vec3 spin() const { return ode ? ode::vec(dBodyGetAngularVel(ode.get())) : Vec3::Zero(); }
 };
@@ -151,6 +159,7 @@ struct ModelRecord {
   std::vector<JointId> joint_ids;
   std::vector<LinkRecord> links;              // as in the description, until ids are given
   std::vector<std::unique_ptr<Body>> bodies;  // destroyed after joints and geoms
+  std::vector<std::unique_ptr<Mechanism>> mechanisms;
   std::vector<std::unique_ptr<Geom>> geoms;
   std::vector<std::unique_ptr<Joint>> joints;  // as in the description
 };

@@ -108,8 +108,8 @@ std::unique_ptr<Geom> ShapeFactory::make(const desc::Collision& collision, const
   return geom;
 }
 
-void place_static(Geom& geom, const Pose& body) {
-  const Pose at = body * geom.in_body;
+void follow_body(Geom& geom) {
+  const Pose at = geom.body->at * geom.in_body;
   if (geom.is_plane) {
     const Vec3 normal = at.rotation * Vec3::UnitZ();
     dGeomPlaneSetParams(geom.ode.get(), normal.x(), normal.y(), normal.z(),
@@ -117,9 +117,6 @@ void place_static(Geom& geom, const Pose& body) {
   } else {
     ode::set_pose(geom.ode.get(), at);
   }
-}
-
-void update_box(Geom& geom) {
   dReal b[6];
   dGeomGetAABB(geom.ode.get(), b);
   geom.box = {{b[0], b[2], b[4]}, {b[1], b[3], b[5]}};

@@ -24,10 +24,7 @@ class ShapeFactory {
       meshes_;
 };
 
-/// Puts a geom of a static body at `body * in_body`; those of dynamic bodies follow by themselves.
-void place_static(Geom& geom, const Pose& body);
-
-/// Reads the geom's box from ODE.
-void update_box(Geom& geom);
+/// Puts a geom where its body stands, and finds its box there.
+void follow_body(Geom& geom);
 
 }  // namespace angen::physics

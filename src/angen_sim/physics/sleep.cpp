@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "physics/embody.h"
+#include "physics/shapes.h"
+
 namespace angen::physics {
 
 namespace {
@@ -24,9 +27,8 @@ bool motor_turns(const Body& body) {
 
 void put_to_sleep(Body& body) {
   body.awake = false;
-  dBodySetLinearVel(body.ode.get(), 0.0, 0.0, 0.0);
-  dBodySetAngularVel(body.ode.get(), 0.0, 0.0, 0.0);
-  dBodyDisable(body.ode.get());
+  if (body.ode != nullptr) disembody(*body.mechanism);
+  for (Geom* geom : body.geoms) follow_body(*geom);
 }
 
 class Islands {
@@ -52,12 +54,12 @@ class Islands {
 
 }  // namespace
 
-void wake_body(Body& body, std::vector<Body*>& awake) {
-  body.idle_steps = 0;
+void rouse(Body& body, std::vector<Body*>& awake) {
   if (body.awake) return;
-  body.awake = true;
-  dBodyEnable(body.ode.get());
-  awake.push_back(&body);
+  for (Body* part : body.mechanism->bodies) {
+    part->awake = true;
+    awake.push_back(part);
+  }
 }
 
 bool let_sleep(std::vector<Body*>& awake, const Contacts& contacts, double h) {

@@ -3,6 +3,7 @@
 #include "physics/drive.h"
 #include "physics/impl.h"
 #include "physics/joints.h"
+#include "physics/shapes.h"
 #include "physics/sleep.h"
 #include "physics/solver.h"
 
@@ -30,39 +31,29 @@ void World::Impl::take_step(std::int64_t tick) {
   moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
 }
 
-// Whatever an awake body touches or is jointed to is awake too, and has its own pairs tested:
+// Whatever an awake body touches is awake too, and has its own pairs tested:
 // `awake` grows while it is gone through.
 void World::Impl::collide() {
   contacts.start();
   for (Body* body : awake) {
     for (Geom* geom : body->geoms) {
-      update_box(*geom);
+      follow_body(*geom);
       grid.update(*geom);
     }
   }
   for (std::size_t i = 0; i < awake.size(); ++i) collide_body(*awake[i]);
   std::sort(awake.begin(), awake.end(), by_serial);
+  for (Body* body : awake) give_to_ode(*body);
   contacts.make_joints();
 }
 
 void World::Impl::collide_body(Body& body) {
   contacts.forget(body);
-  // Waking by contact keeps the idle time: a body that is only leant on falls asleep with its
-  // neighbour.
-  const auto wake_too = [this](Body& other) {
-    if (!other.dynamic() || other.awake) return;
-    const int idle = other.idle_steps;
-    wake_body(other, awake);
-    other.idle_steps = idle;
-  };
-  for (const Joint* joint : body.joints) {
-    wake_too(*joint->first);
-    wake_too(*joint->second);
-  }
   for (Geom* geom : body.geoms) {
     grid.query(*geom, [&](Geom& other) {
       if (!may_touch(*geom, other) || other.body->collided == steps) return;
-      if (contacts.collide(*geom, other)) wake_too(*other.body);
+      // The idle time goes on: a body that is only leant on falls asleep with its neighbour.
+      if (contacts.collide(*geom, other) && other.body->dynamic()) rouse(*other.body, awake);
     });
   }
   body.collided = steps;

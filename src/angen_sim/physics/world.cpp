@@ -7,6 +7,7 @@
 #include "core/time.h"
 #include "physics/build.h"
 #include "physics/drive.h"
+#include "physics/embody.h"
 #include "physics/impl.h"
 #include "physics/joints.h"
 #include "physics/sleep.h"
@@ -47,12 +48,18 @@ World::Impl::Impl(const desc::Physics& s, const Vec3& g, std::uint64_t seed_)
 }
 
 void World::Impl::wake(Body& body) {
-  if (body.dynamic()) wake_body(body, awake);
+  if (!body.dynamic()) return;
+  body.idle_steps = 0;
+  rouse(body, awake);
 }
 
 void World::Impl::wake_joint(const Joint& joint) {
   wake(*joint.first);
   wake(*joint.second);
+}
+
+void World::Impl::give_to_ode(Body& body) {
+  if (body.ode == nullptr) embody(world.get(), *body.mechanism);
 }
 
 void World::Impl::wake_near(ModelRecord& model) {
@@ -64,11 +71,8 @@ void World::Impl::wake_near(ModelRecord& model) {
 }
 
 void World::Impl::settle(ModelRecord& model, const Pose& pose) {
-  configure(model, pose);
-  for (const auto& geom : model.geoms) {
-    update_box(*geom);
-    grid.update(*geom);
-  }
+  configure(world.get(), model, pose);
+  for (const auto& geom : model.geoms) grid.update(*geom);
   for (const auto& body : model.bodies) wake(*body);
   wake_near(model);
 }
@@ -80,7 +84,7 @@ World::~World() = default;
 
 ModelId World::add(const desc::Model& model) {
   ode::prepare_thread();
-  auto built = build_model(impl_->world.get(), model, impl_->shapes, impl_->serial);
+  auto built = build_model(model, impl_->shapes, impl_->serial);
   ModelRecord& record = *built;
   for (const LinkRecord& link : record.links) {
     record.link_ids.push_back(impl_->links.add(link));
@@ -146,6 +150,7 @@ void World::add_force(JointId id, double force) {
   Joint& joint = impl_->joint_at(id);
   if (force == 0.0 || !std::isfinite(force) || !has_axis(joint)) return;
   impl_->wake_joint(joint);
+  impl_->give_to_ode(*joint.first);
   push_joint(joint, force);
 }
 
@@ -159,7 +164,7 @@ void World::set_motor(JointId id, double velocity, double max_force) {
   if (joint.motor_velocity == velocity && joint.motor_force == max_force) return;
   joint.motor_velocity = velocity;
   joint.motor_force = max_force;
-  apply_motor(joint);
+  if (joint.main != nullptr) apply_motor(joint);
   impl_->wake_joint(joint);
 }
 

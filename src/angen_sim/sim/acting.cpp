@@ -25,17 +25,51 @@ void Acting::list(Building& building) {
       parts_.push_back({live.get(), &device});
     }
   }
+  busy_.clear();
+  alarms_ = {};
+  is_busy_.assign(parts_.size(), 0);
+  rouse_all();
+}
+
+void Acting::rouse_all() {
+  for (std::uint32_t i = 0; i < parts_.size(); ++i) rouse(i);
+}
+
+void Acting::rouse(std::uint32_t index) {
+  if (is_busy_[index] != 0) return;
+  is_busy_[index] = 1;
+  busy_.push_back(index);
+}
+
+void Acting::rouse_due(Nanoseconds now) {
+  while (!alarms_.empty() && alarms_.top().time <= now) {
+    rouse(alarms_.top().index);
+    alarms_.pop();
+  }
+  if (!std::is_sorted(busy_.begin(), busy_.end())) std::sort(busy_.begin(), busy_.end());
+}
+
+void Acting::rest(std::uint32_t index) {
+  is_busy_[index] = 0;
+  const Nanoseconds until = parts_[index].device->idle_until;
+  if (until < kForever) alarms_.push({until, index});
 }
 
 void Acting::act(Building& building, InstanceView::Clock clock, std::vector<Event>& events) {
   if (list_is_old_) list(building);
+  rouse_due(clock.time);
   told_.clear();
   lights_changed_ = false;
   bool reports_added = false;
-  for (std::uint32_t i = 0; i < parts_.size(); ++i) {
+  std::size_t kept = 0;
+  for (const std::uint32_t i : busy_) {
     DeviceInstance& device = *parts_[i].device;
     LiveModel& live = *parts_[i].live;
-    if (is_idle(live, device, clock)) continue;
+    if (is_idle(live, device, clock)) {
+      rest(i);
+      continue;
+    }
+    busy_[kept++] = i;
     meter_.rest.devices += meter_.watch.lap();
     device.catch_up(clock.time, clock.step);
     const InstanceView view(building, live, clock);
@@ -51,6 +85,7 @@ void Acting::act(Building& building, InstanceView::Clock clock, std::vector<Even
     lights_changed_ = lights_changed_ || outputs.lights_changed();
     device.cost += meter_.watch.lap();
   }
+  busy_.resize(kept);
   if (reports_added) std::sort(to_report_.begin(), to_report_.end());
   meter_.rest.devices += meter_.watch.lap();
 }
@@ -58,10 +93,11 @@ void Acting::act(Building& building, InstanceView::Clock clock, std::vector<Even
 std::int64_t Acting::next_tick(Building& building, InstanceView::Clock clock) {
   if (list_is_old_) list(building);
   Nanoseconds first = kForever - clock.step;
-  for (const Part& part : parts_) {
-    if (!is_idle(*part.live, *part.device, clock)) return clock.time / clock.step;
-    first = std::min(first, part.device->idle_until);
+  for (const std::uint32_t i : busy_) {
+    if (!is_idle(*parts_[i].live, *parts_[i].device, clock)) return clock.time / clock.step;
+    first = std::min(first, parts_[i].device->idle_until);
   }
+  if (!alarms_.empty()) first = std::min(first, alarms_.top().time);
   std::int64_t tick = (first + clock.step - 1) / clock.step;
   if (!to_report_.empty()) {  // the next report is at the end of the tick before
     const Nanoseconds report = (clock.time / kReportPeriod + 1) * kReportPeriod;
@@ -73,7 +109,12 @@ std::int64_t Acting::next_tick(Building& building, InstanceView::Clock clock) {
 void Acting::note_awake(Building& building, std::int64_t tick) {
   awake_.clear();
   building.stage().physics.list_awake(awake_);
-  for (const physics::LinkId link : awake_) building.owner(link).model->awake_at = tick;
+  for (const physics::LinkId link : awake_) {
+    LiveModel& live = *building.owner(link).model;
+    if (live.awake_at == tick) continue;
+    live.awake_at = tick;
+    for (std::uint32_t i = 0; i < live.devices.size(); ++i) rouse(live.first_device + i);
+  }
 }
 
 void Acting::report(Building& building, InstanceView::Clock clock, Snapshot& next) {

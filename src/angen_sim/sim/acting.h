@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <queue>
 #include <vector>
 
 #include "sim/building.h"
@@ -31,19 +33,37 @@ class Acting {
   /// To be called when devices came or went.
   void invalidate() { list_is_old_ = true; }
 
+  /// To be called when devices got commands: none is idle until it has been looked at.
+  void rouse_all();
+
  private:
   struct Part {
     LiveModel* live;
     DeviceInstance* device;
   };
 
+  struct Alarm {
+    Nanoseconds time;
+    std::uint32_t index;  // in parts_
+    bool operator>(const Alarm& o) const {
+      return time != o.time ? time > o.time : index > o.index;
+    }
+  };
+
   void list(Building& building);
+  void rouse(std::uint32_t index);
+  /// Those whose time has come; of what acts, the order is that of parts_.
+  void rouse_due(Nanoseconds now);
+  void rest(std::uint32_t index);
 
   Meter& meter_;
   bool list_is_old_ = true;
-  std::vector<Part> parts_;               // as Structure::devices
-  std::vector<std::uint32_t> to_report_;  // of parts_, ascending
-  std::vector<std::uint32_t> told_;       // those of them that told an event in this tick
+  std::vector<Part> parts_;          // as Structure::devices
+  std::vector<std::uint32_t> busy_;  // of parts_: those that are not surely idle
+  std::vector<char> is_busy_;        // as parts_
+  std::priority_queue<Alarm, std::vector<Alarm>, std::greater<>> alarms_;  // of the others
+  std::vector<std::uint32_t> to_report_;                                   // of parts_, ascending
+  std::vector<std::uint32_t> told_;  // those of them that told an event in this tick
   std::vector<physics::LinkId> awake_;
   bool lights_changed_ = false;
 };

@@ -140,6 +140,7 @@ Outcome Orders::carry_out(const Action& action, Building& building, InstanceView
   Outcome outcome;
   try {
     if (const auto* order = std::get_if<ToDevice>(&action)) {
+      effects.commanded = true;
       outcome = to_device(*order, building, clock);
       if (!outcome.ok) {
         events.push_back({clock.time, order->name, order->kind, "rejected", outcome.message});

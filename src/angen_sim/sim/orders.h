@@ -23,6 +23,7 @@ class Orders {
   struct Effects {
     bool reset = false;
     bool reset_time = false;
+    bool commanded = false;  // a device was
   };
   /// Carries out what waits, in order. Called between ticks.
   Effects obey(Building& building, InstanceView::Clock clock, std::vector<Event>& events);

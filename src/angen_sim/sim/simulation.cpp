@@ -27,6 +27,7 @@ struct Simulation::Impl {
   void obey() {
     const Orders::Effects effects = orders.obey(building, clock(), next.events);
     if (effects.reset) sensing.invalidate();
+    if (effects.commanded) acting.rouse_all();
     if (effects.reset_time) {
       next.tick = 0;
       next.time = 0;
