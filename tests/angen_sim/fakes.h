@@ -85,10 +85,13 @@ class FakeWorld : public View, public Wiring, public Outputs {
     const auto found = touching.find(collisions.at(ref.index));
     return found == touching.end() ? std::vector<ContactPair>{} : found->second;
   }
-  std::vector<DeviceView> devices() const override {
-    std::vector<DeviceView> all;
-    for (const FakeDevice& d : others) all.push_back({d.kind, d.name, d.model, d.pose, d.state});
-    return all;
+  std::vector<DeviceView> devices(const std::string& field) const override {
+    std::vector<DeviceView> found;
+    for (const FakeDevice& d : others) {
+      if (d.state.find(field) == nullptr) continue;
+      found.push_back({d.kind, d.name, d.model, d.pose, d.state});
+    }
+    return found;
   }
   light::Sample illuminance(light::Probe& probe, const Pose& pose) const override {
     return light_at ? light_at(probe, pose) : light::Sample{};

@@ -47,6 +47,24 @@ class Pusher(angen.Device):
         return {'position': position, 'velocity': velocity}
 
 
+class Tracker(angen.Sensor):
+    """Where the sliders are that report a position, m along the world's x."""
+
+    rate = 10.0
+
+    def configure(self, params, wiring):
+        pass
+
+    def aim(self, view):
+        return None
+
+    def read(self, view, ranges, rng):
+        found = view.devices('position')
+        return {'names': [name for name, _, _ in found],
+                'x': [float(pose[0] + state['position']) for _, pose, state in found]}
+
+
+angen.register('tracker.py', 'tracker', Tracker)
 angen.register('rangefinder.py', 'rangefinder', Rangefinder)
 angen.register('pusher.py', 'pusher', Pusher)
 
@@ -75,14 +93,29 @@ def test_its_parameters_are_checked_like_any_other(world):
         world(RANGE.format(yaw=0, extra='<raech>3</raech>'))
 
 
-def test_python_device_moves_its_joint_by_newtons_law(world):
-    w = world('''<model name="sled"><pose>0 0 1 0 0 0</pose><link name="rail"/>
+SLED = '''<model name="sled"><pose>0 0 1 0 0 0</pose><link name="rail"/>
       <link name="mass"><gravity>false</gravity><inertial><mass>2</mass><inertia><ixx>0.1</ixx>
       <iyy>0.1</iyy><izz>0.1</izz><ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia></inertial></link>
       <joint name="fix" type="fixed"><parent>world</parent><child>rail</child></joint>
       <joint name="slider" type="prismatic"><parent>rail</parent><child>mass</child>
       <axis><xyz>1 0 0</xyz><limit><lower>-5</lower><upper>5</upper></limit></axis></joint>
-      <plugin name="p" filename="pusher.py"/></model>''')
+      <plugin name="p" filename="pusher.py"/></model>'''
+
+
+def test_python_sensor_sees_what_devices_tell(world):
+    tracker = '''<model name="eye"><static>true</static><link name="link"><sensor name="s" type="ray">
+      <plugin name="p" filename="tracker.py"/></sensor></link></model>'''
+    w = world(SLED + SLED.replace('name="sled"><pose>0', 'name="far"><pose>7')
+              + RANGE.format(yaw=0, extra='') + tracker)
+    w.command('pusher', 'far', 'Push', [4.0])
+    w.run(1.05)
+    reading = w.sensor('tracker', 'eye')
+    assert reading['names'] == ['sled', 'far']
+    assert reading['x'] == pytest.approx([0.0, 7.0 + 1.0], rel=0.02)
+
+
+def test_python_device_moves_its_joint_by_newtons_law(world):
+    w = world(SLED)
     with pytest.raises(angen.Error, match='write Push'):
         w.command('pusher', 'sled', 'Pull')
     w.command('pusher', 'sled', 'Push', [4.0])

@@ -68,7 +68,7 @@ class Battery : public Device {
 
   double work_done(const View& view) const {
     double sum = 0.0;
-    for (const DeviceView& device : view.devices()) {
+    for (const DeviceView& device : view.devices("work")) {
       if (device.model == model_) sum += device.state.get<double>("work");
     }
     return sum;

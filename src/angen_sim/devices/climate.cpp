@@ -75,13 +75,11 @@ class Climate : public Device {
     const Pose here = view.pose().inverse();
     std::vector<double> heat(rooms_.size(), 0.0);
     std::vector<Opening> openings;
-    for (const DeviceView& device : view.devices()) {
-      if (device.state.find("power") != nullptr) {
-        const int room = room_at(here * device.pose.position);
-        if (room >= 0) heat[static_cast<std::size_t>(room)] += device.state.get<double>("power");
-      }
-      if (device.state.find("gap") != nullptr) add_opening(device, here, openings);
+    for (const DeviceView& device : view.devices("power")) {
+      const int room = room_at(here * device.pose.position);
+      if (room >= 0) heat[static_cast<std::size_t>(room)] += device.state.get<double>("power");
     }
+    for (const DeviceView& device : view.devices("gap")) add_opening(device, here, openings);
     air_.step(to_seconds(stepped_at_ - before), outside_, heat, openings);
   }
 

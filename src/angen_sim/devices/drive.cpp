@@ -86,7 +86,7 @@ void Drive::update(const View& view, Outputs& outputs) {
 
 // A robot whose battery is empty stands.
 bool Drive::powered(const View& view) const {
-  for (const DeviceView& device : view.devices()) {
+  for (const DeviceView& device : view.devices("empty")) {
     if (device.model == model_ && device.state.get<bool>("empty")) return false;
   }
   return true;

@@ -4,6 +4,12 @@
 
 namespace angen::devices {
 
+namespace {
+
+constexpr double kPushedBack = 5.0;  // freed distances
+
+}  // namespace
+
 Servo::Servo(const ServoSettings& settings)
     : settings_(settings),
       profile_(settings.max_velocity, settings.max_acceleration),
@@ -43,16 +49,23 @@ double Servo::feed_forward() const {
 
 void Servo::watch(double target, double position, double velocity, double dt) {
   const double to_go = target - position;
+  const double ahead = to_go < 0.0 ? -1.0 : 1.0;
   const bool slow = std::abs(velocity) < settings_.arrive_speed;
   const double near = stalled_ > kNearTime ? settings_.near_error : settings_.arrive_error;
   arrived_ = profile_.at(target) && std::abs(to_go) < near && slow;
   if (blocked_) {
-    const double moved = (position - blocked_at_) * (to_go < 0.0 ? -1.0 : 1.0);
+    const double moved = ahead * (position - blocked_at_);
     if (moved > settings_.freed_distance) start(position, velocity);
     if (arrived_) blocked_ = false;
     return;
   }
-  const bool comes_on = std::abs(position - came_to_) > settings_.stall_speed * kStallTime;
+  // What bounces off an obstacle comes no further; what is pushed well back starts anew; what has
+  // reached its target may swing about it.
+  const double progress = ahead * (position - came_to_);
+  const bool swings_in = std::abs(to_go) < settings_.freed_distance;
+  const bool back = progress < -kPushedBack * settings_.freed_distance;
+  const bool comes_on =
+      (swings_in ? std::abs(progress) : progress) > settings_.stall_speed * kStallTime || back;
   if (comes_on) came_to_ = position;
   stalled_ = comes_on || arrived_ ? 0.0 : stalled_ + dt;
   if (stalled_ >= kStallTime) {

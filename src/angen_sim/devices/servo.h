@@ -16,7 +16,7 @@ struct ServoSettings {
   double arrive_error = 0.01;    // at rest means nearer than this …
   double near_error = 0.01;      // … or than this where friction has held it for kNearTime …
   double arrive_speed = 0.01;    // … and slower than this
-  double stall_speed = 0.01;     // slower than this, in the mean over kStallTime, is no motion
+  double stall_speed = 0.01;     // less towards the target, in the mean over kStallTime, is none
   double freed_distance = 0.02;  // moved on by this much since it was blocked means freed
   // The integral is for friction and for what holds the joint: it grows only while the joint
   // stands, and is dropped when the error turns round. For gains that would swing otherwise.
@@ -49,7 +49,7 @@ class Servo {
   ServoSettings settings_;
   Profile profile_;
   Pid pid_;
-  double came_to_ = 0.0;     // position
+  double came_to_ = 0.0;     // position, the nearest to the target
   double stalled_ = 0.0;     // s since it came there
   double blocked_at_ = 0.0;  // position
   bool blocked_ = false;

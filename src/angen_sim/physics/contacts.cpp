@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/time.h"
 #include "physics/boxes.h"
@@ -176,9 +177,8 @@ void Contacts::put_to_rest() {
   for (const Pair& pair : pairs_) {
     if (!asleep(pair)) continue;
     const PairKey key{pair.first->serial, pair.second->serial};
-    const auto begin = points_.begin() + static_cast<std::ptrdiff_t>(pair.begin);
-    resting_[key] = {
-        pair.first, pair.second, {begin, begin + static_cast<std::ptrdiff_t>(pair.count)}};
+    resting_[key] = {pair.first, pair.second, points_of(pair)};
+    with_smaller_.emplace(key.second, key.first);
     for (Body* body : {pair.first->body, pair.second->body}) {
       if (body->dynamic()) body->resting.push_back(key);
     }
@@ -187,7 +187,10 @@ void Contacts::put_to_rest() {
 }
 
 void Contacts::forget(Body& body) {
-  for (const PairKey& key : body.resting) resting_.erase(key);
+  for (const PairKey& key : body.resting) {
+    resting_.erase(key);
+    with_smaller_.erase({key.second, key.first});
+  }
   body.resting.clear();
 }
 
@@ -196,6 +199,43 @@ void Contacts::drop_active(const ModelRecord& model) {
     return pair.first->body->model == &model || pair.second->body->model == &model;
   };
   pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), gone), pairs_.end());
+}
+
+std::vector<ContactPoint> Contacts::points_of(const Pair& pair) const {
+  const auto begin = points_.begin() + static_cast<std::ptrdiff_t>(pair.begin);
+  return {begin, begin + static_cast<std::ptrdiff_t>(pair.count)};
+}
+
+std::vector<ContactPair> Contacts::of(const Geom& geom) const {
+  std::map<std::uint64_t, ContactPair> found;  // by the other's serial
+  const auto add = [&](const Geom& first, const Geom& second, std::vector<ContactPoint> points) {
+    if (&first == &geom) {
+      found[second.serial] = {first.name, second.name, std::move(points)};
+      return;
+    }
+    for (ContactPoint& point : points) {
+      point.normal = -point.normal;
+      point.force = -point.force;
+    }
+    found[first.serial] = {second.name, first.name, std::move(points)};
+  };
+  for (const Pair& pair : pairs_) {
+    if (pair.first == &geom || pair.second == &geom)
+      add(*pair.first, *pair.second, points_of(pair));
+  }
+  const auto add_resting = [&](const Resting& r) { add(*r.first, *r.second, r.points); };
+  const PairKey start{geom.serial, 0};
+  for (auto at = resting_.lower_bound(start);
+       at != resting_.end() && at->first.first == geom.serial; ++at) {
+    add_resting(at->second);
+  }
+  for (auto at = with_smaller_.lower_bound(start);
+       at != with_smaller_.end() && at->first == geom.serial; ++at) {
+    add_resting(resting_.at({at->second, at->first}));
+  }
+  std::vector<ContactPair> all;
+  for (auto& [serial, pair] : found) all.push_back(std::move(pair));
+  return all;
 }
 
 std::vector<ContactPair> Contacts::list() const {
@@ -209,10 +249,7 @@ std::vector<ContactPair> Contacts::list() const {
   for (const Pair& pair : pairs_) {
     const PairKey key{pair.first->serial, pair.second->serial};
     while (sleeping != resting_.end() && sleeping->first < key) take_sleeping();
-    const auto begin = points_.begin() + static_cast<std::ptrdiff_t>(pair.begin);
-    all.push_back({pair.first->name,
-                   pair.second->name,
-                   {begin, begin + static_cast<std::ptrdiff_t>(pair.count)}});
+    all.push_back({pair.first->name, pair.second->name, points_of(pair)});
   }
   while (sleeping != resting_.end()) take_sleeping();
   return all;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <vector>
 
 #include "core/contact.h"
@@ -56,6 +57,7 @@ class Contacts {
       for (Body* body : {pair.first->body, pair.second->body}) {
         if (body->model != &model) wake(*body);
       }
+      with_smaller_.erase({it->first.second, it->first.first});
       it = resting_.erase(it);
     }
     drop_active(model);
@@ -63,6 +65,8 @@ class Contacts {
 
   /// All pairs, by serials.
   std::vector<ContactPair> list() const;
+  /// Those of one geom, by the other's serial and turned so that it is the first.
+  std::vector<ContactPair> of(const Geom& geom) const;
 
  private:
   struct Resting {
@@ -72,6 +76,7 @@ class Contacts {
   };
 
   void drop_active(const ModelRecord& model);
+  std::vector<ContactPoint> points_of(const Pair& pair) const;
   void make_joint(const Pair& pair, std::size_t index);
   void read_forces(const Pair& pair);
 
@@ -85,6 +90,7 @@ class Contacts {
   std::vector<ContactPoint> points_;
   std::vector<dJointFeedback> feedback_;
   std::map<PairKey, Resting> resting_;
+  std::set<PairKey> with_smaller_;  // the keys of resting_, turned
 };
 
 }  // namespace angen::physics

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "core/slots.h"
@@ -38,6 +40,7 @@ struct World::Impl {
   Slots<std::unique_ptr<ModelRecord>, PhysicsModelTag> models;
   Slots<LinkRecord, PhysicsLinkTag> links;
   Slots<Joint*, PhysicsJointTag> joints;
+  std::unordered_map<std::string, const Geom*> geoms;  // by name
   Grid grid;
   Contacts contacts;
   std::vector<Body*> awake;

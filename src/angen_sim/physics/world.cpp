@@ -90,6 +90,7 @@ ModelId World::add(const desc::Model& model) {
     record.link_ids.push_back(impl_->links.add(link));
     link.body->links.push_back(record.link_ids.back());
   }
+  for (const auto& geom : record.geoms) impl_->geoms[geom->name] = geom.get();
   for (const auto& joint : record.joints) {
     record.joint_ids.push_back(impl_->joints.add(joint.get()));
   }
@@ -105,7 +106,10 @@ void World::remove(ModelId id) {
   w.list_is_old = true;
   const auto of_model = [&](const Body* body) { return body->model == &model; };
   w.awake.erase(std::remove_if(w.awake.begin(), w.awake.end(), of_model), w.awake.end());
-  for (const auto& geom : model.geoms) w.grid.erase(*geom);
+  for (const auto& geom : model.geoms) {
+    w.grid.erase(*geom);
+    w.geoms.erase(geom->name);
+  }
   const auto forget = [&](std::vector<LinkId>& list) {
     const auto gone = [&](LinkId link) { return of_model(w.links.at(link).body); };
     list.erase(std::remove_if(list.begin(), list.end(), gone), list.end());
@@ -196,6 +200,12 @@ const std::vector<ContactPair>& World::contacts() const {
   if (impl_->list_is_old) impl_->listed = impl_->contacts.list();
   impl_->list_is_old = false;
   return impl_->listed;
+}
+
+std::vector<ContactPair> World::contacts(const std::string& collision) const {
+  const auto geom = impl_->geoms.find(collision);
+  return geom == impl_->geoms.end() ? std::vector<ContactPair>{}
+                                    : impl_->contacts.of(*geom->second);
 }
 
 std::uint64_t World::failed_steps() const { return impl_->failed; }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/contact.h"
@@ -80,6 +81,8 @@ class World {
 
   /// What touches now, sorted by names' ids; sleeping bodies keep their last contacts and forces.
   const std::vector<ContactPair>& contacts() const;
+  /// Those of one collision (model::link::collision), turned so that it is the first.
+  std::vector<ContactPair> contacts(const std::string& collision) const;
 
   std::uint64_t failed_steps() const;  // steps that had to be redone by the other solver
   std::size_t awake_count() const;

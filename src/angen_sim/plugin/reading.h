@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -65,6 +66,10 @@ struct Reading {
     const Value* value = find(name);
     const T* typed = value != nullptr ? std::get_if<T>(value) : nullptr;
     return typed != nullptr ? *typed : fallback;
+  }
+  bool same_names(const Reading& other) const {
+    return std::equal(fields.begin(), fields.end(), other.fields.begin(), other.fields.end(),
+                      [](const auto& a, const auto& b) { return a.first == b.first; });
   }
   bool same_values(const Reading& other) const {
     return kind == other.kind && fields == other.fields;

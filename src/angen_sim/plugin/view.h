@@ -70,9 +70,9 @@ class View {
   virtual LinkView link(LinkRef link) const = 0;
   /// Pairs that the wired collision takes part in; it is `first` in each.
   virtual std::vector<ContactPair> contacts(ContactRef collision) const = 0;
-  /// All devices that have told a state, in the order in which they came into the world. Costs a
-  /// walk through them: not for every tick.
-  virtual std::vector<DeviceView> devices() const = 0;
+  /// The devices whose state has a field of that name, in the order in which they came into the
+  /// world.
+  virtual std::vector<DeviceView> devices(const std::string& field) const = 0;
   virtual light::Sample illuminance(light::Probe& probe, const Pose& pose) const = 0;
   virtual double ambient_temperature() const = 0;  // K
   /// What is warmer or colder than the air, and where.

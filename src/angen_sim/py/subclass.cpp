@@ -171,6 +171,15 @@ void bind_wiring(pyb::module_& module) {
       .def("mass", &Wiring::mass, "kg, of the link and all that is fixed to it");
 }
 
+pyb::list devices(const View& view, const std::string& field) {
+  pyb::list found;
+  for (const DeviceView& device : view.devices(field)) {
+    found.append(pyb::make_tuple(pyb::str(device.name.data(), device.name.size()),
+                                 to_row(device.pose), to_dict(device.state)));
+  }
+  return found;
+}
+
 void bind_view(pyb::module_& module) {
   pyb::class_<View>(module, "View", "What a plug-in may see; SI units, world frame.")
       .def_property_readonly(
@@ -187,7 +196,9 @@ void bind_view(pyb::module_& module) {
              const JointView joint = v.joint(ref);
              return pyb::make_tuple(joint.position, joint.velocity, joint.effort);
            })
-      .def("link", [](const View& v, LinkRef ref) { return to_row(v.link(ref).pose); });
+      .def("link", [](const View& v, LinkRef ref) { return to_row(v.link(ref).pose); })
+      .def("devices", devices, pyb::arg("field"),
+           "name, pose of the model and state, as a dict, of each device whose state has `field`");
   pyb::class_<Outputs>(module, "Outputs", "What a device may do in one tick.")
       .def("force", &Outputs::force, "N or N m on a joint, for this tick")
       .def("motor", &Outputs::motor, "velocity, greatest force; until changed")

@@ -44,6 +44,10 @@ Caption plug(const Reading& reading) {
   return {number(power, 0, "W"), power > 0.0};
 }
 
+Caption battery(const Reading& reading) {
+  return {number(100.0 * reading.get<double>("percentage"), 0, "%"), reading.get<bool>("empty")};
+}
+
 Caption temperature(const Reading& reading) {
   return {number(reading.get<double>("temperature"), 1, "°C")};
 }
@@ -53,9 +57,10 @@ Caption humidity(const Reading& reading) {
 }
 
 using Say = Caption (*)(const Reading&);
-const std::map<std::string, Say> kSay = {{"humidity", &humidity}, {"plug", &plug},
-                                         {"pressure", &pressure}, {"reed", &reed},
-                                         {"rfid", &rfid},         {"temperature", &temperature}};
+const std::map<std::string, Say> kSay = {
+    {"battery", &battery},        {"humidity", &humidity}, {"plug", &plug},
+    {"pressure", &pressure},      {"reed", &reed},         {"rfid", &rfid},
+    {"temperature", &temperature}};
 
 }  // namespace
 

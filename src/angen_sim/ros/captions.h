@@ -6,7 +6,8 @@
 
 #include "plugin/reading.h"
 
-/// Readings as a few words over their sensors, for those that have no rays to draw.
+/// Readings as a few words over their sensors, for those that have no rays to draw, and a battery's
+/// charge over its model.
 namespace angen::node {
 
 /// Whether readings of this kind are shown as words.

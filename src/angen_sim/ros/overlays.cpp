@@ -1,5 +1,6 @@
 #include "ros/overlays.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -13,6 +14,7 @@ namespace {
 constexpr double kNewRange = 0.15;  // m: beams are drawn again when one differs by more
 
 const Vec3 kOverSensor(0.0, 0.0, 0.12);  // m, where its words stand in the world
+const Vec3 kOverModel(0.0, 0.0, 0.5);    // m, in its first link's frame
 
 /// How the beams of a kind of sensor are shown.
 struct Beams {
@@ -68,6 +70,19 @@ void Overlays::add_sensor(const sim::Structure& structure, std::uint32_t sensor)
   }
 }
 
+void Overlays::add_device(const sim::Structure& structure, std::uint32_t device) {
+  const sim::DeviceEntry& entry = structure.devices[device];
+  if (!has_caption(entry.kind)) return;
+  const auto link = std::find_if(structure.links.begin(), structure.links.end(),
+                                 [&](const sim::LinkEntry& l) { return l.model == entry.model; });
+  Overlay overlay;
+  overlay.index = device;
+  overlay.of_device = true;
+  overlay.link = static_cast<std::uint32_t>(link - structure.links.begin());
+  overlay.offset.position = kOverModel;
+  captions_.emplace(entry.kind + "/" + entry.name, std::move(overlay));
+}
+
 void Overlays::follow(const sim::Snapshot& snapshot, std::int32_t& next_id, Array& gone) {
   const sim::Structure& structure = *snapshot.structure;
   const Named old_lamps = std::exchange(lamps_, {});
@@ -75,6 +90,7 @@ void Overlays::follow(const sim::Snapshot& snapshot, std::int32_t& next_id, Arra
   const Named old_captions = std::exchange(captions_, {});
   for (std::uint32_t i = 0; i < structure.lights.size(); ++i) add_lamp(structure, i);
   for (std::uint32_t i = 0; i < structure.sensors.size(); ++i) add_sensor(structure, i);
+  for (std::uint32_t i = 0; i < structure.devices.size(); ++i) add_device(structure, i);
   for (const auto& [old, now] : {std::pair(&old_lamps, &lamps_), std::pair(&old_beams, &beams_),
                                  std::pair(&old_captions, &captions_)}) {
     for (auto& [name, overlay] : *now) {
@@ -141,12 +157,17 @@ bool Overlays::redraw(const sim::Snapshot& snapshot, Overlay& beams) const {
 }
 
 bool Overlays::rewrite(const sim::Snapshot& snapshot, Overlay& caption) const {
-  const std::shared_ptr<const Reading>& reading = snapshot.sensors[caption.index];
+  const std::uint32_t index = caption.index;
+  const std::shared_ptr<const Reading> reading =
+      caption.of_device ? snapshot.devices[index] : snapshot.sensors[index];
   if (reading == caption.reading && !caption.marker.ns.empty()) return false;
   caption.reading = reading;
   const std::int32_t id = caption.marker.id;
   const visualization_msgs::Marker before = std::move(caption.marker);
-  caption.marker = draw_caption(snapshot.structure->sensors[caption.index].kind, reading.get());
+  const sim::Structure& structure = *snapshot.structure;
+  const std::string& kind =
+      caption.of_device ? structure.devices[index].kind : structure.sensors[index].kind;
+  caption.marker = draw_caption(kind, reading.get());
   caption.marker.ns = "readings";
   caption.marker.id = id;
   return caption.marker.text != before.text || caption.marker.color != before.color;

@@ -26,12 +26,13 @@ class Overlays {
  private:
   struct Overlay {
     visualization_msgs::Marker marker;
-    std::uint32_t index = 0;          // in Structure::lights or Structure::sensors
+    std::uint32_t index = 0;  // in Structure::lights, ::sensors or ::devices
+    bool of_device = false;
     std::uint32_t link = UINT32_MAX;  // in Structure::links; none for a world light
     Pose offset;
     Pose pose;                               // as appended last
     double level = -1.0;                     // of a lamp, as appended last
-    std::shared_ptr<const Reading> reading;  // of a sensor, looked at last
+    std::shared_ptr<const Reading> reading;  // looked at last
     std::vector<double> ranges;              // m, as appended last
     bool fired = false;
   };
@@ -39,6 +40,7 @@ class Overlays {
 
   void add_lamp(const sim::Structure& structure, std::uint32_t light);
   void add_sensor(const sim::Structure& structure, std::uint32_t sensor);
+  void add_device(const sim::Structure& structure, std::uint32_t device);
   bool relight(const sim::Snapshot& snapshot, Overlay& lamp) const;
   bool redraw(const sim::Snapshot& snapshot, Overlay& beams) const;
   bool rewrite(const sim::Snapshot& snapshot, Overlay& caption) const;

@@ -22,7 +22,7 @@ AirHere air_at(const View& view) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   AirHere outside{kNone, kNone};
   const Vec3 here = view.pose().position;
-  for (const DeviceView& device : view.devices()) {
+  for (const DeviceView& device : view.devices("temperatures")) {
     if (device.kind != "climate") continue;
     const auto rooms = device.state.get<std::vector<double>>("rooms");
     const auto temperatures = device.state.get<std::vector<double>>("temperatures");

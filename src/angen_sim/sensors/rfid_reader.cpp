@@ -27,7 +27,7 @@ class RfidReader : public Sensor {
     candidates_.clear();
     const Pose reader = view.pose();
     const Vec3 ahead = reader.rotation * Vec3::UnitX();
-    for (const DeviceView& device : view.devices()) {
+    for (const DeviceView& device : view.devices("id")) {
       if (device.kind != "tag") continue;
       const auto place = device.state.get<std::vector<double>>("position");
       if (place.size() != 3) continue;

@@ -23,7 +23,7 @@ class SmartPlug : public Sensor {
     bool found = false;
     double power = 0.0;
     Nanoseconds changed = view.time();
-    for (const DeviceView& device : view.devices()) {
+    for (const DeviceView& device : view.devices("power")) {
       if (std::string(device.kind) + "/" + std::string(device.name) != load_) continue;
       found = true;
       power = device.state.get<double>("power");

@@ -125,6 +125,7 @@ void Acting::report(Building& building, InstanceView::Clock clock, Snapshot& nex
     device.cost += meter_.watch.lap();
     if (all) device.to_report = false;
     if (device.last && device.last->same_values(device.scratch)) continue;
+    if (!device.last || !device.last->same_names(device.scratch)) building.forget_tellers();
     device.scratch.stamp = clock.time;
     device.last = std::make_shared<const Reading>(device.scratch);
     building.stage().note_told();

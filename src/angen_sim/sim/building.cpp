@@ -47,6 +47,22 @@ void Building::raise_stage() {
   }
 }
 
+void Building::note_revision() {
+  ++revision_;
+  tellers_.clear();
+}
+
+const std::vector<Building::Teller>& Building::tellers(const std::string& field) const {
+  const auto [at, is_new] = tellers_.try_emplace(field);
+  if (!is_new) return at->second;
+  for (const auto& live : models_) {
+    for (const DeviceInstance& device : live->devices) {
+      if (device.last && device.last->find(field)) at->second.emplace_back(live.get(), &device);
+    }
+  }
+  return at->second;
+}
+
 LiveModel* Building::find(const std::string& model) const {
   const auto at = by_name_.find(model);
   return at == by_name_.end() ? nullptr : at->second;
@@ -111,7 +127,7 @@ void Building::build(desc::Model model, const std::vector<SensorInstance>* attac
   }
   list_names(*live);
   models_.push_back(std::move(live));
-  ++revision_;
+  note_revision();
 }
 
 void Building::add(desc::Model model, Nanoseconds now) { build(std::move(model), nullptr, now); }
@@ -142,7 +158,7 @@ void Building::attach(const desc::Sensor& sensor, const std::string& link, Nanos
   start_at(instance, now, world_.physics.step);
   sensors_[key_of(instance)] = live;
   live->sensors.push_back(std::move(instance));
-  ++revision_;
+  note_revision();
 }
 
 void Building::erase(const std::string& name) {
@@ -152,7 +168,7 @@ void Building::erase(const std::string& name) {
     stage_->remove((*model)->parts);
     strike_names(**model);
     models_.erase(model);
-    ++revision_;
+    note_revision();
     return;
   }
   for (auto& live : models_) {
@@ -164,7 +180,7 @@ void Building::erase(const std::string& name) {
       }
       sensors_.erase(key_of(*sensor));
       live->sensors.erase(sensor);
-      ++revision_;
+      note_revision();
       return;
     }
   }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "sim/instance.h"
@@ -37,6 +38,12 @@ class Building {
   };
   Owner owner(physics::LinkId link) const { return owners_[link.index]; }
 
+  /// The devices whose last state has a field of that name, in the order of the models.
+  using Teller = std::pair<const LiveModel*, const DeviceInstance*>;
+  const std::vector<Teller>& tellers(const std::string& field) const;
+  /// To be called when a device told other fields than before.
+  void forget_tellers() { tellers_.clear(); }
+
   /// Grows with every change of what exists.
   std::uint64_t revision() const { return revision_; }
   /// A new Structure; also numbers every model's parts in it.
@@ -59,6 +66,7 @@ class Building {
   void check_sensor_name(const SensorInstance& sensor) const;
   LiveModel* find(const std::string& model) const;
   std::vector<std::string> model_names() const;
+  void note_revision();
   void list_names(LiveModel& live);
   void strike_names(const LiveModel& live);
 
@@ -74,6 +82,8 @@ class Building {
   std::vector<Owner> owners_;  // by index of physics::LinkId
   std::vector<std::string> warnings_;
   std::uint64_t revision_ = 0;
+  // What tellers() was asked for since something came or went.
+  mutable std::unordered_map<std::string, std::vector<Teller>> tellers_;
 };
 
 }  // namespace angen::sim

@@ -38,33 +38,17 @@ LinkView InstanceView::link(LinkRef link) const {
 
 std::vector<ContactPair> InstanceView::contacts(ContactRef collision) const {
   asked_more_ = true;
-  const std::string& name = sensor_->collisions.at(at(collision));
-  std::vector<ContactPair> found;
-  for (const ContactPair& pair : stage_.physics.contacts()) {
-    if (pair.first == name) found.push_back(pair);
-    if (pair.second != name) continue;
-    ContactPair turned = pair;
-    std::swap(turned.first, turned.second);
-    for (ContactPoint& point : turned.points) {
-      point.normal = -point.normal;
-      point.force = -point.force;
-    }
-    found.push_back(std::move(turned));
-  }
-  return found;
+  return stage_.physics.contacts(sensor_->collisions.at(at(collision)));
 }
 
-std::vector<DeviceView> InstanceView::devices() const {
+std::vector<DeviceView> InstanceView::devices(const std::string& field) const {
   asked_more_ = asked_devices_ = true;
-  std::vector<DeviceView> all;
-  for (const auto& live : building_.models()) {
-    for (const DeviceInstance& device : live->devices) {
-      if (device.last == nullptr) continue;
-      all.push_back(
-          {device.kind, device.name, live->desc->name, model_pose(stage_, *live), *device.last});
-    }
+  std::vector<DeviceView> found;
+  for (const auto& [live, device] : building_.tellers(field)) {
+    found.push_back(
+        {device->kind, device->name, live->desc->name, model_pose(stage_, *live), *device->last});
   }
-  return all;
+  return found;
 }
 
 light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) const {

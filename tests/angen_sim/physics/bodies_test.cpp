@@ -95,6 +95,37 @@ TEST(Bodies, AtRestSleepAndKeepTheirContactForces) {
   EXPECT_NEAR(world.contacts()[0].points.at(0).normal.z(), -1.0, 1e-9);
 }
 
+TEST(Bodies, TellWhatTouchesOneCollisionAwakeAndAsleep) {
+  const std::string low = "low::link::collision";
+  TestWorld world;
+  world.add(floor_model());
+  world.add(box_model("low", 7.0, {0.4, 0.3, 0.2}, {0, 0, 0.1}));
+  const ModelId high = world.add(box_model("high", 1.0, {0.2, 0.2, 0.2}, {0, 0, 0.3}));
+  for (const std::size_t awake : {2U, 0U}) {
+    world.run(awake > 0 ? 0.3 : 2.0);
+    ASSERT_EQ(world.awake_count(), awake);
+    const std::vector<ContactPair> pairs = world.contacts(low);
+    ASSERT_EQ(pairs.size(), 2U);
+    EXPECT_EQ(pairs[0].second, "floor::link::collision");
+    EXPECT_EQ(pairs[1].second, "high::link::collision");
+    Vec3 sum = Vec3::Zero();
+    for (const ContactPair& pair : pairs) {
+      EXPECT_EQ(pair.first, low);
+      for (const ContactPoint& point : pair.points) {
+        EXPECT_GT(point.force.dot(point.normal), 0.0);
+        sum += point.force;
+      }
+    }
+    EXPECT_LT((sum - force_on(world, low)).norm(), 1e-9);
+  }
+  world.remove(high);
+  world.run(2.0);
+  ASSERT_EQ(world.awake_count(), 0U);
+  EXPECT_EQ(world.contacts(low).size(), 1U);
+  EXPECT_EQ(world.contacts("floor::link::collision").size(), 1U);
+  EXPECT_TRUE(world.contacts("high::link::collision").empty());
+}
+
 TEST(Bodies, FallWhenWhatTheyRestOnIsRemoved) {
   TestWorld world;
   const ModelId floor = world.add(floor_model());

@@ -102,6 +102,28 @@ TEST(Joints, BrakeHoldsALoadWithoutMotionAndSleeps) {
   EXPECT_GT(world.joint(joint).position, 0.1);
 }
 
+TEST(Joints, HoweverOftenTheyFallAsleepNothingAddsUp) {
+  TestWorld world({}, Vec3::Zero());
+  const ModelId door = world.add(door_model("door", {1, 2, 0}));
+  const JointId hinge = world.joints(door)[1];
+  const LinkId leaf = world.links(door)[1];
+  world.set_motor(hinge, -0.5, 100.0);
+  world.run(2.0);
+  world.set_motor(hinge, 0.0, 100.0);
+  world.run(1.0);
+  ASSERT_FALSE(world.awake(leaf));
+  const Pose before = world.link(leaf).pose;
+  const double angle = world.joint(hinge).position;
+  EXPECT_NEAR(angle, -1.0, 0.01);
+  for (int i = 0; i < 100; ++i) {
+    world.wake(leaf);
+    world.run(0.6);
+    ASSERT_FALSE(world.awake(leaf));
+  }
+  EXPECT_LT((world.link(leaf).pose.position - before.position).norm(), 1e-9);
+  EXPECT_NEAR(world.joint(hinge).position, angle, 1e-9);
+}
+
 TEST(Joints, DampingIsThatOfTheEquation) {
   TestWorld world({}, Vec3::Zero());
   desc::Model model = model_of("wheel", {ghost_link("w", 1.0, {0.2, 0.2, 0.2})});

@@ -12,17 +12,19 @@ SharedArray<int> counted(int n) {
 }
 
 TEST(SharedArray, HoldsWhatWasPutIn) {
-  const SharedArray<int> array = counted(200);
-  ASSERT_EQ(array.size(), 200U);
+  const SharedArray<int> array = counted(5000);
+  ASSERT_EQ(array.size(), 5000U);
   for (std::size_t i = 0; i < array.size(); ++i) EXPECT_EQ(array[i], static_cast<int>(i));
 }
 
 TEST(SharedArray, ACopyKeepsItsValuesWhenTheOriginalChanges) {
-  SharedArray<int> array = counted(200);
+  SharedArray<int> array = counted(5000);
   const SharedArray<int> copy = array;
-  array.set(70, -1);
-  EXPECT_EQ(array[70], -1);
-  EXPECT_EQ(copy[70], 70);
+  for (const int i : {70, 4000}) {
+    array.set(i, -1);
+    EXPECT_EQ(array[i], -1);
+    EXPECT_EQ(copy[i], i);
+  }
 }
 
 TEST(SharedArray, ACopySharesWhatDidNotChange) {
@@ -34,11 +36,14 @@ TEST(SharedArray, ACopySharesWhatDidNotChange) {
 }
 
 TEST(SharedArray, GrowingDoesNotTouchACopy) {
-  SharedArray<int> array = counted(65);
-  const SharedArray<int> copy = array;
-  array.push_back(7);
-  EXPECT_EQ(copy.size(), 65U);
-  EXPECT_EQ(array[65], 7);
+  for (const int size : {65, 128, 2048}) {
+    SharedArray<int> array = counted(size);
+    const SharedArray<int> copy = array;
+    array.push_back(7);
+    EXPECT_EQ(copy.size(), static_cast<std::size_t>(size));
+    EXPECT_EQ(array[size], 7);
+    EXPECT_EQ(copy[size - 1], size - 1);
+  }
 }
 
 }  // namespace
