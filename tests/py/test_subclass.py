@@ -103,8 +103,9 @@ SLED = '''<model name="sled"><pose>0 0 1 0 0 0</pose><link name="rail"/>
 
 
 def test_python_sensor_sees_what_devices_tell(world):
-    tracker = '''<model name="eye"><static>true</static><link name="link"><sensor name="s" type="ray">
-      <plugin name="p" filename="tracker.py"/></sensor></link></model>'''
+    tracker = '''<model name="eye"><static>true</static><link name="link">
+      <sensor name="s" type="ray"><plugin name="p" filename="tracker.py"/></sensor>
+      </link></model>'''
     w = world(SLED + SLED.replace('name="sled"><pose>0', 'name="far"><pose>7')
               + RANGE.format(yaw=0, extra='') + tracker)
     w.command('pusher', 'far', 'Push', [4.0])

@@ -9,6 +9,8 @@ import sys
 import time
 from pathlib import Path
 
+import pytest
+
 from harness import until
 
 SCRIPT = Path(__file__).resolve().parents[2] / 'src/angen_tools/scripts/angen'
@@ -57,16 +59,17 @@ def test_a_small_bench_measures_and_leaves_nothing_behind(tmp_path: Path) -> Non
     assert not list(tmp_path.glob('angen_bench_*'))
 
 
-def test_ctrl_c_keeps_what_is_measured(tmp_path: Path) -> None:
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_all_and_keeps_what_is_measured(tmp_path: Path, number: int) -> None:
     bench = start(tmp_path, '--kind', 'switch', '--counts', '1,10', '--repeats', '1')
     table = tmp_path / 'sensors_switch_added.csv'
     end = time.monotonic() + 300
     while not (table.exists() and read(table)):
         assert bench.poll() is None and time.monotonic() < end
         time.sleep(0.05)
-    bench.send_signal(signal.SIGINT)
+    bench.send_signal(number)
     bench.communicate(timeout=120)
-    assert bench.returncode == 130
+    assert bench.returncode == 128 + number
     first = read(table)[0]
     assert first['count'] == '1' and float(first['delivered']) > 0
     assert first['first_reading_ms'] == first['deploy_s'] == ''

@@ -31,6 +31,26 @@ pyb::dict to_dict(const Reading& reading) {
   return all;
 }
 
+namespace {
+
+// A list of texts or of numbers.
+void set_list(const std::string& name, const pyb::handle& value, Reading& reading) {
+  try {
+    const bool texts = pyb::isinstance<pyb::sequence>(value) && pyb::len(value) > 0 &&
+                       pyb::isinstance<pyb::str>(value[pyb::int_(0)]);
+    if (texts) {
+      reading.set(name.c_str(), pyb::cast<std::vector<std::string>>(value));
+    } else {
+      reading.set(name.c_str(), pyb::cast<std::vector<double>>(value));
+    }
+  } catch (const pyb::cast_error&) {
+    throw Error("the field '" + name +
+                "' is no bool, number or text, nor a list of numbers or of texts");
+  }
+}
+
+}  // namespace
+
 void from_dict(const pyb::dict& values, Reading& reading) {
   for (const auto& [key, value] : values) {
     const auto name = pyb::cast<std::string>(key);
@@ -43,7 +63,7 @@ void from_dict(const pyb::dict& values, Reading& reading) {
     } else if (pyb::isinstance<pyb::str>(value)) {
       reading.set(name.c_str(), pyb::cast<std::string>(value));
     } else {
-      reading.set(name.c_str(), pyb::cast<std::vector<double>>(value));
+      set_list(name, value, reading);
     }
   }
 }

@@ -18,7 +18,7 @@ namespace pyb = pybind11;
 /// Fields of a reading as a dict, with `kind` and `stamp` (s).
 pyb::dict to_dict(const Reading& reading);
 
-/// A dict's values into a reading's fields; throws pybind11::type_error for what cannot be one.
+/// A dict's values into a reading's fields; throws Error for what cannot be one.
 void from_dict(const pyb::dict& values, Reading& reading);
 
 /// Six numbers x y z roll pitch yaw (m, rad) as a pose; throws Error for another count or NaN.

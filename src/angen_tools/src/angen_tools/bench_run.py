@@ -156,15 +156,17 @@ class Stage:
 
 @contextmanager
 def uninterrupted() -> Iterator[None]:
-    """Ctrl-C within it is heard at its end: no process is started and then forgotten."""
+    """A signal within it is heard at its end: no process is started and then forgotten."""
     heard: list[int] = []
-    before = signal.signal(signal.SIGINT, lambda number, _: heard.append(number))
+    numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    before = [signal.signal(number, lambda n, _: heard.append(n)) for number in numbers]
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, before)
+        for number, handler in zip(numbers, before):
+            signal.signal(number, handler)
     if heard:
-        raise KeyboardInterrupt
+        signal.raise_signal(heard[0])
 
 
 def end(process: subprocess.Popen[bytes]) -> None:

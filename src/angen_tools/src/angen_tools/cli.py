@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import signal
 import sys
 from pathlib import Path
 from typing import Any, Callable, NoReturn, Sequence
@@ -319,8 +320,15 @@ def run(arguments: Sequence[str]) -> int:
         return 1
 
 
+def stop(number: int, _: Any) -> NoReturn:
+    """At a signal: what was started is ended on the way out."""
+    sys.exit(128 + number)  # as a shell says of a command that a signal ended
+
+
 def main() -> None:
     """The program. Ends at once: threads that still wait for an answer are not waited for."""
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, stop)
     try:
         code = run(sys.argv[1:])
     except SystemExit as end:

@@ -7,7 +7,6 @@ import signal
 import sys
 import time
 from pathlib import Path
-from typing import Any, NoReturn
 
 from . import scene
 from .bench_run import Stage, wait
@@ -50,8 +49,6 @@ def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, 
         (out / 'logs').mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise Failure(f'{out}: cannot be written: {error.strerror}') from None
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, leave)
     began = time.monotonic()
     own_world = out.absolute() / 'patrol.world'
     scene.write_world(world, route.robot, seed, own_world)
@@ -84,11 +81,6 @@ def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, 
         draw(run, rows, route, floor, out / name)
     print(summary(run, rows, found, time.monotonic() - began, out))
     return verdict(found)
-
-
-def leave(number: int, _: Any) -> NoReturn:
-    """Ends what was started, and this process, at a signal."""
-    sys.exit(128 + number)
 
 
 def put_bumper(lockstep: Lockstep, robot: str, world: Path) -> None:

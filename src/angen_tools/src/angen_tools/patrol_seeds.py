@@ -1,11 +1,9 @@
 """angen task patrol --seeds N: one patrol after the other, each with its seed, and a table."""
 from __future__ import annotations
 
-import signal
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any, NoReturn
 
 from .failure import Failure
 from .patrol_report import Figures, read_figures, verdict, write_figures
@@ -46,11 +44,6 @@ def patrol(words: list[str]) -> tuple[int, str]:
                                stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                stderr=subprocess.PIPE)
 
-    def leave(number: int, _: Any) -> NoReturn:
-        sys.exit(128 + number)
-
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, leave)
     try:
         said = process.communicate()[1].splitlines()
     except BaseException:
