@@ -101,7 +101,8 @@ void doors_at_rest(benchmark::State& state) {
 }
 BENCHMARK(doors_at_rest)->ArgName("doors")->Arg(0)->Arg(100)->Arg(1000);
 
-/// So many floors like the lower one of angen.world, a person on the lowest, per tick.
+/// So many floors like the lower one of angen.world, a person on the lowest, per tick; the rays of
+/// their sensors have their noise or none.
 void storeys(benchmark::State& state) {
   desc::World world = apartment();
   const auto on_ground = [](const desc::Model& model) {
@@ -123,6 +124,7 @@ void storeys(benchmark::State& state) {
       world.models.push_back(std::move(model));
     }
   }
+  if (state.range(1) == 0) drop_ray_noise(world);
   const auto simulation = simulate(std::move(world));
   run(*simulation, 6.0);
   for (auto _ : state) {
@@ -134,12 +136,10 @@ void storeys(benchmark::State& state) {
                          benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(storeys)
-    ->ArgName("floors")
-    ->Arg(2)
-    ->Arg(20)
-    ->Arg(100)
+    ->ArgNames({"floors", "noise"})
+    ->ArgsProduct({{2, 20, 100}, {0, 1}})
     ->Unit(benchmark::kMillisecond)
-    ->Iterations(3);
+    ->Iterations(10);
 
 /// A person whose walk of about `walk` s is followed by nine times as long a stand.
 void let_rest(desc::World& world) {

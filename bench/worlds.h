@@ -46,6 +46,17 @@ inline Element& child(Element& element, const std::string& name) {
   return element.children.back();
 }
 
+inline void drop_ray_noise(desc::World& world) {
+  for (desc::Model& model : world.models) {
+    for (desc::Link& link : model.links) {
+      for (desc::Sensor& sensor : link.sensors) {
+        if (sensor.type == "ray")
+          child(child(child(sensor.element, "ray"), "noise"), "type").text = "none";
+      }
+    }
+  }
+}
+
 /// As many people on the way of the world's own, one behind the other, half of them a floor up.
 inline void put_persons(desc::World& world, int count) {
   const auto first = std::find_if(world.models.begin(), world.models.end(), is_person);

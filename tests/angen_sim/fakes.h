@@ -85,10 +85,12 @@ class FakeWorld : public View, public Wiring, public Outputs {
     const auto found = touching.find(collisions.at(ref.index));
     return found == touching.end() ? std::vector<ContactPair>{} : found->second;
   }
-  std::vector<DeviceView> devices(const std::string& field) const override {
+  using View::devices;
+  std::vector<DeviceView> devices(const std::string& field,
+                                  const Eigen::AlignedBox3d& within) const override {
     std::vector<DeviceView> found;
     for (const FakeDevice& d : others) {
-      if (d.state.find(field) == nullptr) continue;
+      if (d.state.find(field) == nullptr || !within.contains(d.pose.position)) continue;
       found.push_back({d.kind, d.name, d.model, d.pose, d.state});
     }
     return found;

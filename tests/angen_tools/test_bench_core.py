@@ -22,15 +22,15 @@ def test_times_are_told_in_ns_whatever_their_unit() -> None:
 
 def test_ratios_stand_in_front() -> None:
     cases = bench_core.cases_of(report(
-        ('other', 1.0, 'ns'), ('storeys/floors:2', 4.0, 'ms'), ('storeys/floors:20', 5.0, 'ms')))
+        ('other', 1.0, 'ns'), ('storeys/floors:2/noise:0', 4.0, 'ms'), ('storeys/floors:20/noise:0', 5.0, 'ms')))
     rows = bench_core.rows_of(cases, 'abc')
-    assert [row['case'] for row in rows] == ['storeys/floors:20', 'other', 'storeys/floors:2']
-    assert (rows[0]['ratio'], rows[0]['against']) == ('1.25', 'storeys/floors:2')
+    assert [row['case'] for row in rows] == ['storeys/floors:20/noise:0', 'other', 'storeys/floors:2/noise:0']
+    assert (rows[0]['ratio'], rows[0]['against']) == ('1.25', 'storeys/floors:2/noise:0')
     assert {row['commit'] for row in rows} == {'abc'}
 
 
 def test_a_case_whose_rival_was_not_run_has_no_ratio() -> None:
-    cases = bench_core.cases_of(report(('storeys/floors:20', 5.0, 'ms')))
+    cases = bench_core.cases_of(report(('storeys/floors:20/noise:0', 5.0, 'ms')))
     assert bench_core.rows_of(cases, 'abc')[0]['ratio'] == ''
 
 

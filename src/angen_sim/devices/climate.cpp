@@ -10,9 +10,10 @@ namespace angen::devices {
 
 namespace {
 
-constexpr double kRate = 1.0;     // Hz: rooms take minutes
-constexpr double kBesides = 0.4;  // m from the middle of an opening to the air on either side
-constexpr double kWall = 0.05;    // m: what hangs in a wall is in the room
+constexpr double kRate = 1.0;        // Hz: rooms take minutes
+constexpr double kBesides = 0.4;     // m from the middle of an opening to the air on either side
+constexpr double kWall = 0.05;       // m: what hangs in a wall is in the room
+constexpr double kWidestLeaf = 3.0;  // m, from its hinge
 constexpr Range kCelsius{-60.0, 60.0};
 
 }  // namespace
@@ -73,13 +74,15 @@ class Climate : public Device {
     const Nanoseconds before = stepped_at_ < 0 ? view.time() : stepped_at_;
     stepped_at_ = view.time();
     const Pose here = view.pose().inverse();
+    const Eigen::AlignedBox3d around = surroundings(view.pose());
     std::vector<double> heat(rooms_.size(), 0.0);
     std::vector<Opening> openings;
-    for (const DeviceView& device : view.devices("power")) {
+    for (const DeviceView& device : view.devices("power", around)) {
       const int room = room_at(here * device.pose.position);
       if (room >= 0) heat[static_cast<std::size_t>(room)] += device.state.get<double>("power");
     }
-    for (const DeviceView& device : view.devices("gap")) add_opening(device, here, openings);
+    for (const DeviceView& device : view.devices("gap", around))
+      add_opening(device, here, openings);
     air_.step(to_seconds(stepped_at_ - before), outside_, heat, openings);
   }
 
@@ -102,6 +105,21 @@ class Climate : public Device {
   }
 
  private:
+  // In which a model may stand that a room feels, a leaf's hinge beside it too.
+  Eigen::AlignedBox3d surroundings(const Pose& pose) const {
+    Eigen::AlignedBox3d around;
+    for (const std::vector<double>& room : rooms_) {
+      const Eigen::AlignedBox3d box(Vec3(room[0], room[1], room[2]),
+                                    Vec3(room[3], room[4], room[5]));
+      for (int corner = 0; corner < 8; ++corner) {
+        const auto type = static_cast<Eigen::AlignedBox3d::CornerType>(corner);
+        around.extend(pose * Vec3(box.corner(type)));
+      }
+    }
+    const Vec3 margin = Vec3::Constant(kWidestLeaf);
+    return {around.min() - margin, around.max() + margin};
+  }
+
   // -1: in none of them.
   int room_at(const Vec3& point) const {
     for (std::size_t i = 0; i < rooms_.size(); ++i) {

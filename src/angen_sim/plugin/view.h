@@ -1,7 +1,9 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -70,9 +72,15 @@ class View {
   virtual LinkView link(LinkRef link) const = 0;
   /// Pairs that the wired collision takes part in; it is `first` in each.
   virtual std::vector<ContactPair> contacts(ContactRef collision) const = 0;
-  /// The devices whose state has a field of that name, in the order in which they came into the
-  /// world.
-  virtual std::vector<DeviceView> devices(const std::string& field) const = 0;
+  /// The devices whose state has a field of that name and whose models stand in `within` (world,
+  /// m), in the order in which they came into the world.
+  virtual std::vector<DeviceView> devices(const std::string& field,
+                                          const Eigen::AlignedBox3d& within) const = 0;
+  /// The same, wherever they stand.
+  std::vector<DeviceView> devices(const std::string& field) const {
+    const Vec3 far = Vec3::Constant(std::numeric_limits<double>::infinity());
+    return devices(field, {-far, far});
+  }
   virtual light::Sample illuminance(light::Probe& probe, const Pose& pose) const = 0;
   virtual double ambient_temperature() const = 0;  // K
   /// What is warmer or colder than the air, and where.

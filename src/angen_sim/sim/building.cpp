@@ -52,15 +52,49 @@ void Building::note_revision() {
   tellers_.clear();
 }
 
-const std::vector<Building::Teller>& Building::tellers(const std::string& field) const {
+Pose Building::pose_of(const LiveModel& live) const {
+  const Pose first = stage_->physics.link(live.parts.links.at(0)).pose;
+  return first * live.desc->links.front().pose.inverse();
+}
+
+const Building::Tellers& Building::all_tellers(const std::string& field) const {
   const auto [at, is_new] = tellers_.try_emplace(field);
-  if (!is_new) return at->second;
+  Tellers& all = at->second;
+  if (!is_new) return all;
+  std::size_t order = 0;
   for (const auto& live : models_) {
+    const bool fixed = stage_->physics.mass(live->parts.links.at(0)) == 0.0;
     for (const DeviceInstance& device : live->devices) {
-      if (device.last && device.last->find(field)) at->second.emplace_back(live.get(), &device);
+      if (!device.last || !device.last->find(field)) continue;
+      (fixed ? all.fixed : all.movable).push_back({live.get(), &device, pose_of(*live), order++});
     }
   }
-  return at->second;
+  std::stable_sort(all.fixed.begin(), all.fixed.end(), [](const Teller& a, const Teller& b) {
+    return a.pose.position.z() < b.pose.position.z();
+  });
+  return all;
+}
+
+std::vector<Building::Teller> Building::tellers(const std::string& field,
+                                                const Eigen::AlignedBox3d& within) const {
+  const Tellers& all = all_tellers(field);
+  std::vector<Teller> found;
+  const auto add = [&](const Teller& teller) {
+    if (within.contains(teller.pose.position)) found.push_back(teller);
+  };
+  const auto lower =
+      std::lower_bound(all.fixed.begin(), all.fixed.end(), within.min().z(),
+                       [](const Teller& t, double z) { return t.pose.position.z() < z; });
+  for (auto at = lower; at != all.fixed.end() && at->pose.position.z() <= within.max().z(); ++at) {
+    add(*at);
+  }
+  for (Teller teller : all.movable) {
+    teller.pose = pose_of(*teller.live);
+    add(teller);
+  }
+  std::sort(found.begin(), found.end(),
+            [](const Teller& a, const Teller& b) { return a.order < b.order; });
+  return found;
 }
 
 LiveModel* Building::find(const std::string& model) const {

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
-#include <utility>
 #include <vector>
 
 #include "sim/instance.h"
@@ -38,9 +38,18 @@ class Building {
   };
   Owner owner(physics::LinkId link) const { return owners_[link.index]; }
 
-  /// The devices whose last state has a field of that name, in the order of the models.
-  using Teller = std::pair<const LiveModel*, const DeviceInstance*>;
-  const std::vector<Teller>& tellers(const std::string& field) const;
+  /// Where a model's frame is.
+  Pose pose_of(const LiveModel& live) const;
+
+  struct Teller {
+    const LiveModel* live;
+    const DeviceInstance* device;
+    Pose pose;
+    std::size_t order;
+  };
+  /// The devices whose last state has a field of that name and whose models stand in `within`, in
+  /// the order of the models.
+  std::vector<Teller> tellers(const std::string& field, const Eigen::AlignedBox3d& within) const;
   /// To be called when a device told other fields than before.
   void forget_tellers() { tellers_.clear(); }
 
@@ -82,8 +91,13 @@ class Building {
   std::vector<Owner> owners_;  // by index of physics::LinkId
   std::vector<std::string> warnings_;
   std::uint64_t revision_ = 0;
-  // What tellers() was asked for since something came or went.
-  mutable std::unordered_map<std::string, std::vector<Teller>> tellers_;
+  struct Tellers {
+    std::vector<Teller> fixed;  // by height: a storey's are found without going through a tower
+    std::vector<Teller> movable;
+  };
+  const Tellers& all_tellers(const std::string& field) const;
+  // What was asked for since something came or went.
+  mutable std::unordered_map<std::string, Tellers> tellers_;
 };
 
 }  // namespace angen::sim

@@ -69,7 +69,7 @@ void Sights::View::part(Moment since, Parted& parted) const {
   parted.moving.clear();
   parted.longest = sights_.now_;
   for (const rays::ShapeId id : near()) {
-    const Moment moved = sights_.movers_[id.index].moved;
+    const Moment moved = sights_.moved_[id.index];
     (moved < since ? parted.still : parted.moving).push_back(id);
     if (moved >= since) parted.longest = std::min(parted.longest, moved);
   }
@@ -78,9 +78,13 @@ void Sights::View::part(Moment since, Parted& parted) const {
 bool Sights::View::stirred(Moment since) const {
   const Place& place = sights_.views_[index_];
   if (place.altered || place.left >= since) return true;
-  return std::any_of(place.near.begin(), place.near.end(), [&](rays::ShapeId mover) {
-    return sights_.movers_[mover.index].moved >= since;
-  });
+  if (!place.wide && sights_.stirred_wide_ < since &&
+      std::none_of(place.cells.begin(), place.cells.end(),
+                   [&](std::uint32_t cell) { return sights_.stirred_in_[cell] >= since; })) {
+    return false;
+  }
+  return std::any_of(place.near.begin(), place.near.end(),
+                     [&](rays::ShapeId mover) { return sights_.moved_[mover.index] >= since; });
 }
 
 bool Sights::View::take_altered() { return std::exchange(sights_.views_[index_].altered, false); }
@@ -105,7 +109,7 @@ void Sights::each_view_in(const Box& box, F&& visit) {
   each_cell(cells, [&](std::uint64_t key) {
     const auto cell = cells_.find(key);
     if (cell == cells_.end()) return;
-    for (const std::uint32_t view : cell->second) look(view);
+    for (const std::uint32_t view : views_in_[cell->second]) look(view);
   });
 }
 
@@ -136,24 +140,33 @@ void Sights::close(std::uint32_t view) {
   free_.push_back(view);
 }
 
-void Sights::file(std::uint32_t view) {
+bool Sights::find_cells(const Box& box, std::vector<std::uint32_t>& numbers) {
+  numbers.clear();
   Cells cells{};
-  views_[view].wide = !cells_of(views_[view].box, cells);
-  if (views_[view].wide) {
-    wide_.push_back(view);
-  } else {
-    each_cell(cells, [&](std::uint64_t key) { cells_[key].push_back(view); });
-  }
+  if (!cells_of(box, cells)) return false;
+  each_cell(cells, [&](std::uint64_t key) {
+    const auto count = static_cast<std::uint32_t>(views_in_.size());
+    const auto [at, is_new] = cells_.emplace(key, count);
+    if (is_new) {
+      views_in_.emplace_back();
+      stirred_in_.push_back(0);
+    }
+    numbers.push_back(at->second);
+  });
+  return true;
+}
+
+void Sights::file(std::uint32_t view) {
+  Place& place = views_[view];
+  place.wide = !find_cells(place.box, place.cells);
+  if (place.wide) wide_.push_back(view);
+  for (const std::uint32_t cell : place.cells) views_in_[cell].push_back(view);
 }
 
 void Sights::unfile(std::uint32_t view) {
-  if (views_[view].box.isEmpty()) return;
-  Cells cells{};
-  if (views_[view].wide) {
-    take_out(wide_, view);
-  } else if (cells_of(views_[view].box, cells)) {
-    each_cell(cells, [&](std::uint64_t key) { take_out(cells_[key], view); });
-  }
+  const Place& place = views_[view];
+  if (place.wide) take_out(wide_, view);
+  for (const std::uint32_t cell : place.cells) take_out(views_in_[cell], view);
 }
 
 void Sights::link(Mover& mover) {
@@ -176,14 +189,21 @@ void Sights::put(rays::ShapeId id, const Box& box) {
     drop(id);
     return;
   }
-  if (movers_.size() <= id.index) movers_.resize(id.index + 1);
+  if (movers_.size() <= id.index) {
+    movers_.resize(id.index + 1);
+    moved_.resize(id.index + 1);
+  }
   Mover& mover = movers_[id.index];
-  mover.moved = now_;
-  if (mover.id == id && mover.box.contains(box)) return;
-  unlink(mover);
-  mover.id = id;
-  mover.box = wider(box);
-  link(mover);
+  moved_[id.index] = now_;
+  if (mover.id != id || !mover.box.contains(box)) {
+    unlink(mover);
+    mover.id = id;
+    mover.box = wider(box);
+    mover.wide = !find_cells(mover.box, mover.cells);
+    link(mover);
+  }
+  if (mover.wide) stirred_wide_ = now_;
+  for (const std::uint32_t cell : mover.cells) stirred_in_[cell] = now_;
 }
 
 void Sights::drop(rays::ShapeId id) {

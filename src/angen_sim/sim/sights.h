@@ -66,20 +66,24 @@ class Sights {
     bool altered = false;
     bool used = false;
     bool wide = false;  // in too many cells to be filed by them
+    std::vector<std::uint32_t> cells;
     std::uint64_t visited = 0;
     Box box;
   };
   struct Mover {
     rays::ShapeId id;
     Box box;  // larger than its own
+    bool wide = false;
+    std::vector<std::uint32_t> cells;
     std::vector<std::uint32_t> views;
-    Moment moved = 0;
   };
 
   std::uint32_t open(const Box& box);
   void close(std::uint32_t view);
   void file(std::uint32_t view);
   void unfile(std::uint32_t view);
+  /// The cells that a box is in; false where it is in too many.
+  bool find_cells(const Box& box, std::vector<std::uint32_t>& cells);
   void link(Mover& mover);
   void unlink(Mover& mover);
   template <class F>
@@ -88,7 +92,11 @@ class Sights {
   std::vector<Place> views_;
   std::vector<std::uint32_t> free_;
   std::vector<Mover> movers_;  // by index of the shape; one without an id is none
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+  std::vector<Moment> moved_;  // as movers_, which are too large to be gone through for it
+  std::unordered_map<std::uint64_t, std::uint32_t> cells_;  // number by place
+  std::vector<std::vector<std::uint32_t>> views_in_;        // by a cell's number
+  std::vector<Moment> stirred_in_;                          // as well: when a mover there moved
+  Moment stirred_wide_ = 0;                                 // when one in too many cells did
   std::vector<std::uint32_t> wide_;
   Moment now_ = 1;
   std::uint64_t query_ = 0;

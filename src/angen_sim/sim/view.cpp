@@ -11,15 +11,10 @@ std::size_t at(Ref ref) {
   return static_cast<std::size_t>(ref.index);
 }
 
-Pose model_pose(const Stage& stage, const LiveModel& live) {
-  const Pose first = stage.physics.link(live.parts.links.at(0)).pose;
-  return first * live.desc->links.front().pose.inverse();
-}
-
 }  // namespace
 
 Pose InstanceView::pose() const {
-  if (sensor_ == nullptr) return model_pose(stage_, live_);
+  if (sensor_ == nullptr) return building_.pose_of(live_);
   return stage_.physics.link(live_.parts.links.at(sensor_->link)).pose * sensor_->pose;
 }
 
@@ -41,12 +36,12 @@ std::vector<ContactPair> InstanceView::contacts(ContactRef collision) const {
   return stage_.physics.contacts(sensor_->collisions.at(at(collision)));
 }
 
-std::vector<DeviceView> InstanceView::devices(const std::string& field) const {
+std::vector<DeviceView> InstanceView::devices(const std::string& field,
+                                              const Eigen::AlignedBox3d& within) const {
   asked_more_ = asked_devices_ = true;
   std::vector<DeviceView> found;
-  for (const auto& [live, device] : building_.tellers(field)) {
-    found.push_back(
-        {device->kind, device->name, live->desc->name, model_pose(stage_, *live), *device->last});
+  for (const Building::Teller& t : building_.tellers(field, within)) {
+    found.push_back({t.device->kind, t.device->name, t.live->desc->name, t.pose, *t.device->last});
   }
   return found;
 }

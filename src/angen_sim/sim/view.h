@@ -30,7 +30,9 @@ class InstanceView : public View {
   JointView joint(JointRef joint) const override;
   LinkView link(LinkRef link) const override;
   std::vector<ContactPair> contacts(ContactRef collision) const override;
-  std::vector<DeviceView> devices(const std::string& field) const override;
+  using View::devices;
+  std::vector<DeviceView> devices(const std::string& field,
+                                  const Eigen::AlignedBox3d& within) const override;
   light::Sample illuminance(light::Probe& probe, const Pose& pose) const override;
   double ambient_temperature() const override { return stage_.ambient_temperature; }
   const std::vector<rays::WarmShape>& warm_shapes() const override;

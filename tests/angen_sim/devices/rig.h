@@ -80,7 +80,9 @@ class Rig : public View, public Wiring, public Outputs {
   JointView joint(JointRef joint) const override;
   LinkView link(LinkRef link) const override;
   std::vector<ContactPair> contacts(ContactRef) const override { return {}; }
-  std::vector<DeviceView> devices(const std::string&) const override { return {}; }
+  std::vector<DeviceView> devices(const std::string&, const Eigen::AlignedBox3d&) const override {
+    return {};
+  }
   light::Sample illuminance(light::Probe&, const Pose&) const override { return {}; }
   double ambient_temperature() const override { return 295.15; }
   const std::vector<rays::WarmShape>& warm_shapes() const override { return warm_; }

@@ -14,7 +14,7 @@ from pathlib import Path
 from .failure import Failure
 from .world_maker import write_apartment
 
-PROGRAMS = ('core_bench', 'rays_bench', 'physics_bench')
+PROGRAMS = ('core_bench', 'motion_bench', 'rays_bench', 'physics_bench')
 COLUMNS = ('ratio', 'against', 'case', 'cpu_ns', 'counters', 'commit')
 
 # A case, and the one that its time is divided by; both are measured in the same run.
@@ -23,8 +23,11 @@ AGAINST = {
     'doors_awake/120': 'doors_in_bare_ode/120',
     'BM_Ours/pir': 'BM_RawEmbree/pir',
     'BM_Ours/random': 'BM_RawEmbree/random',
-    'storeys/floors:20': 'storeys/floors:2',
-    'storeys/floors:100': 'storeys/floors:2',
+    'building_in_motion': 'building_in_bare_ode',
+    'storeys/floors:20/noise:0': 'storeys/floors:2/noise:0',
+    'storeys/floors:100/noise:0': 'storeys/floors:2/noise:0',
+    'storeys/floors:20/noise:1': 'storeys/floors:2/noise:1',
+    'storeys/floors:100/noise:1': 'storeys/floors:2/noise:1',
     'doors_at_rest/doors:1000': 'doors_at_rest/doors:0',
     'start/cached:1': 'start/cached:0',
     'pirs/pirs:3000/people:1': 'pirs/pirs:0/people:1',
