@@ -82,12 +82,20 @@ inline desc::Model quiet_pir(const desc::Model& pir) {
   return model;
 }
 
-/// Puts `count` PIRs into the rooms: each beside one of the world's own and turned a little.
+inline bool nods(const desc::Model& pir) {
+  for (const Element& c : pir.links[0].sensors[0].plugin_element.children) {
+    if (c.name == "nod_amplitude") return true;
+  }
+  return false;
+}
+
+/// Puts `count` PIRs into the rooms: each beside one of the world's own that do not nod, and turned
+/// a little.
 inline void put_pirs(desc::World& world, int count) {
   std::vector<desc::Model> own;
   for (const desc::Model& model : world.models) {
     if (!model.links.empty() && !model.links[0].sensors.empty() &&
-        model.links[0].sensors[0].plugin == "libpir_controller.so") {
+        model.links[0].sensors[0].plugin == "libpir_controller.so" && !nods(model)) {
       own.push_back(quiet_pir(model));
     }
   }

@@ -36,7 +36,8 @@ void Sensing::look(Building& building, InstanceView::Clock clock, std::int64_t t
     rays_.clear();
     meter_.rest.sensors += meter_.watch.lap();
     for (const std::uint32_t index : due_) {
-      visit(building, index, clock, next);
+      if (!repeat(stage, index, clock.time, next)) visit(building, index, clock, next);
+      if (!meter_.on) continue;
       watched_[index].sensor->cost += meter_.watch.lap();
     }
     const auto shared = static_cast<std::ptrdiff_t>(next.new_readings.size());
@@ -66,6 +67,7 @@ void Sensing::cast(Stage& stage) {
 void Sensing::schedule(Building& building, Nanoseconds now) {
   schedule_is_old_ = false;
   watched_.clear();
+  calm_.clear();
   groups_.clear();
   std::map<std::pair<Nanoseconds, Nanoseconds>, std::uint32_t> known;  // by due time and period
   for (auto& live : building.models()) {
@@ -78,6 +80,7 @@ void Sensing::schedule(Building& building, Nanoseconds now) {
       watched_.push_back({live.get(), &sensor});
     }
   }
+  calm_.resize(watched_.size());
   requeue(now);
 }
 
@@ -102,6 +105,27 @@ bool Sensing::collect_due(Nanoseconds now) {
   return !due_.empty();
 }
 
+bool Sensing::repeat(const Stage& stage, std::uint32_t index, Nanoseconds now, Snapshot& next) {
+  const Calm& calm = calm_[index];
+  if (calm.view == UINT32_MAX) return false;
+  if (stage.sights.stirred(calm.view, calm.seen)) {
+    calm_[index] = {};
+    return false;
+  }
+  if (calm.rhythm.last_publication(now) > now - calm.rhythm.step) {
+    next.new_readings.push_back(index);
+    ++next.counts.readings;
+  }
+  return true;
+}
+
+void Sensing::calm_down(std::uint32_t index) {
+  const SensorInstance& sensor = *watched_[index].sensor;
+  if (!sensor.published || sensor.asks_more || sensor.link_moves) return;
+  if (sensor.looks.size() != 1 || !sensor.looks.front()) return;
+  calm_[index] = {sensor.looks.front()->view.number(), sensor.seen, sensor.rhythm};
+}
+
 void Sensing::visit(Building& building, std::uint32_t index, InstanceView::Clock clock,
                     Snapshot& next) {
   SensorInstance& sensor = *watched_[index].sensor;
@@ -111,6 +135,7 @@ void Sensing::visit(Building& building, std::uint32_t index, InstanceView::Clock
     ++sensor.calm;
     if (sensor.rest == Rest::kSame) {
       if (publishes(sensor, clock)) publish(index, clock.time, next);
+      calm_down(index);
       return;
     }
   } else {

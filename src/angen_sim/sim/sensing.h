@@ -51,7 +51,17 @@ class Sensing {
     std::size_t ray_count;
   };
 
+  /// A sensor at rest that publishes the same again while nothing stirs in its one view. With many
+  /// sensors it comes from far away, and this is all that is looked at.
+  struct Calm {
+    std::uint32_t view = UINT32_MAX;  // none: it is to be visited
+    Sights::Moment seen = 0;
+    Rhythm rhythm;
+  };
+
   void schedule(Building& building, Nanoseconds now);
+  bool repeat(const Stage& stage, std::uint32_t index, Nanoseconds now, Snapshot& next);
+  void calm_down(std::uint32_t index);
   void requeue(Nanoseconds now);
   bool collect_due(Nanoseconds now);
   /// Whether a look would find what the last one did, noise and changing stances aside.
@@ -72,6 +82,7 @@ class Sensing {
   Meter& meter_;
   bool schedule_is_old_ = true;
   std::vector<Watched> watched_;                    // as Structure::sensors
+  std::vector<Calm> calm_;                          // as well
   std::vector<std::vector<std::uint32_t>> groups_;  // of watched_, ascending
   std::priority_queue<Group, std::vector<Group>, std::greater<>> queue_;
   std::vector<std::uint32_t> due_;

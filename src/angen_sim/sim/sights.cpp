@@ -39,12 +39,11 @@ void each_cell(const Cells& cells, F&& visit) {
   }
 }
 
+// Keeps the order: what came first mostly goes first, and is then found at once.
 template <class T>
 void take_out(std::vector<T>& list, const T& value) {
   const auto at = std::find(list.begin(), list.end(), value);
-  if (at == list.end()) return;
-  *at = list.back();
-  list.pop_back();
+  if (at != list.end()) list.erase(at);
 }
 
 Sights::Box wider(const Sights::Box& box) {
@@ -75,19 +74,21 @@ void Sights::View::part(Moment since, Parted& parted) const {
   }
 }
 
-bool Sights::View::stirred(Moment since) const {
-  const Place& place = sights_.views_[index_];
-  if (place.altered || place.left >= since) return true;
-  if (!place.wide && sights_.stirred_wide_ < since &&
-      std::none_of(place.cells.begin(), place.cells.end(),
-                   [&](std::uint32_t cell) { return sights_.stirred_in_[cell] >= since; })) {
-    return false;
+bool Sights::stirred(std::uint32_t view, Moment since) const {
+  const Glance& glance = glances_[view];
+  if (glance.altered || glance.left >= since) return true;
+  if (glance.region != 0 && stirred_wide_ < since) {
+    const Region& region = regions_[glance.region];
+    const bool calm = std::none_of(region.begin(), region.end(),
+                                   [&](std::uint32_t cell) { return stirred_in_[cell] >= since; });
+    if (calm) return false;
   }
-  return std::any_of(place.near.begin(), place.near.end(),
-                     [&](rays::ShapeId mover) { return sights_.moved_[mover.index] >= since; });
+  const std::vector<rays::ShapeId>& near = views_[view].near;
+  return std::any_of(near.begin(), near.end(),
+                     [&](rays::ShapeId mover) { return moved_[mover.index] >= since; });
 }
 
-bool Sights::View::take_altered() { return std::exchange(sights_.views_[index_].altered, false); }
+bool Sights::View::take_altered() { return std::exchange(sights_.glances_[index_].altered, false); }
 
 template <class F>
 void Sights::each_view_in(const Box& box, F&& visit) {
@@ -117,6 +118,7 @@ std::uint32_t Sights::open(const Box& box) {
   std::uint32_t view = static_cast<std::uint32_t>(views_.size());
   if (free_.empty()) {
     views_.emplace_back();
+    glances_.emplace_back();
   } else {
     view = free_.back();
     free_.pop_back();
@@ -137,6 +139,7 @@ void Sights::close(std::uint32_t view) {
   unfile(view);
   for (const rays::ShapeId mover : views_[view].near) take_out(movers_[mover.index].views, view);
   views_[view] = {};
+  glances_[view] = {};
   free_.push_back(view);
 }
 
@@ -157,16 +160,23 @@ bool Sights::find_cells(const Box& box, std::vector<std::uint32_t>& numbers) {
 }
 
 void Sights::file(std::uint32_t view) {
-  Place& place = views_[view];
-  place.wide = !find_cells(place.box, place.cells);
-  if (place.wide) wide_.push_back(view);
-  for (const std::uint32_t cell : place.cells) views_in_[cell].push_back(view);
+  Region cells;
+  if (!find_cells(views_[view].box, cells)) {
+    wide_.push_back(view);
+    return;
+  }
+  for (const std::uint32_t cell : cells) views_in_[cell].push_back(view);
+  const auto count = static_cast<std::uint32_t>(regions_.size());
+  const auto [at, is_new] = region_numbers_.emplace(cells, count);
+  if (is_new) regions_.push_back(std::move(cells));
+  glances_[view].region = at->second;
 }
 
 void Sights::unfile(std::uint32_t view) {
-  const Place& place = views_[view];
-  if (place.wide) take_out(wide_, view);
-  for (const std::uint32_t cell : place.cells) take_out(views_in_[cell], view);
+  if (views_[view].box.isEmpty()) return;
+  const std::uint32_t region = glances_[view].region;
+  if (region == 0) take_out(wide_, view);
+  for (const std::uint32_t cell : regions_[region]) take_out(views_in_[cell], view);
 }
 
 void Sights::link(Mover& mover) {
@@ -179,7 +189,7 @@ void Sights::link(Mover& mover) {
 void Sights::unlink(Mover& mover) {
   for (const std::uint32_t view : mover.views) {
     take_out(views_[view].near, mover.id);
-    views_[view].left = now_;
+    glances_[view].left = now_;
   }
   mover.views.clear();
 }
@@ -214,7 +224,7 @@ void Sights::drop(rays::ShapeId id) {
 
 void Sights::alter(const Box& box) {
   if (box.isEmpty()) return;
-  each_view_in(box, [](std::uint32_t, Place& place) { place.altered = true; });
+  each_view_in(box, [&](std::uint32_t view, Place&) { glances_[view].altered = true; });
 }
 
 }  // namespace angen::sim

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <unordered_map>
 #include <vector>
@@ -39,7 +40,9 @@ class Sights {
     /// near() in two: those that have not moved or come at `since` or later, and the others.
     void part(Moment since, Parted& parted) const;
     /// Whether any of them has moved, come or gone at `since` or later.
-    bool stirred(Moment since) const;
+    bool stirred(Moment since) const { return sights_.stirred(index_, since); }
+    /// For stirred() of Sights, until the box changes.
+    std::uint32_t number() const { return index_; }
     /// Whether static shapes in it came or went; forgets it.
     bool take_altered();
 
@@ -47,6 +50,9 @@ class Sights {
     Sights& sights_;
     std::uint32_t index_;
   };
+
+  /// As View::stirred, of the view with that number.
+  bool stirred(std::uint32_t view, Moment since) const;
 
   /// A moving shape came or moved; its box (m) is infinite for a plane, empty where it cannot be
   /// met.
@@ -62,19 +68,23 @@ class Sights {
  private:
   struct Place {
     std::vector<rays::ShapeId> near;
-    Moment left = 0;  // when a mover was last taken off `near`
-    bool altered = false;
     bool used = false;
-    bool wide = false;  // in too many cells to be filed by them
-    std::vector<std::uint32_t> cells;
     std::uint64_t visited = 0;
     Box box;
   };
+  // What is looked at first of a view; apart from the rest, since with many views that comes from
+  // far away.
+  struct Glance {
+    Moment left = 0;           // when a mover was last taken off its list
+    std::uint32_t region = 0;  // in regions_; the first for those that no cells are known of
+    bool altered = false;
+  };
+  using Region = std::vector<std::uint32_t>;  // numbers of cells
   struct Mover {
     rays::ShapeId id;
     Box box;  // larger than its own
     bool wide = false;
-    std::vector<std::uint32_t> cells;
+    Region cells;
     std::vector<std::uint32_t> views;
   };
 
@@ -83,13 +93,16 @@ class Sights {
   void file(std::uint32_t view);
   void unfile(std::uint32_t view);
   /// The cells that a box is in; false where it is in too many.
-  bool find_cells(const Box& box, std::vector<std::uint32_t>& cells);
+  bool find_cells(const Box& box, Region& cells);
   void link(Mover& mover);
   void unlink(Mover& mover);
   template <class F>
   void each_view_in(const Box& box, F&& visit);
 
   std::vector<Place> views_;
+  std::vector<Glance> glances_;  // as views_
+  std::vector<Region> regions_{Region{}};
+  std::map<Region, std::uint32_t> region_numbers_;
   std::vector<std::uint32_t> free_;
   std::vector<Mover> movers_;  // by index of the shape; one without an id is none
   std::vector<Moment> moved_;  // as movers_, which are too large to be gone through for it
