@@ -20,17 +20,20 @@ def test_times_are_told_in_ns_whatever_their_unit() -> None:
     assert cases[0].counters == {'bytes': 12.0}
 
 
+TWO, TWENTY = 'storeys/floors:2/noise:0', 'storeys/floors:20/noise:0'
+
+
 def test_ratios_stand_in_front() -> None:
     cases = bench_core.cases_of(report(
-        ('other', 1.0, 'ns'), ('storeys/floors:2/noise:0', 4.0, 'ms'), ('storeys/floors:20/noise:0', 5.0, 'ms')))
+        ('other', 1.0, 'ns'), (TWO, 4.0, 'ms'), (TWENTY, 5.0, 'ms')))
     rows = bench_core.rows_of(cases, 'abc')
-    assert [row['case'] for row in rows] == ['storeys/floors:20/noise:0', 'other', 'storeys/floors:2/noise:0']
-    assert (rows[0]['ratio'], rows[0]['against']) == ('1.25', 'storeys/floors:2/noise:0')
+    assert [row['case'] for row in rows] == [TWENTY, 'other', TWO]
+    assert (rows[0]['ratio'], rows[0]['against']) == ('1.25', TWO)
     assert {row['commit'] for row in rows} == {'abc'}
 
 
 def test_a_case_whose_rival_was_not_run_has_no_ratio() -> None:
-    cases = bench_core.cases_of(report(('storeys/floors:20/noise:0', 5.0, 'ms')))
+    cases = bench_core.cases_of(report((TWENTY, 5.0, 'ms')))
     assert bench_core.rows_of(cases, 'abc')[0]['ratio'] == ''
 
 
