@@ -137,6 +137,19 @@ def test_a_cabinet_opens_and_its_reed_tells(world):
     assert not w.sensor('reed', 'wall_cabinet0')['closed']
 
 
+def test_a_cabinet_that_bounces_off_something_hard_is_blocked_until_it_is_gone(world):
+    w = world(block('wall_cabinet', 'wall_cabinet0', '0 0 1.4 0 0 0')
+              + box('post', '0.36 -0.74 1.7 0 0 0', '0.04 0.04 0.4', static=True))
+    w.command('cabinet', 'wall0', 'Open')
+    w.run(4)
+    assert w.device('cabinet', 'wall0')['mode'] == 'BLOCKED'
+    w.run(2)
+    assert w.device('cabinet', 'wall0')['mode'] == 'BLOCKED'
+    w.delete('post')
+    w.run(4)
+    assert w.device('cabinet', 'wall0')['mode'] == 'OPEN'
+
+
 def test_a_reed_can_be_put_on_a_door(world):
     w = world(block('kitchen_door', 'kitchen_door0', '0 0 0 0 0 0'),
               DOORS)

@@ -103,6 +103,22 @@ TEST(Servo, IsBlockedWithinASecondWhenHeld) {
   EXPECT_TRUE(loop.servo.blocked());
 }
 
+TEST(Servo, WhatBouncesOffAnObstacleIsBlocked) {
+  Loop loop;
+  loop.servo.start(0.0, 0.0);
+  double farthest_back = -0.8;
+  for (int i = 0; i < 3500; ++i) {
+    loop.tick(-1.57);
+    if (loop.plant.position < -0.8) {
+      loop.plant.position = -0.8;
+      loop.plant.velocity *= -0.9;
+    }
+    if (i > 2500) farthest_back = std::max(farthest_back, loop.plant.position);
+  }
+  EXPECT_GT(farthest_back, -0.79) << "it still bounces";
+  EXPECT_TRUE(loop.servo.blocked());
+}
+
 TEST(Servo, ForceOnWhatHoldsItGrowsToItsLimitAndNoFurther) {
   Loop loop;
   loop.plant.held = true;
