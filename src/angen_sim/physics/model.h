@@ -120,7 +120,7 @@ struct Body {
   ModelRecord* model = nullptr;
   std::uint64_t serial = 0;
   Mechanism* mechanism = nullptr;  // null: static
-  ode::BodyHandle ode;             // null while it sleeps
+  ode::BodyHandle ode;             // null: static, or asleep
   Pose zero;                       // in the model's frame, all joints at 0
   Pose at;                         // in the world
   double mass = 0.0;
