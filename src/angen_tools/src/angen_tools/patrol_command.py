@@ -99,10 +99,21 @@ def put_bumper(lockstep: Lockstep, robot: str, world: Path) -> None:
 def watch(stage: Stage) -> None:
     """Opens rviz, or says why there is none."""
     reason = stage.display() if os.environ.get('DISPLAY') else 'there is no display'
+    if reason is None:
+        show_robot(stage)
     if reason is None and stage.rviz() is None:
         reason = f'it does not start; see {stage.folder}/rviz.log'
     if reason:
         print(f'angen: no rviz: {reason}', file=sys.stderr)
+
+
+def show_robot(stage: Stage) -> None:
+    """Gives rviz what its RobotModel wants, as angen.launch does."""
+    import rospy
+    urdf = worlds_models() / 'turtlebot/turtlebot.urdf'
+    rospy.set_param('/robot_description', urdf.read_text())
+    publisher = 'robot_state_publisher'
+    stage.start(['rosrun', publisher, publisher], publisher)
 
 
 class Bag:
