@@ -46,12 +46,15 @@ inline Element& child(Element& element, const std::string& name) {
   return element.children.back();
 }
 
+inline void drop_ray_noise(desc::Sensor& sensor) {
+  child(child(child(sensor.element, "ray"), "noise"), "type").text = "none";
+}
+
 inline void drop_ray_noise(desc::World& world) {
   for (desc::Model& model : world.models) {
     for (desc::Link& link : model.links) {
       for (desc::Sensor& sensor : link.sensors) {
-        if (sensor.type == "ray")
-          child(child(child(sensor.element, "ray"), "noise"), "type").text = "none";
+        if (sensor.type == "ray") drop_ray_noise(sensor);
       }
     }
   }
@@ -74,9 +77,8 @@ inline void put_persons(desc::World& world, int count) {
 /// What a PIR of the world is like with 24 x 4 rays and no noise.
 inline desc::Model quiet_pir(const desc::Model& pir) {
   desc::Model model = pir;
-  Element& ray = child(model.links[0].sensors[0].element, "ray");
-  child(child(ray, "noise"), "type").text = "none";
-  Element& scan = child(ray, "scan");
+  drop_ray_noise(model.links[0].sensors[0]);
+  Element& scan = child(child(model.links[0].sensors[0].element, "ray"), "scan");
   child(child(scan, "horizontal"), "samples").text = "24";
   child(child(scan, "vertical"), "samples").text = "4";
   return model;
