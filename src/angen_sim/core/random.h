@@ -25,14 +25,18 @@ class Rng {
   double uniform();   // [0, 1)
   double gaussian();  // mean 0, standard deviation 1
 
-  /// Whether the first `count` gaussian() of a new generator are surely within ±limit; costs less
-  /// than drawing them, and leaves no generator to draw from.
-  bool gaussians_within(std::size_t count, double limit);
+  /// `count` numbers like those of gaussian(). The first uniform() that this takes says how far out
+  /// the farthest is: where it is below chance_within(count, limit), all are within ±limit.
+  void gaussians(double* numbers, std::size_t count);
 
  private:
   std::uint64_t state_;
   double spare_ = 0.0;
   bool has_spare_ = false;
 };
+
+/// The chance that as many numbers of mean 0 and standard deviation 1 as gaussians() makes are all
+/// within ±limit; a hair less, for its rounding.
+double chance_within(std::size_t count, double limit);
 
 }  // namespace angen

@@ -52,7 +52,20 @@ constexpr Nanoseconds kForever = INT64_MAX;
 enum class Rest {
   kBusy,   // nothing is known: it looks each time
   kSame,   // with the last one's values, no event, not urgent: it is not asked for them again
-  kNoise,  // they vary, but tell no event and are not urgent wherever quiet() says so
+  kNoise,  // they vary as its echo() says, tell no event and are not urgent, save at few looks: see
+           // quiet_chance()
+};
+
+/// The random numbers of a look, (0), and of those before it: (1) of the last one before.
+using Draws = std::function<Rng(int looks_ago)>;
+
+/// What a sensor at Rest::kNoise would read. Snapshots have it in place of readings that nobody has
+/// looked at: any thread asks it, also when its sensor has gone, so it depends on neither.
+class Echo {
+ public:
+  virtual ~Echo() = default;
+  /// Fills in the values of the look at `time`, as the sensor's read() would.
+  virtual void read(Nanoseconds time, const Draws& draws, Reading& reading) const = 0;
 };
 
 /// Something that looks. The world gives it rays' answers; it gives a reading.
@@ -74,11 +87,16 @@ class Sensor {
   virtual void read(const View& view, Hits hits, Rng& rng, Reading& reading) = 0;  // answer
   /// Asked after each read().
   virtual Rest rest() const { return Rest::kBusy; }
-  /// Of one at Rest::kNoise: that a reading made with `rng` tells no event and is not urgent. Such
-  /// readings may be left out, save the last ones: as many as memory() and one more.
-  virtual bool quiet(Rng) const { return false; }
-  /// How many readings back a reading at Rest::kNoise depends on.
+  /// Of one at Rest::kNoise: a look may tell an event or be urgent only where the first uniform()
+  /// of its random numbers is not below this.
+  virtual double quiet_chance() const { return 0.0; }
+  /// How many looks back a reading at Rest::kNoise depends on.
   virtual int memory() const { return 0; }
+  /// Of one at Rest::kNoise: what stands for it while nothing changes, instead of readings.
+  virtual std::shared_ptr<const Echo> echo() const { return nullptr; }
+  /// Told before the look that follows after its echo stood for it, the last time at `time`: it is
+  /// to be as if it had read what the echo did. `draws` are of that look.
+  virtual void resume(Nanoseconds /*time*/, const Draws& /*draws*/) {}
 };
 
 /// What a plug-in sees of a model before deciding to serve it.

@@ -108,7 +108,7 @@ void World::reset() {
 Reading World::sensor(const std::string& kind, const std::string& name) const {
   const sim::Structure& structure = *snapshot_->structure;
   const std::size_t index = index_of(structure.sensors, kind, name);
-  const auto& reading = snapshot_->sensors[index];
+  const std::shared_ptr<const Reading> reading = snapshot_->reading(index);
   if (!reading) {
     const bool asleep = structure.sensors[index].on_demand && !simulation_.wanted(kind, name);
     throw Error(kind + " '" + name + "' has measured nothing yet; " +

@@ -91,7 +91,9 @@ void Fingerprint::add(const sim::Snapshot& snapshot) {
   }
   for (const std::uint32_t i : snapshot.new_readings) {
     mixer.add(i);
-    if (snapshot.sensors[i]->stamp == snapshot.time) mixer.add(*snapshot.sensors[i]);
+    // What stands for readings follows from the one before, the seed and the time.
+    const std::shared_ptr<const Reading>& reading = snapshot.sensors[i].reading;
+    if (reading->stamp == snapshot.time) mixer.add(*reading);
   }
   for (const std::uint32_t i : snapshot.new_states) mixer.add(*snapshot.devices[i]);
   mixer.add(snapshot.events);

@@ -132,13 +132,23 @@ bool Overlays::relight(const sim::Snapshot& snapshot, Overlay& lamp) const {
   return true;
 }
 
+bool Overlays::tells_anew(const sim::Snapshot& snapshot, Overlay& overlay) {
+  const std::uint32_t index = overlay.index;
+  const auto& told = overlay.of_device ? snapshot.devices[index] : snapshot.sensors[index].reading;
+  const bool echoes = !overlay.of_device && snapshot.sensors[index].echo != nullptr;
+  const Nanoseconds stamp = echoes ? snapshot.stamp(index) : 0;
+  if (told == overlay.told && stamp == overlay.stamp) return false;
+  overlay.told = told;
+  overlay.stamp = stamp;
+  return true;
+}
+
 bool Overlays::redraw(const sim::Snapshot& snapshot, Overlay& beams) const {
   const sim::SensorEntry& entry = snapshot.structure->sensors[beams.index];
-  const std::shared_ptr<const Reading>& reading = snapshot.sensors[beams.index];
   const Beams& style = *beams_of(entry.kind);
   const bool first = beams.marker.points.empty();
-  if (reading == beams.reading && !first) return false;
-  beams.reading = reading;
+  if (!tells_anew(snapshot, beams) && !first) return false;
+  const std::shared_ptr<const Reading> reading = snapshot.reading(beams.index);
   std::vector<double> ranges;
   bool fired = false;
   if (reading != nullptr) {
@@ -158,10 +168,9 @@ bool Overlays::redraw(const sim::Snapshot& snapshot, Overlay& beams) const {
 
 bool Overlays::rewrite(const sim::Snapshot& snapshot, Overlay& caption) const {
   const std::uint32_t index = caption.index;
+  if (!tells_anew(snapshot, caption) && !caption.marker.ns.empty()) return false;
   const std::shared_ptr<const Reading> reading =
-      caption.of_device ? snapshot.devices[index] : snapshot.sensors[index];
-  if (reading == caption.reading && !caption.marker.ns.empty()) return false;
-  caption.reading = reading;
+      caption.of_device ? snapshot.devices[index] : snapshot.reading(index);
   const std::int32_t id = caption.marker.id;
   const visualization_msgs::Marker before = std::move(caption.marker);
   const sim::Structure& structure = *snapshot.structure;

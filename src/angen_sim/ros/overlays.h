@@ -30,10 +30,11 @@ class Overlays {
     bool of_device = false;
     std::uint32_t link = UINT32_MAX;  // in Structure::links; none for a world light
     Pose offset;
-    Pose pose;                               // as appended last
-    double level = -1.0;                     // of a lamp, as appended last
-    std::shared_ptr<const Reading> reading;  // looked at last
-    std::vector<double> ranges;              // m, as appended last
+    Pose pose;                            // as appended last
+    double level = -1.0;                  // of a lamp, as appended last
+    std::shared_ptr<const Reading> told;  // looked at last
+    Nanoseconds stamp = 0;                // of what was made in its place then
+    std::vector<double> ranges;           // m, as appended last
     bool fired = false;
   };
   using Named = std::map<std::string, Overlay>;
@@ -41,6 +42,8 @@ class Overlays {
   void add_lamp(const sim::Structure& structure, std::uint32_t light);
   void add_sensor(const sim::Structure& structure, std::uint32_t sensor);
   void add_device(const sim::Structure& structure, std::uint32_t device);
+  /// Whether what it shows was told since it was last asked.
+  static bool tells_anew(const sim::Snapshot& snapshot, Overlay& overlay);
   bool relight(const sim::Snapshot& snapshot, Overlay& lamp) const;
   bool redraw(const sim::Snapshot& snapshot, Overlay& beams) const;
   bool rewrite(const sim::Snapshot& snapshot, Overlay& caption) const;

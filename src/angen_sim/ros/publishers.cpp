@@ -115,10 +115,13 @@ void Publishers::pass(const sim::Snapshot& snapshot) {
   ask_for(*snapshot.structure);
   for (const std::uint32_t i : snapshot.new_states) put_state(snapshot, i);
   for (const std::uint32_t i : snapshot.new_readings) {
-    if (snapshot.sensors[i] == nullptr) continue;
+    if (snapshot.sensors[i].reading == nullptr) continue;
     const Source& source = sensors_[i];
+    std::shared_ptr<const Reading> reading;
     for (const auto& channel : source.channels) {
-      if (channel->heard()) channel->put({snapshot.sensors[i], snapshot.stamp(i), source.label});
+      if (!channel->heard()) continue;
+      if (!reading) reading = snapshot.reading(i);
+      channel->put({reading, snapshot.stamp(i), source.label});
     }
   }
   for (const auto& channel : together_) channel->flush(snapshot.time);

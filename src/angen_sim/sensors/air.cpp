@@ -38,13 +38,20 @@ AirHere air_at(const View& view) {
 }
 
 void AirSensor::configure(Params& params, Wiring&) {
-  noise_stddev_ = params.number("noise_stddev", 0.0, unit_, "of a reading", kNotNegative);
+  air_.noise_stddev = params.number("noise_stddev", 0.0, unit_, "of a reading", kNotNegative);
+}
+
+void AirSensor::Number::tell(Rng rng, Reading& reading) const {
+  const double noise = noise_stddev > 0.0 ? noise_stddev * rng.gaussian() : 0.0;
+  reading.set(name, value + noise);
+  reading.set("variance", noise_stddev * noise_stddev);
 }
 
 void AirSensor::read(const View& view, Hits, Rng& rng, Reading& reading) {
-  const double noise = noise_stddev_ > 0.0 ? noise_stddev_ * rng.gaussian() : 0.0;
-  reading.set(name_, air_at(view).*number_ + noise);
-  reading.set("variance", noise_stddev_ * noise_stddev_);
+  air_.value = air_at(view).*number_;
+  air_.tell(rng, reading);
 }
+
+std::shared_ptr<const Echo> AirSensor::echo() const { return std::make_shared<Number>(air_); }
 
 }  // namespace angen::sensors

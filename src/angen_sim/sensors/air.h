@@ -17,19 +17,32 @@ AirHere air_at(const View& view);
 class AirSensor : public Sensor {
  public:
   AirSensor(const char* name, const char* unit, double AirHere::*number)
-      : name_(name), unit_(unit), number_(number) {}
+      : unit_(unit), number_(number) {
+    air_.name = name;
+  }
 
   double default_rate() const override { return 1.0; }
   void configure(Params& params, Wiring& wiring) override;
   void read(const View& view, Hits, Rng& rng, Reading& reading) override;
-  Rest rest() const override { return noise_stddev_ > 0.0 ? Rest::kNoise : Rest::kSame; }
-  bool quiet(Rng) const override { return true; }  // it tells no events
+  Rest rest() const override { return air_.noise_stddev > 0.0 ? Rest::kNoise : Rest::kSame; }
+  double quiet_chance() const override { return 1.0; }  // it tells no events
+  std::shared_ptr<const Echo> echo() const override;
 
  private:
-  const char* name_;
+  /// What is read while the air stays as it is.
+  struct Number : Echo {
+    const char* name = "";
+    double value = 0.0;
+    double noise_stddev = 0.0;
+    void tell(Rng rng, Reading& reading) const;
+    void read(Nanoseconds, const Draws& draws, Reading& reading) const override {
+      tell(draws(0), reading);
+    }
+  };
+
   const char* unit_;
   double AirHere::*number_;
-  double noise_stddev_ = 0.0;  // in that unit
+  Number air_;
 };
 
 }  // namespace angen::sensors

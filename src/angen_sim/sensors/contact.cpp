@@ -17,13 +17,6 @@ struct Lists {
   std::vector<std::string> collision1, collision2;
   std::vector<double> counts, positions, normals, depths, forces;
 
-  bool has(const std::string& first, const std::string& second) const {
-    for (std::size_t i = 0; i < collision1.size(); ++i) {
-      if (collision1[i] == first && collision2[i] == second) return true;
-    }
-    return false;
-  }
-
   void add(const ContactPair& pair, double noise_stddev, Rng& rng) {
     collision1.push_back(pair.first);
     collision2.push_back(pair.second);
@@ -41,6 +34,36 @@ struct Lists {
   }
 };
 
+/// What touches; as an echo, what is read while that stays.
+struct Touch : Echo {
+  bool pressed = false;
+  std::vector<ContactPair> pairs;
+  double noise_stddev = 0.0;  // N
+
+  bool has(const std::string& first, const std::string& second) const {
+    return std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) {
+      return pair.first == first && pair.second == second;
+    });
+  }
+
+  void tell(Rng rng, Reading& reading) const {
+    Lists lists;
+    for (const ContactPair& pair : pairs) lists.add(pair, noise_stddev, rng);
+    reading.set("pressed", pressed);
+    reading.set("collision1", std::move(lists.collision1));
+    reading.set("collision2", std::move(lists.collision2));
+    reading.set("counts", std::move(lists.counts));
+    reading.set("positions", std::move(lists.positions));
+    reading.set("normals", std::move(lists.normals));
+    reading.set("depths", std::move(lists.depths));
+    reading.set("forces", std::move(lists.forces));
+  }
+
+  void read(Nanoseconds, const Draws& draws, Reading& reading) const override {
+    tell(draws(0), reading);
+  }
+};
+
 }  // namespace
 
 /// Everything that touches some collisions of its link, also what lies still.
@@ -50,7 +73,7 @@ class Contact : public Sensor {
   Nanoseconds sample_period() const override { return debounce_ > 0 ? sample_period_ : 0; }
 
   void configure(Params& params, Wiring& wiring) override {
-    noise_stddev_ =
+    touch_.noise_stddev =
         params.number("noise_stddev", 0.0, "N", "of each component of a force", kNotNegative);
     debounce_ = from_seconds(params.number(
         "debounce", 0.0, "s", "touch and release count once they have lasted so long", {0.0, 1e6}));
@@ -62,34 +85,29 @@ class Contact : public Sensor {
   }
 
   void read(const View& view, Hits, Rng& rng, Reading& reading) override {
-    Lists lists;
+    touch_.pairs.clear();
     for (const ContactRef collision : collisions_) {
-      for (const ContactPair& pair : view.contacts(collision)) {
+      for (ContactPair& pair : view.contacts(collision)) {
         // Two watched collisions that touch each other see the same pair from both sides.
-        if (!lists.has(pair.second, pair.first)) lists.add(pair, noise_stddev_, rng);
+        if (!touch_.has(pair.second, pair.first)) touch_.pairs.push_back(std::move(pair));
       }
     }
-    const bool touched = !lists.collision1.empty();
+    const bool touched = !touch_.pairs.empty();
     if (settled(touched, view.time())) {
       reading.urgent = debounce_ > 0;
       reading.event = touched ? "pressed" : "released";
-      if (touched) reading.event_detail = "by " + lists.collision2.front();
+      if (touched) reading.event_detail = "by " + touch_.pairs.front().second;
     }
-    reading.set("pressed", *pressed_);
-    reading.set("collision1", std::move(lists.collision1));
-    reading.set("collision2", std::move(lists.collision2));
-    reading.set("counts", std::move(lists.counts));
-    reading.set("positions", std::move(lists.positions));
-    reading.set("normals", std::move(lists.normals));
-    reading.set("depths", std::move(lists.depths));
-    reading.set("forces", std::move(lists.forces));
+    touch_.pressed = *pressed_;
+    touch_.tell(rng, reading);
   }
 
   Rest rest() const override {
     if (changed_at_) return Rest::kBusy;  // it waits for the end of a debounce
-    return noise_stddev_ > 0.0 ? Rest::kNoise : Rest::kSame;
+    return touch_.noise_stddev > 0.0 && !touch_.pairs.empty() ? Rest::kNoise : Rest::kSame;
   }
-  bool quiet(Rng) const override { return true; }  // noise neither presses nor releases
+  double quiet_chance() const override { return 1.0; }  // noise neither presses nor releases
+  std::shared_ptr<const Echo> echo() const override { return std::make_shared<Touch>(touch_); }
 
  private:
   // True when a change that began a debounce ago or earlier has lasted until now.
@@ -107,7 +125,7 @@ class Contact : public Sensor {
   }
 
   std::vector<ContactRef> collisions_;
-  double noise_stddev_ = 0.0;
+  Touch touch_;
   Nanoseconds debounce_ = 0;
   Nanoseconds sample_period_ = kSecond / 100;
   std::optional<bool> pressed_;            // none before the first reading

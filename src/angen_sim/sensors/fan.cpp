@@ -45,16 +45,20 @@ void Fan::aim(const Pose& pose, const std::vector<Vec3>& directions, RayBatch& r
   }
 }
 
-Ranges Fan::measure(Hits hits, Rng& rng) const {
+Ranges Fan::measure(Hits hits) const {
   Ranges ranges;
   ranges.reserve(hits.size());
-  for (const rays::Hit& hit : hits) {
-    if (!(hit.range < max)) {
-      ranges.push_back(max);
-      continue;
-    }
-    const double noise = noise_stddev > 0.0 ? noise_stddev * rng.gaussian() : 0.0;
-    ranges.push_back(std::clamp(hit.range + noise_mean + noise, min, max));
+  for (const rays::Hit& hit : hits) ranges.push_back(std::min(hit.range, max));
+  return ranges;
+}
+
+Ranges Fan::with_noise(Ranges ranges, Rng rng) const {
+  Ranges noise(noise_stddev > 0.0 ? ranges.size() : 0);
+  rng.gaussians(noise.data(), noise.size());
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    if (!(ranges[i] < max)) continue;
+    const double error = noise.empty() ? 0.0 : noise_stddev * noise[i];
+    ranges[i] = std::clamp(ranges[i] + noise_mean + error, min, max);
   }
   return ranges;
 }

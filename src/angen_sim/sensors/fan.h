@@ -33,14 +33,18 @@ struct Fan {
   /// `directions` as rays of the sensor at `pose` (world).
   void aim(const Pose& pose, const std::vector<Vec3>& directions, RayBatch& rays) const;
 
-  /// The scan that `hits` are, with noise. Noise takes no range below `min` or above `max`.
-  Ranges measure(Hits hits, Rng& rng) const;
+  /// The scan that `hits` are, without noise.
+  Ranges measure(Hits hits) const;
+
+  /// A scan with noise where something was met. Noise takes no range below `min` or above `max`.
+  Ranges with_noise(Ranges ranges, Rng rng) const;
 
   bool noisy() const { return noise_mean != 0.0 || noise_stddev > 0.0; }
 
-  /// Whether a scan with the noise of `rng` has it within ±limit (m) of its mean at every ray.
-  bool quiet(Rng rng, double limit) const {
-    return noise_stddev == 0.0 || rng.gaussians_within(size(), limit / noise_stddev);
+  /// with_noise() keeps noise within ±limit (m) of its mean at every ray where the first uniform()
+  /// of its random numbers is below this.
+  double quiet_chance(double limit) const {
+    return noise_stddev > 0.0 ? chance_within(size(), limit / noise_stddev) : 1.0;
   }
 };
 

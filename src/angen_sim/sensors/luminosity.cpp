@@ -7,6 +7,28 @@
 
 namespace angen::sensors {
 
+namespace {
+
+/// What falls on the face; as an echo, what is read while that stays.
+struct Incident : Echo {
+  light::Sample sample;
+  double noise_stddev = 0.0;  // relative
+
+  void tell(Rng rng, Reading& reading) const {
+    const double noise = noise_stddev > 0.0 ? noise_stddev * rng.gaussian() : 0.0;
+    reading.set("illuminance", std::max(0.0, sample.illuminance * (1.0 + noise)));
+    reading.set("r", static_cast<double>(sample.color.x()));
+    reading.set("g", static_cast<double>(sample.color.y()));
+    reading.set("b", static_cast<double>(sample.color.z()));
+  }
+
+  void read(Nanoseconds, const Draws& draws, Reading& reading) const override {
+    tell(draws(0), reading);
+  }
+};
+
+}  // namespace
+
 /// A light sensor that looks along its x axis: illuminance on its face, and the mean colour it
 /// sees.
 class Luminosity : public Sensor {
@@ -14,22 +36,23 @@ class Luminosity : public Sensor {
   double default_rate() const override { return 1.0; }
 
   void configure(Params& params, Wiring&) override {
-    noise_stddev_ =
+    light_.noise_stddev =
         params.number("noise_stddev", 0.0, "", "of the illuminance, relative to it", kNotNegative);
   }
 
   void read(const View& view, Hits, Rng& rng, Reading& reading) override {
-    const light::Sample sample = view.illuminance(probe_, view.pose());
-    const double noise = noise_stddev_ > 0.0 ? noise_stddev_ * rng.gaussian() : 0.0;
-    reading.set("illuminance", std::max(0.0, sample.illuminance * (1.0 + noise)));
-    reading.set("r", static_cast<double>(sample.color.x()));
-    reading.set("g", static_cast<double>(sample.color.y()));
-    reading.set("b", static_cast<double>(sample.color.z()));
-    tell_change(sample.illuminance, reading);
+    light_.sample = view.illuminance(probe_, view.pose());
+    light_.tell(rng, reading);
+    tell_change(light_.sample.illuminance, reading);
   }
 
-  Rest rest() const override { return noise_stddev_ > 0.0 ? Rest::kNoise : Rest::kSame; }
-  bool quiet(Rng) const override { return true; }  // events are told of what it is without noise
+  /// Noise is relative: in the dark there is none.
+  Rest rest() const override {
+    return light_.noise_stddev > 0.0 && light_.sample.illuminance > 0.0 ? Rest::kNoise
+                                                                        : Rest::kSame;
+  }
+  double quiet_chance() const override { return 1.0; }  // events tell what it is without noise
+  std::shared_ptr<const Echo> echo() const override { return std::make_shared<Incident>(light_); }
 
  private:
   static constexpr double kRelativeChange = 0.15;  // of what was told last; CASAS' sensors do so
@@ -46,7 +69,7 @@ class Luminosity : public Sensor {
     told_ = illuminance;
   }
 
-  double noise_stddev_ = 0.0;
+  Incident light_;
   light::Probe probe_;
   std::optional<double> told_;  // lx without noise
 };

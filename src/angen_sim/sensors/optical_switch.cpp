@@ -17,6 +17,31 @@ Fan default_fan() {
   return fan;
 }
 
+/// What is known of the two rays' way; as an echo, what is read while nothing there changes.
+struct Beam : Echo {
+  Fan fan;
+  double threshold = 0.0;  // m
+  double length = 0.0;     // m, to the detector
+  Ranges clean;            // of the last look, without noise
+
+  bool closed_by(const Ranges& ranges) const {
+    return *std::min_element(ranges.begin(), ranges.end()) < length - threshold;
+  }
+
+  void tell(const Ranges& ranges, const Ranges& before, Reading& reading) const {
+    const double difference = greatest_difference(ranges, before);
+    reading.set("closed", closed_by(ranges));
+    reading.set("changed", difference > threshold);
+    reading.set("ranges", ranges);
+    reading.set("difference", difference);
+    reading.set("threshold", threshold);
+  }
+
+  void read(Nanoseconds, const Draws& draws, Reading& reading) const override {
+    tell(fan.with_noise(clean, draws(0)), fan.with_noise(clean, draws(1)), reading);
+  }
+};
+
 }  // namespace
 
 /// A light barrier of two rays, closed while something stands in one of them.
@@ -26,70 +51,72 @@ class OpticalSwitch : public Sensor {
   Nanoseconds sample_period() const override { return sample_period_; }
 
   void configure(Params& params, Wiring&) override {
-    fan_ = read_fan(params, default_fan());
-    if (fan_.size() != 2) {
+    beam_.fan = read_fan(params, default_fan());
+    if (beam_.fan.size() != 2) {
       throw params.error(
           "ray/scan/horizontal/samples",
-          "an optical switch has " + std::to_string(fan_.size()) + " rays, must have 2");
+          "an optical switch has " + std::to_string(beam_.fan.size()) + " rays, must have 2");
     }
-    directions_ = fan_.directions();
-    threshold_ = params.number("threshold", 0.05, "m", "a range that differs by more is a change",
-                               kPositive);
-    beam_length_ = params.number("beam_length", fan_.max, "m",
+    directions_ = beam_.fan.directions();
+    beam_.threshold = params.number("threshold", 0.05, "m",
+                                    "a range that differs by more is a change", kPositive);
+    beam_.length = params.number("beam_length", beam_.fan.max, "m",
                                  "to the detector, when nothing is "
                                  "between; <ray><range><max> unless given",
-                                 {0.0, fan_.max});
+                                 {0.0, beam_.fan.max});
+    quiet_chance_ = beam_.fan.quiet_chance(beam_.threshold / 2.0);
     const double sample_rate =
         params.number("sample_rate", 100.0, "Hz", "how often it looks", {1e-3, 1e6});
     sample_period_ = from_seconds(1.0 / sample_rate);
   }
 
   int stance(const View&) override { return 0; }
-  void aim(const View& view, RayBatch& rays) override { fan_.aim(view.pose(), directions_, rays); }
+  void aim(const View& view, RayBatch& rays) override {
+    beam_.fan.aim(view.pose(), directions_, rays);
+  }
 
   void read(const View&, Hits hits, Rng& rng, Reading& reading) override {
-    const bool loud = !quiet(rng);
-    Ranges ranges = fan_.measure(hits, rng);
+    beam_.clean = beam_.fan.measure(hits);
+    Ranges ranges = beam_.fan.with_noise(beam_.clean, rng);
     const bool first = previous_.empty();
-    const double difference = greatest_difference(ranges, previous_);
-    const bool changed = difference > threshold_;
-    const double nearest = *std::min_element(ranges.begin(), ranges.end());
-    const bool closed = nearest < beam_length_ - threshold_;
+    const bool closed = beam_.closed_by(ranges);
     const bool flipped = !first && closed != closed_;
-    reading.set("closed", closed);
-    reading.set("changed", changed);
-    reading.set("ranges", ranges);
-    reading.set("difference", difference);
-    reading.set("threshold", threshold_);
+    const double difference = greatest_difference(ranges, previous_);
+    const bool changed = difference > beam_.threshold;
+    beam_.tell(ranges, previous_, reading);
     reading.urgent = changed || flipped;
     if (flipped) reading.event = closed ? "closed" : "opened";
     closed_ = closed;
     previous_ = std::move(ranges);
-    if (!fan_.noisy()) {
+    if (!beam_.fan.noisy()) {
       rest_ = first || difference > 0.0 || flipped ? Rest::kBusy : Rest::kSame;
     } else {
-      rest_ = loud || changed || flipped || !decided(hits) ? Rest::kBusy : Rest::kNoise;
+      const bool loud = rng.uniform() >= quiet_chance_;
+      rest_ = loud || changed || flipped || !decided() ? Rest::kBusy : Rest::kNoise;
     }
   }
 
   Rest rest() const override { return rest_; }
-  bool quiet(Rng rng) const override { return fan_.quiet(rng, threshold_ / 2.0); }
+  double quiet_chance() const override { return quiet_chance_; }
   int memory() const override { return 1; }
+  std::shared_ptr<const Echo> echo() const override { return std::make_shared<Beam>(beam_); }
+  void resume(Nanoseconds, const Draws& draws) override {
+    previous_ = beam_.fan.with_noise(beam_.clean, draws(0));
+  }
 
  private:
   /// Whether quiet noise cannot turn closed to open or back.
-  bool decided(Hits hits) const {
-    double nearest = fan_.max;
-    for (const rays::Hit& hit : hits) {
-      if (hit.range < fan_.max) nearest = std::min(nearest, hit.range + fan_.noise_mean);
+  bool decided() const {
+    double nearest = beam_.fan.max;
+    for (const double range : beam_.clean) {
+      if (range < beam_.fan.max) nearest = std::min(nearest, range + beam_.fan.noise_mean);
     }
-    return std::abs(nearest - (beam_length_ - threshold_)) > threshold_ / 2.0;
+    return std::abs(nearest - (beam_.length - beam_.threshold)) > beam_.threshold / 2.0;
   }
 
-  Fan fan_;
+  Beam beam_;
   std::vector<Vec3> directions_;
-  double threshold_ = 0.0;
-  double beam_length_ = 0.0;
+  double quiet_chance_ = 0.0;
   Nanoseconds sample_period_ = kSecond / 100;
   Ranges previous_;
   bool closed_ = false;

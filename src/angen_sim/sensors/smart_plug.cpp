@@ -4,6 +4,30 @@
 
 namespace angen::sensors {
 
+namespace {
+
+/// What it measures; as an echo, what is read while that stays.
+struct Metered : Echo {
+  std::string load;
+  bool connected = false;
+  double power = 0.0;         // W
+  double energy = 0.0;        // J
+  double noise_stddev = 0.0;  // W
+
+  void tell(Rng rng, Reading& reading) const {
+    reading.set("load", load);
+    reading.set("connected", connected);
+    reading.set("power", power + (noise_stddev > 0.0 ? noise_stddev * rng.gaussian() : 0.0));
+    reading.set("energy", energy);
+  }
+
+  void read(Nanoseconds, const Draws& draws, Reading& reading) const override {
+    tell(draws(0), reading);
+  }
+};
+
+}  // namespace
+
 /// A metering plug: the power of the device that it feeds, and the energy since its start.
 class SmartPlug : public Sensor {
  public:
@@ -11,57 +35,53 @@ class SmartPlug : public Sensor {
   Nanoseconds sample_period() const override { return kSecond / 50; }
 
   void configure(Params& params, Wiring&) override {
-    load_ = params.text("load", "", "the device that it feeds, as lamp/kitchen0");
-    noise_stddev_ = params.number("noise_stddev", 0.0, "W", "of a power", kNotNegative);
+    metered_.load = params.text("load", "", "the device that it feeds, as lamp/kitchen0");
+    metered_.noise_stddev = params.number("noise_stddev", 0.0, "W", "of a power", kNotNegative);
   }
 
   void read(const View& view, Hits, Rng& rng, Reading& reading) override {
     if (looked_at_ < 0 || view.time() < looked_at_) {  // the first look, or the clock was set back
       looked_at_ = view.time();
-      energy_ = 0.0;
+      metered_.energy = 0.0;
     }
-    bool found = false;
+    metered_.connected = false;
     double power = 0.0;
     Nanoseconds changed = view.time();
     for (const DeviceView& device : view.devices("power")) {
-      if (std::string(device.kind) + "/" + std::string(device.name) != load_) continue;
-      found = true;
+      if (std::string(device.kind) + "/" + std::string(device.name) != metered_.load) continue;
+      metered_.connected = true;
       power = device.state.get<double>("power");
       changed = device.state.stamp;
     }
     count(power, changed, view.time());
     tell_change(power, reading);
-    power_ = power;
-    reading.set("load", load_);
-    reading.set("connected", found);
-    reading.set("power", power + (noise_stddev_ > 0.0 ? noise_stddev_ * rng.gaussian() : 0.0));
-    reading.set("energy", energy_);
+    metered_.power = power;
+    metered_.tell(rng, reading);
   }
 
   Rest rest() const override {
-    if (power_ > 0.0) return Rest::kBusy;  // its energy grows
-    return noise_stddev_ > 0.0 ? Rest::kNoise : Rest::kSame;
+    if (metered_.power > 0.0) return Rest::kBusy;  // its energy grows
+    return metered_.noise_stddev > 0.0 ? Rest::kNoise : Rest::kSame;
   }
-  bool quiet(Rng) const override { return true; }  // events are told of the power without noise
+  double quiet_chance() const override { return 1.0; }  // events tell the power without noise
+  std::shared_ptr<const Echo> echo() const override { return std::make_shared<Metered>(metered_); }
 
  private:
   // A change between two looks counts from the moment that its state tells.
   void count(double power, Nanoseconds changed, Nanoseconds now) {
-    const Nanoseconds turn = power == power_ ? now : std::clamp(changed, looked_at_, now);
-    energy_ += power_ * to_seconds(turn - looked_at_) + power * to_seconds(now - turn);
+    const double before = metered_.power;
+    const Nanoseconds turn = power == before ? now : std::clamp(changed, looked_at_, now);
+    metered_.energy += before * to_seconds(turn - looked_at_) + power * to_seconds(now - turn);
     looked_at_ = now;
   }
 
   void tell_change(double power, Reading& reading) const {
-    if ((power > 0.0) == (power_ > 0.0)) return;
+    if ((power > 0.0) == (metered_.power > 0.0)) return;
     reading.event = power > 0.0 ? "on" : "off";
     reading.urgent = true;
   }
 
-  std::string load_;
-  double noise_stddev_ = 0.0;  // W
-  double power_ = 0.0;         // W, at the last look
-  double energy_ = 0.0;        // J
+  Metered metered_;  // at the last look
   Nanoseconds looked_at_ = -1;
 };
 

@@ -272,7 +272,7 @@ std::shared_ptr<const Structure> Building::structure() {
     }
     for (const SensorInstance& s : live->sensors) {
       all->sensors.push_back({s.kind, s.name, m, live->first_link + s.link, s.pose, s.topic,
-                              s.frame, s.rhythm.publish, s.rhythm, s.attached,
+                              s.frame, s.key, s.rhythm.publish, s.rhythm, s.attached,
                               s.sensor->on_demand(), s.desc});
     }
   }

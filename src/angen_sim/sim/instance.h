@@ -60,7 +60,8 @@ struct SensorInstance {
   bool asks_more = true;      // of the world than its pose and `looks`
   bool asks_devices = false;  // what devices tell
   bool link_moves = true;     // or stands where it is for ever
-  bool published = false;     // `scratch`, as `last`
+  bool published = false;     // `scratch`, as `told`
+  bool echoes = false;        // told.echo stands for its looks
 
   std::string kind;
   std::string name;
@@ -75,8 +76,9 @@ struct SensorInstance {
   bool attached = false;
   std::vector<std::string> collisions;  // full names, by ContactRef
   Reading scratch;                      // the latest
-  std::shared_ptr<const Reading> last;  // the latest published
+  Told told;                            // the latest published, as snapshots have it
   Pose seen_from;                       // when it last looked, if its link moves
+  double quiet_chance = 0.0;            // of its noise, while it echoes
   Nanoseconds quiet_until = 0;          // known of its noise, for leaps
   Nanoseconds loud_at = 0;              // as well, when later than now
   Nanoseconds cost = 0;                 // CPU time that the meter counts

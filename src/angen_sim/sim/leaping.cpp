@@ -1,6 +1,5 @@
 // The part of Sensing that lets time jump: what is due meanwhile, and what is left of it.
 #include <algorithm>
-#include <set>
 
 #include "sim/sensing.h"
 
@@ -10,26 +9,12 @@ namespace {
 
 constexpr Nanoseconds kFarthest = 10 * kSecond;  // that noise is looked ahead
 
-/// The looks after `from`, up to `to`, whose readings a sensor with noise must have made to be at
-/// `to` what it would be with all of them.
-std::set<Nanoseconds> needed_looks(const SensorInstance& sensor, Nanoseconds from, Nanoseconds to) {
-  const Rhythm& rhythm = sensor.rhythm;
-  std::set<Nanoseconds> looks;
-  for (Nanoseconds at : {rhythm.last_look(to), rhythm.last_publication(to)}) {
-    for (int back = 0; back <= sensor.sensor->memory() && at > from; ++back) {
-      looks.insert(at);
-      at = rhythm.last_look(at - rhythm.step);
-    }
-  }
-  return looks;
-}
-
 }  // namespace
 
 bool Sensing::may_be_passed_over(const Stage& stage, const SensorInstance& sensor) const {
   if (!undisturbed(stage, sensor)) return false;
   if (sensor.rest == Rest::kSame) return sensor.published;
-  return sensor.rest == Rest::kNoise && sensor.calm > sensor.sensor->memory();
+  return sensor.echoes;
 }
 
 /// The first look at or before `until` that may tell something because of its noise; else kForever.
@@ -38,7 +23,7 @@ Nanoseconds Sensing::first_loud(SensorInstance& sensor, InstanceView::Clock cloc
   if (sensor.loud_at > clock.time) return sensor.loud_at;
   Nanoseconds at = std::max(clock.time, sensor.quiet_until);
   for (at = sensor.rhythm.next_look(at); at <= until; at = sensor.rhythm.next_look(at)) {
-    if (sensor.sensor->quiet(Rng(seed_, sensor.key, at / clock.step))) continue;
+    if (quiet(sensor.key, sensor.quiet_chance, at, clock.step)) continue;
     sensor.loud_at = at;
     return at;
   }
@@ -64,7 +49,7 @@ std::int64_t Sensing::next_tick(Building& building, InstanceView::Clock clock, s
   tick = std::min(tick, (clock.time + kFarthest) / clock.step);
   meter_.rest.sensors += meter_.watch.lap();
   for (const Watched& watched : watched_) {
-    if (watched.sensor->rest != Rest::kNoise) continue;
+    if (!watched.sensor->echoes) continue;
     const Nanoseconds loud = first_loud(*watched.sensor, clock, tick * clock.step);
     watched.sensor->cost += meter_.watch.lap();
     if (loud != kForever) stop_before(loud);
@@ -72,23 +57,14 @@ std::int64_t Sensing::next_tick(Building& building, InstanceView::Clock clock, s
   return tick;
 }
 
-void Sensing::pass_over(Building& building, InstanceView::Clock clock, std::int64_t tick,
-                        Snapshot& next) {
+void Sensing::pass_over(InstanceView::Clock clock, std::int64_t tick, Snapshot& next) {
   const Nanoseconds to = tick * clock.step;
   std::uint64_t readings = next.counts.readings;
-  for (std::uint32_t index = 0; index < watched_.size(); ++index) {
-    SensorInstance& sensor = *watched_[index].sensor;
+  for (const Watched& watched : watched_) {
+    const SensorInstance& sensor = *watched.sensor;
     if (sensor.sensor->on_demand()) continue;
     readings += static_cast<std::uint64_t>(sensor.rhythm.publications(to) -
                                            sensor.rhythm.publications(clock.time));
-    if (sensor.rest != Rest::kNoise) continue;
-    for (const Nanoseconds look : needed_looks(sensor, clock.time, to)) {
-      looking_.clear();
-      rays_.clear();
-      aim(building, index, {look, clock.step});
-      cast(building.stage());
-      read(building, looking_.front(), {look, clock.step}, look / clock.step, next);
-    }
   }
   next.new_readings.clear();
   next.counts.readings = readings;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/time.h"
+#include "plugin/plugin.h"
 
 namespace angen::sim {
 
@@ -56,5 +57,15 @@ struct Rhythm {
   Nanoseconds tick_of(Nanoseconds since_start) const { return start + up(since_start, step); }
   Nanoseconds look_for(Nanoseconds since_start) const { return tick_of(up(since_start, sample)); }
 };
+
+/// The random numbers of the look at `time`, and of those before it.
+inline Draws draws_at(const Rhythm& rhythm, Nanoseconds time, std::uint64_t seed,
+                      std::uint64_t key) {
+  return [=](int looks_ago) {
+    Nanoseconds at = time;
+    for (int k = 0; k < looks_ago; ++k) at = rhythm.last_look(at - rhythm.step);
+    return Rng(seed, key, at / rhythm.step);
+  };
+}
 
 }  // namespace angen::sim

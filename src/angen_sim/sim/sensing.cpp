@@ -12,7 +12,8 @@ namespace {
 constexpr int kMostStances = 256;  // of one sensor that are remembered
 
 bool publishes(const SensorInstance& sensor, InstanceView::Clock clock) {
-  return !sensor.last || sensor.rhythm.last_publication(clock.time) > clock.time - clock.step;
+  return !sensor.told.reading ||
+         sensor.rhythm.last_publication(clock.time) > clock.time - clock.step;
 }
 
 /// Whether it is where it was at its last look; else what it measured there is void.
@@ -36,7 +37,7 @@ void Sensing::look(Building& building, InstanceView::Clock clock, std::int64_t t
     rays_.clear();
     meter_.rest.sensors += meter_.watch.lap();
     for (const std::uint32_t index : due_) {
-      if (!repeat(stage, index, clock.time, next)) visit(building, index, clock, next);
+      if (!keeps_calm(stage, index, clock.time, next)) visit(building, index, clock, next);
       if (!meter_.on) continue;
       watched_[index].sensor->cost += meter_.watch.lap();
     }
@@ -105,25 +106,64 @@ bool Sensing::collect_due(Nanoseconds now) {
   return !due_.empty();
 }
 
-bool Sensing::repeat(const Stage& stage, std::uint32_t index, Nanoseconds now, Snapshot& next) {
+bool Sensing::keeps_calm(const Stage& stage, std::uint32_t index, Nanoseconds now, Snapshot& next) {
   const Calm& calm = calm_[index];
   if (calm.view == UINT32_MAX) return false;
   if (stage.sights.stirred(calm.view, calm.seen)) {
     calm_[index] = {};
     return false;
   }
-  if (calm.rhythm.last_publication(now) > now - calm.rhythm.step) {
-    next.new_readings.push_back(index);
-    ++next.counts.readings;
-  }
+  if (!quiet(calm.key, calm.quiet_chance, now, calm.rhythm.step)) return false;
+  if (calm.rhythm.last_publication(now) > now - calm.rhythm.step) repeat(index, next);
   return true;
 }
 
 void Sensing::calm_down(std::uint32_t index) {
   const SensorInstance& sensor = *watched_[index].sensor;
-  if (!sensor.published || sensor.asks_more || sensor.link_moves) return;
+  if (sensor.asks_more || sensor.link_moves || !(sensor.published || sensor.echoes)) return;
   if (sensor.looks.size() != 1 || !sensor.looks.front()) return;
-  calm_[index] = {sensor.looks.front()->view.number(), sensor.seen, sensor.rhythm};
+  calm_[index] = {sensor.looks.front()->view.number(), sensor.seen, sensor.rhythm, sensor.key,
+                  sensor.echoes ? sensor.quiet_chance : 1.0};
+}
+
+/// Whether the sensor, for which nothing has changed, needs no look now; then it has published.
+bool Sensing::goes_on(std::uint32_t index, InstanceView::Clock clock, Snapshot& next) {
+  SensorInstance& sensor = *watched_[index].sensor;
+  if (sensor.rest == Rest::kSame) {
+    if (publishes(sensor, clock)) publish(index, clock.time, next);
+    return true;
+  }
+  if (sensor.rest != Rest::kNoise || !sensor.told.reading) return false;
+  if (!sensor.echoes) {
+    if (sensor.calm <= sensor.sensor->memory()) return false;
+    sensor.quiet_chance = sensor.sensor->quiet_chance();
+  }
+  if (!quiet(sensor.key, sensor.quiet_chance, clock.time, clock.step)) return false;
+  if (!sensor.echoes) {
+    sensor.told.echo = sensor.sensor->echo();
+    if (!sensor.told.echo) return false;
+    sensor.echoes = true;
+    next.sensors.set(index, sensor.told);
+  }
+  if (publishes(sensor, clock)) repeat(index, next);
+  return true;
+}
+
+/// Its echo stood for it up to now.
+void Sensing::resume(std::uint32_t index, InstanceView::Clock clock, Snapshot& next) {
+  SensorInstance& sensor = *watched_[index].sensor;
+  sensor.echoes = false;
+  calm_[index] = {};
+  const Nanoseconds last = sensor.rhythm.last_look(clock.time - clock.step);
+  sensor.sensor->resume(last, draws_at(sensor.rhythm, last, seed_, sensor.key));
+  if (publishes(sensor, clock)) return;
+  sensor.told = {next.reading(index), nullptr};  // there may be another echo before the next
+  next.sensors.set(index, sensor.told);
+}
+
+void Sensing::repeat(std::uint32_t index, Snapshot& next) {
+  next.new_readings.push_back(index);
+  ++next.counts.readings;
 }
 
 void Sensing::visit(Building& building, std::uint32_t index, InstanceView::Clock clock,
@@ -133,14 +173,14 @@ void Sensing::visit(Building& building, std::uint32_t index, InstanceView::Clock
     if (!demand_.has(sensor.kind, sensor.name)) return;
   } else if (undisturbed(building.stage(), sensor)) {
     ++sensor.calm;
-    if (sensor.rest == Rest::kSame) {
-      if (publishes(sensor, clock)) publish(index, clock.time, next);
+    if (goes_on(index, clock, next)) {
       calm_down(index);
       return;
     }
   } else {
     sensor.calm = 0;
   }
+  if (sensor.echoes) resume(index, clock, next);
   aim(building, index, clock);
 }
 
@@ -207,7 +247,8 @@ void Sensing::read(Building& building, const Looking& looking, InstanceView::Clo
     sensor.asks_more = looking.asked_more || view.asked_more() || looking.ray_count > 0;
     sensor.asks_devices = looking.asked_devices || view.asked_devices();
     sensor.published = sensor.published && sensor.rest == Rest::kSame && !reading.urgent &&
-                       reading.event == sensor.last->event && reading.same_values(*sensor.last);
+                       reading.event == sensor.told.reading->event &&
+                       reading.same_values(*sensor.told.reading);
     if (!reading.event.empty()) {
       next.events.push_back(
           {clock.time, sensor.name, sensor.kind, reading.event, reading.event_detail});
@@ -224,11 +265,10 @@ void Sensing::publish(std::uint32_t index, Nanoseconds now, Snapshot& next) {
   if (!sensor.published) {
     sensor.published = true;
     sensor.scratch.stamp = now;
-    sensor.last = std::make_shared<const Reading>(sensor.scratch);
-    next.sensors.set(index, sensor.last);
+    sensor.told = {std::make_shared<const Reading>(sensor.scratch), nullptr};
+    next.sensors.set(index, sensor.told);
   }
-  next.new_readings.push_back(index);
-  ++next.counts.readings;
+  repeat(index, next);
 }
 
 }  // namespace angen::sim

@@ -26,7 +26,7 @@ class Sensing {
   /// moves.
   std::int64_t next_tick(Building& building, InstanceView::Clock clock, std::int64_t tick);
   /// What the sensors do in the ticks from that of `clock` up to `tick`, which next_tick() allowed.
-  void pass_over(Building& building, InstanceView::Clock clock, std::int64_t tick, Snapshot& next);
+  void pass_over(InstanceView::Clock clock, std::int64_t tick, Snapshot& next);
 
   /// To be called when sensors came, went, or started anew.
   void invalidate() { schedule_is_old_ = true; }
@@ -51,17 +51,26 @@ class Sensing {
     std::size_t ray_count;
   };
 
-  /// A sensor at rest that publishes the same again while nothing stirs in its one view. With many
-  /// sensors it comes from far away, and this is all that is looked at.
+  /// A sensor at rest that publishes the same again, or has its echo do so, while nothing stirs in
+  /// its one view. With many sensors it comes from far away, and this is all that is looked at.
   struct Calm {
     std::uint32_t view = UINT32_MAX;  // none: it is to be visited
     Sights::Moment seen = 0;
     Rhythm rhythm;
+    std::uint64_t key = 0;
+    double quiet_chance = 1.0;
   };
 
   void schedule(Building& building, Nanoseconds now);
-  bool repeat(const Stage& stage, std::uint32_t index, Nanoseconds now, Snapshot& next);
+  /// Whether the noise of the look at `at` lets the sensor go on as it does.
+  bool quiet(std::uint64_t key, double chance, Nanoseconds at, Nanoseconds step) const {
+    return chance >= 1.0 || Rng(seed_, key, at / step).uniform() < chance;
+  }
+  bool goes_on(std::uint32_t index, InstanceView::Clock clock, Snapshot& next);
+  void resume(std::uint32_t index, InstanceView::Clock clock, Snapshot& next);
+  bool keeps_calm(const Stage& stage, std::uint32_t index, Nanoseconds now, Snapshot& next);
   void calm_down(std::uint32_t index);
+  static void repeat(std::uint32_t index, Snapshot& next);
   void requeue(Nanoseconds now);
   bool collect_due(Nanoseconds now);
   /// Whether a look would find what the last one did, noise and changing stances aside.

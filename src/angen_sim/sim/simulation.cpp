@@ -19,6 +19,7 @@ struct Simulation::Impl {
         acting(meter),
         sensing(seed_, demand, meter) {
     next.step = world.physics.step;
+    next.seed = seed_;
     publish();
   }
 
@@ -46,7 +47,7 @@ struct Simulation::Impl {
     if (tick <= next.tick) return;
     tick = sensing.next_tick(building, clock(), tick);
     if (tick <= next.tick) return;
-    sensing.pass_over(building, clock(), tick, next);
+    sensing.pass_over(clock(), tick, next);
     orders.ticks_done(tick - next.tick);
     next.tick = tick;
     next.time = tick * next.step;
@@ -144,7 +145,7 @@ struct Simulation::Impl {
       for (std::uint32_t i = 0; i < live->desc->links.size(); ++i) write_link(*live, i);
       write_joints(*live);
       for (const DeviceInstance& device : live->devices) next.devices.push_back(device.last);
-      for (const SensorInstance& sensor : live->sensors) next.sensors.push_back(sensor.last);
+      for (const SensorInstance& sensor : live->sensors) next.sensors.push_back(sensor.told);
     }
     write_lights();
     for (const std::string& warning : building.take_warnings()) {

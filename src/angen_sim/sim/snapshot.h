@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "desc/world.h"
-#include "plugin/reading.h"
+#include "plugin/plugin.h"
 #include "sim/rhythm.h"
 #include "sim/shared_array.h"
 
@@ -48,6 +48,7 @@ struct SensorEntry {
   Pose pose;               // in the link's frame
   std::string topic;       // as its SDF says, or empty
   std::string frame;       // as its SDF says, or empty
+  std::uint64_t key = 0;   // of its random numbers
   Nanoseconds period = 0;  // of publishing
   Rhythm rhythm;           // of all its due times
   bool attached = false;   // by a command, to a link that existed
@@ -79,19 +80,25 @@ struct Counts {
   std::uint64_t failed_steps = 0;  // redone by the other solver
 };
 
+/// What a sensor told last: the reading that it published, and from then on what stands for it.
+struct Told {
+  std::shared_ptr<const Reading> reading;  // null before the first
+  std::shared_ptr<const Echo> echo;        // null where it is the reading itself
+};
+
 /// The world after a tick. Shared and immutable; parts that did not change are shared with the
 /// snapshot before, so that comparing pointers tells what changed.
 struct Snapshot {
   std::int64_t tick = 0;
   Nanoseconds time = 0;
   Nanoseconds step = 0;
+  std::uint64_t seed = 0;
   bool paused = false;
   std::shared_ptr<const Structure> structure;
   SharedArray<Pose> link_poses;         // world, as Structure::links
   SharedArray<double> joint_positions;  // rad or m, as Structure::joints, first axis
-  SharedArray<std::shared_ptr<const Reading>> devices;  // as Structure::devices
-  SharedArray<std::shared_ptr<const Reading>>
-      sensors;  // as Structure::sensors; null before the first
+  SharedArray<std::shared_ptr<const Reading>> devices;      // as Structure::devices
+  SharedArray<Told> sensors;                                // as Structure::sensors; see reading()
   std::shared_ptr<const std::vector<double>> light_levels;  // 0..1, as Structure::lights
   std::vector<std::uint32_t> moved_links;   // indices of links whose pose changed in this tick
   std::vector<std::uint32_t> new_readings;  // indices of sensors that published in this tick: a
@@ -103,6 +110,10 @@ struct Snapshot {
   /// When a sensor that has a reading last published it: its own stamp, or the due time that found
   /// nothing changed since.
   Nanoseconds stamp(std::size_t sensor) const;
+
+  /// What the sensor published last, null before the first. Its own stamp may be earlier than
+  /// stamp(): it stands until another is made.
+  std::shared_ptr<const Reading> reading(std::size_t sensor) const;
 };
 
 }  // namespace angen::sim

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace angen {
 namespace {
@@ -29,6 +31,50 @@ TEST(Rng, GaussianHasMeanZeroAndDeviationOne) {
   }
   EXPECT_NEAR(sum / kCount, 0.0, 5.0 / std::sqrt(kCount));
   EXPECT_NEAR(squares / kCount, 1.0, 5.0 * std::sqrt(2.0 / kCount));
+}
+
+TEST(Rng, GaussiansAreAsManyOfMeanZeroAndDeviationOne) {
+  constexpr int kCount = 96, kTicks = 4000;
+  double sum = 0.0, squares = 0.0, fourth = 0.0, neighbours = 0.0;
+  for (int tick = 0; tick < kTicks; ++tick) {
+    double numbers[kCount];
+    Rng(7, hash_bytes("scan"), tick).gaussians(numbers, kCount);
+    for (int i = 0; i < kCount; ++i) {
+      sum += numbers[i];
+      squares += std::pow(numbers[i], 2);
+      fourth += std::pow(numbers[i], 4);
+      if (i > 0) neighbours += numbers[i] * numbers[i - 1];
+    }
+  }
+  const double n = kCount * kTicks;
+  EXPECT_NEAR(sum / n, 0.0, 5.0 / std::sqrt(n));
+  EXPECT_NEAR(squares / n, 1.0, 5.0 * std::sqrt(2.0 / n));
+  EXPECT_NEAR(fourth / n, 3.0, 5.0 * std::sqrt(96.0 / n));
+  EXPECT_NEAR(neighbours / n, 0.0, 5.0 / std::sqrt(n));
+}
+
+// A scan has no number beyond the limit as often as chance_within() says, and its first uniform()
+// tells which.
+TEST(Rng, TheFirstDrawTellsHowFarOutGaussiansAre) {
+  constexpr int kTicks = 20'000;
+  for (const int count : {1, 2, 7, 96}) {
+    const double limit = count > 10 ? 2.8 : 1.5;
+    const double chance = chance_within(count, limit);
+    int within = 0, both = 0;
+    for (int tick = 0; tick < kTicks; ++tick) {
+      const Rng rng(3, hash_bytes("limit"), tick);
+      std::vector<double> numbers(static_cast<std::size_t>(count) + 1);
+      Rng(rng).gaussians(numbers.data(), static_cast<std::size_t>(count));
+      const bool told = Rng(rng).uniform() < chance;
+      double farthest = 0.0;
+      for (const double x : numbers) farthest = std::max(farthest, std::abs(x));
+      within += told ? 1 : 0;
+      both += told && farthest <= limit ? 1 : 0;
+      EXPECT_EQ(numbers.back(), 0.0);  // no more than were asked for
+    }
+    EXPECT_EQ(both, within) << count;
+    EXPECT_NEAR(within, chance * kTicks, 5.0 * std::sqrt(kTicks * chance * (1.0 - chance)));
+  }
 }
 
 // One draw at each tick must be as random as many draws at one tick.

@@ -64,10 +64,10 @@ inline void expect_same_readings(const Snapshot& a, const Snapshot& b) {
   EXPECT_EQ(a.new_readings, b.new_readings) << a.time;
   EXPECT_EQ(a.counts.readings, b.counts.readings);
   for (std::size_t i = 0; i < a.sensors.size(); ++i) {
-    ASSERT_EQ(a.sensors[i] == nullptr, b.sensors[i] == nullptr);
-    if (a.sensors[i] == nullptr) continue;
-    EXPECT_TRUE(a.sensors[i]->same_values(*b.sensors[i]))
-        << a.structure->sensors[i].name << " at " << a.time;
+    const auto one = a.reading(i), other = b.reading(i);
+    ASSERT_EQ(one == nullptr, other == nullptr);
+    if (one == nullptr) continue;
+    EXPECT_TRUE(one->same_values(*other)) << a.structure->sensors[i].name << " at " << a.time;
     EXPECT_EQ(a.stamp(i), b.stamp(i)) << a.structure->sensors[i].name << " at " << a.time;
   }
   ASSERT_EQ(a.events.size(), b.events.size()) << a.time;

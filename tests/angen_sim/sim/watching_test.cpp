@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "angen_sim/sim/room.h"
+#include "angen_sim/sim/household.h"
 
 namespace angen::sim {
 namespace {
@@ -50,7 +50,17 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-const std::vector<std::string> kLibraries = {kPir, "liboptical_switch_controller.so"};
+const std::vector<std::string> kLibraries = {kPir,
+                                             "liboptical_switch_controller.so",
+                                             "libluminosity_sensor_controller.so",
+                                             "libgazebo_ros_bumper.so",
+                                             "libgazebo_ros_range.so",
+                                             "libtemperature_sensor.so",
+                                             "libhumidity_sensor.so",
+                                             "libsmart_plug.so",
+                                             "libpressure_mat.so",
+                                             "libreed_contact.so",
+                                             "librfid_reader.so"};
 
 std::shared_ptr<Catalog> catalog() {
   static const auto shared = [] {
@@ -77,15 +87,20 @@ std::unique_ptr<Simulation> make(const std::string& text) {
 
 void expect_made_at_each_due_time(const Snapshot& snapshot) {
   for (std::size_t i = 0; i < snapshot.sensors.size(); ++i) {
-    if (snapshot.sensors[i] == nullptr) continue;
-    EXPECT_EQ(snapshot.sensors[i]->stamp, snapshot.stamp(i));
+    const Told& told = snapshot.sensors[i];
+    if (told.reading == nullptr) continue;
+    EXPECT_EQ(told.reading->stamp, snapshot.stamp(i));
+    EXPECT_EQ(told.echo, nullptr);
   }
 }
 
 /// Both take the same ticks and commands and are compared at each tick.
 struct Twins {
-  std::unique_ptr<Simulation> calm = make(room());
-  std::unique_ptr<Simulation> eager = make(restless(room()));
+  std::unique_ptr<Simulation> calm;
+  std::unique_ptr<Simulation> eager;
+
+  explicit Twins(const std::string& text = room())
+      : calm(make(text)), eager(make(restless(text))) {}
 
   void command(const Action& action, const Action& same) {
     calm->post(action);
@@ -97,6 +112,9 @@ struct Twins {
     };
     command(parse(model), parse(restless(model)));
   }
+  void order(const std::string& kind, const std::string& name, const std::string& text) {
+    command(ToDevice{kind, name, {text, {}}}, ToDevice{kind, name, {text, {}}});
+  }
   void run(int ticks) {
     for (int i = 0; i < ticks; ++i) {
       expect_same_readings(*calm->tick(), *eager->tick());
@@ -106,16 +124,57 @@ struct Twins {
   }
 };
 
+struct AtRest {
+  int kept = 0;    // sensors whose reading stands for later ones
+  int echoed = 0;  // sensors whose echo does
+};
+
+AtRest at_rest(const Snapshot& snapshot) {
+  AtRest count;
+  for (std::size_t i = 0; i < snapshot.sensors.size(); ++i) {
+    const Told& told = snapshot.sensors[i];
+    if (told.reading == nullptr || told.reading->stamp == snapshot.stamp(i)) continue;
+    ++(told.echo ? count.echoed : count.kept);
+  }
+  return count;
+}
+
 TEST(Watching, ReadingsAreThoseOfCastingAllRaysAtEachDueTime) {
   Twins twins;
   twins.run(6000);
-  const std::shared_ptr<const Snapshot> end = twins.calm->snapshot();
-  const Snapshot& last = *end;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < last.sensors.size(); ++i) {
-    if (last.sensors[i]->stamp < last.stamp(i)) ++kept;
+  const AtRest rest = at_rest(*twins.calm->snapshot());
+  EXPECT_GT(rest.kept, 0);
+  EXPECT_GT(rest.echoed, 2);
+}
+
+TEST(Watching, AHouseholdIsReadAsAtEachDueTime) {
+  Twins twins(text_of_household());
+  twins.run(6000);
+  for (const char* order : {"On", "Off"}) {
+    twins.order("heater", "stove", order);
+    twins.run(1500);
+    twins.order("lamp", "hall0", order);
+    twins.run(1500);
   }
-  EXPECT_GT(kept, 0U);  // some have come to rest in that time
+  twins.order("person", "person", "Stop");
+  twins.order("door", "hall0", "Open");
+  twins.run(8000);
+  EXPECT_GT(at_rest(*twins.calm->snapshot()).echoed, 0);
+}
+
+TEST(Watching, LightAndContactsAreReadAsAtEachDueTime) {
+  Twins twins(text_of_world());
+  twins.order("lamp", "hall0", "On");
+  twins.run(12000);
+  twins.order("person", "person", "Stop");
+  twins.run(3000);
+  EXPECT_GT(at_rest(*twins.calm->snapshot()).echoed, 4);
+  twins.order("lamp", "hall0", "Dim 40");
+  twins.run(2000);
+  twins.order("door", "hall0", "Open");
+  twins.run(4000);
+  twins.order("lamp", "hall0", "Off");
+  twins.run(2000);
 }
 
 TEST(Watching, WhatIsSpawnedOrDeletedIsSeenAtOnce) {
@@ -147,7 +206,7 @@ TEST(Watching, AStillSensorKeepsItsReadingAndPublishesItAgain) {
   const auto first = world->tick();
   for (int i = 0; i < 1000; ++i) world->tick();
   const auto later = world->snapshot();
-  EXPECT_EQ(later->sensors[0], first->sensors[0]);
+  EXPECT_EQ(later->sensors[0].reading, first->sensors[0].reading);
   EXPECT_EQ(later->stamp(0), kSecond);
   EXPECT_EQ(later->counts.readings, 11U);
 }

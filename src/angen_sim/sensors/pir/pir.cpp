@@ -26,8 +26,10 @@ class Pir : public Sensor {
     model_->read(view, hits, rng, reading);
   }
   Rest rest() const override { return model_->rest(); }
-  bool quiet(Rng rng) const override { return model_->quiet(rng); }
+  double quiet_chance() const override { return model_->quiet_chance(); }
   int memory() const override { return model_->memory(); }
+  std::shared_ptr<const Echo> echo() const override { return model_->echo(); }
+  void resume(Nanoseconds time, const Draws& draws) override { model_->resume(time, draws); }
 
  private:
   std::unique_ptr<Sensor> model_;

@@ -16,19 +16,34 @@ class RangeDifference : public Sensor {
   void aim(const View& view, RayBatch& rays) override;
   void read(const View& view, Hits hits, Rng& rng, Reading& reading) override;
   Rest rest() const override;
-  /// Two scans that are both within half the threshold do not differ by more than it.
-  bool quiet(Rng rng) const override { return fan_.quiet(rng, threshold_ / 2.0); }
+  double quiet_chance() const override { return quiet_chance_; }
   int memory() const override { return static_cast<int>(previous_.size()); }
+  std::shared_ptr<const Echo> echo() const override;
+  void resume(Nanoseconds time, const Draws& draws) override;
 
  private:
+  /// When it takes which of its scans.
+  struct Nod {
+    Nanoseconds period = kSecond;  // from scan to scan
+    Nanoseconds first_time = 0;
+    std::size_t phases = 1;
+    std::size_t phase(Nanoseconds time) const {
+      const Nanoseconds scans = (time - first_time + period / 2) / period;
+      return static_cast<std::size_t>(scans) % phases;
+    }
+  };
+  struct Scans;  // its echo
+
   std::size_t count_phases(const Params& params, double nod_period) const;
+  static void tell(Ranges ranges, double difference, double threshold, Reading& reading);
 
   Fan fan_;
+  Nod nod_;
   double threshold_ = 0.0;
-  Nanoseconds period_ = kSecond;
+  double quiet_chance_ = 0.0;
   std::vector<std::vector<Vec3>> directions_;  // by phase of the nod
   std::vector<Ranges> previous_;               // by phase; empty before its first scan
-  Nanoseconds first_time_ = 0;
+  std::vector<Ranges> clean_;                  // the same without noise, of one that has noise
   Nanoseconds last_time_ = -1;
   std::size_t phase_ = 0;
   bool motion_ = false;
