@@ -9,24 +9,7 @@ namespace {
 
 constexpr double kMost = 1.0 - 0x1.0p-53;  // less than 1, so that no radius is infinite
 
-std::uint64_t mix(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return z ^ (z >> 31);
-}
-
 }  // namespace
-
-Rng::Rng(std::uint64_t seed, std::uint64_t name_hash, std::int64_t tick)
-    : state_(mix(seed + 0x9e3779b97f4a7c15ULL) ^ mix(name_hash) ^
-             mix(static_cast<std::uint64_t>(tick) * 0xd1342543de82ef95ULL + 1)) {}
-
-std::uint64_t Rng::next() {
-  state_ += 0x9e3779b97f4a7c15ULL;
-  return mix(state_);
-}
-
-double Rng::uniform() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
 
 // Box and Muller 1958; the second of each pair is kept.
 double Rng::gaussian() {

@@ -19,10 +19,12 @@ constexpr std::uint64_t hash_bytes(std::string_view bytes,
 /// SplitMix64 (Steele, Lea and Flood 2014) on a mixed key.
 class Rng {
  public:
-  Rng(std::uint64_t seed, std::uint64_t name_hash, std::int64_t tick);
+  Rng(std::uint64_t seed, std::uint64_t name_hash, std::int64_t tick)
+      : state_(mix(seed + kGolden) ^ mix(name_hash) ^
+               mix(static_cast<std::uint64_t>(tick) * 0xd1342543de82ef95ULL + 1)) {}
 
-  std::uint64_t next();
-  double uniform();   // [0, 1)
+  std::uint64_t next() { return mix(state_ += kGolden); }
+  double uniform() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }  // [0, 1)
   double gaussian();  // mean 0, standard deviation 1
 
   /// `count` numbers like those of gaussian(). The first uniform() that this takes says how far out
@@ -30,6 +32,13 @@ class Rng {
   void gaussians(double* numbers, std::size_t count);
 
  private:
+  static constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15ULL;
+  static std::uint64_t mix(std::uint64_t z) {
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+    return z ^ (z >> 31);
+  }
+
   std::uint64_t state_;
   double spare_ = 0.0;
   bool has_spare_ = false;
