@@ -109,15 +109,15 @@ class Climate : public Device {
   Eigen::AlignedBox3d surroundings(const Pose& pose) const {
     Eigen::AlignedBox3d around;
     for (const std::vector<double>& room : rooms_) {
-      const Eigen::AlignedBox3d box(Vec3(room[0], room[1], room[2]),
-                                    Vec3(room[3], room[4], room[5]));
+      const Vec3 margin(kWidestLeaf, kWidestLeaf, kWall);
+      const Eigen::AlignedBox3d box(Vec3(room[0], room[1], room[2]) - margin,
+                                    Vec3(room[3], room[4], room[5]) + margin);
       for (int corner = 0; corner < 8; ++corner) {
         const auto type = static_cast<Eigen::AlignedBox3d::CornerType>(corner);
         around.extend(pose * Vec3(box.corner(type)));
       }
     }
-    const Vec3 margin = Vec3::Constant(kWidestLeaf);
-    return {around.min() - margin, around.max() + margin};
+    return around;
   }
 
   // -1: in none of them.
