@@ -147,11 +147,10 @@ bool Field::follow(std::vector<Eigen::AlignedBox3d>& touched) {
   Anchored now = scene_.anchored();
   const auto without = [&](const Anchored& all, const Anchored& others) {
     for (const auto& [id, box] : all) {
-      const auto same =
-          std::find_if(others.begin(), others.end(), [&, &id = id, &box = box](const auto& other) {
-            return other.first == id && other.second.isApprox(box, 0.0);
-          });
-      if (same != others.end()) continue;
+      const auto other = std::lower_bound(
+          others.begin(), others.end(), id.index,
+          [](const auto& each, std::uint32_t index) { return each.first.index < index; });
+      if (other != others.end() && other->first == id && other->second.isApprox(box, 0.0)) continue;
       for (const std::uint32_t patch : surfaces_.forget(id.index)) {
         if (patch < sights_.size()) sights_[patch] = {};
       }

@@ -32,17 +32,30 @@ Lighting::Lighting(const rays::Scene& scene)
 
 Lighting::~Lighting() = default;
 
+void Lighting::count(double before, double after) {
+  if (before > 0.0) --lit_count_;
+  if (after > 0.0) ++lit_count_;
+  if (before > 0.0 || after > 0.0) ++lit_revision_;
+}
+
 LampId Lighting::add(const Lamp& lamp, double level) {
   ++lamps_revision_;
+  count(0.0, level);
   return lamps_.add({lamp, level, nullptr});
 }
 
 void Lighting::remove(LampId lamp) {
+  count(level(lamp), 0.0);
   lamps_.remove(lamp);
   ++lamps_revision_;
 }
 
-void Lighting::set_level(LampId lamp, double level) { lamps_.at(lamp).level = level; }
+void Lighting::set_level(LampId lamp, double level) {
+  double& now = lamps_.at(lamp).level;
+  if (now == level) return;
+  count(now, level);
+  now = level;
+}
 
 double Lighting::level(LampId lamp) const { return lamps_.at(lamp).level; }
 
@@ -52,6 +65,7 @@ void Lighting::move(LampId lamp, const Pose& pose) {
   entry.lamp.pose = pose;
   entry.solution.reset();
   ++lamps_revision_;
+  count(entry.level, entry.level);
 }
 
 std::vector<Lit> Lighting::lit() const {

@@ -55,6 +55,9 @@ class Lighting {
   double level(LampId lamp) const;
   void move(LampId lamp, const Pose& pose);
   std::vector<Lit> lit() const;  // those of a level above 0
+  bool dark() const { return lit_count_ == 0; }
+  /// Grows when a lamp that is lit comes, goes, moves or changes its level.
+  std::uint64_t lit_revision() const { return lit_revision_; }
 
   /// Illuminance at pose.position on the plane whose normal is pose's x axis, and the mean colour
   /// that a square pixel of 60 degrees along x sees: a mean luminance of L cd/m^2 gives L / (L +
@@ -73,11 +76,14 @@ class Lighting {
     std::shared_ptr<const Solution> solution;  // made when the lamp is lit and somebody measures
   };
   void follow() const;
+  void count(double before, double after);
 
   const rays::Scene& scene_;
   mutable Slots<Entry, LampTag> lamps_;
   std::unique_ptr<Field> field_;
   std::uint64_t lamps_revision_;  // no two Lightings share one
+  std::size_t lit_count_ = 0;
+  std::uint64_t lit_revision_ = 0;
 };
 
 }  // namespace angen::light
