@@ -17,7 +17,8 @@ constexpr std::size_t kMostFound = 64;  // asked of ODE
 constexpr double kSoftest = 1e-8;       // least CFM of a contact: keeps redundant points solvable
 constexpr double kBounceSpeed = 0.05;   // m/s, nothing bounces below it
 constexpr double kStickMu = 1e6;        // from here on nothing slides
-constexpr double kApart = 1e-9;         // m, centres that are less apart coincide
+constexpr std::size_t kManyJoints = 256;
+constexpr double kApart = 1e-9;  // m, centres that are less apart coincide
 
 bool joined(const Body& a, const Body& b) {
   const Body& moving = a.dynamic() ? a : b;
@@ -93,6 +94,7 @@ Contacts::Contacts(dWorldID world, const desc::Physics& settings)
       group_(dJointGroupCreate(0)) {}
 
 void Contacts::start() {
+  for (const Pair& pair : pairs_) note_change(*pair.first, *pair.second);
   pairs_.clear();
   found_.clear();
   points_.clear();
@@ -105,6 +107,7 @@ bool Contacts::collide(Geom& a, Geom& b) {
   const std::size_t n = touching_points(first, second, found.data());
   if (n == 0) return false;
   const std::size_t kept = reduce_points(found.data(), n);
+  note_change(first, second);
   pairs_.push_back({&first, &second, found_.size(), kept});
   found_.insert(found_.end(), found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept));
   return true;
@@ -167,7 +170,14 @@ void Contacts::read_forces(const Pair& pair) {
 void Contacts::finish() {
   points_.resize(found_.size());
   for (const Pair& pair : pairs_) read_forces(pair);
-  dJointGroupEmpty(group_.get());
+  // A group goes through all the memory that it ever took, each time that it is emptied.
+  most_joints_ = std::max(most_joints_, found_.size());
+  if (most_joints_ > kManyJoints && found_.size() < most_joints_ / 4) {
+    group_ = ode::JointGroupHandle(dJointGroupCreate(0));
+    most_joints_ = 0;
+  } else {
+    dJointGroupEmpty(group_.get());
+  }
 }
 
 void Contacts::put_to_rest() {
@@ -188,7 +198,10 @@ void Contacts::put_to_rest() {
 
 void Contacts::forget(Body& body) {
   for (const PairKey& key : body.resting) {
-    resting_.erase(key);
+    const auto pair = resting_.find(key);
+    if (pair == resting_.end()) continue;
+    note_change(*pair->second.first, *pair->second.second);
+    resting_.erase(pair);
     with_smaller_.erase({key.second, key.first});
   }
   body.resting.clear();
@@ -196,7 +209,9 @@ void Contacts::forget(Body& body) {
 
 void Contacts::drop_active(const ModelRecord& model) {
   const auto gone = [&](const Pair& pair) {
-    return pair.first->body->model == &model || pair.second->body->model == &model;
+    if (pair.first->body->model != &model && pair.second->body->model != &model) return false;
+    note_change(*pair.first, *pair.second);
+    return true;
   };
   pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), gone), pairs_.end());
 }

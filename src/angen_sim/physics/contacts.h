@@ -57,6 +57,7 @@ class Contacts {
       for (Body* body : {pair.first->body, pair.second->body}) {
         if (body->model != &model) wake(*body);
       }
+      note_change(*pair.first, *pair.second);
       with_smaller_.erase({it->first.second, it->first.first});
       it = resting_.erase(it);
     }
@@ -75,6 +76,10 @@ class Contacts {
     std::vector<ContactPoint> points;
   };
 
+  static void note_change(Geom& first, Geom& second) {
+    ++first.contacts_revision;
+    ++second.contacts_revision;
+  }
   void drop_active(const ModelRecord& model);
   std::vector<ContactPoint> points_of(const Pair& pair) const;
   void make_joint(const Pair& pair, std::size_t index);
@@ -85,6 +90,7 @@ class Contacts {
   double erp_;
   double cfm_;
   ode::JointGroupHandle group_;
+  std::size_t most_joints_ = 0;  // that group_ has held
   std::vector<Pair> pairs_;
   std::vector<dContactGeom> found_;
   std::vector<ContactPoint> points_;

@@ -40,6 +40,7 @@ struct MeshData {
 
 struct Geom {
   std::string name;  // model::link::collision
+  CollisionId id;
   std::uint64_t serial = 0;
   Body* body = nullptr;
   Pose in_body;
@@ -55,6 +56,7 @@ struct Geom {
   bool in_grid = false;
   bool unbounded = false;
   std::uint64_t visited = 0;
+  std::uint64_t contacts_revision = 0;  // grows when what touches it changes
 };
 
 /// One degree of freedom of a joint.

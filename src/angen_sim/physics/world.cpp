@@ -90,7 +90,10 @@ ModelId World::add(const desc::Model& model) {
     record.link_ids.push_back(impl_->links.add(link));
     link.body->links.push_back(record.link_ids.back());
   }
-  for (const auto& geom : record.geoms) impl_->geoms[geom->name] = geom.get();
+  for (const auto& geom : record.geoms) {
+    geom->id = impl_->collisions.add(geom.get());
+    impl_->geoms[geom->name] = geom.get();
+  }
   for (const auto& joint : record.joints) {
     record.joint_ids.push_back(impl_->joints.add(joint.get()));
   }
@@ -109,6 +112,7 @@ void World::remove(ModelId id) {
   for (const auto& geom : model.geoms) {
     w.grid.erase(*geom);
     w.geoms.erase(geom->name);
+    w.collisions.remove(geom->id);
   }
   const auto forget = [&](std::vector<LinkId>& list) {
     const auto gone = [&](LinkId link) { return of_model(w.links.at(link).body); };
@@ -202,10 +206,18 @@ const std::vector<ContactPair>& World::contacts() const {
   return impl_->listed;
 }
 
-std::vector<ContactPair> World::contacts(const std::string& collision) const {
-  const auto geom = impl_->geoms.find(collision);
-  return geom == impl_->geoms.end() ? std::vector<ContactPair>{}
-                                    : impl_->contacts.of(*geom->second);
+CollisionId World::collision(const std::string& name) const {
+  const auto geom = impl_->geoms.find(name);
+  return geom == impl_->geoms.end() ? CollisionId{} : geom->second->id;
+}
+
+std::vector<ContactPair> World::contacts(CollisionId collision) const {
+  if (!collision.valid()) return {};
+  return impl_->contacts.of(*impl_->collisions.at(collision));
+}
+
+std::uint64_t World::contacts_revision(CollisionId collision) const {
+  return collision.valid() ? impl_->collisions.at(collision)->contacts_revision : 0;
 }
 
 std::uint64_t World::failed_steps() const { return impl_->failed; }

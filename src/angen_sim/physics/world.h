@@ -19,6 +19,7 @@ namespace angen::physics {
 
 using ModelId = Id<struct PhysicsModelTag>;
 using LinkId = Id<struct PhysicsLinkTag>;
+using CollisionId = Id<struct PhysicsCollisionTag>;
 using JointId = Id<struct PhysicsJointTag>;
 
 struct LinkState {
@@ -81,8 +82,12 @@ class World {
 
   /// What touches now, sorted by names' ids; sleeping bodies keep their last contacts and forces.
   const std::vector<ContactPair>& contacts() const;
-  /// Those of one collision (model::link::collision), turned so that it is the first.
-  std::vector<ContactPair> contacts(const std::string& collision) const;
+  /// By its name, model::link::collision; not valid for one that has no shape or does not exist.
+  CollisionId collision(const std::string& name) const;
+  /// What touches this one, turned so that it is the first.
+  std::vector<ContactPair> contacts(CollisionId collision) const;
+  /// Grows whenever that may have changed.
+  std::uint64_t contacts_revision(CollisionId collision) const;
 
   std::uint64_t failed_steps() const;  // steps that had to be redone by the other solver
   std::size_t awake_count() const;

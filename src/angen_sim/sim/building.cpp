@@ -18,11 +18,6 @@ std::string key_of(const Instance& instance) {
   return instance.kind + "/" + instance.name;
 }
 
-void start_at(SensorInstance& sensor, Nanoseconds now, Nanoseconds step) {
-  sensor.rhythm.start = now;
-  sensor.rhythm.step = step;
-}
-
 }  // namespace
 
 Building::Building(const desc::World& world, std::uint64_t seed, std::shared_ptr<Catalog> catalog)
@@ -139,6 +134,15 @@ void Building::strike_names(const LiveModel& live) {
   for (const SensorInstance& sensor : live.sensors) sensors_.erase(key_of(sensor));
 }
 
+/// The sensor's model is on the stage.
+void Building::start(SensorInstance& sensor, Nanoseconds now) const {
+  sensor.rhythm.start = now;
+  sensor.rhythm.step = world_.physics.step;
+  for (const std::string& name : sensor.collisions) {
+    sensor.touching.push_back(stage_->physics.collision(name));
+  }
+}
+
 void Building::build(desc::Model model, const std::vector<SensorInstance>* attached,
                      Nanoseconds now) {
   auto live = std::make_unique<LiveModel>();
@@ -152,7 +156,7 @@ void Building::build(desc::Model model, const std::vector<SensorInstance>* attac
   }
   check_names(*live);
   live->parts = stage_->add(*live->desc);
-  for (SensorInstance& sensor : live->sensors) start_at(sensor, now, world_.physics.step);
+  for (SensorInstance& sensor : live->sensors) start(sensor, now);
   for (DeviceInstance& device : live->devices) device.updated = now - world_.physics.step;
   for (std::uint32_t i = 0; i < live->parts.links.size(); ++i) {
     const std::uint32_t index = live->parts.links[i].index;
@@ -189,7 +193,7 @@ void Building::attach(const desc::Sensor& sensor, const std::string& link, Nanos
                                         world_.gravity, *catalog_);
   check_sensor_name(instance);
   instance.attached = true;
-  start_at(instance, now, world_.physics.step);
+  start(instance, now);
   sensors_[key_of(instance)] = live;
   live->sensors.push_back(std::move(instance));
   note_revision();

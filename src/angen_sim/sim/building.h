@@ -70,6 +70,7 @@ class Building {
   };
 
   void build(desc::Model model, const std::vector<SensorInstance>* attached, Nanoseconds now);
+  void start(SensorInstance& sensor, Nanoseconds now) const;
   void raise_stage();
   void check_names(const LiveModel& live) const;
   void check_sensor_name(const SensorInstance& sensor) const;

@@ -50,6 +50,19 @@ struct Look {
   std::size_t settled = 0;        // how many
 };
 
+/// What an instance asked for of the world besides rays, the time and its own pose.
+struct Asked {
+  bool contacts = false;
+  bool light = false;
+  bool devices = false;  // what they tell
+  bool other = false;
+
+  bool any() const { return contacts || light || devices || other; }
+  Asked operator|(const Asked& o) const {
+    return {contacts || o.contacts, light || o.light, devices || o.devices, other || o.other};
+  }
+};
+
 struct SensorInstance {
   // What a due time at rest looks at stands together: with many sensors it comes from far away.
   std::vector<std::unique_ptr<Look>> looks;  // by stance, from where it stands
@@ -57,11 +70,10 @@ struct SensorInstance {
   Sights::Moment seen = 0;  // it has seen all that happened before
   int calm = 0;             // so many looks in a row found nothing changed since the one before
   Rest rest = Rest::kBusy;
-  bool asks_more = true;      // of the world than its pose and `looks`
-  bool asks_devices = false;  // what devices tell
-  bool link_moves = true;     // or stands where it is for ever
-  bool published = false;     // `scratch`, as `told`
-  bool echoes = false;        // told.echo stands for its looks
+  Asked asked{false, false, false, true};  // for its reading
+  bool link_moves = true;                  // or stands where it is for ever
+  bool published = false;                  // `scratch`, as `told`
+  bool echoes = false;                     // told.echo stands for its looks
 
   std::string kind;
   std::string name;
@@ -74,14 +86,17 @@ struct SensorInstance {
   std::string topic;
   std::string frame;
   bool attached = false;
-  std::vector<std::string> collisions;  // full names, by ContactRef
-  Reading scratch;                      // the latest
-  Told told;                            // the latest published, as snapshots have it
-  Pose seen_from;                       // when it last looked, if its link moves
-  double quiet_chance = 0.0;            // of its noise, while it echoes
-  Nanoseconds quiet_until = 0;          // known of its noise, for leaps
-  Nanoseconds loud_at = 0;              // as well, when later than now
-  Nanoseconds cost = 0;                 // CPU time that the meter counts
+  std::vector<std::string> collisions;         // full names, by ContactRef
+  std::vector<physics::CollisionId> touching;  // the same
+  Reading scratch;                             // the latest
+  Told told;                                   // the latest published, as snapshots have it
+  Pose seen_from;                              // when it last looked, if its link moves
+  std::uint64_t contacts_seen = 0;             // their revisions when it last looked
+  std::uint64_t light_seen = 0;                // as well
+  double quiet_chance = 0.0;                   // of its noise, while it echoes
+  Nanoseconds quiet_until = 0;                 // known of its noise, for leaps
+  Nanoseconds loud_at = 0;                     // as well, when later than now
+  Nanoseconds cost = 0;                        // CPU time that the meter counts
 };
 
 /// A model that is in the world, with all that acts and looks in it.

@@ -11,8 +11,9 @@ constexpr Nanoseconds kFarthest = 10 * kSecond;  // that noise is looked ahead
 
 }  // namespace
 
-bool Sensing::may_be_passed_over(const Stage& stage, const SensorInstance& sensor) const {
-  if (!undisturbed(stage, sensor)) return false;
+bool Sensing::may_be_passed_over(const Stage& stage, const Watched& watched) const {
+  if (!undisturbed(stage, watched)) return false;
+  const SensorInstance& sensor = *watched.sensor;
   if (sensor.rest == Rest::kSame) return sensor.published;
   return sensor.echoes;
 }
@@ -21,14 +22,22 @@ bool Sensing::may_be_passed_over(const Stage& stage, const SensorInstance& senso
 Nanoseconds Sensing::first_loud(SensorInstance& sensor, InstanceView::Clock clock,
                                 Nanoseconds until) const {
   if (sensor.loud_at > clock.time) return sensor.loud_at;
-  Nanoseconds at = std::max(clock.time, sensor.quiet_until);
-  for (at = sensor.rhythm.next_look(at); at <= until; at = sensor.rhythm.next_look(at)) {
-    if (quiet(sensor.key, sensor.quiet_chance, at, clock.step)) continue;
+  const Rhythm& rhythm = sensor.rhythm;
+  Nanoseconds due = rhythm.next(std::max(clock.time, sensor.quiet_until));
+  for (Nanoseconds at = rhythm.tick_of(due); at <= until;
+       at = rhythm.tick_of(due += rhythm.sample)) {
+    if (quiet(sensor, {at, clock.step})) continue;
     sensor.loud_at = at;
     return at;
   }
   sensor.quiet_until = std::max(sensor.quiet_until, until);
   return kForever;
+}
+
+/// The look up to which the noise of one that echoes need not be asked again.
+Nanoseconds Sensing::alarm_of(SensorInstance& sensor, InstanceView::Clock clock) const {
+  const Nanoseconds until = (clock.time / kFarthest + 1) * kFarthest;
+  return sensor.quiet_chance < 1.0 ? std::min(first_loud(sensor, clock, until), until) : kForever;
 }
 
 std::int64_t Sensing::next_tick(Building& building, InstanceView::Clock clock, std::int64_t tick) {
@@ -41,7 +50,7 @@ std::int64_t Sensing::next_tick(Building& building, InstanceView::Clock clock, s
     SensorInstance& sensor = *watched.sensor;
     if (sensor.sensor->on_demand()) {
       if (demand_.has(sensor.kind, sensor.name)) stop_before(sensor.rhythm.next_look(clock.time));
-    } else if (!may_be_passed_over(building.stage(), sensor)) {
+    } else if (!may_be_passed_over(building.stage(), watched)) {
       stop_before(sensor.rhythm.next_look(clock.time));
     }
     if (tick <= here) return here;
@@ -68,7 +77,7 @@ void Sensing::pass_over(InstanceView::Clock clock, std::int64_t tick, Snapshot& 
   }
   next.new_readings.clear();
   next.counts.readings = readings;
-  requeue(to);
+  rota_.requeue(to);
   meter_.rest.sensors += meter_.watch.lap();
 }
 

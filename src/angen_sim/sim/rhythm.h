@@ -23,14 +23,16 @@ struct Rhythm {
   }
 
   /// The tick of the first look after the tick of `time`.
-  Nanoseconds next_look(Nanoseconds time) const { return tick_of(next(time) - start); }
+  Nanoseconds next_look(Nanoseconds time) const { return tick_of(next(time)); }
+  /// The tick that a due time falls on.
+  Nanoseconds tick_of(Nanoseconds due) const { return start + up(due - start, step); }
 
   /// The tick of the last look at or before `time`; before `start` when there was none.
   Nanoseconds last_look(Nanoseconds time) const {
     if (time < start) return start - step;
     const Nanoseconds count = (time - start) / sample;
-    const Nanoseconds at = tick_of(count * sample);
-    return at <= time ? at : tick_of((count - 1) * sample);
+    const Nanoseconds at = tick_of(start + count * sample);
+    return at <= time ? at : tick_of(start + (count - 1) * sample);
   }
 
   /// The tick of the last publication at or before `time` (>= start).
@@ -39,7 +41,7 @@ struct Rhythm {
     const Nanoseconds at = look_for(count * publish);
     if (at <= time) return at;
     if (sample < publish) return look_for((count - 1) * publish);
-    return tick_of((time - start) / sample * sample);
+    return tick_of(start + (time - start) / sample * sample);
   }
 
   /// How many publications there were at or before `time`, when each is at the first look.
@@ -54,8 +56,9 @@ struct Rhythm {
   static Nanoseconds up(Nanoseconds value, Nanoseconds unit) {
     return (value + unit - 1) / unit * unit;
   }
-  Nanoseconds tick_of(Nanoseconds since_start) const { return start + up(since_start, step); }
-  Nanoseconds look_for(Nanoseconds since_start) const { return tick_of(up(since_start, sample)); }
+  Nanoseconds look_for(Nanoseconds since_start) const {
+    return tick_of(start + up(since_start, sample));
+  }
 };
 
 /// The random numbers of the look at `time`, and of those before it.

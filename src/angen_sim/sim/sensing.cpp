@@ -1,7 +1,6 @@
 #include "sim/sensing.h"
 
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <utility>
 
@@ -10,20 +9,50 @@ namespace angen::sim {
 namespace {
 
 constexpr int kMostStances = 256;  // of one sensor that are remembered
+constexpr std::uint32_t kNobody = UINT32_MAX;
+
+/// What stands from `middle` on was added; both parts ascend.
+void merge_from(std::vector<std::uint32_t>& list, std::size_t middle) {
+  std::inplace_merge(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(middle), list.end());
+}
 
 bool publishes(const SensorInstance& sensor, InstanceView::Clock clock) {
   return !sensor.told.reading ||
          sensor.rhythm.last_publication(clock.time) > clock.time - clock.step;
 }
 
+Pose pose_of(const Stage& stage, const LiveModel& live, const SensorInstance& sensor) {
+  return stage.physics.link(live.parts.links[sensor.link]).pose * sensor.pose;
+}
+
 /// Whether it is where it was at its last look; else what it measured there is void.
-bool stands_still(SensorInstance& sensor, const InstanceView& view) {
+bool stands_still(const Stage& stage, const LiveModel& live, SensorInstance& sensor) {
   if (!sensor.link_moves) return true;
-  const Pose pose = view.pose();
+  const Pose pose = pose_of(stage, live, sensor);
   if (pose == sensor.seen_from) return true;
   sensor.seen_from = pose;
   sensor.looks.clear();
   return false;
+}
+
+std::uint64_t contacts_revision(const Stage& stage, const SensorInstance& sensor) {
+  std::uint64_t sum = 0;
+  for (const physics::CollisionId collision : sensor.touching) {
+    sum += stage.physics.contacts_revision(collision);
+  }
+  return sum;
+}
+
+/// Whether it would be told the same of what it asked for besides rays.
+bool is_told_the_same(const Stage& stage, const LiveModel& live, const SensorInstance& sensor) {
+  const Asked& asked = sensor.asked;
+  const bool moved = stage.changed() >= sensor.seen;  // anything
+  if (asked.other && moved) return false;
+  if (asked.devices && stage.told() >= sensor.seen) return false;
+  if (asked.light && stage.light.lit_revision() != sensor.light_seen) return false;
+  if (asked.light && moved && !stage.light.dark()) return false;
+  if (asked.contacts && contacts_revision(stage, sensor) != sensor.contacts_seen) return false;
+  return !sensor.link_moves || !moved || pose_of(stage, live, sensor) == sensor.seen_from;
 }
 
 }  // namespace
@@ -32,23 +61,81 @@ void Sensing::look(Building& building, InstanceView::Clock clock, std::int64_t t
                    Snapshot& next) {
   if (schedule_is_old_) schedule(building, clock.time - clock.step);
   Stage& stage = building.stage();
-  if (collect_due(clock.time)) {
-    looking_.clear();
-    rays_.clear();
+  const std::vector<std::uint32_t>& groups = rota_.collect(clock.time);
+  if (!groups.empty()) {
+    for (const std::uint32_t group : groups) rouse(stage, rota_.group(group), clock);
     meter_.rest.sensors += meter_.watch.lap();
-    for (const std::uint32_t index : due_) {
-      if (!keeps_calm(stage, index, clock.time, next)) visit(building, index, clock, next);
-      if (!meter_.on) continue;
-      watched_[index].sensor->cost += meter_.watch.lap();
-    }
-    const auto shared = static_cast<std::ptrdiff_t>(next.new_readings.size());
+    visit_due(building, groups, clock, next);
     cast(stage);
+    const std::size_t repeated = next.new_readings.size();
     for (const Looking& looking : looking_) read(building, looking, clock, tick, next);
-    std::inplace_merge(next.new_readings.begin(), next.new_readings.begin() + shared,
-                       next.new_readings.end());
+    merge_from(next.new_readings, repeated);
+    for (const std::uint32_t group : groups) go_on(rota_.group(group), stage, clock, next);
   }
   stage.sights.pass();
   meter_.rest.sensors += meter_.watch.lap();
+}
+
+void Sensing::visit_due(Building& building, const std::vector<std::uint32_t>& groups,
+                        InstanceView::Clock clock, Snapshot& next) {
+  due_.clear();
+  for (const std::uint32_t group : groups) {
+    const std::vector<std::uint32_t>& awake = rota_.group(group).awake;
+    const std::size_t others = due_.size();
+    due_.insert(due_.end(), awake.begin(), awake.end());
+    merge_from(due_, others);
+  }
+  looking_.clear();
+  rays_.clear();
+  for (const std::uint32_t index : due_) {
+    visit(building, index, clock, next);
+    if (meter_.on) watched_[index].sensor->cost += meter_.watch.lap();
+  }
+}
+
+/// What the calm ones do at a due time.
+void Sensing::go_on(Rota::Group& group, const Stage& stage, InstanceView::Clock clock,
+                    Snapshot& next) {
+  if (group.publishes(clock.time)) {
+    const std::size_t others = next.new_readings.size();
+    next.new_readings.insert(next.new_readings.end(), group.calm.begin(), group.calm.end());
+    merge_from(next.new_readings, others);
+    next.counts.readings += group.calm.size();
+  }
+  rota_.shift(group);
+  group.looked = stage.sights.now() + 1;
+}
+
+void Sensing::rouse(const Stage& stage, Rota::Group& group, InstanceView::Clock clock) {
+  if (group.calm.empty()) return;
+  rouse_stirred(stage, group);
+  if (group.alarm <= clock.time) rouse_loud(group, clock);
+  rota_.shift(group);
+}
+
+void Sensing::rouse_stirred(const Stage& stage, const Rota::Group& group) {
+  stage.sights.each_stirred(group.looked, [&](std::uint32_t view) {
+    const std::uint32_t index = view < watcher_of_.size() ? watcher_of_[view] : kNobody;
+    if (index == kNobody || !rota_.is_calm(index)) return;
+    if (&rota_.group(rota_.group_of(index)) != &group) return;
+    if (!undisturbed(stage, watched_[index])) rota_.rouse(index);
+  });
+}
+
+/// Those whose noise may tell something now.
+void Sensing::rouse_loud(Rota::Group& group, InstanceView::Clock clock) {
+  group.alarm = kForever;
+  for (const std::uint32_t index : group.calm) {
+    if (alarms_[index] <= clock.time) {
+      SensorInstance& sensor = *watched_[index].sensor;
+      if (!quiet(sensor, clock)) {
+        rota_.rouse(index);
+        continue;
+      }
+      alarms_[index] = alarm_of(sensor, clock);
+    }
+    group.alarm = std::min(group.alarm, alarms_[index]);
+  }
 }
 
 void Sensing::cast(Stage& stage) {
@@ -68,62 +155,30 @@ void Sensing::cast(Stage& stage) {
 void Sensing::schedule(Building& building, Nanoseconds now) {
   schedule_is_old_ = false;
   watched_.clear();
-  calm_.clear();
-  groups_.clear();
-  std::map<std::pair<Nanoseconds, Nanoseconds>, std::uint32_t> known;  // by due time and period
+  watcher_of_.clear();
+  std::vector<Rhythm> rhythms;
   for (auto& live : building.models()) {
     for (SensorInstance& sensor : live->sensors) {
-      const std::pair<Nanoseconds, Nanoseconds> key(sensor.rhythm.next(now), sensor.rhythm.sample);
-      const auto count = static_cast<std::uint32_t>(groups_.size());
-      const auto [at, is_new] = known.emplace(key, count);
-      if (is_new) groups_.emplace_back();
-      groups_[at->second].push_back(static_cast<std::uint32_t>(watched_.size()));
+      rhythms.push_back(sensor.rhythm);
       watched_.push_back({live.get(), &sensor});
     }
   }
-  calm_.resize(watched_.size());
-  requeue(now);
+  alarms_.assign(watched_.size(), kForever);
+  rota_.assign(rhythms, now);
 }
 
-void Sensing::requeue(Nanoseconds now) {
-  queue_ = {};
-  for (std::uint32_t i = 0; i < groups_.size(); ++i) {
-    queue_.push({watched_[groups_[i].front()].sensor->rhythm.next(now), i});
-  }
-}
-
-bool Sensing::collect_due(Nanoseconds now) {
-  due_.clear();
-  while (!queue_.empty() && queue_.top().due <= now) {
-    const std::uint32_t index = queue_.top().index;
-    const std::vector<std::uint32_t>& group = groups_[index];
-    queue_.pop();
-    const auto middle = static_cast<std::ptrdiff_t>(due_.size());
-    due_.insert(due_.end(), group.begin(), group.end());
-    std::inplace_merge(due_.begin(), due_.begin() + middle, due_.end());
-    queue_.push({watched_[group.front()].sensor->rhythm.next(now), index});
-  }
-  return !due_.empty();
-}
-
-bool Sensing::keeps_calm(const Stage& stage, std::uint32_t index, Nanoseconds now, Snapshot& next) {
-  const Calm& calm = calm_[index];
-  if (calm.view == UINT32_MAX) return false;
-  if (stage.sights.stirred(calm.view, calm.seen)) {
-    calm_[index] = {};
-    return false;
-  }
-  if (!quiet(calm.key, calm.quiet_chance, now, calm.rhythm.step)) return false;
-  if (calm.rhythm.last_publication(now) > now - calm.rhythm.step) repeat(index, next);
-  return true;
-}
-
-void Sensing::calm_down(std::uint32_t index) {
-  const SensorInstance& sensor = *watched_[index].sensor;
-  if (sensor.asks_more || sensor.link_moves || !(sensor.published || sensor.echoes)) return;
-  if (sensor.looks.size() != 1 || !sensor.looks.front()) return;
-  calm_[index] = {sensor.looks.front()->view.number(), sensor.seen, sensor.rhythm, sensor.key,
-                  sensor.echoes ? sensor.quiet_chance : 1.0};
+/// One that nothing but what stirs in its views can rouse is not visited until then.
+void Sensing::calm_down(const Stage& stage, std::uint32_t index, InstanceView::Clock clock) {
+  SensorInstance& sensor = *watched_[index].sensor;
+  if (sensor.asked.any() || sensor.link_moves || !(sensor.published || sensor.echoes)) return;
+  const auto known = [](const auto& look) { return look && look->view.number() != kNobody; };
+  if (sensor.looks.empty() || !std::all_of(sensor.looks.begin(), sensor.looks.end(), known)) return;
+  watcher_of_.resize(std::max(watcher_of_.size(), stage.sights.view_count()), kNobody);
+  for (const auto& look : sensor.looks) watcher_of_[look->view.number()] = index;
+  rota_.calm(index);
+  Rota::Group& group = rota_.group(rota_.group_of(index));
+  alarms_[index] = sensor.echoes ? alarm_of(sensor, clock) : kForever;
+  group.alarm = std::min(group.alarm, alarms_[index]);
 }
 
 /// Whether the sensor, for which nothing has changed, needs no look now; then it has published.
@@ -138,7 +193,7 @@ bool Sensing::goes_on(std::uint32_t index, InstanceView::Clock clock, Snapshot& 
     if (sensor.calm <= sensor.sensor->memory()) return false;
     sensor.quiet_chance = sensor.sensor->quiet_chance();
   }
-  if (!quiet(sensor.key, sensor.quiet_chance, clock.time, clock.step)) return false;
+  if (!quiet(sensor, clock)) return false;
   if (!sensor.echoes) {
     sensor.told.echo = sensor.sensor->echo();
     if (!sensor.told.echo) return false;
@@ -153,7 +208,6 @@ bool Sensing::goes_on(std::uint32_t index, InstanceView::Clock clock, Snapshot& 
 void Sensing::resume(std::uint32_t index, InstanceView::Clock clock, Snapshot& next) {
   SensorInstance& sensor = *watched_[index].sensor;
   sensor.echoes = false;
-  calm_[index] = {};
   const Nanoseconds last = sensor.rhythm.last_look(clock.time - clock.step);
   sensor.sensor->resume(last, draws_at(sensor.rhythm, last, seed_, sensor.key));
   if (publishes(sensor, clock)) return;
@@ -171,10 +225,10 @@ void Sensing::visit(Building& building, std::uint32_t index, InstanceView::Clock
   SensorInstance& sensor = *watched_[index].sensor;
   if (sensor.rest == Rest::kBusy && sensor.sensor->on_demand()) {
     if (!demand_.has(sensor.kind, sensor.name)) return;
-  } else if (undisturbed(building.stage(), sensor)) {
+  } else if (undisturbed(building.stage(), watched_[index])) {
     ++sensor.calm;
     if (goes_on(index, clock, next)) {
-      calm_down(index);
+      calm_down(building.stage(), index, clock);
       return;
     }
   } else {
@@ -184,9 +238,12 @@ void Sensing::visit(Building& building, std::uint32_t index, InstanceView::Clock
   aim(building, index, clock);
 }
 
-bool Sensing::undisturbed(const Stage& stage, const SensorInstance& sensor) {
-  if ((sensor.asks_more || sensor.link_moves) && stage.changed() >= sensor.seen) return false;
-  if (sensor.asks_devices && stage.told() >= sensor.seen) return false;
+bool Sensing::undisturbed(const Stage& stage, const Watched& watched) {
+  const SensorInstance& sensor = *watched.sensor;
+  if ((sensor.asked.any() || sensor.link_moves) &&
+      !is_told_the_same(stage, *watched.live, sensor)) {
+    return false;
+  }
   return std::none_of(sensor.looks.begin(), sensor.looks.end(), [&](const auto& look) {
     return look != nullptr && look->view.stirred(sensor.seen);
   });
@@ -196,9 +253,10 @@ void Sensing::aim(Building& building, std::uint32_t index, InstanceView::Clock c
   Stage& stage = building.stage();
   SensorInstance& sensor = *watched_[index].sensor;
   const InstanceView view(building, *watched_[index].live, clock, &sensor);
-  Looking looking{index, nullptr, false, false, rays_.size(), 0};
+  Looking looking{index, nullptr, {}, rays_.size(), 0};
   const int stance = sensor.sensor->stance(view);
-  if (stance >= 0 && stance < kMostStances && stands_still(sensor, view)) {
+  const bool still = stands_still(stage, *watched_[index].live, sensor);
+  if (still && stance >= 0 && stance < kMostStances) {
     if (sensor.looks.size() <= static_cast<std::size_t>(stance)) sensor.looks.resize(stance + 1);
     std::unique_ptr<Look>& look = sensor.looks[stance];
     if (!look) {
@@ -215,8 +273,7 @@ void Sensing::aim(Building& building, std::uint32_t index, InstanceView::Clock c
     sensor.sensor->aim(view, rays_);
     looking.ray_count = rays_.size() - looking.first_ray;
   }
-  looking.asked_more = view.asked_more();
-  looking.asked_devices = view.asked_devices();
+  looking.asked = view.asked();
   looking_.push_back(looking);
 }
 
@@ -235,7 +292,7 @@ void Sensing::read(Building& building, const Looking& looking, InstanceView::Clo
   const Hits hits = hits_of(stage, looking, same);
   sensor.seen = stage.sights.now() + 1;
   Reading& reading = sensor.scratch;
-  if (!same || sensor.rest != Rest::kSame || sensor.asks_more) {
+  if (!same || sensor.rest != Rest::kSame || sensor.asked.any()) {
     reading.stamp = clock.time;
     reading.urgent = false;
     reading.event.clear();
@@ -244,8 +301,10 @@ void Sensing::read(Building& building, const Looking& looking, InstanceView::Clo
     const InstanceView view(building, *watched_[looking.index].live, clock, &sensor);
     sensor.sensor->read(view, hits, rng, reading);
     sensor.rest = sensor.sensor->on_demand() ? Rest::kBusy : sensor.sensor->rest();
-    sensor.asks_more = looking.asked_more || view.asked_more() || looking.ray_count > 0;
-    sensor.asks_devices = looking.asked_devices || view.asked_devices();
+    sensor.asked = looking.asked | view.asked();
+    sensor.asked.other = sensor.asked.other || looking.ray_count > 0;
+    if (sensor.asked.contacts) sensor.contacts_seen = contacts_revision(stage, sensor);
+    if (sensor.asked.light) sensor.light_seen = stage.light.lit_revision();
     sensor.published = sensor.published && sensor.rest == Rest::kSame && !reading.urgent &&
                        reading.event == sensor.told.reading->event &&
                        reading.same_values(*sensor.told.reading);

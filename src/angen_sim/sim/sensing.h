@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <queue>
 #include <vector>
 
 #include "sim/building.h"
 #include "sim/demand.h"
 #include "sim/meter.h"
+#include "sim/rota.h"
 #include "sim/view.h"
 
 namespace angen::sim {
@@ -36,45 +36,33 @@ class Sensing {
     LiveModel* live;
     SensorInstance* sensor;
   };
-  /// Sensors that look at the same times.
-  struct Group {
-    Nanoseconds due;
-    std::uint32_t index;  // in groups_
-    bool operator>(const Group& o) const { return due != o.due ? due > o.due : index > o.index; }
-  };
   struct Looking {
     std::uint32_t index;  // in Structure::sensors
     Look* look;           // null for one whose rays are in the batch
-    bool asked_more;      // of the view, to aim
-    bool asked_devices;
+    Asked asked;          // to aim
     std::size_t first_ray;
     std::size_t ray_count;
   };
 
-  /// A sensor at rest that publishes the same again, or has its echo do so, while nothing stirs in
-  /// its one view. With many sensors it comes from far away, and this is all that is looked at.
-  struct Calm {
-    std::uint32_t view = UINT32_MAX;  // none: it is to be visited
-    Sights::Moment seen = 0;
-    Rhythm rhythm;
-    std::uint64_t key = 0;
-    double quiet_chance = 1.0;
-  };
-
   void schedule(Building& building, Nanoseconds now);
-  /// Whether the noise of the look at `at` lets the sensor go on as it does.
-  bool quiet(std::uint64_t key, double chance, Nanoseconds at, Nanoseconds step) const {
-    return chance >= 1.0 || Rng(seed_, key, at / step).uniform() < chance;
+  void rouse(const Stage& stage, Rota::Group& group, InstanceView::Clock clock);
+  void rouse_stirred(const Stage& stage, const Rota::Group& group);
+  void rouse_loud(Rota::Group& group, InstanceView::Clock clock);
+  void visit_due(Building& building, const std::vector<std::uint32_t>& groups,
+                 InstanceView::Clock clock, Snapshot& next);
+  void go_on(Rota::Group& group, const Stage& stage, InstanceView::Clock clock, Snapshot& next);
+  void calm_down(const Stage& stage, std::uint32_t index, InstanceView::Clock clock);
+  /// Whether the noise of a look lets the sensor's echo stand for it.
+  bool quiet(const SensorInstance& sensor, InstanceView::Clock clock) const {
+    if (sensor.quiet_chance >= 1.0) return true;
+    return Rng(seed_, sensor.key, clock.time / clock.step).uniform() < sensor.quiet_chance;
   }
+  Nanoseconds alarm_of(SensorInstance& sensor, InstanceView::Clock clock) const;
   bool goes_on(std::uint32_t index, InstanceView::Clock clock, Snapshot& next);
   void resume(std::uint32_t index, InstanceView::Clock clock, Snapshot& next);
-  bool keeps_calm(const Stage& stage, std::uint32_t index, Nanoseconds now, Snapshot& next);
-  void calm_down(std::uint32_t index);
   static void repeat(std::uint32_t index, Snapshot& next);
-  void requeue(Nanoseconds now);
-  bool collect_due(Nanoseconds now);
   /// Whether a look would find what the last one did, noise and changing stances aside.
-  static bool undisturbed(const Stage& stage, const SensorInstance& sensor);
+  static bool undisturbed(const Stage& stage, const Watched& watched);
   void visit(Building& building, std::uint32_t index, InstanceView::Clock clock, Snapshot& next);
   void aim(Building& building, std::uint32_t index, InstanceView::Clock clock);
   void cast(Stage& stage);
@@ -82,7 +70,7 @@ class Sensing {
   void read(Building& building, const Looking& looking, InstanceView::Clock clock,
             std::int64_t tick, Snapshot& next);
   void publish(std::uint32_t index, Nanoseconds now, Snapshot& next);
-  bool may_be_passed_over(const Stage& stage, const SensorInstance& sensor) const;
+  bool may_be_passed_over(const Stage& stage, const Watched& watched) const;
   Nanoseconds first_loud(SensorInstance& sensor, InstanceView::Clock clock,
                          Nanoseconds until) const;
 
@@ -90,10 +78,10 @@ class Sensing {
   const Demand& demand_;
   Meter& meter_;
   bool schedule_is_old_ = true;
-  std::vector<Watched> watched_;                    // as Structure::sensors
-  std::vector<Calm> calm_;                          // as well
-  std::vector<std::vector<std::uint32_t>> groups_;  // of watched_, ascending
-  std::priority_queue<Group, std::vector<Group>, std::greater<>> queue_;
+  std::vector<Watched> watched_;     // as Structure::sensors
+  Rota rota_;                        // of these
+  std::vector<Nanoseconds> alarms_;  // as watched_: noise of a calm one was looked at until then
+  std::vector<std::uint32_t> watcher_of_;  // whose a view is, by its number
   std::vector<std::uint32_t> due_;
   std::vector<Looking> looking_;
   RayBatch rays_;

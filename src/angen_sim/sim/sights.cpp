@@ -79,8 +79,9 @@ bool Sights::stirred(std::uint32_t view, Moment since) const {
   if (glance.altered || glance.left >= since) return true;
   if (glance.region != 0 && stirred_wide_ < since) {
     const Region& region = regions_[glance.region];
-    const bool calm = std::none_of(region.begin(), region.end(),
-                                   [&](std::uint32_t cell) { return stirred_in_[cell] >= since; });
+    const bool calm = std::none_of(region.begin(), region.end(), [&](std::uint32_t cell) {
+      return cells_[cell].stirred >= since;
+    });
     if (calm) return false;
   }
   const std::vector<rays::ShapeId>& near = views_[view].near;
@@ -108,9 +109,9 @@ void Sights::each_view_in(const Box& box, F&& visit) {
     return;
   }
   each_cell(cells, [&](std::uint64_t key) {
-    const auto cell = cells_.find(key);
-    if (cell == cells_.end()) return;
-    for (const std::uint32_t view : views_in_[cell->second]) look(view);
+    const auto cell = cell_numbers_.find(key);
+    if (cell == cell_numbers_.end()) return;
+    for (const std::uint32_t view : cells_[cell->second].views) look(view);
   });
 }
 
@@ -148,12 +149,9 @@ bool Sights::find_cells(const Box& box, std::vector<std::uint32_t>& numbers) {
   Cells cells{};
   if (!cells_of(box, cells)) return false;
   each_cell(cells, [&](std::uint64_t key) {
-    const auto count = static_cast<std::uint32_t>(views_in_.size());
-    const auto [at, is_new] = cells_.emplace(key, count);
-    if (is_new) {
-      views_in_.emplace_back();
-      stirred_in_.push_back(0);
-    }
+    const auto count = static_cast<std::uint32_t>(cells_.size());
+    const auto [at, is_new] = cell_numbers_.emplace(key, count);
+    if (is_new) cells_.emplace_back();
     numbers.push_back(at->second);
   });
   return true;
@@ -165,7 +163,7 @@ void Sights::file(std::uint32_t view) {
     wide_.push_back(view);
     return;
   }
-  for (const std::uint32_t cell : cells) views_in_[cell].push_back(view);
+  for (const std::uint32_t cell : cells) cells_[cell].views.push_back(view);
   const auto count = static_cast<std::uint32_t>(regions_.size());
   const auto [at, is_new] = region_numbers_.emplace(cells, count);
   if (is_new) regions_.push_back(std::move(cells));
@@ -176,7 +174,7 @@ void Sights::unfile(std::uint32_t view) {
   if (views_[view].box.isEmpty()) return;
   const std::uint32_t region = glances_[view].region;
   if (region == 0) take_out(wide_, view);
-  for (const std::uint32_t cell : regions_[region]) take_out(views_in_[cell], view);
+  for (const std::uint32_t cell : regions_[region]) take_out(cells_[cell].views, view);
 }
 
 void Sights::link(Mover& mover) {
@@ -194,6 +192,24 @@ void Sights::unlink(Mover& mover) {
   mover.views.clear();
 }
 
+/// Puts it at the head of the list.
+void Sights::stir(std::uint32_t number) {
+  Cell& cell = cells_[number];
+  cell.stirred = now_;
+  if (latest_ == number) return;
+  if (cell.after != UINT32_MAX) cells_[cell.after].before = cell.before;
+  if (cell.before != UINT32_MAX) cells_[cell.before].after = cell.after;
+  cell.after = UINT32_MAX;
+  cell.before = latest_;
+  if (latest_ != UINT32_MAX) cells_[latest_].after = number;
+  latest_ = number;
+}
+
+void Sights::stir(const Mover& mover) {
+  if (mover.wide) stirred_wide_ = now_;
+  for (const std::uint32_t cell : mover.cells) stir(cell);
+}
+
 void Sights::put(rays::ShapeId id, const Box& box) {
   if (box.isEmpty()) {
     drop(id);
@@ -206,25 +222,30 @@ void Sights::put(rays::ShapeId id, const Box& box) {
   Mover& mover = movers_[id.index];
   moved_[id.index] = now_;
   if (mover.id != id || !mover.box.contains(box)) {
+    stir(mover);
     unlink(mover);
     mover.id = id;
     mover.box = wider(box);
     mover.wide = !find_cells(mover.box, mover.cells);
     link(mover);
   }
-  if (mover.wide) stirred_wide_ = now_;
-  for (const std::uint32_t cell : mover.cells) stirred_in_[cell] = now_;
+  stir(mover);
 }
 
 void Sights::drop(rays::ShapeId id) {
   if (movers_.size() <= id.index || movers_[id.index].id != id) return;
-  unlink(movers_[id.index]);
-  movers_[id.index].id = {};
+  Mover& mover = movers_[id.index];
+  stir(mover);
+  unlink(mover);
+  mover = {};
 }
 
 void Sights::alter(const Box& box) {
   if (box.isEmpty()) return;
-  each_view_in(box, [&](std::uint32_t view, Place&) { glances_[view].altered = true; });
+  each_view_in(box, [&](std::uint32_t view, Place&) {
+    glances_[view].altered = true;
+    for (const std::uint32_t cell : regions_[glances_[view].region]) stir(cell);
+  });
 }
 
 }  // namespace angen::sim

@@ -41,8 +41,10 @@ class Sights {
     void part(Moment since, Parted& parted) const;
     /// Whether any of them has moved, come or gone at `since` or later.
     bool stirred(Moment since) const { return sights_.stirred(index_, since); }
-    /// For stirred() of Sights, until the box changes.
-    std::uint32_t number() const { return index_; }
+    /// For each_stirred(), until the box changes; none where each_stirred() does not know of it.
+    std::uint32_t number() const {
+      return sights_.glances_[index_].region != 0 ? index_ : UINT32_MAX;
+    }
     /// Whether static shapes in it came or went; forgets it.
     bool take_altered();
 
@@ -51,8 +53,20 @@ class Sights {
     std::uint32_t index_;
   };
 
-  /// As View::stirred, of the view with that number.
-  bool stirred(std::uint32_t view, Moment since) const;
+  std::size_t view_count() const { return views_.size(); }  // numbers are below it
+  /// Visits (number) the views that stirred() at `since` or later, and others near them, some more
+  /// than once.
+  template <class F>
+  void each_stirred(Moment since, F&& visit) const {
+    if (stirred_wide_ >= since) {
+      for (std::uint32_t view = 0; view < views_.size(); ++view) visit(view);
+      return;
+    }
+    for (std::uint32_t cell = latest_; cell != UINT32_MAX && cells_[cell].stirred >= since;
+         cell = cells_[cell].before) {
+      for (const std::uint32_t view : cells_[cell].views) visit(view);
+    }
+  }
 
   /// A moving shape came or moved; its box (m) is infinite for a plane, empty where it cannot be
   /// met.
@@ -80,6 +94,13 @@ class Sights {
     bool altered = false;
   };
   using Region = std::vector<std::uint32_t>;  // numbers of cells
+  /// A list of them runs from the one in which something stirred last.
+  struct Cell {
+    std::vector<std::uint32_t> views;
+    Moment stirred = 0;  // when a mover that was or is there moved, or a view there was altered
+    std::uint32_t before = UINT32_MAX;
+    std::uint32_t after = UINT32_MAX;
+  };
   struct Mover {
     rays::ShapeId id;
     Box box;  // larger than its own
@@ -88,6 +109,9 @@ class Sights {
     std::vector<std::uint32_t> views;
   };
 
+  bool stirred(std::uint32_t view, Moment since) const;
+  void stir(std::uint32_t cell);
+  void stir(const Mover& mover);
   std::uint32_t open(const Box& box);
   void close(std::uint32_t view);
   void file(std::uint32_t view);
@@ -106,10 +130,10 @@ class Sights {
   std::vector<std::uint32_t> free_;
   std::vector<Mover> movers_;  // by index of the shape; one without an id is none
   std::vector<Moment> moved_;  // as movers_, which are too large to be gone through for it
-  std::unordered_map<std::uint64_t, std::uint32_t> cells_;  // number by place
-  std::vector<std::vector<std::uint32_t>> views_in_;        // by a cell's number
-  std::vector<Moment> stirred_in_;                          // as well: when a mover there moved
-  Moment stirred_wide_ = 0;                                 // when one in too many cells did
+  std::unordered_map<std::uint64_t, std::uint32_t> cell_numbers_;  // by place
+  std::vector<Cell> cells_;
+  std::uint32_t latest_ = UINT32_MAX;  // the head of their list
+  Moment stirred_wide_ = 0;            // when a mover in too many cells moved
   std::vector<std::uint32_t> wide_;
   Moment now_ = 1;
   std::uint64_t query_ = 0;

@@ -19,58 +19,60 @@ Pose InstanceView::pose() const {
 }
 
 JointView InstanceView::joint(JointRef joint) const {
-  asked_more_ = true;
+  asked_.other = true;
   const physics::JointState state = stage_.physics.joint(live_.parts.joints.at(at(joint)));
   return {state.position, state.velocity, state.effort};
 }
 
 LinkView InstanceView::link(LinkRef link) const {
-  asked_more_ = true;
+  asked_.other = true;
   const physics::LinkId id = live_.parts.links.at(at(link));
   const physics::LinkState state = stage_.physics.link(id);
   return {state.pose, state.linear_velocity, state.angular_velocity, stage_.physics.awake(id)};
 }
 
 std::vector<ContactPair> InstanceView::contacts(ContactRef collision) const {
-  asked_more_ = true;
-  return stage_.physics.contacts(sensor_->collisions.at(at(collision)));
+  asked_.contacts = true;
+  return stage_.physics.contacts(sensor_->touching.at(at(collision)));
 }
 
 std::vector<DeviceView> InstanceView::devices(const std::string& field,
                                               const Eigen::AlignedBox3d& within) const {
-  asked_more_ = asked_devices_ = true;
+  asked_.devices = asked_.other = true;
   std::vector<DeviceView> found;
-  for (const Building::Teller& t : building_.tellers(field, within)) {
+  const std::vector<Building::Teller> tellers = building_.tellers(field, within);
+  found.reserve(tellers.size());
+  for (const Building::Teller& t : tellers) {
     found.push_back({t.device->kind, t.device->name, t.live->desc->name, t.pose, *t.device->last});
   }
   return found;
 }
 
 light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) const {
-  asked_more_ = true;
-  stage_.rays.commit();
+  asked_.light = true;
+  if (!stage_.light.dark()) stage_.rays.commit();
   return stage_.light.measure(probe, pose);
 }
 
 const std::vector<rays::WarmShape>& InstanceView::warm_shapes() const {
-  asked_more_ = true;
+  asked_.other = true;
   stage_.rays.commit();
   return stage_.rays.warm_shapes();
 }
 
 std::uint64_t InstanceView::scene_revision() const {
-  asked_more_ = true;
+  asked_.other = true;
   stage_.rays.commit();
   return stage_.rays.revision();
 }
 
 std::vector<std::uint8_t> InstanceView::colors(const render::Lens& lens, const Pose& pose) const {
-  asked_more_ = true;
+  asked_.other = true;
   return stage_.visuals.colors(lens, pose, stage_.light.lit(), stage_.ambience);
 }
 
 std::vector<float> InstanceView::depths(const render::Lens& lens, const Pose& pose) const {
-  asked_more_ = true;
+  asked_.other = true;
   return stage_.visuals.depths(lens, pose);
 }
 

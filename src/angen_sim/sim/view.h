@@ -40,10 +40,7 @@ class InstanceView : public View {
   std::vector<std::uint8_t> colors(const render::Lens& lens, const Pose& pose) const override;
   std::vector<float> depths(const render::Lens& lens, const Pose& pose) const override;
 
-  /// Whether it was asked for more than time and its own pose.
-  bool asked_more() const { return asked_more_; }
-  /// Whether it was asked for what devices tell.
-  bool asked_devices() const { return asked_devices_; }
+  const Asked& asked() const { return asked_; }
 
  private:
   Building& building_;
@@ -51,8 +48,7 @@ class InstanceView : public View {
   const LiveModel& live_;
   Clock clock_;
   const SensorInstance* sensor_;
-  mutable bool asked_more_ = false;
-  mutable bool asked_devices_ = false;
+  mutable Asked asked_;
 };
 
 /// What one device does to the stage.

@@ -104,7 +104,7 @@ TEST(Bodies, TellWhatTouchesOneCollisionAwakeAndAsleep) {
   for (const std::size_t awake : {2U, 0U}) {
     world.run(awake > 0 ? 0.3 : 2.0);
     ASSERT_EQ(world.awake_count(), awake);
-    const std::vector<ContactPair> pairs = world.contacts(low);
+    const std::vector<ContactPair> pairs = world.contacts(world.collision(low));
     ASSERT_EQ(pairs.size(), 2U);
     EXPECT_EQ(pairs[0].second, "floor::link::collision");
     EXPECT_EQ(pairs[1].second, "high::link::collision");
@@ -121,9 +121,47 @@ TEST(Bodies, TellWhatTouchesOneCollisionAwakeAndAsleep) {
   world.remove(high);
   world.run(2.0);
   ASSERT_EQ(world.awake_count(), 0U);
-  EXPECT_EQ(world.contacts(low).size(), 1U);
-  EXPECT_EQ(world.contacts("floor::link::collision").size(), 1U);
-  EXPECT_TRUE(world.contacts("high::link::collision").empty());
+  EXPECT_EQ(world.contacts(world.collision(low)).size(), 1U);
+  EXPECT_EQ(world.contacts(world.collision("floor::link::collision")).size(), 1U);
+  EXPECT_FALSE(world.collision("high::link::collision").valid());
+  EXPECT_TRUE(world.contacts({}).empty());
+}
+
+TEST(Bodies, TellWhenWhatTouchesOneCollisionHasChanged) {
+  TestWorld world;
+  world.add(floor_model());
+  world.add(box_model("low", 7.0, {0.4, 0.3, 0.2}, {0, 0, 0.1}));
+  world.add(box_model("aside", 7.0, {0.4, 0.3, 0.2}, {3, 0, 0.1}));
+  const CollisionId low = world.collision("low::link::collision");
+  const CollisionId aside = world.collision("aside::link::collision");
+  std::uint64_t known[2] = {};
+  const auto changes = [&] {
+    const std::uint64_t now[2] = {world.contacts_revision(low), world.contacts_revision(aside)};
+    const std::pair<bool, bool> changed(now[0] != known[0], now[1] != known[1]);
+    std::copy(now, now + 2, known);
+    return changed;
+  };
+  using Changes = std::pair<bool, bool>;
+  world.run(0.1);
+  EXPECT_EQ(changes(), Changes(true, true));
+  world.run(0.1);
+  EXPECT_EQ(changes(), Changes(true, true));  // awake: forces may differ
+  world.run(2.0);
+  changes();
+  world.run(1.0);
+  EXPECT_EQ(changes(), Changes(false, false));
+  const ModelId falling = world.add(box_model("falling", 1.0, {0.2, 0.2, 0.2}, {0, 0, 0.5}));
+  world.run(0.1);
+  EXPECT_EQ(changes(), Changes(false, false));  // in the air
+  world.run(0.3);
+  EXPECT_EQ(changes(), Changes(true, false));
+  world.run(2.0);
+  changes();
+  world.run(1.0);
+  ASSERT_EQ(world.awake_count(), 0U);
+  EXPECT_EQ(changes(), Changes(false, false));
+  world.remove(falling);
+  EXPECT_EQ(changes(), Changes(true, false));
 }
 
 TEST(Bodies, FallWhenWhatTheyRestOnIsRemoved) {
