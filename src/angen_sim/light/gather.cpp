@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "light/beam.h"
@@ -55,10 +56,36 @@ const std::vector<float>& view_weights() {
   return weights;
 }
 
+void make_infinite(Eigen::AlignedBox3d& box) {
+  const Vec3 corner = Vec3::Constant(std::numeric_limits<double>::infinity());
+  box = {-corner, corner};
+}
+
+/// By the ray's way up to `range`.
+void extend(Eigen::AlignedBox3d& reach, const rays::Ray& ray, double range) {
+  reach.extend(ray.origin);
+  if (std::isfinite(range)) {
+    reach.extend(ray.origin + range * ray.direction);
+  } else {
+    make_infinite(reach);
+  }
+}
+
+/// By the ways to a lamp from what is in it.
+void extend(Eigen::AlignedBox3d& reach, const Lamp& lamp) {
+  if (lamp.type == Lamp::Type::kDirectional) {
+    make_infinite(reach);
+    return;
+  }
+  const double out = std::max(lamp.radius, std::hypot(lamp.width, lamp.height) / 2);
+  reach.extend(lamp.pose.position - Vec3::Constant(out));
+  reach.extend(lamp.pose.position + Vec3::Constant(out));
+}
+
 }  // namespace
 
 Gather::Gather(const rays::Scene& scene, Field& field, const Pose& pose)
-    : scene_(scene), field_(field), pose_(pose), static_revision_(scene.static_revision()) {
+    : scene_(scene), field_(field), pose_(pose), fixed_reach_(pose.position) {
   const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
   for (const Vec3& local : directions()) {
     rays_.push_back({pose.position, (rotation * local).normalized(), kMargin});
@@ -67,6 +94,7 @@ Gather::Gather(const rays::Scene& scene, Field& field, const Pose& pose)
   scene_.cast(rays_.data(), hits.data(), kDirections, rays::only(rays::Mobility::kStatic));
   for (std::size_t i = 0; i < kDirections; ++i) {
     surfaces_.push_back(surface(rays_[i], hits[i]));
+    extend(fixed_reach_, rays_[i], hits[i].range);
     if (!hits[i].hit()) continue;
     Surface& seen = surfaces_.back();
     seen.patch = field_.patch_at(hits[i].shape, seen.position, seen.normal);
@@ -76,6 +104,7 @@ Gather::Gather(const rays::Scene& scene, Field& field, const Pose& pose)
     const rays::Ray ray = next(i);
     if (surfaces_[i].patch != kNoPatch) {
       scene_.cast(&ray, &hit, 1, rays::only(rays::Mobility::kStatic));
+      extend(fixed_reach_, ray, hit.range);
     }
     next_ranges_.push_back(static_cast<float>(hit.range));
   }
@@ -107,6 +136,8 @@ void Gather::forget(const std::function<bool(LampId)>& gone) {
 }
 
 void Gather::look() {
+  looked_ = true;
+  reach_ = fixed_reach_;
   movers_.clear();
   std::vector<rays::Ray> rays = rays_;
   std::vector<rays::Hit> hits(kDirections);
@@ -157,6 +188,7 @@ void Gather::look_around() {
                           kMargin};
       rays::Hit hit;
       scene_.cast(&ray, &hit, 1, kStanding);
+      extend(reach_, ray, hit.range);
       Surface& seen = around_.emplace_back(surface(ray, hit));
       if (hit.hit()) seen.patch = field_.patch_at(hit.shape, seen.position, seen.normal);
     }
@@ -192,30 +224,6 @@ bool Gather::shaded(const Lamp& lamp, const Surface& surface, std::size_t i) con
   return !sees_one(scene_, lamp, surface.position, i, kMovable);
 }
 
-Gather::Direct Gather::direct(const Lamp& lamp) const {
-  const Vec3 normal = pose_.rotation * Vec3::UnitX();
-  const double free = illuminance(lamp, pose_.position, normal);
-  if (free <= 0.0) return {};
-  const double share = visible_share(scene_, lamp, pose_.position, normal, rays::kAll);
-  Direct out;
-  out.illuminance = free * share;
-  if (lamp.type == Lamp::Type::kDirectional) return out;
-  // The lamp covers (1 / x^3) of its solid angle on the image plane: what it sends is the same
-  // whatever its size.
-  const std::size_t points = lamp.flat() ? kViewPoints : 1;
-  for (std::size_t i = 0; i < points; ++i) {
-    Lamp part = lamp;
-    if (lamp.flat()) part.pose.position = lamp_point(lamp, i);
-    part.radius = lamp.flat() ? 0.0 : lamp.radius;
-    const Beam from = beam(part, pose_.position);
-    const Vec3 local = pose_.rotation.conjugate() * from.towards;
-    if (!in_view(local)) continue;
-    out.radiance += share * from.illuminance / static_cast<double>(points) /
-                    (std::pow(local.x(), 3) * kViewArea);
-  }
-  return out;
-}
-
 const Gather::Received& Gather::received(LampId id, const Lamp& lamp, const Solution& solution) {
   Received& from = received_[id];
   if (from.stamp == solution.stamp) return from;
@@ -242,40 +250,45 @@ const Gather::Received& Gather::received(LampId id, const Lamp& lamp, const Solu
   return from;
 }
 
-Rgb Gather::on_mover(const Mover& mover, const Lamp& lamp, const Solution& solution,
-                     std::size_t i) const {
+Rgb Gather::on_mover(const Mover& mover, const Lamp& lamp, const Solution& solution, std::size_t i,
+                     bool& in_play) const {
   const Surface& seen = mover.surface;
   const double lux = illuminance(lamp, seen.position, seen.normal);
   Rgb direct = Rgb::Zero(), reflected = Rgb::Zero();
-  if (lux > 0.0 && sees_one(scene_, lamp, seen.position, i, rays::kAll)) {
-    direct += static_cast<float>(lux);
+  if (lux > 0.0 && sees_one(scene_, lamp, seen.position, i, rays::only(rays::Mobility::kStatic))) {
+    in_play = true;
+    if (!shaded(lamp, seen, i)) direct += static_cast<float>(lux);
   }
   if (mover.anchored) return direct + left_ * field_.reflected(solution, seen.patch);
   for (std::size_t k = mover.around; k < mover.around + ways_; ++k) {
     const Surface& from = around_[k];
     if (from.patch == kNoPatch) continue;
     const float first = field_.direct(solution, from.patch);
+    in_play = in_play || first > 0.0F;
     if (first > 0.0F && !shaded(lamp, from, i + k)) reflected += from.albedo * first;
     reflected += left_ * from.albedo * field_.reflected(solution, from.patch);
   }
   return direct + reflected / static_cast<float>(ways_);
 }
 
-Transport Gather::transport(LampId id, const Lamp& lamp, const Solution& solution) {
+Gathered Gather::gather(LampId id, const Lamp& lamp, const Solution& solution,
+                        Eigen::AlignedBox3d& reach) {
+  if (!looked_) look();
   const Received& from = received(id, lamp, solution);
+  bool in_play = !from.direct.empty();
   const auto count = static_cast<float>(kDirections);
   std::vector<Rgb> on_movers;  // lx
   Rgb mean = Rgb::Zero();      // of those
   for (std::size_t i = 0; i < kDirections; ++i) {
     if (before_[i] == kNoMover) continue;
-    on_movers.push_back(on_mover(movers_[before_[i]], lamp, solution, i));
+    on_movers.push_back(on_mover(movers_[before_[i]], lamp, solution, i, in_play));
     mean += on_movers.back();
   }
   if (!on_movers.empty()) mean /= static_cast<float>(on_movers.size());
   for (std::size_t i = 0; on_movers.empty() && i < from.direct.size(); ++i) {
     mean += (from.direct[i] + from.reflected[i]) / count;
   }
-  Rgb hemisphere = Rgb::Zero(), view = Rgb::Zero();
+  Gathered out;
   const std::vector<float>& weights = view_weights();
   for (std::size_t i = 0; i < kDirections; ++i) {
     Rgb leaving = Rgb::Zero();
@@ -287,16 +300,61 @@ Transport Gather::transport(LampId id, const Lamp& lamp, const Solution& solutio
           between_[i].x() < 0.0F ? Rgb(left_ * from.reflected[i]) : Rgb(between_[i] * mean);
       leaving = surfaces_[i].albedo * ((dark ? 0.0F : from.direct[i]) + reflected);
     }
-    hemisphere += leaving / count;
-    view += leaving * weights[i];
+    out.illuminance += leaving / count;
+    out.view += leaving * weights[i];
   }
-  const Direct own = direct(lamp);
+  reach.extend(reach_);
+  if (in_play) extend(reach, lamp);
+  return out;
+}
+
+namespace {
+
+struct Direct {
+  double illuminance = 0.0;  // lx
+  double radiance = 0.0;     // cd/m^2, the lamp's own share of the one-pixel view
+};
+
+Direct direct(const rays::Scene& scene, const Pose& pose, const Lamp& lamp,
+              Eigen::AlignedBox3d& reach) {
+  const Vec3 normal = pose.rotation * Vec3::UnitX();
+  const double free = illuminance(lamp, pose.position, normal);
+  if (free <= 0.0) return {};
+  const auto share_among = [&](rays::Mobilities among) {
+    return visible_share(scene, lamp, pose.position, normal, among);
+  };
+  const double share = share_among(rays::kAll);
+  if (share > 0.0 || share_among(rays::only(rays::Mobility::kStatic)) > 0.0) extend(reach, lamp);
+  Direct out;
+  out.illuminance = free * share;
+  if (lamp.type == Lamp::Type::kDirectional) return out;
+  // The lamp covers (1 / x^3) of its solid angle on the image plane: what it sends is the same
+  // whatever its size.
+  const std::size_t points = lamp.flat() ? kViewPoints : 1;
+  for (std::size_t i = 0; i < points; ++i) {
+    Lamp part = lamp;
+    if (lamp.flat()) part.pose.position = lamp_point(lamp, i);
+    part.radius = lamp.flat() ? 0.0 : lamp.radius;
+    const Beam from = beam(part, pose.position);
+    const Vec3 local = pose.rotation.conjugate() * from.towards;
+    if (!in_view(local)) continue;
+    out.radiance += share * from.illuminance / static_cast<double>(points) /
+                    (std::pow(local.x(), 3) * kViewArea);
+  }
+  return out;
+}
+
+}  // namespace
+
+Transport transport(const rays::Scene& scene, const Pose& pose, const Lamp& lamp,
+                    const Gathered& gathered, Eigen::AlignedBox3d& reach) {
+  const Direct own = direct(scene, pose, lamp, reach);
   Rgb color = Rgb::Zero();
   color.head<3>() = lamp.color.array();
   Transport out;
-  out.lamp = id;
-  out.illuminance = own.illuminance + (kLuminance * color * hemisphere).sum();
-  const Rgb radiance = color * (static_cast<float>(own.radiance) + view / static_cast<float>(M_PI));
+  out.illuminance = own.illuminance + (kLuminance * color * gathered.illuminance).sum();
+  const Rgb radiance =
+      color * (static_cast<float>(own.radiance) + gathered.view / static_cast<float>(M_PI));
   out.radiance = radiance.head<3>().matrix();
   return out;
 }

@@ -10,22 +10,34 @@
 
 namespace angen::light {
 
+/// What surfaces send to a place of one lamp's light, were it white.
+struct Gathered {
+  Rgb illuminance = Rgb::Zero();  // lx
+  Rgb view = Rgb::Zero();         // lx leaving what the one-pixel view sees, their mean
+};
+
+/// What a lamp at level 1 sends to a place, straight and by way of surfaces. `reach` grows by the
+/// ways of its light on which shapes that move could stand.
+Transport transport(const rays::Scene& scene, const Pose& pose, const Lamp& lamp,
+                    const Gathered& gathered, Eigen::AlignedBox3d& reach);
+
 /// What one place sees over its hemisphere: static surfaces once, then what moves before them.
 class Gather {
  public:
   Gather(const rays::Scene& scene, Field& field, const Pose& pose);
 
-  /// Whether the static surfaces are still those that were seen.
-  bool stands() const { return static_revision_ == scene_.static_revision(); }
-
   /// Forgets what came from lamps that are gone.
   void forget(const std::function<bool(LampId)>& gone);
 
-  /// Looks for anchored and moving shapes before them.
-  void look();
+  /// Whether any of the surfaces may be in the box.
+  bool may_see(const Eigen::AlignedBox3d& box) const { return fixed_reach_.intersects(box); }
 
-  /// What a lamp at level 1 sends to the place, direct and by way of the surfaces.
-  Transport transport(LampId id, const Lamp& lamp, const Solution& solution);
+  /// Forgets the anchored and moving shapes before them.
+  void look_away() { looked_ = false; }
+
+  /// What they all send to the place. Looks for shapes that move, unless they are known.
+  Gathered gather(LampId id, const Lamp& lamp, const Solution& solution,
+                  Eigen::AlignedBox3d& reach);
 
  private:
   struct Surface {
@@ -45,25 +57,20 @@ class Gather {
     std::vector<float> direct;   // lx, when nothing moves
     std::vector<Rgb> reflected;  // lx
   };
-  struct Direct {
-    double illuminance = 0.0;  // lx
-    double radiance = 0.0;     // cd/m^2, the lamp's own share of the one-pixel view
-  };
-
   Surface surface(const rays::Ray& ray, const rays::Hit& hit) const;
   rays::Ray next(std::size_t i) const;
+  void look();
   void look_next();
   void look_around();
   void weigh();
   bool shaded(const Lamp& lamp, const Surface& surface, std::size_t i) const;
-  Direct direct(const Lamp& lamp) const;
   const Received& received(LampId id, const Lamp& lamp, const Solution& solution);
-  Rgb on_mover(const Mover& mover, const Lamp& lamp, const Solution& solution, std::size_t i) const;
+  Rgb on_mover(const Mover& mover, const Lamp& lamp, const Solution& solution, std::size_t i,
+               bool& in_play) const;
 
   const rays::Scene& scene_;
   Field& field_;
   Pose pose_;
-  std::uint64_t static_revision_;
   std::vector<rays::Ray> rays_;
   std::vector<Surface> surfaces_;
   std::vector<Mover> movers_;
@@ -74,6 +81,9 @@ class Gather {
   std::vector<Rgb> between_;  // albedo of the moving shape before that; negative where none is
   float left_ = 1.0F;         // share that moving shapes leave of light still farther back
   std::map<LampId, Received> received_;
+  bool looked_ = false;
+  Eigen::AlignedBox3d fixed_reach_;  // of the ways between place and surfaces, and to the next
+  Eigen::AlignedBox3d reach_;        // and of those from what moves
 };
 
 }  // namespace angen::light

@@ -19,9 +19,11 @@ std::uint64_t first_revision() {
   return made++ << 32;
 }
 
-const Transport* known(const Probe& probe, LampId lamp) {
-  const auto found = std::find_if(probe.transports.begin(), probe.transports.end(),
-                                  [&](const Transport& t) { return t.lamp == lamp; });
+const Transport* known(const Probe& probe, LampId lamp, const Solution* solution) {
+  if (solution == nullptr) return nullptr;
+  const auto found = std::find_if(
+      probe.transports.begin(), probe.transports.end(),
+      [&](const Transport& t) { return t.lamp == lamp && t.solution == solution->stamp; });
   return found == probe.transports.end() ? nullptr : &*found;
 }
 
@@ -90,36 +92,61 @@ void Lighting::follow() const {
   });
 }
 
-Sample Lighting::measure(Probe& probe, const Pose& pose) const {
+/// Forgets what no longer holds.
+void Lighting::renew(Probe& probe, const Pose& pose, bool still) const {
+  const bool here = probe.pose == pose && probe.lamps_revision >> 32 == lamps_revision_ >> 32;
+  const bool as_before = here && probe.revision == scene_.revision();
+  if (as_before && probe.lamps_revision == lamps_revision_) return;
+  const bool stands = here && probe.static_revision == scene_.static_revision();
+  probe.pose = pose;
+  probe.revision = scene_.revision();
+  probe.static_revision = scene_.static_revision();
+  probe.lamps_revision = lamps_revision_;
+  if (!stands) probe.gather = nullptr;
+  if (probe.gather) probe.gather->forget([&](LampId id) { return !lamps_.contains(id); });
+  if (stands && (still || as_before)) return;
+  probe.transports.clear();
+  probe.reach = Eigen::AlignedBox3d(pose.position);
+  if (probe.gather) probe.gather->look_away();
+}
+
+Sample Lighting::measure(Probe& probe, const Pose& pose, bool still) const {
   follow();
-  if (probe.pose != pose || probe.revision != scene_.revision() ||
-      probe.lamps_revision != lamps_revision_) {
-    const bool here = probe.pose == pose && probe.lamps_revision >> 32 == lamps_revision_ >> 32;
-    probe = {pose, scene_.revision(), lamps_revision_, {}, here ? probe.gather : nullptr};
-    if (probe.gather) probe.gather->forget([&](LampId id) { return !lamps_.contains(id); });
-  }
+  renew(probe, pose, still);
   // A dark lamp's transport is left for when it is lit; each lamp's is independent of the others'.
-  bool looked = false;
   double illuminance = 0.0;
   Eigen::Array3f radiance = Eigen::Array3f::Zero();
   lamps_.each([&](LampId id, Entry& entry) {
     if (!(entry.level > 0.0)) return;
-    const Transport* sent = known(probe, id);
-    if (sent == nullptr) {
-      if (probe.gather == nullptr || !probe.gather->stands()) {
-        probe.gather = std::make_shared<Gather>(scene_, *field_, pose);
-      }
-      if (!std::exchange(looked, true)) probe.gather->look();
-      if (entry.solution == nullptr) {
-        entry.solution = std::make_shared<const Solution>(field_->solve(entry.lamp));
-      }
-      sent =
-          &probe.transports.emplace_back(probe.gather->transport(id, entry.lamp, *entry.solution));
-    }
+    const Transport* sent = known(probe, id, entry.solution.get());
+    if (sent == nullptr) sent = &find(probe, id, entry);
     illuminance += entry.level * sent->illuminance;
     radiance += static_cast<float>(entry.level) * sent->radiance.array();
   });
   return {illuminance, (radiance / (radiance + kMiddleLuminance)).matrix()};
+}
+
+/// Of a lamp whose light comes to nothing that the place sees, only what comes straight counts.
+const Transport& Lighting::find(Probe& probe, LampId id, Entry& entry) const {
+  if (probe.gather == nullptr) {
+    probe.gather = std::make_shared<Gather>(scene_, *field_, probe.pose);
+  }
+  if (entry.solution == nullptr) {
+    entry.solution = std::make_shared<const Solution>(field_->solve(entry.lamp));
+  }
+  const Solution& solution = *entry.solution;
+  Gathered gathered;
+  if (probe.gather->may_see(solution.bounds)) {
+    gathered = probe.gather->gather(id, entry.lamp, solution, probe.reach);
+  }
+  auto& all = probe.transports;
+  all.erase(
+      std::remove_if(all.begin(), all.end(), [&](const Transport& t) { return t.lamp == id; }),
+      all.end());
+  all.push_back(transport(scene_, probe.pose, entry.lamp, gathered, probe.reach));
+  all.back().lamp = id;
+  all.back().solution = solution.stamp;
+  return all.back();
 }
 
 }  // namespace angen::light

@@ -19,6 +19,7 @@ struct Solution;
 /// What one lamp at level 1 sends to one place.
 struct Transport {
   LampId lamp;
+  std::uint64_t solution = 0;                          // the stamp of the one it belongs to
   double illuminance = 0.0;                            // lx
   Eigen::Vector3f radiance = Eigen::Vector3f::Zero();  // mean of a one-pixel view, r g b in cd/m^2
 };
@@ -28,9 +29,13 @@ struct Transport {
 struct Probe {
   Pose pose;
   std::uint64_t revision = UINT64_MAX;  // of the scene and lamp set that `transports` belong to
+  std::uint64_t static_revision = UINT64_MAX;
   std::uint64_t lamps_revision = UINT64_MAX;
   std::vector<Transport> transports;
   std::shared_ptr<Gather> gather;  // what the place sees of what stands still
+  /// m, world: anchored and moving shapes outside of it are in no way of light to the place.
+  /// Infinite where light may come from anywhere.
+  Eigen::AlignedBox3d reach;
 };
 
 /// A lamp that shines, and at what share of its flux.
@@ -67,7 +72,9 @@ class Lighting {
   /// or around the place keeps the light out, the sensor's own housing too: leave it out of the
   /// scene or put the place before it. The scene must be committed. Same scene, same lamps, same
   /// pose: same bits, whatever was measured before. One thread at a time.
-  Sample measure(Probe& probe, const Pose& pose) const;
+  /// `still` says that since the last time no shape has moved, come or gone within the probe's
+  /// reach, so that lamps are not looked for again whose light takes the same ways as then.
+  Sample measure(Probe& probe, const Pose& pose, bool still = false) const;
 
  private:
   struct Entry {
@@ -76,6 +83,8 @@ class Lighting {
     std::shared_ptr<const Solution> solution;  // made when the lamp is lit and somebody measures
   };
   void follow() const;
+  void renew(Probe& probe, const Pose& pose, bool still) const;
+  const Transport& find(Probe& probe, LampId id, Entry& entry) const;
   void count(double before, double after);
 
   const rays::Scene& scene_;

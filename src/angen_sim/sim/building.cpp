@@ -231,7 +231,10 @@ void Building::reset(Nanoseconds now) {
   old.swap(models_);
   for (auto* names : {&by_name_, &devices_, &sensors_}) names->clear();
   for (const auto& live : old) {
-    for (SensorInstance& sensor : live->sensors) sensor.looks.clear();  // they stand on the stage
+    for (SensorInstance& sensor : live->sensors) {  // these stand on the stage
+      sensor.looks.clear();
+      sensor.light.reset();
+    }
   }
   raise_stage();
   for (const auto& live : old) {

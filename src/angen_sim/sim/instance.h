@@ -50,6 +50,14 @@ struct Look {
   std::size_t settled = 0;        // how many
 };
 
+/// Where the light comes by that a sensor measures, from where it stands.
+struct LightWays {
+  const light::Probe* probe;
+  Sights::View view;        // in the probe's reach
+  Eigen::AlignedBox3d box;  // that
+  Sights::Moment looked;    // it has seen all that happened before
+};
+
 /// What an instance asked for of the world besides rays, the time and its own pose.
 struct Asked {
   bool contacts = false;
@@ -66,6 +74,7 @@ struct Asked {
 struct SensorInstance {
   // What a due time at rest looks at stands together: with many sensors it comes from far away.
   std::vector<std::unique_ptr<Look>> looks;  // by stance, from where it stands
+  std::unique_ptr<LightWays> light;          // none where light may come from anywhere
   Rhythm rhythm;
   Sights::Moment seen = 0;  // it has seen all that happened before
   int calm = 0;             // so many looks in a row found nothing changed since the one before

@@ -43,14 +43,21 @@ std::uint64_t contacts_revision(const Stage& stage, const SensorInstance& sensor
   return sum;
 }
 
+bool sees_the_same_light(const Stage& stage, const SensorInstance& sensor) {
+  if (stage.light.lit_revision() != sensor.light_seen) return false;
+  if (stage.light.dark() || stage.changed() < sensor.seen) return true;
+  // Walls and doors lead light past them, wherever they are.
+  if (!sensor.light || stage.standing_changed() >= sensor.seen) return false;
+  return !sensor.light->view.stirred(sensor.light->looked);
+}
+
 /// Whether it would be told the same of what it asked for besides rays.
 bool is_told_the_same(const Stage& stage, const LiveModel& live, const SensorInstance& sensor) {
   const Asked& asked = sensor.asked;
   const bool moved = stage.changed() >= sensor.seen;  // anything
   if (asked.other && moved) return false;
   if (asked.devices && stage.told() >= sensor.seen) return false;
-  if (asked.light && stage.light.lit_revision() != sensor.light_seen) return false;
-  if (asked.light && moved && !stage.light.dark()) return false;
+  if (asked.light && !sees_the_same_light(stage, sensor)) return false;
   if (asked.contacts && contacts_revision(stage, sensor) != sensor.contacts_seen) return false;
   return !sensor.link_moves || !moved || pose_of(stage, live, sensor) == sensor.seen_from;
 }

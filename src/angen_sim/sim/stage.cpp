@@ -82,8 +82,8 @@ Parts Stage::add(const desc::Model& model) {
       const rays::ShapeId shape = rays.add(collision.shape, pose * collision.pose, mobility,
                                            looks.material.diffuse.head<3>());
       if (looks.temperature) rays.warm(shape, *looks.temperature);
-      parts.shapes.push_back({shape, i, collision.pose});
-      show(parts, shape);
+      parts.shapes.push_back({shape, i, collision.pose, mobility == rays::Mobility::kAnchored});
+      show(parts, parts.shapes.back());
     }
     parts.bodies.push_back(visuals.add(visible(link, pose, !model.is_static)));
     for (const desc::Light& light : link.lights) {
@@ -99,6 +99,7 @@ Parts Stage::add(const desc::Model& model) {
 void Stage::remove(const Parts& parts) {
   note_change();
   for (const Parts::Shape& shape : parts.shapes) {
+    note_standing(parts, shape);
     if (parts.is_static) {
       sights.alter(rays.bounds(shape.id));
     } else {
@@ -143,11 +144,16 @@ Parts::Lamp Stage::add_light(const desc::Light& described, const Pose& pose) {
   return part;
 }
 
-void Stage::show(const Parts& parts, rays::ShapeId shape) {
+void Stage::note_standing(const Parts& parts, const Parts::Shape& shape) {
+  if (parts.is_static || shape.anchored) standing_changed_ = sights.now();
+}
+
+void Stage::show(const Parts& parts, const Parts::Shape& shape) {
+  note_standing(parts, shape);
   if (parts.is_static) {
-    sights.alter(rays.bounds(shape));
+    sights.alter(rays.bounds(shape.id));
   } else {
-    sights.put(shape, rays.bounds(shape));
+    sights.put(shape.id, rays.bounds(shape.id));
   }
 }
 
@@ -157,7 +163,7 @@ void Stage::follow(const Parts& parts, std::uint32_t link) {
     if (shape.link != link) continue;
     if (parts.is_static) sights.alter(rays.bounds(shape.id));
     rays.move(shape.id, pose * shape.offset);
-    show(parts, shape.id);
+    show(parts, shape);
   }
   for (const Parts::Lamp& lamp : parts.lamps) {
     if (lamp.link == link) light.move(lamp.id, pose * lamp.offset);

@@ -17,7 +17,8 @@ struct Parts {
   struct Shape {
     rays::ShapeId id;
     std::uint32_t link = 0;
-    Pose offset;  // in the link's frame
+    Pose offset;            // in the link's frame
+    bool anchored = false;  // it moves, but only about the static world's joints
   };
   struct Lamp {
     light::LampId id;
@@ -58,14 +59,18 @@ class Stage {
   /// Something that sensors may ask for besides rays has changed: a pose, a light, a contact.
   void note_change() { changed_ = sights.now(); }
   Sights::Moment changed() const { return changed_; }  // when last
+  /// The same of static shapes and those that are joined to them, as doors are.
+  Sights::Moment standing_changed() const { return standing_changed_; }
   /// A device tells another state than before.
   void note_told() { told_ = sights.now(); }
   Sights::Moment told() const { return told_; }  // when last
 
  private:
-  void show(const Parts& parts, rays::ShapeId shape);
+  void show(const Parts& parts, const Parts::Shape& shape);
+  void note_standing(const Parts& parts, const Parts::Shape& shape);
 
   Sights::Moment changed_ = 0;
+  Sights::Moment standing_changed_ = 0;
   Sights::Moment told_ = 0;
 };
 

@@ -50,8 +50,20 @@ std::vector<DeviceView> InstanceView::devices(const std::string& field,
 
 light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) const {
   asked_.light = true;
-  if (!stage_.light.dark()) stage_.rays.commit();
-  return stage_.light.measure(probe, pose);
+  if (stage_.light.dark()) return stage_.light.measure(probe, pose);
+  stage_.rays.commit();
+  if (sensor_ == nullptr) return stage_.light.measure(probe, pose);
+  std::unique_ptr<LightWays>& ways = sensor_->light;
+  const bool still = ways && ways->probe == &probe && !ways->view.stirred(ways->looked);
+  const light::Sample sample = stage_.light.measure(probe, pose, still);
+  if (!probe.reach.diagonal().allFinite()) {
+    ways = nullptr;
+  } else if (!still || probe.reach.min() != ways->box.min() ||
+             probe.reach.max() != ways->box.max()) {
+    ways.reset(new LightWays{&probe, {stage_.sights, probe.reach}, probe.reach, 0});
+  }
+  if (ways) ways->looked = stage_.sights.now() + 1;
+  return sample;
 }
 
 const std::vector<rays::WarmShape>& InstanceView::warm_shapes() const {

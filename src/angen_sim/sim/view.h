@@ -17,7 +17,7 @@ class InstanceView : public View {
   };
 
   InstanceView(Building& building, const LiveModel& live, Clock clock,
-               const SensorInstance* sensor = nullptr)
+               SensorInstance* sensor = nullptr)
       : building_(building),
         stage_(building.stage()),
         live_(live),
@@ -47,7 +47,7 @@ class InstanceView : public View {
   Stage& stage_;
   const LiveModel& live_;
   Clock clock_;
-  const SensorInstance* sensor_;
+  SensorInstance* sensor_;
   mutable Asked asked_;
 };
 

@@ -3,7 +3,9 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
+#include "core/random.h"
 #include "rooms.h"
 
 namespace angen::light::testing {
@@ -61,6 +63,75 @@ TEST(Lighting, ProbeRemembersWithTheSameBits) {
   expect_same_bits(room.lighting.measure(probe, room.sensor), measure(room.lighting, room.sensor));
   room.lighting.set_level(room.lamp, 0.0);
   expect_same_bits(room.lighting.measure(probe, room.sensor), measure(room.lighting, room.sensor));
+}
+
+/// Two closed rooms, things that move about in both, and a lamp in each.
+struct ClosedRooms {
+  ClosedRooms() {
+    add_room(scene, Vec3(0, 0, 0), Vec3(4, 4, 2.6), gray(0.7F));
+    add_room(scene, Vec3(4.2, 0, 0), Vec3(8.2, 4, 2.6), gray(0.5F));
+    for (int i = 0; i < 6; ++i) movers.push_back(add_mover(i % 3 == 0));
+    scene.commit();
+    for (const double x : {2.0, 6.2}) {
+      lamps.push_back(lighting.add(point_lamp(Vec3(x, 2, 2.2), 800.0), 1.0));
+    }
+  }
+  rays::ShapeId add_mover(bool anchored) {
+    Shape box;
+    box.type = Shape::Type::kBox;
+    box.size = Vec3(0.3, 0.4, 0.9);
+    const auto mobility = anchored ? rays::Mobility::kAnchored : rays::Mobility::kMoving;
+    return scene.add(box, somewhere(), mobility, gray(0.4F));
+  }
+  Pose somewhere() {
+    const double x = rng.uniform(), y = rng.uniform(), yaw = rng.uniform();
+    return {Vec3(0.4 + 7.4 * x, 0.4 + 3.2 * y, 0.5), from_rpy(0, 0, 6.0 * yaw)};
+  }
+
+  Rng rng{1, hash_bytes("rooms"), 0};
+  rays::Scene scene;
+  Lighting lighting{scene};
+  std::vector<rays::ShapeId> movers;
+  std::vector<LampId> lamps;
+};
+
+TEST(Lighting, WhatMovesOutsideOfTheReachOfAProbeIsInNoWayOfItsLight) {
+  ClosedRooms rooms;
+  const Pose places[] = {facing(Vec3(0.05, 1.0, 2.0), Vec3::UnitX()),
+                         facing(Vec3(6.0, 3.9, 1.0), -Vec3::UnitY())};
+  Probe probes[2];
+  int still_count = 0;
+  for (int turn = 0; turn < 60; ++turn) {
+    const rays::ShapeId moved = rooms.movers[rooms.rng.next() % rooms.movers.size()];
+    const Eigen::AlignedBox3d before = rooms.scene.bounds(moved);
+    rooms.scene.move(moved, rooms.somewhere());
+    rooms.scene.commit();
+    const Eigen::AlignedBox3d after = rooms.scene.bounds(moved);
+    if (turn % 7 == 3) rooms.lighting.set_level(rooms.lamps[turn % 2], 0.25 * (turn % 4));
+    for (int i = 0; i < 2; ++i) {
+      const auto outside = [&](const auto& box) { return !probes[i].reach.intersects(box); };
+      const bool still = turn > 0 && outside(before) && outside(after);
+      still_count += still ? 1 : 0;
+      const Sample sample = rooms.lighting.measure(probes[i], places[i], still);
+      expect_same_bits(sample, measure(rooms.lighting, places[i]));
+    }
+  }
+  EXPECT_GT(still_count, 20);
+}
+
+TEST(Lighting, NothingIsInTheWayOfLightThatDoesNotCome) {
+  Room room;
+  add_room(room.scene, Vec3(40, 0, 0), Vec3(44, 4, 2.6), gray(0.7F));
+  add_box(room.scene, Vec3(42, 2, 0.5), Vec3(1, 1, 1), gray(0.5F), rays::Mobility::kMoving);
+  room.scene.commit();
+  const Pose far = facing(Vec3(40.05, 1.0, 2.0), Vec3::UnitX());
+  Probe probe;
+  EXPECT_EQ(room.lighting.measure(probe, far).illuminance, 0.0);
+  EXPECT_EQ(probe.reach.diagonal().norm(), 0.0);
+  room.lighting.add(point_lamp(Vec3(42, 2, 2.2), 800.0), 1.0);
+  EXPECT_GT(room.lighting.measure(probe, far).illuminance, 10.0);
+  EXPECT_TRUE(probe.reach.contains(Vec3(42, 2, 0.5)));
+  EXPECT_FALSE(probe.reach.contains(Vec3(5, 2, 0.5)));
 }
 
 TEST(Lighting, ProbeForgetsAnotherWorld) {
