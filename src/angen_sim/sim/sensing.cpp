@@ -125,7 +125,7 @@ void Sensing::rouse_stirred(const Stage& stage, const Rota::Group& group) {
     const std::uint32_t index = view < watcher_of_.size() ? watcher_of_[view] : kNobody;
     if (index == kNobody || !rota_.is_calm(index)) return;
     if (&rota_.group(rota_.group_of(index)) != &group) return;
-    if (!undisturbed(stage, watched_[index])) rota_.rouse(index);
+    if (stage.sights.stirred(view, group.looked)) rota_.rouse(index);
   });
 }
 

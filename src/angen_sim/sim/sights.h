@@ -41,7 +41,7 @@ class Sights {
     void part(Moment since, Parted& parted) const;
     /// Whether any of them has moved, come or gone at `since` or later.
     bool stirred(Moment since) const { return sights_.stirred(index_, since); }
-    /// For each_stirred(), until the box changes; none where each_stirred() does not know of it.
+    /// For stirred() of Sights, until the box changes; none where each_stirred() cannot find it.
     std::uint32_t number() const {
       return sights_.glances_[index_].region != 0 ? index_ : UINT32_MAX;
     }
@@ -53,6 +53,8 @@ class Sights {
     std::uint32_t index_;
   };
 
+  /// As View::stirred, of the view with that number.
+  bool stirred(std::uint32_t view, Moment since) const;
   std::size_t view_count() const { return views_.size(); }  // numbers are below it
   /// Visits (number) the views that stirred() at `since` or later, and others near them, some more
   /// than once.
@@ -109,7 +111,6 @@ class Sights {
     std::vector<std::uint32_t> views;
   };
 
-  bool stirred(std::uint32_t view, Moment since) const;
   void stir(std::uint32_t cell);
   void stir(const Mover& mover);
   std::uint32_t open(const Box& box);
