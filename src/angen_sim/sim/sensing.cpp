@@ -309,7 +309,8 @@ void Sensing::read(Building& building, const Looking& looking, InstanceView::Clo
     sensor.sensor->read(view, hits, rng, reading);
     sensor.rest = sensor.sensor->on_demand() ? Rest::kBusy : sensor.sensor->rest();
     sensor.asked = looking.asked | view.asked();
-    sensor.asked.other = sensor.asked.other || looking.ray_count > 0;
+    const bool light_twice = looking.asked.light && view.asked().light;
+    sensor.asked.other = sensor.asked.other || light_twice || looking.ray_count > 0;
     if (sensor.asked.contacts) sensor.contacts_seen = contacts_revision(stage, sensor);
     if (sensor.asked.light) sensor.light_seen = stage.light.lit_revision();
     sensor.published = sensor.published && sensor.rest == Rest::kSame && !reading.urgent &&

@@ -49,6 +49,7 @@ std::vector<DeviceView> InstanceView::devices(const std::string& field,
 }
 
 light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) const {
+  asked_.other = asked_.other || asked_.light;  // only one place's light is watched
   asked_.light = true;
   if (stage_.light.dark()) return stage_.light.measure(probe, pose);
   stage_.rays.commit();

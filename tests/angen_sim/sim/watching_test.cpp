@@ -84,6 +84,8 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
+const std::string kBall = "<sphere><radius>0.2</radius></sphere>";
+
 const std::vector<std::string> kLibraries = {kPir,
                                              "liboptical_switch_controller.so",
                                              "libluminosity_sensor_controller.so",
@@ -211,37 +213,77 @@ TEST(Watching, LightAndContactsAreReadAsAtEachDueTime) {
   twins.run(2000);
 }
 
-TEST(Watching, LightInAClosedRoomIsMeasuredAgainWhenSomethingStirsThere) {
+/// A closed room with a lamp and a sensor, and a ball that falls outside.
+std::string closed_room(const std::string& library) {
   const auto slab = [](const std::string& name, const std::string& size, const std::string& pose) {
     return body(name, "<box><size>" + size + "</size></box>", pose, true);
   };
   const std::string lux =
-      "<sensor name='lux' type='camera'><pose>0.02 0 0 0 0 "
-      "0</pose><update_rate>10</update_rate><plugin name='l' filename="
-      "'libluminosity_sensor_controller.so'/></sensor>";
-  const std::string ball = "<sphere><radius>0.2</radius></sphere>";
-  Twins twins(
-      "<sdf version='1.6'><world name='w'>" + kLamp + slab("floor", "20 20 0.2", "0 0 -0.1 0 0 0") +
-      slab("roof", "4.4 4.4 0.2", "0 0 2.7 0 0 0") +
-      slab("north", "4.4 0.2 2.8", "0 2.1 1.3 0 0 0") +
-      slab("south", "4.4 0.2 2.8", "0 -2.1 1.3 0 0 0") +
-      slab("east", "0.2 4.4 2.8", "2.1 0 1.3 0 0 0") +
-      slab("west", "0.2 4.4 2.8", "-2.1 0 1.3 0 0 0") +
-      body("it", "<box><size>0.02 0.02 0.02</size></box>", "-1.9 0.5 1.5 0 0 0", true, lux) +
-      body("outside", ball, "6 0 0.6 0 0 0", false) + "</world></sdf>");
+      "<sensor name='lux' type='camera'><pose>0.02 0 0 0 0 0</pose><update_rate>10</update_rate>"
+      "<plugin name='l' filename='" +
+      library + "'/></sensor>";
+  return "<sdf version='1.6'><world name='w'>" + kLamp +
+         slab("floor", "20 20 0.2", "0 0 -0.1 0 0 0") +
+         slab("roof", "4.4 4.4 0.2", "0 0 2.7 0 0 0") +
+         slab("north", "4.4 0.2 2.8", "0 2.1 1.3 0 0 0") +
+         slab("south", "4.4 0.2 2.8", "0 -2.1 1.3 0 0 0") +
+         slab("east", "0.2 4.4 2.8", "2.1 0 1.3 0 0 0") +
+         slab("west", "0.2 4.4 2.8", "-2.1 0 1.3 0 0 0") +
+         body("it", "<box><size>0.02 0.02 0.02</size></box>", "-1.9 0.5 1.5 0 0 0", true, lux) +
+         body("outside", kBall, "6 0 0.6 0 0 0", false) + "</world></sdf>";
+}
+
+TEST(Watching, LightInAClosedRoomIsMeasuredAgainWhenSomethingStirsThere) {
+  Twins twins(closed_room("libluminosity_sensor_controller.so"));
   twins.order("lamp", "hall0", "On");
   twins.run(300);
   ASSERT_GT(twins.calm->snapshot()->counts.awake_bodies, 0U);
   EXPECT_EQ(at_rest(*twins.calm->snapshot()).kept, 1);
   EXPECT_GT(twins.calm->snapshot()->reading(0)->get<double>("illuminance"), 1.0);
   twins.run(3000);
-  twins.spawn(body("inside", ball, "0 0 0 0 0 0", false), {0.5, 0.3, 0.8});
+  twins.spawn(body("inside", kBall, "0 0 0 0 0 0", false), {0.5, 0.3, 0.8});
   twins.run(3000);
   EXPECT_EQ(at_rest(*twins.calm->snapshot()).kept, 1);
   for (const char* gone : {"outside", "inside", "east"}) {
     twins.command(Delete{gone}, Delete{gone});
     twins.run(500);
   }
+}
+
+/// Measures light at two places: where it stands, and beyond the east wall.
+class TwoPlaces : public Sensor {
+ public:
+  void configure(Params&, Wiring&) override {}
+  void read(const View& view, Hits, Rng&, Reading& reading) override {
+    const Pose beyond = view.pose() * Pose{Vec3(5.0, 0.0, 0.0), Quat::Identity()};
+    reading.set("beyond", view.illuminance(probes_[0], beyond).illuminance);
+    reading.set("here", view.illuminance(probes_[1], view.pose()).illuminance);
+  }
+  Rest rest() const override { return Rest::kSame; }
+
+ private:
+  light::Probe probes_[2];
+};
+
+class TwoPlacesPlugin : public Plugin {
+ public:
+  std::string kind() const override { return "two_places"; }
+  std::string doc() const override { return "Light at two places."; }
+  std::unique_ptr<Sensor> make_sensor() const override { return std::make_unique<TwoPlaces>(); }
+};
+
+TEST(Watching, LightAtASecondPlaceIsMeasuredAgainToo) {
+  const auto plugin = std::make_shared<TwoPlacesPlugin>();
+  catalog()->add("two_places", plugin);
+  catalog()->add("restless_two_places", std::make_shared<RestlessPlugin>(plugin));
+  const std::string sun =
+      "<light name='sun' type='directional'><direction>-1 0 -1</direction></light></world>";
+  const std::string text = replaced(closed_room("two_places"), "</world>", sun);
+  Twins twins(text);
+  twins.eager = make(replaced(text, "'two_places'", "'restless_two_places'"));
+  twins.run(500);
+  twins.spawn(body("passing", kBall, "0 0 0 0 0 0", false), {4.0, 0.5, 2.2});
+  twins.run(2000);
 }
 
 TEST(Watching, WhatIsSpawnedOrDeletedIsSeenAtOnce) {
