@@ -1,6 +1,6 @@
 #pragma once
 
-#include "plugin/plugin.h"
+#include "sensors/one_draw.h"
 
 namespace angen::sensors {
 
@@ -30,14 +30,11 @@ class AirSensor : public Sensor {
 
  private:
   /// What is read while the air stays as it is.
-  struct Number : Echo {
+  struct Number : OneDraw {
     const char* name = "";
     double value = 0.0;
     double noise_stddev = 0.0;
-    void tell(Rng rng, Reading& reading) const;
-    void read(Nanoseconds, const Draws& draws, Reading& reading) const override {
-      tell(draws(0), reading);
-    }
+    void tell(Rng rng, Reading& reading) const override;
   };
 
   const char* unit_;

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "plugin/register.h"
+#include "sensors/one_draw.h"
 #include "sensors/watched.h"
 
 namespace angen::sensors {
@@ -35,7 +36,7 @@ struct Lists {
 };
 
 /// What touches; as an echo, what is read while that stays.
-struct Touch : Echo {
+struct Touch : OneDraw {
   bool pressed = false;
   std::vector<ContactPair> pairs;
   double noise_stddev = 0.0;  // N
@@ -46,7 +47,7 @@ struct Touch : Echo {
     });
   }
 
-  void tell(Rng rng, Reading& reading) const {
+  void tell(Rng rng, Reading& reading) const override {
     Lists lists;
     for (const ContactPair& pair : pairs) lists.add(pair, noise_stddev, rng);
     reading.set("pressed", pressed);
@@ -57,10 +58,6 @@ struct Touch : Echo {
     reading.set("normals", std::move(lists.normals));
     reading.set("depths", std::move(lists.depths));
     reading.set("forces", std::move(lists.forces));
-  }
-
-  void read(Nanoseconds, const Draws& draws, Reading& reading) const override {
-    tell(draws(0), reading);
   }
 };
 

@@ -4,26 +4,23 @@
 #include <sstream>
 
 #include "plugin/register.h"
+#include "sensors/one_draw.h"
 
 namespace angen::sensors {
 
 namespace {
 
 /// What falls on the face; as an echo, what is read while that stays.
-struct Incident : Echo {
+struct Incident : OneDraw {
   light::Sample sample;
   double noise_stddev = 0.0;  // relative
 
-  void tell(Rng rng, Reading& reading) const {
+  void tell(Rng rng, Reading& reading) const override {
     const double noise = noise_stddev > 0.0 ? noise_stddev * rng.gaussian() : 0.0;
     reading.set("illuminance", std::max(0.0, sample.illuminance * (1.0 + noise)));
     reading.set("r", static_cast<double>(sample.color.x()));
     reading.set("g", static_cast<double>(sample.color.y()));
     reading.set("b", static_cast<double>(sample.color.z()));
-  }
-
-  void read(Nanoseconds, const Draws& draws, Reading& reading) const override {
-    tell(draws(0), reading);
   }
 };
 

@@ -4,6 +4,7 @@
 
 #include "plugin/register.h"
 #include "sensors/fan.h"
+#include "sensors/one_draw.h"
 
 namespace angen::sensors {
 
@@ -20,13 +21,13 @@ Fan default_fan() {
 }
 
 /// What the rays met; as an echo, what is read while they meet the same.
-struct Cone : Echo {
+struct Cone : OneDraw {
   Fan fan;
   bool infrared = false;
   Ranges ranges;
   double nearest = 0.0;  // m, infinite where nothing is met
 
-  void tell(Rng rng, Reading& reading) const {
+  void tell(Rng rng, Reading& reading) const override {
     double range = nearest;
     if (std::isfinite(nearest)) {
       // One echo, one error: the least of many noisy rays would always be too short.
@@ -40,10 +41,6 @@ struct Cone : Echo {
     reading.set("min_range", fan.min);
     reading.set("max_range", fan.max);
     reading.set("infrared", infrared);
-  }
-
-  void read(Nanoseconds, const Draws& draws, Reading& reading) const override {
-    tell(draws(0), reading);
   }
 };
 

@@ -1,28 +1,25 @@
 #include <algorithm>
 
 #include "plugin/register.h"
+#include "sensors/one_draw.h"
 
 namespace angen::sensors {
 
 namespace {
 
 /// What it measures; as an echo, what is read while that stays.
-struct Metered : Echo {
+struct Metered : OneDraw {
   std::string load;
   bool connected = false;
   double power = 0.0;         // W
   double energy = 0.0;        // J
   double noise_stddev = 0.0;  // W
 
-  void tell(Rng rng, Reading& reading) const {
+  void tell(Rng rng, Reading& reading) const override {
     reading.set("load", load);
     reading.set("connected", connected);
     reading.set("power", power + (noise_stddev > 0.0 ? noise_stddev * rng.gaussian() : 0.0));
     reading.set("energy", energy);
-  }
-
-  void read(Nanoseconds, const Draws& draws, Reading& reading) const override {
-    tell(draws(0), reading);
   }
 };
 

@@ -96,7 +96,7 @@ void RangeDifference::read(const View&, Hits hits, Rng& rng, Reading& reading) {
   }
   motion_ = motion;
   changes_ = difference > 0.0;
-  const bool loud = rng.uniform() >= quiet_chance_;
+  const bool loud = rng.uniform() >= quiet_chance_;  // with_noise() drew from a copy
   quiet_scans_ = loud || motion ? 0 : quiet_scans_ + 1;
 }
 
