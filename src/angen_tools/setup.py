@@ -1,6 +1,9 @@
 """Lets catkin put the angen_tools package on the Python path; not to be called by hand."""
-from catkin_pkg.python_setup import generate_distutils_setup
-from setuptools import setup
+from pathlib import Path
 
-setup(**generate_distutils_setup(packages=['angen_tools'], package_dir={'': 'src'},
-                                 package_data={'angen_tools': ['standards/*.yaml']}))
+from catkin_pkg.python_setup import generate_distutils_setup
+from setuptools import find_packages, setup
+
+source = str(Path(__file__).resolve().parent / 'src')
+setup(**generate_distutils_setup(packages=find_packages(source), package_dir={'': 'src'},
+                                 package_data={'angen_tools.walktest': ['standards/*.yaml']}))

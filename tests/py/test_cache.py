@@ -4,7 +4,7 @@ from pathlib import Path
 import pytest
 
 import angen
-from angen_tools.world_maker import write_apartment
+from angen_tools.world.apartment import write_apartment
 from sdf_text import WORLDS
 
 COUNTS = {'pir': 20, 'switch': 4, 'luminosity': 4, 'contact': 4}

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import psutil
 import pytest
-from angen_tools.gridmap import load_world, make_map
+from angen_tools.maps.gridmap import load_world, make_map
 from harness import Angen, Master, end, until
 from nav_msgs.msg import OccupancyGrid
 

@@ -1,0 +1,141 @@
+"""angen bench core: what the simulator's core costs without ROS, as ratios, by google-benchmark."""
+from __future__ import annotations
+
+import csv
+import json as jsonlib
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+from angen_tools.common.failure import Failure
+from angen_tools.common.output import as_json, show, table
+from angen_tools.common.progress import Steps
+from angen_tools.world.apartment import write_apartment
+
+PROGRAMS = ('core_bench', 'motion_bench', 'rays_bench', 'physics_bench')
+COLUMNS = ('ratio', 'against', 'case', 'cpu_ns', 'counters', 'commit')
+
+# A case, and the one that its time is divided by; both are measured in the same run.
+AGAINST = {
+    'doors_awake/12': 'doors_in_bare_ode/12',
+    'doors_awake/120': 'doors_in_bare_ode/120',
+    'BM_Ours/pir': 'BM_RawEmbree/pir',
+    'BM_Ours/random': 'BM_RawEmbree/random',
+    'building_in_motion': 'building_in_bare_ode',
+    'storeys/floors:20/noise:0': 'storeys/floors:2/noise:0',
+    'storeys/floors:100/noise:0': 'storeys/floors:2/noise:0',
+    'storeys/floors:20/noise:1': 'storeys/floors:2/noise:1',
+    'storeys/floors:100/noise:1': 'storeys/floors:2/noise:1',
+    'doors_at_rest/doors:1000': 'doors_at_rest/doors:0',
+    'start/cached:1': 'start/cached:0',
+    'pirs/pirs:3000/people:1': 'pirs/pirs:0/people:1',
+    'pirs/pirs:30000/people:10': 'pirs/pirs:0/people:10',
+}
+NOT_COUNTERS = {'name', 'family_index', 'per_family_instance_index', 'run_name', 'run_type',
+                'repetitions', 'repetition_index', 'threads', 'iterations', 'real_time', 'cpu_time',
+                'time_unit', 'items_per_second'}
+NS = {'ns': 1.0, 'us': 1e3, 'ms': 1e6, 's': 1e9}
+
+
+@dataclass(frozen=True)
+class Case:
+    """One benchmark: CPU time of a turn in ns, and what else it counted."""
+    name: str
+    cpu_ns: float
+    counters: dict[str, float]
+
+
+def program(name: str) -> Path:
+    """Where the built benchmark is; Failure says how to build it."""
+    for prefix in os.environ.get('CMAKE_PREFIX_PATH', '').split(':'):
+        path = Path(prefix) / 'lib' / 'angen_sim' / name
+        if prefix and path.is_file():
+            return path
+    raise Failure(f'{name} is not built; build the target "benches"')
+
+
+def cases_of(report: str) -> list[Case]:
+    """The cases of google-benchmark's JSON, without what a name says of repetition."""
+    cases = []
+    for run in jsonlib.loads(report)['benchmarks']:
+        name = run['name'].split('/iterations:')[0]
+        counters = {key: value for key, value in run.items() if key not in NOT_COUNTERS}
+        cases.append(Case(name, run['cpu_time'] * NS[run['time_unit']], counters))
+    return cases
+
+
+def start_cases() -> list[Case]:
+    """What a process needs that loads flats with 200 PIRs and takes a tick, without and with the
+    world in the cache; the median of five.
+    """
+    program = 'import sys, angen; angen.World(sys.argv[1]).step(1)'
+    cases = []
+    with tempfile.TemporaryDirectory() as folder:
+        world = Path(folder) / 'flats.world'
+        write_apartment(world, 2, {'pir': 200}, 1)
+        for cached in (0, 1):
+            environment = {**os.environ, 'XDG_CACHE_HOME': folder,
+                           'ANGEN_NO_CACHE': '' if cached else '1'}
+            times = []
+            for _ in range(cached + 5):
+                before = resource.getrusage(resource.RUSAGE_CHILDREN)
+                subprocess.run([sys.executable, '-c', program, str(world)], env=environment,
+                               check=True)
+                after = resource.getrusage(resource.RUSAGE_CHILDREN)
+                times.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+            cases.append(Case(f'start/cached:{cached}', sorted(times[cached:])[2] * 1e9, {}))
+    return cases
+
+
+def rows_of(cases: list[Case], commit: str) -> list[dict[str, str]]:
+    """CSV rows, those with a ratio first."""
+    times = {case.name: case.cpu_ns for case in cases}
+    rows = []
+    for case in cases:
+        against = AGAINST.get(case.name, '')
+        ratio = f'{case.cpu_ns / times[against]:.3g}' if times.get(against) else ''
+        counters = ' '.join(f'{key}={value:.4g}' for key, value in case.counters.items())
+        rows.append({'ratio': ratio, 'against': against if ratio else '', 'case': case.name,
+                     'cpu_ns': f'{case.cpu_ns:.4g}', 'counters': counters, 'commit': commit})
+    return sorted(rows, key=lambda row: row['ratio'] == '')
+
+
+def commit_of(folder: Path) -> str:
+    """The commit that the sources are at, 'unknown' outside of a clone."""
+    asked = subprocess.run(['git', '-C', str(folder), 'describe', '--always', '--dirty'],
+                           capture_output=True, text=True, check=False)
+    return asked.stdout.strip() or 'unknown'
+
+
+def measure(out: Path, json: bool) -> None:
+    """Runs all benchmarks one after the other and writes out/core.csv."""
+    programs = [program(name) for name in PROGRAMS]
+    cases: list[Case] = []
+    steps = Steps(len(programs) + 1)
+    for path in programs:
+        steps.next(path.name)
+        run = subprocess.run([str(path), '--benchmark_format=json'], stdout=subprocess.PIPE,
+                             text=True, check=False)
+        if run.returncode != 0:
+            raise Failure(f'{path.name} ended with exit code {run.returncode}')
+        cases += cases_of(run.stdout)
+    steps.next('start')
+    cases += start_cases()
+    rows = rows_of(cases, commit_of(Path(__file__).resolve().parent))
+    out.mkdir(parents=True, exist_ok=True)
+    with (out / 'core.csv').open('w', newline='', encoding='utf-8') as file:
+        writer = csv.DictWriter(file, COLUMNS, lineterminator='\n')
+        writer.writeheader()
+        writer.writerows(rows)
+    steps.close()
+    if json:
+        print(as_json(rows))
+        return
+    show(table(('RATIO', 'CASE', 'CPU us', 'COUNTERS'),
+               [(row['ratio'], row['case'], f"{float(row['cpu_ns']) / 1e3:.2f}", row['counters'])
+                for row in rows], right=('RATIO', 'CPU us')))
+    print(f"wrote {out / 'core.csv'}")

@@ -1,0 +1,195 @@
+"""Measures a running node: processor time, simulated time, readings, memory."""
+from __future__ import annotations
+
+import math
+import subprocess
+import threading
+import time
+from dataclasses import dataclass
+from typing import Any, Callable, Sequence
+
+from angen_tools.common.failure import Failure
+from angen_tools.common.geometry import quaternion
+from angen_tools.live.client import Client
+from angen_tools.world.placing import Placement
+
+SUBSCRIBED = 10  # topics that are subscribed to; more would measure the subscriber
+STATS_LIMIT = 60.0  # s of wall time
+
+
+@dataclass(frozen=True)
+class Sample:
+    """The state of things when a /angen/stats came: s of wall, simulated and processor time."""
+    wall: float
+    sim: float
+    readings: int
+    received: int
+    server: float
+    client: float | None
+    machine: float  # of all processes
+    rss: int  # bytes, of the node
+
+
+def due(rate: float, begin: float, end: float) -> int:
+    """How often a sensor that started at time 0 reads in (begin, end]; rate in Hz, times in s."""
+    return math.floor(end * rate + 1e-6) - math.floor(begin * rate + 1e-6)
+
+
+def machine_time() -> float:
+    """Processor time in s that all processes of the machine have used, on all cores."""
+    import psutil
+    times = psutil.cpu_times()
+    return sum(times) - times.idle - times.iowait - times.guest - times.guest_nice
+
+
+class Meter:
+    """Watches a node. A context: its end takes the subscriptions away."""
+
+    def __init__(self, client: Client, server: subprocess.Popen[bytes]) -> None:
+        import psutil
+        import rospy
+
+        from angen_msgs.msg import Stats
+        client.join()
+        self._server = psutil.Process(server.pid)
+        self._viewer: psutil.Process | None = None
+        self._gone = psutil.NoSuchProcess
+        self._last: Sample | None = None
+        self._lock = threading.Lock()
+        self._received = 0
+        self.began: float | None = None  # wall time of the first tick, of a node at rate 1
+        self.first: dict[str, float] = {}  # topic: wall time of its first message
+        self._subscribers = [rospy.Subscriber('/angen/stats', Stats, self._take)]
+
+    def __enter__(self) -> Meter:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for subscriber in self._subscribers:
+            subscriber.unregister()
+
+    def watch(self, viewer: subprocess.Popen[bytes]) -> None:
+        """Watches a client too."""
+        import psutil
+        self._viewer = psutil.Process(viewer.pid)
+
+    def subscribe(self, topics: Sequence[str]) -> None:
+        """Subscribes to topics without decoding their messages; they may come later."""
+        import rospy
+
+        def counter(topic: str) -> Callable[[Any], None]:
+            def count(_: Any) -> None:
+                with self._lock:
+                    self._received += 1
+                    self.first.setdefault(topic, time.monotonic())
+            return count
+
+        self._subscribers += [rospy.Subscriber(t, rospy.AnyMsg, counter(t)) for t in topics]
+
+    def processor(self) -> tuple[float, float | None]:
+        """Processor time in s that the node and the client have used, all threads."""
+        def used(process: Any) -> float:
+            times = process.cpu_times()
+            return times.user + times.system
+
+        client = None
+        if self._viewer:
+            try:
+                client = used(self._viewer)
+            except self._gone:
+                self._viewer = None
+        return used(self._server), client
+
+    def _take(self, stats: Any) -> None:
+        try:
+            server, client = self.processor()
+            rss = self._server.memory_info().rss
+        except self._gone:
+            return
+        wall, sim = time.monotonic(), stats.sim_time.to_sec()
+        if self.began is None:
+            self.began = wall - sim
+        self._last = Sample(wall, sim, stats.readings, self._received, server, client,
+                            machine_time(), rss)
+
+    def sample(self, after: float) -> Sample:
+        """The first sample that came later than the wall time `after`; waits for it."""
+        end = max(after, time.monotonic()) + STATS_LIMIT
+        while True:
+            last = self._last
+            if last and last.wall > after:
+                return last
+            if time.monotonic() > end or not self._server.is_running():
+                raise Failure('the node no longer publishes /angen/stats')
+            time.sleep(0.01)
+
+    def window(self, warm_up: float, length: float) -> tuple[Sample, Sample]:
+        """Two samples `length` s of wall time apart or a little more.
+
+        The first comes when `warm_up` s have passed, of wall time and since the world's start.
+        """
+        first = self.sample(time.monotonic() + warm_up)
+        while first.sim < warm_up:
+            first = self.sample(first.wall)
+        return first, self.sample(first.wall + length)
+
+
+@dataclass(frozen=True)
+class Deployed:
+    """How the spawning of sensors went: s, % of a core, ms."""
+    seconds: float
+    server_cpu: float
+    client_cpu: float | None
+    first_reading_ms: float | None
+
+
+def share(part: float, whole: float) -> float | None:
+    """part / whole; None of nothing."""
+    return part / whole if whole else None
+
+
+def load(first: float, last: float, seconds: float) -> float:
+    """% of a core between two processor times."""
+    return 100 * (last - first) / seconds
+
+
+def client_load(first: float | None, last: float | None, seconds: float) -> float | None:
+    """The same for the client; None where it was not measured."""
+    return None if first is None or last is None else load(first, last, seconds)
+
+
+def spread(sensors: Sequence[Placement], most: int) -> list[Placement]:
+    """At most so many of the sensors, evenly over the list."""
+    step = max(1, math.ceil(len(sensors) / most))
+    return list(sensors[::step])
+
+
+def deploy(client: Client, meter: Meter, sensors: Sequence[Placement]) -> Deployed:
+    """Spawns the sensors one after the other; those with a subscriber show how soon they read."""
+    from statistics import median
+
+    from geometry_msgs.msg import Point, Pose, Quaternion
+
+    from angen_msgs.srv import Spawn
+    watched = {topic_of(s): s for s in spread(sensors, SUBSCRIBED)}
+    asked: dict[str, float] = {}
+    start, (server, viewer) = time.monotonic(), meter.processor()
+    for sensor in sensors:
+        pose = Pose(Point(*sensor.pose[:3]), Quaternion(*quaternion(*sensor.pose[3:])))
+        asked[topic_of(sensor)] = time.monotonic()
+        client.call('/angen/spawn', Spawn, name=sensor.name, xml=f'model://{sensor.model}',
+                    pose=pose)
+    seconds, (server_end, viewer_end) = time.monotonic() - start, meter.processor()
+    end = time.monotonic() + STATS_LIMIT
+    while any(topic not in meter.first for topic in watched):
+        if time.monotonic() > end:
+            raise Failure(f'a spawned sensor has not published within {STATS_LIMIT:g} s')
+        time.sleep(0.01)
+    waits = [1000 * (meter.first[topic] - asked[topic]) for topic in watched]
+    return Deployed(seconds, load(server, server_end, seconds),
+                    client_load(viewer, viewer_end, seconds), median(waits) if waits else None)
+
+
+def topic_of(sensor: Placement) -> str:
+    """The topic of a sensor's readings."""
+    return f'/angen/{sensor.kind}/{sensor.name}'

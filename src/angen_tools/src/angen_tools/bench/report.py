@@ -1,0 +1,182 @@
+"""What the benches found: medians, CSV, a straight line, a figure."""
+from __future__ import annotations
+
+import csv
+import math
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+from statistics import median
+from typing import Any, Sequence
+
+REAL_TIME = 0.99  # of simulated seconds a second, and of readings, that still count as real time
+
+
+@dataclass
+class Session:
+    """One repeat. CPU in % of one core; None where it was not measured."""
+    server_cpu: float | None = None
+    client_cpu: float | None = None
+    others_cpu: float | None = None  # of all other processes, the bench's own too
+    rtf: float | None = None
+    rtf_fast: float | None = None  # at rate 0
+    sim_per_cpu: float | None = None  # at rate 0, simulated seconds a second of processor time
+    delivered: float | None = None  # readings made, of those expected
+    delivered_fast: float | None = None
+    heard: float | None = None  # messages received on subscribed topics, of those expected
+    rss_mb: float | None = None
+    start_s: float | None = None  # from the start of the process to the first tick
+    deploy_s: float | None = None  # for all sensors together
+    deploy_server_cpu: float | None = None
+    deploy_client_cpu: float | None = None
+    first_reading_ms: float | None = None  # after the spawn of its sensor
+
+
+@dataclass
+class Row(Session):
+    """The medians of a count's repeats. `count` is of sensors, or with `desired` of flats."""
+    mode: str = ''
+    kind: str = ''
+    count: int = 0
+    sensors: int = 0
+    floors: int = 0
+    repeats: int = 0
+
+    @property
+    def real_time(self) -> bool:
+        """Whether time keeps up with the clock on the wall, and readings with time, if any."""
+        delivered = 1.0 if self.delivered is None else self.delivered
+        return min(self.rtf or 0.0, delivered) >= REAL_TIME
+
+
+@dataclass(frozen=True)
+class Line:
+    """CPU % = base + slope * count."""
+    base: float
+    slope: float
+
+
+def combine(sessions: Sequence[Any], made: type[Any] = Row, **what: Any) -> Any:
+    """The row of one count: each figure's median over the sessions that have it.
+
+    `made` is the dataclass of the row, which adds to that of the sessions.
+    """
+    row = made(repeats=len(sessions), **what)
+    for field in fields(sessions[0]):
+        values = [v for s in sessions if (v := getattr(s, field.name)) is not None]
+        setattr(row, field.name, median(values) if values else None)
+    return row
+
+
+def fit(counts: Sequence[float], values: Sequence[float | None]) -> Line | None:
+    """The least-squares line through the points that have a value; None below two counts."""
+    points = [(c, v) for c, v in zip(counts, values) if v is not None]
+    if len({c for c, _ in points}) < 2:
+        return None
+    mean_c, mean_v = (sum(p[i] for p in points) / len(points) for i in (0, 1))
+    slope = (sum((c - mean_c) * (v - mean_v) for c, v in points)
+             / sum((c - mean_c) ** 2 for c, _ in points))
+    return Line(mean_v - slope * mean_c, slope)
+
+
+COLUMNS = ('mode', 'kind', 'count', 'sensors', 'floors', 'repeats',
+           *(field.name for field in fields(Session)), 'real_time')
+
+
+def write_csv(path: Path, rows: Sequence[Row]) -> None:
+    """Writes the rows, empty where nothing was measured."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with path.open('w', newline='', encoding='utf-8') as file:
+        writer = csv.DictWriter(file, COLUMNS, lineterminator='\n')
+        writer.writeheader()
+        for row in rows:
+            cells = as_cells(row) | {'real_time': 'yes' if row.real_time else 'no'}
+            writer.writerow({key: cell(cells[key]) for key in COLUMNS})
+
+
+def as_cells(row: Row) -> dict[str, Any]:
+    """The row by column."""
+    return asdict(row) | {'real_time': row.real_time}
+
+
+def cell(value: object) -> object:
+    """A value as a CSV has it: short, blank where there is none."""
+    if isinstance(value, float):
+        return f'{value:.4g}' if math.isfinite(value) else ''
+    return '' if value is None else value
+
+
+def describe(row: Row) -> str:
+    """A row as a line to read."""
+    parts = [f'{row.count:4d}', f'server {_number(row.server_cpu)} %',
+             f'client {_number(row.client_cpu)} %', f'RTF {_number(row.rtf, 2)}',
+             f'at rate 0 {_number(row.rtf_fast)}', f'delivered {_percent(row.delivered)}',
+             f'{_number(row.rss_mb, 0)} MB', f'others used {_number(row.others_cpu, 0)} %']
+    if row.first_reading_ms is not None:
+        parts.append(f'first reading {_number(row.first_reading_ms)} ms')
+    if row.mode == 'desired':
+        parts.append(f'{row.sensors} sensors: '
+                     + ('runs in real time' if row.real_time else 'does not run in real time'))
+    return '  '.join(parts)
+
+
+def _number(value: float | None, digits: int = 1) -> str:
+    return '-' if value is None else f'{value:.{digits}f}'
+
+
+def _percent(value: float | None) -> str:
+    return '-' if value is None else f'{100 * value:.0f} %'
+
+
+def describe_fit(rows: Sequence[Row]) -> list[str]:
+    """The cost of one more sensor, or flat, for the server and the client."""
+    thing = 'flat' if rows and rows[0].mode == 'desired' else 'sensor'
+    lines = []
+    for who in ('server', 'client'):
+        line = fit([r.count for r in rows], [getattr(r, f'{who}_cpu') for r in rows])
+        if line:
+            lines.append(f'{who}: one more {thing} costs {line.slope:.3g} % of a core '
+                         f'({line.base:.1f} % without)')
+    return lines
+
+
+PANELS = {'server_cpu': 'server (the node)', 'client_cpu': 'client (rviz)',
+          'deploy_server_cpu': 'server, while they are spawned',
+          'deploy_client_cpu': 'client, while they are spawned'}
+
+
+def draw(path: Path, rows: Sequence[Row]) -> None:
+    """Writes the figure: CPU of server and client over count, with their lines."""
+    import matplotlib
+    matplotlib.use('Agg')
+    from matplotlib import pyplot
+    from matplotlib.ticker import MaxNLocator
+    desired = rows[0].mode == 'desired'
+    panels = [panel for panel in PANELS if any(getattr(r, panel) is not None for r in rows)]
+    figure, axes = pyplot.subplots(len(panels), 1, sharex=True, squeeze=False,
+                                   figsize=(6.4, 1 + 2.2 * len(panels)), layout='constrained')
+    for axis, panel in zip(axes[:, 0], panels):
+        _panel(axis, panel, rows, 'flat' if desired else 'sensor')
+    axes[-1, 0].xaxis.set_major_locator(MaxNLocator(integer=True))
+    axes[-1, 0].set_xlabel('flats' if desired else f'{rows[0].kind} sensors')
+    figure.suptitle({'added': 'Sensors in the world when it starts',
+                     'deployed': 'Sensors spawned while it runs',
+                     'desired': 'Flats with all the sensors that they should have'}[rows[0].mode])
+    path.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(path, dpi=100)
+    pyplot.close(figure)
+
+
+def _panel(axis: Any, panel: str, rows: Sequence[Row], thing: str) -> None:
+    """One axis: the medians as points and, of a load that lasts, their line and its slope."""
+    points = [(r.count, v) for r in rows if (v := getattr(r, panel)) is not None]
+    counts, values = zip(*points)
+    axis.plot(counts, values, 'o', label=PANELS[panel])
+    line = None if panel.startswith('deploy') else fit(counts, values)
+    if line:
+        ends = [min(counts), max(counts)]
+        axis.plot(ends, [line.base + line.slope * c for c in ends],
+                  label=f'{line.slope:.2g} % a {thing}')
+    axis.set_ylim(0, 1.2 * max(values) or 1)
+    axis.set_ylabel('CPU, % of a core')
+    axis.grid(alpha=0.3)
+    axis.legend(loc='lower right', fontsize='small')

@@ -1,0 +1,95 @@
+"""The angen command: its words, and how it ends."""
+from __future__ import annotations
+
+import argparse
+import os
+import signal
+import sys
+from typing import Any, NoReturn, Sequence
+
+from angen_tools.cli import bench, live, offline, patrol, walktest
+from angen_tools.cli.parser import Parser, command
+from angen_tools.common.failure import Failure
+
+STOPPED = 130  # a shell's exit code of a command that Ctrl-C ended
+PIPE_CLOSED = 141  # and of one whose reader ended
+
+
+def run_completion(args: argparse.Namespace) -> int:
+    import argcomplete
+    print(argcomplete.shellcode(['angen'], shell=args.shell))
+    return 0
+
+
+def make_parser() -> Parser:
+    """All that the command understands."""
+    parser = Parser(
+        prog='angen', description='Works on the running simulator. Each command has --help.',
+        epilog='example:\n  angen list --kind door',
+        formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(metavar='COMMAND', required=True)
+    for add in (live.add_spawn, live.add_delete, live.add_list, offline.add_plugins, live.add_set,
+                live.add_save, live.add_watch, live.add_top, offline.add_checks, offline.add_map,
+                live.add_drive, offline.add_run, patrol.add_task, offline.add_world,
+                bench.add_bench, walktest.add_walktest):
+        add(commands)
+    completion = command(commands, 'completion', run_completion,
+                         'prints what makes a shell complete angen',
+                         'completion bash >> ~/.bash_completion')
+    completion.add_argument('shell', choices=['bash'])
+    return parser
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Runs the command; returns its exit code. argparse exits by itself, with 2 or 0."""
+    parser = make_parser()
+    if '_ARGCOMPLETE' in os.environ:
+        import argcomplete
+        argcomplete.autocomplete(parser)
+    try:
+        args = parser.parse_args(arguments)
+        code: int = args.run(args)
+        sys.stdout.flush()
+        return code
+    except Failure as failure:
+        print(f'angen: {failure}', file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return STOPPED
+    except BrokenPipeError:
+        return PIPE_CLOSED
+    except OSError as error:
+        print(f'angen: cannot write: {error.strerror}', file=sys.stderr)
+        return 1
+
+
+def stop(number: int, _: Any) -> NoReturn:
+    """At a signal: what was started is ended on the way out."""
+    sys.exit(128 + number)  # a shell's exit code of a command that a signal ended
+
+
+def leave() -> None:
+    """Takes this process off the ROS master, if it had become a node."""
+    rospy = sys.modules.get('rospy')
+    if rospy is not None and rospy.core.is_initialized():
+        rospy.signal_shutdown('done')
+
+
+def main() -> None:
+    """The program. Ends at once: threads that still wait for an answer are abandoned."""
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, stop)
+    try:
+        code = run(sys.argv[1:])
+    except SystemExit as end:
+        code = end.code if isinstance(end.code, int) else 1
+    try:
+        leave()
+    except KeyboardInterrupt:
+        code = STOPPED
+    for stream in (sys.stdout, sys.stderr):
+        try:
+            stream.flush()
+        except OSError:
+            pass
+    os._exit(code)

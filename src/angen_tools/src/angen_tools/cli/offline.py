@@ -1,0 +1,134 @@
+"""The commands that need no running simulator: plugins, check, luxcheck, world, map, run."""
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from angen_tools.cli.arguments import at_least, checked, duration
+from angen_tools.cli.parser import add_json, add_out, command
+from angen_tools.common.output import show
+
+KINDS = ('pir', 'switch', 'luminosity', 'contact')
+MOVERS = ('person', 'robot', 'nobody')
+
+
+def run_plugins(args: argparse.Namespace) -> int:
+    from angen_tools.offline.plugins import list_plugins
+    show(list_plugins(args.json))
+    return 0
+
+
+def run_check(args: argparse.Namespace) -> int:
+    import sys
+
+    from angen_tools.offline.check import check_world
+    wrong, right = check_world(args.world)
+    for line in wrong:
+        print(line, file=sys.stderr)
+    if not wrong:
+        print(right)
+    return 1 if wrong else 0
+
+
+def run_luxcheck(args: argparse.Namespace) -> int:
+    from angen_tools.offline.luxcheck import check, list_cases
+    cases = check()
+    show(list_cases(cases, args.json))
+    return 0 if all(case.passes for case in cases) else 1
+
+
+def run_world(args: argparse.Namespace) -> int:
+    from angen_tools.world.apartment import write_apartment
+    sensors = write_apartment(
+        args.output, args.floors, {kind: getattr(args, kind) for kind in KINDS}, args.seed,
+        args.elevator, args.mover, args.one_link)
+    print(f'wrote {args.output}: {args.floors} floor{"s"[:args.floors > 1]}, {sensors} sensors')
+    return 0
+
+
+def run_map(args: argparse.Namespace) -> int:
+    from angen_tools.maps.files import save_map
+    print(save_map(args.world, args.floor, args.doors, args.output))
+    return 0
+
+
+def run_fast(args: argparse.Namespace) -> int:
+    from angen_tools.offline.fast_run import run
+    print(run(args.world, args.span, args.seed, args.out))
+    return 0
+
+
+def add_plugins(commands: Any) -> None:
+    plugins = command(commands, 'plugins', run_plugins,
+                      'lists the plug-ins and their parameters; needs no simulator', 'plugins')
+    add_json(plugins)
+
+
+def add_checks(commands: Any) -> None:
+    """angen check, angen luxcheck."""
+    check = command(commands, 'check', run_check,
+                    'reports what is wrong with a world file; needs no simulator',
+                    'check worlds/angen.world')
+    check.add_argument('world', metavar='WORLD')
+    lux = command(commands, 'luxcheck', run_luxcheck,
+                  'compares the simulated light with closed forms; needs no simulator', 'luxcheck')
+    add_json(lux)
+
+
+def add_world(commands: Any) -> None:
+    """angen world apartment."""
+    world = command(commands, 'world', run_world, 'writes a world; needs no simulator',
+                    'world apartment --floors 2 --pir 50 -o out.world')
+    kinds = world.add_subparsers(dest='what', metavar='WHAT', required=True)
+    flat = command(kinds, 'apartment', run_world, 'writes flats, one above the other, with sensors',
+                   'world apartment --floors 2 --pir 50 --switch 12 -o out.world')
+    flat.add_argument('--floors', metavar='N', type=checked(at_least(1)), default=2,
+                      help='how many flats (2)')
+    for kind in KINDS:
+        flat.add_argument(f'--{kind}', metavar='N', type=checked(at_least(0)), default=0,
+                          help=f'how many {kind} sensors' +
+                          (', each with its chair or table (0)' if kind == 'contact' else ' (0)'))
+    flat.add_argument('--elevator', action='store_true',
+                      help='with the elevator, which holds one of the contact sensors')
+    flat.add_argument('--mover', choices=MOVERS, default='person', help='who is on floor 0: '
+                      'a person who walks; a robot, which drives in the workroom when it is sent '
+                      '(person)')
+    flat.add_argument('--one-link', action='store_true',
+                      help='puts all sensors of a kind on one link, not each in its own model; '
+                      'contact sensors stay on the furniture')
+    flat.add_argument('--seed', metavar='S', type=checked(at_least(0)), default=1,
+                      help='of the places that are left to chance (1)')
+    flat.add_argument('-o', '--output', metavar='FILE', type=Path, required=True)
+    world.epilog = flat.format_help()
+
+
+def add_map(commands: Any) -> None:
+    """angen map."""
+    parser = command(commands, 'map', run_map,
+                     "writes a floor's map for map_server; needs no simulator",
+                     'map --floor 0 -o map', 'map --world my.world --floor 1 --doors open -o upper')
+    parser.add_argument('--floor', metavar='N', type=checked(at_least(0)), default=0,
+                        help='which floor, counted from 0 (0)')
+    parser.add_argument('--world', metavar='FILE', type=Path, help='of a world '
+                        '(worlds/angen.world)')
+    parser.add_argument('--doors', choices=['away', 'open', 'shut'], default='away',
+                        help='away: doorways are free; otherwise as the leaves stand (away)')
+    parser.add_argument('-o', '--output', metavar='NAME', type=Path, default=Path('map'),
+                        help='writes NAME.pgm and NAME.yaml (map)')
+
+
+def add_run(commands: Any) -> None:
+    """angen run --fast."""
+    run = command(commands, 'run', run_fast,
+                  'runs a world without ROS, leaping over time in which nothing happens, and '
+                  'writes its events to a CSV file; for ROS: ./angen run NAME:=VALUE ...',
+                  'run --fast worlds/angen.world --for 3600')
+    run.add_argument('world', metavar='WORLD', help='the SDF file of the building')
+    run.add_argument('--fast', action='store_true', required=True,
+                     help='as fast as possible; the only way without ROS')
+    run.add_argument('--for', metavar='SECONDS', dest='span', type=checked(duration),
+                     required=True, help='how much time to simulate')
+    run.add_argument('--seed', metavar='S', type=checked(at_least(0)), default=1,
+                     help='of all noise (1)')
+    add_out(run, 'events.csv')

@@ -1,0 +1,135 @@
+"""angen drive: a robot by the arrow keys."""
+from __future__ import annotations
+
+import os
+import select
+import sys
+import time
+from contextlib import suppress
+from typing import Any
+
+from angen_tools.common.failure import Failure
+from angen_tools.common.terminal import single_keys
+from angen_tools.live.client import Client
+
+HOLD = 0.25  # s after the last key, and it stops: a held key repeats faster
+FIRST_HOLD = 0.7  # s after the first one: as long as X waits before a held key repeats
+PERIOD = 0.05  # s between commands
+STEP = 1.25  # faster or slower by one key
+SPEED, TURN = 0.2, 1.0  # m/s and rad/s to begin with
+MOST_SPEED, MOST_TURN = 0.7, 3.1  # the drive cuts what is more
+ARROWS = {b'A': (1, 0), b'B': (-1, 0), b'C': (0, -1), b'D': (0, 1)}  # ahead, to the left
+STARTS = (b'\x1b[', b'\x1bO')  # of what an arrow key sends, in either mode of the keypad
+HELP = 'arrows drive and turn, + and - change the speed, space or s stops, q quits'
+
+
+class Keys:
+    """What whoever presses keys wants: a direction that ends when the keys stop."""
+
+    def __init__(self) -> None:
+        self.speed, self.turn = SPEED, TURN  # m/s, rad/s
+        self.quit = False
+        self._way = (0, 0)
+        self._ends = 0.0
+        self._part = b''
+
+    def read(self, text: bytes, now: float) -> None:
+        """What the terminal sent at a time in s, b'' where it sent nothing."""
+        if not text and self._part:  # the escape key itself
+            self._part = b''
+            self._way = (0, 0)
+        text = self._part + text
+        while text:
+            size = 1 if text[:1] != b'\x1b' else 3
+            if size == 3 and len(text) < 3:
+                break
+            self._press(text[:size], now)
+            text = text[size:]
+        self._part = text
+
+    def _press(self, key: bytes, now: float) -> None:
+        way = ARROWS.get(key[2:]) if key[:2] in STARTS else None
+        if way is not None:
+            held = way == self._way and now < self._ends
+            self._way, self._ends = way, now + (HOLD if held else FIRST_HOLD)
+        elif key in (b'+', b'='):
+            self.speed = min(self.speed * STEP, MOST_SPEED)
+            self.turn = min(self.turn * STEP, MOST_TURN)
+        elif key in (b'-', b'_'):
+            self.speed, self.turn = self.speed / STEP, self.turn / STEP
+        else:
+            self.quit = self.quit or key in (b'q', b'Q', b'\x04')
+            self._way = (0, 0)
+
+    def command(self, now: float) -> tuple[float, float]:
+        """m/s ahead and rad/s to the left at a time in s."""
+        if now >= self._ends:
+            self._way = (0, 0)
+        return self._way[0] * self.speed, self._way[1] * self.turn
+
+
+def drive(robot: str | None) -> None:
+    """Drives a robot, the first without a name, until q or Ctrl-C; it stands when this returns.
+
+    Failure where there is no such robot, it does not listen or goes away, or stdin is no terminal.
+    """
+    if not sys.stdin.isatty():
+        raise Failure('drive needs a terminal; use rostopic pub to drive from a script')
+    client = Client()
+    name = _chosen(robot, [entity.name for entity in client.entities('drive')])
+    wheel = _Wheel(client, f'/{name}/cmd_vel')
+    print(f'{name}: {HELP}')
+    try:
+        with single_keys(), suppress(KeyboardInterrupt):
+            _drive(wheel)
+    finally:
+        print()
+        wheel.stop()
+
+
+def _chosen(robot: str | None, known: list[str]) -> str:
+    if not known:
+        raise Failure('the world has no robot')
+    if robot is not None and robot not in known:
+        raise Failure(f"there is no robot '{robot}'; known are {', '.join(known)}")
+    return robot or known[0]
+
+
+class _Wheel:
+    """Commands to one robot."""
+
+    def __init__(self, client: Client, topic: str) -> None:
+        from geometry_msgs.msg import Twist
+        self._topic, self._kind = topic, Twist
+        self._publisher: Any = client.publisher(topic, Twist)
+
+    def send(self, ahead: float, left: float) -> None:
+        """m/s and rad/s; Failure where the robot is gone."""
+        if self._publisher.get_num_connections() == 0:
+            raise Failure(f'nobody listens to {self._topic} any more')
+        twist = self._kind()
+        twist.linear.x, twist.angular.z = ahead, left
+        self._publisher.publish(twist)
+
+    def stop(self) -> None:
+        """Sends it to a stand, if it is still there."""
+        with suppress(Failure):
+            self.send(0.0, 0.0)
+            time.sleep(0.1)  # the message is on its way
+
+
+def _drive(wheel: _Wheel) -> None:
+    keys, stands = Keys(), True
+    while not keys.quit:
+        text = b''
+        if select.select([sys.stdin], [], [], PERIOD)[0]:
+            text = os.read(sys.stdin.fileno(), 64)
+            keys.quit = not text  # the terminal is gone
+        keys.read(text, time.monotonic())
+        ahead, left = keys.command(time.monotonic())
+        moves = ahead != 0.0 or left != 0.0
+        if moves or not stands:
+            wheel.send(ahead, left)
+        stands = not moves
+        print(f'\r\033[K{ahead:+.2f} m/s {left:+.2f} rad/s   (speed {keys.speed:.2f} m/s, '
+              f'{keys.turn:.2f} rad/s)', end='', flush=True)

@@ -1,0 +1,45 @@
+"""angen list: what is in the world."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from angen_tools.common.failure import Failure
+from angen_tools.common.geometry import yaw_of
+from angen_tools.common.output import as_json, table
+from angen_tools.live.client import Client
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+KINDS = ('model', 'door', 'elevator', 'lamp', 'drive', 'person', 'window', 'cabinet', 'heater',
+         'climate', 'battery', 'tag',
+         'pir', 'switch', 'luminosity', 'contact', 'lidar', 'camera', 'depth', 'proximity',
+         'pressure', 'reed', 'rfid', 'plug', 'temperature', 'humidity')
+
+
+def list_entities(kind: str, json: bool) -> RenderableType:
+    """What is in the world, or what of it is of one kind."""
+    every = Client().entities()
+    kinds = {entity.kind for entity in every}
+    if kind and kind not in kinds.union(KINDS):
+        raise Failure(f"there is no kind '{kind}'; known are {', '.join(sorted(kinds))}")
+    chosen = [entity for entity in every if kind in ('', entity.kind)]
+    if json:
+        return as_json([_as_dict(entity) for entity in chosen])
+    return table(('NAME', 'KIND', 'MODEL', 'X', 'Y', 'Z', 'YAW', 'TOPIC'),
+                 (_row(entity) for entity in chosen))
+
+
+def _row(entity: Any) -> list[str]:
+    at = entity.pose.position
+    numbers = [f'{round(v, 3) + 0.0:g}'
+               for v in (at.x, at.y, at.z, yaw_of(entity.pose.orientation))]
+    return [entity.name, entity.kind, entity.model, *numbers, entity.topic]
+
+
+def _as_dict(entity: Any) -> dict[str, Any]:
+    at, turn = entity.pose.position, entity.pose.orientation
+    return {'name': entity.name, 'kind': entity.kind, 'model': entity.model, 'topic': entity.topic,
+            'type': entity.type,
+            'pose': {'position': [at.x, at.y, at.z],
+                     'orientation': [turn.x, turn.y, turn.z, turn.w]}}

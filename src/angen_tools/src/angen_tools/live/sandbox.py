@@ -1,0 +1,179 @@
+"""A ROS master of its own on a free port, the node, rviz. Ends what it starts, by process id."""
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import time
+from contextlib import ExitStack, contextmanager, suppress
+from pathlib import Path
+from typing import Any, Callable, Iterator
+
+from angen_tools.common.failure import Failure
+
+START_LIMIT = 120.0  # s; hundreds of models take a while on a busy machine
+CLIENT_LIMIT = 40.0
+END_LIMIT = 10.0
+
+
+def wait(condition: Callable[[], bool], what: str, limit: float) -> None:
+    """Returns when the condition holds; Failure when it does not within `limit` s."""
+    end = time.monotonic() + limit
+    while not condition():
+        if time.monotonic() > end:
+            raise Failure(f'{what} within {limit:g} s')
+        time.sleep(0.02)
+
+
+def node_program() -> Path:
+    """The built node."""
+    for prefix in os.environ.get('CMAKE_PREFIX_PATH', '').split(':'):
+        path = Path(prefix) / 'lib/angen_sim/angen_node'
+        if prefix and path.exists():
+            return path
+    raise Failure('angen_node is not found; use ./angen, or source devel/setup.bash')
+
+
+class Sandbox:
+    """A master on a free port, and the processes around it. A context: its end ends them all."""
+
+    def __init__(self, folder: Path) -> None:
+        import xmlrpc.client
+        self.folder = folder
+        self.launched = 0.0  # when the last node was started, s of wall time
+        self._all = ExitStack()
+        with socket.socket() as probe:
+            probe.bind(('127.0.0.1', 0))
+            port = probe.getsockname()[1]
+        uri = f'http://127.0.0.1:{port}'
+        # for this process too, which is to become a node of that master
+        os.environ.update(ROS_MASTER_URI=uri, ROS_IP='127.0.0.1', ROS_LOG_DIR=str(folder),
+                          ROS_HOME=str(folder))
+        os.environ.pop('ROS_HOSTNAME', None)
+        self.environment = dict(os.environ)
+        self._api: Any = xmlrpc.client.ServerProxy(uri)
+        rosmaster = shutil.which('rosmaster')
+        if not rosmaster:
+            raise Failure('rosmaster is not found; install ros-core')
+        self.start([sys.executable, rosmaster, '--core', '-p', str(port)], 'master')
+        try:
+            wait(self._answers, 'the ROS master has not answered', START_LIMIT)
+        except BaseException:
+            self._all.close()
+            raise
+
+    def __enter__(self) -> Sandbox:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._all.close()
+
+    def _answers(self) -> bool:
+        try:
+            return self._api.getUri('/angen_bench')[0] == 1
+        except OSError:
+            return False
+
+    def _names(self, which: int, name: str) -> list[str]:
+        """Nodes that publish (0) or subscribe (1) a topic, or serve (2) a service."""
+        return next((nodes for topic, nodes in self._api.getSystemState('/angen_bench')[2][which]
+                     if topic == name), [])
+
+    def topics(self, pattern: str) -> set[str]:
+        """The published topics whose whole name matches a pattern."""
+        published = self._api.getSystemState('/angen_bench')[2][0]
+        return {topic for topic, _ in published if re.fullmatch(pattern, topic)}
+
+    def subscribed_by(self, name: str) -> set[str]:
+        """The topics that nodes with this in their name subscribe."""
+        subscribed = self._api.getSystemState('/angen_bench')[2][1]
+        return {topic for topic, nodes in subscribed if any(name in node for node in nodes)}
+
+    def start(self, words: list[str], log: str, **options: Any) -> subprocess.Popen[bytes]:
+        """Starts a process that Ctrl-C does not reach; its output goes to a file named `log`."""
+        with (self.folder / f'{log}.log').open('wb') as out, uninterrupted():
+            settings: dict[str, Any] = {'env': self.environment, 'stdout': out, **options}
+            process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stderr=out,
+                                       start_new_session=True, **settings)
+            self._all.callback(end, process)
+        return process
+
+    def node(self, world: Path, rate: float, **params: Any) -> subprocess.Popen[bytes]:
+        """The node with a world, once it serves; `params` are more of its parameters."""
+        wait(lambda: not self._names(2, '/angen/save'), 'the last node has not gone', START_LIMIT)
+        self.launched = time.monotonic()
+        words = [f'_rate:={rate:g}', *(f'_{key}:={value}' for key, value in params.items())]
+        process = self.start([str(node_program()), str(world), *words], 'node')
+
+        def serves() -> bool:
+            if process.poll() is not None:
+                self.complain()
+            return bool(self._names(2, '/angen/save') and self._names(0, '/clock'))
+
+        wait(serves, 'the node does not serve', START_LIMIT)
+        return process
+
+    def complain(self) -> None:
+        """Failure with the node's last line."""
+        lines = (self.folder / 'node.log').read_text(errors='replace').splitlines()
+        raise Failure(f'the node ended: {lines[-1] if lines else "without a message"}')
+
+    def rviz(self) -> subprocess.Popen[bytes] | None:
+        """rviz, once it shows the building; None where it does not start."""
+        import rospkg
+        view = Path(rospkg.RosPack().get_path('angen_sim')) / 'launch/angen.rviz'
+        process = self.start(['rviz', '-d', str(view)], 'rviz')
+        with suppress(Failure):
+            wait(lambda: process.poll() is not None or any(
+                'rviz' in name for name in self._names(1, '/angen/markers')), '', CLIENT_LIMIT)
+            if process.poll() is None:
+                return process
+        end(process)
+        return None
+
+    def display(self) -> str | None:
+        """Starts a display for rviz where there is none; returns why that is not possible."""
+        if not shutil.which('rviz'):
+            return 'rviz is not installed'
+        if self.environment.get('DISPLAY'):
+            return None
+        if not shutil.which('Xvfb'):
+            return 'there is no display, and Xvfb is not installed'
+        self.start(['Xvfb', '-displayfd', '1', '-screen', '0', '1280x800x24', '-nolisten', 'tcp'],
+                   'xvfb_errors', stdout=(self.folder / 'display').open('wb'))
+        number = self.folder / 'display'
+        try:
+            wait(lambda: number.read_text().endswith('\n'), 'Xvfb has not started', CLIENT_LIMIT)
+        except Failure as failure:
+            return str(failure)
+        self.environment.update(DISPLAY=f':{number.read_text().strip()}', LIBGL_ALWAYS_SOFTWARE='1')
+        return None
+
+
+@contextmanager
+def uninterrupted() -> Iterator[None]:
+    """A signal within it is raised at its end: no process is started and then forgotten."""
+    raised: list[int] = []
+    numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    before = [signal.signal(number, lambda n, _: raised.append(n)) for number in numbers]
+    try:
+        yield
+    finally:
+        for number, handler in zip(numbers, before):
+            signal.signal(number, handler)
+    if raised:
+        signal.raise_signal(raised[0])
+
+
+def end(process: subprocess.Popen[Any]) -> None:
+    """Ends a process: by SIGTERM, then by SIGKILL."""
+    for order in (signal.SIGTERM, signal.SIGKILL):
+        if process.poll() is not None:
+            return
+        process.send_signal(order)
+        with suppress(subprocess.TimeoutExpired):
+            process.wait(END_LIMIT)

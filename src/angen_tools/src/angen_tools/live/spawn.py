@@ -1,0 +1,156 @@
+"""angen spawn, delete, save: what is in the world."""
+from __future__ import annotations
+
+import math
+import os
+import re
+import tempfile
+from pathlib import Path
+from typing import Sequence
+
+from lxml import etree
+
+from angen_tools.common.failure import Failure
+from angen_tools.common.geometry import quaternion, yaw_of
+from angen_tools.live.client import Client
+from angen_tools.world import models, sdf
+
+SEAT_AIR = 0.001  # m over the seat, where a sitter comes to be
+LEANS = 0.05  # rad: what leans by more is not a seat
+SHANKS = 0.31  # m ahead of a sitter's middle: they hang before the seat
+SITTER_WIDTH = 0.3  # m: nearer than this two do not sit
+
+
+def model_source(what: str) -> str:
+    """A model:// address as it is, a path made absolute; Failure where there cannot be a model."""
+    if '://' in what:
+        if not what.startswith('model://') or what == 'model://':
+            raise Failure(f"'{what}' is not a model; give a path or model://NAME")
+        return what
+    path = Path(what).absolute()
+    if path.is_dir():
+        if not any((path / name).exists() for name in ('model.config', 'model.sdf')):
+            raise Failure(f'{what}: holds no model.config and no model.sdf')
+    elif sdf.read(path).tag not in ('sdf', 'model', 'include', 'robot'):
+        raise Failure(f'{what}:1: is not a model; its root must be <sdf> (or <robot>, URDF)')
+    return str(path)
+
+
+def spawn_model(source: str, name: str, pose: Sequence[float]) -> str:
+    """Adds a model at `pose` (x y z roll pitch yaw in the world); returns what was done."""
+    source = model_source(source)
+    _call_spawn(Client(), name, source, '', pose)
+    return f'spawned the model {name} from {source}'
+
+
+def spawn_sensor(kind: str, name: str, pose: Sequence[float], on: str,
+                 settings: list[tuple[str, str]]) -> str:
+    """Adds a sensor on a link, or as a static model of its own; returns what was done.
+
+    `pose` is x y z roll pitch yaw in the link's frame, or in the world.
+    """
+    element = sdf.build_sensor(kind, name, settings, bool(on), models.worlds_models())
+    client = Client()
+    if kind in sdf.TOUCHED and bool(on) and element.find('contact/collision') is None:
+        _watch_all(client, element, on)
+    _call_spawn(client, name, sdf.text(element), on, pose)
+    topic = next((entity.topic for entity in client.entities(kind) if entity.name == name), '')
+    return f'spawned the {kind} {name}{" on " + on if on else ""}, see {topic}'
+
+
+def seat_sitter(name: str, chair: str) -> str:
+    """Seats a person of 75 kg on a model that has a seat and stands; returns what was done."""
+    client = Client()
+    places = {entity.name: entity.pose for entity in client.entities('model')}
+    if chair not in places:
+        raise Failure(f"no model named '{chair}'; angen list --kind model shows them")
+    seat = models.seat_of(_saved(client), chair)
+    if seat is None:
+        raise Failure(f"'{chair}' has no box seat_collision to sit on, as a chair or a sofa has")
+    at, turn = places[chair].position, places[chair].orientation
+    if 1 - 2 * (turn.x * turn.x + turn.y * turn.y) < math.cos(LEANS):
+        raise Failure(f"'{chair}' does not stand upright")
+    heading = yaw_of(turn)
+    ahead = seat[0] + max(0.0, seat[3] / 2 - SHANKS)
+    x = at.x + ahead * math.cos(heading) - seat[1] * math.sin(heading)
+    y = at.y + ahead * math.sin(heading) + seat[1] * math.cos(heading)
+    z = at.z + seat[2] + SEAT_AIR
+    for other, place in places.items():
+        there = place.position
+        if other != chair and math.dist((x, y, z), (there.x, there.y, there.z)) < SITTER_WIDTH:
+            raise Failure(f"on '{chair}' is '{other}'")
+    _call_spawn(client, name, 'model://sitter', '', (x, y, z, 0.0, 0.0, heading))
+    return f'seated {name}, 75 kg, on {chair}'
+
+
+def delete(names: Sequence[str]) -> list[str]:
+    """Takes models or sensors out of the world, in order; stops at the first that cannot be."""
+    from angen_msgs.srv import Delete
+    client = Client()
+    done: list[str] = []
+    for name in names:
+        try:
+            client.call('/angen/delete', Delete, name=name)
+        except Failure as error:
+            raise Failure(f'{error}{"; deleted before: " + ", ".join(done) if done else ""}') \
+                from None
+        done.append(name)
+    return done
+
+
+def save(path: Path) -> str:
+    """Writes the world as it stands to a file, all of it or nothing; returns what was done."""
+    from angen_msgs.srv import Save
+    if path.is_dir() or not path.absolute().parent.is_dir():
+        raise Failure(f'{path}: cannot be written; give a file in a folder that exists')
+    xml = Client().call('/angen/save', Save).xml
+    try:
+        root = etree.fromstring(xml.encode())
+    except etree.XMLSyntaxError as error:
+        raise Failure(f'the simulator sent a world that is not XML: {error}') from None
+    models = len(root.xpath('world/model | world/include | world/actor'))
+    _write(path, xml)
+    return f'saved {models} models to {path}'
+
+
+def _write(path: Path, content: str) -> None:
+    target = path.resolve()
+    try:
+        with tempfile.NamedTemporaryFile('w', dir=target.parent, prefix=f'.{target.name}.',
+                                         encoding='utf-8', delete=False) as file:
+            try:
+                file.write(content)
+                file.flush()
+                os.fsync(file.fileno())
+                umask = os.umask(0)
+                os.umask(umask)
+                os.chmod(file.name, 0o666 & ~umask)
+                os.replace(file.name, target)
+            except BaseException:
+                os.unlink(file.name)
+                raise
+    except OSError as error:
+        raise Failure(f'{path}: cannot be written: {error.strerror}') from None
+
+
+def _call_spawn(client: Client, name: str, xml: str, on: str, pose: Sequence[float]) -> None:
+    from geometry_msgs.msg import Point, Pose, Quaternion
+
+    from angen_msgs.srv import Spawn
+    place = Pose(Point(*pose[:3]), Quaternion(*quaternion(*pose[3:])))
+    try:
+        client.call('/angen/spawn', Spawn, name=name, xml=xml, on=on, pose=place)
+    except Failure as error:  # the text that was built has lines that no user has seen
+        raise Failure(re.sub(r'\(text\):\d+: ', '', str(error))) from None
+
+
+def _saved(client: Client) -> etree._Element:
+    from angen_msgs.srv import Save
+    return etree.fromstring(client.call('/angen/save', Save).xml.encode())
+
+
+def _watch_all(client: Client, sensor: etree._Element, on: str) -> None:
+    """Lets a contact sensor watch every collision of its link."""
+    # Where there are none, the simulator says what is wrong with `on`.
+    for name in models.collisions(_saved(client), on):
+        etree.SubElement(sensor.find('contact'), 'collision').text = name

@@ -1,0 +1,90 @@
+"""angen top: what each device and sensor costs, live."""
+from __future__ import annotations
+
+import sys
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any
+
+from angen_tools.common.failure import Failure
+from angen_tools.common.output import as_json, number, plain, table
+from angen_tools.live.client import Client, Mailbox
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+TOPIC = '/angen/cost'
+LIMIT = 10.0    # s of wall time for the first message; it comes after about one
+REFRESH = 0.25  # s of wall time between two checks for a key
+PARTS = ('physics', 'devices', 'sensors', 'commands', 'snapshots', 'publishing')
+HEAD = ('KIND', 'NAME', 'µs/s', 'SHARE')
+
+
+def title(cost: Any) -> str:
+    """The costs of the whole node in an angen_msgs/Cost."""
+    if cost.simulated <= 0:
+        return f'time stands still, for {cost.elapsed:.1f} s now\n'
+    core = 100 * cost.process * 1e-6 * cost.simulated / cost.elapsed
+    other = max(0.0, cost.process - sum(getattr(cost, part) for part in PARTS))
+    parts = ', '.join(f'{part} {getattr(cost, part):.0f}' for part in PARTS)
+    return (f'{cost.simulated:.2f} s simulated in {cost.elapsed:.2f} s, at {core:.1f} % of a '
+            f'processor; for each simulated second {cost.process:.0f} µs:\n'
+            f'{parts}, other {other:.0f}')
+
+
+def rows(cost: Any) -> list[list[str]]:
+    """Kind, name, µs a simulated second and share of the whole node, the most expensive first."""
+    share = 100 / cost.process if cost.process > 0 else 0.0
+    ranked = sorted(cost.instances, key=lambda i: (-i.cost, i.kind, i.name))
+    return [[i.kind, i.name, number(i.cost, 1), f'{number(i.cost * share, 1)} %'] for i in ranked]
+
+
+def as_dict(cost: Any) -> dict[str, Any]:
+    """The same for JSON, in µs per simulated second."""
+    return {'simulated': cost.simulated, 'elapsed': cost.elapsed, 'process': cost.process,
+            **{part: getattr(cost, part) for part in PARTS},
+            'instances': [{'kind': i.kind, 'name': i.name, 'cost': i.cost}
+                          for i in cost.instances]}
+
+
+class Meter:
+    """The latest message of the simulator's meter, which runs while this lives."""
+
+    def __init__(self) -> None:
+        from angen_msgs.msg import Cost
+        self._mail = Mailbox(Client())
+        self._mail.subscribe(TOPIC, Cost)
+        self._mail.connected(TOPIC)
+        self.cost: Any = None
+
+    def receive(self, limit: float) -> bool:
+        """True when there is a new message within `limit` s of wall time."""
+        mail = self._mail.get(limit)
+        if mail is None:
+            return False
+        self.cost = mail[1]
+        return True
+
+
+def top_once(json: bool = False) -> RenderableType:
+    """The costs of one second or so."""
+    meter = Meter()
+    if not meter.receive(LIMIT):
+        raise Failure(f'no message came on {TOPIC} within {LIMIT:g} s')
+    if json:
+        return as_json(as_dict(meter.cost))
+    return f'{title(meter.cost)}\n{plain(table(HEAD, rows(meter.cost)))}'
+
+
+def top() -> None:
+    """Draws the costs anew until q or Ctrl-C, space turns the page; one table where stdout is not
+    a terminal."""
+    from angen_tools.common.terminal import LiveTable
+    if not sys.stdin.isatty() or not sys.stdout.isatty():
+        print(top_once())
+        return
+    meter = Meter()
+    with LiveTable() as screen, suppress(KeyboardInterrupt):
+        screen.draw('measuring …', (), ())
+        while not screen.closed():
+            if meter.receive(REFRESH) or meter.cost:
+                screen.draw(title(meter.cost), HEAD, rows(meter.cost), HEAD[2:])

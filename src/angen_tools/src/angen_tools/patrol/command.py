@@ -1,0 +1,177 @@
+"""angen task patrol: from the words of the command to the folder that it leaves."""
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import sys
+import time
+from dataclasses import asdict
+from pathlib import Path
+
+from angen_tools.common.failure import Failure
+from angen_tools.common.output import as_json, show
+from angen_tools.common.progress import Progress
+from angen_tools.live.sandbox import Sandbox, wait
+from angen_tools.patrol import scene
+from angen_tools.patrol.drive import BUMPER, CYCLE, Patrol
+from angen_tools.patrol.figure import draw
+from angen_tools.patrol.lockstep import Lockstep
+from angen_tools.patrol.report import (Run, make_rows, measure, plans, summary, table_of, verdict,
+                                       write_figures, write_tables)
+from angen_tools.robot.route_file import read_route
+from angen_tools.world.models import collisions, worlds_models
+from angen_tools.world.sdf import read
+
+BASE = 'base_footprint'  # the robot's link that carries its body
+ROLLS = ('wheel', 'tread', 'caster')  # a collision with this in its name may touch the floor
+RECORDED = (f'/angen/(?!contact/{BUMPER})'
+            '(pir|switch|luminosity|contact|door|elevator|lamp|events|stats|markers).*'
+            '|/gazebo/.*_controller|/clock|/tf|/tf_static')
+BAG_LIMIT = 30.0  # s
+SENSORS = ('pir', 'switch', 'luminosity', 'contact')
+
+
+def default_route() -> Path:
+    """config/patrol.yaml of this package."""
+    import rospkg
+    return Path(rospkg.RosPack().get_path('angen_tools')) / 'config/patrol.yaml'
+
+
+def default_world() -> Path:
+    """worlds/angen.world of the package angen_sim."""
+    return worlds_models().parent / 'angen.world'
+
+
+def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, out: Path,
+           json: bool) -> int:
+    """Drives a route and writes the report; 0, or 1 where the robot touched something or the
+    elevator was not level. Failure where the route cannot be driven."""
+    route = read_route(route_file or default_route())
+    world = (world or default_world()).absolute()
+    try:
+        (out / 'logs').mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise Failure(f'{out}: cannot be written: {error.strerror}') from None
+    began = time.monotonic()
+    own_world = out.absolute() / 'patrol.world'
+    scene.write_world(world, route.robot, seed, own_world)
+    paths = [str(world.parent / 'models'), os.environ.get('ANGEN_MODEL_PATH', '')]
+    os.environ['ANGEN_MODEL_PATH'] = ':'.join(path for path in paths if path)
+    with Sandbox((out / 'logs').absolute()) as sandbox:
+        sandbox.node(own_world, 0.0, paused='true', seed=seed)
+        lockstep = Lockstep(CYCLE)
+        entities = lockstep.entities()
+        place, actions = scene.make_scene(route, str(own_world), entities,
+                                          scene.start_offset(seed))
+        put_bumper(lockstep, route.robot, own_world)
+        clock = Clock(rate)
+        drive = Patrol(route, place, lockstep, seed, clock.cycle, clock.note)
+        drive.connect()
+        bag = Bag(sandbox, out.absolute() / 'patrol.bag', route.robot)
+        lockstep.wait_for_subscribers(2)
+        if rate > 0:
+            watch(sandbox)
+        clock.note(0.0, f'the patrol begins: {len(route.waypoints)} waypoints')
+        clock.start()
+        drive.run(actions)
+        took = clock.end()
+        bag.close()
+    run = Run(route.robot, place, drive.track, lockstep.events,
+              [e for e in entities if e.kind in SENSORS], drive.door_angles())
+    rows, found = make_rows(run, own_world), measure(run, seed, took)
+    write_tables(run, rows, out)
+    for floor, name in zip(sorted(place.maps), plans(run)):
+        draw(run, rows, route, floor, out / name)
+    write_figures([found], out / 'summary.csv')
+    if json:
+        print(as_json({**asdict(found), 'sensors': [asdict(row) for row in rows]}))
+    else:
+        show(table_of(rows))
+        print(summary(run, found, time.monotonic() - began, out))
+    return verdict(found)
+
+
+def put_bumper(lockstep: Lockstep, robot: str, world: Path) -> None:
+    """Puts a sensor on the robot that samples each step the contacts of what may touch nothing."""
+    link = f'{robot}::{BASE}'
+    names = [name for name in collisions(read(world), link)
+             if not any(part in name for part in ROLLS)]
+    if not names:
+        raise Failure(f'the robot {robot} has no link {BASE} with collisions')
+    parts = ''.join(f'<collision>{name}</collision>' for name in names)
+    lockstep.spawn(BUMPER, f'<sensor name="{BUMPER}" type="contact"><update_rate>1000'
+                   f'</update_rate><contact>{parts}</contact><plugin name="bumper" '
+                   'filename="libgazebo_ros_bumper.so"/></sensor>', link)
+
+
+def watch(sandbox: Sandbox) -> None:
+    """Opens rviz, or prints why there is none."""
+    reason = sandbox.display() if os.environ.get('DISPLAY') else 'there is no display'
+    if reason is None:
+        show_robot(sandbox)
+    if reason is None and sandbox.rviz() is None:
+        reason = f'it does not start; see {sandbox.folder}/rviz.log'
+    if reason:
+        print(f'angen: no rviz: {reason}', file=sys.stderr)
+
+
+def show_robot(sandbox: Sandbox) -> None:
+    """Gives rviz what its RobotModel wants, as angen.launch does."""
+    import rospy
+    urdf = worlds_models() / 'turtlebot/turtlebot.urdf'
+    rospy.set_param('/robot_description', urdf.read_text())
+    publisher = 'robot_state_publisher'
+    sandbox.start(['rosrun', publisher, publisher], publisher)
+
+
+class Bag:
+    """A rosbag of the run, by rosbag itself."""
+
+    def __init__(self, sandbox: Sandbox, path: Path, robot: str) -> None:
+        self._path = path
+        pattern = f'{RECORDED}|/{robot}/(odom|cmd_vel|scan|joint_states)'
+        path.unlink(missing_ok=True)
+        program = shutil.which('rosbag')
+        if not program:
+            raise Failure('rosbag is not found; install ros-core')
+        self._process = sandbox.start(['/usr/bin/env', 'python3', program, 'record', '-q', '-O',
+                                       str(path), '-b', '256', '-e', pattern], 'rosbag')
+        topics = sandbox.topics(pattern)
+        wait(lambda: topics <= sandbox.subscribed_by('record'), 'rosbag has not subscribed',
+             BAG_LIMIT)
+
+    def close(self) -> None:
+        """Ends the recording; the file is whole then."""
+        self._process.send_signal(signal.SIGINT)
+        wait(self._path.exists, f'rosbag has not written {self._path}', BAG_LIMIT)
+
+
+class Clock:
+    """Paces a run and reports on it. `rate`: simulated seconds per second; 0: no pacing."""
+
+    def __init__(self, rate: float) -> None:
+        self._rate = rate
+        self._began = time.monotonic()
+        self._progress = Progress('patrol')
+
+    def start(self) -> None:
+        """The run begins now."""
+        self._began = time.monotonic()
+
+    def cycle(self, now: float, share: float, text: str) -> None:
+        """After each cycle, with the simulated time (s), and what share of all is done."""
+        wall = time.monotonic() - self._began
+        if self._rate > 0 and now / self._rate > wall:
+            time.sleep(now / self._rate - wall)
+        self._progress.update(share, f'{now:6.1f} s, {now / max(wall, 0.01):.1f} times real time: '
+                              f'{text}')
+
+    def note(self, now: float, text: str) -> None:
+        """Prints what happened at a simulated time (s)."""
+        self._progress.note(f'{now:6.1f} s  {text}')
+
+    def end(self) -> float:
+        """Wall time since the start, s."""
+        self._progress.close()
+        return time.monotonic() - self._began

@@ -1,0 +1,175 @@
+"""Ways over a map: the shortest that keeps its distance, and where it meets doors."""
+from __future__ import annotations
+
+import heapq
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from angen_tools.maps.gridmap import FREE, GridMap
+
+Point = tuple[float, float]
+NEAR_COST = 4.0  # how much dearer a cell beside an obstacle is than one in the open
+OPEN = 0.25  # m beyond the robot's radius where the open begins
+
+
+def distances(grid: GridMap, reach: float) -> np.ndarray:
+    """Metres (rows, columns) from a cell's middle to the next that is not free, cut at
+    `reach`."""
+    steps = int(math.ceil(reach / grid.resolution)) + 1
+    blocked = np.pad(grid.cells != FREE, steps, constant_values=True)
+    rows, columns = grid.cells.shape
+    nearest = np.full(grid.cells.shape, reach)
+    for dy in range(-steps, steps + 1):
+        for dx in range(-steps, steps + 1):
+            # to the nearest edge of that cell
+            far = grid.resolution * math.hypot(max(abs(dx) - 0.5, 0), max(abs(dy) - 0.5, 0))
+            if far < reach:
+                there = blocked[steps + dy:steps + dy + rows, steps + dx:steps + dx + columns]
+                nearest[there] = np.minimum(nearest[there], far)
+    return nearest
+
+
+class Planner:
+    """Shortest ways for a round robot of `radius` (m) over a map; prefers the open."""
+
+    def __init__(self, grid: GridMap, radius: float) -> None:
+        self.grid = grid
+        clear = distances(grid, radius + OPEN)
+        self._passable = (clear >= radius) & (grid.cells == FREE)
+        self._cost = 1 + NEAR_COST * np.clip((radius + OPEN - clear) / OPEN, 0, 1)
+
+    def stands(self, point: Point) -> bool:
+        """Whether the robot can stand there."""
+        row, column = self.grid.cell(*point)
+        rows, columns = self._passable.shape
+        return 0 <= row < rows and 0 <= column < columns and bool(self._passable[row, column])
+
+    def way(self, start: Point, goal: Point) -> list[Point] | None:
+        """Points from start to goal, about a cell apart; None where there is no way."""
+        if not (self.stands(start) and self.stands(goal)):
+            return None
+        cells = self._search(self.grid.cell(*start), self.grid.cell(*goal))
+        if cells is None:
+            return None
+        points = [start, *(self.grid.point(*cell) for cell in cells[1:-1]), goal]
+        return smooth(points)
+
+    def _search(self, start: tuple[int, int], goal: tuple[int, int]
+                ) -> list[tuple[int, int]] | None:
+        """A*: cells from start to goal."""
+        rows, columns = self._passable.shape
+        came = {start: start}
+        spent = {start: 0.0}
+        front = [(math.dist(start, goal), start)]
+        done: set[tuple[int, int]] = set()
+        while front:
+            _, here = heapq.heappop(front)
+            if here == goal:
+                cells = [goal]
+                while cells[-1] != start:
+                    cells.append(came[cells[-1]])
+                return cells[::-1]
+            if here in done:
+                continue
+            done.add(here)
+            for dy in (-1, 0, 1):
+                for dx in (-1, 0, 1):
+                    row, column = here[0] + dy, here[1] + dx
+                    if not (0 <= row < rows and 0 <= column < columns
+                            and self._passable[row, column]):
+                        continue
+                    total = spent[here] + math.hypot(dx, dy) * self._cost[row, column]
+                    if total < spent.get((row, column), math.inf):
+                        spent[row, column] = total
+                        came[row, column] = here
+                        heapq.heappush(front, (total + math.dist((row, column), goal),
+                                               (row, column)))
+        return None
+
+
+def smooth(points: list[Point], width: int = 5) -> list[Point]:
+    """The points with each coordinate averaged over its neighbours; the ends stay."""
+    if len(points) < 3:
+        return points
+    line = np.array(points)
+    result = line.copy()
+    for i in range(1, len(line) - 1):
+        half = min(width, i, len(line) - 1 - i)
+        result[i] = line[i - half:i + half + 1].mean(axis=0)
+    return [(x, y) for x, y in result.tolist()]
+
+
+@dataclass(frozen=True)
+class Door:
+    """A door: its leaf turns about the hinge from `shut` to `open` (rad, in the world)."""
+
+    name: str
+    hinge: Point
+    shut: float
+    open: float
+    width: float  # m
+    top: float = math.inf  # m, z of the leaf's upper edge
+
+    def tip(self, angle: float) -> Point:
+        return (self.hinge[0] + self.width * math.cos(angle),
+                self.hinge[1] + self.width * math.sin(angle))
+
+    def room_for(self, point: Point) -> float:
+        """Metres from a point to the nearest place that the leaf sweeps."""
+        away = (point[0] - self.hinge[0], point[1] - self.hinge[1])
+        low, high = sorted((self.shut, self.open))
+        turn = math.atan2(away[1], away[0]) - low
+        turn -= 2 * math.pi * math.floor(turn / (2 * math.pi))
+        if turn <= high - low:
+            return max(math.hypot(*away) - self.width, 0.0)
+        return min(_to_segment(point, self.hinge, self.tip(a)) for a in (low, high))
+
+    def crosses(self, a: Point, b: Point) -> bool:
+        """Whether a step from a to b crosses the shut leaf."""
+        return _cross(a, b, self.hinge, self.tip(self.shut))
+
+
+def _to_segment(point: Point, a: Point, b: Point) -> float:
+    p, start, line = np.array(point), np.array(a), np.array(b) - np.array(a)
+    along = np.clip((p - start) @ line / (line @ line), 0.0, 1.0)
+    return float(np.linalg.norm(p - start - along * line))
+
+
+def _cross(a: Point, b: Point, c: Point, d: Point) -> bool:
+    def left(p: Point, q: Point, r: Point) -> bool:
+        return (q[0] - p[0]) * (r[1] - p[1]) > (q[1] - p[1]) * (r[0] - p[0])
+    return left(a, b, c) != left(a, b, d) and left(c, d, a) != left(c, d, b)
+
+
+@dataclass(frozen=True)
+class Passage:
+    """A door on a way: stop at point `before`, have it opened; at point `after`, have it shut."""
+
+    door: Door
+    before: int
+    after: int
+
+
+class NoRoom(ValueError):
+    """A way begins or ends where a door on it cannot turn."""
+
+
+def passages(way: list[Point], doors: list[Door], room: float) -> list[Passage]:
+    """The doors on a way, in order, with places `room` (m) clear of their leaves.
+
+    NoRoom names a door in whose swing the way begins or ends.
+    """
+    found = []
+    for i in range(len(way) - 1):
+        for door in doors:
+            if not door.crosses(way[i], way[i + 1]):
+                continue
+            before = next((j for j in range(i, -1, -1) if door.room_for(way[j]) >= room), None)
+            after = next((j for j in range(i + 1, len(way)) if door.room_for(way[j]) >= room),
+                         None)
+            if before is None or after is None:
+                raise NoRoom(f'within the swing of door {door.name}')
+            found.append(Passage(door, before, after))
+    return found

@@ -1,0 +1,112 @@
+"""The words of the angen command, and how it ends; no simulator runs here."""
+from __future__ import annotations
+
+import socket
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from angen_tools.cli import main as cli
+
+ROOT = Path(__file__).resolve().parents[3]
+SCRIPT = ROOT / 'src/angen_tools/scripts/angen'
+COMMANDS = ['spawn', 'spawn pir', 'spawn switch', 'spawn luminosity', 'spawn camera',
+            'spawn contact', 'spawn proximity', 'spawn pressure', 'spawn reed', 'spawn rfid',
+            'spawn plug', 'spawn temperature', 'spawn humidity', 'spawn model', 'delete', 'list',
+            'plugins', 'set', 'set door', 'set elevator', 'set lamp', 'set window', 'set cabinet',
+            'set heater', 'save', 'watch', 'top', 'run', 'drive', 'map', 'task', 'task patrol',
+            'check', 'luxcheck', 'completion']
+
+
+@pytest.fixture
+def no_master(monkeypatch: pytest.MonkeyPatch) -> str:
+    """An address at which nothing listens."""
+    with socket.socket() as probe:
+        probe.bind(('127.0.0.1', 0))
+        uri = f'http://127.0.0.1:{probe.getsockname()[1]}'
+    monkeypatch.setenv('ROS_MASTER_URI', uri)
+    return uri
+
+
+def angen(*words: str, **options: object) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, str(SCRIPT), *words], text=True, timeout=60,
+                          stdin=subprocess.DEVNULL, **{'capture_output': True, **options})
+
+
+def usage_error(words: list[str], capsys: pytest.CaptureFixture[str]) -> str:
+    with pytest.raises(SystemExit) as end:
+        cli.run(words)
+    assert end.value.code == 2
+    line, = capsys.readouterr().err.splitlines()
+    return line
+
+
+@pytest.mark.parametrize('words', COMMANDS)
+def test_help_has_an_example_that_parses(words: str, capsys: pytest.CaptureFixture[str]) -> None:
+    import shlex
+    with pytest.raises(SystemExit) as end:
+        cli.run([*words.split(), '--help'])
+    assert end.value.code == 0
+    examples = capsys.readouterr().out.split('example:\n')[1].splitlines()
+    assert examples
+    for example in examples:
+        program, *given = shlex.split(example.split('>>')[0])
+        assert program == 'angen' and example.strip().startswith(f'angen {words}')
+        assert cli.make_parser().parse_args(given).run
+
+
+def test_help_needs_neither_ros_nor_lxml() -> None:
+    code = ('import sys; from angen_tools.cli.main import make_parser; make_parser(); '
+            'print([m for m in ("rospy", "lxml", "angen", "numpy", "rich") if m in sys.modules])')
+    done = subprocess.run([sys.executable, '-c', code], text=True, capture_output=True, timeout=60)
+    assert done.stdout == '[]\n', done.stderr
+
+
+@pytest.mark.parametrize('words', [
+    ['list'], ['delete', 'p1'], ['spawn', 'pir', 'p1', '--pose', '1 2 3'],
+    ['spawn', 'model', 'model://chair', 'c1', '--pose', '-1 2 3 0 0 0'],
+    ['set', 'door', 'kitchen0', '-1.2'], ['save', 'out.world'], ['watch', '--once'],
+    ['top', '--once'], ['top']])
+def test_without_a_simulator_one_line_says_so(words: list[str], no_master: str) -> None:
+    done = angen(*words)
+    assert done.returncode == 1 and done.stdout == ''
+    assert done.stderr == (f'angen: no simulator is running at {no_master}; '
+                           'start one with ./angen run\n')
+
+
+@pytest.mark.parametrize('words, part', [
+    ([], 'COMMAND'),
+    (['dance'], 'dance'),
+    (['spawn', 'pir', 'p1'], '--pose'),
+    (['spawn', 'pir', 'p1', '--pose', '1 2'], '2 numbers'),
+    (['spawn', 'pir', 'a::b', '--pose', '1 2 3'], 'a::b'),
+    (['spawn', 'pir', 'p1', '--pose', '1 2 3', '--set', 'threshold'], 'KEY=VALUE'),
+    (['spawn', 'pir', 'p1', '--pose', '1 2 3', '--on', 'table'], 'MODEL::LINK'),
+    (['spawn', 'contact', 'c1'], '--on'),
+    (['spawn', 'reed', 'r1', '--pose', '1 2 3'], '--on'),
+    (['set', 'door', 'kitchen0', 'ajar'], 'open, close or an angle in rad'),
+    (['set', 'door', 'kitchen0', 'nan'], 'open, close or an angle in rad'),
+    (['set', 'elevator', 'elevator', '1.5'], 'not a floor'),
+    (['set', 'lamp', 'kitchen0', '101'], '0 to 100'),
+    (['set', 'heater', 'h1', 'warm'], '0 to 100'),
+    (['delete'], 'NAME'),
+    (['completion', 'fish'], 'bash'),
+])
+def test_wrong_words_are_told_in_one_line(words: list[str], part: str,
+                                          capsys: pytest.CaptureFixture[str]) -> None:
+    assert part in usage_error(words, capsys)
+
+
+def test_completion_completes_in_bash() -> None:
+    script = f'''
+        angen() {{ {sys.executable} {SCRIPT} "$@"; }}
+        eval "$(angen completion bash)"
+        COMP_LINE='angen sp' COMP_POINT=8 COMP_TYPE=9
+        COMP_WORDS=(angen sp) COMP_CWORD=1
+        _python_argcomplete angen
+        printf '%s\\n' "${{COMPREPLY[@]}}"'''
+    done = subprocess.run(['bash', '--norc', '-c', script], text=True, capture_output=True,
+                          timeout=60)
+    assert done.stdout.split() == ['spawn'], done

@@ -1,0 +1,25 @@
+"""What cannot be spawned, without a simulator."""
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from angen_tools.cli import main as cli
+
+
+@pytest.mark.parametrize('source, part', [('http://a/b', 'model://NAME'), ('nowhere', 'read'),
+                                          ('', 'model.sdf')])
+def test_what_is_no_model_is_told(source: str, part: str, tmp_path: Path,
+                                  monkeypatch: pytest.MonkeyPatch,
+                                  capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert cli.run(['spawn', 'model', source, 'm1', '--pose', '0 0 0']) == 1
+    line, = capsys.readouterr().err.splitlines()
+    assert part in line
+
+
+def test_an_unknown_parameter_lists_the_known(capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.run(['spawn', 'pir', 'p1', '--pose', '0 0 1', '--set', 'range=3']) == 1
+    line, = capsys.readouterr().err.splitlines()
+    assert "'range'" in line and 'ray/range/max' in line and 'threshold' in line

@@ -1,0 +1,71 @@
+"""angen run --fast: a world without ROS."""
+from __future__ import annotations
+
+import csv
+import subprocess
+import sys
+from pathlib import Path
+
+import angen
+import pytest
+
+ROOT = Path(__file__).resolve().parents[3]
+SCRIPT = ROOT / 'src/angen_tools/scripts/angen'
+WORLD = '''<sdf version="1.6"><world name="w">
+  <include><uri>model://pir</uri><name>eye</name><pose>0 0 1.5 0 0 0</pose></include>
+  <actor name="ann"><script><loop>true</loop><trajectory id="0" type="walk">
+    <waypoint><time>0</time><pose>2 -3 0 0 0 1.57</pose></waypoint>
+    <waypoint><time>40</time><pose>2 -3 0 0 0 1.57</pose></waypoint>
+    <waypoint><time>44</time><pose>2 3 0 0 0 1.57</pose></waypoint>
+    <waypoint><time>60</time><pose>2 3 0 0 0 1.57</pose></waypoint></trajectory></script></actor>
+  <model name="ground"><static>true</static><link name="link"><collision name="c"><geometry><plane>
+    <normal>0 0 1</normal></plane></geometry></collision></link></model>
+</world></sdf>
+'''
+
+
+@pytest.fixture
+def world(tmp_path: Path) -> Path:
+    path = tmp_path / 'walk.world'
+    path.write_text(WORLD)
+    return path
+
+
+def run(*words: object) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, str(SCRIPT), 'run', '--fast', *map(str, words)],
+                          text=True, capture_output=True, timeout=120)
+
+
+def test_it_leaves_the_events_that_all_ticks_would_tell(world: Path, tmp_path: Path) -> None:
+    done = run(world, '--for', '55.5', '--seed', '3', '-o', tmp_path / 'out')
+    assert (done.returncode, done.stderr) == (0, '')
+    with (tmp_path / 'out/events.csv').open() as file:
+        told = list(csv.reader(file))
+    walked = angen.World(str(world), seed=3)
+    walked.step(55500)
+    expected = walked.events()
+    assert told[0] == ['time', 'source', 'kind', 'event', 'detail']
+    assert told[1:] == [[f'{at:.6f}', *what] for at, *what in expected]
+    assert {'motion'} <= {row[3] for row in told[1:] if row[1] == 'eye'}
+    assert done.stdout.startswith('55.5 s in ')
+    assert f'{walked.readings} readings, {len(expected)} events in {tmp_path}' in done.stdout
+
+
+def test_what_is_wrong_is_told_in_a_line(world: Path, tmp_path: Path) -> None:
+    world.write_text(WORLD.replace('model://pir', 'model://no_such_model'))
+    done = run(world, '--for', '1', '-o', tmp_path)
+    assert done.returncode == 1 and done.stdout == ''
+    line, = done.stderr.splitlines()
+    assert 'walk.world:2: ' in line and 'no_such_model' in line
+
+
+def test_a_place_that_cannot_be_written_is_named(world: Path) -> None:
+    done = run(world, '--for', '1', '-o', '/dev/null')
+    assert done.returncode == 1 and done.stderr.count('\n') == 1
+    assert '/dev/null' in done.stderr
+
+
+@pytest.mark.parametrize('words', [['--for', '0'], ['--for', 'soon'], ['--for', 'inf'], []])
+def test_a_time_is_needed(world: Path, words: list[str]) -> None:
+    done = run(world, *words)
+    assert done.returncode == 2 and '--for' in done.stderr
