@@ -4,9 +4,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import pytest
 
 from angen_tools.maps.gridmap import FREE, OCCUPIED, GridMap
-from angen_tools.robot.planner import Door, Planner, passages
+from angen_tools.robot.planner import Door, Planner, distances, passages
 
 
 def two_rooms(floor: int = 0) -> GridMap:
@@ -41,3 +42,16 @@ def test_the_robot_stops_clear_of_a_leaf_on_either_side() -> None:
     passage, = passages(way, [DOOR], 0.3)
     assert math.isclose(way[passage.before][0], 1.7, abs_tol=0.11)  # the leaf swings away from it
     assert way[passage.after][0] >= 2.0 + math.sqrt(1.3 ** 2 - 0.5 ** 2) - 1e-9
+
+
+def test_distances_are_those_to_the_nearest_edge_that_is_not_free() -> None:
+    random = np.random.default_rng(1)
+    cells = np.where(random.random((13, 17)) < 0.1, OCCUPIED, FREE).astype(np.int8)
+    blocked = [(y, x) for y in range(-1, 14) for x in range(-1, 18)
+               if not (0 <= y < 13 and 0 <= x < 17) or cells[y, x] != FREE]
+    for reach in (0.12, 10.0):
+        found = distances(GridMap(cells, (0.0, 0.0), 0.05, 0), reach)
+        for row, column in np.ndindex(cells.shape):
+            nearest = min(math.hypot(max(abs(row - y) - 0.5, 0), max(abs(column - x) - 0.5, 0))
+                          for y, x in blocked)
+            assert found[row, column] == pytest.approx(min(0.05 * nearest, reach), abs=1e-12)

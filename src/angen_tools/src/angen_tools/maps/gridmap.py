@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any, Callable
 
 import numpy as np
+from scipy.ndimage import binary_propagation, distance_transform_edt
 
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.failure import Failure
@@ -15,10 +16,10 @@ STOREY = 4.0  # m
 LOW, HIGH = 0.02, 0.45  # m above the floor: what a robot of that height can meet
 LEVELS = np.arange(LOW, HIGH, 0.02)
 FINE = 0.01  # m between rays: what is thinner both ways may be missed
-STEP_DOWN = 0.05  # m: ground that lies deeper is no floor
+STEP_DOWN = 0.05  # m: ground that lies deeper is not a floor
 REACH = 60.0  # m: how far from the origin a building may stand
 SETTLE = 60.0  # s of simulated time for doors and elevators to get where they are sent
-ROOM, HEADROOM = 0.4, 1.0  # m: free floor without a circle of that radius and height is no room
+ROOM, HEADROOM = 0.4, 1.0  # m: free floor without a circle of that radius and height is not a room
 
 FREE, OCCUPIED, UNKNOWN = 0, 100, -1  # as nav_msgs/OccupancyGrid has them
 GREYS = {FREE: 254, OCCUPIED: 0, UNKNOWN: 205}  # as map_server has them
@@ -86,8 +87,8 @@ def make_map(world: Any, floor: int, doors: str = 'away') -> GridMap:
 
     Robots and people are left out; elevators stand at that floor with open doors, as far as they
     serve it. Doors are left out (`doors='away'`), or stand `'open'` or `'shut'`. FREE is floor
-    that hangs together with a place to stand; the insides of walls and furniture, and ground that
-    is no floor, are UNKNOWN. Failure where the world has no such floor; it names those it has.
+    that is connected to a place to stand; the insides of walls and furniture, and ground that
+    is not a floor, are UNKNOWN. Failure where the world has no such floor; it names those it has.
     """
     _prepare(world, floor, doors)
     surveyor = _Surveyor(world)
@@ -151,31 +152,14 @@ def _send(world: Any, kind: str, text: str, done: Callable[[dict[str, Any]], boo
 
 
 def reached(seeds: np.ndarray, within: np.ndarray) -> np.ndarray:
-    """What of the mask `within` hangs together with `seeds` by cells' edges (rows, columns)."""
-    found = seeds & within
-    while True:
-        wider = found.copy()
-        wider[1:] |= found[:-1]
-        wider[:-1] |= found[1:]
-        wider[:, 1:] |= found[:, :-1]
-        wider[:, :-1] |= found[:, 1:]
-        wider &= within
-        if (wider == found).all():
-            return found
-        found = wider
+    """Which of the mask `within` is connected to `seeds` by cells' edges (rows, columns)."""
+    return binary_propagation(seeds & within, mask=within)
 
 
 def _shrunk(mask: np.ndarray, radius: float) -> np.ndarray:
-    """Where a circle of that radius (m) lies wholly in the mask."""
+    """Where a circle of that radius (m) lies wholly in the mask, beyond whose edge is nothing."""
     steps = int(radius / RESOLUTION)
-    rows, columns = mask.shape
-    padded = np.pad(mask, steps)
-    inside = mask.copy()
-    for dy in range(-steps, steps + 1):
-        for dx in range(-steps, steps + 1):
-            if dx * dx + dy * dy <= steps * steps:
-                inside &= padded[steps + dy:steps + dy + rows, steps + dx:steps + dx + columns]
-    return inside
+    return distance_transform_edt(np.pad(mask, 1))[1:-1, 1:-1] > steps
 
 
 class _Surveyor:

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.ndimage import distance_transform_edt
 
 from angen_tools.maps.gridmap import FREE, GridMap
 
@@ -15,20 +16,17 @@ OPEN = 0.25  # m beyond the robot's radius where the open begins
 
 
 def distances(grid: GridMap, reach: float) -> np.ndarray:
-    """Metres (rows, columns) from a cell's middle to the next that is not free, cut at
-    `reach`."""
-    steps = int(math.ceil(reach / grid.resolution)) + 1
-    blocked = np.pad(grid.cells != FREE, steps, constant_values=True)
-    rows, columns = grid.cells.shape
-    nearest = np.full(grid.cells.shape, reach)
-    for dy in range(-steps, steps + 1):
-        for dx in range(-steps, steps + 1):
-            # to the nearest edge of that cell
-            far = grid.resolution * math.hypot(max(abs(dx) - 0.5, 0), max(abs(dy) - 0.5, 0))
-            if far < reach:
-                there = blocked[steps + dy:steps + dy + rows, steps + dx:steps + dx + columns]
-                nearest[there] = np.minimum(nearest[there], far)
-    return nearest
+    """Meters (rows, columns) from a cell's middle to the edge of the next cell that is not free,
+    cut at `reach`. Beyond the map nothing is free."""
+    free = np.pad(grid.cells == FREE, 1)
+    rows, columns = free.shape
+    # a lattice of half cells: middles have odd indices, edges and corners even ones
+    lattice = np.ones((2 * rows + 1, 2 * columns + 1), bool)
+    for dy in range(3):
+        for dx in range(3):
+            lattice[dy:dy + 2 * rows:2, dx:dx + 2 * columns:2] &= free
+    far = distance_transform_edt(lattice)[3:-3:2, 3:-3:2] * grid.resolution / 2
+    return np.minimum(far, reach)
 
 
 class Planner:
