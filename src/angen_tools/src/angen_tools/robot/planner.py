@@ -1,12 +1,13 @@
 """Ways over a map: the shortest that keeps its distance, and where it meets doors."""
 from __future__ import annotations
 
-import heapq
 import math
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.ndimage import distance_transform_edt
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import dijkstra
 
 from angen_tools.maps.gridmap import FREE, GridMap
 
@@ -36,7 +37,8 @@ class Planner:
         self.grid = grid
         clear = distances(grid, radius + OPEN)
         self._passable = (clear >= radius) & (grid.cells == FREE)
-        self._cost = 1 + NEAR_COST * np.clip((radius + OPEN - clear) / OPEN, 0, 1)
+        cost = 1 + NEAR_COST * np.clip((radius + OPEN - clear) / OPEN, 0, 1)
+        self._graph = step_costs(self._passable, cost)
 
     def stands(self, point: Point) -> bool:
         """Whether the robot can stand there."""
@@ -56,35 +58,35 @@ class Planner:
 
     def _search(self, start: tuple[int, int], goal: tuple[int, int]
                 ) -> list[tuple[int, int]] | None:
-        """A*: cells from start to goal."""
-        rows, columns = self._passable.shape
-        came = {start: start}
-        spent = {start: 0.0}
-        front = [(math.dist(start, goal), start)]
-        done: set[tuple[int, int]] = set()
-        while front:
-            _, here = heapq.heappop(front)
-            if here == goal:
-                cells = [goal]
-                while cells[-1] != start:
-                    cells.append(came[cells[-1]])
-                return cells[::-1]
-            if here in done:
-                continue
-            done.add(here)
-            for dy in (-1, 0, 1):
-                for dx in (-1, 0, 1):
-                    row, column = here[0] + dy, here[1] + dx
-                    if not (0 <= row < rows and 0 <= column < columns
-                            and self._passable[row, column]):
-                        continue
-                    total = spent[here] + math.hypot(dx, dy) * self._cost[row, column]
-                    if total < spent.get((row, column), math.inf):
-                        spent[row, column] = total
-                        came[row, column] = here
-                        heapq.heappush(front, (total + math.dist((row, column), goal),
-                                               (row, column)))
-        return None
+        """Cells from start to goal."""
+        columns = self._passable.shape[1]
+        first, here = (row * columns + column for row, column in (start, goal))
+        came = dijkstra(self._graph, indices=first, return_predecessors=True)[1]
+        if here != first and came[here] < 0:
+            return None
+        cells = [goal]
+        while here != first:
+            here = int(came[here])
+            cells.append(divmod(here, columns))
+        return cells[::-1]
+
+
+def step_costs(passable: np.ndarray, cost: np.ndarray) -> csr_matrix:
+    """What a step from each passable cell to each of its eight neighbors costs: its length in
+    cells times the cost of the cell that it leads to. Cells are counted row by row."""
+    rows, columns = passable.shape
+    index = np.arange(rows * columns).reshape(rows, columns)
+    starts, ends, weights = [], [], []
+    for dy, dx in ((0, 1), (1, -1), (1, 0), (1, 1)):
+        here = np.s_[:rows - dy, max(-dx, 0):columns - max(dx, 0)]
+        there = np.s_[dy:, max(dx, 0):columns - max(-dx, 0)]
+        both = passable[here] & passable[there]
+        for a, b in ((here, there), (there, here)):
+            starts.append(index[a][both])
+            ends.append(index[b][both])
+            weights.append(math.hypot(dx, dy) * cost[b][both])
+    return csr_matrix((np.concatenate(weights), (np.concatenate(starts), np.concatenate(ends))),
+                      shape=(rows * columns, rows * columns))
 
 
 def smooth(points: list[Point], width: int = 5) -> list[Point]:
