@@ -181,7 +181,7 @@ def simulators(kind: str) -> tuple[str, ...]:
 
 def measure_case(contest: Contest, case: Case, repeats: int, steps: Steps, rows: list[Row]
                  ) -> None:
-    """Appends a row a simulator, also on Ctrl-C. What Gazebo fails at is said and left out."""
+    """Appends a row a simulator, also on Ctrl-C. What Gazebo fails at is reported and left out."""
     found: dict[str, list[Session]] = {simulator: [] for simulator in simulators(case.kind)}
     try:
         for repeat in range(repeats):

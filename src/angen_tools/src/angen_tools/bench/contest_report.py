@@ -159,7 +159,7 @@ def draw(path: Path, rows: Sequence[Row]) -> None:
     speed.set_xlabel(f'{rows[0].kind} sensors')
     for axis in (load, speed):
         axis.grid(alpha=0.3)
-    load.legend(fontsize='small')
+        axis.legend(fontsize='small')
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=100)
     pyplot.close(figure)

@@ -59,7 +59,7 @@ def program(name: str) -> Path:
 
 
 def cases_of(report: str) -> list[Case]:
-    """The cases of google-benchmark's JSON, without what a name says of repetition."""
+    """The cases of google-benchmark's JSON, without the repetition in their names."""
     cases = []
     for run in jsonlib.loads(report)['benchmarks']:
         name = run['name'].split('/iterations:')[0]

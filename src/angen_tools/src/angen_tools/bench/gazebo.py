@@ -18,8 +18,8 @@ from angen_tools.world.models import worlds_models
 STEPS = 1000  # a second of wall time, of 1 ms: real time
 START_LIMIT = 600.0  # s of wall time; 500 models take 20 s where nothing else runs
 SAMPLE_LIMIT = 60.0
-ANSWER_LIMIT = 10.0  # s of wall time; after deletions Gazebo at times never answers
-# Gazebo asks no model database on the net. Its plug-ins' places and the like come from setup.sh.
+ANSWER_LIMIT = 10.0  # s of wall time; after deletions Gazebo sometimes never answers
+# Gazebo queries no model database on the net. Its plug-ins' places and the like come from setup.sh.
 LAUNCH = '''
 mount -t proc proc "$1/proc" && mount --bind "$2" "$1/mnt" && mount --bind "$3" "$1/media" &&
 exec chroot "$1" /usr/bin/env -i HOME=/root PATH=/usr/bin:/bin DISPLAY="$DISPLAY" \\
@@ -112,10 +112,10 @@ class Gazebo:
     def _listen(self) -> None:
         import psutil
         for line in self._process.stdout or ():
-            said = parse(line)
-            if said is None:
+            parsed = parse(line)
+            if parsed is None:
                 continue
-            word, numbers = said
+            word, numbers = parsed
             if word in self._answers:
                 self._answers[word].put(numbers[0])
             elif word == 'sample' and len(numbers) == 4:

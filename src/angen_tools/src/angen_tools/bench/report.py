@@ -175,7 +175,7 @@ def _panel(axis: Any, panel: str, rows: Sequence[Row], thing: str) -> None:
     if line:
         ends = [min(counts), max(counts)]
         axis.plot(ends, [line.base + line.slope * c for c in ends],
-                  label=f'{line.slope:.2g} % a {thing}')
+                  label=f'fitted line: {line.slope:.2g} % per {thing}')
     axis.set_ylim(0, 1.2 * max(values) or 1)
     axis.set_ylabel('CPU, % of a core')
     axis.grid(alpha=0.3)

@@ -33,7 +33,7 @@ COUNTS['deployed'] = COUNTS['added']
 
 @dataclass(frozen=True)
 class Case:
-    """One world: a count of a kind, or a number of flats with all that is asked for."""
+    """One world: a count of a kind, or a number of flats with all that it should have."""
     mode: str
     kind: str
     count: int
@@ -117,8 +117,8 @@ class Bench:
     def in_time(self, case: Case, found: Session, meter: Meter, client: Client) -> None:
         """What a node at rate 1 costs."""
         sensors = case.sensors()
-        listened = spread(sensors, SUBSCRIBED)
-        meter.subscribe([topic_of(s) for s in listened])
+        subscribed = spread(sensors, SUBSCRIBED)
+        meter.subscribe([topic_of(s) for s in subscribed])
         if case.mode == 'deployed' and sensors:
             meter.sample(0.0)
             done = deploy(client, meter, sensors)
@@ -139,7 +139,7 @@ class Bench:
         found.delivered = share(last.readings - first.readings,
                                 expected(case, sensors, first.sim, last.sim))
         found.heard = share(last.received - first.received,
-                            expected(case, listened, first.sim, last.sim))
+                            expected(case, subscribed, first.sim, last.sim))
 
     def fast(self, case: Case, found: Session, meter: Meter, client: Client) -> None:
         """How fast a node at rate 0 is."""

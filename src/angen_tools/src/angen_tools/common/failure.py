@@ -1,4 +1,4 @@
-"""What the angen command says when something is wrong."""
+"""The error that the angen command reports."""
 
 
 class Failure(Exception):

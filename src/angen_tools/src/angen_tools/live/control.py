@@ -182,7 +182,7 @@ class _Watch:
         return all(self._order.taken(state) for state in self._states.values())
 
     def outcome(self) -> str:
-        """What the states say once they show the command, within the limit."""
+        """The states in words once they show the command, within the limit."""
         start = time.monotonic()
         while True:
             while mail := self._mail.get(0.0):

@@ -24,7 +24,7 @@ HELP = 'arrows drive and turn, + and - change the speed, space or s stops, q qui
 
 
 class Keys:
-    """What whoever presses keys wants: a direction that ends when the keys stop."""
+    """The command of the pressed keys: a direction that ends when the keys stop."""
 
     def __init__(self) -> None:
         self.speed, self.turn = SPEED, TURN  # m/s, rad/s
@@ -71,7 +71,8 @@ class Keys:
 def drive(robot: str | None) -> None:
     """Drives a robot, the first without a name, until q or Ctrl-C; it stands when this returns.
 
-    Failure where there is no such robot, it does not listen or goes away, or stdin is no terminal.
+    Failure where there is no such robot, it has not subscribed or is deleted, or stdin is not a
+    terminal.
     """
     if not sys.stdin.isatty():
         raise Failure('drive needs a terminal; use rostopic pub to drive from a script')
@@ -106,7 +107,7 @@ class _Wheel:
     def send(self, ahead: float, left: float) -> None:
         """m/s and rad/s; Failure where the robot is gone."""
         if self._publisher.get_num_connections() == 0:
-            raise Failure(f'nobody listens to {self._topic} any more')
+            raise Failure(f'{self._topic} has no subscriber any more')
         twist = self._kind()
         twist.linear.x, twist.angular.z = ahead, left
         self._publisher.publish(twist)

@@ -151,6 +151,6 @@ def _saved(client: Client) -> etree._Element:
 
 def _watch_all(client: Client, sensor: etree._Element, on: str) -> None:
     """Lets a contact sensor watch every collision of its link."""
-    # Where there are none, the simulator says what is wrong with `on`.
+    # Where there are none, the simulator reports what is wrong with `on`.
     for name in models.collisions(_saved(client), on):
         etree.SubElement(sensor.find('contact'), 'collision').text = name

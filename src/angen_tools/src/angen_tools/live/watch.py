@@ -27,8 +27,8 @@ HEAD = ('KIND', 'NAME', 'VALUE', 'TIME')
 def value_of(message: Any) -> str:
     """A state or reading in a few words, by the name of its type."""
     kind = type(message).__name__
-    say = VALUES.get(kind)
-    return say(message) if say else ''
+    words = VALUES.get(kind)
+    return words(message) if words else ''
 
 
 def _pir(m: Any) -> str:
@@ -142,7 +142,7 @@ class Board:
             self._mail.subscribe(topic, new[topic])
         self._entities = sorted(entities, key=lambda e: (e.kind, e.name))
         sources = {_source(entity) for entity in entities}
-        self._latest = {who: said for who, said in self._latest.items() if who in sources}
+        self._latest = {who: last for who, last in self._latest.items() if who in sources}
         self._waiting = sources - set(self._latest)
 
     def receive(self, limit: float) -> None:

@@ -11,7 +11,7 @@ from scipy.ndimage import binary_propagation, distance_transform_edt
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.failure import Failure
 
-RESOLUTION = 0.05  # m; cells are centred on its multiples, where the faces of buildings lie
+RESOLUTION = 0.05  # m; cells are centered on its multiples, where the faces of buildings lie
 STOREY = 4.0  # m
 LOW, HIGH = 0.02, 0.45  # m above the floor: what a robot of that height can meet
 LEVELS = np.arange(LOW, HIGH, 0.02)
@@ -22,7 +22,7 @@ SETTLE = 60.0  # s of simulated time for doors and elevators to get where they a
 ROOM, HEADROOM = 0.4, 1.0  # m: free floor without a circle of that radius and height is not a room
 
 FREE, OCCUPIED, UNKNOWN = 0, 100, -1  # as nav_msgs/OccupancyGrid has them
-GREYS = {FREE: 254, OCCUPIED: 0, UNKNOWN: 205}  # as map_server has them
+GRAYS = {FREE: 254, OCCUPIED: 0, UNKNOWN: 205}  # as map_server has them
 
 
 @dataclass
@@ -54,9 +54,9 @@ class GridMap:
 
     def shades(self) -> np.ndarray:
         """The map as map_server's picture, (rows, columns) uint8, the highest y first."""
-        picture = np.full(self.cells.shape, GREYS[UNKNOWN], np.uint8)
-        for value, grey in GREYS.items():
-            picture[self.cells == value] = grey
+        picture = np.full(self.cells.shape, GRAYS[UNKNOWN], np.uint8)
+        for value, gray in GRAYS.items():
+            picture[self.cells == value] = gray
         return picture[::-1]
 
     def save(self, stem: Path) -> list[Path]:

@@ -50,14 +50,14 @@ def survey(path: str) -> list[GridMap]:
 
 
 def _survey(path: str, unused: Connection, out: Connection) -> None:
-    unused.close()  # else nothing would tell that nobody reads any more
+    unused.close()  # or a write would not fail once the reader is gone
     try:
         world = load_world(path)
         out.send([make_map(world, floor) for floor in floors(world)])
     except Failure as failure:
         out.send(failure)
     except (KeyboardInterrupt, BrokenPipeError):
-        pass  # nobody waits for them any more
+        pass  # the reader is gone
 
 
 def occupancy_grid(grid: GridMap) -> Any:

@@ -12,6 +12,7 @@ from angen_tools.common.failure import Failure
 from angen_tools.common.geometry import yaw_of
 from angen_tools.maps.gridmap import STOREY, GridMap
 from angen_tools.patrol.lockstep import Lockstep
+from angen_tools.patrol.sight import room_of
 from angen_tools.robot.localizer import Localizer, returns_of
 from angen_tools.robot.pilot import Pilot, Pose
 from angen_tools.robot.planner import Door
@@ -24,6 +25,7 @@ DEVICE_LIMIT = 60.0  # s of simulated time that a door or elevator may take
 DRIVE_SLACK = 30.0  # s beyond thrice the time that a drive should take
 PAUSE = 5  # cycles, at most, between two actions
 LAST = 10  # cycles at the end
+DETECTIONS = (('pir', 'motion'), ('switch', 'opened'))  # kinds and events
 DONE = ('opened', 'closed', 'idle', 'doors opened')  # events at which doors and elevators stop
 
 
@@ -113,7 +115,7 @@ class Patrol:
         lockstep.begin()
 
     def run(self, actions: list[Action]) -> None:
-        """Does all of it, in order; Failure says what did not happen."""
+        """Does all of it, in order; Failure names what did not happen."""
         for key in self._devices:
             self._states[key] = self._lockstep.latest('/angen/%s/%s' % key)
         self._begin()
@@ -198,16 +200,17 @@ class Patrol:
                               + (f'; it was touched {touched[-1]}' if touched else ''))
         if drive.name:
             self.track.reached.append((self._lockstep.now, drive.name))
-            self._note_line(self._lockstep.now, f'reached {drive.name}{self._noticed()}')
+            self._note_line(self._lockstep.now,
+                            f'reached {drive.name}{self._detections(drive.name)}')
 
-    def _noticed(self) -> str:
-        """The sensors that detected something since the last waypoint, for a person to read."""
+    def _detections(self, waypoint: str) -> str:
+        """The sensors of its room that detected something on the way there."""
         events = self._lockstep.events[self._noted_events:]
         self._noted_events += len(events)
         names = dict.fromkeys(event.source for event in events
-                              if (event.kind, event.event) in (('pir', 'motion'),
-                                                               ('switch', 'opened')))
-        return f', detected by {", ".join(names)}' if names else ''
+                              if (event.kind, event.event) in DETECTIONS
+                              and room_of(event.source) == waypoint.split()[0])
+        return f'; detected by {", ".join(names)}' if names else ''
 
     def _turn(self, turn: Turn) -> None:
         from angen_msgs.msg import DoorState

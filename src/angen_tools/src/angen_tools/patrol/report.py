@@ -23,7 +23,7 @@ TIMES = ('SIGHT s', 'DETECTED s', 'DELAY s')
 BEGINS = {'pir': ('motion',), 'switch': ('opened', 'closed'), 'luminosity': ('changed',)}
 LEVEL = 5.0  # mm
 STATE_PERIOD = 0.02  # s between two angles that a moving door publishes
-STILL = 0.002  # m, rad: less in a cycle is no motion
+STILL = 0.002  # m, rad: less in a cycle is not motion
 
 
 @dataclass(frozen=True)
@@ -229,10 +229,12 @@ def read_figures(path: Path) -> list[Figures]:
 
 
 def table_of(rows: list[Row]) -> Table:
-    """The sensors that detected the robot."""
+    """The sensors that could notice the robot, of those kinds that did."""
+    kinds = {row.kind for row in rows if row.detection is not None}
     return table(('ROOM', 'SENSOR', *TIMES),
-                 [(row.room, row.sensor, *times(row, '-')) for row in rows
-                  if row.detection is not None], right=TIMES)
+                 [(row.room, row.sensor, sight, detection or 'never', delay)
+                  for row in rows if row.kind in kinds
+                  for sight, detection, delay in [times(row, '')]], right=TIMES)
 
 
 def summary(run: Run, found: Figures, whole: float, out: Path) -> str:

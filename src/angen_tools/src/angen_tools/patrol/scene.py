@@ -33,7 +33,7 @@ def start_offset(seed: int) -> tuple[float, float, float]:
 
 
 def write_world(world: Path, robot: str, seed: int, to: Path) -> None:
-    """Writes the world without its actors, the robot put beside its place as the seed says."""
+    """Writes the world without its actors, the robot moved from its place by the seed."""
     root = sdf.read(world)
     for actor in root.findall('.//actor'):
         actor.getparent().remove(actor)
@@ -89,7 +89,7 @@ def make_scene(route: Route, world: str, entities: list[Any], offset: tuple[floa
                ) -> tuple[Scene, list[Action]]:
     """The scene and all actions; Failure names a waypoint that cannot be reached.
 
-    The robot is told where it stands in the world as it was written, `offset` beside the truth.
+    The robot believes that it starts at its place in the original world, `offset` beside the truth.
     """
     robot = _one(entities, 'drive', route.robot, f'the world has no robot {route.robot}')
     laser = next((entity for entity in entities
@@ -100,14 +100,14 @@ def make_scene(route: Route, world: str, entities: list[Any], offset: tuple[floa
         _one(entities, 'elevator', route.elevator.name,
              f'{route.path}: the world has no elevator {route.elevator.name}')
     truth = pose_of(robot.pose)
-    told = Pose(truth.x - offset[0], truth.y - offset[1], truth.yaw - offset[2])
+    believed = Pose(truth.x - offset[0], truth.y - offset[1], truth.yaw - offset[2])
     floor = floor_of(robot.pose.position.z)
     survey = Survey(world, entities, robot, {floor} | {p.floor for p in route.waypoints})
-    scene = Scene(told, truth.inverse().then(pose_of(laser.pose)), laser.topic, robot.topic,
+    scene = Scene(believed, truth.inverse().then(pose_of(laser.pose)), laser.topic, robot.topic,
                   survey.maps, survey.landmarks, survey.doors, survey.beams, floor, survey.body,
                   survey.world)
     planners = {number: Planner(grid, route.clearance) for number, grid in survey.maps.items()}
-    return scene, Router(route, planners, survey.doors).actions((told.x, told.y), floor)
+    return scene, Router(route, planners, survey.doors).actions((believed.x, believed.y), floor)
 
 
 def _one(entities: list[Any], kind: str, name: str, otherwise: str) -> Any:

@@ -57,7 +57,7 @@ def sensor_element(world: etree._Element, entity: Any) -> etree._Element | None:
 
 
 def view_of(entity: Any, sensor: etree._Element | None) -> View:
-    """The view of a PIR as its <ray> says, its nodding included; of another all that is ahead."""
+    """The view of a PIR by its <ray>, its nodding included; of another sensor all that is ahead."""
     place = entity.pose.position
     at, turned = np.array([place.x, place.y, place.z]), rotation(entity.pose.orientation)
     if entity.kind != 'pir' or sensor is None:

@@ -13,7 +13,7 @@ from angen_tools.robot.planner import Door, Point
 REACH = 2.0  # m: no leaf is wider
 NEAR = 0.12  # m to either side of a leaf's line: its thickness, and cells
 GAP = 0.15  # m along a leaf where it ends
-HEIGHTS = np.arange(0.1, 3.5, 0.02)  # m above the floor where a leaf's top is looked for
+HEIGHTS = np.arange(0.1, 3.5, 0.02)  # m above the floor where a leaf's top is searched
 ASIDE = 0.3  # m from a leaf, where rays across it start
 
 Poses = dict[str, list[tuple[float, float, float]]]  # of a door model's links: x, y, yaw

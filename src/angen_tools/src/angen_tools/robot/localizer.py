@@ -10,17 +10,17 @@ from scipy.ndimage import distance_transform_edt
 from angen_tools.maps.gridmap import OCCUPIED, GridMap
 from angen_tools.robot.pilot import Pose
 
-GATE = 0.25  # m: what lies farther from everything on the map is a door, or somebody
+GATE = 0.25  # m: what lies farther from everything on the map is a door or a person
 ROUNDS = 10
 ENOUGH = 0.0005  # m, rad: a round that moves it less is the last
 EVERY = 3  # of a scan's returns one is taken
-FEWEST = 30  # returns without which a scan says nothing
+FEWEST = 30  # returns below which a scan is not used
 # How odometry is weighed against a scan: standard deviations since the last one, and of a return.
 PLACE, TURN, RANGE = 0.02, 0.02, 0.05
 
 
 class Field:
-    """Metres from a place to the nearest occupied cell of a map, and the way there."""
+    """Meters from a place to the nearest occupied cell of a map, and the way there."""
 
     def __init__(self, grid: GridMap) -> None:
         self._grid = grid
@@ -44,7 +44,7 @@ class Field:
 
 
 class Localizer:
-    """Keeps a pose in the world, from what the wheels and the laser say."""
+    """Keeps a pose in the world, from odometry and laser scans."""
 
     def __init__(self, grid: GridMap, start: Pose, odometry: Pose) -> None:
         self.pose = start

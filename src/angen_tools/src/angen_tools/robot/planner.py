@@ -12,7 +12,7 @@ from scipy.sparse.csgraph import dijkstra
 from angen_tools.maps.gridmap import FREE, GridMap
 
 Point = tuple[float, float]
-NEAR_COST = 4.0  # how much dearer a cell beside an obstacle is than one in the open
+NEAR_COST = 4.0  # how much more a cell beside an obstacle costs than one in the open
 OPEN = 0.25  # m beyond the robot's radius where the open begins
 
 
@@ -90,7 +90,7 @@ def step_costs(passable: np.ndarray, cost: np.ndarray) -> csr_matrix:
 
 
 def smooth(points: list[Point], width: int = 5) -> list[Point]:
-    """The points with each coordinate averaged over its neighbours; the ends stay."""
+    """The points with each coordinate averaged over its neighbors; the ends stay."""
     if len(points) < 3:
         return points
     line = np.array(points)
@@ -117,7 +117,7 @@ class Door:
                 self.hinge[1] + self.width * math.sin(angle))
 
     def room_for(self, point: Point) -> float:
-        """Metres from a point to the nearest place that the leaf sweeps."""
+        """Meters from a point to the nearest place that the leaf sweeps."""
         away = (point[0] - self.hinge[0], point[1] - self.hinge[1])
         low, high = sorted((self.shut, self.open))
         turn = math.atan2(away[1], away[0]) - low

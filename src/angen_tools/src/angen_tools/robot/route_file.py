@@ -1,4 +1,4 @@
-"""A patrol's route as its YAML file says it: where to go, and how fast."""
+"""A patrol's route, read from its YAML file: where to go, and how fast."""
 from __future__ import annotations
 
 import math
@@ -31,7 +31,7 @@ class Lift:
 
 @dataclass(frozen=True)
 class Route:
-    """What a route's file says; lengths in m, m/s, rad/s, m/s2."""
+    """The contents of a route's file; lengths in m, m/s, rad/s, m/s2."""
 
     path: Path
     waypoints: list[Waypoint]

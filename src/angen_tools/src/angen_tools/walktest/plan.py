@@ -1,4 +1,4 @@
-"""Where and when somebody moves in a walk test. In m; the detector is at 0 0 and looks along x."""
+"""Where and when a person moves in a walk test. In m; the detector is at 0 0 and faces along x."""
 from __future__ import annotations
 
 import math
@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any, Iterator, Mapping
 
 TRANSIT = 1.0   # m/s, between what is tested
-BLIND = 0.5     # m: nobody stands nearer to the detector
+BLIND = 0.5     # m: no one stands nearer to the detector
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ class Result:
 
     @property
     def places(self) -> dict[tuple[float, float], bool]:
-        """Whether somebody was seen there, from any direction."""
+        """Whether a person was detected there, from any direction."""
         seen: dict[tuple[float, float], bool] = {}
         for probe in self.probes:
             seen[probe.place] = seen.get(probe.place, False) or probe.seen

@@ -7,9 +7,11 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Sequence
 
-from angen_tools.walktest.plan import Result
+from angen_tools.walktest.plan import Probe, Result
 
-SEEN, MISSED = '#7fb77e', '#d9534f'
+SEEN, MISSED = '#8fc98d', '#d9534f'  # cells
+SEEN_WALK, MISSED_WALK = '#2e7d32', '#c62828'  # walks that cross no cell
+SHIFTS = {'across': 0.27, 'towards': -0.12}  # cells from a cell's middle, where it has both walks
 
 
 def describe(result: Result) -> str:
@@ -50,12 +52,12 @@ def write_csv(path: Path, results: Sequence[Result]) -> None:
 
 
 def draw(path: Path, title: str, results: Sequence[Result]) -> None:
-    """Writes the figure: a plan for each test, the detector below, looking up."""
+    """Writes the figure: a plan for each test, the detector below, facing up."""
     import matplotlib
     matplotlib.use('Agg')
     from matplotlib import pyplot
     figure, axes = pyplot.subplots(1, len(results), squeeze=False, layout='constrained',
-                                   figsize=(1 + 4.2 * len(results), 4.6))
+                                   figsize=(1 + 5.2 * len(results), 5.4))
     for axis, result in zip(axes[0], results):
         _plan(axis, result)
     verdict = 'PASS' if all(result.passed for result in results) else 'FAIL'
@@ -67,39 +69,67 @@ def draw(path: Path, title: str, results: Sequence[Result]) -> None:
 
 def _plan(axis: Any, result: Result) -> None:
     """One test's plan. What the detector sees on its left is drawn on the left."""
-    from matplotlib.lines import Line2D
     from matplotlib.patches import Rectangle, Wedge
-    places = result.places
-    for (x, y), seen in places.items():
-        colour = SEEN if seen else MISSED
+    for (x, y), seen in result.places.items():
         if result.cell:
             half = result.cell / 2
             axis.add_patch(Rectangle((y - half, x - half), result.cell, result.cell,
-                                     facecolor=colour, edgecolor='white'))
+                                     facecolor=SEEN if seen else MISSED, edgecolor='white'))
     for probe in result.probes:
-        (x0, y0), (x1, y1) = probe.start, probe.end
-        colour = 'black' if probe.seen else 'white'
-        if not result.cell:
-            colour = SEEN if probe.seen else MISSED
         if probe.start == probe.end:
-            continue
-        shrink = 0.3 if result.cell else 0.0
-        axis.annotate('', (y1 + shrink * (y0 - y1), x1 + shrink * (x0 - x1)),
-                      (y0 + shrink * (y1 - y0), x0 + shrink * (x1 - x0)),
-                      arrowprops={'arrowstyle': '->', 'color': colour,
-                                  'lw': 0.7 if result.cell else 1.5})
+            axis.plot(probe.place[1], probe.place[0], 'P', color=_color(result, probe.seen))
+        else:
+            _arrow(axis, result, probe)
     half_angle = result.area.angle / 2
     axis.add_patch(Wedge((0, 0), result.area.reach, 90 - half_angle, 90 + half_angle, fill=False,
-                         edgecolor='grey', linestyle='--'))
-    axis.plot(0, 0, marker='^', color='black', markersize=9, clip_on=False)
-    side = max(result.area.half_width, 1.0) + 1.0
+                         edgecolor='dimgray', linestyle='--'))
+    axis.plot(0, 0, marker='^', color='black', markersize=10, clip_on=False)
+    margin = 0.8 if result.cell else 2.0
+    side = max(result.area.half_width, 1.0) + margin
     axis.set_xlim(side, -side)
-    axis.set_ylim(-0.5, result.area.reach + 1.5)
+    axis.set_ylim(-0.5, result.area.reach + margin)
     axis.set_aspect('equal')
     axis.set_xlabel('to its left and right, m')
     axis.set_ylabel('away from the detector, m')
     axis.set_title(f'{result.name}: {100 * math.floor(1000 * result.share) / 1000:.0f} %',
                    fontsize='medium')
-    axis.legend(handles=[Line2D([], [], color=SEEN, marker='s', ls='', label='detected'),
-                         Line2D([], [], color=MISSED, marker='s', ls='', label='missed')],
-                loc='upper right', fontsize='small')
+    axis.legend(handles=_legend(result), loc='upper center', bbox_to_anchor=(0.5, -0.12), ncols=2,
+                fontsize='small', frameon=False)
+
+
+def _color(result: Result, seen: bool) -> str:
+    """Of a walk or an arm: on cells it differs from theirs."""
+    if result.cell:
+        return 'black' if seen else 'white'
+    return SEEN_WALK if seen else MISSED_WALK
+
+
+def _arrow(axis: Any, result: Result, probe: Probe) -> None:
+    """The middle of a walk; of two walks through one cell neither hides the other."""
+    (x0, y0), (x1, y1) = probe.start, probe.end
+    shrink, shift = (0.15, 0.0) if result.cell else (0.0, 0.0)
+    if result.cell and len({p.direction for p in result.probes}) > 1:
+        shrink, shift = 0.22, SHIFTS.get(probe.direction, 0.0) * result.cell
+    axis.annotate('', (y1 + shrink * (y0 - y1), x1 + shrink * (x0 - x1) + shift),
+                  (y0 + shrink * (y1 - y0), x0 + shrink * (x1 - x0) + shift),
+                  arrowprops={'arrowstyle': '-|>', 'color': _color(result, probe.seen),
+                              'lw': 1.3, 'mutation_scale': 9, 'shrinkA': 0, 'shrinkB': 0})
+
+
+def _legend(result: Result) -> list[Any]:
+    """A handle for each thing that the plan shows."""
+    from matplotlib.lines import Line2D
+    handles = []
+    arm = any(probe.start == probe.end for probe in result.probes)
+    for seen, word in ((True, 'detected'), (False, 'missed')):
+        if result.cell:
+            handles.append(Line2D([], [], color=SEEN if seen else MISSED, marker='s', ls='',
+                                  markersize=9, label=f'place {word}'))
+        if any(probe.seen is seen for probe in result.probes):
+            handles.append(Line2D([], [], color=_color(result, seen), markeredgecolor='gray',
+                                  markeredgewidth=0.6, marker='P' if arm else r'$\rightarrow$',
+                                  ls='', markersize=9 if arm else 13,
+                                  label=f'{"arm" if arm else "walk"} {word}'))
+    return [*handles,
+            Line2D([], [], color='dimgray', ls='--', label='area that it is declared to cover'),
+            Line2D([], [], color='black', marker='^', ls='', label='detector')]

@@ -32,7 +32,7 @@ def write_apartment(path: Path, floors: int, counts: Mapping[str, int], seed: in
     """Writes the world to a file; returns how many sensors it holds.
 
     Flats with doors, lamps, furniture and, on floor 0, the `mover`: person, robot or nobody. Chairs
-    and tables hold the contact sensors, so there are only as many as `counts` asks for. With
+    and tables hold the contact sensors, so there are only as many as `counts` has. With
     `one_link` all others of a KIND stand at the same places on one link of the model KIND_sensors,
     without housings, and are called KIND_sensors_NAME. The same arguments give the same bytes.
     Failure where there is no room for the sensors.

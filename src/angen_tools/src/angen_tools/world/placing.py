@@ -1,7 +1,7 @@
 """Where sensors stand in the flats: the source's own places first, then a lattice in each room.
 
-Metres and radians. Each room has a stream of random numbers for each kind of sensor, so that what
-one kind asks for moves nothing of another, and more sensors move none that stand already.
+Meters and radians. Each room has a stream of random numbers for each kind of sensor, so that the
+sensors of one kind move none of another, and more sensors move none that stand already.
 """
 from __future__ import annotations
 
@@ -136,7 +136,7 @@ def _points(room: str, step: float, gap: float) -> list[tuple[float, float]]:
 
 
 def _lattice(kind: str, room: str, floor: int, rng: Random) -> list[Spot]:
-    """Sensors under the ceiling that look across the middle of the room, more or less."""
+    """Sensors under the ceiling that face the middle of the room, more or less."""
     plan = generator('plan')
     model, short, height, pitch = {
         'pir': ('pir', 'pir', plan.PIR_HEIGHT, plan.PIR_PITCH),

@@ -46,7 +46,7 @@ def parse_pose(text: str) -> tuple[float, ...]:
         try:
             numbers.append(float(word))
         except ValueError:
-            raise ValueError(f"the pose holds '{word}', which is no number") from None
+            raise ValueError(f"the pose holds '{word}', which is not a number") from None
         if not math.isfinite(numbers[-1]):
             raise ValueError(f"the pose holds '{word}', which is not finite")
     return tuple(numbers + [0.0] * (6 - len(numbers)))
@@ -70,7 +70,7 @@ def check_link(link: str) -> str:
     """MODEL::LINK; ValueError where it is none."""
     parts = link.split('::')
     if len(parts) < 2 or not all(parts):
-        raise ValueError(f"'{link}' is no link; give it as MODEL::LINK")
+        raise ValueError(f"'{link}' is not a link; give it as MODEL::LINK")
     return link
 
 
