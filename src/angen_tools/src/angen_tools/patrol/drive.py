@@ -204,13 +204,13 @@ class Patrol:
                             f'reached {drive.name}{self._detections(drive.name)}')
 
     def _detections(self, waypoint: str) -> str:
-        """The sensors of its room that detected something on the way there."""
+        """The sensors of its room that reacted on the way there, to the robot or to a door."""
         events = self._lockstep.events[self._noted_events:]
         self._noted_events += len(events)
         names = dict.fromkeys(event.source for event in events
                               if (event.kind, event.event) in DETECTIONS
                               and room_of(event.source) == waypoint.split()[0])
-        return f'; detected by {", ".join(names)}' if names else ''
+        return f'; sensors that reacted: {", ".join(names)}' if names else ''
 
     def _turn(self, turn: Turn) -> None:
         from angen_msgs.msg import DoorState
