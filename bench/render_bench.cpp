@@ -28,7 +28,7 @@ struct Room {
   render::Scene scene;
   std::vector<std::pair<render::BodyId, Pose>> movers;
   std::vector<light::Lit> lamps;
-  render::Lens lens;
+  render::PinholeCamera lens;
   Pose camera{Vec3(0.3, 0.5, 1.2), from_rpy(0.0, 0.1, 0.8)};
 };
 

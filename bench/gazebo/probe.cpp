@@ -78,14 +78,14 @@ class Probe : public gazebo::SystemPlugin {
       const std::lock_guard<std::mutex> lock(mutex_);
       orders.swap(orders_);
     }
-    for (const std::string& order : orders) obey(order);
+    for (const std::string& order : orders) drain(order);
     if (!going_.empty() && !world_->ModelByName(going_)) {
       tell(with_time("gone", now()));
       going_.clear();
     }
   }
 
-  void obey(const std::string& order) {
+  void drain(const std::string& order) {
     std::istringstream words(order);
     std::string verb, name, file;
     words >> verb;

@@ -62,8 +62,8 @@ class FakeWorld : public View, public Wiring, public Outputs {
   std::uint64_t revision = 0;
   std::map<std::string, std::vector<ContactPair>> touching;           // by collision name
   std::function<light::Sample(light::Probe&, const Pose&)> light_at;  // dark where not given
-  std::function<std::vector<std::uint8_t>(const render::Lens&, const Pose&)> colors_at;
-  std::function<std::vector<float>(const render::Lens&, const Pose&)> depths_at;
+  std::function<std::vector<std::uint8_t>(const render::PinholeCamera&, const Pose&)> colors_at;
+  std::function<std::vector<float>(const render::PinholeCamera&, const Pose&)> depths_at;
   std::vector<FakeDevice> others;
   std::vector<std::pair<std::string, std::string>> events;
 
@@ -102,10 +102,11 @@ class FakeWorld : public View, public Wiring, public Outputs {
   double ambient_temperature() const override { return ambient; }
   const std::vector<rays::WarmShape>& warm_shapes() const override { return warm; }
   std::uint64_t scene_revision() const override { return revision; }
-  std::vector<std::uint8_t> colors(const render::Lens& lens, const Pose& pose) const override {
+  std::vector<std::uint8_t> colors(const render::PinholeCamera& lens,
+                                   const Pose& pose) const override {
     return colors_at ? colors_at(lens, pose) : std::vector<std::uint8_t>{};
   }
-  std::vector<float> depths(const render::Lens& lens, const Pose& pose) const override {
+  std::vector<float> depths(const render::PinholeCamera& lens, const Pose& pose) const override {
     return depths_at ? depths_at(lens, pose) : std::vector<float>{};
   }
 

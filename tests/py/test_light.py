@@ -66,7 +66,7 @@ def luminances(image: np.ndarray) -> np.ndarray:
 def test_the_one_pixel_view_is_the_mean_of_a_cameras_picture():
     w = world_of(slab('wall', '3 0.4 1 0 0 0', '0.1 2.5 2.2', '0.9 0.5 0.2') + CAMERA
                  + LAMP.replace('2000', '20000') + lux('l', '0 0 1 0 0 0'))
-    w.want('camera', 'eye')
+    w.request('camera', 'eye')
     w.step(1)
     reading = w.sensor('luminosity', 'l')
     seen = np.array([50.0 * c / (1.0 - c) for c in (reading['r'], reading['g'], reading['b'])])

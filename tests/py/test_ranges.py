@@ -122,7 +122,7 @@ def test_a_hundred_thousand_rays_of_lidars(world):
     w = world(''.join(s.model(f's{i}') for i, s in enumerate(solids[1:]))
               + ''.join(lidar(f'l{i}', pose) for i, pose in enumerate(poses)))
     for i in range(len(poses)):
-        w.want('lidar', f'l{i}')
+        w.request('lidar', f'l{i}')
     w.step()
     angles = np.linspace(-3.1, 3.1, RAYS)
     fan = np.stack([np.cos(angles), np.sin(angles), np.zeros(RAYS)], axis=1)
@@ -141,7 +141,7 @@ def test_a_hundred_thousand_rays_of_lidars(world):
 def test_a_lidar_inside_a_solid_meets_its_far_side(world):
     w = world(box('around', '0 0 1 0 0 0', '2 3 1', static=True)
               + lidar('l', np.array([0.4, 0, 1, 0, 0, 0.0]), 1))
-    w.want('lidar', 'l')
+    w.request('lidar', 'l')
     w.step()
     assert w.sensor('lidar', 'l')['ranges'] == pytest.approx([0.6])
 
@@ -149,7 +149,7 @@ def test_a_lidar_inside_a_solid_meets_its_far_side(world):
 def test_what_is_nearer_than_the_least_range_is_looked_through(world):
     w = world(box('near', '0.5 0 1 0 0 0', '0.2 1 1', static=True)
               + lidar('l', np.array([0, 0, 1, 0, 0, 0.0]), 1, least=0.5))
-    w.want('lidar', 'l')
+    w.request('lidar', 'l')
     w.step()
     assert w.sensor('lidar', 'l')['ranges'] == pytest.approx([0.6])
 
@@ -168,8 +168,8 @@ def depths(world: angen.World, name: str, solids: list[Solid], pose: np.ndarray
     reading = world.sensor('depth', name)
     measured = reading['depth'].astype(float)
     rows, columns = np.indices(measured.shape[:2])
-    ways = np.stack([np.ones(rows.shape), -(columns - reading['centre_x']) / reading['focal'],
-                     -(rows - reading['centre_y']) / reading['focal']], axis=-1).reshape(-1, 3)
+    ways = np.stack([np.ones(rows.shape), -(columns - reading['center_x']) / reading['focal'],
+                     -(rows - reading['center_y']) / reading['focal']], axis=-1).reshape(-1, 3)
     exact = met(solids, pose[:3], ways @ rotation(pose[3:]).T, 0.1, REACH)
     return np.where(np.isnan(measured), np.inf, measured).ravel(), exact
 
@@ -183,7 +183,7 @@ def test_a_hundred_thousand_pixels_of_depth_cameras(world):
         s.model(f's{i}') for i, s in enumerate(solids)) + ''.join(
         depth_camera(f'd{i}', pose) for i, pose in enumerate(poses)) + '</world></sdf>')
     for i in range(len(poses)):
-        w.want('depth', f'd{i}')
+        w.request('depth', f'd{i}')
     w.step()
     pairs = [depths(w, f'd{i}', solids, pose) for i, pose in enumerate(poses)]
     median, wrong = compare(*(np.concatenate(part) for part in zip(*pairs)))
@@ -194,7 +194,7 @@ def test_depth_of_round_things_is_that_of_their_facets(world):
     sphere = Solid('sphere', (1.0,), np.array([3, 0, 1, 0, 0, 0.0]))
     pose = np.array([0, 0, 1, 0, 0, 0.0])
     w = world(sphere.model('s') + depth_camera('d', pose))
-    w.want('depth', 'd')
+    w.request('depth', 'd')
     w.step()
     measured, exact = depths(w, 'd', [sphere], pose)
     middle = np.isfinite(measured) & (exact < 2.3)  # where the surface is not met at a flat angle

@@ -43,18 +43,18 @@ def test_one_that_nobody_wants_does_not_look(world):
     assert w.readings == 0
     with pytest.raises(angen.Error, match=r"measured nothing yet; want\('lidar', 'l'\)"):
         w.sensor('lidar', 'l')
-    w.want('lidar', 'l')
+    w.request('lidar', 'l')
     w.step(500)
     assert w.readings == 5
     assert w.sensor('lidar', 'l')['ranges'][2] == pytest.approx(3.5, abs=0.06)
-    w.want('lidar', 'l', False)
+    w.request('lidar', 'l', False)
     w.step(500)
     assert w.readings == 5
 
 
 def test_wanting_one_that_is_not_there_is_refused(world):
     with pytest.raises(angen.Error, match="no lidar named 'x'"):
-        world('').want('lidar', 'x')
+        world('').request('lidar', 'x')
 
 
 def test_wanting_one_changes_no_other(world):
@@ -63,8 +63,8 @@ def test_wanting_one_changes_no_other(world):
     for wanted in (False, True):
         w = world(lidar('l', '0 0 1 0 0 0') + camera('c', '0 0 1 0 0 0')
                   + box('wall', '4 0 1 0 0 0', '1 9 2', static=True))
-        w.want('lidar', 'l')
-        w.want('camera', 'c', wanted)
+        w.request('lidar', 'l')
+        w.request('camera', 'c', wanted)
         w.step(750)
         scans.append(w.sensor('lidar', 'l')['ranges'])
     assert scans[0] == scans[1]
@@ -72,7 +72,7 @@ def test_wanting_one_changes_no_other(world):
 
 def test_an_image_is_height_by_width_by_three_bytes(world):
     w = world(shown('red', '3 0 1 0 0 0', '0.2 0.5 0.5', '1 0 0') + camera('c', '0 0 1 0 0 0'))
-    w.want('camera', 'c')
+    w.request('camera', 'c')
     w.step(1)
     image = w.sensor('camera', 'c')['image']
     assert image.shape == (48, 64, 3) and image.dtype == np.uint8
@@ -83,7 +83,7 @@ def test_an_image_is_height_by_width_by_three_bytes(world):
 def test_depth_is_along_the_axis_and_nothing_is_nan(world):
     w = world(shown('wall', '3 -5 1 0 0 0', '0.2 10 9', '1 1 1')
               + camera('d', '0 0 1 0 0 0', 'depth'))
-    w.want('depth', 'd')
+    w.request('depth', 'd')
     w.step(1)
     reading = w.sensor('depth', 'd')
     depth = reading['depth']
@@ -97,7 +97,7 @@ def test_depth_is_along_the_axis_and_nothing_is_nan(world):
 def test_a_lamp_makes_the_picture_brighter(world):
     w = world(shown('wall', '3 0 1 0 0 0', '0.2 9 9', '0.7 0.7 0.7') + camera('c', '0 0 1 0 0 0')
               + LAMP)
-    w.want('camera', 'c')
+    w.request('camera', 'c')
     w.run(0.2)
     dark = w.sensor('camera', 'c')['image'].mean()
     w.command('lamp', 'hall0', 'On')
@@ -112,7 +112,7 @@ def test_the_same_input_gives_the_same_pixels(world):
     def run() -> tuple[str, np.ndarray]:
         w = world(box('crate', '3 0 4 0.3 0.2 0.1', '1 1 1') + LAMP + camera('c', '0 0 1 0 0 0')
                   + shown('wall', '6 0 1 0 0 0', '0.2 9 9', '0.7 0.7 0.7'))
-        w.want('camera', 'c')
+        w.request('camera', 'c')
         w.command('lamp', 'hall0', 'On')
         w.run(0.5)
         return w.fingerprint, w.sensor('camera', 'c')['image']

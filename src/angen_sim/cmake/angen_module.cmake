@@ -33,4 +33,7 @@ function(angen_plugin file)
   # class is the library's own, also when another library has one of the same name.
   target_link_options(${file} PRIVATE -Wl,-z,defs -Wl,-z,now -Wl,-Bsymbolic)
   install(TARGETS ${file} LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+  add_custom_command(TARGET ${file} POST_BUILD COMMAND angen_describe $<TARGET_FILE:${file}>)
+  install(FILES ${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/lib${file}.json
+          DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION} OPTIONAL)
 endfunction()

@@ -2,7 +2,6 @@
 #include <optional>
 
 #include "devices/refresh.h"
-#include "devices/words.h"
 #include "plugin/register.h"
 
 namespace angen::devices {
@@ -24,14 +23,7 @@ class Battery : public Device {
   }
 
   Verdict command(const Command& command, const View&) override {
-    const std::vector<std::string> words = words_of(command.text);
-    const std::optional<double> level =
-        words.size() == 2 && words[0] == "charge" ? number_of(words[1]) : std::nullopt;
-    if (!level || *level < 0.0 || *level > 100.0) {
-      return Verdict::reject("a battery knows Charge <0 to 100 percent>, not '" + command.text +
-                             "'");
-    }
-    return Verdict::accept([this, energy = full() * *level / 100.0] { energy_ = energy; });
+    return Verdict::accept([this, energy = full() * command.number / 100.0] { energy_ = energy; });
   }
 
   void update(const View& view, Outputs& outputs) override {
@@ -89,8 +81,22 @@ class Battery : public Device {
 
 class BatteryPlugin : public Plugin {
  public:
-  std::string kind() const override { return "battery"; }
-  std::string doc() const override { return "A robot's battery: Charge <percent>."; }
+  const Kind& kind() const override {
+    static const Kind kind =
+        Kind("battery", "A robot's battery.")
+            .example("set battery turtlebot_battery 80")
+            .verb("Charge", "percent", "%", {0.0, 100.0}, "charges or discharges it to this")
+            .number("voltage", "V", "constant")
+            .number("capacity", "A h", "when full")
+            .number("charge", "A h", "what is left")
+            .number("percentage", "1", "what is left, 0 to 1")
+            .shown(3)
+            .number("drawn", "W", "what the robot takes now")
+            .shown(1)
+            .flag("empty", "whether nothing is left: the drive stops")
+            .alarm("EMPTY", "");
+    return kind;
+  }
   bool serves(const ModelInfo&) const override { return true; }
   // Not the model's own, which is that of its drive.
   std::string instance_name(const ModelInfo& model) const override {

@@ -3,7 +3,6 @@
 
 #include "devices/refresh.h"
 #include "devices/room_air.h"
-#include "devices/words.h"
 #include "plugin/register.h"
 
 namespace angen::devices {
@@ -56,14 +55,7 @@ class Climate : public Device {
   }
 
   Verdict command(const Command& command, const View&) override {
-    const std::vector<std::string> words = words_of(command.text);
-    const std::optional<double> value =
-        words.size() == 2 && words[0] == "outside" ? number_of(words[1]) : std::nullopt;
-    if (!value || *value < kCelsius.min || *value > kCelsius.max) {
-      return Verdict::reject("a climate knows Outside <-60 to 60 degrees Celsius>, not '" +
-                             command.text + "'");
-    }
-    return Verdict::accept([this, temperature = *value] {
+    return Verdict::accept([this, temperature = command.number] {
       outside_.temperature = temperature;
       outside_.moisture = moisture_of(temperature, outside_humidity_);
     });
@@ -157,8 +149,18 @@ class Climate : public Device {
 
 class ClimatePlugin : public Plugin {
  public:
-  std::string kind() const override { return "climate"; }
-  std::string doc() const override { return "The air in a model's rooms: Outside <degrees>."; }
+  const Kind& kind() const override {
+    static const Kind kind =
+        Kind("climate", "The air in a model's rooms.")
+            .verb("Outside", "degrees", "°C", kCelsius, "temperature of the air outdoors")
+            .numbers("temperatures", "°C", "of each room")
+            .shown(1)
+            .numbers("humidities", "%", "of each room, relative")
+            .numbers("rooms", "m", "x0 y0 z0 x1 y1 z1 of each room, in the model's frame")
+            .number("outside_temperature", "°C", "outdoors")
+            .number("outside_humidity", "%", "outdoors, relative");
+    return kind;
+  }
   bool serves(const ModelInfo&) const override { return true; }
   std::unique_ptr<Device> make_device() const override { return std::make_unique<Climate>(); }
 };

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "core/names.h"
-#include "devices/words.h"
 #include "plugin/register.h"
 
 namespace angen::devices {
@@ -32,15 +31,7 @@ class Daylight : public Device {
   }
 
   Verdict command(const Command& command, const View&) override {
-    const std::vector<std::string> words = words_of(command.text);
-    if (words.size() != 2 || words[0] != "set") {
-      return Verdict::reject("daylight knows Set <lx outdoors>, not '" + command.text + "'");
-    }
-    const std::optional<double> lux = number_of(words[1]);
-    if (!lux || *lux < 0.0 || *lux > kBrightest) {
-      return Verdict::reject("'" + words[1] + "' is no daylight; Set takes 0 to 100000 lx");
-    }
-    return Verdict::accept([this, outdoors = *lux] { outdoors_ = outdoors; });
+    return Verdict::accept([this, outdoors = command.number] { outdoors_ = outdoors; });
   }
 
   void update(const View&, Outputs& outputs) override {
@@ -65,8 +56,16 @@ class Daylight : public Device {
 
 class DaylightPlugin : public Plugin {
  public:
-  std::string kind() const override { return "daylight"; }
-  std::string doc() const override { return "Daylight through a window: Set <lx outdoors>."; }
+  const Kind& kind() const override {
+    static const Kind kind =
+        Kind("daylight", "Daylight through a window.")
+            .example("set daylight window0 10000")
+            .verb("Set", "lux", "lx", {0.0, kBrightest}, "illuminance outdoors")
+            .number("illuminance", "lx", "outdoors")
+            .shown()
+            .number("luminous_flux", "lm", "through the window");
+    return kind;
+  }
   bool serves(const ModelInfo& model) const override { return !model.lights.empty(); }
   std::string instance_name(const ModelInfo& model) const override {
     return command_name(model.name, "window", model.pose.position.z());

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 #include <utility>
 
 #include "core/names.h"
-#include "devices/words.h"
 #include "plugin/register.h"
 
 namespace angen::devices {
@@ -45,7 +45,7 @@ void Door::configure(Params& params, Wiring& wiring) {
   width_ = params.number("width", 0.0, "m",
                          "from the hinge to the far edge; 0 = from the leaf's mass and moment",
                          kNotNegative);
-  height_ = params.number("height", kind_.height, "m",
+  height_ = params.number("height", leaf_.height, "m",
                           "of the opening that air flows through; 0 = none does", kNotNegative);
   const double edge_force =
       params.number("edge_force_max", 150.0, "N", "greatest force at the far edge", kPositive);
@@ -56,11 +56,11 @@ void Door::configure(Params& params, Wiring& wiring) {
   latch_torque_ = params.number("latch_torque", 200.0, "N m", "brake of a shut door", kNotNegative);
   refresh_ = Refresh(params.number("update_rate", 50.0, "Hz",
                                    "how often its state is told while it moves", kRefreshRate));
-  params.choice("topicName", kind_.topic, {kind_.topic},
+  params.choice("topicName", leaf_.topic, {leaf_.topic},
                 "where commands come from: one topic for all");
   params.text("device_name", "", "the name commands use, instead of the model's and its floor");
 
-  hinge_ = wiring.joint(kind_.joint);
+  hinge_ = wiring.joint(leaf_.joint);
   limits_ = wiring.limits(hinge_);
   for (const auto& [key, angle] : {std::pair<const char*, double>{"open_position", open_position_},
                                    {"closed_position", closed_position_}}) {
@@ -86,23 +86,18 @@ void Door::configure(Params& params, Wiring& wiring) {
 }
 
 Verdict Door::command(const Command& command, const View& view) {
-  const std::vector<std::string> words = words_of(command.text);
-  const auto accept = [this, position = view.joint(hinge_).position](double target) {
-    return Verdict::accept([this, target, position] { go(target, position); });
-  };
-  if (words.size() == 1 && words[0] == "open") return accept(open_position_);
-  if (words.size() == 1 && words[0] == "close") return accept(closed_position_);
-  if (words.size() == 2 && words[0] == "set") {
-    const std::optional<double> angle = number_of(words[1]);
-    if (!angle) return Verdict::reject("'" + words[1] + "' is no angle; Set takes radians");
-    if (*angle < limits_.lower || *angle > limits_.upper) {
-      return Verdict::reject("the angle " + words[1] + " is outside the hinge's " +
-                             range_text(limits_) + " rad");
+  double target = command.verb == "Open" ? open_position_ : closed_position_;
+  if (command.verb == "Set") {
+    target = command.number;
+    if (target < limits_.lower || target > limits_.upper) {
+      std::ostringstream reason;
+      reason << "the angle " << target << " is outside the hinge's " << range_text(limits_)
+             << " rad";
+      return Verdict::reject(reason.str());
     }
-    return accept(*angle);
   }
-  return Verdict::reject("a " + std::string(kind_.kind) +
-                         " knows Open, Close and Set <rad>, not '" + command.text + "'");
+  return Verdict::accept(
+      [this, target, position = view.joint(hinge_).position] { go(target, position); });
 }
 
 void Door::go(double target, double position) {
@@ -186,7 +181,7 @@ double Door::free_width(double position) const {
 
 void Door::report(const View& view, Reading& state) const {
   const JointView hinge = started_ ? shown_ : view.joint(hinge_);
-  state.set("mode", kModeNames[static_cast<int>(started_ ? mode_ : mode_at_rest(hinge.position))]);
+  state.set("mode", choice_of(started_ ? mode_ : mode_at_rest(hinge.position), kModeNames));
   state.set("position", hinge.position);
   state.set("velocity", hinge.velocity);
   state.set("target", started_ || leaving_ ? target_ : hinge.position);
@@ -197,15 +192,33 @@ void Door::report(const View& view, Reading& state) const {
   }
 }
 
-std::string LeafPlugin::doc() const { return "A " + kind() + ": Open, Close, Set <rad>."; }
+LeafPlugin::LeafPlugin(const LeafKind& leaf)
+    : leaf_(leaf), kind_(leaf.kind, std::string("A ") + leaf.kind + ".") {
+  kind_.example(leaf.example)
+      .commanded_on(leaf.topic)
+      .verb("Open", "goes to its open_position")
+      .verb("Close", "goes to its closed_position")
+      .verb("Set", "radians", "rad", {}, "goes to this angle of its hinge")
+      .choice("mode", {std::begin(kModeNames), std::end(kModeNames)},
+              "AJAR: at rest between shut and open; BLOCKED: commanded, but something holds it")
+      .shown()
+      .number("position", "rad", "of its hinge, 0 shut, negative open")
+      .shown(2)
+      .number("velocity", "rad/s", "of its hinge")
+      .number("target", "rad", "where it goes")
+      .number("gap", "m", "free width of the opening")
+      .number("width", "m", "of the leaf")
+      .number("height", "m", "of the opening");
+  for (const char* model : leaf.models) kind_.model(model);
+}
 
 bool LeafPlugin::serves(const ModelInfo& model) const {
-  const ModelInfo::Joint* hinge = model.joint(kind_.joint);
+  const ModelInfo::Joint* hinge = model.joint(leaf_.joint);
   return hinge != nullptr && hinge->type == "revolute" && hinge->parent == "base";
 }
 
 std::string LeafPlugin::instance_name(const ModelInfo& model) const {
-  return command_name(model.name, kind(), model.pose.position.z());
+  return command_name(model.name, kind_.name, model.pose.position.z());
 }
 
 }  // namespace angen::devices

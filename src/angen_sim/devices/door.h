@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "devices/refresh.h"
 #include "devices/servo.h"
@@ -15,12 +16,14 @@ struct LeafKind {
   const char* joint;  // revolute; its parent is the link `base`
   const char* topic;  // where commands come from
   double height;      // m, of the opening, unless its SDF says
+  const char* example;
+  std::vector<const char*> models;  // of worlds/models; the first is the default
 };
 
 /// A leaf on a revolute joint: a PID drives it, a brake holds it, a latch when it is shut.
 class Door : public Device {
  public:
-  explicit Door(const LeafKind& kind) : kind_(kind) {}
+  explicit Door(const LeafKind& leaf) : leaf_(leaf) {}
   void configure(Params& params, Wiring& wiring) override;
   Verdict command(const Command& command, const View& view) override;
   void update(const View& view, Outputs& outputs) override;
@@ -36,7 +39,7 @@ class Door : public Device {
   double free_width(double position) const;
   void show(Mode mode, const JointView& hinge, bool renew, Outputs& outputs);
 
-  LeafKind kind_;
+  LeafKind leaf_;
   JointRef hinge_;
   Servo servo_;
   Refresh refresh_;
@@ -60,30 +63,49 @@ class Door : public Device {
 
 class LeafPlugin : public Plugin {
  public:
-  explicit LeafPlugin(const LeafKind& kind) : kind_(kind) {}
-  std::string kind() const override { return kind_.kind; }
-  std::string doc() const override;
+  explicit LeafPlugin(const LeafKind& leaf);
+  const Kind& kind() const override { return kind_; }
   bool serves(const ModelInfo& model) const override;
   std::string instance_name(const ModelInfo& model) const override;
-  std::unique_ptr<Device> make_device() const override { return std::make_unique<Door>(kind_); }
+  std::unique_ptr<Device> make_device() const override { return std::make_unique<Door>(leaf_); }
 
  private:
-  LeafKind kind_;
+  LeafKind leaf_;
+  Kind kind_;
 };
 
 class DoorPlugin : public LeafPlugin {
  public:
-  DoorPlugin() : LeafPlugin({"door", "hinge", "/gazebo/Door_controller", 2.1}) {}
+  DoorPlugin()
+      : LeafPlugin({"door",
+                    "hinge",
+                    "/gazebo/Door_controller",
+                    2.1,
+                    "set door kitchen0 open",
+                    {"kitchen_door", "bathroom_door", "bedroom_door", "entrance_door",
+                     "livingroom_door", "workroom_door"}}) {}
 };
 
 class WindowPlugin : public LeafPlugin {
  public:
-  WindowPlugin() : LeafPlugin({"window", "sash", "/gazebo/Window_controller", 1.2}) {}
+  WindowPlugin()
+      : LeafPlugin({"window",
+                    "sash",
+                    "/gazebo/Window_controller",
+                    1.2,
+                    "set window window0 open",
+                    {"window"}}) {}
 };
 
 class CabinetPlugin : public LeafPlugin {
  public:
-  CabinetPlugin() : LeafPlugin({"cabinet", "front", "/gazebo/Cabinet_controller", 0.0}) {}
+  CabinetPlugin()
+      : LeafPlugin({"cabinet",
+                    "front",
+                    "/gazebo/Cabinet_controller",
+                    0.0,
+                    "set cabinet wall0 open",
+                    {"wall_cabinet"}}) {}
 };
 
 }  // namespace angen::devices

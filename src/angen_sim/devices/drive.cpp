@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "devices/words.h"
 #include "plugin/register.h"
 
 namespace angen::devices {
@@ -39,17 +38,7 @@ void Drive::configure(Params& params, Wiring& wiring) {
 
 Verdict Drive::command(const Command& command, const View& view) {
   std::vector<double> values = command.values;
-  if (values.empty()) {
-    const std::vector<std::string> words = words_of(command.text);
-    if (words.size() == 1 && words[0] == "stop") values = {0.0, 0.0};
-    for (std::size_t i = 0; words.size() == 2 && i < 2; ++i) {
-      if (const std::optional<double> value = number_of(words[i])) values.push_back(*value);
-    }
-  }
-  if (values.size() != 2 || !std::isfinite(values[0]) || !std::isfinite(values[1])) {
-    return Verdict::reject("a drive knows <m/s> <rad/s> (two finite numbers) and Stop, not '" +
-                           command.text + "'");
-  }
+  if (command.verb == "Stop") values = {0.0, 0.0};
   if (!powered(view)) values = {0.0, 0.0};
   return Verdict::accept([this, v = values[0], w = values[1], now = view.time()] {
     v_ = std::clamp(v, -max_linear_, max_linear_);
@@ -153,8 +142,26 @@ void Drive::report(const View&, Reading& state) const {
   state.set("work", shown_.work);
 }
 
-std::string DrivePlugin::doc() const {
-  return "A differential drive with odometry: <m/s> <rad/s>, Stop.";
+const Kind& DrivePlugin::kind() const {
+  static const Kind kind = Kind("drive", "A differential drive with odometry.")
+                               .model("turtlebot")
+                               .example("set drive turtlebot stop")
+                               .verb("Stop", "stands still")
+                               .values({"m/s", "rad/s"})
+                               .number("x", "m", "by the wheels, in the odometry frame")
+                               .shown(2)
+                               .number("y", "m", "by the wheels")
+                               .shown(2)
+                               .number("yaw", "rad", "by the wheels")
+                               .shown(2)
+                               .number("v", "m/s", "forward")
+                               .shown(2)
+                               .number("w", "rad/s", "to the left")
+                               .shown(2)
+                               .number("left", "rad", "angle of the left wheel")
+                               .number("right", "rad", "angle of the right wheel")
+                               .number("work", "J", "of the motors since the start");
+  return kind;
 }
 
 bool DrivePlugin::serves(const ModelInfo& model) const {

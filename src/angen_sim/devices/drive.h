@@ -67,8 +67,7 @@ class Drive : public Device {
 
 class DrivePlugin : public Plugin {
  public:
-  std::string kind() const override { return "drive"; }
-  std::string doc() const override;
+  const Kind& kind() const override;
   bool serves(const ModelInfo& model) const override;
   std::unique_ptr<Device> make_device() const override { return std::make_unique<Drive>(); }
 };

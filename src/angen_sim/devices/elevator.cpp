@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
-#include "devices/words.h"
 #include "plugin/register.h"
 
 namespace angen::devices {
 
 namespace {
 
+constexpr char kTopic[] = "/gazebo/Elevator_controller";
 constexpr double kLevelWithin = 0.005;    // m
 constexpr double kArriveError = 0.0005;   // m
 constexpr double kNearError = 0.002;      // m
@@ -24,6 +25,8 @@ constexpr Nanoseconds kDwell = kSecond;   // between the doors' opening and thei
 constexpr PidGains kGains{200.0, 200.0, 25.0, 5.0, -5.0, 5.0, -5.0};
 constexpr PidUnits kUnits{"N/m per kg", "N/(m s) per kg", "N s/m per kg", "N/kg"};
 
+const char* const kModes[] = {"IDLE", "UP", "DOWN", "BLOCKED"};
+const char* const kModeEvents[] = {"idle", "up", "down", "blocked"};
 const char* const kDoorModes[] = {"CLOSED", "OPEN", "OPENING", "CLOSING", "BLOCKED"};
 const char* const kDoorEvents[] = {"doors closed", "doors opened", "doors opening", "doors closing",
                                    "doors blocked"};
@@ -55,8 +58,7 @@ void Elevator::configure(Params& params, Wiring& wiring) {
   doorway_ = Doorway(door_speed, door_force_);
   refresh_ = Refresh(params.number("update_rate", 50.0, "Hz",
                                    "how often its state is told while it moves", kRefreshRate));
-  params.choice("topicName", "/gazebo/Elevator_controller", {"/gazebo/Elevator_controller"},
-                "where commands come from: one topic for all");
+  params.choice("topicName", kTopic, {kTopic}, "where commands come from: one topic for all");
   params.text("device_name", "", "the name commands use, instead of the model's");
   wire(params, wiring);
 }
@@ -97,16 +99,10 @@ void Elevator::wire(Params& params, Wiring& wiring) {
 }
 
 Verdict Elevator::command(const Command& command, const View&) {
-  const std::vector<std::string> words = words_of(command.text);
-  std::string number;
-  if (words.size() == 1 && words[0].compare(0, 5, "floor") == 0) number = words[0].substr(5);
-  if (words.size() == 2 && words[0] == "floor") number = words[1];
-  const bool digits = !number.empty() && number.size() < 5 &&
-                      number.find_first_not_of("0123456789") == std::string::npos;
-  const int floor = digits ? std::stoi(number) : -1;
-  if (floor < 0 || floor >= floors_) {
-    return Verdict::reject("an elevator knows Floor0 to Floor" + std::to_string(floors_ - 1) +
-                           ", not '" + command.text + "'");
+  const int floor = static_cast<int>(command.number);
+  if (floor >= floors_) {
+    return Verdict::reject("there is no floor " + std::to_string(floor) + ", the highest is " +
+                           std::to_string(floors_ - 1));
   }
   return Verdict::accept([this, floor] { call(floor); });
 }
@@ -131,8 +127,8 @@ void Elevator::start(const View& view, Outputs& outputs) {
                                     floors_ - 1);
   stay_at(floor, view);
   shown_ = {view.joint(lift_), doorway_.position(view)};
-  told_mode_ = mode();
-  told_door_ = doorway_.mode();
+  shown_mode_ = mode();
+  shown_door_ = doorway_.mode();
 }
 
 void Elevator::stay_at(int floor, const View& view) {
@@ -164,7 +160,7 @@ void Elevator::update(const View& view, Outputs& outputs) {
     }
   }
   if (phase_ == Phase::kMoving) move(view, outputs);
-  tell(view, outputs);
+  show(view, outputs);
 }
 
 void Elevator::stand(const View& view, Outputs& outputs) {
@@ -211,8 +207,8 @@ Nanoseconds Elevator::idle_until(const View& view) const {
   const JointView lift = view.joint(lift_);
   const bool told = lift.position == shown_.lift.position &&
                     lift.velocity == shown_.lift.velocity &&
-                    doorway_.position(view) == shown_.door_position && mode() == told_mode_ &&
-                    doorway_.mode() == told_door_ && weigh(lift) == mass_;
+                    doorway_.position(view) == shown_.door_position && mode() == shown_mode_ &&
+                    doorway_.mode() == shown_door_ && weigh(lift) == mass_;
   return told ? kForever : refresh_.next(view.time());
 }
 
@@ -222,28 +218,24 @@ int Elevator::floor_at(double position) const {
   return level && nearest >= 0 && nearest < floors_ ? nearest : -1;
 }
 
-std::string Elevator::mode() const {
-  if (phase_ != Phase::kMoving) return "IDLE";
-  if (servo_.blocked()) return "BLOCKED";
-  return rises_ ? "UP" : "DOWN";
+Elevator::Mode Elevator::mode() const {
+  if (phase_ != Phase::kMoving) return Mode::kIdle;
+  if (servo_.blocked()) return Mode::kBlocked;
+  return rises_ ? Mode::kUp : Mode::kDown;
 }
 
-void Elevator::tell(const View& view, Outputs& outputs) {
+void Elevator::show(const View& view, Outputs& outputs) {
   bool renew = refresh_.due(view.time(), view.step());
   if (renew) mass_ = weigh(view.joint(lift_));
-  const std::string now = mode();
-  if (now != told_mode_) {
-    const char* event = now == "IDLE"      ? "idle"
-                        : now == "BLOCKED" ? "blocked"
-                        : now == "UP"      ? "up"
-                                           : "down";
-    outputs.event(event, "floor " + std::to_string(target_));
-    told_mode_ = now;
+  const Mode now = mode();
+  if (now != shown_mode_) {
+    outputs.event(kModeEvents[static_cast<int>(now)], "floor " + std::to_string(target_));
+    shown_mode_ = now;
     renew = true;
   }
-  if (doorway_.mode() != told_door_) {
-    told_door_ = doorway_.mode();
-    outputs.event(kDoorEvents[static_cast<int>(told_door_)], "");
+  if (doorway_.mode() != shown_door_) {
+    shown_door_ = doorway_.mode();
+    outputs.event(kDoorEvents[static_cast<int>(shown_door_)], "");
     renew = true;
   }
   if (renew) shown_ = {view.joint(lift_), doorway_.position(view)};
@@ -251,17 +243,37 @@ void Elevator::tell(const View& view, Outputs& outputs) {
 
 void Elevator::report(const View& view, Reading& state) const {
   const JointView lift = started_ ? shown_.lift : view.joint(lift_);
-  state.set("mode", started_ ? told_mode_ : std::string("IDLE"));
+  state.set("mode", choice_of(shown_mode_, kModes));
   state.set("position", lift.position);
   state.set("velocity", lift.velocity);
   state.set("target", target_ * floor_height_);
   state.set("floor", floor_at(lift.position));
   state.set("target_floor", target_);
-  state.set("door_mode", kDoorModes[static_cast<int>(told_door_)]);
+  state.set("door_mode", choice_of(shown_door_, kDoorModes));
   state.set("door_position", shown_.door_position);
 }
 
-std::string ElevatorPlugin::doc() const { return "An elevator with doors: Floor<N>."; }
+const Kind& ElevatorPlugin::kind() const {
+  static const Kind kind =
+      Kind("elevator", "An elevator with doors.")
+          .model("elevator")
+          .example("set elevator elevator 1")
+          .commanded_on(kTopic)
+          .counted_verb("Floor", "floor", {0.0, 999.0}, "goes there after the floors called before")
+          .choice("mode", {std::begin(kModes), std::end(kModes)},
+                  "of the cabin; BLOCKED: something holds it")
+          .shown()
+          .number("position", "m", "of the cabin above floor 0")
+          .shown(2)
+          .number("velocity", "m/s", "upwards")
+          .number("target", "m", "where it goes")
+          .integer("floor", "", "where it stands within 5 mm, otherwise -1")
+          .integer("target_floor", "", "where it goes")
+          .choice("door_mode", {std::begin(kDoorModes), std::end(kDoorModes)},
+                  "BLOCKED: an obstacle stands between the leaves")
+          .number("door_position", "m", "travel of a door's leaf, 0 shut");
+  return kind;
+}
 
 bool ElevatorPlugin::serves(const ModelInfo& model) const {
   const ModelInfo::Joint* lift = model.joint("lift");

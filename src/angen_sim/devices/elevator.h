@@ -14,7 +14,8 @@
 namespace angen::devices {
 
 /// A cabin on a prismatic joint `lift` with sliding doors, and a landing door on each floor. It
-/// serves stops in the order they were asked for; doors are shut while it moves, open where it is.
+/// serves stops in the order in which they were called; doors are shut while it moves, open where
+/// it is.
 class Elevator : public Device {
  public:
   void configure(Params& params, Wiring& wiring) override;
@@ -25,6 +26,7 @@ class Elevator : public Device {
 
  private:
   enum class Phase { kStanding, kShutting, kMoving };
+  enum class Mode { kIdle, kUp, kDown, kBlocked };
   struct Shown {
     JointView lift;
     double door_position = 0.0;
@@ -39,8 +41,8 @@ class Elevator : public Device {
   double weigh(const JointView& lift) const;
   int floor_at(double position) const;  // -1 between floors
   void stay_at(int floor, const View& view);
-  std::string mode() const;
-  void tell(const View& view, Outputs& outputs);
+  Mode mode() const;
+  void show(const View& view, Outputs& outputs);
 
   JointRef lift_;
   JointLimits limits_;
@@ -63,15 +65,14 @@ class Elevator : public Device {
   int target_ = 0;            // floor
   bool rises_ = false;        // on the way there
   Nanoseconds ready_at_ = 0;  // when the doors may shut
-  std::string told_mode_;
-  Doorway::Mode told_door_ = Doorway::Mode::kClosed;
+  Mode shown_mode_ = Mode::kIdle;
+  Doorway::Mode shown_door_ = Doorway::Mode::kClosed;
   Shown shown_;
 };
 
 class ElevatorPlugin : public Plugin {
  public:
-  std::string kind() const override { return "elevator"; }
-  std::string doc() const override;
+  const Kind& kind() const override;
   bool serves(const ModelInfo& model) const override;
   std::unique_ptr<Device> make_device() const override { return std::make_unique<Elevator>(); }
 };

@@ -1,6 +1,5 @@
 #include <optional>
 
-#include "devices/words.h"
 #include "plugin/register.h"
 
 namespace angen::devices {
@@ -15,24 +14,18 @@ class Heater : public Device {
   }
 
   Verdict command(const Command& command, const View&) override {
-    const std::vector<std::string> words = words_of(command.text);
-    std::optional<double> level;
-    if (words.size() == 1 && words[0] == "on") level = 100.0;
-    if (words.size() == 1 && words[0] == "off") level = 0.0;
-    if (words.size() == 2 && words[0] == "set") level = number_of(words[1]);
-    if (!level || *level < 0.0 || *level > 100.0) {
-      return Verdict::reject("a heater knows On, Off and Set <0 to 100 percent>, not '" +
-                             command.text + "'");
-    }
-    return Verdict::accept([this, level = *level] { level_ = level; });
+    const double level = command.verb == "Set"  ? command.number
+                         : command.verb == "On" ? 100.0
+                                                : 0.0;
+    return Verdict::accept([this, level] { level_ = level; });
   }
 
   void update(const View&, Outputs& outputs) override {
-    if (told_ && *told_ != level_) {
-      const bool same = (*told_ > 0.0) == (level_ > 0.0);
+    if (last_level_ && *last_level_ != level_) {
+      const bool same = (*last_level_ > 0.0) == (level_ > 0.0);
       outputs.event(same ? "set" : level_ > 0.0 ? "on" : "off", "");
     }
-    told_ = level_;
+    last_level_ = level_;
   }
 
   Nanoseconds idle_until(const View&) const override { return kForever; }
@@ -44,19 +37,22 @@ class Heater : public Device {
   }
 
  private:
-  double full_power_ = 0.0;     // W at 100 %
-  double level_ = 0.0;          // percent
-  std::optional<double> told_;  // percent, none before the first update
+  double full_power_ = 0.0;           // W at 100 %
+  double level_ = 0.0;                // percent
+  std::optional<double> last_level_;  // percent, none before the first update
 };
 
-class HeaterPlugin : public Plugin {
- public:
-  std::string kind() const override { return "heater"; }
-  std::string doc() const override { return "An electric heater: On, Off, Set <percent>."; }
-  bool serves(const ModelInfo&) const override { return true; }
-  std::unique_ptr<Device> make_device() const override { return std::make_unique<Heater>(); }
-};
+ANGEN_REGISTER_DEVICE(Heater, Kind("heater", "An electric heater.")
+                                  .model("heater")
+                                  .example("set heater heater1 40")
+                                  .verb("On", "full power")
+                                  .verb("Off", "no power")
+                                  .verb("Set", "percent", "%", {0.0, 100.0}, "of its full power")
+                                  .flag("on", "whether it heats")
+                                  .shown_as("on", "off")
+                                  .number("level", "%", "of its full power")
+                                  .shown()
+                                  .number("power", "W", "electric power, which heats the room")
+                                  .shown())
 
 }  // namespace angen::devices
-
-ANGEN_REGISTER_PLUGIN(angen::devices::HeaterPlugin)

@@ -1,16 +1,13 @@
 #include "devices/lamp.h"
 
-#include <optional>
-#include <vector>
-
 #include "core/names.h"
-#include "devices/words.h"
 #include "plugin/register.h"
 
 namespace angen::devices {
 
 namespace {
 
+constexpr char kTopic[] = "/gazebo/Light_controller";
 constexpr double kEfficacy = 80.0;  // lm/W, of a household's LED lamp
 
 }  // namespace
@@ -20,27 +17,14 @@ void Lamp::configure(Params& params, Wiring& wiring) {
   level_ = params.number("level", 0.0, "%", "level at the start", {0.0, 100.0});
   full_power_ = params.number("power", full_flux_ / kEfficacy, "W",
                               "electric power at 100 %; 80 lm/W unless given", kNotNegative);
-  params.choice("topicName", "/gazebo/Light_controller", {"/gazebo/Light_controller"},
-                "where commands come from: one topic for all");
+  params.choice("topicName", kTopic, {kTopic}, "where commands come from: one topic for all");
   params.text("device_name", "", "the name commands use, instead of the model's and its floor");
   light_ = wiring.light("");
 }
 
 Verdict Lamp::command(const Command& command, const View&) {
-  const std::vector<std::string> words = words_of(command.text);
-  const auto accept = [this](double level) {
-    return Verdict::accept([this, level] { level_ = level; });
-  };
-  if (words.size() == 1 && words[0] == "on") return accept(100.0);
-  if (words.size() == 1 && words[0] == "off") return accept(0.0);
-  if (words.size() == 2 && words[0] == "dim") {
-    const std::optional<double> level = number_of(words[1]);
-    if (!level || *level < 0.0 || *level > 100.0) {
-      return Verdict::reject("'" + words[1] + "' is no level; Dim takes 0 to 100 percent");
-    }
-    return accept(*level);
-  }
-  return Verdict::reject("a lamp knows On, Off and Dim <percent>, not '" + command.text + "'");
+  const double level = command.verb == "Dim" ? command.number : command.verb == "On" ? 100.0 : 0.0;
+  return Verdict::accept([this, level] { level_ = level; });
 }
 
 void Lamp::update(const View&, Outputs& outputs) {
@@ -61,7 +45,23 @@ void Lamp::report(const View&, Reading& state) const {
   state.set("power", full_power_ * level_ / 100.0);
 }
 
-std::string LampPlugin::doc() const { return "A lamp: On, Off, Dim <percent>."; }
+const Kind& LampPlugin::kind() const {
+  static const Kind kind = Kind("lamp", "A lamp.")
+                               .model("ceiling_lamp")
+                               .example("set lamp kitchen0 40")
+                               .commanded_on(kTopic)
+                               .verb("On", "full brightness")
+                               .verb("Off", "dark")
+                               .verb("Dim", "percent", "%", {0.0, 100.0}, "of its full brightness")
+                               .flag("on", "whether it is lit")
+                               .shown_as("on", "off")
+                               .number("level", "%", "of its full brightness")
+                               .shown()
+                               .number("luminous_flux", "lm", "that it emits")
+                               .shown()
+                               .number("power", "W", "electric power");
+  return kind;
+}
 
 std::string LampPlugin::instance_name(const ModelInfo& model) const {
   return command_name(model.name, "lamp", model.pose.position.z());

@@ -26,8 +26,7 @@ class Lamp : public Device {
 
 class LampPlugin : public Plugin {
  public:
-  std::string kind() const override { return "lamp"; }
-  std::string doc() const override;
+  const Kind& kind() const override;
   bool serves(const ModelInfo& model) const override { return !model.lights.empty(); }
   std::string instance_name(const ModelInfo& model) const override;
   std::unique_ptr<Device> make_device() const override { return std::make_unique<Lamp>(); }

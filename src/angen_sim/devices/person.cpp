@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 #include <vector>
 
-#include "devices/words.h"
 #include "plugin/register.h"
 
 namespace angen::devices {
@@ -63,11 +63,7 @@ void Person::configure(Params& params, Wiring& wiring) {
 }
 
 Verdict Person::command(const Command& command, const View&) {
-  const std::vector<std::string> words = words_of(command.text);
-  if (words.size() == 1 && (words[0] == "stop" || words[0] == "go")) {
-    return Verdict::accept([this, stop = words[0] == "stop"] { paused_ = stop; });
-  }
-  return Verdict::reject("a person knows Stop and Go, not '" + command.text + "'");
+  return Verdict::accept([this, stop = command.verb == "Stop"] { paused_ = stop; });
 }
 
 void Person::update(const View& view, Outputs& outputs) {
@@ -196,7 +192,7 @@ void Person::skip(Nanoseconds time) {
 
 void Person::report(const View& view, Reading& state) const {
   const LinkView body = started_ ? shown_ : view.link(body_);
-  state.set("mode", kModeNames[static_cast<int>(mode_)]);
+  state.set("mode", choice_of(mode_, kModeNames));
   state.set("x", body.pose.position.x());
   state.set("y", body.pose.position.y());
   state.set("z", body.pose.position.z());
@@ -204,7 +200,24 @@ void Person::report(const View& view, Reading& state) const {
   state.set("speed", body.linear_velocity.head<2>().norm());
 }
 
-std::string PersonPlugin::doc() const { return "A person who walks a path: Stop, Go."; }
+const Kind& PersonPlugin::kind() const {
+  static const Kind kind = Kind("person", "A person who walks a path.")
+                               .example("set person walker stop")
+                               .verb("Stop", "stands still where the person is")
+                               .verb("Go", "walks on along the path")
+                               .choice("mode", {std::begin(kModeNames), std::end(kModeNames)},
+                                       "BLOCKED: something stands in the way")
+                               .shown()
+                               .number("x", "m", "in the world")
+                               .shown(2)
+                               .number("y", "m", "in the world")
+                               .shown(2)
+                               .number("z", "m", "in the world")
+                               .number("yaw", "rad", "in the world")
+                               .number("speed", "m/s", "horizontal")
+                               .shown(2);
+  return kind;
+}
 
 bool PersonPlugin::serves(const ModelInfo& model) const {
   return std::find(model.links.begin(), model.links.end(), "body") != model.links.end();

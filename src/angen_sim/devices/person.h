@@ -50,8 +50,7 @@ class Person : public Device {
 
 class PersonPlugin : public Plugin {
  public:
-  std::string kind() const override { return "person"; }
-  std::string doc() const override;
+  const Kind& kind() const override;
   bool serves(const ModelInfo& model) const override;
   std::unique_ptr<Device> make_device() const override { return std::make_unique<Person>(); }
 };

@@ -28,8 +28,14 @@ class Tag : public Device {
 
 class TagPlugin : public Plugin {
  public:
-  std::string kind() const override { return "tag"; }
-  std::string doc() const override { return "An RFID tag on a model."; }
+  const Kind& kind() const override {
+    static const Kind kind = Kind("tag", "An RFID tag on a model.")
+                                 .model("rfid_tag")
+                                 .text("id", "what a reader reads")
+                                 .shown()
+                                 .numbers("position", "m", "x y z in the model's frame");
+    return kind;
+  }
   bool serves(const ModelInfo&) const override { return true; }
   // Not the model's own, which is that of what it does.
   std::string instance_name(const ModelInfo& model) const override { return model.name + "_tag"; }

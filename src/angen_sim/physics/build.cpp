@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "core/diagnostics.h"
-#include "physics/embody.h"
+#include "physics/insertion.h"
 #include "physics/joints.h"
 #include "physics/shapes.h"
 
@@ -321,9 +321,9 @@ void configure(dWorldID world, ModelRecord& record, const Pose& pose) {
   for (const auto& body : record.bodies) body->at = pose * body->zero;
   displace(record);
   for (const auto& mechanism : record.mechanisms) {
-    disembody(*mechanism);
+    take_out(*mechanism);
     for (Body* body : mechanism->bodies) body->upright_at = body->at.rotation;
-    embody(world, *mechanism);
+    insert(world, *mechanism);
     // What ODE keeps is the quaternion normalized once more.
     for (Body* body : mechanism->bodies) {
       body->at.rotation = ode::quat(dBodyGetQuaternion(body->ode.get()));

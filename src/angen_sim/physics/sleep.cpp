@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "physics/embody.h"
+#include "physics/insertion.h"
 #include "physics/shapes.h"
 
 namespace angen::physics {
@@ -27,7 +27,7 @@ bool motor_turns(const Body& body) {
 
 void put_to_sleep(Body& body) {
   body.awake = false;
-  if (body.ode != nullptr) disembody(*body.mechanism);
+  if (body.ode != nullptr) take_out(*body.mechanism);
   for (Geom* geom : body.geoms) follow_body(*geom);
 }
 

@@ -7,8 +7,8 @@
 #include "core/time.h"
 #include "physics/build.h"
 #include "physics/drive.h"
-#include "physics/embody.h"
 #include "physics/impl.h"
+#include "physics/insertion.h"
 #include "physics/joints.h"
 #include "physics/sleep.h"
 
@@ -59,7 +59,7 @@ void World::Impl::wake_joint(const Joint& joint) {
 }
 
 void World::Impl::give_to_ode(Body& body) {
-  if (body.ode == nullptr) embody(world.get(), *body.mechanism);
+  if (body.ode == nullptr) insert(world.get(), *body.mechanism);
 }
 
 void World::Impl::wake_near(ModelRecord& model) {

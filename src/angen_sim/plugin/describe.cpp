@@ -28,21 +28,21 @@ class AnyWiring : public Wiring {
 };
 
 // What the simulator itself reads of every sensor.
-void read_common(Params& params, const std::string& kind, const Sensor& sensor) {
-  params.update_period(sensor.default_rate());
-  params.text("topicName", "/angen/" + kind + "/NAME", "where it publishes");
+void read_common(Params& params, const Kind& kind) {
+  params.update_period(kind.rate);
+  params.text("topicName", "/angen/" + kind.name + "/NAME", "where it publishes");
   params.text("frameName", "NAME", "frame_id of its messages");
 }
 
-// The parameters that one asks for when it is configured on nothing but these.
-std::vector<ParamDoc> asked_for(const std::string& library, const Plugin& plugin,
+// The parameters that one reads when it is configured with nothing but these.
+std::vector<ParamDoc> params_of(const std::string& library, const Plugin& plugin,
                                 std::vector<Element> given) {
   Element element;
   element.name = "plugin";
   element.attributes = {{"filename", library}};
   element.children = std::move(given);
   Params params(element);
-  AnyWiring wiring(plugin.kind());
+  AnyWiring wiring(plugin.kind().name);
   const auto sensor = plugin.make_sensor();
   const auto device = sensor ? nullptr : plugin.make_device();
   try {
@@ -51,13 +51,13 @@ std::vector<ParamDoc> asked_for(const std::string& library, const Plugin& plugin
   } catch (const Error&) {
     // It cannot do without something that nothing has; what it read until then is known.
   }
-  if (sensor) read_common(params, plugin.kind(), *sensor);
+  if (sensor) read_common(params, plugin.kind());
   return params.docs();
 }
 
-// Some ask for more once they know the model, say, that they are to be.
+// Some read more once they know, say, which model they are to be.
 PluginDoc describe(const std::string& library, const Plugin& plugin) {
-  std::vector<ParamDoc> docs = asked_for(library, plugin, {});
+  std::vector<ParamDoc> docs = params_of(library, plugin, {});
   const std::vector<ParamDoc> first = docs;
   for (const ParamDoc& param : first) {
     if (param.path.find('/') != std::string::npos) continue;
@@ -66,7 +66,7 @@ PluginDoc describe(const std::string& library, const Plugin& plugin) {
       Element element;
       element.name = param.path;
       element.text = choice;
-      for (ParamDoc& more : asked_for(library, plugin, {element})) {
+      for (ParamDoc& more : params_of(library, plugin, {element})) {
         const bool known = std::any_of(docs.begin(), docs.end(),
                                        [&](const ParamDoc& doc) { return doc.path == more.path; });
         if (known) continue;
@@ -75,20 +75,26 @@ PluginDoc describe(const std::string& library, const Plugin& plugin) {
       }
     }
   }
-  return {library, plugin.kind(), plugin.doc(), docs};
+  return {library, plugin.kind(), plugin.make_sensor() == nullptr, docs};
 }
 
 }  // namespace
+
+std::vector<PluginDoc> describe(Catalog& catalog, const std::string& library) {
+  std::vector<PluginDoc> docs;
+  for (const auto& plugin : catalog.library(library)) {
+    docs.push_back(describe(library.substr(library.rfind('/') + 1), *plugin));
+  }
+  return docs;
+}
 
 std::vector<PluginDoc> describe(Catalog& catalog) {
   std::vector<PluginDoc> docs;
   for (const std::string& library : catalog.available()) {
     try {
-      for (const auto& plugin : catalog.library(library)) {
-        docs.push_back(describe(library, *plugin));
-      }
+      for (PluginDoc& doc : describe(catalog, library)) docs.push_back(std::move(doc));
     } catch (const Error& problem) {
-      docs.push_back({library, "", problem.what(), {}});
+      docs.push_back({library, Kind("", problem.what()), false, {}});
     }
   }
   return docs;

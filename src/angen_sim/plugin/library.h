@@ -37,13 +37,17 @@ class Catalog {
 
 struct PluginDoc {
   std::string library;
-  std::string kind;
-  std::string doc;
+  Kind kind;
+  bool is_device = false;
   std::vector<ParamDoc> params;
 };
 
 /// Every plug-in on the path with its parameters, read by configuring one of each on nothing. A
-/// library that does not load has an entry with an empty kind and the reason as doc.
+/// library that does not load has an entry whose kind has no name and the reason as its doc.
 std::vector<PluginDoc> describe(Catalog& catalog);
+
+/// The same of one library; throws Error where it does not load. `library` in what it returns is
+/// the file's name without its folder.
+std::vector<PluginDoc> describe(Catalog& catalog, const std::string& library);
 
 }  // namespace angen

@@ -191,6 +191,16 @@ Nanoseconds Params::update_period(double fallback_rate) {
   return from_seconds(1.0 / (rate > 0.0 ? rate : fallback_rate));
 }
 
+double Params::noise(const std::string& field, const std::string& unit, const std::string& doc,
+                     bool relative) {
+  Noise noise;
+  noise.field = field;
+  noise.stddev = number("noise_stddev", 0.0, unit, doc, kNotNegative);
+  noise.relative = relative;
+  noise_.push_back(noise);
+  return noise.stddev;
+}
+
 bool Params::has(const std::string& path) const { return !all(path).empty(); }
 
 Error Params::error(const std::string& path, const std::string& message) const {

@@ -1,22 +1,16 @@
 #pragma once
 
-#include <limits>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/element.h"
 #include "core/time.h"
+#include "plugin/noise.h"
+#include "plugin/range.h"
 
 namespace angen {
-
-struct Range {
-  double min = -std::numeric_limits<double>::infinity();
-  double max = std::numeric_limits<double>::infinity();
-};
-constexpr Range kPositive{std::numeric_limits<double>::min(),
-                          std::numeric_limits<double>::infinity()};
-constexpr Range kNotNegative{0.0, std::numeric_limits<double>::infinity()};
 
 /// One parameter as `angen plugins` lists it.
 struct ParamDoc {
@@ -55,6 +49,14 @@ class Params {
   Nanoseconds update_period(double fallback_rate);
   bool has(const std::string& path) const;
 
+  /// Reads <noise_stddev>, returns it, and gives that field of the sensor's readings such noise.
+  double noise(const std::string& field, const std::string& unit, const std::string& doc,
+               bool relative = false);
+  /// The same for a noise that was read otherwise.
+  void noise(Noise noise) { noise_.push_back(std::move(noise)); }
+  /// What noise() was given: the simulator adds it to what the sensor reads.
+  const std::vector<Noise>& all_noise() const { return noise_; }
+
   /// An Error at the place of `path`, or of the plug-in when it is not given there.
   Error error(const std::string& path, const std::string& message) const;
 
@@ -75,6 +77,7 @@ class Params {
   Element sensor_;
   std::set<std::string> read_;
   std::vector<ParamDoc> docs_;
+  std::vector<Noise> noise_;
 };
 
 }  // namespace angen

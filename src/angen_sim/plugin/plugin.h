@@ -8,25 +8,22 @@
 #include <vector>
 
 #include "core/random.h"
+#include "plugin/command.h"
+#include "plugin/kind.h"
 #include "plugin/params.h"
 #include "plugin/reading.h"
 #include "plugin/view.h"
 
 namespace angen {
 
-/// What followed the target's name: "Open", "Dim 40", or numbers (a drive: m/s, rad/s).
-struct Command {
-  std::string text;
-  std::vector<double> values;
-};
-
 struct Verdict {
   bool accepted = true;
   std::string reason;         // why not, what would be right
-  std::function<void()> act;  // what obeying is; may be empty
+  std::function<void()> act;  // carries the command out; may be empty
 
   static Verdict accept() { return {}; }
-  /// `act` is done once each device that the command is for has accepted it: all obey, or none.
+  /// `act` runs once each device that the command is for has accepted it: all carry it out, or
+  /// none.
   static Verdict accept(std::function<void()> act) { return {true, "", std::move(act)}; }
   static Verdict reject(std::string why) { return {false, std::move(why), {}}; }
 };
@@ -36,67 +33,69 @@ class Device {
  public:
   virtual ~Device() = default;
   virtual void configure(Params& params, Wiring& wiring) = 0;
-  virtual Verdict command(const Command& command, const View& view);  // rejects unless overridden
-  virtual void update(const View& view, Outputs& outputs) = 0;        // before physics, every tick
-  virtual void report(const View& view, Reading& state) const = 0;    // what is published on change
-  /// Asked after update(): the time up to which it needs no other, as long as it gets no command
-  /// and its model sleeps. By default it needs one every tick.
+  /// A command whose verb and number the kind allows; rejects unless overridden.
+  virtual Verdict command(const Command& command, const View& view);
+  virtual void update(const View& view, Outputs& outputs) = 0;      // before physics, every tick
+  virtual void report(const View& view, Reading& state) const = 0;  // its state
+  /// Called after update(): the time until which it needs no other update, as long as it gets no
+  /// command and its model sleeps. By default it needs one every tick.
   virtual Nanoseconds idle_until(const View&) const { return 0; }
-  /// Told before update() or command() that so much time (ns) went by without updates.
+  /// Called before update() or command() after that much time (ns) without updates.
   virtual void skip(Nanoseconds) {}
 };
 constexpr Nanoseconds kForever = INT64_MAX;
 
-/// How a sensor's readings go on while its pose and all that it asked of the world (its rays' hits,
-/// illuminance, contacts, …) stay as they are.
-enum class Rest {
-  kBusy,   // nothing is known: it looks each time
-  kSame,   // with the last one's values, no event, not urgent: it is not asked for them again
-  kNoise,  // they vary as its echo() says, tell no event and are not urgent, save at few looks: see
-           // quiet_chance()
-};
-
-/// The random numbers of a look, (0), and of those before it: (1) of the last one before.
-using Draws = std::function<Rng(int looks_ago)>;
-
-/// What a sensor at Rest::kNoise would read. Snapshots have it in place of readings that nobody has
-/// looked at: any thread asks it, also when its sensor has gone, so it depends on neither.
-class Echo {
- public:
-  virtual ~Echo() = default;
-  /// Fills in the values of the look at `time`, as the sensor's read() would.
-  virtual void read(Nanoseconds time, const Draws& draws, Reading& reading) const = 0;
-};
-
-/// Something that looks. The world gives it rays' answers; it gives a reading.
+/// Something that measures. The world answers its rays; it returns a reading. See docs/plugins.md.
 class Sensor {
  public:
-  static constexpr int kNoStance = -1;
+  static constexpr int kNoRaySet = -1;
 
   virtual ~Sensor() = default;
   virtual void configure(Params& params, Wiring& wiring) = 0;
-  /// How often it looks, ns; 0 = as often as it publishes (<update_rate>, or default_rate()).
+  /// How often it samples, ns; 0 = as often as it publishes (<update_rate>, or its kind's rate).
   virtual Nanoseconds sample_period() const { return 0; }
-  virtual double default_rate() const { return 10.0; }  // Hz
-  /// True for one that costs much: it looks only while somebody wants its readings.
-  virtual bool on_demand() const { return false; }
-  /// Asked before each look, with the time in `view`: which of its sets of rays it needs. For one
-  /// that it had before, at the same pose, aim() is not called: it would ask for the same rays.
-  virtual int stance(const View&) { return kNoStance; }
-  virtual void aim(const View&, RayBatch&) {}                                      // ask
-  virtual void read(const View& view, Hits hits, Rng& rng, Reading& reading) = 0;  // answer
-  /// Asked after each read().
-  virtual Rest rest() const { return Rest::kBusy; }
-  /// Of one at Rest::kNoise: a look may tell an event or be urgent only where the first uniform()
-  /// of its random numbers is not below this.
-  virtual double quiet_chance() const { return 0.0; }
-  /// How many looks back a reading at Rest::kNoise depends on.
-  virtual int memory() const { return 0; }
-  /// Of one at Rest::kNoise: what stands for it while nothing changes, instead of readings.
-  virtual std::shared_ptr<const Echo> echo() const { return nullptr; }
-  /// Told before the look that follows after its echo stood for it, the last time at `time`: it is
-  /// to be as if it had read what the echo did. `draws` are of that look.
-  virtual void resume(Nanoseconds /*time*/, const Draws& /*draws*/) {}
+  /// Called before each sample: which of its sets of rays it needs now. For a set that it had
+  /// before, at the same pose, aim() is not called and static hits are cached.
+  virtual int ray_set(const View&) { return kNoRaySet; }
+  virtual void aim(const View&, RayBatch&) {}  // the rays to cast
+  /// The reading, without the noise that configure() declared by Params::noise(). `rng` is for
+  /// other random effects.
+  virtual void read(const View& view, Hits hits, Rng& rng, Reading& reading) = 0;
+  /// Called after read(): whether further readings would have the same values (before noise), no
+  /// event and not be urgent, as long as its pose and all that it queried stay as they are.
+  virtual bool steady() const { return false; }
+};
+
+/// The random numbers of a sample, (0), and of those before it: (1) of the previous one.
+using Draws = std::function<Rng(int samples_ago)>;
+
+/// Makes the readings of a steady sensor whose readings differ by noise only. Snapshots hold it in
+/// place of readings that nobody has read yet. Any thread may call it, also after the sensor was
+/// deleted, so it depends on neither.
+class LazyReading {
+ public:
+  virtual ~LazyReading() = default;
+  /// Fills in the values of the sample at `time`, as the sensor's read() would.
+  virtual void read(Nanoseconds time, const Draws& draws, Reading& reading) const = 0;
+};
+
+/// An optional second base of a sensor that decides by noisy values, as a motion detector does, and
+/// so applies its noise itself. Without it such a sensor samples at each due time.
+class NoisySensor {
+ public:
+  virtual ~NoisySensor() = default;
+  /// Of a steady sensor: whether its readings differ from sample to sample.
+  virtual bool varies() const = 0;
+  /// Where the first uniform() of a sample's random numbers is below this, the sample has no event
+  /// and is not urgent while the sensor is steady.
+  virtual double quiet_chance() const = 0;
+  /// On how many earlier samples a reading depends.
+  virtual int memory() const = 0;
+  /// Makes its readings while nothing changes.
+  virtual std::shared_ptr<const LazyReading> lazy_reading() const = 0;
+  /// Called before the sample after those that its lazy reading stood for, the last of them at
+  /// `time`: the sensor's state is to be as if it had read them. `draws` are of that last one.
+  virtual void resume(Nanoseconds time, const Draws& draws) = 0;
 };
 
 /// What a plug-in sees of a model before deciding to serve it.
@@ -121,8 +120,7 @@ struct ModelInfo {
 class Plugin {
  public:
   virtual ~Plugin() = default;
-  virtual std::string kind() const = 0;  // "door"
-  virtual std::string doc() const = 0;   // one line
+  virtual const Kind& kind() const = 0;
   /// Devices: does this model get one?
   virtual bool serves(const ModelInfo&) const { return false; }
   /// Devices: the name that commands use.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -14,25 +15,40 @@ namespace angen {
 
 /// An image: height x width x channels values, row after row from the top. Copies share them.
 template <class T>
-struct Grid {
+struct ImageArray {
   std::uint32_t height = 0;
   std::uint32_t width = 0;
   std::uint32_t channels = 0;
   std::shared_ptr<const std::vector<T>> values;
 
-  bool operator==(const Grid& other) const {
+  bool operator==(const ImageArray& other) const {
     return height == other.height && width == other.width && channels == other.channels &&
            (values == other.values || (values && other.values && *values == *other.values));
   }
 };
-using ByteGrid = Grid<std::uint8_t>;
-using FloatGrid = Grid<float>;
+using ByteImage = ImageArray<std::uint8_t>;
+using FloatImage = ImageArray<float>;
+
+/// One of a few named values, as a door's mode. Its name lives as long as the process: a literal.
+struct Choice {
+  std::int64_t value = 0;  // the constant that messages have for it
+  const char* name = "";   // "OPEN"
+
+  bool operator==(const Choice& other) const { return value == other.value; }
+};
+
+/// The choice that an enumerator is, by the names of all of them.
+template <class Enum, std::size_t N>
+Choice choice_of(Enum value, const char* const (&names)[N]) {
+  const auto index = static_cast<std::size_t>(value);
+  return {static_cast<std::int64_t>(index), names[index]};
+}
 
 using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>,
-                           std::vector<std::string>, ByteGrid, FloatGrid>;
+                           std::vector<std::string>, ByteImage, FloatImage, Choice>;
 
-/// What a sensor measured or the state a device is in: named values. `ros` knows the built-in kinds
-/// and sends any other as a generic message.
+/// What a sensor measured or the state a device is in: named values. A kind without a message of
+/// its own is published as the generic angen_msgs/Reading.
 struct Reading {
   std::string kind;       // "pir", "door", …
   Nanoseconds stamp = 0;  // when it was made; it stands until another is
@@ -60,10 +76,14 @@ struct Reading {
     }
     return nullptr;
   }
-  /// The field's value, or `fallback` where it is missing or of another type.
+  /// The field's value, or `fallback` where it is missing or of another type; of a choice its name.
   template <class T>
   T get(const std::string& name, T fallback = T{}) const {
     const Value* value = find(name);
+    if constexpr (std::is_same_v<T, std::string>) {
+      const Choice* choice = value != nullptr ? std::get_if<Choice>(value) : nullptr;
+      if (choice != nullptr) return choice->name;
+    }
     const T* typed = value != nullptr ? std::get_if<T>(value) : nullptr;
     return typed != nullptr ? *typed : fallback;
   }

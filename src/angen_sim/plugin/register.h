@@ -18,13 +18,33 @@
                                                               "angen::Plugin");      \
   }
 
-/// A sensor class and its kind, with no Plugin subclass to write. Stands in the class's namespace.
-#define ANGEN_REGISTER_SENSOR(Type, Kind, Doc)                    \
+/// A sensor class and its kind, with no Plugin subclass to write: ANGEN_REGISTER_SENSOR(Type, NAME,
+/// DOC), or ANGEN_REGISTER_SENSOR(Type, Kind(NAME, DOC).number(…)…). Stands in the class's
+/// namespace.
+#define ANGEN_REGISTER_SENSOR(Type, ...)                          \
   struct Type##Plugin : angen::Plugin {                           \
-    std::string kind() const override { return Kind; }            \
-    std::string doc() const override { return Doc; }              \
+    const angen::Kind& kind() const override {                    \
+      using angen::Kind;                                          \
+      static const Kind described(__VA_ARGS__);                   \
+      return described;                                           \
+    }                                                             \
     std::unique_ptr<angen::Sensor> make_sensor() const override { \
       return std::make_unique<Type>();                            \
     }                                                             \
   };                                                              \
+  ANGEN_REGISTER_PLUGIN(Type##Plugin)
+
+/// The same of a device that any model may have.
+#define ANGEN_REGISTER_DEVICE(Type, ...)                                 \
+  struct Type##Plugin : angen::Plugin {                                  \
+    const angen::Kind& kind() const override {                           \
+      using angen::Kind;                                                 \
+      static const Kind described(__VA_ARGS__);                          \
+      return described;                                                  \
+    }                                                                    \
+    bool serves(const angen::ModelInfo&) const override { return true; } \
+    std::unique_ptr<angen::Device> make_device() const override {        \
+      return std::make_unique<Type>();                                   \
+    }                                                                    \
+  };                                                                     \
   ANGEN_REGISTER_PLUGIN(Type##Plugin)

@@ -14,7 +14,7 @@
 #include "light/lighting.h"
 #include "plugin/reading.h"
 #include "rays/scene.h"
-#include "render/lens.h"
+#include "render/pinhole_camera.h"
 
 namespace angen {
 
@@ -88,9 +88,10 @@ class View {
   /// Grows when shapes come, go or move: where it is the same, rays get the same answers.
   virtual std::uint64_t scene_revision() const = 0;
   /// What a camera at `pose` (world, x ahead, z up) sees: height x width x 3 bytes, sRGB.
-  virtual std::vector<std::uint8_t> colors(const render::Lens& lens, const Pose& pose) const = 0;
+  virtual std::vector<std::uint8_t> colors(const render::PinholeCamera& lens,
+                                           const Pose& pose) const = 0;
   /// height x width distances along its x axis in m, NaN where nothing is.
-  virtual std::vector<float> depths(const render::Lens& lens, const Pose& pose) const = 0;
+  virtual std::vector<float> depths(const render::PinholeCamera& lens, const Pose& pose) const = 0;
 };
 
 /// What a plug-in asks for by name, once, before the world runs. Unknown names throw Error and list
@@ -123,7 +124,7 @@ class Outputs {
   virtual void drive(LinkRef link, const Vec3& velocity, double yaw_rate, double max_force) = 0;
   /// Light level 0..1 and the flux in lm that level 1 stands for.
   virtual void light(LightRef light, double level, double luminous_flux) = 0;
-  /// Told to everybody on /angen/events.
+  /// PublishedReading to everybody on /angen/events.
   virtual void event(const std::string& event, const std::string& detail) = 0;
 };
 

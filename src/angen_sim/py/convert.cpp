@@ -11,9 +11,11 @@ pyb::object to_object(const T& value) {
   return pyb::cast(value);
 }
 
+pyb::object to_object(const Choice& choice) { return pyb::str(choice.name); }
+
 // (height, width), or (height, width, channels) where there are several.
 template <class T>
-pyb::object to_object(const Grid<T>& grid) {
+pyb::object to_object(const ImageArray<T>& grid) {
   std::vector<pyb::ssize_t> shape{grid.height, grid.width};
   if (grid.channels != 1) shape.push_back(grid.channels);
   return pyb::array_t<T>(shape, grid.values ? grid.values->data() : nullptr);
@@ -45,7 +47,7 @@ void set_list(const std::string& name, const pyb::handle& value, Reading& readin
     }
   } catch (const pyb::cast_error&) {
     throw Error("the field '" + name +
-                "' is no bool, number or text, nor a list of numbers or of texts");
+                "' is not a bool, number or text, nor a list of numbers or of texts");
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "plugin/json.h"
 #include "py/subclass.h"
 #include "py/world.h"
 
@@ -92,8 +93,9 @@ void bind_world(pyb::module_& module) {
            "Adds a model (SDF text, path or model:// uri), or a <sensor> to the link `on`; pose is "
            "x y z roll pitch yaw (m, rad).")
       .def("delete", &World::remove, pyb::arg("name"))
-      .def("want", &World::want, pyb::arg("kind"), pyb::arg("name"), pyb::arg("wanted") = true,
-           "Lidars, cameras and depth cameras look only while they are wanted; others always do.")
+      .def("request", &World::request, pyb::arg("kind"), pyb::arg("name"),
+           pyb::arg("wanted") = true,
+           "Sensors that sample on demand (lidar, camera, depth) do so while they are requested.")
       .def("reset", &World::reset, "Everything back to its start, the time to 0.")
       .def("save", &World::save, "The world as it stands, as SDF text.")
       .def(
@@ -220,21 +222,10 @@ void bind_catalog(pyb::module_& module) {
       "Makes a Python subclass of Sensor or Device a plug-in: <plugin filename=\"FILENAME\">.");
   module.def(
       "plugins",
-      [] {
-        pyb::list all;
-        for (const PluginDoc& plugin : describe(*catalog())) {
-          pyb::list params;
-          for (const ParamDoc& p : plugin.params) {
-            params.append(pyb::dict(pyb::arg("path") = p.path, pyb::arg("type") = p.type,
-                                    pyb::arg("default") = p.fallback, pyb::arg("unit") = p.unit,
-                                    pyb::arg("doc") = p.doc));
-          }
-          all.append(pyb::dict(pyb::arg("library") = plugin.library, pyb::arg("kind") = plugin.kind,
-                               pyb::arg("doc") = plugin.doc, pyb::arg("params") = params));
-        }
-        return all;
-      },
-      "Every plug-in on the path: library, kind, doc, params.");
+      [] { return pyb::module_::import("json").attr("loads")(to_json(describe(*catalog()))); },
+      "Every kind of sensor and device on the plug-in path: a list of dicts with library, kind, "
+      "doc, role, rate, on_demand, models, sensor_type, example, command_topic, verbs, fields and "
+      "params, as `angen plugins --json` prints it.");
 }
 
 }  // namespace

@@ -54,15 +54,13 @@ class PythonSensor : public Sensor {
     return with_python(
         [&] { return from_seconds(pyb::cast<double>(self_.get().attr("sample_period"))); });
   }
-  double default_rate() const override {
-    return with_python([&] { return pyb::cast<double>(self_.get().attr("rate")); });
-  }
   void aim(const View& view, RayBatch& batch) override {
     with_python([&] {
-      const pyb::object asked = self_.get().attr("aim")(borrowed(view));
-      if (asked.is_none()) return;
+      const pyb::object wanted = self_.get().attr("aim")(borrowed(view));
+      if (wanted.is_none()) return;
       // Rows of origin x y z, direction x y z, min and max range.
-      const auto rows = pyb::cast<Eigen::Matrix<double, Eigen::Dynamic, 8, Eigen::RowMajor>>(asked);
+      const auto rows =
+          pyb::cast<Eigen::Matrix<double, Eigen::Dynamic, 8, Eigen::RowMajor>>(wanted);
       for (Eigen::Index i = 0; i < rows.rows(); ++i) {
         batch.push_back({rows.block<1, 3>(i, 0).transpose(),
                          rows.block<1, 3>(i, 3).transpose().normalized(), rows(i, 6), rows(i, 7)});
@@ -110,16 +108,14 @@ class PythonDevice : public Device {
 
 class PythonPlugin : public Plugin {
  public:
-  PythonPlugin(std::string kind, pyb::object type, bool is_sensor)
-      : kind_(std::move(kind)), type_(std::move(type)), is_sensor_(is_sensor) {}
-
-  std::string kind() const override { return kind_; }
-  std::string doc() const override {
-    return with_python([&] {
-      const pyb::object doc = type_.get().attr("__doc__");
-      return doc.is_none() ? std::string() : pyb::cast<std::string>(doc);
-    });
+  PythonPlugin(const std::string& kind, pyb::object type, bool is_sensor)
+      : kind_(kind, ""), type_(std::move(type)), is_sensor_(is_sensor) {
+    const pyb::object doc = type_.get().attr("__doc__");
+    if (!doc.is_none()) kind_.doc = pyb::cast<std::string>(doc);
+    if (is_sensor_) kind_.publishes_at(pyb::cast<double>(type_.get().attr("rate")));
   }
+
+  const Kind& kind() const override { return kind_; }
   bool serves(const ModelInfo& model) const override {
     if (is_sensor_) return false;
     return with_python([&] {
@@ -138,7 +134,7 @@ class PythonPlugin : public Plugin {
   }
 
  private:
-  std::string kind_;
+  Kind kind_;
   Held type_;
   bool is_sensor_;
 };

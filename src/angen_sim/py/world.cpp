@@ -71,7 +71,7 @@ std::uint64_t World::ticks_in(double seconds) const {
 }
 
 // The world stays paused: a tick carries out what waits, and time moves by step() alone.
-void World::obey(sim::Action action) {
+void World::drain(sim::Action action) {
   std::future<sim::Outcome> outcome = simulation_.post(std::move(action));
   take(simulation_.tick());
   const sim::Outcome result = outcome.get();
@@ -80,27 +80,27 @@ void World::obey(sim::Action action) {
 
 void World::command(const std::string& kind, const std::string& name, const std::string& text,
                     const std::vector<double>& values) {
-  obey(sim::ToDevice{kind, name, {text, values}});
+  drain(sim::ToDevice{kind, name, {text, values}});
 }
 
 void World::spawn(const std::string& what, const std::string& name, const std::vector<double>& pose,
                   const std::string& on) {
   if (load::is_sensor(what)) {
-    obey(sim::Attach{load::sensor(what, name, to_pose(pose)), on});
+    drain(sim::Attach{load::sensor(what, name, to_pose(pose)), on});
   } else {
-    obey(sim::Spawn{load::model(what, name, to_pose(pose), paths_)});
+    drain(sim::Spawn{load::model(what, name, to_pose(pose), paths_)});
   }
 }
 
-void World::want(const std::string& kind, const std::string& name, bool wanted) {
+void World::request(const std::string& kind, const std::string& name, bool wanted) {
   index_of(snapshot_->structure->sensors, kind, name);
-  simulation_.want(kind, name, wanted);
+  simulation_.request(kind, name, wanted);
 }
 
-void World::remove(const std::string& name) { obey(sim::Delete{name}); }
+void World::remove(const std::string& name) { drain(sim::Delete{name}); }
 
 void World::reset() {
-  obey(sim::Reset{});
+  drain(sim::Reset{});
   fingerprint_ = {};
   begin();
 }
@@ -110,9 +110,9 @@ Reading World::sensor(const std::string& kind, const std::string& name) const {
   const std::size_t index = index_of(structure.sensors, kind, name);
   const std::shared_ptr<const Reading> reading = snapshot_->reading(index);
   if (!reading) {
-    const bool asleep = structure.sensors[index].on_demand && !simulation_.wanted(kind, name);
+    const bool asleep = structure.sensors[index].on_demand && !simulation_.requested(kind, name);
     throw Error(kind + " '" + name + "' has measured nothing yet; " +
-                (asleep ? "want('" + kind + "', '" + name + "') and step first" : "step first"));
+                (asleep ? "request('" + kind + "', '" + name + "') and step first" : "step first"));
   }
   Reading copy = *reading;
   copy.stamp = snapshot_->stamp(index);

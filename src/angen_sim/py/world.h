@@ -30,7 +30,7 @@ class World {
   void spawn(const std::string& what, const std::string& name, const std::vector<double>& pose,
              const std::string& on);
   void remove(const std::string& name);
-  void want(const std::string& kind, const std::string& name, bool wanted);
+  void request(const std::string& kind, const std::string& name, bool wanted);
   void reset();
 
   Reading sensor(const std::string& kind, const std::string& name) const;
@@ -43,7 +43,7 @@ class World {
 
  private:
   void begin();
-  void obey(sim::Action action);
+  void drain(sim::Action action);
   void take(std::shared_ptr<const sim::Snapshot> snapshot);
 
   load::SearchPaths paths_;

@@ -27,9 +27,10 @@ class Mixer {
     add(bits);
   }
   void add(const std::string& text) { add(hash_bytes(text)); }
+  void add(const Choice& choice) { add(std::string(choice.name)); }
   void add(float value) { add(static_cast<double>(value)); }
   template <class T>
-  void add(const Grid<T>& grid) {
+  void add(const ImageArray<T>& grid) {
     add(grid.height);
     add(grid.width);
     add(grid.channels);

@@ -21,28 +21,30 @@ bool alone(const Body& body) { return body.moves || body.holds_lamp; }
 /// The camera's rays, a tile at a time. Directions are as long as makes their reach the depth.
 class Eye {
  public:
-  Eye(const Lens& lens, const Pose& camera) : lens_(lens), origin_(camera.position.cast<float>()) {
-    const Eigen::Matrix3d rotation = camera.rotation.normalized().toRotationMatrix();
+  Eye(const PinholeCamera& camera, const Pose& pose)
+      : camera_(camera), origin_(pose.position.cast<float>()) {
+    const Eigen::Matrix3d rotation = pose.rotation.normalized().toRotationMatrix();
     ahead_ = rotation.col(0);
-    right_ = -rotation.col(1) / lens.focal();
-    down_ = -rotation.col(2) / lens.focal();
+    right_ = -rotation.col(1) / camera.focal();
+    down_ = -rotation.col(2) / camera.focal();
   }
 
   void aim(int column, int row, int* valid, RTCRayHit16& rays) const {
     for (int i = 0; i < kLanes; ++i) {
       const int x = column + i % kTile;
       const int y = row + i / kTile;
-      valid[i] = x < lens_.width && y < lens_.height ? -1 : 0;
+      valid[i] = x < camera_.width && y < camera_.height ? -1 : 0;
       const Eigen::Vector3f direction =
-          (ahead_ + (x - lens_.centre_x()) * right_ + (y - lens_.centre_y()) * down_).cast<float>();
+          (ahead_ + (x - camera_.center_x()) * right_ + (y - camera_.center_y()) * down_)
+              .cast<float>();
       rays.ray.org_x[i] = origin_.x();
       rays.ray.org_y[i] = origin_.y();
       rays.ray.org_z[i] = origin_.z();
       rays.ray.dir_x[i] = direction.x();
       rays.ray.dir_y[i] = direction.y();
       rays.ray.dir_z[i] = direction.z();
-      rays.ray.tnear[i] = static_cast<float>(lens_.near);
-      rays.ray.tfar[i] = static_cast<float>(lens_.far);
+      rays.ray.tnear[i] = static_cast<float>(camera_.near);
+      rays.ray.tfar[i] = static_cast<float>(camera_.far);
       rays.ray.time[i] = 0.0F;
       rays.ray.mask[i] = UINT32_MAX;
       rays.ray.id[i] = 0;
@@ -53,7 +55,7 @@ class Eye {
   }
 
  private:
-  const Lens& lens_;
+  const PinholeCamera& camera_;
   Eigen::Vector3f origin_;
   Vec3 ahead_, right_, down_;
 };
@@ -66,12 +68,12 @@ Eigen::Vector3f direction_of(const RTCRay16& ray, int i) {
 
 /// Calls visit(column, row, valid, rays) for each tile, traced.
 template <class Visit>
-void trace(const Lens& lens, const Pose& camera, RTCScene scene, Visit&& visit) {
-  const Eye eye(lens, camera);
+void trace(const PinholeCamera& camera, const Pose& pose, RTCScene scene, Visit&& visit) {
+  const Eye eye(camera, pose);
   alignas(64) int valid[kLanes];
   alignas(64) RTCRayHit16 rays;
-  for (int row = 0; row < lens.height; row += kTile) {
-    for (int column = 0; column < lens.width; column += kTile) {
+  for (int row = 0; row < camera.height; row += kTile) {
+    for (int column = 0; column < camera.width; column += kTile) {
       eye.aim(column, row, valid, rays);
       RTCIntersectContext context;
       rtcInitIntersectContext(&context);
@@ -178,17 +180,17 @@ void Scene::remove(BodyId body) {
   impl_->new_set = true;
 }
 
-std::vector<std::uint8_t> Scene::colors(const Lens& lens, const Pose& camera,
+std::vector<std::uint8_t> Scene::colors(const PinholeCamera& camera, const Pose& pose,
                                         const std::vector<light::Lit>& lamps,
                                         const Ambience& ambience) const {
   impl_->prepare();
   const Stand& stand = impl_->stand;
   const Eigen::Vector3f ambient = kAmbientIlluminance * ambience.ambient;
-  std::vector<std::uint8_t> pixels(3U * static_cast<std::size_t>(lens.width) * lens.height);
+  std::vector<std::uint8_t> pixels(3U * static_cast<std::size_t>(camera.width) * camera.height);
   std::vector<Eigen::AlignedBox3f> reaches;
   for (const light::Lit& lit : lamps) reaches.push_back(impl_->reaches.of(lit.lamp));
   Tile tile;
-  trace(lens, camera, stand.seen(),
+  trace(camera, pose, stand.seen(),
         [&](int column, int row, const int* valid, const RTCRayHit16& rays) {
           gather(stand, valid, rays, ambient, tile);
           const Eigen::AlignedBox3f seen = bounds_of(tile);
@@ -198,7 +200,7 @@ std::vector<std::uint8_t> Scene::colors(const Lens& lens, const Pose& camera,
           for (int i = 0; i < kLanes; ++i) {
             if (valid[i] == 0) continue;
             const std::size_t at =
-                static_cast<std::size_t>(row + i / kTile) * lens.width + column + i % kTile;
+                static_cast<std::size_t>(row + i / kTile) * camera.width + column + i % kTile;
             if (tile.valid[i] != 0) {
               show(tile, i, &pixels[3 * at]);
             } else {
@@ -209,15 +211,15 @@ std::vector<std::uint8_t> Scene::colors(const Lens& lens, const Pose& camera,
   return pixels;
 }
 
-std::vector<float> Scene::depths(const Lens& lens, const Pose& camera) const {
+std::vector<float> Scene::depths(const PinholeCamera& camera, const Pose& pose) const {
   impl_->prepare();
-  std::vector<float> values(static_cast<std::size_t>(lens.width) * lens.height,
+  std::vector<float> values(static_cast<std::size_t>(camera.width) * camera.height,
                             std::numeric_limits<float>::quiet_NaN());
-  trace(lens, camera, impl_->stand.seen(),
+  trace(camera, pose, impl_->stand.seen(),
         [&](int column, int row, const int* valid, const RTCRayHit16& rays) {
           for (int i = 0; i < kLanes; ++i) {
             if (valid[i] == 0 || !met(rays, i)) continue;
-            values[static_cast<std::size_t>(row + i / kTile) * lens.width + column + i % kTile] =
+            values[static_cast<std::size_t>(row + i / kTile) * camera.width + column + i % kTile] =
                 rays.ray.tfar[i];
           }
         });

@@ -7,7 +7,7 @@
 #include "core/id.h"
 #include "core/shape.h"
 #include "light/lighting.h"
-#include "render/lens.h"
+#include "render/pinhole_camera.h"
 
 /// What cameras see: colour under the lamps' light, and depth.
 namespace angen::render {
@@ -50,13 +50,13 @@ class Scene {
   /// height x width x 3 values, sRGB, row after row from the top. A surface of albedo a under
   /// E lx has the luminance L = a E / pi; it is shown as L / (L + 10 cd/m^2), sRGB-encoded. E is
   /// the lamps' direct light with hard shadows, and 2.5 lx times the ambient colour.
-  std::vector<std::uint8_t> colors(const Lens& lens, const Pose& camera,
+  std::vector<std::uint8_t> colors(const PinholeCamera& camera, const Pose& pose,
                                    const std::vector<light::Lit>& lamps,
                                    const Ambience& ambience) const;
 
   /// height x width distances along the camera's axis in m; NaN where nothing is between near and
   /// far.
-  std::vector<float> depths(const Lens& lens, const Pose& camera) const;
+  std::vector<float> depths(const PinholeCamera& camera, const Pose& pose) const;
 
  private:
   struct Impl;

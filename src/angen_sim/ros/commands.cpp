@@ -55,7 +55,7 @@ void Commands::add_known_names(sim::Reject& reject) const {
   reject.reason += "; known names are " + join_names(known);
 }
 
-void Commands::follow(const std::vector<Robot>& robots) {
+void Commands::on_structure(const std::vector<Robot>& robots) {
   decltype(drives_) kept;
   for (const Robot& robot : robots) {
     for (const std::string& topic : robot.command_topics) {

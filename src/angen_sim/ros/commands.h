@@ -20,7 +20,7 @@ class Commands {
   Commands(ros::NodeHandle& node, Inbox& inbox);
 
   /// Subscribes to the command topics of the drives that exist now, and to no others.
-  void follow(const std::vector<Robot>& robots);
+  void on_structure(const std::vector<Robot>& robots);
 
  private:
   void add_known_names(sim::Reject& reject) const;

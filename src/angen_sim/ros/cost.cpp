@@ -53,7 +53,8 @@ angen_msgs::Cost to_message(const Spent& spent) {
 }
 
 CostTopic::CostTopic(ros::NodeHandle& node, sim::Simulation& simulation)
-    : simulation_(simulation), outlet_(Outlet::of<angen_msgs::Cost>(node, "/angen/cost", 10)) {}
+    : simulation_(simulation),
+      publisher_(LazyPublisher::of<angen_msgs::Cost>(node, "/angen/cost", 10)) {}
 
 void CostTopic::restart(Pacer::Clock::time_point now) {
   since_ = now;
@@ -61,9 +62,9 @@ void CostTopic::restart(Pacer::Clock::time_point now) {
   publishing_ = 0;
 }
 
-void CostTopic::pass(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {
+void CostTopic::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {
   publishing_ += watch_.lap();
-  if (outlet_.heard() != measuring_) {
+  if (publisher_.has_subscribers() != measuring_) {
     measuring_ = !measuring_;
     simulation_.measure(measuring_);
     simulation_.take_cost();
@@ -73,7 +74,7 @@ void CostTopic::pass(const sim::Snapshot& snapshot, Pacer::Clock::time_point now
   const Spent spent{simulation_.take_cost(), publishing_, process_time() - process_since_,
                     std::chrono::nanoseconds(now - since_).count()};
   restart(now);
-  outlet_.send([&] {
+  publisher_.publish([&] {
     angen_msgs::Cost message = to_message(spent);
     message.header.stamp = to_ros(snapshot.time);
     return message;

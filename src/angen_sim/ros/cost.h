@@ -3,7 +3,7 @@
 #include <angen_msgs/Cost.h>
 
 #include "core/stopwatch.h"
-#include "ros/outlet.h"
+#include "ros/lazy_publisher.h"
 #include "ros/pacer.h"
 #include "sim/simulation.h"
 
@@ -25,15 +25,15 @@ class CostTopic {
  public:
   CostTopic(ros::NodeHandle& node, sim::Simulation& simulation);
 
-  /// To be called around publishing, pass() at its end.
+  /// To be called around publishing, publish() at its end.
   void start() { watch_.start(measuring_); }
-  void pass(const sim::Snapshot& snapshot, Pacer::Clock::time_point now);
+  void publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point now);
 
  private:
   void restart(Pacer::Clock::time_point now);
 
   sim::Simulation& simulation_;
-  Outlet outlet_;
+  LazyPublisher publisher_;
   Stopwatch watch_;
   bool measuring_ = false;
   Pacer::Clock::time_point since_;

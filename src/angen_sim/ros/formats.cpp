@@ -11,7 +11,7 @@
 
 #include "ros/convert.h"
 #include "ros/images.h"
-#include "ros/outlet.h"
+#include "ros/lazy_publisher.h"
 #include "ros/readings.h"
 #include "ros/states.h"
 
@@ -34,29 +34,29 @@ template <class Message>
 class Each : public Channel {
  public:
   Each(ros::NodeHandle& node, const std::string& topic)
-      : outlet_(Outlet::of<Message>(node, topic, kReadingQueue)) {}
-  bool heard() const override { return outlet_.heard(); }
+      : publisher_(LazyPublisher::of<Message>(node, topic, kReadingQueue)) {}
+  bool has_subscribers() const override { return publisher_.has_subscribers(); }
   void put(const Parcel& parcel) override {
-    outlet_.send([&] { return to_message<Message>(parcel); });
+    publisher_.publish([&] { return to_message<Message>(parcel); });
   }
 
  private:
-  Outlet outlet_;
+  LazyPublisher publisher_;
 };
 
 template <class Message>
 class Latched : public Channel {
  public:
-  Latched(ros::NodeHandle& node, const std::string& topic) : outlet_(node, topic, kStateQueue) {}
-  bool heard() const override { return true; }
+  Latched(ros::NodeHandle& node, const std::string& topic) : publisher_(node, topic, kStateQueue) {}
+  bool has_subscribers() const override { return true; }
   void put(const Parcel& parcel) override {
     if (parcel.reading == last_) return;
     last_ = parcel.reading;
-    outlet_.set([parcel] { return to_message<Message>(parcel); });
+    publisher_.set([parcel] { return to_message<Message>(parcel); });
   }
 
  private:
-  LatchedOutlet<Message> outlet_;
+  LatchedLazyPublisher<Message> publisher_;
   std::shared_ptr<const Reading> last_;
 };
 
@@ -64,33 +64,33 @@ template <class Array, class Message>
 class Together : public Channel {
  public:
   Together(ros::NodeHandle& node, const std::string& topic)
-      : outlet_(Outlet::of<Array>(node, topic, kReadingQueue)) {}
-  bool heard() const override { return outlet_.heard(); }
+      : publisher_(LazyPublisher::of<Array>(node, topic, kReadingQueue)) {}
+  bool has_subscribers() const override { return publisher_.has_subscribers(); }
   bool collects() const override { return true; }
   void put(const Parcel& parcel) override {
-    if (heard()) parcels_.push_back(parcel);
+    if (has_subscribers()) pending_.push_back(parcel);
   }
   void flush(Nanoseconds now) override {
-    if (parcels_.empty()) return;
-    outlet_.send([&] { return collect(now); });
-    parcels_.clear();
+    if (pending_.empty()) return;
+    publisher_.publish([&] { return collect(now); });
+    pending_.clear();
   }
 
  private:
   Array collect(Nanoseconds now) const {
     Array array;
     array.header.stamp = to_ros(now);
-    array.names.reserve(parcels_.size());
-    array.readings.reserve(parcels_.size());
-    for (const Parcel& parcel : parcels_) {
+    array.names.reserve(pending_.size());
+    array.readings.reserve(pending_.size());
+    for (const Parcel& parcel : pending_) {
       array.names.push_back(parcel.label->name);
       array.readings.push_back(to_message<Message>(parcel));
     }
     return array;
   }
 
-  Outlet outlet_;
-  std::vector<Parcel> parcels_;
+  LazyPublisher publisher_;
+  std::vector<Parcel> pending_;
 };
 
 template <class Kind>

@@ -27,7 +27,7 @@ struct Parcel {
 class Channel {
  public:
   virtual ~Channel() = default;
-  virtual bool heard() const = 0;
+  virtual bool has_subscribers() const = 0;
   virtual void put(const Parcel& parcel) = 0;
   /// Whether what is put waits for flush(), which sends all of it in one message.
   virtual bool collects() const { return false; }

@@ -9,7 +9,7 @@ namespace angen::node {
 namespace {
 
 template <class T>
-void copy(const Grid<T>& grid, const char* encoding, sensor_msgs::Image& message) {
+void copy(const ImageArray<T>& grid, const char* encoding, sensor_msgs::Image& message) {
   if (!grid.values) return;
   message.height = grid.height;
   message.width = grid.width;
@@ -22,29 +22,29 @@ void copy(const Grid<T>& grid, const char* encoding, sensor_msgs::Image& message
 }  // namespace
 
 void fill(const Reading& reading, const Label&, sensor_msgs::Image& message) {
-  copy(reading.get<ByteGrid>("image"), sensor_msgs::image_encodings::RGB8.c_str(), message);
-  copy(reading.get<FloatGrid>("depth"), sensor_msgs::image_encodings::TYPE_32FC1.c_str(), message);
+  copy(reading.get<ByteImage>("image"), sensor_msgs::image_encodings::RGB8.c_str(), message);
+  copy(reading.get<FloatImage>("depth"), sensor_msgs::image_encodings::TYPE_32FC1.c_str(), message);
 }
 
 void fill(const Reading& reading, const Label&, sensor_msgs::CameraInfo& message) {
   const auto focal = reading.get<double>("focal");
-  const auto centre_x = reading.get<double>("centre_x");
-  const auto centre_y = reading.get<double>("centre_y");
+  const auto center_x = reading.get<double>("center_x");
+  const auto center_y = reading.get<double>("center_y");
   message.width = static_cast<std::uint32_t>(reading.get<std::int64_t>("width"));
   message.height = static_cast<std::uint32_t>(reading.get<std::int64_t>("height"));
   message.distortion_model = "plumb_bob";
   message.D.assign(5, 0.0);
-  message.K = {focal, 0.0, centre_x, 0.0, focal, centre_y, 0.0, 0.0, 1.0};
+  message.K = {focal, 0.0, center_x, 0.0, focal, center_y, 0.0, 0.0, 1.0};
   message.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-  message.P = {focal, 0.0, centre_x, 0.0, 0.0, focal, centre_y, 0.0, 0.0, 0.0, 1.0, 0.0};
+  message.P = {focal, 0.0, center_x, 0.0, 0.0, focal, center_y, 0.0, 0.0, 0.0, 1.0, 0.0};
 }
 
 void fill(const Reading& reading, const Label&, sensor_msgs::PointCloud2& message) {
-  const auto depth = reading.get<FloatGrid>("depth");
+  const auto depth = reading.get<FloatImage>("depth");
   if (!depth.values) return;
   const auto focal = static_cast<float>(reading.get<double>("focal"));
-  const auto centre_x = static_cast<float>(reading.get<double>("centre_x"));
-  const auto centre_y = static_cast<float>(reading.get<double>("centre_y"));
+  const auto center_x = static_cast<float>(reading.get<double>("center_x"));
+  const auto center_y = static_cast<float>(reading.get<double>("center_y"));
   message.height = depth.height;
   message.width = depth.width;
   for (std::uint32_t i = 0; i < 3; ++i) {
@@ -63,8 +63,8 @@ void fill(const Reading& reading, const Label&, sensor_msgs::PointCloud2& messag
   for (std::uint32_t row = 0; row < depth.height; ++row) {
     for (std::uint32_t column = 0; column < depth.width; ++column) {
       const float z = (*depth.values)[static_cast<std::size_t>(row) * depth.width + column];
-      const std::array<float, 3> point{(static_cast<float>(column) - centre_x) / focal * z,
-                                       (static_cast<float>(row) - centre_y) / focal * z, z};
+      const std::array<float, 3> point{(static_cast<float>(column) - center_x) / focal * z,
+                                       (static_cast<float>(row) - center_y) / focal * z, z};
       std::memcpy(&message.data[at], point.data(), message.point_step);
       at += message.point_step;
     }

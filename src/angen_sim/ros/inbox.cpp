@@ -44,7 +44,7 @@ sim::Outcome Inbox::ask(sim::Action action) {
   return outcome;
 }
 
-void Inbox::passed() {
+void Inbox::published() {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++passes_;
   done_.notify_all();

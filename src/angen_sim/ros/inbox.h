@@ -25,7 +25,7 @@ class Inbox {
   std::uint64_t posted() const { return posted_; }
 
   /// Main thread: everything that the last tick changed has been published.
-  void passed();
+  void published();
   /// Main thread, paused: sleeps until an action comes or `limit` is over.
   void wait(std::chrono::milliseconds limit);
   void close();

@@ -14,9 +14,9 @@ constexpr std::uint32_t kQueue = 20;
 
 }  // namespace
 
-void JointStates::follow(const sim::Snapshot& snapshot, const std::vector<Robot>& robots) {
+void JointStates::on_structure(const sim::Snapshot& snapshot, const std::vector<Robot>& robots) {
   const sim::Structure& structure = *snapshot.structure;
-  const std::map<std::string, Outlet> old = std::exchange(outlets_, {});
+  const std::map<std::string, LazyPublisher> old = std::exchange(publishers_, {});
   sources_.clear();
   for (const Robot& robot : robots) {
     Source source;
@@ -30,23 +30,23 @@ void JointStates::follow(const sim::Snapshot& snapshot, const std::vector<Robot>
     }
     for (const std::string& topic : robot_topics(robot, "joint_states")) {
       const auto before = old.find(topic);
-      const Outlet outlet = before != old.end()
-                                ? before->second
-                                : Outlet::of<sensor_msgs::JointState>(node_, topic, kQueue);
-      outlets_.emplace(topic, outlet);
-      source.outlets.push_back(outlet);
+      const LazyPublisher made =
+          before != old.end() ? before->second
+                              : LazyPublisher::of<sensor_msgs::JointState>(node_, topic, kQueue);
+      publishers_.emplace(topic, made);
+      source.publishers.push_back(made);
     }
     sources_.push_back(std::move(source));
   }
 }
 
-void JointStates::pass(const sim::Snapshot& snapshot) {
+void JointStates::publish(const sim::Snapshot& snapshot) {
   const Nanoseconds slot = snapshot.time / kPeriod;
   if (slot == slot_) return;
   slot_ = slot;
   for (const Source& source : sources_) {
-    for (const Outlet& outlet : source.outlets) {
-      outlet.send([&] {
+    for (const LazyPublisher& made : source.publishers) {
+      made.publish([&] {
         sensor_msgs::JointState message;
         message.header.stamp = to_ros(snapshot.time);
         message.name = source.names;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ros/frames.h"
-#include "ros/outlet.h"
+#include "ros/lazy_publisher.h"
 
 namespace angen::node {
 
@@ -16,18 +16,18 @@ class JointStates {
  public:
   explicit JointStates(ros::NodeHandle& node) : node_(node) {}
 
-  void follow(const sim::Snapshot& snapshot, const std::vector<Robot>& robots);
-  void pass(const sim::Snapshot& snapshot);
+  void on_structure(const sim::Snapshot& snapshot, const std::vector<Robot>& robots);
+  void publish(const sim::Snapshot& snapshot);
 
  private:
   struct Source {
     std::vector<std::uint32_t> joints;  // in Structure::joints
     std::vector<std::string> names;     // without the model's
-    std::vector<Outlet> outlets;
+    std::vector<LazyPublisher> publishers;
   };
 
   ros::NodeHandle& node_;
-  std::map<std::string, Outlet> outlets_;  // by topic
+  std::map<std::string, LazyPublisher> publishers_;  // by topic
   std::vector<Source> sources_;
   Nanoseconds slot_ = -1;
 };

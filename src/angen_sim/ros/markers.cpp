@@ -14,9 +14,9 @@ constexpr std::chrono::milliseconds kPeriod(66);
 }  // namespace
 
 Markers::Markers(ros::NodeHandle& node)
-    : outlet_(Outlet::of<visualization_msgs::MarkerArray>(node, "/angen/markers", 100)) {}
+    : publisher_(LazyPublisher::of<visualization_msgs::MarkerArray>(node, "/angen/markers", 100)) {}
 
-void Markers::follow(const sim::Snapshot& snapshot) {
+void Markers::on_structure(const sim::Snapshot& snapshot) {
   const sim::Structure& structure = *snapshot.structure;
   std::map<const desc::Model*, DrawnModel> old = std::exchange(models_, {});
   std::set<const std::vector<Drawing>*> pending;  // moved, and not told yet
@@ -45,7 +45,7 @@ void Markers::follow(const sim::Snapshot& snapshot) {
       for (const Drawing& drawing : drawings) gone_.markers.push_back(drawing.marker);
     }
   }
-  overlays_.follow(snapshot, next_id_, gone_);
+  overlays_.on_structure(snapshot, next_id_, gone_);
   structure_ = snapshot.structure;  // the models of the one before were known by their addresses
 }
 
@@ -55,17 +55,17 @@ void Markers::mark(std::uint32_t link) {
   changed_.push_back(link);
 }
 
-void Markers::pass(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {
-  if (!outlet_.heard()) return;
-  if (snapshot.structure != structure_) follow(snapshot);
+void Markers::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {
+  if (!publisher_.has_subscribers()) return;
+  if (snapshot.structure != structure_) on_structure(snapshot);
   for (const std::uint32_t link : snapshot.moved_links) mark(link);
   if (now < next_send_) return;
   next_send_ = now + kPeriod;
-  const std::uint64_t joined = outlet_.joined();
+  const std::uint64_t joined = publisher_.subscriptions();
   const Array array = collect(snapshot, joined != joined_);
   joined_ = joined;
   if (array.markers.empty()) return;
-  outlet_.send([&]() -> const Array& { return array; });
+  publisher_.publish([&]() -> const Array& { return array; });
 }
 
 Markers::Array Markers::collect(const sim::Snapshot& snapshot, bool all) {

@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "ros/lazy_publisher.h"
 #include "ros/marker_plan.h"
-#include "ros/outlet.h"
 #include "ros/overlays.h"
 #include "ros/pacer.h"
 #include "sim/snapshot.h"
@@ -20,17 +20,17 @@ class Markers {
  public:
   explicit Markers(ros::NodeHandle& node);
 
-  void pass(const sim::Snapshot& snapshot, Pacer::Clock::time_point now);
+  void publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point now);
 
  private:
   using Array = visualization_msgs::MarkerArray;
 
-  void follow(const sim::Snapshot& snapshot);
+  void on_structure(const sim::Snapshot& snapshot);
   void mark(std::uint32_t link);
   void put_link(const sim::Snapshot& snapshot, std::uint32_t link, Array& array) const;
   Array collect(const sim::Snapshot& snapshot, bool all);
 
-  Outlet outlet_;
+  LazyPublisher publisher_;
   std::shared_ptr<const sim::Structure> structure_;  // that all this is about
   std::int32_t next_id_ = 0;
   std::map<const desc::Model*, DrawnModel> models_;

@@ -42,8 +42,8 @@ void Node::run(const std::atomic<bool>& stop) {
   spinner.start();
   while (!stop && ros::ok()) {
     const std::shared_ptr<const sim::Snapshot> snapshot = advance();
-    pass(*snapshot);
-    inbox_.passed();
+    publish(*snapshot);
+    inbox_.published();
     rest(*snapshot);
   }
   inbox_.close();
@@ -54,26 +54,26 @@ std::shared_ptr<const sim::Snapshot> Node::advance() {
   return fast_ ? simulation_.leap(simulation_.snapshot()->time + kLongestLeap) : simulation_.tick();
 }
 
-void Node::pass(const sim::Snapshot& snapshot) {
+void Node::publish(const sim::Snapshot& snapshot) {
   cost_.start();
   const Pacer::Clock::time_point now = Pacer::Clock::now();
-  clock_.pass(snapshot, now);
+  clock_.publish(snapshot, now);
   if (snapshot.structure->revision != revision_) {
     revision_ = snapshot.structure->revision;
     const std::vector<Robot> robots = find_robots(*snapshot.structure, simulation_.world().plugins);
     const FrameTree frames = make_frames(snapshot, robots);
-    transforms_.follow(snapshot, frames, robots);
-    publishers_.follow(snapshot, frames, robots);
-    joints_.follow(snapshot, robots);
-    commands_.follow(robots);
+    transforms_.on_structure(snapshot, frames, robots);
+    publishers_.on_structure(snapshot, frames, robots);
+    joints_.on_structure(snapshot, robots);
+    commands_.on_structure(robots);
   }
-  publishers_.pass(snapshot);
-  joints_.pass(snapshot);
-  transforms_.pass(snapshot);
-  markers_.pass(snapshot, now);
-  events_.pass(snapshot);
-  stats_.pass(snapshot, now);
-  cost_.pass(snapshot, now);
+  publishers_.publish(snapshot);
+  joints_.publish(snapshot);
+  transforms_.publish(snapshot);
+  markers_.publish(snapshot, now);
+  events_.publish(snapshot);
+  stats_.publish(snapshot, now);
+  cost_.publish(snapshot, now);
 }
 
 void Node::rest(const sim::Snapshot& snapshot) {

@@ -9,10 +9,10 @@
 #include "ros/inbox.h"
 #include "ros/joints.h"
 #include "ros/markers.h"
-#include "ros/news.h"
 #include "ros/pacer.h"
 #include "ros/publishers.h"
 #include "ros/services.h"
+#include "ros/status_topics.h"
 #include "ros/tf.h"
 
 namespace angen::node {
@@ -36,7 +36,7 @@ class Node {
 
  private:
   std::shared_ptr<const sim::Snapshot> advance();
-  void pass(const sim::Snapshot& snapshot);
+  void publish(const sim::Snapshot& snapshot);
   void rest(const sim::Snapshot& snapshot);
 
   sim::Simulation& simulation_;

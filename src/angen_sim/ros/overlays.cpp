@@ -83,7 +83,7 @@ void Overlays::add_device(const sim::Structure& structure, std::uint32_t device)
   captions_.emplace(entry.kind + "/" + entry.name, std::move(overlay));
 }
 
-void Overlays::follow(const sim::Snapshot& snapshot, std::int32_t& next_id, Array& gone) {
+void Overlays::on_structure(const sim::Snapshot& snapshot, std::int32_t& next_id, Array& gone) {
   const sim::Structure& structure = *snapshot.structure;
   const Named old_lamps = std::exchange(lamps_, {});
   const Named old_beams = std::exchange(beams_, {});
@@ -135,8 +135,8 @@ bool Overlays::relight(const sim::Snapshot& snapshot, Overlay& lamp) const {
 bool Overlays::tells_anew(const sim::Snapshot& snapshot, Overlay& overlay) {
   const std::uint32_t index = overlay.index;
   const auto& told = overlay.of_device ? snapshot.devices[index] : snapshot.sensors[index].reading;
-  const bool echoes = !overlay.of_device && snapshot.sensors[index].echo != nullptr;
-  const Nanoseconds stamp = echoes ? snapshot.stamp(index) : 0;
+  const bool is_lazy = !overlay.of_device && snapshot.sensors[index].lazy != nullptr;
+  const Nanoseconds stamp = is_lazy ? snapshot.stamp(index) : 0;
   if (told == overlay.told && stamp == overlay.stamp) return false;
   overlay.told = told;
   overlay.stamp = stamp;

@@ -18,7 +18,7 @@ class Overlays {
   using Array = visualization_msgs::MarkerArray;
 
   /// Takes up what exists now; what is gone is added to `gone` as deleted.
-  void follow(const sim::Snapshot& snapshot, std::int32_t& next_id, Array& gone);
+  void on_structure(const sim::Snapshot& snapshot, std::int32_t& next_id, Array& gone);
 
   /// Appends what looks different than when it was appended last; with `all` everything.
   void append(const sim::Snapshot& snapshot, bool all, Array& array);

@@ -48,8 +48,8 @@ Publishers::Source Publishers::sensor_source(const sim::SensorEntry& entry,
   return source;
 }
 
-void Publishers::follow(const sim::Snapshot& snapshot, const FrameTree& frames,
-                        const std::vector<Robot>& robots) {
+void Publishers::on_structure(const sim::Snapshot& snapshot, const FrameTree& frames,
+                              const std::vector<Robot>& robots) {
   const sim::Structure& structure = *snapshot.structure;
   Channels kept;
   std::vector<Source> sensors;
@@ -94,24 +94,24 @@ void Publishers::list_costly(const sim::Structure& structure) {
   for (std::uint32_t i = 0; i < structure.sensors.size(); ++i) {
     const sim::SensorEntry& entry = structure.sensors[i];
     if (!entry.on_demand) continue;
-    costly_.push_back({i, simulation_.wanted(entry.kind, entry.name)});
+    costly_.push_back({i, simulation_.requested(entry.kind, entry.name)});
   }
 }
 
-// A sensor that looks on demand looks while anybody listens.
+// A sensor that looks on requested looks while anybody listens.
 void Publishers::ask_for(const sim::Structure& structure) {
   for (Costly& costly : costly_) {
     const std::vector<std::shared_ptr<Channel>>& channels = sensors_[costly.sensor].channels;
     const bool wanted = std::any_of(channels.begin(), channels.end(),
-                                    [](const auto& channel) { return channel->heard(); });
+                                    [](const auto& channel) { return channel->has_subscribers(); });
     if (wanted == costly.wanted) continue;
     costly.wanted = wanted;
     const sim::SensorEntry& entry = structure.sensors[costly.sensor];
-    simulation_.want(entry.kind, entry.name, wanted);
+    simulation_.request(entry.kind, entry.name, wanted);
   }
 }
 
-void Publishers::pass(const sim::Snapshot& snapshot) {
+void Publishers::publish(const sim::Snapshot& snapshot) {
   ask_for(*snapshot.structure);
   for (const std::uint32_t i : snapshot.new_states) put_state(snapshot, i);
   for (const std::uint32_t i : snapshot.new_readings) {
@@ -119,7 +119,7 @@ void Publishers::pass(const sim::Snapshot& snapshot) {
     const Source& source = sensors_[i];
     std::shared_ptr<const Reading> reading;
     for (const auto& channel : source.channels) {
-      if (!channel->heard()) continue;
+      if (!channel->has_subscribers()) continue;
       if (!reading) reading = snapshot.reading(i);
       channel->put({reading, snapshot.stamp(i), source.label});
     }

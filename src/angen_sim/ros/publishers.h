@@ -22,11 +22,11 @@ class Publishers {
 
   /// Advertises and shuts down as `structure` differs from the last one. `frames` and `robots` are
   /// those of the same structure.
-  void follow(const sim::Snapshot& snapshot, const FrameTree& frames,
-              const std::vector<Robot>& robots);
+  void on_structure(const sim::Snapshot& snapshot, const FrameTree& frames,
+                    const std::vector<Robot>& robots);
 
   /// Sends what is new in this tick.
-  void pass(const sim::Snapshot& snapshot);
+  void publish(const sim::Snapshot& snapshot);
 
  private:
   struct Source {
@@ -36,7 +36,7 @@ class Publishers {
   using Key = std::pair<std::string, std::string>;  // topic, type
   using Channels = std::map<Key, std::shared_ptr<Channel>>;
 
-  // A sensor that looks on demand only.
+  // A sensor that looks on requested only.
   struct Costly {
     std::uint32_t sensor = 0;  // in Structure::sensors
     bool wanted = false;

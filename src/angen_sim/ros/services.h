@@ -13,7 +13,7 @@
 
 #include "load/load.h"
 #include "ros/inbox.h"
-#include "ros/news.h"
+#include "ros/status_topics.h"
 #include "ros/topics.h"
 
 namespace angen::node {

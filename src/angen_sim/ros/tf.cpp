@@ -23,10 +23,11 @@ void add(tf2_msgs::TFMessage& message, Nanoseconds time, const std::string& pare
 }  // namespace
 
 Transforms::Transforms(ros::NodeHandle& node)
-    : fixed_(node, "/tf_static", 10), moving_(Outlet::of<tf2_msgs::TFMessage>(node, "/tf", 100)) {}
+    : fixed_(node, "/tf_static", 10),
+      moving_(LazyPublisher::of<tf2_msgs::TFMessage>(node, "/tf", 100)) {}
 
-void Transforms::follow(const sim::Snapshot& snapshot, const FrameTree& frames,
-                        const std::vector<Robot>& robots) {
+void Transforms::on_structure(const sim::Snapshot& snapshot, const FrameTree& frames,
+                              const std::vector<Robot>& robots) {
   frames_ = frames;
   robots_ = robots;
   moved_.clear();
@@ -42,14 +43,14 @@ void Transforms::follow(const sim::Snapshot& snapshot, const FrameTree& frames,
   send(snapshot, true);
 }
 
-void Transforms::pass(const sim::Snapshot& snapshot) {
+void Transforms::publish(const sim::Snapshot& snapshot) {
   for (const std::uint32_t link : snapshot.moved_links) {
     const std::int32_t frame = frames_.moved_by[link];
     if (frame < 0 || marked_[frame]) continue;
     marked_[frame] = true;
     moved_.push_back(static_cast<std::uint32_t>(frame));
   }
-  const std::uint64_t joined = moving_.joined();
+  const std::uint64_t joined = moving_.subscriptions();
   const bool newcomer = joined != joined_;
   const Nanoseconds slot = snapshot.time / kPeriod;
   if (slot == slot_ && !(newcomer && snapshot.paused)) return;

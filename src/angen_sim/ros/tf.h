@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ros/frames.h"
-#include "ros/outlet.h"
+#include "ros/lazy_publisher.h"
 #include "sim/snapshot.h"
 
 namespace angen::node {
@@ -17,16 +17,16 @@ class Transforms {
  public:
   explicit Transforms(ros::NodeHandle& node);
 
-  void follow(const sim::Snapshot& snapshot, const FrameTree& frames,
-              const std::vector<Robot>& robots);
-  void pass(const sim::Snapshot& snapshot);
+  void on_structure(const sim::Snapshot& snapshot, const FrameTree& frames,
+                    const std::vector<Robot>& robots);
+  void publish(const sim::Snapshot& snapshot);
 
  private:
   void send(const sim::Snapshot& snapshot, bool all);
   tf2_msgs::TFMessage collect(const sim::Snapshot& snapshot, bool all) const;
 
-  LatchedOutlet<tf2_msgs::TFMessage> fixed_;
-  Outlet moving_;
+  LatchedLazyPublisher<tf2_msgs::TFMessage> fixed_;
+  LazyPublisher moving_;
   FrameTree frames_;
   std::vector<Robot> robots_;
   std::vector<std::uint32_t> moved_;  // indices in frames_.moving since the last message

@@ -38,20 +38,12 @@ AirHere air_at(const View& view) {
 }
 
 void AirSensor::configure(Params& params, Wiring&) {
-  air_.noise_stddev = params.number("noise_stddev", 0.0, unit_, "of a reading", kNotNegative);
+  noise_stddev_ = params.noise(name_, unit_, "of a reading");
 }
 
-void AirSensor::Number::tell(Rng rng, Reading& reading) const {
-  const double noise = noise_stddev > 0.0 ? noise_stddev * rng.gaussian() : 0.0;
-  reading.set(name, value + noise);
-  reading.set("variance", noise_stddev * noise_stddev);
+void AirSensor::read(const View& view, Hits, Rng&, Reading& reading) {
+  reading.set(name_, air_at(view).*number_);
+  reading.set("variance", noise_stddev_ * noise_stddev_);
 }
-
-void AirSensor::read(const View& view, Hits, Rng& rng, Reading& reading) {
-  air_.value = air_at(view).*number_;
-  air_.tell(rng, reading);
-}
-
-std::shared_ptr<const Echo> AirSensor::echo() const { return std::make_shared<Number>(air_); }
 
 }  // namespace angen::sensors

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sensors/one_draw.h"
+#include "plugin/plugin.h"
 
 namespace angen::sensors {
 
@@ -17,29 +17,17 @@ AirHere air_at(const View& view);
 class AirSensor : public Sensor {
  public:
   AirSensor(const char* name, const char* unit, double AirHere::*number)
-      : unit_(unit), number_(number) {
-    air_.name = name;
-  }
+      : name_(name), unit_(unit), number_(number) {}
 
-  double default_rate() const override { return 1.0; }
   void configure(Params& params, Wiring& wiring) override;
   void read(const View& view, Hits, Rng& rng, Reading& reading) override;
-  Rest rest() const override { return air_.noise_stddev > 0.0 ? Rest::kNoise : Rest::kSame; }
-  double quiet_chance() const override { return 1.0; }  // it tells no events
-  std::shared_ptr<const Echo> echo() const override;
+  bool steady() const override { return true; }
 
  private:
-  /// What is read while the air stays as it is.
-  struct Number : OneDraw {
-    const char* name = "";
-    double value = 0.0;
-    double noise_stddev = 0.0;
-    void tell(Rng rng, Reading& reading) const override;
-  };
-
+  const char* name_;
   const char* unit_;
   double AirHere::*number_;
-  Number air_;
+  double noise_stddev_ = 0.0;
 };
 
 }  // namespace angen::sensors

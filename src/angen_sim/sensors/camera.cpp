@@ -1,29 +1,38 @@
 #include "plugin/register.h"
-#include "sensors/lens.h"
+#include "sensors/camera_params.h"
 
 namespace angen::sensors {
 
-/// A colour camera that looks along its x axis, z up.
+/// A color camera that looks along its x axis, z up.
 class Camera : public Sensor {
  public:
-  bool on_demand() const override { return true; }
-  double default_rate() const override { return 30.0; }
-
   void configure(Params& params, Wiring&) override {
-    lens_ = read_lens(params);
+    camera_ = read_camera(params);
     params.text("imageTopicName", "image_raw", "the image, below cameraName");
-    params.text("cameraInfoTopicName", "camera_info", "the lens, below cameraName");
+    params.text("cameraInfoTopicName", "camera_info", "the camera, below cameraName");
   }
 
   void read(const View& view, Hits, Rng&, Reading& reading) override {
-    reading.set("image", image(lens_, view.colors(lens_, view.pose()), 3));
-    tell_lens(lens_, reading);
+    reading.set("image", image(camera_, view.colors(camera_, view.pose()), 3));
+    set_camera_info(camera_, reading);
   }
 
  private:
-  render::Lens lens_;
+  render::PinholeCamera camera_;
 };
 
-ANGEN_REGISTER_SENSOR(Camera, "camera", "A colour camera under the lamps' light.")
+ANGEN_REGISTER_SENSOR(Camera, Kind("camera", "A color camera under the lamps' light.")
+                                  .publishes_at(30.0)
+                                  .on_demand()
+                                  .model("camera")
+                                  .example("spawn camera c1 --pose \"0.8 0.8 2.2 0 0.4 0.785\"")
+                                  .image("image", "height x width x 3 bytes, sRGB")
+                                  .integer("width", "px", "of the image")
+                                  .shown()
+                                  .integer("height", "px", "of the image")
+                                  .shown()
+                                  .number("focal", "px", "focal length")
+                                  .number("center_x", "px", "of the optical axis in the image")
+                                  .number("center_y", "px", "of the optical axis in the image"))
 
 }  // namespace angen::sensors

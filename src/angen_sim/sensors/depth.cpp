@@ -1,30 +1,38 @@
 #include "plugin/register.h"
-#include "sensors/lens.h"
+#include "sensors/camera_params.h"
 
 namespace angen::sensors {
 
 /// A depth camera that looks along its x axis, z up: distances along the axis, not along the rays.
 class Depth : public Sensor {
  public:
-  bool on_demand() const override { return true; }
-  double default_rate() const override { return 30.0; }
-
   void configure(Params& params, Wiring&) override {
-    lens_ = read_lens(params);
+    camera_ = read_camera(params);
     params.text("depthImageTopicName", "image_raw", "the depths, below cameraName");
-    params.text("depthImageCameraInfoTopicName", "camera_info", "the lens, below cameraName");
+    params.text("depthImageCameraInfoTopicName", "camera_info", "the camera, below cameraName");
     params.text("pointCloudTopicName", "points", "the points, below cameraName");
   }
 
   void read(const View& view, Hits, Rng&, Reading& reading) override {
-    reading.set("depth", image(lens_, view.depths(lens_, view.pose()), 1));
-    tell_lens(lens_, reading);
+    reading.set("depth", image(camera_, view.depths(camera_, view.pose()), 1));
+    set_camera_info(camera_, reading);
   }
 
  private:
-  render::Lens lens_;
+  render::PinholeCamera camera_;
 };
 
-ANGEN_REGISTER_SENSOR(Depth, "depth", "A depth camera: metres along its axis.")
+ANGEN_REGISTER_SENSOR(Depth,
+                      Kind("depth", "A depth camera: meters along its axis.")
+                          .publishes_at(30.0)
+                          .on_demand()
+                          .image("depth", "height x width distances in m, NaN where nothing is")
+                          .integer("width", "px", "of the image")
+                          .shown()
+                          .integer("height", "px", "of the image")
+                          .shown()
+                          .number("focal", "px", "focal length")
+                          .number("center_x", "px", "of the optical axis in the image")
+                          .number("center_y", "px", "of the optical axis in the image"))
 
 }  // namespace angen::sensors

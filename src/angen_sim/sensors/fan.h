@@ -39,6 +39,12 @@ struct Fan {
   /// A scan with noise where something was met. Noise takes no range below `min` or above `max`.
   Ranges with_noise(Ranges ranges, Rng rng) const;
 
+  /// The same noise for a reading's field of ranges that are infinite where nothing was met: the
+  /// simulator adds it, ray after ray.
+  void declare_noise(const std::string& field, Params& params) const {
+    params.noise({field, noise_mean, noise_stddev, {min, max}, false});
+  }
+
   bool noisy() const { return noise_mean != 0.0 || noise_stddev > 0.0; }
 
   /// with_noise() keeps noise within ±limit (m) of its mean at every ray where the first uniform()

@@ -9,6 +9,14 @@ class Humidity : public AirSensor {
   Humidity() : AirSensor("humidity", "%", &AirHere::humidity) {}
 };
 
-ANGEN_REGISTER_SENSOR(Humidity, "humidity", "The relative humidity of the air in its room.")
+ANGEN_REGISTER_SENSOR(Humidity,
+                      Kind("humidity", "The relative humidity of the air in its room.")
+                          .publishes_at(1.0)
+                          .model("humidity_sensor")
+                          .example("spawn humidity h1 --pose \"0.1 2.1 1.5\"")
+                          .number("humidity", "%",
+                                  "of the air in its room; NaN where the world has no climate")
+                          .shown(2)
+                          .number("variance", "(%)^2", "of its noise"))
 
 }  // namespace angen::sensors

@@ -9,6 +9,8 @@ namespace angen::sensors {
 
 namespace {
 
+constexpr double kRate = 10.0;  // Hz
+
 Fan default_fan() {
   Fan fan;
   fan.columns = 360;
@@ -24,8 +26,6 @@ Fan default_fan() {
 /// A planar laser scanner. A ray that meets nothing is infinite, as REP 117 wants it.
 class Lidar : public Sensor {
  public:
-  bool on_demand() const override { return true; }
-
   void configure(Params& params, Wiring&) override {
     fan_ = read_fan(params, default_fan());
     if (fan_.rows != 1) {
@@ -33,22 +33,18 @@ class Lidar : public Sensor {
                          "a lidar has " + std::to_string(fan_.rows) + " rows of rays, must have 1");
     }
     directions_ = fan_.directions();
-    period_ = to_seconds(params.update_period(default_rate()));
+    period_ = to_seconds(params.update_period(kRate));
+    fan_.declare_noise("ranges", params);
   }
 
-  int stance(const View&) override { return 0; }
+  int ray_set(const View&) override { return 0; }
   void aim(const View& view, RayBatch& rays) override { fan_.aim(view.pose(), directions_, rays); }
 
-  void read(const View&, Hits hits, Rng& rng, Reading& reading) override {
+  void read(const View&, Hits hits, Rng&, Reading& reading) override {
     std::vector<double> ranges;
     ranges.reserve(hits.size());
     for (const rays::Hit& hit : hits) {
-      double range = std::numeric_limits<double>::infinity();
-      if (hit.hit()) {
-        const double noise = fan_.noise_stddev > 0.0 ? fan_.noise_stddev * rng.gaussian() : 0.0;
-        range = std::clamp(hit.range + fan_.noise_mean + noise, fan_.min, fan_.max);
-      }
-      ranges.push_back(range);
+      ranges.push_back(hit.hit() ? hit.range : std::numeric_limits<double>::infinity());
     }
     const int steps = std::max(1, fan_.columns - 1);
     reading.set("ranges", std::move(ranges));
@@ -68,6 +64,16 @@ class Lidar : public Sensor {
   double period_ = 0.0;  // s
 };
 
-ANGEN_REGISTER_SENSOR(Lidar, "lidar", "A planar laser scanner.")
+ANGEN_REGISTER_SENSOR(Lidar, Kind("lidar", "A planar laser scanner.")
+                                 .publishes_at(kRate)
+                                 .on_demand()
+                                 .numbers("ranges", "m", "of each ray, infinite without a hit")
+                                 .number("angle_min", "rad", "of the first ray")
+                                 .number("angle_max", "rad", "of the last ray")
+                                 .number("angle_increment", "rad", "between two rays")
+                                 .number("scan_time", "s", "between two scans")
+                                 .number("range_min", "m", "nearest")
+                                 .number("range_max", "m", "farthest")
+                                 .shown(1))
 
 }  // namespace angen::sensors

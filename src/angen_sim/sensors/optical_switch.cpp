@@ -17,18 +17,18 @@ Fan default_fan() {
   return fan;
 }
 
-/// What is known of the two rays' way; as an echo, what is read while nothing there changes.
-struct Beam : Echo {
+/// The two rays, and what they measure while nothing changes.
+struct Beam : LazyReading {
   Fan fan;
   double threshold = 0.0;  // m
   double length = 0.0;     // m, to the detector
-  Ranges clean;            // of the last look, without noise
+  Ranges clean;            // of the last sample, without noise
 
   bool closed_by(const Ranges& ranges) const {
     return *std::min_element(ranges.begin(), ranges.end()) < length - threshold;
   }
 
-  void tell(const Ranges& ranges, const Ranges& before, Reading& reading) const {
+  void write(const Ranges& ranges, const Ranges& before, Reading& reading) const {
     const double difference = greatest_difference(ranges, before);
     reading.set("closed", closed_by(ranges));
     reading.set("changed", difference > threshold);
@@ -38,16 +38,15 @@ struct Beam : Echo {
   }
 
   void read(Nanoseconds, const Draws& draws, Reading& reading) const override {
-    tell(fan.with_noise(clean, draws(0)), fan.with_noise(clean, draws(1)), reading);
+    write(fan.with_noise(clean, draws(0)), fan.with_noise(clean, draws(1)), reading);
   }
 };
 
 }  // namespace
 
 /// A light barrier of two rays, closed while something stands in one of them.
-class OpticalSwitch : public Sensor {
+class OpticalSwitch : public Sensor, public NoisySensor {
  public:
-  double default_rate() const override { return 1.0; }
   Nanoseconds sample_period() const override { return sample_period_; }
 
   void configure(Params& params, Wiring&) override {
@@ -66,11 +65,11 @@ class OpticalSwitch : public Sensor {
                                  {0.0, beam_.fan.max});
     quiet_chance_ = beam_.fan.quiet_chance(beam_.threshold / 2.0);
     const double sample_rate =
-        params.number("sample_rate", 100.0, "Hz", "how often it looks", {1e-3, 1e6});
+        params.number("sample_rate", 100.0, "Hz", "how often it samples", {1e-3, 1e6});
     sample_period_ = from_seconds(1.0 / sample_rate);
   }
 
-  int stance(const View&) override { return 0; }
+  int ray_set(const View&) override { return 0; }
   void aim(const View& view, RayBatch& rays) override {
     beam_.fan.aim(view.pose(), directions_, rays);
   }
@@ -83,23 +82,26 @@ class OpticalSwitch : public Sensor {
     const bool flipped = !first && closed != closed_;
     const double difference = greatest_difference(ranges, previous_);
     const bool changed = difference > beam_.threshold;
-    beam_.tell(ranges, previous_, reading);
+    beam_.write(ranges, previous_, reading);
     reading.urgent = changed || flipped;
     if (flipped) reading.event = closed ? "closed" : "opened";
     closed_ = closed;
     previous_ = std::move(ranges);
     if (!beam_.fan.noisy()) {
-      rest_ = first || difference > 0.0 || flipped ? Rest::kBusy : Rest::kSame;
+      steady_ = !first && difference == 0.0 && !flipped;
     } else {
       const bool loud = rng.uniform() >= quiet_chance_;
-      rest_ = loud || changed || flipped || !decided() ? Rest::kBusy : Rest::kNoise;
+      steady_ = !loud && !changed && !flipped && decided();
     }
   }
 
-  Rest rest() const override { return rest_; }
+  bool steady() const override { return steady_; }
+  bool varies() const override { return beam_.fan.noisy(); }
   double quiet_chance() const override { return quiet_chance_; }
   int memory() const override { return 1; }
-  std::shared_ptr<const Echo> echo() const override { return std::make_shared<Beam>(beam_); }
+  std::shared_ptr<const LazyReading> lazy_reading() const override {
+    return std::make_shared<Beam>(beam_);
+  }
   void resume(Nanoseconds, const Draws& draws) override {
     previous_ = beam_.fan.with_noise(beam_.clean, draws(0));
   }
@@ -120,9 +122,22 @@ class OpticalSwitch : public Sensor {
   Nanoseconds sample_period_ = kSecond / 100;
   Ranges previous_;
   bool closed_ = false;
-  Rest rest_ = Rest::kBusy;
+  bool steady_ = false;
 };
 
-ANGEN_REGISTER_SENSOR(OpticalSwitch, "switch", "A light barrier of two rays at a door.")
+ANGEN_REGISTER_SENSOR(OpticalSwitch,
+                      Kind("switch", "A light barrier of two rays at a door.")
+                          .publishes_at(1.0)
+                          .model("optical_switch")
+                          .example("spawn switch s1 --pose \"2.1 3.94 2.125\"")
+                          .flag("closed", "something stands in a ray")
+                          .alarm("closed", "open")
+                          .flag("changed",
+                                "a range differs from the last sample's by more than "
+                                "the threshold")
+                          .numbers("ranges", "m", "of both rays")
+                          .shown(3)
+                          .number("difference", "m", "greatest, from the last sample's ranges")
+                          .number("threshold", "m", "as its parameter"))
 
 }  // namespace angen::sensors

@@ -16,7 +16,6 @@ constexpr double kStandardGravity = 9.80665;  // m/s^2, what scales are marked b
 /// A mat that closes its contact under a load: what presses on it, along its own -z.
 class PressureMat : public Sensor {
  public:
-  double default_rate() const override { return 1.0; }
   Nanoseconds sample_period() const override { return sample_period_; }
 
   void configure(Params& params, Wiring& wiring) override {
@@ -25,7 +24,7 @@ class PressureMat : public Sensor {
                              "and is free below this one; 0.8 of the threshold unless given",
                              {0.0, threshold_});
     const double sample_rate =
-        params.number("sample_rate", 100.0, "Hz", "how often it looks", {1e-3, 1e6});
+        params.number("sample_rate", 100.0, "Hz", "how often it samples", {1e-3, 1e6});
     sample_period_ = from_seconds(1.0 / sample_rate);
     debounce_ = from_seconds(params.number(
         "debounce", 0.05, "s", "a load counts when it has been there so long", kNotNegative));
@@ -48,10 +47,8 @@ class PressureMat : public Sensor {
     reading.set("threshold", threshold_);
   }
 
-  Rest rest() const override {
-    // Noise may press it, and it may wait for the end of a debounce.
-    return noise_stddev_ > 0.0 || changed_at_ ? Rest::kBusy : Rest::kSame;
-  }
+  /// Not while noise may press it, or while it waits for the end of a debounce.
+  bool steady() const override { return noise_stddev_ == 0.0 && !changed_at_; }
 
  private:
   // True when a change that began a debounce ago or earlier has lasted until now.
@@ -85,10 +82,19 @@ class PressureMat : public Sensor {
   double noise_stddev_ = 0.0;  // kg
   Nanoseconds sample_period_ = kSecond / 100;
   Nanoseconds debounce_ = 0;
-  std::optional<Nanoseconds> changed_at_;  // since when the load has said otherwise
+  std::optional<Nanoseconds> changed_at_;  // since when the load has been otherwise
   bool pressed_ = false;
 };
 
-ANGEN_REGISTER_SENSOR(PressureMat, "pressure", "A mat that fires under a load.")
+ANGEN_REGISTER_SENSOR(PressureMat,
+                      Kind("pressure", "A mat that fires under a load.")
+                          .publishes_at(1.0)
+                          .model("pressure_mat")
+                          .example("spawn pressure m1 --pose \"1 2 0\" --set threshold=20")
+                          .flag("pressed", "whether the load is above the threshold")
+                          .alarm("PRESSED", "free")
+                          .number("load", "kg", "what presses on it, as a scale shows it")
+                          .shown(1)
+                          .number("threshold", "kg", "as its parameter"))
 
 }  // namespace angen::sensors

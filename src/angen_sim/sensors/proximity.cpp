@@ -4,7 +4,6 @@
 
 #include "plugin/register.h"
 #include "sensors/fan.h"
-#include "sensors/one_draw.h"
 
 namespace angen::sensors {
 
@@ -20,66 +19,57 @@ Fan default_fan() {
   return fan;
 }
 
-/// What the rays met; as an echo, what is read while they meet the same.
-struct Cone : OneDraw {
-  Fan fan;
-  bool infrared = false;
-  Ranges ranges;
-  double nearest = 0.0;  // m, infinite where nothing is met
-
-  void tell(Rng rng, Reading& reading) const override {
-    double range = nearest;
-    if (std::isfinite(nearest)) {
-      // One echo, one error: the least of many noisy rays would always be too short.
-      const double noise = fan.noise_stddev > 0.0 ? fan.noise_stddev * rng.gaussian() : 0.0;
-      range = std::clamp(nearest + fan.noise_mean + noise, fan.min, fan.max);
-    }
-    reading.set("range", range);
-    reading.set("near", std::isfinite(range));
-    reading.set("ranges", ranges);  // for those who draw the rays
-    reading.set("field_of_view", fan.max_yaw - fan.min_yaw);
-    reading.set("min_range", fan.min);
-    reading.set("max_range", fan.max);
-    reading.set("infrared", infrared);
-  }
-};
-
 }  // namespace
 
-/// The distance to the nearest thing in a narrow cone, as an ultrasonic or infrared ranger tells
-/// it.
+/// The diray_set to the nearest thing in a narrow cone, as an ultrasonic or infrared ranger
+/// measures it.
 class Proximity : public Sensor {
  public:
   void configure(Params& params, Wiring&) override {
-    cone_.fan = read_fan(params, default_fan());
-    directions_ = cone_.fan.directions();
-    cone_.infrared = params.choice("radiation", "ultrasound", {"ultrasound", "infrared"},
-                                   "what its message says that it sends out") == "infrared";
+    fan_ = read_fan(params, default_fan());
+    directions_ = fan_.directions();
+    // One range, one error: the least of many noisy rays would always be too short.
+    fan_.declare_noise("range", params);
+    infrared_ = params.choice("radiation", "ultrasound", {"ultrasound", "infrared"},
+                              "what its message says that it sends out") == "infrared";
   }
 
-  int stance(const View&) override { return 0; }
-  void aim(const View& view, RayBatch& rays) override {
-    cone_.fan.aim(view.pose(), directions_, rays);
-  }
+  int ray_set(const View&) override { return 0; }
+  void aim(const View& view, RayBatch& rays) override { fan_.aim(view.pose(), directions_, rays); }
 
-  void read(const View&, Hits hits, Rng& rng, Reading& reading) override {
-    cone_.ranges = cone_.fan.measure(hits);
+  void read(const View&, Hits hits, Rng&, Reading& reading) override {
     const auto nearest = std::min_element(
         hits.begin(), hits.end(), [](const auto& a, const auto& b) { return a.range < b.range; });
     const bool meets = nearest != hits.end() && nearest->hit();
-    cone_.nearest = meets ? nearest->range : std::numeric_limits<double>::infinity();
-    cone_.tell(rng, reading);
+    reading.set("range", meets ? nearest->range : std::numeric_limits<double>::infinity());
+    reading.set("near", meets);
+    reading.set("ranges", fan_.measure(hits));
+    reading.set("field_of_view", fan_.max_yaw - fan_.min_yaw);
+    reading.set("min_range", fan_.min);
+    reading.set("max_range", fan_.max);
+    reading.set("infrared", infrared_);
   }
 
-  Rest rest() const override { return cone_.fan.noise_stddev > 0.0 ? Rest::kNoise : Rest::kSame; }
-  double quiet_chance() const override { return 1.0; }  // it tells no events
-  std::shared_ptr<const Echo> echo() const override { return std::make_shared<Cone>(cone_); }
+  bool steady() const override { return true; }
 
  private:
-  Cone cone_;
+  Fan fan_;
+  bool infrared_ = false;
   std::vector<Vec3> directions_;
 };
 
-ANGEN_REGISTER_SENSOR(Proximity, "proximity", "The distance to the nearest thing in a narrow cone.")
+ANGEN_REGISTER_SENSOR(
+    Proximity, Kind("proximity", "The distance to the nearest thing in a narrow cone.")
+                   .model("proximity")
+                   .example("spawn proximity d1 --pose \"1 1 0.5 0 0 1.57\" --set ray/range/max=2")
+                   .number("range", "m", "to the nearest thing, infinite where nothing is in reach")
+                   .shown(3)
+                   .flag("near", "whether anything is in reach")
+                   .alarm("near", "nothing near")
+                   .numbers("ranges", "m", "of each ray, without noise, at most max_range")
+                   .number("field_of_view", "rad", "full angle of the cone")
+                   .number("min_range", "m", "nearer things are not measured")
+                   .number("max_range", "m", "farther things are not measured")
+                   .flag("infrared", "it is infrared rather than ultrasonic"))
 
 }  // namespace angen::sensors

@@ -10,7 +10,6 @@ namespace angen::sensors {
 /// when that has gone a little farther.
 class Reed : public Sensor {
  public:
-  double default_rate() const override { return 1.0; }
   Nanoseconds sample_period() const override { return sample_period_; }
 
   void configure(Params& params, Wiring& wiring) override {
@@ -22,7 +21,7 @@ class Reed : public Sensor {
     release_ =
         params.number("release_distance", 0.02, "m", "opens when it is farther", {operate_, 1e3});
     const double sample_rate =
-        params.number("sample_rate", 100.0, "Hz", "how often it looks", {1e-3, 1e6});
+        params.number("sample_rate", 100.0, "Hz", "how often it samples", {1e-3, 1e6});
     sample_period_ = from_seconds(1.0 / sample_rate);
 
     if (places.size() > 1) throw params.error("magnet", "a reed contact has one <magnet>");
@@ -56,7 +55,7 @@ class Reed : public Sensor {
     reading.set("release_distance", release_);
   }
 
-  Rest rest() const override { return Rest::kSame; }
+  bool steady() const override { return true; }
 
  private:
   LinkRef magnet_link_;
@@ -64,9 +63,20 @@ class Reed : public Sensor {
   double operate_ = 0.0;        // m
   double release_ = 0.0;        // m
   Nanoseconds sample_period_ = kSecond / 100;
-  std::optional<bool> closed_;  // none before the first look
+  std::optional<bool> closed_;  // none before the first sample
 };
 
-ANGEN_REGISTER_SENSOR(Reed, "reed", "A reed contact and its magnet on what opens.")
+ANGEN_REGISTER_SENSOR(
+    Reed, Kind("reed", "A reed contact and its magnet on what opens.")
+              .publishes_at(1.0)
+              .on_link("custom")
+              .example("spawn reed r1 --on kitchen_door0::base --pose \"0.93 -0.015 2.09\" --set "
+                       "magnet_link=door --set magnet=\"0.93 -0.015 2.078\"")
+              .flag("closed", "whether the magnet is near")
+              .shown_as("closed", "open")
+              .number("distance", "m", "to the magnet")
+              .shown(4)
+              .number("operate_distance", "m", "as its parameter")
+              .number("release_distance", "m", "as its parameter"))
 
 }  // namespace angen::sensors

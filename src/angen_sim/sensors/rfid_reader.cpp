@@ -13,7 +13,7 @@ constexpr double kSkin = 0.01;  // m: a tag's own thickness on what carries it
 
 }  // namespace
 
-/// Reads the tags that it sees: nearer than its range, within its beam, with nothing between.
+/// Reads the tags in its view: nearer than its range, within its beam, with nothing between.
 class RfidReader : public Sensor {
  public:
   void configure(Params& params, Wiring&) override {
@@ -51,12 +51,12 @@ class RfidReader : public Sensor {
       ids.push_back(id);
       distances.push_back(distance);
     }
-    tell_change(ids, reading);
+    note_change(ids, reading);
     reading.set("ids", std::move(ids));
     reading.set("distances", std::move(distances));
   }
 
-  Rest rest() const override { return Rest::kSame; }
+  bool steady() const override { return true; }
 
  private:
   struct Candidate {
@@ -64,8 +64,8 @@ class RfidReader : public Sensor {
     double distance = 0.0;  // m
   };
 
-  // One event a look: what came, or where nothing came what went.
-  void tell_change(const std::vector<std::string>& ids, Reading& reading) {
+  // One event a sample: what came, or where nothing came what went.
+  void note_change(const std::vector<std::string>& ids, Reading& reading) {
     std::vector<std::string> came;
     std::vector<std::string> gone;
     std::set_difference(ids.begin(), ids.end(), last_.begin(), last_.end(),
@@ -80,10 +80,17 @@ class RfidReader : public Sensor {
 
   double range_ = 0.0;  // m
   double least_cosine_ = 0.0;
-  std::vector<Candidate> candidates_;  // as the rays of this look
+  std::vector<Candidate> candidates_;  // as the rays of this sample
   std::vector<std::string> last_;      // sorted
 };
 
-ANGEN_REGISTER_SENSOR(RfidReader, "rfid", "Reads RFID tags in its range and sight.")
+ANGEN_REGISTER_SENSOR(RfidReader,
+                      Kind("rfid", "Reads RFID tags in its range and sight.")
+                          .model("rfid_reader")
+                          .example("spawn rfid gate --pose \"0.2 5 1.2 0 0 0\" --set max_range=1.5")
+                          .texts("ids", "of the tags that it reads, sorted")
+                          .shown()
+                          .numbers("distances", "m", "of these")
+                          .shown(2))
 
 }  // namespace angen::sensors

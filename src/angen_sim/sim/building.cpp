@@ -22,7 +22,7 @@ std::string key_of(const Instance& instance) {
 
 Building::Building(const desc::World& world, std::uint64_t seed, std::shared_ptr<Catalog> catalog)
     : world_(world), seed_(seed), catalog_(std::move(catalog)) {
-  raise_stage();
+  make_engines();
   for (const desc::Plugin& plugin : world_.plugins) {
     try {
       catalog_->library(plugin.filename);
@@ -33,63 +33,94 @@ Building::Building(const desc::World& world, std::uint64_t seed, std::shared_ptr
   for (const desc::Model& model : world_.models) build(model, nullptr, 0);
 }
 
-void Building::raise_stage() {
-  stage_ = std::make_unique<Stage>(world_, seed_);
+void Building::make_engines() {
+  engines_ = std::make_unique<Engines>(world_, seed_);
   owners_.clear();
   lights_.clear();
   for (const desc::Light& light : world_.lights) {
-    lights_.push_back({light, stage_->add_light(light, light.pose)});
+    lights_.push_back({light, engines_->add_light(light, light.pose)});
   }
 }
 
-void Building::note_revision() {
+void Building::note_change() {
   ++revision_;
-  tellers_.clear();
+  by_field_.clear();
 }
 
 Pose Building::pose_of(const LiveModel& live) const {
-  const Pose first = stage_->physics.link(live.parts.links.at(0)).pose;
+  const Pose first = engines_->physics.link(live.parts.links.at(0)).pose;
   return first * live.desc->links.front().pose.inverse();
 }
 
-const Building::Tellers& Building::all_tellers(const std::string& field) const {
-  const auto [at, is_new] = tellers_.try_emplace(field);
-  Tellers& all = at->second;
+const Building::DevicesByField& Building::devices_by_field(const std::string& field) const {
+  const auto [at, is_new] = by_field_.try_emplace(field);
+  DevicesByField& all = at->second;
   if (!is_new) return all;
   std::size_t order = 0;
   for (const auto& live : models_) {
-    const bool fixed = stage_->physics.mass(live->parts.links.at(0)) == 0.0;
+    const bool fixed = engines_->physics.mass(live->parts.links.at(0)) == 0.0;
     for (const DeviceInstance& device : live->devices) {
       if (!device.last || !device.last->find(field)) continue;
       (fixed ? all.fixed : all.movable).push_back({live.get(), &device, pose_of(*live), order++});
     }
   }
-  std::stable_sort(all.fixed.begin(), all.fixed.end(), [](const Teller& a, const Teller& b) {
-    return a.pose.position.z() < b.pose.position.z();
-  });
+  std::stable_sort(all.fixed.begin(), all.fixed.end(),
+                   [](const FoundDevice& a, const FoundDevice& b) {
+                     return a.pose.position.z() < b.pose.position.z();
+                   });
   return all;
 }
 
-std::vector<Building::Teller> Building::tellers(const std::string& field,
-                                                const Eigen::AlignedBox3d& within) const {
-  const Tellers& all = all_tellers(field);
-  std::vector<Teller> found;
-  const auto add = [&](const Teller& teller) {
-    if (within.contains(teller.pose.position)) found.push_back(teller);
+std::vector<Building::FoundDevice> Building::find_devices(const std::string& field,
+                                                          const Eigen::AlignedBox3d& within) const {
+  const DevicesByField& all = devices_by_field(field);
+  std::vector<FoundDevice> found;
+  const auto add = [&](const FoundDevice& device) {
+    if (within.contains(device.pose.position)) found.push_back(device);
   };
   const auto lower =
       std::lower_bound(all.fixed.begin(), all.fixed.end(), within.min().z(),
-                       [](const Teller& t, double z) { return t.pose.position.z() < z; });
+                       [](const FoundDevice& t, double z) { return t.pose.position.z() < z; });
   for (auto at = lower; at != all.fixed.end() && at->pose.position.z() <= within.max().z(); ++at) {
     add(*at);
   }
-  for (Teller teller : all.movable) {
-    teller.pose = pose_of(*teller.live);
-    add(teller);
+  for (FoundDevice device : all.movable) {
+    device.pose = pose_of(*device.live);
+    add(device);
   }
   std::sort(found.begin(), found.end(),
-            [](const Teller& a, const Teller& b) { return a.order < b.order; });
+            [](const FoundDevice& a, const FoundDevice& b) { return a.order < b.order; });
   return found;
+}
+
+std::vector<Building::Target> Building::devices_named(const std::string& kind,
+                                                      const std::string& name) const {
+  const bool all = name == "all" && !kind.empty();
+  std::vector<LiveModel*> models;
+  if (all) {
+    for (const auto& live : models_) models.push_back(live.get());
+  } else if (const auto at = with_device_.find(name); at != with_device_.end()) {
+    models = at->second;
+  }
+  std::vector<Target> targets;
+  for (LiveModel* live : models) {
+    for (DeviceInstance& device : live->devices) {
+      if (!kind.empty() && device.kind != kind) continue;
+      if (all || device.name == name) targets.push_back({live, &device});
+    }
+  }
+  return targets;
+}
+
+std::vector<std::string> Building::device_names(const std::string& kind) const {
+  std::vector<std::string> names;
+  for (const auto& live : models_) {
+    for (const DeviceInstance& device : live->devices) {
+      if (kind.empty()) names.push_back(key_of(device));
+      if (device.kind == kind) names.push_back(device.name);
+    }
+  }
+  return names;
 }
 
 LiveModel* Building::find(const std::string& model) const {
@@ -122,24 +153,33 @@ void Building::check_names(const LiveModel& live) const {
   for (const SensorInstance& sensor : live.sensors) check_sensor_name(sensor);
 }
 
-void Building::list_names(LiveModel& live) {
+void Building::add_names(LiveModel& live) {
   by_name_[live.desc->name] = &live;
-  for (const DeviceInstance& device : live.devices) devices_[key_of(device)] = &live;
+  for (const DeviceInstance& device : live.devices) {
+    devices_[key_of(device)] = &live;
+    std::vector<LiveModel*>& with = with_device_[device.name];
+    if (with.empty() || with.back() != &live) with.push_back(&live);
+  }
   for (const SensorInstance& sensor : live.sensors) sensors_[key_of(sensor)] = &live;
 }
 
-void Building::strike_names(const LiveModel& live) {
+void Building::remove_names(const LiveModel& live) {
   by_name_.erase(live.desc->name);
-  for (const DeviceInstance& device : live.devices) devices_.erase(key_of(device));
+  for (const DeviceInstance& device : live.devices) {
+    devices_.erase(key_of(device));
+    std::vector<LiveModel*>& with = with_device_[device.name];
+    with.erase(std::remove(with.begin(), with.end(), &live), with.end());
+    if (with.empty()) with_device_.erase(device.name);
+  }
   for (const SensorInstance& sensor : live.sensors) sensors_.erase(key_of(sensor));
 }
 
-/// The sensor's model is on the stage.
+/// The sensor's model is in the engines.
 void Building::start(SensorInstance& sensor, Nanoseconds now) const {
-  sensor.rhythm.start = now;
-  sensor.rhythm.step = world_.physics.step;
+  sensor.schedule.start = now;
+  sensor.schedule.step = world_.physics.step;
   for (const std::string& name : sensor.collisions) {
-    sensor.touching.push_back(stage_->physics.collision(name));
+    sensor.touching.push_back(engines_->physics.collision(name));
   }
 }
 
@@ -155,7 +195,7 @@ void Building::build(desc::Model model, const std::vector<SensorInstance>* attac
     live->sensors.back().attached = true;
   }
   check_names(*live);
-  live->parts = stage_->add(*live->desc);
+  live->parts = engines_->add(*live->desc);
   for (SensorInstance& sensor : live->sensors) start(sensor, now);
   for (DeviceInstance& device : live->devices) device.updated = now - world_.physics.step;
   for (std::uint32_t i = 0; i < live->parts.links.size(); ++i) {
@@ -163,9 +203,9 @@ void Building::build(desc::Model model, const std::vector<SensorInstance>* attac
     if (owners_.size() <= index) owners_.resize(index + 1);
     owners_[index] = {live.get(), i};
   }
-  list_names(*live);
+  add_names(*live);
   models_.push_back(std::move(live));
-  note_revision();
+  note_change();
 }
 
 void Building::add(desc::Model model, Nanoseconds now) { build(std::move(model), nullptr, now); }
@@ -196,17 +236,17 @@ void Building::attach(const desc::Sensor& sensor, const std::string& link, Nanos
   start(instance, now);
   sensors_[key_of(instance)] = live;
   live->sensors.push_back(std::move(instance));
-  note_revision();
+  note_change();
 }
 
 void Building::erase(const std::string& name) {
   const auto model = std::find_if(models_.begin(), models_.end(),
                                   [&](const auto& live) { return live->desc->name == name; });
   if (model != models_.end()) {
-    stage_->remove((*model)->parts);
-    strike_names(**model);
+    engines_->remove((*model)->parts);
+    remove_names(**model);
     models_.erase(model);
-    note_revision();
+    note_change();
     return;
   }
   for (auto& live : models_) {
@@ -218,7 +258,7 @@ void Building::erase(const std::string& name) {
       }
       sensors_.erase(key_of(*sensor));
       live->sensors.erase(sensor);
-      note_revision();
+      note_change();
       return;
     }
   }
@@ -230,13 +270,14 @@ void Building::reset(Nanoseconds now) {
   std::vector<std::unique_ptr<LiveModel>> old;
   old.swap(models_);
   for (auto* names : {&by_name_, &devices_, &sensors_}) names->clear();
+  with_device_.clear();
   for (const auto& live : old) {
-    for (SensorInstance& sensor : live->sensors) {  // these stand on the stage
-      sensor.looks.clear();
+    for (SensorInstance& sensor : live->sensors) {  // they refer to the engines
+      sensor.scans.clear();
       sensor.light.reset();
     }
   }
-  raise_stage();
+  make_engines();
   for (const auto& live : old) {
     std::vector<SensorInstance> attached;
     for (SensorInstance& sensor : live->sensors) {
@@ -275,12 +316,12 @@ std::shared_ptr<const Structure> Building::structure() {
       all->joints.push_back({model.name + "::" + model.joints[i].name, m, i});
     }
     for (const DeviceInstance& device : live->devices) {
-      all->devices.push_back({device.kind, device.name, m});
+      all->devices.push_back({device.kind, device.name, m, device.plugin, device.library});
     }
     for (const SensorInstance& s : live->sensors) {
       all->sensors.push_back({s.kind, s.name, m, live->first_link + s.link, s.pose, s.topic,
-                              s.frame, s.key, s.rhythm.publish, s.rhythm, s.attached,
-                              s.sensor->on_demand(), s.desc});
+                              s.frame, s.key, s.schedule.publish, s.schedule, s.attached,
+                              s.on_demand(), s.desc, s.plugin});
     }
   }
   return all;

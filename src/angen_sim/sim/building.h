@@ -12,7 +12,7 @@
 
 namespace angen::sim {
 
-/// What exists: the models with their devices and sensors, on the stage that they share.
+/// What exists: the models with their devices and sensors, in the engines that they share.
 class Building {
  public:
   Building(const desc::World& world, std::uint64_t seed, std::shared_ptr<Catalog> catalog);
@@ -26,8 +26,8 @@ class Building {
   /// Everything that is there back to where and how it was when it was added.
   void reset(Nanoseconds now);
 
-  Stage& stage() { return *stage_; }
-  const Stage& stage() const { return *stage_; }
+  Engines& engines() { return *engines_; }
+  const Engines& engines() const { return *engines_; }
   std::vector<std::unique_ptr<LiveModel>>& models() { return models_; }
   const std::vector<std::unique_ptr<LiveModel>>& models() const { return models_; }
 
@@ -41,7 +41,7 @@ class Building {
   /// Where a model's frame is.
   Pose pose_of(const LiveModel& live) const;
 
-  struct Teller {
+  struct FoundDevice {
     const LiveModel* live;
     const DeviceInstance* device;
     Pose pose;
@@ -49,9 +49,20 @@ class Building {
   };
   /// The devices whose last state has a field of that name and whose models stand in `within`, in
   /// the order of the models.
-  std::vector<Teller> tellers(const std::string& field, const Eigen::AlignedBox3d& within) const;
-  /// To be called when a device told other fields than before.
-  void forget_tellers() { tellers_.clear(); }
+  std::vector<FoundDevice> find_devices(const std::string& field,
+                                        const Eigen::AlignedBox3d& within) const;
+  /// To be called when a device has other fields than before.
+  void forget_fields() { by_field_.clear(); }
+
+  struct Target {
+    LiveModel* live;
+    DeviceInstance* device;
+  };
+  /// The devices of that kind (any where it is empty) and name, in the order of the models; all of
+  /// the kind for the name "all".
+  std::vector<Target> devices_named(const std::string& kind, const std::string& name) const;
+  /// The names of a kind's devices; of all devices as KIND/NAME where it is empty.
+  std::vector<std::string> device_names(const std::string& kind) const;
 
   /// Grows with every change of what exists.
   std::uint64_t revision() const { return revision_; }
@@ -71,34 +82,36 @@ class Building {
 
   void build(desc::Model model, const std::vector<SensorInstance>* attached, Nanoseconds now);
   void start(SensorInstance& sensor, Nanoseconds now) const;
-  void raise_stage();
+  void make_engines();
   void check_names(const LiveModel& live) const;
   void check_sensor_name(const SensorInstance& sensor) const;
   LiveModel* find(const std::string& model) const;
   std::vector<std::string> model_names() const;
-  void note_revision();
-  void list_names(LiveModel& live);
-  void strike_names(const LiveModel& live);
+  void note_change();
+  void add_names(LiveModel& live);
+  void remove_names(const LiveModel& live);
 
   const desc::World& world_;
   std::uint64_t seed_;
   std::shared_ptr<Catalog> catalog_;
-  std::unique_ptr<Stage> stage_;
+  std::unique_ptr<Engines> engines_;
   std::vector<std::unique_ptr<LiveModel>> models_;
   std::unordered_map<std::string, LiveModel*> by_name_;  // the models
   std::unordered_map<std::string, LiveModel*> devices_;  // whose model it is, by kind/name
-  std::unordered_map<std::string, LiveModel*> sensors_;  // as well
+  std::unordered_map<std::string, std::vector<LiveModel*>> with_device_;  // by the device's name
+  std::unordered_map<std::string, LiveModel*> sensors_;                   // as well
   std::vector<WorldLight> lights_;
   std::vector<Owner> owners_;  // by index of physics::LinkId
   std::vector<std::string> warnings_;
   std::uint64_t revision_ = 0;
-  struct Tellers {
-    std::vector<Teller> fixed;  // by height: a storey's are found without going through a tower
-    std::vector<Teller> movable;
+  struct DevicesByField {
+    std::vector<FoundDevice>
+        fixed;  // by height: a storey's are found without going through a tower
+    std::vector<FoundDevice> movable;
   };
-  const Tellers& all_tellers(const std::string& field) const;
-  // What was asked for since something came or went.
-  mutable std::unordered_map<std::string, Tellers> tellers_;
+  const DevicesByField& devices_by_field(const std::string& field) const;
+  // What was queried for since something came or went.
+  mutable std::unordered_map<std::string, DevicesByField> by_field_;
 };
 
 }  // namespace angen::sim

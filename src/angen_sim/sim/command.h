@@ -45,7 +45,7 @@ struct Step {
 struct Reset {
   bool with_time = true;
 };
-/// Something that could not become a command; only told to everybody as rejected.
+/// Text that could not become a command; only published as a rejected event.
 struct Reject {
   std::string source;
   std::string kind;

@@ -8,7 +8,7 @@ namespace angen::sim {
 
 namespace {
 
-constexpr Sights::Moment kUnmoved = 1000;  // ticks, after which a mover is taken for still
+constexpr MoverIndex::Moment kUnmoved = 1000;  // ticks, after which a mover is settled in caches
 
 const char* type_name(desc::Joint::Type type) {
   switch (type) {
@@ -26,9 +26,9 @@ const char* type_name(desc::Joint::Type type) {
   return "";
 }
 
-// An error in a plug-in is told where the plug-in stands, unless it knows better.
+// An error in a plug-in gets the plug-in's file and line, unless it has some already.
 template <class F>
-auto told_at(const Source& source, F&& make) {
+auto with_source(const Source& source, F&& make) {
   try {
     return make();
   } catch (const Error& error) {
@@ -43,10 +43,11 @@ auto told_at(const Source& source, F&& make) {
 DeviceInstance make_device(const desc::Model& model, const ModelInfo& info,
                            const desc::Plugin& described,
                            const std::shared_ptr<const Plugin>& plugin, const Vec3& gravity) {
-  return told_at(described.source, [&] {
+  return with_source(described.source, [&] {
     DeviceInstance instance;
-    instance.kind = plugin->kind();
+    instance.kind = plugin->kind().name;
     instance.plugin = plugin;
+    instance.library = described.filename;
     instance.device = plugin->make_device();
     instance.scratch.kind = instance.kind;
     Params params(described.element);
@@ -74,7 +75,7 @@ void make_devices(LiveModel& live, const std::vector<desc::Plugin>& world_plugin
       continue;  // the <include>'s, which comes last, holds
     bool served = false;
     for (const auto& plugin :
-         told_at(described.source, [&] { return catalog.library(described.filename); })) {
+         with_source(described.source, [&] { return catalog.library(described.filename); })) {
       if (!plugin->serves(info)) continue;
       live.devices.push_back(make_device(model, info, described, plugin, gravity));
       served = true;
@@ -87,13 +88,27 @@ void make_devices(LiveModel& live, const std::vector<desc::Plugin>& world_plugin
   for (const desc::Plugin& described : world_plugins) {
     if (has_own(model, described.filename)) continue;
     for (const auto& plugin :
-         told_at(described.source, [&] { return catalog.library(described.filename); })) {
+         with_source(described.source, [&] { return catalog.library(described.filename); })) {
       if (plugin->serves(info)) {
         live.devices.push_back(make_device(model, info, described, plugin, gravity));
       }
     }
   }
 }
+
+/// The reading of a sensor whose noise is declared, while its values before noise stay.
+class CleanWithNoise : public LazyReading {
+ public:
+  CleanWithNoise(Reading clean, std::vector<Noise> noise)
+      : clean_(std::move(clean)), noise_(std::move(noise)) {}
+  void read(Nanoseconds, const Draws& draws, Reading& reading) const override {
+    reading.fields = with_noise(noise_, clean_, draws(0)).fields;
+  }
+
+ private:
+  Reading clean_;
+  std::vector<Noise> noise_;
+};
 
 std::size_t sensor_count(const desc::Model& model) {
   std::size_t count = 0;
@@ -103,30 +118,43 @@ std::size_t sensor_count(const desc::Model& model) {
 
 }  // namespace
 
-void Look::measure(Stage& stage) {
-  gaze.measure(stage.rays);
-  view.resize(gaze.reach());
+void CachedScan::measure(Engines& engines) {
+  cache.measure(engines.rays);
+  region.resize(cache.reach());
   changed = true;
   settled_at = 0;
   settled = 0;
 }
 
-bool Look::look(const Stage& stage, Sights::Parted& scratch, std::vector<rays::Hit>& hits) {
-  const Sights::Moment now = stage.sights.now();
-  hits.resize(gaze.size());
-  view.part(settled_at, scratch);
-  // Nothing comes to those that have not moved since some moment: as many are the same.
+bool CachedScan::cast(const Engines& engines, MoverIndex::SplitMovers& scratch,
+                      std::vector<rays::Hit>& hits) {
+  const MoverIndex::Moment now = engines.movers.now();
+  hits.resize(cache.size());
+  region.split(settled_at, scratch);
+  // No mover joins those that have not moved since some moment, so an equal count means the same
+  // ones.
   if (scratch.still.size() != settled || scratch.longest + kUnmoved < now) {
     settled_at = now - std::min(now, kUnmoved);
-    view.part(settled_at, scratch);
+    region.split(settled_at, scratch);
     settled = scratch.still.size();
-    gaze.settle(stage.rays, scratch.still);
+    cache.settle(engines.rays, scratch.still);
     changed = true;
   }
-  const bool meets = gaze.look(stage.rays, scratch.moving, hits.data());
+  const bool meets = cache.cast(engines.rays, scratch.moving, hits.data());
   const bool same = !changed && !meets;
   changed = meets;
   return same;
+}
+
+bool SensorInstance::varies() const {
+  if (noisy != nullptr) return noisy->varies();
+  return std::any_of(noise.begin(), noise.end(),
+                     [&](const Noise& each) { return each.varies(clean); });
+}
+
+std::shared_ptr<const LazyReading> SensorInstance::lazy_reading() const {
+  if (noisy != nullptr) return noisy->lazy_reading();
+  return std::make_shared<CleanWithNoise>(clean, noise);
 }
 
 ModelInfo info_of(const desc::Model& model) {
@@ -147,7 +175,7 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
                            std::shared_ptr<const desc::Sensor> shared, const std::string& name,
                            const Vec3& gravity, Catalog& catalog) {
   const desc::Sensor& described = *shared;
-  return told_at(described.source, [&] {
+  return with_source(described.source, [&] {
     SensorInstance instance;
     for (const auto& plugin : catalog.library(described.plugin)) {
       instance.sensor = plugin->make_sensor();
@@ -155,15 +183,16 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
       if (instance.sensor) break;
     }
     if (!instance.sensor) throw Error(described.plugin + " holds no sensor");
-    instance.kind = instance.plugin->kind();
+    instance.noisy = dynamic_cast<NoisySensor*>(instance.sensor.get());
+    instance.kind = instance.plugin->kind().name;
     instance.name = name;
     instance.key = hash_bytes(instance.kind + "/" + name);
     instance.desc = shared;
     instance.link = link;
     instance.pose = described.pose;
-    instance.scratch.kind = instance.kind;
+    instance.latest.kind = instance.clean.kind = instance.kind;
     Params params(described.plugin_element, &described.element);
-    instance.rhythm.publish = params.update_period(instance.sensor->default_rate());
+    instance.schedule.publish = params.update_period(instance.plugin->kind().rate);
     instance.topic = params.text("topicName", "", "topic, instead of /angen/KIND/NAME");
     if (instance.topic.empty()) {
       instance.topic = params.text("bumperTopicName", "", "the same, in a contact sensor");
@@ -172,9 +201,10 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
     ModelWiring wiring(*live.desc, name, gravity, live.desc->links[link].name);
     instance.sensor->configure(params, wiring);
     params.finish();
+    instance.noise = params.all_noise();
     instance.collisions = wiring.collisions();
-    instance.rhythm.sample = instance.sensor->sample_period();
-    if (instance.rhythm.sample <= 0) instance.rhythm.sample = instance.rhythm.publish;
+    instance.schedule.sample = instance.sensor->sample_period();
+    if (instance.schedule.sample <= 0) instance.schedule.sample = instance.schedule.publish;
     instance.link_moves = !live.desc->is_static;
     return instance;
   });

@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "plugin/library.h"
-#include "rays/gaze.h"
-#include "sim/rhythm.h"
+#include "rays/ray_cache.h"
+#include "sim/engines.h"
+#include "sim/schedule.h"
+#include "sim/sensor_activity.h"
 #include "sim/snapshot.h"
-#include "sim/stage.h"
 
 namespace angen::sim {
 
@@ -19,76 +20,84 @@ struct DeviceInstance {
   std::string name;
   std::shared_ptr<const Plugin> plugin;  // keeps its library loaded
   std::unique_ptr<Device> device;
-  Reading scratch;  // what it reports is written here, then compared
+  std::string library;  // that its plug-in is in, as its SDF names it
+  Reading scratch;      // what it reports is written here, then compared
   std::shared_ptr<const Reading> last;
   Nanoseconds updated = 0;     // when it last was
   Nanoseconds idle_until = 0;  // unless it is commanded or its model wakes
   bool to_report = true;       // it was updated since its last report
   Nanoseconds cost = 0;        // CPU time that the meter counts
 
-  /// Tells it of the ticks that it was left out of, before the one of `now`.
+  /// Has it skip the ticks without updates before the one of `now`.
   void catch_up(Nanoseconds now, Nanoseconds step) {
     if (now - step > updated) device->skip(now - step - updated);
     updated = now - step;
   }
 };
 
-/// One of a sensor's sets of rays, measured at the pose that it has now.
-struct Look {
-  Look(RayBatch rays, Stage& stage)
-      : gaze(std::move(rays), stage.rays), view(stage.sights, gaze.reach()) {}
+/// The cached rays of one of a sensor's ray sets, at the sensor's present pose.
+struct CachedScan {
+  CachedScan(RayBatch rays, Engines& engines)
+      : cache(std::move(rays), engines.rays), region(engines.movers, cache.reach()) {}
 
-  /// Measures anew, after static shapes came or went; the stage must be committed.
-  void measure(Stage& stage);
-  /// The hits of now. Returns whether they are surely those of the look before.
-  bool look(const Stage& stage, Sights::Parted& scratch, std::vector<rays::Hit>& hits);
+  /// Casts against the static scene again, after static shapes came or went; the scene must be
+  /// committed.
+  void measure(Engines& engines);
+  /// The hits now. Returns whether they are surely equal to those of the last cast.
+  bool cast(const Engines& engines, MoverIndex::SplitMovers& scratch, std::vector<rays::Hit>& hits);
 
-  rays::Gaze gaze;
-  Sights::View view;
-  bool changed = true;            // since it was last looked at, or met what moves then
-  Sights::Moment settled_at = 0;  // movers that have not moved since are settled in the gaze
-  std::size_t settled = 0;        // how many
+  rays::RayCache cache;
+  MoverIndex::WatchRegion region;
+  bool changed = true;                // since the last cast, or a mover was hit then
+  MoverIndex::Moment settled_at = 0;  // movers that have not moved since are settled in the cache
+  std::size_t settled = 0;            // how many
 };
 
-/// Where the light comes by that a sensor measures, from where it stands.
-struct LightWays {
+/// The region through which light reaches a sensor that measures it, at its present pose.
+struct WatchedLight {
   const light::Probe* probe;
-  Sights::View view;        // in the probe's reach
-  Eigen::AlignedBox3d box;  // that
-  Sights::Moment looked;    // it has seen all that happened before
+  MoverIndex::WatchRegion region;  // the probe's reach
+  Eigen::AlignedBox3d box;         // of it
+  MoverIndex::Moment sampled;      // changes before it are in the sample
 };
 
-/// What an instance asked for of the world besides rays, the time and its own pose.
-struct Asked {
+/// What an instance queried of the world besides rays, the time and its own pose.
+struct Queried {
   bool contacts = false;
   bool light = false;
-  bool devices = false;  // what they tell
+  bool devices = false;  // their states
   bool other = false;
 
   bool any() const { return contacts || light || devices || other; }
-  Asked operator|(const Asked& o) const {
+  Queried operator|(const Queried& o) const {
     return {contacts || o.contacts, light || o.light, devices || o.devices, other || o.other};
   }
 };
 
+/// What is known ahead of a lazy sensor's noise.
+struct NoiseForecast {
+  double quiet_chance = 0.0;    // see NoisySensor
+  Nanoseconds quiet_until = 0;  // no sample up to then may have an event
+  Nanoseconds loud_at = 0;      // the next one that may; known when later than now
+};
+
 struct SensorInstance {
-  // What a due time at rest looks at stands together: with many sensors it comes from far away.
-  std::vector<std::unique_ptr<Look>> looks;  // by stance, from where it stands
-  std::unique_ptr<LightWays> light;          // none where light may come from anywhere
-  Rhythm rhythm;
-  Sights::Moment seen = 0;  // it has seen all that happened before
-  int calm = 0;             // so many looks in a row found nothing changed since the one before
-  Rest rest = Rest::kBusy;
-  Asked asked{false, false, false, true};  // for its reading
-  bool link_moves = true;                  // or stands where it is for ever
-  bool published = false;                  // `scratch`, as `told`
-  bool echoes = false;                     // told.echo stands for its looks
+  // What is read at each due time comes first: with many sensors it is not in the CPU's cache.
+  std::vector<std::unique_ptr<CachedScan>> scans;  // by ray set
+  std::unique_ptr<WatchedLight> light;             // null where light may come from anywhere
+  Schedule schedule;
+  MoverIndex::Moment seen = 0;  // its last sample has all changes before
+  SensorActivity activity;
+  Queried queried{false, false, false, true};  // for its reading
+  bool link_moves = true;                      // false where its link is static
 
   std::string kind;
   std::string name;
   std::uint64_t key = 0;  // of its random numbers
   std::shared_ptr<const Plugin> plugin;
   std::unique_ptr<Sensor> sensor;
+  NoisySensor* noisy = nullptr;  // `sensor`, where it applies its noise itself
+  std::vector<Noise> noise;      // that is added to what it reads
   std::shared_ptr<const desc::Sensor> desc;
   std::uint32_t link = 0;  // in its model
   Pose pose;               // in the link's frame
@@ -97,18 +106,23 @@ struct SensorInstance {
   bool attached = false;
   std::vector<std::string> collisions;         // full names, by ContactRef
   std::vector<physics::CollisionId> touching;  // the same
-  Reading scratch;                             // the latest
-  Told told;                                   // the latest published, as snapshots have it
-  Pose seen_from;                              // when it last looked, if its link moves
-  std::uint64_t contacts_seen = 0;             // their revisions when it last looked
-  std::uint64_t light_seen = 0;                // as well
-  double quiet_chance = 0.0;                   // of its noise, while it echoes
-  Nanoseconds quiet_until = 0;                 // known of its noise, for leaps
-  Nanoseconds loud_at = 0;                     // as well, when later than now
-  Nanoseconds cost = 0;                        // CPU time that the meter counts
+  Reading clean;                               // the latest, before `noise`; unused without
+  Reading latest;
+  PublishedReading published;       // the latest published, as snapshots have it
+  Pose seen_from;                   // at its last sample, if its link moves
+  std::uint64_t contacts_seen = 0;  // their revisions at its last sample
+  std::uint64_t light_seen = 0;     // as well
+  NoiseForecast forecast;
+  Nanoseconds cost = 0;  // CPU time that the meter counts
+
+  bool on_demand() const { return plugin->kind().is_on_demand; }
+  /// Whether readings of a steady sensor differ from sample to sample.
+  bool varies() const;
+  /// Makes its readings while nothing changes.
+  std::shared_ptr<const LazyReading> lazy_reading() const;
 };
 
-/// A model that is in the world, with all that acts and looks in it.
+/// A model in the world, with its devices and sensors.
 struct LiveModel {
   std::shared_ptr<const desc::Model> desc;
   Parts parts;
@@ -125,7 +139,7 @@ struct LiveModel {
 ModelInfo info_of(const desc::Model& model);
 
 /// What a model's plug-ins and the world's make of it, not yet in the world. Throws Error for a
-/// plug-in or parameter that is wrong; `warnings` tells of sensors without a plug-in.
+/// plug-in or parameter that is wrong; sensors without a plug-in are added to `warnings`.
 void make_instances(LiveModel& live, const std::vector<desc::Plugin>& world_plugins,
                     const Vec3& gravity, Catalog& catalog, std::vector<std::string>& warnings);
 

@@ -4,10 +4,10 @@
 #include <mutex>
 #include <utility>
 
-#include "sim/acting.h"
 #include "sim/building.h"
-#include "sim/orders.h"
-#include "sim/sensing.h"
+#include "sim/command_queue.h"
+#include "sim/device_system.h"
+#include "sim/sensor_system.h"
 
 namespace angen::sim {
 
@@ -16,8 +16,8 @@ struct Simulation::Impl {
       : world(std::move(described)),
         seed(seed_),
         building(world, seed_, std::move(catalog)),
-        acting(meter),
-        sensing(seed_, demand, meter) {
+        devices(meter),
+        sensors(seed_, requested, meter) {
     next.step = world.physics.step;
     next.seed = seed_;
     publish();
@@ -25,10 +25,10 @@ struct Simulation::Impl {
 
   InstanceView::Clock clock() const { return {next.time, next.step}; }
 
-  void obey() {
-    const Orders::Effects effects = orders.obey(building, clock(), next.events);
-    if (effects.reset) sensing.invalidate();
-    if (effects.commanded) acting.rouse_all();
+  void drain() {
+    const CommandQueue::Effects effects = commands.drain(building, clock(), next.events);
+    if (effects.reset) sensors.invalidate();
+    if (effects.commanded) devices.activate_all();
     if (effects.reset_time) {
       next.tick = 0;
       next.time = 0;
@@ -37,71 +37,71 @@ struct Simulation::Impl {
     restructure();
   }
 
-  void pass_over(Nanoseconds until) {
+  void leap(Nanoseconds until) {
     std::int64_t tick = until / next.step - 1;
     if (tick <= next.tick || !next.events.empty()) return;
-    if (building.stage().physics.awake_count() > 0) return;
-    tick = std::min(tick, acting.next_tick(building, clock()));
-    const std::int64_t most = orders.ticks_to_go() - 1;
+    if (building.engines().physics.awake_count() > 0) return;
+    tick = std::min(tick, devices.next_tick(building, clock()));
+    const std::int64_t most = commands.ticks_to_go() - 1;
     if (most < tick - next.tick) tick = next.tick + most;
     if (tick <= next.tick) return;
-    tick = sensing.next_tick(building, clock(), tick);
+    tick = sensors.next_tick(building, clock(), tick);
     if (tick <= next.tick) return;
-    sensing.pass_over(clock(), tick, next);
-    orders.ticks_done(tick - next.tick);
+    sensors.skip_to(clock(), tick, next);
+    commands.ticks_done(tick - next.tick);
     next.tick = tick;
     next.time = tick * next.step;
   }
 
   std::shared_ptr<const Snapshot> take_tick(Nanoseconds until) {
     meter.watch.start(meter.on);
-    obey();
+    drain();
     meter.rest.commands += meter.watch.lap();
-    if (orders.running()) {
+    if (commands.running()) {
       const Nanoseconds from = next.time;
-      pass_over(until);
+      leap(until);
       act();
       move();
       meter.rest.physics += meter.watch.lap();
-      look();
-      orders.ticks_done(1);
+      observe();
+      commands.ticks_done(1);
       if (meter.on) meter.rest.simulated += next.time - from;
     }
     std::shared_ptr<const Snapshot> made = publish();
     meter.rest.snapshots += meter.watch.lap();
-    orders.answer();
+    commands.answer();
     return made;
   }
 
-  void act() { acting.act(building, clock(), next.events); }
+  void act() { devices.update(building, clock(), next.events); }
 
   void move() {
-    Stage& stage = building.stage();
-    const bool was_awake = stage.physics.awake_count() > 0;
-    stage.physics.step(next.tick);
-    if (was_awake || !stage.physics.moved().empty()) stage.note_change();
+    Engines& engines = building.engines();
+    const bool was_awake = engines.physics.awake_count() > 0;
+    engines.physics.step(next.tick);
+    if (was_awake || !engines.physics.moved().empty()) engines.note_change();
     ++next.tick;
-    acting.note_awake(building, next.tick);
+    devices.note_awake(building, next.tick);
     next.time = next.tick * next.step;
-    for (const physics::LinkId link : building.stage().physics.moved()) {
+    for (const physics::LinkId link : building.engines().physics.moved()) {
       const Building::Owner owner = building.owner(link);
-      building.stage().follow(owner.model->parts, owner.link);
+      building.engines().follow(owner.model->parts, owner.link);
       write_link(*owner.model, owner.link);
       next.moved_links.push_back(owner.model->first_link + owner.link);
     }
   }
 
-  void look() {
-    acting.report(building, clock(), next);
-    sensing.look(building, clock(), next.tick, next);
-    if (acting.lights_changed()) write_lights();
+  void observe() {
+    devices.report(building, clock(), next);
+    sensors.sample(building, clock(), next.tick, next);
+    if (devices.lights_changed()) write_lights();
   }
 
   std::shared_ptr<const Snapshot> publish() {
     restructure();
-    next.paused = orders.paused();
-    next.counts.awake_bodies = static_cast<std::uint32_t>(building.stage().physics.awake_count());
-    next.counts.failed_steps = building.stage().physics.failed_steps();
+    next.paused = commands.paused();
+    next.counts.awake_bodies = static_cast<std::uint32_t>(building.engines().physics.awake_count());
+    next.counts.failed_steps = building.engines().physics.failed_steps();
     auto made = std::make_shared<const Snapshot>(next);
     next.moved_links.clear();
     next.new_readings.clear();
@@ -132,8 +132,8 @@ struct Simulation::Impl {
   void restructure() {
     if (next.structure && next.structure->revision == building.revision()) return;
     next.structure = building.structure();
-    acting.invalidate();
-    sensing.invalidate();
+    devices.invalidate();
+    sensors.invalidate();
     next.link_poses.clear();
     next.joint_positions.clear();
     next.devices.clear();
@@ -145,7 +145,7 @@ struct Simulation::Impl {
       for (std::uint32_t i = 0; i < live->desc->links.size(); ++i) write_link(*live, i);
       write_joints(*live);
       for (const DeviceInstance& device : live->devices) next.devices.push_back(device.last);
-      for (const SensorInstance& sensor : live->sensors) next.sensors.push_back(sensor.told);
+      for (const SensorInstance& sensor : live->sensors) next.sensors.push_back(sensor.published);
     }
     write_lights();
     for (const std::string& warning : building.take_warnings()) {
@@ -155,7 +155,7 @@ struct Simulation::Impl {
 
   void write_link(const LiveModel& live, std::uint32_t link) {
     next.link_poses.set(live.first_link + link,
-                        building.stage().physics.link(live.parts.links[link]).pose);
+                        building.engines().physics.link(live.parts.links[link]).pose);
     for (std::uint32_t i = 0; i < live.desc->joints.size(); ++i) {
       if (live.desc->joints[i].child == live.desc->links[link].name) write_joint(live, i);
     }
@@ -167,7 +167,7 @@ struct Simulation::Impl {
 
   void write_joint(const LiveModel& live, std::uint32_t joint) {
     next.joint_positions.set(live.first_joint + joint,
-                             building.stage().physics.joint(live.parts.joints[joint]).position);
+                             building.engines().physics.joint(live.parts.joints[joint]).position);
   }
 
   void write_lights() {
@@ -177,11 +177,11 @@ struct Simulation::Impl {
   desc::World world;
   std::uint64_t seed;
   Building building;
-  Orders orders;
-  Demand demand;
+  CommandQueue commands;
+  RequestedSensors requested;
   Meter meter;
-  Acting acting;
-  Sensing sensing;
+  DeviceSystem devices;
+  SensorSystem sensors;
   Snapshot next;
   mutable std::mutex latest_mutex;
   std::shared_ptr<const Snapshot> latest;
@@ -193,7 +193,7 @@ Simulation::Simulation(desc::World world, std::uint64_t seed, std::shared_ptr<Ca
 Simulation::~Simulation() = default;
 
 std::future<Outcome> Simulation::post(Action action) {
-  return impl_->orders.post(std::move(action));
+  return impl_->commands.post(std::move(action));
 }
 
 std::shared_ptr<const Snapshot> Simulation::tick() { return impl_->take_tick(0); }
@@ -207,19 +207,19 @@ std::shared_ptr<const Snapshot> Simulation::snapshot() const {
   return impl_->latest;
 }
 
-void Simulation::want(const std::string& kind, const std::string& name, bool wanted) {
-  impl_->demand.set(kind, name, wanted);
+void Simulation::request(const std::string& kind, const std::string& name, bool wanted) {
+  impl_->requested.set(kind, name, wanted);
 }
 
-bool Simulation::wanted(const std::string& kind, const std::string& name) const {
-  return impl_->demand.has(kind, name);
+bool Simulation::requested(const std::string& kind, const std::string& name) const {
+  return impl_->requested.has(kind, name);
 }
 
 void Simulation::measure(bool on) { impl_->meter.on = on; }
 
 Cost Simulation::take_cost() { return impl_->take_cost(); }
 
-bool Simulation::running() const { return impl_->orders.running(); }
+bool Simulation::running() const { return impl_->commands.running(); }
 
 const desc::World& Simulation::world() const { return impl_->world; }
 

@@ -29,19 +29,19 @@ class Simulation {
   /// Returns the snapshot it made.
   std::shared_ptr<const Snapshot> tick();
 
-  /// As tick(), but first passes over ticks in which nothing happens: none is awake, no device and
-  /// no sensor has anything to do but to publish again what it published before, or, with noise,
-  /// nothing that anybody is told of. The snapshot is bit for bit what as many tick() would have
-  /// ended with. Its tick ends at `until` at the latest, unless that has passed.
+  /// As tick(), but first skips the ticks in which nothing happens: no body is awake, no command
+  /// waits, and devices and sensors would only publish again what they published before, or the
+  /// same but for noise. The snapshot is bit for bit what as many calls of tick() would end with.
+  /// Its tick ends at `until` at the latest, unless that has passed.
   std::shared_ptr<const Snapshot> leap(Nanoseconds until);
 
   /// The latest snapshot; never null.
   std::shared_ptr<const Snapshot> snapshot() const;
 
-  /// Says whether somebody wants what this sensor measures; matters to those that look on demand
+  /// Says whether somebody wants this sensor's readings; matters to those that sample on demand
   /// only. The sensor need not exist yet. Any thread.
-  void want(const std::string& kind, const std::string& name, bool wanted);
-  bool wanted(const std::string& kind, const std::string& name) const;
+  void request(const std::string& kind, const std::string& name, bool wanted);
+  bool requested(const std::string& kind, const std::string& name) const;
 
   /// Whether ticks are to measure what they cost, from the next one on. No result depends on it.
   /// The thread that ticks.

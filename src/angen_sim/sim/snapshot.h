@@ -7,12 +7,12 @@
 
 #include "desc/world.h"
 #include "plugin/plugin.h"
-#include "sim/rhythm.h"
+#include "sim/schedule.h"
 #include "sim/shared_array.h"
 
 namespace angen::sim {
 
-/// One change worth telling.
+/// One change worth publishing.
 struct Event {
   Nanoseconds stamp = 0;
   std::string source;  // "bathroom1"
@@ -38,6 +38,8 @@ struct DeviceEntry {
   std::string kind;
   std::string name;
   std::uint32_t model = 0;
+  std::shared_ptr<const Plugin> plugin;  // describes the kind
+  std::string library;                   // that the plug-in is in, as its SDF names it
 };
 
 struct SensorEntry {
@@ -50,10 +52,11 @@ struct SensorEntry {
   std::string frame;       // as its SDF says, or empty
   std::uint64_t key = 0;   // of its random numbers
   Nanoseconds period = 0;  // of publishing
-  Rhythm rhythm;           // of all its due times
+  Schedule schedule;       // of all its due times
   bool attached = false;   // by a command, to a link that existed
-  bool on_demand = false;  // looks only while wanted, see Simulation::want
+  bool on_demand = false;  // samples only while requested, see Simulation::request
   std::shared_ptr<const desc::Sensor> desc;
+  std::shared_ptr<const Plugin> plugin;  // describes the kind
 };
 
 struct LightEntry {
@@ -80,10 +83,10 @@ struct Counts {
   std::uint64_t failed_steps = 0;  // redone by the other solver
 };
 
-/// What a sensor told last: the reading that it published, and from then on what stands for it.
-struct Told {
-  std::shared_ptr<const Reading> reading;  // null before the first
-  std::shared_ptr<const Echo> echo;        // null where it is the reading itself
+/// What a sensor published last: the reading, and from then on what stands for its samples.
+struct PublishedReading {
+  std::shared_ptr<const Reading> reading;   // null before the first
+  std::shared_ptr<const LazyReading> lazy;  // null where it is the reading itself
 };
 
 /// The world after a tick. Shared and immutable; parts that did not change are shared with the
@@ -98,7 +101,7 @@ struct Snapshot {
   SharedArray<Pose> link_poses;         // world, as Structure::links
   SharedArray<double> joint_positions;  // rad or m, as Structure::joints, first axis
   SharedArray<std::shared_ptr<const Reading>> devices;      // as Structure::devices
-  SharedArray<Told> sensors;                                // as Structure::sensors; see reading()
+  SharedArray<PublishedReading> sensors;                    // as Structure::sensors; see reading()
   std::shared_ptr<const std::vector<double>> light_levels;  // 0..1, as Structure::lights
   std::vector<std::uint32_t> moved_links;   // indices of links whose pose changed in this tick
   std::vector<std::uint32_t> new_readings;  // indices of sensors that published in this tick: a

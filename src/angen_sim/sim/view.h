@@ -8,7 +8,7 @@
 
 namespace angen::sim {
 
-/// What one device or sensor sees of the stage at one moment.
+/// What one device or sensor sees of the world at one moment.
 class InstanceView : public View {
  public:
   struct Clock {
@@ -19,7 +19,7 @@ class InstanceView : public View {
   InstanceView(Building& building, const LiveModel& live, Clock clock,
                SensorInstance* sensor = nullptr)
       : building_(building),
-        stage_(building.stage()),
+        engines_(building.engines()),
         live_(live),
         clock_(clock),
         sensor_(sensor) {}
@@ -34,29 +34,30 @@ class InstanceView : public View {
   std::vector<DeviceView> devices(const std::string& field,
                                   const Eigen::AlignedBox3d& within) const override;
   light::Sample illuminance(light::Probe& probe, const Pose& pose) const override;
-  double ambient_temperature() const override { return stage_.ambient_temperature; }
+  double ambient_temperature() const override { return engines_.ambient_temperature; }
   const std::vector<rays::WarmShape>& warm_shapes() const override;
   std::uint64_t scene_revision() const override;
-  std::vector<std::uint8_t> colors(const render::Lens& lens, const Pose& pose) const override;
-  std::vector<float> depths(const render::Lens& lens, const Pose& pose) const override;
+  std::vector<std::uint8_t> colors(const render::PinholeCamera& lens,
+                                   const Pose& pose) const override;
+  std::vector<float> depths(const render::PinholeCamera& lens, const Pose& pose) const override;
 
-  const Asked& asked() const { return asked_; }
+  const Queried& queried() const { return queried_; }
 
  private:
   Building& building_;
-  Stage& stage_;
+  Engines& engines_;
   const LiveModel& live_;
   Clock clock_;
   SensorInstance* sensor_;
-  mutable Asked asked_;
+  mutable Queried queried_;
 };
 
-/// What one device does to the stage.
+/// What one device does to the world.
 class InstanceOutputs : public Outputs {
  public:
-  InstanceOutputs(Stage& stage, LiveModel& live, const DeviceInstance& device, Nanoseconds time,
+  InstanceOutputs(Engines& engines, LiveModel& live, const DeviceInstance& device, Nanoseconds time,
                   std::vector<Event>& events)
-      : stage_(stage), live_(live), device_(device), time_(time), events_(events) {}
+      : engines_(engines), live_(live), device_(device), time_(time), events_(events) {}
 
   void force(JointRef joint, double force) override;
   void motor(JointRef joint, double velocity, double max_force) override;
@@ -65,16 +66,16 @@ class InstanceOutputs : public Outputs {
   void event(const std::string& event, const std::string& detail) override;
 
   bool lights_changed() const { return lights_changed_; }
-  bool told() const { return told_; }
+  bool had_event() const { return had_event_; }
 
  private:
-  Stage& stage_;
+  Engines& engines_;
   LiveModel& live_;
   const DeviceInstance& device_;
   Nanoseconds time_;
   std::vector<Event>& events_;
   bool lights_changed_ = false;
-  bool told_ = false;
+  bool had_event_ = false;
 };
 
 }  // namespace angen::sim

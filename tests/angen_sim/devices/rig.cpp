@@ -72,7 +72,7 @@ Reading Rig::state() const {
   return reading;
 }
 
-Verdict Rig::obey(const Command& command) {
+Verdict Rig::drain(const Command& command) {
   Verdict verdict = device_->command(command, *this);
   if (verdict.act) verdict.act();
   return verdict;

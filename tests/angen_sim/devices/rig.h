@@ -60,8 +60,8 @@ class Rig : public View, public Wiring, public Outputs {
   Rig(Bench& bench, desc::Model model, std::shared_ptr<const Plugin> plugin,
       const Parameters& parameters);
 
-  Verdict command(const std::string& text) { return obey({text, {}}); }
-  Verdict command(double v, double w) { return obey({"", {v, w}}); }
+  Verdict command(const std::string& text) { return drain({text, {}}); }
+  Verdict command(double v, double w) { return drain({"", {v, w}}); }
   void update() { device_->update(*this, *this); }
   Reading state() const;
   std::string mode() const { return state().get<std::string>("mode"); }
@@ -87,8 +87,10 @@ class Rig : public View, public Wiring, public Outputs {
   double ambient_temperature() const override { return 295.15; }
   const std::vector<rays::WarmShape>& warm_shapes() const override { return warm_; }
   std::uint64_t scene_revision() const override { return 0; }
-  std::vector<std::uint8_t> colors(const render::Lens&, const Pose&) const override { return {}; }
-  std::vector<float> depths(const render::Lens&, const Pose&) const override { return {}; }
+  std::vector<std::uint8_t> colors(const render::PinholeCamera&, const Pose&) const override {
+    return {};
+  }
+  std::vector<float> depths(const render::PinholeCamera&, const Pose&) const override { return {}; }
 
   // Wiring
   std::string name() const override { return model_.name; }
@@ -111,7 +113,7 @@ class Rig : public View, public Wiring, public Outputs {
   void event(const std::string& event, const std::string&) override { events.push_back(event); }
 
  private:
-  Verdict obey(const Command& command);
+  Verdict drain(const Command& command);
   int joint_index(const std::string& joint) const;
   int link_index(const std::string& link) const;
   physics::JointId id_of(JointRef joint) const;

@@ -12,8 +12,8 @@ namespace angen::node {
 namespace {
 
 template <class T>
-Grid<T> grid(std::uint32_t height, std::uint32_t width, std::uint32_t channels,
-             std::vector<T> values) {
+ImageArray<T> grid(std::uint32_t height, std::uint32_t width, std::uint32_t channels,
+                   std::vector<T> values) {
   return {height, width, channels, std::make_shared<const std::vector<T>>(std::move(values))};
 }
 
@@ -22,8 +22,8 @@ Reading lens() {
   reading.set("width", 3);
   reading.set("height", 2);
   reading.set("focal", 2.0);
-  reading.set("centre_x", 1.0);
-  reading.set("centre_y", 0.5);
+  reading.set("center_x", 1.0);
+  reading.set("center_y", 0.5);
   return reading;
 }
 

@@ -61,7 +61,7 @@ class Bench {
     if (!own_warmth) world.warm = scene.warm_shapes();
     world.revision = scene.revision() + moves;
     RayBatch batch;
-    sensor_->stance(world);
+    sensor_->ray_set(world);
     sensor_->aim(world, batch);
     std::vector<rays::Hit> hits;
     scene.cast(batch, hits);

@@ -27,7 +27,7 @@ TEST(Camera, LooksThroughTheLensOfItsSdfFromItsPlace) {
   bench.world.at = {{1.0, 2.0, 3.0}, from_rpy(0.1, 0.2, 0.3)};
   const std::vector<std::uint8_t> seen{1, 2,  3,  4,  5,  6,  7,  8,  9,
                                        9, 10, 11, 12, 13, 14, 15, 16, 17};
-  bench.world.colors_at = [&](const render::Lens& lens, const Pose& pose) {
+  bench.world.colors_at = [&](const render::PinholeCamera& lens, const Pose& pose) {
     EXPECT_EQ(lens.width, 3);
     EXPECT_EQ(lens.height, 2);
     EXPECT_EQ(lens.near, 0.1);
@@ -36,23 +36,23 @@ TEST(Camera, LooksThroughTheLensOfItsSdfFromItsPlace) {
     return seen;
   };
   const Reading reading = bench.look();
-  const auto image = reading.get<ByteGrid>("image");
+  const auto image = reading.get<ByteImage>("image");
   ASSERT_NE(image.values, nullptr);
   EXPECT_EQ(*image.values, seen);
   EXPECT_EQ(image.width, 3U);
   EXPECT_EQ(image.height, 2U);
   EXPECT_EQ(image.channels, 3U);
   EXPECT_NEAR(reading.get<double>("focal"), 1.5 / std::tan(0.6), 1e-12);
-  EXPECT_EQ(reading.get<double>("centre_x"), 1.0);
-  EXPECT_EQ(reading.get<double>("centre_y"), 0.5);
+  EXPECT_EQ(reading.get<double>("center_x"), 1.0);
+  EXPECT_EQ(reading.get<double>("center_y"), 0.5);
 }
 
 TEST(Camera, DepthIsAGridOfOneChannel) {
   Bench bench(kDepth, plugin_element({}), lens("2"));
-  bench.world.depths_at = [](const render::Lens&, const Pose&) {
+  bench.world.depths_at = [](const render::PinholeCamera&, const Pose&) {
     return std::vector<float>{1.0F, 2.0F, 3.0F, 4.0F};
   };
-  const auto depth = bench.look().get<FloatGrid>("depth");
+  const auto depth = bench.look().get<FloatImage>("depth");
   ASSERT_NE(depth.values, nullptr);
   EXPECT_EQ(depth.values->at(3), 4.0F);
   EXPECT_EQ(depth.channels, 1U);
@@ -87,7 +87,7 @@ TEST(Camera, RefusesALensThatSeesNothing) {
 TEST(Camera, ImagesOfEqualPixelsAreEqualReadings) {
   Bench bench(kDepth, plugin_element({}), lens("2"));
   float last = 4.0F;
-  bench.world.depths_at = [&](const render::Lens&, const Pose&) {
+  bench.world.depths_at = [&](const render::PinholeCamera&, const Pose&) {
     return std::vector<float>{1.0F, 2.0F, 3.0F, last};
   };
   const Reading first = bench.look();

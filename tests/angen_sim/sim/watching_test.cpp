@@ -33,10 +33,11 @@ class Forgetful : public View {
   double ambient_temperature() const override { return view_.ambient_temperature(); }
   const std::vector<rays::WarmShape>& warm_shapes() const override { return view_.warm_shapes(); }
   std::uint64_t scene_revision() const override { return view_.scene_revision(); }
-  std::vector<std::uint8_t> colors(const render::Lens& lens, const Pose& pose) const override {
+  std::vector<std::uint8_t> colors(const render::PinholeCamera& lens,
+                                   const Pose& pose) const override {
     return view_.colors(lens, pose);
   }
-  std::vector<float> depths(const render::Lens& lens, const Pose& pose) const override {
+  std::vector<float> depths(const render::PinholeCamera& lens, const Pose& pose) const override {
     return view_.depths(lens, pose);
   }
 
@@ -44,7 +45,7 @@ class Forgetful : public View {
   const View& view_;
 };
 
-/// Takes away what a sensor says of its stances and its rest: it aims and reads at each due time.
+/// Takes away what a sensor says of its ray sets and its rest: it aims and reads at each due time.
 class Restless : public Sensor {
  public:
   explicit Restless(std::unique_ptr<Sensor> sensor) : sensor_(std::move(sensor)) {}
@@ -52,7 +53,7 @@ class Restless : public Sensor {
   Nanoseconds sample_period() const override { return sensor_->sample_period(); }
   double default_rate() const override { return sensor_->default_rate(); }
   void aim(const View& view, RayBatch& rays) override {
-    sensor_->stance(view);
+    sensor_->ray_set(view);
     sensor_->aim(view, rays);
   }
   void read(const View& view, Hits hits, Rng& rng, Reading& reading) override {
@@ -123,10 +124,10 @@ std::unique_ptr<Simulation> make(const std::string& text) {
 
 void expect_made_at_each_due_time(const Snapshot& snapshot) {
   for (std::size_t i = 0; i < snapshot.sensors.size(); ++i) {
-    const Told& told = snapshot.sensors[i];
+    const PublishedReading& told = snapshot.sensors[i];
     if (told.reading == nullptr) continue;
     EXPECT_EQ(told.reading->stamp, snapshot.stamp(i));
-    EXPECT_EQ(told.echo, nullptr);
+    EXPECT_EQ(published.lazy, nullptr);
   }
 }
 
@@ -168,9 +169,9 @@ struct AtRest {
 AtRest at_rest(const Snapshot& snapshot) {
   AtRest count;
   for (std::size_t i = 0; i < snapshot.sensors.size(); ++i) {
-    const Told& told = snapshot.sensors[i];
+    const PublishedReading& told = snapshot.sensors[i];
     if (told.reading == nullptr || told.reading->stamp == snapshot.stamp(i)) continue;
-    ++(told.echo ? count.echoed : count.kept);
+    ++(published.lazy ? count.echoed : count.kept);
   }
   return count;
 }

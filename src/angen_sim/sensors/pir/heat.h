@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "plugin/view.h"
-#include "sensors/pir/lens.h"
+#include "sensors/pir/fresnel_lens.h"
 
 namespace angen::sensors {
 
@@ -14,7 +14,7 @@ class Heat {
   Heat() = default;
   /// Sees to `range` in m. `opening` in m^2 is the area of a facet times what the lens and the
   /// detector's window let through.
-  Heat(Lens lens, double range, double opening)
+  Heat(FresnelLens lens, double range, double opening)
       : lens_(std::move(lens)), range_(range), opening_(opening) {}
 
   /// Asks for rays towards every such surface; none where nothing moved since the last time.
@@ -41,7 +41,7 @@ class Heat {
             RayBatch& rays);
   bool unseen_lately();
 
-  Lens lens_;
+  FresnelLens lens_;
   double range_ = 0.0;
   double opening_ = 0.0;
   std::vector<Sample> samples_;

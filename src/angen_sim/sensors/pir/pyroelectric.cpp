@@ -20,8 +20,8 @@ Window window_of(const std::vector<double>& row, std::size_t first, const char* 
                               "(-pi/2 to pi/2), each rising, in rad");
 }
 
-Lens read_lens(Params& params) {
-  std::vector<Lens::Row> rows = lens_rows(params.choice(
+FresnelLens read_camera(Params& params) {
+  std::vector<FresnelLens::Row> rows = lens_rows(params.choice(
       "lens", "area", lens_names(), "where its zones are; long_range and curtain for walls"));
   const auto own = params.rows("zone_row", 5, "1 rad rad rad rad",
                                "instead of a lens: pairs of zones, azimuth from, to (left is "
@@ -34,7 +34,7 @@ Lens read_lens(Params& params) {
     }
     rows.push_back({static_cast<int>(pairs), window_of(row, 1, "zone_row", params)});
   }
-  Lens lens(rows);
+  FresnelLens lens(rows);
   for (const std::vector<double>& row :
        params.rows("tape", 4, "rad rad rad rad",
                    "covers zones with their middle in azimuth from, to, elevation from, to")) {
@@ -69,7 +69,7 @@ Trigger::Times read_times(Params& params) {
 }  // namespace
 
 void Pyroelectric::configure(Params& params, Wiring&) {
-  Lens lens = read_lens(params);
+  FresnelLens lens = read_camera(params);
   const double range = params.number("ray/range/max", 20.0, "m", "farther is not seen", kPositive);
   const double facet =
       params.number("facet_area", 2.5e-5, "m^2", "of the lens, for one zone pair", kPositive);
@@ -77,7 +77,7 @@ void Pyroelectric::configure(Params& params, Wiring&) {
                                       "of lens and window, of all heat radiation", {1e-6, 1.0});
   heat_ = Heat(std::move(lens), range, facet * passes);
   const double rate =
-      params.number("sample_rate", 100.0, "Hz", "how often it looks", {50.0, 1000.0});
+      params.number("sample_rate", 100.0, "Hz", "how often it samples", {50.0, 1000.0});
   period_ = from_seconds(1.0 / rate);
   const BandPass::Corners corners = read_corners(params);
   const double responsivity =
@@ -106,7 +106,7 @@ void Pyroelectric::read(const View& view, Hits hits, Rng& rng, Reading& reading)
     flux_ = flux;
   }
   last_time_ = view.time();
-  const double signal = listen(flux, rng);
+  const double signal = filter(flux, rng);
   const bool was_on = trigger_.on();
   const bool alarm = false_alarm(rng);
   const bool motion = trigger_.step(view.time(), std::abs(signal) > threshold_ || alarm);
@@ -126,13 +126,12 @@ void Pyroelectric::read(const View& view, Hits hits, Rng& rng, Reading& reading)
   reading.event_detail = detail.str();
 }
 
-Rest Pyroelectric::rest() const {
-  const bool still = asleep_ && !heat_.pending() && !trigger_.on() && false_alarm_rate_ == 0.0;
-  return still ? Rest::kSame : Rest::kBusy;
+bool Pyroelectric::steady() const {
+  return asleep_ && !heat_.pending() && !trigger_.on() && false_alarm_rate_ == 0.0;
 }
 
 // Volts for this sample. A flux that stands still lets the filter fall asleep.
-double Pyroelectric::listen(double flux, Rng& rng) {
+double Pyroelectric::filter(double flux, Rng& rng) {
   if (asleep_ && flux == flux_) return 0.0;
   const double signal = band_.step(flux);
   asleep_ = flux == flux_ && band_.settled(flux, rest_);

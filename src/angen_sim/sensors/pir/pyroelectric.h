@@ -15,10 +15,10 @@ class Pyroelectric : public Sensor {
   Nanoseconds sample_period() const override { return period_; }
   void aim(const View& view, RayBatch& rays) override;
   void read(const View& view, Hits hits, Rng& rng, Reading& reading) override;
-  Rest rest() const override;
+  bool steady() const override;
 
  private:
-  double listen(double flux, Rng& rng);
+  double filter(double flux, Rng& rng);
   bool false_alarm(Rng& rng) const;
 
   Heat heat_;

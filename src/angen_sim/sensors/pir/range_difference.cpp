@@ -8,6 +8,7 @@ namespace angen::sensors {
 
 namespace {
 
+constexpr double kRate = 10.0;  // Hz, as its kind has it
 constexpr std::size_t kMostDirections = 1'000'000;
 
 Fan default_fan() {
@@ -22,7 +23,7 @@ Fan default_fan() {
 
 }  // namespace
 
-struct RangeDifference::Scans : Echo {
+struct RangeDifference::Scans : LazyReading {
   Fan fan;
   Nod nod;
   double threshold = 0.0;
@@ -33,7 +34,7 @@ struct RangeDifference::Scans : Echo {
     Ranges now = fan.with_noise(scan, draws(0));
     const Ranges before = fan.with_noise(scan, draws(static_cast<int>(nod.phases)));
     const double difference = greatest_difference(now, before);
-    tell(std::move(now), difference, threshold, reading);
+    write(std::move(now), difference, threshold, reading);
   }
 };
 
@@ -46,7 +47,7 @@ void RangeDifference::configure(Params& params, Wiring&) {
   const double amplitude =
       params.number("nod_amplitude", 0.0, "rad", "nods so far up and down", {0.0, M_PI_2});
   const double nod_period = params.number("nod_period", 0.0, "s", "of a whole nod", kNotNegative);
-  nod_.period = params.update_period(default_rate());
+  nod_.period = params.update_period(kRate);
   nod_.phases = amplitude > 0.0 ? count_phases(params, nod_period) : 1;
   for (std::size_t k = 0; k < nod_.phases; ++k) {
     const double turn = 2.0 * M_PI * static_cast<double>(k) / static_cast<double>(nod_.phases);
@@ -56,7 +57,7 @@ void RangeDifference::configure(Params& params, Wiring&) {
   if (fan_.noisy()) clean_.resize(nod_.phases);
 }
 
-int RangeDifference::stance(const View& view) {
+int RangeDifference::ray_set(const View& view) {
   const bool first = last_time_ < 0 || view.time() < last_time_;  // or the clock was set back
   if (first) {
     nod_.first_time = view.time();
@@ -71,8 +72,8 @@ void RangeDifference::aim(const View& view, RayBatch& rays) {
   fan_.aim(view.pose(), directions_[phase_], rays);
 }
 
-void RangeDifference::tell(Ranges ranges, double difference, double threshold, Reading& reading) {
-  reading.set("ranges", std::move(ranges));  // for those who draw the rays
+void RangeDifference::write(Ranges ranges, double difference, double threshold, Reading& reading) {
+  reading.set("ranges", std::move(ranges));  // for drawing the rays
   reading.set("motion", difference > threshold);
   reading.set("difference", difference);
   reading.set("threshold", threshold);
@@ -86,7 +87,7 @@ void RangeDifference::read(const View&, Hits hits, Rng& rng, Reading& reading) {
   ranges = fan_.with_noise(std::move(ranges), rng);
   const double difference = greatest_difference(ranges, previous_[phase_]);
   previous_[phase_] = ranges;
-  tell(std::move(ranges), difference, threshold_, reading);
+  write(std::move(ranges), difference, threshold_, reading);
   const bool motion = difference > threshold_;
   if (motion != motion_) {
     reading.event = motion ? "motion" : "still";
@@ -100,12 +101,11 @@ void RangeDifference::read(const View&, Hits hits, Rng& rng, Reading& reading) {
   quiet_scans_ = loud || motion ? 0 : quiet_scans_ + 1;
 }
 
-Rest RangeDifference::rest() const {
-  if (previous_.size() == 1 && !fan_.noisy()) return changes_ ? Rest::kBusy : Rest::kSame;
-  return quiet_scans_ >= previous_.size() ? Rest::kNoise : Rest::kBusy;
+bool RangeDifference::steady() const {
+  return varies() ? quiet_scans_ >= previous_.size() : !changes_;
 }
 
-std::shared_ptr<const Echo> RangeDifference::echo() const {
+std::shared_ptr<const LazyReading> RangeDifference::lazy_reading() const {
   auto scans = std::make_shared<Scans>();
   scans->fan = fan_;
   scans->nod = nod_;

@@ -9,16 +9,17 @@ namespace angen::sensors {
 
 /// A motion detector that compares successive range scans. One that nods compares each scan with
 /// the one that it took at the same height a nod ago.
-class RangeDifference : public Sensor {
+class RangeDifference : public Sensor, public NoisySensor {
  public:
   void configure(Params& params, Wiring& wiring) override;
-  int stance(const View& view) override;
+  int ray_set(const View& view) override;
   void aim(const View& view, RayBatch& rays) override;
   void read(const View& view, Hits hits, Rng& rng, Reading& reading) override;
-  Rest rest() const override;
+  bool steady() const override;
+  bool varies() const override { return previous_.size() > 1 || fan_.noisy(); }
   double quiet_chance() const override { return quiet_chance_; }
   int memory() const override { return static_cast<int>(previous_.size()); }
-  std::shared_ptr<const Echo> echo() const override;
+  std::shared_ptr<const LazyReading> lazy_reading() const override;
   void resume(Nanoseconds time, const Draws& draws) override;
 
  private:
@@ -32,10 +33,10 @@ class RangeDifference : public Sensor {
       return static_cast<std::size_t>(scans) % phases;
     }
   };
-  struct Scans;  // its echo
+  struct Scans;  // its lazy reading
 
   std::size_t count_phases(const Params& params, double nod_period) const;
-  static void tell(Ranges ranges, double difference, double threshold, Reading& reading);
+  static void write(Ranges ranges, double difference, double threshold, Reading& reading);
 
   Fan fan_;
   Nod nod_;

@@ -1,0 +1,132 @@
+#include "plugin/command.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+#include "core/diagnostics.h"
+
+namespace angen {
+
+namespace {
+
+/// Lower case, split at blanks and commas.
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> words;
+  bool inside = false;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool separates = std::isspace(byte) != 0 || c == ',';
+    if (!separates && !inside) words.emplace_back();
+    if (!separates) words.back() += static_cast<char>(std::tolower(byte));
+    inside = !separates;
+  }
+  return words;
+}
+
+bool parse(const std::string& word, bool whole, double& value) {
+  const bool digits = word.find_first_not_of("0123456789") == std::string::npos;
+  if (word.empty() || (whole && (!digits || word.size() > 9))) return false;
+  const char* begin = word.data() + (word.size() > 1 && word[0] == '+' && word[1] != '-' ? 1 : 0);
+  const char* end = word.data() + word.size();
+  const auto [stop, problem] = std::from_chars(begin, end, value);
+  return problem == std::errc() && stop == end && std::isfinite(value);
+}
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+std::string shown(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+/// "0 to 100 percent", "radians".
+std::string described(const Verb& verb) {
+  std::string text = verb.argument;
+  if (std::isfinite(verb.range.min) && std::isfinite(verb.range.max)) {
+    text = shown(verb.range.min) + " to " + shown(verb.range.max) + " " + text;
+  }
+  return text;
+}
+
+std::string with_article(const std::string& kind) {
+  const bool vowel = std::string("aeiou").find(kind[0]) != std::string::npos;
+  return (vowel ? "an " : "a ") + kind;
+}
+
+/// The verb that the words begin with; an integer may follow it without a blank, which splits them.
+const Verb* find_verb(const Kind& kind, std::vector<std::string>& words) {
+  for (const Verb& verb : kind.verbs) {
+    const std::string name = lower(verb.name);
+    if (words[0] == name) return &verb;
+    if (!verb.whole || words[0].compare(0, name.size(), name) != 0) continue;
+    words.insert(words.begin() + 1, words[0].substr(name.size()));
+    words[0] = name;
+    return &verb;
+  }
+  return nullptr;
+}
+
+/// Whether the command is as many finite numbers as the kind takes; they are put into its values.
+bool takes_values(const Kind& kind, const std::vector<std::string>& words, Command& command) {
+  if (kind.value_units.empty()) return false;
+  std::vector<double> values = command.values;
+  if (values.empty()) {
+    for (const std::string& word : words) {
+      values.emplace_back();
+      if (!parse(word, false, values.back())) return false;
+    }
+  }
+  const bool finite =
+      std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  if (values.size() != kind.value_units.size() || !finite) return false;
+  command.values = std::move(values);
+  return true;
+}
+
+}  // namespace
+
+std::string forms_of(const Kind& kind) {
+  std::vector<std::string> forms;
+  for (const Verb& verb : kind.verbs) {
+    const std::string number = verb.argument.empty() ? "" : "<" + described(verb) + ">";
+    forms.push_back(verb.name + (number.empty() || verb.whole ? "" : " ") + number);
+  }
+  std::string values;
+  for (const std::string& unit : kind.value_units)
+    values += (values.empty() ? "<" : " <") + unit + ">";
+  if (!values.empty()) forms.push_back(values);
+  return join_names(forms);
+}
+
+std::string parse_command(const Kind& kind, Command& command) {
+  if (kind.verbs.empty() && kind.value_units.empty()) return "";
+  const std::string right = with_article(kind.name) + " takes " + forms_of(kind);
+  std::vector<std::string> words = words_of(command.text);
+  if (takes_values(kind, words, command)) return "";
+  if (words.empty() && !command.values.empty()) return "numbers without a verb; " + right;
+  if (words.empty()) return "no verb; " + right;
+  const Verb* verb = find_verb(kind, words);
+  if (verb == nullptr) return "unknown verb '" + words[0] + "'; " + right;
+  const std::size_t wanted = verb->argument.empty() ? 1 : 2;
+  if (words.size() > wanted) return "too many words after " + verb->name + "; " + right;
+  if (words.size() < wanted) return verb->name + " without " + verb->argument + "; " + right;
+  if (wanted == 2) {
+    if (!parse(words[1], verb->whole, command.number)) {
+      return "'" + words[1] + "' is not a number of " + verb->argument + "; " + right;
+    }
+    if (!verb->range.contains(command.number)) {
+      return words[1] + " is out of range; " + right;
+    }
+  }
+  command.verb = verb->name;
+  return "";
+}
+
+}  // namespace angen

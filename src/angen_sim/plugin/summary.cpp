@@ -1,0 +1,79 @@
+#include "plugin/summary.h"
+
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+#include <type_traits>
+
+namespace angen {
+
+namespace {
+
+std::string fixed(double value, int decimals) {
+  std::ostringstream text;
+  const double scale = std::pow(10.0, decimals);
+  const double rounded = std::round(value * scale) / scale + 0.0;  // never -0
+  text << std::fixed << std::setprecision(decimals) << (std::isfinite(value) ? rounded : value);
+  return text.str();
+}
+
+std::string shown(const Field& field, const Value& value) {
+  const std::string unit = field.unit.empty() ? "" : " " + field.unit;
+  const auto joined = [&](const auto& values, const auto& show) {
+    std::string all;
+    for (const auto& each : values) all += (all.empty() ? "" : " ") + show(each);
+    return all.empty() ? "none" : all + unit;
+  };
+  return std::visit(
+      [&](const auto& held) -> std::string {
+        using T = std::decay_t<decltype(held)>;
+        if constexpr (std::is_same_v<T, bool>) {
+          if (field.words.size() == 2) return field.words[held ? 0 : 1];
+          return held ? "yes" : "no";
+        } else if constexpr (std::is_same_v<T, std::int64_t>) {
+          return std::to_string(held) + unit;
+        } else if constexpr (std::is_same_v<T, double>) {
+          return fixed(held, field.decimals) + unit;
+        } else if constexpr (std::is_same_v<T, std::string>) {
+          return held;
+        } else if constexpr (std::is_same_v<T, Choice>) {
+          return held.name;
+        } else if constexpr (std::is_same_v<T, std::vector<double>>) {
+          return joined(held, [&](double v) { return fixed(v, field.decimals); });
+        } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
+          return joined(held, [](const std::string& v) { return v; });
+        }
+        return "";
+      },
+      value);
+}
+
+}  // namespace
+
+std::string summary(const Kind& kind, const Reading& reading) {
+  std::string text;
+  const auto append = [&](const std::string& part) {
+    if (!part.empty()) text += (text.empty() ? "" : "  ") + part;
+  };
+  for (const Field& field : kind.fields) {
+    if (!field.in_summary) continue;
+    if (const Value* value = reading.find(field.name)) append(shown(field, *value));
+  }
+  if (!text.empty()) return text;
+  for (const auto& [name, value] : reading.fields) {
+    Field field;
+    field.decimals = 2;
+    const std::string part = shown(field, value);
+    if (!part.empty()) append(name + "=" + part);
+  }
+  return text;
+}
+
+bool alarms(const Kind& kind, const Reading& reading) {
+  for (const Field& field : kind.fields) {
+    if (field.alarm && reading.get<bool>(field.name)) return true;
+  }
+  return false;
+}
+
+}  // namespace angen

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/single_subscriber_publisher.h>
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+
+namespace angen::node {
+
+/// Messages that publishers of all kinds have sent since the start; each counts once, however many
+/// listen.
+class Traffic {
+ public:
+  static void count() { sent_.fetch_add(1, std::memory_order_relaxed); }
+  static std::uint64_t sent() { return sent_.load(std::memory_order_relaxed); }
+
+ private:
+  static inline std::atomic<std::uint64_t> sent_{0};
+};
+
+/// A topic whose messages are made only while somebody listens. Who does is counted by the connect
+/// callbacks: asking a publisher costs as much as publishing.
+class LazyPublisher {
+ public:
+  /// Throws what roscpp throws for a topic it does not take.
+  template <class Message>
+  static LazyPublisher of(ros::NodeHandle& node, const std::string& topic, std::uint32_t queue) {
+    LazyPublisher made;
+    ros::AdvertiseOptions options;
+    const std::shared_ptr<Listeners> listeners = made.listeners_;
+    options.init<Message>(
+        topic, queue,
+        [listeners](const ros::SingleSubscriberPublisher&) {
+          ++listeners->count;
+          ++listeners->joined;
+        },
+        [listeners](const ros::SingleSubscriberPublisher&) { --listeners->count; });
+    made.publisher_ = node.advertise(options);
+    return made;
+  }
+
+  bool has_subscribers() const { return listeners_->count.load(std::memory_order_relaxed) > 0; }
+  /// Grows with each newcomer.
+  std::uint64_t subscriptions() const { return listeners_->joined.load(std::memory_order_relaxed); }
+
+  /// Sends what `make` returns; it is not called while nobody listens.
+  template <class Make>
+  void send(Make&& make) const {
+    if (!has_subscribers()) return;
+    publisher_.publish(make());
+    Traffic::count();
+  }
+
+ private:
+  struct Listeners {
+    std::atomic<int> count{0};
+    std::atomic<std::uint64_t> joined{0};
+  };
+
+  std::shared_ptr<Listeners> listeners_ = std::make_shared<Listeners>();
+  ros::Publisher publisher_;
+};
+
+/// A latched topic: each newcomer gets the last message. It is made when there is somebody to get
+/// it, where roscpp's own latch would have it made each time.
+template <class Message>
+class LatchedLazyPublisher {
+ public:
+  using Make = std::function<Message()>;
+
+  /// Throws what roscpp throws for a topic it does not take.
+  LatchedLazyPublisher(ros::NodeHandle& node, const std::string& topic, std::uint32_t queue) {
+    ros::AdvertiseOptions options;
+    options.init<Message>(topic, queue);
+    options.latch = true;
+    latch_ = node.advertise(options);  // says in connection headers what this topic is
+    const std::shared_ptr<State> state = state_;
+    options.init<Message>(
+        topic, queue,
+        [state](const ros::SingleSubscriberPublisher& newcomer) {
+          const std::lock_guard<std::mutex> lock(state->mutex);
+          ++state->listeners;
+          if (!state->make) return;
+          newcomer.publish(state->make());
+          Traffic::count();
+        },
+        [state](const ros::SingleSubscriberPublisher&) {
+          const std::lock_guard<std::mutex> lock(state->mutex);
+          --state->listeners;
+        });
+    options.latch = false;
+    publisher_ = node.advertise(options);
+  }
+
+  /// From now on the message is what `make` returns; it may be called by any thread until the next
+  /// call of this.
+  void set(Make make) {
+    const std::lock_guard<std::mutex> lock(state_->mutex);
+    state_->make = std::move(make);
+    if (state_->listeners == 0) return;
+    publisher_.publish(state_->make());
+    Traffic::count();
+  }
+
+ private:
+  struct State {
+    std::mutex mutex;  // a newcomer never gets an older message after a newer one
+    int listeners = 0;
+    Make make;
+  };
+
+  std::shared_ptr<State> state_ = std::make_shared<State>();
+  ros::Publisher latch_;
+  ros::Publisher publisher_;
+};
+
+}  // namespace angen::node

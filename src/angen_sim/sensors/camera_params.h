@@ -1,0 +1,23 @@
+#pragma once
+
+#include "plugin/params.h"
+#include "plugin/reading.h"
+#include "render/pinhole_camera.h"
+
+namespace angen::sensors {
+
+/// Reads <camera>, and the topics that Gazebo's camera plug-ins name (`ros` uses those).
+render::PinholeCamera read_camera(Params& params);
+
+/// What sensor_msgs/CameraInfo is made of: width, height, focal, center_x, center_y (pixels).
+void set_camera_info(const render::PinholeCamera& camera, Reading& reading);
+
+/// An image of the camera's size out of its values.
+template <class T>
+ImageArray<T> image(const render::PinholeCamera& camera, std::vector<T> values,
+                    std::uint32_t channels) {
+  return {static_cast<std::uint32_t>(camera.height), static_cast<std::uint32_t>(camera.width),
+          channels, std::make_shared<const std::vector<T>>(std::move(values))};
+}
+
+}  // namespace angen::sensors

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace angen::sensors {
+
+/// A span of azimuth (to the left) and one of elevation (upwards) about the detector's x axis, rad.
+struct Window {
+  double right = 0.0;
+  double left = 0.0;
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// Where the two elements of a detector look through the facets of its Fresnel lens: rows of zones
+/// of alternating sign from right to left. Elements and the gaps between them are equally wide.
+class FresnelLens {
+ public:
+  /// `pairs` zones of each sign side by side in `window`.
+  struct Row {
+    int pairs = 1;
+    Window window;
+  };
+
+  FresnelLens() = default;
+  explicit FresnelLens(const std::vector<Row>& rows);
+
+  /// No zone whose middle lies in `window` sees anything any more.
+  void tape(const Window& window);
+
+  /// -1 to 1: how much of what comes from there falls on the positive element, less that on the
+  /// negative one. The edges of a zone are soft.
+  double sensitivity(double azimuth, double elevation) const;
+
+  /// All that the zones see, taped or not.
+  const Window& window() const { return window_; }
+
+ private:
+  struct Zones {
+    Window window;
+    double width;              // rad, of a pair
+    std::vector<double> sign;  // of each zone from right to left; 0 = taped over
+  };
+
+  std::vector<Zones> rows_;
+  Window window_;
+};
+
+/// The lenses of lenses.txt, which the build puts into `kLensTable`.
+extern const char* const kLensTable;
+std::vector<std::string> lens_names();
+std::vector<FresnelLens::Row> lens_rows(const std::string& name);
+
+}  // namespace angen::sensors

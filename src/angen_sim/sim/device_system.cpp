@@ -1,0 +1,140 @@
+#include "sim/device_system.h"
+
+#include <algorithm>
+
+namespace angen::sim {
+
+namespace {
+
+constexpr Nanoseconds kReportPeriod = kSecond / 50;
+
+// What fell asleep in the last tick was awake in it.
+bool is_idle(const LiveModel& live, const DeviceInstance& device, InstanceView::Clock clock) {
+  return clock.time < device.idle_until && live.awake_at < clock.time / clock.step - 1;
+}
+
+}  // namespace
+
+void DeviceSystem::list(Building& building) {
+  outdated_ = false;
+  entries_.clear();
+  to_report_.clear();
+  for (auto& live : building.models()) {
+    for (DeviceInstance& device : live->devices) {
+      if (device.to_report) to_report_.push_back(static_cast<std::uint32_t>(entries_.size()));
+      entries_.push_back({live.get(), &device});
+    }
+  }
+  active_.clear();
+  timers_ = {};
+  is_active_.assign(entries_.size(), 0);
+  activate_all();
+}
+
+void DeviceSystem::activate_all() {
+  for (std::uint32_t i = 0; i < entries_.size(); ++i) activate(i);
+}
+
+void DeviceSystem::activate(std::uint32_t index) {
+  if (is_active_[index] != 0) return;
+  is_active_[index] = 1;
+  active_.push_back(index);
+}
+
+void DeviceSystem::activate_due(Nanoseconds now) {
+  while (!timers_.empty() && timers_.top().time <= now) {
+    activate(timers_.top().index);
+    timers_.pop();
+  }
+  if (!std::is_sorted(active_.begin(), active_.end())) std::sort(active_.begin(), active_.end());
+}
+
+void DeviceSystem::make_idle(std::uint32_t index) {
+  is_active_[index] = 0;
+  const Nanoseconds until = entries_[index].device->idle_until;
+  if (until < kForever) timers_.push({until, index});
+}
+
+void DeviceSystem::update(Building& building, InstanceView::Clock clock,
+                          std::vector<Event>& events) {
+  if (outdated_) list(building);
+  activate_due(clock.time);
+  had_event_.clear();
+  lights_changed_ = false;
+  bool reports_added = false;
+  std::size_t kept = 0;
+  for (const std::uint32_t i : active_) {
+    DeviceInstance& device = *entries_[i].device;
+    LiveModel& live = *entries_[i].live;
+    if (is_idle(live, device, clock)) {
+      make_idle(i);
+      continue;
+    }
+    active_[kept++] = i;
+    meter_.rest.devices += meter_.watch.lap();
+    device.catch_up(clock.time, clock.step);
+    const InstanceView view(building, live, clock);
+    InstanceOutputs outputs(building.engines(), live, device, clock.time, events);
+    device.device->update(view, outputs);
+    device.updated = clock.time;
+    device.idle_until = device.device->idle_until(view);
+    if (!device.to_report) {
+      device.to_report = reports_added = true;
+      to_report_.push_back(i);
+    }
+    if (outputs.had_event() || !device.last) had_event_.push_back(i);
+    lights_changed_ = lights_changed_ || outputs.lights_changed();
+    device.cost += meter_.watch.lap();
+  }
+  active_.resize(kept);
+  if (reports_added) std::sort(to_report_.begin(), to_report_.end());
+  meter_.rest.devices += meter_.watch.lap();
+}
+
+std::int64_t DeviceSystem::next_tick(Building& building, InstanceView::Clock clock) {
+  if (outdated_) list(building);
+  Nanoseconds first = kForever - clock.step;
+  for (const std::uint32_t i : active_) {
+    if (!is_idle(*entries_[i].live, *entries_[i].device, clock)) return clock.time / clock.step;
+    first = std::min(first, entries_[i].device->idle_until);
+  }
+  if (!timers_.empty()) first = std::min(first, timers_.top().time);
+  std::int64_t tick = (first + clock.step - 1) / clock.step;
+  if (!to_report_.empty()) {  // the next report is at the end of the tick before
+    const Nanoseconds report = (clock.time / kReportPeriod + 1) * kReportPeriod;
+    tick = std::min(tick, (report + clock.step - 1) / clock.step - 1);
+  }
+  return tick;
+}
+
+void DeviceSystem::note_awake(Building& building, std::int64_t tick) {
+  awake_.clear();
+  building.engines().physics.list_awake(awake_);
+  for (const physics::LinkId link : awake_) {
+    LiveModel& live = *building.owner(link).model;
+    if (live.awake_at == tick) continue;
+    live.awake_at = tick;
+    for (std::uint32_t i = 0; i < live.devices.size(); ++i) activate(live.first_device + i);
+  }
+}
+
+void DeviceSystem::report(Building& building, InstanceView::Clock clock, Snapshot& next) {
+  const bool all = clock.time % kReportPeriod < clock.step;
+  for (const std::uint32_t index : all ? to_report_ : had_event_) {
+    DeviceInstance& device = *entries_[index].device;
+    device.device->report(InstanceView(building, *entries_[index].live, clock), device.scratch);
+    device.cost += meter_.watch.lap();
+    if (all) device.to_report = false;
+    if (device.last && device.last->same_values(device.scratch)) continue;
+    if (!device.last || !device.last->same_names(device.scratch)) building.forget_fields();
+    device.scratch.stamp = clock.time;
+    device.last = std::make_shared<const Reading>(device.scratch);
+    building.engines().note_state_change();
+    next.devices.set(index, device.last);
+    next.new_states.push_back(index);
+  }
+  if (all) to_report_.clear();
+  meter_.rest.devices += meter_.watch.lap();
+}
+
+}  // namespace angen::sim

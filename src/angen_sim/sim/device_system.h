@@ -1,0 +1,71 @@
+#pragma once
+
+#include <functional>
+#include <queue>
+#include <vector>
+
+#include "sim/building.h"
+#include "sim/meter.h"
+#include "sim/view.h"
+
+namespace angen::sim {
+
+/// The devices' part of a tick.
+class DeviceSystem {
+ public:
+  explicit DeviceSystem(Meter& meter) : meter_(meter) {}
+
+  /// Updates every device that is not idle, in the order in which they came into the world.
+  void update(Building& building, InstanceView::Clock clock, std::vector<Event>& events);
+
+  /// After physics has made tick number `tick`: devices of awake models are not idle.
+  void note_awake(Building& building, std::int64_t tick);
+
+  /// States that differ from the last ones go into `next`: those of devices that had an event at
+  /// once, the others 50 times a second.
+  void report(Building& building, InstanceView::Clock clock, Snapshot& next);
+
+  /// The tick that devices need next, while nothing is awake.
+  std::int64_t next_tick(Building& building, InstanceView::Clock clock);
+
+  bool lights_changed() const { return lights_changed_; }
+
+  /// To be called when devices came or went.
+  void invalidate() { outdated_ = true; }
+
+  /// To be called when devices got commands: none is idle until it was updated.
+  void activate_all();
+
+ private:
+  struct Entry {
+    LiveModel* live;
+    DeviceInstance* device;
+  };
+
+  struct Timer {
+    Nanoseconds time;
+    std::uint32_t index;  // in entries_
+    bool operator>(const Timer& o) const {
+      return time != o.time ? time > o.time : index > o.index;
+    }
+  };
+
+  void list(Building& building);
+  void activate(std::uint32_t index);
+  /// Those whose timer has run out; active ones are in the order of entries_.
+  void activate_due(Nanoseconds now);
+  void make_idle(std::uint32_t index);
+
+  Meter& meter_;
+  bool outdated_ = true;
+  std::vector<Entry> entries_;         // as Structure::devices
+  std::vector<std::uint32_t> active_;  // of entries_: those that are not surely idle
+  std::vector<char> is_active_;        // as entries_
+  std::priority_queue<Timer, std::vector<Timer>, std::greater<>> timers_;  // of the others
+  std::vector<std::uint32_t> to_report_;                                   // of entries_, ascending
+  std::vector<std::uint32_t> had_event_;  // those of them that had an event in this tick
+  std::vector<physics::LinkId> awake_;
+  bool lights_changed_ = false;
+};
+
+}  // namespace angen::sim

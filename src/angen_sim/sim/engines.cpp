@@ -1,0 +1,174 @@
+#include "sim/engines.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+namespace angen::sim {
+
+namespace {
+
+// SDF gives lights no photometric unit: intensity 1 at full diffuse stands for a common lamp, or
+// for overcast daylight.
+constexpr double kPointFlux = 800.0;             // lm
+constexpr double kDirectionalIlluminance = 1e3;  // lx
+constexpr float kNight = 0.1F;  // of SDF's ambient: what a dark world gives a camera all the same
+
+Eigen::Vector3f with_luminance_one(const Eigen::Vector3f& color) {
+  const float luminance = Eigen::Vector3f(0.2126F, 0.7152F, 0.0722F).dot(color);  // Rec. 709
+  return luminance > 0.0F ? Eigen::Vector3f(color / luminance) : Eigen::Vector3f::Ones();
+}
+
+// The collision's surface is like the visual of the same name, or like the link's first.
+desc::Visual surface(const desc::Link& link, const desc::Collision& collision) {
+  const auto same = std::find_if(link.visuals.begin(), link.visuals.end(),
+                                 [&](const desc::Visual& v) { return v.name == collision.name; });
+  if (same != link.visuals.end()) return *same;
+  return link.visuals.empty() ? desc::Visual{} : link.visuals.front();
+}
+
+// A door is, and the leaf's handles; a robot is not.
+std::set<std::string> links_joined_to_world(const desc::Model& model) {
+  std::set<std::string> joined{"world"};
+  for (std::size_t before = 0; before != joined.size();) {
+    before = joined.size();
+    for (const desc::Joint& joint : model.joints) {
+      if (joined.count(joint.parent) != 0) joined.insert(joint.child);
+    }
+  }
+  return joined;
+}
+
+// Glass and the like, which lets more than half of the light through, is not seen.
+render::Body visible(const desc::Link& link, const Pose& pose, bool moves) {
+  render::Body body;
+  body.pose = pose;
+  body.moves = moves;
+  body.holds_lamp = !link.lights.empty();
+  for (const desc::Visual& visual : link.visuals) {
+    const desc::Material& material = visual.material;
+    if (material.diffuse.w() < 0.5F) continue;
+    body.surfaces.push_back({visual.shape, visual.pose, material.diffuse.head<3>(),
+                             body.holds_lamp ? Eigen::Vector3f(0.0F, 0.0F, 0.0F)
+                                             : Eigen::Vector3f(material.emissive.head<3>())});
+  }
+  return body;
+}
+
+}  // namespace
+
+Engines::Engines(const desc::World& world, std::uint64_t seed)
+    : physics(world.physics, world.gravity, seed), ambient_temperature(world.ambient_temperature) {
+  ambience.ambient = world.scene.ambient.head<3>().cwiseMax(kNight);
+  ambience.background = world.scene.background.head<3>();
+}
+
+Parts Engines::add(const desc::Model& model) {
+  Parts parts;
+  parts.body = physics.add(model);
+  parts.is_static = model.is_static;
+  parts.links = physics.links(parts.body);
+  parts.joints = physics.joints(parts.body);
+  const auto anchored = links_joined_to_world(model);
+  note_change();
+  for (std::uint32_t i = 0; i < model.links.size(); ++i) {
+    const desc::Link& link = model.links[i];
+    const Pose pose = physics.link(parts.links[i]).pose;
+    const auto mobility = model.is_static             ? rays::Mobility::kStatic
+                          : anchored.count(link.name) ? rays::Mobility::kAnchored
+                                                      : rays::Mobility::kMoving;
+    for (const desc::Collision& collision : link.collisions) {
+      const desc::Visual looks = surface(link, collision);
+      const rays::ShapeId shape = rays.add(collision.shape, pose * collision.pose, mobility,
+                                           looks.material.diffuse.head<3>());
+      if (looks.temperature) rays.warm(shape, *looks.temperature);
+      parts.shapes.push_back({shape, i, collision.pose, mobility == rays::Mobility::kAnchored});
+      show(parts, parts.shapes.back());
+    }
+    parts.bodies.push_back(visuals.add(visible(link, pose, !model.is_static)));
+    for (const desc::Light& light : link.lights) {
+      Parts::Lamp lamp = add_light(light, pose * light.pose);
+      lamp.link = i;
+      lamp.offset = light.pose;
+      parts.lamps.push_back(lamp);
+    }
+  }
+  return parts;
+}
+
+void Engines::remove(const Parts& parts) {
+  note_change();
+  for (const Parts::Shape& shape : parts.shapes) {
+    note_standing(parts, shape);
+    if (parts.is_static) {
+      movers.change_static(rays.bounds(shape.id));
+    } else {
+      movers.remove(shape.id);
+    }
+    rays.remove(shape.id);
+  }
+  for (const render::BodyId body : parts.bodies) visuals.remove(body);
+  for (const Parts::Lamp& lamp : parts.lamps) light.remove(lamp.id);
+  physics.remove(parts.body);
+}
+
+Parts::Lamp Engines::add_light(const desc::Light& described, const Pose& pose) {
+  light::Lamp lamp;
+  lamp.pose = pose;
+  lamp.direction = described.direction;
+  lamp.color = with_luminance_one(described.diffuse);
+  lamp.inner_angle = described.inner_angle;
+  lamp.outer_angle = described.outer_angle;
+  lamp.cast_shadows = described.cast_shadows;
+  const double given = described.intensity * described.diffuse.maxCoeff();
+  const double brightness = given > 0.0 ? given : 1.0;  // a black light is one at level 0
+  lamp.luminous_flux = brightness * kPointFlux;
+  if (described.type == desc::Light::Type::kSpot) lamp.type = light::Lamp::Type::kSpot;
+  if (described.type == desc::Light::Type::kDirectional) {
+    lamp.type = light::Lamp::Type::kDirectional;
+    lamp.luminous_flux = brightness * kDirectionalIlluminance;
+  }
+  if (described.type == desc::Light::Type::kRectangle) {
+    lamp.type = light::Lamp::Type::kRectangle;
+    lamp.width = described.width;
+    lamp.height = described.height;
+  }
+  if (described.type == desc::Light::Type::kDisc) {
+    lamp.type = light::Lamp::Type::kDisc;
+    lamp.radius = described.radius;
+  }
+  Parts::Lamp part;
+  part.level = given > 0.0 ? 1.0 : 0.0;
+  part.id = light.add(lamp, part.level);
+  part.nominal_flux = lamp.luminous_flux;
+  return part;
+}
+
+void Engines::note_standing(const Parts& parts, const Parts::Shape& shape) {
+  if (parts.is_static || shape.anchored) standing_changed_ = movers.now();
+}
+
+void Engines::show(const Parts& parts, const Parts::Shape& shape) {
+  note_standing(parts, shape);
+  if (parts.is_static) {
+    movers.change_static(rays.bounds(shape.id));
+  } else {
+    movers.put(shape.id, rays.bounds(shape.id));
+  }
+}
+
+void Engines::follow(const Parts& parts, std::uint32_t link) {
+  const Pose pose = physics.link(parts.links[link]).pose;
+  for (const Parts::Shape& shape : parts.shapes) {
+    if (shape.link != link) continue;
+    if (parts.is_static) movers.change_static(rays.bounds(shape.id));
+    rays.move(shape.id, pose * shape.offset);
+    show(parts, shape);
+  }
+  for (const Parts::Lamp& lamp : parts.lamps) {
+    if (lamp.link == link) light.move(lamp.id, pose * lamp.offset);
+  }
+  visuals.move(parts.bodies[link], pose);
+}
+
+}  // namespace angen::sim

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "desc/world.h"
+#include "light/lighting.h"
+#include "physics/world.h"
+#include "rays/scene.h"
+#include "render/scene.h"
+#include "sim/mover_index.h"
+
+namespace angen::sim {
+
+/// A model's part in each engine.
+struct Parts {
+  struct Shape {
+    rays::ShapeId id;
+    std::uint32_t link = 0;
+    Pose offset;            // in the link's frame
+    bool anchored = false;  // it moves, but only about the static world's joints
+  };
+  struct Lamp {
+    light::LampId id;
+    std::uint32_t link = 0;
+    Pose offset;
+    double nominal_flux = 0.0;  // lm that level 1 stands for in the light engine
+    double level = 0.0;         // as the device set it, 0..1
+  };
+  physics::ModelId body;
+  bool is_static = false;
+  std::vector<physics::LinkId> links;    // as desc::Model::links
+  std::vector<physics::JointId> joints;  // as desc::Model::joints
+  std::vector<Shape> shapes;
+  std::vector<render::BodyId> bodies;  // as links: what cameras see of them
+  std::vector<Lamp> lamps;             // in the order of links and their lights
+};
+
+/// The engines, kept in step: a body's shapes and lamps follow it.
+class Engines {
+ public:
+  Engines(const desc::World& world, std::uint64_t seed);
+
+  Parts add(const desc::Model& model);  // throws Error and adds nothing
+  void remove(const Parts& parts);
+  Parts::Lamp add_light(const desc::Light& light, const Pose& pose);
+
+  /// Shapes and lamps of `link` follow its body.
+  void follow(const Parts& parts, std::uint32_t link);
+
+  physics::World physics;
+  rays::Scene rays;
+  render::Scene visuals;
+  render::Ambience ambience;
+  double ambient_temperature;  // K
+  light::Lighting light{rays};
+  MoverIndex movers;  // which movers are near which sensors' rays
+
+  /// Something that sensors may query besides rays has changed: a pose, a light, a contact.
+  void note_change() { changed_ = movers.now(); }
+  MoverIndex::Moment changed() const { return changed_; }  // when last
+  /// The same of static shapes and those that are joined to them, as doors are.
+  MoverIndex::Moment standing_changed() const { return standing_changed_; }
+  /// The state of a device has changed.
+  void note_state_change() { states_changed_ = movers.now(); }
+  MoverIndex::Moment states_changed() const { return states_changed_; }  // when last
+
+ private:
+  void show(const Parts& parts, const Parts::Shape& shape);
+  void note_standing(const Parts& parts, const Parts::Shape& shape);
+
+  MoverIndex::Moment changed_ = 0;
+  MoverIndex::Moment standing_changed_ = 0;
+  MoverIndex::Moment states_changed_ = 0;
+};
+
+}  // namespace angen::sim

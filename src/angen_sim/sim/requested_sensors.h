@@ -1,0 +1,33 @@
+#pragma once
+
+#include <mutex>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace angen::sim {
+
+/// The sensors that somebody wants readings of, among those that look on requested only. By kind
+/// and name; any thread.
+class RequestedSensors {
+ public:
+  void set(const std::string& kind, const std::string& name, bool wanted) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (wanted) {
+      wanted_.emplace(kind, name);
+    } else {
+      wanted_.erase({kind, name});
+    }
+  }
+
+  bool has(const std::string& kind, const std::string& name) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return wanted_.count({kind, name}) > 0;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::set<std::pair<std::string, std::string>> wanted_;
+};
+
+}  // namespace angen::sim

@@ -1,0 +1,80 @@
+// The part of SensorSystem that lets time leap: which ticks sensors need, and what they publish in
+// those that are skipped.
+#include <algorithm>
+
+#include "sim/sensor_system.h"
+
+namespace angen::sim {
+
+namespace {
+
+constexpr Nanoseconds kForecast = 10 * kSecond;  // noise is known so far ahead at most
+
+}  // namespace
+
+/// The first sample at or before `until` whose noise may cause an event; else kForever.
+Nanoseconds SensorSystem::next_loud(SensorInstance& sensor, InstanceView::Clock clock,
+                                    Nanoseconds until) const {
+  NoiseForecast& forecast = sensor.forecast;
+  if (forecast.loud_at > clock.time) return forecast.loud_at;
+  const Schedule& schedule = sensor.schedule;
+  Nanoseconds due = schedule.next(std::max(clock.time, forecast.quiet_until));
+  for (Nanoseconds at = schedule.tick_of(due); at <= until;
+       at = schedule.tick_of(due += schedule.sample)) {
+    if (quiet(sensor, {at, clock.step})) continue;
+    forecast.loud_at = at;
+    return at;
+  }
+  forecast.quiet_until = std::max(forecast.quiet_until, until);
+  return kForever;
+}
+
+/// The sample up to which the noise of a lazy sensor need not be checked again.
+Nanoseconds SensorSystem::next_check(SensorInstance& sensor, InstanceView::Clock clock) const {
+  const Nanoseconds until = (clock.time / kForecast + 1) * kForecast;
+  if (sensor.forecast.quiet_chance >= 1.0) return kForever;
+  return std::min(next_loud(sensor, clock, until), until);
+}
+
+std::int64_t SensorSystem::next_tick(Building& building, InstanceView::Clock clock,
+                                     std::int64_t tick) {
+  if (outdated_) list(building, clock.time);
+  const auto stop_before = [&](Nanoseconds sample) {
+    tick = std::min(tick, sample / clock.step - 1);  // the tick that ends with it
+  };
+  const std::int64_t here = clock.time / clock.step;
+  for (const Entry& entry : entries_) {
+    SensorInstance& sensor = *entry.sensor;
+    const bool needed = sensor.on_demand()
+                            ? requested_.has(sensor.kind, sensor.name)
+                            : !(sensor.activity.skips() && unchanged(building.engines(), entry));
+    if (needed) stop_before(sensor.schedule.next_sample(clock.time));
+    if (tick <= here) return here;
+  }
+  tick = std::min(tick, (clock.time + kForecast) / clock.step);
+  meter_.rest.sensors += meter_.watch.lap();
+  for (const Entry& entry : entries_) {
+    if (!entry.sensor->activity.lazy()) continue;
+    const Nanoseconds loud = next_loud(*entry.sensor, clock, tick * clock.step);
+    entry.sensor->cost += meter_.watch.lap();
+    if (loud != kForever) stop_before(loud);
+  }
+  return tick;
+}
+
+void SensorSystem::skip_to(InstanceView::Clock clock, std::int64_t tick, Snapshot& next) {
+  const Nanoseconds to = tick * clock.step;
+  std::uint64_t readings = next.counts.readings;
+  for (const Entry& entry : entries_) {
+    const SensorInstance& sensor = *entry.sensor;
+    if (sensor.on_demand()) continue;
+    readings += static_cast<std::uint64_t>(sensor.schedule.publications(to) -
+                                           sensor.schedule.publications(clock.time));
+  }
+  next.new_readings.clear();
+  next.counts.readings = readings;
+  scheduler_.requeue(to);
+  meter_.rest.sensors += meter_.watch.lap();
+}
+
+}  // namespace angen::sim

@@ -1,0 +1,184 @@
+// A rays against the cast of all rays: bit for bit the same hits.
+#include "rays/ray_cache.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "core/random.h"
+#include "shapes.h"
+
+namespace angen::rays::testing {
+namespace {
+
+Vec3 random_point(Rng& rng, double half) {
+  const double x = rng.uniform(), y = rng.uniform(), z = rng.uniform();
+  return half * (2 * Vec3(x, y, z) - Vec3::Ones());
+}
+
+Pose random_pose(Rng& rng, double half) {
+  const Vec3 point = random_point(rng, half);
+  const Vec3 angles = random_point(rng, 3.0);
+  return {point, from_rpy(angles.x(), angles.y(), angles.z())};
+}
+
+Shape random_shape(Rng& rng) {
+  const double a = 0.2 + rng.uniform(), b = 0.2 + rng.uniform(), c = 0.2 + rng.uniform();
+  switch (rng.next() % 6) {
+    case 0:
+      return box(a, b, c);
+    case 1:
+      return round(Shape::Type::kSphere, a / 2);
+    case 2:
+      return round(Shape::Type::kCylinder, a / 2, b);
+    case 3:
+      return round(Shape::Type::kCapsule, a / 2, b);
+    case 4:
+      return Shape{};
+    default:
+      return octahedron(static_cast<float>(a));
+  }
+}
+
+/// Rays of a fan and some that are odd: along an axis, too short, with no direction, endless.
+std::vector<Ray> fan(Rng& rng, double reach) {
+  const Pose pose = random_pose(rng, 3.0);
+  std::vector<Ray> rays(33);
+  for (Ray& r : rays) {
+    r.origin = pose.position;
+    r.direction =
+        (pose.rotation * Vec3(1.0, rng.uniform() - 0.5, rng.uniform() - 0.5)).normalized();
+    r.min = 0.02;
+    r.max = reach;
+  }
+  rays[30].direction = Vec3::UnitX();
+  rays[31].max = 0.01;
+  rays[32].direction = Vec3::Zero();
+  return rays;
+}
+
+void expect_same(const std::vector<Hit>& a, const std::vector<Hit>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(std::memcmp(&a[i].range, &b[i].range, sizeof(double)), 0) << i;
+    EXPECT_EQ(a[i].shape, b[i].shape) << i;
+    EXPECT_EQ(a[i].normal, b[i].normal) << i;
+  }
+}
+
+std::vector<ShapeId> in_reach(const Scene& scene, const RayCache& rays,
+                              const std::vector<ShapeId>& movers) {
+  std::vector<ShapeId> found;
+  for (const ShapeId id : movers) {
+    if (rays.reach().intersects(scene.bounds(id))) found.push_back(id);
+  }
+  return found;
+}
+
+struct Room {
+  explicit Room(std::uint64_t seed) : rng(seed, hash_bytes("rays"), 0) {
+    for (int i = 0; i < 20; ++i) fixed.push_back(put(Mobility::kStatic));
+    for (int i = 0; i < 12; ++i) movers.push_back(put(Mobility::kMoving));
+  }
+  ShapeId put(Mobility mobility) {
+    return add(scene, random_shape(rng), random_pose(rng, 4.0), mobility);
+  }
+  void expect_the_cast_of_all(const std::vector<Ray>& rays, const RayCache& rays) {
+    std::vector<Hit> all;
+    scene.commit();
+    scene.cast(rays, all);
+    std::vector<Hit> seen(rays.size());
+    rays.cast(scene, in_reach(scene, rays, movers), seen.data());
+    expect_same(seen, all);
+  }
+
+  Rng rng;
+  Scene scene;
+  std::vector<ShapeId> fixed;
+  std::vector<ShapeId> movers;
+};
+
+class RandomRooms : public ::testing::TestWithParam<double> {};  // reach, m
+
+TEST_P(RandomRooms, SeenAsByTheCastOfAllRaysWhileThingsMoveComeAndGo) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Room room(seed);
+    room.scene.commit();
+    const std::vector<Ray> rays = fan(room.rng, GetParam());
+    RayCache rays(rays, room.scene);
+    for (int turn = 0; turn < 10; ++turn) {
+      for (const ShapeId id : room.movers) room.scene.move(id, random_pose(room.rng, 4.0));
+      if (turn % 3 == 1) {
+        room.scene.remove(room.movers.back());
+        room.movers.back() = room.put(Mobility::kMoving);
+      }
+      if (turn % 3 == 2) {
+        room.scene.remove(room.fixed.back());
+        room.fixed.back() = room.put(Mobility::kStatic);
+        room.scene.commit();
+        rays.measure(room.scene);
+      }
+      room.expect_the_cast_of_all(rays, rays);
+    }
+  }
+}
+TEST_P(RandomRooms, SeenAsByTheCastOfAllRaysWhileSomeMoversAreSettled) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Room room(seed);
+    room.scene.commit();
+    const std::vector<Ray> rays = fan(room.rng, GetParam());
+    RayCache rays(rays, room.scene);
+    for (int turn = 0; turn < 6; ++turn) {
+      const auto middle = room.movers.begin() + 2 * turn;
+      const std::vector<ShapeId> still(room.movers.begin(), middle);
+      const std::vector<ShapeId> moving(middle, room.movers.end());
+      for (const ShapeId id : still) room.scene.move(id, random_pose(room.rng, 4.0));
+      rays.settle(room.scene, still);
+      for (const ShapeId id : moving) room.scene.move(id, random_pose(room.rng, 4.0));
+      std::vector<Hit> all;
+      room.scene.commit();
+      room.scene.cast(rays, all);
+      std::vector<Hit> seen(rays.size());
+      rays.cast(room.scene, moving, seen.data());
+      expect_same(seen, all);
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Reach, RandomRooms,
+                         ::testing::Values(6.0, std::numeric_limits<double>::infinity()));
+
+TEST(RayCache, AMovingPlaneIsInEveryReach) {
+  Room room(1);
+  room.movers.push_back(add(room.scene, plane(), at(0, 0, -1), Mobility::kMoving));
+  room.scene.commit();
+  const std::vector<Ray> rays = fan(room.rng, 6.0);
+  room.expect_the_cast_of_all(rays, RayCache(rays, room.scene));
+}
+
+TEST(RayCache, AStaticSurfaceIsMetBeforeAMoverInTheSamePlane) {
+  Scene scene;
+  const ShapeId mover = add(scene, box(1, 1, 1), at(2, 0, 0), Mobility::kMoving);
+  const ShapeId wall = add(scene, box(1, 1, 1), at(2, 0, 0));
+  scene.commit();
+  const RayCache rays({ray(Vec3::Zero(), Vec3::UnitX())}, scene);
+  Hit hit;
+  EXPECT_FALSE(rays.cast(scene, {mover}, &hit));
+  EXPECT_EQ(hit.shape, wall.index);
+}
+
+TEST(RayCache, ReachesAsFarAsItsRaysAreNotStopped) {
+  Scene scene;
+  add(scene, box(1, 9, 9), at(3, 0, 0));
+  scene.commit();
+  Ray r = ray(Vec3::Zero(), Vec3::UnitX());
+  r.max = 6.0;
+  EXPECT_NEAR(RayCache({r}, scene).reach().max().x(), 2.5, 1e-5);
+}
+
+TEST(RayCache, WithoutRaysReachesNothing) {
+  const Scene scene;
+  EXPECT_TRUE(RayCache({}, scene).reach().isEmpty());
+}
+
+}  // namespace
+}  // namespace angen::rays::testing

@@ -1,0 +1,63 @@
+#include "sim/sensor_scheduler.h"
+
+#include <gtest/gtest.h>
+
+namespace angen::sim {
+namespace {
+
+constexpr Nanoseconds kMs = 1'000'000;
+
+Schedule schedule(Nanoseconds start, Nanoseconds sample, Nanoseconds publish) {
+  Schedule made;
+  made.start = start;
+  made.sample = sample;
+  made.publish = publish;
+  return made;
+}
+
+using Sensors = std::vector<std::uint32_t>;
+
+TEST(SensorScheduler, GroupsThoseWhoseLooksFallOnTheSameTicks) {
+  SensorScheduler scheduler;
+  scheduler.assign({schedule(0, 100 * kMs, 100 * kMs), schedule(0, 10 * kMs, 100 * kMs),
+                    schedule(300 * kMs, 100 * kMs, 100 * kMs),
+                    schedule(350 * kMs, 100 * kMs, 100 * kMs), schedule(0, 100 * kMs, 200 * kMs)},
+                   400 * kMs);
+  ASSERT_EQ(scheduler.groups().size(), 4U);
+  EXPECT_EQ(scheduler.groups()[0].awake, (Sensors{0, 2}));
+  EXPECT_EQ(scheduler.groups()[1].awake, (Sensors{1}));
+  EXPECT_EQ(scheduler.groups()[2].awake, (Sensors{3}));
+  EXPECT_EQ(scheduler.groups()[3].awake, (Sensors{4}));
+  EXPECT_EQ(scheduler.collect(409 * kMs), Sensors{});
+  EXPECT_EQ(scheduler.collect(410 * kMs), Sensors{1});
+  EXPECT_EQ(scheduler.collect(411 * kMs), Sensors{});
+  EXPECT_EQ(scheduler.collect(450 * kMs), (Sensors{1, 2}));
+  EXPECT_EQ(scheduler.collect(500 * kMs), (Sensors{1, 0, 3}));
+  EXPECT_TRUE(scheduler.groups()[1].publishes(500 * kMs));
+  EXPECT_FALSE(scheduler.groups()[1].publishes(510 * kMs));
+  EXPECT_FALSE(scheduler.groups()[3].publishes(500 * kMs));
+  scheduler.requeue(1000 * kMs);
+  EXPECT_EQ(scheduler.collect(1009 * kMs), Sensors{});
+  EXPECT_EQ(scheduler.collect(1010 * kMs), Sensors{1});
+}
+
+TEST(SensorScheduler, CalmSensorsWaitApartUntilTheyAreRoused) {
+  SensorScheduler scheduler;
+  scheduler.assign(std::vector<Schedule>(5, schedule(0, kMs, kMs)), 0);
+  SensorScheduler::Group& group = scheduler.group(0);
+  for (const std::uint32_t sensor : {3U, 1U}) scheduler.calm(sensor);
+  EXPECT_TRUE(scheduler.is_calm(1));
+  EXPECT_EQ(group.awake.size(), 5U);  // until the shift
+  scheduler.shift(group);
+  EXPECT_EQ(group.awake, (Sensors{0, 2, 4}));
+  EXPECT_EQ(group.calm, (Sensors{1, 3}));
+  scheduler.rouse(3);
+  scheduler.calm(0);
+  scheduler.shift(group);
+  EXPECT_EQ(group.awake, (Sensors{2, 3, 4}));
+  EXPECT_EQ(group.calm, (Sensors{0, 1}));
+  EXPECT_FALSE(scheduler.is_calm(3));
+}
+
+}  // namespace
+}  // namespace angen::sim
