@@ -21,7 +21,7 @@ namespace {
 
 using Plugins = std::vector<std::shared_ptr<const Plugin>>;
 
-// class_loader tells its story through console_bridge; what matters of it comes as exceptions.
+// class_loader logs through console_bridge; what matters of it comes as exceptions.
 class Silence {
  public:
   Silence() : level_(console_bridge::getLogLevel()) {
@@ -44,14 +44,24 @@ fs::path own_library() {
   return fs::weakly_canonical(info.dli_fname, ignored);
 }
 
+/// The entries of a variable such as PATH.
+std::vector<std::string> entries_of(const char* variable) {
+  const char* value = std::getenv(variable);
+  std::istringstream list(value == nullptr ? "" : value);
+  std::vector<std::string> entries;
+  for (std::string entry; std::getline(list, entry, ':');) {
+    if (!entry.empty()) entries.push_back(entry);
+  }
+  return entries;
+}
+
 std::vector<fs::path> search_path() {
   std::vector<fs::path> directories;
   for (const char* variable : {"ANGEN_PLUGIN_PATH", "GAZEBO_PLUGIN_PATH"}) {
-    const char* value = std::getenv(variable);
-    std::istringstream list(value == nullptr ? "" : value);
-    for (std::string entry; std::getline(list, entry, ':');) {
-      if (!entry.empty()) directories.emplace_back(entry);
-    }
+    for (const std::string& entry : entries_of(variable)) directories.emplace_back(entry);
+  }
+  for (const std::string& workspace : entries_of("CMAKE_PREFIX_PATH")) {
+    directories.emplace_back(fs::path(workspace) / "lib");
   }
   directories.push_back(own_library().parent_path());
   return directories;
@@ -128,6 +138,14 @@ const Plugins& loaded(const std::string& file) {
 }
 
 }  // namespace
+
+std::string find_library(const std::string& filename) {
+  for (const fs::path& directory : search_path()) {
+    std::error_code ignored;
+    if (fs::is_regular_file(directory / filename, ignored)) return directory / filename;
+  }
+  return "";
+}
 
 struct Catalog::Impl {
   std::mutex mutex;

@@ -10,7 +10,8 @@
 namespace angen {
 
 /// The plug-ins of every library that was asked for, by file name. Looked for on ANGEN_PLUGIN_PATH,
-/// GAZEBO_PLUGIN_PATH, then beside Angen's own libraries; a library of that name that holds no
+/// GAZEBO_PLUGIN_PATH, in `lib` of each catkin workspace that is sourced (CMAKE_PREFIX_PATH), then
+/// beside Angen's own libraries; a library of that name that holds no
 /// Angen plug-in (Gazebo's own, say) is passed over. A library once loaded stays so until the
 /// process ends: what it made may outlive the catalog. Calls from several threads are safe.
 class Catalog {
@@ -34,6 +35,9 @@ class Catalog {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// The path of a library on the plug-in path, empty where there is none of that name.
+std::string find_library(const std::string& filename);
 
 struct PluginDoc {
   std::string library;

@@ -22,40 +22,46 @@ std::vector<std::string> names_of(const sim::Structure& structure, const std::st
 }  // namespace
 
 Commands::Commands(ros::NodeHandle& node, Inbox& inbox) : node_(node), inbox_(inbox) {
-  using Text = const std_msgs::String::ConstPtr&;
-  const auto listen = [this](const std::string& topic, auto make) {
-    const boost::function<void(Text)> heard = [this, make](Text text) {
-      sim::Action action = make(text->data);
-      if (auto* reject = std::get_if<sim::Reject>(&action)) add_known_names(*reject);
-      inbox_.post(std::move(action));
-    };
-    subscribers_.push_back(node_.subscribe<std_msgs::String>(topic, kQueue, heard));
-  };
-  for (const auto& [kind, source] : {std::pair("door", "Door_controller"),
-                                     {"window", "Window_controller"},
-                                     {"cabinet", "Cabinet_controller"}}) {
-    listen(std::string("/gazebo/") + source, [kind = kind, source = source](const std::string& t) {
-      return door_action(t, kind, source);
-    });
-  }
-  listen("/gazebo/Light_controller", &lamp_action);
-  listen("/gazebo/Elevator_controller", [this](const std::string& text) {
-    return elevator_action(text, names_of(*inbox_.simulation().snapshot()->structure, "elevator"));
-  });
   const boost::function<void(const angen_msgs::Command::ConstPtr&)> any =
       [this](const angen_msgs::Command::ConstPtr& command) {
         inbox_.post(any_action(command->target, command->text));
       };
-  subscribers_.push_back(node_.subscribe<angen_msgs::Command>("/angen/command", kQueue, any));
+  any_ = node_.subscribe<angen_msgs::Command>("/angen/command", kQueue, any);
 }
 
-void Commands::add_known_names(sim::Reject& reject) const {
-  const std::vector<std::string> known =
-      names_of(*inbox_.simulation().snapshot()->structure, reject.kind);
-  reject.reason += "; known names are " + join_names(known);
+void Commands::receive(const Plugin& plugin, const std::string& text) {
+  const std::string& kind = plugin.kind().name;
+  const std::vector<std::string> names = names_of(*inbox_.simulation().snapshot()->structure, kind);
+  sim::Action action = topic_action(plugin.kind(), text, names);
+  if (auto* reject = std::get_if<sim::Reject>(&action)) {
+    reject->reason += "; names are " + (names.empty() ? "none" : join_names(names));
+  }
+  inbox_.post(std::move(action));
 }
 
-void Commands::on_structure(const std::vector<Robot>& robots) {
+void Commands::on_kinds(const sim::Structure& structure) {
+  decltype(kinds_) kept;
+  for (const std::shared_ptr<const Plugin>& plugin : structure.device_plugins) {
+    const Kind& kind = plugin->kind();
+    if (kind.command_topic.empty()) continue;
+    if (const auto old = kinds_.find(kind.name); old != kinds_.end()) {
+      kept.insert(*old);
+      continue;
+    }
+    const boost::function<void(const std_msgs::String::ConstPtr&)> received =
+        [this, plugin](const std_msgs::String::ConstPtr& text) { receive(*plugin, text->data); };
+    try {
+      kept[kind.name] = node_.subscribe<std_msgs::String>(kind.command_topic, kQueue, received);
+    } catch (const ros::Exception& error) {
+      ROS_WARN("no commands to a %s on %s: %s", kind.name.c_str(), kind.command_topic.c_str(),
+               error.what());
+    }
+  }
+  kinds_ = std::move(kept);
+}
+
+void Commands::on_structure(const sim::Structure& structure, const std::vector<Robot>& robots) {
+  on_kinds(structure);
   decltype(drives_) kept;
   for (const Robot& robot : robots) {
     for (const std::string& topic : robot.command_topics) {
@@ -64,15 +70,15 @@ void Commands::on_structure(const std::vector<Robot>& robots) {
         kept.insert(*old);
         continue;
       }
-      const boost::function<void(const geometry_msgs::Twist::ConstPtr&)> heard =
+      const boost::function<void(const geometry_msgs::Twist::ConstPtr&)> received =
           [this, name = robot.name](const geometry_msgs::Twist::ConstPtr& twist) {
             drive(name, *twist);
           };
       try {
         kept[{topic, robot.name}] =
-            node_.subscribe<geometry_msgs::Twist>(topic, kDriveQueue, heard);
+            node_.subscribe<geometry_msgs::Twist>(topic, kDriveQueue, received);
       } catch (const ros::Exception& error) {
-        ROS_WARN("%s does not hear %s: %s", robot.name.c_str(), topic.c_str(), error.what());
+        ROS_WARN("%s takes no commands on %s: %s", robot.name.c_str(), topic.c_str(), error.what());
       }
     }
   }
@@ -80,7 +86,7 @@ void Commands::on_structure(const std::vector<Robot>& robots) {
 }
 
 void Commands::drive(const std::string& robot, const geometry_msgs::Twist& twist) {
-  inbox_.post(sim::ToDevice{"drive", robot, {"", {twist.linear.x, twist.angular.z}}});
+  inbox_.post(sim::ToDevice{"drive", robot, {"", {twist.linear.x, twist.angular.z}, "", 0.0}});
 }
 
 }  // namespace angen::node

@@ -19,16 +19,18 @@ class Commands {
  public:
   Commands(ros::NodeHandle& node, Inbox& inbox);
 
-  /// Subscribes to the command topics of the drives that exist now, and to no others.
-  void on_structure(const std::vector<Robot>& robots);
+  /// Subscribes to the command topics of the kinds and drives that exist now, and to no others.
+  void on_structure(const sim::Structure& structure, const std::vector<Robot>& robots);
 
  private:
-  void add_known_names(sim::Reject& reject) const;
+  void on_kinds(const sim::Structure& structure);
+  void receive(const Plugin& plugin, const std::string& text);
   void drive(const std::string& robot, const geometry_msgs::Twist& twist);
 
   ros::NodeHandle& node_;
   Inbox& inbox_;
-  std::vector<ros::Subscriber> subscribers_;
+  ros::Subscriber any_;                                                    // /angen/command
+  std::map<std::string, ros::Subscriber> kinds_;                           // by kind
   std::map<std::pair<std::string, std::string>, ros::Subscriber> drives_;  // by topic and robot
 };
 

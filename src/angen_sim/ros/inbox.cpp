@@ -19,7 +19,7 @@ void Inbox::post(sim::Action action) {
   wake_.notify_one();
 }
 
-sim::Outcome Inbox::ask(sim::Action action) {
+sim::Outcome Inbox::call(sim::Action action) {
   std::future<sim::Outcome> answer = simulation_.post(std::move(action));
   std::int64_t tick = simulation_.snapshot()->tick;
   Clock::time_point limit = Clock::now() + kPatience;

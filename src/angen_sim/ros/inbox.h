@@ -19,7 +19,7 @@ class Inbox {
 
   /// Queues an action and waits for what became of it, until the topics say so too. Gives up when
   /// simulated time has stood still for kPatience of wall time, or when the node ends.
-  sim::Outcome ask(sim::Action action);
+  sim::Outcome call(sim::Action action);
 
   /// How many actions have been queued by post().
   std::uint64_t posted() const { return posted_; }

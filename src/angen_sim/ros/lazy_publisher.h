@@ -49,9 +49,9 @@ class LazyPublisher {
   /// Grows with each newcomer.
   std::uint64_t subscriptions() const { return listeners_->joined.load(std::memory_order_relaxed); }
 
-  /// Sends what `make` returns; it is not called while nobody listens.
+  /// Publishes what `make` returns; it is not called while there are no subscribers.
   template <class Make>
-  void send(Make&& make) const {
+  void publish(Make&& make) const {
     if (!has_subscribers()) return;
     publisher_.publish(make());
     Traffic::count();

@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "ros/convert.h"
-#include "ros/formats.h"
+#include "ros/ros_kind.h"
 #include "ros/wire.h"
 
 namespace angen::node {
@@ -57,21 +57,21 @@ std::vector<angen_msgs::Entity> entities(const sim::Snapshot& snapshot,
     angen_msgs::Entity* entity = add(device.name, device.kind, device.model, place(device.model));
     if (entity == nullptr || device.kind == "drive") continue;
     entity->topic = topic_of(device.kind, device.name);
-    entity->type = format_of(device.kind).type;
+    entity->type = ros_kind(device.kind, device.library).formats.front().type;
   }
   const std::vector<Robot> robots = find_robots(structure, world_plugins);
   for (const Robot& robot : robots) {
     for (angen_msgs::Entity& entity : all) {
       if (entity.kind != "drive" || entity.name != robot.name) continue;
       entity.topic = robot.odometry_topics.front();
-      entity.type = format_of("drive").type;
+      entity.type = ros_kind("drive").formats.front().type;
     }
   }
   for (const sim::SensorEntry& sensor : structure.sensors) {
     angen_msgs::Entity* entity =
         add(sensor.name, sensor.kind, sensor.model, snapshot.link_poses[sensor.link] * sensor.pose);
     if (entity == nullptr) continue;
-    const Format& format = format_of(sensor.kind);
+    const Format& format = ros_kind(sensor.kind, sensor.desc->plugin).formats.front();
     const Robot* robot = robot_in(robots, sensor.model);
     const bool together = goes_with_its_kind(topics, format, robot);
     entity->topic = together ? kind_topic(sensor.kind)

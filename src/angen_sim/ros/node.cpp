@@ -30,6 +30,7 @@ Node::Node(sim::Simulation& simulation, const Settings& settings)
       stats_(handle_),
       events_(handle_),
       cost_(handle_, simulation),
+      summary_(handle_),
       transforms_(handle_),
       markers_(handle_),
       publishers_(handle_, simulation, settings.topics),
@@ -44,7 +45,7 @@ void Node::run(const std::atomic<bool>& stop) {
     const std::shared_ptr<const sim::Snapshot> snapshot = advance();
     publish(*snapshot);
     inbox_.published();
-    rest(*snapshot);
+    pace(*snapshot);
   }
   inbox_.close();
   spinner.stop();
@@ -65,18 +66,19 @@ void Node::publish(const sim::Snapshot& snapshot) {
     transforms_.on_structure(snapshot, frames, robots);
     publishers_.on_structure(snapshot, frames, robots);
     joints_.on_structure(snapshot, robots);
-    commands_.on_structure(robots);
+    commands_.on_structure(*snapshot.structure, robots);
   }
   publishers_.publish(snapshot);
   joints_.publish(snapshot);
   transforms_.publish(snapshot);
   markers_.publish(snapshot, now);
   events_.publish(snapshot);
+  summary_.publish(snapshot, now);
   stats_.publish(snapshot, now);
   cost_.publish(snapshot, now);
 }
 
-void Node::rest(const sim::Snapshot& snapshot) {
+void Node::pace(const sim::Snapshot& snapshot) {
   if (snapshot.paused) {
     pacer_.restart();
     if (!simulation_.running()) inbox_.wait(kPausedNap);

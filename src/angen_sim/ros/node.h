@@ -13,6 +13,7 @@
 #include "ros/publishers.h"
 #include "ros/services.h"
 #include "ros/status_topics.h"
+#include "ros/summary_topic.h"
 #include "ros/tf.h"
 
 namespace angen::node {
@@ -37,7 +38,7 @@ class Node {
  private:
   std::shared_ptr<const sim::Snapshot> advance();
   void publish(const sim::Snapshot& snapshot);
-  void rest(const sim::Snapshot& snapshot);
+  void pace(const sim::Snapshot& snapshot);
 
   sim::Simulation& simulation_;
   bool fast_;
@@ -49,6 +50,7 @@ class Node {
   Stats stats_;
   Events events_;
   CostTopic cost_;
+  SummaryTopic summary_;
   Transforms transforms_;
   Markers markers_;
   Publishers publishers_;

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <optional>
 #include <utility>
 
-#include "ros/captions.h"
+#include "plugin/summary.h"
 #include "ros/convert.h"
+#include "ros/ros_kind.h"
 
 namespace angen::node {
 namespace {
@@ -16,25 +17,22 @@ constexpr double kNewRange = 0.15;  // m: beams are drawn again when one differs
 const Vec3 kOverSensor(0.0, 0.0, 0.12);  // m, where its words stand in the world
 const Vec3 kOverModel(0.0, 0.0, 0.5);    // m, in its first link's frame
 
-/// How the beams of a kind of sensor are shown.
-struct Beams {
-  const char* group;
-  const char* flag;  // the field that is true while it sees what it looks for
-  std_msgs::ColorRGBA idle;
-  std_msgs::ColorRGBA fired;
-};
+constexpr double kTextHeight = 0.08;  // m, of a capital letter
 
-const Beams* beams_of(const std::string& kind) {
-  static const std::map<std::string, Beams> kinds = {
-      {"pir",
-       {"PIR rays", "motion", color(0.1F, 0.3F, 1.0F, 0.45F), color(1.0F, 0.25F, 0.1F, 0.8F)}},
-      {"switch",
-       {"switch beams", "closed", color(0.9F, 0.1F, 0.1F, 1.0F), color(0.1F, 0.8F, 0.2F, 1.0F)}},
-      {"proximity",
-       {"proximity cones", "near", color(0.1F, 0.5F, 0.9F, 0.45F), color(0.9F, 0.5F, 0.1F, 0.8F)}},
-  };
-  const auto found = kinds.find(kind);
-  return found == kinds.end() ? nullptr : &found->second;
+const std::optional<RayStyle>& rays_of(const sim::SensorEntry& sensor) {
+  return ros_kind(sensor.kind, sensor.desc->plugin).rays;
+}
+
+/// The summary over a sensor or device, red during an alarm; empty where there is no reading yet.
+visualization_msgs::Marker draw_caption(const Kind& kind, const Reading* reading) {
+  visualization_msgs::Marker marker;
+  marker.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
+  marker.ns = "readings";
+  marker.scale.z = kTextHeight;
+  if (reading != nullptr) marker.text = summary(kind, *reading);
+  const bool alarm = reading != nullptr && alarms(kind, *reading);
+  marker.color = alarm ? color(0.85F, 0.1F, 0.1F, 1.0F) : color(0.1F, 0.15F, 0.3F, 1.0F);
+  return marker;
 }
 
 bool apart(const std::vector<double>& a, const std::vector<double>& b) {
@@ -63,16 +61,17 @@ void Overlays::add_sensor(const sim::Structure& structure, std::uint32_t sensor)
   overlay.index = sensor;
   overlay.link = entry.link;
   overlay.offset = entry.pose;
-  if (beams_of(entry.kind) != nullptr) {
+  const RosKind& kind = ros_kind(entry.kind, entry.desc->plugin);
+  if (kind.rays) {
     beams_.emplace(entry.kind + "/" + entry.name, std::move(overlay));
-  } else if (has_caption(entry.kind)) {
+  } else if (kind.caption && !entry.on_demand) {
     captions_.emplace(entry.kind + "/" + entry.name, std::move(overlay));
   }
 }
 
 void Overlays::add_device(const sim::Structure& structure, std::uint32_t device) {
   const sim::DeviceEntry& entry = structure.devices[device];
-  if (!has_caption(entry.kind)) return;
+  if (!ros_kind(entry.kind, entry.library).caption) return;
   const auto link = std::find_if(structure.links.begin(), structure.links.end(),
                                  [&](const sim::LinkEntry& l) { return l.model == entry.model; });
   Overlay overlay;
@@ -132,28 +131,28 @@ bool Overlays::relight(const sim::Snapshot& snapshot, Overlay& lamp) const {
   return true;
 }
 
-bool Overlays::tells_anew(const sim::Snapshot& snapshot, Overlay& overlay) {
+bool Overlays::is_new(const sim::Snapshot& snapshot, Overlay& overlay) {
   const std::uint32_t index = overlay.index;
-  const auto& told = overlay.of_device ? snapshot.devices[index] : snapshot.sensors[index].reading;
-  const bool is_lazy = !overlay.of_device && snapshot.sensors[index].lazy != nullptr;
-  const Nanoseconds stamp = is_lazy ? snapshot.stamp(index) : 0;
-  if (told == overlay.told && stamp == overlay.stamp) return false;
-  overlay.told = told;
+  const auto& last = overlay.of_device ? snapshot.devices[index] : snapshot.sensors[index].reading;
+  const bool lazy = !overlay.of_device && snapshot.sensors[index].lazy != nullptr;
+  const Nanoseconds stamp = lazy ? snapshot.stamp(index) : 0;
+  if (last == overlay.last && stamp == overlay.stamp) return false;
+  overlay.last = last;
   overlay.stamp = stamp;
   return true;
 }
 
 bool Overlays::redraw(const sim::Snapshot& snapshot, Overlay& beams) const {
   const sim::SensorEntry& entry = snapshot.structure->sensors[beams.index];
-  const Beams& style = *beams_of(entry.kind);
+  const RayStyle& style = *rays_of(entry);
   const bool first = beams.marker.points.empty();
-  if (!tells_anew(snapshot, beams) && !first) return false;
+  if (!is_new(snapshot, beams) && !first) return false;
   const std::shared_ptr<const Reading> reading = snapshot.reading(beams.index);
   std::vector<double> ranges;
   bool fired = false;
   if (reading != nullptr) {
     ranges = reading->get<std::vector<double>>("ranges");
-    fired = reading->get<bool>(style.flag);
+    fired = alarms(entry.plugin->kind(), *reading);
   }
   if (!first && fired == beams.fired && !apart(ranges, beams.ranges)) return false;
   beams.fired = fired;
@@ -162,22 +161,21 @@ bool Overlays::redraw(const sim::Snapshot& snapshot, Overlay& beams) const {
   beams.marker = draw_rays(*entry.desc, beams.ranges);
   beams.marker.ns = style.group;
   beams.marker.id = id;
-  beams.marker.color = fired ? style.fired : style.idle;
+  beams.marker.color = fired ? style.alarm : style.idle;
   return true;
 }
 
 bool Overlays::rewrite(const sim::Snapshot& snapshot, Overlay& caption) const {
   const std::uint32_t index = caption.index;
-  if (!tells_anew(snapshot, caption) && !caption.marker.ns.empty()) return false;
+  if (!is_new(snapshot, caption) && !caption.marker.ns.empty()) return false;
   const std::shared_ptr<const Reading> reading =
       caption.of_device ? snapshot.devices[index] : snapshot.reading(index);
   const std::int32_t id = caption.marker.id;
   const visualization_msgs::Marker before = std::move(caption.marker);
   const sim::Structure& structure = *snapshot.structure;
-  const std::string& kind =
-      caption.of_device ? structure.devices[index].kind : structure.sensors[index].kind;
-  caption.marker = draw_caption(kind, reading.get());
-  caption.marker.ns = "readings";
+  const std::shared_ptr<const Plugin>& plugin =
+      caption.of_device ? structure.devices[index].plugin : structure.sensors[index].plugin;
+  caption.marker = draw_caption(plugin->kind(), reading.get());
   caption.marker.id = id;
   return caption.marker.text != before.text || caption.marker.color != before.color;
 }

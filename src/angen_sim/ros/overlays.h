@@ -12,12 +12,12 @@
 
 namespace angen::node {
 
-/// Markers that show a value: a ball for each lamp, beams for each ray sensor, words for others.
+/// Markers that show a value: a ball for each lamp, rays for each ray sensor, a caption for others.
 class Overlays {
  public:
   using Array = visualization_msgs::MarkerArray;
 
-  /// Takes up what exists now; what is gone is added to `gone` as deleted.
+  /// Makes overlays of what exists now; what no longer exists is added to `gone`, to be deleted.
   void on_structure(const sim::Snapshot& snapshot, std::int32_t& next_id, Array& gone);
 
   /// Appends what looks different than when it was appended last; with `all` everything.
@@ -32,7 +32,7 @@ class Overlays {
     Pose offset;
     Pose pose;                            // as appended last
     double level = -1.0;                  // of a lamp, as appended last
-    std::shared_ptr<const Reading> told;  // looked at last
+    std::shared_ptr<const Reading> last;  // compared last
     Nanoseconds stamp = 0;                // of what was made in its place then
     std::vector<double> ranges;           // m, as appended last
     bool fired = false;
@@ -42,8 +42,8 @@ class Overlays {
   void add_lamp(const sim::Structure& structure, std::uint32_t light);
   void add_sensor(const sim::Structure& structure, std::uint32_t sensor);
   void add_device(const sim::Structure& structure, std::uint32_t device);
-  /// Whether what it shows was told since it was last asked.
-  static bool tells_anew(const sim::Snapshot& snapshot, Overlay& overlay);
+  /// Whether what it shows has changed since the last call.
+  static bool is_new(const sim::Snapshot& snapshot, Overlay& overlay);
   bool relight(const sim::Snapshot& snapshot, Overlay& lamp) const;
   bool redraw(const sim::Snapshot& snapshot, Overlay& beams) const;
   bool rewrite(const sim::Snapshot& snapshot, Overlay& caption) const;

@@ -14,7 +14,7 @@ constexpr Nanoseconds kOdometryPeriod = kSecond / 10;  // of a robot that stands
 
 }  // namespace
 
-void Publishers::attach(Source& source, const std::string& type, Format::Open open,
+void Publishers::attach(Source& source, const std::string& type, const Format::Open& open,
                         const std::string& topic, Channels& kept) {
   const Key key{topic, type};
   std::shared_ptr<Channel> channel;
@@ -36,7 +36,7 @@ Publishers::Source Publishers::sensor_source(const sim::SensorEntry& entry,
                                              const std::string& frame, const Robot* robot,
                                              Channels& kept) {
   Source source{std::make_shared<const Label>(Label{entry.name, frame}), {}};
-  for (const Format& format : formats_of(entry.kind)) {
+  for (const Format& format : ros_kind(entry.kind, entry.desc->plugin).formats) {
     if (goes_with_its_kind(topics_, format, robot)) {
       attach(source, format.array_type, format.array, kind_topic(entry.kind), kept);
       continue;
@@ -60,13 +60,13 @@ void Publishers::on_structure(const sim::Snapshot& snapshot, const FrameTree& fr
   std::vector<Source> devices;
   for (const sim::DeviceEntry& entry : structure.devices) {
     Source source{std::make_shared<const Label>(Label{entry.name, "world"}), {}};
-    const Format& format = format_of(entry.kind);
+    const Format& format = ros_kind(entry.kind, entry.library).formats.front();
     if (entry.kind != "drive") {
       attach(source, format.type, format.latched, topic_of(entry.kind, entry.name), kept);
     }
     devices.push_back(std::move(source));
   }
-  const Format& odometry = format_of("drive");
+  const Format& odometry = ros_kind("drive").formats.front();
   robots_.clear();
   for (const Robot& robot : robots) {
     Source& source = devices[robot.device];
@@ -76,44 +76,44 @@ void Publishers::on_structure(const sim::Snapshot& snapshot, const FrameTree& fr
     }
     robots_.push_back(robot.device);
   }
-  channels_ = std::move(kept);  // what is not kept is shut down here
-  together_.clear();
+  channels_ = std::move(kept);  // channels that are not kept are shut down here
+  batched_.clear();
   for (const auto& [key, channel] : channels_) {
-    if (channel->collects()) together_.push_back(channel);
+    if (channel->batches()) batched_.push_back(channel);
   }
   sensors_ = std::move(sensors);
   devices_ = std::move(devices);
-  list_costly(structure);
+  list_on_demand(structure);
   for (std::uint32_t i = 0; i < devices_.size(); ++i) {
-    if (structure.devices[i].kind != "drive") put_state(snapshot, i);
+    if (structure.devices[i].kind != "drive") publish_state(snapshot, i);
   }
 }
 
-void Publishers::list_costly(const sim::Structure& structure) {
-  costly_.clear();
+void Publishers::list_on_demand(const sim::Structure& structure) {
+  on_demand_.clear();
   for (std::uint32_t i = 0; i < structure.sensors.size(); ++i) {
     const sim::SensorEntry& entry = structure.sensors[i];
     if (!entry.on_demand) continue;
-    costly_.push_back({i, simulation_.requested(entry.kind, entry.name)});
+    on_demand_.push_back({i, simulation_.requested(entry.kind, entry.name)});
   }
 }
 
-// A sensor that looks on requested looks while anybody listens.
-void Publishers::ask_for(const sim::Structure& structure) {
-  for (Costly& costly : costly_) {
-    const std::vector<std::shared_ptr<Channel>>& channels = sensors_[costly.sensor].channels;
+// A sensor that samples on demand does so while anybody subscribes.
+void Publishers::request(const sim::Structure& structure) {
+  for (OnDemand& sensor : on_demand_) {
+    const std::vector<std::shared_ptr<Channel>>& channels = sensors_[sensor.sensor].channels;
     const bool wanted = std::any_of(channels.begin(), channels.end(),
                                     [](const auto& channel) { return channel->has_subscribers(); });
-    if (wanted == costly.wanted) continue;
-    costly.wanted = wanted;
-    const sim::SensorEntry& entry = structure.sensors[costly.sensor];
+    if (wanted == sensor.requested) continue;
+    sensor.requested = wanted;
+    const sim::SensorEntry& entry = structure.sensors[sensor.sensor];
     simulation_.request(entry.kind, entry.name, wanted);
   }
 }
 
 void Publishers::publish(const sim::Snapshot& snapshot) {
-  ask_for(*snapshot.structure);
-  for (const std::uint32_t i : snapshot.new_states) put_state(snapshot, i);
+  request(*snapshot.structure);
+  for (const std::uint32_t i : snapshot.new_states) publish_state(snapshot, i);
   for (const std::uint32_t i : snapshot.new_readings) {
     if (snapshot.sensors[i].reading == nullptr) continue;
     const Source& source = sensors_[i];
@@ -121,18 +121,18 @@ void Publishers::publish(const sim::Snapshot& snapshot) {
     for (const auto& channel : source.channels) {
       if (!channel->has_subscribers()) continue;
       if (!reading) reading = snapshot.reading(i);
-      channel->put({reading, snapshot.stamp(i), source.label});
+      channel->publish({reading, snapshot.stamp(i), source.label});
     }
   }
-  for (const auto& channel : together_) channel->flush(snapshot.time);
+  for (const auto& channel : batched_) channel->flush(snapshot.time);
   repeat_odometry(snapshot);
 }
 
-void Publishers::put_state(const sim::Snapshot& snapshot, std::uint32_t device) {
+void Publishers::publish_state(const sim::Snapshot& snapshot, std::uint32_t device) {
   const std::shared_ptr<const Reading>& state = snapshot.devices[device];
   if (state == nullptr) return;
   const Source& source = devices_[device];
-  for (const auto& channel : source.channels) channel->put({state, state->stamp, source.label});
+  for (const auto& channel : source.channels) channel->publish({state, state->stamp, source.label});
 }
 
 // Navigation takes an odometry that has stopped for one that has died.
@@ -145,7 +145,7 @@ void Publishers::repeat_odometry(const sim::Snapshot& snapshot) {
     const std::shared_ptr<const Reading>& state = snapshot.devices[device];
     if (state == nullptr || state->stamp == snapshot.time) continue;
     for (const auto& channel : source.channels) {
-      channel->put({state, snapshot.time, source.label});
+      channel->publish({state, snapshot.time, source.label});
     }
   }
 }

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "ros/formats.h"
 #include "ros/frames.h"
+#include "ros/ros_kind.h"
 #include "ros/topics.h"
 #include "sim/simulation.h"
 
@@ -36,29 +36,29 @@ class Publishers {
   using Key = std::pair<std::string, std::string>;  // topic, type
   using Channels = std::map<Key, std::shared_ptr<Channel>>;
 
-  // A sensor that looks on requested only.
-  struct Costly {
+  // A sensor that samples on demand only.
+  struct OnDemand {
     std::uint32_t sensor = 0;  // in Structure::sensors
-    bool wanted = false;
+    bool requested = false;
   };
 
-  void attach(Source& source, const std::string& type, Format::Open open, const std::string& topic,
-              Channels& kept);
+  void attach(Source& source, const std::string& type, const Format::Open& open,
+              const std::string& topic, Channels& kept);
   Source sensor_source(const sim::SensorEntry& entry, const std::string& frame, const Robot* robot,
                        Channels& kept);
-  void list_costly(const sim::Structure& structure);
-  void ask_for(const sim::Structure& structure);
-  void put_state(const sim::Snapshot& snapshot, std::uint32_t device);
+  void list_on_demand(const sim::Structure& structure);
+  void request(const sim::Structure& structure);
+  void publish_state(const sim::Snapshot& snapshot, std::uint32_t device);
   void repeat_odometry(const sim::Snapshot& snapshot);
 
   ros::NodeHandle& node_;
   sim::Simulation& simulation_;
   Topics topics_;
   Channels channels_;
-  std::vector<std::shared_ptr<Channel>> together_;  // those that flush
-  std::vector<Source> sensors_;                     // as Structure::sensors
-  std::vector<Source> devices_;                     // as Structure::devices
-  std::vector<Costly> costly_;
+  std::vector<std::shared_ptr<Channel>> batched_;  // those that flush
+  std::vector<Source> sensors_;                    // as Structure::sensors
+  std::vector<Source> devices_;                    // as Structure::devices
+  std::vector<OnDemand> on_demand_;
   std::vector<std::uint32_t> robots_;  // indices of drives
   Nanoseconds odometry_slot_ = 0;
 };

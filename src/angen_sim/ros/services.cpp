@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "core/diagnostics.h"
+#include "plugin/summary.h"
 #include "record/world_file.h"
 #include "ros/convert.h"
 #include "ros/listing.h"
@@ -42,6 +43,19 @@ Pose to_pose(const geometry_msgs::Pose& message) {
   return pose;
 }
 
+/// The summary of a device, NAME or KIND/NAME; empty where there is no state of one alone.
+std::string state_of(const sim::Snapshot& snapshot, const std::string& target) {
+  const std::vector<sim::DeviceEntry>& devices = snapshot.structure->devices;
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    const bool named =
+        devices[i].name == target || devices[i].kind + "/" + devices[i].name == target;
+    if (named && snapshot.devices[i] != nullptr) {
+      return summary(devices[i].plugin->kind(), *snapshot.devices[i]);
+    }
+  }
+  return "";
+}
+
 // Runs `work`; what it throws becomes the answer.
 template <class Response, class Work>
 bool answered(Response& response, Work&& work) {
@@ -76,6 +90,7 @@ Services::Services(ros::NodeHandle& node, Inbox& inbox, const Events& events,
   servers_.push_back(node.advertiseService("/angen/step", &Services::step, this));
   servers_.push_back(node.advertiseService("/angen/spawn", &Services::spawn, this));
   servers_.push_back(node.advertiseService("/angen/delete", &Services::erase, this));
+  servers_.push_back(node.advertiseService("/angen/command", &Services::command, this));
   servers_.push_back(node.advertiseService("/angen/list", &Services::list, this));
   servers_.push_back(node.advertiseService("/angen/save", &Services::save, this));
 }
@@ -83,7 +98,7 @@ Services::Services(ros::NodeHandle& node, Inbox& inbox, const Events& events,
 // An Empty service has no message: false is all that it can say.
 bool Services::empty(sim::Action action) {
   try {
-    const sim::Outcome outcome = inbox_.ask(std::move(action));
+    const sim::Outcome outcome = inbox_.call(std::move(action));
     if (!outcome.ok) ROS_ERROR("%s", outcome.message.c_str());
     return outcome.ok;
   } catch (const std::exception& problem) {
@@ -96,8 +111,8 @@ bool Services::step(angen_msgs::Step::Request& request, angen_msgs::Step::Respon
   return answered(response, [&] {
     // Counted before the step is queued: what came later may have taken effect later.
     response.commands = inbox_.posted();
-    const sim::Outcome outcome = inbox_.ask(sim::Step{request.ticks});
-    response.events = events_.told();
+    const sim::Outcome outcome = inbox_.call(sim::Step{request.ticks});
+    response.events = events_.count();
     response.sim_time = to_ros(inbox_.simulation().snapshot()->time);
     return outcome;
   });
@@ -121,13 +136,26 @@ sim::Action Services::spawn_action(const angen_msgs::Spawn::Request& request) co
 }
 
 bool Services::spawn(angen_msgs::Spawn::Request& request, angen_msgs::Spawn::Response& response) {
-  return answered(response, [&] { return inbox_.ask(spawn_action(request)); });
+  return answered(response, [&] { return inbox_.call(spawn_action(request)); });
 }
 
 bool Services::erase(angen_msgs::Delete::Request& request, angen_msgs::Delete::Response& response) {
   return answered(response, [&] {
     check_name(request.name);
-    return inbox_.ask(sim::Delete{request.name});
+    return inbox_.call(sim::Delete{request.name});
+  });
+}
+
+bool Services::command(angen_msgs::SendCommand::Request& request,
+                       angen_msgs::SendCommand::Response& response) {
+  return answered(response, [&] {
+    const sim::Action action = any_action(request.target, request.text);
+    const auto* command = std::get_if<sim::ToDevice>(&action);
+    const sim::Outcome outcome = inbox_.call(action);
+    if (outcome.ok && command != nullptr) {
+      response.state = state_of(*inbox_.simulation().snapshot(), command->name);
+    }
+    return outcome;
   });
 }
 

@@ -3,6 +3,7 @@
 #include <angen_msgs/Delete.h>
 #include <angen_msgs/List.h>
 #include <angen_msgs/Save.h>
+#include <angen_msgs/SendCommand.h>
 #include <angen_msgs/Spawn.h>
 #include <angen_msgs/Step.h>
 #include <ros/node_handle.h>
@@ -34,6 +35,8 @@ class Services {
   bool step(angen_msgs::Step::Request& request, angen_msgs::Step::Response& response);
   bool spawn(angen_msgs::Spawn::Request& request, angen_msgs::Spawn::Response& response);
   bool erase(angen_msgs::Delete::Request& request, angen_msgs::Delete::Response& response);
+  bool command(angen_msgs::SendCommand::Request& request,
+               angen_msgs::SendCommand::Response& response);
   bool list(angen_msgs::List::Request& request, angen_msgs::List::Response& response);
   bool save(angen_msgs::Save::Request& request, angen_msgs::Save::Response& response);
   sim::Action spawn_action(const angen_msgs::Spawn::Request& request) const;

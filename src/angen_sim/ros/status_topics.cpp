@@ -76,7 +76,7 @@ void Events::publish(const sim::Snapshot& snapshot) {
     if (event.event == "rejected" || event.event == "warning") {
       ROS_WARN("%s", printable(event.event + ": " + event.detail, 2000).c_str());
     }
-    ++told_;
+    ++count_;
     publisher_.publish([&] {
       angen_msgs::Event message;
       message.header.stamp = to_ros(event.stamp);

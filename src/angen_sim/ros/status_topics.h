@@ -47,11 +47,11 @@ class Events {
   explicit Events(ros::NodeHandle& node);
   void publish(const sim::Snapshot& snapshot);
   /// How many there have been, heard by anybody or not.
-  std::uint64_t told() const { return told_; }
+  std::uint64_t count() const { return count_; }
 
  private:
   LazyPublisher publisher_;
-  std::atomic<std::uint64_t> told_{0};
+  std::atomic<std::uint64_t> count_{0};
 };
 
 }  // namespace angen::node

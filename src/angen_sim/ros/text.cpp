@@ -1,7 +1,6 @@
 #include "ros/text.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -11,16 +10,6 @@
 
 namespace angen::node {
 namespace {
-
-constexpr char kDoorForms[] =
-    "right are `Open, NAME`, `Close, NAME`, `Set, NAME, RADIANS`; NAME "
-    "may be `all`";
-constexpr char kLampForms[] =
-    "right are `On, NAME`, `Off, NAME`, `Dim, NAME, PERCENT`; NAME may "
-    "be `all`";
-constexpr char kElevatorForms[] =
-    "right are `Floor0`, `Floor1`, … and, with several elevators, "
-    "`Floor1, NAME`";
 
 // Length of the UTF-8 character that starts at `i`, 0 where none does.
 std::size_t utf8_length(const std::string& text, std::size_t i) {
@@ -53,12 +42,6 @@ std::vector<std::string> fields_of(const std::string& text) {
   }
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 std::optional<double> number(const std::string& text) {
   const char* begin = text.data();
   const char* end = begin + text.size();
@@ -70,39 +53,8 @@ std::optional<double> number(const std::string& text) {
 }
 
 sim::Reject reject(const std::string& source, const std::string& kind, const std::string& text,
-                   const std::string& why, const std::string& forms) {
-  return {source, kind, "`" + printable(text) + "`: " + why + "; " + forms};
-}
-
-struct Verb {
-  const char* name;
-  const char* number;  // what its number is called, null when it takes none
-};
-
-// `VERB, NAME` or `VERB, NAME, NUMBER`.
-sim::Action listed_action(const std::string& text, const std::string& kind,
-                          const std::string& source, const std::vector<Verb>& verbs,
-                          const char* forms) {
-  const auto wrong = [&](const std::string& why) { return reject(source, kind, text, why, forms); };
-  if (!valid_utf8(text)) return wrong("not UTF-8");
-  const std::vector<std::string> fields = fields_of(text);
-  if (fields[0].empty()) return wrong("no verb");
-  const auto verb = std::find_if(verbs.begin(), verbs.end(), [&](const Verb& candidate) {
-    return lower(candidate.name) == lower(fields[0]);
-  });
-  if (verb == verbs.end()) return wrong("unknown verb `" + printable(fields[0]) + "`");
-  if (fields.size() < 2 || fields[1].empty()) return wrong("no name");
-  const std::size_t wanted = verb->number != nullptr ? 3 : 2;
-  if (fields.size() > wanted) return wrong("too many parts");
-  std::string command = verb->name;
-  if (verb->number != nullptr) {
-    if (fields.size() < wanted) return wrong(std::string("no ") + verb->number);
-    if (!number(fields[2])) {
-      return wrong("`" + printable(fields[2]) + "` is not a number of " + verb->number);
-    }
-    command += " " + fields[2];
-  }
-  return sim::ToDevice{kind, fields[1], {command, {}}};
+                   const std::string& why, const std::string& right) {
+  return {source, kind, "`" + printable(text) + "`: " + why + "; " + right};
 }
 
 }  // namespace
@@ -135,40 +87,25 @@ std::string printable(const std::string& text, std::size_t limit) {
   return out;
 }
 
-sim::Action door_action(const std::string& text, const std::string& kind,
-                        const std::string& source) {
-  return listed_action(text, kind, source,
-                       {{"Open", nullptr}, {"Close", nullptr}, {"Set", "radians"}}, kDoorForms);
-}
-
-sim::Action lamp_action(const std::string& text) {
-  return listed_action(text, "lamp", "Light_controller",
-                       {{"On", nullptr}, {"Off", nullptr}, {"Dim", "percent"}}, kLampForms);
-}
-
-sim::Action elevator_action(const std::string& text, const std::vector<std::string>& elevators) {
+sim::Action topic_action(const Kind& kind, const std::string& text,
+                         const std::vector<std::string>& names) {
+  const std::string source = kind.command_topic.substr(kind.command_topic.rfind('/') + 1);
   const auto wrong = [&](const std::string& why) {
-    return reject("Elevator_controller", "elevator", text, why, kElevatorForms);
+    return reject(source, kind.name, text, why,
+                  "right is VERB, NAME[, NUMBER]; verbs are " + forms_of(kind));
   };
   if (!valid_utf8(text)) return wrong("not UTF-8");
   const std::vector<std::string> fields = fields_of(text);
   if (fields[0].empty()) return wrong("no verb");
-  if (lower(fields[0].substr(0, 5)) != "floor") {
-    return wrong("unknown verb `" + printable(fields[0]) + "`");
-  }
-  const std::string floor = trimmed(fields[0].substr(5));
-  const bool digits = !floor.empty() && floor.size() <= 4 &&
-                      floor.find_first_not_of("0123456789") == std::string::npos;
-  if (!digits) return wrong("`" + printable(floor) + "` is not the number of a floor");
-  if (fields.size() > 2) return wrong("too many parts");
-  std::string name = fields.size() == 2 ? fields[1] : "";
-  if (fields.size() == 2 && name.empty()) return wrong("no name");
-  if (name.empty()) {
-    if (elevators.empty()) return wrong("there is no elevator");
-    if (elevators.size() > 1) return wrong("say which elevator of " + join_names(elevators));
-    name = elevators.front();
-  }
-  return sim::ToDevice{"elevator", name, {"Floor" + floor, {}}};
+  if (fields.size() > 3) return wrong("too many parts");
+  std::string name = fields.size() > 1 ? fields[1] : "";
+  if (fields.size() > 1 && name.empty()) return wrong("no name");
+  if (name.empty() && names.size() == 1) name = names.front();
+  Command command{fields[0] + (fields.size() > 2 ? " " + fields[2] : ""), {}, "", 0.0};
+  const std::string reason = parse_command(kind, command);
+  if (!reason.empty()) return wrong(printable(reason, 400));
+  if (name.empty()) return wrong(names.empty() ? "there is no " + kind.name : "no name");
+  return sim::ToDevice{kind.name, name, std::move(command)};
 }
 
 sim::Action any_action(const std::string& target, const std::string& text) {
@@ -179,7 +116,7 @@ sim::Action any_action(const std::string& target, const std::string& text) {
   if (!valid_utf8(target) || !valid_utf8(text)) return wrong("not UTF-8");
   const std::string name = trimmed(target);
   if (name.empty()) return wrong("no target");
-  Command command{trimmed(text), {}};
+  Command command{trimmed(text), {}, "", 0.0};
   if (command.text.empty()) return wrong("no text");
   std::vector<double> values;
   std::size_t start = 0;

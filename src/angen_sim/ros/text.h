@@ -18,14 +18,10 @@ std::string trimmed(const std::string& text);
 std::string printable(const std::string& text, std::size_t limit = 80);
 
 /// Each returns what to post: a ToDevice, or a Reject that says why and lists the right forms.
-/// `Open, NAME|all`, `Close, NAME|all`, `Set, NAME|all, RADIANS`; windows and cabinets take the
-/// same. `source` is the controller that a Reject names.
-sim::Action door_action(const std::string& text, const std::string& kind = "door",
-                        const std::string& source = "Door_controller");
-/// `On, NAME|all`, `Off, NAME|all`, `Dim, NAME|all, PERCENT`
-sim::Action lamp_action(const std::string& text);
-/// `Floor<N>`, `Floor<N>, NAME`; `elevators` are the ones that exist, for the form without a name.
-sim::Action elevator_action(const std::string& text, const std::vector<std::string>& elevators);
+/// `VERB, NAME|all[, NUMBER]`, as the kind's command topic takes it; `names` are the kind's
+/// devices: where there is one alone, its name may be left out.
+sim::Action topic_action(const Kind& kind, const std::string& text,
+                         const std::vector<std::string>& names);
 /// /angen/command: NAME or KIND/NAME; a text of numbers alone becomes the command's values.
 sim::Action any_action(const std::string& target, const std::string& text);
 

@@ -3,7 +3,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include "ros/convert.h"
-#include "ros/states.h"
+#include "ros/kinds/states.h"
 
 namespace angen::node {
 namespace {
@@ -66,7 +66,7 @@ void Transforms::publish(const sim::Snapshot& snapshot) {
 
 void Transforms::send(const sim::Snapshot& snapshot, bool all) {
   if (robots_.empty() && (all ? frames_.moving.empty() : moved_.empty())) return;
-  moving_.send([&] { return collect(snapshot, all); });
+  moving_.publish([&] { return collect(snapshot, all); });
 }
 
 tf2_msgs::TFMessage Transforms::collect(const sim::Snapshot& snapshot, bool all) const {

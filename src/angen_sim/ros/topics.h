@@ -3,13 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "ros/formats.h"
 #include "ros/frames.h"
+#include "ros/ros_kind.h"
 #include "sim/snapshot.h"
 
 namespace angen::node {
 
-/// What sensors tell on.
+/// Which topics sensors publish on.
 enum class Topics {
   kSensor,  // each has its own
   kKind,    // one carries all of a kind that has an array; robots' have their own all the same
@@ -18,12 +18,12 @@ enum class Topics {
 /// Throws Error for a word that is neither "sensor" nor "kind".
 Topics topics_named(const std::string& word);
 
-/// Where one message of a sensor is heard if it has topics of its own; `robot` is the one that
+/// Where one message of a sensor is published if it has topics of its own; `robot` is the one that
 /// carries it, or null. The first is the one to name.
 std::vector<std::string> sensor_topics(const sim::SensorEntry& sensor, const Format& format,
                                        const Robot* robot);
 
-/// Whether that message is told on the topic of its kind.
+/// Whether that message is published on the topic of its kind.
 bool goes_with_its_kind(Topics topics, const Format& format, const Robot* robot);
 std::string kind_topic(const std::string& kind);
 

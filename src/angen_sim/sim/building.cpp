@@ -1,6 +1,7 @@
 #include "sim/building.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace angen::sim {
@@ -288,9 +289,26 @@ void Building::reset(Nanoseconds now) {
   warnings_.clear();
 }
 
+/// The plug-ins of the world's libraries and of all devices, one a kind.
+std::vector<std::shared_ptr<const Plugin>> Building::device_plugins() {
+  std::map<std::string, std::shared_ptr<const Plugin>> kinds;
+  for (const desc::Plugin& plugin : world_.plugins) {
+    for (const auto& each : catalog_->library(plugin.filename)) {
+      kinds.emplace(each->kind().name, each);
+    }
+  }
+  for (const auto& live : models_) {
+    for (const DeviceInstance& device : live->devices) kinds.emplace(device.kind, device.plugin);
+  }
+  std::vector<std::shared_ptr<const Plugin>> all;
+  for (auto& [name, plugin] : kinds) all.push_back(std::move(plugin));
+  return all;
+}
+
 std::shared_ptr<const Structure> Building::structure() {
   auto all = std::make_shared<Structure>();
   all->revision = revision_;
+  all->device_plugins = device_plugins();
   for (const WorldLight& world_light : lights_) {
     LightEntry entry;
     entry.name = world_light.light.name;

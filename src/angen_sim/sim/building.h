@@ -82,6 +82,7 @@ class Building {
 
   void build(desc::Model model, const std::vector<SensorInstance>* attached, Nanoseconds now);
   void start(SensorInstance& sensor, Nanoseconds now) const;
+  std::vector<std::shared_ptr<const Plugin>> device_plugins();
   void make_engines();
   void check_names(const LiveModel& live) const;
   void check_sensor_name(const SensorInstance& sensor) const;

@@ -34,7 +34,7 @@ void each_cell(const Cells& cells, F&& visit) {
   const auto part = [](int v) { return static_cast<std::uint64_t>(v + (1 << 20)) & 0x1fffff; };
   for (int x = cells[0]; x <= cells[1]; ++x) {
     for (int y = cells[2]; y <= cells[3]; ++y) {
-      for (int z = cells[4]; z <= cells[5]; ++z) visit(split(x) << 42 | split(y) << 21 | split(z));
+      for (int z = cells[4]; z <= cells[5]; ++z) visit(part(x) << 42 | part(y) << 21 | part(z));
     }
   }
 }
@@ -184,8 +184,8 @@ void MoverIndex::remove_from_cells(std::uint32_t region) {
 }
 
 void MoverIndex::link(Mover& mover) {
-  each_region_in(mover.box, [&](std::uint32_t region, Region& found) {
-    mover.regions.push_back(region);
+  each_region_in(mover.box, [&](std::uint32_t number, Region& region) {
+    mover.regions.push_back(number);
     region.near.push_back(mover.id);
   });
 }

@@ -75,6 +75,7 @@ struct Structure {
   std::vector<DeviceEntry> devices;
   std::vector<SensorEntry> sensors;
   std::vector<LightEntry> lights;
+  std::vector<std::shared_ptr<const Plugin>> device_plugins;  // of each kind there is or may be
 };
 
 struct Counts {

@@ -11,20 +11,25 @@ using Parameters = std::vector<std::pair<std::string, std::string>>;
 struct Lit {
   Catalog catalog;
   FakeWorld world;
+  std::shared_ptr<const Plugin> kind;
   std::unique_ptr<Device> lamp;
 
   explicit Lit(const Parameters& parameters = {}) {
     world.lights.push_back({"bulb", {}});
     for (const auto& plugin : catalog.library("libros_plugin.so")) {
-      if (plugin->kind() == "lamp") lamp = plugin->make_device();
+      if (plugin->kind().name == "lamp") kind = plugin;
     }
+    lamp = kind->make_device();
     Params params(plugin_element(parameters));
     lamp->configure(params, world);
     params.finish();
     lamp->update(world, world);
   }
   Verdict say(const std::string& text) {
-    const Verdict verdict = lamp->command({text, {}}, world);
+    Command command{text, {}, "", 0.0};
+    const std::string wrong = parse_command(kind->kind(), command);
+    if (!wrong.empty()) return Verdict::reject(wrong);
+    const Verdict verdict = lamp->command(command, world);
     if (verdict.act) verdict.act();
     lamp->update(world, world);
     return verdict;

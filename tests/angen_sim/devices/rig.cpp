@@ -13,7 +13,7 @@ Bench::~Bench() = default;
 Rig& Bench::add(const desc::Model& model, const std::string& library, const std::string& kind,
                 const Parameters& parameters) {
   for (const std::shared_ptr<const Plugin>& plugin : catalog_.library(library)) {
-    if (plugin->kind() != kind) continue;
+    if (plugin->kind().name != kind) continue;
     rigs_.push_back(std::make_unique<Rig>(*this, model, plugin, parameters));
     return *rigs_.back();
   }
@@ -60,7 +60,8 @@ Vec3 Bench::contact_force(const std::string& one, const std::string& other) cons
 Rig::Rig(Bench& bench, desc::Model model, std::shared_ptr<const Plugin> plugin,
          const Parameters& parameters)
     : bench_(bench), model_(std::move(model)), model_id_(bench.world.add(model_)) {
-  device_ = plugin->make_device();
+  plugin_ = std::move(plugin);
+  device_ = plugin_->make_device();
   Params params(plugin_element(parameters));
   device_->configure(params, *this);
   params.finish();
@@ -72,7 +73,9 @@ Reading Rig::state() const {
   return reading;
 }
 
-Verdict Rig::drain(const Command& command) {
+Verdict Rig::command(Command command) {
+  const std::string wrong = parse_command(plugin_->kind(), command);
+  if (!wrong.empty()) return Verdict::reject(wrong);
   Verdict verdict = device_->command(command, *this);
   if (verdict.act) verdict.act();
   return verdict;

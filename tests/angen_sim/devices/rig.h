@@ -60,8 +60,8 @@ class Rig : public View, public Wiring, public Outputs {
   Rig(Bench& bench, desc::Model model, std::shared_ptr<const Plugin> plugin,
       const Parameters& parameters);
 
-  Verdict command(const std::string& text) { return drain({text, {}}); }
-  Verdict command(double v, double w) { return drain({"", {v, w}}); }
+  Verdict command(const std::string& text) { return command(Command{text, {}, "", 0.0}); }
+  Verdict command(double v, double w) { return command(Command{"", {v, w}, "", 0.0}); }
   void update() { device_->update(*this, *this); }
   Reading state() const;
   std::string mode() const { return state().get<std::string>("mode"); }
@@ -113,7 +113,7 @@ class Rig : public View, public Wiring, public Outputs {
   void event(const std::string& event, const std::string&) override { events.push_back(event); }
 
  private:
-  Verdict drain(const Command& command);
+  Verdict command(Command command);
   int joint_index(const std::string& joint) const;
   int link_index(const std::string& link) const;
   physics::JointId id_of(JointRef joint) const;
@@ -123,6 +123,7 @@ class Rig : public View, public Wiring, public Outputs {
   std::vector<rays::WarmShape> warm_;
   desc::Model model_;
   physics::ModelId model_id_;
+  std::shared_ptr<const Plugin> plugin_;
   std::unique_ptr<Device> device_;
 };
 

@@ -54,7 +54,7 @@ TEST_F(Library, FindsAngensOwnBesideItsLibraries) {
   Catalog catalog;
   const auto& plugins = catalog.library("libpir_controller.so");
   ASSERT_EQ(plugins.size(), 1U);
-  EXPECT_EQ(plugins[0]->kind(), "pir");
+  EXPECT_EQ(plugins[0]->kind().name, "pir");
   EXPECT_NE(plugins[0]->make_sensor(), nullptr);
   EXPECT_EQ(plugins[0]->make_device(), nullptr);
 }
@@ -65,14 +65,14 @@ TEST_F(Library, FindsAUsersOnEitherPath) {
     unsetenv("GAZEBO_PLUGIN_PATH");
     setenv(variable, ("/nowhere::" + std::string(ANGEN_FIXTURES_DIR)).c_str(), 1);
     Catalog catalog;
-    EXPECT_EQ(catalog.library("libtwin_a.so").at(0)->kind(), "twin_a") << variable;
+    EXPECT_EQ(catalog.library("libtwin_a.so").at(0)->kind().name, "twin_a") << variable;
   }
 }
 
 TEST_F(Library, TakesAPathAsItIs) {
   unsetenv("ANGEN_PLUGIN_PATH");
   Catalog catalog;
-  EXPECT_EQ(catalog.library(ANGEN_FIXTURES_DIR "/libtwin_a.so").at(0)->kind(), "twin_a");
+  EXPECT_EQ(catalog.library(ANGEN_FIXTURES_DIR "/libtwin_a.so").at(0)->kind().name, "twin_a");
   EXPECT_EQ(complaint("/nowhere/libx.so"), "there is no plug-in library /nowhere/libx.so");
 }
 
@@ -125,7 +125,7 @@ TEST_F(Library, OfTheSameNameWithoutAngenPluginIsPassedOver) {
   fs::copy_file(ANGEN_FIXTURES_DIR "/libempty.so", directory_ / "libtwin_a.so");
   search(directory_.string() + ":" ANGEN_FIXTURES_DIR);
   Catalog catalog;
-  EXPECT_EQ(catalog.library("libtwin_a.so").at(0)->kind(), "twin_a");
+  EXPECT_EQ(catalog.library("libtwin_a.so").at(0)->kind().name, "twin_a");
 }
 
 TEST_F(Library, NotLoadableGivesTheLoadersReason) {
@@ -154,25 +154,27 @@ TEST_F(Library, ListsThoseThatHoldPlugins) {
 
 TEST_F(Library, APluginOfThisProcessIsFoundByItsName) {
   struct Local : Plugin {
-    std::string kind() const override { return "local"; }
-    std::string doc() const override { return ""; }
+    const Kind& kind() const override {
+      static const Kind kind("local", "");
+      return kind;
+    }
   };
   Catalog catalog;
   catalog.add("local.py", std::make_shared<Local>());
-  EXPECT_EQ(catalog.library("local.py").at(0)->kind(), "local");
+  EXPECT_EQ(catalog.library("local.py").at(0)->kind().name, "local");
 }
 
 TEST_F(Library, DescribesEveryParameter) {
   Catalog catalog;
   const std::vector<PluginDoc> docs = describe(catalog);
   const auto twin = std::find_if(docs.begin(), docs.end(),
-                                 [](const PluginDoc& doc) { return doc.kind == "twin_a"; });
+                                 [](const PluginDoc& doc) { return doc.kind.name == "twin_a"; });
   ASSERT_NE(twin, docs.end());
   ASSERT_FALSE(twin->params.empty());
   EXPECT_EQ(twin->params[0].path, "parameter_a");
   EXPECT_EQ(twin->params[0].unit, "m");
   const auto pir = std::find_if(docs.begin(), docs.end(),
-                                [](const PluginDoc& doc) { return doc.kind == "pir"; });
+                                [](const PluginDoc& doc) { return doc.kind.name == "pir"; });
   ASSERT_NE(pir, docs.end());
   std::vector<std::string> paths;
   for (const ParamDoc& param : pir->params) paths.push_back(param.path);
@@ -188,8 +190,8 @@ TEST_F(Library, DescribesWhatDoesNotLoadByItsReason) {
   for (const PluginDoc& doc : describe(catalog)) {
     if (doc.library != "libunresolved.so") continue;
     found = true;
-    EXPECT_EQ(doc.kind, "");
-    EXPECT_NE(doc.doc.find("missing_function"), std::string::npos);
+    EXPECT_EQ(doc.kind.name, "");
+    EXPECT_NE(doc.kind.doc.find("missing_function"), std::string::npos);
   }
   EXPECT_TRUE(found);
 }

@@ -167,7 +167,7 @@ TEST(Device, RejectsCommandsUnlessItTakesSome) {
     void report(const View&, Reading&) const override {}
   } mute;
   const test::FakeWorld world;
-  const Verdict verdict = mute.command({"Open", {}}, world);
+  const Verdict verdict = mute.command({"Open", {}, "", 0.0}, world);
   EXPECT_FALSE(verdict.accepted);
   EXPECT_EQ(verdict.reason, "it takes no commands");
 }

@@ -1,12 +1,23 @@
+#include "angen_sim/ros/messages.h"
+
+#include <angen_msgs/DoorState.h>
+#include <angen_msgs/ElevatorState.h>
+#include <angen_msgs/PersonState.h>
+#include <angen_msgs/PirMsg.h>
+#include <angen_msgs/Reading.h>
+#include <angen_msgs/RfidMsg.h>
+#include <angen_msgs/SwitchMsg.h>
+#include <gazebo_msgs/ContactsState.h>
 #include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/BatteryState.h>
+#include <sensor_msgs/Range.h>
+#include <sensor_msgs/RelativeHumidity.h>
 
 #include <cmath>
 #include <limits>
 
 #include "ros/convert.h"
-#include "ros/formats.h"
-#include "ros/readings.h"
-#include "ros/states.h"
 #include "ros/wire.h"
 
 namespace angen::node {
@@ -31,7 +42,7 @@ TEST(Messages, Pir) {
   reading.set("signal", 4.0);
   reading.set("signal_threshold", 1.0);
   angen_msgs::PirMsg message;
-  fill(reading, {}, message);
+  fill("pir", reading, {}, message);
   EXPECT_TRUE(message.motion);
   EXPECT_EQ(message.difference, 0.4);
   EXPECT_EQ(message.threshold, 0.1);
@@ -44,7 +55,7 @@ TEST(Messages, SwitchTakesTwoRanges) {
   reading.set("closed", true);
   reading.set("ranges", Numbers{0.2, 0.3});
   angen_msgs::SwitchMsg message;
-  fill(reading, {}, message);
+  fill("switch", reading, {}, message);
   EXPECT_TRUE(message.closed);
   EXPECT_EQ(message.ranges[0], 0.2);
   EXPECT_EQ(message.ranges[1], 0.3);
@@ -58,7 +69,7 @@ TEST(Messages, RangeIsInfiniteWhereNothingIsNear) {
   reading.set("field_of_view", 0.26);
   reading.set("infrared", true);
   sensor_msgs::Range message;
-  fill(reading, {}, message);
+  fill("proximity", reading, {}, message);
   EXPECT_TRUE(std::isinf(message.range) && message.range > 0.0F);
   EXPECT_EQ(message.radiation_type, sensor_msgs::Range::INFRARED);
   EXPECT_FLOAT_EQ(message.max_range, 4.0F);
@@ -70,7 +81,7 @@ TEST(Messages, RfidListsIdsAndDistances) {
   reading.set("ids", Texts{"a", "b"});
   reading.set("distances", Numbers{0.5, 1.5});
   angen_msgs::RfidMsg message;
-  fill(reading, {}, message);
+  fill("rfid", reading, {}, message);
   EXPECT_EQ(message.ids, (Texts{"a", "b"}));
   EXPECT_EQ(message.distances, (Numbers{0.5, 1.5}));
 }
@@ -80,7 +91,7 @@ TEST(Messages, HumidityIsAFraction) {
   reading.set("humidity", 45.0);
   reading.set("variance", 4.0);
   sensor_msgs::RelativeHumidity message;
-  fill(reading, {}, message);
+  fill("humidity", reading, {}, message);
   EXPECT_DOUBLE_EQ(message.relative_humidity, 0.45);
   EXPECT_DOUBLE_EQ(message.variance, 4e-4);
 }
@@ -91,38 +102,38 @@ TEST(Messages, ABatteryDrawsANegativeCurrent) {
   state.set("drawn", 29.6);
   state.set("percentage", 0.25);
   sensor_msgs::BatteryState message;
-  fill(state, {}, message);
+  fill("battery", state, {}, message);
   EXPECT_FLOAT_EQ(message.current, -2.0F);
   EXPECT_FLOAT_EQ(message.percentage, 0.25F);
   EXPECT_TRUE(message.present);
 }
 
-TEST(Messages, DoorModesByName) {
-  const auto mode = [](const char* name) {
+TEST(Messages, ADoorsModeIsItsChoice) {
+  const auto mode = [](std::int64_t value) {
     Reading state;
-    state.set("mode", name);
+    state.set("mode", Choice{value, "any"});
     angen_msgs::DoorState message;
-    fill(state, {"bathroom1", "world"}, message);
+    fill("door", state, {"bathroom1", "world"}, message);
     EXPECT_EQ(message.name, "bathroom1");
     return message.mode;
   };
-  EXPECT_EQ(mode("CLOSED"), angen_msgs::DoorState::CLOSED);
-  EXPECT_EQ(mode("OPEN"), angen_msgs::DoorState::OPEN);
-  EXPECT_EQ(mode("OPENING"), angen_msgs::DoorState::OPENING);
-  EXPECT_EQ(mode("CLOSING"), angen_msgs::DoorState::CLOSING);
-  EXPECT_EQ(mode("BLOCKED"), angen_msgs::DoorState::BLOCKED);
-  EXPECT_EQ(mode("AJAR"), angen_msgs::DoorState::AJAR);
+  EXPECT_EQ(mode(0), angen_msgs::DoorState::CLOSED);
+  EXPECT_EQ(mode(1), angen_msgs::DoorState::OPEN);
+  EXPECT_EQ(mode(2), angen_msgs::DoorState::OPENING);
+  EXPECT_EQ(mode(3), angen_msgs::DoorState::CLOSING);
+  EXPECT_EQ(mode(4), angen_msgs::DoorState::BLOCKED);
+  EXPECT_EQ(mode(5), angen_msgs::DoorState::AJAR);
 }
 
 TEST(Messages, Elevator) {
   Reading state;
-  state.set("mode", "DOWN");
+  state.set("mode", Choice{2, "DOWN"});
   state.set("floor", -1);
   state.set("target_floor", 1);
-  state.set("door_mode", "BLOCKED");
+  state.set("door_mode", Choice{4, "BLOCKED"});
   state.set("door_position", 0.3);
   angen_msgs::ElevatorState message;
-  fill(state, {"elevator", "world"}, message);
+  fill("elevator", state, {"elevator", "world"}, message);
   EXPECT_EQ(message.mode, angen_msgs::ElevatorState::DOWN);
   EXPECT_EQ(message.floor, -1);
   EXPECT_EQ(message.target_floor, 1);
@@ -132,7 +143,7 @@ TEST(Messages, Elevator) {
 
 TEST(Messages, PersonAndOdometryStandWhereTheyAre) {
   Reading state;
-  state.set("mode", "BLOCKED");
+  state.set("mode", Choice{2, "BLOCKED"});
   state.set("x", 1.0);
   state.set("y", 2.0);
   state.set("z", 4.9);
@@ -140,12 +151,12 @@ TEST(Messages, PersonAndOdometryStandWhereTheyAre) {
   state.set("v", 0.5);
   state.set("w", -1.0);
   angen_msgs::PersonState person;
-  fill(state, {"person", "world"}, person);
+  fill("person", state, {"person", "world"}, person);
   EXPECT_EQ(person.mode, angen_msgs::PersonState::BLOCKED);
   EXPECT_EQ(person.pose.position.z, 4.9);
   EXPECT_NEAR(person.pose.orientation.z, M_SQRT1_2, 1e-12);
   nav_msgs::Odometry odometry;
-  fill(state, {"base_footprint", "odom"}, odometry);
+  fill("drive", state, {"base_footprint", "odom"}, odometry);
   EXPECT_EQ(odometry.child_frame_id, "base_footprint");
   EXPECT_EQ(odometry.pose.pose.position.y, 2.0);
   EXPECT_EQ(odometry.pose.pose.position.z, 0.0);
@@ -163,7 +174,7 @@ TEST(Messages, ContactsAreSplitByPairAndSummed) {
   reading.set("depths", Numbers{0.001, 0.002, 0.003});
   reading.set("forces", Numbers{0, 0, -10, 0, 0, -20, 0, 0, 30});
   gazebo_msgs::ContactsState message;
-  fill(reading, {"chair", "somewhere"}, message);
+  fill("contact", reading, {"chair", "somewhere"}, message);
   EXPECT_EQ(message.header.frame_id, "world");
   ASSERT_EQ(message.states.size(), 2U);
   const gazebo_msgs::ContactState& seat = message.states[0];
@@ -184,7 +195,7 @@ TEST(Messages, ContactListsOfUnequalLengthGiveNoMoreThanTheyHold) {
   reading.set("counts", Numbers{5});
   reading.set("positions", Numbers{0, 0, 0});
   gazebo_msgs::ContactsState message;
-  fill(reading, {}, message);
+  fill("contact", reading, {}, message);
   ASSERT_EQ(message.states.size(), 1U);
   EXPECT_TRUE(message.states[0].wrenches.empty());
 }
@@ -198,7 +209,7 @@ TEST(Messages, TheGenericOneHoldsEveryField) {
   reading.set("state", "ok");
   reading.set("levels", Numbers{1, 2});
   angen_msgs::Reading message;
-  fill(reading, {"s1", "s1"}, message);
+  fill("smoke", reading, {"s1", "s1"}, message);
   EXPECT_EQ(message.name, "s1");
   EXPECT_EQ(message.kind, "smoke");
   EXPECT_EQ(message.names, (Texts{"alarm", "count", "density", "levels[0]", "levels[1]"}));

@@ -6,8 +6,8 @@ namespace angen::node {
 namespace {
 
 std::string sent(const sim::Action& action) {
-  const auto& order = std::get<sim::ToDevice>(action);
-  return order.kind + "/" + order.name + ": " + order.command.text;
+  const auto& command = std::get<sim::ToDevice>(action);
+  return command.kind + "/" + command.name + ": " + command.command.text;
 }
 
 std::string refused(const sim::Action& action) { return std::get<sim::Reject>(action).reason; }
@@ -16,65 +16,95 @@ bool says(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
+Kind door(const std::string& name = "door") {
+  return Kind(name, "")
+      .commanded_on("/gazebo/Door_controller")
+      .verb("Open", "")
+      .verb("Close", "")
+      .verb("Set", "radians", "rad", {}, "");
+}
+
+Kind lamp() {
+  return Kind("lamp", "")
+      .commanded_on("/gazebo/Light_controller")
+      .verb("On", "")
+      .verb("Off", "")
+      .verb("Dim", "percent", "%", {0.0, 100.0}, "");
+}
+
+Kind elevator() {
+  return Kind("elevator", "")
+      .commanded_on("/gazebo/Elevator_controller")
+      .counted_verb("Floor", "floor", {0.0, 999.0}, "");
+}
+
+const std::vector<std::string> kTwo{"a", "b"};
+
 TEST(DoorText, VerbsAndNames) {
-  EXPECT_EQ(sent(door_action("Open, bathroom1")), "door/bathroom1: Open");
-  EXPECT_EQ(sent(door_action("Close, all")), "door/all: Close");
-  EXPECT_EQ(sent(door_action("Open, hall0", "window", "Window_controller")), "window/hall0: Open");
-  EXPECT_EQ(sent(door_action("Set, kitchen0, -1.2")), "door/kitchen0: Set -1.2");
+  EXPECT_EQ(sent(topic_action(door(), "Open, bathroom1", kTwo)), "door/bathroom1: Open");
+  EXPECT_EQ(sent(topic_action(door(), "Close, all", kTwo)), "door/all: Close");
+  EXPECT_EQ(sent(topic_action(door("window"), "Open, hall0", kTwo)), "window/hall0: Open");
+  EXPECT_EQ(sent(topic_action(door(), "Set, kitchen0, -1.2", kTwo)), "door/kitchen0: Set -1.2");
 }
 
 TEST(DoorText, CaseOfVerbsAndBlanksDoNotMatter) {
-  EXPECT_EQ(sent(door_action("  oPEN ,\tbathroom1 \n")), "door/bathroom1: Open");
-  EXPECT_EQ(sent(door_action("SET,kitchen0,+1e-1")), "door/kitchen0: Set +1e-1");
+  const sim::Action open = topic_action(door(), "  oPEN ,\tbathroom1 \n", kTwo);
+  EXPECT_EQ(std::get<sim::ToDevice>(open).command.verb, "Open");
+  const sim::Action set = topic_action(door(), "SET,kitchen0,+1e-1", kTwo);
+  EXPECT_EQ(std::get<sim::ToDevice>(set).command.verb, "Set");
+  EXPECT_EQ(std::get<sim::ToDevice>(set).command.number, 0.1);
 }
 
 TEST(DoorText, CaseOfNamesMatters) {
-  EXPECT_EQ(sent(door_action("Open, Bathroom1")), "door/Bathroom1: Open");
+  EXPECT_EQ(sent(topic_action(door(), "Open, Bathroom1", kTwo)), "door/Bathroom1: Open");
 }
 
 TEST(DoorText, MalformedIsRefusedWithTheRightForms) {
   for (const std::string text :
        {"", ",", "Open", "Open,", "Open, a, b", "Set, a", "Set, a, fast", "Set, a, nan",
-        "Set, a, inf", "Set, a, 1, 2", "Opn, a", "Open bathroom1", "Set, a, 1x", "Set, a, 0x1"}) {
-    const std::string reason = refused(door_action(text));
-    EXPECT_TRUE(says(reason, "`Set, NAME, RADIANS`")) << text << " -> " << reason;
+        "Set, a, inf", "Set, a, 1, 2", "Opn, a", "Set, a, 1x", "Set, a, 0x1"}) {
+    const std::string reason = refused(topic_action(door(), text, kTwo));
+    EXPECT_TRUE(says(reason, "Set <radians>")) << text << " -> " << reason;
     EXPECT_TRUE(says(reason, "`" + text + "`")) << reason;
   }
 }
 
 TEST(DoorText, OtherBytesThanUtf8AreRefusedInPrintableWords) {
-  const std::string reason = refused(door_action("Open, \xff\xfe"));
+  const std::string reason = refused(topic_action(door(), "Open, \xff\xfe", kTwo));
   EXPECT_TRUE(says(reason, "not UTF-8")) << reason;
   EXPECT_TRUE(valid_utf8(reason));
 }
 
 TEST(DoorText, ALongTextMakesAShortReason) {
-  EXPECT_LT(refused(door_action(std::string(100000, 'x'))).size(), 400U);
+  EXPECT_LT(refused(topic_action(door(), std::string(100000, 'x'), kTwo)).size(), 700U);
 }
 
 TEST(LampText, VerbsAndNames) {
-  EXPECT_EQ(sent(lamp_action("On, kitchen0")), "lamp/kitchen0: On");
-  EXPECT_EQ(sent(lamp_action("off, all")), "lamp/all: Off");
-  EXPECT_EQ(sent(lamp_action("Dim, kitchen0, 40")), "lamp/kitchen0: Dim 40");
-  EXPECT_TRUE(says(refused(lamp_action("Dim, kitchen0")), "no percent"));
+  EXPECT_EQ(sent(topic_action(lamp(), "On, kitchen0", kTwo)), "lamp/kitchen0: On");
+  EXPECT_EQ(sent(topic_action(lamp(), "off, all", kTwo)), "lamp/all: off");
+  EXPECT_EQ(sent(topic_action(lamp(), "Dim, kitchen0, 40", kTwo)), "lamp/kitchen0: Dim 40");
+  EXPECT_TRUE(says(refused(topic_action(lamp(), "Dim, kitchen0", kTwo)), "without percent"));
+  EXPECT_TRUE(says(refused(topic_action(lamp(), "Dim, kitchen0, 101", kTwo)), "out of range"));
 }
 
 TEST(ElevatorText, TheOnlyElevatorNeedsNoName) {
-  EXPECT_EQ(sent(elevator_action("Floor1", {"lift"})), "elevator/lift: Floor1");
-  EXPECT_EQ(sent(elevator_action(" floor 0 ", {"lift"})), "elevator/lift: Floor0");
+  EXPECT_EQ(sent(topic_action(elevator(), "Floor1", {"lift"})), "elevator/lift: Floor1");
+  const sim::Action spaced = topic_action(elevator(), " floor 0 ", {"lift"});
+  EXPECT_EQ(std::get<sim::ToDevice>(spaced).command.number, 0.0);
 }
 
 TEST(ElevatorText, OneOfSeveralIsNamed) {
-  EXPECT_EQ(sent(elevator_action("Floor2, b", {"a", "b"})), "elevator/b: Floor2");
-  EXPECT_TRUE(says(refused(elevator_action("Floor2", {"a", "b"})), "which elevator of a, b"));
+  EXPECT_EQ(sent(topic_action(elevator(), "Floor2, b", kTwo)), "elevator/b: Floor2");
+  EXPECT_TRUE(says(refused(topic_action(elevator(), "Floor2", kTwo)), "no name"));
 }
 
 TEST(ElevatorText, MalformedIsRefused) {
   for (const std::string text : {"", "Floor", "FloorX", "Floor-1", "Floor1.5", "Floor1,", "Up",
                                  "Floor99999999999999999999", "Floor1, a, b"}) {
-    EXPECT_TRUE(says(refused(elevator_action(text, {"lift"})), "`Floor0`, `Floor1`")) << text;
+    const std::string reason = refused(topic_action(elevator(), text, {"lift"}));
+    EXPECT_TRUE(says(reason, "Floor<0 to 999 floor>")) << text << " -> " << reason;
   }
-  EXPECT_TRUE(says(refused(elevator_action("Floor1", {})), "no elevator"));
+  EXPECT_TRUE(says(refused(topic_action(elevator(), "Floor1", {})), "no elevator"));
 }
 
 TEST(AnyText, ReachesADeviceByName) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "angen_sim/ros/messages.h"
 #include "core/diagnostics.h"
 
 namespace angen::node {

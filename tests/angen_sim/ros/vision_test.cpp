@@ -1,19 +1,23 @@
 #include <gtest/gtest.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/PointCloud2.h>
 
 #include <cmath>
 #include <cstring>
 #include <limits>
 
-#include "ros/images.h"
-#include "ros/readings.h"
+#include "angen_sim/ros/messages.h"
+#include "angen_sim/ros/messages.h"
 #include "ros/topics.h"
 
 namespace angen::node {
 namespace {
 
 template <class T>
-ImageArray<T> grid(std::uint32_t height, std::uint32_t width, std::uint32_t channels,
-                   std::vector<T> values) {
+ImageArray<T> image_of(std::uint32_t height, std::uint32_t width, std::uint32_t channels,
+                       std::vector<T> values) {
   return {height, width, channels, std::make_shared<const std::vector<T>>(std::move(values))};
 }
 
@@ -43,7 +47,7 @@ TEST(Vision, AMissIsInfiniteInALaserScan) {
   reading.set("range_min", 0.2);
   reading.set("range_max", 8.0);
   sensor_msgs::LaserScan scan;
-  fill(reading, {}, scan);
+  fill("lidar", reading, {}, scan);
   ASSERT_EQ(scan.ranges.size(), 2U);
   EXPECT_EQ(scan.ranges[0], 1.5F);
   EXPECT_EQ(scan.ranges[1], std::numeric_limits<float>::infinity());
@@ -57,9 +61,9 @@ TEST(Vision, AMissIsInfiniteInALaserScan) {
 
 TEST(Vision, AnImageIsRgb8RowByRow) {
   Reading reading = lens();
-  reading.set("image", grid<std::uint8_t>(1, 2, 3, {1, 2, 3, 4, 5, 6}));
+  reading.set("image", image_of<std::uint8_t>(1, 2, 3, {1, 2, 3, 4, 5, 6}));
   sensor_msgs::Image image;
-  fill(reading, {}, image);
+  fill("camera", reading, {}, image);
   EXPECT_EQ(image.encoding, "rgb8");
   EXPECT_EQ(image.height, 1U);
   EXPECT_EQ(image.width, 2U);
@@ -69,9 +73,9 @@ TEST(Vision, AnImageIsRgb8RowByRow) {
 
 TEST(Vision, DepthIs32FC1) {
   Reading reading = lens();
-  reading.set("depth", grid<float>(2, 1, 1, {1.5F, 2.5F}));
+  reading.set("depth", image_of<float>(2, 1, 1, {1.5F, 2.5F}));
   sensor_msgs::Image image;
-  fill(reading, {}, image);
+  fill("camera", reading, {}, image);
   EXPECT_EQ(image.encoding, "32FC1");
   EXPECT_EQ(image.step, 4U);
   EXPECT_EQ(number_at(image.data, 4), 2.5F);
@@ -79,7 +83,7 @@ TEST(Vision, DepthIs32FC1) {
 
 TEST(Vision, CameraInfoIsThePinhole) {
   sensor_msgs::CameraInfo info;
-  fill(lens(), {}, info);
+  fill("camera", lens(), {}, info);
   EXPECT_EQ(info.width, 3U);
   EXPECT_EQ(info.height, 2U);
   EXPECT_EQ(info.K[0], 2.0);
@@ -93,9 +97,9 @@ TEST(Vision, CameraInfoIsThePinhole) {
 
 TEST(Vision, APointLiesWhereItsPixelLooks) {
   Reading reading = lens();
-  reading.set("depth", grid<float>(2, 3, 1, {4, 4, 4, 4, 4, std::nanf("")}));
+  reading.set("depth", image_of<float>(2, 3, 1, {4, 4, 4, 4, 4, std::nanf("")}));
   sensor_msgs::PointCloud2 cloud;
-  fill(reading, {}, cloud);
+  fill("depth", reading, {}, cloud);
   ASSERT_EQ(cloud.data.size(), 6U * 12U);
   EXPECT_EQ(cloud.row_step, 36U);
   // Lower left pixel (0, 1): left of the axis by 1 pixel, below it by half of one.

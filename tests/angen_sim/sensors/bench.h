@@ -46,7 +46,8 @@ class Bench {
                  const Element& sensor = element("sensor"), FakeWorld filled = {})
       : world(std::move(filled)), params_(plugin, &sensor) {
     static Catalog catalog;
-    sensor_ = catalog.library(library).at(0)->make_sensor();
+    plugin_ = catalog.library(library).at(0);
+    sensor_ = plugin_->make_sensor();
     sensor_->configure(params_, world);
     params_.finish();
   }
@@ -55,7 +56,7 @@ class Bench {
     return scene.add(shape, pose, rays::Mobility::kMoving, Eigen::Vector3f::Constant(0.7F));
   }
 
-  /// Looks once at world.now, then lets `period` pass.
+  /// Samples once at world.now, then lets `period` pass.
   Reading look(Nanoseconds period = 100'000'000) {
     scene.commit();
     if (!own_warmth) world.warm = scene.warm_shapes();
@@ -68,12 +69,16 @@ class Bench {
     Rng rng(seed, hash_bytes("sensor"), world.now / world.dt);
     Reading reading;
     sensor_->read(world, {hits.data(), hits.size()}, rng, reading);
+    if (!params_.all_noise().empty()) {
+      const Rng draws(seed, hash_bytes("sensor"), world.now / world.dt);
+      reading = with_noise(params_.all_noise(), reading, draws);
+    }
     world.now += period;
     rays_cast = std::move(batch);
     return reading;
   }
 
-  const Sensor& sensor() const { return *sensor_; }
+  const Kind& kind() const { return plugin_->kind(); }
 
   FakeWorld world;
   rays::Scene scene;
@@ -84,6 +89,7 @@ class Bench {
 
  private:
   Params params_;
+  std::shared_ptr<const Plugin> plugin_;
   std::unique_ptr<Sensor> sensor_;
 };
 

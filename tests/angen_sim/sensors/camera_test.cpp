@@ -61,8 +61,8 @@ TEST(Camera, DepthIsAGridOfOneChannel) {
 TEST(Camera, LooksOnDemandThirtyTimesASecond) {
   for (const char* library : {kCamera, kDepth}) {
     const Bench bench(library);
-    EXPECT_TRUE(bench.sensor().on_demand());
-    EXPECT_EQ(bench.sensor().default_rate(), 30.0);
+    EXPECT_TRUE(bench.kind().is_on_demand);
+    EXPECT_EQ(bench.kind().rate, 30.0);
   }
 }
 

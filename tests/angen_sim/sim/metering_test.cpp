@@ -28,8 +28,10 @@ class Heavy : public Sensor {
 
 class HeavyPlugin : public Plugin {
  public:
-  std::string kind() const override { return "heavy"; }
-  std::string doc() const override { return ""; }
+  const Kind& kind() const override {
+    static const Kind kind("heavy", "");
+    return kind;
+  }
   std::unique_ptr<Sensor> make_sensor() const override { return std::make_unique<Heavy>(); }
 };
 

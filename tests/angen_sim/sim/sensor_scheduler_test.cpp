@@ -17,17 +17,17 @@ Schedule schedule(Nanoseconds start, Nanoseconds sample, Nanoseconds publish) {
 
 using Sensors = std::vector<std::uint32_t>;
 
-TEST(SensorScheduler, GroupsThoseWhoseLooksFallOnTheSameTicks) {
+TEST(SensorScheduler, GroupsSensorsWhoseSamplesFallOnTheSameTicks) {
   SensorScheduler scheduler;
   scheduler.assign({schedule(0, 100 * kMs, 100 * kMs), schedule(0, 10 * kMs, 100 * kMs),
                     schedule(300 * kMs, 100 * kMs, 100 * kMs),
                     schedule(350 * kMs, 100 * kMs, 100 * kMs), schedule(0, 100 * kMs, 200 * kMs)},
                    400 * kMs);
   ASSERT_EQ(scheduler.groups().size(), 4U);
-  EXPECT_EQ(scheduler.groups()[0].awake, (Sensors{0, 2}));
-  EXPECT_EQ(scheduler.groups()[1].awake, (Sensors{1}));
-  EXPECT_EQ(scheduler.groups()[2].awake, (Sensors{3}));
-  EXPECT_EQ(scheduler.groups()[3].awake, (Sensors{4}));
+  EXPECT_EQ(scheduler.groups()[0].active, (Sensors{0, 2}));
+  EXPECT_EQ(scheduler.groups()[1].active, (Sensors{1}));
+  EXPECT_EQ(scheduler.groups()[2].active, (Sensors{3}));
+  EXPECT_EQ(scheduler.groups()[3].active, (Sensors{4}));
   EXPECT_EQ(scheduler.collect(409 * kMs), Sensors{});
   EXPECT_EQ(scheduler.collect(410 * kMs), Sensors{1});
   EXPECT_EQ(scheduler.collect(411 * kMs), Sensors{});
@@ -41,22 +41,22 @@ TEST(SensorScheduler, GroupsThoseWhoseLooksFallOnTheSameTicks) {
   EXPECT_EQ(scheduler.collect(1010 * kMs), Sensors{1});
 }
 
-TEST(SensorScheduler, CalmSensorsWaitApartUntilTheyAreRoused) {
+TEST(SensorScheduler, IdleSensorsAreListedApartUntilTheyAreActivated) {
   SensorScheduler scheduler;
   scheduler.assign(std::vector<Schedule>(5, schedule(0, kMs, kMs)), 0);
   SensorScheduler::Group& group = scheduler.group(0);
-  for (const std::uint32_t sensor : {3U, 1U}) scheduler.calm(sensor);
-  EXPECT_TRUE(scheduler.is_calm(1));
-  EXPECT_EQ(group.awake.size(), 5U);  // until the shift
-  scheduler.shift(group);
-  EXPECT_EQ(group.awake, (Sensors{0, 2, 4}));
-  EXPECT_EQ(group.calm, (Sensors{1, 3}));
-  scheduler.rouse(3);
-  scheduler.calm(0);
-  scheduler.shift(group);
-  EXPECT_EQ(group.awake, (Sensors{2, 3, 4}));
-  EXPECT_EQ(group.calm, (Sensors{0, 1}));
-  EXPECT_FALSE(scheduler.is_calm(3));
+  for (const std::uint32_t sensor : {3U, 1U}) scheduler.make_idle(sensor);
+  EXPECT_TRUE(scheduler.is_idle(1));
+  EXPECT_EQ(group.active.size(), 5U);  // until the update
+  scheduler.update_lists(group);
+  EXPECT_EQ(group.active, (Sensors{0, 2, 4}));
+  EXPECT_EQ(group.idle, (Sensors{1, 3}));
+  scheduler.activate(3);
+  scheduler.make_idle(0);
+  scheduler.update_lists(group);
+  EXPECT_EQ(group.active, (Sensors{2, 3, 4}));
+  EXPECT_EQ(group.idle, (Sensors{0, 1}));
+  EXPECT_FALSE(scheduler.is_idle(3));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// What a sensor that rests and casts few rays reads, against one that looks every time with all.
+// What a sensor that skips samples and casts few rays reads, against one that samples at each due
+// time with all its rays.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -45,13 +46,12 @@ class Forgetful : public View {
   const View& view_;
 };
 
-/// Takes away what a sensor says of its ray sets and its rest: it aims and reads at each due time.
+/// Hides a sensor's ray sets and whether it is steady: it aims and reads at each due time.
 class Restless : public Sensor {
  public:
   explicit Restless(std::unique_ptr<Sensor> sensor) : sensor_(std::move(sensor)) {}
   void configure(Params& params, Wiring& wiring) override { sensor_->configure(params, wiring); }
   Nanoseconds sample_period() const override { return sensor_->sample_period(); }
-  double default_rate() const override { return sensor_->default_rate(); }
   void aim(const View& view, RayBatch& rays) override {
     sensor_->ray_set(view);
     sensor_->aim(view, rays);
@@ -67,8 +67,7 @@ class Restless : public Sensor {
 class RestlessPlugin : public Plugin {
  public:
   explicit RestlessPlugin(std::shared_ptr<const Plugin> plugin) : plugin_(std::move(plugin)) {}
-  std::string kind() const override { return plugin_->kind(); }
-  std::string doc() const override { return plugin_->doc(); }
+  const Kind& kind() const override { return plugin_->kind(); }
   std::unique_ptr<Sensor> make_sensor() const override {
     return std::make_unique<Restless>(plugin_->make_sensor());
   }
@@ -260,7 +259,7 @@ class TwoPlaces : public Sensor {
     reading.set("beyond", view.illuminance(probes_[0], beyond).illuminance);
     reading.set("here", view.illuminance(probes_[1], view.pose()).illuminance);
   }
-  Rest rest() const override { return Rest::kSame; }
+  bool steady() const override { return true; }
 
  private:
   light::Probe probes_[2];
@@ -268,8 +267,10 @@ class TwoPlaces : public Sensor {
 
 class TwoPlacesPlugin : public Plugin {
  public:
-  std::string kind() const override { return "two_places"; }
-  std::string doc() const override { return "Light at two places."; }
+  const Kind& kind() const override {
+    static const Kind kind("two_places", "Light at two places.");
+    return kind;
+  }
   std::unique_ptr<Sensor> make_sensor() const override { return std::make_unique<TwoPlaces>(); }
 };
 

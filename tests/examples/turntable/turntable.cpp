@@ -2,7 +2,7 @@
 
 namespace {
 
-/// Turns a plate at a given speed: `Start`, `Stop`, or the speed in rad/s as a value.
+/// Turns a plate at a given speed.
 class Turntable : public angen::Device {
  public:
   void configure(angen::Params& params, angen::Wiring& wiring) override {
@@ -12,23 +12,17 @@ class Turntable : public angen::Device {
   }
 
   angen::Verdict command(const angen::Command& command, const angen::View&) override {
-    if (!command.values.empty()) {
-      target_ = command.values[0];
-    } else if (command.text == "Start") {
-      target_ = speed_;
-    } else if (command.text == "Stop") {
-      target_ = 0.0;
-    } else {
-      return angen::Verdict::reject("a turntable takes Start, Stop or a speed in rad/s");
-    }
-    return angen::Verdict::accept();
+    double target = command.number;  // of Turn
+    if (command.verb == "Start") target = speed_;
+    if (command.verb == "Stop") target = 0.0;
+    return angen::Verdict::accept([this, target] { target_ = target; });
   }
 
   void update(const angen::View&, angen::Outputs& outputs) override {
-    if (target_ == told_) return;
+    if (target_ == current_) return;
     outputs.motor(spindle_, target_, torque_);
     outputs.event(target_ == 0.0 ? "stopped" : "started", "");
-    told_ = target_;
+    current_ = target_;
   }
 
   void report(const angen::View&, angen::Reading& state) const override {
@@ -40,16 +34,23 @@ class Turntable : public angen::Device {
   double speed_ = 0.0;
   double torque_ = 0.0;
   double target_ = 0.0;
-  double told_ = 0.0;
+  double current_ = 0.0;
   angen::JointRef spindle_;
 };
 
 /// Every model with a revolute joint named `spindle` has one.
 class TurntablePlugin : public angen::Plugin {
  public:
-  std::string kind() const override { return "turntable"; }
-  std::string doc() const override {
-    return "A plate that turns: Start, Stop, or a speed in rad/s.";
+  const angen::Kind& kind() const override {
+    static const angen::Kind kind =
+        angen::Kind("turntable", "A plate that turns.")
+            .verb("Start", "turns at its speed")
+            .verb("Stop", "stands still")
+            .verb("Turn", "radians per second", "rad/s", {}, "turns at this speed")
+            .flag("running", "whether it turns")
+            .shown_as("turning", "still")
+            .number("target", "rad/s", "its speed");
+    return kind;
   }
   bool serves(const angen::ModelInfo& model) const override {
     const angen::ModelInfo::Joint* spindle = model.joint("spindle");

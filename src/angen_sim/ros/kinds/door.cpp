@@ -1,0 +1,21 @@
+#include <angen_msgs/DoorState.h>
+
+#include "ros/kinds/states.h"
+#include "ros/ros_kind.h"
+
+namespace angen::node {
+namespace {
+
+void fill(const Reading& state, const Label& label, angen_msgs::DoorState& message) {
+  message.name = label.name;
+  message.mode = constant_of(state, "mode");
+  message.position = state.get<double>("position");
+  message.velocity = state.get<double>("velocity");
+  message.target = state.get<double>("target");
+}
+
+ANGEN_REGISTER_ROS_KIND({"door", "window", "cabinet"},
+                        RosKindBuilder().message<angen_msgs::DoorState>(&fill));
+
+}  // namespace
+}  // namespace angen::node

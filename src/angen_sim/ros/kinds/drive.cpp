@@ -1,0 +1,28 @@
+#include <nav_msgs/Odometry.h>
+
+#include <array>
+
+#include "ros/convert.h"
+#include "ros/kinds/states.h"
+#include "ros/ros_kind.h"
+
+namespace angen::node {
+namespace {
+
+/// child_frame_id is label.name here.
+void fill(const Reading& state, const Label& label, nav_msgs::Odometry& message) {
+  message.child_frame_id = label.name;
+  message.pose.pose = to_ros(odometry_pose(state));
+  message.twist.twist.linear.x = state.get<double>("v");
+  message.twist.twist.angular.z = state.get<double>("w");
+  // Variances of what wheels cannot tell (z, roll, pitch) are large, of the rest small.
+  constexpr std::array<double, 6> kVariances{1e-4, 1e-4, 1e6, 1e6, 1e6, 1e-3};
+  for (std::size_t i = 0; i < kVariances.size(); ++i) {
+    message.pose.covariance[i * 7] = message.twist.covariance[i * 7] = kVariances[i];
+  }
+}
+
+ANGEN_REGISTER_ROS_KIND({"drive"}, RosKindBuilder().message<nav_msgs::Odometry>(&fill));
+
+}  // namespace
+}  // namespace angen::node

@@ -1,0 +1,18 @@
+#include <angen_msgs/LampState.h>
+
+#include "ros/ros_kind.h"
+
+namespace angen::node {
+namespace {
+
+void fill(const Reading& state, const Label& label, angen_msgs::LampState& message) {
+  message.name = label.name;
+  message.on = state.get<bool>("on");
+  message.level = state.get<double>("level");
+  message.luminous_flux = state.get<double>("luminous_flux");
+}
+
+ANGEN_REGISTER_ROS_KIND({"lamp"}, RosKindBuilder().message<angen_msgs::LampState>(&fill));
+
+}  // namespace
+}  // namespace angen::node

@@ -1,0 +1,20 @@
+#include <angen_msgs/PersonState.h>
+
+#include "ros/convert.h"
+#include "ros/kinds/states.h"
+#include "ros/ros_kind.h"
+
+namespace angen::node {
+namespace {
+
+void fill(const Reading& state, const Label& label, angen_msgs::PersonState& message) {
+  message.name = label.name;
+  message.mode = constant_of(state, "mode");
+  message.pose = to_ros(flat_pose(state, state.get<double>("z")));
+  message.speed = state.get<double>("speed");
+}
+
+ANGEN_REGISTER_ROS_KIND({"person"}, RosKindBuilder().message<angen_msgs::PersonState>(&fill));
+
+}  // namespace
+}  // namespace angen::node

@@ -1,0 +1,27 @@
+#include <sensor_msgs/Range.h>
+
+#include "ros/marker_shapes.h"
+#include "ros/ros_kind.h"
+
+namespace angen::node {
+namespace {
+
+/// Infinite where nothing is in reach (REP 117).
+void fill(const Reading& reading, const Label&, sensor_msgs::Range& message) {
+  const auto number = [&](const char* name) {
+    return static_cast<float>(reading.get<double>(name));
+  };
+  message.radiation_type =
+      reading.get<bool>("infrared") ? sensor_msgs::Range::INFRARED : sensor_msgs::Range::ULTRASOUND;
+  message.field_of_view = number("field_of_view");
+  message.min_range = number("min_range");
+  message.max_range = number("max_range");
+  message.range = number("range");
+}
+
+ANGEN_REGISTER_ROS_KIND({"proximity"}, RosKindBuilder().message<sensor_msgs::Range>(&fill).rays(
+                                           "proximity cones", color(0.1F, 0.5F, 0.9F, 0.45F),
+                                           color(0.9F, 0.5F, 0.1F, 0.8F)));
+
+}  // namespace
+}  // namespace angen::node

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <std_msgs/ColorRGBA.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ros/channel.h"
+
+/// What ROS knows of a kind of sensor or device: its messages, and how rviz shows it. Each kind has
+/// one file in ros/kinds/; a plug-in library libX.so brings its own in libX_ros.so beside it.
+namespace angen::node {
+
+/// The message that readings or states of one kind become.
+struct Format {
+  using Open = std::function<std::unique_ptr<Channel>(ros::NodeHandle&, const std::string& topic)>;
+
+  std::string type;  // angen_msgs/PirMsg
+  /// Of a kind with several messages: the end of the topic, and the parameter that changes it.
+  std::string leaf;
+  std::string leaf_parameter;
+  Open open;               // a message for each reading; throws what roscpp throws
+  Open latched;            // the same for states, the last of them latched
+  std::string array_type;  // angen_msgs/PirArray, or empty: there is none
+  Open array;              // one message for all readings between two flushes
+  /// Fills in a message of that type: for tests, and for what is no topic.
+  std::function<void(const Reading&, const Label&, void* message)> fill;
+};
+
+/// How rviz shows a sensor's rays, which its field `ranges` has.
+struct RayStyle {
+  std::string group;  // rviz namespace
+  std_msgs::ColorRGBA idle;
+  std_msgs::ColorRGBA alarm;  // while an alarm of its kind is yes
+};
+
+struct RosKind {
+  std::vector<Format> formats;   // the first is the one to name; at least one
+  std::optional<RayStyle> rays;  // none: rviz shows no rays
+  bool caption = false;          // rviz shows its summary over it
+};
+
+/// Builds a RosKind: `message` for each message, then what rviz shows.
+class RosKindBuilder {
+ public:
+  template <class Message>
+  RosKindBuilder& message(Fill<Message> fill, std::string leaf = "",
+                          std::string leaf_parameter = "") {
+    Format format;
+    format.type = ros::message_traits::datatype<Message>();
+    format.leaf = std::move(leaf);
+    format.leaf_parameter = std::move(leaf_parameter);
+    format.open = opener<EachChannel<Message>>(fill);
+    format.latched = opener<LatchedChannel<Message>>(fill);
+    format.fill = [fill](const Reading& reading, const Label& label, void* made) {
+      fill(reading, label, *static_cast<Message*>(made));
+    };
+    kind_.formats.push_back(std::move(format));
+    return *this;
+  }
+
+  /// The same for a kind of which there may be thousands: with topics:=kind they share a topic.
+  template <class Message, class Array>
+  RosKindBuilder& message_with_array(Fill<Message> fill) {
+    message<Message>(fill);
+    kind_.formats.back().array_type = ros::message_traits::datatype<Array>();
+    kind_.formats.back().array = opener<BatchChannel<Array, Message>>(fill);
+    return *this;
+  }
+
+  RosKindBuilder& rays(std::string group, std_msgs::ColorRGBA idle, std_msgs::ColorRGBA alarm) {
+    kind_.rays = RayStyle{std::move(group), idle, alarm};
+    return *this;
+  }
+  RosKindBuilder& caption() {
+    kind_.caption = true;
+    return *this;
+  }
+
+  RosKind done() { return std::move(kind_); }
+
+ private:
+  template <class Kind, class Message>
+  static Format::Open opener(Fill<Message> fill) {
+    return [fill](ros::NodeHandle& node, const std::string& topic) {
+      return std::make_unique<Kind>(node, topic, fill);
+    };
+  }
+
+  RosKind kind_;
+};
+
+/// A static object of this type, in the library that knows the messages, registers kinds.
+struct RosKindRegistration {
+  RosKindRegistration(const std::vector<std::string>& kinds, RosKindBuilder& builder);
+};
+
+#define ANGEN_REGISTER_ROS_KIND(...)                                                          \
+  [[maybe_unused]] static const angen::node::RosKindRegistration angen_ros_kind_registration( \
+      __VA_ARGS__)
+
+/// What is registered for a kind; angen_msgs/Reading for one that nobody registered. `library` is
+/// the plug-in's, as its SDF names it: libX_ros.so beside it is loaded where there is one. Any
+/// thread; what it returns lives as long as the process.
+const RosKind& ros_kind(const std::string& kind, const std::string& library = "");
+
+}  // namespace angen::node
