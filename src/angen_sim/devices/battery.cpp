@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/text.h"
 #include "devices/refresh.h"
 #include "devices/words.h"
 #include "plugin/register.h"
@@ -26,7 +27,7 @@ class Battery : public Device {
   Verdict command(const Command& command, const View&) override {
     const std::vector<std::string> words = words_of(command.text);
     const std::optional<double> level =
-        words.size() == 2 && words[0] == "charge" ? number_of(words[1]) : std::nullopt;
+        words.size() == 2 && words[0] == "charge" ? parse_finite(words[1]) : std::nullopt;
     if (!level || *level < 0.0 || *level > 100.0) {
       return Verdict::reject("a battery knows Charge <0 to 100 percent>, not '" + command.text +
                              "'");

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/text.h"
 #include "devices/refresh.h"
 #include "devices/room_air.h"
 #include "devices/words.h"
@@ -58,7 +59,7 @@ class Climate : public Device {
   Verdict command(const Command& command, const View&) override {
     const std::vector<std::string> words = words_of(command.text);
     const std::optional<double> value =
-        words.size() == 2 && words[0] == "outside" ? number_of(words[1]) : std::nullopt;
+        words.size() == 2 && words[0] == "outside" ? parse_finite(words[1]) : std::nullopt;
     if (!value || *value < kCelsius.min || *value > kCelsius.max) {
       return Verdict::reject("a climate knows Outside <-60 to 60 degrees Celsius>, not '" +
                              command.text + "'");

@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "core/names.h"
+#include "core/text.h"
+#include "devices/storeys.h"
 #include "devices/words.h"
 #include "plugin/register.h"
 
@@ -36,7 +37,7 @@ class Daylight : public Device {
     if (words.size() != 2 || words[0] != "set") {
       return Verdict::reject("daylight knows Set <lx outdoors>, not '" + command.text + "'");
     }
-    const std::optional<double> lux = number_of(words[1]);
+    const std::optional<double> lux = parse_finite(words[1]);
     if (!lux || *lux < 0.0 || *lux > kBrightest) {
       return Verdict::reject("'" + words[1] + "' is no daylight; Set takes 0 to 100000 lx");
     }

@@ -5,7 +5,8 @@
 #include <sstream>
 #include <utility>
 
-#include "core/names.h"
+#include "core/text.h"
+#include "devices/storeys.h"
 #include "devices/words.h"
 #include "plugin/register.h"
 
@@ -93,7 +94,7 @@ Verdict Door::command(const Command& command, const View& view) {
   if (words.size() == 1 && words[0] == "open") return accept(open_position_);
   if (words.size() == 1 && words[0] == "close") return accept(closed_position_);
   if (words.size() == 2 && words[0] == "set") {
-    const std::optional<double> angle = number_of(words[1]);
+    const std::optional<double> angle = parse_finite(words[1]);
     if (!angle) return Verdict::reject("'" + words[1] + "' is no angle; Set takes radians");
     if (*angle < limits_.lower || *angle > limits_.upper) {
       return Verdict::reject("the angle " + words[1] + " is outside the hinge's " +

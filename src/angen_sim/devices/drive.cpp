@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/text.h"
 #include "devices/words.h"
 #include "plugin/register.h"
 
@@ -43,7 +44,7 @@ Verdict Drive::command(const Command& command, const View& view) {
     const std::vector<std::string> words = words_of(command.text);
     if (words.size() == 1 && words[0] == "stop") values = {0.0, 0.0};
     for (std::size_t i = 0; words.size() == 2 && i < 2; ++i) {
-      if (const std::optional<double> value = number_of(words[i])) values.push_back(*value);
+      if (const std::optional<double> value = parse_finite(words[i])) values.push_back(*value);
     }
   }
   if (values.size() != 2 || !std::isfinite(values[0]) || !std::isfinite(values[1])) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/names.h"
+#include "devices/storeys.h"
 #include "devices/doorway.h"
 #include "devices/refresh.h"
 #include "devices/servo.h"

@@ -1,5 +1,6 @@
 #include <optional>
 
+#include "core/text.h"
 #include "devices/words.h"
 #include "plugin/register.h"
 
@@ -19,7 +20,7 @@ class Heater : public Device {
     std::optional<double> level;
     if (words.size() == 1 && words[0] == "on") level = 100.0;
     if (words.size() == 1 && words[0] == "off") level = 0.0;
-    if (words.size() == 2 && words[0] == "set") level = number_of(words[1]);
+    if (words.size() == 2 && words[0] == "set") level = parse_finite(words[1]);
     if (!level || *level < 0.0 || *level > 100.0) {
       return Verdict::reject("a heater knows On, Off and Set <0 to 100 percent>, not '" +
                              command.text + "'");

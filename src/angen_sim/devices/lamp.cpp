@@ -3,7 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/names.h"
+#include "core/text.h"
+#include "devices/storeys.h"
 #include "devices/words.h"
 #include "plugin/register.h"
 
@@ -34,7 +35,7 @@ Verdict Lamp::command(const Command& command, const View&) {
   if (words.size() == 1 && words[0] == "on") return accept(100.0);
   if (words.size() == 1 && words[0] == "off") return accept(0.0);
   if (words.size() == 2 && words[0] == "dim") {
-    const std::optional<double> level = number_of(words[1]);
+    const std::optional<double> level = parse_finite(words[1]);
     if (!level || *level < 0.0 || *level > 100.0) {
       return Verdict::reject("'" + words[1] + "' is no level; Dim takes 0 to 100 percent");
     }

@@ -1,8 +1,6 @@
 #include "devices/words.h"
 
 #include <cctype>
-#include <charconv>
-#include <cmath>
 
 namespace angen::devices {
 
@@ -17,16 +15,6 @@ std::vector<std::string> words_of(const std::string& text) {
     inside = !separates;
   }
   return words;
-}
-
-std::optional<double> number_of(const std::string& word) {
-  const char* begin = word.data();
-  const char* end = begin + word.size();
-  if (word.size() > 1 && word[0] == '+' && word[1] != '-') ++begin;
-  double value = 0.0;
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  if (error != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
-  return value;
 }
 
 }  // namespace angen::devices

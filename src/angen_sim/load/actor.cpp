@@ -1,5 +1,7 @@
 #include <cmath>
 
+#include "core/names.h"
+#include "core/text.h"
 #include "load/check.h"
 #include "load/describe.h"
 #include "load/values.h"

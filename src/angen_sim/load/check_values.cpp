@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/text.h"
 #include "load/check.h"
 #include "load/values.h"
 #include "load/xml.h"

@@ -1,3 +1,4 @@
+#include "core/text.h"
 #include "load/describe.h"
 #include "load/material.h"
 #include "load/values.h"

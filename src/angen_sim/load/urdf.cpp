@@ -32,7 +32,7 @@ void check_numbers(const Element& element) {
     const Numbers found = numbers_in(value);
     if (!found.bad.empty()) {
       throw Error(element.source, "<" + element.name + " " + key + "> holds '" + found.bad +
-                                      "', which is no number");
+                                      "', which is not a number");
     }
   }
   for (const Element& child : element.children) check_numbers(child);

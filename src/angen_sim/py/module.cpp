@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/names.h"
 #include "py/subclass.h"
 #include "py/world.h"
 
@@ -207,6 +208,16 @@ class Device:
             module.attr("__dict__"));
 }
 
+void bind_names(pyb::module_& module) {
+  module.def(
+      "check_name",
+      [](const std::string& name) {
+        check_name(name);
+        return name;
+      },
+      pyb::arg("name"), "The name, if a model, sensor or device can have it; else Error says why.");
+}
+
 void bind_catalog(pyb::module_& module) {
   module.def(
       "register",
@@ -246,6 +257,7 @@ PYBIND11_MODULE(angen, module) {
   bind_bases(module);
   bind_world(module);
   bind_catalog(module);
+  bind_names(module);
 }
 
 }  // namespace angen::py

@@ -8,7 +8,7 @@
 #include <chrono>
 
 #include "ros/convert.h"
-#include "ros/text.h"
+#include "core/text.h"
 
 namespace angen::node {
 namespace {

@@ -6,23 +6,14 @@
 #include <exception>
 
 #include "core/diagnostics.h"
+#include "core/names.h"
+#include "core/text.h"
 #include "record/world_file.h"
 #include "ros/convert.h"
 #include "ros/listing.h"
-#include "ros/text.h"
 
 namespace angen::node {
 namespace {
-
-void check_name(const std::string& name) {
-  if (name.empty()) throw Error("the name is empty; give one, as kitchen_pir");
-  if (!valid_utf8(name)) throw Error("the name '" + printable(name) + "' is not UTF-8");
-  const bool plain = printable(name, name.size()) == name && trimmed(name) == name;
-  if (!plain || name.find("::") != std::string::npos || name.find('/') != std::string::npos) {
-    throw Error("the name '" + printable(name) +
-                "' holds what names cannot: '::', '/', control characters or blanks at an end");
-  }
-}
 
 // A message whose quaternion nobody filled means no rotation.
 Pose to_pose(const geometry_msgs::Pose& message) {

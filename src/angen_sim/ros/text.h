@@ -8,15 +8,6 @@
 /// The texts of command topics. `ros` is taken by roscpp, hence `node`.
 namespace angen::node {
 
-bool valid_utf8(const std::string& text);
-
-/// Without blanks at both ends.
-std::string trimmed(const std::string& text);
-
-/// `text` fit for a log line: at most `limit` bytes, bytes that are not printable ASCII or valid
-/// UTF-8 as `?`.
-std::string printable(const std::string& text, std::size_t limit = 80);
-
 /// Each returns what to post: a ToDevice, or a Reject that says why and lists the right forms.
 /// `Open, NAME|all`, `Close, NAME|all`, `Set, NAME|all, RADIANS`; windows and cabinets take the
 /// same. `source` is the controller that a Reject names.
