@@ -38,6 +38,8 @@ class Node {
   std::shared_ptr<const sim::Snapshot> advance();
   void pass(const sim::Snapshot& snapshot);
   void rest(const sim::Snapshot& snapshot);
+  /// Advertises /angen/ready, the last topic: whoever sees it finds all others and every service.
+  void announce();
 
   sim::Simulation& simulation_;
   bool fast_;
@@ -55,6 +57,7 @@ class Node {
   JointStates joints_;
   Commands commands_;
   Services services_;
+  ros::Publisher ready_;
 };
 
 }  // namespace angen::node
