@@ -11,7 +11,8 @@ def test_a_name(name: str) -> None:
     assert angen.check_name(name) == name
 
 
-@pytest.mark.parametrize('name', ['', ' ', 'a::b', 'a/b', ' a', 'a ', 'a\nb', 'world', '__a__', 'n' * 256])
+@pytest.mark.parametrize('name', ['', ' ', 'a::b', 'a/b', ' a', 'a ', 'a\nb', 'world', '__a__',
+                                  'n' * 256])
 def test_what_is_not_a_name(name: str) -> None:
     with pytest.raises(angen.Error, match='the name'):
         angen.check_name(name)

@@ -52,6 +52,8 @@ class Daylight : public Device {
     if (!first) outputs.event("changed", "");
   }
 
+  void save(SavedParams& params) const override { params.number("illuminance", outdoors_); }
+
   void report(const View&, Reading& state) const override {
     state.set("illuminance", outdoors_);
     state.set("luminous_flux", flux_per_lux_ * outdoors_);

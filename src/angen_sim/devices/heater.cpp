@@ -36,6 +36,8 @@ class Heater : public Device {
     told_ = level_;
   }
 
+  void save(SavedParams& params) const override { params.number("level", level_); }
+
   Nanoseconds idle_until(const View&) const override { return kForever; }
 
   void report(const View&, Reading& state) const override {

@@ -149,6 +149,8 @@ desc::Model describe_actor(const Element& actor, Session& session) {
     if (child.name != "plugin") continue;
     const std::string* file = child.attribute("filename");
     if (file == nullptr || *file == "libperson_controller.so") {
+      // Of several, as where an <include> adds one, the last that gives a parameter holds.
+      for (const Element& given : child.children) remove_children(plugin, given.name);
       plugin.children.insert(plugin.children.end(), child.children.begin(), child.children.end());
     } else {
       others.push_back(child);

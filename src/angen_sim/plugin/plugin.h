@@ -10,6 +10,7 @@
 #include "core/random.h"
 #include "plugin/params.h"
 #include "plugin/reading.h"
+#include "plugin/saved_params.h"
 #include "plugin/view.h"
 
 namespace angen {
@@ -44,6 +45,9 @@ class Device {
   virtual Nanoseconds idle_until(const View&) const { return 0; }
   /// Told before update() or command() that so much time (ns) went by without updates.
   virtual void skip(Nanoseconds) {}
+  /// Parameters with which a device that starts where this one is goes on as this one would; the
+  /// others stay as they were given. Poses and joint positions are saved with the model.
+  virtual void save(SavedParams&) const {}
 };
 constexpr Nanoseconds kForever = INT64_MAX;
 

@@ -211,8 +211,8 @@ class Device:
 void bind_names(pyb::module_& module) {
   module.def(
       "check_name",
-      [](const std::string& name) {
-        check_name(name);
+      [](const pyb::str& name) {
+        check_name(name.attr("encode")().cast<std::string>());  // or a UnicodeEncodeError
         return name;
       },
       pyb::arg("name"), "The name, if a model, sensor or device can have it; else Error says why.");

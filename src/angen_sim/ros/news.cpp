@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "ros/convert.h"
 #include "core/text.h"
+#include "ros/convert.h"
 
 namespace angen::node {
 namespace {

@@ -136,9 +136,10 @@ bool Services::list(angen_msgs::List::Request& request, angen_msgs::List::Respon
 
 bool Services::save(angen_msgs::Save::Request&, angen_msgs::Save::Response& response) {
   return answered(response, [&] {
-    const auto snapshot = inbox_.simulation().snapshot();
-    response.xml = record::world_file(inbox_.simulation().world(), *snapshot);
-    return sim::Outcome{};
+    const auto state = std::make_shared<sim::SavedState>();
+    const sim::Outcome outcome = inbox_.ask(sim::Save{state});
+    if (outcome.ok) response.xml = record::world_file(inbox_.simulation().world(), *state);
+    return outcome;
   });
 }
 

@@ -19,7 +19,8 @@ bool starts_escape(const std::string& text, std::size_t at) {
 
 std::string escape(char c) {
   char digits[5];
-  std::snprintf(digits, sizeof digits, "_x%02x", static_cast<unsigned>(static_cast<unsigned char>(c)));
+  std::snprintf(digits, sizeof digits, "_x%02x",
+                static_cast<unsigned>(static_cast<unsigned char>(c)));
   return digits;
 }
 

@@ -58,6 +58,8 @@ DeviceInstance make_device(const desc::Model& model, const ModelInfo& info,
     ModelWiring wiring(model, instance.name, gravity);
     instance.device->configure(params, wiring);
     params.finish();
+    instance.element = described.element;
+    instance.device->save(instance.started_with);
     return instance;
   });
 }

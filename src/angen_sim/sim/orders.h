@@ -23,7 +23,8 @@ class Orders {
   struct Effects {
     bool reset = false;
     bool reset_time = false;
-    bool commanded = false;  // a device was
+    bool commanded = false;                          // a device was
+    std::vector<std::shared_ptr<SavedState>> saves;  // to be filled in
   };
   /// Carries out what waits, in order. Called between ticks.
   Effects obey(Building& building, InstanceView::Clock clock, std::vector<Event>& events);

@@ -27,6 +27,7 @@ struct Simulation::Impl {
 
   void obey() {
     const Orders::Effects effects = orders.obey(building, clock(), next.events);
+    for (const std::shared_ptr<SavedState>& into : effects.saves) *into = saved();
     if (effects.reset) sensing.invalidate();
     if (effects.commanded) acting.rouse_all();
     if (effects.reset_time) {
@@ -36,6 +37,8 @@ struct Simulation::Impl {
     }
     restructure();
   }
+
+  SavedState saved() { return {latest, building.saved_plugins(next.time, next.step)}; }
 
   void pass_over(Nanoseconds until) {
     std::int64_t tick = until / next.step - 1;
@@ -218,6 +221,8 @@ bool Simulation::wanted(const std::string& kind, const std::string& name) const 
 void Simulation::measure(bool on) { impl_->meter.on = on; }
 
 Cost Simulation::take_cost() { return impl_->take_cost(); }
+
+SavedState Simulation::saved() { return impl_->saved(); }
 
 bool Simulation::running() const { return impl_->orders.running(); }
 

@@ -227,9 +227,9 @@ TEST(Names, TopicsAreGraphNames) {
 }
 
 TEST(Names, DifferentNamesHaveDifferentTopics) {
-  const std::vector<std::string> names = {"a_b",  "a.b",    "a b",      "a-b",         "a_x2eb",
-                                          "a_xb", "a_x2Eb", "a_x5fx2eb", "a__x2eb",    "A_b",
-                                          "ä",    "_xc3_xa4", "_x2",    "a_x2e_x2eb", "a_x2e.b"};
+  const std::vector<std::string> names = {"a_b",  "a.b",      "a b",       "a-b",        "a_x2eb",
+                                          "a_xb", "a_x2Eb",   "a_x5fx2eb", "a__x2eb",    "A_b",
+                                          "ä",    "_xc3_xa4", "_x2",       "a_x2e_x2eb", "a_x2e.b"};
   std::set<std::string> topics;
   for (const std::string& name : names) {
     const std::string topic = topic_of("pir", name);
