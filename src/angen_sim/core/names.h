@@ -15,7 +15,7 @@ constexpr std::size_t kMaxNameBytes = 255;
 /// What is wrong with a name, as "the name 'a/b' holds '/'; leave it out"; empty for a valid one.
 std::string name_problem(const std::string& name);
 
-/// Throws Error at `at` unless the name is valid; `what` is what bears it ("<model>").
+/// Throws Error at `at` unless the name is valid; `what` is what has it ("<model>").
 void check_name(const std::string& name, const std::string& what = "", const Source& at = {});
 
 }  // namespace angen

@@ -76,12 +76,12 @@ double given_temperature(const Element& plugin, const std::string& name, double 
               "<" + name + "> is " + number_text(kelvin) + " K; it must be greater than 0");
 }
 
-desc::Visual visual(const std::string& name, double z, Shape shape, const Eigen::Vector4f& colour) {
+desc::Visual visual(const std::string& name, double z, Shape shape, const Eigen::Vector4f& color) {
   desc::Visual v;
   v.name = name;
   v.pose.position.z() = z;
   v.shape = std::move(shape);
-  v.material.diffuse = colour;
+  v.material.diffuse = color;
   return v;
 }
 

@@ -160,8 +160,13 @@ Hush::~Hush() {
 
 Memory::~Memory() { malloc_trim(0); }
 
-std::string Hush::heard() const { return impl_->text.str(); }
+std::string Hush::messages() const { return impl_->text.str(); }
 
+// Why it gets a printed tree and not the file: its Element::LineNumber and FilePath are right for
+// what stands in a file, included files too, but missing for elements that it does not know (all of
+// a plug-in's parameters), for an include's pose and for defaults, and 0 for what an upgrade from
+// an older version moves. Messages with file and line need a tree of our own; see print_xml's
+// lines.
 sdf::Root parse_world(const Element& world, Session& session) {
   Element document;
   document.name = "sdf";

@@ -80,7 +80,7 @@ Element convert_urdf(const std::string& text, const Element& robot) {
   sdf::init(document);
   sdf::Errors errors;
   if (!sdf::readString(text, document, errors) || !errors.empty()) {
-    const std::string why = errors.empty() ? hush.heard() : errors.front().Message();
+    const std::string why = errors.empty() ? hush.messages() : errors.front().Message();
     throw Error(robot.source, "this URDF cannot be converted to SDF: " + why.substr(0, 300));
   }
   Element root = parse_xml(document->Root()->ToString(""), robot.source.file);
