@@ -122,8 +122,7 @@ class Master:
 
         def serves() -> bool:
             assert process.poll() is None, log.read_text()
-            names = {name for name, _ in self.api.getSystemState("/test")[2][2]}
-            return "/angen/save" in names and "/clock" in self.topics()
+            return "/angen/ready" in self.topics()
 
         until(serves, "the node serves")
         return process

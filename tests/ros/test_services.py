@@ -11,7 +11,7 @@ from harness import Angen, Heard, RawText, until
 from geometry_msgs.msg import Pose, Twist
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
-from std_msgs.msg import String
+from std_msgs.msg import Bool, String
 from std_srvs.srv import Empty
 
 PIR = "model://pir"
@@ -160,6 +160,23 @@ def test_list_tells_kinds_topics_and_types(angen: Angen) -> None:
     assert names(angen) == sorted(names(angen))
     assert names(angen, "lamp") == ["kitchen0"]
     assert names(angen, "unicorn") == []
+
+
+def test_ready_says_that_everything_is_there(angen: Angen) -> None:
+    assert angen.wait("/angen/ready", Bool).data
+    services = {name for name, _ in angen.master.api.getSystemState("/test")[2][2]}
+    assert {"/angen/spawn", "/angen/save", "/gazebo/pause_physics"} <= services
+
+
+def test_different_names_have_different_topics(angen: Angen) -> None:
+    for name in ("same.name", "same name", "same_name"):
+        assert angen.call("/angen/spawn", Spawn, name=name, xml=PIR).success
+    entities = angen.call("/angen/list", List, kind="pir").entities
+    topics = {e.topic for e in entities if "same" in e.name}
+    assert topics == {"/angen/pir/same_x2ename", "/angen/pir/same_x20name", "/angen/pir/same_name"}
+    assert topics <= set(angen.master.topics())
+    for name in ("same.name", "same name", "same_name"):
+        assert angen.call("/angen/delete", Delete, name=name).success
 
 
 def test_what_is_saved_can_be_spawned_from(angen: Angen) -> None:

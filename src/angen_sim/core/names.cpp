@@ -1,27 +1,55 @@
 #include "core/names.h"
 
-#include <cctype>
-#include <cmath>
+#include "core/text.h"
 
 namespace angen {
 
-int floor_of(double z) { return static_cast<int>(std::floor((z + 0.5) / kStoreyHeight)); }
+namespace {
 
-std::string command_name(const std::string& model, const std::string& kind, double z) {
-  std::string base = model;
-  while (!base.empty() &&
-         (std::isdigit(static_cast<unsigned char>(base.back())) != 0 || base.back() == '_')) {
-    base.pop_back();
+bool is_reserved(const std::string& name) {
+  return name == "world" || (name.size() >= 4 && name.compare(0, 2, "__") == 0 &&
+                             name.compare(name.size() - 2, 2, "__") == 0);
+}
+
+// ASCII's, and the ones of ISO 8859-1 (U+0080 to U+009F), which are C2 80 to C2 9F in UTF-8.
+bool holds_control_character(const std::string& name) {
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(name[i]);
+    if (byte < 0x20 || byte == 0x7F) return true;
+    if (byte == 0xC2 && i + 1 < name.size() && static_cast<unsigned char>(name[i + 1]) < 0xA0) {
+      return true;
+    }
   }
-  const std::string suffix = "_" + kind;
-  const std::string prefix = kind + "_";
-  if (base.size() > suffix.size() && base.substr(base.size() - suffix.size()) == suffix) {
-    base.resize(base.size() - suffix.size());
-  } else if (base.size() > prefix.size() && base.compare(0, prefix.size(), prefix) == 0) {
-    base.erase(0, prefix.size());
+  return false;
+}
+
+}  // namespace
+
+std::string name_problem(const std::string& name) {
+  if (name.empty()) return "the name is empty; give one, such as kitchen_pir";
+  const std::string named = "the name '" + printable(name) + "' ";
+  if (!valid_utf8(name)) return named + "is not UTF-8";
+  if (name.size() > kMaxNameBytes) {
+    return named + "has " + std::to_string(name.size()) + " bytes; give one of at most " +
+           std::to_string(kMaxNameBytes);
   }
-  if (base.empty()) base = kind;
-  return base + std::to_string(floor_of(z));
+  if (name.find("::") != std::string::npos) {
+    return named + "holds '::', which joins the names of nested models; leave it out";
+  }
+  if (name.find('/') != std::string::npos) {
+    return named + "holds '/', which separates the parts of a topic; leave it out";
+  }
+  if (holds_control_character(name)) return named + "holds a control character; leave it out";
+  if (name.front() == ' ' || name.back() == ' ') {
+    return named + "begins or ends with a blank; leave it out";
+  }
+  if (is_reserved(name)) return named + "is reserved; choose another";
+  return "";
+}
+
+void check_name(const std::string& name, const std::string& what, const Source& at) {
+  const std::string problem = name_problem(name);
+  if (!problem.empty()) throw Error(at, (what.empty() ? "" : what + ": ") + problem);
 }
 
 }  // namespace angen

@@ -2,16 +2,20 @@
 
 #include <string>
 
+#include "core/diagnostics.h"
+
 namespace angen {
 
-/// Height between two floors in metres; floor 0 stands at z = 0.
-constexpr double kStoreyHeight = 4.0;
+/// The rule for the names of models, links, joints, sensors, lights, actors and devices, wherever
+/// they come from: 1 to 255 bytes of UTF-8 with no "::" (which joins the names of nested models),
+/// no '/' (which separates the parts of a topic), no control characters and no blank at an end;
+/// "world" and "__…__" are reserved. Blanks inside are allowed.
+constexpr std::size_t kMaxNameBytes = 255;
 
-/// floor((z + 0.5) / 4): the storey a model belongs to by its origin's z in metres.
-int floor_of(double z);
+/// What is wrong with a name, as "the name 'a/b' holds '/'; leave it out"; empty for a valid one.
+std::string name_problem(const std::string& name);
 
-/// The name that commands use: trailing digits and '_' off, the kind's own suffix or prefix off
-/// (`_door`, `door_`), the floor on. command_name("bathroom_door1", "door", 4.0) is "bathroom1".
-std::string command_name(const std::string& model, const std::string& kind, double z);
+/// Throws Error at `at` unless the name is valid; `what` is what has it ("<model>").
+void check_name(const std::string& name, const std::string& what = "", const Source& at = {});
 
 }  // namespace angen

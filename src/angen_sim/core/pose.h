@@ -9,7 +9,7 @@ namespace angen {
 using Vec3 = Eigen::Vector3d;
 using Quat = Eigen::Quaterniond;
 
-/// A rigid transform: position in metres, unit quaternion. `a * b` is b's frame seen from a's
+/// A rigid transform: position in meters, unit quaternion. `a * b` is b's frame seen from a's
 /// parent.
 struct Pose {
   Vec3 position = Vec3::Zero();

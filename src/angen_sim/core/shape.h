@@ -10,13 +10,13 @@
 
 namespace angen {
 
-/// Triangles in the shape's own frame, metres, already scaled. Counter-clockwise seen from outside.
+/// Triangles in the shape's own frame, meters, already scaled. Counter-clockwise seen from outside.
 struct TriangleMesh {
   std::vector<Eigen::Vector3f> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// A solid in its own frame, centred on the origin; a plane passes through it with normal z.
+/// A solid in its own frame, centered on the origin; a plane passes through it with normal z.
 struct Shape {
   enum class Type { kEmpty, kBox, kSphere, kCylinder, kCapsule, kPlane, kMesh };
 

@@ -48,8 +48,8 @@ struct Visual {
 
 struct Inertial {
   double mass = 1.0;                                     // kg
-  Pose pose;                                             // centre of mass in the link's frame
-  Eigen::Matrix3d moment = Eigen::Matrix3d::Identity();  // kg m^2 about the centre, in pose's axes
+  Pose pose;                                             // center of mass in the link's frame
+  Eigen::Matrix3d moment = Eigen::Matrix3d::Identity();  // kg m^2 about the center, in pose's axes
 };
 
 struct Light {

@@ -46,6 +46,10 @@ class Battery : public Device {
   // What it gives goes on while all else rests.
   Nanoseconds idle_until(const View& view) const override { return due_.next(view.time()); }
 
+  void save(SavedParams& params) const override {
+    params.number("level", std::clamp(100.0 * energy_ / full(), 0.0, 100.0));
+  }
+
   void report(const View&, Reading& state) const override {
     state.set("voltage", voltage_);
     state.set("capacity", capacity_);

@@ -52,6 +52,23 @@ class Climate : public Device {
     }
     if (rooms_.empty()) throw params.error("room", "a climate needs a <room> at least");
     air_ = RoomAir(settings, std::move(volumes), inside);
+    const auto airs = params.rows("air", 2, "degC %",
+                                  "temperature and humidity at the start, of each room in its "
+                                  "order; of all as above unless given");
+    if (!airs.empty() && airs.size() != rooms_.size()) {
+      throw params.error("air", "there are " + std::to_string(airs.size()) + " <air> and " +
+                                    std::to_string(rooms_.size()) +
+                                    " <room>; give one for each room, or none");
+    }
+    for (std::size_t i = 0; i < airs.size(); ++i) {
+      const double temperature = airs[i][0];
+      const double humidity = airs[i][1];
+      if (!(temperature >= kCelsius.min && temperature <= kCelsius.max && humidity >= 0.0 &&
+            humidity <= 100.0)) {
+        throw params.error("air", "an <air> is outside -60 to 60 degrees Celsius or 0 to 100 %");
+      }
+      air_.fill(i, {temperature, moisture_of(temperature, humidity)});
+    }
   }
 
   Verdict command(const Command& command, const View&) override {
@@ -79,6 +96,11 @@ class Climate : public Device {
   }
 
   Nanoseconds idle_until(const View& view) const override { return due_.next(view.time()); }
+
+  void save(SavedParams& params) const override {
+    params.number("outside_temperature", outside_.temperature);
+    for (const Air& air : air_.rooms()) params.row("air", {air.temperature, humidity_of(air)});
+  }
 
   void report(const View&, Reading& state) const override {
     std::vector<double> boxes;

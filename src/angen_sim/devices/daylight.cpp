@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/names.h"
+#include "devices/storeys.h"
 #include "plugin/register.h"
 
 namespace angen::devices {
@@ -41,6 +41,8 @@ class Daylight : public Device {
     outputs.light(light_, outdoors_ / kBrightest, kBrightest * flux_per_lux_);
     if (!first) outputs.event("changed", "");
   }
+
+  void save(SavedParams& params) const override { params.number("illuminance", outdoors_); }
 
   void report(const View&, Reading& state) const override {
     state.set("illuminance", outdoors_);

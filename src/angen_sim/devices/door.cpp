@@ -6,7 +6,7 @@
 #include <sstream>
 #include <utility>
 
-#include "core/names.h"
+#include "devices/storeys.h"
 #include "plugin/register.h"
 
 namespace angen::devices {
@@ -69,6 +69,15 @@ void Door::configure(Params& params, Wiring& wiring) {
           key, std::string(key) + " is outside the hinge's " + range_text(limits_) + " rad");
     }
   }
+  const double target = params.number("target", closed_position_, "rad",
+                                      "where it goes at the start; it stays where it is unless "
+                                      "this is given");
+  if (params.has("target")) {
+    if (target < limits_.lower || target > limits_.upper) {
+      throw params.error("target", "target is outside the hinge's " + range_text(limits_) + " rad");
+    }
+    first_target_ = target;
+  }
   // A leaf is a slab: its mass and its moment tell its width, m w^2 / 3 = I.
   const double mass = wiring.mass(wiring.link(wiring.child_of(hinge_)));
   if (width_ == 0.0) width_ = std::sqrt(3.0 * limits_.inertia / mass);
@@ -109,6 +118,7 @@ void Door::go(double target, double position) {
 
 void Door::update(const View& view, Outputs& outputs) {
   if (!started_) {
+    if (first_target_ && !leaving_) go(*first_target_, view.joint(hinge_).position);
     if (!leaving_) target_ = view.joint(hinge_).position;
     mode_ = mode_at_rest(view.joint(hinge_).position);
     rest(view.joint(hinge_), outputs);
@@ -170,6 +180,13 @@ void Door::show(Mode mode, const JointView& hinge, bool renew, Outputs& outputs)
     renew = true;
   }
   if (renew) shown_ = hinge;
+}
+
+void Door::save(SavedParams& params) const {
+  params.unset("target");
+  const bool is_first = !started_ && !leaving_ && first_target_;
+  if (is_first) params.number("target", *first_target_);
+  if (leaving_ || (started_ && !resting_)) params.number("target", target_);
 }
 
 // From the leaf's edge to the jamb, at most all of the opening; none where it is shut.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ class Door : public Device {
   Verdict command(const Command& command, const View& view) override;
   void update(const View& view, Outputs& outputs) override;
   void report(const View& view, Reading& state) const override;
+  void save(SavedParams& params) const override;
   Nanoseconds idle_until(const View& view) const override;
 
  private:
@@ -56,6 +58,7 @@ class Door : public Device {
   bool resting_ = true;
   bool leaving_ = false;  // a command came: the brake is to be let go
   bool opening_ = false;
+  std::optional<double> first_target_;  // rad, where it goes at the start
   double target_ = 0.0;
   Mode mode_ = Mode::kClosed;
   JointView shown_;

@@ -60,6 +60,15 @@ void Elevator::configure(Params& params, Wiring& wiring) {
                                    "how often its state is told while it moves", kRefreshRate));
   params.choice("topicName", kTopic, {kTopic}, "where commands come from: one topic for all");
   params.text("device_name", "", "the name commands use, instead of the model's");
+  for (const std::vector<double>& call :
+       params.rows("call", 1, "", "floor that it is called to at the start")) {
+    const double floor = call.front();
+    if (!(floor >= 0.0 && floor < floors_) || floor != std::floor(floor)) {
+      throw params.error("call", "a <call> is not the number of a floor; give 0 to " +
+                                     std::to_string(floors_ - 1));
+    }
+    stops_.push_back(static_cast<int>(floor));
+  }
   wire(params, wiring);
 }
 
@@ -239,6 +248,12 @@ void Elevator::show(const View& view, Outputs& outputs) {
     renew = true;
   }
   if (renew) shown_ = {view.joint(lift_), doorway_.position(view)};
+}
+
+void Elevator::save(SavedParams& params) const {
+  params.unset("call");
+  if (phase_ != Phase::kStanding) params.row("call", {static_cast<double>(target_)});
+  for (const int floor : stops_) params.row("call", {static_cast<double>(floor)});
 }
 
 void Elevator::report(const View& view, Reading& state) const {

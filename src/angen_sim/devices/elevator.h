@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "core/names.h"
 #include "devices/doorway.h"
 #include "devices/refresh.h"
 #include "devices/servo.h"
+#include "devices/storeys.h"
 #include "plugin/plugin.h"
 
 namespace angen::devices {
@@ -22,6 +22,7 @@ class Elevator : public Device {
   Verdict command(const Command& command, const View& view) override;
   void update(const View& view, Outputs& outputs) override;
   void report(const View& view, Reading& state) const override;
+  void save(SavedParams& params) const override;
   Nanoseconds idle_until(const View& view) const override;
 
  private:

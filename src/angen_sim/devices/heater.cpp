@@ -28,6 +28,8 @@ class Heater : public Device {
     last_level_ = level_;
   }
 
+  void save(SavedParams& params) const override { params.number("level", level_); }
+
   Nanoseconds idle_until(const View&) const override { return kForever; }
 
   void report(const View&, Reading& state) const override {

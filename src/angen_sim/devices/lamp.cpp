@@ -1,6 +1,6 @@
 #include "devices/lamp.h"
 
-#include "core/names.h"
+#include "devices/storeys.h"
 #include "plugin/register.h"
 
 namespace angen::devices {

@@ -14,6 +14,7 @@ class Lamp : public Device {
   Verdict command(const Command& command, const View& view) override;
   void update(const View& view, Outputs& outputs) override;
   void report(const View& view, Reading& state) const override;
+  void save(SavedParams& params) const override { params.number("level", level_); }
   Nanoseconds idle_until(const View&) const override { return lit_ == level_ ? kForever : 0; }
 
  private:

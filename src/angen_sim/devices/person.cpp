@@ -52,6 +52,11 @@ void Person::configure(Params& params, Wiring& wiring) {
   path_ = read_path(params);
   clock_ = -from_seconds(
       params.number("delay_start", 0.0, "s", "stands so long before the first", kNotNegative));
+  const double on_path = params.number("path_time", to_seconds(clock_), "s",
+                                       "where on its path it is at the start, as a time of its "
+                                       "waypoints; before the first by delay_start unless given");
+  if (params.has("path_time")) clock_ = from_seconds(on_path);
+  paused_ = params.flag("stopped", false, "stands at the start, as after Stop");
   force_max_ = params.number("force_max", 150.0, "N", "greatest force of its legs", kPositive);
   params.number("mass", 70.0, "kg", "its mass", kPositive);
   params.number("skin_temperature", 307.0, "K", "of head and hands, seen by PIRs", kPositive);
@@ -184,6 +189,11 @@ Nanoseconds Person::idle_until(const View& view) const {
   if (!near) return refresh_.next(view.time());
   const Nanoseconds leaves = path_.still_until(clock_);
   return leaves == kForever ? kForever : view.time() + view.step() + (leaves - clock_);
+}
+
+void Person::save(SavedParams& params) const {
+  params.number("path_time", to_seconds(clock_));
+  params.flag("stopped", paused_);
 }
 
 void Person::skip(Nanoseconds time) {

@@ -19,6 +19,7 @@ class Person : public Device {
   void report(const View& view, Reading& state) const override;
   Nanoseconds idle_until(const View& view) const override;
   void skip(Nanoseconds time) override;
+  void save(SavedParams& params) const override;
 
  private:
   enum class Mode { kStanding, kWalking, kBlocked };

@@ -42,6 +42,8 @@ class RoomAir {
   void step(double seconds, const Air& outside, const std::vector<double>& heat,
             const std::vector<Opening>& openings);
 
+  /// Replaces the air of one room.
+  void fill(std::size_t room, const Air& air) { rooms_.at(room) = air; }
   const std::vector<Air>& rooms() const { return rooms_; }
 
  private:

@@ -1,5 +1,7 @@
 #include <cmath>
 
+#include "core/names.h"
+#include "core/text.h"
 #include "load/check.h"
 #include "load/describe.h"
 #include "load/values.h"
@@ -74,12 +76,12 @@ double given_temperature(const Element& plugin, const std::string& name, double 
               "<" + name + "> is " + number_text(kelvin) + " K; it must be greater than 0");
 }
 
-desc::Visual visual(const std::string& name, double z, Shape shape, const Eigen::Vector4f& colour) {
+desc::Visual visual(const std::string& name, double z, Shape shape, const Eigen::Vector4f& color) {
   desc::Visual v;
   v.name = name;
   v.pose.position.z() = z;
   v.shape = std::move(shape);
-  v.material.diffuse = colour;
+  v.material.diffuse = color;
   return v;
 }
 
@@ -147,6 +149,8 @@ desc::Model describe_actor(const Element& actor, Session& session) {
     if (child.name != "plugin") continue;
     const std::string* file = child.attribute("filename");
     if (file == nullptr || *file == "libperson_controller.so") {
+      // Of several, as where an <include> adds one, the last that gives a parameter holds.
+      for (const Element& given : child.children) remove_children(plugin, given.name);
       plugin.children.insert(plugin.children.end(), child.children.begin(), child.children.end());
     } else {
       others.push_back(child);

@@ -63,7 +63,7 @@ std::string hex(std::uint64_t number) {
   return text;
 }
 
-// The files that were not asked for for the longest time go first.
+// Removes the least recently used files until the rest fit.
 void make_room(const fs::path& folder) {
   struct File {
     fs::file_time_type used;

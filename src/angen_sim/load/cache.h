@@ -11,7 +11,7 @@ namespace angen::load {
 
 /// The described world of one file as an earlier load left it in $XDG_CACHE_HOME/angen, or in
 /// ~/.cache/angen; none where ANGEN_NO_CACHE is set. Nothing that is wrong with the cache is an
-/// error: then there is no world in it.
+/// error: then it holds no world.
 class Cache {
  public:
   /// Of the world file `world` when models are looked for in `paths`.

@@ -3,6 +3,8 @@
 #include <map>
 #include <set>
 
+#include "core/names.h"
+#include "core/text.h"
 #include "load/values.h"
 #include "load/xml.h"
 
@@ -227,21 +229,6 @@ void check_model_parts(Element& model, Session& session) {
 }
 
 }  // namespace
-
-void check_name(const std::string& name, const std::string& what, const Source& at) {
-  if (name.empty()) throw Error(at, what + " has no name; give it one");
-  if (!valid_utf8(name)) throw Error(at, "the name of " + what + " is not UTF-8");
-  if (name.find("::") != std::string::npos) {
-    throw Error(at, "the name '" + name + "' of " + what +
-                        " holds '::', which parts full names; "
-                        "leave it out");
-  }
-  const bool reserved = name.size() >= 4 && name.compare(0, 2, "__") == 0 &&
-                        name.compare(name.size() - 2, 2, "__") == 0;
-  if (name == "world" || reserved) {
-    throw Error(at, "the name '" + name + "' is reserved; choose another for " + what);
-  }
-}
 
 void check_settings(const Element& world) {
   check_children_names(world);

@@ -9,9 +9,6 @@
 /// What is wrong with an expanded tree, found before libsdformat sees it. All throw Error.
 namespace angen::load {
 
-/// A name that an entity may bear: not empty, UTF-8, without "::", not "world" or "__…__".
-void check_name(const std::string& name, const std::string& what, const Source& at);
-
 /// Names, numbers and flags of a world's settings and lights; models are left to check_model.
 void check_settings(const Element& world);
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/text.h"
 #include "load/check.h"
 #include "load/values.h"
 #include "load/xml.h"
@@ -23,7 +24,7 @@ using Key = std::pair<std::string, std::string>;  // parent ("" = any), element
 
 constexpr Rule kOne{1, 1};
 constexpr Rule kThree{3, 3};
-constexpr Rule kColour{3, 4, Want::kNotNegative};
+constexpr Rule kColor{3, 4, Want::kNotNegative};
 constexpr Rule kPositive{1, 1, Want::kPositive};
 constexpr Rule kNotNegative{1, 1, Want::kNotNegative};
 constexpr Rule kFlag{0, 0, Want::kFlag};
@@ -57,13 +58,13 @@ const std::map<Key, Rule>& rules() {
       {{"ode", "kp"}, kPositive},
       {{"ode", "kd"}, kNotNegative},
       {{"bounce", "restitution_coefficient"}, kNotNegative},
-      {{"material", "ambient"}, kColour},
-      {{"material", "diffuse"}, kColour},
-      {{"material", "specular"}, kColour},
-      {{"material", "emissive"}, kColour},
+      {{"material", "ambient"}, kColor},
+      {{"material", "diffuse"}, kColor},
+      {{"material", "specular"}, kColor},
+      {{"material", "emissive"}, kColor},
       {{"visual", "transparency"}, kNotNegative},
-      {{"light", "diffuse"}, kColour},
-      {{"light", "specular"}, kColour},
+      {{"light", "diffuse"}, kColor},
+      {{"light", "specular"}, kColor},
       {{"light", "direction"}, kThree},
       {{"light", "intensity"}, kNotNegative},
       {{"light", "cast_shadows"}, kFlag},
@@ -76,8 +77,8 @@ const std::map<Key, Rule>& rules() {
       {{"spot", "inner_angle"}, kNotNegative},
       {{"spot", "outer_angle"}, kNotNegative},
       {{"spot", "falloff"}, kNotNegative},
-      {{"scene", "ambient"}, kColour},
-      {{"scene", "background"}, kColour},
+      {{"scene", "ambient"}, kColor},
+      {{"scene", "background"}, kColor},
       {{"scene", "shadows"}, kFlag},
       {{"world", "gravity"}, kThree},
       {{"atmosphere", "temperature"}, kPositive},

@@ -1,5 +1,6 @@
 #include "load/describe.h"
 
+#include "core/text.h"
 #include "load/geometry.h"
 #include "load/light.h"
 #include "load/material.h"

@@ -40,7 +40,7 @@ void check_entry(Entry& entry, Session& session) {
   Element& element = entry.expanded;
   if (element.name != "model" && element.name != "actor") {
     throw Error(element.source,
-                "<" + element.name + "> is no model; give <model>, <include> or <actor>");
+                "<" + element.name + "> is not a model; give <model>, <include> or <actor>");
   }
   if (count_elements(element) > kMaxModelElements) {
     throw Error(entry.original.source, "more than " + std::to_string(kMaxModelElements) +

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 
+#include "core/names.h"
 #include "load/search.h"
 #include "load/urdf.h"
 #include "load/values.h"
@@ -54,11 +56,25 @@ Element& included_root(Element& sdf) {
   return *found;
 }
 
+void check_given_once(const Element& include) {
+  static const std::set<std::string> once = {"uri", "name", "pose", "static"};
+  std::map<std::string, Source> seen;
+  for (const Element& child : include.children) {
+    if (once.count(child.name) == 0) continue;
+    const auto [first, fresh] = seen.insert({child.name, child.source});
+    if (fresh) continue;
+    throw Error(child.source, "a second <" + child.name + "> in one <include>, first at line " +
+                                  std::to_string(first->second.line) + "; keep one");
+  }
+}
+
 void apply_include(const Element& include, Element& to, Session& session) {
+  check_given_once(include);
   std::vector<Element> plugins;
   for (const Element& child : include.children) {
     if (child.name == "uri") continue;
     if (child.name == "name") {
+      check_name(child.text, "<include>", child.source);
       set_attribute(to, "name", child.text);
     } else if (child.name == "pose") {
       remove_children(to, "pose");

@@ -1,6 +1,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "core/text.h"
 #include "load/describe.h"
 #include "load/values.h"
 #include "load/xml.h"

@@ -15,7 +15,7 @@ desc::Light light_of(const Element& element, const Pose& pose) {
   if (type != nullptr && *type == "spot") light.type = desc::Light::Type::kSpot;
   if (type != nullptr && *type == "directional") light.type = desc::Light::Type::kDirectional;
   if (const Element* diffuse = element.child("diffuse")) {
-    light.diffuse = colour_of(*diffuse).head<3>();
+    light.diffuse = color_of(*diffuse).head<3>();
   }
   light.intensity = child_number(element, "intensity", light.intensity);
   light.cast_shadows = child_flag(element, "cast_shadows", light.cast_shadows);

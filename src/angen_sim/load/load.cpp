@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "core/names.h"
 #include "load/check.h"
 #include "load/describe.h"
 #include "load/entry.h"
@@ -52,7 +53,7 @@ Element model_from_text(const std::string& text, Session& session) {
   }
   if (!stands_for_model(root)) {
     throw Error(root.source, "<" + root.name +
-                                 "> is no model; give <sdf>, <model>, <include>, "
+                                 "> is not a model; give <sdf>, <model>, <include>, "
                                  "<actor> or <robot>");
   }
   upgrade(root, kLoneVersion);

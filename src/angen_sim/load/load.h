@@ -52,11 +52,12 @@ struct ModelState {
   Pose pose;                                                                 // in the world
   std::vector<std::pair<std::string, std::vector<double>>> joint_positions;  // rad or m, by name
   std::vector<AttachedSensor> attached{};
+  std::vector<Element> plugins{};  // of devices, with the parameters that they have now
 };
 
 /// The world as SDF 1.9 that loads again: its own settings, every live model where it is now,
-/// sensors that were attached to links (their model is then written out instead of included), and a
-/// <state> with poses and joint positions. People keep their trajectory and start it anew.
+/// sensors that were attached to links (their model is then written out instead of included),
+/// plug-ins with the parameters that they have now, and a <state> with poses and joint positions.
 std::string save(const desc::World& world, const std::vector<ModelState>& models);
 
 }  // namespace angen::load

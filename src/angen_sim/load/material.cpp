@@ -9,10 +9,10 @@ namespace angen::load {
 
 namespace {
 
-// Diffuse colours by the names that Gazebo's own material script defines.
+// Diffuse colors by the names that Gazebo's own material script defines.
 const std::map<std::string, Eigen::Vector4f>& scripts() {
-  using Colour = Eigen::Vector4f;
-  static const std::map<std::string, Colour> table = {
+  using Color = Eigen::Vector4f;
+  static const std::map<std::string, Color> table = {
       {"Gazebo/Black", {0.0F, 0.0F, 0.0F, 1.0F}},
       {"Gazebo/FlatBlack", {0.1F, 0.1F, 0.1F, 1.0F}},
       {"Gazebo/DarkGrey", {0.18F, 0.18F, 0.18F, 1.0F}},
@@ -64,14 +64,14 @@ const std::map<std::string, Eigen::Vector4f>& scripts() {
 
 }  // namespace
 
-Eigen::Vector4f colour_of(const Element& element) {
+Eigen::Vector4f color_of(const Element& element) {
   const std::size_t count = numbers_in(element.text).values.size();
   const std::vector<double> v = numbers_of(element, count == 3 ? 3 : 4);
-  Eigen::Vector4f colour(0.0F, 0.0F, 0.0F, 1.0F);
+  Eigen::Vector4f color(0.0F, 0.0F, 0.0F, 1.0F);
   for (std::size_t i = 0; i < v.size(); ++i) {
-    colour[static_cast<Eigen::Index>(i)] = static_cast<float>(std::clamp(v[i], 0.0, 1.0));
+    color[static_cast<Eigen::Index>(i)] = static_cast<float>(std::clamp(v[i], 0.0, 1.0));
   }
-  return colour;
+  return color;
 }
 
 desc::Material material_of(const Element& visual, Session& session) {
@@ -80,21 +80,20 @@ desc::Material material_of(const Element& visual, Session& session) {
     const Element* script = given->child("script");
     const Element* name = script == nullptr ? nullptr : script->child("name");
     if (const Element* diffuse = given->child("diffuse")) {
-      material.diffuse = colour_of(*diffuse);
+      material.diffuse = color_of(*diffuse);
     } else if (const Element* ambient = given->child("ambient")) {
-      material.diffuse = colour_of(*ambient);
+      material.diffuse = color_of(*ambient);
     } else if (name != nullptr) {
       const auto found = scripts().find(name->text);
       if (found != scripts().end()) {
         material.diffuse = found->second;
       } else {
         session.warn(name->source, "unknown material '" + name->text +
-                                       "', shown grey; give <diffuse> or a name such as "
+                                       "', shown gray; give <diffuse> or a name such as "
                                        "Gazebo/White, Gazebo/Wood");
       }
     }
-    if (const Element* emissive = given->child("emissive"))
-      material.emissive = colour_of(*emissive);
+    if (const Element* emissive = given->child("emissive")) material.emissive = color_of(*emissive);
   }
   const double transparency = child_number(visual, "transparency", 0.0);
   material.diffuse.w() *= static_cast<float>(1.0 - std::min(1.0, transparency));

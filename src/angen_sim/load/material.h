@@ -5,11 +5,11 @@
 
 namespace angen::load {
 
-/// The colours of a <visual>: its <diffuse> and <emissive>, or those of the Gazebo script it names.
-/// A script that is not known is a warning and leaves grey.
+/// The colors of a <visual>: its <diffuse> and <emissive>, or those of the Gazebo script it names.
+/// A script that is not known is a warning and leaves gray.
 desc::Material material_of(const Element& visual, Session& session);
 
 /// r g b or r g b a, each 0..1; alpha 1 when it is not given.
-Eigen::Vector4f colour_of(const Element& element);
+Eigen::Vector4f color_of(const Element& element);
 
 }  // namespace angen::load

@@ -7,6 +7,7 @@
 #include <map>
 #include <mutex>
 
+#include "core/text.h"
 #include "load/geometry.h"
 #include "load/values.h"
 #include "load/xml.h"

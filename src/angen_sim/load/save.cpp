@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "core/text.h"
 #include "load/describe.h"
 #include "load/load.h"
 #include "load/values.h"
@@ -40,6 +41,39 @@ void attach(Element& model, const AttachedSensor& attached) {
   link->children.push_back(std::move(sensor));
 }
 
+bool is_person(const desc::Model& model) {
+  return !model.links.empty() && model.links.front().upright;
+}
+
+bool is_same_plugin(const Element& a, const Element& b) {
+  const std::string* one = a.attribute("filename");
+  const std::string* other = b.attribute("filename");
+  return a.name == "plugin" && one != nullptr && other != nullptr && *one == *other;
+}
+
+// In place of the model's own of that library, or after those that it includes: the last holds.
+void put_plugin(Element& model, Element plugin, bool person) {
+  Element* own = nullptr;
+  for (Element& part : model.children) {
+    if (is_same_plugin(part, plugin)) own = &part;
+  }
+  if (person) {
+    // What an actor's <script> says comes from there again.
+    for (const char* name : {"waypoint", "loop", "delay_start"}) {
+      remove_children(plugin, name);
+      if (own == nullptr) continue;
+      for (const Element& given : own->children) {
+        if (given.name == name) plugin.children.push_back(given);
+      }
+    }
+  }
+  if (own != nullptr) {
+    *own = std::move(plugin);
+  } else {
+    model.children.push_back(std::move(plugin));
+  }
+}
+
 Element written(const ModelState& state) {
   const desc::Model& model = *state.model;
   const bool written_out = !state.attached.empty() && !model.expanded_xml.empty();
@@ -50,8 +84,9 @@ Element written(const ModelState& state) {
     set_attribute(element, "name", model.name);
   }
   for (const AttachedSensor& attached : state.attached) attach(element, attached);
-  // A person's pose follows from its trajectory.
-  if (!model.links.empty() && model.links.front().upright) return element;
+  for (const Element& plugin : state.plugins) put_plugin(element, plugin, is_person(model));
+  // An actor's own pose is where its trajectory's coordinates begin; <state> says where it is.
+  if (is_person(model)) return element;
   set_child(element, "pose", pose_text(state.pose));
   return element;
 }
@@ -90,8 +125,7 @@ std::string save(const desc::World& world, const std::vector<ModelState>& models
   set_attribute(states, "world_name", world.name);
   for (const ModelState& state : models) {
     saved.children.push_back(written(state));
-    const bool person = !state.model->links.empty() && state.model->links.front().upright;
-    if (!state.model->is_static && !person) states.children.push_back(model_state(state));
+    if (!state.model->is_static) states.children.push_back(model_state(state));
   }
   if (!states.children.empty()) saved.children.push_back(std::move(states));
   Element root = made("sdf");

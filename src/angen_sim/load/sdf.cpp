@@ -39,16 +39,63 @@ Element bare(const Element& element) {
   return copy;
 }
 
-// Reading the schema costs twice what copying it does. Under Hush's lock.
-sdf::SDFPtr fresh_document() {
+void collect_names(const Element& element, std::set<std::string>& names) {
+  names.insert(element.name);
+  for (const Element& child : element.children) collect_names(child, names);
+}
+
+// What a document may lack without libsdformat asking its schema for a default. Without the others
+// some of its classes would follow a null pointer (a camera sensor's without <camera>).
+bool may_be_pruned(const std::string& name) {
+  static const std::set<std::string> names = {"sensor",    "light",      "particle_emitter",
+                                              "projector", "audio_sink", "audio_source",
+                                              "battery",   "plugin",     "material",
+                                              "surface",   "actor",      "joint",
+                                              "gripper",   "empty",      "box",
+                                              "capsule",   "cylinder",   "ellipsoid",
+                                              "image",     "polyline",   "heightmap",
+                                              "mesh",      "plane",      "sphere"};
+  return names.count(name) != 0;
+}
+
+// A schema without what may be pruned, but for elements of the given names.
+sdf::ElementPtr pruned(const sdf::ElementPtr& schema, const std::set<std::string>& names) {
+  sdf::ElementPtr kept(new sdf::Element());
+  kept->SetName(schema->GetName());
+  kept->SetRequired(schema->GetRequired());
+  kept->SetCopyChildren(schema->GetCopyChildren());
+  kept->SetReferenceSDF(schema->ReferenceSDF());
+  for (const sdf::ParamPtr& attribute : schema->GetAttributes()) {
+    kept->AddAttribute(attribute->GetKey(), attribute->GetTypeName(),
+                       attribute->GetDefaultAsString(), attribute->GetRequired());
+  }
+  if (const sdf::ParamPtr value = schema->GetValue()) {
+    kept->AddValue(value->GetTypeName(), value->GetDefaultAsString(), value->GetRequired(),
+                   value->GetMinValueAsString().value_or(""),
+                   value->GetMaxValueAsString().value_or(""));
+  }
+  for (std::size_t i = 0; i < schema->GetElementDescriptionCount(); ++i) {
+    const sdf::ElementPtr child = schema->GetElementDescription(static_cast<unsigned>(i));
+    if (names.count(child->GetName()) != 0 || !may_be_pruned(child->GetName())) {
+      kept->AddElementDescription(pruned(child, names));
+    }
+  }
+  return kept;
+}
+
+// libsdformat copies an element's schema, with all that might be below it, for each element that it
+// reads: a megabyte a link. It gets the part of the schema that `document` uses. Under Hush's lock.
+sdf::SDFPtr empty_document(const Element& document) {
   static const sdf::SDFPtr schema = [] {
-    sdf::SDFPtr document(new sdf::SDF());
-    sdf::init(document);
-    return document;
+    sdf::SDFPtr all(new sdf::SDF());
+    sdf::init(all);
+    return all;
   }();
-  sdf::SDFPtr document(new sdf::SDF());
-  document->Root(schema->Root()->Clone());
-  return document;
+  std::set<std::string> names;
+  collect_names(document, names);
+  sdf::SDFPtr fresh(new sdf::SDF());
+  fresh->Root(pruned(schema->Root(), names));
+  return fresh;
 }
 
 std::string one_line(std::string text) {
@@ -113,8 +160,13 @@ Hush::~Hush() {
 
 Memory::~Memory() { malloc_trim(0); }
 
-std::string Hush::heard() const { return impl_->text.str(); }
+std::string Hush::messages() const { return impl_->text.str(); }
 
+// Why it gets a printed tree and not the file: its Element::LineNumber and FilePath are right for
+// what stands in a file, included files too, but missing for elements that it does not know (all of
+// a plug-in's parameters), for an include's pose and for defaults, and 0 for what an upgrade from
+// an older version moves. Messages with file and line need a tree of our own; see print_xml's
+// lines.
 sdf::Root parse_world(const Element& world, Session& session) {
   Element document;
   document.name = "sdf";
@@ -128,7 +180,7 @@ sdf::Root parse_world(const Element& world, Session& session) {
   config.SetWarningsPolicy(sdf::EnforcementPolicy::LOG);
   config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::ERR);
   config.SetDeprecatedElementsPolicy(sdf::EnforcementPolicy::LOG);
-  const sdf::SDFPtr parsed = fresh_document();
+  const sdf::SDFPtr parsed = empty_document(document);
   sdf::Errors errors;
   sdf::readString(text, config, parsed, errors);
   sdf::Root root;

@@ -20,7 +20,7 @@ class Hush {
   Hush(const Hush&) = delete;
   Hush& operator=(const Hush&) = delete;
 
-  std::string heard() const;
+  std::string messages() const;
 
  private:
   struct Impl;

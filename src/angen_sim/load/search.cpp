@@ -111,7 +111,7 @@ std::string need_uri(const std::string& uri, const std::string& what, const Sour
   if (auto found = find_uri(uri, at.file, session)) {
     std::error_code failed;
     if (what == "model" || fs::is_regular_file(*found, failed)) return *found;
-    throw Error(at, what + " '" + uri + "' is no file (" + *found + "); name one");
+    throw Error(at, what + " '" + uri + "' is not a file (" + *found + "); name one");
   }
   throw Error(at, what + " '" + uri +
                       "' is not found; searched: " + searched_places(uri, at.file, session));

@@ -1,3 +1,4 @@
+#include "core/text.h"
 #include "load/describe.h"
 #include "load/material.h"
 #include "load/values.h"
@@ -56,9 +57,9 @@ void read_settings(const Element& world, desc::World& to) {
     to.ambient_temperature = child_number(*atmosphere, "temperature", to.ambient_temperature);
   }
   if (const Element* scene = world.child("scene")) {
-    if (const Element* ambient = scene->child("ambient")) to.scene.ambient = colour_of(*ambient);
+    if (const Element* ambient = scene->child("ambient")) to.scene.ambient = color_of(*ambient);
     if (const Element* background = scene->child("background")) {
-      to.scene.background = colour_of(*background);
+      to.scene.background = color_of(*background);
     }
     to.scene.shadows = child_flag(*scene, "shadows", to.scene.shadows);
   }

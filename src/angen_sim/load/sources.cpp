@@ -9,7 +9,7 @@ namespace angen::load {
 
 namespace fs = std::filesystem;
 
-Sources::Seen Sources::look_at(const std::string& path) {
+Sources::Seen Sources::inspect(const std::string& path) {
   std::error_code failed;
   const fs::file_status status = fs::status(path, failed);
   if (fs::is_directory(status)) return {Kind::kFolder, 0};
@@ -17,7 +17,7 @@ Sources::Seen Sources::look_at(const std::string& path) {
 }
 
 Sources::Kind Sources::note(const std::string& path) {
-  const Kind kind = look_at(path).kind;
+  const Kind kind = inspect(path).kind;
   seen_.emplace(fs::absolute(path).string(), Seen{kind, 0});
   return kind;
 }
@@ -41,8 +41,8 @@ void Sources::will_be_read(const std::string& path) {
 bool Sources::unchanged() const {
   for (const auto& [path, seen] : seen_) {
     if (seen.kind != Kind::kRead) {
-      if (look_at(path).kind != seen.kind) return false;
-    } else if (look_at(path).kind != Kind::kOther || hash_bytes(read_file(path)) != seen.hash) {
+      if (inspect(path).kind != seen.kind) return false;
+    } else if (inspect(path).kind != Kind::kOther || hash_bytes(read_file(path)) != seen.hash) {
       return false;
     }
   }

@@ -37,7 +37,7 @@ class Sources {
     }
   };
 
-  static Seen look_at(const std::string& path);
+  static Seen inspect(const std::string& path);
   Kind note(const std::string& path);
 
   std::map<std::string, Seen> seen_;  // by absolute path

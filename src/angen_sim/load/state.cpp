@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "core/text.h"
 #include "load/describe.h"
 #include "load/values.h"
 #include "load/xml.h"

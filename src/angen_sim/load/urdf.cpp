@@ -32,7 +32,7 @@ void check_numbers(const Element& element) {
     const Numbers found = numbers_in(value);
     if (!found.bad.empty()) {
       throw Error(element.source, "<" + element.name + " " + key + "> holds '" + found.bad +
-                                      "', which is no number");
+                                      "', which is not a number");
     }
   }
   for (const Element& child : element.children) check_numbers(child);
@@ -80,7 +80,7 @@ Element convert_urdf(const std::string& text, const Element& robot) {
   sdf::init(document);
   sdf::Errors errors;
   if (!sdf::readString(text, document, errors) || !errors.empty()) {
-    const std::string why = errors.empty() ? hush.heard() : errors.front().Message();
+    const std::string why = errors.empty() ? hush.messages() : errors.front().Message();
     throw Error(robot.source, "this URDF cannot be converted to SDF: " + why.substr(0, 300));
   }
   Element root = parse_xml(document->Root()->ToString(""), robot.source.file);

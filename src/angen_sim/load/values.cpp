@@ -1,23 +1,12 @@
 #include "load/values.h"
 
-#include <charconv>
 #include <cmath>
+#include <optional>
 
+#include "core/text.h"
 #include "load/xml.h"
 
 namespace angen::load {
-
-namespace {
-
-bool parse_number(const std::string& word, double& value) {
-  const char* begin = word.data();
-  const char* end = begin + word.size();
-  if (word.size() > 1 && word[0] == '+' && word[1] != '-') ++begin;
-  const auto [stop, failed] = std::from_chars(begin, end, value);
-  return stop == end && failed == std::errc{};
-}
-
-}  // namespace
 
 Numbers numbers_in(const std::string& text) {
   Numbers found;
@@ -25,12 +14,12 @@ Numbers numbers_in(const std::string& text) {
   for (std::size_t at = text.find_first_not_of(blanks); at != std::string::npos;) {
     const std::size_t end = text.find_first_of(blanks, at);
     const std::string word = text.substr(at, end == std::string::npos ? end : end - at);
-    double value = 0.0;
-    if (!parse_number(word, value)) {
+    const std::optional<double> value = parse_number(word);
+    if (!value) {
       found.bad = word;
       return found;
     }
-    found.values.push_back(value);
+    found.values.push_back(*value);
     at = end == std::string::npos ? end : text.find_first_not_of(blanks, end);
   }
   return found;
@@ -41,7 +30,7 @@ std::vector<double> numbers_of(const Element& element, std::size_t count) {
   const std::string want = count == 1 ? "one number" : std::to_string(count) + " numbers";
   if (!found.bad.empty()) {
     throw Error(element.source, "<" + element.name + "> holds '" + found.bad +
-                                    "', which is no number; give " + want);
+                                    "', which is not a number; give " + want);
   }
   if (found.values.size() != count) {
     throw Error(element.source, "<" + element.name + "> holds " +
@@ -102,15 +91,9 @@ Pose child_pose(const Element& element) {
   return child == nullptr ? Pose{} : pose_of(*child);
 }
 
-std::string number_text(double value) {
-  char buffer[32];
-  const auto [end, failed] = std::to_chars(buffer, buffer + sizeof(buffer), value);
-  return failed == std::errc{} ? std::string(buffer, end) : "0";
-}
-
 namespace {
 
-// To a picometre and a picoradian: what two saves one after the other agree on.
+// To a picometer and a picoradian: what two saves one after the other agree on.
 double rounded(double value) {
   constexpr double kSteps = 1e12;
   if (std::abs(value) > 1e3) return value;

@@ -9,10 +9,10 @@
 /// Numbers, flags and poses out of elements' texts; a wrong one throws Error with file and line.
 namespace angen::load {
 
-/// The numbers of a text, up to the first word that is none.
+/// The numbers of a text, up to the first word that is not one.
 struct Numbers {
   std::vector<double> values;
-  std::string bad;  // the first word that is no number, empty when all are
+  std::string bad;  // the first word that is not a number, empty when all are
 };
 Numbers numbers_in(const std::string& text);
 
@@ -32,6 +32,5 @@ Pose child_pose(const Element& element);
 
 /// "x y z roll pitch yaw", to 1e-12.
 std::string pose_text(const Pose& pose);
-std::string number_text(double value);
 
 }  // namespace angen::load

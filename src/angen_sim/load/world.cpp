@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <map>
 
+#include "core/names.h"
 #include "load/cache.h"
 #include "load/check.h"
 #include "load/describe.h"

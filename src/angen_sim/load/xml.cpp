@@ -7,16 +7,11 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/text.h"
+
 namespace angen::load {
 
 namespace {
-
-std::string trimmed(const std::string& text) {
-  const char* blanks = " \t\r\n\f\v";
-  const auto begin = text.find_first_not_of(blanks);
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
 
 Element convert(const tinyxml2::XMLElement& from, const std::string& file, std::size_t& count) {
   if (++count > kMaxElements) {
@@ -65,29 +60,6 @@ std::string reason(const tinyxml2::XMLDocument& document) {
 int line_at(const std::string& text, std::size_t offset) {
   return 1 +
          static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(offset), '\n'));
-}
-
-// The offset of the first byte that is not UTF-8 (or is a zero byte); npos when all are.
-std::size_t first_bad_byte(const std::string& text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  for (std::size_t i = 0; i < text.size();) {
-    const unsigned char c = byte(i);
-    const int more = c < 0x80                ? 0
-                     : c >= 0xc2 && c < 0xe0 ? 1
-                     : c >= 0xe0 && c < 0xf0 ? 2
-                     : c >= 0xf0 && c < 0xf5 ? 3
-                                             : -1;
-    if (more < 0 || c == 0 || i + static_cast<std::size_t>(more) >= text.size()) return i;
-    for (int k = 1; k <= more; ++k) {
-      if ((byte(i + static_cast<std::size_t>(k)) & 0xc0U) != 0x80U) return i;
-    }
-    if ((c == 0xe0 && byte(i + 1) < 0xa0) || (c == 0xed && byte(i + 1) > 0x9f) ||
-        (c == 0xf0 && byte(i + 1) < 0x90) || (c == 0xf4 && byte(i + 1) > 0x8f)) {
-      return i;
-    }
-    i += static_cast<std::size_t>(more) + 1;
-  }
-  return std::string::npos;
 }
 
 std::string escaped(const std::string& text) {
@@ -147,8 +119,8 @@ void print(const Element& element, int indent, std::string& out, std::vector<Sou
 Element parse_xml(const std::string& text, const std::string& file) {
   if (text.size() > kMaxFileBytes)
     throw Error({file, 0}, "larger than 64 MB; split it into models");
-  const std::size_t bad = first_bad_byte(text);
-  if (bad != std::string::npos) {
+  const std::size_t bad = std::min(valid_utf8_prefix(text), text.find('\0'));
+  if (bad < text.size()) {
     throw Error({file, line_at(text, bad)}, "a byte that is not UTF-8; save the file as UTF-8");
   }
   tinyxml2::XMLDocument document;
@@ -170,7 +142,7 @@ std::string read_file(const std::string& path) {
     throw Error({path, 0}, "is a folder; give an SDF file");
   }
   if (std::filesystem::exists(path, failed) && !std::filesystem::is_regular_file(path, failed)) {
-    throw Error({path, 0}, "is no ordinary file; give an SDF file");
+    throw Error({path, 0}, "is not a regular file; give an SDF file");
   }
   std::ifstream stream(path, std::ios::binary);
   const auto size = std::filesystem::file_size(path, failed);
@@ -192,8 +164,6 @@ std::size_t count_elements(const Element& element) {
   for (const Element& child : element.children) count += count_elements(child);
   return count;
 }
-
-bool valid_utf8(const std::string& text) { return first_bad_byte(text) == std::string::npos; }
 
 Element* find_child(Element& element, const std::string& name) {
   for (Element& child : element.children) {

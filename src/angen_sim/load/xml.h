@@ -22,7 +22,6 @@ std::string read_file(const std::string& path);
 std::string print_xml(const Element& element, int indent = 0, std::vector<Source>* lines = nullptr);
 
 std::size_t count_elements(const Element& element);
-bool valid_utf8(const std::string& text);
 
 Element* find_child(Element& element, const std::string& name);
 /// The text of a child, or `fallback` when there is none.

@@ -47,7 +47,7 @@ void Grid::update(Geom& geom) {
   }
   for (int x = cells[0]; x <= cells[1]; ++x) {
     for (int y = cells[2]; y <= cells[3]; ++y) {
-      for (int z = cells[4]; z <= cells[5]; ++z) cells_[key(x, y, z)].push_back(&geom);
+      for (int z = cells[4]; z <= cells[5]; ++z) cells_[cell_key(x, y, z)].push_back(&geom);
     }
   }
 }
@@ -63,7 +63,7 @@ void Grid::erase(Geom& geom) {
   for (int x = c[0]; x <= c[1]; ++x) {
     for (int y = c[2]; y <= c[3]; ++y) {
       for (int z = c[4]; z <= c[5]; ++z) {
-        const auto cell = cells_.find(key(x, y, z));
+        const auto cell = cells_.find(cell_key(x, y, z));
         take_out(cell->second, &geom);
         if (cell->second.empty()) cells_.erase(cell);
       }

@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/cells.h"
 #include "physics/model.h"
 
 namespace angen::physics {
@@ -37,7 +38,7 @@ class Grid {
     for (int x = c[0]; x <= c[1]; ++x) {
       for (int y = c[2]; y <= c[3]; ++y) {
         for (int z = c[4]; z <= c[5]; ++z) {
-          const auto cell = cells_.find(key(x, y, z));
+          const auto cell = cells_.find(cell_key(x, y, z));
           if (cell == cells_.end()) continue;
           for (Geom* other : cell->second) look(other);
         }
@@ -49,10 +50,6 @@ class Grid {
   struct Spread {
     std::size_t operator()(std::uint64_t k) const { return k * 0x9e3779b97f4a7c15ULL >> 16; }
   };
-  static std::uint64_t key(int x, int y, int z) {
-    const auto part = [](int v) { return static_cast<std::uint64_t>(v + (1 << 20)) & 0x1fffff; };
-    return part(x) << 42 | part(y) << 21 | part(z);
-  }
 
   std::unordered_map<std::uint64_t, std::vector<Geom*>, Spread> cells_;
   std::vector<Geom*> unbounded_;

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "core/diagnostics.h"
+#include "core/text.h"
 
 namespace angen {
 
@@ -26,13 +27,13 @@ std::vector<std::string> words_of(const std::string& text) {
   return words;
 }
 
-bool parse(const std::string& word, bool whole, double& value) {
+/// Whether a word is a number, and which.
+bool parse_number(const std::string& word, bool whole, double& value) {
   const bool digits = word.find_first_not_of("0123456789") == std::string::npos;
-  if (word.empty() || (whole && (!digits || word.size() > 9))) return false;
-  const char* begin = word.data() + (word.size() > 1 && word[0] == '+' && word[1] != '-' ? 1 : 0);
-  const char* end = word.data() + word.size();
-  const auto [stop, problem] = std::from_chars(begin, end, value);
-  return problem == std::errc() && stop == end && std::isfinite(value);
+  if (whole && (!digits || word.size() > 9)) return false;
+  const std::optional<double> parsed = parse_finite(word);
+  value = parsed.value_or(0.0);
+  return parsed.has_value();
 }
 
 std::string lower(std::string text) {
@@ -40,7 +41,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-std::string shown(double value) {
+std::string text_of(double value) {
   std::ostringstream text;
   text << value;
   return text.str();
@@ -50,7 +51,7 @@ std::string shown(double value) {
 std::string described(const Verb& verb) {
   std::string text = verb.argument;
   if (std::isfinite(verb.range.min) && std::isfinite(verb.range.max)) {
-    text = shown(verb.range.min) + " to " + shown(verb.range.max) + " " + text;
+    text = text_of(verb.range.min) + " to " + text_of(verb.range.max) + " " + text;
   }
   return text;
 }
@@ -80,7 +81,7 @@ bool takes_values(const Kind& kind, const std::vector<std::string>& words, Comma
   if (values.empty()) {
     for (const std::string& word : words) {
       values.emplace_back();
-      if (!parse(word, false, values.back())) return false;
+      if (!parse_number(word, false, values.back())) return false;
     }
   }
   const bool finite =
@@ -118,7 +119,7 @@ std::string parse_command(const Kind& kind, Command& command) {
   if (words.size() > wanted) return "too many words after " + verb->name + "; " + right;
   if (words.size() < wanted) return verb->name + " without " + verb->argument + "; " + right;
   if (wanted == 2) {
-    if (!parse(words[1], verb->whole, command.number)) {
+    if (!parse_number(words[1], verb->whole, command.number)) {
       return "'" + words[1] + "' is not a number of " + verb->argument + "; " + right;
     }
     if (!verb->range.contains(command.number)) {

@@ -1,10 +1,11 @@
 #include "plugin/params.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <optional>
 #include <sstream>
-#include <system_error>
+
+#include "core/text.h"
 
 namespace angen {
 
@@ -16,34 +17,15 @@ const std::set<std::string> kAlwaysKnown = {
     "visualize", "bumperTopicName", "robotNamespace", "device_name",
 };
 
-std::string shown(double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof(buffer), value).ptr;
-  return {buffer, end};
-}
-
 std::string shown(const Range& range) {
-  const std::string low = range.min == kPositive.min ? "> 0" : ">= " + shown(range.min);
-  const std::string high = "<= " + shown(range.max);
+  const std::string low = range.min == kPositive.min ? "> 0" : ">= " + number_text(range.min);
+  const std::string high = "<= " + number_text(range.max);
   if (!std::isfinite(range.max)) return low;
   return std::isfinite(range.min) ? low + " and " + high : high;
 }
 
 std::string with_unit(const std::string& text, const std::string& unit) {
   return unit.empty() ? text : text + " " + unit;
-}
-
-// The whole of `text` as a T, whatever the locale.
-template <class T>
-bool parse(const std::string& text, T& value) {
-  const char* begin = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
-  const char* end = text.data() + text.size();
-  const auto [stop, problem] = std::from_chars(begin, end, value);
-  return problem == std::errc() && stop == end;
-}
-
-bool parse_finite(const std::string& text, double& value) {
-  return parse(text, value) && std::isfinite(value);
 }
 
 void collect(const Element& parent, const std::string& path, std::vector<const Element*>& found) {
@@ -90,33 +72,33 @@ const Element* Params::take(const std::string& path, const std::string& type,
 
 double Params::number(const std::string& path, double fallback, const std::string& unit,
                       const std::string& doc, Range range) {
-  const Element* given = take(path, "number", shown(fallback), unit, doc);
+  const Element* given = take(path, "number", number_text(fallback), unit, doc);
   if (given == nullptr) return fallback;
-  double value = 0.0;
-  if (!parse_finite(given->text, value)) {
+  const std::optional<double> value = parse_finite(given->text);
+  if (!value) {
     throw error(path, "<" + path + "> is \"" + given->text + "\", must be a finite number" +
                           (unit.empty() ? "" : " (" + unit + ")"));
   }
-  if (value < range.min || value > range.max) {
+  if (*value < range.min || *value > range.max) {
     throw error(path,
                 "<" + path + "> is " + with_unit(given->text, unit) + ", must be " + shown(range));
   }
-  return value;
+  return *value;
 }
 
 int Params::integer(const std::string& path, int fallback, const std::string& unit,
                     const std::string& doc, Range range) {
   const Element* given = take(path, "integer", std::to_string(fallback), unit, doc);
   if (given == nullptr) return fallback;
-  int value = 0;
-  if (!parse(given->text, value)) {
+  const std::optional<int> value = parse_integer(given->text);
+  if (!value) {
     throw error(path, "<" + path + "> is \"" + given->text + "\", must be a whole number");
   }
-  if (value < range.min || value > range.max) {
+  if (*value < range.min || *value > range.max) {
     throw error(path,
                 "<" + path + "> is " + with_unit(given->text, unit) + ", must be " + shown(range));
   }
-  return value;
+  return *value;
 }
 
 bool Params::flag(const std::string& path, bool fallback, const std::string& doc) {
@@ -156,11 +138,11 @@ std::vector<std::vector<double>> Params::rows(const std::string& path, std::size
     std::vector<double> row;
     std::string word;
     while (words >> word) {
-      double value = 0.0;
-      if (!parse_finite(word, value)) {
+      const std::optional<double> value = parse_finite(word);
+      if (!value) {
         throw Error(given->source, "<" + path + "> has \"" + word + "\", must be a finite number");
       }
-      row.push_back(value);
+      row.push_back(*value);
     }
     if (row.size() != count) {
       throw Error(given->source, "<" + path + "> has " + std::to_string(row.size()) +
@@ -185,8 +167,8 @@ Nanoseconds Params::update_period(double fallback_rate) {
   const std::string path = has("updateRate") ? "updateRate" : "update_rate";
   const double rate = number(path, fallback_rate, "Hz", "how often it publishes", {0.0, 1e6});
   if (rate > 0.0 && rate < kSlowest) {
-    throw error(path,
-                "<" + path + "> is " + shown(rate) + " Hz, must be 0 or >= " + shown(kSlowest));
+    throw error(path, "<" + path + "> is " + number_text(rate) +
+                          " Hz, must be 0 or >= " + number_text(kSlowest));
   }
   return from_seconds(1.0 / (rate > 0.0 ? rate : fallback_rate));
 }

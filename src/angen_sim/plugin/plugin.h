@@ -12,6 +12,7 @@
 #include "plugin/kind.h"
 #include "plugin/params.h"
 #include "plugin/reading.h"
+#include "plugin/saved_params.h"
 #include "plugin/view.h"
 
 namespace angen {
@@ -42,6 +43,9 @@ class Device {
   virtual Nanoseconds idle_until(const View&) const { return 0; }
   /// Called before update() or command() after that much time (ns) without updates.
   virtual void skip(Nanoseconds) {}
+  /// Parameters with which a device that starts where this one is goes on as this one would; the
+  /// others stay as they were given. Poses and joint positions are saved with the model.
+  virtual void save(SavedParams&) const {}
 };
 constexpr Nanoseconds kForever = INT64_MAX;
 

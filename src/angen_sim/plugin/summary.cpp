@@ -17,7 +17,7 @@ std::string fixed(double value, int decimals) {
   return text.str();
 }
 
-std::string shown(const Field& field, const Value& value) {
+std::string shown_value(const Field& field, const Value& value) {
   const std::string unit = field.unit.empty() ? "" : " " + field.unit;
   const auto joined = [&](const auto& values, const auto& show) {
     std::string all;
@@ -57,13 +57,13 @@ std::string summary(const Kind& kind, const Reading& reading) {
   };
   for (const Field& field : kind.fields) {
     if (!field.in_summary) continue;
-    if (const Value* value = reading.find(field.name)) append(shown(field, *value));
+    if (const Value* value = reading.find(field.name)) append(shown_value(field, *value));
   }
   if (!text.empty()) return text;
   for (const auto& [name, value] : reading.fields) {
     Field field;
     field.decimals = 2;
-    const std::string part = shown(field, value);
+    const std::string part = shown_value(field, value);
     if (!part.empty()) append(name + "=" + part);
   }
   return text;

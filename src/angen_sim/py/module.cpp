@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/names.h"
 #include "plugin/json.h"
 #include "py/subclass.h"
 #include "py/world.h"
@@ -209,6 +210,16 @@ class Device:
             module.attr("__dict__"));
 }
 
+void bind_names(pyb::module_& module) {
+  module.def(
+      "check_name",
+      [](const pyb::str& name) {
+        check_name(name.attr("encode")().cast<std::string>());  // or a UnicodeEncodeError
+        return name;
+      },
+      pyb::arg("name"), "The name, if a model, sensor or device can have it; else Error says why.");
+}
+
 void bind_catalog(pyb::module_& module) {
   module.def(
       "register",
@@ -237,6 +248,7 @@ PYBIND11_MODULE(angen, module) {
   bind_bases(module);
   bind_world(module);
   bind_catalog(module);
+  bind_names(module);
 }
 
 }  // namespace angen::py

@@ -125,7 +125,7 @@ Reading World::device(const std::string& kind, const std::string& name) const {
   return *state;
 }
 
-std::string World::save() const { return record::world_file(simulation_.world(), *snapshot_); }
+std::string World::save() { return record::world_file(simulation_.world(), simulation_.saved()); }
 
 std::vector<sim::Event> World::take_events() { return std::exchange(events_, {}); }
 

@@ -35,7 +35,7 @@ class World {
 
   Reading sensor(const std::string& kind, const std::string& name) const;
   Reading device(const std::string& kind, const std::string& name) const;
-  std::string save() const;
+  std::string save();
 
   const sim::Snapshot& now() const { return *snapshot_; }
   std::vector<sim::Event> take_events();

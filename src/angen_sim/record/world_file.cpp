@@ -1,15 +1,18 @@
 #include "record/world_file.h"
 
+#include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "load/load.h"
 
 namespace angen::record {
 
-std::string world_file(const desc::World& settings, const sim::Snapshot& snapshot) {
+std::string world_file(const desc::World& settings, const sim::SavedState& state) {
+  const sim::Snapshot& snapshot = *state.snapshot;
   const sim::Structure& all = *snapshot.structure;
   std::vector<load::ModelState> states;
-  for (const auto& model : all.models) states.push_back({model.get(), model->pose, {}, {}});
+  for (const auto& model : all.models) states.push_back({model.get(), model->pose, {}, {}, {}});
   for (std::size_t i = 0; i < all.links.size(); ++i) {
     const sim::LinkEntry& link = all.links[i];
     if (link.link != 0 || !link.moves) continue;
@@ -27,6 +30,12 @@ std::string world_file(const desc::World& settings, const sim::Snapshot& snapsho
     const sim::LinkEntry& link = all.links[sensor.link];
     const std::string& name = all.models[sensor.model]->links[link.link].name;
     states[sensor.model].attached.push_back({name, *sensor.desc});
+  }
+  std::unordered_map<std::string, load::ModelState*> by_name;
+  for (load::ModelState& model : states) by_name[model.model->name] = &model;
+  for (const sim::SavedPlugin& saved : state.plugins) {
+    const auto model = by_name.find(saved.model);
+    if (model != by_name.end()) model->second->plugins.push_back(saved.plugin);
   }
   return load::save(settings, states);
 }

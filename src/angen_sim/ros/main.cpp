@@ -1,6 +1,5 @@
 #include <ros/console.h>
 #include <ros/init.h>
-#include <ros/master.h>
 #include <ros/param.h>
 #include <signal.h>
 
@@ -17,6 +16,7 @@
 #include <vector>
 
 #include "core/diagnostics.h"
+#include "core/text.h"
 #include "load/load.h"
 #include "plugin/library.h"
 #include "ros/node.h"
@@ -31,6 +31,8 @@ constexpr char kUsage[] =
     "                  [_fast:=false] [_topics:=sensor|kind]\n"
     "       angen_node --check WORLD    only loads; exit code 1 when it cannot\n"
     "WORLD may also stand in the parameter ~world.\n";
+
+constexpr std::uint64_t kDefaultSeed = 1;
 
 std::atomic<bool> stop{false};
 
@@ -69,7 +71,7 @@ std::string summary(const std::string& path, const Simulation& simulation) {
 }
 
 int check(const std::string& path) {
-  std::printf("%s\n", summary(path, *make(read(path), 1)).c_str());
+  std::printf("%s\n", summary(path, *make(read(path), kDefaultSeed)).c_str());
   return EXIT_SUCCESS;
 }
 
@@ -85,14 +87,20 @@ double number_param(const std::string& name, double fallback, double least) {
   return value;
 }
 
-int run(std::string path, std::optional<angen::desc::World> world) {
-  if (!world) {
-    if (!ros::param::get("~world", path)) {
-      throw angen::Error(std::string("no world: give one as argument or in ~world\n") + kUsage);
-    }
-    world = read(path);
-  } else if (!ros::master::check()) {
-    make(*world, 1);  // what is wrong with it is told before there is a master to wait for
+// The ~seed that the command line gives, as far as it can be told without ROS.
+std::uint64_t seed_in(const std::vector<std::string>& words) {
+  constexpr char kSeed[] = "_seed:=";
+  for (const std::string& word : words) {
+    if (word.rfind(kSeed, 0) != 0) continue;
+    const std::optional<double> given = angen::parse_finite(word.substr(sizeof kSeed - 1));
+    if (given && *given >= 0.0) return static_cast<std::uint64_t>(*given);
+  }
+  return kDefaultSeed;
+}
+
+int run(std::string path, std::unique_ptr<Simulation> simulation) {
+  if (!simulation && !ros::param::get("~world", path)) {
+    throw angen::Error(std::string("no world: give one as argument or in ~world\n") + kUsage);
   }
   angen::node::Settings settings;
   settings.fast = ros::param::param("~fast", false);
@@ -103,8 +111,8 @@ int run(std::string path, std::optional<angen::desc::World> world) {
   settings.clock_rate = number_param("~clock_rate", 100.0, 0.01);
   settings.models = folder_of(path) + "/models";
   settings.topics = angen::node::topics_named(ros::param::param<std::string>("~topics", "sensor"));
-  const auto seed = static_cast<std::uint64_t>(number_param("~seed", 1.0, 0.0));
-  const auto simulation = make(std::move(*world), seed);
+  const auto seed = static_cast<std::uint64_t>(number_param("~seed", kDefaultSeed, 0.0));
+  if (!simulation || simulation->seed() != seed) simulation = make(read(path), seed);
   if (ros::param::param("~paused", false)) simulation->post(angen::sim::Pause{true});
   if (!ros::param::has("/use_sim_time")) ros::param::set("/use_sim_time", true);
   angen::node::Node node(*simulation, settings);
@@ -130,20 +138,21 @@ int main(int argc, char** argv) {
       std::fputs(kUsage, stderr);
       return 2;
     }
-    std::string path;
-    std::optional<angen::desc::World> world;
+    std::vector<std::string> paths;
     for (const std::string& word : raw) {
-      if (word.find(":=") != std::string::npos) continue;
-      if (world) {
-        std::fputs(kUsage, stderr);
-        return 2;
-      }
-      path = word;
-      world = read(path);
+      if (word.find(":=") == std::string::npos) paths.push_back(word);
     }
+    if (paths.size() > 1) {
+      std::fputs(kUsage, stderr);
+      return 2;
+    }
+    const std::string path = paths.empty() ? "" : paths[0];
+    // Before ROS, which waits for a master: errors in the world need none.
+    std::unique_ptr<Simulation> simulation;
+    if (!paths.empty()) simulation = make(read(path), seed_in(raw));
     ros::init(argc, argv, "angen", ros::init_options::NoSigintHandler);
     end_on_signals();
-    return run(path, std::move(world));
+    return run(path, std::move(simulation));
   } catch (const angen::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
   } catch (const std::exception& problem) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/names.h"
+#include "devices/storeys.h"
 
 namespace angen::node {
 namespace {
@@ -46,7 +46,7 @@ std::string marker_group(const sim::Structure& structure, std::uint32_t link) {
   const desc::Link& described = model.links[entry.link];
   if (is_ground(described)) return "ground";
   if (model.is_static && model.links.size() > kBuildingLinks) {
-    const std::string floor = " " + std::to_string(floor_of(model.pose.position.z()));
+    const std::string floor = " " + std::to_string(devices::floor_of(model.pose.position.z()));
     if (has(described.name, "ceiling")) return "ceilings" + floor;
     if (has(described.name, "floor")) return "floors" + floor;
     return "walls" + floor;

@@ -1,6 +1,7 @@
 #include "ros/node.h"
 
 #include <ros/spinner.h>
+#include <std_msgs/Bool.h>
 
 #include <algorithm>
 #include <chrono>
@@ -45,10 +46,18 @@ void Node::run(const std::atomic<bool>& stop) {
     const std::shared_ptr<const sim::Snapshot> snapshot = advance();
     publish(*snapshot);
     inbox_.published();
+    if (!ready_) announce();
     pace(*snapshot);
   }
   inbox_.close();
   spinner.stop();
+}
+
+void Node::announce() {
+  ready_ = handle_.advertise<std_msgs::Bool>("/angen/ready", 1, true);
+  std_msgs::Bool ready;
+  ready.data = true;
+  ready_.publish(ready);
 }
 
 std::shared_ptr<const sim::Snapshot> Node::advance() {

@@ -39,6 +39,8 @@ class Node {
   std::shared_ptr<const sim::Snapshot> advance();
   void publish(const sim::Snapshot& snapshot);
   void pace(const sim::Snapshot& snapshot);
+  /// Advertises /angen/ready, the last topic: whoever sees it finds all others and every service.
+  void announce();
 
   sim::Simulation& simulation_;
   bool fast_;
@@ -57,6 +59,7 @@ class Node {
   JointStates joints_;
   Commands commands_;
   Services services_;
+  ros::Publisher ready_;
 };
 
 }  // namespace angen::node

@@ -98,9 +98,11 @@ struct RosKindRegistration {
   RosKindRegistration(const std::vector<std::string>& kinds, RosKindBuilder& builder);
 };
 
-#define ANGEN_REGISTER_ROS_KIND(...)                                                          \
-  [[maybe_unused]] static const angen::node::RosKindRegistration angen_ros_kind_registration( \
-      __VA_ARGS__)
+#define ANGEN_REGISTER_ROS_KIND(...) ANGEN_REGISTER_ROS_KIND_HOP(__COUNTER__, __VA_ARGS__)
+#define ANGEN_REGISTER_ROS_KIND_HOP(Number, ...) ANGEN_REGISTER_ROS_KIND_AS(Number, __VA_ARGS__)
+#define ANGEN_REGISTER_ROS_KIND_AS(Number, ...)              \
+  [[maybe_unused]] static const angen::node::RosKindRegistration \
+      angen_ros_kind_registration_##Number(__VA_ARGS__)
 
 /// What is registered for a kind; angen_msgs/Reading for one that nobody registered. `library` is
 /// the plug-in's, as its SDF names it: libX_ros.so beside it is loaded where there is one. Any

@@ -6,24 +6,15 @@
 #include <exception>
 
 #include "core/diagnostics.h"
+#include "core/names.h"
+#include "core/text.h"
 #include "plugin/summary.h"
 #include "record/world_file.h"
 #include "ros/convert.h"
 #include "ros/listing.h"
-#include "ros/text.h"
 
 namespace angen::node {
 namespace {
-
-void check_name(const std::string& name) {
-  if (name.empty()) throw Error("the name is empty; give one, as kitchen_pir");
-  if (!valid_utf8(name)) throw Error("the name '" + printable(name) + "' is not UTF-8");
-  const bool plain = printable(name, name.size()) == name && trimmed(name) == name;
-  if (!plain || name.find("::") != std::string::npos || name.find('/') != std::string::npos) {
-    throw Error("the name '" + printable(name) +
-                "' holds what names cannot: '::', '/', control characters or blanks at an end");
-  }
-}
 
 // A message whose quaternion nobody filled means no rotation.
 Pose to_pose(const geometry_msgs::Pose& message) {
@@ -173,9 +164,10 @@ bool Services::list(angen_msgs::List::Request& request, angen_msgs::List::Respon
 
 bool Services::save(angen_msgs::Save::Request&, angen_msgs::Save::Response& response) {
   return answered(response, [&] {
-    const auto snapshot = inbox_.simulation().snapshot();
-    response.xml = record::world_file(inbox_.simulation().world(), *snapshot);
-    return sim::Outcome{};
+    const auto state = std::make_shared<sim::SavedState>();
+    const sim::Outcome outcome = inbox_.ask(sim::Save{state});
+    if (outcome.ok) response.xml = record::world_file(inbox_.simulation().world(), *state);
+    return outcome;
   });
 }
 

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "core/text.h"
 #include "ros/convert.h"
-#include "ros/text.h"
 
 namespace angen::node {
 namespace {

@@ -8,15 +8,6 @@
 /// The texts of command topics. `ros` is taken by roscpp, hence `node`.
 namespace angen::node {
 
-bool valid_utf8(const std::string& text);
-
-/// Without blanks at both ends.
-std::string trimmed(const std::string& text);
-
-/// `text` fit for a log line: at most `limit` bytes, bytes that are not printable ASCII or valid
-/// UTF-8 as `?`.
-std::string printable(const std::string& text, std::size_t limit = 80);
-
 /// Each returns what to post: a ToDevice, or a Reject that says why and lists the right forms.
 /// `VERB, NAME|all[, NUMBER]`, as the kind's command topic takes it; `names` are the kind's
 /// devices: where there is one alone, its name may be left out.

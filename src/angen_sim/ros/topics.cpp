@@ -19,7 +19,7 @@ std::vector<std::string> sensor_topics(const sim::SensorEntry& sensor, const For
   if (!format.leaf.empty()) {  // one of several, as Gazebo's camera plug-ins name them
     const std::string base = text_of(sensor, "cameraName");
     const std::string leaf = text_of(sensor, format.leaf_parameter);
-    asked = (base.empty() ? topic_of(sensor.kind, sensor.name) : base) + "/" +
+    asked = (base.empty() ? default_topic(sensor.kind, sensor.name) : base) + "/" +
             (leaf.empty() ? format.leaf : leaf);
     if (!leaf.empty() && leaf[0] == '/') asked = leaf;
   }

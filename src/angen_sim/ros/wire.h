@@ -4,9 +4,14 @@
 
 namespace angen::node {
 
-/// `text` as a ROS graph name: characters other than letters, digits, `_` and `/` become `_`, and a
-/// name that would start with neither a letter nor `/` gets an `a`.
+/// `text` as a ROS graph name: a byte that is not a letter, digit, `_` or `/` becomes `_xHH`, its
+/// value in hexadecimal, and so does a `_` that would read as the start of one. Different names of
+/// entities, which hold no `/`, stay different. A text that would start with neither a letter nor
+/// `/` gets an `a`.
 std::string graph_name(const std::string& text);
+
+/// /angen/KIND/NAME, not yet a graph name.
+std::string default_topic(const std::string& kind, const std::string& name);
 
 /// Where a sensor or device is heard: the topic that its SDF asks for (relative to the node's
 /// namespace, as with Gazebo's plug-ins), or /angen/KIND/NAME.

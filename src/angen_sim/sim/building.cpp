@@ -355,4 +355,25 @@ std::vector<double> Building::light_levels() const {
 
 std::vector<std::string> Building::take_warnings() { return std::exchange(warnings_, {}); }
 
+std::vector<SavedPlugin> Building::saved_plugins(Nanoseconds now, Nanoseconds step) {
+  std::vector<SavedPlugin> saved;
+  for (const auto& live : models_) {
+    // Devices may share a plug-in's element: then it has the parameters of all.
+    std::map<std::string, std::pair<Element, bool>> elements;
+    for (DeviceInstance& device : live->devices) {
+      device.catch_up(now, step);
+      SavedParams params;
+      device.device->save(params);
+      auto& [element, changed] = elements[*device.element.attribute("filename")];
+      if (element.name.empty()) element = device.element;
+      params.write_to(element);
+      changed = changed || !(params == device.started_with);
+    }
+    for (auto& [file, saved_element] : elements) {
+      if (saved_element.second) saved.push_back({live->desc->name, std::move(saved_element.first)});
+    }
+  }
+  return saved;
+}
+
 }  // namespace angen::sim

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/instance.h"
+#include "sim/saved.h"
 
 namespace angen::sim {
 
@@ -70,6 +71,9 @@ class Building {
   std::shared_ptr<const Structure> structure();
   /// Levels (0..1) in the order of Structure::lights.
   std::vector<double> light_levels() const;
+
+  /// The plug-ins of devices that differ from how they started, as of `now`.
+  std::vector<SavedPlugin> saved_plugins(Nanoseconds now, Nanoseconds step);
 
   /// Warnings of the last add or of construction, taken out.
   std::vector<std::string> take_warnings();

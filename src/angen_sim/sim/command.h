@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <future>
+#include <memory>
 #include <string>
 #include <variant>
 
 #include "desc/world.h"
 #include "plugin/plugin.h"
+#include "sim/saved.h"
 
 namespace angen::sim {
 
@@ -52,7 +54,12 @@ struct Reject {
   std::string reason;
 };
 
-using Action = std::variant<ToDevice, Spawn, Attach, Delete, Pause, Step, Reset, Reject>;
+/// Fills in what the world's file would say between two ticks.
+struct Save {
+  std::shared_ptr<SavedState> into;
+};
+
+using Action = std::variant<ToDevice, Spawn, Attach, Delete, Pause, Step, Reset, Reject, Save>;
 
 struct Request {
   Action action;

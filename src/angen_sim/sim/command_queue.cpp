@@ -151,6 +151,8 @@ Outcome CommandQueue::execute(const Action& action, Building& building, Instance
       effects.reset_time = effects.reset_time || reset->with_time;
       building.reset(reset->with_time ? 0 : clock.time);
       events.push_back(world_event(clock.time, "world", "reset"));
+    } else if (const auto* save = std::get_if<Save>(&action)) {
+      effects.saves.push_back(save->into);
     } else if (const auto* reject = std::get_if<Reject>(&action)) {
       outcome = {false, reject->reason};
       events.push_back({clock.time, reject->source, reject->kind, "rejected", reject->reason});

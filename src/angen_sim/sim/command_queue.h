@@ -23,7 +23,8 @@ class CommandQueue {
   struct Effects {
     bool reset = false;
     bool reset_time = false;
-    bool commanded = false;  // a device was
+    bool commanded = false;                          // a device was
+    std::vector<std::shared_ptr<SavedState>> saves;  // to be filled in
   };
   /// Carries out what waits, in order. Called between ticks.
   Effects drain(Building& building, InstanceView::Clock clock, std::vector<Event>& events);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/names.h"
 #include "sim/wiring.h"
 
 namespace angen::sim {
@@ -53,9 +54,13 @@ DeviceInstance make_device(const desc::Model& model, const ModelInfo& info,
     Params params(described.element);
     instance.name =
         params.text("device_name", plugin->instance_name(info), "the name that commands use");
+    const std::string problem = name_problem(instance.name);
+    if (!problem.empty()) throw params.error("device_name", problem);
     ModelWiring wiring(model, instance.name, gravity);
     instance.device->configure(params, wiring);
     params.finish();
+    instance.element = described.element;
+    instance.device->save(instance.started_with);
     return instance;
   });
 }

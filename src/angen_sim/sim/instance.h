@@ -20,8 +20,10 @@ struct DeviceInstance {
   std::string name;
   std::shared_ptr<const Plugin> plugin;  // keeps its library loaded
   std::unique_ptr<Device> device;
-  std::string library;  // that its plug-in is in, as its SDF names it
-  Reading scratch;      // what it reports is written here, then compared
+  std::string library;       // that its plug-in is in, as its SDF names it
+  Element element;           // its <plugin>
+  SavedParams started_with;  // what it would have saved then
+  Reading scratch;           // what it reports is written here, then compared
   std::shared_ptr<const Reading> last;
   Nanoseconds updated = 0;     // when it last was
   Nanoseconds idle_until = 0;  // unless it is commanded or its model wakes

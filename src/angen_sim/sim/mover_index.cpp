@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/cells.h"
+
 namespace angen::sim {
 
 namespace {
@@ -12,7 +14,6 @@ namespace {
 constexpr double kCell = 4.0;       // m
 constexpr double kSlack = 0.25;     // m, that a mover's box is larger by, on each side
 constexpr double kManyCells = 512;  // a box in more is checked in each query
-constexpr double kFarthest = 1 << 20;
 
 using Cells = std::array<int, 6>;  // first and last along x, y, z
 
@@ -21,7 +22,7 @@ bool cells_of(const MoverIndex::Box& box, Cells& cells) {
   for (int axis = 0; axis < 3; ++axis) {
     const double first = std::floor(box.min()[axis] / kCell);
     const double last = std::floor(box.max()[axis] / kCell);
-    if (!(first > -kFarthest && last < kFarthest)) return false;
+    if (!(first > -kCellLimit && last < kCellLimit)) return false;
     count *= last - first + 1.0;
     cells[2 * axis] = static_cast<int>(first);
     cells[2 * axis + 1] = static_cast<int>(last);
@@ -31,10 +32,9 @@ bool cells_of(const MoverIndex::Box& box, Cells& cells) {
 
 template <class F>
 void each_cell(const Cells& cells, F&& visit) {
-  const auto part = [](int v) { return static_cast<std::uint64_t>(v + (1 << 20)) & 0x1fffff; };
   for (int x = cells[0]; x <= cells[1]; ++x) {
     for (int y = cells[2]; y <= cells[3]; ++y) {
-      for (int z = cells[4]; z <= cells[5]; ++z) visit(part(x) << 42 | part(y) << 21 | part(z));
+      for (int z = cells[4]; z <= cells[5]; ++z) visit(cell_key(x, y, z));
     }
   }
 }

@@ -27,6 +27,7 @@ struct Simulation::Impl {
 
   void drain() {
     const CommandQueue::Effects effects = commands.drain(building, clock(), next.events);
+    for (const std::shared_ptr<SavedState>& into : effects.saves) *into = saved();
     if (effects.reset) sensors.invalidate();
     if (effects.commanded) devices.activate_all();
     if (effects.reset_time) {
@@ -36,6 +37,8 @@ struct Simulation::Impl {
     }
     restructure();
   }
+
+  SavedState saved() { return {latest, building.saved_plugins(next.time, next.step)}; }
 
   void leap(Nanoseconds until) {
     std::int64_t tick = until / next.step - 1;
@@ -218,6 +221,8 @@ bool Simulation::requested(const std::string& kind, const std::string& name) con
 void Simulation::measure(bool on) { impl_->meter.on = on; }
 
 Cost Simulation::take_cost() { return impl_->take_cost(); }
+
+SavedState Simulation::saved() { return impl_->saved(); }
 
 bool Simulation::running() const { return impl_->commands.running(); }
 

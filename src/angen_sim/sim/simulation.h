@@ -8,6 +8,7 @@
 #include "plugin/library.h"
 #include "sim/command.h"
 #include "sim/meter.h"
+#include "sim/saved.h"
 #include "sim/snapshot.h"
 
 namespace angen::sim {
@@ -48,6 +49,9 @@ class Simulation {
   void measure(bool on);
   /// What the ticks have cost that were measured since the last call. The thread that ticks.
   Cost take_cost();
+
+  /// What the world's file would say of now. The thread that ticks; others post a Save.
+  SavedState saved();
 
   /// True when the next tick will advance time: not paused, or steps are asked for.
   bool running() const;

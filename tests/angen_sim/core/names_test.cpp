@@ -5,27 +5,43 @@
 namespace angen {
 namespace {
 
-TEST(Floor, CountsStoreysOfFourMetres) {
-  EXPECT_EQ(floor_of(0.0), 0);
-  EXPECT_EQ(floor_of(-0.4), 0);
-  EXPECT_EQ(floor_of(3.4), 0);
-  EXPECT_EQ(floor_of(3.5), 1);
-  EXPECT_EQ(floor_of(4.0), 1);
-  EXPECT_EQ(floor_of(8.0), 2);
-  EXPECT_EQ(floor_of(-1.0), -1);
+TEST(Name, MayBeAnyPlainText) {
+  for (const char* name : {"p1", "Küche 2", "机器人", "a.b", "a:b", "cafe table", "_", "World"}) {
+    EXPECT_EQ(name_problem(name), "");
+    EXPECT_NO_THROW(check_name(name));
+  }
+  EXPECT_EQ(name_problem(std::string(kMaxNameBytes, 'n')), "");
 }
 
-TEST(CommandName, DropsDigitsAndKindAndAddsTheFloor) {
-  EXPECT_EQ(command_name("bathroom_door1", "door", 4.0), "bathroom1");
-  EXPECT_EQ(command_name("kitchen_door", "door", 8.0), "kitchen2");
-  EXPECT_EQ(command_name("door_kitchen_12", "door", 0.0), "kitchen0");
-  EXPECT_EQ(command_name("kitchen_lamp", "lamp", 0.0), "kitchen0");
-  EXPECT_EQ(command_name("kitchen_lamp", "door", 0.0), "kitchen_lamp0");
+TEST(Name, OfAnotherFormSaysWhatIsWrong) {
+  const std::pair<std::string, const char*> wrong[] = {
+      {"", "is empty"},
+      {"a\xff", "'a?' is not UTF-8"},
+      {std::string(kMaxNameBytes + 1, 'n'), "has 256 bytes"},
+      {"a::b", "'::'"},
+      {"a/b", "'/'"},
+      {"a\nb", "'a?b' holds a control character"},
+      {"a\x7f", "control character"},
+      {"a\xc2\x85", "control character"},
+      {std::string("a\0b", 3), "control character"},
+      {" a", "blank"},
+      {"a ", "blank"},
+      {" ", "blank"},
+      {"world", "reserved"},
+      {"__model__", "reserved"}};
+  for (const auto& [name, part] : wrong) {
+    EXPECT_NE(name_problem(name).find(part), std::string::npos) << name_problem(name);
+  }
 }
 
-TEST(CommandName, NeverEndsUpEmpty) {
-  EXPECT_EQ(command_name("door", "door", 0.0), "door0");
-  EXPECT_EQ(command_name("123", "door", 0.0), "door0");
+TEST(Name, IsRefusedWithWhatBearsItAndItsPlace) {
+  try {
+    check_name("a/b", "<link>", {"a.world", 3});
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()).rfind("a.world:3: <link>: the name 'a/b' holds '/'", 0), 0U)
+        << error.what();
+  }
 }
 
 }  // namespace

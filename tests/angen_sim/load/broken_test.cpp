@@ -64,7 +64,7 @@ const Broken kBroken[] = {
     {"bad_pose",
      "<sdf version='1.6'><world name='w'><model name='m'><link name='l'>\n<pose>0 0 x 0 0 0</pose>"
      "</link></model></world></sdf>",
-     "w.world:2: ", "'x', which is no number"},
+     "w.world:2: ", "'x', which is not a number"},
     {"short_pose",
      "<sdf version='1.6'><world name='w'><model name='m'><link name='l'>\n<pose>0 0 0</pose>"
      "</link></model></world></sdf>",
@@ -76,7 +76,7 @@ const Broken kBroken[] = {
     {"bad_step",
      "<sdf version='1.6'><world name='w'><physics type='ode'>\n<max_step_size>fast</max_step_size>"
      "</physics></world></sdf>",
-     "w.world:2: ", "'fast', which is no number"},
+     "w.world:2: ", "'fast', which is not a number"},
     {"zero_step",
      "<sdf version='1.6'><world name='w'><physics type='ode'>\n<max_step_size>0</max_step_size>"
      "</physics></world></sdf>",
@@ -207,6 +207,35 @@ TEST_P(BrokenWorld, IsAnErrorWithItsPlace) {
 INSTANTIATE_TEST_SUITE_P(All, BrokenWorld, testing::ValuesIn(kBroken),
                          [](const auto& info) { return std::string(info.param.name); });
 
+TEST(BrokenName, IsRefusedWhereverItStands) {
+  const Folder folder;
+  folder.model("part", sdf("<model name='p'><link name='l'/></model>"));
+  const std::string include = "<include><uri>model://part</uri>";
+  for (const std::string& text :
+       {in_world("<model name='a/b'><link name='l'/></model>"), in_model("<link name='a/b'/>"),
+        in_link("<sensor name='a/b' type='ray'/>"), in_link("<visual name=' v'/>"),
+        in_world("<light name='a/b' type='point'/>"), in_world("<actor name='a/b'/>"),
+        in_world(include + "<name>a/b</name></include>"),
+        in_model("<link name='l'/>" + include + "<name>a/b</name></include>"),
+        in_world(include + "<name>" + std::string(256, 'n') + "</name></include>")}) {
+    const std::string message = error_of(text, folder.paths());
+    EXPECT_EQ(message.find("w.world:1: "), 0U) << message;
+    EXPECT_NE(message.find(": the name '"), std::string::npos) << message;
+  }
+}
+
+TEST(BrokenInclude, WithTwoNamesIsRefused) {
+  const Folder folder;
+  folder.model("part", sdf("<model name='p'><link name='l'/></model>"));
+  for (const std::string twice : {"name", "uri", "pose", "static"}) {
+    std::string text = "<include><uri>model://part</uri>";
+    if (twice != "uri") text += "<" + twice + ">1</" + twice + ">";
+    text += "\n<" + twice + ">0</" + twice + "></include>";
+    const std::string message = error_of(in_world(text), folder.paths());
+    EXPECT_EQ(message.find("w.world:2: a second <" + twice + "> in one <include>"), 0U) << message;
+  }
+}
+
 const char* const kInclude = "<include><uri>model://part</uri></include>";
 
 TEST(BrokenInclude, NamesTheIncludedFile) {
@@ -328,7 +357,7 @@ TEST(MissingFile, FolderOrPipeIsNotRead) {
   EXPECT_THROW(world(folder.path()), Error);
   const std::string mesh =
       "<visual name='v'><geometry><mesh><uri>model://pipe.world</uri></mesh></geometry></visual>";
-  EXPECT_NE(error_of(in_link(mesh), folder.paths()).find("is no file"), std::string::npos);
+  EXPECT_NE(error_of(in_link(mesh), folder.paths()).find("is not a file"), std::string::npos);
 }
 
 TEST(MissingFile, IsNamed) { EXPECT_THROW(world("/nonexistent/x.world"), Error); }

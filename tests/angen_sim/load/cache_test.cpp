@@ -1,5 +1,6 @@
 #include "load/cache.h"
 
+#include <chrono>
 #include <cstdlib>
 #include <iterator>
 
@@ -186,6 +187,30 @@ TEST_F(CacheTest, OfABadWorldIsNone) {
   EXPECT_NE(first.find("small.world:1: "), std::string::npos) << first;
   EXPECT_EQ(error(), first);
   EXPECT_FALSE(kept());
+}
+
+TEST_F(CacheTest, LosesWhatWasNotUsedForLongestWhenItIsFull) {
+  const fs::path where = fs::path(cache().file()).parent_path();
+  const auto old_file = [&](int hours) { return where / (std::to_string(hours) + "h.world"); };
+  for (const int hours : {1, 2, 3}) {
+    folder_.write("cache/angen/" + old_file(hours).filename().string(), "");
+    fs::resize_file(old_file(hours), 50U << 20U);  // sparse: takes no room on the disk
+    fs::last_write_time(old_file(hours),
+                        fs::file_time_type::clock::now() - std::chrono::hours(hours));
+  }
+  world(path_);
+  EXPECT_TRUE(kept());
+  EXPECT_TRUE(fs::exists(old_file(1)));
+  EXPECT_TRUE(fs::exists(old_file(2)));
+  EXPECT_FALSE(fs::exists(old_file(3))) << "128 MB are full";
+}
+
+TEST_F(CacheTest, CountsAFileAsUsedWhenItIsRead) {
+  world(path_);
+  const auto old = fs::file_time_type::clock::now() - std::chrono::hours(9);
+  fs::last_write_time(cache().file(), old);
+  ASSERT_TRUE(kept());
+  EXPECT_GT(fs::last_write_time(cache().file()), old + std::chrono::hours(8));
 }
 
 TEST_F(CacheTest, GivesTheWholeBuildingByteByByte) {

@@ -1,5 +1,3 @@
-#include <png.h>
-
 #include "angen_sim/load/texts.h"
 #include "load/geometry.h"
 
@@ -102,52 +100,6 @@ TEST(Mesh, NoTrianglesOrUnknownKindIsAnError) {
   EXPECT_THROW(read_mesh(folder.write("x.blend", "x"), Vec3::Ones(), {}), Error);
   EXPECT_THROW(read_mesh(folder.write("x.stl", ""), Vec3::Ones(), {}), Error);
   EXPECT_THROW(read_mesh(folder.write("x.dae", "<COLLADA"), Vec3::Ones(), {}), Error);
-}
-
-std::string grey_png(const Folder& folder, unsigned width, unsigned height,
-                     const std::vector<png_byte>& pixels) {
-  const std::string file = folder.write("h.png", "");
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  image.width = width;
-  image.height = height;
-  image.format = PNG_FORMAT_GRAY;
-  EXPECT_NE(png_image_write_to_file(&image, file.c_str(), 0, pixels.data(), 0, nullptr), 0);
-  return file;
-}
-
-TEST(Heightmap, SpansItsSizeAndRisesWithGrey) {
-  const Folder folder;
-  const std::string file = grey_png(folder, 3, 3, {255, 0, 0, 0, 0, 0, 0, 0, 51});
-  const auto mesh = read_heightmap(file, {4.0, 6.0, 10.0}, {});
-  ASSERT_EQ(mesh->vertices.size(), 9U);
-  EXPECT_EQ(mesh->triangles.size(), 8U);
-  EXPECT_LT((mesh->vertices[0] - Eigen::Vector3f(-2, 3, 10)).norm(), 1e-5);
-  EXPECT_LT((mesh->vertices[8] - Eigen::Vector3f(2, -3, 2)).norm(), 1e-5);
-  for (const auto& t : mesh->triangles) {
-    const Eigen::Vector3f a = mesh->vertices[t[0]];
-    EXPECT_GT((mesh->vertices[t[1]] - a).cross(mesh->vertices[t[2]] - a).z(), 0.0F);
-  }
-}
-
-TEST(Heightmap, StandsWhereItsPosSays) {
-  const Folder folder;
-  grey_png(folder, 2, 2, {0, 0, 0, 0});
-  const desc::Collision c =
-      read(in_link("<collision name='c'><geometry><heightmap><uri>model://h.png</uri><size>1 1 1"
-                   "</size><pos>0 0 5</pos></heightmap></geometry></collision>"),
-           folder.paths())
-          .models[0]
-          .links[0]
-          .collisions[0];
-  EXPECT_EQ(c.shape.type, Shape::Type::kMesh);
-  EXPECT_TRUE(c.shape.mesh_file.empty());
-  expect_near(c.pose.position, {0.0, 0.0, 5.0});
-}
-
-TEST(Heightmap, NoImageIsAnError) {
-  const Folder folder;
-  EXPECT_THROW(read_heightmap(folder.write("h.png", "not a png"), Vec3::Ones(), {}), Error);
 }
 
 }  // namespace

@@ -89,8 +89,8 @@ TEST(Inertia, MassThatIsNoNumberIsAnErrorEvenThere) {
   error_of(in_model("<static>1</static><link name='l'><inertial><mass>x</mass></inertial></link>"));
 }
 
-TEST(Material, NamesAndColours) {
-  const auto colour = [](const std::string& material) {
+TEST(Material, NamesAndColors) {
+  const auto color = [](const std::string& material) {
     return read(in_link("<visual name='v'><geometry><empty/></geometry><material>" + material +
                         "</material></visual>"))
         .models[0]
@@ -99,11 +99,11 @@ TEST(Material, NamesAndColours) {
         .material.diffuse;
   };
   const std::string script = "<script><uri>file://media/materials/scripts/gazebo.material</uri>";
-  EXPECT_EQ(colour(script + "<name>Gazebo/White</name></script>"),
+  EXPECT_EQ(color(script + "<name>Gazebo/White</name></script>"),
             Eigen::Vector4f(1.0F, 1.0F, 1.0F, 1.0F));
-  const Eigen::Vector4f wood = colour(script + "<name>Gazebo/Wood</name></script>");
+  const Eigen::Vector4f wood = color(script + "<name>Gazebo/Wood</name></script>");
   EXPECT_GT(wood.x(), wood.z());
-  EXPECT_EQ(colour("<diffuse>0.1 0.2 0.3 0.4</diffuse>"), Eigen::Vector4f(0.1F, 0.2F, 0.3F, 0.4F));
+  EXPECT_EQ(color("<diffuse>0.1 0.2 0.3 0.4</diffuse>"), Eigen::Vector4f(0.1F, 0.2F, 0.3F, 0.4F));
 }
 
 TEST(Material, UnknownNameIsAWarning) {

@@ -121,13 +121,5 @@ TEST(AnyText, NumbersAloneAreValues) {
   EXPECT_TRUE(values("Dim 40").empty());
 }
 
-TEST(Utf8, KnowsWhatIsOne) {
-  EXPECT_TRUE(valid_utf8("Küche €𝄞"));
-  for (const char* wrong :
-       {"\x80", "\xc3", "\xc0\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xff"}) {
-    EXPECT_FALSE(valid_utf8(wrong));
-  }
-}
-
 }  // namespace
 }  // namespace angen::node

@@ -104,7 +104,7 @@ class Sandbox:
 
     def node(self, world: Path, rate: float, **params: Any) -> subprocess.Popen[bytes]:
         """The node with a world, once it serves; `params` are more of its parameters."""
-        wait(lambda: not self._names(2, '/angen/save'), 'the last node has not gone', START_LIMIT)
+        wait(lambda: not self._names(0, '/angen/ready'), 'the last node has not gone', START_LIMIT)
         self.launched = time.monotonic()
         words = [f'_rate:={rate:g}', *(f'_{key}:={value}' for key, value in params.items())]
         process = self.start([str(node_program()), str(world), *words], 'node')
@@ -112,7 +112,7 @@ class Sandbox:
         def serves() -> bool:
             if process.poll() is not None:
                 self.complain()
-            return bool(self._names(2, '/angen/save') and self._names(0, '/clock'))
+            return bool(self._names(0, '/angen/ready'))
 
         wait(serves, 'the node does not serve', START_LIMIT)
         return process

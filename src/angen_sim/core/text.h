@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace angen {
+
+/// How many bytes from the start are whole UTF-8 characters: text.size() where all of it is valid.
+std::size_t valid_utf8_prefix(const std::string& text);
+bool valid_utf8(const std::string& text);
+
+/// Without blanks (space, tab, line breaks) at both ends.
+std::string trimmed(const std::string& text);
+
+/// `text` fit for a log line: at most `limit` bytes, control characters and invalid UTF-8 as `?`.
+std::string printable(const std::string& text, std::size_t limit = 80);
+
+/// The whole text as a number in the C locale, which may be infinite or NaN; a leading + is
+/// allowed.
+std::optional<double> parse_number(const std::string& text);
+/// The same, but nothing where it is infinite or NaN.
+std::optional<double> parse_finite(const std::string& text);
+std::optional<int> parse_integer(const std::string& text);
+
+/// The shortest text that parse_number() reads as the same value.
+std::string number_text(double value);
+
+}  // namespace angen

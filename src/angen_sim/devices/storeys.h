@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+/// How Angen's buildings are laid out: storeys of one height, and what is in them named after its
+/// room and storey.
+namespace angen::devices {
+
+/// Height between two floors in meters; floor 0 is at z = 0.
+constexpr double kStoreyHeight = 4.0;
+
+/// floor((z + 0.5) / 4): the storey of a model whose origin is at z meters.
+int floor_of(double z);
+
+/// The name that commands use: the model's without trailing digits and '_' and without the kind as
+/// suffix or prefix (`_door`, `door_`), followed by the floor. command_name("bathroom_door1",
+/// "door", 4.0) is "bathroom1".
+std::string command_name(const std::string& model, const std::string& kind, double z);
+
+}  // namespace angen::devices

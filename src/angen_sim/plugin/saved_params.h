@@ -1,0 +1,44 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/element.h"
+#include "core/text.h"
+
+namespace angen {
+
+/// New values for parameters of a plug-in, as `angen save` writes them into its <plugin>.
+class SavedParams {
+ public:
+  void number(const std::string& name, double value) { row(name, {value}); }
+  void flag(const std::string& name, bool value) { add(name, value ? "true" : "false"); }
+  /// One of any number of <name>, as Params::rows() reads them.
+  void row(const std::string& name, const std::vector<double>& values) {
+    std::string text;
+    for (const double value : values) text += (text.empty() ? "" : " ") + number_text(value);
+    add(name, text);
+  }
+  /// No longer given, whatever the plug-in was loaded with.
+  void unset(const std::string& name) { names_.insert(name); }
+
+  bool operator==(const SavedParams& other) const {
+    return names_ == other.names_ && values_ == other.values_;
+  }
+
+  /// Puts the values in place of what the plug-in's element has of these names.
+  void write_to(Element& plugin) const;
+
+ private:
+  void add(const std::string& name, std::string text) {
+    names_.insert(name);
+    values_.emplace_back(name, std::move(text));
+  }
+
+  std::set<std::string> names_;
+  std::vector<std::pair<std::string, std::string>> values_;
+};
+
+}  // namespace angen

@@ -1,0 +1,32 @@
+#include "devices/storeys.h"
+
+#include <gtest/gtest.h>
+
+namespace angen::devices {
+namespace {
+
+TEST(Floor, CountsStoreysOfFourMetres) {
+  EXPECT_EQ(floor_of(0.0), 0);
+  EXPECT_EQ(floor_of(-0.4), 0);
+  EXPECT_EQ(floor_of(3.4), 0);
+  EXPECT_EQ(floor_of(3.5), 1);
+  EXPECT_EQ(floor_of(4.0), 1);
+  EXPECT_EQ(floor_of(8.0), 2);
+  EXPECT_EQ(floor_of(-1.0), -1);
+}
+
+TEST(CommandName, DropsDigitsAndKindAndAddsTheFloor) {
+  EXPECT_EQ(command_name("bathroom_door1", "door", 4.0), "bathroom1");
+  EXPECT_EQ(command_name("kitchen_door", "door", 8.0), "kitchen2");
+  EXPECT_EQ(command_name("door_kitchen_12", "door", 0.0), "kitchen0");
+  EXPECT_EQ(command_name("kitchen_lamp", "lamp", 0.0), "kitchen0");
+  EXPECT_EQ(command_name("kitchen_lamp", "door", 0.0), "kitchen_lamp0");
+}
+
+TEST(CommandName, NeverEndsUpEmpty) {
+  EXPECT_EQ(command_name("door", "door", 0.0), "door0");
+  EXPECT_EQ(command_name("123", "door", 0.0), "door0");
+}
+
+}  // namespace
+}  // namespace angen::devices

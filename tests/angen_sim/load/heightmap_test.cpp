@@ -1,0 +1,122 @@
+#include <png.h>
+
+#include <cstdio>
+
+#include "angen_sim/load/texts.h"
+#include "load/geometry.h"
+
+namespace angen::load {
+namespace {
+
+struct Format {
+  int bits = 8;
+  int type = PNG_COLOR_TYPE_GRAY;
+  enum class Gamma { kNone, kGama, kSrgb } gamma = Gamma::kNone;
+};
+
+/// Writes a square PNG as it is: `samples` of all pixels from the top, in the format's bits.
+std::string png(const Folder& folder, unsigned side, const std::vector<unsigned>& samples,
+                const Format& format = {}) {
+  const std::string path = folder.write("h.png", "");
+  std::vector<png_byte> bytes;
+  for (const unsigned sample : samples) {
+    if (format.bits == 16) bytes.push_back(static_cast<png_byte>(sample / 256));
+    bytes.push_back(static_cast<png_byte>(sample % 256));
+  }
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  png_structp writer = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(writer);
+  png_init_io(writer, file);
+  png_set_IHDR(writer, info, side, side, format.bits, format.type, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  if (format.gamma == Format::Gamma::kGama) png_set_gAMA(writer, info, 1.0 / 2.2);
+  if (format.gamma == Format::Gamma::kSrgb) png_set_sRGB(writer, info, PNG_sRGB_INTENT_PERCEPTUAL);
+  png_write_info(writer, info);
+  for (unsigned row = 0; row < side; ++row) {
+    png_write_row(writer, bytes.data() + row * (bytes.size() / side));
+  }
+  png_write_end(writer, info);
+  png_destroy_write_struct(&writer, &info);
+  std::fclose(file);
+  return path;
+}
+
+float first_height(const std::string& file) {
+  return read_heightmap(file, Vec3::Ones(), {})->vertices.at(0).z();
+}
+
+constexpr Format::Gamma kGammas[] = {Format::Gamma::kNone, Format::Gamma::kGama,
+                                     Format::Gamma::kSrgb};
+
+TEST(Heightmap, HasTheFilesValuesOf8Bits) {
+  const Folder folder;
+  for (const Format::Gamma gamma : kGammas) {
+    const Format format{8, PNG_COLOR_TYPE_GRAY, gamma};
+    EXPECT_FLOAT_EQ(first_height(png(folder, 2, {128, 0, 0, 255}, format)), 128.0F / 255.0F);
+  }
+}
+
+TEST(Heightmap, HasTheFilesValuesOf16Bits) {
+  const Folder folder;
+  for (const Format::Gamma gamma : kGammas) {
+    const Format format{16, PNG_COLOR_TYPE_GRAY, gamma};
+    EXPECT_FLOAT_EQ(first_height(png(folder, 2, {0x8000, 0, 0, 65535}, format)),
+                    32768.0F / 65535.0F);
+    EXPECT_FLOAT_EQ(first_height(png(folder, 2, {1, 0, 0, 65535}, format)), 1.0F / 65535.0F);
+  }
+}
+
+TEST(Heightmap, OfAColorImageIsTheMeanWhateverItsAlpha) {
+  const Folder folder;
+  const Format rgb{8, PNG_COLOR_TYPE_RGB};
+  EXPECT_FLOAT_EQ(first_height(png(folder, 2, {10, 20, 60, 0, 0, 0, 0, 0, 0, 0, 0, 0}, rgb)),
+                  30.0F / 255.0F);
+  const Format alpha{8, PNG_COLOR_TYPE_GRAY_ALPHA};
+  EXPECT_FLOAT_EQ(first_height(png(folder, 2, {51, 7, 0, 0, 0, 0, 0, 0}, alpha)), 0.2F);
+}
+
+TEST(Heightmap, SpansItsSizeAndRisesWithGray) {
+  const Folder folder;
+  const std::string file = png(folder, 3, {255, 0, 0, 0, 0, 0, 0, 0, 51});
+  const auto mesh = read_heightmap(file, {4.0, 6.0, 10.0}, {});
+  ASSERT_EQ(mesh->vertices.size(), 9U);
+  EXPECT_EQ(mesh->triangles.size(), 8U);
+  EXPECT_LT((mesh->vertices[0] - Eigen::Vector3f(-2, 3, 10)).norm(), 1e-5);
+  EXPECT_LT((mesh->vertices[8] - Eigen::Vector3f(2, -3, 2)).norm(), 1e-5);
+  for (const auto& t : mesh->triangles) {
+    const Eigen::Vector3f a = mesh->vertices[t[0]];
+    EXPECT_GT((mesh->vertices[t[1]] - a).cross(mesh->vertices[t[2]] - a).z(), 0.0F);
+  }
+}
+
+TEST(Heightmap, StandsWhereItsPosSays) {
+  const Folder folder;
+  png(folder, 2, {0, 0, 0, 0});
+  const desc::Collision c =
+      read(in_link("<collision name='c'><geometry><heightmap><uri>model://h.png</uri><size>1 1 1"
+                   "</size><pos>0 0 5</pos></heightmap></geometry></collision>"),
+           folder.paths())
+          .models[0]
+          .links[0]
+          .collisions[0];
+  EXPECT_EQ(c.shape.type, Shape::Type::kMesh);
+  EXPECT_TRUE(c.shape.mesh_file.empty());
+  expect_near(c.pose.position, {0.0, 0.0, 5.0});
+}
+
+TEST(Heightmap, NoImageIsAnError) {
+  const Folder folder;
+  EXPECT_THROW(read_heightmap(folder.write("h.png", "not a png"), Vec3::Ones(), {}), Error);
+  EXPECT_THROW(read_heightmap(folder.path() + "/none.png", Vec3::Ones(), {}), Error);
+  EXPECT_THROW(read_heightmap(png(folder, 1, {0}), Vec3::Ones(), {}), Error);
+}
+
+TEST(Heightmap, ThatIsCutOffIsAnError) {
+  const Folder folder;
+  const std::string file = png(folder, 64, std::vector<unsigned>(64 * 64, 3));
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+  EXPECT_THROW(read_heightmap(file, Vec3::Ones(), {}), Error);
+}
+
+}  // namespace
+}  // namespace angen::load
