@@ -35,7 +35,7 @@ check_ctest() { # [WORDS]
     timeout 900 ctest --test-dir "${tree:-build}" -j "$(jobs)" --output-on-failure --timeout 300
     return
   fi
-  for program in "${tree:-build}"/src/angen_sim/tests/*_test "${tree:-build}"/tests/*_test; do
+  for program in "${tree:-build}"/tests/*_test; do
     [[ -x $program && $("$program" --gtest_list_tests --gtest_filter="$filter") ]] || continue
     ran=1
     "$program" --gtest_brief=1 --gtest_filter="$filter" || failed=1
