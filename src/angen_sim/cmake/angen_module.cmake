@@ -32,6 +32,7 @@ endfunction()
 function(angen_plugin file)
   add_library(${file} MODULE ${ARGN})
   angen_compile_options(${file} angen_core)
+  set_target_properties(${file} PROPERTIES UNITY_BUILD OFF)  # few sources each
   add_dependencies(angen_run ${file})
   target_link_libraries(${file} PRIVATE angen_plugin angen_class_loader)
   # A function that is missing is found when the library is linked or loaded, not in the middle of a run; and a

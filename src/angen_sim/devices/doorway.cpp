@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kAcceleration = 1.5;   // m/s^2
 constexpr double kFollowGain = 15.0;    // 1/s, from a leaf's lag to its speed
-constexpr double kMaxDoorwayLag = 0.03;        // m, more means that the force is used up
-constexpr double kArriveDistance = 0.001;  // m
+constexpr double kMaxLag = 0.03;        // m, more means that the force is used up
+constexpr double kArriveError = 0.001;  // m
 constexpr double kStallSpeed = 0.005;   // m/s
 constexpr double kObstacleTime = 0.2;   // s without motion while shutting
 constexpr double kBlockedTime = 0.6;    // s without motion while opening
@@ -69,19 +69,19 @@ bool Doorway::update(const View& view, Outputs& outputs) {
     lag = std::max(lag, std::abs(profile_.position() / travel_ * leaf.open - joint.position));
     fastest = std::max(fastest, std::abs(joint.velocity));
   }
-  if (lag < kArriveDistance && profile_.at(target)) {
+  if (lag < kArriveError && profile_.at(target)) {
     for (const Leaf& leaf : leaves_) brake(leaf, max_force_, outputs);
     moving_ = false;
     mode_ = opening_ ? Mode::kOpen : Mode::kClosed;
     return false;
   }
   stalled_ = fastest < kStallSpeed ? stalled_ + dt : 0.0;
-  if (!opening_ && (lag > kMaxDoorwayLag || stalled_ > kObstacleTime)) {
+  if (!opening_ && (lag > kMaxLag || stalled_ > kObstacleTime)) {
     go(true, view);
     return true;
   }
   if (opening_) mode_ = stalled_ > kBlockedTime ? Mode::kBlocked : Mode::kOpening;
-  if (lag < kMaxDoorwayLag) profile_.advance(target, dt);
+  if (lag < kMaxLag) profile_.advance(target, dt);
   for (const Leaf& leaf : leaves_) {
     const double scale = leaf.open / travel_;
     const double behind = scale * profile_.position() - view.joint(leaf.joint).position;
