@@ -46,7 +46,8 @@ check_ctest() { # [WORDS]
 
 check_pytest() { # [WORDS]
   local code=0
-  timeout 900 python3 -m pytest -q ${1:+-k "$1"} "${pytest_arguments[@]}" || code=$?
+  # A file's tests share a ROS master and a node; files are independent. Most of them wait for wall time.
+  timeout 900 python3 -m pytest -q -n "$(nproc)" --dist loadfile ${1:+-k "$1"} "${pytest_arguments[@]}" || code=$?
   ((code == 5)) && [[ ${1:-} ]] && code=0 # none has these words in its name
   return $code
 }
