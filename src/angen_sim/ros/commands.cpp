@@ -8,7 +8,8 @@
 namespace angen::node {
 namespace {
 
-constexpr std::uint32_t kQueue3 = 1000;  // commands are never dropped for another of the same moment
+constexpr std::uint32_t kCommandQueue =
+    1000;  // commands are never dropped for another of the same moment
 constexpr std::uint32_t kDriveQueue = 10;
 
 std::vector<std::string> names_of(const sim::Structure& structure, const std::string& kind) {
@@ -29,7 +30,7 @@ Commands::Commands(ros::NodeHandle& node, Inbox& inbox) : node_(node), inbox_(in
       if (auto* reject = std::get_if<sim::Reject>(&action)) add_known_names(*reject);
       inbox_.post(std::move(action));
     };
-    subscribers_.push_back(node_.subscribe<std_msgs::String>(topic, kQueue3, heard));
+    subscribers_.push_back(node_.subscribe<std_msgs::String>(topic, kCommandQueue, heard));
   };
   for (const auto& [kind, source] : {std::pair("door", "Door_controller"),
                                      {"window", "Window_controller"},
@@ -46,7 +47,8 @@ Commands::Commands(ros::NodeHandle& node, Inbox& inbox) : node_(node), inbox_(in
       [this](const angen_msgs::Command::ConstPtr& command) {
         inbox_.post(any_action(command->target, command->text));
       };
-  subscribers_.push_back(node_.subscribe<angen_msgs::Command>("/angen/command", kQueue3, any));
+  subscribers_.push_back(
+      node_.subscribe<angen_msgs::Command>("/angen/command", kCommandQueue, any));
 }
 
 void Commands::add_known_names(sim::Reject& reject) const {

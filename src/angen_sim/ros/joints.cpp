@@ -9,8 +9,8 @@
 namespace angen::node {
 namespace {
 
-constexpr Nanoseconds kPeriod2 = kSecond / 50;
-constexpr std::uint32_t kQueue2 = 20;
+constexpr Nanoseconds kJointPeriod = kSecond / 50;
+constexpr std::uint32_t kJointQueue = 20;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ void JointStates::follow(const sim::Snapshot& snapshot, const std::vector<Robot>
       const auto before = old.find(topic);
       const Outlet outlet = before != old.end()
                                 ? before->second
-                                : Outlet::of<sensor_msgs::JointState>(node_, topic, kQueue2);
+                                : Outlet::of<sensor_msgs::JointState>(node_, topic, kJointQueue);
       outlets_.emplace(topic, outlet);
       source.outlets.push_back(outlet);
     }
@@ -41,7 +41,7 @@ void JointStates::follow(const sim::Snapshot& snapshot, const std::vector<Robot>
 }
 
 void JointStates::pass(const sim::Snapshot& snapshot) {
-  const Nanoseconds slot = snapshot.time / kPeriod2;
+  const Nanoseconds slot = snapshot.time / kJointPeriod;
   if (slot == slot_) return;
   slot_ = slot;
   for (const Source& source : sources_) {

@@ -12,7 +12,7 @@ namespace {
 constexpr double kCell = 4.0;       // m
 constexpr double kSlack = 0.25;     // m, that a mover's box is larger by, on each side
 constexpr double kManyCells = 512;  // a box in more is looked at in each query
-constexpr double kFarthest2 = 1 << 20;
+constexpr double kFarthestReach = 1 << 20;
 
 using Cells = std::array<int, 6>;  // first and last along x, y, z
 
@@ -21,7 +21,7 @@ bool cells_of(const Sights::Box& box, Cells& cells) {
   for (int axis = 0; axis < 3; ++axis) {
     const double first = std::floor(box.min()[axis] / kCell);
     const double last = std::floor(box.max()[axis] / kCell);
-    if (!(first > -kFarthest2 && last < kFarthest)) return false;
+    if (!(first > -kFarthestReach && last < kFarthest)) return false;
     count *= last - first + 1.0;
     cells[2 * axis] = static_cast<int>(first);
     cells[2 * axis + 1] = static_cast<int>(last);
