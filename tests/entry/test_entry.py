@@ -1,4 +1,5 @@
 """The shell entry: what it says where it cannot work, and whose python3 it uses."""
+import fcntl
 import os
 from pathlib import Path
 import subprocess
@@ -66,8 +67,9 @@ def test_debian_12_with_apt_passes(folder, user_id, programs):
     assert require_installer(folder, DEBIAN_12, user_id).stdout == 'passed\n'
 
 
-def test_every_dependency_has_a_purpose():
-    lines = (ROOT / 'dependencies.apt').read_text().splitlines()
+@pytest.mark.parametrize('path', sorted(ROOT.glob('dependencies*.apt')), ids=lambda p: p.stem)
+def test_every_dependency_has_a_purpose(path):
+    lines = path.read_text().splitlines()
     packages = [line for line in lines if line and not line.startswith('#')]
     assert packages
     assert [line for line in packages if '#' not in line] == []
@@ -77,6 +79,32 @@ def test_no_arguments_print_the_usage(folder):
     result = subprocess.run([ROOT / 'angen'], capture_output=True, text=True)
     assert result.returncode == 0
     assert './angen run' in result.stdout
+
+
+def test_a_world_that_is_missing_is_named_in_one_line():
+    result = subprocess.run([ROOT / 'angen', 'run', 'world:=nope'], capture_output=True, text=True)
+    assert_one_line(result, 'world:=nope', 'no such file')
+
+
+def test_a_suite_that_is_missing_is_named_in_one_line():
+    result = subprocess.run([ROOT / 'angen', 'test', 'nope'], capture_output=True, text=True)
+    assert_one_line(result, 'nope', 'pytest')
+
+
+def test_nothing_waits_for_another_that_builds_nothing(tmp_path):
+    """A command of what is built already does not even take the lock."""
+    with (ROOT / 'build/angen/lock').open('w') as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        result = subprocess.run([ROOT / 'angen', 'shell', '-c', 'true'],
+                                capture_output=True, text=True, timeout=60)
+    assert (result.returncode, result.stderr) == (0, '')
+
+
+def test_the_catalog_has_no_plug_ins_of_the_tests():
+    result = subprocess.run([ROOT / 'angen', 'plugins', '--json'], capture_output=True, text=True,
+                            env=dict(os.environ, ANGEN_PLUGIN_PATH='', GAZEBO_PLUGIN_PATH=''))
+    assert 'pir' in result.stdout
+    assert 'tape_measure' not in result.stdout and 'turntable' not in result.stdout
 
 
 def test_another_python_first_on_path_is_not_used(folder):

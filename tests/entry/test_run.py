@@ -10,6 +10,7 @@ import uuid
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
+pytestmark = pytest.mark.ros
 
 
 @pytest.fixture

@@ -5,6 +5,7 @@ from __future__ import annotations
 import fcntl
 import json
 import os
+import pty
 import signal
 import socket
 import subprocess
@@ -14,6 +15,8 @@ import time
 import xmlrpc.client
 from pathlib import Path
 from typing import Any, Callable
+
+import pytest
 
 SCRIPT = Path(__file__).resolve().parents[2] / "src/angen_tools/scripts/angen"
 WORLD = """<?xml version="1.0"?>
@@ -220,6 +223,16 @@ class Cli:
 
     def listed(self, kind: str) -> list[str]:
         return [e["name"] for e in json.loads(self.does("list", "--kind", kind, "--json"))]
+
+
+def open_terminal() -> tuple[int, int]:
+    """Both ends of a pseudo-terminal; skips where there is none, as in a chroot without /dev/pts.
+
+    A machine of continuous integration must have one.
+    """
+    if not os.path.ismount("/dev/pts") and "CI" not in os.environ:
+        pytest.skip("no pseudo-terminals here: /dev/pts is not mounted")
+    return pty.openpty()
 
 
 def own_terminal() -> None:

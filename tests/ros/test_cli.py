@@ -3,8 +3,8 @@ from __future__ import annotations
 
 import json
 import os
-import pty
 import signal
+import socket
 import subprocess
 import sys
 import termios
@@ -13,7 +13,7 @@ from typing import Any, Iterator
 
 import pytest
 from angen_msgs.srv import Step
-from harness import Angen, Cli, Master, end, own_terminal, until
+from harness import Angen, Cli, Master, end, open_terminal, own_terminal
 from gazebo_msgs.msg import ContactsState
 from lxml import etree
 from std_srvs.srv import Empty
@@ -170,10 +170,7 @@ def test_one_table_of_all_costs(cli: Cli) -> None:
 @pytest.mark.parametrize('key', [b'q', b'\x03'])
 def test_a_live_table_ends_by_a_key_and_cleans_the_terminal(cli: Cli, key: bytes, word: str,
                                                             row: bytes) -> None:
-    try:
-        ours, theirs = pty.openpty()
-    except OSError as error:  # a chroot may have no /dev/pts
-        pytest.skip(f'no pseudo-terminal here: {error}')
+    ours, theirs = open_terminal()
     before = termios.tcgetattr(theirs)
     watching = subprocess.Popen(
         [*cli.words, word], env=cli.environment, stdin=theirs, stdout=theirs, stderr=theirs,
@@ -188,23 +185,25 @@ def test_a_live_table_ends_by_a_key_and_cleans_the_terminal(cli: Cli, key: bytes
     os.close(ours)
 
 
-def test_ctrl_c_is_quiet(angen: Angen, cli: Cli) -> None:
-    """While it waits for a simulator that has stopped to answer."""
-    os.kill(angen.process.pid, signal.SIGSTOP)
+def test_ctrl_c_is_quiet(tmp_path: Path) -> None:
+    """While the command waits for a simulator that has its request and does not answer."""
+    master = Master(tmp_path)
     try:
-        asking = subprocess.Popen([*cli.words, 'list'], env=cli.environment, text=True,
-                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        until(lambda: 'futex' in wchan(asking.pid), 'it waits for the answer')
-        asking.send_signal(signal.SIGINT)
-        said = asking.communicate(timeout=30)
-        assert (asking.returncode, said) == (130, ('', ''))
+        with socket.create_server(('127.0.0.1', 0)) as silent:
+            silent.settimeout(60)
+            master.api.registerService('/silent', '/angen/list',
+                                       f'rosrpc://127.0.0.1:{silent.getsockname()[1]}', master.uri)
+            cli = Cli(master)
+            listing = subprocess.Popen([*cli.words, 'list'], env=cli.environment, text=True,
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            connection, _ = silent.accept()
+            with connection:
+                assert b'service=/angen/list' in connection.recv(4096)
+                listing.send_signal(signal.SIGINT)
+                said = listing.communicate(timeout=30)
+            assert (listing.returncode, said) == (130, ('', ''))
     finally:
-        os.kill(angen.process.pid, signal.SIGCONT)
-
-
-def wchan(pid: int) -> str:
-    """What the kernel says that the process waits in."""
-    return Path(f'/proc/{pid}/wchan').read_text()
+        end(master.process)
 
 
 @pytest.fixture

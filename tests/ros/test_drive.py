@@ -2,14 +2,13 @@
 from __future__ import annotations
 
 import os
-import pty
 import signal
 import subprocess
 import termios
 from typing import Iterator
 
 import pytest
-from harness import Angen, Cli, Heard, own_terminal, until
+from harness import Angen, Cli, Heard, open_terminal, own_terminal, until
 from nav_msgs.msg import Odometry
 from std_srvs.srv import Empty
 
@@ -20,10 +19,7 @@ class Driver:
     """angen drive at a pseudo-terminal."""
 
     def __init__(self, cli: Cli, *words: str) -> None:
-        try:
-            self._ours, self._theirs = pty.openpty()
-        except OSError as error:  # a chroot may have no /dev/pts
-            pytest.skip(f'no pseudo-terminal here: {error}')
+        self._ours, self._theirs = open_terminal()
         self._before = termios.tcgetattr(self._theirs)
         self.process = subprocess.Popen(
             [*cli.words, 'drive', *words], env=cli.environment, stdin=self._theirs,

@@ -9,7 +9,11 @@ function(angen_module name)
   if(arg_UNPARSED_ARGUMENTS)
     add_library(angen_${name} SHARED ${arg_UNPARSED_ARGUMENTS})
     set(scope PUBLIC)
-    target_compile_options(angen_${name} PRIVATE ${ANGEN_WARNINGS})
+    if(name STREQUAL "core")
+      angen_compile_options(angen_core)
+    else()
+      angen_compile_options(angen_${name} angen_core)
+    endif()
     install(TARGETS angen_${name} LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
   else()
     add_library(angen_${name} INTERFACE)
@@ -27,7 +31,9 @@ endfunction()
 # angen_plugin(FILE sources...): a plug-in library libFILE.so, loaded by name and never linked to.
 function(angen_plugin file)
   add_library(${file} MODULE ${ARGN})
-  target_compile_options(${file} PRIVATE ${ANGEN_WARNINGS})
+  angen_compile_options(${file} angen_core)
+  set_target_properties(${file} PROPERTIES UNITY_BUILD OFF)  # few sources each
+  add_dependencies(angen_run ${file})
   target_link_libraries(${file} PRIVATE angen_plugin angen_class_loader)
   # A function that is missing is found when the library is linked or loaded, not in the middle of a run; and a
   # class is the library's own, also when another library has one of the same name.

@@ -16,7 +16,7 @@ constexpr std::size_t kLooks = 1024;  // from all points of movers, about
 constexpr double kGrazing = 0.15;     // cosine: areas seen at less are not trusted
 constexpr std::size_t kStride = 797;  // odd: every direction is taken once
 constexpr std::uint32_t kNoMover = UINT32_MAX;
-constexpr double kMargin = 1e-4;  // m, a surface does not meet its own rays
+constexpr double kGatherMargin = 1e-4;  // m, a surface does not meet its own rays
 constexpr rays::Mobilities kMovable = rays::kAll & ~rays::only(rays::Mobility::kStatic);
 constexpr std::size_t kViewPoints = 16;  // of a flat lamp
 
@@ -88,7 +88,7 @@ Gather::Gather(const rays::Scene& scene, Field& field, const Pose& pose)
     : scene_(scene), field_(field), pose_(pose), fixed_reach_(pose.position) {
   const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
   for (const Vec3& local : directions()) {
-    rays_.push_back({pose.position, (rotation * local).normalized(), kMargin});
+    rays_.push_back({pose.position, (rotation * local).normalized(), kGatherMargin});
   }
   std::vector<rays::Hit> hits(kDirections);
   scene_.cast(rays_.data(), hits.data(), kDirections, rays::only(rays::Mobility::kStatic));
@@ -115,7 +115,7 @@ Gather::Gather(const rays::Scene& scene, Field& field, const Pose& pose)
 rays::Ray Gather::next(std::size_t i) const {
   const Vec3& about_x = directions()[(i * kStride) % kDirections];
   const Vec3 way = frame_about(surfaces_[i].normal) * Vec3(about_x.y(), about_x.z(), about_x.x());
-  return {surfaces_[i].position, way.normalized(), kMargin};
+  return {surfaces_[i].position, way.normalized(), kGatherMargin};
 }
 
 Gather::Surface Gather::surface(const rays::Ray& ray, const rays::Hit& hit) const {
@@ -185,7 +185,7 @@ void Gather::look_around() {
       const double u = radical_inverse(count);
       const double v = square_points()[count % kLampPoints].second;
       const rays::Ray ray{mover.surface.position, (frame * cosine_direction(u, v)).normalized(),
-                          kMargin};
+                          kGatherMargin};
       rays::Hit hit;
       scene_.cast(&ray, &hit, 1, kStanding);
       extend(reach_, ray, hit.range);

@@ -8,7 +8,7 @@ namespace angen::physics {
 
 namespace {
 
-using Type = Shape::Type;
+using ShapeType = Shape::Type;
 
 void require_positive(double value, const char* what, const desc::Collision& collision,
                       const std::string& name) {
@@ -19,29 +19,29 @@ void require_positive(double value, const char* what, const desc::Collision& col
 
 void require_size(const desc::Collision& collision, const std::string& name) {
   const Shape& shape = collision.shape;
-  if (shape.type == Type::kBox) {
+  if (shape.type == ShapeType::kBox) {
     for (int i = 0; i < 3; ++i) require_positive(shape.size[i], "side", collision, name);
   }
-  if (shape.type == Type::kSphere || shape.type == Type::kCylinder ||
-      shape.type == Type::kCapsule) {
+  if (shape.type == ShapeType::kSphere || shape.type == ShapeType::kCylinder ||
+      shape.type == ShapeType::kCapsule) {
     require_positive(shape.radius, "radius", collision, name);
   }
-  if (shape.type == Type::kCylinder || shape.type == Type::kCapsule) {
+  if (shape.type == ShapeType::kCylinder || shape.type == ShapeType::kCapsule) {
     require_positive(shape.length, "length", collision, name);
   }
 }
 
 dGeomID make_ode(const Shape& shape, const MeshData* mesh) {
   switch (shape.type) {
-    case Type::kBox:
+    case ShapeType::kBox:
       return dCreateBox(nullptr, shape.size.x(), shape.size.y(), shape.size.z());
-    case Type::kSphere:
+    case ShapeType::kSphere:
       return dCreateSphere(nullptr, shape.radius);
-    case Type::kCylinder:
+    case ShapeType::kCylinder:
       return dCreateCylinder(nullptr, shape.radius, shape.length);
-    case Type::kCapsule:
+    case ShapeType::kCapsule:
       return dCreateCapsule(nullptr, shape.radius, shape.length);
-    case Type::kPlane:
+    case ShapeType::kPlane:
       return dCreatePlane(nullptr, 0.0, 0.0, 1.0, 0.0);
     default:
       return dCreateTriMesh(nullptr, mesh->data.get(), nullptr, nullptr, nullptr);
@@ -89,9 +89,9 @@ std::shared_ptr<const MeshData> ShapeFactory::mesh_data(const desc::Collision& c
 std::unique_ptr<Geom> ShapeFactory::make(const desc::Collision& collision, const std::string& name,
                                          bool dynamic) {
   const Shape& shape = collision.shape;
-  if (shape.type == Type::kEmpty) return nullptr;
+  if (shape.type == ShapeType::kEmpty) return nullptr;
   require_size(collision, name);
-  if (shape.type == Type::kPlane && dynamic) {
+  if (shape.type == ShapeType::kPlane && dynamic) {
     throw Error(collision.source,
                 "collision \"" + name + "\" is a plane on a link that moves, use a box");
   }
@@ -101,8 +101,8 @@ std::unique_ptr<Geom> ShapeFactory::make(const desc::Collision& collision, const
   geom->restitution = collision.restitution;
   geom->stiffness = collision.stiffness;
   geom->damping = collision.damping;
-  geom->is_plane = shape.type == Type::kPlane;
-  if (shape.type == Type::kMesh) geom->mesh = mesh_data(collision, name);
+  geom->is_plane = shape.type == ShapeType::kPlane;
+  if (shape.type == ShapeType::kMesh) geom->mesh = mesh_data(collision, name);
   geom->ode.reset(make_ode(shape, geom->mesh.get()));
   dGeomSetData(geom->ode.get(), geom.get());
   return geom;

@@ -243,6 +243,7 @@ void bind_catalog(pyb::module_& module) {
 
 PYBIND11_MODULE(angen, module) {
   module.doc() = "Angen: a smart apartment building with robots and people in it.";
+  module.attr("__version__") = ANGEN_VERSION;
   pyb::register_exception<Error>(module, "Error", PyExc_ValueError);
   bind_plugin_types(module);
   bind_bases(module);

@@ -12,7 +12,7 @@
 namespace angen::rays {
 namespace {
 
-struct Query {
+struct SceneQuery {
   RTCIntersectContext context;  // first: Embree hands back its address
   Vec3 origin, direction;
   double min;
@@ -55,7 +55,7 @@ void bounds(const RTCBoundsFunctionArguments* args) {
 template <bool fixed>
 void intersect(const RTCIntersectFunctionNArguments* args) {
   if (!args->valid[0]) return;
-  auto& q = *reinterpret_cast<Query*>(args->context);
+  auto& q = *reinterpret_cast<SceneQuery*>(args->context);
   const auto* solids = static_cast<const Solid*>(args->geometryUserPtr);
   if (!q.try_solid(solids[args->primID], fixed)) return;
   reinterpret_cast<RTCRayHit*>(args->rayhit)->ray.tfar = reach(q.best.range);
@@ -64,7 +64,7 @@ void intersect(const RTCIntersectFunctionNArguments* args) {
 template <bool fixed>
 void occluded(const RTCOccludedFunctionNArguments* args) {
   if (!args->valid[0]) return;
-  auto& q = *reinterpret_cast<Query*>(args->context);
+  auto& q = *reinterpret_cast<SceneQuery*>(args->context);
   const Solid& solid = static_cast<const Solid*>(args->geometryUserPtr)[args->primID];
   Meeting found;
   if (!q.wants(solid, fixed)) return;
@@ -74,7 +74,7 @@ void occluded(const RTCOccludedFunctionNArguments* args) {
 }
 
 struct Cover {
-  RTCPointQueryContext context;  // first, as in Query
+  RTCPointQueryContext context;  // first, as in SceneQuery
   const std::vector<Solid>* solids;
   Vec3 point;
   std::uint32_t except;
@@ -135,7 +135,7 @@ Solid make_solid(const Shape& shape, const Pose& pose) {
 bool finite_as_floats(const Vec3& v) { return v.cast<float>().allFinite(); }
 
 /// False for a ray that meets nothing by definition: not finite, no direction, an empty interval.
-bool prepare(Query& q, const Vec3& origin, const Vec3& direction, double min, double max,
+bool prepare(SceneQuery& q, const Vec3& origin, const Vec3& direction, double min, double max,
              Mobilities among) {
   rtcInitIntersectContext(&q.context);
   q.origin = origin;
@@ -150,7 +150,7 @@ bool prepare(Query& q, const Vec3& origin, const Vec3& direction, double min, do
   return finite_as_floats(origin) && finite_as_floats(direction) && length2 > 1e-30 && q.min <= max;
 }
 
-bool prepare(Query& q, const Ray& ray, Mobilities among) {
+bool prepare(SceneQuery& q, const Ray& ray, Mobilities among) {
   return prepare(q, ray.origin, ray.direction, ray.min, ray.max, among);
 }
 
@@ -209,7 +209,7 @@ struct Scene::Impl {
     return (among & (&layer == &fixed ? standing : kAll & ~standing)) != 0;
   }
 
-  void nearest(Query& q, Mobilities among) const {
+  void nearest(SceneQuery& q, Mobilities among) const {
     RTCRayHit ray{};
     for (const Layer* layer : {&fixed, &moving}) {
       if (!wants(*layer, among)) continue;
@@ -221,7 +221,7 @@ struct Scene::Impl {
     }
   }
 
-  bool any(Query& q, Mobilities among) const {
+  bool any(SceneQuery& q, Mobilities among) const {
     Meeting found;
     for (const Layer* layer : {&fixed, &moving}) {
       if (!wants(*layer, among)) continue;
@@ -311,7 +311,7 @@ void Scene::commit() {
 }
 
 void Scene::cast(const Ray* rays, Hit* hits, std::size_t count, Mobilities among) const {
-  Query q;
+  SceneQuery q;
   for (std::size_t i = 0; i < count; ++i) {
     hits[i] = {};
     if (!prepare(q, rays[i], among)) continue;
@@ -326,12 +326,12 @@ void Scene::cast(const std::vector<Ray>& rays, std::vector<Hit>& hits) const {
 }
 
 void Scene::better(ShapeId moving, const Ray& ray, Hit& hit) const {
-  Query q;
+  SceneQuery q;
   const Entry& entry = impl_->entries.at(moving);
   if (entry.type == Shape::Type::kEmpty || !prepare(q, ray, kAll)) return;
   if (hit.hit()) {
     q.best.range = hit.range;
-    q.rank = Query::rank_of(hit.shape, impl_->places[hit.shape].layer == &impl_->fixed);
+    q.rank = SceneQuery::rank_of(hit.shape, impl_->places[hit.shape].layer == &impl_->fixed);
   }
   if (q.try_solid(impl_->solid(moving.index), false)) hit = q.hit();
 }
@@ -348,14 +348,14 @@ Eigen::AlignedBox3d Scene::bounds(ShapeId shape) const {
 }
 
 bool Scene::blocked(const Vec3& from, const Vec3& to, double margin, Mobilities among) const {
-  Query q;
+  SceneQuery q;
   const double length = (to - from).norm();
   const Vec3 direction = (to - from) / length;
   return prepare(q, from, direction, margin, length - margin, among) && impl_->any(q, among);
 }
 
 Hit Scene::cast_at(std::uint32_t shape_index, const Ray& ray) const {
-  Query q;
+  SceneQuery q;
   if (!prepare(q, ray, kAll)) return {};
   return q.try_solid(impl_->solid(shape_index), true) ? q.hit() : Hit{};
 }

@@ -8,7 +8,8 @@
 namespace angen::node {
 namespace {
 
-constexpr std::uint32_t kQueue = 1000;  // commands are never dropped for another of the same moment
+constexpr std::uint32_t kCommandQueue =
+    1000;  // commands are never dropped for another of the same moment
 constexpr std::uint32_t kDriveQueue = 10;
 
 std::vector<std::string> names_of(const sim::Structure& structure, const std::string& kind) {
@@ -26,7 +27,7 @@ Commands::Commands(ros::NodeHandle& node, Inbox& inbox) : node_(node), inbox_(in
       [this](const angen_msgs::Command::ConstPtr& command) {
         inbox_.post(any_action(command->target, command->text));
       };
-  any_ = node_.subscribe<angen_msgs::Command>("/angen/command", kQueue, any);
+  any_ = node_.subscribe<angen_msgs::Command>("/angen/command", kCommandQueue, any);
 }
 
 void Commands::receive(const Plugin& plugin, const std::string& text) {
@@ -51,7 +52,7 @@ void Commands::on_kinds(const sim::Structure& structure) {
     const boost::function<void(const std_msgs::String::ConstPtr&)> received =
         [this, plugin](const std_msgs::String::ConstPtr& text) { receive(*plugin, text->data); };
     try {
-      kept[kind.name] = node_.subscribe<std_msgs::String>(kind.command_topic, kQueue, received);
+      kept[kind.name] = node_.subscribe<std_msgs::String>(kind.command_topic, kCommandQueue, received);
     } catch (const ros::Exception& error) {
       ROS_WARN("no commands to a %s on %s: %s", kind.name.c_str(), kind.command_topic.c_str(),
                error.what());

@@ -9,7 +9,7 @@
 namespace angen::node {
 namespace {
 
-constexpr std::chrono::seconds kPeriod(1);
+constexpr std::chrono::seconds kCostPeriod(1);
 
 Nanoseconds process_time() {
   timespec now{};
@@ -70,7 +70,7 @@ void CostTopic::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point 
     simulation_.take_cost();
     restart(now);
   }
-  if (!measuring_ || now - since_ < kPeriod) return;
+  if (!measuring_ || now - since_ < kCostPeriod) return;
   const Spent spent{simulation_.take_cost(), publishing_, process_time() - process_since_,
                     std::chrono::nanoseconds(now - since_).count()};
   restart(now);

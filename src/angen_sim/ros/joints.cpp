@@ -9,8 +9,8 @@
 namespace angen::node {
 namespace {
 
-constexpr Nanoseconds kPeriod = kSecond / 50;
-constexpr std::uint32_t kQueue = 20;
+constexpr Nanoseconds kJointPeriod = kSecond / 50;
+constexpr std::uint32_t kJointQueue = 20;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ void JointStates::on_structure(const sim::Snapshot& snapshot, const std::vector<
       const auto before = old.find(topic);
       const LazyPublisher made =
           before != old.end() ? before->second
-                              : LazyPublisher::of<sensor_msgs::JointState>(node_, topic, kQueue);
+                              : LazyPublisher::of<sensor_msgs::JointState>(node_, topic, kJointQueue);
       publishers_.emplace(topic, made);
       source.publishers.push_back(made);
     }
@@ -41,7 +41,7 @@ void JointStates::on_structure(const sim::Snapshot& snapshot, const std::vector<
 }
 
 void JointStates::publish(const sim::Snapshot& snapshot) {
-  const Nanoseconds slot = snapshot.time / kPeriod;
+  const Nanoseconds slot = snapshot.time / kJointPeriod;
   if (slot == slot_) return;
   slot_ = slot;
   for (const Source& source : sources_) {

@@ -9,7 +9,7 @@
 namespace angen::node {
 namespace {
 
-constexpr std::chrono::milliseconds kPeriod(66);
+constexpr std::chrono::milliseconds kMarkerPeriod(66);
 
 }  // namespace
 
@@ -60,7 +60,7 @@ void Markers::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point no
   if (snapshot.structure != structure_) on_structure(snapshot);
   for (const std::uint32_t link : snapshot.moved_links) mark(link);
   if (now < next_send_) return;
-  next_send_ = now + kPeriod;
+  next_send_ = now + kMarkerPeriod;
   const std::uint64_t joined = publisher_.subscriptions();
   const Array array = collect(snapshot, joined != joined_);
   joined_ = joined;

@@ -10,7 +10,7 @@
 namespace angen::node {
 namespace {
 
-constexpr std::chrono::milliseconds kPeriod(250);
+constexpr std::chrono::milliseconds kSummaryPeriod(250);
 
 angen_msgs::SummaryEntry entry_of(const Kind& kind, const std::string& name, const Reading* reading,
                                   Nanoseconds stamp) {
@@ -31,7 +31,7 @@ SummaryTopic::SummaryTopic(ros::NodeHandle& node)
 
 void SummaryTopic::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {
   if (!publisher_.has_subscribers() || now < next_) return;
-  next_ = now + kPeriod;
+  next_ = now + kSummaryPeriod;
   const sim::Structure& structure = *snapshot.structure;
   const std::uint64_t subscriptions = publisher_.subscriptions();
   angen_msgs::Summary message;

@@ -8,7 +8,7 @@
 namespace angen::node {
 namespace {
 
-constexpr Nanoseconds kPeriod = kSecond / 50;
+constexpr Nanoseconds kTransformPeriod = kSecond / 50;
 
 void add(tf2_msgs::TFMessage& message, Nanoseconds time, const std::string& parent,
          const std::string& child, const Pose& pose) {
@@ -52,7 +52,7 @@ void Transforms::publish(const sim::Snapshot& snapshot) {
   }
   const std::uint64_t joined = moving_.subscriptions();
   const bool newcomer = joined != joined_;
-  const Nanoseconds slot = snapshot.time / kPeriod;
+  const Nanoseconds slot = snapshot.time / kTransformPeriod;
   if (slot == slot_ && !(newcomer && snapshot.paused)) return;
   joined_ = joined;
   slot_ = slot;

@@ -21,12 +21,22 @@ def run_completion(args: argparse.Namespace) -> int:
     return 0
 
 
+class PrintVersion(argparse.Action):
+    """Prints the version, which `import angen` has; that import is too slow for every command."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> NoReturn:
+        import angen
+        print(f'angen {angen.__version__}')
+        parser.exit()
+
+
 def make_parser() -> Parser:
     """All that the command understands."""
     parser = Parser(
         prog='angen', description='Works on the running simulator. Each command has --help.',
         epilog='example:\n  angen list --kind door',
         formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('--version', action=PrintVersion, nargs=0, help='prints the version')
     commands = parser.add_subparsers(metavar='COMMAND', required=True)
     for add in (live.add_spawn, live.add_delete, live.add_list, offline.add_plugins, live.add_set,
                 live.add_save, live.add_watch, live.add_top, offline.add_checks, offline.add_map,

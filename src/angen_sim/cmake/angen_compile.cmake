@@ -1,0 +1,23 @@
+# Compiling costs what headers cost; two ways to pay for them less often take two thirds off a build. With
+# -DCMAKE_UNITY_BUILD=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON each source is compiled by itself, which finds a
+# missing #include (`./angen tidy` does so).
+# One: the sources of a target are compiled eight at a time, so a name in an unnamed namespace is unique in its target.
+option(CMAKE_UNITY_BUILD "Compile sources of a target together" ON)
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+# Two: headers of others are parsed once. Never our own: the walls between modules hold.
+set(ANGEN_PRECOMPILED_HEADERS
+  <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <memory> <optional> <set> <sstream> <string>
+  <unordered_map> <utility> <variant> <vector> <Eigen/Geometry>)
+
+# angen_compile_options(TARGET [OWNER]): our warnings, and the headers that were precompiled for OWNER, a target with
+# the same compiler flags; without OWNER, TARGET has them precompiled itself.
+function(angen_compile_options target)
+  # Of a class with a member of an unnamed namespace: right where each source is compiled by itself.
+  target_compile_options(${target} PRIVATE ${ANGEN_WARNINGS} -Wno-subobject-linkage)
+  set_target_properties(${target} PROPERTIES DEFINE_SYMBOL "")  # it would be a flag of its own
+  if(ARGN)
+    target_precompile_headers(${target} REUSE_FROM ${ARGN})
+  else()
+    target_precompile_headers(${target} PRIVATE ${ANGEN_PRECOMPILED_HEADERS})
+  endif()
+endfunction()
