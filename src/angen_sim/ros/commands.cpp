@@ -52,7 +52,8 @@ void Commands::on_kinds(const sim::Structure& structure) {
     const boost::function<void(const std_msgs::String::ConstPtr&)> received =
         [this, plugin](const std_msgs::String::ConstPtr& text) { receive(*plugin, text->data); };
     try {
-      kept[kind.name] = node_.subscribe<std_msgs::String>(kind.command_topic, kCommandQueue, received);
+      kept[kind.name] =
+          node_.subscribe<std_msgs::String>(kind.command_topic, kCommandQueue, received);
     } catch (const ros::Exception& error) {
       ROS_WARN("no commands to a %s on %s: %s", kind.name.c_str(), kind.command_topic.c_str(),
                error.what());

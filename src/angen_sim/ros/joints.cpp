@@ -30,9 +30,9 @@ void JointStates::on_structure(const sim::Snapshot& snapshot, const std::vector<
     }
     for (const std::string& topic : robot_topics(robot, "joint_states")) {
       const auto before = old.find(topic);
-      const LazyPublisher made =
-          before != old.end() ? before->second
-                              : LazyPublisher::of<sensor_msgs::JointState>(node_, topic, kJointQueue);
+      const LazyPublisher made = before != old.end() ? before->second
+                                                     : LazyPublisher::of<sensor_msgs::JointState>(
+                                                           node_, topic, kJointQueue);
       publishers_.emplace(topic, made);
       source.publishers.push_back(made);
     }

@@ -100,7 +100,7 @@ struct RosKindRegistration {
 
 #define ANGEN_REGISTER_ROS_KIND(...) ANGEN_REGISTER_ROS_KIND_HOP(__COUNTER__, __VA_ARGS__)
 #define ANGEN_REGISTER_ROS_KIND_HOP(Number, ...) ANGEN_REGISTER_ROS_KIND_AS(Number, __VA_ARGS__)
-#define ANGEN_REGISTER_ROS_KIND_AS(Number, ...)              \
+#define ANGEN_REGISTER_ROS_KIND_AS(Number, ...)                  \
   [[maybe_unused]] static const angen::node::RosKindRegistration \
       angen_ros_kind_registration_##Number(__VA_ARGS__)
 

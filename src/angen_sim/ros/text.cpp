@@ -10,7 +10,6 @@
 namespace angen::node {
 namespace {
 
-
 std::vector<std::string> fields_of(const std::string& text) {
   std::vector<std::string> fields;
   std::size_t start = 0;

@@ -10,10 +10,10 @@
 #include <gazebo_msgs/ContactsState.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
+#include <ros/names.h>
 #include <sensor_msgs/BatteryState.h>
 #include <sensor_msgs/Range.h>
 #include <sensor_msgs/RelativeHumidity.h>
-#include <ros/names.h>
 
 #include <cmath>
 #include <limits>

@@ -9,7 +9,6 @@
 #include <limits>
 
 #include "angen_sim/ros/messages.h"
-#include "angen_sim/ros/messages.h"
 #include "ros/topics.h"
 
 namespace angen::node {
