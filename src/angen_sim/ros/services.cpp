@@ -12,6 +12,7 @@
 #include "record/world_file.h"
 #include "ros/convert.h"
 #include "ros/listing.h"
+#include "ros/text.h"
 
 namespace angen::node {
 namespace {
@@ -165,7 +166,7 @@ bool Services::list(angen_msgs::List::Request& request, angen_msgs::List::Respon
 bool Services::save(angen_msgs::Save::Request&, angen_msgs::Save::Response& response) {
   return answered(response, [&] {
     const auto state = std::make_shared<sim::SavedState>();
-    const sim::Outcome outcome = inbox_.ask(sim::Save{state});
+    const sim::Outcome outcome = inbox_.call(sim::Save{state});
     if (outcome.ok) response.xml = record::world_file(inbox_.simulation().world(), *state);
     return outcome;
   });
