@@ -1,4 +1,4 @@
-// A rays against the cast of all rays: bit for bit the same hits.
+// A cache against the cast of all rays: bit for bit the same hits.
 #include "rays/ray_cache.h"
 
 #include <gtest/gtest.h>
@@ -66,29 +66,29 @@ void expect_same(const std::vector<Hit>& a, const std::vector<Hit>& b) {
   }
 }
 
-std::vector<ShapeId> in_reach(const Scene& scene, const RayCache& rays,
+std::vector<ShapeId> in_reach(const Scene& scene, const RayCache& cache,
                               const std::vector<ShapeId>& movers) {
   std::vector<ShapeId> found;
   for (const ShapeId id : movers) {
-    if (rays.reach().intersects(scene.bounds(id))) found.push_back(id);
+    if (cache.reach().intersects(scene.bounds(id))) found.push_back(id);
   }
   return found;
 }
 
 struct Room {
-  explicit Room(std::uint64_t seed) : rng(seed, hash_bytes("rays"), 0) {
+  explicit Room(std::uint64_t seed) : rng(seed, hash_bytes("cache"), 0) {
     for (int i = 0; i < 20; ++i) fixed.push_back(put(Mobility::kStatic));
     for (int i = 0; i < 12; ++i) movers.push_back(put(Mobility::kMoving));
   }
   ShapeId put(Mobility mobility) {
     return add(scene, random_shape(rng), random_pose(rng, 4.0), mobility);
   }
-  void expect_the_cast_of_all(const std::vector<Ray>& rays, const RayCache& rays) {
+  void expect_the_cast_of_all(const std::vector<Ray>& rays, const RayCache& cache) {
     std::vector<Hit> all;
     scene.commit();
     scene.cast(rays, all);
     std::vector<Hit> seen(rays.size());
-    rays.cast(scene, in_reach(scene, rays, movers), seen.data());
+    cache.cast(scene, in_reach(scene, cache, movers), seen.data());
     expect_same(seen, all);
   }
 
@@ -105,7 +105,7 @@ TEST_P(RandomRooms, SeenAsByTheCastOfAllRaysWhileThingsMoveComeAndGo) {
     Room room(seed);
     room.scene.commit();
     const std::vector<Ray> rays = fan(room.rng, GetParam());
-    RayCache rays(rays, room.scene);
+    RayCache cache(rays, room.scene);
     for (int turn = 0; turn < 10; ++turn) {
       for (const ShapeId id : room.movers) room.scene.move(id, random_pose(room.rng, 4.0));
       if (turn % 3 == 1) {
@@ -116,9 +116,9 @@ TEST_P(RandomRooms, SeenAsByTheCastOfAllRaysWhileThingsMoveComeAndGo) {
         room.scene.remove(room.fixed.back());
         room.fixed.back() = room.put(Mobility::kStatic);
         room.scene.commit();
-        rays.measure(room.scene);
+        cache.measure(room.scene);
       }
-      room.expect_the_cast_of_all(rays, rays);
+      room.expect_the_cast_of_all(rays, cache);
     }
   }
 }
@@ -127,19 +127,19 @@ TEST_P(RandomRooms, SeenAsByTheCastOfAllRaysWhileSomeMoversAreSettled) {
     Room room(seed);
     room.scene.commit();
     const std::vector<Ray> rays = fan(room.rng, GetParam());
-    RayCache rays(rays, room.scene);
+    RayCache cache(rays, room.scene);
     for (int turn = 0; turn < 6; ++turn) {
       const auto middle = room.movers.begin() + 2 * turn;
       const std::vector<ShapeId> still(room.movers.begin(), middle);
       const std::vector<ShapeId> moving(middle, room.movers.end());
       for (const ShapeId id : still) room.scene.move(id, random_pose(room.rng, 4.0));
-      rays.settle(room.scene, still);
+      cache.settle(room.scene, still);
       for (const ShapeId id : moving) room.scene.move(id, random_pose(room.rng, 4.0));
       std::vector<Hit> all;
       room.scene.commit();
       room.scene.cast(rays, all);
       std::vector<Hit> seen(rays.size());
-      rays.cast(room.scene, moving, seen.data());
+      cache.cast(room.scene, moving, seen.data());
       expect_same(seen, all);
     }
   }
@@ -160,9 +160,9 @@ TEST(RayCache, AStaticSurfaceIsMetBeforeAMoverInTheSamePlane) {
   const ShapeId mover = add(scene, box(1, 1, 1), at(2, 0, 0), Mobility::kMoving);
   const ShapeId wall = add(scene, box(1, 1, 1), at(2, 0, 0));
   scene.commit();
-  const RayCache rays({ray(Vec3::Zero(), Vec3::UnitX())}, scene);
+  const RayCache cache({ray(Vec3::Zero(), Vec3::UnitX())}, scene);
   Hit hit;
-  EXPECT_FALSE(rays.cast(scene, {mover}, &hit));
+  EXPECT_FALSE(cache.cast(scene, {mover}, &hit));
   EXPECT_EQ(hit.shape, wall.index);
 }
 

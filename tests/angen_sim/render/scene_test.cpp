@@ -51,17 +51,17 @@ int expected_byte(double albedo, double lux) {
 }
 
 struct View {
-  PinholeCamera camera;
+  PinholeCamera pinhole;
   Scene scene;
   Pose camera;
 
   float depth(int column, int row) const {
-    return scene.depths(camera, camera)[static_cast<std::size_t>(row * camera.width + column)];
+    return scene.depths(pinhole, camera)[static_cast<std::size_t>(row * pinhole.width + column)];
   }
   Eigen::Vector3i color(int column, int row, const std::vector<light::Lit>& lamps,
                         const Ambience& ambience = kDark) const {
-    const std::vector<std::uint8_t> all = scene.colors(camera, camera, lamps, ambience);
-    const std::size_t first = 3 * static_cast<std::size_t>(row * camera.width + column);
+    const std::vector<std::uint8_t> all = scene.colors(pinhole, camera, lamps, ambience);
+    const std::size_t first = 3 * static_cast<std::size_t>(row * pinhole.width + column);
     return {all[first], all[first + 1], all[first + 2]};
   }
 };
@@ -69,8 +69,8 @@ struct View {
 TEST(Picture, ABoxCoversThePixelsOfThePinholeFormula) {
   View view;
   view.scene.add(body(box(1.0, 1.0, 0.6), at(2.5)));  // its face is 2 m away
-  const std::vector<float> depths = view.scene.depths(view.camera, view.camera);
-  const double focal = 160.0 / std::tan(0.5 * view.camera.horizontal_angle);
+  const std::vector<float> depths = view.scene.depths(view.pinhole, view.camera);
+  const double focal = 160.0 / std::tan(0.5 * view.pinhole.horizontal_angle);
   for (int row = 0; row < 240; ++row) {
     for (int column = 0; column < 320; ++column) {
       const double left = std::abs(column - 159.5) / focal * 2.0;
@@ -89,7 +89,7 @@ TEST(Picture, DepthOfAWallIsAlongTheAxisNotTheRay) {
   View view;
   view.camera = {{1.0, 2.0, 3.0}, from_rpy(0.0, 0.0, M_PI_2)};
   view.scene.add(body(box(100.0, 1.0, 100.0), at(1.0, 6.5, 3.0)));
-  for (const float depth : view.scene.depths(view.camera, view.camera)) {
+  for (const float depth : view.scene.depths(view.pinhole, view.camera)) {
     ASSERT_NEAR(depth, 4.0, 1e-4);
   }
 }
@@ -97,13 +97,13 @@ TEST(Picture, DepthOfAWallIsAlongTheAxisNotTheRay) {
 TEST(Picture, DepthOfABallFollowsItsEquation) {
   View view;
   view.scene.add(body(round(Shape::Type::kSphere, 0.5), at(2.0)));
-  const std::vector<float> depths = view.scene.depths(view.camera, view.camera);
+  const std::vector<float> depths = view.scene.depths(view.pinhole, view.camera);
   int seen = 0;
   for (int row = 0; row < 240; ++row) {
     for (int column = 0; column < 320; ++column) {
       // |t d - c| = r with d = (1, -u, -v), c = (2, 0, 0): t^2 |d|^2 - 4 t + 4 - r^2 = 0.
-      const double u = (column - 159.5) / view.camera.focal(),
-                   v = (row - 119.5) / view.camera.focal();
+      const double u = (column - 159.5) / view.pinhole.focal(),
+                   v = (row - 119.5) / view.pinhole.focal();
       const double length2 = 1.0 + u * u + v * v;
       const double root2 = 4.0 - length2 * (4.0 - 0.25);
       if (root2 < 0.05) continue;  // not near the rim, where a millimetre aside is far behind
@@ -144,8 +144,8 @@ TEST(Picture, ALampLightsByTheInverseSquareAndTheCosine) {
   view.scene.add(body(box(50.0, 50.0, 1.0), at(0.0, 0.0, -0.5), {0.6F, 0.3F, 0.1F}));
   const Eigen::Vector3i color = view.color(200, 90, {lamp({1.0, 0.5, 1.5}, 800.0)});
   // Looking down, the picture's top is world x and its left world y.
-  const double x = (119.5 - 90) / view.camera.focal() * 2,
-               y = (159.5 - 200) / view.camera.focal() * 2;
+  const double x = (119.5 - 90) / view.pinhole.focal() * 2,
+               y = (159.5 - 200) / view.pinhole.focal() * 2;
   const double square = std::pow(1.0 - x, 2) + std::pow(0.5 - y, 2) + 1.5 * 1.5;
   const double lux = 800.0 / (4 * M_PI * square) * 1.5 / std::sqrt(square);
   EXPECT_NEAR(color.x(), expected_byte(0.6, lux), 1);
@@ -161,10 +161,10 @@ TEST(Picture, ABoxThrowsAShadowWhereTheLampIsHidden) {
   view.scene.add(body(box(0.2, 1.0, 0.01), at(0.1, 0.0, 1.0)));
   const std::vector<light::Lit> lamps{lamp({1.0, 0.0, 2.0}, 800.0)};
   const auto column_of = [&](double y) {
-    return static_cast<int>(std::lround(159.5 - y / 3.0 * view.camera.focal()));
+    return static_cast<int>(std::lround(159.5 - y / 3.0 * view.pinhole.focal()));
   };
   const auto row_of = [&](double x) {
-    return static_cast<int>(std::lround(119.5 - x / 3.0 * view.camera.focal()));
+    return static_cast<int>(std::lround(119.5 - x / 3.0 * view.pinhole.focal()));
   };
   EXPECT_EQ(view.color(column_of(0.0), row_of(-0.85), lamps), Eigen::Vector3i::Zero());
   EXPECT_GT(view.color(column_of(0.0), row_of(-0.4), lamps).x(), 50);
@@ -205,21 +205,21 @@ TEST(Picture, NearerThanNearAndFartherThanFarIsNotSeen) {
   View view;
   view.scene.add(body(box(0.1, 1.0, 1.0), at(0.5)));
   view.scene.add(body(box(0.1, 1.0, 1.0), at(5.0)));
-  view.camera.near = 1.0;
+  view.pinhole.near = 1.0;
   EXPECT_NEAR(view.depth(160, 120), 4.95, 1e-4);
-  view.camera.far = 4.0;
+  view.pinhole.far = 4.0;
   EXPECT_TRUE(std::isnan(view.depth(160, 120)));
 }
 
 TEST(Picture, SizesThatAreNoMultipleOfATileAreFilled) {
   View view;
-  view.camera.width = 33;
-  view.camera.height = 17;
+  view.pinhole.width = 33;
+  view.pinhole.height = 17;
   view.scene.add(body(box(1.0, 50.0, 50.0), at(3.5)));
-  const std::vector<float> depths = view.scene.depths(view.camera, view.camera);
+  const std::vector<float> depths = view.scene.depths(view.pinhole, view.camera);
   ASSERT_EQ(depths.size(), 33U * 17U);
   for (const float depth : depths) ASSERT_NEAR(depth, 3.0, 1e-4);
-  EXPECT_EQ(view.scene.colors(view.camera, view.camera, {}, kDim).size(), 3U * 33U * 17U);
+  EXPECT_EQ(view.scene.colors(view.pinhole, view.camera, {}, kDim).size(), 3U * 33U * 17U);
 }
 
 TEST(Picture, BackgroundIsShownAsItIs) {

@@ -78,6 +78,7 @@ class Bench {
     return reading;
   }
 
+  const Sensor& sensor() const { return *sensor_; }
   const Kind& kind() const { return plugin_->kind(); }
 
   FakeWorld world;

@@ -123,23 +123,23 @@ std::unique_ptr<Simulation> make(const std::string& text) {
 
 void expect_made_at_each_due_time(const Snapshot& snapshot) {
   for (std::size_t i = 0; i < snapshot.sensors.size(); ++i) {
-    const PublishedReading& told = snapshot.sensors[i];
-    if (told.reading == nullptr) continue;
-    EXPECT_EQ(told.reading->stamp, snapshot.stamp(i));
+    const PublishedReading& published = snapshot.sensors[i];
+    if (published.reading == nullptr) continue;
+    EXPECT_EQ(published.reading->stamp, snapshot.stamp(i));
     EXPECT_EQ(published.lazy, nullptr);
   }
 }
 
 /// Both take the same ticks and commands and are compared at each tick.
 struct Twins {
-  std::unique_ptr<Simulation> calm;
+  std::unique_ptr<Simulation> skipping;
   std::unique_ptr<Simulation> eager;
 
   explicit Twins(const std::string& text = room())
-      : calm(make(text)), eager(make(restless(text))) {}
+      : skipping(make(text)), eager(make(restless(text))) {}
 
   void command(const Action& action, const Action& same) {
-    calm->post(action);
+    skipping->post(action);
     eager->post(same);
   }
   void spawn(const std::string& model, const Vec3& at) {
@@ -153,7 +153,7 @@ struct Twins {
   }
   void run(int ticks) {
     for (int i = 0; i < ticks; ++i) {
-      expect_same_readings(*calm->tick(), *eager->tick());
+      expect_same_readings(*skipping->tick(), *eager->tick());
       expect_made_at_each_due_time(*eager->snapshot());
       if (::testing::Test::HasFailure()) return;
     }
@@ -161,16 +161,16 @@ struct Twins {
 };
 
 struct AtRest {
-  int kept = 0;    // sensors whose reading stands for later ones
-  int echoed = 0;  // sensors whose echo does
+  int kept = 0;  // sensors whose reading stands for later ones
+  int lazy = 0;  // sensors whose lazy reading does
 };
 
 AtRest at_rest(const Snapshot& snapshot) {
   AtRest count;
   for (std::size_t i = 0; i < snapshot.sensors.size(); ++i) {
-    const PublishedReading& told = snapshot.sensors[i];
-    if (told.reading == nullptr || told.reading->stamp == snapshot.stamp(i)) continue;
-    ++(published.lazy ? count.echoed : count.kept);
+    const PublishedReading& published = snapshot.sensors[i];
+    if (published.reading == nullptr || published.reading->stamp == snapshot.stamp(i)) continue;
+    ++(published.lazy ? count.lazy : count.kept);
   }
   return count;
 }
@@ -178,9 +178,9 @@ AtRest at_rest(const Snapshot& snapshot) {
 TEST(Watching, ReadingsAreThoseOfCastingAllRaysAtEachDueTime) {
   Twins twins;
   twins.run(6000);
-  const AtRest rest = at_rest(*twins.calm->snapshot());
+  const AtRest rest = at_rest(*twins.skipping->snapshot());
   EXPECT_GT(rest.kept, 0);
-  EXPECT_GT(rest.echoed, 2);
+  EXPECT_GT(rest.lazy, 2);
 }
 
 TEST(Watching, AHouseholdIsReadAsAtEachDueTime) {
@@ -195,7 +195,7 @@ TEST(Watching, AHouseholdIsReadAsAtEachDueTime) {
   twins.order("person", "person", "Stop");
   twins.order("door", "hall0", "Open");
   twins.run(8000);
-  EXPECT_GT(at_rest(*twins.calm->snapshot()).echoed, 0);
+  EXPECT_GT(at_rest(*twins.skipping->snapshot()).lazy, 0);
 }
 
 TEST(Watching, LightAndContactsAreReadAsAtEachDueTime) {
@@ -204,7 +204,7 @@ TEST(Watching, LightAndContactsAreReadAsAtEachDueTime) {
   twins.run(12000);
   twins.order("person", "person", "Stop");
   twins.run(3000);
-  EXPECT_GT(at_rest(*twins.calm->snapshot()).echoed, 4);
+  EXPECT_GT(at_rest(*twins.skipping->snapshot()).lazy, 4);
   twins.order("lamp", "hall0", "Dim 40");
   twins.run(2000);
   twins.order("door", "hall0", "Open");
@@ -237,13 +237,13 @@ TEST(Watching, LightInAClosedRoomIsMeasuredAgainWhenSomethingStirsThere) {
   Twins twins(closed_room("libluminosity_sensor_controller.so"));
   twins.order("lamp", "hall0", "On");
   twins.run(300);
-  ASSERT_GT(twins.calm->snapshot()->counts.awake_bodies, 0U);
-  EXPECT_EQ(at_rest(*twins.calm->snapshot()).kept, 1);
-  EXPECT_GT(twins.calm->snapshot()->reading(0)->get<double>("illuminance"), 1.0);
+  ASSERT_GT(twins.skipping->snapshot()->counts.awake_bodies, 0U);
+  EXPECT_EQ(at_rest(*twins.skipping->snapshot()).kept, 1);
+  EXPECT_GT(twins.skipping->snapshot()->reading(0)->get<double>("illuminance"), 1.0);
   twins.run(3000);
   twins.spawn(body("inside", kBall, "0 0 0 0 0 0", false), {0.5, 0.3, 0.8});
   twins.run(3000);
-  EXPECT_EQ(at_rest(*twins.calm->snapshot()).kept, 1);
+  EXPECT_EQ(at_rest(*twins.skipping->snapshot()).kept, 1);
   for (const char* gone : {"outside", "inside", "east"}) {
     twins.command(Delete{gone}, Delete{gone});
     twins.run(500);
