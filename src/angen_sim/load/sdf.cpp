@@ -53,8 +53,8 @@ bool may_be_pruned(const std::string& name) {
                                               "surface",   "actor",      "joint",
                                               "gripper",   "empty",      "box",
                                               "capsule",   "cylinder",   "ellipsoid",
-                                              "image",     "polyline",   "heightmap",
-                                              "mesh",      "plane",      "sphere"};
+                                              "polyline",  "heightmap",  "mesh",
+                                              "plane",     "sphere"};
   return names.count(name) != 0;
 }
 

@@ -18,6 +18,10 @@ std::string in_geometry(const std::string& shape) {
   return in_link("<visual name='v'><geometry>" + shape + "</geometry></visual>");
 }
 
+TEST(Schema, ACameraSensorNeedsNoCamera) {
+  EXPECT_NO_THROW(read(in_link("<sensor name='lux' type='camera'/>")));
+}
+
 TEST(Schema, HasWhatASensorOfEachTypeAsksFor) {
   for (const std::string type : {"air_pressure",
                                  "altimeter",
