@@ -117,7 +117,7 @@ def test_daylight_follows_its_command():
     # the pane's flux is L pi A; straight before it it gives about L A / d^2, and reflections more
     assert readings[0] > 10000 * 0.49 / np.pi / 3.89 ** 2
     assert readings[1] == pytest.approx(readings[0] / 4, rel=1e-6)
-    with pytest.raises(angen.Error, match='Set takes 0 to 100000 lx'):
+    with pytest.raises(angen.Error, match='daylight takes Set <0 to 100000 lux>'):
         w.command('daylight', 'study0', 'Set -1')
 
 

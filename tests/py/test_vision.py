@@ -41,7 +41,7 @@ def test_one_that_nobody_wants_does_not_look(world):
     w = world(lidar('l', '0 0 1 0 0 0') + box('wall', '4 0 1 0 0 0', '1 9 2', static=True))
     w.step(500)
     assert w.readings == 0
-    with pytest.raises(angen.Error, match=r"measured nothing yet; want\('lidar', 'l'\)"):
+    with pytest.raises(angen.Error, match=r"measured nothing yet; request\('lidar', 'l'\)"):
         w.sensor('lidar', 'l')
     w.request('lidar', 'l')
     w.step(500)

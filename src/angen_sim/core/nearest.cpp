@@ -43,7 +43,7 @@ std::vector<std::string> nearest_names(const std::string& name, std::vector<std:
 
 std::string did_you_mean(const std::string& name, const std::vector<std::string>& known) {
   const std::vector<std::string> nearest = nearest_names(name, known);
-  if (nearest.empty()) return "there is none";
+  if (nearest.empty()) return "there are none";
   std::string text = "did you mean " + nearest.front();
   for (std::size_t i = 1; i < nearest.size(); ++i) {
     text += (i + 1 == nearest.size() ? " or " : ", ") + nearest[i];

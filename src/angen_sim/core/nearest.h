@@ -10,7 +10,7 @@ namespace angen {
 std::vector<std::string> nearest_names(const std::string& name, std::vector<std::string> known,
                                        std::size_t count = 3);
 
-/// "did you mean bathroom0, bathroom1 or bedroom0?", or "there is none" where nothing is known.
+/// "did you mean bathroom0, bathroom1 or bedroom0?", or "there are none" where nothing is known.
 std::string did_you_mean(const std::string& name, const std::vector<std::string>& known);
 
 }  // namespace angen

@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "core/nearest.h"
+
 namespace angen::sim {
 
 namespace {
@@ -129,6 +131,16 @@ LiveModel* Building::find(const std::string& model) const {
   return at == by_name_.end() ? nullptr : at->second;
 }
 
+std::vector<std::string> Building::names_to_delete() const {
+  std::vector<std::string> names = model_names();
+  for (const auto& live : models_) {
+    for (const SensorInstance& sensor : live->sensors) {
+      if (sensor.attached) names.push_back(sensor.name);
+    }
+  }
+  return names;
+}
+
 std::vector<std::string> Building::model_names() const {
   std::vector<std::string> names;
   for (const auto& live : models_) names.push_back(live->desc->name);
@@ -218,8 +230,8 @@ void Building::attach(const desc::Sensor& sensor, const std::string& link, Nanos
   }
   LiveModel* live = find(link.substr(0, split));
   if (live == nullptr) {
-    throw Error("no model named '" + link.substr(0, split) + "'; known are " +
-                join_names(model_names()));
+    throw Error("no model named '" + link.substr(0, split) + "'; " +
+                did_you_mean(link.substr(0, split), model_names()));
   }
   std::vector<std::string> names;
   for (const desc::Link& l : live->desc->links) names.push_back(l.name);
@@ -263,8 +275,8 @@ void Building::erase(const std::string& name) {
       return;
     }
   }
-  throw Error("no model or attached sensor named '" + name + "'; known models are " +
-              join_names(model_names()));
+  throw Error("no model or attached sensor named '" + name + "'; " +
+              did_you_mean(name, names_to_delete()));
 }
 
 void Building::reset(Nanoseconds now) {

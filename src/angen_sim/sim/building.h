@@ -92,6 +92,7 @@ class Building {
   void check_sensor_name(const SensorInstance& sensor) const;
   LiveModel* find(const std::string& model) const;
   std::vector<std::string> model_names() const;
+  std::vector<std::string> names_to_delete() const;
   void note_change();
   void add_names(LiveModel& live);
   void remove_names(const LiveModel& live);

@@ -25,9 +25,12 @@ ToDevice with_kind(const ToDevice& action) {
 
 Outcome unknown_device(const Building& building, const ToDevice& action) {
   const bool any = action.kind.empty();
-  return {false, "no " + (any ? "device" : action.kind) + " named '" + action.name + "'; " +
-                     did_you_mean(action.name, building.device_names(action.kind)) +
-                     " `angen list" + (any ? "" : " --kind " + action.kind) + "` lists all"};
+  const std::vector<std::string> names = building.device_names(action.kind);
+  std::string message = "no " + (any ? "device" : action.kind) + " named '" + action.name + "'; " +
+                        did_you_mean(action.name, names);
+  if (names.size() > 3)
+    message += " `angen list" + (any ? "" : " --kind " + action.kind) + "` lists all";
+  return {false, message};
 }
 
 /// Why the device does not take the command, "" where `act` will carry it out.
