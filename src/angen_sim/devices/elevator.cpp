@@ -110,8 +110,8 @@ void Elevator::wire(Params& params, Wiring& wiring) {
 Verdict Elevator::command(const Command& command, const View&) {
   const int floor = static_cast<int>(command.number);
   if (floor >= floors_) {
-    return Verdict::reject("there is no floor " + std::to_string(floor) + ", the highest is " +
-                           std::to_string(floors_ - 1));
+    return Verdict::reject("there is no floor " + std::to_string(floor) +
+                           ", it serves Floor0 to Floor" + std::to_string(floors_ - 1));
   }
   return Verdict::accept([this, floor] { call(floor); });
 }

@@ -168,6 +168,23 @@ void Catalog::add(const std::string& filename, std::shared_ptr<const Plugin> plu
   impl_->libraries[filename].push_back(std::move(plugin));
 }
 
+Plugins Catalog::own() {
+  std::set<std::string> names;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry :
+       fs::directory_iterator(own_library().parent_path(), ignored)) {
+    fs::path file = entry.path();
+    if (file.extension() != ".json" || !fs::exists(file.replace_extension(".so"), ignored))
+      continue;
+    names.insert(file.filename());
+  }
+  Plugins all;
+  for (const std::string& name : names) {
+    for (const auto& plugin : library(name)) all.push_back(plugin);
+  }
+  return all;
+}
+
 std::vector<std::string> Catalog::available() {
   std::set<std::string> names;
   {

@@ -28,6 +28,9 @@ class Catalog {
   /// Adds plug-ins that live in this process (a Python class) under a file name of their own.
   void add(const std::string& filename, std::shared_ptr<const Plugin> plugin);
 
+  /// The plug-ins of Angen's own libraries, which have a catalog file beside them.
+  std::vector<std::shared_ptr<const Plugin>> own();
+
   /// File names of every library on the path that holds Angen plug-ins, sorted. Loads none of them.
   std::vector<std::string> available();
 

@@ -3,6 +3,10 @@
 #include <ros/console.h>
 #include <ros/exceptions.h>
 
+#include <iterator>
+#include <set>
+#include <utility>
+
 #include "ros/text.h"
 
 namespace angen::node {
@@ -22,7 +26,10 @@ std::vector<std::string> names_of(const sim::Structure& structure, const std::st
 
 }  // namespace
 
-Commands::Commands(ros::NodeHandle& node, Inbox& inbox) : node_(node), inbox_(inbox) {
+Commands::Commands(ros::NodeHandle& node, Inbox& inbox,
+                   std::vector<std::shared_ptr<const Plugin>> plugins)
+    : node_(node), inbox_(inbox), always_(std::move(plugins)) {
+  for (const auto& plugin : always_) subscribe(plugin);
   const boost::function<void(const angen_msgs::Command::ConstPtr&)> any =
       [this](const angen_msgs::Command::ConstPtr& command) {
         inbox_.post(any_action(command->target, command->text));
@@ -40,26 +47,31 @@ void Commands::receive(const Plugin& plugin, const std::string& text) {
   inbox_.post(std::move(action));
 }
 
-void Commands::on_kinds(const sim::Structure& structure) {
-  decltype(kinds_) kept;
-  for (const std::shared_ptr<const Plugin>& plugin : structure.device_plugins) {
-    const Kind& kind = plugin->kind();
-    if (kind.command_topic.empty()) continue;
-    if (const auto old = kinds_.find(kind.name); old != kinds_.end()) {
-      kept.insert(*old);
-      continue;
-    }
-    const boost::function<void(const std_msgs::String::ConstPtr&)> received =
-        [this, plugin](const std_msgs::String::ConstPtr& text) { receive(*plugin, text->data); };
-    try {
-      kept[kind.name] =
-          node_.subscribe<std_msgs::String>(kind.command_topic, kCommandQueue, received);
-    } catch (const ros::Exception& error) {
-      ROS_WARN("no commands to a %s on %s: %s", kind.name.c_str(), kind.command_topic.c_str(),
-               error.what());
-    }
+void Commands::subscribe(const std::shared_ptr<const Plugin>& plugin) {
+  const Kind& kind = plugin->kind();
+  if (kind.command_topic.empty() || kinds_.count(kind.name) > 0) return;
+  const boost::function<void(const std_msgs::String::ConstPtr&)> received =
+      [this, plugin](const std_msgs::String::ConstPtr& text) { receive(*plugin, text->data); };
+  try {
+    kinds_[kind.name] =
+        node_.subscribe<std_msgs::String>(kind.command_topic, kCommandQueue, received);
+  } catch (const ros::Exception& error) {
+    ROS_WARN("no commands to a %s on %s: %s", kind.name.c_str(), kind.command_topic.c_str(),
+             error.what());
   }
-  kinds_ = std::move(kept);
+}
+
+void Commands::on_kinds(const sim::Structure& structure) {
+  std::vector<std::shared_ptr<const Plugin>> plugins = always_;
+  plugins.insert(plugins.end(), structure.device_plugins.begin(), structure.device_plugins.end());
+  std::set<std::string> wanted;
+  for (const std::shared_ptr<const Plugin>& plugin : plugins) {
+    subscribe(plugin);
+    wanted.insert(plugin->kind().name);
+  }
+  for (auto kind = kinds_.begin(); kind != kinds_.end();) {
+    kind = wanted.count(kind->first) > 0 ? std::next(kind) : kinds_.erase(kind);
+  }
 }
 
 void Commands::on_structure(const sim::Structure& structure, const std::vector<Robot>& robots) {

@@ -6,6 +6,7 @@
 #include <std_msgs/String.h>
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,18 +18,22 @@ namespace angen::node {
 /// Command topics: one subscription serves all devices of a kind, a drive has its own cmd_vel.
 class Commands {
  public:
-  Commands(ros::NodeHandle& node, Inbox& inbox);
+  /// Kinds of `plugins` have their topic also where the world has none of them.
+  Commands(ros::NodeHandle& node, Inbox& inbox,
+           std::vector<std::shared_ptr<const Plugin>> plugins);
 
   /// Subscribes to the command topics of the kinds and drives that exist now, and to no others.
   void on_structure(const sim::Structure& structure, const std::vector<Robot>& robots);
 
  private:
   void on_kinds(const sim::Structure& structure);
+  void subscribe(const std::shared_ptr<const Plugin>& plugin);
   void receive(const Plugin& plugin, const std::string& text);
   void drive(const std::string& robot, const geometry_msgs::Twist& twist);
 
   ros::NodeHandle& node_;
   Inbox& inbox_;
+  std::vector<std::shared_ptr<const Plugin>> always_;
   ros::Subscriber any_;                                                    // /angen/command
   std::map<std::string, ros::Subscriber> kinds_;                           // by kind
   std::map<std::pair<std::string, std::string>, ros::Subscriber> drives_;  // by topic and robot

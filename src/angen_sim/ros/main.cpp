@@ -109,6 +109,7 @@ int run(std::string path, std::unique_ptr<Simulation> simulation) {
     throw angen::Error("~fast goes as fast as it can, with ~rate 0 or none");
   }
   settings.clock_rate = number_param("~clock_rate", 100.0, 0.01);
+  settings.plugins = angen::Catalog().own();
   settings.models = folder_of(path) + "/models";
   settings.topics = angen::node::topics_named(ros::param::param<std::string>("~topics", "sensor"));
   const auto seed = static_cast<std::uint64_t>(number_param("~seed", kDefaultSeed, 0.0));

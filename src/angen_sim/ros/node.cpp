@@ -36,7 +36,7 @@ Node::Node(sim::Simulation& simulation, const Settings& settings)
       markers_(handle_),
       publishers_(handle_, simulation, settings.topics),
       joints_(handle_),
-      commands_(handle_, inbox_),
+      commands_(handle_, inbox_, settings.plugins),
       services_(handle_, inbox_, events_, settings.models, settings.topics) {}
 
 void Node::run(const std::atomic<bool>& stop) {

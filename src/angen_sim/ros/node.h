@@ -23,6 +23,7 @@ struct Settings {
   bool fast = false;          // leaps over ticks in which nothing happens; needs rate 0
   double clock_rate = 100.0;  // Hz
   Topics topics = Topics::kSensor;
+  std::vector<std::shared_ptr<const Plugin>> plugins;  // whose command topics are always there
   std::string models;  // a folder that model:// is looked for in, besides the usual ones
 };
 

@@ -71,7 +71,10 @@ void Overlays::add_sensor(const sim::Structure& structure, std::uint32_t sensor)
 
 void Overlays::add_device(const sim::Structure& structure, std::uint32_t device) {
   const sim::DeviceEntry& entry = structure.devices[device];
-  if (!ros_kind(entry.kind, entry.library).caption) return;
+  const std::vector<Field>& fields = entry.plugin->kind().fields;
+  const bool has_alarm =
+      std::any_of(fields.begin(), fields.end(), [](const Field& field) { return field.alarm; });
+  if (!has_alarm || !ros_kind(entry.kind, entry.library).caption) return;
   const auto link = std::find_if(structure.links.begin(), structure.links.end(),
                                  [&](const sim::LinkEntry& l) { return l.model == entry.model; });
   Overlay overlay;
