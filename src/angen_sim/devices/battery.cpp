@@ -94,9 +94,8 @@ class BatteryPlugin : public Plugin {
             .number("capacity", "A h", "when full")
             .number("charge", "A h", "what is left")
             .number("percentage", "1", "what is left, 0 to 1")
-            .shown(3)
+            .shown_as_percent()
             .number("drawn", "W", "what the robot takes now")
-            .shown(1)
             .flag("empty", "whether nothing is left: the drive stops")
             .alarm("EMPTY", "");
     return kind;

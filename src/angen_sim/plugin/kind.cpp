@@ -118,6 +118,11 @@ Kind& Kind::shown(int decimals) {
   return *this;
 }
 
+Kind& Kind::shown_as_percent(int decimals) {
+  fields.back().as_percent = true;
+  return shown(decimals);
+}
+
 Kind& Kind::shown_as(std::string yes, std::string no) {
   fields.back().in_summary = true;
   fields.back().words = {std::move(yes), std::move(no)};

@@ -30,7 +30,8 @@ struct Field {
       words;         // of a choice, its values; of a flag in a summary, for yes and no
   int decimals = 0;  // of a number in a summary
   bool in_summary = false;
-  bool alarm = false;  // a flag that is yes while the sensor detects what it is for
+  bool as_percent = false;  // a summary shows a share of 1 as a percentage
+  bool alarm = false;       // a flag that is yes while the sensor detects what it is for
 };
 
 const char* name_of(Field::Type type);  // "flag", "number", …
@@ -90,6 +91,8 @@ class Kind {
 
   /// Of the field that was added last: it is a part of the summary, a number with so many decimals.
   Kind& shown(int decimals = 0);
+  /// The same for a share of 1, as a percentage.
+  Kind& shown_as_percent(int decimals = 0);
   /// The same for a flag, by these words.
   Kind& shown_as(std::string yes, std::string no);
   /// The same, and it is an alarm: shown in red in rviz while it is yes.

@@ -33,6 +33,7 @@ std::string shown_value(const Field& field, const Value& value) {
         } else if constexpr (std::is_same_v<T, std::int64_t>) {
           return std::to_string(held) + unit;
         } else if constexpr (std::is_same_v<T, double>) {
+          if (field.as_percent) return fixed(100.0 * held, field.decimals) + " %";
           return fixed(held, field.decimals) + unit;
         } else if constexpr (std::is_same_v<T, std::string>) {
           return held;

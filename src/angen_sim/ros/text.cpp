@@ -41,10 +41,14 @@ sim::Action topic_action(const Kind& kind, const std::string& text,
   if (fields.size() > 3) return wrong("too many parts");
   std::string name = fields.size() > 1 ? fields[1] : "";
   if (fields.size() > 1 && name.empty()) return wrong("no name");
-  if (name.empty() && names.size() == 1) name = names.front();
   Command command{fields[0] + (fields.size() > 2 ? " " + fields[2] : ""), {}, "", 0.0};
   const std::string reason = parse_command(kind, command);
   if (!reason.empty()) return wrong(printable(reason, 400));
+  // The only elevator needs no name: `Floor1`.
+  const bool counted = std::any_of(kind.verbs.begin(), kind.verbs.end(), [&](const Verb& verb) {
+    return verb.whole && verb.name == command.verb;
+  });
+  if (name.empty() && counted && names.size() == 1) name = names.front();
   if (name.empty()) return wrong(names.empty() ? "there is no " + kind.name : "no name");
   return sim::ToDevice{kind.name, name, std::move(command)};
 }
