@@ -1,0 +1,135 @@
+"""Runs the commands of the pages as a reader would, with a simulator in a second terminal.
+
+Left out are those that do not end by themselves or take longer than a minute, and those that need
+root, a network, or hands.
+"""
+from __future__ import annotations
+
+import json
+import os
+import re
+import signal
+import socket
+import subprocess
+from pathlib import Path
+from typing import Iterator
+
+import pytest
+
+from tests.docs.pages import PAGES, ROOT, blocks, files
+
+pytestmark = pytest.mark.ros
+
+# In a terminal of its own; ends with Ctrl-C.
+START = re.compile(r'\./angen run(?! --)((?: \w+:=\S+)*)')
+LEFT_OUT = re.compile('|'.join((
+    r'\./angen (shell|demo|build|test|coverage|tidy|docs)( [^"]*)?$',  # what CI does anyhow
+    r'(\./)?angen (drive|watch$|bench|task)',  # hands, no end, minutes
+    r'rostopic pub -r', r'roslaunch', r'rosrun (image_view|angen_tools)',  # no end
+    r'sudo', r'apt-get', r'docker', r'cd ~/catkin_ws',  # root, network
+    r'cmake --build build', r'python3 (bench/physics|worlds/make_|-m pytest|docs/tables)',
+    r'\./angen shell -c "python3 (-m pytest|examples)',  # minutes, or they write into the checkout
+    r'.*(\bNAME\b|\bKIND\b)',  # usage
+)))
+
+
+def script(block: str) -> str:
+    """The lines of a block that are to be run."""
+    lines = (re.sub(r'\s+# .*', '', line) for line in block.splitlines())
+    return '\n'.join(line for line in lines if not LEFT_OUT.match(line) and not START.match(line))
+
+
+class Terminal:
+    """A folder that looks like the checkout, and a simulator of its own."""
+
+    def __init__(self, folder: Path) -> None:
+        with socket.socket() as probe:
+            probe.bind(('127.0.0.1', 0))
+            port = probe.getsockname()[1]
+        self.folder = folder
+        home = folder / 'home'
+        home.mkdir()
+        for entry in ROOT.iterdir():
+            if entry.name not in ('out', '.git'):
+                (folder / entry.name).symlink_to(entry)
+        self.environment = dict(
+            os.environ, HOME=str(home), ROS_HOME=str(home / '.ros'),
+            ROS_MASTER_URI=f'http://127.0.0.1:{port}', ROS_IP='127.0.0.1',
+            ANGEN_MODEL_PATH=str(home / 'my_models'),
+            ANGEN_PLUGIN_PATH='/tmp/tape_measure/devel/lib')
+        self.arguments: str | None = None
+        self.process: subprocess.Popen[str] | None = None
+
+    def run(self, text: str, timeout: float = 300.0) -> str:
+        done = subprocess.run(['bash', '-e', '-o', 'pipefail', '-c', text], cwd=self.folder,
+                              env=self.environment, text=True, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=timeout)
+        assert done.returncode == 0, f'{text}\nends with {done.returncode}:\n{done.stdout}'
+        return done.stdout
+
+    def simulate(self, arguments: str) -> None:
+        """A simulator with these arguments of ./angen run; that which runs, if it has them."""
+        if arguments == self.arguments:
+            return
+        self.end()
+        log = (self.folder / 'home/run.log').open('w')
+        self.process = subprocess.Popen(
+            f'exec ./angen run headless:=true {arguments}', shell=True, cwd=self.folder,
+            env=self.environment, stdout=log, stderr=log)
+        self.arguments = arguments
+        try:
+            self.run('until rosservice list 2>/dev/null | grep -q /angen/save; do sleep 0.2; done',
+                     60.0)
+        except subprocess.TimeoutExpired:
+            raise AssertionError((self.folder / 'home/run.log').read_text()) from None
+        self.first = self.names()
+
+    def names(self) -> set[str]:
+        return {entity['name'] for entity in json.loads(self.run('angen list --json'))}
+
+    def clear(self) -> None:
+        """Deletes what was spawned, and lets time go on."""
+        self.run('rosservice call /gazebo/unpause_physics')
+        for name in sorted(self.names() - self.first):
+            if name in self.names():  # it may have gone with its model
+                subprocess.run(['angen', 'delete', name], env=self.environment)
+
+    def end(self) -> None:
+        if self.process:
+            self.process.send_signal(signal.SIGINT)
+            self.process.wait(20)
+        self.process = self.arguments = None
+
+
+@pytest.fixture(scope='module')
+def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
+    made = Terminal(tmp_path_factory.mktemp('checkout'))
+    yield made
+    made.end()
+
+
+# Pages with the same simulator one after the other.
+ORDER = sorted(PAGES, key=lambda page: [match.group(1) for block in blocks(page)
+                                        for match in START.finditer(block)])
+
+
+@pytest.mark.parametrize('page', ORDER, ids=lambda page: str(page.relative_to(ROOT)))
+def test_its_commands_work(page: Path, terminal: Terminal) -> None:
+    for path, text in files(page).items():
+        where = Path(path.replace('~', terminal.environment['HOME']))
+        where = terminal.folder / where
+        where.parent.mkdir(parents=True, exist_ok=True)
+        where.write_text(text)
+    scripts = []
+    for block in blocks(page):
+        start = START.search(block)
+        scripts.append((start.group(1).strip() if start else None, script(block)))
+    if not any(text.strip() for _, text in scripts):
+        return
+    terminal.simulate(next((start for start, _ in scripts if start is not None), ''))
+    for start, text in scripts:
+        if start is not None:
+            terminal.simulate(start)
+        if text.strip():
+            terminal.run(text)
+    terminal.clear()
