@@ -33,10 +33,18 @@ LEFT_OUT = re.compile('|'.join((
 )))
 
 
-def script(block: str) -> str:
-    """The lines of a block that are to be run."""
-    lines = (re.sub(r'\s+# .*', '', line) for line in block.splitlines())
-    return '\n'.join(line for line in lines if not LEFT_OUT.match(line) and not START.match(line))
+def steps(page: Path) -> list[tuple[str, str]]:
+    """What a reader types: the arguments of a simulator that is started, and what runs with it."""
+    made = [('', '')]
+    for block in blocks(page):
+        made.append((made[-1][0], ''))
+        for line in (re.sub(r'\s+# .*', '', line) for line in block.splitlines()):
+            start = START.match(line)
+            if start:
+                made.append((start.group(1).strip(), ''))
+            elif not LEFT_OUT.match(line):
+                made[-1] = (made[-1][0], made[-1][1] + line + '\n')
+    return [step for step in made if step[1].strip()]
 
 
 class Terminal:
@@ -76,23 +84,21 @@ class Terminal:
         self.process = subprocess.Popen(
             f'exec ./angen run headless:=true {arguments}', shell=True, cwd=self.folder,
             env=self.environment, stdout=log, stderr=log)
-        self.arguments = arguments
         try:
-            self.run('until rosservice list 2>/dev/null | grep -q /angen/save; do sleep 0.2; done',
+            self.run('until rosservice list 2>/dev/null | grep -q /angen/spawn; do sleep 0.2; done',
                      60.0)
         except subprocess.TimeoutExpired:
             raise AssertionError((self.folder / 'home/run.log').read_text()) from None
         self.first = self.names()
+        self.arguments = arguments
 
     def names(self) -> set[str]:
         return {entity['name'] for entity in json.loads(self.run('angen list --json'))}
 
     def clear(self) -> None:
-        """Deletes what was spawned, and lets time go on."""
-        self.run('rosservice call /gazebo/unpause_physics')
+        """Deletes what was spawned; sensors go with their models."""
         for name in sorted(self.names() - self.first):
-            if name in self.names():  # it may have gone with its model
-                subprocess.run(['angen', 'delete', name], env=self.environment)
+            subprocess.run(['angen', 'delete', name], env=self.environment, capture_output=True)
 
     def end(self) -> None:
         if self.process:
@@ -108,28 +114,19 @@ def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
     made.end()
 
 
-# Pages with the same simulator one after the other.
-ORDER = sorted(PAGES, key=lambda page: [match.group(1) for block in blocks(page)
-                                        for match in START.finditer(block)])
+# Pages with the same simulators one after the other.
+ORDER = sorted((page for page in PAGES if steps(page)),
+               key=lambda page: [start for start, _ in steps(page)])
 
 
 @pytest.mark.parametrize('page', ORDER, ids=lambda page: str(page.relative_to(ROOT)))
 def test_its_commands_work(page: Path, terminal: Terminal) -> None:
     for path, text in files(page).items():
-        where = Path(path.replace('~', terminal.environment['HOME']))
-        where = terminal.folder / where
+        where = terminal.folder / path.replace('~', terminal.environment['HOME'])
         where.parent.mkdir(parents=True, exist_ok=True)
         where.write_text(text)
-    scripts = []
-    for block in blocks(page):
-        start = START.search(block)
-        scripts.append((start.group(1).strip() if start else None, script(block)))
-    if not any(text.strip() for _, text in scripts):
-        return
-    terminal.simulate(next((start for start, _ in scripts if start is not None), ''))
-    for start, text in scripts:
-        if start is not None:
-            terminal.simulate(start)
-        if text.strip():
-            terminal.run(text)
-    terminal.clear()
+    for arguments, text in steps(page):
+        terminal.simulate(arguments)
+        terminal.run(text)
+    if any('spawn' in text for _, text in steps(page)):
+        terminal.clear()
