@@ -27,7 +27,8 @@ Kind = dict[str, Any]
 
 
 def read_catalog(folder: Path = CATALOG) -> dict[str, Kind]:
-    kinds = [kind for file in sorted(folder.glob('*.json')) for kind in json.loads(file.read_text())]
+    files = sorted(folder.glob('*.json'))
+    kinds = [kind for file in files for kind in json.loads(file.read_text())]
     if not kinds:
         raise SystemExit(f'docs/tables.py: no catalog in {folder}; run ./angen build first')
     return {kind['kind']: kind for kind in kinds}

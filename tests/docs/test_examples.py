@@ -15,12 +15,13 @@ WORDS = '|'.join(cli.make_parser()._subparsers._group_actions[0].choices)
 
 
 def model(page: str, name: str) -> str:
-    found, = [block for block in blocks(ROOT / 'docs' / page, 'xml') if f'<model name="{name}">' in block]
+    found, = [block for block in blocks(ROOT / 'docs' / page, 'xml')
+              if f'<model name="{name}">' in block]
     return found
 
 
-@pytest.mark.parametrize('file, language', [('tape_measure.cpp', 'cpp'), ('CMakeLists.txt', 'cmake'),
-                                            ('tape_measure.sdf', 'xml')])
+@pytest.mark.parametrize('file, language', [
+    ('tape_measure.cpp', 'cpp'), ('CMakeLists.txt', 'cmake'), ('tape_measure.sdf', 'xml')])
 def test_the_smallest_sensor_is_the_example(file: str, language: str) -> None:
     example = (ROOT / 'tests/examples/tape_measure' / file).read_text()
     assert example in blocks(ROOT / 'docs/plugins.md', language)
