@@ -64,7 +64,7 @@ class Terminal:
             os.environ, HOME=str(home), ROS_HOME=str(home / '.ros'),
             ROS_MASTER_URI=f'http://127.0.0.1:{port}', ROS_IP='127.0.0.1',
             ANGEN_MODEL_PATH=str(home / 'my_models'),
-            ANGEN_PLUGIN_PATH='/tmp/tape_measure/devel/lib')
+            ANGEN_PLUGIN_PATH=str(home / 'tape_measure/devel/lib'))
         self.arguments: str | None = None
         self.process: subprocess.Popen[str] | None = None
 
