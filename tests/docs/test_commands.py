@@ -85,7 +85,7 @@ class Terminal:
             f'exec ./angen run headless:=true {arguments}', shell=True, cwd=self.folder,
             env=self.environment, stdout=log, stderr=log)
         try:
-            self.run('until rosservice list 2>/dev/null | grep -q /angen/spawn; do sleep 0.2; done',
+            self.run('until rostopic list 2>/dev/null | grep -q /angen/ready; do sleep 0.2; done',
                      60.0)
         except subprocess.TimeoutExpired:
             raise AssertionError((self.folder / 'home/run.log').read_text()) from None
