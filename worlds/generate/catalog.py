@@ -4,6 +4,8 @@ from __future__ import annotations
 from math import pi
 from pathlib import Path
 
+from lxml import etree
+
 from .devices import add_ray, add_sensor
 from .sdf import (Color, Part, add, add_fixed, add_joint, add_link, add_plugin, add_pose, new_model,
                   numbers, spanned, write_model)
@@ -24,6 +26,7 @@ def write_catalog(models: Path) -> None:
     write_rfid_tag(models)
     write_smart_plug(models)
     write_heater(models)
+    write_daylight(models)
     for kind, title in (("temperature", "Temperature sensor"), ("humidity", "Humidity sensor")):
         _write_air_sensor(models, kind, title)
 
@@ -186,6 +189,21 @@ def write_heater(models: Path) -> None:
     add_plugin(model, "heater", "libheater.so", power=1000)
     write_model(root, models, "Heater",
                 "An electric convector of 1 kW, off at the start. Served by libheater.so.")
+
+
+def write_daylight(models: Path) -> None:
+    """Writes models/daylight_window: a pane of 1.4 x 1.0 m on a wall, its back to it, x inwards."""
+    root, model = new_model("daylight_window", static=True)
+    pane = spanned("pane", (-0.004, -0.7, -0.5), (-0.002, 0.7, 0.5), material=(0.7, 0.85, 1.0),
+                   collide=False)
+    link = add_link(model, "pane", [pane], moves=False)
+    light = add(link, "light", name="sky", type="point")
+    add(light, "direction", "1 0 0")
+    etree.SubElement(light, "{angen}rectangle", nsmap={"angen": "angen"}).text = "1.4 1"
+    add_plugin(model, "daylight", "libdaylight_plugin.so", area=1.4)
+    write_model(root, models, "Window as a source of daylight",
+                "A pane of 1.4 x 1.0 m that scatters the light of an overcast sky into the room. "
+                "Served by libdaylight_plugin.so.")
 
 
 def _write_air_sensor(models: Path, kind: str, title: str) -> None:

@@ -61,6 +61,7 @@ class DaylightPlugin : public Plugin {
   const Kind& kind() const override {
     static const Kind kind =
         Kind("daylight", "Daylight through a window.")
+            .model("daylight_window")
             .example("set daylight window0 10000")
             .verb("Set", "lux", "lx", {0.0, kBrightest}, "illuminance outdoors")
             .number("illuminance", "lx", "outdoors")

@@ -9,20 +9,22 @@ import angen
 import pytest
 
 from angen_tools.cli import main as cli
+from tests.docs.pages import PAGES, ROOT, blocks
 
-ROOT = Path(__file__).resolve().parents[3]
-PAGES = sorted((ROOT / 'docs').rglob('*.md')) + [ROOT / 'README.md', ROOT / 'worlds/README.md']
 WORDS = '|'.join(cli.make_parser()._subparsers._group_actions[0].choices)
 
 
-def blocks(page: str, language: str) -> list[str]:
-    text = (ROOT / 'docs' / page).read_text()
-    return re.findall(rf'^```{language}\n(.*?)^```', text, re.MULTILINE | re.DOTALL)
-
-
 def model(page: str, name: str) -> str:
-    found, = [block for block in blocks(page, 'xml') if f'<model name="{name}">' in block]
+    found, = [block for block in blocks(ROOT / 'docs' / page, 'xml')
+              if f'<model name="{name}">' in block]
     return found
+
+
+@pytest.mark.parametrize('file, language', [
+    ('tape_measure.cpp', 'cpp'), ('CMakeLists.txt', 'cmake'), ('tape_measure.sdf', 'xml')])
+def test_the_smallest_sensor_is_the_example(file: str, language: str) -> None:
+    example = (ROOT / 'tests/examples/tape_measure' / file).read_text()
+    assert example in blocks(ROOT / 'docs/plugins.md', language)
 
 
 @pytest.fixture
@@ -54,7 +56,7 @@ def test_the_shelf_is_found_by_its_address(monkeypatch: pytest.MonkeyPatch, tmp_
                                            ) -> None:
     folder = tmp_path / 'shelf'
     folder.mkdir()
-    config, sdf, include = blocks('models.md', 'xml')
+    config, sdf, include = blocks(ROOT / 'docs/models.md', 'xml')
     (folder / 'model.config').write_text(config)
     (folder / 'model.sdf').write_text(sdf)
     monkeypatch.setenv('ANGEN_MODEL_PATH', str(tmp_path))

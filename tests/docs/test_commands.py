@@ -1,0 +1,132 @@
+"""Runs the commands of the pages as a reader would, with a simulator in a second terminal.
+
+Left out are those that do not end by themselves or take longer than a minute, and those that need
+root, a network, or hands.
+"""
+from __future__ import annotations
+
+import json
+import os
+import re
+import signal
+import socket
+import subprocess
+from pathlib import Path
+from typing import Iterator
+
+import pytest
+
+from tests.docs.pages import PAGES, ROOT, blocks, files
+
+pytestmark = pytest.mark.ros
+
+# In a terminal of its own; ends with Ctrl-C.
+START = re.compile(r'\./angen run(?! --)((?: \w+:=\S+)*)')
+LEFT_OUT = re.compile('|'.join((
+    r'\./angen (shell|demo|build|test|coverage|tidy|docs)( [^"]*)?$',  # what CI does anyhow
+    r'(\./)?angen (drive|watch$|bench|task)',  # hands, no end, minutes
+    r'rostopic pub -r', r'roslaunch', r'rosrun (image_view|angen_tools)',  # no end
+    r'sudo', r'apt-get', r'docker', r'cd ~/catkin_ws',  # root, network
+    r'cmake --build build', r'python3 (bench/physics|worlds/make_|-m pytest|docs/tables)',
+    r'\./angen shell -c "python3 (-m pytest|examples)',  # minutes, or they write into the checkout
+    r'.*(\bNAME\b|\bKIND\b)',  # usage
+)))
+
+
+def steps(page: Path) -> list[tuple[str, str]]:
+    """What a reader types: the arguments of a simulator that is started, and what runs with it."""
+    made = [('', '')]
+    for block in blocks(page):
+        made.append((made[-1][0], ''))
+        for line in (re.sub(r'\s+# .*', '', line) for line in block.splitlines()):
+            start = START.match(line)
+            if start:
+                made.append((start.group(1).strip(), ''))
+            elif not LEFT_OUT.match(line):
+                made[-1] = (made[-1][0], made[-1][1] + line + '\n')
+    return [step for step in made if step[1].strip()]
+
+
+class Terminal:
+    """A folder that looks like the checkout, and a simulator of its own."""
+
+    def __init__(self, folder: Path) -> None:
+        with socket.socket() as probe:
+            probe.bind(('127.0.0.1', 0))
+            port = probe.getsockname()[1]
+        self.folder = folder
+        home = folder / 'home'
+        home.mkdir()
+        for entry in ROOT.iterdir():
+            if entry.name not in ('out', '.git'):
+                (folder / entry.name).symlink_to(entry)
+        self.environment = dict(
+            os.environ, HOME=str(home), ROS_HOME=str(home / '.ros'),
+            ROS_MASTER_URI=f'http://127.0.0.1:{port}', ROS_IP='127.0.0.1',
+            ANGEN_MODEL_PATH=str(home / 'my_models'),
+            ANGEN_PLUGIN_PATH=str(home / 'tape_measure/devel/lib'))
+        self.arguments: str | None = None
+        self.process: subprocess.Popen[str] | None = None
+
+    def run(self, text: str, timeout: float = 300.0) -> str:
+        done = subprocess.run(['bash', '-e', '-o', 'pipefail', '-c', text], cwd=self.folder,
+                              env=self.environment, text=True, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=timeout)
+        assert done.returncode == 0, f'{text}\nends with {done.returncode}:\n{done.stdout}'
+        return done.stdout
+
+    def simulate(self, arguments: str) -> None:
+        """A simulator with these arguments of ./angen run; that which runs, if it has them."""
+        if arguments == self.arguments:
+            return
+        self.end()
+        log = (self.folder / 'home/run.log').open('w')
+        self.process = subprocess.Popen(
+            f'exec ./angen run headless:=true {arguments}', shell=True, cwd=self.folder,
+            env=self.environment, stdout=log, stderr=log)
+        try:
+            self.run('until rostopic list 2>/dev/null | grep -q /angen/ready; do sleep 0.2; done',
+                     60.0)
+        except subprocess.TimeoutExpired:
+            raise AssertionError((self.folder / 'home/run.log').read_text()) from None
+        self.first = self.names()
+        self.arguments = arguments
+
+    def names(self) -> set[str]:
+        return {entity['name'] for entity in json.loads(self.run('angen list --json'))}
+
+    def clear(self) -> None:
+        """Deletes what was spawned; sensors go with their models."""
+        for name in sorted(self.names() - self.first):
+            subprocess.run(['angen', 'delete', name], env=self.environment, capture_output=True)
+
+    def end(self) -> None:
+        if self.process:
+            self.process.send_signal(signal.SIGINT)
+            self.process.wait(20)
+        self.process = self.arguments = None
+
+
+@pytest.fixture(scope='module')
+def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
+    made = Terminal(tmp_path_factory.mktemp('checkout'))
+    yield made
+    made.end()
+
+
+# Pages with the same simulators one after the other.
+ORDER = sorted((page for page in PAGES if steps(page)),
+               key=lambda page: [start for start, _ in steps(page)])
+
+
+@pytest.mark.parametrize('page', ORDER, ids=lambda page: str(page.relative_to(ROOT)))
+def test_its_commands_work(page: Path, terminal: Terminal) -> None:
+    for path, text in files(page).items():
+        where = terminal.folder / path.replace('~', terminal.environment['HOME'])
+        where.parent.mkdir(parents=True, exist_ok=True)
+        where.write_text(text)
+    for arguments, text in steps(page):
+        terminal.simulate(arguments)
+        terminal.run(text)
+    if any('spawn' in text for _, text in steps(page)):
+        terminal.clear()
