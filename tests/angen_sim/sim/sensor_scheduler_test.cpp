@@ -41,6 +41,16 @@ TEST(SensorScheduler, GroupsSensorsWhoseSamplesFallOnTheSameTicks) {
   EXPECT_EQ(scheduler.collect(1010 * kMs), Sensors{1});
 }
 
+TEST(SensorScheduler, KeepsApartSensorsThatSampleTogetherButPublishInTurn) {
+  SensorScheduler scheduler;
+  scheduler.assign({schedule(0, 100 * kMs, 200 * kMs), schedule(100 * kMs, 100 * kMs, 200 * kMs)},
+                   400 * kMs);
+  ASSERT_EQ(scheduler.groups().size(), 2U);
+  EXPECT_EQ(scheduler.collect(500 * kMs), (Sensors{0, 1}));
+  EXPECT_FALSE(scheduler.groups()[0].publishes(500 * kMs));
+  EXPECT_TRUE(scheduler.groups()[1].publishes(500 * kMs));
+}
+
 TEST(SensorScheduler, IdleSensorsAreListedApartUntilTheyAreActivated) {
   SensorScheduler scheduler;
   scheduler.assign(std::vector<Schedule>(5, schedule(0, kMs, kMs)), 0);

@@ -1,0 +1,45 @@
+#include "plugin/summary.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace angen {
+namespace {
+
+TEST(Summary, ShowsWhatTheKindShowsWithUnits) {
+  const Kind kind = Kind("mat", "")
+                        .flag("pressed", "")
+                        .alarm("PRESSED", "free")
+                        .number("load", "kg", "")
+                        .shown(1)
+                        .number("threshold", "kg", "")
+                        .number("charge", "1", "")
+                        .shown_as_percent()
+                        .texts("ids", "")
+                        .shown();
+  Reading reading;
+  reading.set("pressed", true);
+  reading.set("load", 71.26);
+  reading.set("threshold", 10.0);
+  reading.set("charge", 0.256);
+  reading.set("ids", std::vector<std::string>{"a", "b"});
+  EXPECT_EQ(summary(kind, reading), "PRESSED  71.3 kg  26 %  a b");
+  EXPECT_TRUE(alarms(kind, reading));
+  reading.set("pressed", false);
+  reading.set("load", -0.01);
+  reading.set("ids", std::vector<std::string>{});
+  EXPECT_EQ(summary(kind, reading), "free  0.0 kg  26 %  none");
+  EXPECT_FALSE(alarms(kind, reading));
+}
+
+TEST(Summary, OfAKindThatShowsNothingIsEveryField) {
+  Reading reading;
+  reading.set("count", 3);
+  reading.set("far", std::numeric_limits<double>::infinity());
+  reading.set("mode", Choice{1, "OPEN"});
+  EXPECT_EQ(summary(Kind("x", ""), reading), "count=3  far=inf  mode=OPEN");
+}
+
+}  // namespace
+}  // namespace angen
