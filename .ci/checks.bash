@@ -3,6 +3,7 @@
 # shellcheck disable=SC2154 # root, suites: of `angen`
 
 summary=()
+matched=0 # whether a test had the words in its name
 suite() { # NAME COMMAND...
   local name=$1 began=$SECONDS verdict=ok
   shift
@@ -37,7 +38,7 @@ check_ctest() { # [WORDS]
   fi
   for program in "${tree:-build}"/tests/*_test; do
     [[ -x $program && $("$program" --gtest_list_tests --gtest_filter="$filter") ]] || continue
-    ran=1
+    ran=1 matched=1
     "$program" --gtest_brief=1 --gtest_filter="$filter" || failed=1
   done
   ((ran)) || printf 'no C++ test has "%s" in its name\n' "$1"
@@ -47,8 +48,12 @@ check_ctest() { # [WORDS]
 check_pytest() { # [WORDS]
   local code=0
   # A file's tests share a ROS master and a node; files are independent. Most of them wait for wall time.
-  timeout 900 python3 -m pytest -q -n "$(nproc)" --dist loadfile ${1:+-k "$1"} "${pytest_arguments[@]}" || code=$?
-  ((code == 5)) && [[ ${1:-} ]] && code=0 # none has these words in its name
+  timeout 2400 python3 -m pytest -q -n "$(nproc)" --dist loadfile ${1:+-k "$1"} "${pytest_arguments[@]}" || code=$?
+  if ((code != 5)); then
+    matched=1
+  elif [[ ${1:-} ]]; then
+    code=0 # none has these words in its name; another suite's may
+  fi
   return $code
 }
 pytest_arguments=(tests)
@@ -75,6 +80,7 @@ run_test() { # [-k WORDS] [--asan | --tsan] [SUITE...]
   for name in "${chosen[@]}"; do
     suite "$name" "check_${name//-/_}" "$words"
   done
+  [[ ! $words ]] || ((matched)) || die "no test has \"$words\" in its name"
   report
 }
 
