@@ -1,0 +1,23 @@
+"""Suggestions where a name is not known."""
+from __future__ import annotations
+
+from difflib import SequenceMatcher
+from typing import Iterable
+
+COUNT = 3
+
+
+def nearest(name: str, known: Iterable[str]) -> list[str]:
+    """The few known names that are most like `name`, whatever its case, the nearest first."""
+    def likeness(other: str) -> float:
+        return SequenceMatcher(None, name.lower(), other.lower()).ratio()
+    return sorted(sorted(set(known)), key=likeness, reverse=True)[:COUNT]
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """A question, as the simulator asks it: "did you mean a, b or c?"; "there is none" of none."""
+    names = nearest(name, known)
+    if not names:
+        return 'there is none'
+    *first, last = names
+    return f'did you mean {", ".join(first)}{" or " * bool(first)}{last}?'
