@@ -5,12 +5,16 @@ from difflib import SequenceMatcher
 from typing import Iterable
 
 COUNT = 3
+WHOLE = 3  # letters that a name has at least to be a part of another
 
 
 def nearest(name: str, known: Iterable[str]) -> list[str]:
-    """The few known names that are most like `name`, whatever its case, the nearest first."""
-    def likeness(other: str) -> float:
-        return SequenceMatcher(None, name.lower(), other.lower()).ratio()
+    """The few known names that are most like `name`, whatever its case, the nearest first; those
+    that hold it as a part before others.
+    """
+    def likeness(other: str) -> tuple[bool, float]:
+        ratio = SequenceMatcher(None, name.lower(), other.lower()).ratio()
+        return len(name) >= WHOLE and name.lower() in other.lower(), ratio
     return sorted(sorted(set(known)), key=likeness, reverse=True)[:COUNT]
 
 
