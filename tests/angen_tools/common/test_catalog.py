@@ -31,7 +31,9 @@ def put(folder: Path, library: str, kind: str, **changes: Any) -> None:
 
 
 def test_the_files_say_what_the_libraries_say() -> None:
-    assert catalog.plugins() == angen.plugins()
+    on_path = {file.name for folder in catalog.directories() for file in folder.glob('lib*.so')}
+    assert len(catalog.plugins()) > 20
+    assert catalog.plugins() == [p for p in angen.plugins() if p['library'] in on_path]
 
 
 def test_a_kind_of_the_users_own(folder: Path) -> None:

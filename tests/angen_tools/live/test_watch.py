@@ -59,8 +59,8 @@ def test_only_what_is_chosen_is_waited_for(monkeypatch: pytest.MonkeyPatch) -> N
 @pytest.mark.parametrize('wanted, part', [
     ({'names': ['kitchen']}, "no sensor or device named 'kitchen'; did you mean kitchen0"),
     ({'kinds': ['lampp']}, "no kind 'lampp'; did you mean lamp")])
-def test_a_filter_must_name_what_there_is(monkeypatch: pytest.MonkeyPatch, wanted: dict[str, object],
-                                          part: str) -> None:
+def test_a_filter_must_name_what_there_is(
+        monkeypatch: pytest.MonkeyPatch, wanted: dict[str, object], part: str) -> None:
     with pytest.raises(Failure, match=part):
         once(monkeypatch, Scene(), **wanted)
 

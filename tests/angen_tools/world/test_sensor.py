@@ -25,6 +25,7 @@ TABLE = '''<sdf version="1.6"><model name="table"><static>true</static><link nam
 def build(kind: str, *settings: str, lone: bool = False) -> etree._Element:
     return sensor.build(kind, 's1', sdf.parse_settings(list(settings)), lone)
 
+
 KINDS = catalog.kinds('sensor')
 FREE = [name for name, kind in KINDS.items() if not sensor.needs_link(kind)]
 
