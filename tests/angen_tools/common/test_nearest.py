@@ -16,4 +16,9 @@ def test_the_question() -> None:
     assert did_you_mean('sofas', ['sofa']) == 'did you mean sofa?'
     assert did_you_mean('a', ['a1', 'a22']) == 'did you mean a1 or a22?'
     assert did_you_mean('kitchen', NAMES).count(',') == 1
-    assert did_you_mean('a', []) == 'there is none'
+    assert did_you_mean('a', [], 'angen list') == 'there are none'
+
+
+def test_how_to_list_the_rest() -> None:
+    assert did_you_mean('sofas', NAMES, 'angen list').endswith('? `angen list` lists all')
+    assert did_you_mean('sofas', NAMES[:3], 'angen list').endswith('?')

@@ -126,8 +126,8 @@ def kind_of(name: str) -> Plugin:
     """A kind; Failure where there is none of that name."""
     known = kinds()
     if name not in known:
-        raise Failure(f"there is no kind '{name}'; {did_you_mean(name, known)} `angen plugins` "
-                      'lists all')
+        raise Failure(f"there is no kind '{name}'; "
+                      + did_you_mean(name, known, 'angen plugins'))
     return known[name]
 
 

@@ -18,10 +18,15 @@ def nearest(name: str, known: Iterable[str]) -> list[str]:
     return sorted(sorted(set(known)), key=likeness, reverse=True)[:COUNT]
 
 
-def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """A question, as the simulator asks it: "did you mean a, b or c?"; "there is none" of none."""
-    names = nearest(name, known)
-    if not names:
-        return 'there is none'
-    *first, last = names
-    return f'did you mean {", ".join(first)}{" or " * bool(first)}{last}?'
+def did_you_mean(name: str, known: Iterable[str], listing: str = '') -> str:
+    """A question, as the simulator asks it: "did you mean a, b or c?"; "there are none" of none.
+
+    The command `listing` is named where there are more.
+    """
+    every = set(known)
+    if not every:
+        return 'there are none'
+    *first, last = nearest(name, every)
+    question = f'did you mean {", ".join(first)}{" or " * bool(first)}{last}?'
+    more = listing and len(every) > COUNT
+    return question + f' `{listing}` lists all' * bool(more)

@@ -93,8 +93,8 @@ def _chosen(robot: str | None, known: list[str]) -> str:
     if not known:
         raise Failure('the world has no robot')
     if robot is not None and robot not in known:
-        raise Failure(f"there is no robot '{robot}'; {did_you_mean(robot, known)} "
-                      '`angen list --kind drive` lists all')
+        raise Failure(f"there is no robot '{robot}'; "
+                      + did_you_mean(robot, known, 'angen list --kind drive'))
     return robot or known[0]
 
 

@@ -19,8 +19,8 @@ def list_entities(kind: str, json: bool) -> RenderableType:
     every = Client().entities()
     known = {entity.kind for entity in every} | set(kinds()) | {'model'}
     if kind and kind not in known:
-        raise Failure(f"there is no kind '{kind}'; {did_you_mean(kind, known)} "
-                      '`angen plugins` lists all')
+        raise Failure(f"there is no kind '{kind}'; "
+                      + did_you_mean(kind, known, 'angen plugins'))
     chosen = [entity for entity in every if kind in ('', entity.kind)]
     if json:
         return as_json([_as_dict(entity) for entity in chosen])

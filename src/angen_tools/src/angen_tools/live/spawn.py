@@ -70,8 +70,8 @@ def seat_sitter(name: str, chair: str) -> str:
     client = Client()
     places = {entity.name: entity.pose for entity in client.entities('model')}
     if chair not in places:
-        raise Failure(f"no model named '{chair}'; {did_you_mean(chair, places)} "
-                      '`angen list --kind model` lists all')
+        raise Failure(f"no model named '{chair}'; "
+                      + did_you_mean(chair, places, 'angen list --kind model'))
     seat = models.seat_of(_saved(client), chair)
     if seat is None:
         raise Failure(f"'{chair}' has no box seat_collision to sit on, as a chair or a sofa has")
@@ -117,8 +117,8 @@ def _must_be_there(client: Client, name: str) -> None:
     owner = next((entity for entity in entities if entity.name == name), None)
     if owner is not None:
         raise Failure(f"'{name}' is a {owner.kind} of the model {owner.model}; delete that")
-    raise Failure(f"no model or sensor named '{name}'; {did_you_mean(name, names)} "
-                  '`angen list` lists all')
+    raise Failure(f"no model or sensor named '{name}'; "
+                  + did_you_mean(name, names, 'angen list'))
 
 
 def save(path: Path) -> str:

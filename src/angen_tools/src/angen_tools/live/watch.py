@@ -63,13 +63,13 @@ def check(board: Board, wanted: Filter) -> None:
     names = {name for _, name in board.rows}
     for name in wanted.names:
         if name not in names:
-            raise Failure(f"no sensor or device named '{name}'; {did_you_mean(name, names)} "
-                          '`angen watch --once` lists all')
+            raise Failure(f"no sensor or device named '{name}'; "
+                          + did_you_mean(name, names, 'angen watch --once'))
     known = {kind for kind, _ in board.rows} | set(kinds())
     for kind in wanted.kinds:
         if kind not in known:
-            raise Failure(f"there is no kind '{kind}'; {did_you_mean(kind, known)} "
-                          '`angen plugins` lists all')
+            raise Failure(f"there is no kind '{kind}'; "
+                          + did_you_mean(kind, known, 'angen plugins'))
 
 
 def _cells(row: Row) -> list[str]:

@@ -87,7 +87,7 @@ def _apply(sensor: etree._Element, kind: str, settings: Sequence[Setting]) -> No
         key = _full_key(given, list(known))
         if not key:
             raise Failure(f"a {kind} sensor has no parameter '{given}'; "
-                          f'{did_you_mean(given, known)} `angen spawn {kind} --help` lists all')
+                          + did_you_mean(given, known, f'angen spawn {kind} --help'))
         many = 'any number of times' in known[key]['type']
         if key in written and not many:
             raise Failure(f"'{given}' is set twice")
