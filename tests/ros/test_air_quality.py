@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Iterator
 
 import pytest
-from harness import Master, end, until
+from harness import Cli, Master, end, until
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / 'tests/examples/air_quality'
@@ -89,3 +89,14 @@ def test_a_wrong_command_is_answered_with_the_right_ones(office: Master) -> None
 def test_both_are_in_the_catalog(office: Master) -> None:
     listed = run(office, 'rosservice', 'call', '/angen/list', 'kind: blind')
     assert 'name: "blind0"' in listed and 'angen_msgs/Reading' in listed
+
+
+def test_the_command_line_knows_both(office: Master) -> None:
+    cli = Cli(office)
+    assert cli.does('spawn', 'co2', 'c2', '--pose', '1 1 1.5', '--set', 'volume=40') == (
+        'spawned the co2 c2, see /angen/co2/c2')
+    assert 'ppm  fresh' in cli.does('watch', '--once', 'c2')
+    assert cli.does('delete', 'c2') == 'deleted c2'
+    assert re.match(r'blind blind0: \w+, \d+ %$', cli.does('set', 'blind', 'blind0', '10'))
+    assert 'up, down or 0 to 100 percent' in cli.run('set', 'blind', 'blind0', '140').stderr
+    assert 'limit' in cli.does('spawn', 'co2', '--help')

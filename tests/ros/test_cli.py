@@ -43,7 +43,7 @@ def test_a_sensor_comes_and_goes(cli: Cli, angen: Angen, spawned: list[str]) -> 
     assert 'exists' in cli.fails('spawn', 'pir', 'cli_pir', '--pose', '0 0 1')
     assert cli.does('delete', 'cli_pir') == 'deleted cli_pir'
     assert '/angen/pir/cli_pir' not in angen.master.topics()
-    assert 'cli_pir' in cli.fails('delete', 'cli_pir')
+    assert "no model or sensor named 'cli_pir'; did you mean" in cli.fails('delete', 'cli_pir')
 
 
 def test_a_contact_sensor_watches_every_collision_of_its_link(
@@ -77,8 +77,8 @@ def test_a_model_of_the_users_own(cli: Cli, spawned: list[str], tmp_path: Path) 
                     '</model></sdf>')
     assert 'cli_box' in cli.does('spawn', 'model', str(file), 'cli_box', '--pose', '3 3 3')
     assert 'cli_box' in cli.listed('model')
-    assert 'model://no_such' in cli.fails('spawn', 'model', 'model://no_such', 'x', '--pose',
-                                          '0 0 0')
+    assert 'did you mean model://sofa' in cli.fails('spawn', 'model', 'model://soffa', 'x',
+                                                    '--pose', '0 0 0')
 
 
 def test_delete_stops_at_the_first_that_is_not_there(cli: Cli, spawned: list[str]) -> None:
@@ -96,26 +96,33 @@ def test_list_is_an_aligned_table(cli: Cli) -> None:
     assert all(row[at - 1:at] in ('', ' ') and row[at] != ' ' for row in rows for at in columns)
     assert cli.does('list', '--kind', 'person').splitlines() == [
         'NAME  KIND  MODEL  X  Y  Z  YAW  TOPIC']
-    assert 'door' in cli.fails('list', '--kind', 'dor')
+    assert 'did you mean door' in cli.fails('list', '--kind', 'dor')
 
 
 def test_a_door_is_set(cli: Cli) -> None:
-    assert cli.does('set', 'door', 'bathroom0', '-0.4').startswith('door bathroom0: opening')
-    assert cli.does('set', 'door', 'all', 'close') == 'all 1 doors: close'
+    assert cli.does('set', 'door', 'bathroom0', '-0.4').startswith('door bathroom0: OPENING, ')
+    assert cli.does('set', 'door', 'all', 'close') == 'all of kind door, 1: Close'
     assert cli.fails('set', 'door', 'cellar7', 'open') == (
-        "there is no door 'cellar7'; known are bathroom0")
+        "no door named 'cellar7'; did you mean bathroom0?")
     assert 'outside the hinge' in cli.fails('set', 'door', 'bathroom0', '-3')
 
 
 def test_a_lamp_is_set(cli: Cli) -> None:
-    assert cli.does('set', 'lamp', 'kitchen0', '40') == 'lamp kitchen0: on at 40 %, 320 lm'
-    assert cli.does('set', 'lamp', 'kitchen0', 'off') == 'lamp kitchen0: off'
-    assert cli.does('set', 'lamp', 'kitchen0', 'off') == 'lamp kitchen0: off'
+    assert cli.does('set', 'lamp', 'kitchen0', '40') == 'lamp kitchen0: on, 40 %, 320 lm'
+    assert cli.does('set', 'lamp', 'kitchen0', 'Dim', '50') == 'lamp kitchen0: on, 50 %, 400 lm'
+    assert cli.does('set', 'lamp', 'kitchen0', 'off') == 'lamp kitchen0: off, 0 %, 0 lm'
+    assert cli.does('set', 'lamp', 'kitchen0', 'off') == 'lamp kitchen0: off, 0 %, 0 lm'
+
+
+def test_a_robot_is_set_by_numbers_alone(cli: Cli) -> None:
+    assert cli.does('set', 'drive', 'turtlebot', '0', '-0.2').endswith('rad/s')
+    assert cli.does('set', 'drive', 'turtlebot', 'stop').startswith('drive turtlebot: ')
 
 
 def test_an_elevator_that_is_not_there(cli: Cli) -> None:
     assert cli.fails('set', 'elevator', 'elevator', '1') == (
-        "there is no elevator 'elevator'; the world has no elevator")
+        "no elevator named 'elevator'; there are none")
+    assert cli.fails('set', 'elevator', 'all', '1') == 'the world has no elevator'
 
 
 def test_what_an_accepted_command_waits_for(cli: Cli, angen: Angen, spawned: list[str]) -> None:
@@ -125,10 +132,10 @@ def test_what_an_accepted_command_waits_for(cli: Cli, angen: Angen, spawned: lis
     try:
         angen.call('/angen/step', Step, ticks=6000)
         assert cli.does('set', 'elevator', 'cli_lift', '1').endswith(
-            'doors open; floor1 comes when time goes on: the simulation is paused')
+            'Floor 1 comes when time goes on: the simulation is paused')
     finally:
         angen.call('/gazebo/unpause_physics', Empty)
-    assert 'to floor 1' in cli.does('set', 'elevator', 'cli_lift', '1')
+    assert cli.does('set', 'elevator', 'cli_lift', '0').endswith('; Floor 0 comes next')
     assert 'Floor0 to Floor1' in cli.fails('set', 'elevator', 'cli_lift', '2')
 
 
@@ -152,6 +159,42 @@ def test_one_table_of_all_values(cli: Cli) -> None:
     rows = {tuple(row.split()[:2]): row for row in cli.does('watch', '--once').splitlines()}
     assert 'rad' in rows['door', 'bathroom0'] and 'm/s' in rows['drive', 'turtlebot']
     assert ('lamp', 'kitchen0') in rows and ' m ' in rows['pir', 'eye']
+
+
+def test_the_table_can_be_filtered(cli: Cli) -> None:
+    def shown(*words: str) -> set[tuple[str, str]]:
+        rows = json.loads(cli.does('watch', '--once', '--json', *words))
+        return {(row['kind'], row['name']) for row in rows}
+    assert shown('--kind', 'pir', '--kind', 'lamp') == {('pir', 'eye'), ('lamp', 'kitchen0')}
+    assert shown('--room', 'kitchen') == {('lamp', 'kitchen0')}
+    assert shown('eye', 'bathroom0') == {('pir', 'eye'), ('door', 'bathroom0')}
+    assert shown('--kind', 'lamp', '--active') == set()
+    assert 'did you mean eye' in cli.fails('watch', '--once', 'eyes')
+    assert 'did you mean pir' in cli.fails('watch', '--once', '--kind', 'pri')
+
+
+def test_a_table_that_lacks_a_reading_ends_with_1(cli: Cli, angen: Angen, spawned: list[str]
+                                                  ) -> None:
+    angen.call('/gazebo/pause_physics', Empty)
+    try:
+        spawned.append('cli_silent')
+        cli.does('spawn', 'humidity', 'cli_silent', '--pose', '0 0 1')
+        done = cli.run('watch', '--once', 'cli_silent')
+        assert done.returncode == 1 and 'humidity  cli_silent  -' in done.stdout
+        assert done.stderr == ('angen: no reading of humidity cli_silent: '
+                               'the simulation is paused\n')
+    finally:
+        angen.call('/gazebo/unpause_physics', Empty)
+    assert 'cli_silent' in cli.does('watch', '--once', 'cli_silent')
+
+
+def test_a_sensor_without_a_model_is_spawned(cli: Cli, angen: Angen, spawned: list[str]) -> None:
+    from sensor_msgs.msg import LaserScan
+    spawned += ['cli_lidar', 'cli_lidar2']
+    cli.does('spawn', 'lidar', 'cli_lidar', '--pose', '0 0 1', '--set', 'ray/range/max=3')
+    assert angen.wait('/angen/lidar/cli_lidar', LaserScan).range_max == 3
+    assert ' on turtlebot::' in cli.does('spawn', 'lidar', 'cli_lidar2', '--on',
+                                         'turtlebot::base_footprint')
 
 
 def test_one_table_of_all_costs(cli: Cli) -> None:
@@ -235,9 +278,9 @@ def test_three_apartments_from_the_empty_world(empty_house: Cli, tmp_path: Path)
                              ' '.join([x, y, str(4 * floor), *turn]))
     doors = empty_house.listed('door')
     assert len(doors) == 18 and 'kitchen2' in doors
-    assert empty_house.does('set', 'door', 'kitchen2', 'open').startswith('door kitchen2: open')
+    assert empty_house.does('set', 'door', 'kitchen2', 'open').startswith('door kitchen2: OPENING')
     empty_house.does('spawn', 'model', 'model://elevator', 'elevator', '--pose', '-3.65 5 0')
-    assert 'to floor 1' in empty_house.does('set', 'elevator', 'elevator', '1')
+    assert empty_house.does('set', 'elevator', 'elevator', '1').startswith('elevator elevator: ')
     assert 'Floor0 to Floor1' in empty_house.fails('set', 'elevator', 'elevator', '2')
     out = tmp_path / 'three.world'
     empty_house.does('save', str(out))

@@ -104,7 +104,7 @@ def test_what_is_wrong_is_told(cli: Cli) -> None:
     assert 'needs a terminal' in cli.fails('drive')
     driver = Driver(cli, '--robot', 'nobody')
     assert driver.process.wait(30) == 1
-    assert "there is no robot 'nobody'; known are turtlebot" in driver.said()
+    assert "there is no robot 'nobody'; did you mean turtlebot?" in driver.said()
     driver.close()
 
 

@@ -9,15 +9,15 @@ from pathlib import Path
 import pytest
 
 from angen_tools.cli import main as cli
+from angen_tools.common.catalog import kinds
 
 ROOT = Path(__file__).resolve().parents[3]
 SCRIPT = ROOT / 'src/angen_tools/scripts/angen'
-COMMANDS = ['spawn', 'spawn pir', 'spawn switch', 'spawn luminosity', 'spawn camera',
-            'spawn contact', 'spawn proximity', 'spawn pressure', 'spawn reed', 'spawn rfid',
-            'spawn plug', 'spawn temperature', 'spawn humidity', 'spawn model', 'delete', 'list',
-            'plugins', 'set', 'set door', 'set elevator', 'set lamp', 'set window', 'set cabinet',
-            'set heater', 'save', 'watch', 'top', 'run', 'drive', 'map', 'task', 'task patrol',
-            'check', 'luxcheck', 'completion']
+COMMANDS = ['spawn', 'spawn model', 'spawn sitter', 'delete', 'list', 'plugins', 'set', 'save',
+            'watch', 'top', 'run', 'drive', 'map', 'task', 'task patrol', 'check', 'luxcheck',
+            'completion', *(f'spawn {kind}' for kind in kinds('sensor')),
+            *(f'set {name}' for name, kind in kinds('device').items()
+              if kind['verbs'] or kind['values'])]
 
 
 @pytest.fixture
@@ -49,7 +49,7 @@ def test_help_has_an_example_that_parses(words: str, capsys: pytest.CaptureFixtu
     with pytest.raises(SystemExit) as end:
         cli.run([*words.split(), '--help'])
     assert end.value.code == 0
-    examples = capsys.readouterr().out.split('example:\n')[1].splitlines()
+    examples = capsys.readouterr().out.split('example:\n')[1].split('\n\n')[0].splitlines()
     assert examples
     for example in examples:
         program, *given = shlex.split(example.split('>>')[0])
@@ -86,11 +86,15 @@ def test_without_a_simulator_one_line_says_so(words: list[str], no_master: str) 
     (['spawn', 'pir', 'p1', '--pose', '1 2 3', '--on', 'table'], 'MODEL::LINK'),
     (['spawn', 'contact', 'c1'], '--on'),
     (['spawn', 'reed', 'r1', '--pose', '1 2 3'], '--on'),
-    (['set', 'door', 'kitchen0', 'ajar'], 'open, close or an angle in rad'),
-    (['set', 'door', 'kitchen0', 'nan'], 'open, close or an angle in rad'),
-    (['set', 'elevator', 'elevator', '1.5'], 'not a floor'),
+    (['set', 'door', 'kitchen0', 'ajar'], 'open, close or radians'),
+    (['set', 'door', 'kitchen0', 'nan'], 'open, close or radians'),
+    (['set', 'elevator', 'elevator', '1.5'], 'not a number of floor'),
     (['set', 'lamp', 'kitchen0', '101'], '0 to 100'),
     (['set', 'heater', 'h1', 'warm'], '0 to 100'),
+    (['set', 'dor', 'kitchen0', 'open'], 'did you mean door'),
+    (['set', 'drive', 'turtlebot', '1'], 'a number of m/s'),
+    (['spawn', 'pirr', 'p1'], 'did you mean pir'),
+    (['spawn', 'pir', 'a/b', '--pose', '1 2 3'], 'a/b'),
     (['delete'], 'NAME'),
     (['completion', 'fish'], 'bash'),
 ])
@@ -99,14 +103,29 @@ def test_wrong_words_are_told_in_one_line(words: list[str], part: str,
     assert part in usage_error(words, capsys)
 
 
-def test_completion_completes_in_bash() -> None:
+def completed(line: str) -> list[str]:
+    """What bash offers after the line."""
+    words = line.split(' ')
     script = f'''
         angen() {{ {sys.executable} {SCRIPT} "$@"; }}
         eval "$(angen completion bash)"
-        COMP_LINE='angen sp' COMP_POINT=8 COMP_TYPE=9
-        COMP_WORDS=(angen sp) COMP_CWORD=1
+        COMP_LINE='{line}' COMP_POINT={len(line)} COMP_TYPE=9
+        COMP_WORDS=({line}) COMP_CWORD={len(words) - 1}
         _python_argcomplete angen
         printf '%s\\n' "${{COMPREPLY[@]}}"'''
     done = subprocess.run(['bash', '--norc', '-c', script], text=True, capture_output=True,
                           timeout=60)
-    assert done.stdout.split() == ['spawn'], done
+    assert done.returncode == 0, done
+    return done.stdout.split()
+
+
+@pytest.mark.parametrize('line, words', [
+    ('angen sp', ['spawn']), ('angen spawn press', ['pressure']), ('angen set ele', ['elevator']),
+    ('angen list --kind pi', ['pir']), ('angen watch --kind hea', ['heater']),
+    ('angen set door kitchen0 cl', ['close']), ('angen spawn pir p1 --set thr', ['threshold='])])
+def test_completion_completes_in_bash(line: str, words: list[str]) -> None:
+    assert completed(line) == words
+
+
+def test_completion_of_addresses_on_the_model_path() -> None:
+    assert '//chair' in completed('angen spawn model model://cha')  # bash has taken model: itself

@@ -1,4 +1,4 @@
-"""States and readings in words."""
+"""What angen watch prints, and what is missing in it."""
 from __future__ import annotations
 
 import subprocess
@@ -7,29 +7,65 @@ from pathlib import Path
 
 import pytest
 
-from angen_msgs.msg import DoorState, ElevatorState, LampState
+from angen_tools.common.failure import Failure
 from angen_tools.live import watch
+from angen_tools.live.summary import Filter, Row
 
 ROOT = Path(__file__).resolve().parents[3]
 SCRIPT = ROOT / 'src/angen_tools/scripts/angen'
+ROWS = [Row('lamp', 'kitchen0', 'on  40 %', False, 1.0, 0.0),
+        Row('pir', 'kitchen_pir0', '', False, 0.0, 0.1)]
 
 
-def angen(*words: str, **options: object) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([sys.executable, str(SCRIPT), *words], text=True, timeout=60,
-                          stdin=subprocess.DEVNULL, **{'capture_output': True, **options})
+class Scene:
+    """A board whose simulated time goes on by `step` whenever it receives."""
+
+    def __init__(self, step: float = 0.1, paused: bool = False) -> None:
+        self.rows = {(row.kind, row.name): row for row in ROWS}
+        self.time, self.paused, self._step = 0.0, paused, step
+
+    def receive(self, limit: float) -> bool:
+        self.time += self._step
+        return True
+
+    def chosen(self, wanted: Filter) -> list[Row]:
+        return [row for row in self.rows.values() if wanted.passes(row.kind, row.name)]
+
+
+def once(monkeypatch: pytest.MonkeyPatch, scene: Scene, **wanted: object) -> tuple[str, str]:
+    monkeypatch.setattr(watch, 'Board', lambda client: scene)
+    monkeypatch.setattr(watch, 'Client', object)
+    shown, missing = watch.watch_once(Filter(**wanted), json=True)
+    return str(shown), missing
+
+
+def test_a_sensor_has_its_period_for_its_first_reading(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = Scene()
+    shown, missing = once(monkeypatch, scene)
+    assert 'kitchen_pir0' in shown and '"on  40 %"' in shown
+    assert missing == 'no reading of pir kitchen_pir0: their period has passed'
+    assert 0.1 + watch.MARGIN < scene.time < 0.1 + watch.MARGIN + 0.2
+
+
+def test_time_that_stands_still_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert 'is paused' in once(monkeypatch, Scene(step=0.0, paused=True))[1]
+
+
+def test_only_what_is_chosen_is_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    shown, missing = once(monkeypatch, Scene(step=0.0), kinds=['lamp'])
+    assert missing == '' and 'pir' not in shown
+
+
+@pytest.mark.parametrize('wanted, part', [
+    ({'names': ['kitchen']}, "no sensor or device named 'kitchen'; did you mean kitchen0"),
+    ({'kinds': ['lampp']}, "no kind 'lampp'; did you mean lamp")])
+def test_a_filter_must_name_what_there_is(
+        monkeypatch: pytest.MonkeyPatch, wanted: dict[str, object], part: str) -> None:
+    with pytest.raises(Failure, match=part):
+        once(monkeypatch, Scene(), **wanted)
 
 
 def test_a_live_table_needs_a_terminal() -> None:
-    done = angen('watch')
+    done = subprocess.run([sys.executable, str(SCRIPT), 'watch'], text=True, timeout=60,
+                          stdin=subprocess.DEVNULL, capture_output=True)
     assert done.returncode == 1 and '--once' in done.stderr and done.stdout == ''
-
-
-@pytest.mark.parametrize('state, text', [
-    (DoorState(mode=DoorState.OPENING, position=-0.5, target=-1.57),
-     'opening at -0.50 rad, to -1.57 rad'),
-    (DoorState(position=-0.0001), 'shut at 0.00 rad'),
-    (ElevatorState(mode=ElevatorState.UP, position=2.5, floor=-1, target_floor=1),
-     'going up at 2.50 m, to floor 1, doors shut'),
-    (LampState(on=True, level=40, luminous_flux=320), 'on at 40 %, 320 lm')])
-def test_states_in_words(state: object, text: str) -> None:
-    assert watch.value_of(state) == text

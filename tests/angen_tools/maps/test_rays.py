@@ -15,7 +15,7 @@ BUILDING = str(ROOT / 'worlds/angen.world')
 
 def hits(world: angen.World, lidar: str, robot: str) -> np.ndarray:
     """Where a scan meets something, (n, 2) m in the world; the lidar is above the robot."""
-    world.want('lidar', lidar)
+    world.request('lidar', lidar)
     world.run(0.2)
     scan = world.sensor('lidar', lidar)
     ranges = np.array(scan['ranges'])

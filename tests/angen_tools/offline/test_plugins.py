@@ -25,6 +25,9 @@ def test_plugins_lists_the_catalog() -> None:
     assert (p['type'], p['default'], p['unit']) == ('number', '70', 'N m/rad') and p['doc']
     text = angen('plugins').stdout
     assert all(plugin['library'] in text for plugin in kinds.values())
+    lines = [' '.join(line.split()) for line in text.splitlines()]
+    assert '[dim] PERCENT of its full brightness; 0 to 100 percent' in lines  # of a lamp
+    assert any(line.startswith('difference m number') for line in lines)      # of a PIR
 
 
 def test_a_reader_that_goes_away_is_no_error_text() -> None:

@@ -82,8 +82,8 @@ def pose(text: str) -> Any:
 
 
 def new_name(text: str) -> str:
-    from angen_tools.world.sdf import check_name
-    return check_name(text)
+    from angen_tools.common.catalog import angen_module
+    return angen_module().check_name(text)
 
 
 def link(text: str) -> str:

@@ -2,16 +2,16 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
-from typing import Any, Callable
+from typing import Any, Sequence
 
+from angen_tools.cli import complete
 from angen_tools.cli.arguments import checked, link, new_name, pose, setting
 from angen_tools.cli.parser import Parser, add_json, command
-from angen_tools.common.failure import Failure
+from angen_tools.common import verbs
+from angen_tools.common.catalog import Plugin, has_parameter, kinds
 from angen_tools.common.output import show
-
-SENSOR_WORDS = {'pressure': 'a pressure mat', 'reed': 'a reed contact', 'rfid': 'an RFID reader',
-                'plug': 'a smart plug'}
 
 
 def run_spawn(args: argparse.Namespace) -> int:
@@ -21,7 +21,10 @@ def run_spawn(args: argparse.Namespace) -> int:
     elif args.kind == 'sitter':
         print(spawn.seat_sitter(args.name, args.on))
     else:
-        print(spawn.spawn_sensor(args.kind, args.name, args.pose, args.on or '', args.set))
+        if args.pose is None and not args.on:
+            args.parser.error('give --pose "X Y Z" in the world, or --on MODEL::LINK')
+        print(spawn.spawn_sensor(args.kind, args.name, args.pose or (0.0,) * 6, args.on or '',
+                                 args.set))
     return 0
 
 
@@ -39,7 +42,10 @@ def run_list(args: argparse.Namespace) -> int:
 
 def run_set(args: argparse.Namespace) -> int:
     from angen_tools.live import control
-    print(control.set_device(args.kind, args.name, args.value))
+    try:
+        print(control.set_device(args.kind, args.name, args.values))
+    except ValueError as error:
+        args.parser.error(str(error))
     return 0
 
 
@@ -51,11 +57,16 @@ def run_save(args: argparse.Namespace) -> int:
 
 def run_watch(args: argparse.Namespace) -> int:
     from angen_tools.live import watch
-    if args.once or args.json:
-        show(watch.watch_once(args.json))
-    else:
-        watch.watch()
-    return 0
+    from angen_tools.live.summary import Filter
+    wanted = Filter(args.names, args.kind, args.room, args.active)
+    if not args.once and not args.json:
+        watch.watch(wanted)
+        return 0
+    shown, missing = watch.watch_once(wanted, args.json)
+    show(shown)
+    if missing:
+        print(f'angen: {missing}', file=sys.stderr)
+    return 1 if missing else 0
 
 
 def run_top(args: argparse.Namespace) -> int:
@@ -73,119 +84,121 @@ def run_drive(args: argparse.Namespace) -> int:
     return 0
 
 
-def names_of(*kinds: str) -> Callable[..., list[str]]:
-    """A completer: names of what is in the running simulator, none where there is no simulator."""
-    def complete(**_: Any) -> list[str]:
-        from angen_tools.live.client import Client
-        try:
-            return [e.name for e in Client(limit=1.0).entities() if e.kind in kinds]
-        except Failure:
-            return []
-    return complete
-
-
-def complete_names(argument: argparse.Action, *kinds: str) -> None:
-    """Has argcomplete offer the names of what is in the running simulator."""
-    argument.completer = names_of(*kinds)  # type: ignore[attr-defined]
-
-
 def add_spawn(commands: Any) -> None:
     spawn = command(commands, 'spawn', run_spawn, 'adds a sensor or a model to the world',
                     'spawn pir p1 --pose "1 1 1.2 0 0 0"',
                     'spawn model model://chair chair1 --pose "2 2 0"')
-    kinds = spawn.add_subparsers(dest='kind', metavar='KIND', required=True)
-    examples = {
-        'pir': ['spawn pir p1 --pose "1 1 1.2 0 0 0" --set ray/range/max=4',
-                'spawn pir p2 --on turtlebot::base_footprint --pose "0 0 0.5"'],
-        'switch': ['spawn switch s1 --pose "2.1 3.94 2.125"'],
-        'luminosity': ['spawn luminosity l1 --pose "2 0.1 2.2 0 0 1.57" --set update_rate=5'],
-        'camera': ['spawn camera c1 --pose "0.8 0.8 2.2 0 0.4 0.785"'],
-        'contact': ['spawn contact c1 --on kitchen_chair0_a::body --set collision=seat_collision'],
-        'proximity': ['spawn proximity d1 --pose "1 1 0.5 0 0 1.57" --set ray/range/max=2'],
-        'pressure': ['spawn pressure m1 --pose "1 2 0" --set threshold=20'],
-        'reed': ['spawn reed r1 --on kitchen_door0::base --pose "0.93 -0.015 2.09" '
-                 '--set magnet_link=door --set magnet="0.93 -0.015 2.078"'],
-        'rfid': ['spawn rfid gate --pose "0.2 5 1.2 0 0 0" --set max_range=1.5'],
-        'plug': ['spawn plug p1 --pose "0.1 1 0.3 0 0 0" --set load=lamp/kitchen0'],
-        'temperature': ['spawn temperature t1 --pose "0.1 2 1.5" --set noise_stddev=0.1'],
-        'humidity': ['spawn humidity h1 --pose "0.1 2.1 1.5"'],
-    }
-    for kind, lines in examples.items():
-        what = SENSOR_WORDS.get(kind, f'a {kind} sensor')
-        sensor = command(kinds, kind, run_spawn, f'adds {what}', *lines)
-        sensor.add_argument('name', metavar='NAME', type=checked(new_name),
-                            help='a name that is not in use')
-        sensor.add_argument('--on', metavar='MODEL::LINK', type=checked(link),
-                            required=kind in ('contact', 'reed'),
-                            help='the link that carries it' + (
-                                '' if kind in ('contact', 'reed') else '; a static model without'))
-        sensor.add_argument('--set', metavar='KEY=VALUE', action='append', default=[],
-                            type=checked(setting), help='a parameter, as angen plugins lists them')
-        add_pose(sensor, required=kind != 'contact')
-    model = command(kinds, 'model', run_spawn, 'adds a model',
+    choices = spawn.add_subparsers(dest='kind', metavar='KIND', required=True)
+    for _, kind in sorted(kinds('sensor').items()):
+        add_sensor(choices, kind)
+    model = command(choices, 'model', run_spawn, 'adds a model',
                     'spawn model model://kitchen_door kitchen_door2 --pose "2.405 3.94 8 0 0 0"',
                     'spawn model my_shelf/model.sdf shelf --pose "1 2 0"')
-    model.add_argument('source', metavar='PATH|model://NAME', help='a file or folder, or an '
-                       'address on ANGEN_MODEL_PATH, GAZEBO_MODEL_PATH or in worlds/models')
-    model.add_argument('name', metavar='NAME', type=checked(new_name),
-                       help='a name that is not in use')
+    complete.completed_by(model.add_argument(
+        'source', metavar='PATH|model://NAME', help='a file or folder, or an '
+        'address on ANGEN_MODEL_PATH, GAZEBO_MODEL_PATH or in worlds/models'), complete.sources)
+    add_name(model)
     add_pose(model, required=True)
-    sitter = command(kinds, 'sitter', run_spawn, 'seats a person of 75 kg on a chair',
+    sitter = command(choices, 'sitter', run_spawn, 'seats a person of 75 kg on a chair',
                      'spawn sitter ann --on kitchen_chair0_a')
-    sitter.add_argument('name', metavar='NAME', type=checked(new_name),
-                        help='a name that is not in use')
-    complete_names(sitter.add_argument(
+    add_name(sitter)
+    complete.completed_by(sitter.add_argument(
         '--on', metavar='MODEL', required=True,
-        help='what has a seat: a chair, a sofa, an armchair'), 'model')
+        help='what has a seat: a chair, a sofa, an armchair'), complete.names_of('model'))
+
+
+def add_sensor(choices: Any, kind: Plugin) -> None:
+    """angen spawn KIND, of a kind of sensor in the catalog."""
+    name = kind['kind']
+    on_link = bool(kind['sensor_type']) and not kind['models']
+    where = '--on MODEL::LINK' if on_link else '--pose "1 1 1"'
+    sensor = command(choices, name, run_spawn, lower_first(kind['doc']),
+                     kind['example'] or f'spawn {name} {name}1 {where}',
+                     more=parameter_lines(kind))
+    sensor.set_defaults(parser=sensor)
+    add_name(sensor)
+    sensor.add_argument('--on', metavar='MODEL::LINK', type=checked(link), required=on_link,
+                        help='the link that carries it'
+                        + ('' if on_link else '; a static model without')
+                        + ('; it watches all collisions of that link unless --set collision=NAME'
+                           if has_parameter(kind, 'contact/collision') else ''))
+    complete.completed_by(
+        sensor.add_argument('--set', metavar='KEY=VALUE', action='append', default=[],
+                            type=checked(setting), help='a parameter; those below'),
+        lambda **_: [f'{param["path"]}=' for param in kind['params']])
+    add_pose(sensor, required=False)
+
+
+def lower_first(doc: str) -> str:
+    """A line of doc within a sentence."""
+    return (doc[:1].lower() + doc[1:]).rstrip('.')
+
+
+def parameter_lines(kind: Plugin) -> str:
+    """The parameters of a kind, for the end of its help."""
+    rows = []
+    for param in kind['params']:
+        default = ' '.join(filter(None, (param['default'], param['unit'])))
+        rows.append((param['path'], param['doc'] + (f' ({default})' if default else '')))
+    return 'parameters (default):\n' + '\n'.join(aligned(rows)) if rows else ''
+
+
+def aligned(rows: Sequence[tuple[str, str]]) -> list[str]:
+    """Lines of two columns."""
+    width = max(len(left) for left, _ in rows)
+    return [f'  {left:{width}}  {right}' for left, right in rows]
+
+
+def add_name(parser: Parser) -> None:
+    parser.add_argument('name', metavar='NAME', type=checked(new_name),
+                        help='a name that is not in use')
 
 
 def add_pose(parser: Parser, required: bool) -> None:
     parser.add_argument('--pose', metavar='"X Y Z [R P Y]"', type=checked(pose), required=required,
-                        default=(0.0,) * 6, help='m and rad, in the world; with --on, in the '
-                        'frame of that link')
+                        help='m and rad, in the world' if required else
+                        'm and rad, in the world; with --on, in the frame of that link (0 0 0)')
 
 
 def add_delete(commands: Any) -> None:
     delete = command(commands, 'delete', run_delete, 'takes models and sensors out of the world',
                      'delete p1 chair1')
-    complete_names(
-        delete.add_argument('names', metavar='NAME', nargs='+'),
-        'model', 'pir', 'switch', 'luminosity', 'contact', 'camera', 'proximity', 'pressure',
-        'reed', 'rfid', 'plug', 'temperature', 'humidity')
+    complete.completed_by(delete.add_argument('names', metavar='NAME', nargs='+'),
+                          complete.names_to_delete)
 
 
 def add_list(commands: Any) -> None:
     lists = command(commands, 'list', run_list, 'lists what is in the world',
                     'list --kind door', 'list --json')
-    lists.add_argument('--kind', default='', help='only door, elevator, lamp, pir, model, …')
+    complete.completed_by(
+        lists.add_argument('--kind', metavar='KIND', default='',
+                           help='only model, or a kind that angen plugins lists'),
+        complete.kind_names)
     add_json(lists)
 
 
 def add_set(commands: Any) -> None:
     parser = command(commands, 'set', run_set, 'commands a device: a door, a lamp, …',
                      'set door kitchen0 open', 'set elevator elevator 1', 'set lamp kitchen0 40')
-    kinds = parser.add_subparsers(dest='kind', metavar='KIND', required=True)
-    for kind, values, example, many in (
-            ('door', 'open|close|RAD', 'set door bathroom1 -1.2', ', or all'),
-            ('window', 'open|close|RAD', 'set window window0 open', ', or all'),
-            ('cabinet', 'open|close|RAD', 'set cabinet wall0 open', ', or all'),
-            ('elevator', 'FLOOR', 'set elevator elevator 1', ''),
-            ('lamp', 'on|off|PERCENT', 'set lamp all on', ', or all'),
-            ('heater', 'on|off|PERCENT', 'set heater heater1 40', '')):
-        device = command(kinds, kind, run_set, f'commands {"an" if kind[0] == "e" else "a"} {kind}',
-                         example)
-        complete_names(device.add_argument(
-            'name', metavar='NAME',
-            help=f'its name, as angen list --kind {kind} shows it{many}'), kind)
-        device.add_argument('value', metavar=values, type=checked(valid_for(kind)))
+    choices = parser.add_subparsers(dest='kind', metavar='KIND', required=True)
+    for _, kind in sorted(kinds('device').items()):
+        if kind['verbs'] or kind['values']:
+            add_device(choices, kind)
 
 
-def valid_for(kind: str) -> Callable[[str], str]:
-    def valid(text: str) -> str:
-        from angen_tools.live.control import make_order
-        make_order(kind, text)
-        return text
-    return valid
+def add_device(choices: Any, kind: Plugin) -> None:
+    """angen set KIND, of a kind of device in the catalog."""
+    name = kind['kind']
+    device = command(choices, name, run_set, lower_first(kind['doc']),
+                     kind['example'] or f'set {name} NAME {verbs.forms(kind)[0]}',
+                     more='values:\n' + '\n'.join(aligned(verbs.described_forms(kind))))
+    device.set_defaults(parser=device)
+    complete.completed_by(device.add_argument(
+        'name', metavar='NAME', help=f'its name, as angen list --kind {name} shows it, or all'),
+        complete.names_of_devices(name))
+    complete.completed_by(device.add_argument(
+        'values', metavar='VALUE', nargs='+', help='; '.join(verbs.forms(kind))),
+        lambda **_: [verb['name'].lower() for verb in kind['verbs']])
 
 
 def add_save(commands: Any) -> None:
@@ -196,9 +209,23 @@ def add_save(commands: Any) -> None:
 
 def add_watch(commands: Any) -> None:
     watch = command(commands, 'watch', run_watch,
-                    'shows every device and sensor live; space turns the page, q quits',
-                    'watch', 'watch --once')
-    watch.add_argument('--once', action='store_true', help='prints one table')
+                    'shows every sensor and device live; space turns the page, q quits',
+                    'watch', 'watch --once', 'watch --room kitchen --active',
+                    'watch --kind pir --kind lamp --once --json')
+    complete.completed_by(
+        watch.add_argument('names', metavar='NAME', nargs='*', help='only those of these names'),
+        complete.names_to_watch)
+    complete.completed_by(
+        watch.add_argument('--kind', metavar='KIND', action='append', default=[],
+                           help='only this kind; may be given more than once'),
+        complete.kind_names)
+    watch.add_argument('--room', metavar='WORD', default='',
+                       help='only those with this word in their name')
+    watch.add_argument('--active', action='store_true', help='leaves out what detects nothing '
+                       'and, where a kind does not detect, what has not changed for 5 s')
+    watch.add_argument('--once', action='store_true',
+                       help="prints one table, after each sensor's first reading; ends with 1 "
+                       'if one is missing')
     watch.add_argument('--json', action='store_true', help='prints one table as JSON')
 
 
@@ -213,5 +240,6 @@ def add_top(commands: Any) -> None:
 def add_drive(commands: Any) -> None:
     parser = command(commands, 'drive', run_drive, 'drives a robot by the arrow keys',
                      'drive', 'drive --robot robot2')
-    complete_names(parser.add_argument(
-        '--robot', metavar='NAME', help='as angen list --kind drive shows it (the first)'), 'drive')
+    complete.completed_by(parser.add_argument(
+        '--robot', metavar='NAME', help='as angen list --kind drive shows it (the first)'),
+        complete.names_of('drive'))

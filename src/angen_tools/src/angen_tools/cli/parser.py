@@ -5,21 +5,31 @@ import argparse
 from pathlib import Path
 from typing import Any, Callable, NoReturn
 
+from angen_tools.common.nearest import did_you_mean
+
 Run = Callable[[argparse.Namespace], int]  # does what the words say; returns the exit code
 
 
 class Parser(argparse.ArgumentParser):
     """Reports in one line what is wrong with the words."""
 
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        """argparse's own check, which lists every choice there is."""
+        if action.choices is not None and value not in action.choices:
+            raise argparse.ArgumentError(
+                action, f"'{value}' is not known; {did_you_mean(str(value), action.choices)}")
+
     def error(self, message: str) -> NoReturn:
         self.exit(2, f'{self.prog}: {message}; see {self.prog} --help\n')
 
 
-def command(commands: Any, name: str, run: Run, summary: str, *examples: str) -> Parser:
-    """Adds a subcommand whose help ends with examples."""
+def command(commands: Any, name: str, run: Run, summary: str, *examples: str, more: str = ''
+            ) -> Parser:
+    """Adds a subcommand whose help ends with examples, and `more`."""
     parser: Parser = commands.add_parser(
         name, help=summary, description=summary[0].upper() + summary[1:] + '.',
-        epilog='example:\n' + '\n'.join(f'  angen {example}' for example in examples),
+        epilog='example:\n' + '\n'.join(f'  angen {example}' for example in examples)
+        + f'\n\n{more}' * bool(more),
         formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.set_defaults(run=run)
     return parser

@@ -14,9 +14,14 @@ def quaternion(roll: float, pitch: float, yaw: float) -> tuple[float, float, flo
             cr * cp * sy - sr * sp * cy, cr * cp * cy + sr * sp * sy)
 
 
+def yaw(x: float, y: float, z: float, w: float) -> float:
+    """The rotation about z of a quaternion."""
+    return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+
+
 def yaw_of(q: Any) -> float:
     """The rotation about z of a geometry_msgs/Quaternion."""
-    return math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
+    return yaw(q.x, q.y, q.z, q.w)
 
 
 def rotation(q: Any) -> np.ndarray:

@@ -80,10 +80,12 @@ class Client:
             time.sleep(0.005)
         return made
 
-    def fence(self) -> None:
-        """Returns when the simulator has handled all that it has received, paused or not."""
+    def fence(self) -> float:
+        """Returns when the simulator has handled all that it has received, paused or not: the
+        simulated time then (s).
+        """
         from angen_msgs.srv import Step
-        self.call('/angen/step', Step, ticks=0)
+        return float(self.call('/angen/step', Step, ticks=0).sim_time.to_sec())
 
 
 class Mailbox:

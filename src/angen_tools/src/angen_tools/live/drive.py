@@ -9,6 +9,7 @@ from contextlib import suppress
 from typing import Any
 
 from angen_tools.common.failure import Failure
+from angen_tools.common.nearest import did_you_mean
 from angen_tools.common.terminal import single_keys
 from angen_tools.live.client import Client
 
@@ -92,7 +93,8 @@ def _chosen(robot: str | None, known: list[str]) -> str:
     if not known:
         raise Failure('the world has no robot')
     if robot is not None and robot not in known:
-        raise Failure(f"there is no robot '{robot}'; known are {', '.join(known)}")
+        raise Failure(f"there is no robot '{robot}'; "
+                      + did_you_mean(robot, known, 'angen list --kind drive'))
     return robot or known[0]
 
 

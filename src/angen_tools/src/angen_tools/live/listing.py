@@ -3,26 +3,24 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from angen_tools.common.catalog import kinds
 from angen_tools.common.failure import Failure
 from angen_tools.common.geometry import yaw_of
+from angen_tools.common.nearest import did_you_mean
 from angen_tools.common.output import as_json, table
 from angen_tools.live.client import Client
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
-KINDS = ('model', 'door', 'elevator', 'lamp', 'drive', 'person', 'window', 'cabinet', 'heater',
-         'climate', 'battery', 'tag',
-         'pir', 'switch', 'luminosity', 'contact', 'lidar', 'camera', 'depth', 'proximity',
-         'pressure', 'reed', 'rfid', 'plug', 'temperature', 'humidity')
-
 
 def list_entities(kind: str, json: bool) -> RenderableType:
     """What is in the world, or what of it is of one kind."""
     every = Client().entities()
-    kinds = {entity.kind for entity in every}
-    if kind and kind not in kinds.union(KINDS):
-        raise Failure(f"there is no kind '{kind}'; known are {', '.join(sorted(kinds))}")
+    known = {entity.kind for entity in every} | set(kinds()) | {'model'}
+    if kind and kind not in known:
+        raise Failure(f"there is no kind '{kind}'; "
+                      + did_you_mean(kind, known, 'angen plugins'))
     chosen = [entity for entity in every if kind in ('', entity.kind)]
     if json:
         return as_json([_as_dict(entity) for entity in chosen])

@@ -10,10 +10,12 @@ from typing import Sequence
 
 from lxml import etree
 
+from angen_tools.common.catalog import kind_of, kinds
 from angen_tools.common.failure import Failure
 from angen_tools.common.geometry import quaternion, yaw_of
+from angen_tools.common.nearest import did_you_mean
 from angen_tools.live.client import Client
-from angen_tools.world import models, sdf
+from angen_tools.world import models, sdf, sensor
 
 SEAT_AIR = 0.001  # m over the seat, where a sitter comes to be
 LEANS = 0.05  # rad: what leans by more is not a seat
@@ -39,7 +41,12 @@ def model_source(what: str) -> str:
 def spawn_model(source: str, name: str, pose: Sequence[float]) -> str:
     """Adds a model at `pose` (x y z roll pitch yaw in the world); returns what was done."""
     source = model_source(source)
-    _call_spawn(Client(), name, source, '', pose)
+    try:
+        _call_spawn(Client(), name, source, '', pose)
+    except Failure as error:
+        if not source.startswith('model://') or models.find(source):
+            raise
+        raise Failure(f'{error}; {did_you_mean(source, models.addresses())}') from None
     return f'spawned the model {name} from {source}'
 
 
@@ -49,9 +56,9 @@ def spawn_sensor(kind: str, name: str, pose: Sequence[float], on: str,
 
     `pose` is x y z roll pitch yaw in the link's frame, or in the world.
     """
-    element = sdf.build_sensor(kind, name, settings, bool(on), models.worlds_models())
+    element = sensor.build(kind, name, settings, bool(on))
     client = Client()
-    if kind in sdf.TOUCHED and bool(on) and element.find('contact/collision') is None:
+    if on and sensor.senses_contacts(kind_of(kind)) and element.find(sensor.COLLISION) is None:
         _watch_all(client, element, on)
     _call_spawn(client, name, sdf.text(element), on, pose)
     topic = next((entity.topic for entity in client.entities(kind) if entity.name == name), '')
@@ -63,7 +70,8 @@ def seat_sitter(name: str, chair: str) -> str:
     client = Client()
     places = {entity.name: entity.pose for entity in client.entities('model')}
     if chair not in places:
-        raise Failure(f"no model named '{chair}'; angen list --kind model shows them")
+        raise Failure(f"no model named '{chair}'; "
+                      + did_you_mean(chair, places, 'angen list --kind model'))
     seat = models.seat_of(_saved(client), chair)
     if seat is None:
         raise Failure(f"'{chair}' has no box seat_collision to sit on, as a chair or a sofa has")
@@ -90,12 +98,27 @@ def delete(names: Sequence[str]) -> list[str]:
     done: list[str] = []
     for name in names:
         try:
+            _must_be_there(client, name)
             client.call('/angen/delete', Delete, name=name)
         except Failure as error:
             raise Failure(f'{error}{"; deleted before: " + ", ".join(done) if done else ""}') \
                 from None
         done.append(name)
     return done
+
+
+def _must_be_there(client: Client, name: str) -> None:
+    """Failure where there is no model or sensor of that name."""
+    devices = kinds('device')
+    entities = client.entities()
+    names = [entity.name for entity in entities if entity.kind not in devices]
+    if name in names:
+        return
+    owner = next((entity for entity in entities if entity.name == name), None)
+    if owner is not None:
+        raise Failure(f"'{name}' is a {owner.kind} of the model {owner.model}; delete that")
+    raise Failure(f"no model or sensor named '{name}'; "
+                  + did_you_mean(name, names, 'angen list'))
 
 
 def save(path: Path) -> str:
@@ -149,8 +172,11 @@ def _saved(client: Client) -> etree._Element:
     return etree.fromstring(client.call('/angen/save', Save).xml.encode())
 
 
-def _watch_all(client: Client, sensor: etree._Element, on: str) -> None:
+def _watch_all(client: Client, element: etree._Element, on: str) -> None:
     """Lets a contact sensor watch every collision of its link."""
+    contact = element.find('contact')
+    if contact is None:
+        contact = etree.SubElement(element, 'contact')
     # Where there are none, the simulator reports what is wrong with `on`.
     for name in models.collisions(_saved(client), on):
-        etree.SubElement(sensor.find('contact'), 'collision').text = name
+        etree.SubElement(contact, 'collision').text = name

@@ -1,25 +1,45 @@
 """angen plugins: the catalog of plug-ins, without a simulator."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Iterator
 
-from angen_tools.common.catalog import plugins
+from angen_tools.common.catalog import Plugin, plugins
 from angen_tools.common.output import as_json, table
+from angen_tools.common.verbs import described_forms
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
 
 def list_plugins(json: bool) -> RenderableType:
-    """Every plug-in on the path with its parameters."""
+    """Every kind on the plug-in path: its verbs, the fields of its state or reading, parameters."""
     from rich.console import Group
     if json:
         return as_json(plugins())
     parts: list[RenderableType] = []
     for plugin in plugins():
         parts += [''] if parts else []
-        parts.append(f'{plugin["kind"]}  {plugin["library"]}  {plugin["doc"]}')
-        parts.append(table(('  PARAMETER', 'DEFAULT', 'UNIT', 'TYPE', 'MEANING'),
-                           [('  ' + p['path'], p['default'], p['unit'], p['type'], p['doc'])
-                            for p in plugin['params']]))
+        parts.append('  '.join(filter(None, (plugin['kind'] or '(does not load)', plugin['role'],
+                                             plugin['library'], plugin['doc']))))
+        parts += _tables(plugin)
     return Group(*parts)
+
+
+def _tables(plugin: Plugin) -> Iterator[RenderableType]:
+    """What there is of verbs, fields and parameters, a table each."""
+    if plugin['verbs'] or plugin['values']:
+        yield table(('  COMMAND', 'MEANING'), [('  ' + form, doc)
+                                               for form, doc in described_forms(plugin)])
+    if plugin['fields']:
+        yield table(('  FIELD', 'UNIT', 'TYPE', 'MEANING'),
+                    [('  ' + f['name'], f['unit'], _type_of(f), f['doc'])
+                     for f in plugin['fields']])
+    if plugin['params']:
+        yield table(('  PARAMETER', 'DEFAULT', 'UNIT', 'TYPE', 'MEANING'),
+                    [('  ' + p['path'], p['default'], p['unit'], p['type'], p['doc'])
+                     for p in plugin['params']])
+
+
+def _type_of(field: dict[str, Any]) -> str:
+    """A field's type; of a choice its words."""
+    return '|'.join(field['words']) if field['type'] == 'choice' else field['type']

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from angen_tools.common.geometry import yaw
 from angen_tools.maps.gridmap import OCCUPIED, GridMap, models_with
 from angen_tools.robot.planner import Door, Point
 
@@ -34,8 +35,7 @@ def link_poses(world: Any) -> Poses:
     for name, (x, y, _, qx, qy, qz, qw) in zip(world.links, world.link_poses):
         model = name.split('::')[0]
         if model in doors:
-            yaw = math.atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz))
-            found.setdefault(model, []).append((x, y, yaw))
+            found.setdefault(model, []).append((x, y, yaw(qx, qy, qz, qw)))
     return found
 
 

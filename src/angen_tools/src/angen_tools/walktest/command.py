@@ -15,7 +15,7 @@ from angen_tools.common.progress import Progress
 from angen_tools.walktest import report
 from angen_tools.walktest.arm import ARM_LIBRARY, arm_model, register_arm
 from angen_tools.walktest.plan import Area, Probe, Result, Walk, probes_of, walk
-from angen_tools.world import models, sdf
+from angen_tools.world import sdf, sensor
 
 STANDARDS = Path(__file__).resolve().parent / 'standards'
 STEP = 0.005      # s, of the physics
@@ -47,7 +47,7 @@ def detector(model: str, settings: Sequence[tuple[str, str]], yaw: float) -> Det
     values = [('model', model)]
     given = {key for key, _ in settings}
     values += [(key, str(value)) for key, value in entry['settings'].items() if key not in given]
-    root = sdf.build_sensor('pir', 'detector', [*values, *settings], False, models.worlds_models())
+    root = sensor.build('pir', 'detector', [*values, *settings], False)
     covers = {name: Area(**area) for name, area in entry['covers'].items()}
     return Detector(model, sdf.text(root), entry['height'], yaw, covers)
 

@@ -22,12 +22,22 @@ def worlds_models() -> Path:
                       'devel/setup.bash') from None
 
 
+def folders() -> list[Path]:
+    """Where models are searched for."""
+    return [*(Path(folder) for variable in ('ANGEN_MODEL_PATH', 'GAZEBO_MODEL_PATH')
+              for folder in os.environ.get(variable, '').split(':') if folder), worlds_models()]
+
+
+def addresses() -> list[str]:
+    """The model:// addresses that are found."""
+    return sorted({f'model://{file.parent.name}' for folder in folders()
+                   for file in folder.glob('*/model.sdf')})
+
+
 def find(uri: str) -> Path | None:
     """The SDF file of a model:// address or path; None where there is none."""
     if uri.startswith('model://'):
-        folders = [Path(folder) for variable in ('ANGEN_MODEL_PATH', 'GAZEBO_MODEL_PATH')
-                   for folder in os.environ.get(variable, '').split(':') if folder]
-        places = [folder / uri.removeprefix('model://') for folder in [*folders, worlds_models()]]
+        places = [folder / uri.removeprefix('model://') for folder in folders()]
     else:
         places = [Path(uri.removeprefix('file://'))]
     for place in places:

@@ -1,0 +1,130 @@
+"""Commands to devices in the words of their kind: what the catalog says of its verbs."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Sequence
+
+from angen_tools.common.catalog import Plugin
+
+
+@dataclass(frozen=True)
+class Order:
+    """A command in the words that the simulator takes; for numbers alone `verb` is empty."""
+
+    text: str
+    verb: dict[str, Any]
+    number: float = 0.0
+
+
+def parse(kind: Plugin, words: Sequence[str]) -> Order:
+    """The command that `words` mean to a device of a kind; ValueError says what is right.
+
+    A verb in upper or lower case; its number after it, or alone where one verb takes a number; or
+    the numbers of a kind that takes numbers alone.
+    """
+    given = ' '.join(words).replace(',', ' ').split()
+    verb = next((v for v in kind['verbs'] if given and v['name'].lower() == given[0].lower()), None)
+    if verb is not None:
+        return _with_verb(kind, verb, given[1:])
+    numbers = [_number(word) for word in given]
+    if kind['values'] and len(given) == len(kind['values']) and all(map(math.isfinite, numbers)):
+        return Order(' '.join(given), {})
+    counted = _counted(kind, given)
+    if counted is not None:
+        return counted
+    with_number = [v for v in kind['verbs'] if v['argument']]
+    if len(given) == 1 and len(with_number) == 1 and math.isfinite(
+            _number(given[0].removesuffix('%'))):
+        return _with_verb(kind, with_number[0], given)
+    raise ValueError(f"'{' '.join(words)}' is not a command of {article(kind['kind'])}, "
+                     f'which takes {forms_in_words(kind)}')
+
+
+def _counted(kind: Plugin, given: Sequence[str]) -> Order | None:
+    """Of "Floor1": an integer may follow its verb without a blank."""
+    for verb in kind['verbs']:
+        if len(given) == 1 and verb['type'] == 'integer' \
+                and given[0].lower().startswith(verb['name'].lower()):
+            return _with_verb(kind, verb, [given[0][len(verb['name']):]])
+    return None
+
+
+def _with_verb(kind: Plugin, verb: dict[str, Any], rest: Sequence[str]) -> Order:
+    takes = f'{article(kind["kind"])} takes {forms_in_words(kind)}'
+    if not verb['argument']:
+        if rest:
+            raise ValueError(f"'{' '.join(rest)}' is too much after {verb['name'].lower()}; "
+                             f'{takes}')
+        return Order(verb['name'], verb)
+    if len(rest) != 1:
+        raise ValueError(f'{verb["name"].lower()} takes one number of {verb["argument"]}; {takes}')
+    word = rest[0].removesuffix(verb['unit']) if verb['unit'] == '%' else rest[0]
+    number = _number(word)
+    if verb['type'] == 'integer' and not (word.isascii() and word.isdigit()):
+        number = math.nan
+    if not math.isfinite(number):
+        raise ValueError(f"'{rest[0]}' is not a number of {verb['argument']}; {takes}")
+    if not _bound(verb['min'], -math.inf) <= number <= _bound(verb['max'], math.inf):
+        raise ValueError(f"'{rest[0]}' is out of range; {takes}")
+    return Order(f'{verb["name"]} {word}', verb, number)
+
+
+def _bound(value: float | None, otherwise: float) -> float:
+    return otherwise if value is None else value
+
+
+def _number(word: str) -> float:
+    """The number, or NaN."""
+    try:
+        return float(word)
+    except ValueError:
+        return math.nan
+
+
+def argument(verb: dict[str, Any]) -> str:
+    """What the number of a verb is: "0 to 100 percent", "radians (rad)"."""
+    text: str = verb['argument']
+    if verb['min'] is not None and verb['max'] is not None:
+        text = f'{verb["min"]:g} to {verb["max"]:g} {text}'
+    elif verb['min'] is not None:
+        text = f'{verb["min"]:g} or more {text}'
+    return text
+
+
+def forms(kind: Plugin) -> list[str]:
+    """The values that angen set takes, shortest form first: on, off, 0 to 100 percent."""
+    with_number = [v for v in kind['verbs'] if v['argument']]
+    found = [v['name'].lower() for v in kind['verbs'] if not v['argument']]
+    found += [argument(v) if len(with_number) == 1 else f'{v["name"].lower()} {argument(v)}'
+              for v in with_number]
+    if kind['values']:
+        found.append(' and '.join(f'a number of {unit}' for unit in kind['values']))
+    return found
+
+
+def described_forms(kind: Plugin) -> list[tuple[str, str]]:
+    """Each form of a command in full, with its meaning: "[dim] PERCENT", "of its full …"."""
+    numbered = [verb for verb in kind['verbs'] if verb['argument']]
+    found = []
+    for verb in kind['verbs']:
+        word = verb['name'].lower()
+        if verb not in numbered:
+            found.append((word, verb['doc']))
+            continue
+        word = f'[{word}]' if len(numbered) == 1 else word
+        found.append((f'{word} {verb["argument"].upper()}', f'{verb["doc"]}; {argument(verb)}'))
+    if kind['values']:
+        found.append((' '.join(unit.upper() for unit in kind['values']), 'numbers alone'))
+    return found
+
+
+def forms_in_words(kind: Plugin) -> str:
+    """The forms as a list in a sentence."""
+    *first, last = forms(kind)
+    return f'{", ".join(first)}{" or " * bool(first)}{last}'
+
+
+def article(noun: str) -> str:
+    """The noun with a or an."""
+    return f'{"an" if noun[:1] in "aeiou" else "a"} {noun}'
