@@ -179,8 +179,8 @@ class BareOde {
       }
       dSpaceID& space = static_[static_cast<int>(std::floor((at.position.z() + 0.5) / 4.0))];
       if (space == nullptr) {
-        const dVector3 centre{0.0, 0.0, at.position.z()}, reach{20.0, 20.0, 4.0};
-        space = dQuadTreeSpaceCreate(nullptr, centre, reach, 4);
+        const dVector3 center{0.0, 0.0, at.position.z()}, reach{20.0, 20.0, 4.0};
+        space = dQuadTreeSpaceCreate(nullptr, center, reach, 4);
       }
       dSpaceAdd(space, geom);
       if (collision.shape.type == Shape::Type::kPlane) continue;

@@ -19,11 +19,11 @@ constexpr int kRoomsDeep = 2;
 constexpr double kRoom = 4.0;     // m from wall to wall
 constexpr double kCeiling = 2.6;  // m
 
-inline Block block(const Vec3& centre, const Vec3& size, double yaw, rays::Mobility mobility) {
+inline Block block(const Vec3& center, const Vec3& size, double yaw, rays::Mobility mobility) {
   Block out;
   out.shape.type = Shape::Type::kBox;
   out.shape.size = size;
-  out.pose = {centre, from_rpy(0, 0, yaw)};
+  out.pose = {center, from_rpy(0, 0, yaw)};
   out.mobility = mobility;
   return out;
 }

@@ -54,8 +54,8 @@ void Door::configure(Params& params, Wiring& wiring) {
   brake_torque_ =
       params.number("brake_torque", 20.0, "N m", "brake of a door that stands open", kNotNegative);
   latch_torque_ = params.number("latch_torque", 200.0, "N m", "brake of a shut door", kNotNegative);
-  refresh_ = Refresh(params.number("update_rate", 50.0, "Hz",
-                                   "how often its state is told while it moves", kRefreshRate));
+  refresh_ = Refresh(params.number(
+      "update_rate", 50.0, "Hz", "how often its state is published while it moves", kRefreshRate));
   params.choice("topicName", leaf_.topic, {leaf_.topic},
                 "where commands come from: one topic for all");
   params.text("device_name", "", "the name commands use, instead of the model's and its floor");
@@ -78,7 +78,7 @@ void Door::configure(Params& params, Wiring& wiring) {
     }
     first_target_ = target;
   }
-  // A leaf is a slab: its mass and its moment tell its width, m w^2 / 3 = I.
+  // A leaf is a slab: its mass and its moment give its width, m w^2 / 3 = I.
   const double mass = wiring.mass(wiring.link(wiring.child_of(hinge_)));
   if (width_ == 0.0) width_ = std::sqrt(3.0 * limits_.inertia / mass);
   torque_max_ = edge_force * width_;

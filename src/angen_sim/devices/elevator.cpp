@@ -56,8 +56,8 @@ void Elevator::configure(Params& params, Wiring& wiring) {
   door_force_ =
       params.number("door_force_max", 100.0, "N", "greatest force of a door leaf", kPositive);
   doorway_ = Doorway(door_speed, door_force_);
-  refresh_ = Refresh(params.number("update_rate", 50.0, "Hz",
-                                   "how often its state is told while it moves", kRefreshRate));
+  refresh_ = Refresh(params.number(
+      "update_rate", 50.0, "Hz", "how often its state is published while it moves", kRefreshRate));
   params.choice("topicName", kTopic, {kTopic}, "where commands come from: one topic for all");
   params.text("device_name", "", "the name commands use, instead of the model's");
   for (const std::vector<double>& call :
@@ -204,7 +204,7 @@ void Elevator::move(const View& view, Outputs& outputs) {
   outputs.event("arrived", "floor " + std::to_string(target_));
 }
 
-// The brake carries cabin and load, so what it gives tells the load.
+// The brake carries cabin and load, so its force gives the load.
 double Elevator::weigh(const JointView& lift) const {
   if (phase_ == Phase::kMoving || gravity_ <= 0.0) return mass_;
   const double felt = std::clamp(lift.effort / gravity_, own_mass_, own_mass_ + kGreatestLoad);

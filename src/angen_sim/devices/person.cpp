@@ -61,8 +61,8 @@ void Person::configure(Params& params, Wiring& wiring) {
   params.number("mass", 70.0, "kg", "its mass", kPositive);
   params.number("skin_temperature", 307.0, "K", "of head and hands, seen by PIRs", kPositive);
   params.number("clothing_temperature", 299.0, "K", "of the rest of its surface", kPositive);
-  refresh_ = Refresh(params.number("update_rate", 20.0, "Hz",
-                                   "how often its state is told while it walks", kRefreshRate));
+  refresh_ = Refresh(params.number(
+      "update_rate", 20.0, "Hz", "how often its state is published while it walks", kRefreshRate));
   params.text("device_name", "", "the name commands use, instead of the actor's");
   body_ = wiring.link("body");
 }

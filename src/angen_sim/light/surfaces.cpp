@@ -160,7 +160,7 @@ bool Surfaces::divided(const std::vector<Site>& sites) const {
   for (const Site& site : sites) {
     spacing2 = std::max(spacing2, (site.position - sites[0].position).squaredNorm());
   }
-  // Neighbours are a third of the cell's side apart; twice that bridges a covered one.
+  // Neighbors are a third of the cell's side apart; twice that bridges a covered one.
   const double near2 = 0.3 * spacing2;
   for (std::size_t next = 0; next < reached.size(); ++next) {
     const Site from = sites[reached[next]];

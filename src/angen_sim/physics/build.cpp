@@ -132,9 +132,9 @@ class Builder {
     if (body.floats) body.weightless.clear();
   }
 
-  // Sums mass, centre and moment over the links, and puts the body's origin in the centre.
+  // Sums mass, center and moment over the links, and puts the body's origin in the center.
   void add_masses(Body& body, const std::vector<const desc::Link*>& links) const {
-    Vec3 centre = Vec3::Zero();
+    Vec3 center = Vec3::Zero();
     for (const desc::Link* link : links) {
       const double mass = link->inertial.mass;
       if (!(std::isfinite(mass) && mass > 0.0)) {
@@ -143,9 +143,9 @@ class Builder {
                                       " kg, it must be above 0");
       }
       body.mass += mass;
-      centre += mass * (link->pose * link->inertial.pose).position;
+      center += mass * (link->pose * link->inertial.pose).position;
     }
-    body.zero.position = centre / body.mass;
+    body.zero.position = center / body.mass;
     for (const desc::Link* link : links) {
       const Pose com = body.zero.inverse() * link->pose * link->inertial.pose;
       const Eigen::Matrix3d turn = com.rotation.toRotationMatrix();

@@ -18,7 +18,7 @@ constexpr double kSoftest = 1e-8;       // least CFM of a contact: keeps redunda
 constexpr double kBounceSpeed = 0.05;   // m/s, nothing bounces below it
 constexpr double kStickMu = 1e6;        // from here on nothing slides
 constexpr std::size_t kManyJoints = 256;
-constexpr double kApart = 1e-9;  // m, centres that are less apart coincide
+constexpr double kApart = 1e-9;  // m, centers that are less apart coincide
 
 bool joined(const Body& a, const Body& b) {
   const Body& moving = a.dynamic() ? a : b;
@@ -51,7 +51,7 @@ void set_friction(dContact& contact, const Geom& a, const Geom& b) {
   for (int i = 0; i < 3; ++i) contact.fdir1[i] = along[i];
 }
 
-// ODE's cylinders have no normal (NaN) where a centre lies on an axis or two stand exactly side by
+// ODE's cylinders have no normal (NaN) where a center lies on an axis or two stand exactly side by
 // side: they are parted along the line between them, else the moving one upward.
 void mend_normals(const Geom& first, const Geom& second, dContactGeom* points, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {

@@ -22,7 +22,7 @@ struct ModelRecord;
 /// Two geoms by their serials, the smaller first.
 using PairKey = std::pair<std::uint64_t, std::uint64_t>;
 
-/// An axis-aligned box in the world, metres.
+/// An axis-aligned box in the world, meters.
 struct Aabb {
   Vec3 min = Vec3::Zero();
   Vec3 max = Vec3::Zero();
@@ -106,7 +106,7 @@ struct Drive {
 
 /// Part of a body that gravity leaves alone.
 struct Weightless {
-  Vec3 centre = Vec3::Zero();  // in the body's frame
+  Vec3 center = Vec3::Zero();  // in the body's frame
   double mass = 0.0;
 };
 
@@ -117,7 +117,7 @@ struct Mechanism {
 };
 
 /// One or more links that are fixed to each other. Its frame has the axes of its first link and its
-/// origin in the common centre of mass.
+/// origin in the common center of mass.
 struct Body {
   ModelRecord* model = nullptr;
   std::uint64_t serial = 0;
@@ -126,7 +126,7 @@ struct Body {
   Pose zero;                       // in the model's frame, all joints at 0
   Pose at;                         // in the world
   double mass = 0.0;
-  Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();  // about the centre of mass, in its own axes
+  Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();  // about the center of mass, in its own axes
   bool floats = false;                               // gravity leaves all of it alone
   bool upright = false;
   Quat upright_at = Quat::Identity();  // the rotation that yaw is counted from

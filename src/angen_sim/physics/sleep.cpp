@@ -54,7 +54,7 @@ class Islands {
 
 }  // namespace
 
-void rouse(Body& body, std::vector<Body*>& awake) {
+void wake_up(Body& body, std::vector<Body*>& awake) {
   if (body.awake) return;
   for (Body* part : body.mechanism->bodies) {
     part->awake = true;

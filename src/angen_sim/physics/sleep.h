@@ -6,7 +6,7 @@
 namespace angen::physics {
 
 /// Wakes the mechanism of a dynamic body, whose idle times go on. ODE does not have it yet.
-void rouse(Body& body, std::vector<Body*>& awake);
+void wake_up(Body& body, std::vector<Body*>& awake);
 
 /// Puts whole islands to sleep (bodies that touch or are jointed) when each of their bodies has
 /// been slower than 0.01 m/s and 0.01 rad/s for half a second and no motor turns. Takes them out of

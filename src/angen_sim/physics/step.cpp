@@ -52,8 +52,8 @@ void World::Impl::collide_body(Body& body) {
   for (Geom* geom : body.geoms) {
     grid.query(*geom, [&](Geom& other) {
       if (!may_touch(*geom, other) || other.body->collided == steps) return;
-      // The idle time goes on: a body that is only leant on falls asleep with its neighbour.
-      if (contacts.collide(*geom, other) && other.body->dynamic()) rouse(*other.body, awake);
+      // The idle time goes on: a body that is only leant on falls asleep with its neighbor.
+      if (contacts.collide(*geom, other) && other.body->dynamic()) wake_up(*other.body, awake);
     });
   }
   body.collided = steps;
@@ -62,7 +62,7 @@ void World::Impl::collide_body(Body& body) {
 void World::Impl::add_lift() {
   for (Body* body : awake) {
     for (const Weightless& part : body->weightless) {
-      const Vec3 at = body->at * part.centre;
+      const Vec3 at = body->at * part.center;
       const Vec3 lift = -part.mass * gravity;
       dBodyAddForceAtPos(body->ode.get(), lift.x(), lift.y(), lift.z(), at.x(), at.y(), at.z());
     }

@@ -50,7 +50,7 @@ World::Impl::Impl(const desc::Physics& s, const Vec3& g, std::uint64_t seed_)
 void World::Impl::wake(Body& body) {
   if (!body.dynamic()) return;
   body.idle_steps = 0;
-  rouse(body, awake);
+  wake_up(body, awake);
 }
 
 void World::Impl::wake_joint(const Joint& joint) {

@@ -23,7 +23,7 @@ using CollisionId = Id<struct PhysicsCollisionTag>;
 using JointId = Id<struct PhysicsJointTag>;
 
 struct LinkState {
-  Pose pose;                             // of the link's frame (not its centre of mass)
+  Pose pose;                             // of the link's frame (not its center of mass)
   Vec3 linear_velocity = Vec3::Zero();   // m/s at the link's origin
   Vec3 angular_velocity = Vec3::Zero();  // rad/s
 };

@@ -18,7 +18,7 @@ struct Noise {
   Range range;            // a result is clamped to it, unless it is relative
   bool relative = false;  // mean and stddev are factors of the value, whose sign stays
 
-  /// Whether a reading with these values differs from one look to the next.
+  /// Whether a reading with these values differs from one sample to the next.
   bool varies(const Reading& reading) const;
   /// Adds it; each value takes the next gaussian() of `rng`.
   void apply(Rng& rng, Reading& reading) const;

@@ -52,7 +52,7 @@ struct JointLimits {
   double inertia = 0.0;   // kg m^2 about the axis, or kg: of the child and what is fixed to it
 };
 
-/// Another device as everybody sees it: where it is, and what it told last.
+/// Another device as everybody sees it: where it is, and its last state.
 struct DeviceView {
   std::string_view kind;
   std::string_view name;

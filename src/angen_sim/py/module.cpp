@@ -67,7 +67,7 @@ void advance(World& world, std::uint64_t ticks, void (World::*advance)(std::uint
 }
 
 void bind_world(pyb::module_& module) {
-  pyb::class_<World>(module, "World", "A world that runs when it is told to.")
+  pyb::class_<World>(module, "World", "A world that advances by step() and run().")
       .def(pyb::init([](const std::string& path, std::uint64_t seed) {
              return std::make_unique<World>(path, seed, catalog());
            }),

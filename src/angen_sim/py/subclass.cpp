@@ -31,7 +31,7 @@ pyb::object borrowed(const T& value) {
   return pyb::cast(&value, pyb::return_value_policy::reference);
 }
 
-// What a Python method raises is told like any other error of a plug-in.
+// What a Python method raises becomes an error like any other of a plug-in.
 template <class F>
 auto with_python(F&& call) {
   const pyb::gil_scoped_acquire gil;

@@ -23,7 +23,7 @@ struct Query {
   std::uint32_t triangle;
 };
 
-/// Plücker's test: neighbours compute bit-equal opposites for a shared edge, so no ray slips
+/// Plücker's test: neighbors compute bit-equal opposites for a shared edge, so no ray slips
 /// through.
 bool meet_triangle(const Corners& in, const Query& q, double& range) {
   const Vec3 a = in.a - q.origin, b = in.b - q.origin, c = in.c - q.origin;

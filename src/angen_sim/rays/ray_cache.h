@@ -6,9 +6,9 @@
 
 namespace angen::rays {
 
-/// Rays that stay where they are. What they meet of the static shapes is measured once; a look then
-/// takes in the movers that it is told of, and casts only those rays that may meet one. Movers that
-/// stand still may be taken in once, too. Its hits are bit for bit those of Scene::cast.
+/// Rays that stay where they are. Their hits on static shapes are cached; cast() then takes the
+/// movers that are near and casts only those rays that may hit one. Movers that stand still may be
+/// added to the cache, too. Its hits are bit for bit those of Scene::cast.
 class RayCache {
  public:
   /// Measures; the scene must be committed.
@@ -23,7 +23,7 @@ class RayCache {
 
   std::size_t size() const { return rays_.size(); }
 
-  /// Takes in these movers, and none that was taken in before, for all looks until one of them
+  /// Caches hits on these movers, and on none cached before, for each cast() until one of them
   /// moves or goes; then, and after measure(), it is to be called anew.
   void settle(const Scene& scene, const std::vector<ShapeId>& movers);
 
@@ -32,7 +32,7 @@ class RayCache {
   bool cast(const Scene& scene, const std::vector<ShapeId>& movers, Hit* hits) const;
 
  private:
-  // Four rays as floats, to tell quickly which of them may meet a box.
+  // Four rays as floats, to find quickly which of them may meet a box.
   struct Packet {
     Eigen::Array4f origin[3];
     Eigen::Array4f inverse[3];  // of the direction

@@ -61,7 +61,7 @@ Span box_span(const Solid& solid, const LocalRay& ray) {
   return span;
 }
 
-/// Sphere or infinite cylinder: from the point nearest to the centre, which keeps digits at a
+/// Sphere or infinite cylinder: from the point nearest to the center, which keeps digits at a
 /// distance.
 template <int kDimensions>
 Span round_span(const Eigen::Matrix<double, kDimensions, 1>& origin,
@@ -192,9 +192,9 @@ Eigen::AlignedBox3d bounds_of(const Solid& solid) {
   if (solid.type == Shape::Type::kMesh) {
     if (!solid.mesh || solid.mesh->bounds().isEmpty()) return {};
     const Vec3 half = solid.mesh->bounds().sizes() / 2;
-    const Vec3 centre = solid.position + solid.rotation * solid.mesh->bounds().center();
+    const Vec3 center = solid.position + solid.rotation * solid.mesh->bounds().center();
     const Vec3 extent = solid.rotation.cwiseAbs() * half;
-    return {centre - extent, centre + extent};
+    return {center - extent, center + extent};
   }
   Vec3 extent;
   if (!half_extent(solid, extent) || !extent.allFinite()) return {};

@@ -12,7 +12,7 @@ namespace angen::record {
 /// One number for a whole run: equal for runs whose snapshots are equal, bit for bit.
 class Fingerprint {
  public:
-  /// Takes in all that a snapshot says: time, poses, joints, lights, what was read and what
+  /// Adds all that a snapshot holds: time, poses, joints, lights, what was read and what
   /// happened.
   void add(const sim::Snapshot& snapshot);
 

@@ -20,7 +20,7 @@ struct Spent {
 /// What that was for each simulated second; the caller fills the header.
 angen_msgs::Cost to_message(const Spent& spent);
 
-/// /angen/cost, once a second of wall time. The simulation measures only while somebody listens.
+/// /angen/cost, once a second of wall time. The simulation measures only while it has subscribers.
 class CostTopic {
  public:
   CostTopic(ros::NodeHandle& node, sim::Simulation& simulation);

@@ -14,7 +14,7 @@ class Inbox {
  public:
   explicit Inbox(sim::Simulation& simulation) : simulation_(simulation) {}
 
-  /// Queues an action; nobody waits. A refusal is told on /angen/events and in the log.
+  /// Queues an action; nobody waits. A refusal is published on /angen/events and logged.
   void post(sim::Action action);
 
   /// Queues an action and waits for what became of it, until the topics say so too. Gives up when

@@ -10,8 +10,8 @@
 
 namespace angen::node {
 
-/// Where each robot's joints stand (rad or m), 50 times a simulated second while anybody listens:
-/// what robot_state_publisher wants.
+/// Where each robot's joints stand (rad or m), 50 times a simulated second while it has
+/// subscribers: what robot_state_publisher wants.
 class JointStates {
  public:
   explicit JointStates(ros::NodeHandle& node) : node_(node) {}

@@ -24,8 +24,8 @@ class Traffic {
   static inline std::atomic<std::uint64_t> sent_{0};
 };
 
-/// A topic whose messages are made only while somebody listens. Who does is counted by the connect
-/// callbacks: asking a publisher costs as much as publishing.
+/// A topic whose messages are made only while it has subscribers. Connect callbacks count them:
+/// asking a publisher costs as much as publishing.
 class LazyPublisher {
  public:
   /// Throws what roscpp throws for a topic it does not take.
@@ -46,7 +46,7 @@ class LazyPublisher {
   }
 
   bool has_subscribers() const { return listeners_->count.load(std::memory_order_relaxed) > 0; }
-  /// Grows with each newcomer.
+  /// Grows with each new subscriber.
   std::uint64_t subscriptions() const { return listeners_->joined.load(std::memory_order_relaxed); }
 
   /// Publishes what `make` returns; it is not called while there are no subscribers.

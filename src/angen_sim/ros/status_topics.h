@@ -46,7 +46,7 @@ class Events {
  public:
   explicit Events(ros::NodeHandle& node);
   void publish(const sim::Snapshot& snapshot);
-  /// How many there have been, heard by anybody or not.
+  /// How many there have been, with subscribers or without.
   std::uint64_t count() const { return count_; }
 
  private:

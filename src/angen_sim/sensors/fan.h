@@ -8,7 +8,7 @@
 
 namespace angen::sensors {
 
-/// One scan: a range a ray in metres, the greatest range where nothing was met.
+/// One scan: a range a ray in meters, the greatest range where nothing was met.
 using Ranges = std::vector<double>;
 
 /// The rays of an SDF <ray> block and their noise.
@@ -57,7 +57,7 @@ struct Fan {
 /// Reads <ray>; `fallback` stands for what it leaves out.
 Fan read_fan(Params& params, const Fan& fallback);
 
-/// The greatest |a[i] - b[i]| in metres.
+/// The greatest |a[i] - b[i]| in meters.
 double greatest_difference(const Ranges& a, const Ranges& b);
 
 }  // namespace angen::sensors

@@ -64,7 +64,7 @@ class PressureMat : public Sensor {
     return true;
   }
 
-  // kg; what pulls it upwards is no load.
+  // kg; what pulls it upwards is not a load.
   double load_on(const View& view) const {
     const Vec3 down = view.pose().rotation * -Vec3::UnitZ();
     double force = 0.0;

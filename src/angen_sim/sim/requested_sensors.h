@@ -7,7 +7,7 @@
 
 namespace angen::sim {
 
-/// The sensors that somebody wants readings of, among those that look on demand only. By kind
+/// The sensors whose readings somebody requests, among those that sample on demand only. By kind
 /// and name; any thread.
 class RequestedSensors {
  public:

@@ -34,7 +34,7 @@ void SensorScheduler::assign(const std::vector<Schedule>& schedules, Nanoseconds
   groups_.clear();
   group_of_.clear();
   idle_.assign(schedules.size(), 0);
-  // Those whose looks and publications fall on the same ticks from now on.
+  // A group: sensors whose samples and publications fall on the same ticks from now on.
   std::map<std::tuple<Nanoseconds, Nanoseconds, Nanoseconds, Nanoseconds>, std::uint32_t> known;
   for (std::uint32_t i = 0; i < schedules.size(); ++i) {
     const Schedule& schedule = schedules[i];

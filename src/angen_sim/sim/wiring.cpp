@@ -53,9 +53,9 @@ double inertia(const desc::Model& model, const desc::Joint& joint) {
   double sum = 0.0;
   for (const desc::Link* link : moving_with(model, joint.child)) {
     const desc::Inertial& inertial = link->inertial;
-    const Pose centre = link->pose * inertial.pose;
-    const Vec3 turned = centre.rotation.conjugate() * axis;
-    const Vec3 arm = axis.cross(centre.position - joint.anchor);
+    const Pose center = link->pose * inertial.pose;
+    const Vec3 turned = center.rotation.conjugate() * axis;
+    const Vec3 arm = axis.cross(center.position - joint.anchor);
     const double moment = turned.dot(inertial.moment * turned) + inertial.mass * arm.squaredNorm();
     sum += turns ? moment : inertial.mass;
   }

@@ -35,7 +35,7 @@ TEST(Rng, GaussianHasMeanZeroAndDeviationOne) {
 
 TEST(Rng, GaussiansAreAsManyOfMeanZeroAndDeviationOne) {
   constexpr int kCount = 96, kTicks = 4000;
-  double sum = 0.0, squares = 0.0, fourth = 0.0, neighbours = 0.0;
+  double sum = 0.0, squares = 0.0, fourth = 0.0, neighbors = 0.0;
   for (int tick = 0; tick < kTicks; ++tick) {
     double numbers[kCount];
     Rng(7, hash_bytes("scan"), tick).gaussians(numbers, kCount);
@@ -43,14 +43,14 @@ TEST(Rng, GaussiansAreAsManyOfMeanZeroAndDeviationOne) {
       sum += numbers[i];
       squares += std::pow(numbers[i], 2);
       fourth += std::pow(numbers[i], 4);
-      if (i > 0) neighbours += numbers[i] * numbers[i - 1];
+      if (i > 0) neighbors += numbers[i] * numbers[i - 1];
     }
   }
   const double n = kCount * kTicks;
   EXPECT_NEAR(sum / n, 0.0, 5.0 / std::sqrt(n));
   EXPECT_NEAR(squares / n, 1.0, 5.0 * std::sqrt(2.0 / n));
   EXPECT_NEAR(fourth / n, 3.0, 5.0 * std::sqrt(96.0 / n));
-  EXPECT_NEAR(neighbours / n, 0.0, 5.0 / std::sqrt(n));
+  EXPECT_NEAR(neighbors / n, 0.0, 5.0 / std::sqrt(n));
 }
 
 // A scan has no number beyond the limit as often as chance_within() says, and its first uniform()

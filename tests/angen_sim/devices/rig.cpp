@@ -133,10 +133,10 @@ JointLimits Rig::limits(JointRef joint) const {
   const desc::Link& child = model_.links.at(static_cast<std::size_t>(link_index(described.child)));
   double inertia = child.inertial.mass;
   if (described.type == desc::Joint::Type::kRevolute) {
-    const Pose centre = child.pose * child.inertial.pose;
-    const Vec3 turned = centre.rotation.conjugate() * axis.xyz;
+    const Pose center = child.pose * child.inertial.pose;
+    const Vec3 turned = center.rotation.conjugate() * axis.xyz;
     inertia = turned.dot(child.inertial.moment * turned) +
-              inertia * axis.xyz.cross(centre.position - described.anchor).squaredNorm();
+              inertia * axis.xyz.cross(center.position - described.anchor).squaredNorm();
   }
   return {axis.lower, axis.upper, axis.damping, axis.friction, inertia};
 }

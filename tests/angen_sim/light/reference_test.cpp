@@ -131,7 +131,7 @@ TEST(Reference, ASquareBehindTheSensorsPlaneIsClippedByIt) {
   EXPECT_EQ(facing_lux(-Vec3::UnitZ()), 0.0);
 }
 
-/// A closed cube of 4 m with 10,000 lm at its centre: direct and total, as means over a wall's
+/// A closed cube of 4 m with 10,000 lm at its center: direct and total, as means over a wall's
 /// points laid out evenly on all six walls.
 double mean_indirect(float albedo) {
   rays::Scene scene;

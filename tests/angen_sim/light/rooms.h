@@ -12,10 +12,10 @@ inline Shape box(const Vec3& size) {
   return shape;
 }
 
-inline rays::ShapeId add_box(rays::Scene& scene, const Vec3& centre, const Vec3& size,
+inline rays::ShapeId add_box(rays::Scene& scene, const Vec3& center, const Vec3& size,
                              const Eigen::Vector3f& albedo,
                              rays::Mobility mobility = rays::Mobility::kStatic) {
-  return scene.add(box(size), {centre, Quat::Identity()}, mobility, albedo);
+  return scene.add(box(size), {center, Quat::Identity()}, mobility, albedo);
 }
 
 inline Eigen::Vector3f gray(float albedo) { return Eigen::Vector3f::Constant(albedo); }
@@ -23,13 +23,13 @@ inline Eigen::Vector3f gray(float albedo) { return Eigen::Vector3f::Constant(alb
 /// Six slabs 0.2 m thick around the room between two corners; they overlap at the edges.
 inline void add_room(rays::Scene& scene, const Vec3& low, const Vec3& high,
                      const Eigen::Vector3f& albedo) {
-  const Vec3 centre = (low + high) / 2;
+  const Vec3 center = (low + high) / 2;
   const Vec3 size = high - low + Vec3::Constant(0.4);
   for (int axis = 0; axis < 3; ++axis) {
     Vec3 slab = size;
     slab[axis] = 0.2;
     for (const double side : {-1.0, 1.0}) {
-      Vec3 at = centre;
+      Vec3 at = center;
       at[axis] += side * ((high - low)[axis] / 2 + 0.1);
       add_box(scene, at, slab, albedo);
     }

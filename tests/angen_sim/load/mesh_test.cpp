@@ -5,10 +5,10 @@ namespace angen::load {
 namespace {
 
 // A right triangle in the file's own x-y plane, with its third corner one unit up z.
-std::string collada(const std::string& up, const std::string& metre) {
+std::string collada(const std::string& up, const std::string& meter) {
   return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' "
          "version='1.4.1'><asset><unit name='u' meter='" +
-         metre + "'/><up_axis>" + up +
+         meter + "'/><up_axis>" + up +
          "</up_axis></asset><library_geometries><geometry id='g' name='g'><mesh><source id='p'>"
          "<float_array id='pa' count='9'>0 0 0 1 0 0 0 2 3</float_array><technique_common>"
          "<accessor source='#pa' count='3' stride='3'><param name='X' type='float'/>"

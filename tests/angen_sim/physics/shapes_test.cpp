@@ -61,7 +61,7 @@ desc::Model plane_model() {
 struct Rest {
   const char* name;
   Shape shape;
-  double height;  // of its centre when it rests
+  double height;  // of its center when it rests
 };
 
 std::vector<Rest> solids() {

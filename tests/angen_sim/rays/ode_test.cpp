@@ -88,7 +88,7 @@ class OdeScene {
   std::vector<dTriMeshDataID> meshes_;
 };
 
-/// The shape from outside to outside: any point further than this from its centre is outside.
+/// The shape from outside to outside: any point further than this from its center is outside.
 double reach_of(const Shape& shape) {
   switch (shape.type) {
     case Shape::Type::kBox:

@@ -302,17 +302,17 @@ TEST(Scene, SameAsTryingEveryShape) {
 TEST(Scene, RimsFarFromTheOriginAreMet) {
   Rng rng(11, 1, 0);
   Scene scene;
-  const Vec3 centre(2000.3, -1500.7, 300.2);
-  add(scene, box(1, 1, 1), {centre, Quat::Identity()});
+  const Vec3 center(2000.3, -1500.7, 300.2);
+  add(scene, box(1, 1, 1), {center, Quat::Identity()});
   // Behind it, so that there is a hierarchy to lose it in.
   for (int i = 1; i < 40; ++i)
-    add(scene, box(1, 1, 1), {centre - Vec3(3 * i, 0, 0), Quat::Identity()});
+    add(scene, box(1, 1, 1), {center - Vec3(3 * i, 0, 0), Quat::Identity()});
   scene.commit();
   for (int i = 0; i < 2000; ++i) {
     const double along = rng.uniform() - 0.5, rim = 0.5 - 1e-5;
-    const Vec3 target = centre + Vec3(0.5, along, i % 2 == 0 ? rim : -rim);
+    const Vec3 target = center + Vec3(0.5, along, i % 2 == 0 ? rim : -rim);
     const double y = rng.uniform(), z = rng.uniform();
-    const Vec3 origin = centre + Vec3(8.5, 4 * y - 2, 0.4 * (z - 0.5));
+    const Vec3 origin = center + Vec3(8.5, 4 * y - 2, 0.4 * (z - 0.5));
     const Hit hit = cast_one(scene, origin, target - origin);
     ASSERT_NEAR(hit.range, (target - origin).norm(), 1e-9) << i;
     ASSERT_TRUE(scene.blocked(origin, target + 0.01 * (target - origin)));
