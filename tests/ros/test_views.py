@@ -88,3 +88,18 @@ def test_frames_make_one_tree(angen: Angen) -> None:
             frame = parents[frame]
             steps += 1
             assert steps < 20, "a loop"
+
+
+def test_no_transform_goes_out_twice_with_one_stamp(angen: Angen) -> None:
+    """tf2 warns of those: TF_REPEATED_DATA."""
+    with Heard("/tf", TFMessage) as moving:
+        until(lambda: moving.messages, "frames")
+        for i in range(3):
+            name = f"walker{i}"
+            assert angen.call("/angen/spawn", Spawn, name=name, xml="model://bathroom_door").success
+            until(lambda: any(t.child_frame_id.startswith(name) for m in list(moving.messages)
+                              for t in m.transforms), "the frames of what was spawned")
+            assert angen.call("/angen/delete", Delete, name=name).success
+        sent = [(t.child_frame_id, t.header.stamp) for m in list(moving.messages)
+                for t in m.transforms]
+    assert len(sent) == len(set(sent))
