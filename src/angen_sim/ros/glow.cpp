@@ -17,7 +17,7 @@ constexpr double kSkin = 0.02;       // m over the floor and before the walls
 constexpr double kDirect = 12.0;     // m^2: weight of cos/d^2
 constexpr double kReflected = 0.25;  // what walls and ceiling return, everywhere
 constexpr double kFloorAlpha = 0.75;
-constexpr double kWallAlphaLit = 0.5;
+constexpr double kWallAlphaLit = 0.3;
 
 /// A rectangle that is lit: a corner, its edges, and the direction that it faces.
 struct LitFace {
@@ -64,7 +64,7 @@ Marker draw_glow(const Room& room, const Vec3& point, const desc::Light& light, 
     const auto put = [&](int i, int j) {
       const Vec3 at = face.corner + face.u * i / kCells + face.v * j / kCells;
       const auto alpha = static_cast<float>(face.alpha * brightness(face, at, lamp, level));
-      marker.points.push_back(to_point(at));
+      marker.points.push_back(to_point(at - lamp));
       marker.colors.push_back(color(c[0], 0.93F * c[1], 0.6F * c[2], alpha));
     };
     for (int i = 0; i < kCells; ++i) {

@@ -19,10 +19,11 @@ const Vec3 kOverSensor(0.0, 0.0, 0.12);  // m, where its words stand in the worl
 const Vec3 kOverModel(0.0, 0.0, 0.5);    // m, in its first link's frame
 
 constexpr double kTextHeight = 0.08;        // m, of a capital letter
-constexpr double kRoomTextHeight = 0.32;    // m
-constexpr double kDeviceTextHeight = 0.16;  // m
-constexpr double kRoomTextAt = 0.9;         // m over the floor
-constexpr double kOverDevice = 0.15;        // m, a label over the highest visual
+constexpr double kRoomTextHeight = 0.45;    // m
+constexpr double kDeviceTextHeight = 0.22;  // m
+constexpr double kMoverTextHeight = 0.32;   // m, of a robot or person
+constexpr double kRoomTextAt = 2.2;         // m over the floor, south of the lamp in its middle
+constexpr double kOverDevice = 0.25;        // m, a label over the highest visual
 
 const std::optional<RayStyle>& rays_of(const sim::SensorEntry& sensor) {
   return ros_kind(sensor.kind, sensor.desc->plugin).rays;
@@ -42,19 +43,41 @@ visualization_msgs::Marker text_marker(std::string text, double height,
 visualization_msgs::Marker draw_caption(const Kind& kind, const Reading* reading) {
   const bool alarm = reading != nullptr && alarms(kind, *reading);
   return text_marker(reading != nullptr ? summary(kind, *reading) : "", kTextHeight,
-                     alarm ? color(0.85F, 0.1F, 0.1F, 1.0F) : color(0.1F, 0.15F, 0.3F, 1.0F));
+                     alarm ? color(0.85F, 0.1F, 0.1F, 1.0F) : color(0.75F, 0.88F, 1.0F, 1.0F));
 }
 
-/// Over the middle of its visuals, in the world.
+double height_of(const Shape& shape) {
+  switch (shape.type) {
+    case Shape::Type::kBox:
+      return shape.size.z();
+    case Shape::Type::kSphere:
+      return 2 * shape.radius;
+    case Shape::Type::kCylinder:
+    case Shape::Type::kCapsule:
+      return shape.length;
+    default:
+      return 0.0;
+  }
+}
+
+/// Over the middle of its visuals, in the model's frame.
 Vec3 place_of_label(const desc::Model& model) {
   Eigen::AlignedBox3d box;
   for (const desc::Link& link : model.links) {
     for (const desc::Visual& visual : link.visuals) {
-      box.extend((model.pose * link.pose * visual.pose).position);
+      const Vec3 middle = (link.pose * visual.pose).position;
+      const Vec3 top(0.0, 0.0, height_of(visual.shape) / 2);
+      box.extend(middle - top).extend(middle + top);
     }
   }
-  if (box.isEmpty()) return model.pose.position;
+  if (box.isEmpty()) return Vec3::Zero();
   return {box.center().x(), box.center().y(), box.max().z() + kOverDevice};
+}
+
+std::uint32_t first_link(const sim::Structure& structure, std::uint32_t model) {
+  const auto link = std::find_if(structure.links.begin(), structure.links.end(),
+                                 [&](const sim::LinkEntry& l) { return l.model == model; });
+  return static_cast<std::uint32_t>(link - structure.links.begin());
 }
 
 /// Where its description puts it, whatever has moved since.
@@ -85,10 +108,11 @@ void Overlays::add_lamp(const sim::Structure& structure, std::uint32_t light) {
   if (entry.link != UINT32_MAX) pose = described_pose(structure, entry.link) * pose;
   overlay.storey = storey_suffix(structure, entry.model, pose.position.z());
   const bool still = entry.link == UINT32_MAX || !structure.links[entry.link].moves;
-  if (still && room_around(rooms_, pose.position) != nullptr) {
+  const Room* room = still ? room_around(rooms_, pose.position) : nullptr;
+  if (room != nullptr) {
     Overlay lit = overlay;
     lit.link = UINT32_MAX;
-    lit.offset = pose;
+    lit.offset = {pose.position, room->pose.rotation};
     glows_.emplace(entry.name, std::move(lit));
   }
   lamps_.emplace(entry.name, std::move(overlay));
@@ -116,12 +140,10 @@ void Overlays::add_device(const sim::Structure& structure, std::uint32_t device)
   const bool has_alarm =
       std::any_of(fields.begin(), fields.end(), [](const Field& field) { return field.alarm; });
   if (!has_alarm || !ros_kind(entry.kind, entry.library).caption) return;
-  const auto link = std::find_if(structure.links.begin(), structure.links.end(),
-                                 [&](const sim::LinkEntry& l) { return l.model == entry.model; });
   Overlay overlay;
   overlay.index = device;
   overlay.of_device = true;
-  overlay.link = static_cast<std::uint32_t>(link - structure.links.begin());
+  overlay.link = first_link(structure, entry.model);
   overlay.offset.position = kOverModel;
   overlay.storey =
       storey_suffix(structure, entry.model, structure.models[entry.model]->pose.position.z());
@@ -130,26 +152,34 @@ void Overlays::add_device(const sim::Structure& structure, std::uint32_t device)
 
 void Overlays::add_label(const sim::Structure& structure, std::uint32_t device) {
   const sim::DeviceEntry& entry = structure.devices[device];
-  if (entry.kind != "lamp" && entry.kind != "door") return;
+  const bool travels = entry.kind == "drive" || entry.kind == "person";
+  if (!travels && entry.kind != "lamp" && entry.kind != "door") return;
+  const desc::Model& model = *structure.models[entry.model];
+  const Vec3 place = place_of_label(model);
   Overlay overlay;
-  overlay.offset.position = place_of_label(*structure.models[entry.model]);
-  overlay.storey =
-      storey_suffix(structure, entry.model, structure.models[entry.model]->pose.position.z());
+  overlay.storey = storey_suffix(structure, entry.model, model.pose.position.z());
+  overlay.offset.position = model.pose * place;
+  if (travels) {
+    overlay.link = first_link(structure, entry.model);
+    overlay.offset.position = model.links.front().pose.inverse() * place;
+  }
+  const std::string group = entry.kind == "door" ? "door labels" : "labels";
+  const std::string text = travels ? entry.name : entry.kind + " " + entry.name;
   Overlay& kept = labels_.emplace(entry.kind + "/" + entry.name, std::move(overlay)).first->second;
-  show(
-      kept,
-      text_marker(entry.kind + " " + entry.name, kDeviceTextHeight, color(0.3F, 0.2F, 0.05F, 1.0F)),
-      (entry.kind == "lamp" ? "labels" : "door labels") + kept.storey);
+  show(kept,
+       text_marker(text, travels ? kMoverTextHeight : kDeviceTextHeight,
+                   color(1.0F, 0.9F, 0.7F, 1.0F)),
+       group + kept.storey);
 }
 
 void Overlays::add_room_labels() {
   for (const Room& room : rooms_) {
     Overlay overlay;
     overlay.storey = room.storey;
-    overlay.offset.position = room.pose * Vec3(0.0, 0.0, kRoomTextAt);
+    overlay.offset.position = room.pose * Vec3(0.0, -room.size.y() / 4, kRoomTextAt);
     Overlay& kept = labels_.emplace("room/" + room.building + "/" + room.name, std::move(overlay))
                         .first->second;
-    show(kept, text_marker(room.name, kRoomTextHeight, color(0.05F, 0.05F, 0.2F, 1.0F)),
+    show(kept, text_marker(room.name, kRoomTextHeight, color(1.0F, 1.0F, 1.0F, 1.0F)),
          "labels" + room.storey);
   }
 }
