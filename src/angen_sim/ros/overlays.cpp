@@ -23,7 +23,7 @@ constexpr double kRoomTextHeight = 0.45;    // m
 constexpr double kDeviceTextHeight = 0.22;  // m
 constexpr double kMoverTextHeight = 0.32;   // m, of a robot or person
 constexpr double kRoomTextAt = 2.2;         // m over the floor, south of the lamp in its middle
-constexpr double kOverDevice = 0.25;        // m, a label over the highest visual
+constexpr double kOverDevice = 0.17;        // m, a label over the highest visual
 
 const std::optional<RayStyle>& rays_of(const sim::SensorEntry& sensor) {
   return ros_kind(sensor.kind, sensor.desc->plugin).rays;
