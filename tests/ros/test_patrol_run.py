@@ -107,7 +107,7 @@ def test_it_leaves_a_bag_and_a_figure_and_no_process(run: tuple[Path, str]) -> N
         whole = next(message for _, message, _ in bag.read_messages('/angen/markers'))
     assert counts['/angen/pir/kitchen_pir0'] == pytest.approx(10 * seconds, abs=5)
     assert counts['/turtlebot/cmd_vel'] == pytest.approx(10 * seconds, abs=5)
-    assert {'doors', 'sensors', 'robots'} <= {marker.ns for marker in whole.markers}
+    assert {'doors 0', 'sensors 0', 'robots'} <= {marker.ns for marker in whole.markers}
     assert counts['/tf_static'] and counts['/clock'] and counts['/tf']
     assert (run[0] / 'out/floor_0.png').read_bytes().startswith(b'\x89PNG')
     assert not running(run[0])

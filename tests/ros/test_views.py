@@ -7,6 +7,7 @@ from typing import Any
 
 from angen_msgs.msg import DoorState, Stats
 from angen_msgs.srv import Delete, Spawn
+from geometry_msgs.msg import Point, Pose, Quaternion
 from harness import Angen, Heard, until
 from lxml import etree
 from std_msgs.msg import String
@@ -14,6 +15,10 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
 WORLDS = Path(__file__).resolve().parents[2] / "worlds"
+
+
+def at(x: float, y: float, z: float) -> Pose:
+    return Pose(Point(x, y, z), Quaternion(0.0, 0.0, 0.0, 1.0))
 
 
 def keyed(arrays: list[Any]) -> dict[tuple[str, int], Marker]:
@@ -36,7 +41,11 @@ def test_every_newcomer_gets_the_whole_world(angen: Angen) -> None:
             views.append(keyed(heard.messages[:1]))
     assert views[0].keys() == views[1].keys()
     groups = {group for group, _ in views[0]}
-    assert {"doors", "lamps", "lights", "robots", "PIR rays", "sensors", "ground"} <= groups
+    assert {"doors 0", "lamps 0", "lights 0", "robots", "sensors 0", "ground", "labels 0",
+            "door labels 0", "labels", "idle PIR rays 0"} <= groups
+    assert "PIR rays 0" not in groups
+    texts = {marker.text for marker in views[0].values() if "labels" in marker.ns}
+    assert texts == {"lamp kitchen0", "door bathroom0", "turtlebot"}
 
 
 def of_leaf(door: str) -> int:
@@ -50,7 +59,7 @@ def test_only_what_changes_follows(angen: Angen) -> None:
     with Heard("/angen/markers", MarkerArray) as heard:
         whole = keyed([until(lambda: heard.messages, "the whole world")[0]])
         angen.send("/gazebo/Light_controller", String("On, kitchen0"))
-        until(lambda: any(m.ns == "lights" for a in heard.messages[1:] for m in a.markers),
+        until(lambda: any(m.ns == "lights 0" for a in heard.messages[1:] for m in a.markers),
               "the lamp's ball shines")
         angen.send("/gazebo/Light_controller", String("Off, kitchen0"))
         angen.send("/gazebo/Door_controller", String("Open, bathroom0"))
@@ -58,8 +67,8 @@ def test_only_what_changes_follows(angen: Angen) -> None:
         angen.send("/gazebo/Door_controller", String("Close, bathroom0"))
         angen.wait("/angen/door/bathroom0", DoorState, lambda state: state.mode == DoorState.CLOSED)
         changed = keyed(heard.messages[1:])
-    lights = [key for key in changed if key[0] == "lights"]
-    leaf = [key for key in changed if key[0] == "doors"]
+    lights = [key for key in changed if key[0] == "lights 0"]
+    leaf = [key for key in changed if key[0] == "doors 0"]
     assert [(m.pose.position.x, m.pose.position.y) for m in map(changed.get, lights)] == [(0, 3)]
     assert len(leaf) == of_leaf("bathroom_door") and set(leaf) < set(whole)
     assert sorted(changed) == sorted(lights + leaf)
@@ -75,6 +84,55 @@ def test_what_is_deleted_disappears(angen: Angen) -> None:
         until(lambda: keyed(heard.messages).keys() == before, "as before")
 
 
+def box(name: str, middle: str, size: str) -> str:
+    return (f'<link name="{name}"><pose>{middle} 0 0 0</pose><visual name="v"><geometry><box>'
+            f'<size>{size}</size></box></geometry></visual></link>')
+
+
+def test_a_lit_lamp_lights_the_room_around_it(angen: Angen) -> None:
+    parts = box("floor_hall", "0 3 -0.1", "4.1 3.1 0.2") + "".join(
+        box(f"wall_{i}", f"{i} 9 1", "0.1 0.1 2") for i in range(10))
+    house = f'<sdf version="1.6"><model name="house"><static>true</static>{parts}</model></sdf>'
+
+    def lit(heard: Heard) -> list[Marker]:
+        held = keyed(list(heard.messages))
+        return [marker for (group, _), marker in held.items() if group == "lit rooms 0"]
+
+    with Heard("/angen/markers", MarkerArray) as heard:
+        until(lambda: heard.messages, "the whole world")
+        assert angen.call("/angen/spawn", Spawn, name="house", xml=house).success
+        until(lambda: "hall" in {m.text for m in keyed(list(heard.messages)).values()}, "its label")
+        assert not lit(heard)
+        angen.send("/gazebo/Light_controller", String("Dim, kitchen0, 10"))
+        dim = max(c.a for c in until(lambda: lit(heard), "light in the room")[0].colors)
+        angen.send("/gazebo/Light_controller", String("On, kitchen0"))
+        until(lambda: max(c.a for c in lit(heard)[0].colors) > 1.5 * dim, "more light")
+        angen.send("/gazebo/Light_controller", String("Off, kitchen0"))
+        until(lambda: not lit(heard), "no light")
+        assert angen.call("/angen/delete", Delete, name="house").success
+        until(lambda: "hall" not in {m.text for m in keyed(list(heard.messages)).values()}, "gone")
+
+
+def test_rays_change_groups_while_a_sensor_fires(angen: Angen) -> None:
+    def of_beams(heard: Heard) -> set[str]:
+        return {group for group, _ in keyed(list(heard.messages)) if "switch beams" in group}
+
+    wall = ('<sdf version="1.6"><model name="wall"><static>true</static><link name="link">'
+            '<collision name="c"><geometry><box><size>0.1 1 1</size></box></geometry></collision>'
+            '</link></model></sdf>')
+    with Heard("/angen/markers", MarkerArray) as heard:
+        assert angen.call("/angen/spawn", Spawn, name="beam", xml="model://optical_switch",
+                          pose=at(-20.0, -20.0, 5.0)).success
+        until(lambda: of_beams(heard) == {"idle switch beams 1"}, "rays of a sensor at rest")
+        assert angen.call("/angen/spawn", Spawn, name="wall", xml=wall,
+                          pose=at(-19.75, -20.0, 5.0)).success
+        until(lambda: of_beams(heard) == {"switch beams 1"}, "rays of a sensor that fires")
+        assert angen.call("/angen/delete", Delete, name="wall").success
+        until(lambda: of_beams(heard) == {"idle switch beams 1"}, "rays of a sensor at rest")
+        assert angen.call("/angen/delete", Delete, name="beam").success
+        until(lambda: not of_beams(heard), "no rays")
+
+
 def test_frames_make_one_tree(angen: Angen) -> None:
     with Heard("/tf", TFMessage) as moving, Heard("/tf_static", TFMessage) as fixed:
         until(lambda: moving.messages and fixed.messages, "frames")
@@ -88,3 +146,18 @@ def test_frames_make_one_tree(angen: Angen) -> None:
             frame = parents[frame]
             steps += 1
             assert steps < 20, "a loop"
+
+
+def test_no_transform_goes_out_twice_with_one_stamp(angen: Angen) -> None:
+    """tf2 warns of those: TF_REPEATED_DATA."""
+    with Heard("/tf", TFMessage) as moving:
+        until(lambda: moving.messages, "frames")
+        for i in range(3):
+            name = f"walker{i}"
+            assert angen.call("/angen/spawn", Spawn, name=name, xml="model://bathroom_door").success
+            until(lambda: any(t.child_frame_id.startswith(name) for m in list(moving.messages)
+                              for t in m.transforms), "the frames of what was spawned")
+            assert angen.call("/angen/delete", Delete, name=name).success
+        sent = [(t.child_frame_id, t.header.stamp) for m in list(moving.messages)
+                for t in m.transforms]
+    assert len(sent) == len(set(sent))

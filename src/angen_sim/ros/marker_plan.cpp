@@ -2,15 +2,12 @@
 
 #include <algorithm>
 
-#include "devices/storeys.h"
+#include "ros/rooms.h"
 
 namespace angen::node {
 namespace {
 
-constexpr std::size_t kBuildingLinks = 10;
-// One sees the rooms through walls, and a storey through the floor of the next.
-constexpr float kWallAlpha = 0.22F;
-constexpr float kUpperFloorAlpha = 0.5F;
+constexpr float kWallAlpha = 0.3F;  // rooms are seen through walls
 
 bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
@@ -31,8 +28,7 @@ std::string device_group(const std::string& kind) {
 }
 
 float strongest_alpha(const std::string& group) {
-  if (group.rfind("walls", 0) == 0) return kWallAlpha;
-  return group.rfind("floors", 0) == 0 && group != "floors 0" ? kUpperFloorAlpha : 1.0F;
+  return group.rfind("walls", 0) == 0 ? kWallAlpha : 1.0F;
 }
 
 }  // namespace
@@ -40,18 +36,23 @@ float strongest_alpha(const std::string& group) {
 std::string marker_group(const sim::Structure& structure, std::uint32_t link) {
   const sim::LinkEntry& entry = structure.links[link];
   const desc::Model& model = *structure.models[entry.model];
-  for (const sim::DeviceEntry& device : structure.devices) {
-    if (device.model == entry.model && !is_carried(device.kind)) return device_group(device.kind);
-  }
   const desc::Link& described = model.links[entry.link];
   if (is_ground(described)) return "ground";
-  if (model.is_static && model.links.size() > kBuildingLinks) {
-    const std::string floor = " " + std::to_string(devices::floor_of(model.pose.position.z()));
-    if (has(described.name, "ceiling")) return "ceilings" + floor;
-    if (has(described.name, "floor")) return "floors" + floor;
-    return "walls" + floor;
+  const double height = model.pose.position.z();
+  const std::string storey = storey_suffix(structure, entry.model, height);
+  for (const sim::DeviceEntry& device : structure.devices) {
+    if (device.model == entry.model && !is_carried(device.kind)) {
+      return device_group(device.kind) + storey;
+    }
   }
-  return model.is_static && !described.sensors.empty() ? "sensors" : "furniture";
+  if (is_building(model)) {
+    if (has(described.name, "ceiling")) return "ceilings" + storey;
+    if (has(described.name, "floor")) return "floors" + storey;
+    const std::string side = outer_side(model, described);
+    return (side.empty() ? "walls" : "walls " + side) + storey;
+  }
+  const bool senses = model.is_static && !described.sensors.empty();
+  return (senses ? "sensors" : "furniture") + storey;
 }
 
 DrawnModel draw_model(const sim::Structure& structure, std::uint32_t first_link,

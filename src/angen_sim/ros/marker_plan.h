@@ -10,8 +10,8 @@
 
 namespace angen::node {
 
-/// rviz's switch that a link of this model stands under: `doors`, `walls 0`, `furniture`, …
-/// A static model of many links is a building: its links are told apart by their names.
+/// The namespace of a link's markers, which rviz can switch off: `doors 0`, `walls south 1`,
+/// `furniture 0`, `robots`, … with the storey that its description places the model on.
 std::string marker_group(const sim::Structure& structure, std::uint32_t link);
 
 /// Markers of one model, with the groups and ids that they keep until the model is deleted.

@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "ros/marker_shapes.h"
+#include "ros/rooms.h"
 #include "sim/snapshot.h"
 
 namespace angen::node {
 
-/// Markers that show a value: a ball for each lamp, rays for each ray sensor, a caption for others.
+/// Markers that show a value or a name: a ball for each lamp and its light in its room, rays for
+/// each ray sensor, a caption for others, and labels of rooms, lamps and doors.
 class Overlays {
  public:
   using Array = visualization_msgs::MarkerArray;
@@ -25,12 +27,14 @@ class Overlays {
 
  private:
   struct Overlay {
-    visualization_msgs::Marker marker;
-    std::uint32_t index = 0;  // in Structure::lights, ::sensors or ::devices
+    visualization_msgs::Marker marker;  // as appended last; without a namespace: not shown
+    std::string storey;                 // " 0", or empty; see storey_suffix
+    std::uint32_t index = 0;            // in Structure::lights, ::sensors or ::devices
     bool of_device = false;
-    std::uint32_t link = UINT32_MAX;  // in Structure::links; none for a world light
+    std::uint32_t link = UINT32_MAX;  // in Structure::links; none: it is still
     Pose offset;
     Pose pose;                            // as appended last
+    bool drawn = false;                   // since the structure changed
     double level = -1.0;                  // of a lamp, as appended last
     std::shared_ptr<const Reading> last;  // compared last
     Nanoseconds stamp = 0;                // of what was made in its place then
@@ -42,15 +46,28 @@ class Overlays {
   void add_lamp(const sim::Structure& structure, std::uint32_t light);
   void add_sensor(const sim::Structure& structure, std::uint32_t sensor);
   void add_device(const sim::Structure& structure, std::uint32_t device);
-  /// Whether what it shows has changed since the last call.
+  void add_label(const sim::Structure& structure, std::uint32_t device);
+  void add_room_labels();
+  /// Gives overlays that existed before their markers back; others get an id, or are `gone`.
+  static void keep_markers(const Named& old, Named& now, std::int32_t& next_id, Array& gone);
+  /// What an overlay shows from now on; in another namespace than before, or nowhere if that is
+  /// empty, what it showed is deleted.
+  void show(Overlay& overlay, visualization_msgs::Marker marker, const std::string& group);
+  /// Whether the reading or state that it shows has changed since the last call.
   static bool is_new(const sim::Snapshot& snapshot, Overlay& overlay);
-  bool relight(const sim::Snapshot& snapshot, Overlay& lamp) const;
-  bool redraw(const sim::Snapshot& snapshot, Overlay& beams) const;
-  bool rewrite(const sim::Snapshot& snapshot, Overlay& caption) const;
+  // Each returns whether the marker has changed.
+  bool relight(const sim::Snapshot& snapshot, Overlay& lamp);
+  bool glow(const sim::Snapshot& snapshot, Overlay& lamp);
+  bool redraw(const sim::Snapshot& snapshot, Overlay& beams);
+  bool rewrite(const sim::Snapshot& snapshot, Overlay& caption);
 
+  std::vector<Room> rooms_;
   Named lamps_;
   Named beams_;
   Named captions_;
+  Named glows_;
+  Named labels_;
+  std::vector<visualization_msgs::Marker> stale_;  // to be deleted
 };
 
 }  // namespace angen::node

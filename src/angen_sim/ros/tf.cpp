@@ -40,7 +40,7 @@ void Transforms::on_structure(const sim::Snapshot& snapshot, const FrameTree& fr
     }
     return message;
   });
-  send(snapshot, true);
+  new_structure_ = true;
 }
 
 void Transforms::publish(const sim::Snapshot& snapshot) {
@@ -53,25 +53,28 @@ void Transforms::publish(const sim::Snapshot& snapshot) {
   const std::uint64_t joined = moving_.subscriptions();
   const bool newcomer = joined != joined_;
   const Nanoseconds slot = snapshot.time / kTransformPeriod;
-  if (slot == slot_ && !(newcomer && snapshot.paused)) return;
+  if (slot == slot_ && !new_structure_ && !(newcomer && snapshot.paused)) return;
+  const Nanoseconds second = snapshot.time / kSecond;
+  const bool all = newcomer || new_structure_ || second != second_;
   joined_ = joined;
   slot_ = slot;
-  const Nanoseconds second = snapshot.time / kSecond;
-  const bool all = newcomer || second != second_;
   second_ = second;
-  send(snapshot, all);
+  new_structure_ = false;
+  if (moving_.has_subscribers()) {
+    const tf2_msgs::TFMessage message = collect(snapshot, all, newcomer);
+    if (!message.transforms.empty()) moving_.publish([&]() -> const auto& { return message; });
+  }
   for (const std::uint32_t frame : moved_) marked_[frame] = false;
   moved_.clear();
 }
 
-void Transforms::send(const sim::Snapshot& snapshot, bool all) {
-  if (robots_.empty() && (all ? frames_.moving.empty() : moved_.empty())) return;
-  moving_.publish([&] { return collect(snapshot, all); });
-}
-
-tf2_msgs::TFMessage Transforms::collect(const sim::Snapshot& snapshot, bool all) const {
+tf2_msgs::TFMessage Transforms::collect(const sim::Snapshot& snapshot, bool all, bool again) {
   tf2_msgs::TFMessage message;
+  if (again || snapshot.time != sent_at_) sent_.clear();
+  sent_at_ = snapshot.time;
+  const auto is_due = [&](const std::string& child) { return sent_.insert(child).second; };
   const auto add_moving = [&](const MovingFrame& frame) {
+    if (!is_due(frame.child)) return;
     Pose pose = snapshot.link_poses[frame.link];
     if (frame.parent_link) pose = snapshot.link_poses[*frame.parent_link].inverse() * pose;
     add(message, snapshot.time, frame.parent, frame.child, pose);
@@ -82,7 +85,7 @@ tf2_msgs::TFMessage Transforms::collect(const sim::Snapshot& snapshot, bool all)
     for (const std::uint32_t frame : moved_) add_moving(frames_.moving[frame]);
   }
   for (const Robot& robot : robots_) {
-    if (snapshot.devices[robot.device] == nullptr) continue;
+    if (snapshot.devices[robot.device] == nullptr || !is_due(robot.base_frame)) continue;
     add(message, snapshot.time, robot.odom_frame, robot.base_frame,
         odometry_pose(*snapshot.devices[robot.device]));
   }
