@@ -19,8 +19,7 @@ namespace angen::node {
 class Commands {
  public:
   /// Kinds of `plugins` have their topic also where the world has none of them.
-  Commands(ros::NodeHandle& node, Inbox& inbox,
-           std::vector<std::shared_ptr<const Plugin>> plugins);
+  Commands(ros::NodeHandle& node, Inbox& inbox, std::vector<std::shared_ptr<const Plugin>> plugins);
 
   /// Subscribes to the command topics of the kinds and drives that exist now, and to no others.
   void on_structure(const sim::Structure& structure, const std::vector<Robot>& robots);
