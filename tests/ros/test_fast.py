@@ -39,10 +39,10 @@ def test_it_leaps_and_tells_every_event_and_state(tmp_path: Path) -> None:
         until(lambda: any('/rostopic' in name for _, names in
                           master.api.getSystemState('/test')[2][1] for name in names
                           if _ == '/angen/events'), 'somebody listens')
-        assert 'open' in cli.does('set', 'door', 'bathroom0', 'open')
+        assert 'OPEN' in cli.does('set', 'door', 'bathroom0', 'open')
         until(lambda: '"opened"' in (tmp_path / 'said').read_text(), 'the door says so')
         end(listening)
-        assert 'open at -1.57 rad' in cli.does('set', 'door', 'bathroom0', 'open')
+        assert 'OPEN, -1.57 rad' in cli.does('set', 'door', 'bathroom0', 'open')
     finally:
         end(node)
         end(master.process)

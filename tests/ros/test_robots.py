@@ -5,6 +5,7 @@ from typing import Iterator
 
 import pytest
 from harness import Angen, Cli, Heard, until
+from angen_msgs.msg import Stats
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Image, LaserScan
@@ -37,6 +38,7 @@ def test_each_answers_its_own_commands_only(angen: Angen, second: str, command: 
                                             other: str) -> None:
     twist = Twist()
     twist.linear.x, twist.angular.z = 0.2, 0.5
+    angen.wait('/angen/stats', Stats, lambda stats: stats.awake_bodies == 0)
     with Heard(mine, Odometry) as told, Heard(other, Odometry) as stays:
         at_rest = 'both stand and say so'
         start = told.wait(lambda m: m.twist.twist.linear.x == 0, at_rest)
