@@ -40,7 +40,7 @@ def test_latecomers_get_the_latched_state(angen: Angen) -> None:
 def test_what_is_rejected_changes_nothing_and_is_told(angen: Angen) -> None:
     wrong = {
         "/gazebo/Door_controller": ["Open", "Opn, bathroom0", "Set, bathroom0, soon",
-                                    "Open, cellar7", ""],
+                                    "Open, cellar8", ""],
         "/gazebo/Light_controller": ["Dim, kitchen0", "Dim, kitchen0, 1000"],
         "/gazebo/Elevator_controller": ["FloorX", "Floor1"],
     }
@@ -55,12 +55,12 @@ def test_what_is_rejected_changes_nothing_and_is_told(angen: Angen) -> None:
               "an event for each rejection")
         assert [m.target for m in door.messages] == [before.target]
     details = [e.detail for e in events.messages if e.event == "rejected"]
-    assert any("cellar7" in d and "bathroom0" in d for d in details), details
+    assert any("cellar8" in d and "bathroom0" in d for d in details), details
     for event in events.messages:  # whatever was wrong, the names that would be right are told
         if event.event == "rejected" and event.kind == "door":
             assert "bathroom0" in event.detail, event.detail
     assert any("radians" in d for d in details), details
-    lines = [line for line in angen.log().splitlines() if "cellar7" in line]
+    lines = [line for line in angen.log().splitlines() if "cellar8" in line]
     assert len(lines) == 1 and "bathroom0" in lines[0], lines
 
 
