@@ -16,8 +16,9 @@ namespace angen::node {
 namespace {
 
 struct Registry {
-  std::mutex mutex;
+  std::mutex mutex;  // of kinds
   std::map<std::string, RosKind> kinds;
+  std::mutex loading;           // of tried
   std::set<std::string> tried;  // libraries
 };
 
@@ -98,11 +99,9 @@ const RosKind& ros_kind(const std::string& kind, const std::string& library) {
           .caption()
           .done();
   if (const RosKind* found = find(kind)) return *found;
-  const bool is_new = [&] {
-    const std::lock_guard<std::mutex> lock(registry().mutex);
-    return !library.empty() && registry().tried.insert(library).second;
-  }();
-  if (is_new) load_ros_library(library);
+  // Held while it loads: no other thread takes the kind for one without a message meanwhile.
+  const std::lock_guard<std::mutex> lock(registry().loading);
+  if (!library.empty() && registry().tried.insert(library).second) load_ros_library(library);
   const RosKind* found = find(kind);
   return found != nullptr ? *found : generic;
 }
