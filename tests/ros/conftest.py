@@ -34,10 +34,10 @@ def rospy_node(master: Master) -> None:
     rospy.init_node("angen_tests", disable_signals=True)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def angen(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFactory
           ) -> Iterator[Angen]:
-    """The node with a small world at rate 1."""
+    """The node with a small world at rate 1; each file of tests has one of its own."""
     folder = tmp_path_factory.mktemp("node")
     world = folder / "small.world"
     world.write_text(WORLD)
