@@ -9,7 +9,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from generate import building, catalog, devices, elevator, furniture, plan, world
+from generate import building, catalog, devices, elevator, furniture, openers, plan, world
 from generate.sdf import numbers
 
 HERE = Path(__file__).resolve().parent
@@ -32,6 +32,7 @@ def write_all(folder: Path) -> None:
     devices.write_sitter(models)
     devices.write_turtlebot(models)
     catalog.write_catalog(models)
+    openers.write_openers(models)
     for name, piece in furniture.pieces().items():
         furniture.write_piece(models, name, piece)
     world.write_angen(folder)

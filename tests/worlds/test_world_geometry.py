@@ -19,6 +19,10 @@ from generate import plan  # noqa: E402
 ROOMS = list(plan.ROOMS)
 DOORS = [f"{room}_door{floor}" for floor in (0, 1) for room in ROOMS]
 OPEN = {"hinge": -1.57}
+WINDOWS = [f"{room}_window{floor}" for floor in (0, 1) for room in plan.SASHES]
+FRONTS = [f"{room}_{own}_cabinet{floor}" for floor in (0, 1)
+          for room, pieces in plan.FURNITURE.items() for piece, *_ in pieces
+          for _, own, *_ in plan.FRONTS.get(piece, ())]
 
 
 @pytest.fixture(scope="module")
@@ -51,6 +55,7 @@ def test_world_holds_what_the_building_needs(models):
     assert count["ceiling_lamp"] == count["optical_switch"] == count["luminosity_sensor"] == 12
     assert count["pir"] == 22 and count["pir_nodding"] == 2
     assert 45 <= len(models["apartment0"].links) <= 55
+    assert len(WINDOWS) == 12 and len(FRONTS) == 24 and {*WINDOWS, *FRONTS} < set(models)
     touching = [m for m in models.values() if m.element.find(".//sensor[@type='contact']")
                 is not None]
     assert len(touching) == 2 * (6 + 3) + 2  # chairs and tables, the elevator, the robot
@@ -85,6 +90,41 @@ def test_door_swings_free(models, door):
             gap = geometry.gaps(shape, others)
             nearest = int(gap.argmin())
             assert gap[nearest] > 0.001, (angle, shape.name, others[nearest].full_name)
+
+
+@pytest.mark.parametrize("name", WINDOWS + FRONTS)
+def test_windows_and_fronts_swing_free(models, name):
+    leaf = models[name]
+    joint = leaf.joint("sash" if name in WINDOWS else "front")
+    low, high = (float(joint.findtext(f"axis/limit/{end}")) for end in ("lower", "upper"))
+    others = geometry.nearby(solids(models, without={name}), leaf.pose[:3, 3], 3.0)
+    for angle in np.linspace(low, high, 40):
+        for shape in geometry.shapes(leaf, {joint.get("name"): angle}):
+            gap = geometry.gaps(shape, others)
+            nearest = int(gap.argmin())
+            assert gap[nearest] > 0.0009, (angle, shape.name, others[nearest].full_name)
+
+
+@pytest.mark.parametrize("name", WINDOWS)
+def test_a_window_opens_a_way_through_the_wall(models, name):
+    sash = plan.SASHES[name.removesuffix("_window" + name[-1])]
+    leaf = models[name]
+    middle = leaf.pose @ [sash.width / 2, -0.2, (sash.top - sash.bottom) / 2, 1.0]
+    out = leaf.pose[:3, 1]
+    for angle, blocked in ((0.0, True), (-1.57, False)):
+        there = solids(models, without={name}) + geometry.shapes(leaf, {"sash": angle})
+        ranges, _ = geometry.cast(middle[None, :3], out[None], there, 1.0)
+        assert (ranges[0] < 1.0) == blocked
+
+
+@pytest.mark.parametrize("name", WINDOWS + FRONTS)
+def test_a_shut_leaf_holds_its_magnet_at_its_reed(models, name):
+    leaf = models[name]
+    sensor, pose = geometry.sensor_pose(leaf)
+    plugin = sensor.find("plugin")
+    magnet = [float(v) for v in plugin.findtext("magnet").split()]
+    place = leaf.links[plugin.findtext("magnet_link")] @ [*magnet, 1.0]
+    assert np.linalg.norm(place[:3] - pose[:3, 3]) == pytest.approx(0.012, abs=1e-6)
 
 
 def test_open_doors_leave_each_other_alone(models):

@@ -1,10 +1,11 @@
 """The apartment and its six doors."""
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
-from . import plan
-from .sdf import (Part, add, add_fixed, add_joint, add_link, add_plugin, add_pose, new_model,
+from . import openers, plan
+from .sdf import (Part, Vector, add, add_fixed, add_joint, add_link, add_plugin, add_pose, new_model,
                   numbers, spanned, write_model)
 
 FLOOR_MATERIAL = "Gazebo/Wood"
@@ -12,19 +13,34 @@ WALL_MATERIAL = "Gazebo/White"
 SUNK = 0.05     # walls start inside the floor slab, so that no hair of light passes below
 
 
+def _wall_box(wall: plan.Wall, name: str, start: float, end: float, bottom: float, top: float,
+              **options) -> Part:
+    """Returns a box through the wall, and `stands_out` beyond both faces (m)."""
+    half = plan.WALL / 2 + options.pop("stands_out", 0.0)
+    if wall.axis == "x":
+        low, high = (start, wall.at - half), (end, wall.at + half)
+    else:
+        low, high = (wall.at - half, start), (wall.at + half, end)
+    return spanned(name, (*low, bottom), (*high, top), **options)
+
+
 def wall_parts(wall: plan.Wall) -> list[Part]:
     """Returns the boxes of one wall: pieces between openings, and a lintel over each."""
     parts: list[Part] = []
 
-    def piece(name: str, start: float, end: float, bottom: float) -> None:
-        half = plan.WALL / 2
-        if wall.axis == "x":
-            low, high = (start, wall.at - half), (end, wall.at + half)
-        else:
-            low, high = (wall.at - half, start), (wall.at + half, end)
-        parts.append(spanned(name, (*low, bottom), (*high, wall.top), material=WALL_MATERIAL))
+    def piece(name: str, start: float, end: float, bottom: float, top: float = wall.top) -> None:
+        parts.append(_wall_box(wall, name, start, end, bottom, top, material=WALL_MATERIAL))
 
     start = wall.start
+    holes = sorted(openers.opening(sash) for sash in plan.SASHES.values() if sash.wall == wall.name)
+    for i, (low, high, bottom, top) in enumerate(holes):
+        piece(f"{wall.name}_{i}", start, low, -SUNK)
+        piece(f"{wall.name}_sill_{i}", low, high, -SUNK, bottom)
+        piece(f"{wall.name}_lintel_{i}", low, high, top)
+        start = high
+    if holes:
+        piece(f"{wall.name}_{len(holes)}", start, wall.end, -SUNK)
+        return parts
     for i, opening in enumerate(wall.openings):
         piece(f"{wall.name}_{i}", start, opening, -SUNK)
         start = opening + plan.OPENING_WIDTH
@@ -66,29 +82,46 @@ def shaft_parts() -> list[Part]:
     ]
 
 
-def window_parts() -> list[Part]:
-    """Returns panes that stand 1 cm out of the outer walls; they are opaque to rays."""
-    parts = []
+def window_parts() -> list[tuple[str, list[Part]]]:
+    """Returns the panes that do not open, 1 cm out of the outer walls, of each window."""
+    walls = {(wall.axis, wall.at): wall for wall in plan.WALLS if wall.top == plan.WALL_TOP}
+    sashes = {sash.window: sash for sash in plan.SASHES.values()}
+    windows = []
     for name, (x, y, length, axis, bottom, top) in plan.WINDOWS.items():
-        half, deep = length / 2, plan.WALL / 2 + 0.01
-        dx, dy = (half, deep) if axis == "x" else (deep, half)
-        parts.append(spanned(name, (x - dx, y - dy, bottom), (x + dx, y + dy, top),
-                             material=(0.55, 0.68, 0.8)))
-    return parts
+        middle, at = (x, y) if axis == "x" else (y, x)
+        whole = (middle - length / 2, middle + length / 2, bottom, top)
+        panes = openers.panes(whole, sashes[name]) if name in sashes else [whole]
+        parts = [_wall_box(walls[axis, at], f"{name}_{i}", *pane, stands_out=0.01,
+                           material=openers.GLASS) for i, pane in enumerate(panes)]
+        if parts:
+            windows.append((name, parts))
+    return windows
 
 
-def apartment_parts() -> list[Part]:
-    """Returns every box of the flat, its landing and its piece of the shaft."""
-    walls = [part for wall in plan.WALLS for part in wall_parts(wall)]
-    return slab_parts() + walls + shaft_parts() + window_parts()
+def _centered(parts: list[Part]) -> tuple[Vector, list[Part]]:
+    """Returns the place of the first part, and all parts as seen from there."""
+    at = parts[0].at
+    return at, [replace(part, at=tuple(round(a - b, 6) for a, b in zip(part.at, at)))
+                for part in parts]
+
+
+def apartment_links() -> list[tuple[str, list[Part]]]:
+    """Returns name and boxes of each link of the flat, its landing and its piece of the shaft."""
+    links = [(part.name, [part]) for part in slab_parts()]
+    for wall in plan.WALLS:
+        parts = wall_parts(wall)
+        has_window = any(sash.wall == wall.name for sash in plan.SASHES.values())
+        links += [(wall.name, parts)] if has_window else [(part.name, [part]) for part in parts]
+    links += [(part.name, [part]) for part in shaft_parts()]
+    return links + window_parts()
 
 
 def write_apartment(models: Path) -> None:
     """Writes models/apartment; its origin is at floor level, so flats stack every 4 m."""
     root, model = new_model("apartment", static=True)
-    for part in apartment_parts():
-        local = Part(part.name, part.size, material=part.material)
-        add_link(model, part.name, [local], at=part.at, moves=False)
+    for name, parts in apartment_links():
+        at, local = _centered(parts)
+        add_link(model, name, local, at=at, moves=False)
     climate = add_plugin(model, "climate", "libroom_climate.so", outside_temperature=5)
     half = plan.WALL / 2
     for x0, y0, x1, y1 in (*plan.ROOMS.values(), plan.LANDING):

@@ -60,8 +60,9 @@ def write_pressure_mat(models: Path) -> None:
                 "A mat of 0.9 x 0.6 m that fires above 10 kg. Served by libpressure_mat.so.")
 
 
-def _add_reed(base, place: tuple[float, float, float], leaf: str,
-              magnet: tuple[float, float, float]) -> None:
+def add_reed(base: etree._Element, place: tuple[float, float, float], leaf: str,
+             magnet: tuple[float, float, float]) -> None:
+    """Appends a reed contact at a place of the base, and its magnet on a leaf."""
     sensor = add_sensor(base, "reed", "custom", 1)
     add_pose(sensor, place)
     add_plugin(sensor, "reed", "libreed_contact.so", magnet_link=leaf, magnet=numbers(*magnet))
@@ -90,7 +91,7 @@ def write_window(models: Path) -> None:
     ]
     base = add_link(model, "base", frame)
     magnet = (width - 0.07, -0.008, height - 0.012)
-    _add_reed(base, (magnet[0], magnet[1], magnet[2] + REED_GAP), "pane", magnet)
+    add_reed(base, (magnet[0], magnet[1], magnet[2] + REED_GAP), "pane", magnet)
     add_fixed(model, "base_to_world", "world", "base")
     add_link(model, "pane", sash)
     add_joint(model, "sash", "revolute", "base", "pane", (0, 0, 1),
@@ -127,7 +128,7 @@ def write_wall_cabinet(models: Path) -> None:
     base = add_link(model, "base", case)
     hinge = (0.0, -deep - 0.002, 0.0)
     magnet = (wide - 0.05, 0.0, high - 0.05)     # on the back of the panel
-    _add_reed(base, (magnet[0], hinge[1] + REED_GAP, magnet[2]), "panel", magnet)
+    add_reed(base, (magnet[0], hinge[1] + REED_GAP, magnet[2]), "panel", magnet)
     add_fixed(model, "base_to_world", "world", "base")
     add_link(model, "panel", front, at=hinge)
     add_joint(model, "front", "revolute", "base", "panel", (0, 0, 1),

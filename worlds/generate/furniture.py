@@ -1,10 +1,10 @@
 """Furniture. Every piece faces +x, its origin on the floor under its middle."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from .sdf import Color, Part, add, add_link, add_plugin, new_model, spanned, write_model
+from .sdf import Color, Part, Vector, add, add_link, add_plugin, new_model, spanned, write_model
 
 OAK: Color = (0.65, 0.47, 0.28)
 DARK: Color = (0.35, 0.23, 0.14)
@@ -78,12 +78,48 @@ def _bookshelf() -> Piece:
     return Piece("Bookshelf", tuple(parts))
 
 
+def _case(low: Vector, high: Vector, thick: float, color: Color,
+          dividers: tuple[float, ...] = (), shelves: tuple[float, ...] = ()) -> tuple[Part, ...]:
+    """Returns a case that is open towards +x, with dividers at y and shelves at z."""
+    (x0, y0, z0), (x1, y1, z1) = low, high
+    inside = ((x0 + thick, y0 + thick), (x1, y1 - thick))
+    boxes = {
+        "body": (low, (x0 + thick, y1, z1)),
+        "left": ((inside[0][0], y1 - thick, z0), high),
+        "right": ((inside[0][0], y0, z0), (x1, y0 + thick, z1)),
+        "bottom": ((*inside[0], z0), (*inside[1], z0 + thick)),
+        "top": ((*inside[0], z1 - thick), (*inside[1], z1)),
+    }
+    for i, y in enumerate(dividers):
+        boxes[f"divider_{i}"] = ((inside[0][0], y - thick / 2, z0 + thick),
+                                 (x1 - 0.005, y + thick / 2, z1 - thick))
+    for i, z in enumerate(shelves):
+        boxes[f"shelf_{i}"] = ((*inside[0], z), (x1 - 0.02, inside[1][1], z + thick))
+    return tuple(spanned(name, *corners, material=color) for name, corners in boxes.items())
+
+
 def _wardrobe() -> Piece:
-    body = spanned("body", (-0.3, -0.8, 0.0), (0.28, 0.8, 2.1), material=CREAM)
-    doors = tuple(
-        spanned(f"door_{i}", (0.28, -0.79 + 0.53 * i, 0.06), (0.3, -0.27 + 0.53 * i, 2.08),
-                material=OAK) for i in range(3))
-    return Piece("Wardrobe", (body, *doors))
+    case = _case((-0.3, -0.8, 0.0), (0.278, 0.8, 2.1), 0.018, CREAM, dividers=(-0.265, 0.265))
+    plinth = spanned("plinth", (0.25, -0.782, 0.018), (0.278, 0.782, 0.08), material=CREAM)
+    return Piece("Wardrobe", (*case, plinth))
+
+
+def _cabinet() -> Piece:
+    case = _case((-0.22, -0.4, 0.0), (0.2, 0.4, 1.2), 0.018, CREAM, shelves=(0.4, 0.8))
+    plinth = spanned("plinth", (0.18, -0.382, 0.018), (0.2, 0.382, 0.06), material=CREAM)
+    return Piece("Cabinet", (*case, plinth))
+
+
+def _shoe_cabinet() -> Piece:
+    case = _case((-0.14, -0.45, 0.0), (0.12, 0.45, 0.9), 0.018, OAK, shelves=(0.462,))
+    plinth = spanned("plinth", (0.1, -0.432, 0.018), (0.12, 0.432, 0.06), material=OAK)
+    return Piece("Shoe cabinet", (*case, plinth))
+
+
+def _fridge() -> Piece:
+    case = _case((-0.325, -0.32, 0.0), (0.273, 0.32, 1.8), 0.04, CERAMIC,
+                 shelves=(0.45, 0.8, 1.165))
+    return Piece("Fridge", case)
 
 
 def _drawers(title: str, depth: float, width: float, height: float, rows: int,
@@ -101,9 +137,11 @@ def _drawers(title: str, depth: float, width: float, height: float, rows: int,
 
 
 def _counter() -> Piece:
+    case = _case((-0.3, -0.9, 0.0), (0.25, 0.9, 0.86), 0.018, CREAM, dividers=(-0.3, 0.3))
     parts = (
-        spanned("base", (-0.3, -0.9, 0.0), (0.27, 0.9, 0.86), material=CREAM),
-        spanned("top", (-0.3, -0.9, 0.86), (0.3, 0.9, 0.9), material=DARK),
+        *case,
+        spanned("plinth", (0.2, -0.882, 0.018), (0.25, 0.882, 0.1), material=CREAM),
+        spanned("worktop", (-0.3, -0.9, 0.86), (0.3, 0.9, 0.9), material=DARK),
         spanned("sink", (-0.18, -0.6, 0.9), (0.2, -0.1, 0.904), material=(0.6, 0.62, 0.65),
                 collide=False),
         Part("tap", (0.015, 0.22), (-0.22, -0.35, 1.01), material=(0.75, 0.75, 0.78)),
@@ -115,10 +153,18 @@ def _stove() -> Piece:
     plates = tuple(
         Part(f"plate_{i}", (0.085, 0.006), (x, y, 0.903), material=(0.1, 0.1, 0.1), collide=False)
         for i, (x, y) in enumerate(((0.13, 0.14), (0.13, -0.14), (-0.13, 0.14), (-0.13, -0.14))))
-    body = spanned("body", (-0.3, -0.3, 0.0), (0.3, 0.3, 0.9), material=CERAMIC)
-    oven = spanned("oven", (0.3, -0.25, 0.2), (0.305, 0.25, 0.65), material=(0.12, 0.12, 0.14),
-                   collide=False)
-    return Piece("Stove", (body, oven, *plates))
+    oven = _case((-0.3, -0.3, 0.15), (0.27, 0.3, 0.7), 0.04, (0.2, 0.2, 0.22), shelves=(0.38,))
+    front = (
+        spanned("drawer", (-0.3, -0.3, 0.0), (0.3, 0.3, 0.15), material=CERAMIC),
+        spanned("top", (-0.3, -0.3, 0.7), (0.3, 0.3, 0.9), material=CERAMIC),
+        *(spanned(f"front_{name}", (0.27, y0, z0), (0.3, y1, z1), material=CERAMIC)
+          for name, y0, y1, z0, z1 in (("right", -0.3, -0.254, 0.15, 0.7),
+                                       ("left", 0.254, 0.3, 0.15, 0.7),
+                                       ("low", -0.254, 0.254, 0.15, 0.196),
+                                       ("high", -0.254, 0.254, 0.656, 0.7))),
+    )
+    walls = (replace(part, name=f"oven_{part.name}") for part in oven)
+    return Piece("Stove", (*front, *walls, *plates))
 
 
 def _bed() -> Piece:
@@ -154,8 +200,6 @@ def _simple(title: str, low, high, color: Color, *looks: Part) -> Piece:
 def pieces() -> dict[str, Piece]:
     """Returns all furniture by model name."""
     screen = spanned("screen", (-0.02, -0.55, 0.55), (0.02, 0.55, 1.2), material=(0.05, 0.05, 0.06))
-    fridge_line = spanned("line", (0.325, -0.3, 1.18), (0.327, 0.3, 1.19),
-                          material=(0.3, 0.3, 0.3), collide=False)
     porthole = Part("porthole", (0.16, 0.01), (0.3, 0, 0.45), (0, 1.570796, 0),
                     material=(0.25, 0.27, 0.3), collide=False)
     return {
@@ -169,12 +213,11 @@ def pieces() -> dict[str, Piece]:
         ), mesh="bathtub.stl", color=CERAMIC),
         "bed": _bed(),
         "bookshelf": _bookshelf(),
-        "cabinet": _drawers("Cabinet", 0.44, 0.8, 1.2, 4, CREAM),
+        "cabinet": _cabinet(),
         "chair": _chair(),
         "desk": _desk(),
         "dresser": _drawers("Dresser", 0.42, 1.0, 0.9, 3, CREAM),
-        "fridge": _simple("Fridge", (-0.325, -0.32, 0.0), (0.325, 0.32, 1.8), CERAMIC,
-                          fridge_line),
+        "fridge": _fridge(),
         "kitchen_counter": _counter(),
         "kitchen_table": _table(1.1, 0.75, 0.75, 20.0, OAK),
         "nightstand": _drawers("Nightstand", 0.38, 0.4, 0.5, 2, OAK),
@@ -182,7 +225,7 @@ def pieces() -> dict[str, Piece]:
             Part("pot", (0.14, 0.26), (0, 0, 0.13)),
             Part("leaves", (0.19, 0.8), (0, 0, 0.72)),
         ), mesh="plant.dae"),
-        "shoe_cabinet": _drawers("Shoe cabinet", 0.28, 0.9, 0.9, 2, OAK),
+        "shoe_cabinet": _shoe_cabinet(),
         "sofa": _sofa("Sofa", 2.0, "sofa.dae"),
         "stove": _stove(),
         "table": _table(1.0, 0.6, 0.45, 12.0, DARK),

@@ -71,6 +71,33 @@ WINDOWS = {
     "window_workroom": (10.0, 7.6, 1.6, "y", 0.9, 2.1),
 }
 
+
+
+@dataclass(frozen=True)
+class Sash:
+    """The part of a window that opens: its hinge's coordinate along the wall, and its edges.
+
+    It laps over its opening by SASH_LAP on all sides, on the wall's inner face.
+    """
+    wall: str
+    window: str
+    hinge: float
+    width: float
+    bottom: float
+    top: float
+
+
+SASH_LAP = 0.02
+# name of the window's model, without _window
+SASHES = {
+    "kitchen": Sash("wall_south", "window_kitchen", 2.0, 0.7, 1.18, 2.1),   # clear of the tap
+    "livingroom_south": Sash("wall_south", "window_livingroom_south", 7.2, 0.9, 1.0, 2.1),
+    "livingroom_east": Sash("wall_east", "window_livingroom_east", 1.6, 0.6, 1.0, 2.1),
+    "bedroom": Sash("wall_north", "window_bedroom", 0.8, 0.8, 1.05, 2.1),   # clear of the bed
+    "bathroom": Sash("wall_north", "window_bathroom", 4.6, 0.8, 1.5, 2.1),
+    "workroom": Sash("wall_east", "window_workroom", 8.4, 0.8, 0.9, 2.1),
+}
+
 # A door's frame stands on the hinge at floor level: x along the shut leaf, it opens to -y.
 # hinge x, y, yaw
 DOORS = {
@@ -150,7 +177,7 @@ FURNITURE = {
         ("nightstand", "_b", 2.7, 9.3, -pi / 2),
         ("wardrobe", "", 1.1, 6.37, pi / 2),
         ("dresser", "", 3.7, 8.6, pi),
-        ("chair", "_a", 0.38, 7.1, 0.0),
+        ("chair", "_a", 0.38, 7.45, 0.0),
     ),
     "workroom": (
         ("desk", "", 8.6, 9.17, -pi / 2),
@@ -165,6 +192,20 @@ FURNITURE = {
         ("toilet", "", 4.42, 7.9, 0.0),
         ("washbasin", "", 4.33, 6.9, 0.0),
     ),
+}
+# piece: (model of its front, name, x, y, z of the hinge in the piece's frame); a front's own frame is
+# turned by a quarter, so that it opens towards +x of the piece
+FRONTS = {
+    "fridge": (("fridge_door", "fridge", 0.325, -0.32, 0.01),
+               ("freezer_door", "freezer", 0.325, -0.32, 1.19)),
+    "stove": (("oven_door", "oven", 0.305, -0.25, 0.2),),
+    "wardrobe": tuple(("wardrobe_door", f"wardrobe_{name}", 0.3, -0.79 + 0.53 * i, 0.06)
+                      for i, name in enumerate("abc")),
+    "kitchen_counter": tuple(("counter_door", f"counter_{name}", 0.27, -0.898 + 0.6 * i, 0.08)
+                             for i, name in enumerate("abc")),
+    "cabinet": (("cabinet_door", "files", 0.22, -0.4, 0.05),),
+    "shoe_cabinet": tuple(("shoe_flap", f"shoes_{name}", 0.14, -0.45, z)
+                          for name, z in (("low", 0.05), ("high", 0.475))),
 }
 RAISED = {"chair", "kitchen_table", "table", "desk"}     # dynamic pieces start 1 mm up
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from lxml import etree
 
-from . import plan
+from . import openers, plan
 from .building import add_ground
 from .sdf import SDF_VERSION, add, add_plugin, numbers, write
 
@@ -73,6 +73,23 @@ def add_devices(world: etree._Element, floor: int) -> None:
     for room, (x, y) in plan.LAMPS.items():
         include(world, "ceiling_lamp", f"{room}_lamp{floor}",
                 (x, y, plan.CEILING + floor * plan.STOREY, 0, 0, 0))
+
+
+def fronts_of(piece: str, name: str, pose: Pose) -> list[tuple[str, str, Pose]]:
+    """Returns model, name and pose of each front of a piece of furniture."""
+    floor = int(pose[2] // plan.STOREY)
+    room = name.split("_")[0]
+    return [(model, f"{room}_{own}_cabinet{floor}", openers.front_pose(pose, place))
+            for model, own, *place in plan.FRONTS.get(piece, ())]
+
+
+def _add_openers(world: etree._Element, floor: int) -> None:
+    for room, sash in plan.SASHES.items():
+        include(world, f"{room}_window", f"{room}_window{floor}", openers.sash_pose(sash, floor))
+    for room in plan.FURNITURE:
+        for piece in furniture_in(room, floor):
+            for front in fronts_of(*piece):
+                include(world, *front)
 
 
 def _add_sensors(world: etree._Element, floor: int) -> None:
@@ -171,6 +188,8 @@ def write_angen(folder: Path) -> None:
         _add_sensors(world, floor)
         comment(world, f"floor {floor}: furniture")
         _add_furniture(world, floor)
+        comment(world, f"floor {floor}: windows, and the fronts of furniture")
+        _add_openers(world, floor)
     x, y, yaw = plan.ROBOT
     comment(world, "who moves")
     include(world, "turtlebot", "turtlebot", (x, y, 0.001, 0, 0, yaw))
