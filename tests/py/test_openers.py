@@ -1,4 +1,4 @@
-"""The windows and fronts of angen.world: each opens and shuts by command, and its reed contact says so."""
+"""The windows and fronts of angen.world open and shut by command, and their reeds say so."""
 import pytest
 
 import angen

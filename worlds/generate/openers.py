@@ -1,4 +1,4 @@
-"""What opens besides doors: the sashes of windows, the fronts of furniture. Each has a reed contact.
+"""What opens besides doors: sashes of windows, fronts of furniture. Each has a reed contact.
 
 A leaf's frame stands on its hinge at its foot: x along the shut leaf, it opens towards -y. A flap's
 hinge is its foot, along x.

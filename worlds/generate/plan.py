@@ -72,7 +72,6 @@ WINDOWS = {
 }
 
 
-
 @dataclass(frozen=True)
 class Sash:
     """The part of a window that opens: its hinge's coordinate along the wall, and its edges.
@@ -193,8 +192,8 @@ FURNITURE = {
         ("washbasin", "", 4.33, 6.9, 0.0),
     ),
 }
-# piece: (model of its front, name, x, y, z of the hinge in the piece's frame); a front's own frame is
-# turned by a quarter, so that it opens towards +x of the piece
+# piece: (model of its front, name, x, y, z of the hinge in the piece's frame); a front's own frame
+# is turned by a quarter, so that it opens towards +x of the piece
 FRONTS = {
     "fridge": (("fridge_door", "fridge", 0.325, -0.32, 0.01),
                ("freezer_door", "freezer", 0.325, -0.32, 1.19)),
