@@ -64,6 +64,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
   std::function<light::Sample(light::Probe&, const Pose&)> light_at;  // dark where not given
   std::function<std::vector<std::uint8_t>(const render::PinholeCamera&, const Pose&)> colors_at;
   std::function<std::vector<float>(const render::PinholeCamera&, const Pose&)> depths_at;
+  std::function<std::vector<rays::Crossing>(const Vec3&, const Vec3&)> crossings_at;  // else none
   std::vector<FakeDevice> others;
   std::vector<std::pair<std::string, std::string>> events;
 
@@ -102,6 +103,9 @@ class FakeWorld : public View, public Wiring, public Outputs {
   double ambient_temperature() const override { return ambient; }
   const std::vector<rays::WarmShape>& warm_shapes() const override { return warm; }
   std::uint64_t scene_revision() const override { return revision; }
+  std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to) const override {
+    return crossings_at ? crossings_at(from, to) : std::vector<rays::Crossing>{};
+  }
   std::vector<std::uint8_t> colors(const render::PinholeCamera& lens,
                                    const Pose& pose) const override {
     return colors_at ? colors_at(lens, pose) : std::vector<std::uint8_t>{};

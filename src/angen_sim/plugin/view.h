@@ -87,6 +87,8 @@ class View {
   virtual const std::vector<rays::WarmShape>& warm_shapes() const = 0;
   /// Grows when shapes come, go or move: where it is the same, rays get the same answers.
   virtual std::uint64_t scene_revision() const = 0;
+  /// The shapes on the segment between two points (world, m), in the order in which it enters them.
+  virtual std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to) const = 0;
   /// What a camera at `pose` (world, x ahead, z up) sees: height x width x 3 bytes, sRGB.
   virtual std::vector<std::uint8_t> colors(const render::PinholeCamera& lens,
                                            const Pose& pose) const = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "core/slots.h"
@@ -352,6 +353,58 @@ bool Scene::blocked(const Vec3& from, const Vec3& to, double margin, Mobilities 
   const double length = (to - from).norm();
   const Vec3 direction = (to - from) / length;
   return prepare(q, from, direction, margin, length - margin, among) && impl_->any(q, among);
+}
+
+namespace {
+
+constexpr double kPast = 1e-7;  // m beyond a surface: farther than its range can be wrong
+
+/// The parts of the line from `origin` that run inside one shape, the line taken as endless.
+void add_insides(const Scene& scene, std::uint32_t shape, const Vec3& origin, const Vec3& direction,
+                 std::vector<Crossing>& found) {
+  std::vector<Hit> surfaces;
+  Ray ray{origin, direction};
+  for (Hit hit = scene.cast_at(shape, ray); hit.hit(); hit = scene.cast_at(shape, ray)) {
+    surfaces.push_back(hit);
+    ray.min = hit.range + kPast;
+  }
+  if (scene.placement(shape).type == Shape::Type::kPlane) {
+    for (const Hit& hit : surfaces) found.push_back({hit.range, hit.range, shape, hit.normal});
+    return;
+  }
+  std::size_t next = 0;
+  if (surfaces.size() % 2 == 1) {  // it starts inside
+    found.push_back({0.0, surfaces[0].range, shape, surfaces[0].normal});
+    next = 1;
+  }
+  for (; next + 1 < surfaces.size(); next += 2) {
+    found.push_back({surfaces[next].range, surfaces[next + 1].range, shape, surfaces[next].normal});
+  }
+}
+
+}  // namespace
+
+std::vector<Crossing> Scene::crossings(const Vec3& from, const Vec3& to) const {
+  std::vector<Crossing> found;
+  const double length = (to - from).norm();
+  if (!(length > 0.0)) return found;
+  Ray ray{from, (to - from) / length, 0.0, length};
+  std::set<std::uint32_t> met;
+  Hit hit;
+  for (cast(&ray, &hit, 1); hit.hit(); cast(&ray, &hit, 1)) {
+    if (met.insert(hit.shape).second) {
+      add_insides(*this, hit.shape, from, ray.direction, found);
+    }
+    ray.min = hit.range + kPast;
+  }
+  found.erase(std::remove_if(found.begin(), found.end(),
+                             [&](const Crossing& c) { return c.enter > length; }),
+              found.end());
+  for (Crossing& crossing : found) crossing.leave = std::min(crossing.leave, length);
+  std::sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {
+    return a.enter != b.enter ? a.enter < b.enter : a.shape < b.shape;
+  });
+  return found;
 }
 
 Hit Scene::cast_at(std::uint32_t shape_index, const Ray& ray) const {

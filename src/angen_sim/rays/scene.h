@@ -30,6 +30,15 @@ struct Hit {
   bool hit() const { return shape != UINT32_MAX; }
 };
 
+/// The part of a straight line that runs inside a shape; `enter` and `leave` are equal for a plane.
+struct Crossing {
+  double enter = 0.0;                                // m from the line's start
+  double leave = 0.0;                                // m
+  std::uint32_t shape = UINT32_MAX;                  // index of its ShapeId
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // unit, of the surface that it enters by, or
+                                                     // leaves by where it starts inside
+};
+
 /// Anchored: moves, but only as its joints to the static world let it, as a door does.
 enum class Mobility { kStatic, kAnchored, kMoving };
 
@@ -89,6 +98,9 @@ class Scene {
   /// True when anything lies on the segment (both ends shortened by `margin` m).
   bool blocked(const Vec3& from, const Vec3& to, double margin = 1e-4,
                Mobilities among = kAll) const;
+
+  /// What lies on the segment, all shapes, in the order in which it enters them. Requires commit().
+  std::vector<Crossing> crossings(const Vec3& from, const Vec3& to) const;
 
   /// The nearest hit on one shape alone.
   Hit cast_at(std::uint32_t shape_index, const Ray& ray) const;

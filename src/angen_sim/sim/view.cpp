@@ -80,6 +80,12 @@ std::uint64_t InstanceView::scene_revision() const {
   return engines_.rays.revision();
 }
 
+std::vector<rays::Crossing> InstanceView::crossings(const Vec3& from, const Vec3& to) const {
+  queried_.other = true;
+  engines_.rays.commit();
+  return engines_.rays.crossings(from, to);
+}
+
 std::vector<std::uint8_t> InstanceView::colors(const render::PinholeCamera& lens,
                                                const Pose& pose) const {
   queried_.other = true;

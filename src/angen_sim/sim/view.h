@@ -37,6 +37,7 @@ class InstanceView : public View {
   double ambient_temperature() const override { return engines_.ambient_temperature; }
   const std::vector<rays::WarmShape>& warm_shapes() const override;
   std::uint64_t scene_revision() const override;
+  std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to) const override;
   std::vector<std::uint8_t> colors(const render::PinholeCamera& lens,
                                    const Pose& pose) const override;
   std::vector<float> depths(const render::PinholeCamera& lens, const Pose& pose) const override;

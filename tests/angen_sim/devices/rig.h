@@ -87,6 +87,7 @@ class Rig : public View, public Wiring, public Outputs {
   double ambient_temperature() const override { return 295.15; }
   const std::vector<rays::WarmShape>& warm_shapes() const override { return warm_; }
   std::uint64_t scene_revision() const override { return 0; }
+  std::vector<rays::Crossing> crossings(const Vec3&, const Vec3&) const override { return {}; }
   std::vector<std::uint8_t> colors(const render::PinholeCamera&, const Pose&) const override {
     return {};
   }

@@ -34,6 +34,9 @@ class Forgetful : public View {
   double ambient_temperature() const override { return view_.ambient_temperature(); }
   const std::vector<rays::WarmShape>& warm_shapes() const override { return view_.warm_shapes(); }
   std::uint64_t scene_revision() const override { return view_.scene_revision(); }
+  std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to) const override {
+    return view_.crossings(from, to);
+  }
   std::vector<std::uint8_t> colors(const render::PinholeCamera& lens,
                                    const Pose& pose) const override {
     return view_.colors(lens, pose);
