@@ -4,20 +4,21 @@
 #include "devices/refresh.h"
 #include "devices/room_air.h"
 #include "plugin/register.h"
+#include "plugin/rooms.h"
 
 namespace angen::devices {
 
 namespace {
 
 constexpr double kRate = 1.0;        // Hz: rooms take minutes
-constexpr double kBesides = 0.4;     // m from the middle of an opening to the air on either side
-constexpr double kWall = 0.05;       // m: what hangs in a wall is in the room
+constexpr double kWall = 0.05;       // m: what hangs in a wall is near the room
 constexpr double kWidestLeaf = 3.0;  // m, from its hinge
 constexpr Range kCelsius{-60.0, 60.0};
 
 }  // namespace
 
-/// The air in the rooms of a model. Whatever reports a `power` heats the room that it stands in;
+/// The air in the rooms of a model. Whatever reports a `power` heats the room that it stands in, by
+/// its `heat` where that is another;
 /// whatever reports a `gap` lets air through between the rooms on its two sides.
 class Climate : public Device {
  public:
@@ -49,6 +50,7 @@ class Climate : public Device {
       }
       volumes.push_back((room[3] - room[0]) * (room[4] - room[1]) * (room[5] - room[2]));
       if (!(volumes.back() > 0.0)) throw params.error("room", "a <room> is flat; give two corners");
+      plan_.rooms.emplace_back(Vec3::Map(room.data()), Vec3::Map(&room[3]));
     }
     if (rooms_.empty()) throw params.error("room", "a climate needs a <room> at least");
     air_ = RoomAir(settings, std::move(volumes), inside);
@@ -82,16 +84,21 @@ class Climate : public Device {
     if (!due_.due(view.time(), view.step())) return;
     const Nanoseconds before = stepped_at_ < 0 ? view.time() : stepped_at_;
     stepped_at_ = view.time();
-    const Pose here = view.pose().inverse();
+    plan_.frame = view.pose();
     const Eigen::AlignedBox3d around = surroundings(view.pose());
     std::vector<double> heat(rooms_.size(), 0.0);
     std::vector<Opening> openings;
     for (const DeviceView& device : view.devices("power", around)) {
-      const int room = room_at(here * device.pose.position);
-      if (room >= 0) heat[static_cast<std::size_t>(room)] += device.state.get<double>("power");
+      const int room = plan_.at(device.pose.position);
+      if (room == RoomPlan::kOutside) continue;
+      const auto power = device.state.get<double>("power");
+      heat[static_cast<std::size_t>(room)] += device.state.get<double>("heat", power);
     }
-    for (const DeviceView& device : view.devices("gap", around))
-      add_opening(device, here, openings);
+    for (const DeviceView& device : view.devices("gap", around)) {
+      const RoomOpening opening = room_opening(device, plan_);
+      if (!(opening.gap > 0.0) || opening.first == opening.second) continue;
+      openings.push_back({opening.first, opening.second, opening.gap, opening.height});
+    }
     air_.step(to_seconds(stepped_at_ - before), outside_, heat, openings);
   }
 
@@ -134,34 +141,8 @@ class Climate : public Device {
     return around;
   }
 
-  // -1: in none of them.
-  int room_at(const Vec3& point) const {
-    for (std::size_t i = 0; i < rooms_.size(); ++i) {
-      bool inside = true;
-      for (int axis = 0; axis < 3; ++axis) {
-        inside = inside && point[axis] >= rooms_[i][axis] - kWall &&
-                 point[axis] <= rooms_[i][axis + 3] + kWall;
-      }
-      if (inside) return static_cast<int>(i);
-    }
-    return -1;
-  }
-
-  // A leaf's model has its origin on the hinge at the opening's foot, x along the shut leaf.
-  void add_opening(const DeviceView& device, const Pose& here,
-                   std::vector<Opening>& openings) const {
-    Opening opening;
-    opening.width = device.state.get<double>("gap");
-    opening.height = device.state.get<double>("height");
-    if (!(opening.width > 0.0)) return;
-    const Vec3 middle(0.5 * device.state.get<double>("width"), 0.0, 0.5 * opening.height);
-    const Vec3 aside(0.0, kBesides, 0.0);
-    opening.first = room_at(here * (device.pose * Vec3(middle + aside)));
-    opening.second = room_at(here * (device.pose * Vec3(middle - aside)));
-    if (opening.first != opening.second) openings.push_back(opening);
-  }
-
   std::vector<std::vector<double>> rooms_;  // x y z of the lower, then of the upper corner
+  RoomPlan plan_;                           // the same
   RoomAir air_;
   Air outside_;
   double outside_humidity_ = 0.0;  // percent

@@ -1,19 +1,11 @@
 #pragma once
 
 #include "plugin/plugin.h"
+#include "plugin/rooms.h"
 
 namespace angen::sensors {
 
-struct AirHere {
-  double temperature = 0.0;  // degrees Celsius
-  double humidity = 0.0;     // percent
-};
-
-/// The air at the sensor: its room's, or outside of all rooms that outside. Not a number where the
-/// world has no climate.
-AirHere air_at(const View& view);
-
-/// Reads one of its numbers, with noise.
+/// Reads one number of the air in its room, with noise.
 class AirSensor : public Sensor {
  public:
   AirSensor(const char* name, const char* unit, double AirHere::*number)
