@@ -235,9 +235,41 @@ def battery() -> plt.Figure:
     return drawn
 
 
+def stove() -> plt.Figure:
+    w = world('''<model name="flat"><static>true</static><link name="l"/>
+      <plugin name="air" filename="libroom_climate.so"><room>-2 -2 0 2 2 2.8</room>
+      <heat_capacity>5</heat_capacity></plugin></model>'''
+              + block('stove', 'kitchen_stove0', '0 0 0 0 0 0'))
+    times, rows = [], []
+    for k in range(360):
+        for at, text in ((12, 'FrontLeft 60'), (60, 'FrontRight 100'), (180, 'FrontRight 0'),
+                         (252, 'Off')):
+            if k == at:
+                w.command('stove', 'kitchen0', text)
+        w.run(5)
+        now = w.device('stove', 'kitchen0')
+        times.append(w.time / 60)
+        rows.append((*now['plate_temperatures'][:3], now['power'], now['heat'],
+                     w.device('climate', 'flat')['temperatures'][0]))
+    left, right, rear, power, heat, air = zip(*rows)
+    drawn, (ax, flow, room) = figure(3, 'Two plates of a stove')
+    for values, label in ((left, 'front left'), (right, 'front right'), (rear, 'rear left')):
+        ax.plot(times, values, label=label)
+    ax.set_ylabel('°C')
+    ax.legend()
+    flow.step(times, power, where='post', label='electric power')
+    flow.plot(times, heat, label='heat to the room')
+    flow.set_ylabel('W')
+    flow.legend()
+    room.plot(times, air)
+    room.set_ylabel('air, °C')
+    room.set_xlabel('min')
+    return drawn
+
+
 PLOTS: dict[str, Callable[[], plt.Figure]] = {
     draw.__name__: draw for draw in (proximity, pressure_mat, reed, rfid, smart_plug, temperature,
-                                     battery)}
+                                     battery, stove)}
 
 
 def main(names: list[str]) -> None:

@@ -246,6 +246,9 @@ def pieces() -> dict[str, Piece]:
     }
 
 
+PLUGINS = {"stove": "libstove.so"}      # pieces that are devices
+
+
 def write_piece(models: Path, name: str, piece: Piece) -> None:
     """Writes models/<name>: one link `body`, with a contact sensor where the piece has one."""
     root, model = new_model(name, static=piece.static)
@@ -261,5 +264,7 @@ def write_piece(models: Path, name: str, piece: Piece) -> None:
         add(sensor, "update_rate", 1)
         add(add(sensor, "contact"), "collision", f"{piece.touch}_collision")
         add_plugin(sensor, "bumper", "libgazebo_ros_bumper.so", noise_stddev=0.05)
+    if name in PLUGINS:
+        add_plugin(model, name, PLUGINS[name])
     how = "" if piece.static else "; moves when pushed, reports contacts"
     write_model(root, models, piece.title, f"{piece.title}, faces +x{how}.")
