@@ -9,7 +9,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from generate import building, catalog, devices, elevator, furniture, openers, plan, world
+from generate import (appliances, building, catalog, devices, elevator, furniture, openers, plan,
+                      world)
 from generate.sdf import numbers
 
 HERE = Path(__file__).resolve().parent
@@ -33,6 +34,7 @@ def write_all(folder: Path) -> None:
     devices.write_turtlebot(models)
     catalog.write_catalog(models)
     openers.write_openers(models)
+    appliances.write_appliances(models)
     for name, piece in furniture.pieces().items():
         furniture.write_piece(models, name, piece)
     world.write_angen(folder)
