@@ -1,0 +1,168 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "plugin/register.h"
+#include "plugin/rooms.h"
+#include "sensors/sound_field.h"
+
+namespace angen::sensors {
+
+namespace {
+
+constexpr double kWallGap = 0.5;     // m: faces of two rooms that near have a wall between them
+constexpr double kHysteresis = 3.0;  // dB below the threshold it is quiet again
+
+/// Area (m^2) of the wall between two rooms that stand side by side; 0 where they do not.
+double shared_wall(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double gap = std::max(b.min()[axis] - a.max()[axis], a.min()[axis] - b.max()[axis]);
+    if (gap < 0.0 || gap > kWallGap) continue;
+    double area = 1.0;
+    for (const int across : {(axis + 1) % 3, (axis + 2) % 3}) {
+      const double overlap =
+          std::min(a.max()[across], b.max()[across]) - std::max(a.min()[across], b.min()[across]);
+      area *= std::max(0.0, overlap);
+    }
+    if (area > 0.0) return area;
+  }
+  return 0.0;
+}
+
+double surface(const Eigen::AlignedBox3d& room) {
+  const Vec3 s = room.sizes();
+  return 2.0 * (s.x() * s.y() + s.y() * s.z() + s.z() * s.x());
+}
+
+}  // namespace
+
+/// The sound pressure level where it is, of all that sounds in its room and in the rooms around.
+class Microphone : public Sensor {
+ public:
+  void configure(Params& params, Wiring&) override {
+    absorption_ = params.number("absorption", 0.2, "", "mean coefficient of the rooms' surfaces",
+                                {0.01, 0.99});
+    wall_ =
+        from_decibels(-params.number("wall_reduction", 38.0, "dB",
+                                     "sound reduction index of walls between rooms", kNotNegative));
+    leaf_ = from_decibels(-params.number("leaf_reduction", 22.0, "dB",
+                                         "sound reduction index of a shut leaf and its gaps",
+                                         kNotNegative));
+    background_ = from_decibels(
+        params.number("background", 30.0, "dB", "level where nothing sounds", {-50.0, 200.0}));
+    threshold_ = params.number("threshold", 60.0, "dB", "loud above it", {-50.0, 200.0});
+    params.noise("level", "dB", "of a level");
+  }
+
+  void read(const View& view, Hits, Rng&, Reading& reading) override {
+    const Vec3 here = view.pose().position;
+    const Hearing hearing = listen(view, here);
+    double sum = background_;
+    for (const DeviceView& source : view.devices("sound_power_level")) {
+      sum += heard(source, here, hearing);
+    }
+    const double level = to_decibels(sum);
+    const bool loud = level > (loud_ ? threshold_ - kHysteresis : threshold_);
+    if (loud != loud_) {
+      reading.event = loud ? "loud" : "quiet";
+      reading.urgent = true;
+    }
+    loud_ = loud;
+    reading.set("level", level);
+    reading.set("loud", loud);
+  }
+
+  bool steady() const override { return true; }
+
+ private:
+  /// A room of the world: its plan, and which of the plan's; neither outdoors.
+  struct Place {
+    std::size_t plan = SIZE_MAX;
+    int room = RoomPlan::kOutside;
+    bool operator==(const Place& other) const { return plan == other.plan && room == other.room; }
+  };
+
+  /// The rooms of the world, where the microphone is, and what it has of the sound in each room of
+  /// its plan.
+  struct Hearing {
+    std::vector<RoomPlan> plans;
+    Place here;
+    std::vector<double> gains;  // none outdoors
+
+    Place place_of(const Vec3& point) const {
+      for (std::size_t i = 0; i < plans.size(); ++i) {
+        const int room = plans[i].at(point);
+        if (room != RoomPlan::kOutside) return {i, room};
+      }
+      return {};
+    }
+  };
+
+  Hearing listen(const View& view, const Vec3& here) const {
+    Hearing hearing;
+    for (const DeviceView& climate : climates(view)) hearing.plans.push_back(room_plan(climate));
+    hearing.here = hearing.place_of(here);
+    if (hearing.here.room != RoomPlan::kOutside) {
+      hearing.gains = field(view, hearing.plans[hearing.here.plan]).gains(hearing.here.room);
+    }
+    return hearing;
+  }
+
+  SoundField field(const View& view, const RoomPlan& plan) const {
+    std::vector<double> surfaces;
+    for (const Eigen::AlignedBox3d& room : plan.rooms) surfaces.push_back(surface(room));
+    SoundField field(surfaces, absorption_);
+    for (std::size_t i = 0; i < plan.rooms.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        const double area = shared_wall(plan.rooms[i], plan.rooms[k]);
+        if (area > 0.0) field.pass(static_cast<int>(i), static_cast<int>(k), area * wall_);
+      }
+    }
+    for (const DeviceView& leaf : view.devices("gap")) {
+      const RoomOpening opening = room_opening(leaf, plan);
+      if (opening.first == opening.second) continue;
+      const double open = opening.height * opening.gap;
+      const double shut = opening.height * std::max(0.0, opening.width - opening.gap);
+      const bool inside =
+          opening.first != RoomPlan::kOutside && opening.second != RoomPlan::kOutside;
+      const double wall = inside ? (open + shut) * wall_ : 0.0;  // which is not there
+      field.pass(opening.first, opening.second, open + shut * leaf_ - wall);
+    }
+    return field;
+  }
+
+  // As a power whose level over 1 pW is the sound pressure level.
+  static double heard(const DeviceView& source, const Vec3& here, const Hearing& hearing) {
+    const auto offset = source.state.get<std::vector<double>>("position", {0.0, 0.0, 0.0});
+    const Vec3 at = source.pose * Vec3::Map(offset.data());
+    const double power = from_decibels(source.state.get<double>("sound_power_level"));
+    const Place room = hearing.place_of(at);
+    double gain = 0.0;
+    if (room == hearing.here) {
+      gain += direct_gain((at - here).norm(), source.state.get<double>("directivity", 1.0));
+    }
+    if (!hearing.gains.empty() && room.plan == hearing.here.plan) {
+      gain += hearing.gains[static_cast<std::size_t>(room.room)];
+    }
+    return power * gain;
+  }
+
+  double absorption_ = 0.0;
+  double wall_ = 0.0;        // share of the sound that walls let through
+  double leaf_ = 0.0;        // and shut leaves
+  double background_ = 0.0;  // mean square pressure, in that of 0 dB
+  double threshold_ = 0.0;   // dB
+  bool loud_ = false;
+};
+
+ANGEN_REGISTER_SENSOR(Microphone,
+                      Kind("microphone", "The sound pressure level of what sounds in the rooms.")
+                          .publishes_at(2.0)
+                          .model("microphone")
+                          .example("spawn microphone m1 --pose \"0.1 1 1.5\" --set background=35")
+                          .number("level", "dB", "sound pressure level over 20 µPa, not weighted")
+                          .shown(1)
+                          .flag("loud", "whether it is above the threshold")
+                          .alarm("LOUD", ""))
+
+}  // namespace angen::sensors
