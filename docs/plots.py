@@ -267,9 +267,109 @@ def stove() -> plt.Figure:
     return drawn
 
 
+def appliance() -> plt.Figure:
+    w = world(block('fan', 'fan', '0 0 0 0 0 0') + block('stereo', 'stereo', '2 0 0 0 0 0'))
+    levels = list(range(10, 101, 5))
+    drawn, (ax, sound) = figure(2, 'A fan by its speed, a stereo by its volume')
+    for name, verb in (('fan', 'Speed'), ('stereo', 'Volume')):
+        w.command('appliance', name, 'On')
+        rows = []
+        for level in levels:
+            w.command('appliance', name, f'{verb} {level}')
+            w.run(0.1)
+            now = w.device('appliance', name)
+            rows.append((now['power'], now['sound_power_level']))
+        power, loudness = zip(*rows)
+        ax.plot(levels, power, '.-', label=name)
+        sound.plot(levels, loudness, '.-', label=name)
+    ax.set_ylabel('W')
+    ax.legend()
+    sound.set_ylabel('sound power level, dB')
+    sound.set_xlabel('%')
+    return drawn
+
+
+def coupled_levels(doors: list[dict]) -> list[float]:
+    """Levels in three rooms of 4 m x 2.9 m x 2.5 m in a row, by the equations of the page."""
+    surface = 2 * (4 * 2.9 + 2.9 * 2.5 + 4 * 2.5)
+    balance = np.diag([0.2 * surface] * 3)
+    for i, door in enumerate(doors):
+        gap, width, height = door['gap'], door['width'], door['height']
+        passed = (height * (gap + (width - gap) * 10 ** -2.2)
+                  + (10 - height * width) * 10 ** -3.8)
+        balance[[i, i + 1], [i, i + 1]] += passed
+        balance[[i, i + 1], [i + 1, i]] -= passed
+    power = 10 ** ((95 - 20 * np.log10(2)) / 10)
+    fields = np.linalg.solve(balance, [0.8 * power, 0, 0])
+    direct = np.array([2 * power / (4 * np.pi * 2.0 ** 2), 0, 0])
+    return list(10 * np.log10(4 * fields + direct + 10 ** 3))
+
+
+def microphone() -> plt.Figure:
+    rooms = [(0.05, 2.95), (-2.95, -0.05), (-5.95, -3.05)]
+    boxes = ''.join(f'<room>0 {low} 0 4 {high} 2.5</room>' for low, high in rooms)
+    w = world(f'''<model name="flat"><static>true</static><link name="l"/>
+      <plugin name="air" filename="libroom_climate.so">{boxes}</plugin></model>'''
+              + block('stereo', 'stereo', '0.9 1.5 0.9 0 0 0')
+              + block('kitchen_door', 'near_door0', '1.5 0 0 0 0 0')
+              + block('kitchen_door', 'far_door0', '1.5 -3 0 0 0 0')
+              + block('microphone', 'm0', '3 1.5 1 0 0 3.14159')
+              + ''.join(block('microphone', f'm{i}', f'2 {-3 * i + 1.4} 1.2 0 0 0')
+                        for i in (1, 2)))
+    w.command('appliance', 'stereo', 'Volume 50')
+    w.command('appliance', 'stereo', 'On')
+    times, rows, expected = [], [], []
+    for k in range(160):
+        for at, name, text in ((40, 'near0', 'Open'), (80, 'far0', 'Open'),
+                               (120, 'near0', 'Close')):
+            if k == at:
+                w.command('door', name, text)
+        w.run(0.25)
+        times.append(w.time)
+        rows.append([w.sensor('microphone', f'm{i}')['level'] for i in range(3)])
+        expected.append(coupled_levels([w.device('door', name) for name in ('near0', 'far0')]))
+    drawn, (ax,) = figure(1, 'A stereo in the first of three rooms')
+    drawn.set_size_inches(7, 4.2)
+    ax.plot(times, expected, color='0.7', linewidth=4)
+    for label, values in zip(('its room, 2 m away', 'second room', 'third room'), zip(*rows)):
+        ax.plot(times, values, label=label)
+    ax.set_ylabel('dB')
+    ax.set_xlabel('s')
+    ax.legend(loc='lower right')
+    return drawn
+
+
+def radio() -> plt.Figure:
+    w = angen.World(str(IMAGES.parents[1] / 'worlds/angen.world'))
+    w.spawn('model://radio_beacon', 'kitchen_beacon', [0.3, 1.0, 1.2, 0, 0, 0])
+    corners = np.array([(3.6, 1.0), (2.9, 2.4), (2.9, 4.9), (6.3, 4.9), (9.3, 5.2), (9.3, 8.5)])
+    path, walked = [], [0.0]
+    for start, end in zip(corners, corners[1:]):
+        steps = max(2, round(float(np.linalg.norm(end - start)) / 0.1))
+        path += [start + (end - start) * i / steps for i in range(steps)]
+    for here, before in zip(path[1:], path):
+        walked.append(walked[-1] + float(np.linalg.norm(here - before)))
+    rssi, free = [], []
+    for x, y in path:
+        w.spawn('model://radio_receiver', 'walker', [x, y, 1.2, 0, 0, 0])
+        w.run(0.002)
+        reading = w.sensor('receiver', 'walker')
+        rssi.append(dict(zip(reading['ids'], reading['rssi'])).get('kitchen_beacon', np.nan))
+        free.append(-20 * np.log10(4 * np.pi * np.hypot(x - 0.3, y - 1.0) * 2440 / 299.792458))
+        w.delete('walker')
+    drawn, (ax,) = figure(1, 'A beacon of 0 dBm in the kitchen')
+    drawn.set_size_inches(7, 4)
+    ax.plot(walked, free, color='0.7', label='free space')
+    ax.plot(walked, rssi, '.-', label='RSSI')
+    ax.set_ylabel('dBm')
+    ax.set_xlabel('m walked')
+    ax.legend()
+    return drawn
+
+
 PLOTS: dict[str, Callable[[], plt.Figure]] = {
     draw.__name__: draw for draw in (proximity, pressure_mat, reed, rfid, smart_plug, temperature,
-                                     battery, stove)}
+                                     battery, stove, appliance, microphone, radio)}
 
 
 def main(names: list[str]) -> None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 
 import pytest
-from angen_msgs.msg import Command, DoorState, PlugMsg, PressureMsg, ReedMsg, RfidMsg
+from angen_msgs.msg import Command, DoorState, PlugMsg, PressureMsg, Reading, ReedMsg, RfidMsg, \
+    RssiMsg
 from angen_msgs.srv import Delete, List, Spawn
 from geometry_msgs.msg import Pose
 from harness import Angen
@@ -34,7 +35,8 @@ def spawned(angen: Angen):
 
 @pytest.mark.parametrize("model, kind, message", [
     ("proximity", "proximity", Range), ("pressure_mat", "pressure", PressureMsg),
-    ("rfid_reader", "rfid", RfidMsg), ("smart_plug", "plug", PlugMsg),
+    ("rfid_reader", "rfid", RfidMsg), ("radio_receiver", "receiver", RssiMsg),
+    ("microphone", "microphone", Reading), ("smart_plug", "plug", PlugMsg),
     ("temperature_sensor", "temperature", Temperature),
     ("humidity_sensor", "humidity", RelativeHumidity)])
 def test_each_sensor_is_listed_and_heard(angen: Angen, spawned, model: str, kind: str,

@@ -1,9 +1,8 @@
-#include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 
 #include "plugin/register.h"
+#include "sensors/id_changes.h"
 
 namespace angen::sensors {
 
@@ -51,7 +50,7 @@ class RfidReader : public Sensor {
       ids.push_back(id);
       distances.push_back(distance);
     }
-    note_change(ids, reading);
+    changes_.note(ids, reading);
     reading.set("ids", std::move(ids));
     reading.set("distances", std::move(distances));
   }
@@ -64,24 +63,10 @@ class RfidReader : public Sensor {
     double distance = 0.0;  // m
   };
 
-  // One event a sample: what came, or where nothing came what went.
-  void note_change(const std::vector<std::string>& ids, Reading& reading) {
-    std::vector<std::string> came;
-    std::vector<std::string> gone;
-    std::set_difference(ids.begin(), ids.end(), last_.begin(), last_.end(),
-                        std::back_inserter(came));
-    std::set_difference(last_.begin(), last_.end(), ids.begin(), ids.end(),
-                        std::back_inserter(gone));
-    last_ = ids;
-    if (came.empty() && gone.empty()) return;
-    reading.event = came.empty() ? "lost" : "read";
-    reading.event_detail = join_names(came.empty() ? gone : came);
-  }
-
   double range_ = 0.0;  // m
   double least_cosine_ = 0.0;
   std::vector<Candidate> candidates_;  // as the rays of this sample
-  std::vector<std::string> last_;      // sorted
+  IdChanges changes_{"read", "lost"};
 };
 
 ANGEN_REGISTER_SENSOR(RfidReader,

@@ -6,6 +6,7 @@
 #include <angen_msgs/PirMsg.h>
 #include <angen_msgs/Reading.h>
 #include <angen_msgs/RfidMsg.h>
+#include <angen_msgs/RssiMsg.h>
 #include <angen_msgs/SwitchMsg.h>
 #include <gazebo_msgs/ContactsState.h>
 #include <gtest/gtest.h>
@@ -88,6 +89,16 @@ TEST(Messages, RfidListsIdsAndDistances) {
   fill("rfid", reading, {}, message);
   EXPECT_EQ(message.ids, (Texts{"a", "b"}));
   EXPECT_EQ(message.distances, (Numbers{0.5, 1.5}));
+}
+
+TEST(Messages, RssiListsIdsAndStrengths) {
+  Reading reading;
+  reading.set("ids", Texts{"a", "b"});
+  reading.set("rssi", Numbers{-40.5, -71.0});
+  angen_msgs::RssiMsg message;
+  fill("receiver", reading, {}, message);
+  EXPECT_EQ(message.ids, (Texts{"a", "b"}));
+  EXPECT_EQ(message.rssi, (Numbers{-40.5, -71.0}));
 }
 
 TEST(Messages, HumidityIsAFraction) {

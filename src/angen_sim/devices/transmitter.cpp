@@ -1,0 +1,80 @@
+#include <optional>
+
+#include "plugin/register.h"
+
+namespace angen::devices {
+
+/// A radio transmitter on its model: an id that it sends, its power, and where its antenna is.
+class Transmitter : public Device {
+ public:
+  void configure(Params& params, Wiring& wiring) override {
+    id_ = params.text("id", wiring.model(), "what it sends; the model's name unless given");
+    power_ =
+        params.number("tx_power", 0.0, "dBm", "radiated, antenna gain included", {-200.0, 100.0});
+    frequency_ = params.number("frequency", 2440.0, "MHz", "of its carrier", {100.0, 100'000.0});
+    const auto places =
+        params.rows("position", 3, "m", "x y z of its antenna in the model's frame; 0 0 0");
+    if (places.size() > 1) throw params.error("position", "a transmitter has one <position>");
+    if (!places.empty()) position_ = places.front();
+    on_ = params.flag("on", true, "sends at the start");
+    params.text("device_name", "", "the name commands use, instead of MODEL_transmitter");
+  }
+
+  Verdict command(const Command& command, const View&) override {
+    return Verdict::accept([this, on = command.verb == "On"] { on_ = on; });
+  }
+
+  void update(const View&, Outputs& outputs) override {
+    if (was_on_ && *was_on_ != on_) outputs.event(on_ ? "on" : "off", "");
+    was_on_ = on_;
+  }
+
+  Nanoseconds idle_until(const View&) const override { return kForever; }
+
+  void save(SavedParams& params) const override { params.flag("on", on_); }
+
+  void report(const View&, Reading& state) const override {
+    state.set("on", on_);
+    state.set("id", id_);
+    state.set("tx_power", power_);
+    state.set("frequency", frequency_);
+    state.set("position", position_);
+  }
+
+ private:
+  std::string id_;
+  double power_ = 0.0;      // dBm
+  double frequency_ = 0.0;  // MHz
+  std::vector<double> position_{0.0, 0.0, 0.0};
+  bool on_ = true;
+  std::optional<bool> was_on_;  // none before the first update
+};
+
+class TransmitterPlugin : public Plugin {
+ public:
+  const Kind& kind() const override {
+    static const Kind kind = Kind("transmitter", "A radio transmitter on a model.")
+                                 .model("radio_beacon")
+                                 .example("set transmitter beacon1_transmitter off")
+                                 .verb("On", "sends")
+                                 .verb("Off", "sends nothing")
+                                 .flag("on", "whether it sends")
+                                 .shown_as("sends", "off")
+                                 .text("id", "what it sends")
+                                 .shown()
+                                 .number("tx_power", "dBm", "radiated")
+                                 .number("frequency", "MHz", "of its carrier")
+                                 .numbers("position", "m", "x y z in the model's frame");
+    return kind;
+  }
+  bool serves(const ModelInfo&) const override { return true; }
+  // Not the model's own, which is that of what it does.
+  std::string instance_name(const ModelInfo& model) const override {
+    return model.name + "_transmitter";
+  }
+  std::unique_ptr<Device> make_device() const override { return std::make_unique<Transmitter>(); }
+};
+
+}  // namespace angen::devices
+
+ANGEN_REGISTER_PLUGIN(angen::devices::TransmitterPlugin)

@@ -1,0 +1,88 @@
+#include <cmath>
+#include <map>
+
+#include "plugin/register.h"
+#include "sensors/id_changes.h"
+#include "sensors/path_loss.h"
+
+namespace angen::sensors {
+
+namespace {
+
+constexpr double kSkin = 0.01;  // m: an antenna's distance from what carries it
+
+}  // namespace
+
+/// Receives radio transmitters: the id of each that is strong enough, and its signal strength.
+class RadioReceiver : public Sensor {
+ public:
+  void configure(Params& params, Wiring&) override {
+    sensitivity_ = params.number("sensitivity", -90.0, "dBm", "weaker signals are not received");
+    gain_ = params.number("gain", 0.0, "dBi", "of its antenna");
+    losses_.light_wall = params.number("light_wall_loss", losses_.light_wall, "dB",
+                                       "of a wall up to 12.5 cm, and of all that is no wall or "
+                                       "floor: doors, furniture, people",
+                                       kNotNegative);
+    losses_.heavy_wall = params.number("heavy_wall_loss", losses_.heavy_wall, "dB",
+                                       "of a thicker wall", kNotNegative);
+    losses_.floor =
+        params.number("floor_loss", losses_.floor, "dB", "of the first floor slab", kNotNegative);
+    params.noise("rssi", "dB", "of a signal strength");
+  }
+
+  void read(const View& view, Hits, Rng&, Reading& reading) override {
+    std::map<std::string, double> received;  // by id
+    for (const DeviceView& device : view.devices("tx_power")) {
+      if (device.kind != "transmitter" || !device.state.get<bool>("on")) continue;
+      const double rssi = strength(device, view);
+      if (rssi < sensitivity_) continue;
+      const auto [entry, is_new] = received.emplace(device.state.get<std::string>("id"), rssi);
+      if (!is_new && rssi > entry->second) entry->second = rssi;
+    }
+    std::vector<std::string> ids;
+    std::vector<double> strengths;
+    for (const auto& [id, rssi] : received) {
+      ids.push_back(id);
+      strengths.push_back(rssi);
+    }
+    changes_.note(ids, reading);
+    reading.set("ids", std::move(ids));
+    reading.set("rssi", std::move(strengths));
+  }
+
+  bool steady() const override { return true; }
+
+ private:
+  // dBm
+  double strength(const DeviceView& transmitter, const View& view) const {
+    const auto place = transmitter.state.get<std::vector<double>>("position");
+    if (place.size() != 3) return -HUGE_VAL;
+    const Vec3 from = transmitter.pose * Vec3::Map(place.data());
+    const Vec3 way = view.pose().position - from;
+    const double distance = way.norm();
+    const double loss = free_space_loss(distance, transmitter.state.get<double>("frequency"));
+    const double least = transmitter.state.get<double>("tx_power") + gain_ - loss;
+    if (least < sensitivity_ || distance <= 2.0 * kSkin) return least;
+    const Vec3 ahead = way / distance;
+    const Vec3 skin = kSkin * ahead;
+    const auto crossings = view.crossings(from + skin, view.pose().position - skin);
+    return least - loss_of(obstacles_on(crossings, ahead), losses_);
+  }
+
+  double sensitivity_ = 0.0;  // dBm
+  double gain_ = 0.0;         // dBi
+  PathLoss losses_;
+  IdChanges changes_{"received", "lost"};
+};
+
+ANGEN_REGISTER_SENSOR(RadioReceiver,
+                      Kind("receiver", "The signal strength of the radio transmitters it receives.")
+                          .publishes_at(1.0)
+                          .model("radio_receiver")
+                          .example("spawn receiver r1 --pose \"1 1 1.2\" --set sensitivity=-80")
+                          .texts("ids", "of the transmitters that it receives, sorted")
+                          .shown()
+                          .numbers("rssi", "dBm", "of these")
+                          .shown(1))
+
+}  // namespace angen::sensors

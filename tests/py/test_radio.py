@@ -1,0 +1,115 @@
+"""Radio: signal strength in free space, behind walls, doors, floors and bodies."""
+from __future__ import annotations
+
+from math import log10
+
+import pytest
+
+import angen
+from sdf_text import box
+
+DOORS = '<plugin name="doors" filename="libdoor_world_plugin.so"/>'
+
+
+def beacon(pose: str, name: str = 'b', extra: str = '') -> str:
+    return (f'<model name="{name}"><static>true</static><pose>{pose}</pose><link name="l"/>'
+            f'<plugin name="t" filename="libradio_transmitter.so">{extra}</plugin></model>')
+
+
+def receiver(pose: str, extra: str = '') -> str:
+    return (f'<model name="r"><static>true</static><pose>{pose}</pose><link name="l">'
+            '<sensor name="s" type="custom"><update_rate>2</update_rate><plugin name="s" '
+            f'filename="libradio_receiver.so">{extra}</plugin></sensor></link></model>')
+
+
+def heard(world: angen.World) -> dict[str, float]:
+    world.run(0.6)
+    reading = world.sensor('receiver', 'r')
+    return dict(zip(reading['ids'], reading['rssi']))
+
+
+def free(distance: float, frequency: float = 2440.0) -> float:
+    """dBm of 0 dBm in free space: 32.45 + 20 lg(km) + 20 lg(MHz) is lost."""
+    return -(32.4478 - 60 + 20 * log10(distance) + 20 * log10(frequency))
+
+
+@pytest.mark.parametrize('distance', [0.5, 2, 9])
+def test_free_space(world, distance):
+    w = world(beacon('0 0 1 0 0 0') + receiver(f'{distance} 0 1 0 0 0'))
+    assert heard(w) == {'b': pytest.approx(free(distance), abs=0.01)}
+
+
+def test_power_gain_and_frequency_count(world):
+    w = world(beacon('0 0 1 0 0 0', 'low', '<frequency>868</frequency><tx_power>14</tx_power>')
+              + receiver('5 0 1 0 0 0', '<gain>3</gain>'))
+    assert heard(w)['low'] == pytest.approx(free(5, 868) + 17, abs=0.01)
+
+
+@pytest.mark.parametrize('size, loss', [
+    ('0.005 3 4', 0), ('0.04 3 4', 3.4), ('0.1 3 4', 3.4), ('0.24 3 4', 6.9), ('0.6 3 4', 3.4)])
+def test_a_wall_costs_what_its_thickness_says(world, size, loss):
+    w = world(beacon('0 0 1 0 0 0') + receiver('5 0.4 1 0 0 0')
+              + box('wall', '2 0 1 0 0 0', size, static=True))
+    distance = (25 + 0.16) ** 0.5
+    assert heard(w)['b'] == pytest.approx(free(distance) - loss, abs=0.01)
+
+
+def test_two_floors_cost_less_than_twice_one(world):
+    w = world(beacon('0 0 1 0 0 0') + receiver('0.5 0 3.2 0 0 0')
+              + box('slab', '0 0 2 0 0 0', '4 4 0.2', static=True))
+    distance = (0.25 + 2.2 ** 2) ** 0.5
+    assert heard(w)['b'] == pytest.approx(free(distance) - 18.3, abs=0.01)
+    w.spawn(box('upper', '0 0 0 0 0 0', '4 4 0.2', static=True), 'upper', [0, 0, 2.6, 0, 0, 0])
+    two = 18.3 * 2 ** (4 / 3 - 0.46)
+    assert heard(w)['b'] == pytest.approx(free(distance) - two, abs=0.01)
+
+
+def test_a_door_that_opens_lets_the_signal_through(world):
+    w = world(beacon('0.5 1 1 0 0 0') + receiver('0.5 -1.5 1 0 0 0')
+              + '<include><uri>model://kitchen_door</uri><name>hall_door0</name></include>', DOORS)
+    assert heard(w)['b'] == pytest.approx(free(2.5) - 3.4, abs=0.01)
+    w.command('door', 'hall0', 'Open')
+    w.run(5)
+    assert heard(w)['b'] == pytest.approx(free(2.5), abs=0.01)
+
+
+def test_a_person_who_comes_between_weakens_it(world):
+    w = world(beacon('0 0 1 0 0 0') + receiver('4 0 1 0 0 0')
+              + '''<actor name="anna"><script><trajectory id="0" type="walk">
+      <waypoint><time>0</time><pose>2 1.5 0 0 0 -1.57</pose></waypoint>
+      <waypoint><time>3</time><pose>2 0 0 0 0 -1.57</pose></waypoint>
+      <waypoint><time>60</time><pose>2 0 0 0 0 -1.57</pose></waypoint></trajectory></script>
+      </actor>''')
+    assert heard(w)['b'] == pytest.approx(free(4), abs=0.01)
+    w.run(8)
+    assert heard(w)['b'] < free(4) - 3
+
+
+def test_a_weak_or_silent_transmitter_is_not_received(world):
+    w = world(beacon('0 0 1 0 0 0', 'near') + beacon('0 9 1 0 0 0', 'far')
+              + receiver('2 0 1 0 0 0', '<sensitivity>-55</sensitivity>'))
+    assert set(heard(w)) == {'near'}
+    w.command('transmitter', 'near_transmitter', 'Off')
+    assert heard(w) == {}
+    w.command('transmitter', 'near_transmitter', 'On')
+    assert set(heard(w)) == {'near'}
+    words = [(event, detail) for _, source, _, event, detail in w.events() if source == 'r']
+    assert words == [('received', 'near'), ('lost', 'near'), ('received', 'near')]
+
+
+def test_noise_is_of_each_strength(world):
+    w = world(beacon('0 0 1 0 0 0', 'a') + beacon('0 2 1 0 0 0', 'b')
+              + receiver('3 0 1 0 0 0', '<noise_stddev>2</noise_stddev>'))
+    rows = [heard(w) for _ in range(400)]
+    for name, distance in (('a', 3), ('b', 13 ** 0.5)):
+        errors = [row[name] - free(distance) for row in rows]
+        assert sum(errors) / 400 == pytest.approx(0, abs=0.35)
+        assert (sum(e * e for e in errors) / 400) ** 0.5 == pytest.approx(2, abs=0.3)
+
+
+def test_a_robot_carries_a_transmitter(world):
+    robot = ('<include><uri>model://turtlebot</uri><name>robot</name><pose>1 0 0.001 0 0 0</pose>'
+             '<plugin name="t" filename="libradio_transmitter.so"><id>robot-7</id>'
+             '<position>0 0 0.6</position></plugin></include>')
+    w = world(robot + receiver('4 0 0.6 0 0 0'))
+    assert heard(w)['robot-7'] == pytest.approx(free(3), abs=0.1)
