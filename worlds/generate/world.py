@@ -3,6 +3,7 @@ from __future__ import annotations
 
 from math import atan2, cos, hypot, pi, sin
 from pathlib import Path
+from typing import Sequence
 
 from lxml import etree
 
@@ -157,10 +158,10 @@ def add_person(world: etree._Element) -> None:
         add(waypoint, "pose", numbers(x, y, 0, 0, 0, round(yaw, 5)))
 
 
-def add_state(world: etree._Element, name: str) -> None:
+def add_state(world: etree._Element, name: str, doors: Sequence[str] = plan.OPEN_DOORS) -> None:
     """Appends the doors that stand open at the start."""
     state = add(world, "state", world_name=name)
-    for door in plan.OPEN_DOORS:
+    for door in doors:
         model = add(state, "model", name=door)
         room, floor = door[:-1].removesuffix("_door"), int(door[-1])
         add(model, "pose", numbers(*door_pose(room, floor)))

@@ -1,0 +1,55 @@
+"""Fuzzy membership: the degree, 0 to 1, to which a quantity belongs to a set."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Sequence
+
+
+@dataclass(frozen=True)
+class Trapezoid:
+    """Rises from `a` to `b`, is 1 to `c`, falls to 0 at `d`; edges may be upright or at infinity.
+
+    With a `cycle` the quantity is one that begins anew, as the time of day does.
+    """
+
+    a: float
+    b: float
+    c: float = math.inf
+    d: float = math.inf
+    cycle: float = 0.0
+
+    def degree(self, value: float) -> float:
+        """The degree of membership; 1 at the corner of an upright edge."""
+        if self.cycle:
+            value = self.a + (value - self.a) % self.cycle
+        if value < self.a or value > self.d:
+            return 0.0
+        if value < self.b:
+            return (value - self.a) / (self.b - self.a)
+        if value <= self.c:
+            return 1.0
+        return (self.d - value) / (self.d - self.c)
+
+
+def rises(a: float, b: float) -> Trapezoid:
+    """0 up to `a`, 1 from `b`."""
+    return Trapezoid(a, b)
+
+
+def falls(c: float, d: float) -> Trapezoid:
+    """1 up to `c`, 0 from `d`."""
+    return Trapezoid(-math.inf, -math.inf, c, d)
+
+
+def around(corners: Sequence[float], cycle: float) -> Trapezoid:
+    """Four corners of a quantity that begins anew: each is the next after the one before.
+
+    ValueError where they go round more than once.
+    """
+    unrolled = [corners[0]]
+    for corner in corners[1:]:
+        unrolled.append(unrolled[-1] + (corner - unrolled[-1]) % cycle)
+    if unrolled[-1] - unrolled[0] > cycle:
+        raise ValueError('go round the clock more than once')
+    return Trapezoid(*unrolled, cycle)

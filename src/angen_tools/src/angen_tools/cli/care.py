@@ -1,0 +1,44 @@
+"""angen care on the command line."""
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from angen_tools.cli.arguments import at_least, checked, span
+from angen_tools.cli.parser import add_json, add_out, command
+
+
+def run_care(args: argparse.Namespace) -> int:
+    from angen_tools.care.command import care_live, care_offline
+    if args.world is None:
+        for name in ('span', 'day', 'json'):
+            if getattr(args, name):
+                args.parser.error(f'--{"for" if name == "span" else name} needs --world')
+        return care_live(args.rules, args.out)
+    if args.span is None:
+        args.parser.error('--world needs --for, as --for 24h')
+    return care_offline(args.rules, args.world, args.span, args.day, args.seed, args.out,
+                        args.json)
+
+
+def add_care(commands: Any) -> None:
+    """angen care."""
+    care = command(commands, 'care', run_care,
+                   'warns by rules over the sensors of a home, in the running simulator; with '
+                   '--world it simulates a time of its own, without ROS', 'care',
+                   'care my_rules.yaml -o my_run',
+                   'care --world worlds/care/wrong.world --day worlds/care/wrong.csv --for 24h')
+    care.set_defaults(parser=care)
+    care.add_argument('rules', metavar='RULES', nargs='?', type=Path,
+                      help='a YAML file (config/care.yaml of angen_tools)')
+    care.add_argument('--world', metavar='WORLD', type=Path,
+                      help='simulates this world as fast as possible')
+    care.add_argument('--for', metavar='TIME', dest='span', type=checked(span),
+                      help='how long, as 24h or 90min')
+    care.add_argument('--day', metavar='FILE', type=Path,
+                      help='commands to devices at times of day: a CSV file with time,target,command')
+    care.add_argument('--seed', metavar='S', type=checked(at_least(0)), default=1,
+                      help='of all noise (1)')
+    add_json(care)
+    add_out(care, 'care.png, warnings.csv and, with --world, events.csv')

@@ -1,0 +1,98 @@
+"""YAML files that people write: each error names file, line, and what would be right."""
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any, Iterable
+
+import yaml
+
+from angen_tools.common.failure import Failure
+from angen_tools.common.nearest import did_you_mean
+
+
+class YamlFile:
+    """A file's nodes, taken apart; scalars are texts as they are written."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        try:
+            text = path.read_text(encoding='utf-8')
+        except (OSError, UnicodeDecodeError) as error:
+            raise Failure(f'{path}: cannot be read: {getattr(error, "strerror", error)}') from None
+        try:
+            self.root = yaml.compose(text, yaml.SafeLoader)
+        except yaml.YAMLError as error:
+            mark = getattr(error, 'problem_mark', None)
+            line = mark.line + 1 if mark else 1
+            raise Failure(f'{path}:{line}: is not YAML: {getattr(error, "problem", error)}'
+                          ) from None
+
+    def fail(self, node: Any, what: str) -> Failure:
+        """What is wrong at a node."""
+        return Failure(f'{self.path}:{line_of(node)}: {what}')
+
+    def entries(self, node: Any, what: str, keys: Iterable[str] = (), required: Iterable[str] = ()
+                ) -> dict[str, Any]:
+        """A mapping's values by key; with `keys` no others are known."""
+        known = list(keys)
+        if not isinstance(node, yaml.MappingNode):
+            wanted = f' with {", ".join(known)}' * bool(known)
+            raise self.fail(node, f'{what} must be a mapping{wanted}')
+        found: dict[str, Any] = {}
+        for key, value in node.value:
+            name = self.text(key, 'a key')
+            if known and name not in known:
+                raise self.fail(key, f"'{name}' is not known in {what}; "
+                                f'{did_you_mean(name, known)}')
+            if name in found:
+                raise self.fail(key, f"'{name}' is there twice in {what}")
+            found[name] = value
+        for key in required:
+            if key not in found:
+                raise self.fail(node, f'{what} has no {key}; it needs {", ".join(required)}')
+        return found
+
+    def list(self, node: Any, what: str) -> list[Any]:
+        """The nodes of a list that is not empty."""
+        if not isinstance(node, yaml.SequenceNode) or not node.value:
+            raise self.fail(node, f'{what} must be a list')
+        return list(node.value)
+
+    def text(self, node: Any, what: str) -> str:
+        """A text that is not blank."""
+        if not isinstance(node, yaml.ScalarNode) or not node.value.strip():
+            raise self.fail(node, f'{what} must be a text')
+        return str(node.value).strip()
+
+    def choice(self, node: Any, what: str, choices: Iterable[str]) -> str:
+        """One of some words."""
+        word = self.text(node, what)
+        if word not in choices:
+            raise self.fail(node, f"{what} is '{word}'; {did_you_mean(word, choices)}")
+        return word
+
+    def number(self, node: Any, what: str, low: float = -math.inf, high: float = math.inf
+               ) -> float:
+        """A finite number within bounds."""
+        text = self.text(node, what)
+        try:
+            value = float(text)
+        except ValueError:
+            raise self.fail(node, f"{what} is '{text}', must be a number") from None
+        if not (math.isfinite(value) and low <= value <= high):
+            raise self.fail(node, f'{what} is {text}, must be {low:g} to {high:g}')
+        return value
+
+
+def line_of(node: Any) -> int:
+    """The line at which a node begins, from 1."""
+    return 1 if node is None else int(node.start_mark.line) + 1
+
+
+def is_text(node: Any) -> bool:
+    return isinstance(node, yaml.ScalarNode)
+
+
+def is_list(node: Any) -> bool:
+    return isinstance(node, yaml.SequenceNode)
