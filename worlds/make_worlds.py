@@ -11,6 +11,7 @@ from pathlib import Path
 
 from generate import (appliances, building, catalog, devices, elevator, furniture, openers, plan,
                       world)
+from generate.care import write_days
 from generate.sdf import numbers
 
 HERE = Path(__file__).resolve().parent
@@ -39,6 +40,7 @@ def write_all(folder: Path) -> None:
         furniture.write_piece(models, name, piece)
     world.write_angen(folder)
     world.write_empty(folder)
+    write_days(folder / "care")
 
 
 def main() -> None:

@@ -111,6 +111,9 @@ void bind_world(pyb::module_& module) {
             return to_dict(w.device(kind, name));
           },
           "The latest state of a device, as a dict.")
+      .def("summary", &World::summary, pyb::arg("kind"), pyb::arg("name"),
+           "A sensor's reading or a device's state in a few words, as /angen/summary shows it; '' "
+           "before the first.")
       .def(
           "sensors",
           [](const World& w, const std::string& kind) {

@@ -4,6 +4,8 @@
 #include <future>
 #include <utility>
 
+#include "plugin/summary.h"
+
 namespace angen::py {
 
 namespace {
@@ -123,6 +125,19 @@ Reading World::device(const std::string& kind, const std::string& name) const {
   const auto& state = snapshot_->devices[index_of(snapshot_->structure->devices, kind, name)];
   if (!state) throw Error(kind + " '" + name + "' has reported nothing yet; step first");
   return *state;
+}
+
+std::string World::summary(const std::string& kind, const std::string& name) const {
+  const sim::Structure& structure = *snapshot_->structure;
+  for (std::size_t i = 0; i < structure.sensors.size(); ++i) {
+    const sim::SensorEntry& entry = structure.sensors[i];
+    if (entry.kind != kind || entry.name != name) continue;
+    const std::shared_ptr<const Reading> reading = snapshot_->reading(i);
+    return reading ? angen::summary(entry.plugin->kind(), *reading) : "";
+  }
+  const std::size_t index = index_of(structure.devices, kind, name);
+  const auto& state = snapshot_->devices[index];
+  return state ? angen::summary(structure.devices[index].plugin->kind(), *state) : "";
 }
 
 std::string World::save() { return record::world_file(simulation_.world(), simulation_.saved()); }

@@ -35,6 +35,8 @@ class World {
 
   Reading sensor(const std::string& kind, const std::string& name) const;
   Reading device(const std::string& kind, const std::string& name) const;
+  /// What /angen/summary shows of a sensor or device, "" before its first reading.
+  std::string summary(const std::string& kind, const std::string& name) const;
   std::string save();
 
   const sim::Snapshot& now() const { return *snapshot_; }

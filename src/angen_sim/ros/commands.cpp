@@ -1,5 +1,6 @@
 #include "ros/commands.h"
 
+#include <angen_msgs/Event.h>
 #include <ros/console.h>
 #include <ros/exceptions.h>
 
@@ -35,6 +36,11 @@ Commands::Commands(ros::NodeHandle& node, Inbox& inbox,
         inbox_.post(any_action(command->target, command->text));
       };
   any_ = node_.subscribe<angen_msgs::Command>("/angen/command", kCommandQueue, any);
+  const boost::function<void(const angen_msgs::Event::ConstPtr&)> note =
+      [this](const angen_msgs::Event::ConstPtr& event) {
+        inbox_.note({event->source, event->kind, event->event, event->detail});
+      };
+  notes_ = node_.subscribe<angen_msgs::Event>("/angen/events/add", kCommandQueue, note);
 }
 
 void Commands::receive(const Plugin& plugin, const std::string& text) {

@@ -15,7 +15,8 @@
 
 namespace angen::node {
 
-/// Command topics: one subscription serves all devices of a kind, a drive has its own cmd_vel.
+/// Command topics: one subscription serves all devices of a kind, a drive has its own cmd_vel. And
+/// the topic by which programs add to the event log.
 class Commands {
  public:
   /// Kinds of `plugins` have their topic also where the world has none of them.
@@ -34,6 +35,7 @@ class Commands {
   Inbox& inbox_;
   std::vector<std::shared_ptr<const Plugin>> always_;
   ros::Subscriber any_;                                                    // /angen/command
+  ros::Subscriber notes_;                                                  // /angen/events/add
   std::map<std::string, ros::Subscriber> kinds_;                           // by kind
   std::map<std::pair<std::string, std::string>, ros::Subscriber> drives_;  // by topic and robot
 };

@@ -12,8 +12,12 @@ constexpr std::chrono::seconds kPassPatience(1);
 }  // namespace
 
 void Inbox::post(sim::Action action) {
-  simulation_.post(std::move(action));
+  queue(std::move(action));
   ++posted_;
+}
+
+void Inbox::queue(sim::Action action) {
+  simulation_.post(std::move(action));
   const std::lock_guard<std::mutex> lock(mutex_);
   waiting_ = true;
   wake_.notify_one();

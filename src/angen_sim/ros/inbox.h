@@ -4,6 +4,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <utility>
 
 #include "sim/simulation.h"
 
@@ -16,6 +17,9 @@ class Inbox {
 
   /// Queues an action; nobody waits. A refusal is published on /angen/events and logged.
   void post(sim::Action action);
+
+  /// The same for what a program notes in the event log; lockstep does not count it as a command.
+  void note(sim::Note note) { queue(std::move(note)); }
 
   /// Queues an action and waits for what became of it, until the topics say so too. Gives up when
   /// simulated time has stood still for kPatience of wall time, or when the node ends.
@@ -35,6 +39,8 @@ class Inbox {
   static constexpr std::chrono::seconds kPatience{10};
 
  private:
+  void queue(sim::Action action);
+
   sim::Simulation& simulation_;
   std::mutex mutex_;
   std::condition_variable wake_;  // of the main thread

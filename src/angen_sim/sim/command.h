@@ -54,12 +54,21 @@ struct Reject {
   std::string reason;
 };
 
+/// Something that a program outside noticed; becomes an event of the log, at the time it comes.
+struct Note {
+  std::string source;
+  std::string kind;
+  std::string event;
+  std::string detail;
+};
+
 /// Fills in what the world's file would say between two ticks.
 struct Save {
   std::shared_ptr<SavedState> into;
 };
 
-using Action = std::variant<ToDevice, Spawn, Attach, Delete, Pause, Step, Reset, Reject, Save>;
+using Action =
+    std::variant<ToDevice, Spawn, Attach, Delete, Pause, Step, Reset, Reject, Note, Save>;
 
 struct Request {
   Action action;

@@ -159,6 +159,8 @@ Outcome CommandQueue::execute(const Action& action, Building& building, Instance
     } else if (const auto* reject = std::get_if<Reject>(&action)) {
       outcome = {false, reject->reason};
       events.push_back({clock.time, reject->source, reject->kind, "rejected", reject->reason});
+    } else if (const auto* note = std::get_if<Note>(&action)) {
+      events.push_back({clock.time, note->source, note->kind, note->event, note->detail});
     }
   } catch (const Error& error) {
     outcome = {false, error.what()};

@@ -7,19 +7,19 @@ from typing import Any, Sequence
 
 import numpy as np
 
-from angen_tools.care.clock import HOUR, MINUTE, show_time
+from angen_tools.care.clock import DAY, HOUR, MINUTE, show_time
 from angen_tools.care.engine import CareWarning, Engine
 from angen_tools.care.membership import Trapezoid
 from angen_tools.care.rules import Condition, Rule
 
 INK, FAINT, GRID = '#22303c', '#7d8a94', '#dfe4e8'
 DEGREE, WARNED, SEEN = '#5b8db8', '#c8372d', '#e8a33d'  # SEEN: acknowledged
-SIGNAL, NIGHT = '#3f5566', '#8577b0'
+SIGNAL, AGAINST, NIGHT = '#3f5566', '#a9bac6', '#8577b0'
 LANE = 0.26     # height of a signal's lane; the degree's is 1
 WIDTH = 12.0    # in
 LEAST = 1 / 800  # of the whole time: what lasts shorter is drawn so long
 STEPS = (MINUTE, 5 * MINUTE, 10 * MINUTE, 30 * MINUTE, HOUR, 2 * HOUR, 3 * HOUR, 6 * HOUR,
-         12 * HOUR, 24 * HOUR)
+         12 * HOUR, DAY)
 
 
 def draw(engine: Engine, warnings: Sequence[CareWarning], path: Path) -> None:
@@ -28,18 +28,19 @@ def draw(engine: Engine, warnings: Sequence[CareWarning], path: Path) -> None:
     matplotlib.use('Agg')
     from matplotlib import pyplot
     rules = engine.rules.rules
-    heights = [1.0 + LANE * len(rule.when) for rule in rules]
+    heights = [1.12 + LANE * len(rule.when) for rule in rules]
     figure, axes = pyplot.subplots(
         len(rules), 1, sharex=True, squeeze=False, figsize=(WIDTH, 1.1 + 0.86 * sum(heights)),
         height_ratios=heights, dpi=150)
     for ax, rule in zip(axes[:, 0], rules):
         _draw_rule(ax, engine, rule, [w for w in warnings if w.rule is rule])
     _name_hours(axes[-1, 0], engine)
-    begin, end = (show_time(engine.rules.starts + t)[:-3] for t in (engine.began, engine.now))
+    begin, end = (show_time(engine.rules.starts + t)[:-3].replace('+', 'day +').replace(' d', '')
+                  for t in (engine.began, engine.now))
     count = len(warnings)
     figure.suptitle(f'{count or "No"} warning{"s" * (count != 1)}, {begin} to {end}', x=0.012,
                     ha='left', fontsize=14, color=INK, fontweight='bold')
-    figure.legend(handles=_legend(), loc='upper right', ncols=5, fontsize=8.5, frameon=False,
+    figure.legend(handles=_legend(), loc='upper right', ncols=6, fontsize=8.5, frameon=False,
                   bbox_to_anchor=(0.995, 1.0), handlelength=1.6, columnspacing=1.4)
     figure.tight_layout(rect=(0, 0, 1, 1 - 0.15 / figure.get_figheight()), h_pad=0.5)
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -49,7 +50,7 @@ def draw(engine: Engine, warnings: Sequence[CareWarning], path: Path) -> None:
 
 def _draw_rule(ax: Any, engine: Engine, rule: Rule, warnings: Sequence[CareWarning]) -> None:
     lanes = len(rule.when)
-    ax.set_ylim(-LANE * lanes - 0.04, 1.22)
+    ax.set_ylim(-LANE * lanes - 0.04, 1.34)
     ax.set_xlim(engine.began, max(engine.now, engine.began + 1.0))
     for side in ('top', 'right', 'left', 'bottom'):
         ax.spines[side].set_visible(False)
@@ -69,7 +70,7 @@ def _draw_rule(ax: Any, engine: Engine, rule: Rule, warnings: Sequence[CareWarni
 
 def _draw_degree(ax: Any, engine: Engine, rule: Rule, warnings: Sequence[CareWarning]) -> None:
     curve = engine.curves[rule.name].line()
-    times, degrees = np.array(curve).T if curve else (np.zeros(0), np.zeros(0))
+    times, degrees = [time for time, _ in curve], [degree for _, degree in curve]
     ax.fill_between(times, degrees, color=DEGREE, alpha=0.35, linewidth=0, zorder=3)
     ax.plot(times, degrees, color=DEGREE, linewidth=1.3, zorder=4)
     ax.axhline(rule.threshold, color=FAINT, linewidth=0.8, linestyle=(0, (4, 3)), zorder=2)
@@ -90,10 +91,10 @@ def _label(ax: Any, engine: Engine, warning: CareWarning) -> None:
     """The time and degree at which a warning was raised, on the side where there is room."""
     share = (warning.raised - engine.began) / max(1.0, engine.now - engine.began)
     left = share > 0.85
-    text = f'{show_time(engine.rules.starts + warning.raised)[:-3]}   degree {warning.degree:.2f}'
-    ax.annotate(text, (warning.raised, 1.02), xytext=(-7 if left else 7, 0),
-                textcoords='offset points', ha='right' if left else 'left', va='bottom',
-                fontsize=8.5, color=WARNED, zorder=7)
+    clock = show_time((engine.rules.starts + warning.raised) % DAY)[:-3]
+    ax.annotate(f'{clock}   degree {warning.degree:.2f}', (warning.raised, 1.06),
+                xytext=(4 if left else -4, 0), textcoords='offset points',
+                ha='right' if left else 'left', va='bottom', fontsize=8.5, color=WARNED, zorder=7)
 
 
 def _draw_lane(ax: Any, engine: Engine, condition: Condition, low: float) -> None:
@@ -106,8 +107,9 @@ def _draw_lane(ax: Any, engine: Engine, condition: Condition, low: float) -> Non
     else:
         signal = engine.signals[condition.signal]
         bars = [(begin, max(end - begin, least)) for begin, end in signal.all_periods(engine.now)]
-        ax.broken_barh(bars, (low, height), color=SIGNAL, linewidth=0, zorder=3)
-        name = f'{"not: " * condition.negated}{condition.signal}'
+        ax.broken_barh(bars, (low, height), color=AGAINST if condition.negated else SIGNAL,
+                       linewidth=0, zorder=3)
+        name = f'{"not " * condition.negated}{condition.signal}'
     ax.axhline(low, color=GRID, linewidth=0.8, zorder=1)
     ax.text(-0.012, low + height / 2, name, transform=ax.get_yaxis_transform(), ha='right',
             va='center', fontsize=8, color=INK)
@@ -115,7 +117,7 @@ def _draw_lane(ax: Any, engine: Engine, condition: Condition, low: float) -> Non
 
 def _draw_window(ax: Any, engine: Engine, window: Trapezoid, low: float, height: float) -> None:
     times = np.linspace(engine.began, engine.now, 2000)
-    degrees = [window.degree((engine.rules.starts + t) % (24 * HOUR)) for t in times]
+    degrees = [window.degree((engine.rules.starts + t) % DAY) for t in times]
     ax.fill_between(times, low, low + height * np.array(degrees), color=NIGHT, linewidth=0,
                     zorder=3)
 
@@ -138,4 +140,5 @@ def _legend() -> list[Any]:
             Line2D([], [], color=FAINT, linewidth=0.9, linestyle=(0, (4, 3)), label='threshold'),
             Patch(facecolor=WARNED, alpha=0.3, label='warning'),
             Patch(facecolor=SEEN, alpha=0.4, label='acknowledged'),
-            Patch(facecolor=SIGNAL, label='the signal is so')]
+            Patch(facecolor=SIGNAL, label='signal'),
+            Patch(facecolor=AGAINST, label='signal that should not be')]

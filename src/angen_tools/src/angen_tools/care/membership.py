@@ -47,9 +47,10 @@ def around(corners: Sequence[float], cycle: float) -> Trapezoid:
 
     ValueError where they go round more than once.
     """
-    unrolled = [corners[0]]
-    for corner in corners[1:]:
-        unrolled.append(unrolled[-1] + (corner - unrolled[-1]) % cycle)
-    if unrolled[-1] - unrolled[0] > cycle:
+    a, b, c, d = corners
+    b = a + (b - a) % cycle
+    c = b + (c - b) % cycle
+    d = c + (d - c) % cycle
+    if d - a > cycle:
         raise ValueError('go round the clock more than once')
-    return Trapezoid(*unrolled, cycle)
+    return Trapezoid(a, b, c, d, cycle)

@@ -44,8 +44,7 @@ class Rule:
     product: bool  # degrees multiply; otherwise the least counts
     threshold: float
     reason: str
-    at: str        # a model, sensor or device: where the warning is shown; '' where the first
-                   # sensor of the first signal is
+    at: str        # a model, sensor or device: where the warning is shown; '' at the first source
     line: int
 
 

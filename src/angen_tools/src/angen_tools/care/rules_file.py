@@ -138,7 +138,7 @@ class _Reader(YamlFile):
                                 ) from None
             corners = (begin, begin, end, end)
         if corners[0] == 0.0 and corners[-1] == DAY:
-            return Trapezoid(*corners, DAY)
+            return Trapezoid(corners[0], corners[1], corners[2], corners[3], DAY)
         try:
             return around(corners, DAY)
         except ValueError as error:
@@ -151,5 +151,3 @@ class _Reader(YamlFile):
             wanted = ' or '.join(str(count) for count in counts)
             raise self.fail(node, f'{what} has {len(nodes)} corners, must have {wanted}')
         return tuple(self._said(each, what, read) for each in nodes)
-
-

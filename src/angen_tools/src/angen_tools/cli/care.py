@@ -6,19 +6,18 @@ from pathlib import Path
 from typing import Any
 
 from angen_tools.cli.arguments import at_least, checked, span
+from angen_tools.care.clock import DAY
 from angen_tools.cli.parser import add_json, add_out, command
 
 
 def run_care(args: argparse.Namespace) -> int:
     from angen_tools.care.command import care_live, care_offline
     if args.world is None:
-        for name in ('span', 'day', 'json'):
-            if getattr(args, name):
-                args.parser.error(f'--{"for" if name == "span" else name} needs --world')
+        for option, given in (('for', args.span), ('day', args.day), ('json', args.json)):
+            if given:
+                args.parser.error(f'--{option} needs --world')
         return care_live(args.rules, args.out)
-    if args.span is None:
-        args.parser.error('--world needs --for, as --for 24h')
-    return care_offline(args.rules, args.world, args.span, args.day, args.seed, args.out,
+    return care_offline(args.rules, args.world, args.span or DAY, args.day, args.seed, args.out,
                         args.json)
 
 
@@ -35,9 +34,9 @@ def add_care(commands: Any) -> None:
     care.add_argument('--world', metavar='WORLD', type=Path,
                       help='simulates this world as fast as possible')
     care.add_argument('--for', metavar='TIME', dest='span', type=checked(span),
-                      help='how long, as 24h or 90min')
+                      help='how much time to simulate, as 90min (24h)')
     care.add_argument('--day', metavar='FILE', type=Path,
-                      help='commands to devices at times of day: a CSV file with time,target,command')
+                      help='commands to devices: a CSV file with time,target,command')
     care.add_argument('--seed', metavar='S', type=checked(at_least(0)), default=1,
                       help='of all noise (1)')
     add_json(care)
