@@ -9,8 +9,8 @@ from lxml import etree
 
 from . import plan
 from .sdf import add, add_plugin, numbers, write
-from .world import add_devices, add_state, add_world_plugins, comment, furniture_in, \
-    include, new_world
+from .world import (add_devices, add_openers, add_state, add_world_plugins, comment, furniture_in,
+                    include, new_world)
 
 BEGINS = 6 * 60         # min of the day at which the worlds begin
 SPEED = 0.8             # m/s
@@ -22,7 +22,7 @@ READER = (9.9, 4.82, 1.2, 0, 0, pi)
 
 # room: its door from the entrance's side, the first place behind it, and places in it
 WAYS: dict[str, tuple[tuple[float, float], ...]] = {
-    "kitchen": ((2.92, HALL), (2.92, 2.4), (3.3, 1.6), (2.6, 1.3), (2.5, 2.0)),
+    "kitchen": ((2.92, HALL), (2.92, 2.4), (3.3, 2.0), (2.3, 1.4), (2.5, 2.0)),
     "livingroom": ((4.82, HALL), (4.82, 2.75), (8.0, 2.75), (5.6, 2.75), (5.6, 1.4)),
     "bedroom": ((3.28, HALL), (3.28, 7.07), (2.94, 8.4), (2.0, 7.07)),
     "bathroom": ((5.98, HALL), (5.98, 7.2), (5.3, 7.4), (5.3, 6.8)),
@@ -130,6 +130,21 @@ def add_anna(world: etree._Element, day: Day) -> None:
     add_plugin(actor, "tag", "librfid_tag.so", id=TAG, position=CHEST)
 
 
+def add_stove(world: etree._Element) -> None:
+    """Appends a hot plate and the smart plug that feeds it."""
+    plate = add(world, "model", name="kitchen_hotplate0")
+    add(plate, "static", "true")
+    add(plate, "pose", "2.23 0.37 0.9 0 0 0")
+    add(plate, "link", name="plate")
+    add_plugin(plate, "heater", "libheater.so", device_name="kitchen_hotplate0")
+    plug = add(world, "model", name="kitchen_stove_plug0")
+    add(plug, "static", "true")
+    add(plug, "pose", "2.23 0.1 1.0 0 0 0")
+    sensor = add(add(plug, "link", name="plug"), "sensor", name="plug", type="custom")
+    add(sensor, "update_rate", 1)
+    add_plugin(sensor, "smart_plug", "libsmart_plug.so", load="heater/kitchen_hotplate0")
+
+
 def add_reader(world: etree._Element) -> None:
     """Appends the RFID reader that faces who comes into the workroom."""
     model = add(world, "model", name="workroom_rfid0")
@@ -141,7 +156,13 @@ def add_reader(world: etree._Element) -> None:
     add_plugin(sensor, "rfid_reader", "librfid_reader.so", max_range=3.2)
 
 
-def write_care(folder: Path, name: str, day: Day) -> None:
+def write_days(folder: Path) -> None:
+    """Writes both worlds."""
+    write_day(folder, "ordinary", ordinary())
+    write_day(folder, "wrong", wrong())
+
+
+def write_day(folder: Path, name: str, day: Day) -> None:
     """Writes a world of one day."""
     root, world = new_world(name)
     add_world_plugins(world)
@@ -151,11 +172,13 @@ def write_care(folder: Path, name: str, day: Day) -> None:
     for room in plan.FURNITURE:
         for piece in furniture_in(room, 0):
             include(world, *piece)
+    add_openers(world, 0)
     comment(world, "what care watches")
     for room, corners in plan.PIRS.items():
         for suffix, (x, y, yaw) in zip("ab", corners):
             include(world, "pir", f"{room}_pir0_{suffix}",
                     (x, y, plan.PIR_HEIGHT, 0, plan.PIR_PITCH, yaw))
+    add_stove(world)
     add_reader(world)
     comment(world, "who lives there")
     add_anna(world, day)

@@ -84,7 +84,7 @@ def fronts_of(piece: str, name: str, pose: Pose) -> list[tuple[str, str, Pose]]:
             for model, own, *place in plan.FRONTS.get(piece, ())]
 
 
-def _add_openers(world: etree._Element, floor: int) -> None:
+def add_openers(world: etree._Element, floor: int) -> None:
     for room, sash in plan.SASHES.items():
         include(world, f"{room}_window", f"{room}_window{floor}", openers.sash_pose(sash, floor))
     for room in plan.FURNITURE:
@@ -190,7 +190,7 @@ def write_angen(folder: Path) -> None:
         comment(world, f"floor {floor}: furniture")
         _add_furniture(world, floor)
         comment(world, f"floor {floor}: windows, and the fronts of furniture")
-        _add_openers(world, floor)
+        add_openers(world, floor)
     x, y, yaw = plan.ROBOT
     comment(world, "who moves")
     include(world, "turtlebot", "turtlebot", (x, y, 0.001, 0, 0, yaw))
