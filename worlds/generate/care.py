@@ -130,21 +130,6 @@ def add_anna(world: etree._Element, day: Day) -> None:
     add_plugin(actor, "tag", "librfid_tag.so", id=TAG, position=CHEST)
 
 
-def add_stove(world: etree._Element) -> None:
-    """Appends a hot plate and the smart plug that feeds it."""
-    plate = add(world, "model", name="kitchen_hotplate0")
-    add(plate, "static", "true")
-    add(plate, "pose", "2.23 0.37 0.9 0 0 0")
-    add(plate, "link", name="plate")
-    add_plugin(plate, "heater", "libheater.so", device_name="kitchen_hotplate0")
-    plug = add(world, "model", name="kitchen_stove_plug0")
-    add(plug, "static", "true")
-    add(plug, "pose", "2.23 0.1 1.0 0 0 0")
-    sensor = add(add(plug, "link", name="plug"), "sensor", name="plug", type="custom")
-    add(sensor, "update_rate", 1)
-    add_plugin(sensor, "smart_plug", "libsmart_plug.so", load="heater/kitchen_hotplate0")
-
-
 def add_reader(world: etree._Element) -> None:
     """Appends the RFID reader that faces who comes into the workroom."""
     model = add(world, "model", name="workroom_rfid0")
@@ -178,7 +163,6 @@ def write_day(folder: Path, name: str, day: Day) -> None:
         for suffix, (x, y, yaw) in zip("ab", corners):
             include(world, "pir", f"{room}_pir0_{suffix}",
                     (x, y, plan.PIR_HEIGHT, 0, plan.PIR_PITCH, yaw))
-    add_stove(world)
     add_reader(world)
     comment(world, "who lives there")
     add_anna(world, day)

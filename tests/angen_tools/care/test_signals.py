@@ -59,11 +59,14 @@ def test_it_begins_with_what_summaries_show(tmp_path: Path) -> None:
     assert not any(signal.on for signal in nothing.engine.signals.values())
 
 
-@pytest.mark.parametrize('summary, on', [
-    ('on  40 %  8.0 W', True), ('off  0 %  0.0 W', False), ('lamp/l  0.04 W  0 J', True),
-    ('lamp/l  (no such load)  0.0 W  10 J', False)])
-def test_what_is_on_is_shown_so(summary: str, on: bool) -> None:
-    assert STATES['plug']['on'].matches(summary) == on
+@pytest.mark.parametrize('kind, state, summary, holds', [
+    ('lamp', 'on', 'on  40 %  8.0 W', True), ('lamp', 'on', 'off  0 %  0.0 W', False),
+    ('appliance', 'on', 'off  30 %  0.5 W', False), ('plug', 'on', 'lamp/l  0.04 W  0 J', True),
+    ('plug', 'on', 'lamp/l  (no such load)  0.0 W  10 J', False),
+    ('stove', 'hot', 'off  HOT  70 °C  0 W', True), ('stove', 'hot', 'on  30 °C  900 W', False),
+    ('person', 'walks', 'WALKING  1.00 2.00 0.00 m', True)])
+def test_states_are_found_in_summaries(kind: str, state: str, summary: str, holds: bool) -> None:
+    assert STATES[kind][state].matches(summary) == holds
 
 
 def test_a_sensor_that_is_deleted_detects_nothing(tmp_path: Path) -> None:

@@ -18,14 +18,14 @@ class State:
         return re.search(self.shown, summary) is not None
 
 
-ON = r'^on\b|(?<![\d.])(?!0+(\.0+)? W)\d+(\.\d+)? W'  # of a lamp, or a power that is not 0
+POWER = r'(?<![\d.])(?!0+(\.0+)? W)\d+(\.\d+)? W'  # that is not 0
 LEAF = {'open': State(('opening', 'opened', 'ajar', 'closing', 'blocked'), ('closed',),
                       r'^(OPEN|AJAR|OPENING|CLOSING|BLOCKED)'),
         'closed': State(('closed',), ('opening', 'opened', 'ajar', 'blocked'), r'^CLOSED')}
 PRESSED = {'pressed': State(('pressed',), ('released',), r'^(PRESSED|touched)')}
 CONTACT = {'open': State(('opened',), ('closed',), r'^open'),
            'closed': State(('closed',), ('opened',), r'^closed')}
-POWERED = {'on': State(('on',), ('off',), ON)}
+SWITCHED = {'on': State(('on',), ('off',), r'^on\b')}
 
 # by kind; a state of tags is told apart by the ids in the event's detail
 STATES: dict[str, dict[str, State]] = {
@@ -33,7 +33,9 @@ STATES: dict[str, dict[str, State]] = {
     'reed': CONTACT,
     'switch': CONTACT,
     'door': LEAF, 'window': LEAF, 'cabinet': LEAF,
-    'plug': POWERED, 'lamp': POWERED, 'heater': POWERED,
+    'lamp': SWITCHED, 'heater': SWITCHED, 'appliance': SWITCHED,
+    'stove': {**SWITCHED, 'hot': State(('hot',), ('cool',), r'\bHOT\b')},
+    'plug': {'on': State(('on',), ('off',), POWER)},
     'pressure': PRESSED, 'contact': PRESSED,
     'person': {'walks': State(('walks',), ('stands', 'blocked'), r'^WALKING')},
     'battery': {'empty': State(('empty',), ('charged',), r'EMPTY')},
