@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from heapq import heappop, heappush
 from typing import Collection, Iterable, Mapping
 
 from angen_tools.care.clock import DAY, show_duration, show_time
@@ -9,6 +10,7 @@ from angen_tools.care.rules import Condition, Rule, Rules
 from angen_tools.care.signals import Event, LiveSignal
 
 STEP = 1.0      # s of simulated time between two looks at the clock
+ROUNDING = 1e-6  # s, more than that of a time
 RELEASE = 0.5   # a warning ends when its degree falls below this share of the threshold
 RESOLUTION = 0.005  # of the degrees that are recorded
 
@@ -72,24 +74,43 @@ class Engine:
         self.past: list[CareWarning] = []
         self.curves = {rule.name: Curve() for rule in rules.rules}
         self._steps = 0
+        self._corners: list[float] = []  # a heap of times
+        self._expect(self.signals)
 
     def observe(self, event: Event) -> list[Change]:
         """Takes an event, after all that came before it; one that comes late counts as of now."""
         changes = self.advance(event.time)
         self.now = max(self.now, event.time)
-        flipped = [signal.observe(event) for signal in self.signals.values()]
-        if any(flipped):
+        flipped = {name for name, signal in self.signals.items() if signal.observe(event)}
+        if flipped:
+            self._expect(flipped)
             changes += self._judge(self.now)
         return changes
 
     def advance(self, time: float) -> list[Change]:
         """All that happens up to a time in which there is no event."""
         changes = []
-        while (due := self.began + (self._steps + 1) * STEP) <= time:
-            self._steps += 1
-            self.now = due
-            changes += self._judge(due)
-        return changes
+        while True:
+            step = self.began + (self._steps + 1) * STEP
+            due = min([step, *self._corners[:1]])
+            if due > time:
+                return changes
+            if due == step:
+                self._steps += 1
+            else:
+                heappop(self._corners)
+            self.now = max(self.now, due)
+            changes += self._judge(self.now)
+
+    def _expect(self, flipped: Collection[str]) -> None:
+        """Notes when memberships of the durations of signals that have just changed have corners:
+        a warning is then on time, between two steps."""
+        for rule in self.rules.rules:
+            for condition in rule.when:
+                if condition.signal in flipped and condition.lasting is not None:
+                    since = self.signals[condition.signal].since + ROUNDING
+                    for corner in {condition.lasting.a, condition.lasting.b}:
+                        heappush(self._corners, since + corner)
 
     def acknowledge(self, name: str) -> list[Change]:
         """Somebody has seen the warning of a rule, or of 'all'; none where it is not active."""

@@ -35,17 +35,21 @@ def draw(engine: Engine, warnings: Sequence[CareWarning], path: Path) -> None:
     for ax, rule in zip(axes[:, 0], rules):
         _draw_rule(ax, engine, rule, [w for w in warnings if w.rule is rule])
     _name_hours(axes[-1, 0], engine)
-    begin, end = (show_time(engine.rules.starts + t)[:-3].replace('+', 'day +').replace(' d', '')
-                  for t in (engine.began, engine.now))
-    count = len(warnings)
-    figure.suptitle(f'{count or "No"} warning{"s" * (count != 1)}, {begin} to {end}', x=0.012,
-                    ha='left', fontsize=14, color=INK, fontweight='bold')
+    figure.suptitle(_title(engine, len(warnings)), x=0.012, ha='left', fontsize=14, color=INK,
+                    fontweight='bold')
     figure.legend(handles=_legend(), loc='upper right', ncols=6, fontsize=8.5, frameon=False,
                   bbox_to_anchor=(0.995, 1.0), handlelength=1.6, columnspacing=1.4)
     figure.tight_layout(rect=(0, 0, 1, 1 - 0.15 / figure.get_figheight()), h_pad=0.5)
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path)
     pyplot.close(figure)
+
+
+def _title(engine: Engine, count: int) -> str:
+    begin, end = (show_time((engine.rules.starts + t) % DAY)[:-3]
+                  for t in (engine.began, engine.now))
+    hours = (engine.now - engine.began) / HOUR
+    return f'{count or "No"} warning{"s" * (count != 1)}, {begin} to {end} ({hours:.3g} h)'
 
 
 def _draw_rule(ax: Any, engine: Engine, rule: Rule, warnings: Sequence[CareWarning]) -> None:
