@@ -16,8 +16,7 @@ BEGINS = 6 * 60         # min of the day at which the worlds begin
 SPEED = 0.8             # m/s
 PAUSE = 0.6             # s, to turn
 HALL = 4.9              # y of the way along the entrance
-TAG = "anna"
-CHEST = "0.26 0 1.2"    # of the person's body
+CHEST = "0.26 0 1.3"    # in the person's frame
 READER = (9.9, 4.82, 1.2, 0, 0, pi)
 
 # room: its door from the entrance's side, the first place behind it, and places in it
@@ -26,7 +25,7 @@ WAYS: dict[str, tuple[tuple[float, float], ...]] = {
     "livingroom": ((4.82, HALL), (4.82, 2.75), (8.0, 2.75), (5.6, 2.75), (5.6, 1.4)),
     "bedroom": ((3.28, HALL), (3.28, 7.07), (2.94, 8.4), (2.0, 7.07)),
     "bathroom": ((5.98, HALL), (5.98, 7.2), (5.3, 7.4), (5.3, 6.8)),
-    "workroom": ((6.2, 4.82), (7.6, 4.82), (8.4, 6.0), (8.4, 7.4)),
+    "workroom": ((6.2, 4.82), (7.6, 4.82), (8.6, 4.82), (8.4, 6.0)),
     "landing": ((0.7, 5.02), (-1.2, 5.02), (-1.8, 5.02)),
 }
 
@@ -115,9 +114,9 @@ def wrong() -> Day:
     return day
 
 
-def add_anna(world: etree._Element, day: Day) -> None:
-    """Appends the person with a tag on her chest."""
-    actor = add(world, "actor", name="anna")
+def add_person(world: etree._Element, day: Day) -> None:
+    """Appends the person, with a tag on the chest."""
+    actor = add(world, "actor", name="person")
     script = add(actor, "script")
     add(script, "loop", "false")
     add(script, "delay_start", 0)
@@ -127,18 +126,7 @@ def add_anna(world: etree._Element, day: Day) -> None:
         waypoint = add(trajectory, "waypoint")
         add(waypoint, "time", round(t, 2))
         add(waypoint, "pose", numbers(x, y, 0, 0, 0, round(yaw, 4)))
-    add_plugin(actor, "tag", "librfid_tag.so", id=TAG, position=CHEST)
-
-
-def add_reader(world: etree._Element) -> None:
-    """Appends the RFID reader that faces who comes into the workroom."""
-    model = add(world, "model", name="workroom_rfid0")
-    add(model, "static", "true")
-    add(model, "pose", numbers(*READER))
-    link = add(model, "link", name="reader")
-    sensor = add(link, "sensor", name="rfid", type="custom")
-    add(sensor, "update_rate", 10)
-    add_plugin(sensor, "rfid_reader", "librfid_reader.so", max_range=3.2)
+    add_plugin(actor, "tag", "librfid_tag.so", position=CHEST)
 
 
 def write_days(folder: Path) -> None:
@@ -163,8 +151,8 @@ def write_day(folder: Path, name: str, day: Day) -> None:
         for suffix, (x, y, yaw) in zip("ab", corners):
             include(world, "pir", f"{room}_pir0_{suffix}",
                     (x, y, plan.PIR_HEIGHT, 0, plan.PIR_PITCH, yaw))
-    add_reader(world)
+    include(world, "rfid_reader", "workroom_rfid0", READER)
     comment(world, "who lives there")
-    add_anna(world, day)
+    add_person(world, day)
     add_state(world, name, [f"{room}_door0" for room in plan.ROOMS if room != "entrance"])
     write(root, folder / f"{name}.world")
