@@ -89,7 +89,7 @@ class Engine:
 
     def advance(self, time: float) -> list[Change]:
         """All that happens up to a time in which there is no event."""
-        changes = []
+        changes: list[Change] = []
         while True:
             step = self.began + (self._steps + 1) * STEP
             due = min([step, *self._corners[:1]])
