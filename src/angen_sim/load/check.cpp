@@ -12,8 +12,8 @@ namespace angen::load {
 
 namespace {
 
-const std::set<std::string> kShapes = {"empty",   "box",   "sphere", "cylinder",
-                                       "capsule", "plane", "mesh",   "heightmap"};
+const std::set<std::string> kShapes = {"empty", "box",  "sphere",    "cylinder", "capsule",
+                                       "plane", "mesh", "heightmap", "image"};
 const std::set<std::string> kJoints = {"fixed",     "revolute", "continuous",
                                        "prismatic", "ball",     "universal"};
 const std::set<std::string> kLights = {"point", "spot", "directional"};
@@ -69,7 +69,8 @@ void check_geometry(const Element& part) {
       {"cylinder", {"radius", "length"}},
       {"mesh", {"uri"}},
       {"capsule", {"radius", "length"}},
-      {"heightmap", {"uri", "size"}}};
+      {"heightmap", {"uri", "size"}},
+      {"image", {"uri"}}};
   const auto need = needs.find(shape.name);
   if (need == needs.end()) return;
   for (const std::string& key : need->second) {

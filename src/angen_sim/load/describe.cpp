@@ -51,14 +51,26 @@ void read_surface(const Element& element, desc::Collision& collision) {
   collision.damping = optional_number(contact, "kd");
 }
 
-desc::Collision collision_of(const Element& element, const sdf::Collision& from, Session& session) {
+// `part` once for each shape of its geometry: several are called NAME_0, NAME_1, …
+template <class Part>
+void add_shapes(const Element& element, const sdf::SemanticPose& pose, Part part, Session& session,
+                std::vector<Part>& to) {
+  const std::vector<PlacedShape> shapes =
+      shapes_of(*element.child("geometry"), resolve(pose, "", element.source), session);
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    part.name = name_of(element) + (shapes.size() == 1 ? "" : "_" + std::to_string(i));
+    part.shape = shapes[i].shape;
+    part.pose = shapes[i].pose;
+    to.push_back(part);
+  }
+}
+
+void add_collisions(const Element& element, const sdf::Collision& from, Session& session,
+                    desc::Link& link) {
   desc::Collision collision;
-  collision.name = name_of(element);
   collision.source = element.source;
-  collision.pose = resolve(from.SemanticPose(), "", element.source);
-  collision.shape = shape_of(*element.child("geometry"), collision.pose, session);
   read_surface(element, collision);
-  return collision;
+  add_shapes(element, from.SemanticPose(), collision, session, link.collisions);
 }
 
 // As gz-sim's Thermal system has it: <plugin filename="gz-sim-thermal-system"><temperature>.
@@ -79,14 +91,12 @@ std::optional<double> temperature_of(const Element& visual) {
   return std::nullopt;
 }
 
-desc::Visual visual_of(const Element& element, const sdf::Visual& from, Session& session) {
+void add_visuals(const Element& element, const sdf::Visual& from, Session& session,
+                 desc::Link& link) {
   desc::Visual visual;
-  visual.name = name_of(element);
-  visual.pose = resolve(from.SemanticPose(), "", element.source);
-  visual.shape = shape_of(*element.child("geometry"), visual.pose, session);
   visual.material = material_of(element, session);
   visual.temperature = temperature_of(element);
-  return visual;
+  add_shapes(element, from.SemanticPose(), visual, session, link.visuals);
 }
 
 template <class T>
@@ -107,10 +117,9 @@ desc::Link link_of(const Element& element, const sdf::Link& from, const Place& p
   for (const Element& part : element.children) {
     const std::string name = name_of(part);
     if (part.name == "collision") {
-      link.collisions.push_back(
-          collision_of(part, need(from.CollisionByName(name), part), session));
+      add_collisions(part, need(from.CollisionByName(name), part), session, link);
     } else if (part.name == "visual") {
-      link.visuals.push_back(visual_of(part, need(from.VisualByName(name), part), session));
+      add_visuals(part, need(from.VisualByName(name), part), session, link);
     } else if (part.name == "sensor") {
       const sdf::Sensor& sensor = need(from.SensorByName(name), part);
       link.sensors.push_back(

@@ -59,8 +59,8 @@ Shape heightmap(const Element& element, Pose& pose, Session& session) {
   return shape;
 }
 
-}  // namespace
-
+// `pose` is turned or moved where SDF says more than Shape does (a plane's normal, a heightmap's
+// position).
 Shape shape_of(const Element& geometry, Pose& pose, Session& session) {
   const Element& element = geometry.children.at(0);
   Shape shape;
@@ -81,6 +81,16 @@ Shape shape_of(const Element& geometry, Pose& pose, Session& session) {
   shape.type = element.name == "capsule" ? Shape::Type::kCapsule : Shape::Type::kCylinder;
   shape.length = child_number(element, "length", 0.0);
   return shape;
+}
+
+}  // namespace
+
+std::vector<PlacedShape> shapes_of(const Element& geometry, const Pose& pose, Session& session) {
+  const Element& element = geometry.children.at(0);
+  if (element.name == "image") return image_boxes(element, pose, session);
+  PlacedShape placed{{}, pose};
+  placed.shape = shape_of(geometry, placed.pose, session);
+  return {placed};
 }
 
 }  // namespace angen::load

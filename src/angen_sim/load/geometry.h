@@ -5,9 +5,17 @@
 
 namespace angen::load {
 
-/// The shape of a checked <geometry>. `pose` is turned or moved where SDF says more than Shape does
-/// (a plane's normal, a heightmap's position).
-Shape shape_of(const Element& geometry, Pose& pose, Session& session);
+struct PlacedShape {
+  Shape shape;
+  Pose pose;
+};
+
+/// The shapes of a checked <geometry> that stands at `pose`: boxes of an <image>, else one.
+std::vector<PlacedShape> shapes_of(const Element& geometry, const Pose& pose, Session& session);
+
+/// The dark parts of a picture as boxes: its middle at the origin, its top towards +y, from z = 0
+/// up. Few: neighbors are one box.
+std::vector<PlacedShape> image_boxes(const Element& image, const Pose& pose, Session& session);
 
 /// A COLLADA, STL or OBJ file as triangles in meters, z up, times `scale`. Kept and shared while
 /// somebody uses it and the file does not change. Throws Error at `at`.

@@ -35,6 +35,10 @@ Element bare(const Element& element) {
   copy.source = element.source;
   for (const Element& child : element.children) {
     if (!hidden(child, element.name)) copy.children.push_back(bare(child));
+    // Its classes have no such shape.
+    if (child.name == "image" && element.name == "geometry") {
+      copy.children.back() = Element{"empty", "", {}, {}, child.source};
+    }
   }
   return copy;
 }
