@@ -30,7 +30,7 @@ desc::Joint joint_of(const Element& element, const sdf::Joint& joint, const std:
 desc::Model describe_actor(const Element& actor, Session& session);
 
 /// Physics, gravity and scene out of a checked <world>.
-void read_settings(const Element& world, desc::World& to);
+void read_settings(const Element& world, desc::World& to, Session& session);
 
 /// Applies the world's <state>: poses and joint positions. Throws Error for unknown names.
 void apply_state(const Element& state, desc::World& world);

@@ -18,7 +18,12 @@ const Element* chosen_physics(const Element& world) {
   return chosen;
 }
 
-void read_physics(const Element& element, desc::Physics& physics) {
+void read_physics(const Element& element, desc::Physics& physics, Session& session) {
+  const std::string* type = element.attribute("type");
+  if (type != nullptr && *type != "ode" && *type != "ignored") {
+    session.warn(element.source, "<physics type=\"" + *type +
+                                     "\">: ODE is used, the one engine here; write type=\"ode\"");
+  }
   if (const Element* step = element.child("max_step_size")) {
     const double seconds = number_of(*step);
     if (seconds < 1e-9 || seconds > 1.0) {
@@ -47,8 +52,10 @@ void read_physics(const Element& element, desc::Physics& physics) {
 
 }  // namespace
 
-void read_settings(const Element& world, desc::World& to) {
-  if (const Element* physics = chosen_physics(world)) read_physics(*physics, to.physics);
+void read_settings(const Element& world, desc::World& to, Session& session) {
+  if (const Element* physics = chosen_physics(world)) {
+    read_physics(*physics, to.physics, session);
+  }
   if (const Element* gravity = world.child("gravity")) {
     const std::vector<double> v = numbers_of(*gravity, 3);
     to.gravity = {v[0], v[1], v[2]};

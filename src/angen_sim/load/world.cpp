@@ -142,7 +142,7 @@ desc::World describe_world(const Element& sdf, Session& session) {
   desc::World world;
   world.name = name_of(*found);
   world.xml = print_xml(parts.own);
-  read_settings(parts.settings, world);
+  read_settings(parts.settings, world, session);
   for (const Element& child : parts.settings.children) {
     if (child.name == "plugin") world.plugins.push_back(plugin_of(child));
   }
