@@ -82,7 +82,13 @@ std::map<std::string, desc::Model> read_once(std::vector<Entry>& entries, Sessio
 
 Entry expand_entry(const Element& element, Session& session) {
   Entry entry{element, element};
-  if (element.name == "include") entry.expanded = expand_include(element, session);
+  if (element.name == "include") {
+    if (is_merge(element)) {
+      throw Error(element.source,
+                  "an <include> with merge outside of a <model>; include without it");
+    }
+    entry.expanded = expand_include(element, session);
+  }
   if (element.name == "model") expand_model(entry.expanded, session);
   return entry;
 }

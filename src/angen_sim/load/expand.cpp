@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/names.h"
+#include "core/typography.h"
 #include "load/search.h"
 #include "load/urdf.h"
 #include "load/values.h"
@@ -95,7 +96,46 @@ void apply_include(const Element& include, Element& to, Session& session) {
   to.children.insert(to.children.end(), plugins.begin(), plugins.end());
 }
 
+// What SDF's merge="true" takes over; the rest, such as <static>, is the outer model's own.
+void merge_parts(Element& included, std::vector<Element>& into) {
+  static const std::set<std::string> parts = {"link", "joint", "frame", "model", "plugin"};
+  if (const Element* pose = included.child("pose")) {
+    throw Error(pose->source,
+                "a <pose> of a model that is included with merge is not supported; "
+                "give it to the outer model");
+  }
+  for (Element& child : included.children) {
+    if (parts.count(child.name) != 0) into.push_back(std::move(child));
+  }
+}
+
 }  // namespace
+
+bool is_merge(const Element& include) {
+  const std::string* merge = include.attribute("merge");
+  return merge != nullptr && *merge != "false" && *merge != "0";
+}
+
+bool straighten_numbers(Element& element, Session& session) {
+  bool changed = false;
+  const auto straighten = [&](std::string& text, const std::string& what) {
+    const std::optional<std::string> plain = plain_numbers(text);
+    if (!plain) return;
+    const std::string name = find_typographic(text)->name;
+    session.warn(element.source, what + " holds the typographic character " + name +
+                                     "; it is read as '" + *plain + "'; write that");
+    text = *plain;
+    changed = true;
+  };
+  for (auto& [key, value] : element.attributes) {
+    if (key != "name") straighten(value, "<" + element.name + " " + key + ">");
+  }
+  if (element.name != "name") straighten(element.text, "<" + element.name + ">");
+  for (Element& child : element.children) {
+    changed = straighten_numbers(child, session) || changed;
+  }
+  return changed;
+}
 
 void Session::warn(const Source& source, const std::string& message) {
   for (const Diagnostic& old : warnings) {
@@ -109,7 +149,8 @@ void Session::warn(const Source& source, const std::string& message) {
 
 Element read_document(const std::string& text, const std::string& file, Session& session) {
   Element root = parse_xml(text, file);
-  if (root.name == "robot") root = convert_urdf(text, root);
+  const bool changed = straighten_numbers(root, session);
+  if (root.name == "robot") root = convert_urdf(changed ? print_xml(root) : text, root);
   if (root.name != "sdf") {
     throw Error(root.source, "the file begins with <" + root.name +
                                  ">; it must begin with <sdf> or "
@@ -125,10 +166,6 @@ Element expand_include(const Element& include, Session& session) {
   const Element* uri = include.child("uri");
   if (uri == nullptr) {
     throw Error(include.source, "<include> has no <uri>; write <uri>model://NAME</uri>");
-  }
-  const std::string* merge = include.attribute("merge");
-  if (merge != nullptr && *merge != "false" && *merge != "0") {
-    throw Error(include.source, "merge=\"" + *merge + "\" is not supported; include without it");
   }
   const std::string found = need_uri(uri->text, "model", uri->source, session);
   const std::string file = model_file(found, uri->source, session);
@@ -152,6 +189,7 @@ Element expand_include(const Element& include, Session& session) {
 }
 
 void expand_model(Element& model, Session& session) {
+  std::vector<Element> expanded;
   for (Element& child : model.children) {
     if (child.name == "include") {
       Element included = expand_include(child, session);
@@ -159,11 +197,17 @@ void expand_model(Element& model, Session& session) {
         throw Error(child.source, "an <include> in a <model> stands for a <model>; this is <" +
                                       included.name + ">");
       }
-      child = std::move(included);
-    } else if (child.name == "model") {
-      expand_model(child, session);
+      if (is_merge(child)) {
+        merge_parts(included, expanded);
+      } else {
+        expanded.push_back(std::move(included));
+      }
+      continue;
     }
+    if (child.name == "model") expand_model(child, session);
+    expanded.push_back(std::move(child));
   }
+  model.children = std::move(expanded);
 }
 
 }  // namespace angen::load

@@ -17,7 +17,15 @@ Element read_document(const std::string& text, const std::string& file, Session&
 /// pose, static and plug-ins, and with the includes inside it written out.
 Element expand_include(const Element& include, Session& session);
 
-/// Replaces every <include> inside a <model> by the model it stands for.
+/// Replaces typographic characters (a minus sign of a PDF) in texts and attributes that are numbers
+/// otherwise, with a warning each; true where there were any.
+bool straighten_numbers(Element& element, Session& session);
+
+/// Whether an <include> in a <model> stands for the parts of the model and not for a nested one.
+bool is_merge(const Element& include);
+
+/// Replaces every <include> inside a <model> by the model it stands for, or by its parts where it
+/// says merge="true".
 void expand_model(Element& model, Session& session);
 
 /// Rewrites a tree of an older version (104..108) as SDF 1.9.

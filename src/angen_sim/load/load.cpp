@@ -56,6 +56,7 @@ Element model_from_text(const std::string& text, Session& session) {
                                  "> is not a model; give <sdf>, <model>, <include>, "
                                  "<actor> or <robot>");
   }
+  straighten_numbers(root, session);
   upgrade(root, kLoneVersion);
   make_uris_absolute(root, session);
   return root;
@@ -144,6 +145,9 @@ desc::Sensor sensor(const std::string& what, const std::string& name, const Pose
   if (root.name != "sensor") {
     throw Error(root.source, "a <sensor> is wanted here; this is <" + root.name + ">");
   }
+  const SearchPaths nowhere;
+  Session session{nowhere};
+  straighten_numbers(root, session);
   upgrade(root, kLoneVersion);
   root.attributes.erase(std::remove_if(root.attributes.begin(), root.attributes.end(),
                                        [](const auto& a) { return a.first == "version"; }),
@@ -152,8 +156,6 @@ desc::Sensor sensor(const std::string& what, const std::string& name, const Pose
   check_name(name_of(root), "<sensor>", root.source);
   check_part(root);
   set_child(root, "pose", pose_text(pose));
-  const SearchPaths nowhere;
-  Session session{nowhere};
   // What libsdformat would refuse in a saved world is refused here.
   describe_models({holder_of(root)}, session);
   return sensor_of(root, pose, session);

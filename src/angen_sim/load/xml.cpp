@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/text.h"
+#include "core/typography.h"
 
 namespace angen::load {
 
@@ -60,6 +61,63 @@ std::string reason(const tinyxml2::XMLDocument& document) {
 int line_at(const std::string& text, std::size_t offset) {
   return 1 +
          static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(offset), '\n'));
+}
+
+// After what begins at `at`, if it is a comment, CDATA or a declaration; `at` otherwise.
+std::size_t after_aside(const std::string& text, std::size_t at) {
+  static const std::pair<const char*, const char*> asides[] = {
+      {"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}};
+  for (const auto& [begin, end] : asides) {
+    if (text.compare(at, std::char_traits<char>::length(begin), begin) != 0) continue;
+    const std::size_t found = text.find(end, at);
+    return found == std::string::npos ? text.size() : found + 1;
+  }
+  return at;
+}
+
+// The first typographic character where XML has none: in a tag, outside of its straight quotes. A
+// value that runs on into the next tag ends in a curly quote.
+std::optional<TypographicChar> typographic_in_markup(const std::string& text) {
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
+    const std::size_t after = after_aside(text, at);
+    if (after > at) {
+      at = after;
+      continue;
+    }
+    char quote = '\0';
+    std::size_t quoted = 0;
+    for (++at; at < text.size(); ++at) {
+      const char c = text[at];
+      if (quote != '\0' && c == '<') return find_typographic(text, quoted);
+      if (quote == '\0' && (c == '>' || c == '<')) break;
+      if (c == quote) {
+        quote = '\0';
+      } else if (quote == '\0' && (c == '"' || c == '\'')) {
+        quote = c;
+        quoted = at;
+      } else if (quote == '\0') {
+        const std::optional<TypographicChar> found = find_typographic(text.substr(at, 4));
+        if (found && found->at == 0)
+          return TypographicChar{at, found->size, found->name, found->plain};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+// Why text that is not XML is not: a typographic character, if there is one.
+Error syntax_error(const std::string& text, const std::string& file,
+                   const tinyxml2::XMLDocument& document) {
+  const std::optional<TypographicChar> found = typographic_in_markup(text);
+  if (!found) return Error({file, std::max(1, document.ErrorLineNum())}, reason(document));
+  std::string right = "write -, and <!-- and --> around a comment";
+  if (found->plain == '"' || found->plain == '\'') {
+    right = "write name=\"value\" with straight quotes";
+  }
+  if (found->plain == ' ') right = "write a plain blank";
+  return Error(
+      {file, line_at(text, found->at)},
+      "the typographic character " + found->name + " in a tag, which XML does not allow; " + right);
 }
 
 std::string escaped(const std::string& text) {
@@ -125,7 +183,7 @@ Element parse_xml(const std::string& text, const std::string& file) {
   }
   tinyxml2::XMLDocument document;
   document.Parse(text.data(), text.size());
-  if (document.Error()) throw Error({file, std::max(1, document.ErrorLineNum())}, reason(document));
+  if (document.Error()) throw syntax_error(text, file, document);
   const tinyxml2::XMLElement* root = document.RootElement();
   if (root == nullptr) throw Error({file, 1}, "no element in it; it needs an <sdf> element");
   if (root->NextSiblingElement() != nullptr) {

@@ -8,6 +8,7 @@
 
 #include "core/diagnostics.h"
 #include "core/text.h"
+#include "core/typography.h"
 
 namespace angen {
 
@@ -109,6 +110,7 @@ std::string forms_of(const Kind& kind) {
 std::string parse_command(const Kind& kind, Command& command) {
   if (kind.verbs.empty() && kind.value_units.empty()) return "";
   const std::string right = with_article(kind.name) + " takes " + forms_of(kind);
+  command.text = unquoted(without_typography(command.text));
   std::vector<std::string> words = words_of(command.text);
   if (takes_values(kind, words, command)) return "";
   if (words.empty() && !command.values.empty()) return "numbers without a verb; " + right;

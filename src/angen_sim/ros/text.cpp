@@ -6,6 +6,7 @@
 
 #include "core/diagnostics.h"
 #include "core/text.h"
+#include "core/typography.h"
 
 namespace angen::node {
 namespace {
@@ -15,7 +16,7 @@ std::vector<std::string> fields_of(const std::string& text) {
   std::size_t start = 0;
   while (true) {
     const std::size_t comma = text.find(',', start);
-    fields.push_back(trimmed(text.substr(start, comma - start)));
+    fields.push_back(unquoted(text.substr(start, comma - start)));
     if (comma == std::string::npos) return fields;
     start = comma + 1;
   }
@@ -36,7 +37,7 @@ sim::Action topic_action(const Kind& kind, const std::string& text,
                   "right is VERB, NAME[, NUMBER]; verbs are " + forms_of(kind));
   };
   if (!valid_utf8(text)) return wrong("not UTF-8");
-  const std::vector<std::string> fields = fields_of(text);
+  const std::vector<std::string> fields = fields_of(unquoted(text));
   if (fields[0].empty()) return wrong("no verb");
   if (fields.size() > 3) return wrong("too many parts");
   std::string name = fields.size() > 1 ? fields[1] : "";
@@ -59,16 +60,17 @@ sim::Action any_action(const std::string& target, const std::string& text) {
                   "right is a device's name (or KIND/NAME) as target and its verb as text");
   };
   if (!valid_utf8(target) || !valid_utf8(text)) return wrong("not UTF-8");
-  const std::string name = trimmed(target);
+  const std::string name = unquoted(target);
   if (name.empty()) return wrong("no target");
   Command command{trimmed(text), {}, "", 0.0};
-  if (command.text.empty()) return wrong("no text");
+  const std::string plain = unquoted(without_typography(text));
+  if (plain.empty()) return wrong("no text");
   std::vector<double> values;
   std::size_t start = 0;
-  while (start < command.text.size()) {
-    const std::size_t end = std::min(command.text.find_first_of(" ,", start), command.text.size());
+  while (start < plain.size()) {
+    const std::size_t end = std::min(plain.find_first_of(" ,", start), plain.size());
     if (end > start) {
-      const std::optional<double> value = parse_finite(command.text.substr(start, end - start));
+      const std::optional<double> value = parse_finite(plain.substr(start, end - start));
       if (!value) {
         values.clear();
         break;

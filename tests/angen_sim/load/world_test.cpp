@@ -293,5 +293,46 @@ TEST(Actor, StandsOnItsFeetAndIsHalfAMetreWide) {
   EXPECT_DOUBLE_EQ(m.links[0].inertial.mass, 70.0);
 }
 
+TEST(Physics, OfAnotherEngineIsOdes) {
+  const std::string world = "<physics type='bullet'><max_step_size>0.002</max_step_size></physics>";
+  const desc::World w = read(in_world(world));
+  EXPECT_EQ(w.physics.step, 2'000'000);
+  ASSERT_EQ(w.warnings.size(), 1U);
+  EXPECT_NE(w.warnings[0].text().find("w.world:1: <physics type=\"bullet\">: ODE is used"),
+            std::string::npos)
+      << w.warnings[0].text();
+  EXPECT_TRUE(read(in_world("<physics type='ode'/>")).warnings.empty());
+}
+
+TEST(Include, WithMergeStandsForTheParts) {
+  const Folder folder;
+  folder.model("inner", sdf("<model name='inner'><static>true</static><link name='a'/>"
+                            "<link name='b'><pose>1 0 0 0 0 0</pose></link><joint name='j' "
+                            "type='fixed'><parent>a</parent><child>b</child></joint>"
+                            "<plugin name='p' filename='libp.so'/></model>"));
+  folder.model("outer", sdf("<model name='outer'><include merge='true'><uri>model://inner</uri>"
+                            "</include><link name='c'/></model>"));
+  const desc::Model m =
+      read(in_world("<include><uri>model://outer</uri></include>"), folder.paths()).models.at(0);
+  EXPECT_EQ(m.name, "outer");
+  EXPECT_FALSE(m.is_static);
+  ASSERT_EQ(m.links.size(), 3U);
+  EXPECT_EQ(m.links[1].name, "b");
+  expect_near(m.links[1].pose.position, {1.0, 0.0, 0.0});
+  EXPECT_EQ(m.joints.at(0).name, "j");
+  EXPECT_EQ(m.plugins.at(0).filename, "libp.so");
+}
+
+TEST(Include, WithMergeHasItsPlace) {
+  const Folder folder;
+  folder.model("inner",
+               sdf("<model name='inner'><pose>1 0 0 0 0 0</pose><link name='a'/></model>"));
+  const std::string include = "<include merge='true'><uri>model://inner</uri></include>";
+  EXPECT_NE(error_of(in_world(include), folder.paths()).find("merge outside of a <model>"),
+            std::string::npos);
+  EXPECT_NE(error_of(in_model(include), folder.paths()).find("<pose> of a model that is included"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace angen::load

@@ -40,6 +40,24 @@ Kind elevator() {
 
 const std::vector<std::string> kTwo{"a", "b"};
 
+TEST(TopicText, CurlyQuotesAreLeftOut) {
+  EXPECT_EQ(sent(topic_action(door(), "\u201DOpen, bathroom1\u201D", {})), "door/bathroom1: Open");
+  EXPECT_EQ(sent(topic_action(door(), "Open, \u201Cbathroom1\u201D", {})), "door/bathroom1: Open");
+  EXPECT_EQ(sent(topic_action(elevator(), "\u201CFloor1\u201D", {"lift"})),
+            "elevator/lift: Floor1");
+  EXPECT_EQ(
+      std::get<sim::ToDevice>(topic_action(door(), "Set, hall0, \u22121.2", {})).command.number,
+      -1.2);
+}
+
+TEST(AnyText, CurlyQuotesAndMinusSignsAreReadAsMeant) {
+  const sim::Action action = any_action("\u201Cturtlebot\u201D", "\u201C0.1 \u22120.2\u201D");
+  const auto& command = std::get<sim::ToDevice>(action);
+  EXPECT_EQ(command.name, "turtlebot");
+  EXPECT_EQ(command.command.values, (std::vector<double>{0.1, -0.2}));
+  EXPECT_TRUE(says(refused(any_action("a", "\u201C\u201D")), "no text"));
+}
+
 TEST(DoorText, VerbsAndNames) {
   EXPECT_EQ(sent(topic_action(door(), "Open, bathroom1", kTwo)), "door/bathroom1: Open");
   EXPECT_EQ(sent(topic_action(door(), "Close, all", kTwo)), "door/all: Close");

@@ -10,6 +10,7 @@ from typing import Any, NoReturn, Sequence
 from angen_tools.cli import bench, care, live, offline, patrol, walktest
 from angen_tools.cli.parser import Parser, command
 from angen_tools.common.failure import Failure
+from angen_tools.common.typography import straightened
 
 STOPPED = 130  # a shell's exit code of a command that Ctrl-C ended
 PIPE_CLOSED = 141  # and of one whose reader ended
@@ -57,7 +58,7 @@ def run(arguments: Sequence[str]) -> int:
         import argcomplete
         argcomplete.autocomplete(parser)
     try:
-        args = parser.parse_args(arguments)
+        args = parser.parse_args(straightened(arguments))
         code: int = args.run(args)
         sys.stdout.flush()
         return code
