@@ -9,8 +9,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from generate import (appliances, building, catalog, devices, elevator, furniture, openers, plan,
-                      world)
+from generate import (aliases, appliances, building, catalog, devices, elevator, furniture, openers,
+                      plan, world)
 from generate.care import write_days
 from generate.sdf import numbers
 
@@ -38,6 +38,7 @@ def write_all(folder: Path) -> None:
     appliances.write_appliances(models)
     for name, piece in furniture.pieces().items():
         furniture.write_piece(models, name, piece)
+    aliases.write_aliases(models)
     world.write_angen(folder)
     world.write_empty(folder)
     write_days(folder / "care")

@@ -225,14 +225,15 @@ def write(root: etree._Element, path: Path) -> None:
     path.write_text('<?xml version="1.0"?>\n' + body + "\n", encoding="utf-8")
 
 
-def write_model(root: etree._Element, models: Path, title: str, description: str) -> None:
+def write_model(root: etree._Element, models: Path, title: str, description: str,
+                version: str = SDF_VERSION) -> None:
     """Writes model.sdf and model.config into models/<the model's name>/."""
     name = root.find("model").get("name")
     write(root, models / name / "model.sdf")
     config = etree.Element("model")
     add(config, "name", title)
     add(config, "version", "1.0")
-    add(config, "sdf", "model.sdf", version=SDF_VERSION)
+    add(config, "sdf", "model.sdf", version=version)
     author = add(config, "author")
     add(author, "name", "Angen")
     add(config, "description", description)

@@ -14,7 +14,7 @@ int floor_of(double z);
 
 /// The name that commands use: the model's without trailing digits and '_' and without the kind as
 /// suffix or prefix (`_door`, `door_`), followed by the floor. command_name("bathroom_door1",
-/// "door", 4.0) is "bathroom1".
+/// "door", 4.0) is "bathroom1", and so is that of "bath_door1".
 std::string command_name(const std::string& model, const std::string& kind, double z);
 
 }  // namespace angen::devices

@@ -156,6 +156,9 @@ void bind_world(pyb::module_& module) {
       .def_property_readonly("readings", [](const World& w) { return w.now().counts.readings; })
       .def_property_readonly("fingerprint", &World::fingerprint,
                              "a hash of every snapshot since the start or the last reset")
+      .def_property_readonly(
+          "warnings", [](const World& w) { return w.warnings(); },
+          "what was wrong with files that were loaded all the same: 'file:line: what'")
       .def(
           "events",
           [](World& w) {

@@ -4,6 +4,7 @@
 #include <future>
 #include <utility>
 
+#include "core/typography.h"
 #include "plugin/summary.h"
 
 namespace angen::py {
@@ -32,6 +33,7 @@ std::string folder_of(const std::string& path) {
 World::World(const std::string& path, std::uint64_t seed, std::shared_ptr<Catalog> catalog)
     : paths_(load::SearchPaths::from_environment(folder_of(path) + "/models")),
       simulation_(load::world(path), seed, std::move(catalog)) {
+  note(simulation_.world().warnings);
   begin();
 }
 
@@ -39,6 +41,7 @@ World::World(const std::string& text, const std::string& name, std::uint64_t see
              std::shared_ptr<Catalog> catalog)
     : paths_(load::SearchPaths::from_environment()),
       simulation_(load::world_from_text(text, name, paths_), seed, std::move(catalog)) {
+  note(simulation_.world().warnings);
   begin();
 }
 
@@ -48,10 +51,17 @@ void World::begin() {
   events_.clear();
 }
 
+void World::note(const std::vector<Diagnostic>& warnings) {
+  for (const Diagnostic& warning : warnings) warnings_.push_back(warning.text());
+}
+
 void World::take(std::shared_ptr<const sim::Snapshot> snapshot) {
   snapshot_ = std::move(snapshot);
   fingerprint_.add(*snapshot_);
   events_.insert(events_.end(), snapshot_->events.begin(), snapshot_->events.end());
+  for (const sim::Event& event : snapshot_->events) {
+    if (event.event == "warning") warnings_.push_back(event.detail);
+  }
 }
 
 void World::step(std::uint64_t ticks) {
@@ -82,7 +92,7 @@ void World::drain(sim::Action action) {
 
 void World::command(const std::string& kind, const std::string& name, const std::string& text,
                     const std::vector<double>& values) {
-  drain(sim::ToDevice{kind, name, {text, values}});
+  drain(sim::ToDevice{kind, unquoted(name), {text, values}});
 }
 
 void World::spawn(const std::string& what, const std::string& name, const std::vector<double>& pose,
@@ -90,7 +100,10 @@ void World::spawn(const std::string& what, const std::string& name, const std::v
   if (load::is_sensor(what)) {
     drain(sim::Attach{load::sensor(what, name, to_pose(pose)), on});
   } else {
-    drain(sim::Spawn{load::model(what, name, to_pose(pose), paths_)});
+    sim::Spawn spawn{load::model(what, name, to_pose(pose), paths_)};
+    const std::vector<Diagnostic> warnings = spawn.model.warnings;
+    drain(std::move(spawn));
+    note(warnings);
   }
 }
 

@@ -41,10 +41,13 @@ class World {
 
   const sim::Snapshot& now() const { return *snapshot_; }
   std::vector<sim::Event> take_events();
+  /// Of all that was loaded so far, as "file:line: what".
+  const std::vector<std::string>& warnings() const { return warnings_; }
   std::string fingerprint() const { return fingerprint_.text(); }
 
  private:
   void begin();
+  void note(const std::vector<Diagnostic>& warnings);
   void drain(sim::Action action);
   void take(std::shared_ptr<const sim::Snapshot> snapshot);
 
@@ -52,6 +55,7 @@ class World {
   sim::Simulation simulation_;
   std::shared_ptr<const sim::Snapshot> snapshot_;
   std::vector<sim::Event> events_;
+  std::vector<std::string> warnings_;
   record::Fingerprint fingerprint_;
 };
 

@@ -23,6 +23,16 @@ TEST(CommandName, DropsDigitsAndKindAndAddsTheFloor) {
   EXPECT_EQ(command_name("kitchen_lamp", "door", 0.0), "kitchen_lamp0");
 }
 
+TEST(CommandName, OfADoorHasTheRoomInFull) {
+  EXPECT_EQ(command_name("bath_door0", "door", 0.1), "bathroom0");
+  EXPECT_EQ(command_name("bath_door1", "door", 4.1), "bathroom1");
+  EXPECT_EQ(command_name("living_door0", "door", 0.0), "livingroom0");
+  EXPECT_EQ(command_name("bed_door0", "door", 0.0), "bedroom0");
+  EXPECT_EQ(command_name("work_door1", "door", 4.0), "workroom1");
+  EXPECT_EQ(command_name("bed_lamp0", "lamp", 0.0), "bed0");
+  EXPECT_EQ(command_name("sunbath_door", "door", 0.0), "sunbath0");
+}
+
 TEST(CommandName, NeverEndsUpEmpty) {
   EXPECT_EQ(command_name("door", "door", 0.0), "door0");
   EXPECT_EQ(command_name("123", "door", 0.0), "door0");

@@ -1,0 +1,60 @@
+"""A world that includes flats, doors and elevator under the names of the thesis."""
+from __future__ import annotations
+
+from pathlib import Path
+
+import angen
+import pytest
+
+WORLD = Path(__file__).resolve().parents[1] / 'angen_sim/load/snippets/two_floors.world'
+ROOMS = ('bathroom', 'bedroom', 'entrance', 'kitchen', 'livingroom', 'workroom')
+
+
+@pytest.fixture(scope='module')
+def world() -> angen.World:
+    return angen.World(str(WORLD))
+
+
+def test_it_loads_without_warnings(world: angen.World) -> None:
+    assert world.warnings == []
+    assert {'apartment0', 'apartment1', 'bath_door0', 'my_elevator'} <= set(world.models)
+    assert sorted(world.devices('door')) == sorted(f'{room}{k}' for room in ROOMS for k in (0, 1))
+
+
+def test_each_door_opens_under_the_name_of_its_room_and_floor(world: angen.World) -> None:
+    for name in world.devices('door'):
+        world.command('door', name, 'Open')
+    world.run(8)
+    assert {world.device('door', name)['mode'] for name in world.devices('door')} == {'OPEN'}
+
+
+def test_the_elevator_goes_up(world: angen.World) -> None:
+    world.command('elevator', 'my_elevator', 'Floor1')
+    world.run(15)
+    assert world.device('elevator', 'my_elevator')['floor'] == 1
+
+
+def test_a_command_with_typography_is_executed(world: angen.World) -> None:
+    world.command('door', '\u201cbathroom0\u201d', '\u201dClose\u201d')
+    world.command('door', 'bathroom1', 'Set \u22121.2')
+    world.run(8)
+    assert world.device('door', 'bathroom0')['mode'] == 'CLOSED'
+    assert world.device('door', 'bathroom1')['position'] == pytest.approx(-1.2, abs=0.01)
+
+
+def test_warnings_of_worlds_and_models_are_kept() -> None:
+    text = '<sdf version="1.6"><world name="w"><physics type="bullet"/></world></sdf>'
+    world = angen.World.from_text(text)
+    world.spawn('<model name="m"><link name="l"><pose>0 \u22121 0 0 0 0</pose></link></model>')
+    bullet, minus = world.warnings
+    assert bullet.startswith('<text>:1: ') and 'ODE is used' in bullet
+    assert minus.startswith('(text):1: <pose> holds') and 'U+2212' in minus
+
+
+def test_the_second_name_of_the_luminosity_sensors_library() -> None:
+    world = angen.World.from_text('''<sdf version="1.6"><world name="w"><model name="lux">
+      <static>true</static><link name="l"><sensor name="s" type="camera">
+      <plugin name="p" filename="libluminosity_sensor_utils.so"/></sensor></link></model>
+      </world></sdf>''')
+    world.run(1.5)
+    assert world.sensor('luminosity', 'lux')['illuminance'] == 0.0
