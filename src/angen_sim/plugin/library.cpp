@@ -77,6 +77,15 @@ bool registers_plugins(const fs::path& file) {
          bytes.find("N5angen6PluginE") != std::string::npos;
 }
 
+// A second name of a library that stands beside it; libX.so of libX.so.1 is none.
+bool is_alias(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::is_symlink(file, ignored)) return false;
+  const fs::path target = fs::canonical(file, ignored);
+  return target.extension() == ".so" &&
+         target.parent_path() == fs::canonical(file.parent_path(), ignored);
+}
+
 std::string why_not_loadable(const std::string& path, const std::string& otherwise) {
   void* handle = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (handle == nullptr) return dlerror();
@@ -150,6 +159,7 @@ std::string find_library(const std::string& filename) {
 struct Catalog::Impl {
   std::mutex mutex;
   std::map<std::string, Plugins> libraries;  // by the name that was asked for
+  std::set<std::string> aliases;             // of these names
 };
 
 Catalog::Catalog() : impl_(std::make_unique<Impl>()) {}
@@ -160,7 +170,10 @@ const Plugins& Catalog::library(const std::string& filename) {
   const auto known = impl_->libraries.find(filename);
   if (known != impl_->libraries.end()) return known->second;
   if (filename.empty()) throw Error("a plug-in has no filename, must be lib….so");
-  return impl_->libraries.emplace(filename, loaded(locate(filename))).first->second;
+  const fs::path file = locate(filename);
+  const Plugins& plugins = loaded(fs::weakly_canonical(file));
+  if (is_alias(file)) impl_->aliases.insert(filename);
+  return impl_->libraries.emplace(filename, plugins).first->second;
 }
 
 void Catalog::add(const std::string& filename, std::shared_ptr<const Plugin> plugin) {
@@ -189,14 +202,17 @@ std::vector<std::string> Catalog::available() {
   std::set<std::string> names;
   {
     const std::lock_guard<std::mutex> lock(impl_->mutex);
-    for (const auto& [name, plugins] : impl_->libraries) names.insert(name);
+    for (const auto& [name, plugins] : impl_->libraries) {
+      if (impl_->aliases.count(name) == 0) names.insert(name);
+    }
   }
   for (const fs::path& directory : search_path()) {
     std::error_code ignored;
     for (const fs::directory_entry& entry : fs::directory_iterator(directory, ignored)) {
       const std::string name = entry.path().filename();
       if (entry.path().extension() == ".so" && names.count(name) == 0 &&
-          entry.is_regular_file(ignored) && registers_plugins(entry.path())) {
+          entry.is_regular_file(ignored) && !is_alias(entry.path()) &&
+          registers_plugins(entry.path())) {
         names.insert(name);
       }
     }

@@ -49,6 +49,20 @@ std::string twin_of(const Plugin& plugin) {
   return reading.get<std::string>("twin");
 }
 
+TEST_F(Library, ASecondNameIsTheSameLibrary) {
+  unsetenv("ANGEN_PLUGIN_PATH");
+  Catalog catalog;
+  const auto kind_of = [&](const std::string& file) {
+    const auto& plugins = catalog.library(file);
+    return plugins.size() == 1 ? plugins[0]->kind().name : "";
+  };
+  EXPECT_EQ(kind_of("libluminosity_sensor_controller.so"), "luminosity");
+  EXPECT_EQ(kind_of("libluminosity_sensor_utils.so"), "luminosity");
+  const std::vector<std::string> all = Catalog().available();
+  EXPECT_EQ(std::count(all.begin(), all.end(), "libluminosity_sensor_controller.so"), 1);
+  EXPECT_EQ(std::count(all.begin(), all.end(), "libluminosity_sensor_utils.so"), 0);
+}
+
 TEST_F(Library, FindsAngensOwnBesideItsLibraries) {
   unsetenv("ANGEN_PLUGIN_PATH");
   Catalog catalog;

@@ -69,7 +69,16 @@ def plugins() -> list[Plugin]:
 
 def _libraries() -> list[Path]:
     return [library for directory in directories() for library in sorted(directory.glob('lib*.so'))
-            if library.is_file()]
+            if library.is_file() and not _is_alias(library)]
+
+
+def _is_alias(library: Path) -> bool:
+    """Whether a file is a second name of a library that lies beside it; libX.so of libX.so.1 is
+    none.
+    """
+    target = library.resolve()
+    return library.is_symlink() and target.suffix == '.so' \
+        and target.parent == library.parent.resolve()
 
 
 def _read(library: Path) -> list[Plugin] | None:
