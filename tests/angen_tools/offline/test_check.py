@@ -5,8 +5,14 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).resolve().parents[3]
 SCRIPT = ROOT / 'src/angen_tools/scripts/angen'
+SNIPPETS = ROOT / 'tests/angen_sim/load/snippets'
+MODEL = '''<sdf version="1.6"><model name="ground_plane"><static>true</static>
+<link name="l"><sensor name="s" type="ray"><plugin name="p" filename="libpir_controller.so"/>
+</sensor></link></model></sdf>'''
 
 
 def angen(*words: str, **options: object) -> subprocess.CompletedProcess[str]:
@@ -17,7 +23,7 @@ def angen(*words: str, **options: object) -> subprocess.CompletedProcess[str]:
 def test_check_of_a_right_world() -> None:
     done = angen('check', str(ROOT / 'worlds/empty.world'))
     assert (done.returncode, done.stderr) == (0, '')
-    assert done.stdout.endswith('nothing is wrong; 1 models, 0 devices, 0 sensors\n')
+    assert done.stdout.endswith('nothing is wrong; 1 model, 0 devices, 0 sensors\n')
 
 
 def test_check_of_a_broken_world_names_file_and_line(tmp_path: Path) -> None:
@@ -28,3 +34,54 @@ def test_check_of_a_broken_world_names_file_and_line(tmp_path: Path) -> None:
     assert done.returncode == 1 and done.stdout == ''
     line, = done.stderr.splitlines()
     assert line.startswith(f'{broken}:2: ') and 'no_such_model' in line
+
+
+def test_check_of_the_worlds_includes_under_the_names_of_the_source() -> None:
+    done = angen('check', str(SNIPPETS / 'two_floors.world'))
+    assert (done.returncode, done.stderr) == (0, '')
+    assert '15 models, 15 devices, 1 sensor' in done.stdout
+
+
+def test_check_of_a_model_as_file_as_folder_and_by_its_address(tmp_path: Path) -> None:
+    (tmp_path / 'model.sdf').write_text(MODEL)
+    (tmp_path / 'model.config').write_text(
+        '<model><name>x</name><sdf version="1.6">model.sdf</sdf></model>')
+    for path in (tmp_path, tmp_path / 'model.sdf'):
+        done = angen('check', str(path))
+        assert (done.returncode, done.stderr) == (0, '')
+        assert done.stdout == (f'{path}: nothing is wrong; model ground_plane with 1 link, '
+                               '0 joints, 0 devices, 1 sensor (pir ground_plane)\n')
+    done = angen('check', 'model://bath_door0')
+    assert '1 device (door bathroom0)' in done.stdout
+
+
+def test_check_of_a_urdf() -> None:
+    done = angen('check', str(SNIPPETS / 'robot.urdf'))
+    assert (done.returncode, done.stderr) == (0, '')
+    assert 'model robot with 3 links, 2 joints, 1 device (drive robot)' in done.stdout
+
+
+def test_check_of_several_goes_on_after_an_error(tmp_path: Path) -> None:
+    broken = tmp_path / 'broken.urdf'
+    broken.write_text('<robot name="r">\n<link/></robot>')
+    missing = tmp_path / 'missing.sdf'
+    done = angen('check', str(broken), str(SNIPPETS / 'robot.urdf'), str(missing))
+    assert done.returncode == 1
+    assert 'nothing is wrong' in done.stdout and len(done.stdout.splitlines()) == 1
+    first, second = done.stderr.splitlines()
+    assert first.startswith(f'{broken}:2: ')
+    assert second.startswith(f'{missing}: ') and 'exists' in second
+
+
+def test_check_shows_warnings_and_succeeds(tmp_path: Path) -> None:
+    pasted = tmp_path / 'model.sdf'
+    pasted.write_text('<sdf version="1.6"><model name="m">\n<pose>\u22121 0 0 0 0 0</pose>'
+                      '<link name="l"/></model></sdf>')
+    done = angen('check', str(pasted))
+    assert done.returncode == 0 and 'loads with 1 warning; model m' in done.stdout
+    assert done.stderr.startswith(f'warning: {pasted}:2: <pose> holds') and 'U+2212' in done.stderr
+
+
+@pytest.mark.parametrize('words', [['check'], ['check', '--no-such-option', 'x']])
+def test_wrong_words_end_with_2(words: list[str]) -> None:
+    assert angen(*words).returncode == 2

@@ -22,13 +22,17 @@ def run_plugins(args: argparse.Namespace) -> int:
 def run_check(args: argparse.Namespace) -> int:
     import sys
 
-    from angen_tools.offline.check import check_world
-    wrong, right = check_world(args.world)
-    for line in wrong:
-        print(line, file=sys.stderr)
-    if not wrong:
-        print(right)
-    return 1 if wrong else 0
+    from angen_tools.offline.check import check
+    code = 0
+    for path in args.paths:
+        checked = check(path)
+        for line in checked.wrong + [f'warning: {warning}' for warning in checked.warnings]:
+            print(line, file=sys.stderr)
+        if checked.wrong:
+            code = 1
+        else:
+            print(checked.found)
+    return code
 
 
 def run_luxcheck(args: argparse.Namespace) -> int:
@@ -68,9 +72,11 @@ def add_plugins(commands: Any) -> None:
 def add_checks(commands: Any) -> None:
     """angen check, angen luxcheck."""
     check = command(commands, 'check', run_check,
-                    'reports what is wrong with a world file; needs no simulator',
-                    'check worlds/angen.world')
-    check.add_argument('world', metavar='WORLD')
+                    'reports what is wrong with files of worlds, models and robots; needs no '
+                    'simulator', 'check worlds/angen.world',
+                    'check my_models/shelf robot.urdf model://bath_door0')
+    check.add_argument('paths', metavar='PATH', nargs='+', help='a world, a model (SDF, URDF, or '
+                       'its folder), or model://NAME')
     lux = command(commands, 'luxcheck', run_luxcheck,
                   'compares the simulated light with closed forms; needs no simulator', 'luxcheck')
     add_json(lux)

@@ -1,15 +1,80 @@
-"""angen check: whether a world file loads."""
+"""angen check: whether the file of a world, a model or a robot loads."""
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from lxml import etree
+
 from angen_tools.common.catalog import angen_module
+from angen_tools.world.models import worlds_models
+
+SHOWN = 8  # names of a model's devices and sensors
 
 
-def check_world(path: str) -> tuple[list[str], str]:
-    """Loads a world without ROS: (one line for each thing that is wrong, what is in it)."""
+@dataclass(frozen=True)
+class Checked:
+    """What is to be said of a file: `found` is what is in it, where nothing is wrong."""
+    wrong: list[str] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
+    found: str = ''
+
+
+def check(path: str) -> Checked:
+    """Loads a world; or a model (its SDF, URDF, folder or model:// address) into an empty world."""
     angen = angen_module()
     try:
-        world = angen.World(path)
+        if holds_world(path):
+            return _checked_world(angen.World(path), path)
+        return _checked_model(angen, path)
     except angen.Error as error:
-        return str(error).splitlines(), ''
-    return [], (f'{path}: nothing is wrong; {len(world.models)} models, {len(world.devices())} '
-                f'devices, {len(world.sensors())} sensors')
+        return Checked(wrong=str(error).splitlines())
+
+
+def holds_world(path: str) -> bool:
+    """Whether a file is to be read as a world: also one that is missing, or is not XML."""
+    if path.startswith('model://') or Path(path).is_dir():
+        return False
+    try:
+        root = etree.parse(path, etree.XMLParser(resolve_entities=False)).getroot()
+    except (OSError, etree.XMLSyntaxError):
+        return True
+    return root.tag != 'robot' and all(part.tag not in ('model', 'actor') for part in root)
+
+
+def _checked_world(world: Any, path: str) -> Checked:
+    found = ', '.join((_counted(len(world.models), 'model'),
+                       _counted(len(world.devices()), 'device'),
+                       _counted(len(world.sensors()), 'sensor')))
+    return _right(path, found, world.warnings)
+
+
+def _checked_model(angen: Any, path: str) -> Checked:
+    world = angen.World(str(worlds_models().parent / 'empty.world'))
+    for name in world.models:
+        world.delete(name)
+    world.spawn(path)
+    kinds = sorted({plugin['kind'] for plugin in angen.plugins()})
+    devices = [f'{kind} {name}' for kind in kinds for name in world.devices(kind)]
+    sensors = [f'{kind} {name}' for kind in kinds for name in world.sensors(kind)]
+    found = ', '.join((f'model {world.models[0]} with {_counted(len(world.links), "link")}',
+                       _counted(len(world.joints), 'joint'), _listed(devices, 'device'),
+                       _listed(sensors, 'sensor')))
+    return _right(path, found, world.warnings)
+
+
+def _right(path: str, found: str, warnings: list[str]) -> Checked:
+    state = f'loads with {_counted(len(warnings), "warning")}' if warnings else 'nothing is wrong'
+    return Checked(warnings=warnings, found=f'{path}: {state}; {found}')
+
+
+def _counted(count: int, noun: str) -> str:
+    return f'{count} {noun}{"s" * (count != 1)}'
+
+
+def _listed(names: list[str], noun: str) -> str:
+    if not names:
+        return f'0 {noun}s'
+    shown = ', '.join(names[:SHOWN]) + ', …' * (len(names) > SHOWN)
+    return f'{_counted(len(names), noun)} ({shown})'
