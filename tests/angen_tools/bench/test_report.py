@@ -67,3 +67,11 @@ def test_a_figure_is_small(tmp_path: Path, client: float | None) -> None:
     path = tmp_path / 'a.png'
     bench_report.draw(path, [row(0, 2.0, client), row(10, 3.0, client)])
     assert path.read_bytes().startswith(b'\x89PNG') and path.stat().st_size < 150_000
+
+
+def test_figures_of_kinds_and_modes_are_drawn_together(tmp_path: Path) -> None:
+    path = tmp_path / 'b.png'
+    deployed = [Row(mode='deployed', kind='pir', count=n, server_cpu=2.0 + n,
+                    deploy_server_cpu=60.0) for n in (0, 5)]
+    bench_report.draw_together(path, [[row(0, 2.0), row(5, 3.0)], deployed])
+    assert path.read_bytes().startswith(b'\x89PNG') and path.stat().st_size < 150_000

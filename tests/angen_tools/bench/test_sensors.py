@@ -14,6 +14,12 @@ def test_all_kinds_are_benched_one_after_the_other() -> None:
     assert all([c.count for c in g] == [0, 10] for g in groups)
 
 
+def test_both_modes_follow_each_other() -> None:
+    groups = bench.cases('both', 'all', [0, 5])
+    assert [(g[0].mode, g[0].kind) for g in groups] == [
+        (mode, kind) for mode in ('added', 'deployed') for kind in bench_words.KINDS]
+
+
 def test_desired_asks_for_all_that_the_building_needs() -> None:
     case, = bench.cases('desired', 'all', [2])[0]
     assert case.counts == {'pir': 24, 'luminosity': 12, 'switch': 12, 'contact': 19}

@@ -166,6 +166,26 @@ def draw(path: Path, rows: Sequence[Row]) -> None:
     pyplot.close(figure)
 
 
+def draw_together(path: Path, tables: Sequence[Sequence[Row]]) -> None:
+    """Writes one figure of several tables: CPU of the server, a row a kind and a column a mode."""
+    import matplotlib
+    matplotlib.use('Agg')
+    from matplotlib import pyplot
+    kinds = list(dict.fromkeys(rows[0].kind for rows in tables))
+    modes = list(dict.fromkeys(rows[0].mode for rows in tables))
+    figure, axes = pyplot.subplots(len(kinds), len(modes), squeeze=False, layout='constrained',
+                                   figsize=(4.6 * len(modes), 2.2 * len(kinds)))
+    for rows in tables:
+        axis = axes[kinds.index(rows[0].kind), modes.index(rows[0].mode)]
+        for panel in ('server_cpu', 'deploy_server_cpu'):
+            if any(getattr(r, panel) is not None for r in rows):
+                _panel(axis, panel, rows, 'sensor')
+        axis.set_title(f'{rows[0].kind} sensors, {rows[0].mode}', fontsize='medium')
+    path.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(path, dpi=100)
+    pyplot.close(figure)
+
+
 def _panel(axis: Any, panel: str, rows: Sequence[Row], thing: str) -> None:
     """One axis: the medians as points and, of a load that lasts, their line and its slope."""
     points = [(r.count, v) for r in rows if (v := getattr(r, panel)) is not None]
@@ -176,7 +196,7 @@ def _panel(axis: Any, panel: str, rows: Sequence[Row], thing: str) -> None:
         ends = [min(counts), max(counts)]
         axis.plot(ends, [line.base + line.slope * c for c in ends],
                   label=f'fitted line: {line.slope:.2g} % per {thing}')
-    axis.set_ylim(0, 1.2 * max(values) or 1)
+    axis.set_ylim(0, max(1.2 * max(values) or 1, axis.get_ylim()[1]))
     axis.set_ylabel('CPU, % of a core')
     axis.grid(alpha=0.3)
     axis.legend(loc='lower right', fontsize='small')

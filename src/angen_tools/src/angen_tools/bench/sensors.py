@@ -13,7 +13,7 @@ from typing import Any, Iterator, Sequence
 from angen_tools.bench.measure import (SUBSCRIBED, Meter, client_load, deploy, due, load, share,
                                        spread, topic_of)
 from angen_tools.bench.report import (Row, Session, as_cells, combine, describe, describe_fit, draw,
-                                      write_csv)
+                                      draw_together, write_csv)
 from angen_tools.common.failure import Failure
 from angen_tools.common.output import as_json
 from angen_tools.common.progress import Steps
@@ -58,10 +58,12 @@ class Case:
 
 def cases(mode: str, kind: str, counts: Sequence[int] | None, mover: str = 'person'
           ) -> list[list[Case]]:
-    """The cases of each figure. All counts of a kind stand in as many flats as the largest needs.
+    """The cases of each figure; `both` is added and deployed. All counts of a kind stand in as many flats as the largest needs.
 
     Failure where `desired` is asked for no flat at all, or there is no room for the sensors.
     """
+    if mode == 'both':
+        return [group for each in ('added', 'deployed') for group in cases(each, kind, counts, mover)]
     counts = sorted(set(counts if counts is not None else COUNTS[mode]))
     if mode == 'desired':
         if counts[0] < 1:
@@ -216,7 +218,8 @@ def rows_of(bench: Bench, group: Sequence[Case], repeats: int, steps: Steps, kep
 
 def measure(groups: Sequence[Sequence[Case]], repeats: int, window: float, folder: Path,
             json: bool) -> None:
-    """Measures, prints and writes into `folder` a CSV and a figure for each kind.
+    """Measures, prints and writes into `folder` a CSV and a figure for each kind and mode, and for
+    several modes one of all.
 
     KeyboardInterrupt keeps what is measured and is raised again.
     """
@@ -226,14 +229,21 @@ def measure(groups: Sequence[Sequence[Case]], repeats: int, window: float, folde
         if why:
             print(f'angen: the client is not measured: {why}', file=sys.stderr)
         bench = Bench(sandbox, why is None, window)
+        tables: list[list[Row]] = []
         for group in groups:
             kept: list[Row] = []
+            tables.append(kept)
             try:
                 for _ in rows_of(bench, group, repeats, steps, kept):
                     write_csv(_path(folder, group[0], 'csv'), kept)
             finally:
                 steps.close()
                 _report(folder, group[0], kept, json)
+        if len({group[0].mode for group in groups}) > 1:
+            figure = folder / 'sensors_both.png'
+            draw_together(figure, tables)
+            if not json:
+                print(f'wrote {figure}')
         for line in bench.trouble:
             print(f'angen: the client is not measured: {line}', file=sys.stderr)
 

@@ -43,9 +43,11 @@ def add_bench(commands: Any) -> None:
                       'bench sensors --mode desired', 'bench sensors --kind pir --vs gazebo')
     sensors.add_argument('--kind', choices=[*KINDS, 'all'], default='all',
                          help='of sensor; all: one after the other (all)')
-    sensors.add_argument('--mode', choices=['added', 'deployed', 'desired'], default='added',
+    sensors.add_argument('--mode', choices=['added', 'deployed', 'both', 'desired'],
+                         default='added',
                          help='added: they are in the world when it starts; deployed: spawned '
-                         'while it runs; desired: flats with every sensor that they should have, '
+                         'while it runs; both: one after the other, and all in one figure; '
+                         'desired: flats with every sensor that they should have, '
                          'of all kinds (added)')
     sensors.add_argument('--counts', metavar='N,N,…', type=checked(counts),
                          help='of sensors (0,1,10,50,100,200,500), with desired of flats '
