@@ -56,7 +56,7 @@ def test_the_shelf_is_found_by_its_address(monkeypatch: pytest.MonkeyPatch, tmp_
                                            ) -> None:
     folder = tmp_path / 'shelf'
     folder.mkdir()
-    config, sdf, include = blocks(ROOT / 'docs/models.md', 'xml')
+    config, sdf, include, *_ = blocks(ROOT / 'docs/models.md', 'xml')
     (folder / 'model.config').write_text(config)
     (folder / 'model.sdf').write_text(sdf)
     monkeypatch.setenv('ANGEN_MODEL_PATH', str(tmp_path))
