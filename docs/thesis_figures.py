@@ -154,7 +154,8 @@ def models_and_plugins() -> plt.Figure:
     world = angen.World(str(WORLD))
     libraries = {plugin['kind']: plugin['library'] for plugin in angen.plugins()}
     rows = {role: [(kind, count, libraries[kind]) for kind in sorted(libraries)
-                   if (count := len(getattr(world, role)(kind)))] for role in ('devices', 'sensors')}
+                   if (count := len(getattr(world, role)(kind)))]
+            for role in ('devices', 'sensors')}
     height = 14.0 + 6.5 * max(len(found) for found in rows.values())
     d = Diagram(height)
     d.box(50, height - 6, f'angen.world: {len(world.models)} models', 34, 8)

@@ -58,12 +58,13 @@ class Case:
 
 def cases(mode: str, kind: str, counts: Sequence[int] | None, mover: str = 'person'
           ) -> list[list[Case]]:
-    """The cases of each figure; `both` is added and deployed. All counts of a kind stand in as many flats as the largest needs.
+    """The cases of each figure; `both` is added and deployed. All counts of a kind stand in as many
+    flats as the largest needs.
 
     Failure where `desired` is asked for no flat at all, or there is no room for the sensors.
     """
     if mode == 'both':
-        return [group for each in ('added', 'deployed') for group in cases(each, kind, counts, mover)]
+        return [*cases('added', kind, counts, mover), *cases('deployed', kind, counts, mover)]
     counts = sorted(set(counts if counts is not None else COUNTS[mode]))
     if mode == 'desired':
         if counts[0] < 1:
