@@ -65,7 +65,7 @@ def test_a_warning_comes_is_acknowledged_and_ends(care: subprocess.Popen[str], a
         assert [w.rule for w in active.warnings] == ['lamp_left_on']
         shown = drawn.wait(lambda m: len(m.markers) > 1, 'a marker')
         text = next(m for m in shown.markers if m.type == Marker.TEXT_VIEW_FACING)
-        assert text.text == 'lamp_left_on\nThe lamp is on.'
+        assert text.text == 'The lamp is on.'
         assert (text.pose.position.x, text.pose.position.y) == (0.0, 3.0)
         angen.send('/angen/warnings/acknowledge', String('lamp_left_on'))
         warnings.wait(lambda m: m.state == CareWarning.ACKNOWLEDGED, 'it is acknowledged')
@@ -112,3 +112,17 @@ def test_anybody_may_add_to_the_event_log(angen: Angen) -> None:
         entry = log.wait(lambda m: m.kind == 'test', 'the event')
     assert (entry.source, entry.event, entry.detail) == ('clock', 'struck', 'twelve')
     assert entry.header.stamp.to_sec() > 0
+
+
+def test_it_begins_anew_when_time_does(care: subprocess.Popen[str], angen: Angen, cli: Cli) -> None:
+    from angen_msgs.msg import CareWarning
+    from std_srvs.srv import Empty
+    with Heard('/angen/warnings', CareWarning) as warnings:
+        until(lambda: warnings._subscriber.get_num_connections() > 0, 'care publishes')
+        cli.does('set', 'door', 'bathroom0', 'open')
+        warnings.wait(lambda m: m.rule == 'door_open', 'the door is noticed')
+        angen.call('/gazebo/reset_simulation', Empty)
+        before = len(warnings.messages)
+        cli.does('set', 'door', 'bathroom0', 'open')
+        until(lambda: any(m.state == CareWarning.RAISED and m.rule == 'door_open'
+                          for m in warnings.messages[before:]), 'it is noticed again')

@@ -24,22 +24,26 @@ class Clock:
 
     def __init__(self) -> None:
         import rospy
-        self._seen: deque[tuple[float, float]] = deque()  # wall and simulated time, s
-        self._subscriber: Any = None
-        self._ticked = time.monotonic()
-        self.time = 0.0
         from rosgraph_msgs.msg import Clock as Message
-        self._now = 0.0
+        self._seen: deque[tuple[float, float]] = deque()  # wall and simulated time, s
+        self._now, self._ticked = 0.0, time.monotonic()
+        self.time = 0.0
+        self.went_back = False
         self._subscriber = rospy.Subscriber('/clock', Message, self._tick, queue_size=1)
 
     def _tick(self, message: Any) -> None:
-        self._now, self._ticked = message.clock.to_sec(), time.monotonic()
+        now = message.clock.to_sec()
+        self.went_back = self.went_back or now < self._now
+        self._now, self._ticked = now, time.monotonic()
 
     def advance(self) -> float:
         """The time up to which all events have arrived, s."""
         wall = time.monotonic()
         if wall - self._ticked > SILENCE:
             raise Failure('the simulator has ended')
+        if self.went_back:
+            self._seen.clear()
+            self.time = 0.0
         self._seen.append((wall, self._now))
         while self._seen[0][0] <= wall - LAG:
             self.time = self._seen.popleft()[1]
@@ -94,11 +98,10 @@ class Live:
         while mail is not None:
             self._take(*mail)
             mail = self._mail.get(0.0)
-        now = self._clock.advance()
-        if now and now < self.engine.now - 1.0:
+        self._publish(self.engine.advance(self._clock.advance()))
+        if self._clock.went_back:
+            self._clock.went_back = False
             self._begin()
-        else:
-            self._publish(self.engine.advance(now))
 
     def _take(self, topic: str, message: Any) -> None:
         if topic == EVENTS:

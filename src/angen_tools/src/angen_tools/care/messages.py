@@ -1,6 +1,7 @@
 """Warnings as ROS messages: the topic, the list of active ones, markers, the event log."""
 from __future__ import annotations
 
+from textwrap import fill
 from typing import Any, Collection, Sequence
 
 from angen_tools.care.engine import ACKNOWLEDGED, ENDED, RAISED, CareWarning, Change, Engine
@@ -11,8 +12,9 @@ from angen_tools.live.client import Client
 
 WARNINGS, ACTIVE = '/angen/warnings', '/angen/warnings/active'
 MARKERS, LOG = '/angen/warnings/markers', '/angen/events/add'
-RED, AMBER = (0.9, 0.1, 0.1), (1.0, 0.7, 0.1)  # before and after it is acknowledged
-ABOVE, LETTERS, RADIUS, THICK = 0.5, 0.18, 0.35, 0.04  # m
+RED, AMBER = (1.0, 0.2, 0.15), (1.0, 0.7, 0.1)  # before and after it is acknowledged
+RADIUS, THICK, POLE, LETTERS = 0.6, 0.06, 3.2, 0.3  # m
+LINE = 18  # letters
 
 
 class Outlet:
@@ -67,34 +69,39 @@ class Outlet:
         return message
 
     def _draw(self, engine: Engine) -> None:
-        """A ring and the reason at each place concerned."""
+        """A disc, a pole and the reason at each place concerned."""
         from visualization_msgs.msg import Marker, MarkerArray
         array = MarkerArray([Marker(action=Marker.DELETEALL)])
-        for number, warning in enumerate(engine.active.values()):
+        for warning in engine.active.values():
             place = self._places[warning.rule.name]
-            if place is None:
-                continue
-            color = RED if warning.acknowledged is None else AMBER
-            ring = _marker('warnings', 2 * number, Marker.CYLINDER, place, color, 0.0)
-            ring.scale.x = ring.scale.y = 2 * RADIUS
-            ring.scale.z, ring.color.a = THICK, 0.8
-            text = _marker('warnings', 2 * number + 1, Marker.TEXT_VIEW_FACING, place, color,
-                           ABOVE)
-            text.scale.z, text.text = LETTERS, f'{warning.rule.name}\n{warning.rule.reason}'
-            array.markers += [ring, text]
+            if place is not None:
+                color = RED if warning.acknowledged is None else AMBER
+                array.markers += _markers(len(array.markers), place, color, warning.rule.reason)
         self._markers.publish(array)
 
 
-def _marker(space: str, number: int, kind: int, place: Any, color: Sequence[float], above: float
+def _markers(number: int, place: Any, color: Sequence[float], reason: str) -> list[Any]:
+    """What shows one warning; `number`: of the first marker."""
+    from visualization_msgs.msg import Marker
+    disc = _marker(number, Marker.CYLINDER, place, color, 0.7, THICK / 2)
+    disc.scale.x, disc.scale.y, disc.scale.z = 2 * RADIUS, 2 * RADIUS, THICK
+    pole = _marker(number + 1, Marker.CYLINDER, place, color, 1.0, POLE / 2)
+    pole.scale.x, pole.scale.y, pole.scale.z = THICK, THICK, POLE
+    text = _marker(number + 2, Marker.TEXT_VIEW_FACING, place, color, 1.0, POLE + 2 * LETTERS)
+    text.scale.z, text.text = LETTERS, fill(reason, LINE)
+    return [disc, pole, text]
+
+
+def _marker(number: int, kind: int, place: Any, color: Sequence[float], alpha: float, above: float
             ) -> Any:
     from visualization_msgs.msg import Marker
-    marker = Marker(ns=space, id=number, type=kind, action=Marker.ADD)
+    marker = Marker(ns='warnings', id=number, type=kind, action=Marker.ADD)
     marker.header.frame_id = 'world'
     marker.pose.position.x, marker.pose.position.y = place.x, place.y
     marker.pose.position.z = place.z + above
     marker.pose.orientation.w = 1.0
     marker.color.r, marker.color.g, marker.color.b = color
-    marker.color.a = 1.0
+    marker.color.a = alpha
     return marker
 
 
