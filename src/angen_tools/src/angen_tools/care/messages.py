@@ -13,7 +13,7 @@ from angen_tools.live.client import Client
 WARNINGS, ACTIVE = '/angen/warnings', '/angen/warnings/active'
 MARKERS, LOG = '/angen/warnings/markers', '/angen/events/add'
 RED, AMBER = (1.0, 0.2, 0.15), (1.0, 0.7, 0.1)  # before and after it is acknowledged
-RADIUS, THICK, POLE, LETTERS = 0.6, 0.06, 3.2, 0.3  # m
+RADIUS, THICK, POLE, LETTERS = 0.6, 0.06, 3.0, 0.2  # m
 LINE = 18  # letters
 
 
