@@ -4,20 +4,22 @@
 # One: the sources of a target are compiled eight at a time, so a name in an unnamed namespace is unique in its target.
 option(CMAKE_UNITY_BUILD "Compile sources of a target together" ON)
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
-# Two: headers of others are parsed once. Never our own: the walls between modules hold.
+# Two: headers of others are parsed once. Not our own, so that the walls between modules hold; but every plug-in may
+# include what is in plugin/register.h.
 set(ANGEN_PRECOMPILED_HEADERS
   <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <memory> <optional> <set> <sstream> <string>
   <unordered_map> <utility> <variant> <vector> <Eigen/Geometry>)
 
-# angen_compile_options(TARGET [OWNER]): our warnings, and the headers that were precompiled for OWNER, a target with
-# the same compiler flags; without OWNER, TARGET has them precompiled itself.
+# angen_compile_options(TARGET [OWNER | PRECOMPILE HEADERS...]): our warnings, and the headers that were precompiled for
+# OWNER, a target with the same compiler flags; without OWNER, TARGET precompiles them itself, with HEADERS.
 function(angen_compile_options target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "PRECOMPILE")
   # Of a class with a member of an unnamed namespace: right where each source is compiled by itself.
   target_compile_options(${target} PRIVATE ${ANGEN_WARNINGS} -Wno-subobject-linkage)
   set_target_properties(${target} PROPERTIES DEFINE_SYMBOL "")  # it would be a flag of its own
-  if(ARGN)
-    target_precompile_headers(${target} REUSE_FROM ${ARGN})
+  if(arg_UNPARSED_ARGUMENTS)
+    target_precompile_headers(${target} REUSE_FROM ${arg_UNPARSED_ARGUMENTS})
   else()
-    target_precompile_headers(${target} PRIVATE ${ANGEN_PRECOMPILED_HEADERS})
+    target_precompile_headers(${target} PRIVATE ${ANGEN_PRECOMPILED_HEADERS} ${arg_PRECOMPILE})
   endif()
 endfunction()
