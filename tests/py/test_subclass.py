@@ -64,6 +64,22 @@ class Tracker(angen.Sensor):
                 'x': [float(pose[0] + state['position']) for _, pose, state in found]}
 
 
+class Broken(angen.Sensor):
+    """Divides by zero after half a second."""
+
+    rate = 10.0
+
+    def configure(self, params, wiring):
+        pass
+
+    def aim(self, view):
+        return None
+
+    def read(self, view, ranges, rng):
+        return {'value': 1 / (0 if view.time > 0.5 else 1)}
+
+
+angen.register('broken.py', 'broken', Broken)
 angen.register('tracker.py', 'tracker', Tracker)
 angen.register('rangefinder.py', 'rangefinder', Rangefinder)
 angen.register('pusher.py', 'pusher', Pusher)
@@ -123,3 +139,14 @@ def test_python_device_moves_its_joint_by_newtons_law(world):
     w.run(1.0)
     assert w.device('pusher', 'sled')['velocity'] == pytest.approx(2.0, rel=0.02)
     assert w.joint_positions[w.joints.index('sled::slider')] == pytest.approx(1.0, rel=0.02)
+
+
+def test_an_exception_reaches_the_caller_and_stops_its_sensor_alone(world):
+    ranger = RANGE.format(yaw=0, extra='')
+    w = world(ranger + ranger.replace('ranger"', 'broken"').replace('rangefinder', 'broken'))
+    with pytest.raises(angen.Error, match="broken 'broken' has failed: ZeroDivisionError"):
+        w.step(1000)
+    w.step(1000)
+    assert w.time == pytest.approx(2.0)
+    assert 'ZeroDivisionError' in w.sensor('broken', 'broken')['error']
+    assert 'error' not in w.sensor('rangefinder', 'ranger')

@@ -13,6 +13,8 @@
 #include <sstream>
 #include <utility>
 
+#include "core/text.h"
+
 namespace angen {
 
 namespace fs = std::filesystem;
@@ -96,8 +98,11 @@ std::string why_not_loadable(const std::string& path, const std::string& otherwi
 // The file to load for `filename`; when only files without Angen plug-ins are found, the first of
 // them.
 fs::path locate(const std::string& filename) {
+  std::error_code ignored;  // of paths that are too long, or lead where we may not read
   if (filename.find('/') != std::string::npos) {
-    if (!fs::is_regular_file(filename)) throw Error("there is no plug-in library " + filename);
+    if (!fs::is_regular_file(filename, ignored)) {
+      throw Error("there is no plug-in library " + printable(filename, 300));
+    }
     return fs::absolute(filename);
   }
   fs::path unsuitable;
@@ -105,14 +110,13 @@ fs::path locate(const std::string& filename) {
   for (const fs::path& directory : search_path()) {
     const fs::path candidate = directory / filename;
     searched.push_back(directory.string());
-    std::error_code ignored;
     if (!fs::is_regular_file(candidate, ignored)) continue;
     if (registers_plugins(candidate)) return candidate;
     if (unsuitable.empty()) unsuitable = candidate;
   }
   if (!unsuitable.empty()) return unsuitable;
-  throw Error("plug-in library " + filename + " is not found; searched " + join_names(searched) +
-              " (set ANGEN_PLUGIN_PATH for more)");
+  throw Error("plug-in library " + printable(filename, 300) + " is not found; searched " +
+              join_names(searched) + " (set ANGEN_PLUGIN_PATH for more)");
 }
 
 // The library's plug-ins, which live as long as the process, and so does their code: devices and

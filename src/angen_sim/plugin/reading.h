@@ -47,6 +47,9 @@ Choice choice_of(Enum value, const char* const (&names)[N]) {
 using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>,
                            std::vector<std::string>, ByteImage, FloatImage, Choice>;
 
+/// The field of a reading or state whose plug-in threw an exception and is called no more: which.
+inline constexpr const char* kErrorField = "error";
+
 /// What a sensor measured or the state a device is in: named values. A kind without a message of
 /// its own is published as the generic angen_msgs/Reading.
 struct Reading {

@@ -52,6 +52,9 @@ std::string shown_value(const Field& field, const Value& value) {
 }  // namespace
 
 std::string summary(const Kind& kind, const Reading& reading) {
+  if (const auto error = reading.get<std::string>(kErrorField); !error.empty()) {
+    return "failed: " + error;
+  }
   std::string text;
   const auto append = [&](const std::string& part) {
     if (!part.empty()) text += (text.empty() ? "" : "  ") + part;

@@ -38,7 +38,7 @@ auto with_python(F&& call) {
   try {
     return call();
   } catch (pyb::error_already_set& error) {
-    if (error.matches(PyExc_KeyboardInterrupt)) throw;
+    if (error.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();  // raised when step() ends
     throw Error(error.what());
   }
 }

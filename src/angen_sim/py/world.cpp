@@ -61,12 +61,20 @@ void World::take(std::shared_ptr<const sim::Snapshot> snapshot) {
   events_.insert(events_.end(), snapshot_->events.begin(), snapshot_->events.end());
   for (const sim::Event& event : snapshot_->events) {
     if (event.event == "warning") warnings_.push_back(event.detail);
+    if (event.event == "failed" && failure_.empty()) {
+      failure_ = event.kind + " '" + event.source + "' has failed: " + event.detail;
+    }
   }
+}
+
+void World::raise_failure() {
+  if (!failure_.empty()) throw Error(std::exchange(failure_, ""));
 }
 
 void World::step(std::uint64_t ticks) {
   const std::future<sim::Outcome> done = simulation_.post(sim::Step{ticks});
   for (std::uint64_t i = 0; i < ticks; ++i) take(simulation_.tick());
+  raise_failure();
 }
 
 void World::run(std::uint64_t ticks) {
@@ -74,6 +82,7 @@ void World::run(std::uint64_t ticks) {
   const std::future<sim::Outcome> done = simulation_.post(sim::Step{ticks});
   const std::int64_t last = snapshot_->tick + static_cast<std::int64_t>(ticks);
   while (snapshot_->tick < last) take(simulation_.leap(last * snapshot_->step));
+  raise_failure();
 }
 
 std::uint64_t World::ticks_in(double seconds) const {

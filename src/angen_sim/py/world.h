@@ -49,6 +49,8 @@ class World {
   void begin();
   void note(const std::vector<Diagnostic>& warnings);
   void drain(sim::Action action);
+  /// Error where a plug-in has thrown since; the world has gone on without it.
+  void raise_failure();
   void take(std::shared_ptr<const sim::Snapshot> snapshot);
 
   load::SearchPaths paths_;
@@ -56,6 +58,7 @@ class World {
   std::shared_ptr<const sim::Snapshot> snapshot_;
   std::vector<sim::Event> events_;
   std::vector<std::string> warnings_;
+  std::string failure_;  // of a plug-in, until it is raised
   record::Fingerprint fingerprint_;
 };
 

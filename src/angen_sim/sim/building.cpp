@@ -373,9 +373,12 @@ std::vector<SavedPlugin> Building::saved_plugins(Nanoseconds now, Nanoseconds st
     // Devices may share a plug-in's element: then it has the parameters of all.
     std::map<std::string, std::pair<Element, bool>> elements;
     for (DeviceInstance& device : live->devices) {
-      device.catch_up(now, step);
-      SavedParams params;
-      device.device->save(params);
+      SavedParams params = device.started_with;
+      if (device.error.empty()) {
+        device.catch_up(now, step);
+        params = {};
+        device.device->save(params);
+      }
       auto& [element, changed] = elements[*device.element.attribute("filename")];
       if (element.name.empty()) element = device.element;
       params.write_to(element);

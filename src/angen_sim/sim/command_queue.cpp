@@ -1,11 +1,13 @@
 #include "sim/command_queue.h"
 
 #include <algorithm>
+#include <exception>
 #include <functional>
 #include <limits>
 #include <utility>
 
 #include "core/nearest.h"
+#include "sim/guard.h"
 
 namespace angen::sim {
 
@@ -37,13 +39,17 @@ Outcome unknown_device(const Building& building, const ToDevice& action) {
 std::string prepare(const Building::Target& target, Command command, Building& building,
                     InstanceView::Clock clock, std::function<void()>& act) {
   DeviceInstance& device = *target.device;
+  if (!device.error.empty()) return "its plug-in has failed: " + device.error;
   const std::string wrong = parse_command(device.plugin->kind(), command);
   if (!wrong.empty()) return wrong;
-  device.catch_up(clock.time, clock.step);
-  device.idle_until = 0;
-  Verdict verdict = device.device->command(command, InstanceView(building, *target.live, clock));
+  Verdict verdict;
+  const std::string thrown = thrown_by([&] {
+    device.catch_up(clock.time, clock.step);
+    device.idle_until = 0;
+    verdict = device.device->command(command, InstanceView(building, *target.live, clock));
+  });
   act = std::move(verdict.act);
-  return verdict.accepted ? "" : verdict.reason;
+  return verdict.accepted ? thrown : verdict.reason;
 }
 
 Outcome to_device(const ToDevice& given, Building& building, InstanceView::Clock clock) {
@@ -162,8 +168,8 @@ Outcome CommandQueue::execute(const Action& action, Building& building, Instance
     } else if (const auto* note = std::get_if<Note>(&action)) {
       events.push_back({clock.time, note->source, note->kind, note->event, note->detail});
     }
-  } catch (const Error& error) {
-    outcome = {false, error.what()};
+  } catch (const std::exception& problem) {  // also of a plug-in, or of the standard library
+    outcome = {false, problem.what()};
     events.push_back(world_event(clock.time, "world", "rejected", outcome.message));
   }
   return outcome;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/guard.h"
+
 namespace angen::sim {
 
 namespace {
@@ -10,6 +12,7 @@ constexpr Nanoseconds kReportPeriod = kSecond / 50;
 
 // What fell asleep in the last tick was awake in it.
 bool is_idle(const LiveModel& live, const DeviceInstance& device, InstanceView::Clock clock) {
+  if (!device.error.empty()) return true;
   return clock.time < device.idle_until && live.awake_at < clock.time / clock.step - 1;
 }
 
@@ -55,6 +58,13 @@ void DeviceSystem::make_idle(std::uint32_t index) {
   if (until < kForever) timers_.push({until, index});
 }
 
+void DeviceSystem::fail(DeviceInstance& device, const std::string& error, Nanoseconds now,
+                        std::vector<Event>& events) {
+  device.error = error;
+  device.idle_until = kForever;
+  events.push_back({now, device.name, device.kind, "failed", error});
+}
+
 void DeviceSystem::update(Building& building, InstanceView::Clock clock,
                           std::vector<Event>& events) {
   if (outdated_) list(building);
@@ -72,17 +82,20 @@ void DeviceSystem::update(Building& building, InstanceView::Clock clock,
     }
     active_[kept++] = i;
     meter_.rest.devices += meter_.watch.lap();
-    device.catch_up(clock.time, clock.step);
     const InstanceView view(building, live, clock);
     InstanceOutputs outputs(building.engines(), live, device, clock.time, events);
-    device.device->update(view, outputs);
-    device.updated = clock.time;
-    device.idle_until = device.device->idle_until(view);
+    const std::string thrown = thrown_by([&] {
+      device.catch_up(clock.time, clock.step);
+      device.device->update(view, outputs);
+      device.updated = clock.time;
+      device.idle_until = device.device->idle_until(view);
+    });
+    if (!thrown.empty()) fail(device, thrown, clock.time, events);
     if (!device.to_report) {
       device.to_report = reports_added = true;
       to_report_.push_back(i);
     }
-    if (outputs.had_event() || !device.last) had_event_.push_back(i);
+    if (outputs.had_event() || !device.last || !thrown.empty()) had_event_.push_back(i);
     lights_changed_ = lights_changed_ || outputs.lights_changed();
     device.cost += meter_.watch.lap();
   }
@@ -122,7 +135,13 @@ void DeviceSystem::report(Building& building, InstanceView::Clock clock, Snapsho
   const bool all = clock.time % kReportPeriod < clock.step;
   for (const std::uint32_t index : all ? to_report_ : had_event_) {
     DeviceInstance& device = *entries_[index].device;
-    device.device->report(InstanceView(building, *entries_[index].live, clock), device.scratch);
+    if (device.error.empty()) {
+      const std::string thrown = thrown_by([&] {
+        device.device->report(InstanceView(building, *entries_[index].live, clock), device.scratch);
+      });
+      if (!thrown.empty()) fail(device, thrown, clock.time, next.events);
+    }
+    if (!device.error.empty()) device.scratch.set(kErrorField, device.error);
     device.cost += meter_.watch.lap();
     if (all) device.to_report = false;
     if (device.last && device.last->same_values(device.scratch)) continue;

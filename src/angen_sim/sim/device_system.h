@@ -55,6 +55,9 @@ class DeviceSystem {
   /// Those whose timer has run out; active ones are in the order of entries_.
   void activate_due(Nanoseconds now);
   void make_idle(std::uint32_t index);
+  /// The device has thrown `error`.
+  static void fail(DeviceInstance& device, const std::string& error, Nanoseconds now,
+                   std::vector<Event>& events);
 
   Meter& meter_;
   bool outdated_ = true;

@@ -29,6 +29,7 @@ struct DeviceInstance {
   Nanoseconds idle_until = 0;  // unless it is commanded or its model wakes
   bool to_report = true;       // it was updated since its last report
   Nanoseconds cost = 0;        // CPU time that the meter counts
+  std::string error;           // what it threw; it is called no more
 
   /// Has it skip the ticks without updates before the one of `now`.
   void catch_up(Nanoseconds now, Nanoseconds step) {
@@ -116,6 +117,7 @@ struct SensorInstance {
   std::uint64_t light_seen = 0;     // as well
   NoiseForecast forecast;
   Nanoseconds cost = 0;  // CPU time that the meter counts
+  std::string error;     // what it threw; it is called no more
 
   bool on_demand() const { return plugin->kind().is_on_demand; }
   /// Whether readings of a steady sensor differ from sample to sample.

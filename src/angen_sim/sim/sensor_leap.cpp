@@ -45,6 +45,7 @@ std::int64_t SensorSystem::next_tick(Building& building, InstanceView::Clock clo
   const std::int64_t here = clock.time / clock.step;
   for (const Entry& entry : entries_) {
     SensorInstance& sensor = *entry.sensor;
+    if (!sensor.error.empty()) continue;
     const bool needed = sensor.on_demand()
                             ? requested_.has(sensor.kind, sensor.name)
                             : !(sensor.activity.skips() && unchanged(building.engines(), entry));
@@ -67,7 +68,7 @@ void SensorSystem::skip_to(InstanceView::Clock clock, std::int64_t tick, Snapsho
   std::uint64_t readings = next.counts.readings;
   for (const Entry& entry : entries_) {
     const SensorInstance& sensor = *entry.sensor;
-    if (sensor.on_demand()) continue;
+    if (sensor.on_demand() || !sensor.error.empty()) continue;
     readings += static_cast<std::uint64_t>(sensor.schedule.publications(to) -
                                            sensor.schedule.publications(clock.time));
   }

@@ -4,6 +4,8 @@
 #include <memory>
 #include <utility>
 
+#include "sim/guard.h"
+
 namespace angen::sim {
 
 namespace {
@@ -242,9 +244,24 @@ void SensorSystem::repeat(std::uint32_t index, Snapshot& next) {
   ++next.counts.readings;
 }
 
+/// The sensor has thrown `error`: its last reading stands, and says so.
+void SensorSystem::fail(std::uint32_t index, const std::string& error, Nanoseconds now,
+                        Snapshot& next) {
+  SensorInstance& sensor = *entries_[index].sensor;
+  sensor.error = error;
+  sensor.scans.clear();
+  if (sensor.activity.lazy()) sensor.activity.resume();
+  sensor.latest.stamp = now;
+  sensor.latest.set(kErrorField, error);
+  sensor.published = {std::make_shared<const Reading>(sensor.latest), nullptr};
+  next.sensors.set(index, sensor.published);
+  next.events.push_back({now, sensor.name, sensor.kind, "failed", error});
+}
+
 void SensorSystem::visit(Building& building, std::uint32_t index, InstanceView::Clock clock,
                          Snapshot& next) {
   SensorInstance& sensor = *entries_[index].sensor;
+  if (!sensor.error.empty()) return;
   if (sensor.activity.state() == SensorActivity::State::kActive && sensor.on_demand()) {
     if (!requested_.has(sensor.kind, sensor.name)) return;
   } else if (unchanged(building.engines(), entries_[index])) {
@@ -257,7 +274,11 @@ void SensorSystem::visit(Building& building, std::uint32_t index, InstanceView::
     sensor.activity.note_changed();
   }
   if (sensor.activity.lazy()) resume(index, clock, next);
-  aim(building, index, clock);
+  const std::size_t others = rays_.size();
+  const std::string thrown = thrown_by([&] { aim(building, index, clock); });
+  if (thrown.empty()) return;
+  rays_.resize(others);
+  fail(index, thrown, clock.time, next);
 }
 
 bool SensorSystem::unchanged(const Engines& engines, const Entry& entry) {
@@ -314,7 +335,11 @@ void SensorSystem::read(Building& building, const Sample& sample, InstanceView::
   const Hits hits = hits_of(engines, sample, same);
   sensor.seen = engines.movers.now() + 1;
   if (!same || !sensor.activity.steady() || sensor.queried.any()) {
-    measure(building, sample, hits, clock, tick);
+    const std::string thrown = thrown_by([&] { measure(building, sample, hits, clock, tick); });
+    if (!thrown.empty()) {
+      fail(sample.index, thrown, clock.time, next);
+      return;
+    }
     const Reading& reading = sensor.latest;
     if (!reading.event.empty()) {
       next.events.push_back(

@@ -65,6 +65,7 @@ class SensorSystem {
   static void repeat(std::uint32_t index, Snapshot& next);
   /// Whether nothing that the sensor looked at in its last sample has changed.
   static bool unchanged(const Engines& engines, const Entry& entry);
+  void fail(std::uint32_t index, const std::string& error, Nanoseconds now, Snapshot& next);
   void visit(Building& building, std::uint32_t index, InstanceView::Clock clock, Snapshot& next);
   void aim(Building& building, std::uint32_t index, InstanceView::Clock clock);
   void cast(Engines& engines);

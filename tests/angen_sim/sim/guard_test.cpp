@@ -1,0 +1,222 @@
+// Plug-ins that throw: each is stopped and says so, the others and the world go on.
+#include "sim/guard.h"
+
+#include <gtest/gtest.h>
+
+#include <new>
+#include <stdexcept>
+
+#include "load/load.h"
+#include "sim/simulation.h"
+
+namespace angen::sim {
+namespace {
+
+/// Where a plug-in of the test throws: "update", "report", "command", "act", "aim", "read", "skip".
+class Thrower {
+ public:
+  void configure(Params& params) { where_ = params.text("throws", "", "where it throws"); }
+  void pass(const std::string& place) const {
+    if (place != where_) return;
+    if (place == "aim") throw std::bad_alloc();
+    if (place == "read") throw 42;  // NOLINT: not a std::exception, on purpose
+    throw std::out_of_range("in " + place);
+  }
+
+ private:
+  std::string where_;
+};
+
+class ThrowingDevice : public Device {
+ public:
+  void configure(Params& params, Wiring&) override { thrower_.configure(params); }
+  Verdict command(const Command&, const View&) override {
+    thrower_.pass("command");
+    return Verdict::accept([this] { thrower_.pass("act"); });
+  }
+  void update(const View&, Outputs&) override { thrower_.pass("update"); }
+  void report(const View& view, Reading& state) const override {
+    state.set("time", to_seconds(view.time()));
+    if (view.time() > 100 * kSecond / 1000) thrower_.pass("report");
+  }
+
+ private:
+  Thrower thrower_;
+};
+
+class ThrowingSensor : public Sensor {
+ public:
+  void configure(Params& params, Wiring&) override { thrower_.configure(params); }
+  void aim(const View& view, RayBatch& rays) override {
+    rays.push_back({view.pose().position, {0, 0, -1}, 0.0, 10.0});
+    thrower_.pass("aim");
+  }
+  void read(const View& view, Hits hits, Rng&, Reading& reading) override {
+    reading.set("range", hits[0].range);
+    if (view.time() > 200 * kSecond / 1000) thrower_.pass("read");
+  }
+
+ private:
+  Thrower thrower_;
+};
+
+class ThrowingPlugin : public Plugin {
+ public:
+  explicit ThrowingPlugin(bool is_sensor)
+      : kind_(is_sensor ? "probe" : "bomb", "throws"), is_sensor_(is_sensor) {
+    if (is_sensor) {
+      kind_.publishes_at(10.0);
+    } else {
+      kind_.verb("Go", "may throw");
+    }
+  }
+  const Kind& kind() const override { return kind_; }
+  bool serves(const ModelInfo&) const override { return !is_sensor_; }
+  std::unique_ptr<Device> make_device() const override {
+    return is_sensor_ ? nullptr : std::make_unique<ThrowingDevice>();
+  }
+  std::unique_ptr<Sensor> make_sensor() const override {
+    return is_sensor_ ? std::make_unique<ThrowingSensor>() : nullptr;
+  }
+
+ private:
+  Kind kind_;
+  bool is_sensor_;
+};
+
+std::string bomb(const std::string& name, const std::string& where) {
+  return "<model name='" + name +
+         "'><static>true</static><link name='l'/><plugin name='p' filename='bomb.so'><throws>" +
+         where + "</throws></plugin></model>";
+}
+
+std::string probe(const std::string& name, const std::string& where) {
+  return "<model name='" + name +
+         "'><static>true</static><pose>0 0 1 0 0 0</pose><link name='l'><sensor name='s' "
+         "type='ray'><plugin name='p' filename='probe.so'><throws>" +
+         where + "</throws></plugin></sensor></link></model>";
+}
+
+std::unique_ptr<Simulation> world_of(const std::string& models) {
+  const auto catalog = std::make_shared<Catalog>();
+  catalog->add("bomb.so", std::make_shared<ThrowingPlugin>(false));
+  catalog->add("probe.so", std::make_shared<ThrowingPlugin>(true));
+  const std::string floor =
+      "<model name='floor'><static>true</static><link name='link'><collision name='c'><geometry>"
+      "<plane><normal>0 0 1</normal></plane></geometry></collision></link></model>";
+  return std::make_unique<Simulation>(
+      load::world_from_text(
+          "<sdf version='1.6'><world name='w'>" + floor + models + "</world></sdf>", "test", {}),
+      0, catalog);
+}
+
+std::vector<Event> run(Simulation& simulation, int ticks) {
+  std::vector<Event> events;
+  for (int i = 0; i < ticks; ++i) {
+    const auto snapshot = simulation.tick();
+    events.insert(events.end(), snapshot->events.begin(), snapshot->events.end());
+  }
+  return events;
+}
+
+const Reading& state(const Simulation& simulation, const std::string& name) {
+  const auto snapshot = simulation.snapshot();
+  const auto& devices = snapshot->structure->devices;
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    if (devices[i].name == name) return *snapshot->devices[i];
+  }
+  throw std::out_of_range(name);
+}
+
+class ADeviceThatThrows : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(In, ADeviceThatThrows, ::testing::Values("update", "report"));
+
+TEST_P(ADeviceThatThrows, IsStoppedAndSaysSoOnce) {
+  const auto simulation = world_of(bomb("bad", GetParam()) + bomb("good", ""));
+  const std::vector<Event> events = run(*simulation, 1000);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].source, "bad");
+  EXPECT_EQ(events[0].kind, "bomb");
+  EXPECT_EQ(events[0].event, "failed");
+  EXPECT_EQ(events[0].detail, std::string("in ") + GetParam());
+  EXPECT_EQ(state(*simulation, "bad").get<std::string>(kErrorField), events[0].detail);
+  EXPECT_GT(state(*simulation, "good").get<double>("time"), 0.9);
+  EXPECT_EQ(state(*simulation, "good").find(kErrorField), nullptr);
+  const auto saved = std::make_shared<SavedState>();
+  simulation->post(Save{saved});
+  run(*simulation, 1);
+  EXPECT_NE(saved->snapshot, nullptr);
+}
+
+TEST_P(ADeviceThatThrows, RejectsCommandsAndStartsAgainWithTheWorld) {
+  const auto simulation = world_of(bomb("bad", GetParam()));
+  run(*simulation, 200);
+  std::future<Outcome> answer = simulation->post(ToDevice{"bomb", "bad", {"Go", {}, "", 0.0}});
+  run(*simulation, 1);
+  const Outcome outcome = answer.get();
+  EXPECT_FALSE(outcome.ok);
+  EXPECT_NE(outcome.message.find("has failed: in"), std::string::npos) << outcome.message;
+  simulation->post(Reset{});
+  EXPECT_EQ(run(*simulation, 200).back().event, "failed");  // called again, it throws again
+}
+
+class ACommandThatThrows : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(In, ACommandThatThrows, ::testing::Values("command", "act"));
+
+TEST_P(ACommandThatThrows, IsAnsweredAndTheDeviceGoesOn) {
+  const auto simulation = world_of(bomb("bad", GetParam()));
+  std::future<Outcome> answer = simulation->post(ToDevice{"bomb", "bad", {"Go", {}, "", 0.0}});
+  const std::vector<Event> events = run(*simulation, 1000);
+  const Outcome outcome = answer.get();
+  EXPECT_FALSE(outcome.ok);
+  EXPECT_NE(outcome.message.find(std::string("in ") + GetParam()), std::string::npos);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].event, "rejected");
+  EXPECT_GT(state(*simulation, "bad").get<double>("time"), 0.9);
+}
+
+class ASensorThatThrows : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(In, ASensorThatThrows, ::testing::Values("aim", "read"));
+
+TEST_P(ASensorThatThrows, IsStoppedAndTheOthersReadAsWithoutIt) {
+  const std::string first = probe("first", ""), last = probe("last", "");
+  const auto with = world_of(first + probe("bad", GetParam()) + last);
+  const auto without = world_of(first + last);
+  std::vector<Event> events;
+  for (int i = 0; i < 1000; ++i) {
+    const auto a = with->tick(), b = without->tick();
+    events.insert(events.end(), a->events.begin(), a->events.end());
+    for (const auto& [mine, other] : {std::pair{0, 0}, std::pair{2, 1}}) {
+      const auto one = a->reading(mine), two = b->reading(other);
+      ASSERT_EQ(one == nullptr, two == nullptr);
+      if (one == nullptr) continue;
+      EXPECT_TRUE(one->same_values(*two)) << a->time;
+    }
+  }
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].event, "failed");
+  const auto reading = with->snapshot()->reading(1);
+  EXPECT_EQ(reading->get<std::string>(kErrorField), events[0].detail);
+  EXPECT_NEAR(with->snapshot()->reading(2)->get<double>("range"), 1.0, 1e-6);
+}
+
+TEST(Spawn, WithALibraryPathNoFileSystemTakesIsAnswered) {
+  const auto simulation = world_of("");
+  for (const std::string& path :
+       {"/" + std::string(300, 'x') + "/lib.so", std::string(5000, 'y') + ".so"}) {
+    const std::string model =
+        "<sdf version='1.6'><model name='m'><link name='l'/><plugin name='p' "
+        "filename='" +
+        path + "'/></model></sdf>";
+    std::future<Outcome> answer = simulation->post(Spawn{load::model(model, "m", {}, {})});
+    run(*simulation, 1);
+    const Outcome outcome = answer.get();
+    EXPECT_FALSE(outcome.ok);
+    EXPECT_NE(outcome.message.find("plug-in library"), std::string::npos) << outcome.message;
+    EXPECT_LT(outcome.message.size(), 2000U);
+    EXPECT_EQ(simulation->snapshot()->structure->models.size(), 1U);
+  }
+}
+
+}  // namespace
+}  // namespace angen::sim
