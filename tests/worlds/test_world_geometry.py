@@ -56,6 +56,11 @@ def test_world_holds_what_the_building_needs(models):
     assert count["pir"] == 22 and count["pir_nodding"] == 2
     assert 45 <= len(models["apartment0"].links) <= 55
     assert len(WINDOWS) == 12 and len(FRONTS) == 24 and {*WINDOWS, *FRONTS} < set(models)
+    assert count["tv"] == count["fan"] == count["stereo"] == 2
+    assert count["microphone"] == 6 and count["radio_receiver"] == 10
+    plugs = [m.element.findtext(".//load") for m in models.values() if m.name.endswith("_plug0")]
+    assert sorted(plugs) == ["appliance/bedroom_fan0", "appliance/livingroom_tv0",
+                             "appliance/workroom_stereo0", "stove/kitchen0"]
     touching = [m for m in models.values() if m.element.find(".//sensor[@type='contact']")
                 is not None]
     assert len(touching) == 2 * (6 + 3) + 2  # chairs and tables, the elevator, the robot
@@ -138,6 +143,7 @@ def test_open_doors_leave_each_other_alone(models):
 @pytest.mark.parametrize("floor", [0, 1])
 def test_furniture_and_robot_overlap_nothing(models, floor):
     kinds = {m for room in plan.FURNITURE.values() for m, *_ in room} | {"turtlebot"}
+    kinds |= {m for m, *_ in plan.APPLIANCES.values()}
     opened = {door for door in DOORS if door in plan.OPEN_DOORS}
     for model in models.values():
         if model.source not in kinds or not on_floor(model, floor):

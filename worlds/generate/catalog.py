@@ -163,15 +163,21 @@ def write_rfid_tag(models: Path) -> None:
                 "A card that an RFID reader reads by its model's name. Served by librfid_tag.so.")
 
 
-def write_smart_plug(models: Path) -> None:
-    """Writes models/smart_plug: a round plug on a wall, x into the room."""
-    root, model = new_model("smart_plug", static=True)
+def smart_plug(name: str, load: str) -> etree._Element:
+    """Returns the model of a round plug on a wall, x into the room, that feeds `load`."""
+    _, model = new_model(name, static=True)
     body = Part("body", (0.028, 0.06), (0.03, 0, 0), (0, pi / 2, 0), collide=False)
     button = Part("button", (0.006, 0.004), (0.061, 0, 0.012), (0, pi / 2, 0), collide=False,
                   material=(0.2, 0.7, 0.3))
     link = add_link(model, "plug", [body, button], moves=False)
     sensor = add_sensor(link, "plug", "custom", 1)
-    add_plugin(sensor, "smart_plug", "libsmart_plug.so", load="")
+    add_plugin(sensor, "smart_plug", "libsmart_plug.so", load=load)
+    return model
+
+
+def write_smart_plug(models: Path) -> None:
+    """Writes models/smart_plug, without a load."""
+    root = smart_plug("smart_plug", "").getparent()
     write_model(root, models, "Smart plug",
                 "Reports the power and energy of the device that its <load> names. "
                 "Served by libsmart_plug.so.")

@@ -199,7 +199,6 @@ def _simple(title: str, low, high, color: Color, *looks: Part) -> Piece:
 
 def pieces() -> dict[str, Piece]:
     """Returns all furniture by model name."""
-    screen = spanned("screen", (-0.02, -0.55, 0.55), (0.02, 0.55, 1.2), material=(0.05, 0.05, 0.06))
     porthole = Part("porthole", (0.16, 0.01), (0.3, 0, 0.45), (0, 1.570796, 0),
                     material=(0.25, 0.27, 0.3), collide=False)
     return {
@@ -233,9 +232,7 @@ def pieces() -> dict[str, Piece]:
             spanned("bowl", (-0.13, -0.18, 0.0), (0.32, 0.18, 0.42)),
             spanned("tank", (-0.32, -0.19, 0.0), (-0.13, 0.19, 0.82)),
         ), mesh="toilet.stl", color=CERAMIC),
-        "tv_stand": _simple("TV stand", (-0.2, -0.7, 0.0), (0.18, 0.7, 0.5), DARK, screen,
-                            spanned("foot", (-0.1, -0.2, 0.5), (0.1, 0.2, 0.55),
-                                    material=(0.1, 0.1, 0.1))),
+        "tv_stand": _simple("TV stand", (-0.2, -0.7, 0.0), (0.18, 0.7, 0.5), DARK),
         "wardrobe": _wardrobe(),
         "washbasin": Piece("Wash basin", (
             spanned("basin", (-0.24, -0.3, 0.68), (0.24, 0.3, 0.86)),

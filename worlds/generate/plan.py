@@ -206,6 +206,36 @@ FRONTS = {
     "shoe_cabinet": tuple(("shoe_flap", f"shoes_{name}", 0.14, -0.45, z)
                           for name, z in (("low", 0.05), ("high", 0.475))),
 }
+# room: (model, x, y, z, yaw); they face +x
+APPLIANCES = {
+    "livingroom": ("tv", 7.2, 3.72, 0.5, -pi / 2),      # on its stand
+    "bedroom": ("fan", 3.7, 7.75, 0.0, pi),
+    "workroom": ("stereo", 9.75, 6.4, 1.2, pi),         # on the cabinet
+}
+# name: (load, x, y, z, yaw) of a smart plug; both names end with the floor
+PLUGS = {
+    "kitchen_stove_plug": ("stove/kitchen", 2.2, 0.05, 1.0, pi / 2),
+    "livingroom_tv_plug": ("appliance/livingroom_tv", 8.0, 3.95, 0.3, -pi / 2),
+    "bedroom_fan_plug": ("appliance/bedroom_fan", 3.95, 7.4, 0.3, pi),
+    "workroom_stereo_plug": ("appliance/workroom_stereo", 9.95, 6.9, 0.3, pi),
+}
+# room: x, y, yaw on a wall
+MICROPHONE_HEIGHT = 1.8
+MICROPHONES = {
+    "kitchen": (0.05, 1.2, 0.0),
+    "livingroom": (4.05, 2.6, 0.0),
+    "bedroom": (0.05, 7.9, 0.0),
+}
+RECEIVER_HEIGHT = 2.0
+RECEIVERS = {
+    "kitchen": (0.05, 1.5, 0.0),
+    "livingroom": (9.95, 3.2, pi),
+    "bedroom": (0.05, 8.2, 0.0),
+    "workroom": (9.95, 5.5, pi),
+    "bathroom": (6.75, 7.5, pi),
+}
+# what carries a transmitter: x, y, z of its antenna in its own frame
+TRANSMITTERS = {"turtlebot": (0.0, 0.0, 0.45), "person": (0.26, 0.0, 1.1)}
 RAISED = {"chair", "kitchen_table", "table", "desk"}     # dynamic pieces start 1 mm up
 
 ROBOT = (1.5, 5.0, pi)

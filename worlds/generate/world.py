@@ -7,9 +7,9 @@ from typing import Sequence
 
 from lxml import etree
 
-from . import openers, plan
+from . import catalog, openers, plan
 from .building import add_ground
-from .sdf import SDF_VERSION, add, add_plugin, numbers, write
+from .sdf import SDF_VERSION, add, add_plugin, add_pose, numbers, write
 
 Pose = tuple[float, float, float, float, float, float]
 
@@ -45,12 +45,13 @@ def add_world_plugins(world: etree._Element) -> None:
                rightJoint="right_wheel_joint", updateRate=50)
 
 
-def include(world: etree._Element, model: str, name: str, pose: Pose) -> None:
-    """Appends a model of worlds/models as a block."""
+def include(world: etree._Element, model: str, name: str, pose: Pose) -> etree._Element:
+    """Appends a model of worlds/models as a block, and returns it."""
     block = add(world, "include")
     add(block, "name", name)
     add(block, "pose", numbers(*pose))
     add(block, "uri", f"model://{model}")
+    return block
 
 
 def door_pose(room: str, floor: int) -> Pose:
@@ -123,6 +124,26 @@ def _add_furniture(world: etree._Element, floor: int) -> None:
             include(world, *piece)
 
 
+def _add_appliances(world: etree._Element, floor: int) -> None:
+    z = floor * plan.STOREY
+    for room, (model, x, y, height, yaw) in plan.APPLIANCES.items():
+        include(world, model, f"{room}_{model}{floor}", (x, y, z + height, 0, 0, yaw))
+    for name, (load, x, y, height, yaw) in plan.PLUGS.items():
+        plug = catalog.smart_plug(f"{name}{floor}", f"{load}{floor}")
+        add_pose(plug, (x, y, z + height), (0, 0, yaw))
+        world.append(plug)
+    for model, height, places in (("microphone", plan.MICROPHONE_HEIGHT, plan.MICROPHONES),
+                                  ("radio_receiver", plan.RECEIVER_HEIGHT, plan.RECEIVERS)):
+        for room, (x, y, yaw) in places.items():
+            include(world, model, f"{room}_{model.removeprefix('radio_')}{floor}",
+                    (x, y, z + height, 0, 0, yaw))
+
+
+def _add_transmitter(carrier: etree._Element, name: str) -> None:
+    add_plugin(carrier, "transmitter", "libradio_transmitter.so",
+               position=numbers(*plan.TRANSMITTERS[name]))
+
+
 def walk() -> list[tuple[float, float, float, float]]:
     """Returns the person's waypoints (t in s, x, y, yaw), turning on the spot at corners."""
     points, t = [], 0.0
@@ -156,6 +177,7 @@ def add_person(world: etree._Element) -> None:
         waypoint = add(trajectory, "waypoint")
         add(waypoint, "time", round(t, 3))
         add(waypoint, "pose", numbers(x, y, 0, 0, 0, round(yaw, 5)))
+    _add_transmitter(actor, "person")
 
 
 def add_state(world: etree._Element, name: str, doors: Sequence[str] = plan.OPEN_DOORS) -> None:
@@ -191,9 +213,12 @@ def write_angen(folder: Path) -> None:
         _add_furniture(world, floor)
         comment(world, f"floor {floor}: windows, and the fronts of furniture")
         add_openers(world, floor)
+        comment(world, f"floor {floor}: appliances, and sensors of power, sound and radio")
+        _add_appliances(world, floor)
     x, y, yaw = plan.ROBOT
     comment(world, "who moves")
-    include(world, "turtlebot", "turtlebot", (x, y, 0.001, 0, 0, yaw))
+    _add_transmitter(include(world, "turtlebot", "turtlebot", (x, y, 0.001, 0, 0, yaw)),
+                     "turtlebot")
     add_person(world)
     add_state(world, "angen")
     write(root, folder / "angen.world")
