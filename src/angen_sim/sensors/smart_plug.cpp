@@ -4,59 +4,91 @@
 
 namespace angen::sensors {
 
+namespace {
+
+/// What a plug measures while nothing happens to its load: a constant power, and energy that grows.
+struct Metering : LazyReading {
+  std::string load;  // KIND/NAME
+  bool connected = false;
+  double power = 0.0;     // W, without noise
+  double energy = 0.0;    // J, up to `since`
+  Nanoseconds since = 0;  // the power's last change
+  double noise_stddev = 0.0;
+
+  double energy_at(Nanoseconds time) const { return energy + power * to_seconds(time - since); }
+
+  void read(Nanoseconds time, const Draws& draws, Reading& reading) const override {
+    write(time, draws(0), reading);
+  }
+
+  void write(Nanoseconds time, Rng rng, Reading& reading) const {
+    const double noise = noise_stddev > 0.0 ? noise_stddev * rng.gaussian() : 0.0;
+    reading.set("load", load);
+    reading.set("connected", connected);
+    reading.set("power", power + noise);
+    reading.set("energy", energy_at(time));
+  }
+};
+
+}  // namespace
+
 /// A metering plug: the power of the device that it feeds, and the energy since its start.
-class SmartPlug : public Sensor {
+class SmartPlug : public Sensor, public NoisySensor {
  public:
   Nanoseconds sample_period() const override { return kSecond / 50; }
 
   void configure(Params& params, Wiring&) override {
-    load_ = params.text("load", "", "the device that it feeds, as lamp/kitchen0");
-    params.noise("power", "W", "of a power");
+    metering_.load = params.text("load", "", "the device that it feeds, as lamp/kitchen0");
+    const std::size_t bar = metering_.load.find('/');
+    kind_ = metering_.load.substr(0, bar);
+    if (bar != std::string::npos) name_ = metering_.load.substr(bar + 1);
+    metering_.noise_stddev = params.number("noise_stddev", 0.0, "W", "of a power", kNotNegative);
   }
 
-  void read(const View& view, Hits, Rng&, Reading& reading) override {
-    if (sampled_at_ < 0 || view.time() < sampled_at_) {  // the first, or the clock was set back
-      sampled_at_ = view.time();
-      energy_ = 0.0;
+  void read(const View& view, Hits, Rng& rng, Reading& reading) override {
+    const Nanoseconds now = view.time();
+    if (sampled_at_ < 0 || now < sampled_at_) {  // the first, or the clock was set back
+      sampled_at_ = metering_.since = now;
+      metering_.energy = 0.0;
     }
-    bool connected = false;
+    metering_.connected = false;
     double power = 0.0;
-    Nanoseconds changed = view.time();
+    Nanoseconds changed = now;
     for (const DeviceView& device : view.devices("power")) {
-      if (std::string(device.kind) + "/" + std::string(device.name) != load_) continue;
-      connected = true;
+      if (device.kind != kind_ || device.name != name_) continue;
+      metering_.connected = true;
       power = device.state.get<double>("power");
       changed = device.state.stamp;
     }
-    count(power, changed, view.time());
-    note_change(power, reading);
-    power_ = power;
-    reading.set("load", load_);
-    reading.set("connected", connected);
-    reading.set("power", power_);
-    reading.set("energy", energy_);
+    // A change between two samples counts from the time of its state.
+    if (power != metering_.power) set_power(power, std::clamp(changed, sampled_at_, now), reading);
+    sampled_at_ = now;
+    metering_.write(now, rng, reading);
   }
 
-  bool steady() const override { return !(power_ > 0.0); }  // otherwise its energy grows
+  bool steady() const override { return true; }
+  bool varies() const override { return metering_.power > 0.0 || metering_.noise_stddev > 0.0; }
+  double quiet_chance() const override { return 1.0; }
+  int memory() const override { return 0; }
+  std::shared_ptr<const LazyReading> lazy_reading() const override {
+    return std::make_shared<Metering>(metering_);
+  }
+  void resume(Nanoseconds time, const Draws&) override { sampled_at_ = time; }
 
  private:
-  // A change between two samples counts from the time of its state.
-  void count(double power, Nanoseconds changed, Nanoseconds now) {
-    const double before = power_;
-    const Nanoseconds turn = power == before ? now : std::clamp(changed, sampled_at_, now);
-    energy_ += before * to_seconds(turn - sampled_at_) + power * to_seconds(now - turn);
-    sampled_at_ = now;
+  void set_power(double power, Nanoseconds at, Reading& reading) {
+    metering_.energy = metering_.energy_at(at);
+    metering_.since = at;
+    if ((power > 0.0) != (metering_.power > 0.0)) {
+      reading.event = power > 0.0 ? "on" : "off";
+      reading.urgent = true;
+    }
+    metering_.power = power;
   }
 
-  void note_change(double power, Reading& reading) const {
-    if ((power > 0.0) == (power_ > 0.0)) return;
-    reading.event = power > 0.0 ? "on" : "off";
-    reading.urgent = true;
-  }
-
-  std::string load_;
-  double power_ = 0.0;   // W, at the last sample
-  double energy_ = 0.0;  // J
+  std::string kind_;
+  std::string name_;
+  Metering metering_;
   Nanoseconds sampled_at_ = -1;
 };
 
