@@ -34,3 +34,12 @@ def test_collisions_are_found_in_models_and_includes(monkeypatch: pytest.MonkeyP
     assert models.collisions(world, 'table::body') == ['top', 'leg']
     assert models.collisions(world, 'table::foot') == []
     assert models.collisions(world, 'nobody::body') == []
+
+
+def test_parts_of_a_merged_include_are_found() -> None:
+    world = etree.fromstring('<sdf version="1.6"><world name="w"><include>'
+                             '<uri>model://my_elevator</uri></include></world></sdf>')
+    cabin = models.collisions(world, 'my_elevator::cabin')
+    assert cabin and cabin == models.collisions(etree.fromstring(
+        '<sdf version="1.6"><world name="w"><include><uri>model://elevator</uri></include></world>'
+        '</sdf>'), 'elevator::cabin')

@@ -73,13 +73,23 @@ def _children(model: etree._Element | None, tag: str) -> list[etree._Element]:
     return [] if model is None else model.findall(tag)
 
 
+def _read_model(include: etree._Element) -> etree._Element | None:
+    """The <model> that an <include> names, with the parts of those that it includes by merge."""
+    file = find(include.findtext('uri', '').strip())
+    model = sdf.read(file).find('model') if file and file.exists() else None
+    if model is not None:
+        for merged in model.findall("include[@merge='true']"):
+            inner = _read_model(merged)
+            model.extend([] if inner is None else list(inner))
+    return model
+
+
 def _model_of(world: etree._Element, name: str) -> etree._Element | None:
     """The <model> of that name, read from its file where the world includes it."""
     for entry in world.iterfind('world/*'):
         model = entry
         if entry.tag == 'include':
-            file = find(entry.findtext('uri', '').strip())
-            model = sdf.read(file).find('model') if file and file.exists() else None
+            model = _read_model(entry)
         if model is None or model.tag != 'model':
             continue
         if (entry.findtext('name') or model.get('name', '')).strip() == name:
