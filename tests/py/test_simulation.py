@@ -18,6 +18,15 @@ def test_time_is_ticks_times_step(world):
     assert w.tick == 507
 
 
+def test_a_summary_says_in_words_what_the_dict_says(world):
+    w = world(pir('p1', '0 0 1 0 0 0'))
+    assert w.summary('pir', 'p1') == ''
+    w.run(1.0)
+    assert w.summary('pir', 'p1').split()[0] == 'still' and not w.sensor('pir', 'p1')['motion']
+    with pytest.raises(angen.Error, match="no door named 'p1'"):
+        w.summary('door', 'p1')
+
+
 def test_free_fall_follows_the_closed_form(world):
     """Semi-implicit Euler: z = z0 - g dt^2 n (n + 1) / 2."""
     w = world(box('ball', '0 0 5 0 0 0', '0.1 0.1 0.1'))

@@ -2,22 +2,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import atan2, hypot, pi
+from math import atan2, hypot
 from pathlib import Path
 
 from lxml import etree
 
 from . import plan
 from .sdf import add, add_plugin, numbers, write
-from .world import (add_devices, add_openers, add_state, add_world_plugins, comment, furniture_in,
-                    include, new_world)
+from .world import (add_devices, add_openers, add_readers, add_state, add_world_plugins, comment,
+                    furniture_in, include, new_world)
 
 BEGINS = 6 * 60         # min of the day at which the worlds begin
 SPEED = 0.8             # m/s
 PAUSE = 0.6             # s, to turn
 HALL = 4.9              # y of the way along the entrance
 CHEST = "0.26 0 1.3"    # in the person's frame
-READER = (9.9, 4.82, 1.2, 0, 0, pi)
 
 # room: its door from the entrance's side, the first place behind it, and places in it
 WAYS: dict[str, tuple[tuple[float, float], ...]] = {
@@ -151,7 +150,7 @@ def write_day(folder: Path, name: str, day: Day) -> None:
         for suffix, (x, y, yaw) in zip("ab", corners):
             include(world, "pir", f"{room}_pir0_{suffix}",
                     (x, y, plan.PIR_HEIGHT, 0, plan.PIR_PITCH, yaw))
-    include(world, "rfid_reader", "workroom_rfid0", READER)
+    add_readers(world)
     comment(world, "who lives there")
     add_person(world, day)
     add_state(world, name, [f"{room}_door0" for room in plan.ROOMS if room != "entrance"])

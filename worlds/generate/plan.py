@@ -146,6 +146,9 @@ LUX = {
     "bathroom": (6.45, 9.51, -pi / 2),
 }
 
+# room: an RFID reader that faces who comes in, on floor 0: x, y, z, yaw
+READERS = {"workroom": (9.9, 4.82, 1.2, pi)}
+
 # room: (model, suffix of the name, x, y, yaw); pieces face +x
 FURNITURE = {
     "entrance": (

@@ -108,6 +108,12 @@ def _add_sensors(world: etree._Element, floor: int) -> None:
                 (x, y, plan.LUX_HEIGHT + z, 0, plan.LUX_PITCH, yaw))
 
 
+def add_readers(world: etree._Element) -> None:
+    """Appends the RFID readers."""
+    for room, (x, y, z, yaw) in plan.READERS.items():
+        include(world, "rfid_reader", f"{room}_rfid0", (x, y, z, 0, 0, yaw))
+
+
 def furniture_in(room: str, floor: int) -> list[tuple[str, str, Pose]]:
     """Returns model, name and pose of each piece in a room."""
     found = []
@@ -215,6 +221,7 @@ def write_angen(folder: Path) -> None:
         add_openers(world, floor)
         comment(world, f"floor {floor}: appliances, and sensors of power, sound and radio")
         _add_appliances(world, floor)
+    add_readers(world)
     x, y, yaw = plan.ROBOT
     comment(world, "who moves")
     _add_transmitter(include(world, "turtlebot", "turtlebot", (x, y, 0.001, 0, 0, yaw)),

@@ -44,6 +44,22 @@ TEST(Simulation, AStepIsAnsweredWhenItsTicksAreDone) {
   EXPECT_EQ(simulation->tick()->tick, 3);
 }
 
+TEST(Simulation, ANoteBecomesAnEventOfThatTick) {
+  const auto simulation = floor_only();
+  simulation->tick();
+  std::future<Outcome> noted = simulation->post(Note{"clock", "test", "struck", "twelve"});
+  const auto snapshot = simulation->tick();
+  ASSERT_EQ(snapshot->events.size(), 1U);
+  const Event& event = snapshot->events.front();
+  EXPECT_EQ(event.source, "clock");
+  EXPECT_EQ(event.kind, "test");
+  EXPECT_EQ(event.event, "struck");
+  EXPECT_EQ(event.detail, "twelve");
+  EXPECT_EQ(event.stamp, snapshot->step);
+  ASSERT_TRUE(ready(noted));
+  EXPECT_TRUE(noted.get().ok);
+}
+
 TEST(Simulation, CommandsFromManyThreadsAreEachAnsweredOnce) {
   const auto simulation = floor_only();
   std::vector<std::thread> threads;
