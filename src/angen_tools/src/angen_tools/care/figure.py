@@ -17,7 +17,7 @@ DEGREE, WARNED, SEEN = '#5b8db8', '#c8372d', '#e8a33d'  # SEEN: acknowledged
 SIGNAL, AGAINST, NIGHT = '#3f5566', '#a9bac6', '#8577b0'
 LANE = 0.26     # height of a signal's lane; the degree's is 1
 WIDTH = 12.0    # in
-LEAST = 1 / 800  # of the whole time: what lasts shorter is drawn so long
+LEAST = 1 / 800  # of the whole time: what is shorter is drawn as long as that
 STEPS = (MINUTE, 5 * MINUTE, 10 * MINUTE, 30 * MINUTE, HOUR, 2 * HOUR, 3 * HOUR, 6 * HOUR,
          12 * HOUR, DAY)
 
@@ -102,7 +102,7 @@ def _label(ax: Any, engine: Engine, warning: CareWarning) -> None:
 
 
 def _draw_lane(ax: Any, engine: Engine, condition: Condition, low: float) -> None:
-    """When a condition's signal was so, or its time of day."""
+    """When the signal of a condition was true, or its time of day."""
     height = 0.55 * LANE
     least = LEAST * (engine.now - engine.began)
     if condition.time is not None:

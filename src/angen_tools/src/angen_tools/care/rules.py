@@ -9,7 +9,7 @@ from angen_tools.care.membership import Trapezoid
 
 @dataclass(frozen=True)
 class Signal:
-    """Something that is so or not: any of some sensors or devices is in a state.
+    """True while any of some sensors or devices is in a state.
 
     With `elsewhere` it lasts from that state in one of `of` until one of `elsewhere` that is not
     in `of` comes into the state: where somebody was detected last.
@@ -25,12 +25,11 @@ class Signal:
 
 @dataclass(frozen=True)
 class Condition:
-    """A signal that is so, or with `negated` is not; without one a time of day. Degrees of
-    memberships multiply or, with min, the least counts."""
+    """A signal that is true, or with `negated` false; without a signal a time of day."""
 
     signal: str
     negated: bool
-    lasting: Trapezoid | None  # how long it has been so, s
+    lasting: Trapezoid | None  # for how long, s
     began: Trapezoid | None    # the time of day at which that began, s
     time: Trapezoid | None     # the time of day now, s
 

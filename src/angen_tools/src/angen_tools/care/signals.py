@@ -1,4 +1,4 @@
-"""Signals as they are at a time: events come in, whether each is so and since when goes out."""
+"""The state of signals: events in; whether each is true, and since when, out."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -25,11 +25,11 @@ class Event:
 
 
 class LiveSignal:
-    """A signal, and since when it has been so or not."""
+    """A signal, and since when it has been true or false."""
 
     def __init__(self, signal: Signal, existing: Collection[str], summaries: Mapping[str, str],
                  now: float) -> None:
-        """`summaries`: what each KIND/NAME shows now, as on /angen/summary."""
+        """`summaries`: what each KIND/NAME shows, as on /angen/summary."""
         self.signal = signal
         self._of = chosen(signal.of, existing)
         self._elsewhere = chosen(signal.elsewhere, existing) - self._of
@@ -37,7 +37,7 @@ class LiveSignal:
                       for part in self._shown(source, summaries.get(source, ''))}
         self.on = bool(self._held)
         self.since = now
-        self.periods: list[tuple[float, float]] = []  # in which it was so, s; without the present
+        self.periods: list[tuple[float, float]] = []  # in which it was true, s; those that ended
 
     def _shown(self, source: str, summary: str) -> set[tuple[str, str]]:
         kind = source.split('/')[0]
@@ -68,7 +68,7 @@ class LiveSignal:
         return True
 
     def all_periods(self, now: float) -> list[tuple[float, float]]:
-        """The times in which it was so, up to now."""
+        """The periods in which it was true, up to now."""
         return [*self.periods, (self.since, now)] if self.on else list(self.periods)
 
     def _observe_own(self, event: Event) -> None:

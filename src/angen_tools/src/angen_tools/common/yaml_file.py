@@ -37,8 +37,8 @@ class YamlFile:
         """A mapping's values by key; with `keys` no others are known."""
         known = list(keys)
         if not isinstance(node, yaml.MappingNode):
-            wanted = f' with {", ".join(known)}' * bool(known)
-            raise self.fail(node, f'{what} must be a mapping{wanted}')
+            wanted = f'have {", ".join(known)}' if known else 'be a mapping'
+            raise self.fail(node, f'{what} must {wanted}')
         found: dict[str, Any] = {}
         for key, value in node.value:
             name = self.text(key, 'a key')
