@@ -52,6 +52,31 @@ Eigen::VectorXd joint_positions(const World& world) {
   return all;
 }
 
+// Where a model's first link is; its pose in the file where it has none.
+Pose place_of(const sim::Snapshot& snapshot, std::uint32_t model) {
+  const std::vector<sim::LinkEntry>& links = snapshot.structure->links;
+  const auto first = std::find_if(links.begin(), links.end(),
+                                  [model](const auto& link) { return link.model == model; });
+  if (first == links.end()) return snapshot.structure->models[model]->pose;
+  return snapshot.link_poses[static_cast<std::size_t>(first - links.begin())];
+}
+
+std::vector<pyb::tuple> entities(const World& world, const std::string& kind) {
+  const sim::Snapshot& now = world.now();
+  std::vector<pyb::tuple> all;
+  const auto add = [&](const auto& entry, const Pose& pose) {
+    all.push_back(pyb::make_tuple(entry.kind, entry.name, now.structure->models[entry.model]->name,
+                                  to_row(pose)));
+  };
+  for (const sim::DeviceEntry& device : now.structure->devices) {
+    if (kind.empty() || device.kind == kind) add(device, place_of(now, device.model));
+  }
+  for (const sim::SensorEntry& sensor : now.structure->sensors) {
+    if (kind.empty() || sensor.kind == kind) add(sensor, now.link_poses[sensor.link] * sensor.pose);
+  }
+  return all;
+}
+
 // In slices so that Ctrl-C ends a long run.
 void advance(World& world, std::uint64_t ticks, void (World::*advance)(std::uint64_t)) {
   constexpr std::uint64_t kSlice = 10000;
@@ -126,6 +151,10 @@ void bind_world(pyb::module_& module) {
             return names_of_kind(w.now().structure->devices, kind);
           },
           pyb::arg("kind") = "")
+      .def(
+          "entities", &entities, pyb::arg("kind") = "",
+          "Devices and sensors: (kind, name, model, pose); pose is x y z qx qy qz qw in the world, "
+          "of a sensor, or of the first link of a device's model.")
       .def_property_readonly(
           "time", [](const World& w) { return to_seconds(w.now().time); }, "s")
       .def_property_readonly("tick", [](const World& w) { return w.now().tick; })
