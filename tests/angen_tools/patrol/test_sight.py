@@ -6,8 +6,9 @@ import math
 import numpy as np
 import pytest
 
-from angen_tools.patrol.sight import View, hidden, room_of
+from angen_tools.patrol.sight import hidden
 from angen_tools.robot.planner import Door
+from angen_tools.robot.views import View, room_of
 
 
 def test_a_leaf_hides_what_is_behind_it_and_not_above() -> None:

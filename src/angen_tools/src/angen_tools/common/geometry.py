@@ -26,7 +26,11 @@ def yaw_of(q: Any) -> float:
 
 def rotation(q: Any) -> np.ndarray:
     """The 3 x 3 matrix of a geometry_msgs/Quaternion."""
-    x, y, z, w = q.x, q.y, q.z, q.w
+    return rotation_of(q.x, q.y, q.z, q.w)
+
+
+def rotation_of(x: float, y: float, z: float, w: float) -> np.ndarray:
+    """The 3 x 3 matrix of a quaternion."""
     return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
                      [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
                      [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])

@@ -14,7 +14,7 @@ from angen_tools.common.failure import Failure
 RESOLUTION = 0.05  # m; cells are centered on its multiples, where the faces of buildings lie
 STOREY = 4.0  # m
 LOW, HIGH = 0.02, 0.45  # m above the floor: what a robot of that height can meet
-LEVELS = np.arange(LOW, HIGH, 0.02)
+LEVEL = 0.02  # m from one height of rays to the next
 FINE = 0.01  # m between rays: what is thinner both ways may be missed
 STEP_DOWN = 0.05  # m: ground that lies deeper is not a floor
 REACH = 60.0  # m: how far from the origin a building may stand
@@ -82,8 +82,8 @@ def load_world(path: str) -> Any:
         raise Failure(str(error)) from None
 
 
-def make_map(world: Any, floor: int, doors: str = 'away') -> GridMap:
-    """The map of a floor: what stands between LOW and HIGH above it. Changes the world.
+def make_map(world: Any, floor: int, doors: str = 'away', high: float = HIGH) -> GridMap:
+    """The map of a floor: what stands between LOW and `high` (m) above it. Changes the world.
 
     Robots and people are left out; elevators stand at that floor with open doors, as far as they
     serve it. Doors are left out (`doors='away'`), or stand `'open'` or `'shut'`. FREE is floor
@@ -91,7 +91,7 @@ def make_map(world: Any, floor: int, doors: str = 'away') -> GridMap:
     is not a floor, are UNKNOWN. Failure where the world has no such floor; it names those it has.
     """
     _prepare(world, floor, doors)
-    surveyor = _Surveyor(world)
+    surveyor = _Surveyor(world, high)
     bounds = surveyor.bounds(floor)
     if bounds is None:
         known = ', '.join(str(known) for known in floors(world))
@@ -165,9 +165,10 @@ def _shrunk(mask: np.ndarray, radius: float) -> np.ndarray:
 class _Surveyor:
     """Rays over whole floors of a world."""
 
-    def __init__(self, world: Any) -> None:
+    def __init__(self, world: Any, high: float = HIGH) -> None:
         from angen_tools.maps.rays import Caster
         self._caster = Caster(world)
+        self._high, self._levels = high, np.arange(LOW, high, LEVEL)
 
     def bounds(self, floor: int) -> tuple[int, int, int, int] | None:
         """West and south in cells, columns and rows of all that stands on a floor, with a margin.
@@ -178,10 +179,10 @@ class _Surveyor:
         met = []
         for axis in (0, 1):
             for sign in (1, -1):
-                origins = np.zeros((len(across), len(LEVELS), 3))
+                origins = np.zeros((len(across), len(self._levels), 3))
                 origins[..., axis] = -sign * REACH
                 origins[..., 1 - axis] = across[:, None]
-                origins[..., 2] = floor * STOREY + LEVELS
+                origins[..., 2] = floor * STOREY + self._levels
                 origins = origins.reshape(-1, 3)
                 ranges = self._cast(origins, axis, sign, 2 * REACH)
                 origins[:, axis] += sign * ranges
@@ -195,10 +196,10 @@ class _Surveyor:
                 north - south + 1 + 2 * margin)
 
     def surfaces(self, x: np.ndarray, y: np.ndarray, floor: int) -> np.ndarray:
-        """Which cells (rows, columns) around y, x (m) hold a surface between LOW and HIGH."""
+        """Which cells (rows, columns) around y, x (m) hold a surface at the heights of the map."""
         found = np.zeros((len(y), len(x)), bool)
         aside = np.arange(-2, 3) * FINE
-        heights = floor * STOREY + LEVELS
+        heights = floor * STOREY + self._levels
         for axis, along, across in ((0, x, y), (1, y, x)):
             lines = np.array([(a, z) for a in (across[:, None] + aside).ravel() for z in heights])
             starts = np.zeros((len(lines), 3))
@@ -208,8 +209,8 @@ class _Surveyor:
                 rows = np.rint((points[:, 1] - y[0]) / RESOLUTION).astype(int)
                 columns = np.rint((points[:, 0] - x[0]) / RESOLUTION).astype(int)
                 found[rows, columns] = True
-        from_above = self._vertical(x, y, floor * STOREY + HIGH, -1, HIGH - LOW)
-        return found | (from_above < HIGH - LOW)
+        from_above = self._vertical(x, y, floor * STOREY + self._high, -1, self._high - LOW)
+        return found | (from_above < self._high - LOW)
 
     def ground(self, x: np.ndarray, y: np.ndarray, floor: int) -> tuple[np.ndarray, np.ndarray]:
         """Which cells have floor beneath, small gaps apart, and which also HEADROOM above."""

@@ -8,23 +8,24 @@ import sys
 import time
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 from angen_tools.common.failure import Failure
 from angen_tools.common.output import as_json, show
 from angen_tools.common.progress import Progress
 from angen_tools.live.sandbox import Sandbox, wait
 from angen_tools.patrol import scene
-from angen_tools.patrol.drive import BUMPER, CYCLE, Patrol
+from angen_tools.patrol.drive import Patrol, RosRobot
 from angen_tools.patrol.figure import draw
 from angen_tools.patrol.lockstep import Lockstep
 from angen_tools.patrol.report import (Run, make_rows, measure, plans, summary, table_of, verdict,
                                        write_figures, write_tables)
+from angen_tools.robot.building import Entity
+from angen_tools.robot.interface import BASE, BUMPER, CYCLE, bumper
 from angen_tools.robot.route_file import read_route
 from angen_tools.world.models import collisions, worlds_models
 from angen_tools.world.sdf import read
 
-BASE = 'base_footprint'  # the robot's link that carries its body
-ROLLS = ('wheel', 'tread', 'caster')  # a collision with this in its name may touch the floor
 RECORDED = (f'/angen/(?!contact/{BUMPER})'
             '(pir|switch|luminosity|contact|door|elevator|lamp|events|stats|markers).*'
             '|/gazebo/.*_controller|/clock|/tf|/tf_static')
@@ -61,13 +62,14 @@ def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, 
     with Sandbox((out / 'logs').absolute()) as sandbox:
         sandbox.node(own_world, 0.0, paused='true', seed=seed)
         lockstep = Lockstep(CYCLE)
-        entities = lockstep.entities()
+        entities = [entity_of(message) for message in lockstep.entities()]
         place, actions = scene.make_scene(route, str(own_world), entities,
                                           scene.start_offset(seed))
         put_bumper(lockstep, route.robot, own_world)
         clock = Clock(rate)
-        drive = Patrol(route, place, lockstep, seed, clock.cycle, clock.note)
-        drive.connect()
+        robot = RosRobot(route, place, lockstep)
+        drive = Patrol(route, place, robot, seed, clock.cycle, clock.note)
+        robot.connect()
         bag = Bag(sandbox, out.absolute() / 'patrol.bag', route.robot)
         lockstep.wait_for_subscribers(2)
         if rate > 0:
@@ -77,8 +79,8 @@ def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, 
         drive.run(actions)
         took = clock.end()
         bag.close()
-    run = Run(route.robot, place, drive.track, lockstep.events,
-              [e for e in entities if e.kind in SENSORS], drive.door_angles())
+    run = Run(route.robot, place, drive.track, drive.reached, lockstep.events,
+              [e for e in entities if e.kind in SENSORS], robot.door_angles())
     rows, found = make_rows(run, own_world), measure(run, seed, took)
     write_tables(run, rows, out)
     for floor, name in zip(sorted(place.maps), plans(run)):
@@ -95,14 +97,17 @@ def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, 
 def put_bumper(lockstep: Lockstep, robot: str, world: Path) -> None:
     """Puts a sensor on the robot that samples each step the contacts of what may touch nothing."""
     link = f'{robot}::{BASE}'
-    names = [name for name in collisions(read(world), link)
-             if not any(part in name for part in ROLLS)]
+    names = collisions(read(world), link)
     if not names:
         raise Failure(f'the robot {robot} has no link {BASE} with collisions')
-    parts = ''.join(f'<collision>{name}</collision>' for name in names)
-    lockstep.spawn(BUMPER, f'<sensor name="{BUMPER}" type="contact"><update_rate>1000'
-                   f'</update_rate><contact>{parts}</contact><plugin name="bumper" '
-                   'filename="libgazebo_ros_bumper.so"/></sensor>', link)
+    lockstep.spawn(BUMPER, bumper(names), link)
+
+
+def entity_of(message: Any) -> Entity:
+    """An angen_msgs/Entity."""
+    at, turned = message.pose.position, message.pose.orientation
+    return Entity(message.kind, message.name, message.model,
+                  (at.x, at.y, at.z, turned.x, turned.y, turned.z, turned.w), message.topic)
 
 
 def watch(sandbox: Sandbox) -> None:

@@ -6,10 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from angen_tools.common.geometry import rotation
 from angen_tools.maps.gridmap import FREE, OCCUPIED, STOREY
-from angen_tools.patrol.drive import floor_of
 from angen_tools.patrol.report import Row, Run, begun, moving
+from angen_tools.robot.building import Entity
 from angen_tools.robot.route_file import Route
 
 TRACK, SWITCH, NEUTRAL, TEXT = '#1f6fb4', '#2a8c3c', '#505050', '#303030'
@@ -34,7 +33,7 @@ def draw(run: Run, rows: list[Row], route: Route, floor: int, path: Path) -> Non
     axes.plot(line[:, 0], line[:, 1], color=TRACK, linewidth=1.2, zorder=3)
     entities = {entity.name: entity for entity in run.sensors}
     shown = [row for row in rows if row.kind in ('pir', 'switch')
-             and floor_of(entities[row.sensor].pose.position.z) == floor]
+             and entities[row.sensor].floor == floor]
     pirs = [row.sensor for row in shown if row.kind == 'pir']
     colors = {name: PIRS[i % len(PIRS)] for i, name in enumerate(pirs)}
     for i, name in enumerate(pirs):
@@ -115,13 +114,13 @@ def plan(axes: Any, run: Run, floor: int) -> None:
                   south + (rows.max() + margin) * grid.resolution)
 
 
-def mark(axes: Any, row: Row, entity: Any, track: np.ndarray, color: str) -> None:
+def mark(axes: Any, row: Row, entity: Entity, track: np.ndarray, color: str) -> None:
     """A sensor, its label, and where the robot was when it first detected it."""
-    place = np.array([entity.pose.position.x, entity.pose.position.y])
+    place = entity.place[:2]
     axes.plot(*place, '^' if row.kind == 'pir' else 's', color=color, markersize=7, zorder=4,
               markeredgecolor='black', markeredgewidth=0.6, linestyle='none')
     if row.kind == 'pir':
-        ahead = rotation(entity.pose.orientation)[:2, 0]
+        ahead = entity.rotation[:2, 0]
         ahead = ahead / np.linalg.norm(ahead)
     else:
         ahead = np.array([0.0, 0.5])

@@ -10,6 +10,7 @@ import time
 from typing import Any, Callable
 
 from angen_tools.common.failure import Failure
+from angen_tools.robot.interface import Event
 
 LIMIT = 30.0  # s of wall time for any message
 
@@ -20,12 +21,12 @@ class Lockstep:
     def __init__(self, cycle: float) -> None:
         import rospy
 
-        from angen_msgs.msg import Event
+        from angen_msgs.msg import Event as EventMessage
         from angen_msgs.srv import List, Step
         rospy.init_node('angen_task', disable_signals=True, disable_rosout=True)
         self.cycle = cycle
         self.now = 0.0
-        self.events: list[Any] = []  # angen_msgs/Event, in their order
+        self.events: list[Event] = []  # in their order
         self.kept: dict[str, list[Any]] = {}
         self._news = threading.Condition()
         self._step = rospy.ServiceProxy('/angen/step', Step, persistent=True)
@@ -35,7 +36,8 @@ class Lockstep:
         self._topics: list[str] = []
         self._publishers: dict[str, Any] = {}
         self._latest: dict[str, Any] = {}
-        self._subscribers = [rospy.Subscriber('/angen/events', Event, self._receive_event)]
+        self._subscribers = [rospy.Subscriber('/angen/events', EventMessage,
+                                              self._receive_event)]
         began = self._call(0).sim_time
         self._ticks = round(cycle / (self._call(1).sim_time - began).to_sec())
 
@@ -78,7 +80,8 @@ class Lockstep:
 
     def _receive_event(self, message: Any) -> None:
         with self._news:
-            self.events.append(message)
+            self.events.append(Event(message.header.stamp.to_sec(), message.source, message.kind,
+                                     message.event, message.detail))
             self._news.notify_all()
 
     def _wait(self, condition: Callable[[], bool], what: str) -> None:

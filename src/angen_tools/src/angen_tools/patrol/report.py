@@ -5,7 +5,7 @@ import csv
 import math
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,8 +16,14 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 from angen_tools.maps.gridmap import STOREY
-from angen_tools.patrol.drive import BUMPER, CYCLE, Scene, Track, floor_of
-from angen_tools.patrol.sight import Sight, room_of, sensor_element, view_of
+from angen_tools.patrol.scene import Scene
+from angen_tools.patrol.sight import Sight
+from angen_tools.robot import interface
+from angen_tools.robot.building import Entity
+from angen_tools.robot.driver import Track
+from angen_tools.robot.interface import BUMPER, CYCLE, Event
+from angen_tools.robot.tables import write_events, write_track
+from angen_tools.robot.views import room_of, sensor_element, view_of
 
 TIMES = ('SIGHT s', 'DETECTED s', 'DELAY s')
 BEGINS = {'pir': ('motion',), 'switch': ('opened', 'closed'), 'luminosity': ('changed',)}
@@ -50,19 +56,19 @@ class Run:
     robot: str
     scene: Scene
     track: Track
-    events: list[Any]  # angen_msgs/Event
-    sensors: list[Any]  # angen_msgs/Entity
+    reached: list[tuple[float, str]]  # s, waypoint
+    events: list[Event]
+    sensors: list[Entity]
     angles: dict[str, list[tuple[float, float]]]  # of doors: s, rad from shut
 
     def of(self, source: str, kind: str) -> list[tuple[float, str, str]]:
         """Time (s), name and detail of a source's events."""
-        return [(e.header.stamp.to_sec(), e.event, e.detail) for e in self.events
+        return [(e.time, e.event, e.detail) for e in self.events
                 if (e.source, e.kind) == (source, kind)]
 
     def collisions(self) -> list[tuple[float, str]]:
         """When the robot touched what it must not, and what."""
-        return [(t, detail) for t, event, detail in self.of(BUMPER, 'contact')
-                if event == 'pressed']
+        return interface.collisions(self.events)
 
 
 def begun(events: list[tuple[float, str, str]], kind: str) -> list[tuple[float, float]]:
@@ -95,7 +101,7 @@ def make_rows(run: Run, world: Path) -> list[Row]:
             first = next((t for t, _ in detected
                           if seen is not None and t >= seen - STATE_PERIOD), None)
         else:
-            here = track[floors == floor_of(entity.pose.position.z)]
+            here = track[floors == entity.floor]
             seen = sight.first(view_of(entity, sensor_element(described, entity)), here)
             first = first_detection(seen, detected, moved)
         rows.append(Row(room_of(entity.name), entity.name, entity.kind, seen, first))
@@ -124,7 +130,7 @@ def first_detection(seen: float | None, detected: list[tuple[float, float]], mov
     return None
 
 
-def contact_row(run: Run, entity: Any) -> list[Row]:
+def contact_row(run: Run, entity: Entity) -> list[Row]:
     """A contact sensor's row, if the robot touched it: there is no line of sight to a touch."""
     touched = [t for t, event, detail in run.of(entity.name, 'contact')
                if event == 'pressed' and f'{run.robot}::' in detail]
@@ -133,7 +139,7 @@ def contact_row(run: Run, entity: Any) -> list[Row]:
     return [Row(room_of(entity.name), entity.name, 'contact', None, touched[0])]
 
 
-def beam_change(run: Run, entity: Any) -> float | None:
+def beam_change(run: Run, entity: Entity) -> float | None:
     """When the door of a switch first passed the angle at which its beam comes free, s."""
     angles = run.angles.get(room_of(entity.name))
     limit = run.scene.beams.get(entity.name)
@@ -154,26 +160,12 @@ def write_tables(run: Run, rows: list[Row], out: Path) -> None:
     """Writes events.csv, rooms.csv and track.csv into a folder; times in s, blank where there is
     none."""
     write_track(run.track, out)
-    with (out / 'events.csv').open('w', newline='') as file:
-        lines = csv.writer(file)
-        lines.writerow(['time_s', 'source', 'kind', 'event', 'detail'])
-        lines.writerows([f'{e.header.stamp.to_sec():.3f}', e.source, e.kind, e.event, e.detail]
-                        for e in run.events)
+    write_events(run.events, out)
     with (out / 'rooms.csv').open('w', newline='') as file:
         lines = csv.writer(file)
         lines.writerow(['room', 'sensor', 'kind', 'first_sight_s', 'first_detection_s', 'delay_s'])
         lines.writerows([row.room, row.sensor, row.kind, *times(row, '')]
                         for row in rows)
-
-
-def write_track(track: Track, out: Path) -> None:
-    """Writes track.csv: where the robot was, took itself to be, and would by its wheels alone."""
-    with (out / 'track.csv').open('w', newline='') as file:
-        lines = csv.writer(file)
-        lines.writerow(['time_s', 'x_m', 'y_m', 'z_m', 'yaw_rad', 'believed_x_m', 'believed_y_m',
-                        'wheels_x_m', 'wheels_y_m'])
-        for row, believed, wheels in zip(track.rows, track.believed, track.odometry):
-            lines.writerow([f'{value:.4f}' for value in (*row, *believed, *wheels)])
 
 
 def times(row: Row, none: str) -> list[str]:
@@ -205,7 +197,7 @@ def measure(run: Run, seed: int, wall: float) -> Figures:
     aside, wheels = (np.linalg.norm(np.array(places) - track[:, 1:3], axis=1)
                      for places in (run.track.believed, run.track.odometry))
     return Figures(
-        seed, len(run.track.reached),
+        seed, len(run.reached),
         float(np.linalg.norm(np.diff(track[:, 1:3], axis=0), axis=1).sum()),
         float(track[-1, 0]), wall, len(run.collisions()),
         max((1000 * abs(error) for _, error in run.track.levels), default=0.0),

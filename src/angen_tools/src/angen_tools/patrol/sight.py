@@ -2,74 +2,22 @@
 from __future__ import annotations
 
 import math
-import re
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from lxml import etree
 
-from angen_tools.common.geometry import rotation
 from angen_tools.maps.gridmap import models_with
 from angen_tools.maps.rays import Caster
+from angen_tools.robot.building import Entity
 from angen_tools.robot.planner import Door
-from angen_tools.world import sdf
-from angen_tools.world.models import find
+from angen_tools.robot.views import View, room_of
 
 AROUND = 1.0  # m from a robot's axis, from where its outline is sampled
 SIDES, HEIGHTS = 16, np.arange(0.03, 1.5, 0.06)  # rays that find a robot's outline; m
 BEAM = 0.5  # m
-FAR = 20.0  # m: how far a sensor without a range sees
 CHUNK = 50  # positions at a time
 TICKS, SAMPLES = 5, 120  # ticks between two samples of the beams of opening doors, and how many
 CHANGED = 0.05  # m by which a cut beam is shorter
-
-
-@dataclass(frozen=True)
-class View:
-    """What a sensor sees: half angles about its x axis (rad) and reach (m)."""
-
-    position: np.ndarray  # (3,)
-    rotation: np.ndarray  # (3, 3), sensor to world
-    left: float
-    up: float
-    reach: float
-
-    def holds(self, points: np.ndarray) -> np.ndarray:
-        """Which of the points (n, 3) lie in it."""
-        local = (points - self.position) @ self.rotation
-        yaw = np.arctan2(local[:, 1], local[:, 0])
-        pitch = np.arctan2(local[:, 2], np.hypot(local[:, 0], local[:, 1]))
-        return ((np.linalg.norm(local, axis=1) <= self.reach) & (np.abs(yaw) <= self.left)
-                & (np.abs(pitch) <= self.up))
-
-
-def sensor_element(world: etree._Element, entity: Any) -> etree._Element | None:
-    """The <sensor> of an entity's kind in a world's file; None where it is not found there."""
-    for entry in world.iterfind('world/*'):
-        if (entry.findtext('name') or entry.get('name', '')).strip() != entity.model:
-            continue
-        if entry.tag == 'include':
-            file = find(entry.findtext('uri', '').strip())
-            entry = sdf.read(file) if file and file.exists() else entry
-        return next(iter(entry.iter('sensor')), None)
-    return None
-
-
-def view_of(entity: Any, sensor: etree._Element | None) -> View:
-    """The view of a PIR by its <ray>, its nodding included; of another sensor all that is ahead."""
-    place = entity.pose.position
-    at, turned = np.array([place.x, place.y, place.z]), rotation(entity.pose.orientation)
-    if entity.kind != 'pir' or sensor is None:
-        return View(at, turned, math.pi / 2, math.pi / 2, FAR)
-    up = (_number(sensor, 'ray/scan/vertical/max_angle', 0.0)
-          + _number(sensor, 'plugin/nod_amplitude', 0.0))
-    return View(at, turned, _number(sensor, 'ray/scan/horizontal/max_angle', math.pi / 4), up,
-                _number(sensor, 'ray/range/max', 6.0))
-
-
-def _number(element: etree._Element, path: str, fallback: float) -> float:
-    return float(element.findtext(path) or fallback)
 
 
 def hidden(origin: np.ndarray, points: np.ndarray, door: Door, turned: np.ndarray) -> np.ndarray:
@@ -153,15 +101,14 @@ class Sight:
         return free
 
 
-def beam_angles(world: Any, doors: dict[str, Door], switches: list[Any]) -> dict[str, float]:
+def beam_angles(world: Any, doors: dict[str, Door], switches: list[Entity]) -> dict[str, float]:
     """How far (rad) each switch's door has turned from shut when its beam comes free.
 
     `doors` by model, all shut; they are opened for it. A switch belongs to the door of its room.
     """
     caster = Caster(world)
-    origins = np.array([[s.pose.position.x, s.pose.position.y, s.pose.position.z]
-                        for s in switches]).reshape(-1, 3)
-    ways = np.array([rotation(s.pose.orientation)[:, 0] for s in switches]).reshape(-1, 3)
+    origins = np.array([s.place for s in switches]).reshape(-1, 3)
+    ways = np.array([s.rotation[:, 0] for s in switches]).reshape(-1, 3)
     joints = {door.name: world.joints.index(f'{model}::hinge') for model, door in doors.items()}
     shut = caster.cast(origins, ways, BEAM)
     for name in joints:
@@ -176,9 +123,3 @@ def beam_angles(world: Any, doors: dict[str, Door], switches: list[Any]) -> dict
             if free and room in joints:
                 found.setdefault(switch.name, abs(float(positions[joints[room]])))
     return found
-
-
-def room_of(sensor: str) -> str:
-    """`kitchen0` of `kitchen_pir0_a`; the whole name where it has no such form."""
-    found = re.match(r'([a-z]+)_[a-z_]*?(\d+)', sensor)
-    return found[1] + found[2] if found else sensor

@@ -45,6 +45,16 @@ class Pilot:
         self._acceleration = acceleration
         self._next = 0
         self._v = self._w = 0.0
+        self.arrived = False
+
+    @property
+    def left(self) -> list[Point]:
+        """The points that are still ahead."""
+        return self._points[self._next:]
+
+    def stop(self, dt: float) -> tuple[float, float] | None:
+        """Speed and turn for the next dt seconds of a robot that brakes; None once it stands."""
+        return None if self._v == 0.0 and self._w == 0.0 else self._ramp(0.0, 0.0, dt)
 
     def steer(self, pose: Pose, dt: float) -> tuple[float, float] | None:
         """Speed and turn for the next dt seconds; None once it has arrived and stands."""
@@ -52,9 +62,8 @@ class Pilot:
         left = math.dist((pose.x, pose.y), end)
         if left < ARRIVED or (self._next == len(self._points) - 1 and left < 3 * ARRIVED
                               and abs(self._bearing(pose, end)) > math.pi / 2):
-            if self._v == 0.0 and self._w == 0.0:
-                return None
-            return self._ramp(0.0, 0.0, dt)
+            self.arrived = self._v == 0.0 and self._w == 0.0
+            return self.stop(dt)
         target = self._target(pose)
         error = self._bearing(pose, target)
         if abs(error) > TURN_FIRST or (self._v == 0.0 and abs(error) > 0.1):

@@ -46,6 +46,30 @@ class Planner:
         rows, columns = self._passable.shape
         return 0 <= row < rows and 0 <= column < columns and bool(self._passable[row, column])
 
+    @property
+    def passable(self) -> np.ndarray:
+        """The cells (rows, columns) where the robot can stand."""
+        return self._passable
+
+    def nearest(self, point: Point, reach: float) -> Point | None:
+        """The point, or the nearest place within `reach` (m) where the robot can stand."""
+        if self.stands(point):
+            return point
+        rows, columns = np.nonzero(self._passable)
+        away = np.hypot(self.grid.origin[0] + (columns + 0.5) * self.grid.resolution - point[0],
+                        self.grid.origin[1] + (rows + 0.5) * self.grid.resolution - point[1])
+        best = int(away.argmin()) if len(away) else -1
+        if best < 0 or away[best] > reach:
+            return None
+        return self.grid.point(int(rows[best]), int(columns[best]))
+
+    def costs(self, start: Point) -> np.ndarray:
+        """What the way from start to each cell (rows, columns) costs, in m of open floor."""
+        columns = self._passable.shape[1]
+        row, column = self.grid.cell(*start)
+        found = dijkstra(self._graph, indices=row * columns + column)
+        return found.reshape(self._passable.shape) * self.grid.resolution
+
     def way(self, start: Point, goal: Point) -> list[Point] | None:
         """Points from start to goal, about a cell apart; None where there is no way."""
         if not (self.stands(start) and self.stands(goal)):
