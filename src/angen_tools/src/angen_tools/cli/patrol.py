@@ -5,7 +5,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from angen_tools.cli.arguments import at_least, checked, rate
+from angen_tools.cli.arguments import at_least, checked, duration, rate
 from angen_tools.cli.parser import add_json, add_out, command
 
 
@@ -21,7 +21,7 @@ def run_patrol(args: argparse.Namespace) -> int:
 
 
 def add_task(commands: Any) -> None:
-    """angen task patrol."""
+    """angen task patrol, angen task seek."""
     task = command(commands, 'task', run_patrol, 'runs a task of the robot in a node of its own',
                    'task patrol')
     kinds = task.add_subparsers(dest='what', metavar='WHAT', required=True)
@@ -43,3 +43,35 @@ def add_task(commands: Any) -> None:
                         '0: as fast as possible, without rviz (0)')
     add_json(patrol)
     add_out(patrol, 'everything that it writes')
+    add_seek(kinds)
+
+
+def run_seek(args: argparse.Namespace) -> int:
+    from angen_tools.seek.command import seek, seek_seeds
+    if args.seeds > 1:
+        return seek_seeds(args.route, args.world, range(args.seed, args.seed + args.seeds),
+                          args.limit, args.out, args.json)
+    return seek(args.route, args.world, args.seed, not args.own_sensors, args.limit, args.out,
+                args.json)
+
+
+def add_seek(kinds: Any) -> None:
+    """angen task seek."""
+    seek = command(kinds, 'seek', run_seek, 'lets the robot look for a person who walks about, by '
+                   "the building's sensors and its own, without ROS", 'task seek',
+                   'task seek --seed 7 --own-sensors', 'task seek --seeds 20')
+    seek.add_argument('--route', metavar='FILE', type=Path, help='robot, speed and elevator as '
+                      'for patrol; its waypoints do not matter (config/patrol.yaml of angen_tools)')
+    seek.add_argument('--world', metavar='FILE', type=Path, help='the building; its first actor '
+                      'is the person (worlds/angen.world)')
+    seek.add_argument('--seed', metavar='S', type=checked(at_least(0)), default=1,
+                      help='of start, noise, and the itinerary and habits of the person (1)')
+    seek.add_argument('--seeds', metavar='N', type=checked(at_least(1)), default=1,
+                      help='this many searches with, and as many without ambient sensors, on all '
+                      'cores: a table and a figure (1)')
+    seek.add_argument('--own-sensors', action='store_true',
+                      help="only the robot's own sensors, none of the building's")
+    seek.add_argument('--limit', metavar='S', type=checked(duration), default=600.0,
+                      help='simulated seconds after which it gives up (600)')
+    add_json(seek)
+    add_out(seek, 'everything that it writes')

@@ -101,5 +101,4 @@ class Belief:
 
     def rooms(self) -> dict[str, float]:
         """The probability of each room."""
-        sums = np.bincount(self._home.room, self.cells, minlength=len(self._home.rooms))
-        return {name: float(p) for name, p in zip(self._home.rooms, sums)}
+        return self._home.room_sums(self.cells)

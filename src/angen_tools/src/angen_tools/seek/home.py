@@ -72,6 +72,11 @@ class Home:
     def room_at(self, x: float, y: float, floor: int) -> str:
         return self.rooms[self.room[self.cell_at(x, y, floor)]]
 
+    def room_sums(self, cells: np.ndarray) -> dict[str, float]:
+        """The sum of a value by cell, by room."""
+        sums = np.bincount(self.room, cells, minlength=len(self.rooms))
+        return {name: float(value) for name, value in zip(self.rooms, sums)}
+
     def around(self, x: float, y: float, floor: int, radius: float) -> np.ndarray:
         """Which cells lie within `radius` (m) of a place."""
         away = np.hypot(self.at[:, 0] - x, self.at[:, 1] - y)

@@ -20,6 +20,7 @@ from angen_tools.seek.simulation import Simulation
 SPEED = 0.8  # m/s
 STAYS = (5.0, 40.0)  # s at a place
 STAND = 1.0  # s that his path pauses where he may have to wait
+STRIDE = 4  # points of a way, a square of the map apart, between two of his path
 THERE = 0.15  # m
 CLOSES = 0.6  # probability that he closes a door behind him
 LIGHTS = 0.8  # that he switches the lamp on where he stays
@@ -118,7 +119,7 @@ def _add(action: Action, waypoints: list[tuple[float, float, float]], gates: lis
     """Adds an action of a way to a path; the time and floor after it."""
     _, x, y = waypoints[-1]
     if isinstance(action, Drive):
-        for point in action.points:
+        for point in action.points[STRIDE:-1:STRIDE] + action.points[-1:]:
             far = math.dist((x, y), point)
             if far > 0.02:
                 time += far / SPEED

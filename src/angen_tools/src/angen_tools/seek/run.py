@@ -5,6 +5,7 @@ import math
 import time
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Callable
 
 import numpy as np
 from lxml import etree
@@ -75,15 +76,16 @@ def write_world(world: Path, route: Route, home: Home | None, seed: int, limit: 
 
 
 def search(world: Path, route: Route, home: Home, seed: int, ambient: bool, limit: float,
-           scratch: Path) -> Outcome:
-    """Runs one search; `scratch`: the file for its world."""
+           scratch: Path, note: Callable[[float, str], None] = lambda now, text: None) -> Outcome:
+    """Runs one search; `scratch`: the file for its world; `note` is called with the time (s) and
+    what the robot does next."""
     began = time.monotonic()
     name = write_world(world, route, home, seed, limit, scratch)
     simulation = Simulation(scratch, seed, route.robot)
     start = find_start(route, simulation.entities, start_offset(seed))
     home = replace(home, start=start)
     simulation.start(start)
-    seeker = Search(home, route, simulation, ambient)
+    seeker = Search(home, route, simulation, ambient, note)
     person: list[tuple[float, ...]] = []
     beliefs: list[tuple[float, np.ndarray]] = []
     resident = (Resident(simulation, home, route, name, plan_walk(home, route, seed, limit + 60.0),

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Callable
 
 import numpy as np
 
@@ -67,7 +68,9 @@ class Sighting:
 class Search:
     """One run. `ambient`: whether it uses the building's sensors."""
 
-    def __init__(self, home: Home, route: Route, simulation: Simulation, ambient: bool) -> None:
+    def __init__(self, home: Home, route: Route, simulation: Simulation, ambient: bool,
+                 note: Callable[[float, str], None]) -> None:
+        self._note = note
         self._home, self._route, self._simulation = home, route, simulation
         self.belief = Belief(home)
         self._ambient = Ambient(home, self.belief) if ambient else None
@@ -276,7 +279,7 @@ class Search:
         self._goal = best
         self._replan_due = self._simulation.now + REPLAN
         self._held = 0.0
-        self.goals.append((self._simulation.now, int(self._home.viewpoints[best])))
+        self._note_goal(int(self._home.viewpoints[best]))
         try:
             for action in self._actions(int(self._home.viewpoints[best])):
                 if not self._do(action):
@@ -287,6 +290,14 @@ class Search:
         else:
             for _ in range(2):
                 self._driver.cycle()
+
+    def _note_goal(self, cell: int) -> None:
+        now, rooms = self._simulation.now, self.belief.rooms()
+        said = f'; {self._ambient.last} says so' if self._ambient and self._ambient.last else ''
+        likely = max(rooms, key=lambda room: rooms[room])
+        self._note(now, f'to {self._home.rooms[self._home.room[cell]]}; most probable is {likely} '
+                   f'with {100 * rooms[likely]:.0f} %{said}')
+        self.goals.append((now, cell))
 
     def _do(self, action: Action) -> bool:
         """Does an action of a way; whether to go on with the next."""
@@ -318,6 +329,7 @@ class Search:
     def _examine(self) -> None:
         """Faces what it sees until it has moved, the camera sees a person, or it is neither."""
         end = self._simulation.now + PATIENCE
+        self._note(self._simulation.now, 'sees something that the map has not')
         self._simulation.want_depth(True)
         try:
             while self._sighting is not None and self._simulation.now < min(end, self.limit):
