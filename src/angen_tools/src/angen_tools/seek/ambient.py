@@ -60,11 +60,11 @@ class Ambient:
                 self._light(event)
             elif event.kind in POINT and event.event in BEGINS:
                 self._point(event, robot)
+        beside = self._home.around(robot.x, robot.y, robot.floor, ROBOT_NEAR)
         for pir in self._home.pirs:
             motion = pir.name in moved or self._motion.get(pir.name, False)
-            cell = self._home.cell_at(robot.x, robot.y, robot.floor)
-            itself = pir.sees[cell] or pir.through_doors[cell]
-            if itself and now - robot.last_moved < MOVED + pir.memory:
+            near = (pir.sees | pir.through_doors)[beside].any()
+            if near and now - robot.last_moved < MOVED + pir.memory:
                 continue
             if self._own_door_in_view(pir.sees | pir.through_doors, robot, now, pir.memory):
                 continue

@@ -168,6 +168,12 @@ def room_labels(survey: Survey, links: dict[int, list[tuple[str, float, float]]]
     return found
 
 
+def _largest(mask: np.ndarray) -> np.ndarray:
+    """The largest connected part of a mask: the rest is niches that nobody can reach."""
+    parts, count = label(mask, np.ones((3, 3)))
+    return np.asarray(parts == 1 + np.bincount(parts.ravel())[1:].argmax()) if count else mask
+
+
 class _Cells:
     """Cuts the walkable floor into cells."""
 
@@ -180,8 +186,8 @@ class _Cells:
         edges: list[list[int]] = []
         first_room = 0
         for floor, grid in walkable.items():
-            passable = (distances(grid, BODY) >= BODY) & (grid.cells == FREE)
-            rows, columns = np.nonzero(passable)
+            rows, columns = np.nonzero(_largest((distances(grid, BODY) >= BODY)
+                                                & (grid.cells == FREE)))
             x, y = (grid.origin[0] + (columns + 0.5) * grid.resolution,
                     grid.origin[1] + (rows + 0.5) * grid.resolution)
             key = np.stack([np.floor(x / CELL), np.floor(y / CELL), named[floor].at(x, y)],

@@ -82,6 +82,7 @@ class Search:
         self._lift_costs: dict[int, np.ndarray] = {}
         self._sighting: Sighting | None = None
         self._known: list[tuple[float, int, Point]] = []  # s, floor, place
+        self._views = home.views.copy()
         self._avoid: dict[int, float] = {}
         self._robot = RobotNow(home.start.pose.x, home.start.pose.y, home.start.floor, 0.0)
         self._seen_events = self._seen_sent = 0
@@ -237,7 +238,7 @@ class Search:
                             home.room[home.cell_at(*lift.landing, floor)]])
                     self._add_times(time, self._lift_costs[other], ready, other,
                                     doors_between(home, landing, shut))
-        gain = home.views @ self.belief.cells
+        gain = self._views @ self.belief.cells
         for cell, when in self._avoid.items():
             if self._simulation.now - when < AVOIDS:
                 gain[cell] = 0.0
@@ -290,6 +291,7 @@ class Search:
         else:
             for _ in range(2):
                 self._driver.cycle()
+            self._views[best] &= self._in_view()  # what it does not see from there it never will
 
     def _note_goal(self, cell: int) -> None:
         now, rooms = self._simulation.now, self.belief.rooms()
