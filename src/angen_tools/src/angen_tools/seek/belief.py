@@ -8,7 +8,7 @@ from angen_tools.seek.home import Home, Pir
 
 STEP = 1.0  # s
 SPEED = 0.8  # m/s
-SETS_OUT, SETTLES = 1 / 20, 1 / 8  # 1/s: somebody who stands walks on; who walks stands
+SETS_OUT, SETTLES = 1 / 50, 1 / 10  # 1/s: somebody who stands walks on; who walks stands
 LIFT = 0.01  # share of those who walk beside the elevator that come out on another floor, per STEP
 UNKNOWN_DOOR = 0.3  # a door of which nobody says whether it stands open is passed so much less
 LEAST = 1e-7  # of a cell: whatever was observed may have been wrong

@@ -22,7 +22,7 @@ def draw_search(home: Home, outcome: Outcome, path: Path) -> None:
     pyplot = _pyplot()
     floors = sorted(home.maps)
     end = outcome.figures.time_s
-    moments = np.linspace(0.02 * end, end, MOMENTS)
+    moments = outcome.began + np.linspace(0.0, end, MOMENTS)
     wide, high = _size(home, floors[0])
     figure, axes = pyplot.subplots(len(floors), MOMENTS, squeeze=False, dpi=130, figsize=(
         3.3 * MOMENTS, 3.3 * high / wide * len(floors) + 0.9), constrained_layout=True)
@@ -36,7 +36,7 @@ def draw_search(home: Home, outcome: Outcome, path: Path) -> None:
             share = belief[home.floor == floor].sum()
             ax.text(0.02, 0.02, f'{100 * share:.0f} % on floor {floor}', transform=ax.transAxes,
                     fontsize=7, color=INK)
-        axes[0][column].set_title(f'{moment:.0f} s', fontsize=10)
+        axes[0][column].set_title(f'{moment - outcome.began:.0f} s', fontsize=10)
     bar = figure.colorbar(shade, ax=axes, shrink=0.7, pad=0.01, aspect=30)
     bar.set_label('probability of a cell, %', fontsize=8)
     bar.ax.tick_params(labelsize=7)
@@ -103,7 +103,7 @@ def _plan(ax: Any, home: Home, floor: int, belief: np.ndarray) -> Any:
 def _walks(ax: Any, outcome: Outcome, floor: int, moment: float) -> None:
     """Robot and person until a moment."""
     robot = np.array(outcome.track.rows)
-    robot = robot[robot[:, 0] <= moment + 0.05]
+    robot = robot[:max(1, int((robot[:, 0] <= moment + 0.05).sum()))]
     _line(ax, robot[:, :4], floor, ROBOT, '-', 1.3, 'o', 6)
     if outcome.person:
         person = np.array(outcome.person)

@@ -6,10 +6,11 @@ import math
 import random
 from dataclasses import dataclass, replace
 
+import numpy as np
 from lxml import etree
 
 from angen_tools.common.failure import Failure
-from angen_tools.maps.gridmap import STOREY
+from angen_tools.maps.gridmap import OCCUPIED, STOREY, GridMap
 from angen_tools.robot.driver import floor_of
 from angen_tools.robot.planner import Door, Planner, Point
 from angen_tools.robot.route import Action, Drive, Ride, Router, Turn
@@ -18,15 +19,15 @@ from angen_tools.seek.home import BODY, Home
 from angen_tools.seek.simulation import Simulation
 
 SPEED = 0.8  # m/s
-STAYS = (5.0, 40.0)  # s at a place
+STAYS = (10.0, 90.0)  # s at a place
 STAND = 1.0  # s that his path pauses where he may have to wait
 STRIDE = 4  # points of a way, a square of the map apart, between two of his path
 THERE = 0.15  # m
 CLOSES = 0.6  # probability that he closes a door behind him
 LIGHTS = 0.8  # that he switches the lamp on where he stays
 OTHER_FLOOR = 0.2  # that the next place is on the other floor
-ROBOT_IN_WAY = 0.9  # m, from middle to middle
-AHEAD = math.radians(70)
+ROBOT = 0.25  # m around the robot's middle
+ROBOT_IN_WAY, BESIDE = 0.9, 0.45  # m ahead and aside, from middle to middle
 DOOR_ROOM = 0.45  # m from his middle to where a leaf swings
 LIFT_ROOM = 1.6  # m around the middle of the cabin, and its landing, where the robot uses it
 
@@ -57,7 +58,8 @@ class Itinerary:
 def plan_walk(home: Home, route: Route, seed: int, seconds: float) -> Itinerary:
     """An itinerary of at least so many seconds of walking and staying."""
     chance = random.Random(f'resident {seed}')
-    planners = {floor: Planner(grid, BODY) for floor, grid in home.walkable.items()}
+    planners = {floor: Planner(_without_robot(home, grid), BODY)
+                for floor, grid in home.walkable.items()}
     places = [i for i in range(len(home.at)) if _can_stay(home, i, route)]
     if not places:
         raise Failure('the building has no place for a person to stand')
@@ -84,6 +86,17 @@ def plan_walk(home: Home, route: Route, seed: int, seconds: float) -> Itinerary:
         time += STAND
         waypoints.append((time, x, y))
     return Itinerary(waypoints, gates)
+
+
+def _without_robot(home: Home, grid: GridMap) -> GridMap:
+    """The map without the place where the robot stands at the start: he walks around it."""
+    if grid.floor != home.start.floor:
+        return grid
+    cells = grid.cells.copy()
+    y, x = np.indices(cells.shape) * grid.resolution
+    away = np.hypot(x + grid.origin[0] - home.start.pose.x, y + grid.origin[1] - home.start.pose.y)
+    cells[away < ROBOT] = OCCUPIED
+    return replace(grid, cells=cells)
 
 
 def _can_stay(home: Home, cell: int, route: Route) -> bool:
@@ -240,8 +253,8 @@ class Resident:
     def _robot_in_way(self, me: tuple[float, ...], robot: tuple[float, ...]) -> bool:
         """Whether he stops for the robot: it is near, and ahead of him."""
         x, y, z, yaw = me
-        bearing = math.atan2(robot[1] - y, robot[0] - x) - yaw
-        near = (floor_of(z) == floor_of(robot[2])
-                and math.dist((x, y), robot[:2]) < ROBOT_IN_WAY
-                and abs(math.remainder(bearing, 2 * math.pi)) < AHEAD)
-        return near
+        dx, dy = robot[0] - x, robot[1] - y
+        ahead = math.cos(yaw) * dx + math.sin(yaw) * dy
+        aside = math.cos(yaw) * dy - math.sin(yaw) * dx
+        return (floor_of(z) == floor_of(robot[2]) and 0 < ahead < ROBOT_IN_WAY
+                and abs(aside) < BESIDE)

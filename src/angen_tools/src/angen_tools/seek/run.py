@@ -17,7 +17,7 @@ from angen_tools.robot.interface import Event, collisions
 from angen_tools.robot.route_file import Route
 from angen_tools.seek.home import Home
 from angen_tools.seek.resident import Resident, add_actor, plan_walk
-from angen_tools.seek.search import Found, Search
+from angen_tools.seek.search import LEAD, Found, Search
 from angen_tools.seek.simulation import Simulation
 from angen_tools.world import sdf
 
@@ -53,6 +53,7 @@ class Outcome:
     goals: list[tuple[float, int]]
     events: list[Event]
     beliefs: list[tuple[float, np.ndarray]]  # s, of each cell; every BELIEF s
+    began: float  # s: when the search began
 
 
 BELIEF = 1.0  # s between two beliefs that are kept
@@ -70,7 +71,7 @@ def write_world(world: Path, route: Route, home: Home | None, seed: int, limit: 
     if home is not None:
         move_robot(root, route.robot, start_offset(seed), world)
         if people:
-            add_actor(root, people[0], plan_walk(home, route, seed, limit + 60.0))
+            add_actor(root, people[0], plan_walk(home, route, seed, LEAD + limit))
     to.write_text(sdf.text(root))
     return people[0] if people and home is not None else NOBODY
 
@@ -84,11 +85,10 @@ def search(world: Path, route: Route, home: Home, seed: int, ambient: bool, limi
     simulation = Simulation(scratch, seed, route.robot)
     start = find_start(route, simulation.entities, start_offset(seed))
     home = replace(home, start=start)
-    simulation.start(start)
     seeker = Search(home, route, simulation, ambient, note)
     person: list[tuple[float, ...]] = []
     beliefs: list[tuple[float, np.ndarray]] = []
-    resident = (Resident(simulation, home, route, name, plan_walk(home, route, seed, limit + 60.0),
+    resident = (Resident(simulation, home, route, name, plan_walk(home, route, seed, LEAD + limit),
                          seed) if name else None)
 
     def others() -> None:
@@ -102,14 +102,14 @@ def search(world: Path, route: Route, home: Home, seed: int, ambient: bool, limi
     found = seeker.run(limit)
     end = simulation.place(f'{name}::body') if name else None
     figures = judge(home, seed, ambient, found, end, seeker.driver.track, simulation,
-                    time.monotonic() - began)
+                    seeker.began, time.monotonic() - began)
     return Outcome(figures, found, seeker.driver.track, person, seeker.goals, simulation.events,
-                   beliefs)
+                   beliefs, seeker.began)
 
 
 def judge(home: Home, seed: int, ambient: bool, found: Found | None,
           truth: tuple[float, float, float, float] | None, track: Track, simulation: Simulation,
-          wall: float) -> Figures:
+          since: float, wall: float) -> Figures:
     """The figures of a search; the truth is used only here."""
     line = np.array(track.rows)[:, 1:3]
     distance = float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum())
@@ -121,6 +121,6 @@ def judge(home: Home, seed: int, ambient: bool, found: Found | None,
             error = (math.dist((found.x, found.y), truth[:2]) if floor == found.floor
                      else math.inf)
     return Figures(seed, ambient, found is not None,
-                   found.time if found else simulation.now, found.room if found else '',
+                   found.time if found else simulation.now - since, found.room if found else '',
                    found.x if found else math.nan, found.y if found else math.nan, error,
                    true_room, distance, len(collisions(simulation.events)), wall)

@@ -23,6 +23,7 @@ from angen_tools.seek.detector import (Arc, Figure, find_arcs, find_figure, poin
 from angen_tools.seek.home import SEES, Home, doors_between
 from angen_tools.seek.simulation import Simulation
 
+LEAD = 60.0  # s before the search begins
 DOOR_TIME, LIFT_TIME, LOOK_TIME = 5.0, 25.0, 3.0  # s
 BETTER = 2.0  # times the score of the goal: a goal that is so much better is taken instead
 REPLAN = 3.0  # s between two comparisons
@@ -42,7 +43,7 @@ TURN = 1.2  # rad/s
 class Found:
     """What the robot reports."""
 
-    time: float  # s
+    time: float  # s since the search began
     x: float  # m
     y: float
     floor: int
@@ -92,7 +93,7 @@ class Search:
         self._foreign = np.zeros((0, 2))
         self.goals: list[tuple[float, int]] = []  # s, cell
         self.found: Found | None = None
-        self.limit = math.inf
+        self.began, self.limit = 0.0, math.inf
 
     @property
     def driver(self) -> Driver:
@@ -111,7 +112,7 @@ class Search:
         self._seen_sent = len(self._simulation.sent)
         self._see()
         if now >= self._step_due - 1e-6:
-            self._step(now)
+            self._step(True)
 
     def _see(self) -> None:
         """Arcs in the latest scan."""
@@ -139,8 +140,9 @@ class Search:
         return any(where == floor and math.dist(arc.at, at) < KNOWN and now - when < FORGETS
                    for when, where, at in self._known)
 
-    def _step(self, now: float) -> None:
-        """A step of the filter."""
+    def _step(self, awake: bool) -> None:
+        """A step of the filter; `awake`: the robot's own sensors work."""
+        now = self._simulation.now
         self._step_due = now + STEP
         events: list[Event] = self._simulation.events[self._seen_events:]
         self._seen_events = len(self._simulation.events)
@@ -151,6 +153,8 @@ class Search:
         self.belief.step(opened)
         if self._ambient:
             self._ambient.step(events, self._robot, now)
+        if not awake:
+            return
         if self._sighting is not None:
             x, y = self._sighting.latest.at
             self.belief.near(self._home.around(x, y, self._driver.floor, 0.6), ARC)
@@ -259,10 +263,17 @@ class Search:
     # --- the whole
 
     def run(self, limit: float) -> Found | None:
-        """Searches until it has found him or for `limit` s; None where it has not."""
-        self.limit = limit
+        """Waits for LEAD s, in which ambient sensors already work, then searches until it has found
+        him or for `limit` s; None where it has not."""
+        while self._simulation.now < LEAD - 1e-6:
+            self._simulation.wait()
+            if self._simulation.now >= self._step_due - 1e-6:
+                self._step(False)
+        self._simulation.start(self._home.start)
+        self.began = self._simulation.now
+        self.limit = self.began + limit
         self._driver.begin(self._home.start.pose, self._home.start.floor)
-        while self.found is None and self._simulation.now < limit:
+        while self.found is None and self._simulation.now < self.limit:
             if self._sighting is not None:
                 self._examine()
             else:
@@ -285,7 +296,8 @@ class Search:
             for action in self._actions(int(self._home.viewpoints[best])):
                 if not self._do(action):
                     return
-        except Failure:
+        except Failure as failure:
+            self._note(self._simulation.now - self.began, str(failure))
             self._avoid[best] = self._simulation.now
             self._driver.cycle()
         else:
@@ -297,8 +309,9 @@ class Search:
         now, rooms = self._simulation.now, self.belief.rooms()
         said = f'; {self._ambient.last} says so' if self._ambient and self._ambient.last else ''
         likely = max(rooms, key=lambda room: rooms[room])
-        self._note(now, f'to {self._home.rooms[self._home.room[cell]]}; most probable is {likely} '
-                   f'with {100 * rooms[likely]:.0f} %{said}')
+        goal = self._home.rooms[self._home.room[cell]]
+        self._note(now - self.began, f'to {goal}; most probable is {likely} with '
+                   f'{100 * rooms[likely]:.0f} %{said}')
         self.goals.append((now, cell))
 
     def _do(self, action: Action) -> bool:
@@ -331,7 +344,7 @@ class Search:
     def _examine(self) -> None:
         """Faces what it sees until it has moved, the camera sees a person, or it is neither."""
         end = self._simulation.now + PATIENCE
-        self._note(self._simulation.now, 'sees something that the map has not')
+        self._note(self._simulation.now - self.began, 'sees something that the map has not')
         self._simulation.want_depth(True)
         try:
             while self._sighting is not None and self._simulation.now < min(end, self.limit):
@@ -367,8 +380,8 @@ class Search:
             return False
         said = self._ambient.last if self._ambient else ''
         floor = self._driver.floor
-        self.found = Found(self._simulation.now, arc.x, arc.y, floor,
-                           self._home.room_at(arc.x, arc.y, floor),
+        room = self._home.room_at(arc.x, arc.y, floor)
+        self.found = Found(self._simulation.now - self.began, arc.x, arc.y, floor, room,
                            f'an arc of {arc.radius:.2f} m at {arc.far:.1f} m in the scan, and '
                            + how + (f'; led by {said}' if said else ''))
         return True

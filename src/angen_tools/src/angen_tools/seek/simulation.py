@@ -53,7 +53,14 @@ class Simulation:
         self._depth = next((e.name for e in self.entities
                             if (e.kind, e.model) == ('depth', start.robot.model)), '')
         self.world.request('lidar', self._lidar)
-        self.world.run(2 * CYCLE)
+        self.wait()
+        self.wait()
+
+    def wait(self) -> None:
+        """Lets CYCLE pass; the robot does nothing."""
+        self.others()
+        self.world.run(CYCLE)
+        self.events += [Event(*event) for event in self.world.events()]
 
     @property
     def now(self) -> float:
@@ -61,9 +68,7 @@ class Simulation:
 
     def cycle(self, v: float, w: float) -> None:
         self.world.command('drive', self._name, values=[v, w])
-        self.others()
-        self.world.run(CYCLE)
-        self.events += [Event(*event) for event in self.world.events()]
+        self.wait()
 
     def command(self, kind: str, name: str, text: str) -> None:
         self.sent.append((self.now, kind, name))
