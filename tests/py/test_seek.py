@@ -78,8 +78,8 @@ def test_a_world_without_people_has_nobody_to_find(tmp_path: Path) -> None:
     assert done.stdout.startswith('nobody was found within 40 s; most probable is ')
     assert 'collisions: 0' in done.stdout
     assert done.stderr.splitlines()[-1] == 'angen: nobody was found within 40 s'
-    opened = [e['event'] for e in events(tmp_path) if (e['source'], e['kind']) == ('kitchen0',
-                                                                                  'door')]
+    opened = [e['event'] for e in events(tmp_path)
+              if (e['source'], e['kind']) == ('kitchen0', 'door')]
     assert opened[:2] == ['opening', 'opened']  # it has looked there
 
 

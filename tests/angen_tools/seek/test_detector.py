@@ -54,7 +54,8 @@ def scan(pose: Pose, *shapes: Shape, seed: int = 1) -> SimpleNamespace:
     """What a laser with a noise of 1 cm measures at a pose in the room with these things in it."""
     angles = -math.pi + np.arange(COUNT) * 2 * math.pi / COUNT
     ways = np.stack([np.cos(angles + pose.yaw), np.sin(angles + pose.yaw)], axis=1)
-    ranges = np.min([shape(np.array([pose.x, pose.y]), ways) for shape in [*WALLS, *shapes]], axis=0)
+    eye = np.array([pose.x, pose.y])
+    ranges = np.min([shape(eye, ways) for shape in [*WALLS, *shapes]], axis=0)
     noise = np.random.default_rng(seed).normal(0.0, 0.01, COUNT)
     return SimpleNamespace(ranges=list(ranges + noise), angle_min=-math.pi, range_min=0.12,
                            angle_increment=2 * math.pi / COUNT, range_max=10.0)
