@@ -12,9 +12,10 @@ from angen_tools.seek.home import CELL, Home
 from angen_tools.seek.report import pairs
 from angen_tools.seek.run import Figures, Outcome
 
-WITH, WITHOUT, ROBOT, PERSON, WALL, INK = ('#0b7a75', '#c8553d', '#1f4e8c', '#d1495b', '#4a4a4a',
-                                           '#303030')
+WITH, WITHOUT, ROBOT, PERSON, PIR, INK = ('#0b7a75', '#c8553d', '#1f4e8c', '#d1495b', '#ef8a17',
+                                          '#303030')
 MOMENTS = 4
+RECENT = 5.0  # s
 
 
 def draw_search(home: Home, outcome: Outcome, path: Path) -> None:
@@ -25,13 +26,14 @@ def draw_search(home: Home, outcome: Outcome, path: Path) -> None:
     moments = outcome.began + np.linspace(0.0, end, MOMENTS)
     wide, high = _size(home, floors[0])
     figure, axes = pyplot.subplots(len(floors), MOMENTS, squeeze=False, dpi=130, figsize=(
-        3.3 * MOMENTS, 3.3 * high / wide * len(floors) + 0.9), constrained_layout=True)
+        3.3 * MOMENTS, 3.15 * high / wide * len(floors) + 0.75), constrained_layout=True)
     for column, moment in enumerate(moments):
         times = [t for t, _ in outcome.beliefs]
         belief = outcome.beliefs[max(0, int(np.searchsorted(times, moment, side='right')) - 1)][1]
         for row, floor in enumerate(floors[::-1]):
             ax = axes[row][column]
             shade = _plan(ax, home, floor, belief)
+            _detections(ax, home, outcome, floor, moment)
             _walks(ax, outcome, floor, moment)
             share = belief[home.floor == floor].sum()
             ax.text(0.02, 0.02, f'{100 * share:.0f} % on floor {floor}', transform=ax.transAxes,
@@ -40,8 +42,8 @@ def draw_search(home: Home, outcome: Outcome, path: Path) -> None:
     bar = figure.colorbar(shade, ax=axes, shrink=0.7, pad=0.01, aspect=30)
     bar.set_label('probability of a cell, %', fontsize=8)
     bar.ax.tick_params(labelsize=7)
-    figure.legend(handles=_legend(), loc='lower center', ncols=4, fontsize=8, frameon=False)
-    figure.get_layout_engine().set(rect=(0, 0.07, 1, 0.93))
+    figure.legend(handles=_legend(), loc='lower center', ncols=6, fontsize=8, frameon=False)
+    figure.get_layout_engine().set(rect=(0, 0.06, 1, 0.94))
     figure.savefig(path)
     pyplot.close(figure)
 
@@ -55,9 +57,12 @@ def _pyplot() -> Any:
 
 def _legend() -> list[Any]:
     from matplotlib.lines import Line2D
-    return [Line2D([], [], color=ROBOT, lw=1.3, label='the way of the robot'),
+    return [Line2D([], [], color=PIR, marker='^', ls='none', label=f'PIR that has detected motion '
+                   f'in the last {RECENT:.0f} s'),
+            Line2D([], [], color='#9a9a9a', marker='^', ls='none', ms=4, label='other PIR'),
+            Line2D([], [], color=ROBOT, lw=1.3, label="the robot's way"),
             Line2D([], [], color=ROBOT, marker='o', ls='none', label='the robot'),
-            Line2D([], [], color=PERSON, lw=1.0, ls=':', label='the last 30 s of the person'),
+            Line2D([], [], color=PERSON, lw=1.0, ls=':', label="the person's last 30 s"),
             Line2D([], [], color=PERSON, marker='*', ls='none', ms=9, label='the person')]
 
 
@@ -66,16 +71,22 @@ def _size(home: Home, floor: int) -> tuple[float, float]:
     return float(np.ptp(columns) + 1), float(np.ptp(rows) + 1)
 
 
+def _from_white() -> Any:
+    from matplotlib.colors import LinearSegmentedColormap
+    return LinearSegmentedColormap.from_list('belief', ('#ffffff', '#d3eeea', '#72c5bd', '#1d8a8a',
+                                                        '#0b4f63', '#06283d'))
+
+
 def _plan(ax: Any, home: Home, floor: int, belief: np.ndarray) -> Any:
     """The walls of a floor, and the belief in its cells."""
     from matplotlib.colors import PowerNorm
+    from scipy.spatial import cKDTree
     grid = home.maps[floor]
     rows, columns = np.nonzero(grid.cells == OCCUPIED)
     west, south = grid.origin
     squares = np.full(grid.cells.shape, np.nan)
     fine = np.argwhere(home.walkable[floor].cells == 0)
     here = np.nonzero(home.floor == floor)[0]
-    from scipy.spatial import cKDTree
     other = home.walkable[floor]
     places = np.column_stack([other.origin[0] + (fine[:, 1] + 0.5) * other.resolution,
                               other.origin[1] + (fine[:, 0] + 0.5) * other.resolution])
@@ -86,7 +97,7 @@ def _plan(ax: Any, home: Home, floor: int, belief: np.ndarray) -> Any:
             squares[row, column] = 100 * belief[cell]
     extent = (west, west + grid.cells.shape[1] * grid.resolution, south,
               south + grid.cells.shape[0] * grid.resolution)
-    shade = ax.imshow(squares, origin='lower', extent=extent, cmap='YlGnBu',
+    shade = ax.imshow(squares, origin='lower', extent=extent, cmap=_from_white(),
                       norm=PowerNorm(0.4, 0.0, 10.0))
     walls = np.full((*grid.cells.shape, 4), 0.0)
     walls[grid.cells == OCCUPIED] = (0.29, 0.29, 0.29, 1.0)
@@ -109,6 +120,19 @@ def _walks(ax: Any, outcome: Outcome, floor: int, moment: float) -> None:
         person = np.array(outcome.person)
         person = person[(person[:, 0] <= moment + 0.05) & (person[:, 0] >= moment - 30.0)]
         _line(ax, person, floor, PERSON, ':', 1.0, '*', 10)
+
+
+def _detections(ax: Any, home: Home, outcome: Outcome, floor: int, moment: float) -> None:
+    """The PIRs of a floor; in color those that have detected motion in the last RECENT s."""
+    began = {}
+    for event in outcome.events:
+        if event.kind == 'pir' and event.event == 'motion' and event.time <= moment:
+            began[event.source] = event.time
+    for entity in home.entities:
+        if entity.kind == 'pir' and entity.floor == floor:
+            recent = moment - began.get(entity.name, -1e9) < RECENT
+            ax.plot(*entity.place[:2], '^', ms=6 if recent else 4, mec='white', mew=0.4, zorder=4,
+                    color=PIR if recent else '#9a9a9a')
 
 
 def _line(ax: Any, rows: np.ndarray, floor: int, color: str, style: str, width: float, mark: str,
