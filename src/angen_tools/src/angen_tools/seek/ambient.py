@@ -14,9 +14,9 @@ OWN = 5.0  # s after a command of the robot what its device does is the robot's 
 OWN_LIFT = 40.0  # s: a ride, with its doors
 MOVED = 1.5  # s after it moved a PIR may still detect the robot
 ROBOT_NEAR = 1.0  # m
-BEGINS = ('motion', 'pressed', 'opened', 'opening', 'closing', 'closed', 'near', 'detected', 'tag')
-POINT = {'pressure': 0.6, 'contact': 0.8, 'proximity': 2.0, 'reed': 1.5, 'rfid': 2.0,
-         'cabinet': 1.3, 'window': 1.3, 'switch': DOORWAY + 0.5}  # m around a sensor or device
+BEGINS = ('pressed', 'opened', 'opening', 'closing', 'closed')
+POINT = {'pressure': 0.6, 'contact': 0.8, 'reed': 1.5, 'cabinet': 1.3, 'window': 1.3,
+         'switch': DOORWAY + 0.5}  # m around a sensor or device
 
 
 @dataclass
