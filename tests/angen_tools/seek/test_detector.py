@@ -128,10 +128,17 @@ def depth(far: float, top: float, half: float, wall: float = 6.0) -> SimpleNames
                            focal=FOCAL, center_x=159.5, center_y=119.5)
 
 
-@pytest.mark.parametrize('far', [1.2, 2.0, 3.5, 4.5])
+@pytest.mark.parametrize('far', [0.9, 1.2, 2.0, 3.5, 4.5])
 def test_a_person_is_a_figure(far: float) -> None:
     figure = find_figure(depth(far, 1.75, 0.2), CAMERA, Pose(0, 0, 0), Arc(far, 0, 0.25, far))
     assert figure is not None and figure.top > min(1.2, 0.43 * (far - 0.4) + 0.3)
+
+
+def test_what_stands_beside_a_person_does_not_matter() -> None:
+    image = depth(3.0, 1.75, 0.2)
+    machine = depth(3.0, 0.85, 0.7)
+    image.depth = np.minimum(image.depth, machine.depth)
+    assert find_figure(image, CAMERA, Pose(0, 0, 0), Arc(3.0, 0, 0.25, 3.0)) is not None
 
 
 @pytest.mark.parametrize('top, half', [(0.9, 0.2), (0.45, 0.2), (1.75, 0.6)],

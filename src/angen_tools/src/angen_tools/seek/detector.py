@@ -21,7 +21,8 @@ STRAIGHT = 0.6  # of the rms beside a line, at most, is that beside the circle
 
 # A figure in a depth image:
 FRONT, BACK = 0.45, 0.15  # m before and behind the middle of the arc
-LOW, HIGH = 0.4, 1.3  # m: it fills the heights between these, as far as they are in view
+LOW, HIGH = 0.2, 1.3  # m: it fills the heights between these, as far as they are in view
+OVER = 0.95  # m: its width is measured above what stands beside it
 FILLED = 0.85
 WIDEST = 0.8  # m
 ROWS_AT_LEAST = 20
@@ -144,11 +145,11 @@ def find_figure(depth: Any, camera: tuple[float, float, float], pose: Pose, arc:
     with np.errstate(invalid='ignore'):
         there = (image > ahead - FRONT) & (image < ahead + BACK) & (height > LOW)
         core = there & (beside < 0.08)
-        wide = there & (beside < 0.7)
-    upper = min(HIGH, camera[2] + depth.center_y / depth.focal * (ahead - 0.25))
+        upper = min(HIGH, camera[2] + depth.center_y / depth.focal * (ahead - 0.25))
+        wide = there & (beside < 0.7) & (height > min(OVER, 0.75 * upper))
     levels = np.unique((height[core] / 0.05).astype(int))
     wanted = np.arange(int(LOW / 0.05) + 1, int(upper / 0.05))
-    if len(wanted) < 4 or np.isin(wanted, levels).mean() < FILLED:
+    if len(wanted) < 4 or not wide.any() or np.isin(wanted, levels).mean() < FILLED:
         return None
     spread = ((columns - column) / depth.focal * image)[wide]
     width = float(np.percentile(spread, 98) - np.percentile(spread, 2))

@@ -31,7 +31,7 @@ SAME = 0.6  # m between two scans' arcs of the same thing
 LOST = 1.0  # s without an arc
 MOVES, SIGHTINGS = 0.4, 5  # m, arcs: something that has moved so far is a person
 PATIENCE = 4.0  # s that it examines something
-KNOWN = 0.5  # m around what was not a person
+KNOWN, ELSEWHERE = 0.5, 0.8  # m around what was not a person; it is examined again from so far
 FORGETS = 60.0  # s
 IN_WAY, AHEAD = 0.30, 14  # m beside the line; points of the line, 0.05 m apart
 HELD = 5.0  # s that it waits for something in its way
@@ -82,7 +82,8 @@ class Search:
                               self._may_go, self._give_up)
         self._lift_costs: dict[int, np.ndarray] = {}
         self._sighting: Sighting | None = None
-        self._known: list[tuple[float, int, Point]] = []  # s, floor, place
+        # s, floor, place of what was not a person, and from where that was seen
+        self._known: list[tuple[float, int, Point, Point]] = []
         self._views = home.views.copy()
         self._avoid: dict[int, float] = {}
         self._robot = RobotNow(home.start.pose.x, home.start.pose.y, home.start.floor, 0.0)
@@ -137,8 +138,9 @@ class Search:
             self._sighting = Sighting(arc, arc, 1, now, now)
 
     def _is_known(self, arc: Arc, floor: int, now: float) -> bool:
+        here = self._driver.pose.x, self._driver.pose.y
         return any(where == floor and math.dist(arc.at, at) < KNOWN and now - when < FORGETS
-                   for when, where, at in self._known)
+                   and math.dist(here, eye) < ELSEWHERE for when, where, at, eye in self._known)
 
     def _step(self, awake: bool) -> None:
         """A step of the filter; `awake`: the robot's own sensors work."""
@@ -304,6 +306,7 @@ class Search:
             for _ in range(2):
                 self._driver.cycle()
             self._views[best] &= self._in_view()  # what it does not see from there it never will
+            self._avoid[best] = self._simulation.now
 
     def _note_goal(self, cell: int) -> None:
         now, rooms = self._simulation.now, self.belief.rooms()
@@ -353,8 +356,9 @@ class Search:
                 if self._sighting is sighting and self._is_person(sighting):
                     return
             if self._sighting is not None:
+                pose = self._driver.pose
                 self._known.append((self._simulation.now, self._driver.floor,
-                                    self._sighting.latest.at))
+                                    self._sighting.latest.at, (pose.x, pose.y)))
                 self._sighting = None
         finally:
             self._simulation.want_depth(False)
