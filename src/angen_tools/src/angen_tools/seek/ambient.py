@@ -42,7 +42,7 @@ class Ambient:
         self._said: dict[tuple[int, int, int], float] = {}  # s, by the place of an event
         self._places = {(e.kind, e.name): e for e in home.entities}
         self._doors = {door.name: (floor, door) for floor, door in home.all_doors()}
-        self.last = ''  # what said last where somebody is
+        self.last: tuple[str, float] | None = None  # what said last where somebody is; s
 
     def step(self, events: list[Event], robot: RobotNow, now: float) -> None:
         """Takes in what was published in a STEP that ends at `now` (s)."""
@@ -70,7 +70,7 @@ class Ambient:
                 continue
             self._belief.pir(pir, motion)
             if pir.name in moved:
-                self.last = f'{pir.name} at {now:.0f} s'
+                self.last = pir.name, now
 
     def _own_door_in_view(self, sees: np.ndarray, robot: RobotNow, now: float, memory: float
                           ) -> bool:
@@ -98,7 +98,7 @@ class Ambient:
         if self._new(x, y, floor, event):
             reach = DOORWAY if event.event == 'opening' else DOORWAY + 1.0
             self._belief.near(self._home.around(x, y, floor, reach), DEVICE)
-        self.last = f'door {event.source} at {event.time:.0f} s'
+        self.last = f'door {event.source}', event.time
 
     def _lift(self, event: Event, robot: RobotNow) -> None:
         if robot.commanded_lately('elevator', event.source, event.time, OWN_LIFT):
@@ -106,7 +106,7 @@ class Ambient:
         if event.event == 'arrived' and event.detail.startswith('floor '):
             floor = int(event.detail.split()[1])
             self._belief.near(self._home.by_lift & (self._home.floor == floor), DEVICE)
-            self.last = f'elevator {event.source} at {event.time:.0f} s'
+            self.last = f'elevator {event.source}', event.time
 
     def _light(self, event: Event) -> None:
         sensor = self._places.get((event.kind, event.source))
@@ -114,7 +114,7 @@ class Ambient:
             return
         room = self._home.room[self._home.cell_at(sensor.pose[0], sensor.pose[1], sensor.floor)]
         self._belief.near(self._home.room == room, LIGHT)
-        self.last = f'{event.source} at {event.time:.0f} s'
+        self.last = event.source, event.time
 
     def _point(self, event: Event, robot: RobotNow) -> None:
         place = self._places.get((event.kind, event.source))
@@ -127,7 +127,7 @@ class Ambient:
             return
         if self._new(x, y, place.floor, event):
             self._belief.near(self._home.around(x, y, place.floor, POINT[event.kind]), DEVICE)
-        self.last = f'{event.source} at {event.time:.0f} s'
+        self.last = event.source, event.time
 
     def _robots_door(self, x: float, y: float, floor: int, robot: RobotNow, now: float) -> bool:
         """Whether the robot has just commanded the door at a place."""

@@ -310,12 +310,19 @@ class Search:
 
     def _note_goal(self, cell: int) -> None:
         now, rooms = self._simulation.now, self.belief.rooms()
-        said = f'; {self._ambient.last} says so' if self._ambient and self._ambient.last else ''
+        said = self._said()
         likely = max(rooms, key=lambda room: rooms[room])
         goal = self._home.rooms[self._home.room[cell]]
         self._note(now - self.began, f'to {goal}; most probable is {likely} with '
-                   f'{100 * rooms[likely]:.0f} %{said}')
+                   f'{100 * rooms[likely]:.0f} %' + (f'; last: {said}' if said else ''))
         self.goals.append((now, cell))
+
+    def _said(self) -> str:
+        """Which ambient sensor was the last to say something of him, and when."""
+        if not self._ambient or not self._ambient.last:
+            return ''
+        name, time = self._ambient.last
+        return f'{name} at {time - self.began:.0f} s'
 
     def _do(self, action: Action) -> bool:
         """Does an action of a way; whether to go on with the next."""
@@ -382,7 +389,7 @@ class Search:
             how = f'the camera sees {figure.top:.1f} m of a figure' if figure else ''
         if not how:
             return False
-        said = self._ambient.last if self._ambient else ''
+        said = self._said()
         floor = self._driver.floor
         room = self._home.room_at(arc.x, arc.y, floor)
         self.found = Found(self._simulation.now - self.began, arc.x, arc.y, floor, room,
