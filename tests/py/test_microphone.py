@@ -138,3 +138,28 @@ def test_a_source_on_another_storey_is_not_in_this_flat(world):
     upper = air('0 0.05 4 4 3 6.5').replace('"flat"', '"upper"')
     w = world(air(ROOMS[0]) + upper + source('1 1.5 5 0 0 0', 100) + microphone('1 1.5 1 0 0 0'))
     assert level(w) == pytest.approx(-40)
+
+
+def test_a_person_is_heard_walking_and_speaking(world):
+    """Steps of 55 dB and speech of 68.4 dB, from the mouth at 1.5 m."""
+    w = world('''<actor name="anna"><script><trajectory id="0" type="walk">
+      <waypoint><time>0</time><pose>0 0 0 0 0 0</pose></waypoint>
+      <waypoint><time>20</time><pose>0 8 0 0 0 0</pose></waypoint></trajectory></script></actor>'''
+              + microphone('3 0 1.5 0 0 0'))
+
+    def expected(source: float) -> float:
+        x, y = (w.device('person', 'anna')[axis] for axis in 'xy')
+        return source + 10 * log10(direct(((3 - x) ** 2 + y ** 2) ** 0.5))
+
+    w.run(5)
+    assert w.device('person', 'anna')['mode'] == 'WALKING'
+    assert level(w) == pytest.approx(expected(55), abs=0.5)
+    w.command('person', 'anna', 'Speak')
+    assert level(w) == pytest.approx(expected(10 * log10(10 ** 5.5 + 10 ** 6.84)), abs=0.5)
+    w.command('person', 'anna', 'Stop')
+    w.run(2)
+    assert level(w) == pytest.approx(expected(68.4), abs=0.01)
+    w.command('person', 'anna', 'Quiet')
+    assert level(w) == pytest.approx(-40)
+    words = [event for _, source, _, event, _ in w.events() if source == 'anna']
+    assert [word for word in words if word in ('speaks', 'quiet')] == ['speaks', 'quiet']

@@ -29,6 +29,8 @@ constexpr Nanoseconds kAway = 5 * kSecond;      // and comes again: a door opens
 constexpr double kStepBack = 1.2;               // m, out of the way of a leaf that opens towards it
 constexpr Nanoseconds kLookBack = kSecond / 20;
 constexpr int kMostLooks = 200;
+constexpr double kMouth = 1.5;  // m above the floor, where its sound comes from
+constexpr Range kSoundPower{-100.0, 200.0};
 
 const char* const kModeNames[] = {"STANDING", "WALKING", "BLOCKED"};
 const char* const kModeEvents[] = {"stands", "walks", "blocked"};
@@ -59,6 +61,12 @@ void Person::configure(Params& params, Wiring& wiring) {
   paused_ = params.flag("stopped", false, "stands at the start, as after Stop");
   force_max_ = params.number("force_max", 150.0, "N", "greatest force of its legs", kPositive);
   params.number("mass", 70.0, "kg", "its mass", kPositive);
+  step_sound_ =
+      params.number("step_sound", 55.0, "dB",
+                    "sound power level of its steps while it walks, over 1 pW", kSoundPower);
+  speech_sound_ = params.number("speech_sound", 68.4, "dB",
+                                "sound power level of its speech, over 1 pW", kSoundPower);
+  speaks_ = spoke_ = params.flag("speaking", false, "speaks at the start, as after Speak");
   params.number("skin_temperature", 307.0, "K", "of head and hands, seen by PIRs", kPositive);
   params.number("clothing_temperature", 299.0, "K", "of the rest of its surface", kPositive);
   refresh_ = Refresh(params.number(
@@ -68,12 +76,17 @@ void Person::configure(Params& params, Wiring& wiring) {
 }
 
 Verdict Person::command(const Command& command, const View&) {
+  if (command.verb == "Speak" || command.verb == "Quiet") {
+    return Verdict::accept([this, speaks = command.verb == "Speak"] { speaks_ = speaks; });
+  }
   return Verdict::accept([this, stop = command.verb == "Stop"] { paused_ = stop; });
 }
 
 void Person::update(const View& view, Outputs& outputs) {
   const bool renew = refresh_.due(view.time(), view.step());
   if (!started_) start(view.link(body_));
+  if (speaks_ != spoke_) outputs.event(speaks_ ? "speaks" : "quiet", "");
+  spoke_ = speaks_;
   if (paused_) {
     if (!resting_) stand(outputs);
     if (renew) show(Mode::kStanding, view.link(body_), true, outputs);
@@ -194,6 +207,7 @@ Nanoseconds Person::idle_until(const View& view) const {
 void Person::save(SavedParams& params) const {
   params.number("path_time", to_seconds(clock_));
   params.flag("stopped", paused_);
+  params.flag("speaking", speaks_);
 }
 
 void Person::skip(Nanoseconds time) {
@@ -208,6 +222,16 @@ void Person::report(const View& view, Reading& state) const {
   state.set("z", body.pose.position.z());
   state.set("yaw", yaw_of(body.pose.rotation));
   state.set("speed", body.linear_velocity.head<2>().norm());
+  state.set("speaking", speaks_);
+  state.set("sound_power_level", sound());
+  state.set("position", std::vector<double>{0.0, 0.0, kMouth});
+}
+
+// dB over 1 pW, of steps and speech together.
+double Person::sound() const {
+  const double steps = mode_ == Mode::kWalking ? std::pow(10.0, step_sound_ / 10.0) : 0.0;
+  const double speech = speaks_ ? std::pow(10.0, speech_sound_ / 10.0) : 0.0;
+  return 10.0 * std::log10(steps + speech);
 }
 
 const Kind& PersonPlugin::kind() const {
@@ -215,6 +239,8 @@ const Kind& PersonPlugin::kind() const {
                                .example("set person walker stop")
                                .verb("Stop", "stands still where the person is")
                                .verb("Go", "walks on along the path")
+                               .verb("Speak", "speaks until Quiet")
+                               .verb("Quiet", "speaks no more")
                                .choice("mode", {std::begin(kModeNames), std::end(kModeNames)},
                                        "BLOCKED: something stands in the way")
                                .shown()
@@ -225,7 +251,11 @@ const Kind& PersonPlugin::kind() const {
                                .number("z", "m", "in the world")
                                .number("yaw", "rad", "in the world")
                                .number("speed", "m/s", "horizontal")
-                               .shown(2);
+                               .shown(2)
+                               .flag("speaking", "whether the person speaks")
+                               .number("sound_power_level", "dB",
+                                       "of steps and speech, over 1 pW; minus infinity: silent")
+                               .numbers("position", "m", "of the mouth, in the model's frame");
   return kind;
 }
 

@@ -31,17 +31,22 @@ class Person : public Device {
   void make_room(const LinkView& body, Nanoseconds now);
   void watch(const Vec3& at, const Path::Place& goal, bool on_path, Nanoseconds step);
   void stand(Outputs& outputs);
+  double sound() const;
   void show(Mode mode, const LinkView& body, bool renew, Outputs& outputs);
 
   LinkRef body_;
   Path path_;
   Refresh refresh_;
   double force_max_ = 0.0;       // N
+  double step_sound_ = 0.0;      // dB over 1 pW
+  double speech_sound_ = 0.0;    // dB over 1 pW
   Nanoseconds clock_ = 0;        // time on the path; below 0 while the start is delayed
   Nanoseconds stalled_ = 0;      // since it last came on
   Vec3 came_to_ = Vec3::Zero();  // where that was
   Nanoseconds away_until_ = 0;   // of stepping back
   Vec3 back_to_ = Vec3::Zero();  // where it does so
+  bool speaks_ = false;
+  bool spoke_ = false;  // at the last update
   bool paused_ = false;
   bool resting_ = false;
   bool started_ = false;
