@@ -91,6 +91,19 @@ def test_the_same_seed_gives_the_same_search(tmp_path: Path) -> None:
     assert logs[0] == logs[1]
 
 
+def test_a_world_must_have_the_robot_and_a_floor(tmp_path: Path) -> None:
+    plugin = '<plugin name="robots" filename="librobot_controller.so"/>'
+    robot = '<include><uri>model://turtlebot</uri><name>turtlebot</name></include>'
+    for content, says in (('', 'has no robot turtlebot'),
+                          (robot + plugin, 'there is no floor')):
+        (tmp_path / 'bare.world').write_text(
+            f'<sdf version="1.6"><world name="w">{content}</world></sdf>')
+        for more in ((), ('--seeds', '2')):
+            done = seek(tmp_path, '--world', str(tmp_path / 'bare.world'), *more)
+            assert done.returncode == 1 and says in done.stderr.splitlines()[-1], done.stderr
+            assert 'Traceback' not in done.stderr
+
+
 @pytest.mark.parametrize('words, says', [
     (('--limit', '0'), "'0' is not a valid time"),
     (('--world', '/nowhere.world'), '/nowhere.world')])

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from scipy.ndimage import distance_transform_edt, label
 
+from angen_tools.common.failure import Failure
 from angen_tools.maps.gridmap import FREE, STOREY, GridMap, load_world, make_map
 from angen_tools.maps.rays import Caster
 from angen_tools.robot.building import Entity, Start, Survey, find_start
@@ -96,11 +97,14 @@ class Home:
 def make_home(route: Route, path: Path, entities: list[Entity],
               offset: tuple[float, float, float]) -> Home:
     """Surveys the building of a world's file, which has nobody in it but the robot."""
+    start = find_start(route, entities, offset)
     world, shut = load_world(str(path)), load_world(str(path))
     survey = Survey(world, shut, entities, None)
     walkable = {floor: make_map(world, floor, 'open', TALL) for floor in survey.maps}
     named = room_labels(survey, floor_links(world))
     cells = _Cells(walkable, named, survey.doors)
+    if not len(cells.at):
+        raise Failure('there is no floor on which a person could walk')
     free = _Sight(world, shut)
     targets = np.array([[[x, y, STOREY * floor + h] for h in PERSON_HEIGHTS]
                         for (x, y), floor in zip(cells.at, cells.floor)])
@@ -113,7 +117,7 @@ def make_home(route: Route, path: Path, entities: list[Entity],
     if route.elevator:
         for place in (route.elevator.cabin, route.elevator.landing):
             by_lift |= np.hypot(*(cells.at - place).T) < 1.3
-    return Home(entities, find_start(route, entities, offset), survey.maps, survey.landmarks,
+    return Home(entities, start, survey.maps, survey.landmarks,
                 survey.doors, walkable, cells.floor, cells.at, cells.room, cells.names,
                 cells.edges, cells.edge_door, pirs, viewpoints, views, by_lift)
 
@@ -207,7 +211,7 @@ class _Cells:
                 edges += np.sort(np.stack([a[both], b[both]], axis=1), axis=1).tolist()
             first_room += len(named[floor].names)
         self.at, self.floor, self.room = np.array(at), np.array(floors), np.array(room)
-        self.edges = np.unique(np.array(edges), axis=0)
+        self.edges = np.unique(np.array(edges, int).reshape(-1, 2), axis=0)
         self.edge_door = [self._door(doors[int(self.floor[a])], a, b) for a, b in self.edges]
 
     def _door(self, doors: list[Door], a: int, b: int) -> str:

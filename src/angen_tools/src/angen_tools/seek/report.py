@@ -114,9 +114,9 @@ def compare(found: list[Figures], limit: float) -> str:
         times = [figures.time_s if figures.found else limit for figures in those]
         errors = [figures.error_m for figures in those if figures.found]
         missed = sum(not figures.found for figures in those)
+        beside = f'at most {100 * max(errors):.0f} cm beside the truth; ' if errors else ''
         lines.append(f'{name}: median {median(times):.0f} s, mean {mean(times):.0f} s, longest '
-                     f'{max(times):.0f} s, {missed} of {len(those)} not found; at most '
-                     f'{100 * max(errors, default=math.nan):.0f} cm beside the truth; '
+                     f'{max(times):.0f} s, {missed} of {len(those)} not found; {beside}'
                      f'{mean(f.distance_m for f in those):.0f} m driven on average; '
                      f'{sum(f.collisions for f in those)} collisions')
     both = pairs(found)
