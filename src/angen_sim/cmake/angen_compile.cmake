@@ -4,8 +4,8 @@
 # One: the sources of a target are compiled eight at a time, so a name in an unnamed namespace is unique in its target.
 option(CMAKE_UNITY_BUILD "Compile sources of a target together" ON)
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
-# Two: headers of others are parsed once. Not our own, so that the walls between modules hold; but every plug-in may
-# include what is in plugin/register.h.
+# Two: headers of others are parsed once. Never our own: the walls between modules hold, and GCC knows a file with
+# #pragma once by its time, which a compiler cache that is shared by two checkouts gets wrong.
 set(ANGEN_PRECOMPILED_HEADERS
   <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <memory> <optional> <set> <sstream> <string>
   <unordered_map> <utility> <variant> <vector> <Eigen/Geometry>)

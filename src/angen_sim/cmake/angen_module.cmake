@@ -31,7 +31,7 @@ endfunction()
 # angen_plugin(FILE sources...): a plug-in library libFILE.so, loaded by name and never linked to.
 function(angen_plugin file)
   add_library(${file} MODULE ${ARGN})
-  angen_compile_options(${file} angen_plugin_headers)
+  angen_compile_options(${file} angen_core)
   set_target_properties(${file} PROPERTIES UNITY_BUILD OFF)  # few sources each
   add_dependencies(angen_run ${file})
   target_link_libraries(${file} PRIVATE angen_plugin angen_class_loader)
