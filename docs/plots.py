@@ -367,9 +367,118 @@ def radio() -> plt.Figure:
     return drawn
 
 
+def openers() -> plt.Figure:
+    w = angen.World(str(IMAGES.parents[1] / 'worlds/angen.world'))
+    w.command('person', 'person', 'Stop')
+    for room in ('kitchen0', 'bedroom0'):
+        w.command('lamp', room, 'On')
+    for kind, name in (('cabinet', 'kitchen_fridge0'), ('cabinet', 'kitchen_oven0'),
+                       ('cabinet', 'kitchen_counter_b0'), ('window', 'kitchen0'),
+                       ('cabinet', 'bedroom_wardrobe_a0'), ('cabinet', 'bedroom_wardrobe_b0'),
+                       ('window', 'bedroom0')):
+        w.command(kind, name, 'Open')
+    views = {'kitchen': [3.6, 3.6, 1.8, 0, 0.3, -2.2], 'bedroom': [3.6, 9.2, 2.0, 0, 0.3, -2.4]}
+    drawn, axes = plt.subplots(1, 2, figsize=(9, 3.6))
+    for ax, (name, pose) in zip(axes, views.items()):
+        w.spawn('model://camera', name, pose)
+        w.request('camera', name)
+        w.run(4)
+        ax.imshow(w.sensor('camera', name)['image'])
+        ax.axis('off')
+    return drawn
+
+
+def cup() -> plt.Figure:
+    w = world(block('weighing_table', 't', '0 0 0.001 0 0 0')
+              + block('cup', 'c', '0 0 0.503 0 0 0'))
+    script = {10: 'Fill 300', 20: 'Lift 0.25', 30: 'Tilt 0.9', 40: 'Tilt 1.3', 50: 'Put'}
+    times, rows = [], []
+    for k in range(700):
+        if k % 10 == 0 and k // 10 in script:
+            w.command('cup', 'c', script[k // 10])
+        w.run(0.1)
+        state, felt = w.device('cup', 'c'), w.sensor('accelerometer', 'c')
+        times.append(w.time)
+        rows.append((state['content'], *felt['acceleration'], felt['tilt'],
+                     w.sensor('load_cells', 't')['weight']))
+    content, x, _, z, tilt, weight = zip(*rows)
+    drawn, axes = figure(4, 'A cup: filled, lifted, tilted twice, put back')
+    axes[0].plot(times, content)
+    axes[0].set_ylabel('content, ml')
+    axes[1].plot(times, x, label='x')
+    axes[1].plot(times, z, label='z')
+    axes[1].legend()
+    axes[1].set_ylabel('m/s²')
+    axes[2].plot(times, tilt)
+    axes[2].set_ylabel('tilt, rad')
+    axes[3].plot(times, weight)
+    axes[3].set_ylabel('table, kg')
+    axes[3].set_xlabel('s')
+    return drawn
+
+
+def cup_cools() -> plt.Figure:
+    drawn, (ax,) = figure(1, 'A cup that cools at 22 °C')
+    for volume in (100, 250, 350):
+        w = world(block('cup', 'c', '0 0 0 0 0 0'))
+        w.command('cup', 'c', f'Fill {volume}')
+        times, heat = [], []
+        for _ in range(90):
+            w.run(60)
+            times.append(w.time / 60)
+            heat.append(w.device('cup', 'c')['temperature'])
+        ax.plot(times, heat, label=f'{volume} ml')
+    ax.set_ylabel('°C')
+    ax.set_xlabel('min')
+    ax.legend()
+    return drawn
+
+
+def load_cells() -> plt.Figure:
+    places = [(x, y) for x in (-0.15, 0.0, 0.15) for y in (-0.15, 0.0, 0.15)]
+    drawn, ax = plt.subplots(figsize=(5, 5))
+    for mass, mark in ((0.5, 'o'), (4.0, 's')):
+        said = []
+        for x, y in places:
+            w = world(block('weighing_table', 't', '0 0 0.001 0 0 0')
+                      + box('crate', f'{x} {y} 0.555 0 0 0', '0.1 0.1 0.1', mass))
+            w.run(3)
+            reading = w.sensor('load_cells', 't')
+            said.append((reading['x'], reading['y']))
+        ax.plot(*zip(*said), mark, fillstyle='none', label=f'located, {mass:g} kg')
+    ax.plot(*zip(*places), 'k+', markersize=12, label='center of the crate')
+    ax.add_patch(plt.Rectangle((-0.225, -0.225), 0.45, 0.45, fill=False, color='0.5'))
+    ax.set_aspect('equal')
+    ax.set_xlabel('m')
+    ax.set_ylabel('m')
+    ax.legend(loc='upper center', ncols=3, fontsize=7)
+    ax.set_title('Crates on a weighing table', fontsize=10)
+    return drawn
+
+
+def plant() -> plt.Figure:
+    w = world(block('plant', 'dry', '0 0 0 0 0 0') + block('plant', 'watered', '2 0 0 0 0 0'))
+    times, rows = [], []
+    for hour in range(0, 24 * 42, 4):
+        if hour % 168 == 164:
+            w.command('plant', 'watered', 'Water 500')
+        w.run(4 * 3600)
+        times.append(w.time / 86400)
+        rows.append([w.sensor('soil_moisture', name)['moisture'] for name in ('dry', 'watered')])
+    drawn, (ax,) = figure(1, 'Soil of two plants at 22 °C and 50 %')
+    for values, name in zip(zip(*rows), ('never watered', '500 ml a week')):
+        ax.plot(times, values, label=name)
+    ax.axhline(21, color='0.5', linestyle=':')
+    ax.set_ylabel('moisture, %')
+    ax.set_xlabel('days')
+    ax.legend()
+    return drawn
+
+
 PLOTS: dict[str, Callable[[], plt.Figure]] = {
     draw.__name__: draw for draw in (proximity, pressure_mat, reed, rfid, smart_plug, temperature,
-                                     battery, stove, appliance, microphone, radio)}
+                                     battery, stove, appliance, microphone, radio, cup, cup_cools,
+                                     load_cells, plant, openers)}
 
 
 def main(names: list[str]) -> None:

@@ -10,7 +10,7 @@ import argparse
 from pathlib import Path
 
 from generate import (aliases, appliances, building, catalog, devices, elevator, furniture, openers,
-                      plan, world)
+                      plan, things, world)
 from generate.care import write_days
 from generate.sdf import numbers
 
@@ -36,6 +36,7 @@ def write_all(folder: Path) -> None:
     catalog.write_catalog(models)
     openers.write_openers(models)
     appliances.write_appliances(models)
+    things.write_things(models)
     for name, piece in furniture.pieces().items():
         furniture.write_piece(models, name, piece)
     aliases.write_aliases(models)

@@ -66,6 +66,12 @@ class FakeWorld : public View, public Wiring, public Outputs {
   std::function<std::vector<float>(const render::PinholeCamera&, const Pose&)> depths_at;
   std::function<std::vector<rays::Crossing>(const Vec3&, const Vec3&)> crossings_at;  // else none
   std::vector<FakeDevice> others;
+  struct Push {
+    std::string link;
+    Vec3 force;
+    Vec3 torque;
+  };
+  std::vector<Push> pushes;
   std::vector<std::pair<std::string, std::string>> events;
 
   FakeJoint& joint_named(const std::string& name) { return joints[index(joints, name)].second; }
@@ -151,6 +157,9 @@ class FakeWorld : public View, public Wiring, public Outputs {
     link.drive_velocity = velocity;
     link.drive_yaw_rate = yaw_rate;
     link.drive_force = max_force;
+  }
+  void push(LinkRef ref, const Vec3& force, const Vec3& torque, const Vec3&) override {
+    pushes.push_back({links.at(ref.index).first, force, torque});
   }
   void light(LightRef ref, double level, double luminous_flux) override {
     lights.at(ref.index).second = {level, luminous_flux};

@@ -63,7 +63,8 @@ def test_world_holds_what_the_building_needs(models):
                              "appliance/workroom_stereo0", "stove/kitchen0"]
     touching = [m for m in models.values() if m.element.find(".//sensor[@type='contact']")
                 is not None]
-    assert len(touching) == 2 * (6 + 3) + 2  # chairs and tables, the elevator, the robot
+    # chairs and tables, a weighing table and a mat, the elevator, the robot
+    assert len(touching) == 2 * (6 + 3 + 2) + 2
 
 
 @pytest.mark.parametrize("floor", [0, 1])

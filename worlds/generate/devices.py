@@ -11,6 +11,8 @@ from .sdf import (Part, add, add_joint, add_link, add_plugin, add_pose, new_mode
                   spanned, write_model)
 
 LIGHT_DROP = 0.35       # the light hangs this far under the ceiling
+SOIL = 8.0              # l, in the pot of models/plant
+PROBE_NOISE = 0.3       # %
 
 
 def write_lamp(models: Path) -> None:
@@ -280,3 +282,11 @@ def write_camera(models: Path) -> None:
     write_model(root, models, "Camera",
                 "A room camera, 320 x 240 at 30 Hz, 80 degrees wide, looking along x. "
                 "Served by libgazebo_ros_camera.so.")
+
+
+def add_soil(model: etree._Element, link: etree._Element) -> None:
+    """Makes a potted plant dry, and puts a moisture probe into its soil."""
+    sensor = add_sensor(link, "soil_moisture", "custom", 1)
+    add_pose(sensor, (0.06, 0, 0.22))
+    add_plugin(sensor, "soil_moisture", "libsoil_moisture.so", noise_stddev=PROBE_NOISE)
+    add_plugin(model, "plant", "libplant.so", soil=SOIL, leaf_height=1.15)

@@ -4,6 +4,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from .devices import add_soil
 from .sdf import Color, Part, Vector, add, add_link, add_plugin, new_model, spanned, write_model
 
 OAK: Color = (0.65, 0.47, 0.28)
@@ -22,10 +23,11 @@ class Piece:
     mesh: str | None = None         # file in its meshes/: then the parts are not shown
     color: Color | None = None      # of an STL mesh, which has none of its own
     touch: str | None = None
+    potted: bool = False            # a plant, whose soil dries
 
 
-def _legs(x: float, y: float, side: float, top: float, mass: float,
-          color: Color) -> tuple[Part, ...]:
+def legs(x: float, y: float, side: float, top: float, mass: float,
+         color: Color) -> tuple[Part, ...]:
     """Returns four square legs whose outer corners stand at (+-x, +-y)."""
     half = side / 2
     return tuple(
@@ -39,15 +41,15 @@ def _table(length: float, width: float, height: float, mass: float, color: Color
     """Returns a table, `length` along y and `width` along x (m), of `mass` kg with its legs."""
     top = spanned("top", (-width / 2, -length / 2, height - 0.04),
                   (width / 2, length / 2, height), mass=mass * 0.8, material=color)
-    legs = _legs(width / 2 - 0.02, length / 2 - 0.02, 0.06, height - 0.04, mass * 0.05, color)
-    return Piece("Table", (top, *legs), static=False, touch="top")
+    four = legs(width / 2 - 0.02, length / 2 - 0.02, 0.06, height - 0.04, mass * 0.05, color)
+    return Piece("Table", (top, *four), static=False, touch="top")
 
 
 def _chair() -> Piece:
     seat = spanned("seat", (-0.21, -0.21, 0.43), (0.21, 0.21, 0.47), mass=1.8)
     back = spanned("back", (-0.21, -0.2, 0.47), (-0.17, 0.2, 0.9), mass=1.2)
-    legs = _legs(0.21, 0.21, 0.04, 0.43, 0.4, OAK)
-    return Piece("Chair", (seat, back, *legs), static=False, mesh="chair.dae", touch="seat")
+    four = legs(0.21, 0.21, 0.04, 0.43, 0.4, OAK)
+    return Piece("Chair", (seat, back, *four), static=False, mesh="chair.dae", touch="seat")
 
 
 def _desk() -> Piece:
@@ -223,7 +225,7 @@ def pieces() -> dict[str, Piece]:
         "plant": Piece("Potted plant", (
             Part("pot", (0.14, 0.26), (0, 0, 0.13)),
             Part("leaves", (0.19, 0.8), (0, 0, 0.72)),
-        ), mesh="plant.dae"),
+        ), mesh="plant.dae", potted=True),
         "shoe_cabinet": _shoe_cabinet(),
         "sofa": _sofa("Sofa", 2.0, "sofa.dae"),
         "stove": _stove(),
@@ -263,5 +265,7 @@ def write_piece(models: Path, name: str, piece: Piece) -> None:
         add_plugin(sensor, "bumper", "libgazebo_ros_bumper.so", noise_stddev=0.05)
     if name in PLUGINS:
         add_plugin(model, name, PLUGINS[name])
+    if piece.potted:
+        add_soil(model, link)
     how = "" if piece.static else "; moves when pushed, reports contacts"
     write_model(root, models, piece.title, f"{piece.title}, faces +x{how}.")

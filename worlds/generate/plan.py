@@ -241,7 +241,17 @@ RECEIVERS = {
 TRANSMITTERS = {"turtlebot": (0.0, 0.0, 0.45), "person": (0.26, 0.0, 1.1)}
 RAISED = {"chair", "kitchen_table", "table", "desk"}     # dynamic pieces start 1 mm up
 
+# model: (name without its floor, x, y, z, pitch, yaw)
+THINGS = (
+    ("rfid_gate", "entrance_rfid", 0.12, 5.0, 2.3, 0.35, 0.0),
+    ("weighing_table", "livingroom_weighing_table", 8.52, 0.42, 0.001, 0.0, 0.0),
+    ("cup", "livingroom_cup", 8.52, 0.42, 0.502, 0.0, pi / 4),
+    ("pressure_mat", "bedroom_mat", 2.75, 8.45, 0.0, 0.0, pi / 2),
+)
+
 ROBOT = (1.5, 5.0, pi)
+ROBOT_TAG = (-0.1, 0.0, 0.43)   # on its upper plate
+BADGE = (0.26, 0.0, 1.3)        # on the person's chest
 
 OPEN_DOORS = ("kitchen_door0", "livingroom_door0", "bedroom_door0")
 # corners of the person's round on floor 0, walked at WALK_SPEED, TURN_TIME at each corner

@@ -10,6 +10,7 @@ from lxml import etree
 from . import catalog, openers, plan
 from .building import add_ground
 from .sdf import SDF_VERSION, add, add_plugin, add_pose, numbers, write
+from .things import add_tag
 
 Pose = tuple[float, float, float, float, float, float]
 
@@ -150,6 +151,11 @@ def _add_transmitter(carrier: etree._Element, name: str) -> None:
                position=numbers(*plan.TRANSMITTERS[name]))
 
 
+def _add_things(world: etree._Element, floor: int) -> None:
+    for model, name, x, y, z, pitch, yaw in plan.THINGS:
+        include(world, model, f"{name}{floor}", (x, y, z + floor * plan.STOREY, 0, pitch, yaw))
+
+
 def walk() -> list[tuple[float, float, float, float]]:
     """Returns the person's waypoints (t in s, x, y, yaw), turning on the spot at corners."""
     points, t = [], 0.0
@@ -171,8 +177,8 @@ def walk() -> list[tuple[float, float, float, float]]:
     return points
 
 
-def add_person(world: etree._Element) -> None:
-    """Appends the person who walks round floor 0."""
+def add_person(world: etree._Element) -> etree._Element:
+    """Appends the person who walks round floor 0, and returns the block."""
     actor = add(world, "actor", name="person")
     script = add(actor, "script")
     add(script, "loop", "true")
@@ -184,6 +190,7 @@ def add_person(world: etree._Element) -> None:
         add(waypoint, "time", round(t, 3))
         add(waypoint, "pose", numbers(x, y, 0, 0, 0, round(yaw, 5)))
     _add_transmitter(actor, "person")
+    return actor
 
 
 def add_state(world: etree._Element, name: str, doors: Sequence[str] = plan.OPEN_DOORS) -> None:
@@ -221,12 +228,15 @@ def write_angen(folder: Path) -> None:
         add_openers(world, floor)
         comment(world, f"floor {floor}: appliances, and sensors of power, sound and radio")
         _add_appliances(world, floor)
+        comment(world, f"floor {floor}: things")
+        _add_things(world, floor)
     add_readers(world)
     x, y, yaw = plan.ROBOT
     comment(world, "who moves")
-    _add_transmitter(include(world, "turtlebot", "turtlebot", (x, y, 0.001, 0, 0, yaw)),
-                     "turtlebot")
-    add_person(world)
+    robot = include(world, "turtlebot", "turtlebot", (x, y, 0.001, 0, 0, yaw))
+    _add_transmitter(robot, "turtlebot")
+    add_tag(robot, plan.ROBOT_TAG)
+    add_tag(add_person(world), plan.BADGE)
     add_state(world, "angen")
     write(root, folder / "angen.world")
 

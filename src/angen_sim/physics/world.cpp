@@ -182,6 +182,17 @@ void World::drive(LinkId id, const Vec3& velocity, double yaw_rate, double max_f
   if (set_drive(impl_->world.get(), body, velocity, yaw_rate, max_force)) impl_->wake(body);
 }
 
+void World::push(LinkId id, const Vec3& force, const Vec3& torque, const Vec3& point) {
+  Body& body = *impl_->links.at(id).body;
+  const bool finite = force.allFinite() && torque.allFinite() && point.allFinite();
+  if (!body.dynamic() || !finite || (force.isZero(0.0) && torque.isZero(0.0))) return;
+  if (!body.awake) impl_->wake(body);
+  impl_->give_to_ode(body);
+  dBodyAddForceAtPos(body.ode.get(), force.x(), force.y(), force.z(), point.x(), point.y(),
+                     point.z());
+  dBodyAddTorque(body.ode.get(), torque.x(), torque.y(), torque.z());
+}
+
 void World::place(ModelId id, const Pose& pose) {
   Impl& w = *impl_;
   ModelRecord& model = *w.models.at(id);

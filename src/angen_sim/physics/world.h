@@ -69,6 +69,10 @@ class World {
   /// changes.
   void drive(LinkId link, const Vec3& velocity, double yaw_rate, double max_force);
 
+  /// A force (N) at a point (world, m) and a torque (N m) on a link for the next step only. Wakes a
+  /// sleeping body unless both are 0; an awake one may fall asleep under the same push.
+  void push(LinkId link, const Vec3& force, const Vec3& torque, const Vec3& point);
+
   /// Puts a whole model as it was described, joints at their initial positions and velocities zero,
   /// so that its frame is at `pose`. Motors stay as they are. Throws Error for a pose not finite.
   void place(ModelId model, const Pose& pose);

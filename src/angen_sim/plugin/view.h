@@ -124,6 +124,9 @@ class Outputs {
   virtual void motor(JointRef joint, double velocity, double max_force) = 0;
   /// Horizontal velocity (m/s) and yaw rate (rad/s) by a motor of at most max_force (N).
   virtual void drive(LinkRef link, const Vec3& velocity, double yaw_rate, double max_force) = 0;
+  /// A force (N) at a point (world, m) and a torque (N m) on a link, for this tick only. Wakes a
+  /// sleeping body unless both are 0; an awake one may fall asleep under the same push.
+  virtual void push(LinkRef link, const Vec3& force, const Vec3& torque, const Vec3& point) = 0;
   /// Light level 0..1 and the flux in lm that level 1 stands for.
   virtual void light(LightRef light, double level, double luminous_flux) = 0;
   /// PublishedReading to everybody on /angen/events.

@@ -109,6 +109,10 @@ void InstanceOutputs::drive(LinkRef link, const Vec3& velocity, double yaw_rate,
   engines_.physics.drive(live_.parts.links.at(at(link)), velocity, yaw_rate, max_force);
 }
 
+void InstanceOutputs::push(LinkRef link, const Vec3& force, const Vec3& torque, const Vec3& point) {
+  engines_.physics.push(live_.parts.links.at(at(link)), force, torque, point);
+}
+
 void InstanceOutputs::light(LightRef light, double level, double luminous_flux) {
   Parts::Lamp& lamp = live_.parts.lamps.at(at(light));
   lamp.level = level;

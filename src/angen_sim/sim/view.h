@@ -63,6 +63,7 @@ class InstanceOutputs : public Outputs {
   void force(JointRef joint, double force) override;
   void motor(JointRef joint, double velocity, double max_force) override;
   void drive(LinkRef link, const Vec3& velocity, double yaw_rate, double max_force) override;
+  void push(LinkRef link, const Vec3& force, const Vec3& torque, const Vec3& point) override;
   void light(LightRef light, double level, double luminous_flux) override;
   void event(const std::string& event, const std::string& detail) override;
 

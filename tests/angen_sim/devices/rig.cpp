@@ -166,6 +166,11 @@ void Rig::motor(JointRef joint, double velocity, double max_force) {
   bench_.world.set_motor(id_of(joint), velocity, max_force);
 }
 
+void Rig::push(LinkRef link, const Vec3& force, const Vec3& torque, const Vec3& point) {
+  ++calls;
+  bench_.world.push(id_of(link), force, torque, point);
+}
+
 void Rig::drive(LinkRef link, const Vec3& velocity, double yaw_rate, double max_force) {
   ++calls;
   bench_.world.drive(id_of(link), velocity, yaw_rate, max_force);

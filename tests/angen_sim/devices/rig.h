@@ -110,6 +110,7 @@ class Rig : public View, public Wiring, public Outputs {
   void force(JointRef joint, double force) override;
   void motor(JointRef joint, double velocity, double max_force) override;
   void drive(LinkRef link, const Vec3& velocity, double yaw_rate, double max_force) override;
+  void push(LinkRef link, const Vec3& force, const Vec3& torque, const Vec3& point) override;
   void light(LightRef, double, double) override {}
   void event(const std::string& event, const std::string&) override { events.push_back(event); }
 

@@ -1,0 +1,254 @@
+#include "devices/cup.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "plugin/register.h"
+#include "plugin/rooms.h"
+
+namespace angen::devices {
+
+namespace {
+
+constexpr double kDensity = 1e-3;     // kg/ml, of water
+constexpr double kHeat = 4.186;       // J/(ml K), of water
+constexpr double kMilliliters = 1e6;  // in a m^3
+constexpr double kKelvin = 273.15;
+constexpr double kStiffness = 400.0;       // 1/s^2 of the hand's grip, 20 rad/s and damped
+constexpr double kDamping = 40.0;          // 1/s
+constexpr double kNoDrop = 0.01;           // ml: less is no spill
+constexpr double kFreeToTilt = 0.05;       // m over where it stood
+constexpr double kSameTemperature = 0.01;  // K
+constexpr Nanoseconds kPourEnds = kSecond / 2;
+
+// rad, between the cup's axis and the vertical.
+double tilt_of(const Pose& pose) {
+  return std::acos(std::clamp((pose.rotation * Vec3::UnitZ()).z(), -1.0, 1.0));
+}
+
+std::string volume_text(double volume) {
+  std::ostringstream text;
+  text << std::round(10.0 * volume) / 10.0 << " ml";
+  return text.str();
+}
+
+}  // namespace
+
+// Up to where the surface meets the bottom it is the cylinder below the mean height; beyond, a hoof
+// (J. W. Harris and H. Stocker, Handbook of Mathematics and Computational Science, 1998).
+double held_volume(double radius, double height, double tilt) {
+  if (tilt >= M_PI / 2) return 0.0;
+  const double slope = std::tan(tilt);
+  if (2.0 * radius * slope <= height) {
+    return M_PI * radius * radius * (height - radius * slope);
+  }
+  const double wet = height / slope;  // m of the bottom's diameter that is under the drink
+  const double chord = std::sqrt(wet * (2.0 * radius - wet));
+  const double angle = std::acos((radius - wet) / radius);
+  return height / (3.0 * wet) *
+         (chord * (3.0 * radius * radius - chord * chord) +
+          3.0 * radius * radius * (wet - radius) * angle);
+}
+
+void Cup::configure(Params& params, Wiring& wiring) {
+  radius_ = params.number("radius", 0.037, "m", "of its inside", kPositive);
+  height_ = params.number("height", 0.085, "m", "of its inside", kPositive);
+  floor_ = params.number("floor", 0.008, "m", "thickness of its bottom", kNotNegative);
+  center_ = params.number("center", 0.0465, "m", "of its own mass, above its foot", kNotNegative);
+  heat_loss_ = params.number("heat_loss", 0.7, "W/K",
+                             "to the air, by convection, radiation and vapor", kNotNegative);
+  cup_heat_ = params.number("heat_capacity", 300.0, "J/K", "of the empty cup", kPositive);
+  fill_temperature_ =
+      params.number("fill_temperature", 85.0, "degC", "of what is filled in", {0.0, 100.0});
+  hand_force_ = params.number("hand_force", 30.0, "N", "greatest force of the hand", kPositive);
+  content_ = params.number("content", 0.0, "ml", "at the start", {0.0, capacity()});
+  const double start = params.number("temperature", fill_temperature_, "degC",
+                                     "of cup and drink at the start; as fill_temperature where "
+                                     "there is a drink, as the air where there is none",
+                                     {-50.0, 100.0});
+  if (content_ > 0.0 || params.has("temperature")) temperature_ = start;
+  poured_ = params.number("poured", 0.0, "ml", "that have run out before the start", kNotNegative);
+  params.text("device_name", "", "the name commands use, instead of the model's");
+  body_ = wiring.link(params.text("link", "body", "the link that is the cup, origin at its foot"));
+  mass_ = wiring.mass(body_);
+  gravity_ = wiring.gravity();
+}
+
+double Cup::capacity() const { return kMilliliters * held_volume(radius_, height_, 0.0); }
+
+double Cup::heat_capacity() const { return cup_heat_ + kHeat * content_; }
+
+Verdict Cup::fill(double volume, const View& view) {
+  if (content_ + volume > capacity()) {
+    return Verdict::reject("it holds " + volume_text(capacity()) + " and has " +
+                           volume_text(content_) + " in it");
+  }
+  return Verdict::accept([this, volume, now = view.time(), around = air(view)] {
+    cool(now, around);
+    temperature_ = (heat_capacity() * *temperature_ + kHeat * volume * fill_temperature_) /
+                   (heat_capacity() + kHeat * volume);
+    content_ += volume;
+    changed_ = true;
+  });
+}
+
+Verdict Cup::command(const Command& command, const View& view) {
+  if (command.verb == "Fill") return fill(command.number, view);
+  if (command.verb == "Empty") {
+    return Verdict::accept([this] {
+      content_ = 0.0;
+      changed_ = true;
+    });
+  }
+  if (command.verb == "Lift") {
+    return Verdict::accept([this, height = command.number, body = view.link(body_)] {
+      if (!grasp_) {
+        grasp_ = Grasp{body.pose};
+        lift_.start(0.0);
+        turn_.start(0.0);
+      }
+      grasp_->height = height;
+      grasp_->releases = false;
+    });
+  }
+  if (!grasp_) return Verdict::reject("no hand holds it; lift it first, as Lift 0.2");
+  if (command.verb == "Tilt") {
+    if (grasp_->height < kFreeToTilt) {
+      return Verdict::reject("it is too low to be tilted; lift it by 0.05 m at least");
+    }
+    return Verdict::accept([this, tilt = command.number] { grasp_->tilt = tilt; });
+  }
+  return Verdict::accept([this] {  // Put
+    grasp_->tilt = 0.0;
+    grasp_->height = 0.0;
+    grasp_->releases = true;
+  });
+}
+
+void Cup::update(const View& view, Outputs& outputs) {
+  const LinkView body = view.link(body_);
+  if (!temperature_ || due_.due(view.time(), view.step()) || changed_) {
+    cool(view.time(), air(view));
+  }
+  spill(tilt_of(body.pose), outputs);
+  if (pours_ && view.time() - spilled_at_ >= kPourEnds) {
+    pours_ = false;
+    outputs.event("poured", volume_text(poured_) + " in all");
+  }
+  if (grasp_) {
+    carry(body, to_seconds(view.step()), outputs);
+  } else if (body.awake || changed_) {
+    weigh(body, outputs);
+  }
+  changed_ = false;
+}
+
+double Cup::air(const View& view) const {
+  const double here = air_at(view, view.link(body_).pose.position).temperature;
+  return std::isnan(here) ? view.ambient_temperature() - kKelvin : here;
+}
+
+// Newton's law, exactly, since it was computed last.
+void Cup::cool(Nanoseconds now, double air) {
+  if (!temperature_) temperature_ = air;
+  if (cooled_at_ >= 0) {
+    const double seconds = to_seconds(now - cooled_at_);
+    temperature_ = air + (*temperature_ - air) * std::exp(-seconds * heat_loss_ / heat_capacity());
+  }
+  cooled_at_ = now;
+}
+
+void Cup::spill(double tilt, Outputs& outputs) {
+  const double over = content_ - kMilliliters * held_volume(radius_, height_, tilt);
+  if (over < kNoDrop) return;
+  if (!pours_) outputs.event("pours", "");
+  pours_ = true;
+  content_ -= over;
+  poured_ += over;
+  changed_ = true;
+}
+
+// The hand's grip is a damped spring to the place and turn where it wants the cup; it carries the
+// weight of cup and drink.
+void Cup::carry(const LinkView& body, double dt, Outputs& outputs) {
+  Grasp& grasp = *grasp_;
+  // It goes up before it tilts, and stands upright before it goes down.
+  const bool high = lift_.position() >= std::min(grasp.height, kFreeToTilt);
+  if (high || grasp.tilt == 0.0) turn_.advance(grasp.tilt, dt);
+  if (!grasp.releases || turn_.at(0.0)) lift_.advance(grasp.height, dt);
+  if (grasp.releases && lift_.at(0.0) && turn_.at(0.0)) {
+    grasp_.reset();
+    changed_ = true;
+    return weigh(body, outputs);
+  }
+  const bool still = lift_.at(grasp.height) && turn_.at(grasp.tilt);
+  if (still && !body.awake) return;  // what sleeps in a hand is held
+  const Pose wanted{grasp.pose.position + lift_.position() * Vec3::UnitZ(),
+                    grasp.pose.rotation * Quat(Eigen::AngleAxisd(turn_.position(), Vec3::UnitY()))};
+  const Vec3 middle(0.0, 0.0, center_);
+  const Vec3 arm = body.pose.rotation * middle;
+  const Vec3 velocity = body.linear_velocity + body.angular_velocity.cross(arm);
+  const Vec3 lag = wanted * middle - body.pose * middle;
+  const Vec3 rise = lift_.velocity() * Vec3::UnitZ();
+  Vec3 force = mass_ * (kStiffness * lag + kDamping * (rise - velocity) - gravity_);
+  force *= std::min(1.0, hand_force_ / std::max(force.norm(), 1e-9));
+  const Eigen::AngleAxisd turn((wanted.rotation * body.pose.rotation.conjugate()).normalized());
+  const double angle = std::remainder(turn.angle(), 2.0 * M_PI);
+  const double moment = mass_ * (3.0 * radius_ * radius_ + height_ * height_) / 12.0;
+  const Vec3 torque =
+      moment * (kStiffness * angle * turn.axis() - kDamping * body.angular_velocity);
+  outputs.push(body_, force, torque, body.pose * middle);
+}
+
+// Its drink presses on the bottom, half its depth over it.
+void Cup::weigh(const LinkView& body, Outputs& outputs) const {
+  const double depth = content_ / kMilliliters / (M_PI * radius_ * radius_);
+  const Vec3 middle(0.0, 0.0, floor_ + 0.5 * depth);
+  // A push of nothing still has what it stands on feel that the drink is gone.
+  const Vec3 weight = std::max(kDensity * content_, 1e-9) * gravity_;
+  outputs.push(body_, weight, Vec3::Zero(), body.pose * middle);
+}
+
+void Cup::report(const View& view, Reading& state) const {
+  state.set("content", content_);
+  state.set("temperature", temperature_.value_or(view.ambient_temperature() - kKelvin));
+  state.set("poured", poured_);
+  state.set("tilt", tilt_of(view.link(body_).pose));
+  state.set("held", grasp_.has_value());
+}
+
+void Cup::save(SavedParams& params) const {
+  params.number("content", content_);
+  params.number("poured", poured_);
+  if (temperature_) params.number("temperature", *temperature_);
+}
+
+Nanoseconds Cup::idle_until(const View& view) const {
+  if (pours_ || changed_) return 0;
+  if (grasp_ && !(lift_.at(grasp_->height) && turn_.at(grasp_->tilt))) return 0;
+  const double around = air(view);
+  const bool cold = temperature_ && std::abs(*temperature_ - around) < kSameTemperature;
+  return cold && climates(view).empty() ? kForever : due_.next(view.time());
+}
+
+ANGEN_REGISTER_DEVICE(
+    Cup, Kind("cup", "A cup: its drink cools, weighs, and spills when it is tilted.")
+             .model("cup")
+             .example("set cup cup1 fill 200")
+             .verb("Fill", "milliliters", "ml", {0.0, 1e5}, "adds a drink of fill_temperature")
+             .verb("Empty", "takes the drink out")
+             .verb("Lift", "height", "m", {0.0, 2.0}, "a hand lifts it over where it stood")
+             .verb("Tilt", "angle", "rad", {0.0, M_PI}, "the hand tilts it towards its x axis")
+             .verb("Put", "the hand puts it back upright and lets it go")
+             .number("content", "ml", "that is in it")
+             .shown(0)
+             .number("temperature", "°C", "of cup and drink")
+             .shown(1)
+             .number("poured", "ml", "that has run out over its lip")
+             .number("tilt", "rad", "of its axis from the vertical")
+             .shown(2)
+             .flag("held", "whether a hand holds it")
+             .shown_as("held", ""))
+
+}  // namespace angen::devices

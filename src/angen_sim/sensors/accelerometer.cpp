@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "plugin/register.h"
+
+namespace angen::sensors {
+
+namespace {
+
+constexpr double kGentle = 0.3;  // of gravity
+
+}  // namespace
+
+/// Proper acceleration where it is fastened, and what follows from it: whether it is moved, tilted
+/// or lifted. Decisions are made before noise, which is far below their thresholds.
+class Accelerometer : public Sensor {
+ public:
+  Nanoseconds sample_period() const override { return sample_period_; }
+
+  void configure(Params& params, Wiring& wiring) override {
+    const double sample_rate =
+        params.number("sample_rate", 100.0, "Hz", "how often it samples", {1.0, 1e4});
+    sample_period_ = from_seconds(1.0 / sample_rate);
+    activity_ =
+        params.number("activity_threshold", 0.5, "m/s^2",
+                      "it is moved when its acceleration is so far from gravity's", kPositive);
+    quiet_ = from_seconds(
+        params.number("inactivity_time", 0.5, "s", "and at rest after so long below", kPositive));
+    tilt_threshold_ =
+        params.number("tilt_threshold", 0.35, "rad",
+                      "it is tilted beyond this angle from how it was mounted", {1e-3, M_PI});
+    lift_threshold_ = params.number("lift_threshold", 0.05, "m",
+                                    "a movement that ends higher by this has lifted it, lower "
+                                    "has put it down",
+                                    kPositive);
+    params.noise("acceleration", "m/s^2", "of each axis");
+    link_ = wiring.link(params.text("link", "", "the link that it is fastened to"));
+    gravity_ = wiring.gravity();
+  }
+
+  void read(const View& view, Hits, Rng&, Reading& reading) override {
+    const LinkView link = view.link(link_);
+    const Pose pose = view.pose();
+    const Vec3 velocity =
+        link.linear_velocity + link.angular_velocity.cross(pose.position - link.pose.position);
+    const double dt = to_seconds(sample_period_);  // while samples are left out it rests
+    Vec3 acceleration = Vec3::Zero();
+    if (sampled_ && link.awake) acceleration = (velocity - velocity_) / dt;
+    follow(acceleration, dt, view.time(), reading);
+    sampled_ = true;
+    velocity_ = velocity;
+    const Vec3 felt = pose.rotation.conjugate() * (acceleration - gravity_);
+    const Vec3 up = pose.rotation.conjugate() * -gravity_.normalized();
+    if (!moving_) note_tilt(std::acos(std::clamp(up.z(), -1.0, 1.0)), reading);
+    // What falls or is jerked feels nothing like the vertical: its tilt stays.
+    const double g = gravity_.norm();
+    if (moving_ && std::abs(felt.norm() - g) < kGentle * g) note_tilt(angle_to(felt), reading);
+    reading.set("acceleration", std::vector<double>{felt.x(), felt.y(), felt.z()});
+    reading.set("tilt", tilt_);
+    reading.set("moving", moving_);
+    reading.set("tilted", tilted_);
+    reading.set("lifted", lifted_);
+    reading.set("height", height_);
+  }
+
+  bool steady() const override { return !moving_; }
+
+ private:
+  // rad, of what it takes for the vertical: what it feels.
+  static double angle_to(const Vec3& felt) {
+    return felt.isZero(0.0) ? 0.0 : std::acos(std::clamp(felt.normalized().z(), -1.0, 1.0));
+  }
+
+  // Integrates the vertical acceleration from rest to rest, as long as a movement lasts.
+  void follow(const Vec3& acceleration, double dt, Nanoseconds now, Reading& reading) {
+    if (acceleration.norm() > activity_) {
+      active_at_ = now;
+      if (!moving_) {
+        moving_ = true;
+        speed_ = rise_ = 0.0;
+        say("moved", reading);
+      }
+    }
+    if (!moving_) return;
+    const double up = -acceleration.dot(gravity_.normalized());
+    rise_ += (speed_ + 0.5 * up * dt) * dt;
+    speed_ += up * dt;
+    if (now - active_at_ < quiet_) return;
+    moving_ = false;
+    height_ += rise_;
+    const bool higher = rise_ > lift_threshold_;
+    const bool lower = rise_ < -lift_threshold_;
+    if (higher || lower) {
+      lifted_ = height_ > lift_threshold_;
+      say(higher ? "lifted" : "put_down", reading);
+    } else {
+      say("rests", reading);
+    }
+    if (!lifted_) height_ = 0.0;
+  }
+
+  void note_tilt(double tilt, Reading& reading) {
+    tilt_ = tilt;
+    const bool tilted = tilted_ ? tilt > 0.8 * tilt_threshold_ : tilt > tilt_threshold_;
+    if (tilted == tilted_) return;
+    tilted_ = tilted;
+    say(tilted ? "tilted" : "upright", reading);
+  }
+
+  static void say(const char* event, Reading& reading) {
+    reading.event = event;
+    reading.urgent = true;
+  }
+
+  LinkRef link_;
+  Vec3 gravity_ = Vec3::Zero();
+  Nanoseconds sample_period_ = kSecond / 100;
+  Nanoseconds quiet_ = 0;
+  double activity_ = 0.0;        // m/s^2
+  double tilt_threshold_ = 0.0;  // rad
+  double lift_threshold_ = 0.0;  // m
+
+  Nanoseconds active_at_ = 0;
+  Vec3 velocity_ = Vec3::Zero();
+  double speed_ = 0.0;   // m/s upwards, since the movement began
+  double rise_ = 0.0;    // m, since then
+  double height_ = 0.0;  // m, over where it was put down last
+  double tilt_ = 0.0;    // rad
+  bool sampled_ = false;
+  bool moving_ = false;
+  bool tilted_ = false;
+  bool lifted_ = false;
+};
+
+ANGEN_REGISTER_SENSOR(
+    Accelerometer,
+    Kind("accelerometer", "What a thing feels when it is moved, tilted, lifted, put down.")
+        .publishes_at(10.0)
+        .on_link("imu")
+        .example("spawn accelerometer a1 --on kitchen_chair0_a::body --set link=body")
+        .numbers("acceleration", "m/s^2", "along its x, y, z; at rest g upwards")
+        .shown(2)
+        .number("tilt", "rad", "of its z axis from what it takes for the vertical")
+        .shown(2)
+        .flag("moving", "whether it is moved")
+        .alarm("MOVED", "")
+        .flag("tilted", "whether it is tilted beyond the threshold")
+        .shown_as("tilted", "")
+        .flag("lifted", "whether it was lifted and not put down yet")
+        .shown_as("lifted", "")
+        .number("height", "m", "over where it was put down last, as its integral says"))
+
+}  // namespace angen::sensors

@@ -1,0 +1,182 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "plugin/register.h"
+#include "sensors/watched.h"
+
+namespace angen::sensors {
+
+namespace {
+
+struct Cell {
+  double load = 0.0;  // kg
+  double x = 0.0;     // m, where it presses, in the sensor's frame
+  double y = 0.0;
+};
+
+/// What cells say together: the sum less the tare, and where that presses.
+class Sum {
+ public:
+  Sum(double tare, double tare_x, double tare_y, double least)
+      : tare_(tare), tare_x_(tare_x), tare_y_(tare_y), least_(least) {}
+
+  double weight(const std::vector<Cell>& cells) const {
+    double sum = -tare_;
+    for (const Cell& cell : cells) sum += cell.load;
+    return sum;
+  }
+
+  void read(const std::vector<Cell>& cells, Reading& reading) const {
+    const double sum = weight(cells);
+    double x = -tare_ * tare_x_;
+    double y = -tare_ * tare_y_;
+    std::vector<double> loads;
+    for (const Cell& cell : cells) {
+      loads.push_back(cell.load);
+      x += cell.load * cell.x;
+      y += cell.load * cell.y;
+    }
+    const bool says = sum >= least_;
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    reading.set("weight", sum);
+    reading.set("x", says ? x / sum : none);
+    reading.set("y", says ? y / sum : none);
+    reading.set("cells", std::move(loads));
+  }
+
+ private:
+  double tare_;    // kg
+  double tare_x_;  // m
+  double tare_y_;  // m
+  double least_;   // kg that have a place
+};
+
+std::vector<Cell> with_cell_noise(std::vector<Cell> cells, double stddev, Rng& rng) {
+  for (Cell& cell : cells) cell.load += stddev * rng.gaussian();
+  return cells;
+}
+
+/// The readings of cells whose loads stay.
+class StillCells : public LazyReading {
+ public:
+  StillCells(Sum sum, std::vector<Cell> cells, double stddev)
+      : sum_(sum), cells_(std::move(cells)), stddev_(stddev) {}
+  void read(Nanoseconds, const Draws& draws, Reading& reading) const override {
+    Rng rng = draws(0);
+    sum_.read(with_cell_noise(cells_, stddev_, rng), reading);
+  }
+
+ private:
+  Sum sum_;
+  std::vector<Cell> cells_;
+  double stddev_;  // kg
+};
+
+}  // namespace
+
+/// Load cells under the feet of a table: each weighs what its foot presses on the floor. Together
+/// they say what stands on the table, and where its center is.
+class LoadCells : public Sensor, public NoisySensor {
+ public:
+  Nanoseconds sample_period() const override { return sample_period_; }
+
+  void configure(Params& params, Wiring& wiring) override {
+    const double tare = params.number("tare", 0.0, "kg",
+                                      "what stands on the cells always: the table", kNotNegative);
+    const auto places = params.rows("tare_place", 2, "m", "x y of its center; 0 0");
+    if (places.size() > 1) throw params.error("tare_place", "load cells have one <tare_place>");
+    const double x = places.empty() ? 0.0 : places[0][0];
+    const double y = places.empty() ? 0.0 : places[0][1];
+    const double least = params.number(
+        "least", 0.05, "kg", "a smaller weight has no place: x and y are not numbers", kPositive);
+    step_ = params.number("event_step", 0.1, "kg", "a change by more is an event", kPositive);
+    capacity_ = params.number("capacity", 50.0, "kg", "of each cell; it shows no more", kPositive);
+    stddev_ = params.number("noise_stddev", 0.0, "kg", "of each cell", kNotNegative);
+    const double sample_rate =
+        params.number("sample_rate", 10.0, "Hz", "how often it samples", {1e-3, 1e6});
+    sample_period_ = from_seconds(1.0 / sample_rate);
+    collisions_ = read_watched(params, wiring, "a set of load cells");
+    gravity_ = wiring.gravity().norm();
+    sum_ = Sum(tare, x, y, least);
+  }
+
+  void read(const View& view, Hits, Rng& rng, Reading& reading) override {
+    cells_.clear();
+    for (const ContactRef collision : collisions_) cells_.push_back(cell(view, collision));
+    note_change(sum_.weight(cells_), reading);
+    sum_.read(with_cell_noise(cells_, stddev_, rng), reading);
+  }
+
+  bool steady() const override { return settled_; }
+
+  bool varies() const override { return stddev_ > 0.0; }
+  double quiet_chance() const override { return 1.0; }  // events are of the loads before noise
+  int memory() const override { return 0; }
+  std::shared_ptr<const LazyReading> lazy_reading() const override {
+    return std::make_shared<StillCells>(sum_, cells_, stddev_);
+  }
+  void resume(Nanoseconds, const Draws&) override {}
+
+ private:
+  Cell cell(const View& view, ContactRef collision) const {
+    const Pose here = view.pose();
+    const Vec3 up = here.rotation * Vec3::UnitZ();
+    Cell found;
+    double force = 0.0;
+    for (const ContactPair& pair : view.contacts(collision)) {
+      for (const ContactPoint& point : pair.points) {
+        const double pressed = point.force.dot(up);
+        const Vec3 at = here.inverse() * point.position;
+        force += pressed;
+        found.x += pressed * at.x();
+        found.y += pressed * at.y();
+      }
+    }
+    if (force <= 0.0) return {};
+    return {std::min(force / gravity_, capacity_), found.x / force, found.y / force};
+  }
+
+  // What is put down swings for a moment: a change counts once two samples agree.
+  void note_change(double weight, Reading& reading) {
+    settled_ = std::abs(weight - last_) < 0.1 * step_;
+    last_ = weight;
+    if (!settled_ || std::abs(weight - told_) < step_) return;
+    if (has_told_) {
+      reading.event = weight > told_ ? "placed" : "removed";
+      reading.event_detail = std::to_string(std::lround(1000.0 * (weight - told_))) + " g";
+      reading.urgent = true;
+    }
+    has_told_ = true;
+    told_ = weight;
+  }
+
+  std::vector<ContactRef> collisions_;
+  std::vector<Cell> cells_;
+  double gravity_ = 9.81;  // m/s^2, where it was calibrated
+  Sum sum_{0.0, 0.0, 0.0, 0.05};
+  double stddev_ = 0.0;    // kg
+  double step_ = 0.0;      // kg
+  double capacity_ = 0.0;  // kg
+  Nanoseconds sample_period_ = kSecond / 10;
+  double last_ = std::numeric_limits<double>::infinity();  // kg
+  double told_ = std::numeric_limits<double>::infinity();  // kg, at the last event
+  bool has_told_ = false;
+  bool settled_ = false;
+};
+
+ANGEN_REGISTER_SENSOR(
+    LoadCells,
+    Kind("load_cells", "What stands on a table: its weight, and where its center is.")
+        .publishes_at(10.0)
+        .on_link("contact")
+        .example("spawn load_cells l1 --on kitchen_table0::body --set tare=20")
+        .number("weight", "kg", "of what stands on it, without the tare")
+        .shown(2)
+        .number("x", "m", "of its center, in the sensor's frame; NaN where nothing stands on it")
+        .shown(2)
+        .number("y", "m", "of its center, in the sensor's frame")
+        .shown(2)
+        .numbers("cells", "kg", "of each cell"))
+
+}  // namespace angen::sensors
