@@ -1,0 +1,118 @@
+"""Locating in a world of this process: its sensors' readings, beside the truth."""
+from __future__ import annotations
+
+import math
+from typing import Any, Callable
+
+from lxml import etree
+
+from angen_tools.common.catalog import angen_module
+from angen_tools.common.failure import Failure
+from angen_tools.common.geometry import yaw
+from angen_tools.common.progress import Progress
+from angen_tools.locate.belief import STEP, Answer, Belief, Evidence
+from angen_tools.locate.score import Row, compare
+from angen_tools.locate.site import STOREY, Site, Thing, make_site
+from angen_tools.maps.gridmap import load_world, models_with
+
+SAMPLE = 0.1  # s, at which PIRs and readers publish
+KINDS = ('pir', 'rfid', 'pressure')
+
+
+def site_of(world: Any) -> Site:
+    """The home that is a world: rooms by its climates, things where their models stand."""
+    world.run(SAMPLE)
+    places = {name: pose for name, pose in zip(world.links, world.link_poses)}
+    first: dict[str, Any] = {}
+    for name, pose in places.items():
+        first.setdefault(name.split('::')[0], pose)
+    things = [_thing(kind, name, first[name]) for kind in KINDS for name in world.sensors(kind)
+              if name in first]
+    things += [_thing('door', _command_name(model, first[model][2]), first[model])
+               for model in models_with(world, 'hinge')]
+    things += [_thing('elevator', name, first[name]) for name in world.devices('elevator')
+               if name in first]
+    origins = _origins(world)
+    climates = [(origins[name], world.device('climate', name))
+                for name in world.devices('climate') if name in origins]
+    site = make_site(climates, things)
+    if not site.rooms:
+        raise Failure('the world has no climate, which tells what rooms there are')
+    return site
+
+
+def _origins(world: Any) -> dict[str, list[float]]:
+    """x y z of each model."""
+    saved = etree.fromstring(world.save().encode()).find('world')
+    return {element.get('name') or element.findtext('name'):
+            [float(v) for v in element.findtext('pose', '0 0 0').split()[:3]]
+            for element in saved if element.tag in ('model', 'include')}
+
+
+def _thing(kind: str, name: str, pose: Any) -> Thing:
+    x, y, z = (float(v) for v in pose[:3])
+    return Thing(kind, name, (x, y, z), yaw(*pose[3:]))
+
+
+def _command_name(model: str, z: float) -> str:
+    """A door's name in commands: kitchen_door0 is kitchen0."""
+    base = model.rstrip('0123456789_').removesuffix('_door').removeprefix('door_')
+    return f'{base or "door"}{math.floor((z + 0.5) / STOREY)}'
+
+
+def run(path: str, seconds: float, seed: int, drive: Callable[[Any], None] | None = None
+        ) -> tuple[list[Row], Site, list[Answer]]:
+    """Locates in a world file for so many simulated seconds; `drive` is called ten times a second.
+
+    Failure where the world does not load, has no climate or no reader.
+    """
+    world = load_world(path) if seed == 1 else angen_module().World(path, seed=seed)
+    site = site_of(world)
+    if not site.of_kind('rfid'):
+        raise Failure('the world has no RFID reader in a room: nobody can be told from another')
+    belief, rows = Belief(site), []
+    carriers = _carriers(world)
+    with Progress('locate') as progress:
+        while world.time < seconds:
+            evidence = Evidence()
+            for _ in range(round(STEP / SAMPLE)):
+                if drive is not None:
+                    drive(world)
+                world.run(SAMPLE)
+                _take(world, evidence)
+            belief.step(evidence)
+            truth = {tag: _place(world, model) for tag, model in carriers.items()}
+            rows += compare(world.time, belief.answers(), truth, site)
+            progress.update(world.time / seconds)
+    return rows, site, belief.answers()
+
+
+def _take(world: Any, evidence: Evidence) -> None:
+    """Adds what sensors and doors say now, as their topics would."""
+    for name in world.sensors('pir'):
+        motion = bool(world.sensor('pir', name)['motion'])
+        evidence.motion[name] = evidence.motion.get(name, False) or motion
+    for name in world.sensors('rfid'):
+        reading = world.sensor('rfid', name)
+        evidence.reads.setdefault(name, {}).update(zip(reading['ids'], reading['distances']))
+    for name in world.sensors('pressure'):
+        pressed = bool(world.sensor('pressure', name)['pressed'])
+        evidence.pressed[name] = evidence.pressed.get(name, False) or pressed
+    for name in world.devices('door'):
+        evidence.open[name] = world.device('door', name)['mode'] != 'CLOSED'
+
+
+def _carriers(world: Any) -> dict[str, str]:
+    """The model that carries each tag; the truth, for comparison only."""
+    found = {}
+    for name in world.devices('tag'):
+        model = name.removesuffix('_tag')
+        if any(link.startswith(f'{model}::') for link in world.links):
+            found[world.device('tag', name)['id']] = model
+    return found
+
+
+def _place(world: Any, model: str) -> tuple[float, float, float]:
+    index = next(i for i, link in enumerate(world.links) if link.startswith(f'{model}::'))
+    x, y, z = (float(v) for v in world.link_poses[index][:3])
+    return (x, y, z)
