@@ -367,27 +367,6 @@ def radio() -> plt.Figure:
     return drawn
 
 
-def openers() -> plt.Figure:
-    w = angen.World(str(IMAGES.parents[1] / 'worlds/angen.world'))
-    w.command('person', 'person', 'Stop')
-    for room in ('kitchen0', 'bedroom0'):
-        w.command('lamp', room, 'On')
-    for kind, name in (('cabinet', 'kitchen_fridge0'), ('cabinet', 'kitchen_oven0'),
-                       ('cabinet', 'kitchen_counter_b0'), ('window', 'kitchen0'),
-                       ('cabinet', 'bedroom_wardrobe_a0'), ('cabinet', 'bedroom_wardrobe_b0'),
-                       ('window', 'bedroom0')):
-        w.command(kind, name, 'Open')
-    views = {'kitchen': [3.6, 3.6, 1.8, 0, 0.3, -2.2], 'bedroom': [3.6, 9.2, 2.0, 0, 0.3, -2.4]}
-    drawn, axes = plt.subplots(1, 2, figsize=(9, 3.6))
-    for ax, (name, pose) in zip(axes, views.items()):
-        w.spawn('model://camera', name, pose)
-        w.request('camera', name)
-        w.run(4)
-        ax.imshow(w.sensor('camera', name)['image'])
-        ax.axis('off')
-    return drawn
-
-
 def cup() -> plt.Figure:
     w = world(block('weighing_table', 't', '0 0 0.001 0 0 0')
               + block('cup', 'c', '0 0 0.503 0 0 0'))
@@ -478,7 +457,7 @@ def plant() -> plt.Figure:
 PLOTS: dict[str, Callable[[], plt.Figure]] = {
     draw.__name__: draw for draw in (proximity, pressure_mat, reed, rfid, smart_plug, temperature,
                                      battery, stove, appliance, microphone, radio, cup, cup_cools,
-                                     load_cells, plant, openers)}
+                                     load_cells, plant)}
 
 
 def main(names: list[str]) -> None:
