@@ -153,7 +153,8 @@ def draw_times(found: list[Figures], limit: float, path: Path) -> None:
                                             constrained_layout=True, width_ratios=(1.15, 1))
     for ambient, color, name in ((True, WITH, 'with ambient sensors'),
                                  (False, WITHOUT, "with the robot's own sensors only")):
-        _shares(left, [f for f in found if f.ambient is ambient], limit, color, name)
+        _shares(left, [f for f in found if f.ambient is ambient], limit,
+                1.02 * max(figures.time_s for figures in found), color, name)
     both = sorted(pairs(found), key=lambda pair: pair[0].time_s)
     for i, (one, other) in enumerate(both):
         right.plot([one.time_s, other.time_s], [i, i], color='#c0c0c0', lw=2, zorder=1)
@@ -177,10 +178,11 @@ def draw_times(found: list[Figures], limit: float, path: Path) -> None:
     pyplot.close(figure)
 
 
-def _shares(ax: Any, found: list[Figures], limit: float, color: str, name: str) -> None:
-    """A step for each search that found somebody, and the median."""
+def _shares(ax: Any, found: list[Figures], limit: float, end: float, color: str, name: str
+            ) -> None:
+    """A step for each search that found somebody, up to `end` (s), and the median."""
     times = sorted(figures.time_s for figures in found if figures.found)
-    ends = [0.0, *times, max([figures.time_s for figures in found] + [0.0])]
+    ends = [0.0, *times, end]
     shares = [0.0, *(100 * (i + 1) / len(found) for i in range(len(times)))]
     ax.step(ends, [*shares, shares[-1]], where='post', color=color, lw=2.2, label=name)
     ax.fill_between(ends, [*shares, shares[-1]], step='post', color=color, alpha=0.08)
