@@ -96,6 +96,14 @@ struct Link {
   Source source;
 };
 
+/// URDF's <safety_controller>: bounds on what drives the joint, tighter near its soft limits.
+struct JointSafety {
+  double soft_lower = -1e16;  // rad or m
+  double soft_upper = 1e16;
+  double k_position = 0.0;  // 1/s, bound of the speed per distance to a soft limit; 0 = none
+  double k_velocity = 0.0;  // N m s/rad or N s/m, bound of the effort per speed left; 0 = none
+};
+
 struct JointAxis {
   Vec3 xyz = Vec3::UnitZ();  // unit, in the model's frame at position 0
   double lower = -1e16;      // rad or m
@@ -105,6 +113,7 @@ struct JointAxis {
   double damping = 0.0;    // N m s/rad or N s/m
   double friction = 0.0;   // N m or N
   double initial_position = 0.0;
+  std::optional<JointSafety> safety;
 };
 
 struct Joint {

@@ -5,6 +5,7 @@
 
 #include "core/text.h"
 #include "load/check.h"
+#include "load/describe.h"
 #include "load/values.h"
 #include "load/xml.h"
 
@@ -46,6 +47,10 @@ const std::map<Key, Rule>& rules() {
       {{"axis2", "xyz"}, kThree},
       {{"axis", "initial_position"}, kOne},
       {{"axis2", "initial_position"}, kOne},
+      {{kSafety, "soft_lower_limit"}, kOne},
+      {{kSafety, "soft_upper_limit"}, kOne},
+      {{kSafety, "k_position"}, kNotNegative},
+      {{kSafety, "k_velocity"}, kNotNegative},
       {{"limit", "effort"}, kOne},
       {{"limit", "velocity"}, kOne},
       {{"dynamics", "damping"}, kNotNegative},

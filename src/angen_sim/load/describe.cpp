@@ -161,6 +161,7 @@ desc::Model described_model(const Element& model, const sdf::Model& from, Sessio
   Place place;
   place.never_moves = to.is_static;
   add_parts(model, from, place, to, session);
+  merge_hinges(to, session);
   return to;
 }
 

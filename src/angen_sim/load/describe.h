@@ -26,6 +26,12 @@ desc::Plugin plugin_of(const Element& plugin);
 desc::Joint joint_of(const Element& element, const sdf::Joint& joint, const std::string& prefix,
                      const Pose& place);
 
+/// What holds a <safety_controller>'s numbers in an <axis>.
+constexpr char kSafety[] = "angen:safety_controller";
+
+/// Makes one of several hinges that join the same two links about one line, with a warning.
+void merge_hinges(desc::Model& model, Session& session);
+
 /// An <actor> as a model that the person plug-in drives. Throws Error.
 desc::Model describe_actor(const Element& actor, Session& session);
 

@@ -156,7 +156,7 @@ Element read_document(const std::string& text, const std::string& file, Session&
                                  ">; it must begin with <sdf> or "
                                  "<robot>");
   }
-  upgrade(root, version_of(root));
+  upgrade(root, version_of(root), session);
   make_uris_absolute(root, session);
   count(root, session);
   return root;

@@ -29,6 +29,6 @@ bool is_merge(const Element& include);
 void expand_model(Element& model, Session& session);
 
 /// Rewrites a tree of an older version (104..108) as SDF 1.9.
-void upgrade(Element& sdf, int version);
+void upgrade(Element& sdf, int version, Session& session);
 
 }  // namespace angen::load

@@ -1,7 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <optional>
 
+#include "core/text.h"
 #include "load/describe.h"
 #include "load/values.h"
 #include "load/xml.h"
@@ -30,6 +31,28 @@ desc::Joint::Type type_of(sdf::JointType type, const Element& element) {
   }
 }
 
+// <angen:safety_controller>, as <axis> has it in SDF.
+std::optional<desc::JointSafety> safety_of(const Element& axis, double lower, double upper) {
+  const Element* given = axis.child(kSafety);
+  if (given == nullptr) return std::nullopt;
+  if (given->child("k_velocity") == nullptr) {
+    throw Error(given->source,
+                "<safety_controller> has no k_velocity; give it one, N m s/rad or "
+                "N s/m");
+  }
+  desc::JointSafety safety;
+  safety.soft_lower = child_number(*given, "soft_lower_limit", lower);
+  safety.soft_upper = child_number(*given, "soft_upper_limit", upper);
+  safety.k_position = child_number(*given, "k_position", 0.0);
+  safety.k_velocity = child_number(*given, "k_velocity", 0.0);
+  if (safety.soft_lower > safety.soft_upper) {
+    throw Error(given->source, "<safety_controller> has its soft_lower_limit " +
+                                   number_text(safety.soft_lower) + " above its soft_upper_limit " +
+                                   number_text(safety.soft_upper) + "; exchange them");
+  }
+  return safety;
+}
+
 desc::JointAxis axis_of(const Element& element, const sdf::JointAxis& from, bool free,
                         const Pose& place) {
   desc::JointAxis axis;
@@ -46,6 +69,8 @@ desc::JointAxis axis_of(const Element& element, const sdf::JointAxis& from, bool
   axis.damping = from.Damping();
   axis.friction = from.Friction();
   axis.initial_position = child_number(element, "initial_position", 0.0);
+  axis.safety = safety_of(element, axis.lower, axis.upper);
+  if (axis.safety && free) axis.safety->k_position = 0.0;  // it has no end
   return axis;
 }
 
@@ -58,7 +83,38 @@ std::string end_of(const sdf::Joint& joint, bool parent, const std::string& pref
   return link == "world" ? link : prefix + link;
 }
 
+bool is_hinge(const desc::Joint& joint) { return joint.type == desc::Joint::Type::kRevolute; }
+
+// Hinges about one line, as a door has an upper and a lower one.
+bool on_one_line(const desc::Joint& a, const desc::Joint& b) {
+  const Vec3& along = a.axes[0].xyz;
+  return along.cross(b.axes[0].xyz).norm() < 1e-6 && along.cross(b.anchor - a.anchor).norm() < 1e-6;
+}
+
 }  // namespace
+
+void merge_hinges(desc::Model& model, Session& session) {
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const desc::Joint& first = model.joints[i];
+    for (std::size_t j = i + 1; j < model.joints.size();) {
+      const desc::Joint& other = model.joints[j];
+      if (!is_hinge(first) || !is_hinge(other) || first.parent != other.parent ||
+          first.child != other.child) {
+        ++j;
+        continue;
+      }
+      const std::string both = "joint '" + other.name + "' joins '" + other.parent + "' and '" +
+                               other.child + "', as joint '" + first.name + "' does";
+      if (on_one_line(first, other)) {
+        session.warn(other.source, both + ", about the same line: they are one, of that name");
+        model.joints.erase(model.joints.begin() + static_cast<std::ptrdiff_t>(j));
+      } else {
+        session.warn(other.source, both + ", about another line: neither can turn");
+        ++j;
+      }
+    }
+  }
+}
 
 desc::Joint joint_of(const Element& element, const sdf::Joint& from, const std::string& prefix,
                      const Pose& place) {

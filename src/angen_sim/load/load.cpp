@@ -57,7 +57,7 @@ Element model_from_text(const std::string& text, Session& session) {
                                  "<actor> or <robot>");
   }
   straighten_numbers(root, session);
-  upgrade(root, kLoneVersion);
+  upgrade(root, kLoneVersion, session);
   make_uris_absolute(root, session);
   return root;
 }
@@ -148,7 +148,7 @@ desc::Sensor sensor(const std::string& what, const std::string& name, const Pose
   const SearchPaths nowhere;
   Session session{nowhere};
   straighten_numbers(root, session);
-  upgrade(root, kLoneVersion);
+  upgrade(root, kLoneVersion, session);
   root.attributes.erase(std::remove_if(root.attributes.begin(), root.attributes.end(),
                                        [](const auto& a) { return a.first == "version"; }),
                         root.attributes.end());

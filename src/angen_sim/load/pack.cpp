@@ -121,9 +121,15 @@ void serialize(A& a, angen::desc::Link& v) {
 }
 
 template <class A>
+void serialize(A& a, angen::desc::JointSafety& v) {
+  auto& [soft_lower, soft_upper, k_position, k_velocity] = v;
+  a(soft_lower, soft_upper, k_position, k_velocity);
+}
+
+template <class A>
 void serialize(A& a, angen::desc::JointAxis& v) {
-  auto& [xyz, lower, upper, effort, velocity, damping, friction, initial_position] = v;
-  a(xyz, lower, upper, effort, velocity, damping, friction, initial_position);
+  auto& [xyz, lower, upper, effort, velocity, damping, friction, initial_position, safety] = v;
+  a(xyz, lower, upper, effort, velocity, damping, friction, initial_position, safety);
 }
 
 template <class A>

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "load/expand.h"
+#include "load/values.h"
 #include "load/xml.h"
 
 namespace angen::load {
@@ -19,8 +20,20 @@ void upgrade_axis(Element& axis, int version) {
   if (xyz != nullptr && in_model) set_attribute(*xyz, "expressed_in", "__model__");
 }
 
-void upgrade_element(Element& element, int version) {
+// A position alone, as older files have it.
+void fill_pose(Element& pose, Session& session) {
+  if (pose.attribute("rotation_format") != nullptr) return;
+  const Numbers found = numbers_in(pose.text);
+  if (!found.bad.empty() || found.values.size() != 3) return;
+  session.warn(pose.source,
+               "<pose> holds 3 numbers and is taken as a position; write 6, x y z and "
+               "roll pitch yaw");
+  pose.text += " 0 0 0";
+}
+
+void upgrade_element(Element& element, int version, Session& session) {
   if (element.name == "plugin") return;
+  if (element.name == "pose") fill_pose(element, session);
   if (element.name == "joint" && version < 107) {
     for (Element& child : element.children) {
       if (child.name == "axis" || child.name == "axis2") upgrade_axis(child, version);
@@ -47,13 +60,13 @@ void upgrade_element(Element& element, int version) {
       }
     }
   }
-  for (Element& child : element.children) upgrade_element(child, version);
+  for (Element& child : element.children) upgrade_element(child, version, session);
 }
 
 }  // namespace
 
-void upgrade(Element& sdf, int version) {
-  upgrade_element(sdf, version);
+void upgrade(Element& sdf, int version, Session& session) {
+  upgrade_element(sdf, version, session);
   set_attribute(sdf, "version", "1.9");
 }
 

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "load/describe.h"
 #include "load/sdf.h"
 #include "load/values.h"
 #include "load/xml.h"
@@ -71,6 +72,28 @@ void place(Element& element, const Element& robot, const Source& around) {
   for (Element& child : element.children) place(child, robot, element.source);
 }
 
+// libsdformat drops <safety_controller>: its attributes become children of the joint's <axis>.
+void keep_safety(const Element& joint, Element& root) {
+  const Element* safety = joint.child("safety_controller");
+  Element* model = find_child(root, "model");
+  if (safety == nullptr || model == nullptr) return;
+  for (Element& child : model->children) {
+    Element* axis = find_child(child, "axis");
+    if (child.name != "joint" || name_of(child) != name_of(joint) || axis == nullptr) continue;
+    Element kept;
+    kept.name = kSafety;
+    kept.source = safety->source;
+    for (const auto& [key, value] : safety->attributes) {
+      Element number;
+      number.name = key;
+      number.text = value;
+      number.source = safety->source;
+      kept.children.push_back(std::move(number));
+    }
+    axis->children.push_back(std::move(kept));
+  }
+}
+
 }  // namespace
 
 Element convert_urdf(const std::string& text, const Element& robot) {
@@ -85,6 +108,9 @@ Element convert_urdf(const std::string& text, const Element& robot) {
   }
   Element root = parse_xml(document->Root()->ToString(""), robot.source.file);
   place(root, robot, robot.source);
+  for (const Element& child : robot.children) {
+    if (child.name == "joint") keep_safety(child, root);
+  }
   return root;
 }
 

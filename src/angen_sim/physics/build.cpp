@@ -276,6 +276,7 @@ class Builder {
     axis.velocity = from.velocity;
     axis.damping = from.damping;
     axis.friction = from.friction;
+    axis.safety = from.safety;
     axis.initial = std::clamp(from.initial_position, axis.lower, axis.upper);
     return axis;
   }

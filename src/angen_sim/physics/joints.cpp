@@ -198,9 +198,32 @@ void reset_joint(Joint& joint) {
   }
 }
 
+Bounds velocity_bounds(const Joint& joint) {
+  const Axis& axis = joint.axes[0];
+  const double most = axis.velocity >= 0.0 ? axis.velocity : dInfinity;
+  if (!axis.safety || axis.safety->k_position == 0.0) return {-most, most};
+  const desc::JointSafety& safety = *axis.safety;
+  const double k = safety.k_position;
+  return {std::clamp(-k * (joint.position - safety.soft_lower), -most, most),
+          std::clamp(-k * (joint.position - safety.soft_upper), -most, most)};
+}
+
+Bounds effort_bounds(const Joint& joint, double velocity) {
+  const Axis& axis = joint.axes[0];
+  const double most = axis.effort >= 0.0 ? axis.effort : dInfinity;
+  const Bounds speeds = velocity_bounds(joint);
+  if (axis.safety && axis.safety->k_velocity > 0.0) {
+    const double k = axis.safety->k_velocity;
+    return {std::clamp(-k * (velocity - speeds.low), -most, most),
+            std::clamp(-k * (velocity - speeds.high), -most, most)};
+  }
+  return {velocity < speeds.low ? 0.0 : -most, velocity > speeds.high ? 0.0 : most};
+}
+
 void apply_motor(const Joint& joint) {
   const bool on = joint.motor_force > 0.0;
-  const double velocity = on ? joint.motor_velocity : 0.0;
+  const Bounds speeds = on ? velocity_bounds(joint) : Bounds{};
+  const double velocity = std::clamp(on ? joint.motor_velocity : 0.0, speeds.low, speeds.high);
   const double force = on ? joint.motor_force : joint.axes[0].friction;
   const int group = joint.type == Type::kUniversal ? universal_group(joint, 0) : 0;
   set_motor_param(joint, dParamVel + group, velocity);
@@ -239,14 +262,8 @@ double joint_velocity(const Joint& joint) {
 }
 
 void push_joint(Joint& joint, double force) {
-  const Axis& limits = joint.axes[0];
-  if (limits.effort >= 0.0) force = std::clamp(force, -limits.effort, limits.effort);
-  if (limits.velocity >= 0.0) {
-    const double speed = joint_velocity(joint);
-    if ((speed > limits.velocity && force > 0.0) || (speed < -limits.velocity && force < 0.0)) {
-      force = 0.0;
-    }
-  }
+  const Bounds efforts = effort_bounds(joint, joint_velocity(joint));
+  force = std::clamp(force, efforts.low, efforts.high);
   const Vec3 push = force * world_axis(joint);
   dBodyID first = joint.first->ode.get();
   dBodyID second = joint.second->ode.get();

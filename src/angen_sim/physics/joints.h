@@ -17,6 +17,18 @@ void anchor_joint(const Joint& joint, const Pose& model);
 /// on.
 void reset_joint(Joint& joint);
 
+struct Bounds {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// What limits and <safety_controller> leave of the first axis' speed where it stands, rad/s or
+/// m/s.
+Bounds velocity_bounds(const Joint& joint);
+
+/// The same of what is added as a force at that speed, N m or N.
+Bounds effort_bounds(const Joint& joint, double velocity);
+
 /// Sets motor, or dry friction where there is none, of a joint that ODE has.
 void apply_motor(const Joint& joint);
 
@@ -26,8 +38,8 @@ void update_joint(Joint& joint);
 /// Speed of the first axis, rad/s or m/s.
 double joint_velocity(const Joint& joint);
 
-/// Adds a force or torque for the next step, within the axis' effort and velocity limits. ODE must
-/// have the joint's bodies.
+/// Adds a force or torque for the next step, within effort_bounds(). ODE must have the joint's
+/// bodies.
 void push_joint(Joint& joint, double force);
 
 /// The displacement that `position` of the first axis gives the child, in the model's frame at 0.

@@ -69,6 +69,7 @@ struct Axis {
   double damping = 0.0;
   double friction = 0.0;
   double initial = 0.0;
+  std::optional<desc::JointSafety> safety;
 };
 
 /// A joint between `first` (always dynamic) and `second`. When the description's child is static

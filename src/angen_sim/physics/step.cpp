@@ -69,8 +69,19 @@ void World::Impl::add_lift() {
   }
 }
 
+// Bounds of speeds that depend on where a joint is follow it.
+void World::Impl::bound_motors() {
+  for (Body* body : awake) {
+    for (const Joint* joint : body->joints) {
+      if (joint->first != body || joint->motor_force <= 0.0) continue;
+      if (joint->axes[0].safety) apply_motor(*joint);
+    }
+  }
+}
+
 void World::Impl::integrate(std::int64_t tick) {
   add_lift();
+  bound_motors();
   if (!solve_step(world.get(), awake, h, seed, tick)) ++failed;
   contacts.finish();
 }

@@ -156,7 +156,9 @@ JointState World::joint(JointId id) const {
 
 void World::add_force(JointId id, double force) {
   Joint& joint = impl_->joint_at(id);
-  if (force == 0.0 || !std::isfinite(force) || !has_axis(joint)) return;
+  if (!std::isfinite(force) || !has_axis(joint)) return;
+  // A <safety_controller> may make a force of none.
+  if (force == 0.0 && !(joint.axes[0].safety && joint.first->awake)) return;
   impl_->wake_joint(joint);
   impl_->give_to_ode(*joint.first);
   push_joint(joint, force);

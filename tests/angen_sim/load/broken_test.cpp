@@ -66,9 +66,9 @@ const Broken kBroken[] = {
      "</link></model></world></sdf>",
      "w.world:2: ", "'x', which is not a number"},
     {"short_pose",
-     "<sdf version='1.6'><world name='w'><model name='m'><link name='l'>\n<pose>0 0 0</pose>"
+     "<sdf version='1.6'><world name='w'><model name='m'><link name='l'>\n<pose>0 0 0 0</pose>"
      "</link></model></world></sdf>",
-     "w.world:2: ", "holds 3 numbers; give 6"},
+     "w.world:2: ", "holds 4 numbers; give 6"},
     {"infinite_pose",
      "<sdf version='1.6'><world name='w'><model name='m'><link name='l'>\n"
      "<pose>inf 0 0 0 0 0</pose></link></model></world></sdf>",

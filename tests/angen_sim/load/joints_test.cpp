@@ -1,0 +1,123 @@
+#include <gtest/gtest.h>
+
+#include "angen_sim/load/texts.h"
+
+namespace angen::load {
+namespace {
+
+std::string hinge(const std::string& name, const std::string& place,
+                  const std::string& extra = "") {
+  return "<joint name='" + name + "' type='revolute'><parent>world</parent><child>a</child><pose>" +
+         place + "</pose><axis><xyz>0 0 1</xyz><limit><lower>-1.57</lower><upper>0.001</upper>" +
+         "</limit>" + extra + "</axis></joint>";
+}
+
+std::string arm(const std::string& type, const std::string& safety) {
+  return "<robot name='r'><link name='a'><inertial><mass value='1'/>"
+         "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>"
+         "<link name='b'><inertial><mass value='1'/>"
+         "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>"
+         "<joint name='j' type='" +
+         type +
+         "'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/>"
+         "<limit lower='-2' upper='2' effort='20' velocity='3'/>" +
+         safety + "</joint></robot>";
+}
+
+desc::JointSafety safety_in(const std::string& urdf) {
+  const Folder folder;
+  const desc::Model read = model(folder.write("arm.urdf", urdf), "r", {}, folder.paths());
+  for (const desc::Joint& joint : read.joints) {
+    if (joint.name == "j") return joint.axes.at(0).safety.value();
+  }
+  throw std::runtime_error("no joint j");
+}
+
+std::string message_of(const std::string& urdf) {
+  try {
+    safety_in(urdf);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SafetyController, OfAUrdfIsRead) {
+  const desc::JointSafety safety = safety_in(
+      arm("revolute",
+          "<safety_controller soft_lower_limit='-1.5' soft_upper_limit='1.4' k_position='15' "
+          "k_velocity='10'/>"));
+  EXPECT_DOUBLE_EQ(safety.soft_lower, -1.5);
+  EXPECT_DOUBLE_EQ(safety.soft_upper, 1.4);
+  EXPECT_DOUBLE_EQ(safety.k_position, 15.0);
+  EXPECT_DOUBLE_EQ(safety.k_velocity, 10.0);
+}
+
+TEST(SafetyController, SoftLimitsThatAreNotGivenAreTheJointsOwn) {
+  const desc::JointSafety safety =
+      safety_in(arm("prismatic", "<safety_controller k_position='4' k_velocity='10'/>"));
+  EXPECT_DOUBLE_EQ(safety.soft_lower, -2.0);
+  EXPECT_DOUBLE_EQ(safety.soft_upper, 2.0);
+}
+
+TEST(SafetyController, OfAJointWithoutEndsHasNoSoftLimits) {
+  const desc::JointSafety safety = safety_in(arm(
+      "continuous", "<safety_controller soft_upper_limit='1' k_position='4' k_velocity='10'/>"));
+  EXPECT_DOUBLE_EQ(safety.k_position, 0.0);
+  EXPECT_DOUBLE_EQ(safety.k_velocity, 10.0);
+}
+
+TEST(SafetyController, WhatIsWrongWithItIsSaid) {
+  EXPECT_NE(message_of(arm("revolute", "<safety_controller k_position='4'/>"))
+                .find("arm.urdf:1: <safety_controller> has no k_velocity"),
+            std::string::npos);
+  EXPECT_NE(message_of(arm("revolute",
+                           "<safety_controller soft_lower_limit='1' soft_upper_limit='-1' "
+                           "k_velocity='10'/>"))
+                .find("soft_lower_limit 1 above its soft_upper_limit -1"),
+            std::string::npos);
+  EXPECT_NE(message_of(arm("revolute", "<safety_controller k_velocity='-1'/>"))
+                .find("must not be negative"),
+            std::string::npos);
+}
+
+TEST(SafetyController, OfAnSdfStandsInItsAxis) {
+  const desc::Model m = read_model(
+      two_links() + hinge("j", "0 0 0 0 0 0",
+                          "<angen:safety_controller><soft_upper_limit>-0.1</soft_upper_limit>"
+                          "<k_position>4</k_position><k_velocity>10</k_velocity>"
+                          "</angen:safety_controller>"));
+  const desc::JointSafety safety = m.joints.at(0).axes.at(0).safety.value();
+  EXPECT_DOUBLE_EQ(safety.soft_lower, -1.57);
+  EXPECT_DOUBLE_EQ(safety.soft_upper, -0.1);
+}
+
+TEST(Poses, OfThreeNumbersArePositionsWithAWarning) {
+  const desc::World w = read(in_model(two_links() + hinge("j", "-9.371533 6.509166 2.2"), "1.4"));
+  expect_near(w.models.at(0).joints.at(0).anchor, {-9.371533, 6.509166, 2.2});
+  ASSERT_EQ(w.warnings.size(), 1U);
+  EXPECT_NE(w.warnings[0].text().find("w.world:1: "), std::string::npos) << w.warnings[0].text();
+  EXPECT_NE(w.warnings[0].message.find("3 numbers"), std::string::npos);
+}
+
+TEST(Hinges, AboutOneLineAreOneJoint) {
+  const desc::World w =
+      read(in_model(two_links() + hinge("low", "1 2 0.3 0 0 0") + hinge("high", "1 2 1.9 0 0 0")));
+  ASSERT_EQ(w.models.at(0).joints.size(), 1U);
+  EXPECT_EQ(w.models[0].joints[0].name, "low");
+  ASSERT_EQ(w.warnings.size(), 1U);
+  EXPECT_NE(w.warnings[0].message.find("joint 'high' joins 'world' and 'a', as joint 'low' does"),
+            std::string::npos)
+      << w.warnings[0].message;
+}
+
+TEST(Hinges, AboutTwoLinesStayTwoWithAWarning) {
+  const desc::World w =
+      read(in_model(two_links() + hinge("one", "1 2 0 0 0 0") + hinge("other", "1 2.5 0 0 0 0")));
+  EXPECT_EQ(w.models.at(0).joints.size(), 2U);
+  ASSERT_EQ(w.warnings.size(), 1U);
+  EXPECT_NE(w.warnings[0].message.find("neither can turn"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace angen::load
