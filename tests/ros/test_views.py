@@ -133,6 +133,28 @@ def test_rays_change_groups_while_a_sensor_fires(angen: Angen) -> None:
         until(lambda: not of_beams(heard), "no rays")
 
 
+def test_rays_are_blue_or_in_the_color_that_is_given(angen: Angen) -> None:
+    def color_of(heard: Heard) -> tuple[float, ...] | None:
+        for (group, _), marker in keyed(list(heard.messages)).items():
+            if group.startswith("idle switch beams"):
+                ink = marker.color
+                return ink.r, ink.g, ink.b, ink.a
+        return None
+
+    for given, wanted in (("", (0.0, 0.0, 1.0, 1.0)),
+                          ("<color>1 0.5 0 0.25</color>", (1.0, 0.5, 0.0, 0.25))):
+        beam = ('<sdf version="1.6"><model name="tinted"><static>true</static><link name="link">'
+                '<sensor name="s" type="ray"><plugin name="s" '
+                f'filename="liboptical_switch_controller.so">{given}</plugin></sensor></link>'
+                '</model></sdf>')
+        with Heard("/angen/markers", MarkerArray) as heard:
+            assert angen.call("/angen/spawn", Spawn, name="tinted", xml=beam,
+                              pose=at(-20.0, -20.0, 5.0)).success
+            assert until(lambda: color_of(heard), "the beam's color") == wanted
+            assert angen.call("/angen/delete", Delete, name="tinted").success
+            until(lambda: color_of(heard) is None, "no rays")
+
+
 def test_frames_make_one_tree(angen: Angen) -> None:
     with Heard("/tf", TFMessage) as moving, Heard("/tf_static", TFMessage) as fixed:
         until(lambda: moving.messages and fixed.messages, "frames")

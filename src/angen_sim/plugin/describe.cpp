@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "plugin/library.h"
+#include "plugin/ray_color.h"
 
 namespace angen {
 
@@ -16,7 +17,7 @@ class AnyWiring : public Wiring {
   Vec3 gravity() const override { return {0.0, 0.0, -9.81}; }
   bool has_joint(const std::string&) const override { return true; }
   JointRef joint(const std::string&) override { return {0}; }
-  JointLimits limits(JointRef) const override { return {0.0, 1.0}; }
+  JointLimits limits(JointRef) const override { return {-1e16, 1e16}; }
   LinkRef link(const std::string&) override { return {0}; }
   std::string child_of(JointRef) const override { return "link"; }
   double mass(LinkRef) const override { return 1.0; }
@@ -31,6 +32,7 @@ class AnyWiring : public Wiring {
 void read_common(Params& params, const Kind& kind) {
   params.update_period(kind.rate);
   params.text("topicName", "/angen/" + kind.name + "/NAME", "where it publishes");
+  if (!kind.ray_color.empty()) read_ray_color(params, kind);
   params.text("frameName", "NAME", "frame_id of its messages");
 }
 

@@ -54,6 +54,11 @@ Kind& Kind::commanded_on(std::string topic) {
   return *this;
 }
 
+Kind& Kind::rays(std::string color) {
+  ray_color = std::move(color);
+  return *this;
+}
+
 Kind& Kind::verb(std::string verb_name, std::string verb_doc) {
   verbs.push_back({std::move(verb_name), std::move(verb_doc), "", "", {}, false});
   return *this;

@@ -60,6 +60,7 @@ class Kind {
   std::vector<Verb> verbs;
   std::vector<std::string> value_units;  // of one commanded by numbers alone: "m/s", "rad/s"
   std::vector<Field> fields;
+  std::string ray_color;  // of a sensor whose rays rviz draws: "r g b a", 0 to 1; <color> overrides
 
   // Each adds to the description and returns it, so that calls can be chained.
 
@@ -70,6 +71,8 @@ class Kind {
   Kind& on_link(std::string sdf_type);
   Kind& example(std::string line);
   Kind& commanded_on(std::string topic);
+  /// Its field `ranges` has the lengths of rays, which rviz draws in this color.
+  Kind& rays(std::string color);
 
   Kind& verb(std::string name, std::string doc);
   Kind& verb(std::string name, std::string argument, std::string unit, Range range,

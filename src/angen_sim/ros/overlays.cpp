@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "plugin/ray_color.h"
 #include "plugin/summary.h"
 #include "ros/convert.h"
 #include "ros/glow.h"
@@ -26,7 +27,16 @@ constexpr double kRoomTextAt = 2.2;         // m over the floor, south of the la
 constexpr double kOverDevice = 0.17;        // m, a label over the highest visual
 
 const std::optional<RayStyle>& rays_of(const sim::SensorEntry& sensor) {
+  static const std::optional<RayStyle> none;
+  if (sensor.plugin->kind().ray_color.empty()) return none;
   return ros_kind(sensor.kind, sensor.desc->plugin).rays;
+}
+
+// <color>, which was checked when the sensor was made.
+std_msgs::ColorRGBA color_of(const sim::SensorEntry& sensor) {
+  Params params(sensor.desc->plugin_element, &sensor.desc->element);
+  const Eigen::Vector4f c = read_ray_color(params, sensor.plugin->kind());
+  return color(c[0], c[1], c[2], c[3]);
 }
 
 visualization_msgs::Marker text_marker(std::string text, double height,
@@ -299,7 +309,7 @@ bool Overlays::redraw(const sim::Snapshot& snapshot, Overlay& beams) {
   beams.fired = fired;
   beams.ranges = std::move(ranges);
   visualization_msgs::Marker marker = draw_rays(*entry.desc, beams.ranges);
-  marker.color = fired ? style.alarm : style.idle;
+  marker.color = fired ? style.alarm : color_of(entry);
   show(beams, std::move(marker), (fired ? "" : "idle ") + style.group + beams.storey);
   return true;
 }

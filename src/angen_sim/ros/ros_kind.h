@@ -32,8 +32,7 @@ struct Format {
 
 /// How rviz shows a sensor's rays, which its field `ranges` has.
 struct RayStyle {
-  std::string group;  // rviz namespace
-  std_msgs::ColorRGBA idle;
+  std::string group;          // rviz namespace
   std_msgs::ColorRGBA alarm;  // while an alarm of its kind is yes
 };
 
@@ -71,8 +70,9 @@ class RosKindBuilder {
     return *this;
   }
 
-  RosKindBuilder& rays(std::string group, std_msgs::ColorRGBA idle, std_msgs::ColorRGBA alarm) {
-    kind_.rays = RayStyle{std::move(group), idle, alarm};
+  /// Rays are drawn of a kind that has Kind::rays, in its color or, while it alarms, in this.
+  RosKindBuilder& rays(std::string group, std_msgs::ColorRGBA alarm) {
+    kind_.rays = RayStyle{std::move(group), alarm};
     return *this;
   }
   RosKindBuilder& caption() {

@@ -130,6 +130,7 @@ ANGEN_REGISTER_SENSOR(OpticalSwitch,
                           .publishes_at(1.0)
                           .model("optical_switch")
                           .example("spawn switch s1 --pose \"2.1 3.94 2.125\"")
+                          .rays("0 0 1 1")
                           .flag("closed", "something stands in a ray")
                           .alarm("closed", "open")
                           .flag("changed",

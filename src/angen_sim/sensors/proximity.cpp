@@ -62,6 +62,7 @@ ANGEN_REGISTER_SENSOR(
     Proximity, Kind("proximity", "The distance to the nearest thing in a narrow cone.")
                    .model("proximity")
                    .example("spawn proximity d1 --pose \"1 1 0.5 0 0 1.57\" --set ray/range/max=2")
+                   .rays("0.1 0.5 0.9 0.45")
                    .number("range", "m", "to the nearest thing, infinite where nothing is in reach")
                    .shown(3)
                    .flag("near", "whether anything is in reach")

@@ -15,10 +15,10 @@ void fill(const Reading& reading, const Label&, angen_msgs::PirMsg& message) {
   message.signal_threshold = reading.get<double>("signal_threshold");
 }
 
-ANGEN_REGISTER_ROS_KIND(
-    {"pir"},
-    RosKindBuilder().message_with_array<angen_msgs::PirMsg, angen_msgs::PirArray>(&fill).rays(
-        "PIR rays", color(0.1F, 0.3F, 1.0F, 0.45F), color(1.0F, 0.25F, 0.1F, 0.8F)));
+ANGEN_REGISTER_ROS_KIND({"pir"},
+                        RosKindBuilder()
+                            .message_with_array<angen_msgs::PirMsg, angen_msgs::PirArray>(&fill)
+                            .rays("PIR rays", color(1.0F, 0.25F, 0.1F, 0.8F)));
 
 }  // namespace
 }  // namespace angen::node

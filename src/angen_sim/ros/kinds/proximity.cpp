@@ -20,8 +20,7 @@ void fill(const Reading& reading, const Label&, sensor_msgs::Range& message) {
 }
 
 ANGEN_REGISTER_ROS_KIND({"proximity"}, RosKindBuilder().message<sensor_msgs::Range>(&fill).rays(
-                                           "proximity cones", color(0.1F, 0.5F, 0.9F, 0.45F),
-                                           color(0.9F, 0.5F, 0.1F, 0.8F)));
+                                           "proximity cones", color(0.9F, 0.5F, 0.1F, 0.8F)));
 
 }  // namespace
 }  // namespace angen::node

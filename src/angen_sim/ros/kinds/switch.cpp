@@ -22,7 +22,7 @@ void fill(const Reading& reading, const Label&, angen_msgs::SwitchMsg& message) 
 ANGEN_REGISTER_ROS_KIND(
     {"switch"},
     RosKindBuilder().message_with_array<angen_msgs::SwitchMsg, angen_msgs::SwitchArray>(&fill).rays(
-        "switch beams", color(0.9F, 0.1F, 0.1F, 1.0F), color(0.1F, 0.8F, 0.2F, 1.0F)));
+        "switch beams", color(0.1F, 0.8F, 0.2F, 1.0F)));
 
 }  // namespace
 }  // namespace angen::node

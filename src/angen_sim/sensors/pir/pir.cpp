@@ -47,6 +47,7 @@ ANGEN_REGISTER_SENSOR(
              .model("pir")
              .model("pir_pyroelectric", "model", "pyroelectric")
              .example("spawn pir p1 --pose \"1 1 1.2 0 0 0\" --set ray/range/max=4")
+             .rays("0 0 1 0.45")
              .flag("motion", "whether it detects motion")
              .alarm("MOTION", "still")
              .number("difference", "m",
