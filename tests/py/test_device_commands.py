@@ -34,3 +34,21 @@ def test_where_all_can_all_move(world):
     w.run(3)
     for name in ('wide0', 'narrow0'):
         assert w.device('door', name)['position'] == pytest.approx(-0.7, abs=0.005)
+
+
+def test_soft_limits_hold_a_door_back(world):
+    """It opens to -1.2 rad, where its <safety_controller> leaves no force to go on."""
+    guarded = door('hall', 0, -1.57).replace('</limit>', '''</limit><angen:safety_controller>
+      <soft_lower_limit>-1.2</soft_lower_limit><k_position>10</k_position>
+      <k_velocity>250</k_velocity></angen:safety_controller>''')
+    w = world(guarded)
+    w.command('door', 'hall0', 'Open')
+    farthest = 0.0
+    for _ in range(600):
+        w.run(0.01)
+        farthest = min(farthest, w.device('door', 'hall0')['position'])
+    assert farthest == pytest.approx(-1.2, abs=0.005)
+    assert w.device('door', 'hall0')['mode'] == 'BLOCKED'
+    w.command('door', 'hall0', 'Close')
+    w.run(6)
+    assert w.device('door', 'hall0')['mode'] == 'CLOSED'

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "core/text.h"
 #include "devices/storeys.h"
 #include "plugin/register.h"
 
@@ -13,6 +14,7 @@ namespace angen::devices {
 
 namespace {
 
+constexpr double kOpen = -1.57;          // rad, the usual open_position
 constexpr double kClosedWithin = 0.01;   // rad
 constexpr double kOpenWithin = 0.02;     // rad
 constexpr double kArriveError = 0.0015;  // rad
@@ -27,6 +29,11 @@ constexpr PidUnits kUnits{"N m/rad", "N m/(rad s)", "N m s/rad", "N m"};
 const char* const kModeNames[] = {"CLOSED", "OPEN", "OPENING", "CLOSING", "BLOCKED", "AJAR"};
 const char* const kModeEvents[] = {"closed", "opened", "opening", "closing", "blocked", "ajar"};
 
+constexpr char kJointDoc[] = "a leaf's, besides those that are found";
+const char* const kOwnJoints[] = {"hinge", "sash", "front"};
+
+bool limited(double lower, double upper) { return lower < upper && upper - lower < 2.0 * M_PI; }
+
 std::string range_text(const JointLimits& limits) {
   std::ostringstream text;
   text << limits.lower << " to " << limits.upper;
@@ -37,6 +44,7 @@ std::string range_text(const JointLimits& limits) {
 
 void Door::configure(Params& params, Wiring& wiring) {
   ServoSettings servo;
+  servo.controller = read_controller(params);
   servo.gains = read_gains(params, kGains, kUnits);
   servo.max_velocity =
       params.number("max_velocity", 0.6, "rad/s", "speed of the setpoint", kPositive);
@@ -49,8 +57,6 @@ void Door::configure(Params& params, Wiring& wiring) {
                           "of the opening that air flows through; 0 = none does", kNotNegative);
   const double edge_force =
       params.number("edge_force_max", 150.0, "N", "greatest force at the far edge", kPositive);
-  open_position_ = params.number("open_position", -1.57, "rad", "where Open goes");
-  closed_position_ = params.number("closed_position", 0.0, "rad", "where Close goes");
   brake_torque_ =
       params.number("brake_torque", 20.0, "N m", "brake of a door that stands open", kNotNegative);
   latch_torque_ = params.number("latch_torque", 200.0, "N m", "brake of a shut door", kNotNegative);
@@ -59,29 +65,13 @@ void Door::configure(Params& params, Wiring& wiring) {
   params.choice("topicName", leaf_.topic, {leaf_.topic},
                 "where commands come from: one topic for all");
   params.text("device_name", "", "the name commands use, instead of the model's and its floor");
-
-  hinge_ = wiring.joint(leaf_.joint);
-  limits_ = wiring.limits(hinge_);
-  for (const auto& [key, angle] : {std::pair<const char*, double>{"open_position", open_position_},
-                                   {"closed_position", closed_position_}}) {
-    if (limits_.lower < limits_.upper && (angle < limits_.lower || angle > limits_.upper)) {
-      throw params.error(
-          key, std::string(key) + " is outside the hinge's " + range_text(limits_) + " rad");
-    }
-  }
-  const double target = params.number("target", closed_position_, "rad",
-                                      "where it goes at the start; it stays where it is unless "
-                                      "this is given");
-  if (params.has("target")) {
-    if (target < limits_.lower || target > limits_.upper) {
-      throw params.error("target", "target is outside the hinge's " + range_text(limits_) + " rad");
-    }
-    first_target_ = target;
-  }
+  if (leaf_.any_joint) params.texts("joint", "", kJointDoc);
+  wire(params, wiring);
   // A leaf is a slab: its mass and its moment give its width, m w^2 / 3 = I.
   const double mass = wiring.mass(wiring.link(wiring.child_of(hinge_)));
   if (width_ == 0.0) width_ = std::sqrt(3.0 * limits_.inertia / mass);
-  torque_max_ = edge_force * width_;
+  const bool is_plain = servo.controller == Controller::kPid;
+  torque_max_ = is_plain ? servo.gains.cmd_max - servo.gains.cmd_min : edge_force * width_;
   servo.inertia = limits_.inertia;
   servo.damping = limits_.damping;
   servo.friction = limits_.friction;
@@ -92,6 +82,42 @@ void Door::configure(Params& params, Wiring& wiring) {
   servo.stall_speed = kStallSpeed;
   servo.integrate_standing = true;
   servo_ = Servo(servo);
+}
+
+// A hinge that ends before the usual angles opens as far as it does from where it is shut.
+void Door::wire(Params& params, Wiring& wiring) {
+  hinge_ = wiring.joint(joint_);
+  limits_ = wiring.limits(hinge_);
+  const double shut = std::clamp(0.0, limits_.lower, limits_.upper);
+  const bool opens_up = limits_.upper - shut > shut - limits_.lower;
+  const double far = opens_up ? limits_.upper : limits_.lower;
+  const bool usual = limits_.lower >= limits_.upper || limits_.lower <= kOpen;
+  open_position_ = params.number("open_position", usual ? kOpen : far, "rad", "where Open goes");
+  closed_position_ = params.number("closed_position", shut, "rad", "where Close goes");
+  for (const auto& [key, angle] : {std::pair<const char*, double>{"open_position", open_position_},
+                                   {"closed_position", closed_position_}}) {
+    if (limits_.lower < limits_.upper && (angle < limits_.lower || angle > limits_.upper)) {
+      throw params.error(
+          key, std::string(key) + " is outside the hinge's " + range_text(limits_) + " rad");
+    }
+  }
+  read_target(params);
+}
+
+// One number is for each leaf of the model, a joint's name before it makes it that leaf's.
+void Door::read_target(Params& params) {
+  for (const std::string& text : params.texts("target", "rad",
+                                              "where it goes at the start; with several leaves "
+                                              "JOINT RADIANS; otherwise it stays where it is")) {
+    const std::size_t blank = text.rfind(' ');
+    const std::string joint = blank == std::string::npos ? "" : trimmed(text.substr(0, blank));
+    if (!joint.empty() && joint != joint_) continue;
+    first_target_ = parse_finite(blank == std::string::npos ? text : text.substr(blank + 1));
+    if (!first_target_ || *first_target_ < limits_.lower || *first_target_ > limits_.upper) {
+      throw params.error("target", "<target> is \"" + text + "\", must be in the hinge's " +
+                                       range_text(limits_) + " rad");
+    }
+  }
 }
 
 Verdict Door::command(const Command& command, const View& view) {
@@ -184,9 +210,13 @@ void Door::show(Mode mode, const JointView& hinge, bool renew, Outputs& outputs)
 
 void Door::save(SavedParams& params) const {
   params.unset("target");
+  const auto write = [&](double target) {
+    const std::string joint = joint_ == leaf_.joint ? "" : joint_ + " ";
+    params.text("target", joint + number_text(target));
+  };
   const bool is_first = !started_ && !leaving_ && first_target_;
-  if (is_first) params.number("target", *first_target_);
-  if (leaving_ || (started_ && !resting_)) params.number("target", target_);
+  if (is_first) write(*first_target_);
+  if (leaving_ || (started_ && !resting_)) write(target_);
 }
 
 // From the leaf's edge to the jamb, at most all of the opening; none where it is shut.
@@ -229,13 +259,62 @@ LeafPlugin::LeafPlugin(const LeafKind& leaf)
   for (const char* model : leaf.models) kind_.model(model);
 }
 
-bool LeafPlugin::serves(const ModelInfo& model) const {
-  const ModelInfo::Joint* hinge = model.joint(leaf_.joint);
-  return hinge != nullptr && hinge->type == "revolute" && hinge->parent == "base";
+std::string LeafPlugin::needs() const {
+  std::string needed = std::string("a revolute joint ") + leaf_.joint + " with parent base";
+  if (leaf_.any_joint) {
+    needed +=
+        ", one about a vertical axis with limits whose parent is the world, or one that "
+        "<joint> names";
+  }
+  return needed;
 }
 
-std::string LeafPlugin::instance_name(const ModelInfo& model) const {
-  return command_name(model.name, kind_.name, model.pose.position.z());
+bool LeafPlugin::is_leaf(const ModelInfo::Joint& joint) const {
+  if (joint.type != "revolute") return false;
+  if (joint.name == leaf_.joint && joint.parent == "base") return true;
+  const bool is_others =
+      joint.name != leaf_.joint &&
+      std::find(std::begin(kOwnJoints), std::end(kOwnJoints), joint.name) != std::end(kOwnJoints);
+  return leaf_.any_joint && !is_others && joint.parent == "world" && joint.on_world &&
+         joint.vertical() && limited(joint.lower, joint.upper);
+}
+
+std::vector<const ModelInfo::Joint*> LeafPlugin::leaves(const ModelInfo& model,
+                                                        Params& params) const {
+  std::vector<std::string> named;
+  if (leaf_.any_joint) named = params.texts("joint", "", kJointDoc);
+  std::vector<const ModelInfo::Joint*> found;
+  for (const ModelInfo::Joint& joint : model.joints) {
+    const bool is_named = std::find(named.begin(), named.end(), joint.name) != named.end();
+    if (is_named && joint.type != "revolute") {
+      throw params.error(
+          "joint", "joint '" + joint.name + "' is " + joint.type + "; that of a leaf is revolute");
+    }
+    if ((is_named || is_leaf(joint)) && !joint.taken) found.push_back(&joint);
+  }
+  return found;
+}
+
+std::vector<Mount> LeafPlugin::mounts(const ModelInfo& model, Params& params) const {
+  const std::vector<const ModelInfo::Joint*> found = leaves(model, params);
+  std::vector<Mount> mounts;
+  for (const ModelInfo::Joint* leaf : found) {
+    mounts.push_back({name_of(*leaf, model, found.size() == 1), leaf->name});
+  }
+  return mounts;
+}
+
+// The model's only leaf is named after it, if it says what it is; others after their links.
+std::string LeafPlugin::name_of(const ModelInfo::Joint& leaf, const ModelInfo& model,
+                                bool only) const {
+  const std::string of_model = command_name(model.name, kind_.name, model.pose.position.z());
+  const bool is_own = leaf.name == leaf_.joint && leaf.parent == "base";
+  if (only && (is_own || model.name.find(kind_.name) != std::string::npos)) return of_model;
+  for (const std::string& part : {leaf.child, leaf.name}) {
+    const std::string name = leaf_name(part, kind_.name, leaf.height);
+    if (!name.empty()) return name;
+  }
+  return only ? of_model : leaf.name;
 }
 
 }  // namespace angen::devices

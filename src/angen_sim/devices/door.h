@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "devices/refresh.h"
@@ -15,6 +16,7 @@ namespace angen::devices {
 struct LeafKind {
   const char* kind;
   const char* joint;  // revolute; its parent is the link `base`
+  bool any_joint;     // or any about a vertical axis with limits that hangs on the world
   const char* topic;  // where commands come from
   double height;      // m, of the opening, unless its SDF says
   const char* example;
@@ -24,7 +26,7 @@ struct LeafKind {
 /// A leaf on a revolute joint: a PID drives it, a brake holds it, a latch when it is shut.
 class Door : public Device {
  public:
-  explicit Door(const LeafKind& leaf) : leaf_(leaf) {}
+  Door(const LeafKind& leaf, std::string joint) : leaf_(leaf), joint_(std::move(joint)) {}
   void configure(Params& params, Wiring& wiring) override;
   Verdict command(const Command& command, const View& view) override;
   void update(const View& view, Outputs& outputs) override;
@@ -35,6 +37,8 @@ class Door : public Device {
  private:
   enum class Mode { kClosed, kOpen, kOpening, kClosing, kBlocked, kAjar };
 
+  void wire(Params& params, Wiring& wiring);
+  void read_target(Params& params);
   void go(double target, double position);
   void rest(const JointView& hinge, Outputs& outputs);
   Mode mode_at_rest(double position) const;
@@ -42,6 +46,7 @@ class Door : public Device {
   void show(Mode mode, const JointView& hinge, bool renew, Outputs& outputs);
 
   LeafKind leaf_;
+  std::string joint_;
   JointRef hinge_;
   Servo servo_;
   Refresh refresh_;
@@ -68,11 +73,18 @@ class LeafPlugin : public Plugin {
  public:
   explicit LeafPlugin(const LeafKind& leaf);
   const Kind& kind() const override { return kind_; }
-  bool serves(const ModelInfo& model) const override;
-  std::string instance_name(const ModelInfo& model) const override;
-  std::unique_ptr<Device> make_device() const override { return std::make_unique<Door>(leaf_); }
+  std::string needs() const override;
+  std::vector<Mount> mounts(const ModelInfo& model, Params& params) const override;
+  std::unique_ptr<Device> make_device() const override { return make_device_on({"", leaf_.joint}); }
+  std::unique_ptr<Device> make_device_on(const Mount& mount) const override {
+    return std::make_unique<Door>(leaf_, mount.joint);
+  }
 
  private:
+  bool is_leaf(const ModelInfo::Joint& joint) const;
+  std::vector<const ModelInfo::Joint*> leaves(const ModelInfo& model, Params& params) const;
+  std::string name_of(const ModelInfo::Joint& leaf, const ModelInfo& model, bool only) const;
+
   LeafKind leaf_;
   Kind kind_;
 };
@@ -82,6 +94,7 @@ class DoorPlugin : public LeafPlugin {
   DoorPlugin()
       : LeafPlugin({"door",
                     "hinge",
+                    true,
                     "/gazebo/Door_controller",
                     2.1,
                     "set door kitchen0 open",
@@ -94,6 +107,7 @@ class WindowPlugin : public LeafPlugin {
   WindowPlugin()
       : LeafPlugin({"window",
                     "sash",
+                    false,
                     "/gazebo/Window_controller",
                     1.2,
                     "set window window0 open",
@@ -105,6 +119,7 @@ class CabinetPlugin : public LeafPlugin {
   CabinetPlugin()
       : LeafPlugin({"cabinet",
                     "front",
+                    false,
                     "/gazebo/Cabinet_controller",
                     0.0,
                     "set cabinet wall0 open",

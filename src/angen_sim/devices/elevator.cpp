@@ -18,12 +18,19 @@ constexpr double kArriveSpeed = 0.002;    // m/s
 constexpr double kMaxLag = 0.02;          // m
 constexpr double kStallSpeed = 0.005;     // m/s
 constexpr double kWeighShare = 0.2;       // of each new weighing, at the rate of telling
+constexpr double kUnlimited = 1e9;        // m, of a joint's travel
 constexpr double kGreatestLoad = 2000.0;  // kg
 constexpr Nanoseconds kDwell = kSecond;   // between the doors' opening and their shutting
 
 // Gains and limits are times the moving mass; the limits are of what is beyond the weight.
 constexpr PidGains kGains{200.0, 200.0, 25.0, 5.0, -5.0, 5.0, -5.0};
 constexpr PidUnits kUnits{"N/m per kg", "N/(m s) per kg", "N s/m per kg", "N/kg"};
+
+// Of a plain PID, whose integral carries the weight.
+constexpr PidGains kPlainGains{200.0, 200.0, 25.0, 1e4, -1e4, 1e4, -1e4};
+constexpr PidUnits kPlainUnits{"N/m", "N/(m s)", "N s/m", "N"};
+
+constexpr char kJointDoc[] = "that moves the cabin, where there are several";
 
 const char* const kModes[] = {"IDLE", "UP", "DOWN", "BLOCKED"};
 const char* const kModeEvents[] = {"idle", "up", "down", "blocked"};
@@ -35,7 +42,10 @@ const char* const kDoorEvents[] = {"doors closed", "doors opened", "doors openin
 
 void Elevator::configure(Params& params, Wiring& wiring) {
   ServoSettings servo;
-  servo.gains = read_gains(params, kGains, kUnits);
+  servo.controller = read_controller(params);
+  plain_ = servo.controller == Controller::kPid;
+  servo.gains =
+      plain_ ? read_gains(params, kPlainGains, kPlainUnits) : read_gains(params, kGains, kUnits);
   servo.max_velocity =
       params.number("max_velocity", 1.0, "m/s", "speed of the cabin's setpoint", kPositive);
   servo.max_acceleration = params.number("max_acceleration", 0.5, "m/s^2",
@@ -60,6 +70,10 @@ void Elevator::configure(Params& params, Wiring& wiring) {
       "update_rate", 50.0, "Hz", "how often its state is published while it moves", kRefreshRate));
   params.choice("topicName", kTopic, {kTopic}, "where commands come from: one topic for all");
   params.text("device_name", "", "the name commands use, instead of the model's");
+  params.text("joint", "", kJointDoc);
+  queue_size_ = static_cast<std::size_t>(
+      params.integer("queue_size", 1, "",
+                     "how many calls may wait; one more replaces the oldest of them", {1, 1000}));
   for (const std::vector<double>& call :
        params.rows("call", 1, "", "floor that it is called to at the start")) {
     const double floor = call.front();
@@ -73,13 +87,13 @@ void Elevator::configure(Params& params, Wiring& wiring) {
 }
 
 void Elevator::wire(Params& params, Wiring& wiring) {
-  lift_ = wiring.joint("lift");
+  lift_ = wiring.joint(lift_name_);
   limits_ = wiring.limits(lift_);
   const double highest = (floors_ - 1) * floor_height_;
   if (limits_.lower < limits_.upper && highest > limits_.upper + kLevelWithin) {
     throw params.error("floors", "the highest floor is at " + std::to_string(highest) +
-                                     " m, the joint lift ends at " + std::to_string(limits_.upper) +
-                                     " m");
+                                     " m, the joint " + lift_name_ + " ends at " +
+                                     std::to_string(limits_.upper) + " m");
   }
   gravity_ = -wiring.gravity().z();
   own_mass_ = wiring.mass(wiring.link(wiring.child_of(lift_)));
@@ -117,6 +131,7 @@ Verdict Elevator::command(const Command& command, const View&) {
 }
 
 void Elevator::call(int floor) {
+  while (stops_.size() >= queue_size_) stops_.pop_front();
   const int last = !stops_.empty() ? stops_.back() : target_;
   const bool waits_for_it = !stops_.empty() || phase_ != Phase::kStanding;
   if (!waits_for_it || last != floor) stops_.push_back(floor);
@@ -195,7 +210,7 @@ void Elevator::move(const View& view, Outputs& outputs) {
   const double command =
       servo_.update(target_ * floor_height_, lift.position, lift.velocity, to_seconds(view.step()));
   if (!servo_.arrived()) {
-    outputs.force(lift_, mass_ * (gravity_ + command));
+    outputs.force(lift_, plain_ ? command : mass_ * (gravity_ + command));
     return;
   }
   outputs.motor(lift_, 0.0, brake_force_);
@@ -269,30 +284,49 @@ void Elevator::report(const View& view, Reading& state) const {
 }
 
 const Kind& ElevatorPlugin::kind() const {
-  static const Kind kind =
-      Kind("elevator", "An elevator with doors.")
-          .model("elevator")
-          .example("set elevator elevator 1")
-          .commanded_on(kTopic)
-          .counted_verb("Floor", "floor", {0.0, 999.0}, "goes there after the floors called before")
-          .choice("mode", {std::begin(kModes), std::end(kModes)},
-                  "of the cabin; BLOCKED: something holds it")
-          .shown()
-          .number("position", "m", "of the cabin above floor 0")
-          .shown(2)
-          .number("velocity", "m/s", "upwards")
-          .number("target", "m", "where it goes")
-          .integer("floor", "", "where it stands within 5 mm, otherwise -1")
-          .integer("target_floor", "", "where it goes")
-          .choice("door_mode", {std::begin(kDoorModes), std::end(kDoorModes)},
-                  "BLOCKED: an obstacle stands between the leaves")
-          .number("door_position", "m", "travel of a door's leaf, 0 shut");
+  static const Kind kind = Kind("elevator", "An elevator with doors.")
+                               .model("elevator")
+                               .example("set elevator elevator 1")
+                               .commanded_on(kTopic)
+                               .counted_verb("Floor", "floor", {0.0, 999.0},
+                                             "goes there, after the floor that it is on its way to")
+                               .choice("mode", {std::begin(kModes), std::end(kModes)},
+                                       "of the cabin; BLOCKED: something holds it")
+                               .shown()
+                               .number("position", "m", "of the cabin above floor 0")
+                               .shown(2)
+                               .number("velocity", "m/s", "upwards")
+                               .number("target", "m", "where it goes")
+                               .integer("floor", "", "where it stands within 5 mm, otherwise -1")
+                               .integer("target_floor", "", "where it goes")
+                               .choice("door_mode", {std::begin(kDoorModes), std::end(kDoorModes)},
+                                       "BLOCKED: an obstacle stands between the leaves")
+                               .number("door_position", "m", "travel of a door's leaf, 0 shut");
   return kind;
 }
 
-bool ElevatorPlugin::serves(const ModelInfo& model) const {
-  const ModelInfo::Joint* lift = model.joint("lift");
-  return lift != nullptr && lift->type == "prismatic";
+std::string ElevatorPlugin::needs() const {
+  return "a prismatic joint along z with limits whose parent is the world or fixed to it, or one "
+         "that <joint> names";
+}
+
+// `lift`, or whatever slides up the building.
+std::vector<Mount> ElevatorPlugin::mounts(const ModelInfo& model, Params& params) const {
+  const std::string named = params.text("joint", "", kJointDoc);
+  const ModelInfo::Joint* lift = model.joint(named.empty() ? "lift" : named);
+  if (!named.empty()) {
+    if (lift == nullptr) return {};
+    if (lift->type != "prismatic") {
+      throw params.error(
+          "joint", "joint '" + named + "' is " + lift->type + "; that of an elevator is prismatic");
+    }
+  }
+  if (lift != nullptr && lift->type == "prismatic") return {{model.name, lift->name}};
+  for (const ModelInfo::Joint& joint : model.joints) {
+    if (joint.taken || joint.type != "prismatic" || !joint.on_world || !joint.vertical()) continue;
+    if (joint.upper - joint.lower < kUnlimited) return {{model.name, joint.name}};
+  }
+  return {};
 }
 
 }  // namespace angen::devices

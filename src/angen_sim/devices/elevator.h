@@ -3,6 +3,7 @@
 #include <deque>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "devices/doorway.h"
@@ -13,11 +14,11 @@
 
 namespace angen::devices {
 
-/// A cabin on a prismatic joint `lift` with sliding doors, and a landing door on each floor. It
-/// serves stops in the order in which they were called; doors are shut while it moves, open where
-/// it is.
+/// A cabin on a prismatic joint with sliding doors, and a landing door on each floor. It serves
+/// stops in the order in which they were called; doors are shut while it moves, open where it is.
 class Elevator : public Device {
  public:
+  explicit Elevator(std::string lift) : lift_name_(std::move(lift)) {}
   void configure(Params& params, Wiring& wiring) override;
   Verdict command(const Command& command, const View& view) override;
   void update(const View& view, Outputs& outputs) override;
@@ -45,11 +46,13 @@ class Elevator : public Device {
   Mode mode() const;
   void show(const View& view, Outputs& outputs);
 
+  std::string lift_name_;
   JointRef lift_;
   JointLimits limits_;
   std::vector<Doorway::Leaf> cabin_leaves_;
   std::vector<std::vector<Doorway::Leaf>> landing_leaves_;  // by floor
   Servo servo_;
+  bool plain_ = false;  // the controller is a plain PID, which lifts the weight too
   Doorway doorway_;
   Refresh refresh_;
   double floor_height_ = kStoreyHeight;
@@ -62,6 +65,7 @@ class Elevator : public Device {
 
   Phase phase_ = Phase::kStanding;
   std::deque<int> stops_;
+  std::size_t queue_size_ = 1;
   bool started_ = false;
   int target_ = 0;            // floor
   bool rises_ = false;        // on the way there
@@ -74,8 +78,12 @@ class Elevator : public Device {
 class ElevatorPlugin : public Plugin {
  public:
   const Kind& kind() const override;
-  bool serves(const ModelInfo& model) const override;
-  std::unique_ptr<Device> make_device() const override { return std::make_unique<Elevator>(); }
+  std::string needs() const override;
+  std::vector<Mount> mounts(const ModelInfo& model, Params& params) const override;
+  std::unique_ptr<Device> make_device() const override { return make_device_on({"", "lift"}); }
+  std::unique_ptr<Device> make_device_on(const Mount& mount) const override {
+    return std::make_unique<Elevator>(mount.joint);
+  }
 };
 
 }  // namespace angen::devices

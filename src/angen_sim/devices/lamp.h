@@ -29,6 +29,7 @@ class LampPlugin : public Plugin {
  public:
   const Kind& kind() const override;
   bool serves(const ModelInfo& model) const override { return !model.lights.empty(); }
+  std::string needs() const override { return "a light"; }
   std::string instance_name(const ModelInfo& model) const override;
   std::unique_ptr<Device> make_device() const override { return std::make_unique<Lamp>(); }
 };

@@ -19,4 +19,11 @@ PidGains read_gains(Params& params, const PidGains& fallback, const PidUnits& un
   return gains;
 }
 
+Controller read_controller(Params& params) {
+  const std::string name = params.choice(
+      "controller", "profile", {"profile", "pid"},
+      "profile: a setpoint led along a profile; pid: P + I + D of the distance to the target");
+  return name == "pid" ? Controller::kPid : Controller::kProfile;
+}
+
 }  // namespace angen::devices

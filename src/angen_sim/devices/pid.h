@@ -29,6 +29,13 @@ struct PidUnits {
 /// The seven as parameters; `fallback` stands for what is not given.
 PidGains read_gains(Params& params, const PidGains& fallback, const PidUnits& units);
 
+/// What drives a joint: <controller>.
+enum class Controller {
+  kProfile,  // a Servo's: a setpoint that is led along a profile, and feed-forward
+  kPid       // P + I + D of the distance to the target
+};
+Controller read_controller(Params& params);
+
 class Pid {
  public:
   Pid() = default;
@@ -46,6 +53,14 @@ class Pid {
                           (wanted < gains_.cmd_min && grown < integral_);
     if (!winds_up) integral_ = grown;
     return std::clamp(rest + integral_, gains_.cmd_min, gains_.cmd_max);
+  }
+
+  /// P + I + D and nothing else, as Gazebo's own class has it: only the integral's share and the
+  /// sum have limits.
+  double update_plain(double error, double error_rate, double dt) {
+    integral_ = std::clamp(integral_ + gains_.i * error * dt, gains_.i_min, gains_.i_max);
+    return std::clamp(gains_.p * error + integral_ + gains_.d * error_rate, gains_.cmd_min,
+                      gains_.cmd_max);
   }
 
   void reset() { integral_ = 0.0; }

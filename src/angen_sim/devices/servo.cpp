@@ -18,6 +18,7 @@ Servo::Servo(const ServoSettings& settings)
 void Servo::start(double position, double velocity) {
   profile_.start(position, velocity);
   pid_.reset();
+  target_ = position;
   came_to_ = position;
   stalled_ = 0.0;
   blocked_ = false;
@@ -25,13 +26,20 @@ void Servo::start(double position, double velocity) {
 }
 
 double Servo::update(double target, double position, double velocity, double dt) {
-  watch(target, position, velocity, dt);
-  const double lag = profile_.position() - position;
-  if (std::abs(lag) > settings_.max_lag) {
-    profile_.start(position + std::copysign(settings_.max_lag, lag));
-  } else {
-    profile_.advance(target, dt);
+  const bool plain = settings_.controller == Controller::kPid;
+  if (plain) {
+    if (target != target_) pid_.reset();
+    profile_.start(target);
   }
+  target_ = target;
+  watch(target, position, velocity, dt);
+  if (plain) return pid_.update_plain(target - position, -velocity, dt);
+  const double lag = profile_.position() - position;
+  const bool waits = std::abs(lag) > settings_.max_lag;
+  if (waits) profile_.start(position + std::copysign(settings_.max_lag, lag));
+  // It waits ahead of the joint for what holds it, not on the way back.
+  const bool returns = lag * (target - profile_.position()) < 0.0;
+  if (!waits || returns) profile_.advance(target, dt);
   const double error = profile_.position() - position;
   bool integrate = true;
   if (settings_.integrate_standing) {
@@ -47,6 +55,13 @@ double Servo::feed_forward() const {
   return settings_.inertia * profile_.acceleration() + settings_.damping * v + rubs;
 }
 
+void Servo::free(double position, double velocity) {
+  if (settings_.controller == Controller::kProfile) return start(position, velocity);
+  blocked_ = false;
+  came_to_ = position;
+  stalled_ = 0.0;
+}
+
 void Servo::watch(double target, double position, double velocity, double dt) {
   const double to_go = target - position;
   const double ahead = to_go < 0.0 ? -1.0 : 1.0;
@@ -55,7 +70,7 @@ void Servo::watch(double target, double position, double velocity, double dt) {
   arrived_ = profile_.at(target) && std::abs(to_go) < near && slow;
   if (blocked_) {
     const double moved = ahead * (position - blocked_at_);
-    if (moved > settings_.freed_distance) start(position, velocity);
+    if (moved > settings_.freed_distance) free(position, velocity);
     if (arrived_) blocked_ = false;
     return;
   }

@@ -6,6 +6,7 @@
 namespace angen::devices {
 
 struct ServoSettings {
+  Controller controller = Controller::kProfile;
   PidGains gains;
   double max_velocity = 1.0;
   double max_acceleration = 1.0;
@@ -23,9 +24,10 @@ struct ServoSettings {
   bool integrate_standing = false;
 };
 
-/// A joint led along a profile by a PID. What holds the joint makes the profile wait; after
-/// kStallTime without motion it is blocked. When what held it lets go, the profile starts anew from
-/// where the joint is, so that the force gathered meanwhile does not fling it.
+/// A joint led along a profile by a PID, or driven by a plain one, which has only `gains` of its
+/// settings and what tells whether it is at rest or blocked. What holds the joint makes the profile
+/// wait; after kStallTime without motion it is blocked. When what held it lets go, the profile
+/// starts anew from where the joint is, so that the force gathered meanwhile does not fling it.
 class Servo {
  public:
   static constexpr double kStallTime = 0.8;  // s
@@ -44,11 +46,13 @@ class Servo {
 
  private:
   double feed_forward() const;
+  void free(double position, double velocity);
   void watch(double target, double position, double velocity, double dt);
 
   ServoSettings settings_;
   Profile profile_;
   Pid pid_;
+  double target_ = 0.0;
   double came_to_ = 0.0;     // position, the nearest to the target
   double stalled_ = 0.0;     // s since it came there
   double blocked_at_ = 0.0;  // position

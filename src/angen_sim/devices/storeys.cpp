@@ -37,4 +37,21 @@ std::string command_name(const std::string& model, const std::string& kind, doub
   return base + std::to_string(floor_of(z));
 }
 
+std::string leaf_name(const std::string& part, const std::string& kind, double z) {
+  const std::string word = "_" + kind;
+  const std::size_t at = part.find(word);
+  const std::size_t after = at + word.size();
+  if (at == std::string::npos || at == 0) return "";
+  if (after < part.size() && std::isalpha(static_cast<unsigned char>(part[after])) != 0) return "";
+  std::string room = part.substr(0, at);
+  const std::size_t floor = room.rfind("_f");
+  const std::size_t digits = floor + 2;
+  if (floor != std::string::npos && floor > 0 && digits < room.size() && room.size() < digits + 4 &&
+      room.find_first_not_of("0123456789", digits) == std::string::npos) {
+    z = std::stoi(room.substr(digits)) * kStoreyHeight;
+    room.resize(floor);
+  }
+  return command_name(room + word, kind, z);
+}
+
 }  // namespace angen::devices

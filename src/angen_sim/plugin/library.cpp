@@ -202,6 +202,16 @@ Plugins Catalog::own() {
   return all;
 }
 
+std::string Catalog::library_of(const Plugin& plugin) {
+  const std::lock_guard<std::mutex> lock(impl_->mutex);
+  for (const auto& [name, plugins] : impl_->libraries) {
+    for (const auto& known : plugins) {
+      if (known.get() == &plugin) return name;
+    }
+  }
+  return "";
+}
+
 std::vector<std::string> Catalog::available() {
   std::set<std::string> names;
   {

@@ -31,6 +31,9 @@ class Catalog {
   /// The plug-ins of Angen's own libraries, which have a catalog file beside them.
   std::vector<std::shared_ptr<const Plugin>> own();
 
+  /// The file name that a plug-in's library was asked for by.
+  std::string library_of(const Plugin& plugin);
+
   /// File names of every library on the path that holds Angen plug-ins, sorted. Loads none of them.
   std::vector<std::string> available();
 

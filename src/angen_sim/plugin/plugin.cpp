@@ -13,4 +13,9 @@ const ModelInfo::Joint* ModelInfo::joint(const std::string& joint_name) const {
   return nullptr;
 }
 
+std::vector<Mount> Plugin::mounts(const ModelInfo& model, Params&) const {
+  if (!serves(model)) return {};
+  return {{instance_name(model), ""}};
+}
+
 }  // namespace angen

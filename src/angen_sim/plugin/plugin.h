@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -109,6 +110,14 @@ struct ModelInfo {
     std::string type;  // fixed, revolute, prismatic, ball, universal
     std::string parent;
     std::string child;
+    Vec3 axis = Vec3::Zero();  // its first, in the world at position 0; zero where it has none
+    double lower = 0.0;        // rad or m
+    double upper = 0.0;
+    double height = 0.0;    // m, of its anchor in the world
+    bool on_world = false;  // its child can move, its parent is the world or fixed to it
+    bool taken = false;     // a device of the model's own plug-ins drives it
+
+    bool vertical() const { return std::abs(axis.z()) > 0.999; }
   };
   std::string name;
   Pose pose;
@@ -117,6 +126,12 @@ struct ModelInfo {
   std::vector<std::string> lights;
 
   const Joint* joint(const std::string& joint_name) const;
+};
+
+/// One of a model's devices: what commands call it, and its joint where a model may have several.
+struct Mount {
+  std::string name;
+  std::string joint;
 };
 
 /// An entry of the catalog: a kind, and how to make one. Libraries register it with
@@ -130,6 +145,12 @@ class Plugin {
   /// Devices: the name that commands use.
   virtual std::string instance_name(const ModelInfo& model) const { return model.name; }
   virtual std::unique_ptr<Device> make_device() const { return nullptr; }
+  /// Devices: all that this model gets, by the parameters of the <plugin>. One where serves() says
+  /// so, unless overridden.
+  virtual std::vector<Mount> mounts(const ModelInfo& model, Params& params) const;
+  virtual std::unique_ptr<Device> make_device_on(const Mount&) const { return make_device(); }
+  /// Devices: what a model must have to get one, such as "a light"; errors say it.
+  virtual std::string needs() const { return ""; }
   virtual std::unique_ptr<Sensor> make_sensor() const { return nullptr; }
 };
 

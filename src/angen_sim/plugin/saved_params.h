@@ -21,11 +21,18 @@ class SavedParams {
     for (const double value : values) text += (text.empty() ? "" : " ") + number_text(value);
     add(name, text);
   }
+  void text(const std::string& name, std::string value) { add(name, std::move(value)); }
   /// No longer given, whatever the plug-in was loaded with.
   void unset(const std::string& name) { names_.insert(name); }
 
   bool operator==(const SavedParams& other) const {
     return names_ == other.names_ && values_ == other.values_;
+  }
+
+  /// Adds those of another device that shares the plug-in's element.
+  void add(const SavedParams& other) {
+    names_.insert(other.names_.begin(), other.names_.end());
+    values_.insert(values_.end(), other.values_.begin(), other.values_.end());
   }
 
   /// Puts the values in place of what the plug-in's element has of these names.

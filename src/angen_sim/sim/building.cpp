@@ -371,7 +371,12 @@ std::vector<SavedPlugin> Building::saved_plugins(Nanoseconds now, Nanoseconds st
   std::vector<SavedPlugin> saved;
   for (const auto& live : models_) {
     // Devices may share a plug-in's element: then it has the parameters of all.
-    std::map<std::string, std::pair<Element, bool>> elements;
+    struct Shared {
+      Element element;
+      SavedParams params;
+      bool changed = false;
+    };
+    std::map<std::string, Shared> elements;
     for (DeviceInstance& device : live->devices) {
       SavedParams params = device.started_with;
       if (device.error.empty()) {
@@ -379,13 +384,15 @@ std::vector<SavedPlugin> Building::saved_plugins(Nanoseconds now, Nanoseconds st
         params = {};
         device.device->save(params);
       }
-      auto& [element, changed] = elements[*device.element.attribute("filename")];
-      if (element.name.empty()) element = device.element;
-      params.write_to(element);
-      changed = changed || !(params == device.started_with);
+      Shared& shared = elements[*device.element.attribute("filename")];
+      if (shared.element.name.empty()) shared.element = device.element;
+      shared.params.add(params);
+      shared.changed = shared.changed || !(params == device.started_with);
     }
-    for (auto& [file, saved_element] : elements) {
-      if (saved_element.second) saved.push_back({live->desc->name, std::move(saved_element.first)});
+    for (auto& [file, shared] : elements) {
+      if (!shared.changed) continue;
+      shared.params.write_to(shared.element);
+      saved.push_back({live->desc->name, std::move(shared.element)});
     }
   }
   return saved;

@@ -140,10 +140,11 @@ struct LiveModel {
   std::uint32_t first_light = 0;
 };
 
-ModelInfo info_of(const desc::Model& model);
+ModelInfo info_of(const desc::Model& model);  // `taken` is left out
 
 /// What a model's plug-ins and the world's make of it, not yet in the world. Throws Error for a
-/// plug-in or parameter that is wrong; sensors without a plug-in are added to `warnings`.
+/// plug-in or parameter that is wrong; sensors without a plug-in, and joints that one of Angen's
+/// own would drive, are added to `warnings`.
 void make_instances(LiveModel& live, const std::vector<desc::Plugin>& world_plugins,
                     const Vec3& gravity, Catalog& catalog, std::vector<std::string>& warnings);
 

@@ -1,6 +1,5 @@
 #include "sim/wiring.h"
 
-#include <set>
 #include <utility>
 
 namespace angen::sim {
@@ -78,6 +77,7 @@ bool ModelWiring::has_joint(const std::string& joint) const {
 JointRef ModelWiring::joint(const std::string& joint) {
   const int index = index_of(model_.joints, joint);
   if (index < 0) unknown(model_.name, "joint", joint, names_of(model_.joints));
+  joints_.insert(joint);
   return {index};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ class ModelWiring : public Wiring {
   LightRef light(const std::string& light) override;
   ContactRef collision(const std::string& collision) override;
 
+  const std::set<std::string>& joints() const { return joints_; }  // those asked for
   /// Full names of the collisions asked for, by ContactRef.
   const std::vector<std::string>& collisions() const { return collisions_; }
 
@@ -34,6 +36,7 @@ class ModelWiring : public Wiring {
   std::string name_;
   Vec3 gravity_;
   std::string sensor_link_;
+  std::set<std::string> joints_;
   std::vector<std::string> collisions_;
 };
 

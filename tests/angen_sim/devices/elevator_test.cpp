@@ -106,9 +106,47 @@ TEST(Elevator, ItsDoorsAreShutWhileItMoves) {
   EXPECT_NEAR(rig.at("landing_door_0_left").position, 0.0, 0.002);
 }
 
-TEST(Elevator, CommandsWhileItMovesAreQueued) {
+TEST(Elevator, OfTheCallsThatWaitTheNewestHolds) {
   Bench bench;
   Rig& rig = add_elevator(bench);
+  bench.run(3.0);
+  rig.command("Floor1");
+  bench.run(3.0);
+  ASSERT_EQ(rig.mode(), "UP");
+  rig.command("Floor0");
+  rig.command("Floor1");
+  bench.run(20.0);
+  EXPECT_TRUE(standing_open(rig, 1)) << "where it was going is where it was called last";
+  EXPECT_EQ(count(rig, "arrived"), 1);
+  rig.command("Floor0");
+  bench.run(4.0);
+  ASSERT_EQ(rig.mode(), "DOWN");
+  rig.command("Floor1");
+  bench.run(30.0);
+  EXPECT_TRUE(standing_open(rig, 1)) << "one call waits while it moves";
+  EXPECT_EQ(count(rig, "arrived"), 3);
+}
+
+TEST(Elevator, AFullQueueLosesItsOldestCall) {
+  Bench bench;
+  Rig& rig = add_elevator(bench, 400.0, {{"queue_size", "2"}});
+  bench.run(3.0);
+  rig.command("Floor1");
+  bench.run(3.0);
+  rig.command("Floor0");
+  rig.command("Floor1");
+  rig.command("Floor0");
+  std::vector<std::int64_t> seen;
+  bench.run(40.0, [&] {
+    const std::int64_t floor = door_mode(rig) == "OPEN" ? floor_of(rig) : -1;
+    if (floor >= 0 && (seen.empty() || seen.back() != floor)) seen.push_back(floor);
+  });
+  EXPECT_EQ(seen, (std::vector<std::int64_t>{1, 0}));
+}
+
+TEST(Elevator, CommandsWhileItMovesAreQueuedIfTheQueueIsLong) {
+  Bench bench;
+  Rig& rig = add_elevator(bench, 400.0, {{"queue_size", "100"}});
   bench.run(3.0);
   rig.command("Floor1");
   bench.run(3.0);

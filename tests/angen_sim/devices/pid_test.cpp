@@ -37,6 +37,16 @@ TEST(Pid, DoesNotWindUpWhileCutOff) {
   EXPECT_LT(pid.update(-0.01, 0.0, 0.0, kDt), 0.0);
 }
 
+TEST(Pid, PlainOneIsTheSumWithinItsLimits) {
+  Pid pid({70.0, 200.0, 25.0, 1.5, -0.5, 120.0, -100.0});
+  EXPECT_NEAR(pid.update_plain(0.5, -0.2, kDt), 70.0 * 0.5 + 200.0 * 0.5 * kDt - 25.0 * 0.2, 1e-12);
+  for (int i = 0; i < 1000; ++i) pid.update_plain(0.5, 0.0, kDt);
+  EXPECT_NEAR(pid.update_plain(0.5, 0.0, kDt), 35.0 + 1.5, 1e-12) << "i_max";
+  EXPECT_DOUBLE_EQ(pid.update_plain(2.0, 0.0, kDt), 120.0);
+  EXPECT_DOUBLE_EQ(pid.integral(), 1.5) << "nothing stops the integral but its own limits";
+  EXPECT_DOUBLE_EQ(pid.update_plain(-2.0, 0.0, kDt), -100.0);
+}
+
 TEST(Pid, IntegralMayShrinkWhileCutOff) {
   Pid pid({0.0, 10.0, 0.0, 1000.0, -1000.0, 100.0, -100.0});
   for (int i = 0; i < 1000; ++i) pid.update(1.0, 0.0, 0.0, kDt);

@@ -103,6 +103,51 @@ TEST(Servo, IsBlockedWithinASecondWhenHeld) {
   EXPECT_TRUE(loop.servo.blocked());
 }
 
+TEST(Servo, HeldItPushesTheOtherWayWhenItsTargetDoes) {
+  for (const double held_at : {-0.1, -0.7, -1.1999999999999937}) {
+    Loop loop;
+    loop.plant.position = held_at;
+    loop.plant.held = true;
+    loop.servo.start(held_at, 0.0);
+    for (int i = 0; i < 3000; ++i) loop.tick(-1.57);
+    EXPECT_LT(loop.torque, 0.0);
+    for (int i = 0; i < 1000; ++i) loop.tick(0.0);
+    EXPECT_GT(loop.torque, 0.0) << held_at;
+  }
+}
+
+// I x'' = p (target - x), so x = target (1 - cos(sqrt(p / I) t)).
+TEST(Servo, PlainProportionalOneSwingsAsACosine) {
+  ServoSettings settings = door_settings();
+  settings.controller = Controller::kPid;
+  settings.gains.i = settings.gains.d = 0.0;
+  Loop loop;
+  loop.servo = Servo(settings);
+  loop.plant.damping = loop.plant.friction = 0.0;
+  loop.servo.start(0.0, 0.0);
+  double worst = 0.0;
+  for (int i = 1; i <= 10000; ++i) {
+    loop.tick(-0.7);
+    const double exact = -0.7 * (1.0 - std::cos(std::sqrt(70.0 / 5.4) * i * kDt));
+    worst = std::max(worst, std::abs(loop.plant.position - exact));
+  }
+  EXPECT_LT(worst, 0.005);
+  EXPECT_FALSE(loop.was_blocked);
+}
+
+TEST(Servo, PlainOnesIntegralBeginsAnewWithEachTarget) {
+  ServoSettings settings = door_settings();
+  settings.controller = Controller::kPid;
+  Loop loop;
+  loop.servo = Servo(settings);
+  loop.plant.held = true;
+  loop.servo.start(0.0, 0.0);
+  for (int i = 0; i < 1000; ++i) loop.tick(-0.1);
+  EXPECT_NEAR(loop.torque, -7.0 - 20.0, 1e-9);
+  loop.tick(0.2);
+  EXPECT_NEAR(loop.torque, 14.0 + 200.0 * 0.2 * kDt, 1e-9);
+}
+
 TEST(Servo, WhatBouncesOffAnObstacleIsBlocked) {
   Loop loop;
   loop.servo.start(0.0, 0.0);

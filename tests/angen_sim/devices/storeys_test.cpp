@@ -38,5 +38,15 @@ TEST(CommandName, NeverEndsUpEmpty) {
   EXPECT_EQ(command_name("123", "door", 0.0), "door0");
 }
 
+TEST(LeafName, IsTheRoomBeforeTheKindAndTheFloorThatItNames) {
+  EXPECT_EQ(leaf_name("entrance_f1_door_block", "door", 0.0), "entrance1");
+  EXPECT_EQ(leaf_name("entrance_f1_door_joint2", "door", 0.0), "entrance1");
+  EXPECT_EQ(leaf_name("kitchen_door_block", "door", 4.0), "kitchen1");
+  EXPECT_EQ(leaf_name("work_f12_room_door", "door", 0.0), "work_f12_room0");
+  EXPECT_EQ(leaf_name("kitchen_doorstep", "door", 0.0), "");
+  EXPECT_EQ(leaf_name("door_block", "door", 0.0), "");
+  EXPECT_EQ(leaf_name("leaf", "door", 0.0), "");
+}
+
 }  // namespace
 }  // namespace angen::devices

@@ -154,8 +154,9 @@ TEST(WorldFile, KeepsADoorOnItsWay) {
 
 TEST(WorldFile, KeepsWhereAnElevatorGoes) {
   const auto before = loaded(
-      "<sdf version='1.6'><world name='w'><include><uri>model://elevator"
-      "</uri></include></world></sdf>");
+      "<sdf version='1.6'><world name='w'><include><uri>model://elevator</uri>"
+      "<plugin name='p' filename='libros_plugin.so'><queue_size>2</queue_size></plugin>"
+      "</include></world></sdf>");
   const std::string name = before->snapshot()->structure->devices.at(0).name;
   run(*before, 1.0);
   command(*before, "elevator", name, "Floor1");

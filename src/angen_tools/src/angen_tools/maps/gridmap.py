@@ -131,8 +131,9 @@ def _prepare(world: Any, floor: int, doors: str) -> None:
         leave_out += models_with(world, 'hinge')
     for name in leave_out:
         world.delete(name)
-    _send(world, 'door', 'Open' if doors == 'open' else 'Close',
-          lambda s: s['mode'] == ('OPEN' if doors == 'open' else 'CLOSED'))
+    # Leaves of a model that is more than a door are not in the way either.
+    text, mode = ('Close', 'CLOSED') if doors == 'shut' else ('Open', 'OPEN')
+    _send(world, 'door', text, lambda s: s['mode'] == mode)
     _send(world, 'elevator', f'Floor{floor}',
           lambda s: s['floor'] == floor and s['mode'] == 'IDLE' and s['door_mode'] == 'OPEN')
 
