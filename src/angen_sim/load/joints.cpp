@@ -70,7 +70,8 @@ desc::JointAxis axis_of(const Element& element, const sdf::JointAxis& from, bool
   axis.friction = from.Friction();
   axis.initial_position = child_number(element, "initial_position", 0.0);
   axis.safety = safety_of(element, axis.lower, axis.upper);
-  if (axis.safety && free) axis.safety->k_position = 0.0;  // it has no end
+  const bool endless = free || (axis.lower <= -kFree && axis.upper >= kFree);
+  if (axis.safety && endless) axis.safety->k_position = 0.0;
   return axis;
 }
 

@@ -68,9 +68,6 @@ TEST(SafetyController, OfAJointWithoutEndsHasNoSoftLimits) {
 }
 
 TEST(SafetyController, WhatIsWrongWithItIsSaid) {
-  EXPECT_NE(message_of(arm("revolute", "<safety_controller k_position='4'/>"))
-                .find("arm.urdf:1: <safety_controller> has no k_velocity"),
-            std::string::npos);
   EXPECT_NE(message_of(arm("revolute",
                            "<safety_controller soft_lower_limit='1' soft_upper_limit='-1' "
                            "k_velocity='10'/>"))
@@ -79,6 +76,15 @@ TEST(SafetyController, WhatIsWrongWithItIsSaid) {
   EXPECT_NE(message_of(arm("revolute", "<safety_controller k_velocity='-1'/>"))
                 .find("must not be negative"),
             std::string::npos);
+}
+
+TEST(SafetyController, OfAnSdfNeedsItsVelocityGain) {
+  const std::string message =
+      error_of(in_model(two_links() + hinge("j", "0 0 0 0 0 0",
+                                            "<angen:safety_controller><k_position>4</k_position>"
+                                            "</angen:safety_controller>")));
+  EXPECT_NE(message.find("w.world:1: <safety_controller> has no k_velocity"), std::string::npos)
+      << message;
 }
 
 TEST(SafetyController, OfAnSdfStandsInItsAxis) {

@@ -7,7 +7,7 @@ import signal
 import sys
 from typing import Any, NoReturn, Sequence
 
-from angen_tools.cli import bench, care, live, locate, offline, patrol, walktest
+from angen_tools.cli import bench, care, live, locate, offline, patrol, pid, walktest
 from angen_tools.cli.parser import Parser, command
 from angen_tools.common.failure import Failure
 from angen_tools.common.typography import straightened
@@ -43,7 +43,7 @@ def make_parser() -> Parser:
                 live.add_save, live.add_watch, live.add_top, offline.add_checks, offline.add_map,
                 live.add_drive, offline.add_run, patrol.add_task, offline.add_world,
                 bench.add_bench, walktest.add_walktest, care.add_care,
-                locate.add_locate):
+                locate.add_locate, pid.add_pid):
         add(commands)
     completion = command(commands, 'completion', run_completion,
                          'prints what makes a shell complete angen',
