@@ -11,6 +11,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 pytestmark = pytest.mark.ros
+NODE_RUNS = ' models, '  # in the line that the node prints then
 
 
 @pytest.fixture
@@ -39,35 +40,38 @@ def marked(environment):
     return found
 
 
-def hear_signals():
+def restore_signals():
     """In the child: undoes what a test run in the background or under nohup ignores."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_DFL)
 
 
 def start(environment):
-    """Starts ./angen run and returns it when roslaunch has started the node, with what it said."""
+    """Starts ./angen run and returns it when the node runs, with the lines printed so far."""
     process = subprocess.Popen([ROOT / 'angen', 'run', f'world:={ROOT}/worlds/empty.world'],
                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                               env=environment, preexec_fn=hear_signals)
-    said = []
+                               env=environment, preexec_fn=restore_signals)
+    printed = []
     alarm = threading.Timer(120, process.kill)  # a line that never comes must not hold up the tests
     alarm.start()
     for line in process.stdout:
-        said.append(line)
-        if 'process[angen-' in line:
+        printed.append(line)
+        if NODE_RUNS in line:
             break
     alarm.cancel()
-    return process, ''.join(said)
+    return process, printed
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_ends_all_that_it_started(environment, number):
-    process, said = start(environment)
-    assert 'no display' in said
+    process, printed = start(environment)
+    assert any('no display' in line for line in printed)
     assert len(marked(environment)) > 3  # the script, roslaunch, the master, the node
     process.send_signal(number)
-    process.communicate(timeout=60)
+    printed += process.communicate(timeout=60)[0].splitlines(keepends=True)
+    # besides our own words, which an indent continues, the node's line alone: nothing of roslaunch
+    assert [line for line in printed if not line.startswith(('angen: ', '  '))] == [
+        line for line in printed if NODE_RUNS in line]
     assert process.returncode == 128 + number
     assert marked(environment) == []
 
@@ -75,14 +79,16 @@ def test_a_signal_ends_all_that_it_started(environment, number):
 def test_a_running_roscore_is_used_and_left(environment):
     port = environment['ROS_MASTER_URI'].rpartition(':')[2]
     roscore = subprocess.Popen(['/usr/bin/roscore', '-p', port], stdout=subprocess.PIPE,
-                               stderr=subprocess.DEVNULL, text=True, preexec_fn=hear_signals,
+                               stderr=subprocess.DEVNULL, text=True, preexec_fn=restore_signals,
                                env=dict(environment, PYTHONUNBUFFERED='1'))
     for line in roscore.stdout:
         if 'started core service' in line:
             break
     before = marked(environment)
-    process, said = start(environment)
-    assert 'auto-starting new master' not in said
+    process, _ = start(environment)
+    masters = [number for number in marked(environment)
+               if b'rosmaster' in Path(f'/proc/{number}/cmdline').read_bytes()]
+    assert len(masters) == 1
     process.send_signal(signal.SIGINT)
     process.communicate(timeout=60)
     assert sorted(marked(environment)) == sorted(before)
@@ -96,3 +102,11 @@ def test_a_world_that_cannot_be_read_ends_it_with_failure(environment, tmp_path)
                             capture_output=True, text=True, env=environment, timeout=120)
     assert result.returncode == 1
     assert 'broken.world:' in result.stdout + result.stderr
+    assert 'process has died' in result.stderr  # of roslaunch's lines those of errors stay
+
+
+def test_an_unknown_argument_is_named(environment):
+    result = subprocess.run([ROOT / 'angen', 'run', 'wrold:=worlds/empty.world'],
+                            capture_output=True, text=True, env=environment, timeout=120)
+    assert result.returncode == 1
+    assert 'wrold' in result.stderr
