@@ -4,7 +4,7 @@
 
 #include "desc/world.h"
 
-/// Small models to put devices on. Metres, kg, radians.
+/// Small models to put devices on. Meters, kg, radians.
 namespace angen::test {
 
 desc::Link box_link(const std::string& name, const Vec3& at, const Vec3& size, double mass);

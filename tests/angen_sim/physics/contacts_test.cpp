@@ -1,100 +1,14 @@
 // What touches is found, and what overlaps is parted gently.
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cmath>
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "angen_sim/physics/models.h"
-#include "core/random.h"
-#include "physics/boxes.h"
 
 namespace angen::physics::testing {
 namespace {
-
-struct Boxes {
-  Boxes() { ode::prepare_thread(); }
-  std::size_t collide() {
-    return collide_boxes(lower.get(), upper.get(), points.data(), points.size());
-  }
-  ode::GeomHandle lower{dCreateBox(nullptr, 0.42, 0.42, 0.04)};
-  ode::GeomHandle upper{dCreateBox(nullptr, 0.56, 0.36, 0.15)};
-  std::array<dContactGeom, 16> points{};
-};
-
-TEST(Boxes, AllButParallelAreFoundAtTheirDepth) {
-  Boxes boxes;
-  Rng rng(1, hash_bytes("boxes"), 0);
-  for (int i = 0; i < 20'000; ++i) {
-    const double yaw = 6.0 * rng.uniform();
-    const Quat upright = from_rpy(0.0, 0.0, yaw);
-    Quat leant = upright;
-    leant.coeffs()[i % 4] += std::pow(10.0, -20.0 + 13.0 * rng.uniform());
-    const double depth = 1e-6 + 0.01 * rng.uniform();
-    ode::set_pose(boxes.lower.get(), {{0, 0, -0.02}, leant});
-    ode::set_pose(boxes.upper.get(),
-                  {{0.15 * std::cos(yaw), 0.15 * std::sin(yaw), 0.075 - depth}, upright});
-    ASSERT_EQ(boxes.collide(), 4U) << i;
-    for (int k = 0; k < 4; ++k) {
-      EXPECT_NEAR(boxes.points[k].depth, depth, 1e-7);
-      EXPECT_NEAR(boxes.points[k].normal[2], -1.0, 1e-9);
-      EXPECT_NEAR(boxes.points[k].pos[2], 0.0, depth + 1e-7);
-    }
-  }
-}
-
-// Poses that a chair's seat and a sitter's thighs had, at which dBoxBox() of ODE 0.16 finds
-// nothing.
-TEST(Boxes, AreFoundWhereOdeOverlooksThem) {
-  Boxes boxes;
-  const dMatrix3 seat{0x1.14a280fb5068ap-1,  -0x1.aed548f090ceep-1, -0x1.00acb59bafed7p-27, 0,
-                      0x1.aed548f090ceep-1,  0x1.14a280fb5068cp-1,  -0x1.8fbf4068debc8p-27, 0,
-                      0x1.db0eb64fa3ef5p-27, -0x1.02e14p-61,        0x1.fffffffffffffp-1,   0};
-  const dMatrix3 thighs{0x1.14a280fb5068cp-1,
-                        -0x1.aed548f090ceep-1,
-                        0,
-                        0,
-                        0x1.aed548f090ceep-1,
-                        0x1.14a280fb5068cp-1,
-                        0,
-                        0,
-                        0,
-                        0,
-                        1,
-                        0};
-  dGeomSetRotation(boxes.lower.get(), seat);
-  dGeomSetPosition(boxes.lower.get(), -3.4e-9, -5.2e-9, 0.45);
-  dGeomSetRotation(boxes.upper.get(), thighs);
-  dGeomSetPosition(boxes.upper.get(), 0.081, 0.1262, 0.5375);
-  EXPECT_EQ(boxes.collide(), 4U);
-}
-
-TEST(Boxes, AgreeWithOdeWhereNothingIsParallel) {
-  Boxes boxes;
-  Rng rng(2, hash_bytes("boxes"), 0);
-  int touching = 0;
-  for (int i = 0; i < 5'000; ++i) {
-    const auto pose = [&] {
-      const auto random = [&] { return 0.6 * (rng.uniform() - 0.5); };
-      const Vec3 at(random(), random(), random());
-      return Pose{at, from_rpy(10.0 * random(), 5.0 * random(), 10.0 * random())};
-    };
-    ode::set_pose(boxes.lower.get(), pose());
-    ode::set_pose(boxes.upper.get(), pose());
-    std::array<dContactGeom, 16> wanted{};
-    const int n = dCollide(boxes.lower.get(), boxes.upper.get(), 16, wanted.data(),
-                           static_cast<int>(sizeof(dContactGeom)));
-    ASSERT_EQ(boxes.collide(), static_cast<std::size_t>(n)) << i;
-    for (int k = 0; k < n; ++k) {
-      EXPECT_LT((ode::vec(boxes.points[k].pos) - ode::vec(wanted[k].pos)).norm(), 1e-9) << i;
-      EXPECT_LT((ode::vec(boxes.points[k].normal) - ode::vec(wanted[k].normal)).norm(), 1e-9) << i;
-      EXPECT_NEAR(boxes.points[k].depth, wanted[k].depth, 1e-9) << i;
-    }
-    touching += n > 0 ? 1 : 0;
-  }
-  EXPECT_GT(touching, 1000);
-}
 
 const std::vector<std::pair<const char*, Shape>>& shapes() {
   using Type = Shape::Type;
@@ -133,6 +47,75 @@ TEST(Contacts, WhatIsPutIntoAnotherIsPartedSlowly) {
       }
     }
   }
+}
+
+TEST(Contacts, AreListedByCollisionAwakeAndAsleep) {
+  const std::string low = "low::link::collision";
+  TestWorld world;
+  world.add(floor_model());
+  world.add(box_model("low", 7.0, {0.4, 0.3, 0.2}, {0, 0, 0.1}));
+  const ModelId high = world.add(box_model("high", 1.0, {0.2, 0.2, 0.2}, {0, 0, 0.3}));
+  for (const std::size_t awake : {2U, 0U}) {
+    world.run(awake > 0 ? 0.3 : 2.0);
+    ASSERT_EQ(world.awake_count(), awake);
+    const std::vector<ContactPair> pairs = world.contacts(world.collision(low));
+    ASSERT_EQ(pairs.size(), 2U);
+    EXPECT_EQ(pairs[0].second, "floor::link::collision");
+    EXPECT_EQ(pairs[1].second, "high::link::collision");
+    Vec3 sum = Vec3::Zero();
+    for (const ContactPair& pair : pairs) {
+      EXPECT_EQ(pair.first, low);
+      for (const ContactPoint& point : pair.points) {
+        EXPECT_GT(point.force.dot(point.normal), 0.0);
+        sum += point.force;
+      }
+    }
+    EXPECT_LT((sum - force_on(world, low)).norm(), 1e-9);
+  }
+  world.remove(high);
+  world.run(2.0);
+  ASSERT_EQ(world.awake_count(), 0U);
+  EXPECT_EQ(world.contacts(world.collision(low)).size(), 1U);
+  EXPECT_EQ(world.contacts(world.collision("floor::link::collision")).size(), 1U);
+  EXPECT_FALSE(world.collision("high::link::collision").valid());
+  EXPECT_TRUE(world.contacts({}).empty());
+}
+
+TEST(Contacts, RevisionOfACollisionGrowsWithItsContacts) {
+  TestWorld world;
+  world.add(floor_model());
+  world.add(box_model("low", 7.0, {0.4, 0.3, 0.2}, {0, 0, 0.1}));
+  world.add(box_model("aside", 7.0, {0.4, 0.3, 0.2}, {3, 0, 0.1}));
+  const CollisionId low = world.collision("low::link::collision");
+  const CollisionId aside = world.collision("aside::link::collision");
+  std::uint64_t known[2] = {};
+  const auto changes = [&] {
+    const std::uint64_t now[2] = {world.contacts_revision(low), world.contacts_revision(aside)};
+    const std::pair<bool, bool> changed(now[0] != known[0], now[1] != known[1]);
+    std::copy(now, now + 2, known);
+    return changed;
+  };
+  using Changes = std::pair<bool, bool>;
+  world.run(0.1);
+  EXPECT_EQ(changes(), Changes(true, true));
+  world.run(0.1);
+  EXPECT_EQ(changes(), Changes(true, true));  // awake: forces may differ
+  world.run(2.0);
+  changes();
+  world.run(1.0);
+  EXPECT_EQ(changes(), Changes(false, false));
+  const ModelId falling = world.add(box_model("falling", 1.0, {0.2, 0.2, 0.2}, {0, 0, 0.5}));
+  world.run(0.1);
+  EXPECT_EQ(changes(), Changes(false, false));  // in the air
+  world.run(0.3);
+  EXPECT_EQ(changes(), Changes(true, false));
+  world.run(2.0);
+  changes();
+  world.run(1.0);
+  ASSERT_EQ(world.awake_count(), 0U);
+  EXPECT_EQ(changes(), Changes(false, false));
+  world.remove(falling);
+  EXPECT_EQ(changes(), Changes(true, false));
 }
 
 }  // namespace

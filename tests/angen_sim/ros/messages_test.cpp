@@ -1,3 +1,4 @@
+// Every kind's message: the registrations in ros/kinds.
 #include "angen_sim/ros/messages.h"
 
 #include <angen_msgs/DoorState.h>
@@ -11,19 +12,15 @@
 #include <gazebo_msgs/ContactsState.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
-#include <ros/names.h>
 #include <sensor_msgs/BatteryState.h>
+#include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/Range.h>
 #include <sensor_msgs/RelativeHumidity.h>
 
 #include <cmath>
 #include <limits>
-#include <set>
 #include <string>
 #include <vector>
-
-#include "ros/convert.h"
-#include "ros/wire.h"
 
 namespace angen::node {
 namespace {
@@ -233,32 +230,26 @@ TEST(Messages, TheGenericOneHoldsEveryField) {
   EXPECT_EQ(message.texts, Texts{"ok"});
 }
 
-TEST(Messages, StampsKeepTheirNanoseconds) {
-  const ros::Time stamp = to_ros(12'345'678'901);
-  EXPECT_EQ(stamp.sec, 12U);
-  EXPECT_EQ(stamp.nsec, 345678901U);
-}
-
-TEST(Names, TopicsAreGraphNames) {
-  EXPECT_EQ(topic_of("pir", "kitchen0"), "/angen/pir/kitchen0");
-  EXPECT_EQ(topic_of("pir", "my pir-1"), "/angen/pir/my_x20pir_x2d1");
-  EXPECT_EQ(topic_of("pir", "p", "/scan"), "/scan");
-  EXPECT_EQ(topic_of("pir", "p", "scan"), "scan");
-  EXPECT_EQ(graph_name("1st"), "a1st");
-  EXPECT_EQ(graph_name("/a//b/"), "/a/b");
-}
-
-TEST(Names, DifferentNamesHaveDifferentTopics) {
-  const std::vector<std::string> names = {"a_b",  "a.b",      "a b",       "a-b",        "a_x2eb",
-                                          "a_xb", "a_x2Eb",   "a_x5fx2eb", "a__x2eb",    "A_b",
-                                          "ä",    "_xc3_xa4", "_x2",       "a_x2e_x2eb", "a_x2e.b"};
-  std::set<std::string> topics;
-  for (const std::string& name : names) {
-    const std::string topic = topic_of("pir", name);
-    EXPECT_TRUE(topics.insert(topic).second) << name << " as " << topic;
-    std::string error;
-    EXPECT_TRUE(ros::names::validate(topic, error)) << error;
-  }
+TEST(Messages, AMissIsInfiniteInALaserScan) {
+  Reading reading;
+  reading.set("ranges", std::vector<double>{1.5, std::numeric_limits<double>::infinity()});
+  reading.set("angle_min", -0.5);
+  reading.set("angle_max", 0.5);
+  reading.set("angle_increment", 1.0);
+  reading.set("scan_time", 0.1);
+  reading.set("range_min", 0.2);
+  reading.set("range_max", 8.0);
+  sensor_msgs::LaserScan scan;
+  fill("lidar", reading, {}, scan);
+  ASSERT_EQ(scan.ranges.size(), 2U);
+  EXPECT_EQ(scan.ranges[0], 1.5F);
+  EXPECT_EQ(scan.ranges[1], std::numeric_limits<float>::infinity());
+  EXPECT_EQ(scan.angle_min, -0.5F);
+  EXPECT_EQ(scan.angle_max, 0.5F);
+  EXPECT_EQ(scan.angle_increment, 1.0F);
+  EXPECT_EQ(scan.scan_time, 0.1F);
+  EXPECT_EQ(scan.range_min, 0.2F);
+  EXPECT_EQ(scan.range_max, 8.0F);
 }
 
 }  // namespace

@@ -2,11 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "angen_sim/ros/messages.h"
 #include "core/diagnostics.h"
 
 namespace angen::node {
 namespace {
+
+using Names = std::vector<std::string>;
 
 TEST(Topics, KindsOfWhichThereMayBeManyShareTheirs) {
   for (const char* kind : {"pir", "switch", "luminosity", "contact", "smoke"}) {
@@ -31,6 +38,49 @@ TEST(Topics, AreNamedBySensorOrKind) {
   EXPECT_EQ(topics_named("sensor"), Topics::kSensor);
   EXPECT_EQ(topics_named("kind"), Topics::kKind);
   EXPECT_THROW(topics_named("Kind"), Error);
+}
+
+sim::SensorEntry sensor(const std::string& kind,
+                        const std::vector<std::pair<std::string, std::string>>& parameters = {}) {
+  sim::SensorEntry entry;
+  entry.kind = kind;
+  entry.name = "it";
+  auto described = std::make_shared<desc::Sensor>();
+  for (const auto& [key, value] : parameters) {
+    Element child;
+    child.name = key;
+    child.text = value;
+    described->plugin_element.children.push_back(child);
+    if (key == "topicName") entry.topic = value;
+  }
+  entry.desc = described;
+  return entry;
+}
+
+TEST(Topics, ASensorByItselfPublishesUnderItsKindAndName) {
+  EXPECT_EQ(sensor_topics(sensor("lidar"), format_of("lidar"), nullptr), Names{"/angen/lidar/it"});
+  const std::vector<Format>& formats = formats_of("depth");
+  ASSERT_EQ(formats.size(), 3U);
+  EXPECT_EQ(sensor_topics(sensor("depth"), formats[2], nullptr), Names{"/angen/depth/it/points"});
+}
+
+TEST(Topics, ARobotsTopicsStandBelowItsNameAndTheFirstOnesAlsoAlone) {
+  Robot robot;
+  robot.name = "r2";
+  const sim::SensorEntry scan = sensor("lidar", {{"topicName", "scan"}});
+  EXPECT_EQ(sensor_topics(scan, format_of("lidar"), &robot), Names{"/r2/scan"});
+  robot.first = true;
+  EXPECT_EQ(sensor_topics(scan, format_of("lidar"), &robot), (Names{"/r2/scan", "/scan"}));
+}
+
+TEST(Topics, CamerasTakeGazebosTopicNames) {
+  Robot robot;
+  robot.name = "r2";
+  const sim::SensorEntry camera =
+      sensor("camera", {{"cameraName", "camera"}, {"imageTopicName", "rgb/image_raw"}});
+  const std::vector<Format>& formats = formats_of("camera");
+  EXPECT_EQ(sensor_topics(camera, formats[0], &robot), Names{"/r2/camera/rgb/image_raw"});
+  EXPECT_EQ(sensor_topics(camera, formats[1], &robot), Names{"/r2/camera/camera_info"});
 }
 
 }  // namespace

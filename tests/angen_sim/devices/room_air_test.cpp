@@ -1,0 +1,57 @@
+#include "devices/room_air.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace angen::devices {
+namespace {
+
+constexpr double kAirHeat = 1.204 * 1006.0;  // J/(m^3 K)
+
+TEST(RoomAir, MoistureAndHumidityAreInverse) {
+  // 50 % at 20 degrees: 1168 Pa of vapor, 7.25 g/kg
+  EXPECT_NEAR(moisture_of(20.0, 50.0), 0.00725, 2e-5);
+  for (const double humidity : {5.0, 50.0, 100.0}) {
+    EXPECT_NEAR(humidity_of({25.0, moisture_of(25.0, humidity)}), humidity, 1e-9);
+  }
+  EXPECT_EQ(humidity_of({0.0, moisture_of(30.0, 100.0)}), 100.0);  // what it cannot hold is dew
+}
+
+TEST(RoomAir, AClosedRoomWarmsByItsHeatAndLosesNone) {
+  RoomAir air({}, {30.0, 20.0}, {20.0, 0.005});
+  air.step(60.0, {-10.0, 0.0}, {1000.0, 0.0}, {});
+  EXPECT_NEAR(air.rooms()[0].temperature, 20.0 + 60.0 * 1000.0 / (kAirHeat * 30.0), 1e-9);
+  EXPECT_EQ(air.rooms()[1].temperature, 20.0);
+  EXPECT_EQ(air.rooms()[0].moisture, 0.005);
+}
+
+TEST(RoomAir, ALeakyRoomBecomesAsTheAirOutside) {
+  RoomAir::Settings settings;
+  settings.heat_loss = 0.5;
+  settings.air_change = 0.5 / 3600.0;
+  RoomAir air(settings, {30.0}, {20.0, 0.007});
+  const double loss = settings.heat_loss + kAirHeat * settings.air_change;
+  const double seconds = 2.0 * kAirHeat / loss;  // two time constants
+  for (int i = 0; i < 10'000; ++i) air.step(seconds / 10'000, {0.0, 0.001}, {0.0}, {});
+  EXPECT_NEAR(air.rooms()[0].temperature, 20.0 * std::exp(-2.0), 0.01);
+  EXPECT_NEAR(air.rooms()[0].moisture, 0.001 + 0.006 * std::exp(-settings.air_change * seconds),
+              1e-5);
+}
+
+TEST(RoomAir, ThroughADoorwayWhatOneRoomLosesTheOtherGains) {
+  const Opening door{0, 1, 0.9, 2.0};
+  const Air warm{22.0, 0.0}, cold{18.0, 0.0};
+  const double middle = 293.15;
+  EXPECT_NEAR(doorway_flow(door, warm, cold), 0.2 * 0.9 * std::sqrt(9.81 * 8.0 * 4.0 / middle),
+              1e-9);
+  EXPECT_EQ(doorway_flow(door, warm, warm), 0.0);
+  RoomAir air({}, {30.0, 30.0}, cold);
+  air.fill(0, warm);
+  for (int i = 0; i < 600; ++i) air.step(1.0, {}, {0.0, 0.0}, {door});
+  EXPECT_NEAR(air.rooms()[0].temperature + air.rooms()[1].temperature, 40.0, 1e-9);
+  EXPECT_NEAR(air.rooms()[0].temperature - air.rooms()[1].temperature, 0.0, 0.1);
+}
+
+}  // namespace
+}  // namespace angen::devices
