@@ -11,35 +11,6 @@
 namespace angen::rays::testing {
 namespace {
 
-Vec3 random_point(Rng& rng, double half) {
-  const double x = rng.uniform(), y = rng.uniform(), z = rng.uniform();
-  return half * (2 * Vec3(x, y, z) - Vec3::Ones());
-}
-
-Pose random_pose(Rng& rng, double half) {
-  const Vec3 point = random_point(rng, half);
-  const Vec3 angles = random_point(rng, 3.0);
-  return {point, from_rpy(angles.x(), angles.y(), angles.z())};
-}
-
-Shape random_shape(Rng& rng) {
-  const double a = 0.2 + rng.uniform(), b = 0.2 + rng.uniform(), c = 0.2 + rng.uniform();
-  switch (rng.next() % 6) {
-    case 0:
-      return box(a, b, c);
-    case 1:
-      return round(Shape::Type::kSphere, a / 2);
-    case 2:
-      return round(Shape::Type::kCylinder, a / 2, b);
-    case 3:
-      return round(Shape::Type::kCapsule, a / 2, b);
-    case 4:
-      return Shape{};
-    default:
-      return octahedron(static_cast<float>(a));
-  }
-}
-
 /// Rays of a fan and some that are odd: along an axis, too short, with no direction, endless.
 std::vector<Ray> fan(Rng& rng, double reach) {
   const Pose pose = random_pose(rng, 3.0);

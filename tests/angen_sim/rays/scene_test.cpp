@@ -15,33 +15,6 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Vec3 random_point(Rng& rng, double half) {
-  const double x = rng.uniform(), y = rng.uniform(), z = rng.uniform();
-  return half * (2 * Vec3(x, y, z) - Vec3::Ones());
-}
-
-Shape random_shape(Rng& rng) {
-  const double a = 0.1 + rng.uniform(), b = 0.1 + rng.uniform(), c = 0.1 + rng.uniform();
-  switch (rng.next() % 5) {
-    case 0:
-      return box(a, b, c);
-    case 1:
-      return round(Shape::Type::kSphere, a / 2);
-    case 2:
-      return round(Shape::Type::kCylinder, a / 2, b);
-    case 3:
-      return round(Shape::Type::kCapsule, a / 2, b);
-    default:
-      return octahedron(static_cast<float>(a));
-  }
-}
-
-Pose random_pose(Rng& rng, double half) {
-  const Vec3 point = random_point(rng, half);
-  const Vec3 angles = random_point(rng, 3.0);
-  return {point, from_rpy(angles.x(), angles.y(), angles.z())};
-}
-
 std::vector<Ray> random_rays(Rng& rng, std::size_t count) {
   std::vector<Ray> rays(count);
   for (Ray& r : rays) {

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "core/random.h"
 #include "rays/scene.h"
 
 /// Shapes and one-ray casts that the tests of `rays` share.
@@ -44,6 +45,36 @@ inline Shape octahedron(float radius) {
 inline Pose at(double x, double y, double z) { return {Vec3(x, y, z), Quat::Identity()}; }
 inline Pose at(double x, double y, double z, const Quat& rotation) {
   return {Vec3(x, y, z), rotation};
+}
+
+inline Vec3 random_point(Rng& rng, double half) {
+  const double x = rng.uniform(), y = rng.uniform(), z = rng.uniform();
+  return half * (2 * Vec3(x, y, z) - Vec3::Ones());
+}
+
+inline Pose random_pose(Rng& rng, double half) {
+  const Vec3 point = random_point(rng, half);
+  const Vec3 angles = random_point(rng, 3.0);
+  return {point, from_rpy(angles.x(), angles.y(), angles.z())};
+}
+
+/// One of each type but a plane, about a meter large; also an empty one.
+inline Shape random_shape(Rng& rng) {
+  const double a = 0.2 + rng.uniform(), b = 0.2 + rng.uniform(), c = 0.2 + rng.uniform();
+  switch (rng.next() % 6) {
+    case 0:
+      return box(a, b, c);
+    case 1:
+      return round(Shape::Type::kSphere, a / 2);
+    case 2:
+      return round(Shape::Type::kCylinder, a / 2, b);
+    case 3:
+      return round(Shape::Type::kCapsule, a / 2, b);
+    case 4:
+      return Shape{};
+    default:
+      return octahedron(static_cast<float>(a));
+  }
 }
 
 inline ShapeId add(Scene& scene, const Shape& shape, const Pose& pose = {},

@@ -19,7 +19,7 @@ def box(width: int = 80, height: int = 60) -> GridMap:
 
 
 def test_a_hinge_is_found_by_two_poses_of_its_leaf() -> None:
-    # the leaf's middle, half a metre from an axis at 2, 1
+    # the leaf's middle, half a meter from an axis at 2, 1
     hinge = find_hinge([(0, 0, 0), (2.5, 1.0, 0.0)], [(0, 0, 0), (2.0, 0.5, -math.pi / 2)])
     assert hinge.at == pytest.approx((2.0, 1.0))
     assert hinge.turn == pytest.approx(-math.pi / 2)

@@ -14,13 +14,6 @@ from angen_tools.common import catalog
 from angen_tools.common.failure import Failure
 from angen_tools.world import sdf, sensor
 
-BLOCKS = Path(__file__).resolve().parents[3] / 'worlds/models'
-EMPTY = BLOCKS.parent / 'empty.world'
-TABLE = '''<sdf version="1.6"><model name="table"><static>true</static><link name="body">
-  <collision name="top"><geometry><box><size>1 1 0.1</size></box></geometry></collision>
-  <collision name="leg"><pose>0 0 -0.4 0 0 0</pose><geometry><box><size>0.1 0.1 0.7</size></box>
-  </geometry></collision></link></model></sdf>'''
-
 
 def build(kind: str, *settings: str, lone: bool = False) -> etree._Element:
     return sensor.build(kind, 's1', sdf.parse_settings(list(settings)), lone)
@@ -28,11 +21,6 @@ def build(kind: str, *settings: str, lone: bool = False) -> etree._Element:
 
 KINDS = catalog.kinds('sensor')
 FREE = [name for name, kind in KINDS.items() if not sensor.needs_link(kind)]
-
-
-@pytest.fixture
-def world() -> angen.World:
-    return angen.World(str(EMPTY))
 
 
 @pytest.mark.parametrize('kind', FREE)
@@ -44,8 +32,8 @@ def test_a_built_model_has_one_sensor_of_its_name(world: angen.World, kind: str)
 
 
 @pytest.mark.parametrize('kind', KINDS)
-def test_a_lone_sensor_sits_on_a_link(world: angen.World, kind: str) -> None:
-    world.spawn(TABLE, 'table', [0, 0, 1, 0, 0, 0])
+def test_a_lone_sensor_sits_on_a_link(world: angen.World, table: str, kind: str) -> None:
+    world.spawn(table, 'table', [0, 0, 1, 0, 0, 0])
     needed = {'contact': ['collision=top'], 'pressure': ['collision=top'],
               'reed': ['magnet_link=body']}
     world.spawn(sdf.text(build(kind, *needed.get(kind, []), lone=True)), 's1', [0, 0, 0.1, 0, 0, 0],
@@ -117,11 +105,11 @@ def test_text_that_looks_like_xml_stays_text() -> None:
     assert again.findtext('.//frameName') == '</plugin><x>&'
 
 
-def test_the_block_is_read_not_changed() -> None:
-    before = (BLOCKS / 'pir/model.sdf').read_bytes()
+def test_the_model_is_read_not_changed(models_folder: Path) -> None:
+    before = (models_folder / 'pir/model.sdf').read_bytes()
     assert build('pir', 'threshold=9').findtext('.//threshold') == '9'
     assert build('pir').findtext('.//threshold') == '0.1'
-    assert (BLOCKS / 'pir/model.sdf').read_bytes() == before
+    assert (models_folder / 'pir/model.sdf').read_bytes() == before
 
 
 def test_a_pyroelectric_pir_takes_its_own_parameters(world: angen.World) -> None:
@@ -160,8 +148,9 @@ def nosy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
 
 
 @pytest.mark.parametrize('lone', [True, False])
-def test_a_kind_of_the_users_own_needs_no_model(world: angen.World, nosy: str, lone: bool) -> None:
-    world.spawn(TABLE, 'table', [0, 0, 1, 0, 0, 0])
+def test_a_kind_of_the_users_own_needs_no_model(world: angen.World, table: str, nosy: str,
+                                                lone: bool) -> None:
+    world.spawn(table, 'table', [0, 0, 1, 0, 0, 0])
     built = build(nosy, 'gain=7', lone=lone)
     world.spawn(sdf.text(built), 's1', [0, 0, 1, 0, 0, 0], *['table::body'] * lone)
     world.request(nosy, 's1')

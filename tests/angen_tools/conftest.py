@@ -1,0 +1,30 @@
+"""Fixtures of the tests of angen_tools; none needs ROS."""
+from __future__ import annotations
+
+from pathlib import Path
+
+import angen
+import pytest
+
+MODELS = Path(__file__).resolve().parents[2] / 'worlds/models'
+
+
+@pytest.fixture(scope='session')
+def models_folder() -> Path:
+    """worlds/models."""
+    return MODELS
+
+
+@pytest.fixture
+def world() -> angen.World:
+    """An empty world."""
+    return angen.World(str(MODELS.parent / 'empty.world'))
+
+
+@pytest.fixture(scope='session')
+def table() -> str:
+    """The SDF of a table, with the collisions top and leg on the link body."""
+    return '''<sdf version="1.6"><model name="table"><static>true</static><link name="body">
+  <collision name="top"><geometry><box><size>1 1 0.1</size></box></geometry></collision>
+  <collision name="leg"><pose>0 0 -0.4 0 0 0</pose><geometry><box><size>0.1 0.1 0.7</size></box>
+  </geometry></collision></link></model></sdf>'''
