@@ -1,114 +1,16 @@
 #include "rays/scene.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
 
 #include "core/slots.h"
-#include "rays/device.h"
-#include "rays/query.h"
-#include "rays/solid.h"
+#include "rays/layer.h"
 
 namespace angen::rays {
 namespace {
-
-struct SceneQuery {
-  RTCIntersectContext context;  // first: Embree hands back its address
-  Vec3 origin, direction;
-  double min;
-  Meeting best;        // range starts at the ray's max
-  std::uint64_t rank;  // of the best so far; the lower wins a tie
-  const Solid* solid;
-  bool anchored, moving;  // which of those that can move are met
-
-  /// Static shapes before moving ones, then by index.
-  static std::uint64_t rank_of(std::uint32_t slot, bool fixed) {
-    return (fixed ? 0ULL : 1ULL << 32) | slot;
-  }
-
-  bool wants(const Solid& candidate, bool fixed) const {
-    return fixed || (candidate.anchored ? anchored : moving);
-  }
-
-  bool try_solid(const Solid& candidate, bool fixed) {
-    Meeting found;
-    if (!wants(candidate, fixed)) return false;
-    if (!meet(candidate, origin, direction, min, best.range, found)) return false;
-    const std::uint64_t found_rank = rank_of(candidate.slot, fixed);
-    if (found.range == best.range && found_rank >= rank) return false;
-    best = found;
-    rank = found_rank;
-    solid = &candidate;
-    return true;
-  }
-
-  Hit hit() const {
-    return {best.range, solid->slot, normal_at(*solid, origin, direction, best).cast<float>()};
-  }
-};
-
-void bounds(const RTCBoundsFunctionArguments* args) {
-  const auto* solids = static_cast<const Solid*>(args->geometryUserPtr);
-  *args->bounds_o = padded(bounds_of(solids[args->primID]));
-}
-
-template <bool fixed>
-void intersect(const RTCIntersectFunctionNArguments* args) {
-  if (!args->valid[0]) return;
-  auto& q = *reinterpret_cast<SceneQuery*>(args->context);
-  const auto* solids = static_cast<const Solid*>(args->geometryUserPtr);
-  if (!q.try_solid(solids[args->primID], fixed)) return;
-  reinterpret_cast<RTCRayHit*>(args->rayhit)->ray.tfar = reach(q.best.range);
-}
-
-template <bool fixed>
-void occluded(const RTCOccludedFunctionNArguments* args) {
-  if (!args->valid[0]) return;
-  auto& q = *reinterpret_cast<SceneQuery*>(args->context);
-  const Solid& solid = static_cast<const Solid*>(args->geometryUserPtr)[args->primID];
-  Meeting found;
-  if (!q.wants(solid, fixed)) return;
-  if (!meet(solid, q.origin, q.direction, q.min, q.best.range, found)) return;
-  q.solid = &solid;
-  reinterpret_cast<RTCRay*>(args->ray)->tfar = -std::numeric_limits<float>::infinity();
-}
-
-struct Cover {
-  RTCPointQueryContext context;  // first, as in SceneQuery
-  const std::vector<Solid>* solids;
-  Vec3 point;
-  std::uint32_t except;
-  bool found = false;
-};
-
-bool look_inside(RTCPointQueryFunctionArguments* args) {
-  auto& cover = *static_cast<Cover*>(args->userPtr);
-  const Solid& solid = (*cover.solids)[args->primID];
-  cover.found = cover.found || (solid.slot != cover.except && contains(solid, cover.point));
-  return false;  // the query's radius stays
-}
-
-/// The shapes that stand, or those that can move: those with a box in a hierarchy, planes (which
-/// have none) beside it.
-struct Layer {
-  Layer(RTCIntersectFunctionN intersect, RTCOccludedFunctionN occluded)
-      : tree(bounds, intersect, occluded) {}
-
-  std::vector<Solid> bounded;
-  std::vector<Solid> planes;
-  bool dirty = false;
-  Hierarchy tree;
-
-  void rebuild() {
-    if (dirty) tree.build(bounded.data(), bounded.size());
-    dirty = false;
-  }
-
-  std::vector<Solid>& list(Shape::Type type) {
-    return type == Shape::Type::kPlane ? planes : bounded;
-  }
-};
 
 struct Entry {
   Mobility mobility;
@@ -133,28 +35,6 @@ Solid make_solid(const Shape& shape, const Pose& pose) {
   return solid;
 }
 
-bool finite_as_floats(const Vec3& v) { return v.cast<float>().allFinite(); }
-
-/// False for a ray that meets nothing by definition: not finite, no direction, an empty interval.
-bool prepare(SceneQuery& q, const Vec3& origin, const Vec3& direction, double min, double max,
-             Mobilities among) {
-  rtcInitIntersectContext(&q.context);
-  q.origin = origin;
-  q.direction = direction;
-  q.min = std::max(0.0, min);
-  q.best.range = max;
-  q.rank = UINT64_MAX;
-  q.solid = nullptr;
-  q.anchored = (among & only(Mobility::kAnchored)) != 0;
-  q.moving = (among & only(Mobility::kMoving)) != 0;
-  const double length2 = direction.squaredNorm();
-  return finite_as_floats(origin) && finite_as_floats(direction) && length2 > 1e-30 && q.min <= max;
-}
-
-bool prepare(SceneQuery& q, const Ray& ray, Mobilities among) {
-  return prepare(q, ray.origin, ray.direction, ray.min, ray.max, among);
-}
-
 }  // namespace
 
 struct Scene::Impl {
@@ -163,8 +43,8 @@ struct Scene::Impl {
   std::vector<Place> places;                  // by index
   std::vector<std::pair<ShapeId, WarmShape>> warmed;
   std::vector<WarmShape> warm;  // of these, as of the last commit
-  Layer fixed{intersect<true>, occluded<true>};
-  Layer moving{intersect<false>, occluded<false>};
+  Layer fixed{true};
+  Layer moving{false};
   std::map<const TriangleMesh*, std::weak_ptr<const MeshTree>> meshes;
   std::uint64_t revision = 0;
   std::uint64_t static_revision = 0;
@@ -205,39 +85,14 @@ struct Scene::Impl {
     return place.layer->list(place.type)[place.at];
   }
 
-  bool wants(const Layer& layer, Mobilities among) const {
-    const Mobilities standing = only(Mobility::kStatic);
-    return (among & (&layer == &fixed ? standing : kAll & ~standing)) != 0;
-  }
-
   void nearest(SceneQuery& q, Mobilities among) const {
-    RTCRayHit ray{};
     for (const Layer* layer : {&fixed, &moving}) {
-      if (!wants(*layer, among)) continue;
-      for (const Solid& plane : layer->planes) q.try_solid(plane, layer == &fixed);
-      if (layer->bounded.empty()) continue;
-      aim(ray.ray, q.origin, q.direction, q.min, q.best.range);
-      ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-      rtcIntersect1(layer->tree.scene.get(), &q.context, &ray);
+      if (layer->holds(among)) layer->nearest(q);
     }
   }
 
   bool any(SceneQuery& q, Mobilities among) const {
-    Meeting found;
-    for (const Layer* layer : {&fixed, &moving}) {
-      if (!wants(*layer, among)) continue;
-      for (const Solid& plane : layer->planes) {
-        if (q.wants(plane, layer == &fixed) &&
-            meet(plane, q.origin, q.direction, q.min, q.best.range, found))
-          return true;
-      }
-      if (layer->bounded.empty()) continue;
-      RTCRay ray{};
-      aim(ray, q.origin, q.direction, q.min, q.best.range);
-      rtcOccluded1(layer->tree.scene.get(), &q.context, &ray);
-      if (q.solid != nullptr) return true;
-    }
-    return false;
+    return (fixed.holds(among) && fixed.any(q)) || (moving.holds(among) && moving.any(q));
   }
 };
 
@@ -315,7 +170,7 @@ void Scene::cast(const Ray* rays, Hit* hits, std::size_t count, Mobilities among
   SceneQuery q;
   for (std::size_t i = 0; i < count; ++i) {
     hits[i] = {};
-    if (!prepare(q, rays[i], among)) continue;
+    if (!q.prepare(rays[i], among)) continue;
     impl_->nearest(q, among);
     if (q.solid != nullptr) hits[i] = q.hit();
   }
@@ -329,7 +184,7 @@ void Scene::cast(const std::vector<Ray>& rays, std::vector<Hit>& hits) const {
 void Scene::better(ShapeId moving, const Ray& ray, Hit& hit) const {
   SceneQuery q;
   const Entry& entry = impl_->entries.at(moving);
-  if (entry.type == Shape::Type::kEmpty || !prepare(q, ray, kAll)) return;
+  if (entry.type == Shape::Type::kEmpty || !q.prepare(ray, kAll)) return;
   if (hit.hit()) {
     q.best.range = hit.range;
     q.rank = SceneQuery::rank_of(hit.shape, impl_->places[hit.shape].layer == &impl_->fixed);
@@ -352,7 +207,7 @@ bool Scene::blocked(const Vec3& from, const Vec3& to, double margin, Mobilities 
   SceneQuery q;
   const double length = (to - from).norm();
   const Vec3 direction = (to - from) / length;
-  return prepare(q, from, direction, margin, length - margin, among) && impl_->any(q, among);
+  return q.prepare(from, direction, margin, length - margin, among) && impl_->any(q, among);
 }
 
 namespace {
@@ -409,21 +264,12 @@ std::vector<Crossing> Scene::crossings(const Vec3& from, const Vec3& to) const {
 
 Hit Scene::cast_at(std::uint32_t shape_index, const Ray& ray) const {
   SceneQuery q;
-  if (!prepare(q, ray, kAll)) return {};
+  if (!q.prepare(ray, kAll)) return {};
   return q.try_solid(impl_->solid(shape_index), true) ? q.hit() : Hit{};
 }
 
 bool Scene::covered(const Vec3& point, std::uint32_t except) const {
-  if (impl_->fixed.bounded.empty()) return false;
-  Cover cover;
-  rtcInitPointQueryContext(&cover.context);
-  cover.solids = &impl_->fixed.bounded;
-  cover.point = point;
-  cover.except = except;
-  const Eigen::Vector3f at = point.cast<float>();
-  RTCPointQuery query{at.x(), at.y(), at.z(), 0.0F, 1e-5F};  // m, what floats lose
-  rtcPointQuery(impl_->fixed.tree.scene.get(), &query, &cover.context, look_inside, &cover);
-  return cover.found;
+  return impl_->fixed.covers(point, except);
 }
 
 Eigen::Vector3f Scene::reflectance(std::uint32_t shape_index) const {

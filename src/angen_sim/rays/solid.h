@@ -24,7 +24,7 @@ struct Solid {
   void place(const Pose& pose);
 };
 
-/// The first surface of one solid at or beyond `min`. `feature` tells the face: a box's axis, a
+/// The first surface of one solid at or beyond `min`. `feature` is the face: a box's axis, a
 /// cylinder's wall (0) or end (1), a mesh's triangle.
 struct Meeting {
   double range = std::numeric_limits<double>::infinity();

@@ -1,0 +1,129 @@
+#include "rays/layer.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "rays/query.h"
+
+namespace angen::rays {
+namespace {
+
+void bounds(const RTCBoundsFunctionArguments* args) {
+  const auto* solids = static_cast<const Solid*>(args->geometryUserPtr);
+  *args->bounds_o = padded(bounds_of(solids[args->primID]));
+}
+
+template <bool fixed>
+void intersect(const RTCIntersectFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  auto& q = *reinterpret_cast<SceneQuery*>(args->context);
+  const auto* solids = static_cast<const Solid*>(args->geometryUserPtr);
+  if (!q.try_solid(solids[args->primID], fixed)) return;
+  reinterpret_cast<RTCRayHit*>(args->rayhit)->ray.tfar = reach(q.best.range);
+}
+
+template <bool fixed>
+void occluded(const RTCOccludedFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  auto& q = *reinterpret_cast<SceneQuery*>(args->context);
+  const Solid& solid = static_cast<const Solid*>(args->geometryUserPtr)[args->primID];
+  Meeting found;
+  if (!q.wants(solid, fixed)) return;
+  if (!meet(solid, q.origin, q.direction, q.min, q.best.range, found)) return;
+  q.solid = &solid;
+  reinterpret_cast<RTCRay*>(args->ray)->tfar = -std::numeric_limits<float>::infinity();
+}
+
+struct Cover {
+  RTCPointQueryContext context;  // first, as in SceneQuery
+  const std::vector<Solid>* solids;
+  Vec3 point;
+  std::uint32_t except;
+  bool found = false;
+};
+
+bool query_inside(RTCPointQueryFunctionArguments* args) {
+  auto& cover = *static_cast<Cover*>(args->userPtr);
+  const Solid& solid = (*cover.solids)[args->primID];
+  cover.found = cover.found || (solid.slot != cover.except && contains(solid, cover.point));
+  return false;  // the query's radius stays
+}
+
+bool finite_as_floats(const Vec3& v) { return v.cast<float>().allFinite(); }
+
+}  // namespace
+
+bool SceneQuery::prepare(const Vec3& from, const Vec3& towards, double nearest, double farthest,
+                         Mobilities among) {
+  rtcInitIntersectContext(&context);
+  origin = from;
+  direction = towards;
+  min = std::max(0.0, nearest);
+  best.range = farthest;
+  rank = UINT64_MAX;
+  solid = nullptr;
+  anchored = (among & only(Mobility::kAnchored)) != 0;
+  moving = (among & only(Mobility::kMoving)) != 0;
+  const double length2 = direction.squaredNorm();
+  return finite_as_floats(origin) && finite_as_floats(direction) && length2 > 1e-30 &&
+         min <= farthest;
+}
+
+bool SceneQuery::try_solid(const Solid& candidate, bool fixed) {
+  Meeting found;
+  if (!wants(candidate, fixed)) return false;
+  if (!meet(candidate, origin, direction, min, best.range, found)) return false;
+  const std::uint64_t found_rank = rank_of(candidate.slot, fixed);
+  if (found.range == best.range && found_rank >= rank) return false;
+  best = found;
+  rank = found_rank;
+  solid = &candidate;
+  return true;
+}
+
+Hit SceneQuery::hit() const {
+  return {best.range, solid->slot, normal_at(*solid, origin, direction, best).cast<float>()};
+}
+
+Layer::Layer(bool fixed)
+    : fixed(fixed),
+      tree(bounds, fixed ? intersect<true> : intersect<false>,
+           fixed ? occluded<true> : occluded<false>) {}
+
+void Layer::nearest(SceneQuery& q) const {
+  for (const Solid& plane : planes) q.try_solid(plane, fixed);
+  if (bounded.empty()) return;
+  RTCRayHit ray{};
+  aim(ray.ray, q.origin, q.direction, q.min, q.best.range);
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(tree.scene.get(), &q.context, &ray);
+}
+
+bool Layer::any(SceneQuery& q) const {
+  Meeting found;
+  for (const Solid& plane : planes) {
+    if (q.wants(plane, fixed) && meet(plane, q.origin, q.direction, q.min, q.best.range, found)) {
+      return true;
+    }
+  }
+  if (bounded.empty()) return false;
+  RTCRay ray{};
+  aim(ray, q.origin, q.direction, q.min, q.best.range);
+  rtcOccluded1(tree.scene.get(), &q.context, &ray);
+  return q.solid != nullptr;
+}
+
+bool Layer::covers(const Vec3& point, std::uint32_t except) const {
+  if (bounded.empty()) return false;
+  Cover cover;
+  rtcInitPointQueryContext(&cover.context);
+  cover.solids = &bounded;
+  cover.point = point;
+  cover.except = except;
+  const Eigen::Vector3f at = point.cast<float>();
+  RTCPointQuery query{at.x(), at.y(), at.z(), 0.0F, 1e-5F};  // m, what floats lose
+  rtcPointQuery(tree.scene.get(), &query, &cover.context, query_inside, &cover);
+  return cover.found;
+}
+
+}  // namespace angen::rays
