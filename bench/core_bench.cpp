@@ -37,7 +37,7 @@ double resident_bytes() {
 struct Factor {
   double cpu = cpu_now();
   double simulated = 0.0;
-  void tell(benchmark::State& state) const {
+  void report(benchmark::State& state) const {
     state.counters["real_time_factor"] = simulated / (cpu_now() - cpu);
   }
 };
@@ -55,7 +55,7 @@ void pirs(benchmark::State& state) {
     run(*simulation, 1.0);
     factor.simulated += 1.0;
   }
-  factor.tell(state);
+  factor.report(state);
   state.counters["readings"] =
       static_cast<double>(simulation->snapshot()->counts.readings - before) / factor.simulated;
 }
@@ -74,7 +74,7 @@ void apartment_as_it_is(benchmark::State& state) {
     run(*simulation, 1.0);
     factor.simulated += 1.0;
   }
-  factor.tell(state);
+  factor.report(state);
 }
 BENCHMARK(apartment_as_it_is)->Unit(benchmark::kMillisecond)->Iterations(10);
 
@@ -169,14 +169,14 @@ void an_hour(benchmark::State& state) {
     }
     factor.simulated += 3600.0;
   }
-  factor.tell(state);
+  factor.report(state);
   state.counters["s_a_day"] = 86400.0 / factor.simulated * (cpu_now() - factor.cpu);
   state.counters["events"] = static_cast<double>(events);
   state.counters["ticks"] = static_cast<double>(ticks);
 }
 BENCHMARK(an_hour)->Unit(benchmark::kMillisecond)->Iterations(1);
 
-/// Bytes that a PIR of 96 rays takes, when it has looked.
+/// Bytes that a PIR of 96 rays takes, when it has sampled.
 void memory_of_a_pir(benchmark::State& state) {
   constexpr int kMany = 4000;
   double bytes = 0.0;

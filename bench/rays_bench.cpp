@@ -13,7 +13,7 @@ namespace {
 constexpr int kFurniture = 15;  // a room
 constexpr int kMovers = 40;
 
-/// What a PIR looks at: 96 rays of 6 m, 24 across 110 degrees and 4 down 40, from a corner of each
+/// The rays of a PIR: 96 of 6 m, 24 across 110 degrees and 4 down 40, from a corner of each
 /// room.
 std::vector<rays::Ray> pir_rays() {
   std::vector<rays::Ray> all;

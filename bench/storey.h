@@ -5,7 +5,7 @@
 #include "core/random.h"
 #include "rays/scene.h"
 
-/// A storey of six furnished rooms of boxes: what the benchmarks of `rays` and `light` look at.
+/// A storey of six furnished rooms of boxes: the scene of the benchmarks of `rays` and `light`.
 namespace angen::bench {
 
 struct Block {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Lights a room while its PIRs see somebody and it is dark; tells the lamp-hours that it saves.
+"""Lights a room while its PIRs see somebody and it is dark; prints the lamp-hours that it saves.
 
     ./angen run                                                           # in another terminal
     ./angen shell -c "python3 examples/lamps_by_pir.py _duration:=120"    # simulated seconds
@@ -58,10 +58,10 @@ start = now = rospy.Time.now()
 watched = {room_of(sensor.name) for sensor in entities('pir').entities}
 rooms = {lamp.name: Room(lamp, start, light) for lamp in entities('lamp').entities
          if lamp.name in watched}
-for kind, message, heard in (('pir', PirMsg, Room.pir), ('luminosity', LightSensMsg, Room.lux)):
+for kind, message, callback in (('pir', PirMsg, Room.pir), ('luminosity', LightSensMsg, Room.lux)):
     for sensor in entities(kind).entities:
         if room := rooms.get(room_of(sensor.name)):
-            rospy.Subscriber(sensor.topic, message, lambda m, h=heard, r=room: h(r, m))
+            rospy.Subscriber(sensor.topic, message, lambda m, c=callback, r=room: c(r, m))
 while not rospy.is_shutdown() and (now - start).to_sec() < rospy.get_param('~duration', 120.0):
     rospy.sleep(0.2)
     now = rospy.Time.now()

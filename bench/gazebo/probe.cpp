@@ -9,7 +9,7 @@
 // It writes lines to stdout: WHAT, seconds of CLOCK_MONOTONIC, and
 //   probe first TIME                            the first step has begun
 //   probe sample TIME SIM_TIME READINGS SENSORS four times a second
-//   probe heard TIME                            the sensor of the spawned model has read
+//   probe reading TIME                          the sensor of the spawned model has read
 //   probe gone TIME                             the deleted model is gone
 #include <atomic>
 #include <chrono>
@@ -32,7 +32,7 @@
 namespace {
 
 constexpr double kWheelTorque = 1.0;  // N m, as the robot's plug-in has it
-constexpr std::chrono::milliseconds kLook{1};
+constexpr std::chrono::milliseconds kPollPeriod{1};
 constexpr double kSamplePeriod = 0.25;  // s
 
 double now() {
@@ -40,7 +40,7 @@ double now() {
   return std::chrono::duration<double>(time).count();
 }
 
-void tell(const std::string& line) {
+void report(const std::string& line) {
   static std::mutex mutex;
   const std::lock_guard<std::mutex> lock(mutex);
   std::cout << "probe " << line << std::endl;
@@ -72,7 +72,7 @@ class Probe : public gazebo::SystemPlugin {
 
   // In the world's own thread.
   void step() {
-    if (!stepped_.exchange(true)) tell(with_time("first", now()));
+    if (!stepped_.exchange(true)) report(with_time("first", now()));
     std::vector<std::string> orders;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -80,7 +80,7 @@ class Probe : public gazebo::SystemPlugin {
     }
     for (const std::string& order : orders) drain(order);
     if (!going_.empty() && !world_->ModelByName(going_)) {
-      tell(with_time("gone", now()));
+      report(with_time("gone", now()));
       going_.clear();
     }
   }
@@ -135,7 +135,7 @@ class Probe : public gazebo::SystemPlugin {
   void watch() {
     double next = now();
     while (true) {
-      std::this_thread::sleep_for(kLook);
+      std::this_thread::sleep_for(kPollPeriod);
       const double time = now();
       const bool sample = time >= next;
       std::string coming;
@@ -149,11 +149,11 @@ class Probe : public gazebo::SystemPlugin {
       std::ostringstream line;
       line << with_time("sample", time) << ' ' << world_->SimTime().Double() << ' ' << readings_
            << ' ' << known_.size();
-      tell(line.str());
+      report(line.str());
     }
   }
 
-  // `coming` is the model whose sensor's first reading is to be told, or empty.
+  // `coming` is the model whose sensor's first reading is to be reported, or empty.
   void meet_sensors(const std::string& coming) {
     for (const auto& sensor : gazebo::sensors::SensorManager::Instance()->GetSensors()) {
       if (!known_.insert(sensor->Id()).second) continue;
@@ -165,7 +165,7 @@ class Probe : public gazebo::SystemPlugin {
       }
       updates_.push_back(sensor->ConnectUpdated([this, waits] {
         ++readings_;
-        if (waits->exchange(false)) tell(with_time("heard", now()));
+        if (waits->exchange(false)) report(with_time("reading", now()));
       }));
     }
   }

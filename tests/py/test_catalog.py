@@ -273,7 +273,7 @@ def test_a_heater_in_a_closed_room_follows_the_closed_form(world):
     assert rise > 10
 
 
-def test_a_closed_room_keeps_its_vapour_and_dries_relatively(world):
+def test_a_closed_room_keeps_its_vapor_and_dries_relatively(world):
     w = world(air('0 0 0 4 3 2.5', '<air_change>0</air_change>')
               + block('heater', 'heater', '0.1 1.5 0 0 0 0')
               + block('humidity_sensor', 'h', '2 1.5 1.5 0 0 0')
@@ -282,7 +282,7 @@ def test_a_closed_room_keeps_its_vapour_and_dries_relatively(world):
     assert w.sensor('humidity', 'h')['humidity'] == pytest.approx(50, abs=0.1)
     w.command('heater', 'heater', 'Set 50')
     w.run(300)
-    # The same vapour pressure over the saturation pressure of warmer air.
+    # The same vapor pressure over the saturation pressure of warmer air.
     warm = w.sensor('temperature', 't')['temperature']
     drier = 50 * exp(17.62 * 20 / 263.12 - 17.62 * warm / (243.12 + warm))
     assert warm > 21 and w.sensor('humidity', 'h')['humidity'] == pytest.approx(drier, abs=0.3)

@@ -24,7 +24,7 @@ def slab(name: str, pose: str, size: str, color: str) -> str:
 
 
 def room(albedo: float = 0.7) -> str:
-    """4 x 4 x 2.6 m of grey slabs about x = y = 2."""
+    """4 x 4 x 2.6 m of gray slabs about x = y = 2."""
     color = f'{albedo} {albedo} {albedo}'
     sides = [('2 2 -0.1', '4.4 4.4 0.2'), ('2 2 2.7', '4.4 4.4 0.2'), ('-0.1 2 1.3', '0.2 4.4 3'),
              ('4.1 2 1.3', '0.2 4.4 3'), ('2 -0.1 1.3', '4.4 0.2 3'), ('2 4.1 1.3', '4.4 0.2 3')]

@@ -51,7 +51,7 @@ def test_a_small_bench_measures_and_leaves_nothing_behind(tmp_path: Path) -> Non
         assert float(row['server_cpu']) > 0 and float(row['rtf']) > 0 and float(row['rss_mb']) > 1
         assert float(row['rtf_fast']) > 0
     assert none['delivered'] == none['first_reading_ms'] == ''
-    assert float(one['delivered']) > 0 and float(one['heard']) > 0
+    assert float(one['delivered']) > 0 and float(one['received']) > 0
     assert float(one['first_reading_ms']) > 0 and float(one['deploy_s']) > 0
     assert (tmp_path / 'sensors_pir_deployed.png').read_bytes().startswith(b'\x89PNG')
     assert 'server: one more sensor costs' in said

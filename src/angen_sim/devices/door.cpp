@@ -182,9 +182,9 @@ void Door::update(const View& view, Outputs& outputs) {
 Nanoseconds Door::idle_until(const View& view) const {
   if (!resting_ || leaving_) return 0;
   const JointView hinge = view.joint(hinge_);
-  const bool told = hinge.position == shown_.position && hinge.velocity == shown_.velocity &&
-                    mode_at_rest(hinge.position) == mode_;
-  return told ? kForever : refresh_.next(view.time());
+  const bool up_to_date = hinge.position == shown_.position && hinge.velocity == shown_.velocity &&
+                          mode_at_rest(hinge.position) == mode_;
+  return up_to_date ? kForever : refresh_.next(view.time());
 }
 
 void Door::rest(const JointView& hinge, Outputs& outputs) {

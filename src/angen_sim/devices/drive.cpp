@@ -81,7 +81,7 @@ bool Drive::powered(const View& view) const {
   return true;
 }
 
-// True when the wheel is told to stand and does.
+// True when the wheel is commanded to stand and does.
 bool Drive::lead(Wheel& wheel, double wanted, double step, Outputs& outputs) {
   const double next = std::clamp(wanted, wheel.speed - step, wheel.speed + step);
   if (next != wheel.speed) {
@@ -91,9 +91,9 @@ bool Drive::lead(Wheel& wheel, double wanted, double step, Outputs& outputs) {
   return wheel.speed == 0.0 && wanted == 0.0 && std::abs(wheel.velocity) < kRestSpeed;
 }
 
-double Drive::look(Wheel& wheel, const View& view) const {
+double Drive::measure(Wheel& wheel, const View& view) const {
   const JointView joint = view.joint(wheel.joint);
-  // An angle that is told modulo a turn still gives the right difference.
+  // An angle given modulo a turn still gives the right difference.
   const double turned = std::remainder(joint.position - wheel.angle, 2.0 * M_PI);
   wheel.angle = joint.position;
   wheel.turned += turned;
@@ -103,8 +103,8 @@ double Drive::look(Wheel& wheel, const View& view) const {
 }
 
 void Drive::count(const View& view) {
-  const double left = look(left_, view);
-  const double right = look(right_, view);
+  const double left = measure(left_, view);
+  const double right = measure(right_, view);
   const double turn = (right - left) / separation_;
   const double middle = odometry_.yaw + turn / 2.0;
   odometry_.x += (left + right) / 2.0 * std::cos(middle);
@@ -127,8 +127,8 @@ Nanoseconds Drive::idle_until(const View& view) const {
     const JointView joint = view.joint(wheel.joint);
     return joint.position == wheel.angle && joint.velocity == wheel.velocity;
   };
-  const bool told = shown_ == odometry_ && counted(left_) && counted(right_);
-  return told ? kForever : refresh_.next(view.time());
+  const bool up_to_date = shown_ == odometry_ && counted(left_) && counted(right_);
+  return up_to_date ? kForever : refresh_.next(view.time());
 }
 
 void Drive::report(const View&, Reading& state) const {

@@ -20,7 +20,7 @@ class Drive : public Device {
  private:
   struct Wheel {
     JointRef joint;
-    double speed = 0.0;     // m/s at the rim, as the motor is told
+    double speed = 0.0;     // m/s at the rim, as the motor is commanded
     double angle = 0.0;     // rad, last seen
     double turned = 0.0;    // rad since the start
     double velocity = 0.0;  // rad/s, measured
@@ -38,7 +38,7 @@ class Drive : public Device {
     }
   };
 
-  double look(Wheel& wheel, const View& view) const;  // m it rolled since the last look
+  double measure(Wheel& wheel, const View& view) const;  // m it rolled since the last call
   void count(const View& view);
   bool powered(const View& view) const;
   bool lead(Wheel& wheel, double wanted, double step, Outputs& outputs);

@@ -10,8 +10,8 @@ namespace angen::devices {
 /// Rates that a Refresh takes, Hz: a period of some nanoseconds at least, and of less than an age.
 constexpr Range kRefreshRate{1e-6, 1e6};
 
-/// Says, at multiples of a period of simulated time, that what is told of a device may be renewed:
-/// a state that changes at every tick is told at this rate.
+/// When the published state of a device is renewed: at multiples of a period of simulated time,
+/// also for a state that changes at every tick.
 class Refresh {
  public:
   Refresh() = default;

@@ -11,7 +11,7 @@ namespace {
 constexpr double kPressure = 101325.0;  // Pa
 constexpr double kDensity = 1.204;      // kg/m^3 of air at 20 degrees
 constexpr double kHeat = 1006.0;        // J/(kg K) of air
-constexpr double kVapour = 0.622;       // molar mass of water over that of dry air
+constexpr double kVapor = 0.622;        // molar mass of water over that of dry air
 constexpr double kKelvin = 273.15;
 constexpr double kGravity = 9.81;
 constexpr double kDischarge = 0.6;  // of a sharp-edged opening
@@ -27,13 +27,13 @@ double buoyant(const Air& air) { return (air.temperature + kKelvin) * (1.0 + 0.6
 }  // namespace
 
 double moisture_of(double temperature, double humidity) {
-  const double vapour = humidity / 100.0 * saturation(temperature);
-  return kVapour * vapour / (kPressure - vapour);
+  const double vapor = humidity / 100.0 * saturation(temperature);
+  return kVapor * vapor / (kPressure - vapor);
 }
 
 double humidity_of(const Air& air) {
-  const double vapour = kPressure * air.moisture / (kVapour + air.moisture);
-  return std::min(100.0, 100.0 * vapour / saturation(air.temperature));
+  const double vapor = kPressure * air.moisture / (kVapor + air.moisture);
+  return std::min(100.0, 100.0 * vapor / saturation(air.temperature));
 }
 
 double doorway_flow(const Opening& opening, const Air& a, const Air& b) {
@@ -51,13 +51,13 @@ void RoomAir::step(double seconds, const Air& outside, const std::vector<double>
   const auto at = [&](int room) -> const Air& {
     return room < 0 ? outside : rooms_[static_cast<std::size_t>(room)];
   };
-  std::vector<double> power = heat;                // W
-  std::vector<double> vapour(rooms_.size(), 0.0);  // m^3/s times kg/kg
+  std::vector<double> power = heat;               // W
+  std::vector<double> vapor(rooms_.size(), 0.0);  // m^3/s times kg/kg
   for (std::size_t i = 0; i < rooms_.size(); ++i) {
     const double leak = settings_.air_change * volumes_[i];
     const double loss = settings_.heat_loss * volumes_[i] + kDensity * kHeat * leak;
     power[i] += loss * (outside.temperature - rooms_[i].temperature);
-    vapour[i] += leak * (outside.moisture - rooms_[i].moisture);
+    vapor[i] += leak * (outside.moisture - rooms_[i].moisture);
   }
   for (const Opening& opening : openings) {
     const double flow = doorway_flow(opening, at(opening.first), at(opening.second));
@@ -66,7 +66,7 @@ void RoomAir::step(double seconds, const Air& outside, const std::vector<double>
       if (here < 0) continue;
       const auto i = static_cast<std::size_t>(here);
       power[i] += kDensity * kHeat * flow * (at(there).temperature - rooms_[i].temperature);
-      vapour[i] += flow * (at(there).moisture - rooms_[i].moisture);
+      vapor[i] += flow * (at(there).moisture - rooms_[i].moisture);
     }
   }
   for (std::size_t i = 0; i < rooms_.size(); ++i) {
@@ -74,7 +74,7 @@ void RoomAir::step(double seconds, const Air& outside, const std::vector<double>
     Air& room = rooms_[i];
     room.temperature += power[i] * seconds / capacity;
     // What air cannot hold is dew on the panes.
-    room.moisture = std::clamp(room.moisture + vapour[i] * seconds / volumes_[i], 0.0,
+    room.moisture = std::clamp(room.moisture + vapor[i] * seconds / volumes_[i], 0.0,
                                moisture_of(room.temperature, 100.0));
   }
 }

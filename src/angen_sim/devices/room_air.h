@@ -9,10 +9,10 @@ namespace angen::devices {
 /// Air of one room: evenly mixed.
 struct Air {
   double temperature = 20.0;  // degrees Celsius
-  double moisture = 0.0;      // kg of vapour a kg of dry air
+  double moisture = 0.0;      // kg of vapor a kg of dry air
 };
 
-/// Vapour in air of a temperature (degrees Celsius) and relative humidity (percent), kg/kg.
+/// Vapor in air of a temperature (degrees Celsius) and relative humidity (percent), kg/kg.
 double moisture_of(double temperature, double humidity);
 /// Relative humidity in percent of air, at most 100.
 double humidity_of(const Air& air);

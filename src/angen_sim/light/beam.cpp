@@ -130,8 +130,8 @@ struct Count {
   double share() const { return free > 0.0 ? seen / free : 0.0; }
 };
 
-Count look(const rays::Scene& scene, const Lamp& lamp, const Vec3& point, const Vec3& normal,
-           rays::Mobilities among, std::size_t points) {
+Count count_seen(const rays::Scene& scene, const Lamp& lamp, const Vec3& point, const Vec3& normal,
+                 rays::Mobilities among, std::size_t points) {
   Count count;
   for (std::size_t i = 0; i < points; ++i) {
     const Vec3 on_lamp = lamp_point(lamp, i);
@@ -188,10 +188,10 @@ double visible_share(const rays::Scene& scene, const Lamp& lamp, const Vec3& poi
   if (lamp.type == Lamp::Type::kDirectional) {
     return sees(scene, lamp, point, Vec3::Zero(), among) ? 1.0 : 0.0;
   }
-  // A few points tell whether a shadow's edge is near; only there many are worth their cost.
-  const double coarse = look(scene, lamp, point, normal, among, kLampPoints / 8).share();
+  // A few points show whether a shadow's edge is near; only there many are worth their cost.
+  const double coarse = count_seen(scene, lamp, point, normal, among, kLampPoints / 8).share();
   if (coarse == 0.0 || coarse == 1.0) return coarse;
-  return look(scene, lamp, point, normal, among, kLampPoints).share();
+  return count_seen(scene, lamp, point, normal, among, kLampPoints).share();
 }
 
 bool sees_one(const rays::Scene& scene, const Lamp& lamp, const Vec3& point, std::size_t which,

@@ -13,7 +13,7 @@
 namespace angen::light {
 namespace {
 
-constexpr std::size_t kLinks = 128;    // directions a patch looks in
+constexpr std::size_t kLinks = 128;    // directions in which a patch gathers
 constexpr std::size_t kFans = 32;      // ways to spread them
 constexpr std::size_t kFirst = 2048;   // rays that find what a lamp shines on
 constexpr std::size_t kLattice = 128;  // rays along a side of the world that find what the sun does
@@ -160,7 +160,7 @@ bool Field::follow(std::vector<Eigen::AlignedBox3d>& touched) {
   without(anchored_, now);
   without(now, anchored_);
   anchored_ = std::move(now);
-  look_again(touched);
+  update_links(touched);
   return true;
 }
 
@@ -176,7 +176,7 @@ rays::Ray Field::ray(std::uint32_t patch, std::size_t link) const {
   return ray_from(site.position, (frame_about(site.normal) * turned).normalized());
 }
 
-Field::Link Field::look(const rays::Ray& ray, const rays::Hit& hit) {
+Field::Link Field::link_of(const rays::Ray& ray, const rays::Hit& hit) {
   if (!hit.hit()) return {kNoPatch, std::numeric_limits<float>::infinity()};
   return {patch_at(hit.shape, end_of(ray, hit.range), hit.normal.cast<double>()),
           static_cast<float>(hit.range)};
@@ -191,14 +191,14 @@ const std::vector<Field::Link>& Field::links(std::uint32_t patch) {
   scene_.cast(rays.data(), hits.data(), kLinks, kStanding);
   Sight& sight = sights_[patch];
   for (std::size_t i = 0; i < kLinks; ++i) {
-    sight.links.push_back(look(rays[i], hits[i]));
+    sight.links.push_back(link_of(rays[i], hits[i]));
     sight.reach.extend(rays[i].origin);
     sight.reach.extend(end_of(rays[i], hits[i].range));
   }
   return sight.links;
 }
 
-void Field::look_again(const std::vector<Eigen::AlignedBox3d>& touched) {
+void Field::update_links(const std::vector<Eigen::AlignedBox3d>& touched) {
   for (std::uint32_t patch = 0; patch < sights_.size(); ++patch) {
     Sight& sight = sights_[patch];
     if (sight.links.empty()) continue;
@@ -209,7 +209,7 @@ void Field::look_again(const std::vector<Eigen::AlignedBox3d>& touched) {
         if (!passes(box, again, sight.links[i].range + kNear)) continue;
         rays::Hit hit;
         scene_.cast(&again, &hit, 1, kStanding);
-        sight.links[i] = look(again, hit);
+        sight.links[i] = link_of(again, hit);
         sight.reach.extend(end_of(again, hit.range));
       }
     }
@@ -234,7 +234,7 @@ void Field::start(const Lamp& lamp, Solution& solution) {
   std::vector<rays::Hit> hits(rays.size());
   scene_.cast(rays.data(), hits.data(), rays.size(), kStanding);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const std::uint32_t patch = look(rays[i], hits[i]).patch;
+    const std::uint32_t patch = link_of(rays[i], hits[i]).patch;
     if (patch == kNoPatch) continue;
     const auto place = static_cast<std::uint32_t>(solution.patches.size());
     if (solution.places.try_emplace(patch, place).second) solution.patches.push_back(patch);

@@ -26,7 +26,7 @@ struct Solution {
   std::unordered_map<std::uint32_t, std::uint32_t> places;  // of a patch in the other lists
   std::vector<float> direct;                                // lx
   std::vector<Rgb> reflected;                               // lx, from other patches
-  mutable std::unordered_map<std::uint32_t, Rgb> beyond;    // lx, of other patches, once asked
+  mutable std::unordered_map<std::uint32_t, Rgb> beyond;    // lx, of other patches, once queried
   Eigen::AlignedBox3d bounds;                               // of the patches and the lamp
   bool valid = false;
   std::uint64_t stamp = 0;  // no two are alike
@@ -67,8 +67,8 @@ class Field {
 
   const std::vector<Link>& links(std::uint32_t patch);
   rays::Ray ray(std::uint32_t patch, std::size_t link) const;
-  Link look(const rays::Ray& ray, const rays::Hit& hit);
-  void look_again(const std::vector<Eigen::AlignedBox3d>& touched);
+  Link link_of(const rays::Ray& ray, const rays::Hit& hit);
+  void update_links(const std::vector<Eigen::AlignedBox3d>& touched);
   void start(const Lamp& lamp, Solution& solution);
   void spread(const Lamp& lamp, Solution& solution);
   void balance(Solution& solution);
@@ -76,7 +76,7 @@ class Field {
 
   const rays::Scene& scene_;
   Surfaces surfaces_;
-  std::vector<Sight> sights_;  // by patch; empty until somebody asks
+  std::vector<Sight> sights_;  // by patch; empty until it is queried
   Anchored anchored_;
   std::uint64_t static_revision_ = 0;
   std::uint64_t anchored_revision_ = 0;

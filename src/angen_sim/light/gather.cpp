@@ -12,9 +12,9 @@ namespace angen::light {
 namespace {
 
 constexpr std::size_t kDirections = 2048;
-constexpr std::size_t kLooks = 1024;  // from all points of movers, about
-constexpr double kGrazing = 0.15;     // cosine: areas seen at less are not trusted
-constexpr std::size_t kStride = 797;  // odd: every direction is taken once
+constexpr std::size_t kMostWays = 1024;  // from all points of movers, about
+constexpr double kGrazing = 0.15;        // cosine: areas seen at less are not trusted
+constexpr std::size_t kStride = 797;     // odd: every direction is taken once
 constexpr std::uint32_t kNoMover = UINT32_MAX;
 constexpr double kGatherMargin = 1e-4;  // m, a surface does not meet its own rays
 constexpr rays::Mobilities kMovable = rays::kAll & ~rays::only(rays::Mobility::kStatic);
@@ -135,8 +135,8 @@ void Gather::forget(const std::function<bool(LampId)>& gone) {
   }
 }
 
-void Gather::look() {
-  looked_ = true;
+void Gather::find_movers() {
+  movers_found_ = true;
   reach_ = fixed_reach_;
   movers_.clear();
   std::vector<rays::Ray> rays = rays_;
@@ -153,12 +153,12 @@ void Gather::look() {
     if (!movers_.back().anchored) continue;
     seen.patch = field_.patch_at(hits[i].shape, seen.position, seen.normal);
   }
-  look_next();
-  look_around();
+  find_between();
+  find_around();
   weigh();
 }
 
-void Gather::look_next() {
+void Gather::find_between() {
   between_.assign(kDirections, Rgb::Constant(-1.0F));
   for (std::size_t i = 0; i < kDirections; ++i) {
     if (surfaces_[i].patch == kNoPatch) continue;
@@ -170,12 +170,12 @@ void Gather::look_next() {
   }
 }
 
-/// Points of free movers look for the light they reflect: the more points, the fewer ways each.
-void Gather::look_around() {
+/// Points of free movers find the light they reflect: the more points, the fewer ways each.
+void Gather::find_around() {
   around_.clear();
   const auto free = static_cast<std::size_t>(std::count_if(
       movers_.begin(), movers_.end(), [](const Mover& mover) { return !mover.anchored; }));
-  ways_ = free <= kLooks / 4 ? 4 : free <= kLooks / 2 ? 2 : 1;
+  ways_ = free <= kMostWays / 4 ? 4 : free <= kMostWays / 2 ? 2 : 1;
   unsigned count = 0;
   for (Mover& mover : movers_) {
     if (mover.anchored) continue;
@@ -197,7 +197,7 @@ void Gather::look_around() {
 
 /// As in an integrating sphere: free movers take their share of the light that goes to and fro, by
 /// what they and the room absorb. Areas are those seen from here; a body has another half. The two
-/// last surfaces on the light's way are looked at one by one, so only what was reflected before
+/// last surfaces on the light's way are taken one by one, so only what was reflected before
 /// counts: of each bounce's light the mean albedo's share.
 void Gather::weigh() {
   double room = 0.0, movers = 0.0, albedos = 0.0;
@@ -273,7 +273,7 @@ Rgb Gather::on_mover(const Mover& mover, const Lamp& lamp, const Solution& solut
 
 Gathered Gather::gather(LampId id, const Lamp& lamp, const Solution& solution,
                         Eigen::AlignedBox3d& reach) {
-  if (!looked_) look();
+  if (!movers_found_) find_movers();
   const Received& from = received(id, lamp, solution);
   bool in_play = !from.direct.empty();
   const auto count = static_cast<float>(kDirections);

@@ -33,9 +33,9 @@ class Gather {
   bool may_see(const Eigen::AlignedBox3d& box) const { return fixed_reach_.intersects(box); }
 
   /// Forgets the anchored and moving shapes before them.
-  void look_away() { looked_ = false; }
+  void forget_movers() { movers_found_ = false; }
 
-  /// What they all send to the place. Looks for shapes that move, unless they are known.
+  /// What they all send to the place. Finds shapes that move, unless they are known.
   Gathered gather(LampId id, const Lamp& lamp, const Solution& solution,
                   Eigen::AlignedBox3d& reach);
 
@@ -59,9 +59,9 @@ class Gather {
   };
   Surface surface(const rays::Ray& ray, const rays::Hit& hit) const;
   rays::Ray next(std::size_t i) const;
-  void look();
-  void look_next();
-  void look_around();
+  void find_movers();
+  void find_between();
+  void find_around();
   void weigh();
   bool shaded(const Lamp& lamp, const Surface& surface, std::size_t i) const;
   const Received& received(LampId id, const Lamp& lamp, const Solution& solution);
@@ -81,7 +81,7 @@ class Gather {
   std::vector<Rgb> between_;  // albedo of the moving shape before that; negative where none is
   float left_ = 1.0F;         // share that moving shapes leave of light still farther back
   std::map<LampId, Received> received_;
-  bool looked_ = false;
+  bool movers_found_ = false;
   Eigen::AlignedBox3d fixed_reach_;  // of the ways between place and surfaces, and to the next
   Eigen::AlignedBox3d reach_;        // and of those from what moves
 };

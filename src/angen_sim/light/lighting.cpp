@@ -10,7 +10,7 @@
 namespace angen::light {
 namespace {
 
-// Half of the colour range: about what a white wall returns at 200 lx.
+// Half of the color range: about what a white wall returns at 200 lx.
 constexpr float kMiddleLuminance = 50.0F;  // cd/m^2
 
 /// A probe that outlives a Lighting (a world that was reset) knows nothing about the next one.
@@ -107,7 +107,7 @@ void Lighting::renew(Probe& probe, const Pose& pose, bool still) const {
   if (stands && (still || as_before)) return;
   probe.transports.clear();
   probe.reach = Eigen::AlignedBox3d(pose.position);
-  if (probe.gather) probe.gather->look_away();
+  if (probe.gather) probe.gather->forget_movers();
 }
 
 Sample Lighting::measure(Probe& probe, const Pose& pose, bool still) const {

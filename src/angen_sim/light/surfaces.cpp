@@ -120,7 +120,7 @@ std::vector<Site> Surfaces::sites(const Key& key, int per_side) const {
   return all;
 }
 
-/// Looks at the shape alone, straight along the face's axis.
+/// Casts rays at the shape alone, straight along the face's axis.
 bool Surfaces::site(const Lattice& cells, const Key& key, double u, double v, Site& out) const {
   const rays::Placement& placement = cells.placement;
   const int axis = cells.axis;

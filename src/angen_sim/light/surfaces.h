@@ -25,8 +25,8 @@ struct Patch {
   std::vector<Site> sites;
 };
 
-/// Patches, found when something looks at them. What a patch is depends on the shapes alone, not on
-/// what looked first.
+/// Patches, found when they are first hit. What a patch is depends on the shapes alone, not on
+/// what hit them first.
 class Surfaces {
  public:
   explicit Surfaces(const rays::Scene& scene) : scene_(scene) {}

@@ -14,7 +14,7 @@ namespace angen::load {
 /// error: then it holds no world.
 class Cache {
  public:
-  /// Of the world file `world` when models are looked for in `paths`.
+  /// Of the world file `world` when models are searched in `paths`.
   Cache(const std::string& world, const SearchPaths& paths);
 
   /// The world, if loading it anew would give the same: the program and all that was read are as
@@ -28,7 +28,7 @@ class Cache {
   const std::string& file() const { return file_; }
 
  private:
-  std::string key_;  // what decides where a load looks, and which program does
+  std::string key_;  // what decides where a load searches, and which program does
   std::string file_;
 };
 

@@ -10,7 +10,7 @@
 /// nothing.
 namespace angen::load {
 
-/// Where model:// and file:// are looked for, first hit wins.
+/// Where model:// and file:// are searched, first hit wins.
 struct SearchPaths {
   std::vector<std::string> models;
   std::vector<std::string> resources;

@@ -48,8 +48,8 @@ void collect_names(const Element& element, std::set<std::string>& names) {
   for (const Element& child : element.children) collect_names(child, names);
 }
 
-// What a document may lack without libsdformat asking its schema for a default. Without the others
-// some of its classes would follow a null pointer (a camera sensor's without <camera>).
+// What a document may lack without libsdformat querying its schema for a default. Without the
+// others some of its classes would follow a null pointer (a camera sensor's without <camera>).
 bool may_be_pruned(const std::string& name) {
   static const std::set<std::string> names = {"sensor",    "light",      "particle_emitter",
                                               "projector", "audio_sink", "audio_source",

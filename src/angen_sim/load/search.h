@@ -15,11 +15,11 @@ namespace angen::load {
 std::optional<std::string> find_uri(const std::string& uri, const std::string& from,
                                     Session& session);
 
-/// Where find_uri looked, for a message.
+/// Where find_uri searched, for a message.
 std::string searched_places(const std::string& uri, const std::string& from, Session& session);
 
 /// find_uri, or an Error at `at` that says what `what` ("mesh", "model") is missing and where it
-/// was looked for, and what an address looks like.
+/// was searched, and what an address looks like.
 std::string need_uri(const std::string& uri, const std::string& what, const Source& at,
                      Session& session);
 

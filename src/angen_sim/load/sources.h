@@ -6,7 +6,7 @@
 
 namespace angen::load {
 
-/// What one load has looked for in the file system, and what it found there: enough to tell later
+/// What one load has searched in the file system, and what it found there: enough to know later
 /// whether it would find the same again.
 class Sources {
  public:

@@ -13,7 +13,7 @@ namespace angen::physics {
 
 namespace {
 
-constexpr std::size_t kMostFound = 64;  // asked of ODE
+constexpr std::size_t kMostFound = 64;  // requested of ODE
 constexpr double kSoftest = 1e-8;       // least CFM of a contact: keeps redundant points solvable
 constexpr double kBounceSpeed = 0.05;   // m/s, nothing bounces below it
 constexpr double kStickMu = 1e6;        // from here on nothing slides

@@ -6,7 +6,7 @@ namespace angen::physics {
 
 namespace {
 
-// Shares of the force along and across the change of velocity that is asked for (of one who stands:
+// Shares of the force along and across the change of velocity that is requested (of one who stands:
 // along x and y); their squares add up to just under 1.
 constexpr double kAlong = 0.95;
 constexpr double kAcross = 0.31;

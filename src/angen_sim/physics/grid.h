@@ -22,15 +22,15 @@ class Grid {
   void query(Geom& geom, F&& visit) {
     ++query_;
     geom.visited = query_;
-    const auto look = [&](Geom* other) {
+    const auto check = [&](Geom* other) {
       if (other->visited == query_) return;
       other->visited = query_;
       if (geom.box.overlaps(other->box)) visit(*other);
     };
-    for (Geom* other : unbounded_) look(other);
+    for (Geom* other : unbounded_) check(other);
     if (geom.unbounded) {
       for (auto& [key, cell] : cells_) {
-        for (Geom* other : cell) look(other);
+        for (Geom* other : cell) check(other);
       }
       return;
     }
@@ -40,7 +40,7 @@ class Grid {
         for (int z = c[4]; z <= c[5]; ++z) {
           const auto cell = cells_.find(cell_key(x, y, z));
           if (cell == cells_.end()) continue;
-          for (Geom* other : cell->second) look(other);
+          for (Geom* other : cell->second) check(other);
         }
       }
     }

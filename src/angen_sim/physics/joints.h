@@ -10,7 +10,7 @@ void measure_joint(Joint& joint);
 /// Makes ODE's objects for a joint whose dynamic bodies ODE has.
 void create_joint(dWorldID world, Joint& joint);
 
-/// Tells ODE anchor, axes and zero position; its bodies must stand where all joints are at 0.
+/// Gives ODE anchor, axes and zero position; its bodies must stand where all joints are at 0.
 void anchor_joint(const Joint& joint, const Pose& model);
 
 /// Reads the angle anew after its bodies were put somewhere, near `initial` for joints that turn

@@ -162,7 +162,7 @@ std::string find_library(const std::string& filename) {
 
 struct Catalog::Impl {
   std::mutex mutex;
-  std::map<std::string, Plugins> libraries;  // by the name that was asked for
+  std::map<std::string, Plugins> libraries;  // by the requested name
   std::set<std::string> aliases;             // of these names
 };
 

@@ -29,8 +29,8 @@ void Patch::append(const Surface& surface, const Pose& pose) {
   const Pose at = pose * surface.pose;
   const Eigen::Matrix3d rotation = at.rotation.normalized().toRotationMatrix();
   const auto first = static_cast<std::uint32_t>(vertices_.size());
-  const auto look = static_cast<std::uint32_t>(looks_.size());
-  looks_.push_back({surface.color, surface.emissive});
+  const auto finish = static_cast<std::uint32_t>(finishes_.size());
+  finishes_.push_back({surface.color, surface.emissive});
   for (const Eigen::Vector3f& vertex : mesh.vertices) {
     vertices_.push_back((rotation * vertex.cast<double>() + at.position).cast<float>());
   }
@@ -40,7 +40,7 @@ void Patch::append(const Surface& surface, const Pose& pose) {
     const float length = normal.norm();
     if (!(length > 0.0F) || !std::isfinite(length)) continue;  // nothing to see of a sliver
     triangles_.push_back({first + t[0], first + t[1], first + t[2]});
-    facets_.push_back({normal / length, look});
+    facets_.push_back({normal / length, finish});
   }
 }
 

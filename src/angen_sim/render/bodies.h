@@ -8,13 +8,13 @@
 
 namespace angen::render {
 
-/// A triangle's look, in the frame of the patch that it belongs to.
+/// A triangle's finish, in the frame of the patch that it belongs to.
 struct Facet {
   Eigen::Vector3f normal;
-  std::uint32_t look = 0;
+  std::uint32_t finish = 0;
 };
 
-struct Look {
+struct Finish {
   Eigen::Vector3f color;
   Eigen::Vector3f emissive;
 };
@@ -26,7 +26,7 @@ class Patch {
   explicit Patch(const std::vector<std::pair<const Body*, Pose>>& bodies);
 
   const Facet& facet(std::uint32_t triangle) const { return facets_[triangle]; }
-  const Look& look(const Facet& facet) const { return looks_[facet.look]; }
+  const Finish& finish(const Facet& facet) const { return finishes_[facet.finish]; }
   RTCScene scene() const { return scene_.get(); }
 
  private:
@@ -35,7 +35,7 @@ class Patch {
   std::vector<Eigen::Vector3f> vertices_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<Facet> facets_;
-  std::vector<Look> looks_;
+  std::vector<Finish> finishes_;
   rays::Embree<RTCScene> scene_;
 };
 

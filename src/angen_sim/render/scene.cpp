@@ -106,16 +106,16 @@ void gather(const Stand& stand, const int* valid, const RTCRayHit16& rays,
     tile.normal[i] = placed.rotation * facet.normal;
     if (tile.normal[i].dot(direction) > 0.0F) tile.normal[i] = -tile.normal[i];
     tile.through[i] = placed.shines_through;
-    tile.look[i] = &placed.patch->look(facet);
+    tile.finish[i] = &placed.patch->finish(facet);
     tile.light[i] = ambient;
   }
 }
 
 void show(const Tile& tile, int i, std::uint8_t* pixel) {
-  const Look& look = *tile.look[i];
+  const Finish& finish = *tile.finish[i];
   for (int c = 0; c < 3; ++c) {
-    const float reflected = look.color[c] * tile.light[i][c] / static_cast<float>(M_PI);
-    pixel[c] = shown(reflected + kMiddleLuminance * look.emissive[c]);
+    const float reflected = finish.color[c] * tile.light[i][c] / static_cast<float>(M_PI);
+    pixel[c] = shown(reflected + kMiddleLuminance * finish.emissive[c]);
   }
 }
 

@@ -9,7 +9,7 @@
 #include "light/lighting.h"
 #include "render/pinhole_camera.h"
 
-/// What cameras see: colour under the lamps' light, and depth.
+/// What cameras see: color under the lamps' light, and depth.
 namespace angen::render {
 
 using BodyId = Id<struct BodyTag>;
@@ -49,7 +49,7 @@ class Scene {
 
   /// height x width x 3 values, sRGB, row after row from the top. A surface of albedo a under
   /// E lx has the luminance L = a E / pi; it is shown as L / (L + 10 cd/m^2), sRGB-encoded. E is
-  /// the lamps' direct light with hard shadows, and 2.5 lx times the ambient colour.
+  /// the lamps' direct light with hard shadows, and 2.5 lx times the ambient color.
   std::vector<std::uint8_t> colors(const PinholeCamera& camera, const Pose& pose,
                                    const std::vector<light::Lit>& lamps,
                                    const Ambience& ambience) const;

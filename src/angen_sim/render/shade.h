@@ -17,7 +17,7 @@ struct alignas(64) Tile {
   Eigen::Vector3f normal[kLanes];  // unit, towards the camera
   Eigen::Vector3f light[kLanes];   // lx, r g b
   bool through[kLanes];            // lit from both sides
-  const Look* look[kLanes];
+  const Finish* finish[kLanes];
 };
 
 /// Adds what one lamp sends to each point.
@@ -26,7 +26,7 @@ void shine(const light::Lit& lit, RTCScene opaque, Tile& tile);
 /// sRGB bytes of a luminance in cd/m^2.
 std::uint8_t shown(float luminance);
 
-/// A colour of 0..1 that is to be displayed as it is.
+/// A color of 0..1 that is to be displayed as it is.
 std::uint8_t shown_as_is(float value);
 
 constexpr float kMiddleLuminance = 10.0F;    // cd/m^2, shown as half of full light

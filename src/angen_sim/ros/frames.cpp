@@ -15,7 +15,7 @@ constexpr char kWorld[] = "world";
 // REP 103: images are seen along z, with x to the right.
 const Quat kOptical = from_rpy(-M_PI_2, 0.0, -M_PI_2);
 
-bool looks(const sim::SensorEntry& sensor) {
+bool is_camera(const sim::SensorEntry& sensor) {
   return sensor.kind == "camera" || sensor.kind == "depth";
 }
 
@@ -143,7 +143,7 @@ class Builder {
   void add_sensors() {
     for (const sim::SensorEntry& sensor : structure_.sensors) {
       std::string frame = sensor.frame;
-      if (frame.empty()) frame = sensor.name + (looks(sensor) ? "_optical_frame" : "");
+      if (frame.empty()) frame = sensor.name + (is_camera(sensor) ? "_optical_frame" : "");
       const Robot* owner = robot(sensor.link);
       if (owner != nullptr && !owner->first && !sensor.frame.empty()) {
         frame = owner->name + "/" + frame;
@@ -156,7 +156,7 @@ class Builder {
         frame = sensor.kind + "_" + sensor.name;
         used_.insert(frame);
       }
-      const Pose in_sensor = looks(sensor) ? Pose{Vec3::Zero(), kOptical} : Pose{};
+      const Pose in_sensor = is_camera(sensor) ? Pose{Vec3::Zero(), kOptical} : Pose{};
       tree_.fixed.push_back({frames_[sensor.link], frame, sensor.pose * in_sensor});
       tree_.sensors.push_back(frame);
     }
@@ -173,10 +173,10 @@ class Builder {
 
 }  // namespace
 
-std::vector<std::string> robot_topics(const Robot& robot, const std::string& asked) {
-  if (!asked.empty() && asked[0] == '/') return {graph_name(asked)};
-  std::vector<std::string> topics = {graph_name("/" + robot.name + "/" + asked)};
-  if (robot.first) topics.push_back(graph_name("/" + asked));
+std::vector<std::string> robot_topics(const Robot& robot, const std::string& requested) {
+  if (!requested.empty() && requested[0] == '/') return {graph_name(requested)};
+  std::vector<std::string> topics = {graph_name("/" + robot.name + "/" + requested)};
+  if (robot.first) topics.push_back(graph_name("/" + requested));
   return topics;
 }
 

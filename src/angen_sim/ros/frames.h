@@ -10,7 +10,7 @@
 /// The tree of coordinate frames, worked out once for each structure.
 namespace angen::node {
 
-/// What a drive's SDF asks of ROS.
+/// What a drive's SDF says of ROS.
 struct Robot {
   std::uint32_t device = 0;  // in Structure::devices
   std::uint32_t model = 0;
@@ -28,9 +28,9 @@ struct Robot {
 std::vector<Robot> find_robots(const sim::Structure& structure,
                                const std::vector<desc::Plugin>& world_plugins);
 
-/// Where a robot's `asked` topic is: one that starts with / means itself; others stand under the
-/// robot's name, and the first robot's also without it.
-std::vector<std::string> robot_topics(const Robot& robot, const std::string& asked);
+/// Where a robot's `requested` topic is: one that starts with / means itself; others stand under
+/// the robot's name, and the first robot's also without it.
+std::vector<std::string> robot_topics(const Robot& robot, const std::string& requested);
 
 /// The robot that model number `model` is, or null.
 const Robot* robot_in(const std::vector<Robot>& robots, std::uint32_t model);

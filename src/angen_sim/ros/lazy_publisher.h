@@ -25,7 +25,7 @@ class Traffic {
 };
 
 /// A topic whose messages are made only while it has subscribers. Connect callbacks count them:
-/// asking a publisher costs as much as publishing.
+/// querying a publisher costs as much as publishing.
 class LazyPublisher {
  public:
   /// Throws what roscpp throws for a topic it does not take.

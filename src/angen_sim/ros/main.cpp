@@ -87,7 +87,7 @@ double number_param(const std::string& name, double fallback, double least) {
   return value;
 }
 
-// The ~seed that the command line gives, as far as it can be told without ROS.
+// The ~seed that the command line gives, as far as it is known without ROS.
 std::uint64_t seed_in(const std::vector<std::string>& words) {
   constexpr char kSeed[] = "_seed:=";
   for (const std::string& word : words) {

@@ -19,7 +19,7 @@ Markers::Markers(ros::NodeHandle& node)
 void Markers::on_structure(const sim::Snapshot& snapshot) {
   const sim::Structure& structure = *snapshot.structure;
   std::map<const desc::Model*, DrawnModel> old = std::exchange(models_, {});
-  std::set<const std::vector<Drawing>*> pending;  // moved, and not told yet
+  std::set<const std::vector<Drawing>*> pending;  // moved, and not published yet
   for (const std::uint32_t link : changed_) pending.insert(links_[link]);
   links_.assign(structure.links.size(), nullptr);
   marked_.assign(structure.links.size(), false);

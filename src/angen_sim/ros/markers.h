@@ -15,7 +15,7 @@
 namespace angen::node {
 
 /// /angen/markers: all of the world for each newcomer, after that only what has changed, at most 15
-/// times a second of wall time. Nothing is built or followed while nobody looks.
+/// times a second of wall time. Nothing is built or updated without a subscriber.
 class Markers {
  public:
   explicit Markers(ros::NodeHandle& node);
@@ -36,7 +36,7 @@ class Markers {
   std::map<const desc::Model*, DrawnModel> models_;
   std::vector<const std::vector<Drawing>*> links_;  // as Structure::links
   Overlays overlays_;
-  Array gone_;                          // to be told as deleted
+  Array gone_;                          // to be published as deleted
   std::vector<std::uint32_t> changed_;  // links, each once
   std::vector<bool> marked_;            // as Structure::links
   std::uint64_t joined_ = 0;

@@ -24,7 +24,7 @@ struct Settings {
   double clock_rate = 100.0;  // Hz
   Topics topics = Topics::kSensor;
   std::vector<std::shared_ptr<const Plugin>> plugins;  // whose command topics are always there
-  std::string models;  // a folder that model:// is looked for in, besides the usual ones
+  std::string models;  // a folder that model:// is searched in, besides the usual ones
 };
 
 /// A simulation in ROS. The thread that calls run() owns the world and publishes; roscpp's threads

@@ -22,7 +22,7 @@ class Overlays {
   /// Makes overlays of what exists now; what no longer exists is added to `gone`, to be deleted.
   void on_structure(const sim::Snapshot& snapshot, std::int32_t& next_id, Array& gone);
 
-  /// Appends what looks different than when it was appended last; with `all` everything.
+  /// Appends what differs from when it was appended last; with `all` everything.
   void append(const sim::Snapshot& snapshot, bool all, Array& array);
 
  private:

@@ -19,12 +19,12 @@
 
 namespace angen::node {
 
-/// What can be asked of the node. Parsing happens here, on the thread of the one who asks; the
+/// What the node can be requested to do. Parsing happens here, on the thread of the request; the
 /// world changes in its own. Nothing is thrown out: what goes wrong is success = false and a
 /// message.
 class Services {
  public:
-  /// `models` is a further folder that model:// is looked for in.
+  /// `models` is a further folder that model:// is searched in.
   Services(ros::NodeHandle& node, Inbox& inbox, const Events& events, const std::string& models,
            Topics topics);
 

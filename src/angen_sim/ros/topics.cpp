@@ -15,16 +15,16 @@ std::string text_of(const sim::SensorEntry& sensor, const std::string& parameter
 
 std::vector<std::string> sensor_topics(const sim::SensorEntry& sensor, const Format& format,
                                        const Robot* robot) {
-  std::string asked = sensor.topic;
+  std::string requested = sensor.topic;
   if (!format.leaf.empty()) {  // one of several, as Gazebo's camera plug-ins name them
     const std::string base = text_of(sensor, "cameraName");
     const std::string leaf = text_of(sensor, format.leaf_parameter);
-    asked = (base.empty() ? default_topic(sensor.kind, sensor.name) : base) + "/" +
-            (leaf.empty() ? format.leaf : leaf);
-    if (!leaf.empty() && leaf[0] == '/') asked = leaf;
+    requested = (base.empty() ? default_topic(sensor.kind, sensor.name) : base) + "/" +
+                (leaf.empty() ? format.leaf : leaf);
+    if (!leaf.empty() && leaf[0] == '/') requested = leaf;
   }
-  if (robot != nullptr && !asked.empty()) return robot_topics(*robot, asked);
-  return {topic_of(sensor.kind, sensor.name, asked)};
+  if (robot != nullptr && !requested.empty()) return robot_topics(*robot, requested);
+  return {topic_of(sensor.kind, sensor.name, requested)};
 }
 
 Topics topics_named(const std::string& word) {

@@ -46,8 +46,9 @@ std::string default_topic(const std::string& kind, const std::string& name) {
   return "/angen/" + kind + "/" + name;
 }
 
-std::string topic_of(const std::string& kind, const std::string& name, const std::string& asked) {
-  return graph_name(asked.empty() ? default_topic(kind, name) : asked);
+std::string topic_of(const std::string& kind, const std::string& name,
+                     const std::string& requested) {
+  return graph_name(requested.empty() ? default_topic(kind, name) : requested);
 }
 
 }  // namespace angen::node

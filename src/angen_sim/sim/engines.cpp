@@ -78,10 +78,10 @@ Parts Engines::add(const desc::Model& model) {
                           : anchored.count(link.name) ? rays::Mobility::kAnchored
                                                       : rays::Mobility::kMoving;
     for (const desc::Collision& collision : link.collisions) {
-      const desc::Visual looks = surface(link, collision);
+      const desc::Visual visual = surface(link, collision);
       const rays::ShapeId shape = rays.add(collision.shape, pose * collision.pose, mobility,
-                                           looks.material.diffuse.head<3>());
-      if (looks.temperature) rays.warm(shape, *looks.temperature);
+                                           visual.material.diffuse.head<3>());
+      if (visual.temperature) rays.warm(shape, *visual.temperature);
       parts.shapes.push_back({shape, i, collision.pose, mobility == rays::Mobility::kAnchored});
       show(parts, parts.shapes.back());
     }

@@ -14,9 +14,9 @@ struct Cost {
   std::shared_ptr<const Structure> structure;
   std::vector<Nanoseconds> each_device;  // as Structure::devices
   std::vector<Nanoseconds> each_sensor;  // as Structure::sensors
-  Nanoseconds commands = 0;              // carrying out what was asked for
+  Nanoseconds commands = 0;              // executing commands
   Nanoseconds devices = 0;               // all of them, and finding those that have to act
-  Nanoseconds physics = 0;               // and telling the other engines what moved
+  Nanoseconds physics = 0;               // and passing what moved to the other engines
   Nanoseconds sensors = 0;               // all of them, and finding those that are due
   Nanoseconds snapshots = 0;             // putting them together
 };

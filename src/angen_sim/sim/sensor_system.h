@@ -12,7 +12,7 @@
 namespace angen::sim {
 
 /// The sensors' part of a tick: those that are due aim, one cast answers all, they read. An idle
-/// sensor does not sample until something that it looks at has changed, and the rays of one that
+/// sensor does not sample until something in its watch region has changed, and the rays of one that
 /// stands still are cast against movers only; readings are the same as if each sensor had cast all
 /// its rays at each due time.
 class SensorSystem {
@@ -63,7 +63,7 @@ class SensorSystem {
   bool skip_sample(std::uint32_t index, InstanceView::Clock clock, Snapshot& next);
   void resume(std::uint32_t index, InstanceView::Clock clock, Snapshot& next);
   static void repeat(std::uint32_t index, Snapshot& next);
-  /// Whether nothing that the sensor looked at in its last sample has changed.
+  /// Whether nothing that the sensor sampled last has changed.
   static bool unchanged(const Engines& engines, const Entry& entry);
   void fail(std::uint32_t index, const std::string& error, Nanoseconds now, Snapshot& next);
   void visit(Building& building, std::uint32_t index, InstanceView::Clock clock, Snapshot& next);

@@ -53,7 +53,7 @@ class Simulation {
   /// What the world's file would say of now. The thread that ticks; others post a Save.
   SavedState saved();
 
-  /// True when the next tick will advance time: not paused, or steps are asked for.
+  /// True when the next tick will advance time: not paused, or steps are requested.
   bool running() const;
 
   const desc::World& world() const;  // settings as loaded; its models are those of the file

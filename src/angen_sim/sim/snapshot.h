@@ -91,7 +91,7 @@ struct PublishedReading {
 };
 
 /// The world after a tick. Shared and immutable; parts that did not change are shared with the
-/// snapshot before, so that comparing pointers tells what changed.
+/// snapshot before, so that comparing pointers shows what changed.
 struct Snapshot {
   std::int64_t tick = 0;
   Nanoseconds time = 0;

@@ -44,7 +44,7 @@ inline double walk(const rays::Scene& scene, const Lamp& lamp, const Pose& pose,
   }
 }
 
-/// lx at `pose` among grey surfaces from one lamp.
+/// lx at `pose` among gray surfaces from one lamp.
 inline Traced trace(const rays::Scene& scene, const Lamp& lamp, const Pose& pose, int paths) {
   Rng rng(7, hash_bytes("oracle"), 0);
   double sum = 0.0, squares = 0.0;

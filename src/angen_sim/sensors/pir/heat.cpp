@@ -14,7 +14,7 @@ constexpr double kCellWidth = 0.012;                 // rad: a third of a zone o
 constexpr double kCellHeight = 0.024;
 constexpr int kFewest = 12;  // cells on a side
 constexpr int kMost = 64;
-constexpr int kWaits = 4;  // looks left out at what was hidden at the last one
+constexpr int kWaits = 4;  // samples left out at what was hidden at the last one
 
 double azimuth_of(const Vec3& p) { return std::atan2(p.y(), p.x()); }
 
@@ -53,10 +53,10 @@ int cells(double angle, double size) {
 
 void Heat::aim(const View& view, RayBatch& rays) {
   const Pose pose = view.pose();
-  looked_ = false;
+  sampled_ = false;
   if (view.scene_revision() == revision_ && pose == pose_) return;
   if (unseen_lately()) return;
-  looked_ = true;
+  sampled_ = true;
   revision_ = view.scene_revision();
   pose_ = pose;
   samples_.clear();
@@ -67,7 +67,7 @@ void Heat::aim(const View& view, RayBatch& rays) {
   }
 }
 
-// What stands behind a wall is looked for less often.
+// What stands behind a wall is sampled less often.
 bool Heat::unseen_lately() {
   const bool hidden = !samples_.empty() && flux_ == 0.0;
   if (hidden && waits_ < kWaits) {
@@ -114,7 +114,7 @@ void Heat::scan(std::uint32_t shape, double radiance, const Window& seen, const 
 }
 
 double Heat::flux(Hits hits) {
-  if (!looked_) return flux_;
+  if (!sampled_) return flux_;
   flux_ = 0.0;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     if (hits[i].shape == samples_[i].shape) flux_ += samples_[i].flux;

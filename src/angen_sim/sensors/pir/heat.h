@@ -17,16 +17,16 @@ class Heat {
   Heat(FresnelLens lens, double range, double opening)
       : lens_(std::move(lens)), range_(range), opening_(opening) {}
 
-  /// Asks for rays towards every such surface; none where nothing moved since the last time.
+  /// Requests rays towards every such surface; none where nothing moved since the last time.
   void aim(const View& view, RayBatch& rays);
 
   /// Flux on the positive element less that on the negative one, in W.
   double flux(Hits hits);
 
-  /// Whether it has yet to look at what moved.
+  /// Whether it has still to sample what moved.
   bool pending() const { return waits_ > 0; }
 
-  /// Looks anew at the next aim(), whatever moved.
+  /// Samples anew at the next aim(), whatever moved.
   void forget() { revision_ = UINT64_MAX; }
 
  private:
@@ -47,8 +47,8 @@ class Heat {
   std::vector<Sample> samples_;
   std::uint64_t revision_ = UINT64_MAX;
   Pose pose_;
-  bool looked_ = false;  // whether aim() has asked
-  int waits_ = 0;        // looks left out since the last one
+  bool sampled_ = false;  // whether aim() has requested rays
+  int waits_ = 0;         // samples left out since the last one
   double flux_ = 0.0;
 };
 

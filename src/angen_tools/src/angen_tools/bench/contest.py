@@ -134,16 +134,16 @@ def _spawn_and_delete(meter: Meter, client: Client) -> tuple[float, float]:
     readings, ends = [], []
     for trial in range(TRIALS):
         meter.first.pop(topic, None)
-        asked = time.monotonic()
+        ordered = time.monotonic()
         client.call('/angen/spawn', Spawn, name=NEW.name, xml=f'model://{NEW.model}', pose=pose)
         wait(lambda: topic in meter.first, 'a spawned sensor has not published', NEWS_LIMIT)
-        readings.append(1000 * (meter.first[topic] - asked))
-        asked = time.monotonic()
+        readings.append(1000 * (meter.first[topic] - ordered))
+        ordered = time.monotonic()
         client.call('/angen/delete', Delete, name=NEW.name)
         if not news.until(lambda _, event: (event.source, event.event) == (NEW.name, 'deleted'),
                           NEWS_LIMIT):
             raise Failure('the deletion of a sensor is not published on /angen/events')
-        ends.append(1000 * (time.monotonic() - asked))
+        ends.append(1000 * (time.monotonic() - ordered))
     news.unsubscribe('/angen/events')
     return median(readings), median(ends)
 

@@ -106,9 +106,9 @@ def rows_of(cases: list[Case], commit: str) -> list[dict[str, str]]:
 
 def commit_of(folder: Path) -> str:
     """The commit that the sources are at, 'unknown' outside of a clone."""
-    asked = subprocess.run(['git', '-C', str(folder), 'describe', '--always', '--dirty'],
-                           capture_output=True, text=True, check=False)
-    return asked.stdout.strip() or 'unknown'
+    described = subprocess.run(['git', '-C', str(folder), 'describe', '--always', '--dirty'],
+                               capture_output=True, text=True, check=False)
+    return described.stdout.strip() or 'unknown'
 
 
 def measure(out: Path, json: bool) -> None:

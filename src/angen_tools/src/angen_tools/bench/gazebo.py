@@ -83,7 +83,7 @@ class Gazebo:
             probe.bind(('127.0.0.1', 0))
             port = probe.getsockname()[1]
         self._answers: dict[str, queue.SimpleQueue[float]] = {
-            word: queue.SimpleQueue() for word in ('first', 'heard', 'gone')}
+            word: queue.SimpleQueue() for word in ('first', 'reading', 'gone')}
         self._last: Tick | None = None
         self._log = folder / 'gazebo.log'
         words = ['unshare', '--mount', 'sh', '-c', LAUNCH, 'sh', str(root), str(folder),
@@ -177,12 +177,12 @@ class Gazebo:
 
     def spawn(self, name: str, file: str) -> float:
         """s from the order to the first reading of the sensor of the model in `file`."""
-        asked = time.monotonic()
+        ordered = time.monotonic()
         self.send(f'spawn {name} /mnt/{file}')
-        return self._answer('heard', ANSWER_LIMIT) - asked
+        return self._answer('reading', ANSWER_LIMIT) - ordered
 
     def delete(self, name: str) -> float:
         """s from the order until the model is gone."""
-        asked = time.monotonic()
+        ordered = time.monotonic()
         self.send(f'delete {name}')
-        return self._answer('gone', ANSWER_LIMIT) - asked
+        return self._answer('gone', ANSWER_LIMIT) - ordered

@@ -172,11 +172,11 @@ def deploy(client: Client, meter: Meter, sensors: Sequence[Placement]) -> Deploy
 
     from angen_msgs.srv import Spawn
     watched = {topic_of(s): s for s in spread(sensors, SUBSCRIBED)}
-    asked: dict[str, float] = {}
+    subscribed: dict[str, float] = {}
     start, (server, viewer) = time.monotonic(), meter.processor()
     for sensor in sensors:
         pose = Pose(Point(*sensor.pose[:3]), Quaternion(*quaternion(*sensor.pose[3:])))
-        asked[topic_of(sensor)] = time.monotonic()
+        subscribed[topic_of(sensor)] = time.monotonic()
         client.call('/angen/spawn', Spawn, name=sensor.name, xml=f'model://{sensor.model}',
                     pose=pose)
     seconds, (server_end, viewer_end) = time.monotonic() - start, meter.processor()
@@ -185,7 +185,7 @@ def deploy(client: Client, meter: Meter, sensors: Sequence[Placement]) -> Deploy
         if time.monotonic() > end:
             raise Failure(f'a spawned sensor has not published within {STATS_LIMIT:g} s')
         time.sleep(0.01)
-    waits = [1000 * (meter.first[topic] - asked[topic]) for topic in watched]
+    waits = [1000 * (meter.first[topic] - subscribed[topic]) for topic in watched]
     return Deployed(seconds, load(server, server_end, seconds),
                     client_load(viewer, viewer_end, seconds), median(waits) if waits else None)
 

@@ -22,7 +22,7 @@ class Session:
     sim_per_cpu: float | None = None  # at rate 0, simulated seconds a second of processor time
     delivered: float | None = None  # readings made, of those expected
     delivered_fast: float | None = None
-    heard: float | None = None  # messages received on subscribed topics, of those expected
+    received: float | None = None  # messages received on subscribed topics, of those expected
     rss_mb: float | None = None
     start_s: float | None = None  # from the start of the process to the first tick
     deploy_s: float | None = None  # for all sensors together

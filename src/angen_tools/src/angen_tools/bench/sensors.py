@@ -61,7 +61,7 @@ def cases(mode: str, kind: str, counts: Sequence[int] | None, mover: str = 'pers
     """The cases of each figure; `both` is added and deployed. All counts of a kind stand in as many
     flats as the largest needs.
 
-    Failure where `desired` is asked for no flat at all, or there is no room for the sensors.
+    Failure where `desired` is given without a flat, or there is no room for the sensors.
     """
     if mode == 'both':
         return [*cases('added', kind, counts, mover), *cases('deployed', kind, counts, mover)]
@@ -141,8 +141,8 @@ class Bench:
         found.rss_mb = last.rss / 1e6
         found.delivered = share(last.readings - first.readings,
                                 expected(case, sensors, first.sim, last.sim))
-        found.heard = share(last.received - first.received,
-                            expected(case, subscribed, first.sim, last.sim))
+        found.received = share(last.received - first.received,
+                               expected(case, subscribed, first.sim, last.sim))
 
     def fast(self, case: Case, found: Session, meter: Meter, client: Client) -> None:
         """How fast a node at rate 0 is."""

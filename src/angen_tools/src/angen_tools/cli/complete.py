@@ -1,4 +1,4 @@
-"""What a shell offers after TAB; nothing where there is no simulator to ask."""
+"""What a shell offers after TAB; nothing where there is no simulator to query."""
 from __future__ import annotations
 
 import argparse

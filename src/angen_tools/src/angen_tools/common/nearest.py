@@ -19,7 +19,7 @@ def nearest(name: str, known: Iterable[str]) -> list[str]:
 
 
 def did_you_mean(name: str, known: Iterable[str], listing: str = '') -> str:
-    """A question, as the simulator asks it: "did you mean a, b or c?"; "there are none" of none.
+    """As in the simulator's messages: "did you mean a, b or c?"; "there are none" of none.
 
     The command `listing` is named where there are more.
     """
