@@ -134,7 +134,7 @@ Reading World::sensor(const std::string& kind, const std::string& name) const {
   const std::size_t index = index_of(structure.sensors, kind, name);
   const std::shared_ptr<const Reading> reading = snapshot_->reading(index);
   if (!reading) {
-    const bool asleep = structure.sensors[index].on_demand && !simulation_.requested(kind, name);
+    const bool asleep = structure.sensors[index].on_demand() && !simulation_.requested(kind, name);
     throw Error(kind + " '" + name + "' has measured nothing yet; " +
                 (asleep ? "request('" + kind + "', '" + name + "') and step first" : "step first"));
   }

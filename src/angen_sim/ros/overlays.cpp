@@ -139,7 +139,7 @@ void Overlays::add_sensor(const sim::Structure& structure, std::uint32_t sensor)
   const RosKind& kind = ros_kind(entry.kind, entry.desc->plugin);
   if (kind.rays) {
     beams_.emplace(entry.kind + "/" + entry.name, std::move(overlay));
-  } else if (kind.caption && !entry.on_demand) {
+  } else if (kind.caption && !entry.on_demand()) {
     captions_.emplace(entry.kind + "/" + entry.name, std::move(overlay));
   }
 }

@@ -93,7 +93,7 @@ void Publishers::list_on_demand(const sim::Structure& structure) {
   on_demand_.clear();
   for (std::uint32_t i = 0; i < structure.sensors.size(); ++i) {
     const sim::SensorEntry& entry = structure.sensors[i];
-    if (!entry.on_demand) continue;
+    if (!entry.on_demand()) continue;
     on_demand_.push_back({i, simulation_.requested(entry.kind, entry.name)});
   }
 }

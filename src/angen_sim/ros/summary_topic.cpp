@@ -51,7 +51,9 @@ void SummaryTopic::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_poi
     if (!changed(i, stamp)) continue;
     message.entries.push_back(
         entry_of(sensor.plugin->kind(), sensor.name, snapshot.reading(i).get(), stamp));
-    if (!sensor.on_demand) message.entries.back().period = to_seconds(sensor.period);
+    if (!sensor.on_demand()) {
+      message.entries.back().period = to_seconds(sensor.schedule.publish);
+    }
   }
   for (std::size_t i = 0; i < structure.devices.size(); ++i) {
     const sim::DeviceEntry& device = structure.devices[i];

@@ -346,12 +346,10 @@ std::shared_ptr<const Structure> Building::structure() {
       all->joints.push_back({model.name + "::" + model.joints[i].name, m, i});
     }
     for (const DeviceInstance& device : live->devices) {
-      all->devices.push_back({device.kind, device.name, m, device.plugin, device.library});
+      all->devices.push_back({device, m});
     }
     for (const SensorInstance& s : live->sensors) {
-      all->sensors.push_back({s.kind, s.name, m, live->first_link + s.link, s.pose, s.topic,
-                              s.frame, s.key, s.schedule.publish, s.schedule, s.attached,
-                              s.on_demand(), s.desc, s.plugin});
+      all->sensors.push_back({s, m, live->first_link + s.link});
     }
   }
   return all;

@@ -15,12 +15,8 @@
 
 namespace angen::sim {
 
-struct DeviceInstance {
-  std::string kind;
-  std::string name;
-  std::shared_ptr<const Plugin> plugin;  // keeps its library loaded
+struct DeviceInstance : DeviceInfo {
   std::unique_ptr<Device> device;
-  std::string library;       // that its plug-in is in, as its SDF names it
   Element element;           // its <plugin>
   SavedParams started_with;  // what it would have saved then
   Reading scratch;           // what it reports is written here, then compared
@@ -84,29 +80,20 @@ struct NoiseForecast {
   Nanoseconds loud_at = 0;      // the next one that may; known when later than now
 };
 
-struct SensorInstance {
-  // What is read at each due time comes first: with many sensors it is not in the CPU's cache.
+struct SensorInstance : SensorInfo {
+  // What is read at each due time stands together, beside the schedule: with many sensors it is not
+  // in the CPU's cache.
   std::vector<std::unique_ptr<CachedScan>> scans;  // by ray set
   std::unique_ptr<WatchedLight> light;             // null where light may come from anywhere
-  Schedule schedule;
-  MoverIndex::Moment seen = 0;  // its last sample has all changes before
+  MoverIndex::Moment seen = 0;                     // its last sample has all changes before
   SensorActivity activity;
   Queried queried{false, false, false, true};  // for its reading
   bool link_moves = true;                      // false where its link is static
 
-  std::string kind;
-  std::string name;
-  std::uint64_t key = 0;  // of its random numbers
-  std::shared_ptr<const Plugin> plugin;
   std::unique_ptr<Sensor> sensor;
-  NoisySensor* noisy = nullptr;  // `sensor`, where it applies its noise itself
-  std::vector<Noise> noise;      // that is added to what it reads
-  std::shared_ptr<const desc::Sensor> desc;
-  std::uint32_t link = 0;  // in its model
-  Pose pose;               // in the link's frame
-  std::string topic;
-  std::string frame;
-  bool attached = false;
+  NoisySensor* noisy = nullptr;                // `sensor`, where it applies its noise itself
+  std::vector<Noise> noise;                    // that is added to what it reads
+  std::uint32_t link = 0;                      // in its model
   std::vector<std::string> collisions;         // full names, by ContactRef
   std::vector<physics::CollisionId> touching;  // the same
   Reading clean;                               // the latest, before `noise`; unused without
@@ -119,7 +106,6 @@ struct SensorInstance {
   Nanoseconds cost = 0;  // CPU time that the meter counts
   std::string error;     // what it threw; it is called no more
 
-  bool on_demand() const { return plugin->kind().is_on_demand; }
   /// Whether readings of a steady sensor differ from sample to sample.
   bool varies() const;
   /// Makes its readings while nothing changes.

@@ -7,7 +7,7 @@ namespace angen::sim {
 Nanoseconds Snapshot::stamp(std::size_t sensor) const {
   const SensorEntry& entry = structure->sensors[sensor];
   const Nanoseconds made = sensors[sensor].reading->stamp;
-  return entry.on_demand ? made : std::max(made, entry.schedule.last_publication(time));
+  return entry.on_demand() ? made : std::max(made, entry.schedule.last_publication(time));
 }
 
 std::shared_ptr<const Reading> Snapshot::reading(std::size_t sensor) const {

@@ -34,29 +34,38 @@ struct JointEntry {
   std::uint32_t joint = 0;  // index in desc::Model::joints
 };
 
-struct DeviceEntry {
+/// What is fixed of a device as long as it exists.
+struct DeviceInfo {
   std::string kind;
   std::string name;
-  std::uint32_t model = 0;
-  std::shared_ptr<const Plugin> plugin;  // describes the kind
+  std::shared_ptr<const Plugin> plugin;  // describes the kind, and keeps its library loaded
   std::string library;                   // that the plug-in is in, as its SDF names it
 };
 
-struct SensorEntry {
+struct DeviceEntry : DeviceInfo {
+  std::uint32_t model = 0;
+};
+
+/// What is fixed of a sensor as long as it exists.
+struct SensorInfo {
   std::string kind;
   std::string name;
+  Pose pose;              // in the link's frame
+  std::string topic;      // as its SDF says, or empty
+  std::string frame;      // as its SDF says, or empty
+  std::uint64_t key = 0;  // of its random numbers
+  bool attached = false;  // by a command, to a link that existed
+  std::shared_ptr<const desc::Sensor> desc;
+  std::shared_ptr<const Plugin> plugin;  // describes the kind, and keeps its library loaded
+  Schedule schedule;                     // of all its due times
+
+  /// Samples only while requested, see Simulation::request.
+  bool on_demand() const { return plugin->kind().is_on_demand; }
+};
+
+struct SensorEntry : SensorInfo {
   std::uint32_t model = 0;
   std::uint32_t link = 0;  // index in Structure::links
-  Pose pose;               // in the link's frame
-  std::string topic;       // as its SDF says, or empty
-  std::string frame;       // as its SDF says, or empty
-  std::uint64_t key = 0;   // of its random numbers
-  Nanoseconds period = 0;  // of publishing
-  Schedule schedule;       // of all its due times
-  bool attached = false;   // by a command, to a link that existed
-  bool on_demand = false;  // samples only while requested, see Simulation::request
-  std::shared_ptr<const desc::Sensor> desc;
-  std::shared_ptr<const Plugin> plugin;  // describes the kind
 };
 
 struct LightEntry {
