@@ -15,7 +15,7 @@ struct FakeJoint {
   JointView state;
   JointLimits limits{-1e16, 1e16};
   std::string child = "child";
-  double force = 0.0;  // what the device asked for in this tick
+  double force = 0.0;  // what the device requested in this tick
   double motor_velocity = 0.0;
   double motor_force = 0.0;
 };

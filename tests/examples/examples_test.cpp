@@ -19,10 +19,10 @@ class Examples : public testing::Test {
 
 TEST_F(Examples, TheTapeMeasureMeasures) {
   Bench bench("libtape_measure.so", plugin_element({{"reach", "5"}}));
-  const Reading far = bench.look();
+  const Reading far = bench.sample();
   EXPECT_TRUE(std::isinf(far.get<double>("distance")));
   bench.add(test::box(1, 1, 1), test::at(3.0));
-  const Reading near = bench.look();
+  const Reading near = bench.sample();
   EXPECT_NEAR(near.get<double>("distance"), 2.5, 1e-6);
 }
 

@@ -64,7 +64,7 @@ def plate(debounce: float) -> str:
       <sample_rate>1000</sample_rate></plugin></sensor></link></model>'''
 
 
-def told(world: angen.World) -> list[tuple[float, str]]:
+def events_of(world: angen.World) -> list[tuple[float, str]]:
     """Time and name of each event of the plate's sensor."""
     return [(t, event) for t, source, _, event, _ in world.events() if source == 'plate']
 
@@ -78,7 +78,7 @@ def flights() -> list[float]:
 def test_without_a_debounce_each_bounce_is_told(world):
     w = world(BALL + plate(0))
     w.run(4)
-    events = told(w)
+    events = events_of(w)
     touches = [t for t, event in events if event == 'pressed']
     assert touches[0] == pytest.approx(math.sqrt(2 * FALL / G), abs=0.005)
     for gap, flight in zip(np.diff(touches), flights()):
@@ -89,10 +89,10 @@ def test_without_a_debounce_each_bounce_is_told(world):
 def test_a_debounced_one_tells_when_it_has_come_to_lie(world):
     w = world(BALL + plate(0.05))
     w.run(4)
-    events = told(w)
+    events = events_of(w)
     assert [event for _, event in events] == ['pressed']
     lies = math.sqrt(2 * FALL / G) + sum(flights())
     assert events[0][0] == pytest.approx(lies + 0.05, abs=0.05)
     w.delete('ball')
     w.run(0.2)
-    assert [event for _, event in told(w)] == ['released']
+    assert [event for _, event in events_of(w)] == ['released']

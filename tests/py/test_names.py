@@ -1,4 +1,4 @@
-"""The rule for names, as the tools ask for it."""
+"""The rule for names, as the tools use it."""
 from __future__ import annotations
 
 import pytest

@@ -23,7 +23,7 @@ class Rangefinder(angen.Sensor):
 
 
 class Pusher(angen.Device):
-    """Pushes its slider with the force that it was told, N."""
+    """Pushes its slider with the force that it was commanded, N."""
 
     @staticmethod
     def serves(model, joints, lights):

@@ -56,7 +56,7 @@ def test_what_is_rejected_changes_nothing_and_is_told(angen: Angen) -> None:
         assert [m.target for m in door.messages] == [before.target]
     details = [e.detail for e in events.messages if e.event == "rejected"]
     assert any("cellar8" in d and "bathroom0" in d for d in details), details
-    for event in events.messages:  # whatever was wrong, the names that would be right are told
+    for event in events.messages:  # whatever was wrong, the names that would be right are listed
         if event.event == "rejected" and event.kind == "door":
             assert "bathroom0" in event.detail, event.detail
     assert any("radians" in d for d in details), details

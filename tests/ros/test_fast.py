@@ -31,17 +31,17 @@ def test_it_leaps_and_tells_every_event_and_state(tmp_path: Path) -> None:
     cli = Cli(master)
     node = master.node(world, tmp_path / 'log', fast='true')
     try:
-        told = clocks(master, 20)
-        assert max(b - a for a, b in zip(told, told[1:])) > 1.0
+        times = clocks(master, 20)
+        assert max(b - a for a, b in zip(times, times[1:])) > 1.0
         said = (tmp_path / 'said').open('w')
-        listening = subprocess.Popen(['/usr/bin/rostopic', 'echo', '/angen/events/event'],
-                                     env=master.environment, stdout=said)
+        subscriber = subprocess.Popen(['/usr/bin/rostopic', 'echo', '/angen/events/event'],
+                                      env=master.environment, stdout=said)
         until(lambda: any('/rostopic' in name for _, names in
                           master.api.getSystemState('/test')[2][1] for name in names
-                          if _ == '/angen/events'), 'somebody listens')
+                          if _ == '/angen/events'), 'somebody subscribes')
         assert 'OPEN' in cli.does('set', 'door', 'bathroom0', 'open')
         until(lambda: '"opened"' in (tmp_path / 'said').read_text(), 'the door says so')
-        end(listening)
+        end(subscriber)
         assert 'OPEN, -1.57 rad' in cli.does('set', 'door', 'bathroom0', 'open')
     finally:
         end(node)

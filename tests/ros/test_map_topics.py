@@ -43,14 +43,15 @@ def test_each_floor_has_its_map(angen: Angen, two_floors: Path) -> None:
     process = start(angen.master, two_floors)
     try:
         for topic, floor in (('/map', 0), ('/floor0/map', 0), ('/floor1/map', 1)):
-            told = angen.wait(topic, OccupancyGrid)
+            message = angen.wait(topic, OccupancyGrid)
             grid = make_map(load_world(str(two_floors)), floor)
-            assert told.header.frame_id == 'world' and told.info.resolution == pytest.approx(0.05)
-            corner = told.info.origin
+            assert message.header.frame_id == 'world'
+            assert message.info.resolution == pytest.approx(0.05)
+            corner = message.info.origin
             assert (corner.position.x, corner.position.y) == pytest.approx(grid.origin)
             assert corner.position.z == 4 * floor and corner.orientation.w == 1
-            cells = np.reshape(told.data, (told.info.height, told.info.width))
-            assert (cells == grid.cells).all() and set(told.data) == {-1, 0, 100}
+            cells = np.reshape(message.data, (message.info.height, message.info.width))
+            assert (cells == grid.cells).all() and set(message.data) == {-1, 0, 100}
         assert '/floor2/map' not in angen.master.topics()
     finally:
         process.stderr.close()

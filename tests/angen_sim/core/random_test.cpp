@@ -54,7 +54,7 @@ TEST(Rng, GaussiansAreAsManyOfMeanZeroAndDeviationOne) {
 }
 
 // A scan has no number beyond the limit as often as chance_within() says, and its first uniform()
-// tells which.
+// shows which.
 TEST(Rng, TheFirstDrawTellsHowFarOutGaussiansAre) {
   constexpr int kTicks = 20'000;
   for (const int count : {1, 2, 7, 96}) {
@@ -65,12 +65,12 @@ TEST(Rng, TheFirstDrawTellsHowFarOutGaussiansAre) {
       const Rng rng(3, hash_bytes("limit"), tick);
       std::vector<double> numbers(static_cast<std::size_t>(count) + 1);
       Rng(rng).gaussians(numbers.data(), static_cast<std::size_t>(count));
-      const bool told = Rng(rng).uniform() < chance;
+      const bool drawn = Rng(rng).uniform() < chance;
       double farthest = 0.0;
       for (const double x : numbers) farthest = std::max(farthest, std::abs(x));
-      within += told ? 1 : 0;
-      both += told && farthest <= limit ? 1 : 0;
-      EXPECT_EQ(numbers.back(), 0.0);  // no more than were asked for
+      within += drawn ? 1 : 0;
+      both += drawn && farthest <= limit ? 1 : 0;
+      EXPECT_EQ(numbers.back(), 0.0);  // no more than were requested
     }
     EXPECT_EQ(both, within) << count;
     EXPECT_NEAR(within, chance * kTicks, 5.0 * std::sqrt(kTicks * chance * (1.0 - chance)));

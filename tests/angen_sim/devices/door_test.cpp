@@ -22,7 +22,7 @@ Vec3 before_edge(double at) {
   return 0.87 * along + 0.045 * ahead;
 }
 
-bool told(const Rig& rig, const std::string& event) {
+bool has_event(const Rig& rig, const std::string& event) {
   return std::find(rig.events.begin(), rig.events.end(), event) != rig.events.end();
 }
 
@@ -44,8 +44,8 @@ TEST(Door, OpensInTimeAndArrivesGently) {
     EXPECT_GT(took, 0.0) << mass;
     EXPECT_LT(arrival, 1.0) << mass;
     EXPECT_NEAR(angle(door), -1.57, 0.02) << mass;
-    EXPECT_TRUE(told(door, "opening"));
-    EXPECT_TRUE(told(door, "opened"));
+    EXPECT_TRUE(has_event(door, "opening"));
+    EXPECT_TRUE(has_event(door, "opened"));
   }
 }
 
@@ -151,7 +151,7 @@ TEST(Door, HeldByAPostItIsBlockedWithinASecondAndItsEdgeForceIsLimited) {
          greatest);
   EXPECT_LE(greatest, 150.0);
   EXPECT_GT(greatest, 50.0);
-  EXPECT_TRUE(told(door, "blocked"));
+  EXPECT_TRUE(has_event(door, "blocked"));
 }
 
 TEST(Door, ItsFirstBlowIsNoMoreThanTheLeafsOwnMomentum) {

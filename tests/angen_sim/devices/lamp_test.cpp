@@ -66,9 +66,9 @@ TEST(Lamp, GoesOnIsDimmedAndGoesOff) {
   EXPECT_TRUE(lit.state().get<bool>("on"));
   EXPECT_TRUE(lit.say("OFF").accepted);
   EXPECT_DOUBLE_EQ(lit.bulb().level, 0.0);
-  const std::vector<std::pair<std::string, std::string>> told{
+  const std::vector<std::pair<std::string, std::string>> expected{
       {"on", ""}, {"dimmed", ""}, {"off", ""}};
-  EXPECT_EQ(lit.world.events, told);
+  EXPECT_EQ(lit.world.events, expected);
 }
 
 TEST(Lamp, SameLevelAgainIsNoEvent) {

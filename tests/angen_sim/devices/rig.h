@@ -9,7 +9,7 @@
 #include "physics/world.h"
 #include "plugin/library.h"
 
-/// Devices on bodies that obey physics, without a simulation around them.
+/// Devices on bodies moved by physics, without a simulation around them.
 namespace angen::test {
 
 using Parameters = std::vector<std::pair<std::string, std::string>>;

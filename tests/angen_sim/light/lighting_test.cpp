@@ -312,10 +312,10 @@ TEST(Lighting, ADoorsWayLeavesNoTrace) {
 }
 
 TEST(Lighting, WhatWasMeasuredBeforeLeavesNoTrace) {
-  const TwoRooms asked, fresh;
-  lux(asked.lighting, asked.lit_sensor);
-  lux(asked.lighting, facing(Vec3(6, 3, 0.05), Vec3::UnitZ()));
-  expect_same_bits(measure(asked.lighting, asked.dark_sensor),
+  const TwoRooms queried, fresh;
+  lux(queried.lighting, queried.lit_sensor);
+  lux(queried.lighting, facing(Vec3(6, 3, 0.05), Vec3::UnitZ()));
+  expect_same_bits(measure(queried.lighting, queried.dark_sensor),
                    measure(fresh.lighting, fresh.dark_sensor));
 }
 

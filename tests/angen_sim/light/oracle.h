@@ -8,8 +8,8 @@
 #include "light/field.h"
 #include "rooms.h"
 
-/// A path tracer, slow and plain: random walks, with the lamp asked at every vertex. It shares rays
-/// and the lamp's direct light with what it judges, and nothing else.
+/// A path tracer, slow and plain: random walks, with the lamp sampled at every vertex. It shares
+/// rays and the lamp's direct light with what it judges, and nothing else.
 namespace angen::light::testing {
 
 struct Traced {

@@ -1,5 +1,3 @@
-#include <sys/stat.h>
-
 #include "angen_sim/load/texts.h"
 
 namespace angen::load {
@@ -224,93 +222,6 @@ TEST(BrokenName, IsRefusedWhereverItStands) {
   }
 }
 
-TEST(BrokenInclude, WithTwoNamesIsRefused) {
-  const Folder folder;
-  folder.model("part", sdf("<model name='p'><link name='l'/></model>"));
-  for (const std::string twice : {"name", "uri", "pose", "static"}) {
-    std::string text = "<include><uri>model://part</uri>";
-    if (twice != "uri") text += "<" + twice + ">1</" + twice + ">";
-    text += "\n<" + twice + ">0</" + twice + "></include>";
-    const std::string message = error_of(in_world(text), folder.paths());
-    EXPECT_EQ(message.find("w.world:2: a second <" + twice + "> in one <include>"), 0U) << message;
-  }
-}
-
-const char* const kInclude = "<include><uri>model://part</uri></include>";
-
-TEST(BrokenInclude, NamesTheIncludedFile) {
-  const Folder folder;
-  const std::string file = folder.model(
-      "part", sdf("<model name='m'><link name='l'><inertial>\n<mass>-2</mass></inertial></link>"
-                  "</model>"));
-  const std::string message = error_of(in_world(kInclude), folder.paths());
-  EXPECT_EQ(message.find(file + ":2: "), 0U) << message;
-  EXPECT_NE(message.find("the mass is -2 kg"), std::string::npos) << message;
-}
-
-TEST(BrokenInclude, TruncatedFileIsNamed) {
-  const Folder folder;
-  const std::string file = folder.model("part", "<sdf version='1.6'>\n<model name='m'>\n<link");
-  const std::string message = error_of(in_world(kInclude), folder.paths());
-  EXPECT_EQ(message.find(file + ":3: "), 0U) << message;
-}
-
-TEST(BrokenInclude, CycleEndsWithItsPlace) {
-  const Folder folder;
-  const std::string other = folder.model(
-      "other", sdf("<model name='o'><link name='l'/>\n<include><uri>model://part</uri></include>"
-                   "</model>"));
-  folder.model("part",
-               sdf("<model name='m'><link name='l'/><include><uri>model://other</uri></include>"
-                   "</model>"));
-  const std::string message = error_of(in_world(kInclude), folder.paths());
-  EXPECT_EQ(message.find(other + ":2: "), 0U) << message;
-  EXPECT_NE(message.find("cycle of includes"), std::string::npos) << message;
-}
-
-TEST(BrokenInclude, DepthIsBounded) {
-  const Folder folder;
-  for (int i = 0; i < 20; ++i) {
-    folder.model("part" + (i == 0 ? "" : std::to_string(i)),
-                 sdf("<model name='m" + std::to_string(i) +
-                     "'><link name='l'/><include><uri>"
-                     "model://part" +
-                     std::to_string(i + 1) + "</uri></include></model>"));
-  }
-  EXPECT_NE(error_of(in_world(kInclude), folder.paths()).find("more than 16 deep"),
-            std::string::npos);
-}
-
-TEST(BrokenInclude, DoublingIsBounded) {
-  const Folder folder;
-  std::string filler;
-  for (int i = 0; i < 100; ++i) filler += "<frame name='f" + std::to_string(i) + "'/>";
-  for (int i = 0; i < 14; ++i) {
-    const std::string next = "model://part" + std::to_string(i + 1);
-    folder.model(
-        "part" + (i == 0 ? "" : std::to_string(i)),
-        sdf("<model name='m'><link name='l'/>" + filler + "<include><name>a</name><uri>" + next +
-            "</uri></include><include><name>b</name><uri>" + next + "</uri></include></model>"));
-  }
-  folder.model("part14", sdf("<model name='m'><link name='l'/>" + filler + "</model>"));
-  EXPECT_NE(error_of(in_world(kInclude), folder.paths()).find("more than 400000 elements"),
-            std::string::npos);
-}
-
-TEST(BrokenInclude, FileWithoutAModel) {
-  const Folder folder;
-  const std::string file = folder.model("part", sdf("<world name='w'/>"));
-  EXPECT_EQ(error_of(in_world(kInclude), folder.paths()).find(file + ":1: "), 0U);
-}
-
-TEST(BrokenInclude, ConfigThatNamesNoFile) {
-  const Folder folder;
-  const std::string file =
-      folder.write("part/model.config", "<model>\n<sdf version='1.6'>nothing.sdf</sdf></model>");
-  const std::string message = error_of(in_world(kInclude), folder.paths());
-  EXPECT_EQ(message.find(file + ":2: "), 0U) << message;
-}
-
 TEST(BrokenMesh, DamagedFileIsNamedWhereItIsUsed) {
   const Folder folder;
   folder.write("part/x.stl", "solid nothing");
@@ -320,47 +231,6 @@ TEST(BrokenMesh, DamagedFileIsNamedWhereItIsUsed) {
                folder.paths());
   EXPECT_EQ(message.find("w.world:2: mesh "), 0U) << message;
 }
-
-// Cut anywhere, a world is an error and never more than that.
-TEST(Truncation, IsAlwaysAnError) {
-  const std::string text = in_world(
-      "<physics type='ode'><max_step_size>0.001</max_step_size></physics>"
-      "<light name='sun' type='directional'><direction>0 0 -1</direction></light>"
-      "<model name='m'><link name='a'>" +
-      box() +
-      "</link><link name='b'/><joint name='j' type='revolute'><parent>a</parent><child>b</child>"
-      "<axis><xyz>0 0 1</xyz></axis></joint><plugin name='p' filename='libp.so'><q>1</q></plugin>"
-      "</model>");
-  read(text);
-  for (std::size_t length = 0; length < text.size(); length += 50) {
-    EXPECT_THROW(read(text.substr(0, length)), Error) << length;
-  }
-}
-
-TEST(TooMuch, ElementsAreBounded) {
-  std::string many;
-  for (int i = 0; i < 100'001; ++i) many += "<x/>";
-  EXPECT_NE(error_of(in_world(many)).find("more than 100000 elements"), std::string::npos);
-}
-
-TEST(TooMuch, DepthIsBounded) {
-  std::string deep;
-  for (int i = 0; i < 5000; ++i) deep += "<model name='m'>";
-  EXPECT_NE(error_of("<sdf version='1.6'>" + deep).find("w.world:1: "), std::string::npos);
-}
-
-TEST(MissingFile, FolderOrPipeIsNotRead) {
-  const Folder folder;
-  const std::string pipe = folder.path() + "/pipe.world";
-  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_THROW(world(pipe), Error);
-  EXPECT_THROW(world(folder.path()), Error);
-  const std::string mesh =
-      "<visual name='v'><geometry><mesh><uri>model://pipe.world</uri></mesh></geometry></visual>";
-  EXPECT_NE(error_of(in_link(mesh), folder.paths()).find("is not a file"), std::string::npos);
-}
-
-TEST(MissingFile, IsNamed) { EXPECT_THROW(world("/nonexistent/x.world"), Error); }
 
 }  // namespace
 }  // namespace angen::load

@@ -1,3 +1,5 @@
+#include <sys/stat.h>
+
 #include <cstdlib>
 
 #include "angen_sim/load/texts.h"
@@ -90,6 +92,19 @@ TEST(Environment, PathsInTheirOrder) {
   EXPECT_TRUE(fs::equivalent(paths.models[4], kModels));
   EXPECT_EQ(paths.resources, std::vector<std::string>{"/r"});
 }
+
+TEST(MissingFile, FolderOrPipeIsNotRead) {
+  const Folder folder;
+  const std::string pipe = folder.path() + "/pipe.world";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW(world(pipe), Error);
+  EXPECT_THROW(world(folder.path()), Error);
+  const std::string mesh =
+      "<visual name='v'><geometry><mesh><uri>model://pipe.world</uri></mesh></geometry></visual>";
+  EXPECT_NE(error_of(in_link(mesh), folder.paths()).find("is not a file"), std::string::npos);
+}
+
+TEST(MissingFile, IsNamed) { EXPECT_THROW(world("/nonexistent/x.world"), Error); }
 
 }  // namespace
 }  // namespace angen::load

@@ -65,7 +65,7 @@ TEST(WorldFile, KeepsWhatDevicesAreSetTo) {
   command(*before, "battery", "stove_battery", "Charge 50");
   command(*before, "climate", "flat", "Outside -10");
   command(*before, "door", "hall0", "Open");
-  run(*before, 60.5);  // not just before what is told once a second is told
+  run(*before, 60.5);  // not just before what is published once a second is
   const auto after = loaded(saved(*before));
   after->tick();
   for (const auto& [kind, field, tolerance] :
@@ -179,9 +179,9 @@ TEST(WorldFile, IsTheSameFromAnyThread) {
   const auto state = std::make_shared<sim::SavedState>();
   auto done = simulation->post(sim::Pause{true});
   simulation->tick();
-  auto asked = simulation->post(sim::Save{state});
+  auto saving = simulation->post(sim::Save{state});
   simulation->tick();
-  ASSERT_TRUE(asked.get().ok);
+  ASSERT_TRUE(saving.get().ok);
   EXPECT_EQ(world_file(simulation->world(), *state), saved(*simulation));
 }
 

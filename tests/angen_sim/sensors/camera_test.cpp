@@ -35,7 +35,7 @@ TEST(Camera, LooksThroughTheLensOfItsSdfFromItsPlace) {
     EXPECT_EQ(pose, bench.world.at);
     return seen;
   };
-  const Reading reading = bench.look();
+  const Reading reading = bench.sample();
   const auto image = reading.get<ByteImage>("image");
   ASSERT_NE(image.values, nullptr);
   EXPECT_EQ(*image.values, seen);
@@ -52,7 +52,7 @@ TEST(Camera, DepthIsAGridOfOneChannel) {
   bench.world.depths_at = [](const render::PinholeCamera&, const Pose&) {
     return std::vector<float>{1.0F, 2.0F, 3.0F, 4.0F};
   };
-  const auto depth = bench.look().get<FloatImage>("depth");
+  const auto depth = bench.sample().get<FloatImage>("depth");
   ASSERT_NE(depth.values, nullptr);
   EXPECT_EQ(depth.values->at(3), 4.0F);
   EXPECT_EQ(depth.channels, 1U);
@@ -90,10 +90,10 @@ TEST(Camera, ImagesOfEqualPixelsAreEqualReadings) {
   bench.world.depths_at = [&](const render::PinholeCamera&, const Pose&) {
     return std::vector<float>{1.0F, 2.0F, 3.0F, last};
   };
-  const Reading first = bench.look();
-  EXPECT_TRUE(first.same_values(bench.look()));
+  const Reading first = bench.sample();
+  EXPECT_TRUE(first.same_values(bench.sample()));
   last = 5.0F;
-  EXPECT_FALSE(first.same_values(bench.look()));
+  EXPECT_FALSE(first.same_values(bench.sample()));
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ TEST(Contact, ReadsPairsAndPoints) {
   Bench bench(kContact, plugin_element({}), watching({kSeat}), chair());
   bench.world.touching[kSeat] = {{kSeat, "cat::body::box", {point(0.1, -20.0), point(0.2, -22.0)}},
                                  {kSeat, "cup::body::box", {point(0.3, -3.0)}}};
-  const Reading reading = bench.look();
+  const Reading reading = bench.sample();
   EXPECT_EQ(reading.get<Names>("collision1"), (Names{kSeat, kSeat}));
   EXPECT_EQ(reading.get<Names>("collision2"), (Names{"cat::body::box", "cup::body::box"}));
   EXPECT_EQ(reading.get<Numbers>("counts"), (Numbers{2, 1}));
@@ -58,53 +58,53 @@ TEST(Contact, ReadsPairsAndPoints) {
 TEST(Contact, WatchesOnlyTheCollisionsOfItsSdf) {
   Bench bench(kContact, plugin_element({}), watching({kSeat}), chair());
   bench.world.touching[kBack] = {{kBack, "wall::link::box", {point(0.0, 1.0)}}};
-  EXPECT_TRUE(bench.look().get<Names>("collision1").empty());
+  EXPECT_TRUE(bench.sample().get<Names>("collision1").empty());
 }
 
 TEST(Contact, TwoWatchedCollisionsThatTouchAreOnePair) {
   Bench bench(kContact, plugin_element({}), watching({kSeat, kBack}), chair());
   bench.world.touching[kSeat] = {{kSeat, kBack, {point(0.0, 1.0)}}};
   bench.world.touching[kBack] = {{kBack, kSeat, {point(0.0, -1.0)}}};
-  EXPECT_EQ(bench.look().get<Names>("collision1"), Names{kSeat});
+  EXPECT_EQ(bench.sample().get<Names>("collision1"), Names{kSeat});
 }
 
 TEST(Contact, TellsWhenItIsPressedAndReleased) {
   Bench bench(kContact, plugin_element({}), watching({kSeat}), chair());
-  EXPECT_EQ(bench.look().event, "");
+  EXPECT_EQ(bench.sample().event, "");
   bench.world.touching[kSeat] = {{kSeat, "cat::body::box", {point(0.1, -20.0)}}};
-  const Reading pressed = bench.look();
+  const Reading pressed = bench.sample();
   EXPECT_EQ(pressed.event, "pressed");
   EXPECT_EQ(pressed.event_detail, "by cat::body::box");
-  EXPECT_EQ(bench.look().event, "");
+  EXPECT_EQ(bench.sample().event, "");
   bench.world.touching.clear();
-  EXPECT_EQ(bench.look().event, "released");
+  EXPECT_EQ(bench.sample().event, "released");
 }
 
 TEST(Contact, ADebouncedOneTellsOnlyWhatLasts) {
-  constexpr Nanoseconds kLook = 10'000'000;
+  constexpr Nanoseconds kSamplePeriod = 10'000'000;
   Bench bench(kContact, plugin_element({{"debounce", "0.05"}}), watching({kSeat}), chair());
-  EXPECT_EQ(bench.sensor().sample_period(), kLook);
+  EXPECT_EQ(bench.sensor().sample_period(), kSamplePeriod);
   const auto touch = [&](bool on) {
     bench.world.touching.clear();
     if (on) bench.world.touching[kSeat] = {{kSeat, "cat::body::box", {point(0.1, -20.0)}}};
   };
-  bench.look(kLook);
+  bench.sample(kSamplePeriod);
   for (int bounce = 0; bounce < 20; ++bounce) {
     touch(bounce % 5 != 4);  // 40 ms on, 10 ms off
-    const Reading reading = bench.look(kLook);
+    const Reading reading = bench.sample(kSamplePeriod);
     ASSERT_EQ(reading.event, "");
     ASSERT_FALSE(reading.get<bool>("pressed", true));
     ASSERT_FALSE(reading.urgent);
   }
   touch(true);
-  for (int i = 0; i < 5; ++i) ASSERT_EQ(bench.look(kLook).event, "");
-  const Reading pressed = bench.look(kLook);
+  for (int i = 0; i < 5; ++i) ASSERT_EQ(bench.sample(kSamplePeriod).event, "");
+  const Reading pressed = bench.sample(kSamplePeriod);
   EXPECT_EQ(pressed.event, "pressed");
   EXPECT_TRUE(pressed.get<bool>("pressed"));
-  EXPECT_TRUE(pressed.urgent) << "told at once, not at the next period";
+  EXPECT_TRUE(pressed.urgent) << "published at once, not at the next period";
   touch(false);
-  for (int i = 0; i < 5; ++i) ASSERT_TRUE(bench.look(kLook).get<bool>("pressed"));
-  EXPECT_EQ(bench.look(kLook).event, "released");
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(bench.sample(kSamplePeriod).get<bool>("pressed"));
+  EXPECT_EQ(bench.sample(kSamplePeriod).event, "released");
 }
 
 TEST(Contact, WithoutADebounceItLooksOnlyWhenItPublishes) {
@@ -118,7 +118,7 @@ TEST(Contact, NoiseIsOnForcesOnly) {
   double squares = 0.0;
   const int n = 10'000;
   for (int i = 0; i < n; ++i) {
-    const Reading reading = bench.look();
+    const Reading reading = bench.sample();
     ASSERT_EQ(reading.get<Numbers>("positions"), (Numbers{0.1, 0, 0.5}));
     ASSERT_EQ(reading.get<Numbers>("depths"), Numbers{0.001});
     const Numbers force = reading.get<Numbers>("forces");

@@ -29,7 +29,7 @@ std::vector<double> ranges_of(const Reading& reading) {
 TEST(Lidar, MeasuresAFlatWallAtItsDistanceOverTheCosine) {
   Bench bench(kLidar, plugin_element({}), fan(121));
   bench.add(box(1, 30, 30), at(3.5));  // its face is 3 m away
-  const Reading reading = bench.look();
+  const Reading reading = bench.sample();
   const std::vector<double> ranges = ranges_of(reading);
   ASSERT_EQ(ranges.size(), 121U);
   const double first = reading.get<double>("angle_min");
@@ -43,7 +43,7 @@ TEST(Lidar, MeasuresAFlatWallAtItsDistanceOverTheCosine) {
 TEST(Lidar, ARayThatMeetsNothingIsInfinite) {
   Bench bench(kLidar, plugin_element({}), fan(3, 0.05));
   bench.add(box(1, 0.5, 1), at(3.5));  // in the middle ray's way only
-  const std::vector<double> ranges = ranges_of(bench.look());
+  const std::vector<double> ranges = ranges_of(bench.sample());
   EXPECT_TRUE(std::isinf(ranges[0]) && ranges[0] > 0.0);
   EXPECT_NEAR(ranges[1], 3.0, 0.3);
   EXPECT_TRUE(std::isinf(ranges[2]) && ranges[2] > 0.0);
@@ -52,16 +52,16 @@ TEST(Lidar, ARayThatMeetsNothingIsInfinite) {
 TEST(Lidar, FartherThanItsRangeIsNotSeen) {
   Bench bench(kLidar, plugin_element({}), fan(1));
   const auto wall = bench.add(box(1, 1, 1), at(8.51));
-  EXPECT_TRUE(std::isinf(ranges_of(bench.look())[0]));
+  EXPECT_TRUE(std::isinf(ranges_of(bench.sample())[0]));
   bench.scene.move(wall, at(8.49));
-  EXPECT_NEAR(ranges_of(bench.look())[0], 7.99, 1e-9);
+  EXPECT_NEAR(ranges_of(bench.sample())[0], 7.99, 1e-9);
 }
 
 TEST(Lidar, NoiseHasTheStandardDeviationThatWasAskedFor) {
   Bench bench(kLidar, plugin_element({}), fan(1000, 0.02));
   bench.add(box(1, 30, 30), at(3.5));
   double sum = 0.0, squares = 0.0;
-  const std::vector<double> ranges = ranges_of(bench.look());
+  const std::vector<double> ranges = ranges_of(bench.sample());
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const double angle = -0.6 + 1.2 * static_cast<double>(i) / 999.0;
     const double error = ranges[i] - 3.0 / std::cos(angle);
@@ -77,7 +77,7 @@ TEST(Lidar, LooksOnDemandTenTimesASecondAllRound) {
   Bench bench(kLidar);
   EXPECT_TRUE(bench.kind().is_on_demand);
   EXPECT_EQ(bench.kind().rate, 10.0);
-  const Reading reading = bench.look();
+  const Reading reading = bench.sample();
   EXPECT_EQ(ranges_of(reading).size(), 360U);
   EXPECT_NEAR(360 * reading.get<double>("angle_increment"), 2 * M_PI, 1e-9);
 }

@@ -28,7 +28,7 @@ struct Lit : Bench {
 TEST(Luminosity, ReadsLuxAndColour) {
   Lit bench;
   bench.lux = 120.0;
-  const Reading reading = bench.look();
+  const Reading reading = bench.sample();
   EXPECT_EQ(reading.get<double>("illuminance"), 120.0);
   EXPECT_EQ(reading.get<double>("r"), 0.5);
   EXPECT_EQ(reading.get<double>("g"), 0.25);
@@ -43,7 +43,7 @@ TEST(Luminosity, NoiseIsRelative) {
   double squares = 0.0;
   const int n = 20'000;
   for (int i = 0; i < n; ++i) {
-    const double lux = bench.look().get<double>("illuminance");
+    const double lux = bench.sample().get<double>("illuminance");
     sum += lux;
     squares += (lux - 200.0) * (lux - 200.0);
   }
@@ -56,7 +56,7 @@ TEST(Luminosity, NoiseMakesNoNegativeLight) {
   bench.lux = 10.0;
   bool dark = false;
   for (int i = 0; i < 200; ++i) {
-    const double lux = bench.look().get<double>("illuminance", -1.0);
+    const double lux = bench.sample().get<double>("illuminance", -1.0);
     ASSERT_GE(lux, 0.0);
     dark = dark || lux == 0.0;
   }
@@ -66,20 +66,20 @@ TEST(Luminosity, NoiseMakesNoNegativeLight) {
 TEST(Luminosity, TellsAChangeOfFifteenPercent) {
   Lit bench(plugin_element({{"noise_stddev", "0.3"}}));
   bench.lux = 100.0;
-  EXPECT_EQ(bench.look().event, "");
+  EXPECT_EQ(bench.sample().event, "");
   bench.lux = 114.0;
-  EXPECT_EQ(bench.look().event, "");
+  EXPECT_EQ(bench.sample().event, "");
   bench.lux = 116.0;
-  const Reading changed = bench.look();
+  const Reading changed = bench.sample();
   EXPECT_EQ(changed.event, "changed");
   EXPECT_EQ(changed.event_detail, "from 100 to 116 lx");
-  for (int i = 0; i < 100; ++i) EXPECT_EQ(bench.look().event, "");  // noise is no change
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(bench.sample().event, "");  // noise is no change
   bench.lux = 0.0;
-  EXPECT_EQ(bench.look().event, "changed");
+  EXPECT_EQ(bench.sample().event, "changed");
   bench.lux = 0.009;
-  EXPECT_EQ(bench.look().event, "");
+  EXPECT_EQ(bench.sample().event, "");
   bench.lux = 5.0;
-  EXPECT_EQ(bench.look().event, "changed");
+  EXPECT_EQ(bench.sample().event, "changed");
 }
 
 /// A lamp of 800 lm 2 m ahead of the sensor, in the bench's own scene.
@@ -99,16 +99,16 @@ struct Lamp : Bench {
 TEST(Luminosity, FollowsTheInverseSquareLawAndTheCosine) {
   Lamp bench;
   const double ahead = 800.0 / (4.0 * M_PI) / 4.0;
-  EXPECT_NEAR(bench.look().get<double>("illuminance"), ahead, 0.01 * ahead);
+  EXPECT_NEAR(bench.sample().get<double>("illuminance"), ahead, 0.01 * ahead);
   bench.world.at.rotation = from_rpy(0.0, 0.0, M_PI / 3.0);
-  EXPECT_NEAR(bench.look().get<double>("illuminance"), 0.5 * ahead, 0.01 * ahead);
+  EXPECT_NEAR(bench.sample().get<double>("illuminance"), 0.5 * ahead, 0.01 * ahead);
 }
 
 TEST(Luminosity, AScreenDarkensIt) {
   Lamp bench;
-  const double before = bench.look().get<double>("illuminance");
+  const double before = bench.sample().get<double>("illuminance");
   bench.add(box(0.01, 2.0, 2.0), at(1.0));
-  EXPECT_LT(bench.look().get<double>("illuminance"), 0.05 * before);
+  EXPECT_LT(bench.sample().get<double>("illuminance"), 0.05 * before);
 }
 
 }  // namespace

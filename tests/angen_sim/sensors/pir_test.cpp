@@ -28,7 +28,7 @@ Element fan(int columns, int rows, double noise_stddev = 0.0) {
 TEST(Pir, LooksAlongTheFanOfItsSdf) {
   Bench bench(kPir, plugin_element({}), fan(3, 2));
   bench.world.at = {{1.0, 2.0, 3.0}, from_rpy(0.0, 0.0, M_PI_2)};
-  bench.look();
+  bench.sample();
   ASSERT_EQ(bench.rays_cast.size(), 6U);
   // First the lowest row from right to left; the sensor faces world y, so right is world x.
   const Vec3 lowest_right(std::cos(0.3) * std::sin(0.6), std::cos(0.3) * std::cos(0.6),
@@ -44,7 +44,7 @@ TEST(Pir, LooksAlongTheFanOfItsSdf) {
 TEST(Pir, TheFirstScanIsNoMotion) {
   Bench bench(kPir, plugin_element({}), fan(5, 1));
   bench.add(box(1, 10, 10), at(3.5));
-  const Reading reading = bench.look();
+  const Reading reading = bench.sample();
   EXPECT_FALSE(reading.get<bool>("motion", true));
   EXPECT_EQ(reading.get<double>("difference", -1.0), 0.0);
 }
@@ -52,38 +52,38 @@ TEST(Pir, TheFirstScanIsNoMotion) {
 TEST(Pir, MotionIsADifferenceAboveTheThreshold) {
   Bench bench(kPir, plugin_element({{"threshold", "0.1"}}), fan(5, 1));
   const auto wall = bench.add(box(1, 10, 10), at(3.5));
-  bench.look();
+  bench.sample();
   bench.scene.move(wall, at(3.57));
-  const Reading little = bench.look();
+  const Reading little = bench.sample();
   EXPECT_FALSE(little.get<bool>("motion", true));
   // The outermost ray is the longest: 0.09 / cos(0.6).
   EXPECT_NEAR(little.get<double>("difference"), 0.07 / std::cos(0.6), 1e-5);
   bench.scene.move(wall, at(3.80));
-  const Reading much = bench.look();
+  const Reading much = bench.sample();
   EXPECT_TRUE(much.get<bool>("motion"));
   EXPECT_NEAR(much.get<double>("difference"), 0.23 / std::cos(0.6), 1e-5);
   EXPECT_EQ(much.get<double>("threshold"), 0.1);
   EXPECT_EQ(much.get<double>("signal"), much.get<double>("difference"));
   EXPECT_EQ(much.get<double>("signal_threshold"), 0.1);
-  EXPECT_FALSE(bench.look().get<bool>("motion", true));
+  EXPECT_FALSE(bench.sample().get<bool>("motion", true));
 }
 
 TEST(Pir, WhatIsMissedCountsAsTheGreatestRange) {
   Bench bench(kPir, plugin_element({}), fan(1, 1));
-  bench.look();
+  bench.sample();
   bench.add(box(1, 1, 1), at(4.5));
-  EXPECT_NEAR(bench.look().get<double>("difference"), 2.0, 1e-5);
+  EXPECT_NEAR(bench.sample().get<double>("difference"), 2.0, 1e-5);
 }
 
 TEST(Pir, TellsWhenMotionBeginsAndEnds) {
   Bench bench(kPir, plugin_element({}), fan(1, 1));
-  EXPECT_EQ(bench.look().event, "");
+  EXPECT_EQ(bench.sample().event, "");
   const auto body = bench.add(box(1, 1, 1), at(4.5));
-  EXPECT_EQ(bench.look().event, "motion");
+  EXPECT_EQ(bench.sample().event, "motion");
   bench.scene.move(body, at(4.0));
-  EXPECT_EQ(bench.look().event, "");
-  EXPECT_EQ(bench.look().event, "still");
-  EXPECT_EQ(bench.look().event, "");
+  EXPECT_EQ(bench.sample().event, "");
+  EXPECT_EQ(bench.sample().event, "still");
+  EXPECT_EQ(bench.sample().event, "");
 }
 
 TEST(Pir, APersonWhoWalksByIsSeenFromAnyDistanceBelowItsRange) {
@@ -97,7 +97,7 @@ TEST(Pir, APersonWhoWalksByIsSeenFromAnyDistanceBelowItsRange) {
     bool seen = false;
     for (int i = 0; i < 40; ++i) {
       bench.scene.move(id, at(distance, -2.0 + 0.1 * i));
-      seen = bench.look().get<bool>("motion") || seen;
+      seen = bench.sample().get<bool>("motion") || seen;
     }
     EXPECT_TRUE(seen) << distance;
   }
@@ -109,7 +109,7 @@ TEST(Pir, NoiseMakesNoFalseAlarms) {
   int alarms = 0;
   double greatest = 0.0;
   for (int i = 0; i < 20'000; ++i) {
-    const Reading reading = bench.look();
+    const Reading reading = bench.sample();
     alarms += reading.get<bool>("motion") ? 1 : 0;
     greatest = std::max(greatest, reading.get<double>("difference"));
   }
@@ -120,11 +120,11 @@ TEST(Pir, NoiseMakesNoFalseAlarms) {
 TEST(Pir, NoiseHasTheStandardDeviationOfTheSdf) {
   Bench bench(kPir, plugin_element({{"threshold", "5"}}), fan(1, 1, 0.02));
   bench.add(box(1, 1, 1), at(3.5));
-  bench.look();
+  bench.sample();
   double sum = 0.0;
   const int n = 20'000;
   for (int i = 0; i < n; ++i) {
-    const double difference = bench.look().get<double>("difference");
+    const double difference = bench.sample().get<double>("difference");
     sum += difference * difference;
   }
   // Of two independent scans: 2 sigma^2, known to within 2 % at n = 20000.
@@ -136,8 +136,8 @@ TEST(Pir, AnotherSeedGivesOtherNoiseTheSameTheSame) {
     Bench bench(kPir, plugin_element({}), fan(4, 1, 0.01));
     bench.seed = seed;
     bench.add(box(1, 9, 9), at(3.5));
-    bench.look();
-    return bench.look().get<double>("difference");
+    bench.sample();
+    return bench.sample().get<double>("difference");
   };
   EXPECT_EQ(second_difference(7), second_difference(7));
   EXPECT_NE(second_difference(7), second_difference(8));
@@ -148,7 +148,7 @@ Element nodding() { return plugin_element({{"nod_amplitude", "0.35"}, {"nod_peri
 TEST(Pir, NodsAsASine) {
   Bench bench(kPir, nodding(), fan(1, 1));
   for (int k = 0; k < 45; ++k) {
-    bench.look();
+    bench.sample();
     const double pitch = 0.35 * std::sin(2.0 * M_PI * k * 0.1 / 2.0);
     EXPECT_NEAR(bench.rays_cast[0].direction.z(), std::sin(pitch), 1e-9) << k;
   }
@@ -158,26 +158,26 @@ TEST(Pir, ItsOwnNoddingIsNoMotion) {
   Bench bench(kPir, nodding(), fan(16, 4, 0.01));
   bench.add(box(20, 20, 0.1), at(0, 0, -1.0));  // a floor, whose ranges change as it nods
   bench.add(box(1, 0.5, 0.5), at(3.0));
-  for (int i = 0; i < 100; ++i) EXPECT_FALSE(bench.look().get<bool>("motion", true)) << i;
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(bench.sample().get<bool>("motion", true)) << i;
 }
 
 TEST(Pir, ANoddingOneSeesWhatMovesWithinOnePeriod) {
   Bench bench(kPir, nodding(), fan(16, 4));
   bench.add(box(20, 20, 0.1), at(0, 0, -1.0));
-  for (int i = 0; i < 25; ++i) bench.look();
+  for (int i = 0; i < 25; ++i) bench.sample();
   bench.add(box(0.5, 0.5, 1.7), at(3.0));
   bool seen = false;
-  for (int i = 0; i < 20; ++i) seen = bench.look().get<bool>("motion") || seen;
+  for (int i = 0; i < 20; ++i) seen = bench.sample().get<bool>("motion") || seen;
   EXPECT_TRUE(seen);
 }
 
 TEST(Pir, AClockThatGoesBackStartsAnew) {
   Bench bench(kPir, plugin_element({}), fan(1, 1));
-  bench.look();
-  bench.look();
+  bench.sample();
+  bench.sample();
   bench.add(box(1, 1, 1), at(3.0));
   bench.world.now = 0;
-  EXPECT_FALSE(bench.look().get<bool>("motion", true));
+  EXPECT_FALSE(bench.sample().get<bool>("motion", true));
 }
 
 TEST(Pir, RefusesANodThatItsScansDoNotDivide) {

@@ -67,51 +67,51 @@ TEST(Pyroelectric, TheFluxOfASphereIsItsRadianceTimesItsSolidAngle) {
   const double sine = 0.1 / 3.0;
   add_warm(bench, sphere(0.1), at(3.0 * std::cos(yaw), 3.0 * std::sin(yaw)), 310.0);
   const double expected = kOpening * contrast(310.0, 295.15) * M_PI * sine * sine;
-  EXPECT_NEAR(bench.look(kSample).get<double>("flux"), expected, 0.03 * expected);
+  EXPECT_NEAR(bench.sample(kSample).get<double>("flux"), expected, 0.03 * expected);
 }
 
 TEST(Pyroelectric, TheElementsAreSubtracted) {
   Bench bench(kPir, pyroelectric({kWidePair}));
   const auto id = add_warm(bench, sphere(0.1), at(3, -1), 310.0);
-  const double right = bench.look(kSample).get<double>("flux");
+  const double right = bench.sample(kSample).get<double>("flux");
   EXPECT_GT(right, 0.0);
   bench.scene.move(id, at(3, 1));
-  EXPECT_NEAR(bench.look(kSample).get<double>("flux"), -right, 0.02 * right);
+  EXPECT_NEAR(bench.sample(kSample).get<double>("flux"), -right, 0.02 * right);
   bench.scene.move(id, at(3, 0));  // the gap between the two
-  EXPECT_NEAR(bench.look(kSample).get<double>("flux"), 0.0, 0.02 * right);
+  EXPECT_NEAR(bench.sample(kSample).get<double>("flux"), 0.0, 0.02 * right);
 }
 
 TEST(Pyroelectric, WallsAndFurnitureHideWhatIsWarm) {
   Bench bench(kPir, pyroelectric({kWidePair}));
   add_warm(bench, sphere(0.1), at(3, -1), 310.0);
-  const double whole = bench.look(kSample).get<double>("flux");
+  const double whole = bench.sample(kSample).get<double>("flux");
   const auto shelf = bench.add(box(0.1, 4, 1), at(2, 0, -0.5));
-  EXPECT_NEAR(bench.look(kSample).get<double>("flux"), 0.5 * whole, 0.07 * whole);
+  EXPECT_NEAR(bench.sample(kSample).get<double>("flux"), 0.5 * whole, 0.07 * whole);
   bench.scene.move(shelf, at(2, 0, 0));
-  EXPECT_EQ(bench.look(kSample).get<double>("flux", -1.0), 0.0);
+  EXPECT_EQ(bench.sample(kSample).get<double>("flux", -1.0), 0.0);
 }
 
 TEST(Pyroelectric, WhatIsColderThanTheAirCountsToo) {
   Bench bench(kPir, pyroelectric({kWidePair}));
   add_warm(bench, sphere(0.1), at(3, -1), 280.0);
-  EXPECT_LT(bench.look(kSample).get<double>("flux"), 0.0);
+  EXPECT_LT(bench.sample(kSample).get<double>("flux"), 0.0);
 }
 
 TEST(Pyroelectric, APersonAsWarmAsTheAirSendsNothing) {
   Bench bench(kPir, pyroelectric({kWidePair}));
   bench.world.ambient = 299.0;
   add_warm(bench, person(), at(3, -1), 299.0);
-  EXPECT_EQ(bench.look(kSample).get<double>("flux", -1.0), 0.0);
+  EXPECT_EQ(bench.sample(kSample).get<double>("flux", -1.0), 0.0);
   EXPECT_TRUE(bench.rays_cast.empty());
 }
 
 TEST(Pyroelectric, TapedZonesSeeNothing) {
   Bench bench(kPir, pyroelectric({kWidePair, {"tape", "-1 0 -1 1"}}));
   const auto id = add_warm(bench, sphere(0.1), at(3, -1), 310.0);
-  EXPECT_EQ(bench.look(kSample).get<double>("flux", -1.0), 0.0);
+  EXPECT_EQ(bench.sample(kSample).get<double>("flux", -1.0), 0.0);
   bench.scene.move(id, at(3, 1));
-  for (int i = 0; i < 5; ++i) bench.look(kSample);  // what was hidden is looked for less often
-  EXPECT_LT(bench.look(kSample).get<double>("flux"), 0.0);
+  for (int i = 0; i < 5; ++i) bench.sample(kSample);  // what was hidden is looked for less often
+  EXPECT_LT(bench.sample(kSample).get<double>("flux"), 0.0);
 }
 
 // The voltage's amplitude for a warmth that swings so often a second.
@@ -127,7 +127,7 @@ double measured_gain(double frequency) {
     const double temperature = 310.0 + 0.5 * std::sin(2.0 * M_PI * frequency * i / 100.0);
     bench.world.warm = {{id.index, temperature, bench.scene.warm_shapes()[0].box}};
     ++bench.moves;
-    const Reading reading = bench.look(kSample);
+    const Reading reading = bench.sample(kSample);
     if (i < samples / 2) continue;
     flux_high = std::max(flux_high, reading.get<double>("flux"));
     flux_low = std::min(flux_low, reading.get<double>("flux"));
@@ -154,13 +154,13 @@ TEST(Pyroelectric, PassesTheBandOfItsTimeConstants) {
 TEST(Pyroelectric, SleepsWithoutRaysOrNoiseOnceAllIsStill) {
   Bench bench(kPir, pyroelectric({{"noise_stddev", "3e-6"}}));
   const auto id = add_warm(bench, person(), at(4, 0, -1.3), 299.0);
-  bench.look(kSample);
+  bench.sample(kSample);
   bench.scene.move(id, at(4, 0.1, -1.3));
-  bench.look(kSample);
-  EXPECT_NE(bench.look(kSample).get<double>("signal"), 0.0);
+  bench.sample(kSample);
+  EXPECT_NE(bench.sample(kSample).get<double>("signal"), 0.0);
   EXPECT_TRUE(bench.rays_cast.empty());
-  for (int i = 0; i < 3000; ++i) bench.look(kSample);
-  for (int i = 0; i < 100; ++i) EXPECT_EQ(bench.look(kSample).get<double>("signal", -1.0), 0.0);
+  for (int i = 0; i < 3000; ++i) bench.sample(kSample);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(bench.sample(kSample).get<double>("signal", -1.0), 0.0);
 }
 
 TEST(Pyroelectric, NoiseIsThatOfTheSdfAndOfTheSeed) {
@@ -172,7 +172,7 @@ TEST(Pyroelectric, NoiseIsThatOfTheSdfAndOfTheSeed) {
     const auto id = add_warm(bench, sphere(0.001), at(3, -1), 300.0);
     for (int i = 0; i < 4000; ++i) {
       bench.scene.move(id, at(3, -1 + 1e-5 * i));  // nothing to speak of, but it never rests
-      all.push_back(bench.look(kSample).get<double>("signal"));
+      all.push_back(bench.sample(kSample).get<double>("signal"));
     }
     return all;
   };
@@ -196,7 +196,7 @@ std::vector<int> run_lengths(Parameters more, int moving, int all) {
   std::vector<int> lengths{0};
   for (int i = 0; i < all; ++i) {
     if (i < moving) bench.scene.move(id, at(3, -1 + 1e-3 * i));
-    const bool on = bench.look(kSample).get<bool>("motion");
+    const bool on = bench.sample(kSample).get<bool>("motion");
     if (on != (lengths.size() % 2 == 0)) lengths.push_back(0);
     ++lengths.back();
   }
@@ -227,7 +227,7 @@ TEST(Pyroelectric, FalseAlarmsComeAtTheirRate) {
       pyroelectric({{"false_alarm_rate", "3600"}, {"hold_time", "0.01"}, {"blocking_time", "0"}}));
   int alarms = 0;
   for (int i = 0; i < 36'000; ++i) {
-    const Reading reading = bench.look(kSample);
+    const Reading reading = bench.sample(kSample);
     if (reading.event != "motion") continue;
     ++alarms;
     EXPECT_EQ(reading.event_detail, "false alarm");
@@ -240,7 +240,7 @@ bool seen(double distance, double speed, bool towards, const Parameters& more = 
   Bench bench(kPir, pyroelectric(more));
   const double z = 0.875 - 2.2;
   const auto id = add_warm(bench, person(), at(distance, -50.0, z), 299.0);
-  bench.look(kSample);
+  bench.sample(kSample);
   const int samples = static_cast<int>(3.0 / speed * 100.0);
   for (int i = 0; i <= samples; ++i) {
     const double way = -1.5 + speed * i / 100.0;
@@ -248,9 +248,9 @@ bool seen(double distance, double speed, bool towards, const Parameters& more = 
     bench.scene.move(id, towards ? at(left, 0.06 * left, z) : at(distance, way, z));
     // It appears where it begins: what that does is over before it counts.
     if (i == 0) {
-      for (int k = 0; k < 3000; ++k) bench.look(kSample);
+      for (int k = 0; k < 3000; ++k) bench.sample(kSample);
     }
-    if (bench.look(kSample).get<bool>("motion")) return true;
+    if (bench.sample(kSample).get<bool>("motion")) return true;
   }
   return false;
 }
@@ -285,7 +285,7 @@ TEST(Pyroelectric, TheRatedObjectIsSeenAtTheRatedRange) {
   double greatest = 0.0;
   for (int i = 0; i < 400; ++i) {
     bench.scene.move(id, at(12.0, -2.0 + 0.01 * i, -1.13));
-    greatest = std::max(greatest, std::abs(bench.look(kSample).get<double>("signal")));
+    greatest = std::max(greatest, std::abs(bench.sample(kSample).get<double>("signal")));
   }
   RecordProperty("microvolts", std::to_string(1e6 * greatest));
   EXPECT_GT(greatest, 3e-4);

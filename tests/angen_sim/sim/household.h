@@ -55,7 +55,7 @@ inline std::string custom(const std::string& name, const std::string& library,
          "filename='lib" + library + ".so'>" + more + "</plugin></sensor>";
 }
 
-/// What changes by itself, and sensors of what devices tell.
+/// What changes by itself, and sensors of what devices report.
 inline std::string text_of_household() {
   const std::string none = "<box><size>0.05 0.05 0.05</size></box>";
   const std::string mat =

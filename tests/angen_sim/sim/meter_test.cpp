@@ -72,7 +72,7 @@ TEST(Metering, AMeasuredWorldIsBitForBitTheSame) {
 
 TEST(Metering, AMeasuredLeapEndsAtTheSameTicks) {
   const std::string text =
-      one_model(ray_sensor("calm", kPir, 10, 0.0) + ray_sensor("noisy", kPir, 10, 0.01));
+      one_model(ray_sensor("clean", kPir, 10, 0.0) + ray_sensor("noisy", kPir, 10, 0.01));
   const auto plain = simulation(text);
   const auto measured = simulation(text);
   measured->measure(true);
@@ -87,7 +87,7 @@ TEST(Metering, AMeasuredLeapEndsAtTheSameTicks) {
 }
 
 TEST(Metering, ASensorIsChargedForItsReadings) {
-  const auto world = simulation(one_model(kHeavy + ray_sensor("calm", kPir, 10, 0.0)));
+  const auto world = simulation(one_model(kHeavy + ray_sensor("clean", kPir, 10, 0.0)));
   world->measure(true);
   run(*world, 2.0);
   const Cost cost = world->take_cost();
@@ -136,7 +136,7 @@ TEST(Metering, WhatCameIsChargedAndWhatIsGoneIsLeftOut) {
   EXPECT_LT(cost.each_sensor[0], 5 * kWork);
 }
 
-TEST(Metering, NothingIsMeasuredUnlessAsked) {
+TEST(Metering, NothingIsMeasuredUnlessItIsOn) {
   const auto world = simulation(one_model(kHeavy));
   run(*world, 0.5);
   const Cost cost = world->take_cost();

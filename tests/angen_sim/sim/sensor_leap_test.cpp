@@ -76,7 +76,7 @@ TEST(Leaping, EverySnapshotIsThatOfTakingAllTicks) {
 TEST(Leaping, AStillWorldTakesFewTicks) {
   Race race("<sdf version='1.6'><world name='w'>" + kDoor +
             body("it", "<box><size>0.1 0.1 0.1</size></box>", "0 0 1 0 0 0", true,
-                 ray_sensor("calm", kPir, 10, 0.0) + ray_sensor("noisy", kPir, 10, 0.01) +
+                 ray_sensor("clean", kPir, 10, 0.0) + ray_sensor("noisy", kPir, 10, 0.01) +
                      ray_sensor("nods", kPir, 10, 0.01, kNodding)) +
             "</world></sdf>");
   race.run(60.0);

@@ -236,7 +236,7 @@ std::string closed_room(const std::string& library) {
          body("outside", kBall, "6 0 0.6 0 0 0", false) + "</world></sdf>";
 }
 
-TEST(Watching, LightInAClosedRoomIsMeasuredAgainWhenSomethingStirsThere) {
+TEST(Watching, LightInAClosedRoomIsMeasuredAgainWhenSomethingMovesThere) {
   Twins twins(closed_room("libluminosity_sensor_controller.so"));
   twins.order("lamp", "hall0", "On");
   twins.run(300);

@@ -29,16 +29,16 @@ def sdf(*models: str) -> str:
 
 def read_as_map_server(path: Path) -> GridMap:
     """What map_server publishes for a yaml file (its rules: wiki.ros.org/map_server)."""
-    told = yaml.safe_load(path.read_text())
-    assert told['negate'] == 0
-    kind, size, depth, shades = (path.parent / told['image']).read_bytes().split(b'\n', 3)
+    written = yaml.safe_load(path.read_text())
+    assert written['negate'] == 0
+    kind, size, depth, shades = (path.parent / written['image']).read_bytes().split(b'\n', 3)
     assert (kind, depth) == (b'P5', b'255')
     columns, rows = map(int, size.split())
     dark = (255 - np.frombuffer(shades, np.uint8).reshape(rows, columns)[::-1]) / 255
-    cells = np.where(dark > told['occupied_thresh'], OCCUPIED,
-                     np.where(dark < told['free_thresh'], FREE, UNKNOWN))
-    assert told['origin'][2] == 0
-    return GridMap(cells, tuple(told['origin'][:2]), told['resolution'], 0)
+    cells = np.where(dark > written['occupied_thresh'], OCCUPIED,
+                     np.where(dark < written['free_thresh'], FREE, UNKNOWN))
+    assert written['origin'][2] == 0
+    return GridMap(cells, tuple(written['origin'][:2]), written['resolution'], 0)
 
 
 def test_the_files_say_what_the_map_says(tmp_path: Path, capsys: pytest.CaptureFixture[str]

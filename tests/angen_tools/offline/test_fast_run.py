@@ -40,13 +40,13 @@ def test_it_leaves_the_events_that_all_ticks_would_tell(world: Path, tmp_path: P
     done = run(world, '--for', '55.5', '--seed', '3', '-o', tmp_path / 'out')
     assert (done.returncode, done.stderr) == (0, '')
     with (tmp_path / 'out/events.csv').open() as file:
-        told = list(csv.reader(file))
+        rows = list(csv.reader(file))
     walked = angen.World(str(world), seed=3)
     walked.step(55500)
     expected = walked.events()
-    assert told[0] == ['time', 'source', 'kind', 'event', 'detail']
-    assert told[1:] == [[f'{at:.6f}', *what] for at, *what in expected]
-    assert {'motion'} <= {row[3] for row in told[1:] if row[1] == 'eye'}
+    assert rows[0] == ['time', 'source', 'kind', 'event', 'detail']
+    assert rows[1:] == [[f'{at:.6f}', *what] for at, *what in expected]
+    assert {'motion'} <= {row[3] for row in rows[1:] if row[1] == 'eye'}
     assert done.stdout.startswith('55.5 s in ')
     assert f'{walked.readings} readings, {len(expected)} events in {tmp_path}' in done.stdout
 
