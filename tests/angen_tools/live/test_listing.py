@@ -1,0 +1,49 @@
+"""What angen list prints."""
+from __future__ import annotations
+
+import json
+from types import SimpleNamespace
+
+import pytest
+
+from angen_tools.common.failure import Failure
+from angen_tools.common.geometry import quaternion
+from angen_tools.common.output import plain
+from angen_tools.live import listing
+
+
+def entity(name: str, kind: str, topic: str) -> SimpleNamespace:
+    turn = SimpleNamespace(**dict(zip('xyzw', quaternion(0.0, 0.0, 1.5))))
+    pose = SimpleNamespace(position=SimpleNamespace(x=1.0, y=-1e-9, z=0.25), orientation=turn)
+    return SimpleNamespace(name=name, kind=kind, model='hall', topic=topic, type='t', pose=pose)
+
+
+class Simulator:
+    """A client of a simulator with a door and a PIR."""
+
+    def entities(self) -> list[SimpleNamespace]:
+        return [entity('hall0', 'door', '/angen/door/hall0'), entity('eye', 'pir', '/eye')]
+
+
+@pytest.fixture(autouse=True)
+def simulator(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(listing, 'Client', Simulator)
+
+
+def test_a_row_has_place_and_topic() -> None:
+    lines = plain(listing.list_entities('pir', False)).splitlines()
+    assert [line.split() for line in lines] == [
+        ['NAME', 'KIND', 'MODEL', 'X', 'Y', 'Z', 'YAW', 'TOPIC'],
+        ['eye', 'pir', 'hall', '1', '0', '0.25', '1.5', '/eye']]
+
+
+def test_json_has_every_digit() -> None:
+    door, eye = json.loads(str(listing.list_entities('', True)))
+    assert (door['name'], eye['name']) == ('hall0', 'eye')
+    assert door['pose']['position'] == [1.0, -1e-9, 0.25]
+
+
+def test_a_kind_without_entities_is_empty_and_an_unknown_one_is_an_error() -> None:
+    assert json.loads(str(listing.list_entities('lamp', True))) == []
+    with pytest.raises(Failure, match="no kind 'dor'; did you mean door"):
+        listing.list_entities('dor', False)
