@@ -9,7 +9,7 @@
 
 namespace angen {
 
-/// The plug-ins of every requested library, by file name. Searched on ANGEN_PLUGIN_PATH,
+/// The plug-ins of every library that was asked for, by file name. Looked for on ANGEN_PLUGIN_PATH,
 /// GAZEBO_PLUGIN_PATH, in `lib` of each catkin workspace that is sourced (CMAKE_PREFIX_PATH), then
 /// beside Angen's own libraries; a library of that name that holds no
 /// Angen plug-in (Gazebo's own, say) is passed over. A library once loaded stays so until the
@@ -21,7 +21,7 @@ class Catalog {
   Catalog(const Catalog&) = delete;
   Catalog& operator=(const Catalog&) = delete;
 
-  /// All plug-ins in `filename` (a name to search, or a path with a '/'); throws Error when it is
+  /// All plug-ins in `filename` (a name to look for, or a path with a '/'); throws Error when it is
   /// not found, does not load, or holds none.
   const std::vector<std::shared_ptr<const Plugin>>& library(const std::string& filename);
 

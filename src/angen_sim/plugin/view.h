@@ -18,7 +18,7 @@
 
 namespace angen {
 
-/// Handles that Wiring gives at configuration; indices into what this instance requested.
+/// Handles that Wiring gives at configuration; indices into what this instance asked for.
 struct JointRef {
   int index = -1;
 };
@@ -96,7 +96,7 @@ class View {
   virtual std::vector<float> depths(const render::PinholeCamera& lens, const Pose& pose) const = 0;
 };
 
-/// What a plug-in requests by name, once, before the world runs. Unknown names throw Error and list
+/// What a plug-in asks for by name, once, before the world runs. Unknown names throw Error and list
 /// the known ones.
 class Wiring {
  public:
@@ -133,7 +133,7 @@ class Outputs {
   virtual void event(const std::string& event, const std::string& detail) = 0;
 };
 
-/// Rays that a sensor requests, in the world frame.
+/// Rays that a sensor asks for, in the world frame.
 using RayBatch = std::vector<rays::Ray>;
 
 /// Answers to a sensor's rays, in their order.
