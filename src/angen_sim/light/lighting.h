@@ -46,7 +46,7 @@ struct Lit {
 
 struct Sample {
   double illuminance = 0.0;                         // lx on a plane through the point, normal x
-  Eigen::Vector3f color = Eigen::Vector3f::Zero();  // mean color of the view, 0..1 (tone mapped)
+  Eigen::Vector3f color = Eigen::Vector3f::Zero();  // mean colour of the view, 0..1 (tone mapped)
 };
 
 class Lighting {
@@ -64,7 +64,7 @@ class Lighting {
   /// Grows when a lamp that is lit comes, goes, moves or changes its level.
   std::uint64_t lit_revision() const { return lit_revision_; }
 
-  /// Illuminance at pose.position on the plane whose normal is pose's x axis, and the mean color
+  /// Illuminance at pose.position on the plane whose normal is pose's x axis, and the mean colour
   /// that a square pixel of 60 degrees along x sees: a mean luminance of L cd/m^2 gives L / (L +
   /// 50) in each channel. Direct light with shadows, plus what diffuse surfaces reflect: balanced
   /// between patches of all that is static or anchored, then gathered here over 2048 directions, in
@@ -73,7 +73,7 @@ class Lighting {
   /// scene or put the place before it. The scene must be committed. Same scene, same lamps, same
   /// pose: same bits, whatever was measured before. One thread at a time.
   /// `still` says that since the last time no shape has moved, come or gone within the probe's
-  /// reach, so that lamps whose light takes the same ways as then are not searched again.
+  /// reach, so that lamps are not looked for again whose light takes the same ways as then.
   Sample measure(Probe& probe, const Pose& pose, bool still = false) const;
 
  private:

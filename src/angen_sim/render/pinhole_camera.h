@@ -5,7 +5,7 @@
 namespace angen::render {
 
 /// A pinhole camera that looks along x, with y to the left and z up. Pixel (column, row), counted
-/// from 0 at the top left, is seen through its center; the axis passes at center_x, center_y.
+/// from 0 at the top left, is looked at through its center; the axis passes at center_x, center_y.
 struct PinholeCamera {
   int width = 320;
   int height = 240;
