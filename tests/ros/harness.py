@@ -76,7 +76,7 @@ def free_port() -> int:
 
 
 def end(process: subprocess.Popen[str], timeout: float = 20.0) -> int:
-    """Interrupt the process and return its exit code; kill it when it does not listen."""
+    """Interrupt the process and return its exit code; kill it when it does not end."""
     if process.poll() is None:
         process.send_signal(signal.SIGINT)
     try:
@@ -149,10 +149,10 @@ class Angen:
         return rospy.ServiceProxy(name, kind)(**fields)
 
     def send(self, topic: str, message: Any) -> None:
-        """Publish one message when the node listens."""
+        """Publish one message when the node subscribes."""
         import rospy
         publisher = rospy.Publisher(topic, type(message), queue_size=10)
-        until(lambda: publisher.get_num_connections() > 0, f"the node listens to {topic}")
+        until(lambda: publisher.get_num_connections() > 0, f"the node subscribes to {topic}")
         publisher.publish(message)
         time.sleep(0.1)
         publisher.unregister()
@@ -160,8 +160,8 @@ class Angen:
     def wait(self, topic: str, kind: type, wanted: Callable[[Any], bool] = lambda _: True,
              timeout: float = 30.0) -> Any:
         """Subscribe and return the first message that is `wanted`."""
-        with Heard(topic, kind) as heard:
-            return until(lambda: next((m for m in list(heard.messages) if wanted(m)), None),
+        with Inbox(topic, kind) as inbox:
+            return until(lambda: next((m for m in list(inbox.messages) if wanted(m)), None),
                          f"a message wanted on {topic}", timeout)
 
 
@@ -177,7 +177,7 @@ class RawText(str):
         return self.raw
 
 
-class Heard:
+class Inbox:
     """Collects the messages of a topic while it is open."""
 
     def __init__(self, topic: str, kind: type) -> None:
@@ -185,7 +185,7 @@ class Heard:
         self.messages: list[Any] = []
         self._subscriber = rospy.Subscriber(topic, kind, self.messages.append)
 
-    def __enter__(self) -> Heard:
+    def __enter__(self) -> Inbox:
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Iterator
 
 import pytest
-from harness import Angen, Cli, Heard, end, until
+from harness import Angen, Cli, Inbox, end, until
 
 RULES = '''
 starts: 23:59
@@ -49,8 +49,8 @@ def test_a_warning_comes_is_acknowledged_and_ends(care: subprocess.Popen[str], a
     from angen_msgs.msg import CareWarning, CareWarningArray, Event
     from std_msgs.msg import String
     from visualization_msgs.msg import Marker, MarkerArray
-    with Heard('/angen/warnings', CareWarning) as warnings, Heard('/angen/events', Event) as log, \
-            Heard('/angen/warnings/markers', MarkerArray) as drawn:
+    with Inbox('/angen/warnings', CareWarning) as warnings, Inbox('/angen/events', Event) as log, \
+            Inbox('/angen/warnings/markers', MarkerArray) as drawn:
         until(lambda: warnings._subscriber.get_num_connections() > 0, 'care publishes')
         cli.does('set', 'lamp', 'kitchen0', 'on')
         raised = warnings.wait(lambda m: m.rule == 'lamp_left_on', 'the lamp is noticed')
@@ -105,7 +105,7 @@ def test_what_the_world_has_not_is_told(cli: Cli, tmp_path: Path) -> None:
 
 def test_anybody_may_add_to_the_event_log(angen: Angen) -> None:
     from angen_msgs.msg import Event
-    with Heard('/angen/events', Event) as log:
+    with Inbox('/angen/events', Event) as log:
         until(lambda: log._subscriber.get_num_connections() > 0, 'the log is published')
         angen.send('/angen/events/add', Event(source='clock', kind='test', event='struck',
                                               detail='twelve'))
@@ -117,7 +117,7 @@ def test_anybody_may_add_to_the_event_log(angen: Angen) -> None:
 def test_it_begins_anew_when_time_does(care: subprocess.Popen[str], angen: Angen, cli: Cli) -> None:
     from angen_msgs.msg import CareWarning
     from std_srvs.srv import Empty
-    with Heard('/angen/warnings', CareWarning) as warnings:
+    with Inbox('/angen/warnings', CareWarning) as warnings:
         until(lambda: warnings._subscriber.get_num_connections() > 0, 'care publishes')
         cli.does('set', 'door', 'bathroom0', 'open')
         warnings.wait(lambda m: m.rule == 'door_open', 'the door is noticed')

@@ -44,12 +44,12 @@ def test_each_sensor_is_listed_and_heard(angen: Angen, spawned, model: str, kind
     spawned(f"model://{model}", "it", 1.0)
     entity, = angen.call("/angen/list", List, kind=kind).entities
     assert (entity.name, entity.topic, entity.type) == ("it", f"/angen/{kind}/it", message._type)
-    heard = angen.wait(entity.topic, message)
-    assert heard.header.frame_id == "it"
+    reading = angen.wait(entity.topic, message)
+    assert reading.header.frame_id == "it"
     if message is Range:
-        assert math.isinf(heard.range)
+        assert math.isinf(reading.range)
     if message is Temperature:
-        assert math.isnan(heard.temperature)    # this world has no climate
+        assert math.isnan(reading.temperature)    # this world has no climate
 
 
 def test_a_window_opens_by_its_topic_and_its_reed_tells(angen: Angen, spawned) -> None:

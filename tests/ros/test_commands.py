@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from angen_msgs.msg import Command, DoorState, Event, LampState
-from harness import Angen, Heard, RawText, until
+from harness import Angen, Inbox, RawText, until
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from std_msgs.msg import String
@@ -13,7 +13,7 @@ LAMP = "/angen/lamp/kitchen0"
 
 
 def test_a_door_opens_and_shuts(angen: Angen) -> None:
-    with Heard(DOOR, DoorState) as door:
+    with Inbox(DOOR, DoorState) as door:
         angen.send("/gazebo/Door_controller", String("Open, bathroom0"))
         opened = door.wait(lambda m: m.mode == DoorState.OPEN, "the door is open")
         assert abs(opened.position + 1.57) < 0.02
@@ -25,7 +25,7 @@ def test_a_door_opens_and_shuts(angen: Angen) -> None:
 
 
 def test_a_lamp_dims_by_either_topic(angen: Angen) -> None:
-    with Heard(LAMP, LampState) as lamp:
+    with Inbox(LAMP, LampState) as lamp:
         angen.send("/gazebo/Light_controller", String("Dim, kitchen0, 40"))
         assert lamp.wait(lambda m: m.level == 40, "40 percent").on
         angen.send("/angen/command", Command(target="kitchen0", text="Off"))
@@ -44,7 +44,7 @@ def test_what_is_rejected_changes_nothing_and_is_told(angen: Angen) -> None:
         "/gazebo/Light_controller": ["Dim, kitchen0", "Dim, kitchen0, 1000"],
         "/gazebo/Elevator_controller": ["FloorX", "Floor1"],
     }
-    with Heard(DOOR, DoorState) as door, Heard("/angen/events", Event) as events:
+    with Inbox(DOOR, DoorState) as door, Inbox("/angen/events", Event) as events:
         before = door.wait(lambda m: True, "the latched state")
         rejections = 0
         for topic, texts in wrong.items():
@@ -65,7 +65,7 @@ def test_what_is_rejected_changes_nothing_and_is_told(angen: Angen) -> None:
 
 
 def test_text_that_is_not_utf8_is_rejected(angen: Angen) -> None:
-    with Heard("/angen/events", Event) as events:
+    with Inbox("/angen/events", Event) as events:
         angen.send("/gazebo/Door_controller", String(RawText(b"Open, \xff\xfe")))
         rejected = events.wait(lambda e: e.event == "rejected", "an event")
         assert "not UTF-8" in rejected.detail
@@ -74,7 +74,7 @@ def test_text_that_is_not_utf8_is_rejected(angen: Angen) -> None:
 def test_a_robot_drives_by_cmd_vel(angen: Angen) -> None:
     twist = Twist()
     twist.linear.x = 0.3
-    with Heard("/odom", Odometry) as odometry:
+    with Inbox("/odom", Odometry) as odometry:
         first = odometry.wait(lambda m: True, "odometry of a robot at rest")
 
         def driven() -> bool:
@@ -89,7 +89,7 @@ def test_a_robot_drives_by_cmd_vel(angen: Angen) -> None:
 def test_a_twist_that_is_not_finite_is_rejected(angen: Angen) -> None:
     twist = Twist()
     twist.linear.x = float("nan")
-    with Heard("/angen/events", Event) as events:
+    with Inbox("/angen/events", Event) as events:
         angen.send("/turtlebot/cmd_vel", twist)
         events.wait(lambda e: e.event == "rejected" and e.source == "turtlebot", "an event")
 

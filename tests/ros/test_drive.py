@@ -8,7 +8,7 @@ import termios
 from typing import Iterator
 
 import pytest
-from harness import Angen, Cli, Heard, open_terminal, own_terminal, until
+from harness import Angen, Cli, Inbox, open_terminal, own_terminal, until
 from nav_msgs.msg import Odometry
 from std_srvs.srv import Empty
 
@@ -59,7 +59,7 @@ def put_back(angen: Angen) -> Iterator[None]:
 
 @pytest.fixture
 def driver(cli: Cli) -> Iterator[Driver]:
-    """Ready to hear keys."""
+    """Ready to read keys."""
     started = Driver(cli)
     until(lambda: 'm/s' in started.said(), 'it waits for keys')
     yield started
@@ -67,18 +67,18 @@ def driver(cli: Cli) -> Iterator[Driver]:
 
 
 def test_it_drives_while_keys_come_and_stops_when_they_stop(angen: Angen, driver: Driver) -> None:
-    with Heard('/odom', Odometry) as heard:
+    with Inbox('/odom', Odometry) as inbox:
         def speed() -> float:
             driver.said()
-            return heard.messages[-1].twist.twist.linear.x if heard.messages else 0.0
+            return inbox.messages[-1].twist.twist.linear.x if inbox.messages else 0.0
 
         def turning() -> float:
-            return heard.messages[-1].twist.twist.angular.z
+            return inbox.messages[-1].twist.twist.angular.z
 
-        start = heard.wait(lambda _: True, 'the robot tells where it is').pose.pose.position.x
+        start = inbox.wait(lambda _: True, 'the robot is somewhere').pose.pose.position.x
         until(lambda: driver.press(UP) or speed() > 0.15, 'it drives')
         until(lambda: speed() == 0.0, 'it stops when the keys stop')
-        assert heard.messages[-1].pose.pose.position.x > start + 0.02
+        assert inbox.messages[-1].pose.pose.position.x > start + 0.02
         until(lambda: driver.press(LEFT) or turning() > 0.8, 'it turns')
         driver.press(b's')
         until(lambda: turning() == 0.0, 'it stops')
@@ -92,12 +92,12 @@ def test_it_drives_while_keys_come_and_stops_when_they_stop(angen: Angen, driver
                                             (signal.SIGHUP, 129)])
 def test_the_terminal_is_put_back_and_the_robot_stands(angen: Angen, driver: Driver,
                                                        ended_by: int, code: int) -> None:
-    with Heard('/odom', Odometry) as heard:
-        until(lambda: driver.press(UP) or driver.said() and heard.messages
-              and heard.messages[-1].twist.twist.linear.x > 0.1, 'it drives')
+    with Inbox('/odom', Odometry) as inbox:
+        until(lambda: driver.press(UP) or driver.said() and inbox.messages
+              and inbox.messages[-1].twist.twist.linear.x > 0.1, 'it drives')
         driver.process.send_signal(ended_by)
         assert driver.process.wait(30) == code and driver.is_as_before()
-        until(lambda: heard.messages[-1].twist.twist.linear.x == 0.0, 'it stands')
+        until(lambda: inbox.messages[-1].twist.twist.linear.x == 0.0, 'it stands')
 
 
 def test_what_is_wrong_is_told(cli: Cli) -> None:

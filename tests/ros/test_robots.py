@@ -4,7 +4,7 @@ from __future__ import annotations
 from typing import Iterator
 
 import pytest
-from harness import Angen, Cli, Heard, until
+from harness import Angen, Cli, Inbox, until
 from angen_msgs.msg import Stats
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
@@ -39,30 +39,30 @@ def test_each_answers_its_own_commands_only(angen: Angen, second: str, command: 
     twist = Twist()
     twist.linear.x, twist.angular.z = 0.2, 0.5
     angen.wait('/angen/stats', Stats, lambda stats: stats.awake_bodies == 0)
-    with Heard(mine, Odometry) as told, Heard(other, Odometry) as stays:
+    with Inbox(mine, Odometry) as robot, Inbox(other, Odometry) as stays:
         at_rest = 'both stand and say so'
-        start = told.wait(lambda m: m.twist.twist.linear.x == 0, at_rest)
+        start = robot.wait(lambda m: m.twist.twist.linear.x == 0, at_rest)
         rests = pose(stays.wait(lambda m: m.twist.twist.linear.x == 0, at_rest))
         count = len(stays.messages)
         angen.send(command, twist)
-        told.wait(lambda m: m.twist.twist.linear.x > 0.15 and m.twist.twist.angular.z > 0.3,
-                  'it drives a curve')
-        until(lambda: told.messages[-1].twist.twist.linear.x == 0, 'it stops after its timeout')
+        robot.wait(lambda m: m.twist.twist.linear.x > 0.15 and m.twist.twist.angular.z > 0.3,
+                   'it drives a curve')
+        until(lambda: robot.messages[-1].twist.twist.linear.x == 0, 'it stops after its timeout')
         until(lambda: len(stays.messages) > count + 3, 'the other one says where it is')
         assert {pose(message) for message in stays.messages} == {rests}
-    assert told.messages[-1].pose.pose.position.x != start.pose.pose.position.x
+    assert robot.messages[-1].pose.pose.position.x != start.pose.pose.position.x
 
 
 def test_every_frame_has_one_parent_and_hangs_on_the_world(angen: Angen, second: str) -> None:
     parents: dict[str, set[str]] = {}
     wanted = FIRST | {f'{second}/{frame}' for frame in FIRST}
-    with Heard('/tf', TFMessage) as moving, Heard('/tf_static', TFMessage) as fixed:
+    with Inbox('/tf', TFMessage) as moving, Inbox('/tf_static', TFMessage) as fixed:
         def complete() -> bool:
             for message in moving.messages + fixed.messages:
                 for each in message.transforms:
                     parents.setdefault(each.child_frame_id, set()).add(each.header.frame_id)
             return wanted | {'odom', f'{second}/odom'} <= parents.keys()
-        until(complete, 'all frames are told')
+        until(complete, 'all frames are published')
     assert [frame for frame, above in parents.items() if len(above) > 1] == []
     for frame in wanted:
         names = [frame]

@@ -7,7 +7,7 @@ import math
 import pytest
 from angen_msgs.msg import PirMsg, Stats
 from angen_msgs.srv import Delete, List, Save, Spawn, Step
-from harness import Angen, Heard, RawText, until
+from harness import Angen, Inbox, RawText, until
 from geometry_msgs.msg import Pose, Twist
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
@@ -98,12 +98,12 @@ def test_paused_time_moves_by_steps_only(angen: Angen, paused: None) -> None:
     second = angen.call("/angen/step", Step, ticks=250)
     assert second.success
     assert (second.sim_time - first.sim_time).to_nsec() == 250_000_000
-    with Heard("/clock", Clock) as clock:
+    with Inbox("/clock", Clock) as clock:
         until(lambda: [m.clock for m in clock.messages[-3:]] == [second.sim_time] * 3,
               "a clock for latecomers while time stands still")
 
 
-def test_a_step_counts_what_was_heard_and_told(angen: Angen, paused: None) -> None:
+def test_a_step_counts_commands_and_events(angen: Angen, paused: None) -> None:
     before = angen.call("/angen/step", Step, ticks=0)
     angen.send("/gazebo/Light_controller", String("Dim, kitchen0, 31"))
     until(lambda: angen.call("/angen/step", Step, ticks=0).commands == before.commands + 1,
@@ -117,7 +117,7 @@ def test_a_step_counts_what_was_heard_and_told(angen: Angen, paused: None) -> No
 def test_odometry_is_told_at_each_tenth_of_a_second(angen: Angen, paused: None) -> None:
     twist = Twist()
     twist.linear.x = 0.2
-    with Heard("/odom", Odometry) as odometry:
+    with Inbox("/odom", Odometry) as odometry:
         now = angen.call("/angen/step", Step, ticks=0).sim_time.to_nsec()
         angen.call("/angen/step", Step, ticks=(-now // 1_000_000) % 100)
         for command in (Twist(), twist, twist, Twist(), Twist(), Twist(), Twist()):
@@ -133,7 +133,7 @@ def test_a_paused_world_can_be_built(angen: Angen, paused: None) -> None:
 
 
 def test_time_rises(angen: Angen) -> None:
-    with Heard("/clock", Clock) as clock:
+    with Inbox("/clock", Clock) as clock:
         until(lambda: len(clock.messages) > 30, "30 clock messages")
     stamps = [m.clock.to_nsec() for m in clock.messages]
     assert stamps == sorted(stamps)

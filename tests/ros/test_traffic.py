@@ -1,4 +1,4 @@
-"""What is sent, and to whom: nothing where nobody listens, one message for all of a kind."""
+"""What is sent, and to whom: nothing without a subscriber, one message for all of a kind."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any, Iterator
 
 import pytest
 import yaml
-from harness import WORLD, Angen, Cli, Heard, Master, end, node_binary, until
+from harness import WORLD, Angen, Cli, Inbox, Master, end, node_binary, until
 
 TWO_PIRS = WORLD.replace('<include><uri>model://pir', '''
     <include><uri>model://pir</uri><name>other_eye</name><pose>2 4 1.5 0 0 0</pose></include>
@@ -17,7 +17,7 @@ TWO_PIRS = WORLD.replace('<include><uri>model://pir', '''
 
 
 class House:
-    """A node with a master of its own, on which nobody listens to /clock."""
+    """A node with a master of its own, without a subscriber of /clock."""
 
     def __init__(self, folder: Path, **params: object) -> None:
         self.master = Master(folder)
@@ -32,7 +32,7 @@ class House:
         end(self.master.process)
 
     def echo(self, topic: str, count: int) -> list[Any]:
-        """So many messages of a topic, as rostopic tells them."""
+        """So many messages of a topic, as rostopic prints them."""
         done = subprocess.run(['/usr/bin/rostopic', 'echo', '-n', str(count), topic], text=True,
                               env=self.master.environment, capture_output=True, timeout=60)
         assert done.returncode == 0, done.stderr
@@ -61,7 +61,7 @@ def test_nothing_is_sent_that_nobody_hears(house: House) -> None:
     """While a robot drives, a door opens, a lamp lights up, and every sensor reads."""
     driving = house.start('pub', '-r', '10', '/cmd_vel', 'geometry_msgs/Twist',
                           '{linear: {x: 0.2}}')
-    listening = None
+    subscriber = None
     try:
         until(lambda: '/cmd_vel' in house.master.topics(), 'somebody drives')
         for kind, name, value in (('door', 'bathroom0', 'open'), ('lamp', 'kitchen0', 'on')):
@@ -69,11 +69,11 @@ def test_nothing_is_sent_that_nobody_hears(house: House) -> None:
         stats = house.echo('/angen/stats', 4)
         assert [b['messages'] - a['messages'] for a, b in zip(stats, stats[1:])] == [1, 1, 1]
         assert stats[-1]['readings'] > stats[0]['readings']
-        listening = house.start('echo', '/odom')
+        subscriber = house.start('echo', '/odom')
         stats = house.echo('/angen/stats', 4)
         assert stats[-1]['messages'] - stats[0]['messages'] > 10
     finally:
-        for process in (driving, listening):
+        for process in (driving, subscriber):
             if process:
                 end(process)
 
@@ -132,6 +132,6 @@ def test_latched_topics_say_so(angen: Angen) -> None:
     from angen_msgs.msg import DoorState
     from tf2_msgs.msg import TFMessage
     for topic, kind in (('/angen/door/bathroom0', DoorState), ('/tf_static', TFMessage)):
-        with Heard(topic, kind) as heard:
-            message = heard.wait(lambda m: True, f'what {topic} said last')
+        with Inbox(topic, kind) as inbox:
+            message = inbox.wait(lambda m: True, f'what {topic} said last')
             assert message._connection_header['latching'] == '1'

@@ -8,7 +8,7 @@ from typing import Any
 from angen_msgs.msg import DoorState, Stats
 from angen_msgs.srv import Delete, Spawn
 from geometry_msgs.msg import Point, Pose, Quaternion
-from harness import Angen, Heard, until
+from harness import Angen, Inbox, until
 from lxml import etree
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
@@ -36,9 +36,9 @@ def keyed(arrays: list[Any]) -> dict[tuple[str, int], Marker]:
 def test_every_newcomer_gets_the_whole_world(angen: Angen) -> None:
     views = []
     for _ in range(2):
-        with Heard("/angen/markers", MarkerArray) as heard:
-            until(lambda: heard.messages, "markers")
-            views.append(keyed(heard.messages[:1]))
+        with Inbox("/angen/markers", MarkerArray) as inbox:
+            until(lambda: inbox.messages, "markers")
+            views.append(keyed(inbox.messages[:1]))
     assert views[0].keys() == views[1].keys()
     groups = {group for group, _ in views[0]}
     assert {"doors 0", "lamps 0", "lights 0", "robots", "sensors 0", "ground", "labels 0",
@@ -56,17 +56,17 @@ def of_leaf(door: str) -> int:
 
 def test_only_what_changes_follows(angen: Angen) -> None:
     angen.wait("/angen/stats", Stats, lambda stats: stats.awake_bodies == 0)
-    with Heard("/angen/markers", MarkerArray) as heard:
-        whole = keyed([until(lambda: heard.messages, "the whole world")[0]])
+    with Inbox("/angen/markers", MarkerArray) as inbox:
+        whole = keyed([until(lambda: inbox.messages, "the whole world")[0]])
         angen.send("/gazebo/Light_controller", String("On, kitchen0"))
-        until(lambda: any(m.ns == "lights 0" for a in heard.messages[1:] for m in a.markers),
+        until(lambda: any(m.ns == "lights 0" for a in inbox.messages[1:] for m in a.markers),
               "the lamp's ball shines")
         angen.send("/gazebo/Light_controller", String("Off, kitchen0"))
         angen.send("/gazebo/Door_controller", String("Open, bathroom0"))
         angen.wait("/angen/door/bathroom0", DoorState, lambda state: state.mode == DoorState.OPEN)
         angen.send("/gazebo/Door_controller", String("Close, bathroom0"))
         angen.wait("/angen/door/bathroom0", DoorState, lambda state: state.mode == DoorState.CLOSED)
-        changed = keyed(heard.messages[1:])
+        changed = keyed(inbox.messages[1:])
     lights = [key for key in changed if key[0] == "lights 0"]
     leaf = [key for key in changed if key[0] == "doors 0"]
     assert [(m.pose.position.x, m.pose.position.y) for m in map(changed.get, lights)] == [(0, 3)]
@@ -75,13 +75,13 @@ def test_only_what_changes_follows(angen: Angen) -> None:
 
 
 def test_what_is_deleted_disappears(angen: Angen) -> None:
-    with Heard("/angen/markers", MarkerArray) as heard:
-        until(lambda: heard.messages, "the whole world")
-        before = keyed(heard.messages).keys()
+    with Inbox("/angen/markers", MarkerArray) as inbox:
+        until(lambda: inbox.messages, "the whole world")
+        before = keyed(inbox.messages).keys()
         assert angen.call("/angen/spawn", Spawn, name="chair1", xml="model://pir").success
-        until(lambda: len(keyed(heard.messages)) > len(before), "more markers")
+        until(lambda: len(keyed(inbox.messages)) > len(before), "more markers")
         assert angen.call("/angen/delete", Delete, name="chair1").success
-        until(lambda: keyed(heard.messages).keys() == before, "as before")
+        until(lambda: keyed(inbox.messages).keys() == before, "as before")
 
 
 def box(name: str, middle: str, size: str) -> str:
@@ -94,43 +94,43 @@ def test_a_lit_lamp_lights_the_room_around_it(angen: Angen) -> None:
         box(f"wall_{i}", f"{i} 9 1", "0.1 0.1 2") for i in range(10))
     house = f'<sdf version="1.6"><model name="house"><static>true</static>{parts}</model></sdf>'
 
-    def lit(heard: Heard) -> list[Marker]:
-        held = keyed(list(heard.messages))
+    def lit(inbox: Inbox) -> list[Marker]:
+        held = keyed(list(inbox.messages))
         return [marker for (group, _), marker in held.items() if group == "lit rooms 0"]
 
-    with Heard("/angen/markers", MarkerArray) as heard:
-        until(lambda: heard.messages, "the whole world")
+    with Inbox("/angen/markers", MarkerArray) as inbox:
+        until(lambda: inbox.messages, "the whole world")
         assert angen.call("/angen/spawn", Spawn, name="house", xml=house).success
-        until(lambda: "hall" in {m.text for m in keyed(list(heard.messages)).values()}, "its label")
-        assert not lit(heard)
+        until(lambda: "hall" in {m.text for m in keyed(list(inbox.messages)).values()}, "its label")
+        assert not lit(inbox)
         angen.send("/gazebo/Light_controller", String("Dim, kitchen0, 10"))
-        dim = max(c.a for c in until(lambda: lit(heard), "light in the room")[0].colors)
+        dim = max(c.a for c in until(lambda: lit(inbox), "light in the room")[0].colors)
         angen.send("/gazebo/Light_controller", String("On, kitchen0"))
-        until(lambda: max(c.a for c in lit(heard)[0].colors) > 1.5 * dim, "more light")
+        until(lambda: max(c.a for c in lit(inbox)[0].colors) > 1.5 * dim, "more light")
         angen.send("/gazebo/Light_controller", String("Off, kitchen0"))
-        until(lambda: not lit(heard), "no light")
+        until(lambda: not lit(inbox), "no light")
         assert angen.call("/angen/delete", Delete, name="house").success
-        until(lambda: "hall" not in {m.text for m in keyed(list(heard.messages)).values()}, "gone")
+        until(lambda: "hall" not in {m.text for m in keyed(list(inbox.messages)).values()}, "gone")
 
 
 def test_rays_change_groups_while_a_sensor_fires(angen: Angen) -> None:
-    def of_beams(heard: Heard) -> set[str]:
-        return {group for group, _ in keyed(list(heard.messages)) if "switch beams" in group}
+    def of_beams(inbox: Inbox) -> set[str]:
+        return {group for group, _ in keyed(list(inbox.messages)) if "switch beams" in group}
 
     wall = ('<sdf version="1.6"><model name="wall"><static>true</static><link name="link">'
             '<collision name="c"><geometry><box><size>0.1 1 1</size></box></geometry></collision>'
             '</link></model></sdf>')
-    with Heard("/angen/markers", MarkerArray) as heard:
+    with Inbox("/angen/markers", MarkerArray) as inbox:
         assert angen.call("/angen/spawn", Spawn, name="beam", xml="model://optical_switch",
                           pose=at(-20.0, -20.0, 5.0)).success
-        until(lambda: of_beams(heard) == {"idle switch beams 1"}, "rays of a sensor at rest")
+        until(lambda: of_beams(inbox) == {"idle switch beams 1"}, "rays of a sensor at rest")
         assert angen.call("/angen/spawn", Spawn, name="wall", xml=wall,
                           pose=at(-19.75, -20.0, 5.0)).success
-        until(lambda: of_beams(heard) == {"switch beams 1"}, "rays of a sensor that fires")
+        until(lambda: of_beams(inbox) == {"switch beams 1"}, "rays of a sensor that fires")
         assert angen.call("/angen/delete", Delete, name="wall").success
-        until(lambda: of_beams(heard) == {"idle switch beams 1"}, "rays of a sensor at rest")
+        until(lambda: of_beams(inbox) == {"idle switch beams 1"}, "rays of a sensor at rest")
         assert angen.call("/angen/delete", Delete, name="beam").success
-        until(lambda: not of_beams(heard), "no rays")
+        until(lambda: not of_beams(inbox), "no rays")
 
 
 def test_rays_are_blue_or_in_the_color_that_is_given(angen: Angen) -> None:
@@ -156,7 +156,7 @@ def test_rays_are_blue_or_in_the_color_that_is_given(angen: Angen) -> None:
 
 
 def test_frames_make_one_tree(angen: Angen) -> None:
-    with Heard("/tf", TFMessage) as moving, Heard("/tf_static", TFMessage) as fixed:
+    with Inbox("/tf", TFMessage) as moving, Inbox("/tf_static", TFMessage) as fixed:
         until(lambda: moving.messages and fixed.messages, "frames")
         parents = {t.child_frame_id: t.header.frame_id
                    for m in list(moving.messages) + list(fixed.messages) for t in m.transforms}
@@ -172,7 +172,7 @@ def test_frames_make_one_tree(angen: Angen) -> None:
 
 def test_no_transform_goes_out_twice_with_one_stamp(angen: Angen) -> None:
     """tf2 warns of those: TF_REPEATED_DATA."""
-    with Heard("/tf", TFMessage) as moving:
+    with Inbox("/tf", TFMessage) as moving:
         until(lambda: moving.messages, "frames")
         for i in range(3):
             name = f"walker{i}"

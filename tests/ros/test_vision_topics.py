@@ -37,7 +37,7 @@ def wall(angen: Angen):
     angen.call("/angen/delete", Delete, name="wall")
 
 
-def test_the_scan_is_heard_with_and_without_the_robots_name(angen: Angen, wall: None) -> None:
+def test_the_scan_is_published_with_and_without_the_robots_name(angen: Angen, wall: None) -> None:
     for topic in ("/scan", "/turtlebot/scan"):
         scan = angen.wait(topic, LaserScan, lambda m: min(m.ranges) < 5)
         assert scan.header.frame_id == "base_scan" and len(scan.ranges) == 720
@@ -84,7 +84,7 @@ def test_the_optical_frame_hangs_on_the_robot(angen: Angen) -> None:
     assert [turn.x, turn.y, turn.z, turn.w] == pytest.approx([-0.5, 0.5, -0.5, 0.5])
 
 
-def test_the_bumper_and_the_joints_are_heard(angen: Angen) -> None:
+def test_the_bumper_and_the_joints_are_published(angen: Angen) -> None:
     contacts = angen.wait("/bumper", ContactsState)
     assert contacts.states == []
     joints = angen.wait("/joint_states", JointState)
