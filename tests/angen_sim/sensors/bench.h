@@ -57,7 +57,7 @@ class Bench {
   }
 
   /// Samples once at world.now, then lets `period` pass.
-  Reading look(Nanoseconds period = 100'000'000) {
+  Reading sample(Nanoseconds period = 100'000'000) {
     scene.commit();
     if (!own_warmth) world.warm = scene.warm_shapes();
     world.revision = scene.revision() + moves;
@@ -83,7 +83,7 @@ class Bench {
 
   FakeWorld world;
   rays::Scene scene;
-  RayBatch rays_cast;  // of the last look
+  RayBatch rays_cast;  // of the last sample
   std::uint64_t seed = 1;
   bool own_warmth = false;  // world.warm is the test's
   std::uint64_t moves = 0;  // of which the scene does not know
