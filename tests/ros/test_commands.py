@@ -95,7 +95,7 @@ def test_a_twist_that_is_not_finite_is_rejected(angen: Angen) -> None:
 
 
 def test_text_that_was_copied_from_a_pdf_is_read_as_meant(angen: Angen) -> None:
-    with Heard(DOOR, DoorState) as door:
+    with Inbox(DOOR, DoorState) as door:
         angen.send("/gazebo/Door_controller", String("\u201cOpen, bathroom0\u201d"))
         door.wait(lambda m: m.mode == DoorState.OPEN, "the door is open")
         angen.send("/angen/command", Command(target="\u201cbathroom0\u201d",

@@ -134,8 +134,8 @@ def test_rays_change_groups_while_a_sensor_fires(angen: Angen) -> None:
 
 
 def test_rays_are_blue_or_in_the_color_that_is_given(angen: Angen) -> None:
-    def color_of(heard: Heard) -> tuple[float, ...] | None:
-        for (group, _), marker in keyed(list(heard.messages)).items():
+    def color_of(inbox: Inbox) -> tuple[float, ...] | None:
+        for (group, _), marker in keyed(list(inbox.messages)).items():
             if group.startswith("idle switch beams"):
                 ink = marker.color
                 return ink.r, ink.g, ink.b, ink.a
@@ -147,12 +147,12 @@ def test_rays_are_blue_or_in_the_color_that_is_given(angen: Angen) -> None:
                 '<sensor name="s" type="ray"><plugin name="s" '
                 f'filename="liboptical_switch_controller.so">{given}</plugin></sensor></link>'
                 '</model></sdf>')
-        with Heard("/angen/markers", MarkerArray) as heard:
+        with Inbox("/angen/markers", MarkerArray) as inbox:
             assert angen.call("/angen/spawn", Spawn, name="tinted", xml=beam,
                               pose=at(-20.0, -20.0, 5.0)).success
-            assert until(lambda: color_of(heard), "the beam's color") == wanted
+            assert until(lambda: color_of(inbox), "the beam's color") == wanted
             assert angen.call("/angen/delete", Delete, name="tinted").success
-            until(lambda: color_of(heard) is None, "no rays")
+            until(lambda: color_of(inbox) is None, "no rays")
 
 
 def test_frames_make_one_tree(angen: Angen) -> None:
