@@ -88,14 +88,17 @@ class Plant : public Device {
   void dry(const View& view) {
     const Nanoseconds before = dried_at_ < 0 ? view.time() : dried_at_;
     dried_at_ = view.time();
+    if (before == dried_at_) return;  // at the start lamps have not been switched yet
     const Vec3 leaves = view.pose() * Vec3(0.0, 0.0, leaf_height_);
     const AirHere here = air_at(view, leaves);
     const double temperature =
         std::isnan(here.temperature) ? view.ambient_temperature() - kKelvin : here.temperature;
     const double humidity = std::isnan(here.humidity) ? 50.0 : here.humidity;
-    Pose up{leaves, Quat::FromTwoVectors(Vec3::UnitX(), Vec3::UnitZ())};
-    const double light = view.illuminance(probe_, up).illuminance;
-    const double wet = 1000.0 * area_ * penman(temperature, humidity, light) / kDay;  // ml/s
+    if (lit_.due(view.time(), dried_at_ - before)) {
+      const Pose up{leaves, Quat::FromTwoVectors(Vec3::UnitX(), Vec3::UnitZ())};
+      light_ = view.illuminance(probe_, up).illuminance;
+    }
+    const double wet = 1000.0 * area_ * penman(temperature, humidity, light_) / kDay;  // ml/s
     const double seconds = to_seconds(dried_at_ - before);
     const double knee = full_ - ease_ * (full_ - dead_);
     const double rate = wet * per_ml();  // %/s while it takes water with ease
@@ -136,6 +139,8 @@ class Plant : public Device {
   double flow_ = 0.0;         // ml/s
   bool dry_ = false;
   light::Probe probe_;
+  double light_ = 0.0;      // lx
+  Refresh lit_{1.0 / 600};  // light costs more than all else
   Nanoseconds dried_at_ = -1;
   Refresh due_{1.0 / 60.0};
 };

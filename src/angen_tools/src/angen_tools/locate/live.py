@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 KINDS = ('pir', 'rfid', 'pressure', 'door')
 HEAD = ('TAG', 'ROOM', 'CHANCE', 'X', 'Y', 'Z')
 REFRESH = 0.5    # s of wall time between two pictures
+START_LIMIT = 30.0  # s of wall time for the first state of climates: a world may just begin
 SILENCE = 30.0   # s of wall time without a message after which the simulator is taken for ended
 INDEXED = re.compile(r'(.+)\[\d+\]$')
 
@@ -118,7 +119,7 @@ class Locator:
 
         for topic, entity in origins.items():
             mail.subscribe(topic, entity.type)
-        if not mail.until(take, CONNECT_LIMIT):
+        if not mail.until(take, START_LIMIT):
             raise Failure('a climate has not said what rooms there are; is the simulation paused?')
         return make_site([(_xyz(entity), states[topic]) for topic, entity in origins.items()],
                          things)
