@@ -7,7 +7,7 @@ namespace {
 
 Spent spent() {
   auto structure = std::make_shared<sim::Structure>();
-  structure->devices.push_back({"door", "hall0", 0, nullptr, ""});
+  structure->devices.push_back({{"door", "hall0", nullptr, ""}, 0});
   structure->sensors.emplace_back();
   structure->sensors.back().kind = "pir";
   structure->sensors.back().name = "eye";

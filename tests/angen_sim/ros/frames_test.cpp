@@ -55,7 +55,7 @@ struct World {
           {model.name + "::" + model.links[i].name, index, i, !model.is_static});
       snapshot.link_poses.push_back(model.pose * model.links[i].pose);
     }
-    if (!device.empty()) structure->devices.push_back({device, model.name, index, nullptr, ""});
+    if (!device.empty()) structure->devices.push_back({{device, model.name, nullptr, ""}, index});
     structure->models.push_back(std::make_shared<const desc::Model>(model));
     snapshot.structure = structure;
   }
