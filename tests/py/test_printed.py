@@ -74,7 +74,6 @@ def test_a_pose_of_three_numbers_is_a_warning(doors):
     assert sum('<pose> holds 3 numbers' in text for text in doors.warnings) == 3
 
 
-@pytest.mark.xfail(reason='World.warnings leaves out those of the first snapshot')
 def test_a_door_that_nothing_drives_is_a_warning(tmp_path):
     text = (PRINTED / 'doors.world').read_text().replace(
         '<plugin name="door_world_plugin" filename="libdoor_world_plugin.so"/>', '')

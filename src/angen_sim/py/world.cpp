@@ -34,6 +34,7 @@ World::World(const std::string& path, std::uint64_t seed, std::shared_ptr<Catalo
     : paths_(load::SearchPaths::from_environment(folder_of(path) + "/models")),
       simulation_(load::world(path), seed, std::move(catalog)) {
   note(simulation_.world().warnings);
+  note_warnings(*simulation_.snapshot());  // of how it was built
   begin();
 }
 
@@ -42,6 +43,7 @@ World::World(const std::string& text, const std::string& name, std::uint64_t see
     : paths_(load::SearchPaths::from_environment()),
       simulation_(load::world_from_text(text, name, paths_), seed, std::move(catalog)) {
   note(simulation_.world().warnings);
+  note_warnings(*simulation_.snapshot());  // of how it was built
   begin();
 }
 
@@ -55,12 +57,18 @@ void World::note(const std::vector<Diagnostic>& warnings) {
   for (const Diagnostic& warning : warnings) warnings_.push_back(warning.text());
 }
 
+void World::note_warnings(const sim::Snapshot& snapshot) {
+  for (const sim::Event& event : snapshot.events) {
+    if (event.event == "warning") warnings_.push_back(event.detail);
+  }
+}
+
 void World::take(std::shared_ptr<const sim::Snapshot> snapshot) {
   snapshot_ = std::move(snapshot);
   fingerprint_.add(*snapshot_);
   events_.insert(events_.end(), snapshot_->events.begin(), snapshot_->events.end());
+  note_warnings(*snapshot_);
   for (const sim::Event& event : snapshot_->events) {
-    if (event.event == "warning") warnings_.push_back(event.detail);
     if (event.event == "failed" && failure_.empty()) {
       failure_ = event.kind + " '" + event.source + "' has failed: " + event.detail;
     }

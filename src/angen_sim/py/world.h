@@ -48,6 +48,7 @@ class World {
  private:
   void begin();
   void note(const std::vector<Diagnostic>& warnings);
+  void note_warnings(const sim::Snapshot& snapshot);
   void drain(sim::Action action);
   /// Error where a plug-in has thrown since; the world has gone on without it.
   void raise_failure();
