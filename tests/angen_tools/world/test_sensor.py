@@ -35,7 +35,8 @@ def test_a_built_model_has_one_sensor_of_its_name(world: angen.World, kind: str)
 def test_a_lone_sensor_sits_on_a_link(world: angen.World, table: str, kind: str) -> None:
     world.spawn(table, 'table', [0, 0, 1, 0, 0, 0])
     needed = {'contact': ['collision=top'], 'pressure': ['collision=top'],
-              'reed': ['magnet_link=body']}
+              'load_cells': ['collision=top'], 'reed': ['magnet_link=body'],
+              'accelerometer': ['link=body']}
     world.spawn(sdf.text(build(kind, *needed.get(kind, []), lone=True)), 's1', [0, 0, 0.1, 0, 0, 0],
                 'table::body')
     world.request(kind, 's1')
