@@ -154,6 +154,15 @@ std::vector<std::vector<double>> Params::rows(const std::string& path, std::size
   return result;
 }
 
+std::vector<std::string> Params::names(const std::string& path) const {
+  std::vector<std::string> result;
+  for (const Element* given : all(path)) {
+    const std::string* name = given->attribute("name");
+    result.push_back(name != nullptr ? *name : "");
+  }
+  return result;
+}
+
 std::vector<std::string> Params::texts(const std::string& path, const std::string& unit,
                                        const std::string& doc) {
   note(path, "text, any number of times", "", unit, doc);

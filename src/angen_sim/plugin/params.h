@@ -41,6 +41,8 @@ class Params {
   /// Every <path> child of the plug-in as `count` numbers each.
   std::vector<std::vector<double>> rows(const std::string& path, std::size_t count,
                                         const std::string& unit, const std::string& doc);
+  /// The attribute `name` of every <path> child, "" where one has none.
+  std::vector<std::string> names(const std::string& path) const;
   /// The text of every `path`, none when it is not given.
   std::vector<std::string> texts(const std::string& path, const std::string& unit,
                                  const std::string& doc);
