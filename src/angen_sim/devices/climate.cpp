@@ -23,7 +23,13 @@ constexpr Range kCelsius{-60.0, 60.0};
 class Climate : public Device {
  public:
   void configure(Params& params, Wiring&) override {
-    rooms_ = params.rows("room", 6, "m", "x y z of two opposite corners in the model's frame");
+    rooms_ = params.rows("room", 6, "m",
+                         "x y z of two opposite corners in the model's frame; the attribute name "
+                         "says what it is called");
+    names_ = params.names("room");
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (names_[i].empty()) names_[i] = "room" + std::to_string(i);
+    }
     RoomAir::Settings settings;
     settings.heat_loss = params.number("heat_loss", 0.5, "W/(K m^3)",
                                        "through walls and windows, a volume", kNotNegative);
@@ -118,6 +124,7 @@ class Climate : public Device {
       temperatures.push_back(air_.rooms()[i].temperature);
       humidities.push_back(humidity_of(air_.rooms()[i]));
     }
+    state.set("names", names_);
     state.set("temperatures", std::move(temperatures));
     state.set("humidities", std::move(humidities));
     state.set("outside_temperature", outside_.temperature);
@@ -143,6 +150,7 @@ class Climate : public Device {
 
   std::vector<std::vector<double>> rooms_;  // x y z of the lower, then of the upper corner
   RoomPlan plan_;                           // the same
+  std::vector<std::string> names_;          // of rooms_
   RoomAir air_;
   Air outside_;
   double outside_humidity_ = 0.0;  // percent
@@ -156,8 +164,9 @@ class ClimatePlugin : public Plugin {
     static const Kind kind =
         Kind("climate", "The air in a model's rooms.")
             .verb("Outside", "degrees", "°C", kCelsius, "temperature of the air outdoors")
+            .texts("names", "of each room")
             .numbers("temperatures", "°C", "of each room")
-            .shown(1)
+            .shown_by_name("names", 1)
             .numbers("humidities", "%", "of each room, relative")
             .numbers("rooms", "m", "x0 y0 z0 x1 y1 z1 of each room, in the model's frame")
             .number("outside_temperature", "°C", "outdoors")

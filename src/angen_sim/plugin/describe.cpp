@@ -30,7 +30,7 @@ class AnyWiring : public Wiring {
 
 // What the simulator itself reads of every sensor.
 void read_common(Params& params, const Kind& kind) {
-  params.update_period(kind.rate);
+  params.update_period();
   params.text("topicName", "/angen/" + kind.name + "/NAME", "where it publishes");
   if (!kind.ray_color.empty()) read_ray_color(params, kind);
   params.text("frameName", "NAME", "frame_id of its messages");
@@ -43,7 +43,7 @@ std::vector<ParamDoc> params_of(const std::string& library, const Plugin& plugin
   element.name = "plugin";
   element.attributes = {{"filename", library}};
   element.children = std::move(given);
-  Params params(element);
+  Params params(element, nullptr, plugin.kind().rate);
   AnyWiring wiring(plugin.kind().name);
   const auto sensor = plugin.make_sensor();
   const auto device = sensor ? nullptr : plugin.make_device();

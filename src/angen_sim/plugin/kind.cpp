@@ -123,6 +123,11 @@ Kind& Kind::shown(int decimals) {
   return *this;
 }
 
+Kind& Kind::shown_by_name(std::string names, int decimals) {
+  fields.back().names = std::move(names);
+  return shown(decimals);
+}
+
 Kind& Kind::shown_as_percent(int decimals) {
   fields.back().as_percent = true;
   return shown(decimals);

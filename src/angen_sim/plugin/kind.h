@@ -30,6 +30,7 @@ struct Field {
       words;         // of a choice, its values; of a flag in a summary, for yes and no
   int decimals = 0;  // of a number in a summary
   bool in_summary = false;
+  std::string names;        // of numbers in a summary: the field of texts that names each of them
   bool as_percent = false;  // a summary shows a share of 1 as a percentage
   bool alarm = false;       // a flag that is yes while the sensor detects what it is for
 };
@@ -94,6 +95,8 @@ class Kind {
 
   /// Of the field that was added last: it is a part of the summary, a number with so many decimals.
   Kind& shown(int decimals = 0);
+  /// The same for numbers, each after its text in the field `names`.
+  Kind& shown_by_name(std::string names, int decimals = 0);
   /// The same for a share of 1, as a percentage.
   Kind& shown_as_percent(int decimals = 0);
   /// The same for a flag, by these words.

@@ -43,7 +43,8 @@ void collect(const Element& parent, const std::string& path, std::vector<const E
 
 }  // namespace
 
-Params::Params(const Element& plugin, const Element* sensor) : plugin_(plugin) {
+Params::Params(const Element& plugin, const Element* sensor, double rate)
+    : plugin_(plugin), rate_(rate) {
   if (sensor != nullptr) sensor_ = *sensor;
 }
 
@@ -154,6 +155,15 @@ std::vector<std::vector<double>> Params::rows(const std::string& path, std::size
   return result;
 }
 
+std::vector<std::string> Params::names(const std::string& path) const {
+  std::vector<std::string> result;
+  for (const Element* given : all(path)) {
+    const std::string* name = given->attribute("name");
+    result.push_back(name != nullptr ? *name : "");
+  }
+  return result;
+}
+
 std::vector<std::string> Params::texts(const std::string& path, const std::string& unit,
                                        const std::string& doc) {
   note(path, "text, any number of times", "", unit, doc);
@@ -162,15 +172,15 @@ std::vector<std::string> Params::texts(const std::string& path, const std::strin
   return result;
 }
 
-Nanoseconds Params::update_period(double fallback_rate) {
+Nanoseconds Params::update_period() {
   constexpr double kSlowest = 1e-6;  // Hz; what is much slower has no period in nanoseconds
   const std::string path = has("updateRate") ? "updateRate" : "update_rate";
-  const double rate = number(path, fallback_rate, "Hz", "how often it publishes", {0.0, 1e6});
+  const double rate = number(path, rate_, "Hz", "how often it publishes", {0.0, 1e6});
   if (rate > 0.0 && rate < kSlowest) {
     throw error(path, "<" + path + "> is " + number_text(rate) +
                           " Hz, must be 0 or >= " + number_text(kSlowest));
   }
-  return from_seconds(1.0 / (rate > 0.0 ? rate : fallback_rate));
+  return from_seconds(1.0 / (rate > 0.0 ? rate : rate_));
 }
 
 double Params::noise(const std::string& field, const std::string& unit, const std::string& doc,

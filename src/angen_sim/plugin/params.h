@@ -27,7 +27,8 @@ struct ParamDoc {
 /// file and line; finish() does so for keys that nobody read.
 class Params {
  public:
-  explicit Params(const Element& plugin, const Element* sensor = nullptr);
+  /// `rate` in Hz is the kind's, for a sensor without an <update_rate>.
+  explicit Params(const Element& plugin, const Element* sensor = nullptr, double rate = 1.0);
 
   double number(const std::string& path, double fallback, const std::string& unit,
                 const std::string& doc, Range range = {});
@@ -41,12 +42,13 @@ class Params {
   /// Every <path> child of the plug-in as `count` numbers each.
   std::vector<std::vector<double>> rows(const std::string& path, std::size_t count,
                                         const std::string& unit, const std::string& doc);
+  /// The attribute `name` of every <path> child, "" where one has none.
+  std::vector<std::string> names(const std::string& path) const;
   /// The text of every `path`, none when it is not given.
   std::vector<std::string> texts(const std::string& path, const std::string& unit,
                                  const std::string& doc);
-  /// <update_rate> (or the plug-in's <updateRate>) in Hz as a period in ns; 0 or none = the
-  /// fallback.
-  Nanoseconds update_period(double fallback_rate);
+  /// <update_rate> (or the plug-in's <updateRate>) in Hz as a period in ns; 0 or none = the kind's.
+  Nanoseconds update_period();
   bool has(const std::string& path) const;
 
   /// Reads <noise_stddev>, returns it, and gives that field of the sensor's readings such noise.
@@ -75,6 +77,7 @@ class Params {
 
   Element plugin_;
   Element sensor_;
+  double rate_;
   std::set<std::string> read_;
   std::vector<ParamDoc> docs_;
   std::vector<Noise> noise_;

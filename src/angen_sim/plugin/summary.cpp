@@ -49,6 +49,20 @@ std::string shown_value(const Field& field, const Value& value) {
       value);
 }
 
+// "kitchen 20.1, bedroom 18.0 °C", or the values alone where their names are missing.
+std::string shown_field(const Field& field, const Value& value, const Reading& reading) {
+  const auto names = reading.get<std::vector<std::string>>(field.names);
+  const auto* numbers = std::get_if<std::vector<double>>(&value);
+  if (numbers == nullptr || numbers->empty() || names.size() != numbers->size()) {
+    return shown_value(field, value);
+  }
+  std::string all;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    all += (all.empty() ? "" : ", ") + names[i] + " " + fixed((*numbers)[i], field.decimals);
+  }
+  return field.unit.empty() ? all : all + " " + field.unit;
+}
+
 }  // namespace
 
 std::string summary(const Kind& kind, const Reading& reading) {
@@ -61,7 +75,7 @@ std::string summary(const Kind& kind, const Reading& reading) {
   };
   for (const Field& field : kind.fields) {
     if (!field.in_summary) continue;
-    if (const Value* value = reading.find(field.name)) append(shown_value(field, *value));
+    if (const Value* value = reading.find(field.name)) append(shown_field(field, *value, reading));
   }
   if (!text.empty()) return text;
   for (const auto& [name, value] : reading.fields) {

@@ -21,18 +21,10 @@ class Camera : public Sensor {
   render::PinholeCamera camera_;
 };
 
-ANGEN_REGISTER_SENSOR(Camera, Kind("camera", "A color camera under the lamps' light.")
-                                  .publishes_at(30.0)
-                                  .on_demand()
-                                  .model("camera")
-                                  .example("spawn camera c1 --pose \"0.8 0.8 2.2 0 0.4 0.785\"")
-                                  .image("image", "height x width x 3 bytes, sRGB")
-                                  .integer("width", "px", "of the image")
-                                  .shown()
-                                  .integer("height", "px", "of the image")
-                                  .shown()
-                                  .number("focal", "px", "focal length")
-                                  .number("center_x", "px", "of the optical axis in the image")
-                                  .number("center_y", "px", "of the optical axis in the image"))
+ANGEN_REGISTER_SENSOR(
+    Camera, camera_kind(Kind("camera", "A color camera under the lamps' light.")
+                            .model("camera")
+                            .example("spawn camera c1 --pose \"0.8 0.8 2.2 0 0.4 0.785\""),
+                        "image", "height x width x 3 bytes, sRGB"))
 
 }  // namespace angen::sensors

@@ -1,5 +1,7 @@
 #include "sensors/camera_params.h"
 
+#include <utility>
+
 namespace angen::sensors {
 
 namespace {
@@ -22,6 +24,19 @@ render::PinholeCamera read_camera(Params& params) {
     throw params.error("camera/clip", "<camera/clip>: near is above far");
   params.text("cameraName", "", "topics stand below it, instead of /angen/KIND/NAME");
   return camera;
+}
+
+Kind camera_kind(Kind kind, std::string image, std::string image_doc) {
+  return kind.publishes_at(30.0)
+      .on_demand()
+      .image(std::move(image), std::move(image_doc))
+      .integer("width", "px", "of the image")
+      .shown()
+      .integer("height", "px", "of the image")
+      .shown()
+      .number("focal", "px", "focal length")
+      .number("center_x", "px", "of the optical axis in the image")
+      .number("center_y", "px", "of the optical axis in the image");
 }
 
 void set_camera_info(const render::PinholeCamera& camera, Reading& reading) {

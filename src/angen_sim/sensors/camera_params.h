@@ -1,5 +1,6 @@
 #pragma once
 
+#include "plugin/kind.h"
 #include "plugin/params.h"
 #include "plugin/reading.h"
 #include "render/pinhole_camera.h"
@@ -8,6 +9,9 @@ namespace angen::sensors {
 
 /// Reads <camera>, and the topics that Gazebo's camera plug-ins name (`ros` uses those).
 render::PinholeCamera read_camera(Params& params);
+
+/// A kind of camera: its rate, and the fields that set_camera_info() sets, after `image`.
+Kind camera_kind(Kind kind, std::string image, std::string image_doc);
 
 /// What sensor_msgs/CameraInfo is made of: width, height, focal, center_x, center_y (pixels).
 void set_camera_info(const render::PinholeCamera& camera, Reading& reading);

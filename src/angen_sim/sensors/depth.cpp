@@ -23,16 +23,7 @@ class Depth : public Sensor {
 };
 
 ANGEN_REGISTER_SENSOR(Depth,
-                      Kind("depth", "A depth camera: meters along its axis.")
-                          .publishes_at(30.0)
-                          .on_demand()
-                          .image("depth", "height x width distances in m, NaN where nothing is")
-                          .integer("width", "px", "of the image")
-                          .shown()
-                          .integer("height", "px", "of the image")
-                          .shown()
-                          .number("focal", "px", "focal length")
-                          .number("center_x", "px", "of the optical axis in the image")
-                          .number("center_y", "px", "of the optical axis in the image"))
+                      camera_kind(Kind("depth", "A depth camera: meters along its axis."), "depth",
+                                  "height x width distances in m, NaN where nothing is"))
 
 }  // namespace angen::sensors

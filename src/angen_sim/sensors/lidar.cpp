@@ -9,8 +9,6 @@ namespace angen::sensors {
 
 namespace {
 
-constexpr double kRate = 10.0;  // Hz
-
 Fan default_fan() {
   Fan fan;
   fan.columns = 360;
@@ -33,7 +31,7 @@ class Lidar : public Sensor {
                          "a lidar has " + std::to_string(fan_.rows) + " rows of rays, must have 1");
     }
     directions_ = fan_.directions();
-    period_ = to_seconds(params.update_period(kRate));
+    period_ = to_seconds(params.update_period());
     fan_.declare_noise("ranges", params);
   }
 
@@ -65,7 +63,7 @@ class Lidar : public Sensor {
 };
 
 ANGEN_REGISTER_SENSOR(Lidar, Kind("lidar", "A planar laser scanner.")
-                                 .publishes_at(kRate)
+                                 .publishes_at(10.0)
                                  .on_demand()
                                  .numbers("ranges", "m", "of each ray, infinite without a hit")
                                  .number("angle_min", "rad", "of the first ray")

@@ -312,8 +312,8 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
     instance.link = link;
     instance.pose = described.pose;
     instance.latest.kind = instance.clean.kind = instance.kind;
-    Params params(described.plugin_element, &described.element);
-    instance.schedule.publish = params.update_period(instance.plugin->kind().rate);
+    Params params(described.plugin_element, &described.element, instance.plugin->kind().rate);
+    instance.schedule.publish = params.update_period();
     instance.topic = params.text("topicName", "", "topic, instead of /angen/KIND/NAME");
     if (instance.topic.empty()) {
       instance.topic = params.text("bumperTopicName", "", "the same, in a contact sensor");

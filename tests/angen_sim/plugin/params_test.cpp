@@ -130,16 +130,16 @@ TEST(Params, RowsAreReadInOrderAndMustBeWhole) {
 
 TEST(Params, TheUpdateRateBecomesAPeriod) {
   const Element sensor = element("sensor", "", {element("update_rate", "20")});
-  EXPECT_EQ(Params(plugin_element({}), &sensor).update_period(10.0), 50'000'000);
-  EXPECT_EQ(Params(plugin_element({{"updateRate", "4"}}), &sensor).update_period(10.0),
-            250'000'000);
-  EXPECT_EQ(Params(plugin_element({{"update_rate", "0"}})).update_period(10.0), 100'000'000);
-  EXPECT_EQ(Params(plugin_element({})).update_period(10.0), 100'000'000);
+  EXPECT_EQ(Params(plugin_element({}), &sensor).update_period(), 50'000'000);
+  EXPECT_EQ(Params(plugin_element({{"updateRate", "4"}}), &sensor).update_period(), 250'000'000);
+  EXPECT_EQ(Params(plugin_element({{"update_rate", "0"}}), nullptr, 5.0).update_period(),
+            200'000'000);
+  EXPECT_EQ(Params(plugin_element({}), nullptr, 5.0).update_period(), 200'000'000);
 }
 
 TEST(Params, AnUpdateRateWithoutAPeriodInNanosecondsIsRefused) {
   Params params(plugin_element({{"update_rate", "1e-300"}}));
-  EXPECT_EQ(complaint([&] { params.update_period(10.0); }),
+  EXPECT_EQ(complaint([&] { params.update_period(); }),
             "test.sdf:1: <update_rate> is 1e-300 Hz, must be 0 or >= 1e-06");
 }
 

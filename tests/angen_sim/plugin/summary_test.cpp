@@ -33,6 +33,16 @@ TEST(Summary, ShowsWhatTheKindShowsWithUnits) {
   EXPECT_FALSE(alarms(kind, reading));
 }
 
+TEST(Summary, NamesNumbers) {
+  const Kind kind =
+      Kind("climate", "").texts("names", "").numbers("warmth", "°C", "").shown_by_name("names", 1);
+  Reading reading;
+  reading.set("warmth", std::vector<double>{20.04, -0.01});
+  EXPECT_EQ(summary(kind, reading), "20.0 0.0 °C");
+  reading.set("names", std::vector<std::string>{"kitchen", "hall"});
+  EXPECT_EQ(summary(kind, reading), "kitchen 20.0, hall 0.0 °C");
+}
+
 TEST(Summary, OfAKindThatShowsNothingIsEveryField) {
   Reading reading;
   reading.set("count", 3);

@@ -44,9 +44,9 @@ class Bench {
  public:
   explicit Bench(const std::string& library, const Element& plugin = element("plugin"),
                  const Element& sensor = element("sensor"), FakeWorld filled = {})
-      : world(std::move(filled)), params_(plugin, &sensor) {
-    static Catalog catalog;
-    plugin_ = catalog.library(library).at(0);
+      : world(std::move(filled)),
+        plugin_(plugin_of(library)),
+        params_(plugin, &sensor, plugin_->kind().rate) {
     sensor_ = plugin_->make_sensor();
     sensor_->configure(params_, world);
     params_.finish();
@@ -89,8 +89,13 @@ class Bench {
   std::uint64_t moves = 0;  // of which the scene does not know
 
  private:
-  Params params_;
+  static std::shared_ptr<const Plugin> plugin_of(const std::string& library) {
+    static Catalog catalog;
+    return catalog.library(library).at(0);
+  }
+
   std::shared_ptr<const Plugin> plugin_;
+  Params params_;
   std::unique_ptr<Sensor> sensor_;
 };
 

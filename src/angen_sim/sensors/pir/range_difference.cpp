@@ -8,7 +8,6 @@ namespace angen::sensors {
 
 namespace {
 
-constexpr double kRate = 10.0;  // Hz, as its kind has it
 constexpr std::size_t kMostDirections = 1'000'000;
 
 Fan default_fan() {
@@ -47,7 +46,7 @@ void RangeDifference::configure(Params& params, Wiring&) {
   const double amplitude =
       params.number("nod_amplitude", 0.0, "rad", "nods so far up and down", {0.0, M_PI_2});
   const double nod_period = params.number("nod_period", 0.0, "s", "of a whole nod", kNotNegative);
-  nod_.period = params.update_period(kRate);
+  nod_.period = params.update_period();
   nod_.phases = amplitude > 0.0 ? count_phases(params, nod_period) : 1;
   for (std::size_t k = 0; k < nod_.phases; ++k) {
     const double turn = 2.0 * M_PI * static_cast<double>(k) / static_cast<double>(nod_.phases);

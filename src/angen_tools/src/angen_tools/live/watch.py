@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 REFRESH = 0.25  # s of wall time between two pictures
 MARGIN = 0.5    # simulated s over its period in which a sensor's first reading comes
 LIMIT = 120.0   # s of wall time after which a slow simulation is not waited for
-WIDEST = 72      # characters of a value that a table shows
+WIDEST = 120     # characters of a value that a table shows
 HEAD = ('KIND', 'NAME', 'VALUE', 'TIME')
 
 
