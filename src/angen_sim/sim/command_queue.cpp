@@ -132,6 +132,10 @@ void CommandQueue::answer() {
 Outcome CommandQueue::execute(const Action& action, Building& building, InstanceView::Clock clock,
                               std::vector<Event>& events, Effects& effects) {
   Outcome outcome;
+  const auto rejected = [&](const std::string& why) {
+    outcome = {false, why};
+    events.push_back(world_event(clock.time, "world", "rejected", why));
+  };
   try {
     if (const auto* command = std::get_if<ToDevice>(&action)) {
       effects.commanded = true;
@@ -169,8 +173,9 @@ Outcome CommandQueue::execute(const Action& action, Building& building, Instance
       events.push_back({clock.time, note->source, note->kind, note->event, note->detail});
     }
   } catch (const std::exception& problem) {  // also of a plug-in, or of the standard library
-    outcome = {false, problem.what()};
-    events.push_back(world_event(clock.time, "world", "rejected", outcome.message));
+    rejected(problem.what());
+  } catch (...) {
+    rejected("an exception that is not a std::exception");
   }
   return outcome;
 }

@@ -127,8 +127,8 @@ class Belief:
     def _of_mats(self, pressed: Mapping[str, bool], others: list[np.ndarray]) -> np.ndarray:
         rooms = self.site.of_kind('pressure')
         explained = self._explained(others, self.model.press_stray)
-        told = {rooms[name]: on for name, on in pressed.items() if name in rooms}
-        return self._of_rooms(told, explained, self.model.pressed, 1.0, 0.0)
+        stepped_on = {rooms[name]: on for name, on in pressed.items() if name in rooms}
+        return self._of_rooms(stepped_on, explained, self.model.pressed, 1.0, 0.0)
 
     def _of_rooms(self, fired: Mapping[int, bool], explained: np.ndarray, rate: float,
                   weight_of_motion: float, weight_of_silence: float) -> np.ndarray:

@@ -1,7 +1,6 @@
 """Locating in a world of this process: its sensors' readings, beside the truth."""
 from __future__ import annotations
 
-import math
 from typing import Any, Callable
 
 from lxml import etree
@@ -12,26 +11,18 @@ from angen_tools.common.geometry import yaw
 from angen_tools.common.progress import Progress
 from angen_tools.locate.belief import STEP, Answer, Belief, Evidence
 from angen_tools.locate.score import Row, compare
-from angen_tools.locate.site import STOREY, Site, Thing, make_site
-from angen_tools.maps.gridmap import load_world, models_with
+from angen_tools.locate.site import Site, Thing, make_site
+from angen_tools.maps.gridmap import load_world
 
 SAMPLE = 0.1  # s, at which PIRs and readers publish
-KINDS = ('pir', 'rfid', 'pressure')
+KINDS = ('pir', 'rfid', 'pressure', 'door', 'elevator')
 
 
 def site_of(world: Any) -> Site:
     """The home that is a world: rooms by its climates, things where their models stand."""
     world.run(SAMPLE)
-    places = {name: pose for name, pose in zip(world.links, world.link_poses)}
-    first: dict[str, Any] = {}
-    for name, pose in places.items():
-        first.setdefault(name.split('::')[0], pose)
-    things = [_thing(kind, name, first[name]) for kind in KINDS for name in world.sensors(kind)
-              if name in first]
-    things += [_thing('door', _command_name(model, first[model][2]), first[model])
-               for model in models_with(world, 'hinge')]
-    things += [_thing('elevator', name, first[name]) for name in world.devices('elevator')
-               if name in first]
+    things = [_thing(kind, name, pose) for kind, name, _, pose in world.entities()
+              if kind in KINDS]
     origins = _origins(world)
     climates = [(origins[name], world.device('climate', name))
                 for name in world.devices('climate') if name in origins]
@@ -52,12 +43,6 @@ def _origins(world: Any) -> dict[str, list[float]]:
 def _thing(kind: str, name: str, pose: Any) -> Thing:
     x, y, z = (float(v) for v in pose[:3])
     return Thing(kind, name, (x, y, z), yaw(*pose[3:]))
-
-
-def _command_name(model: str, z: float) -> str:
-    """A door's name in commands: kitchen_door0 is kitchen0."""
-    base = model.rstrip('0123456789_').removesuffix('_door').removeprefix('door_')
-    return f'{base or "door"}{math.floor((z + 0.5) / STOREY)}'
 
 
 def run(path: str, seconds: float, seed: int, drive: Callable[[Any], None] | None = None
@@ -104,12 +89,8 @@ def _take(world: Any, evidence: Evidence) -> None:
 
 def _carriers(world: Any) -> dict[str, str]:
     """The model that carries each tag; the truth, for comparison only."""
-    found = {}
-    for name in world.devices('tag'):
-        model = name.removesuffix('_tag')
-        if any(link.startswith(f'{model}::') for link in world.links):
-            found[world.device('tag', name)['id']] = model
-    return found
+    return {world.device('tag', name)['id']: model
+            for _, name, model, _ in world.entities('tag')}
 
 
 def _place(world: Any, model: str) -> tuple[float, float, float]:

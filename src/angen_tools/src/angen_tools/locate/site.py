@@ -9,7 +9,8 @@ from typing import Any, Iterable, Mapping, Sequence
 
 import numpy as np
 
-STOREY = 4.0       # m
+from angen_tools.maps.gridmap import floor_of
+
 WALL = 0.06        # m: what hangs in a wall is in its room
 BESIDE = 0.6       # m from the middle of a door to the rooms on its sides
 LEAF = 0.5         # m from a door's hinge to its middle
@@ -100,8 +101,7 @@ def make_site(climates: Iterable[tuple[Sequence[float], Mapping[str, Sequence[An
         boxes = np.asarray(state['rooms'], float).reshape(-1, 2, 3) + np.asarray(origin)
         names = list(state.get('names', ()))
         for i, (low, high) in enumerate(boxes):
-            floor = math.floor((low[2] + 0.5) / STOREY)
-            name = f'{names[i]}{floor}' if len(names) == len(boxes) else ''
+            name = f'{names[i]}{floor_of(low[2])}' if len(names) == len(boxes) else ''
             rooms.append(Room(name, (low[0], low[1], low[2]), (high[0], high[1], high[2])))
     rooms = [room if room.name else Room(_named_by(room, things, i), room.low, room.high)
              for i, room in enumerate(rooms)]

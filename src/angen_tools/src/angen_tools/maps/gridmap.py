@@ -1,6 +1,7 @@
 """Occupancy maps of a world's floors, measured by rays against its geometry."""
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Callable
@@ -23,6 +24,11 @@ ROOM, HEADROOM = 0.4, 1.0  # m: free floor without a circle of that radius and h
 
 FREE, OCCUPIED, UNKNOWN = 0, 100, -1  # as nav_msgs/OccupancyGrid has them
 GRAYS = {FREE: 254, OCCUPIED: 0, UNKNOWN: 205}  # as map_server has them
+
+
+def floor_of(z: float) -> int:
+    """The floor that something at height z (m) belongs to."""
+    return math.floor((z + 0.5) / STOREY)
 
 
 @dataclass

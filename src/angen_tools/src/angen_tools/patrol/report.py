@@ -176,7 +176,7 @@ def times(row: Row, none: str) -> list[str]:
 
 @dataclass(frozen=True)
 class Figures:
-    """A run in numbers: m, s, mm; `aside` is where the robot took itself to be, beside the truth,
+    """A run in numbers: m, s, mm; `aside` is the largest error of the estimated position
     once it had had a second to find out."""
 
     seed: int
@@ -239,7 +239,7 @@ def summary(run: Run, found: Figures, whole: float, out: Path) -> str:
         f'elevator stops beside their level: {stops or "none"}',
         f'collisions: {found.collisions}' + ''.join(f'\n  {t:.2f} s {what}'
                                                     for t, what in run.collisions()),
-        f'took itself to be at most {100 * found.aside_m:.1f} cm beside the truth; wheels alone: '
+        f'error of the estimated position: at most {100 * found.aside_m:.1f} cm; wheels alone: '
         f'{100 * found.wheels_m:.0f} cm, at the end {100 * found.wheels_end_m:.0f} cm',
         f'wrote {out}/rooms.csv, events.csv, track.csv, summary.csv, {", ".join(plans(run))}, '
         'patrol.bag']

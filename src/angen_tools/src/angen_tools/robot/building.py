@@ -10,10 +10,9 @@ from lxml import etree
 
 from angen_tools.common.failure import Failure
 from angen_tools.common.geometry import rotation_of, yaw
-from angen_tools.maps.gridmap import STOREY, GridMap, floors, make_map
+from angen_tools.maps.gridmap import STOREY, GridMap, floor_of, floors, make_map
 from angen_tools.maps.rays import Caster
 from angen_tools.robot.doors import find_door, find_hinge, find_top, link_poses
-from angen_tools.robot.driver import floor_of
 from angen_tools.robot.pilot import Pose
 from angen_tools.robot.planner import Door
 from angen_tools.robot.route_file import Route
@@ -88,7 +87,7 @@ class Start:
 
     robot: Entity
     laser: Entity
-    pose: Pose  # where it takes itself to be
+    pose: Pose  # as it estimates
     mount: Pose  # the laser on the robot
 
     @property

@@ -22,17 +22,12 @@ SETTLE = 5  # scans until a robot that stands at its start knows where
 
 @dataclass
 class Track:
-    """Where the robot was, and where it took itself to be; a row a cycle, times in s."""
+    """Where the robot was, and where it estimated to be; a row a cycle, times in s."""
 
     rows: list[tuple[float, ...]] = field(default_factory=list)  # t, x, y, z, yaw: in truth
     believed: list[tuple[float, float]] = field(default_factory=list)  # x, y
     odometry: list[tuple[float, float]] = field(default_factory=list)  # x, y, by wheels alone
     levels: list[tuple[int, float]] = field(default_factory=list)  # floor, m beside its level
-
-
-def floor_of(z: float) -> int:
-    """The floor that something at height z (m) belongs to."""
-    return math.floor((z + 0.5) / STOREY)
 
 
 class Stuck(Failure):
@@ -58,7 +53,7 @@ class Driver:
 
     @property
     def pose(self) -> Pose:
-        """Where the robot takes itself to be."""
+        """The robot's estimate of where it is."""
         return self._localizer.pose
 
     def begin(self, start: Pose, floor: int) -> None:
@@ -75,7 +70,7 @@ class Driver:
         return returns_of(self._robot.scan(), self._mount)
 
     def cycle(self, v: float = 0.0, w: float = 0.0) -> Pose:
-        """Commands the wheels for a cycle; where the robot takes itself to be after it."""
+        """Commands the wheels for a cycle; the estimated pose after it."""
         self._robot.cycle(v, w)
         odometry = self._robot.odometry()
         pose = self._localizer.move(odometry)

@@ -17,7 +17,7 @@ def write_events(events: list[Event], out: Path) -> None:
 
 
 def write_track(track: Track, out: Path) -> None:
-    """Writes track.csv: where the robot was, took itself to be, and would by its wheels alone."""
+    """Writes track.csv: the true pose, the estimate, and the odometry of the wheels alone."""
     with (out / 'track.csv').open('w', newline='') as file:
         lines = csv.writer(file)
         lines.writerow(['time_s', 'x_m', 'y_m', 'z_m', 'yaw_rad', 'believed_x_m', 'believed_y_m',

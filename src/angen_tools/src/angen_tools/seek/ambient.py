@@ -21,7 +21,7 @@ POINT = {'pressure': 0.6, 'contact': 0.8, 'reed': 1.5, 'cabinet': 1.3, 'window':
 
 @dataclass
 class RobotNow:
-    """Where the robot takes itself to be, and what it does."""
+    """Where the robot estimates to be, and what it does."""
 
     x: float
     y: float

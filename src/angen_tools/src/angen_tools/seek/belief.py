@@ -4,7 +4,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import csr_matrix, diags, identity
 
-from angen_tools.seek.home import Home, Pir
+from angen_tools.seek.home import CELL, Home, Pir
 
 STEP = 1.0  # s
 SPEED = 0.8  # m/s
@@ -51,7 +51,7 @@ class Belief:
         most = max(degree.max(), 1.0)
         once = beside / most + diags(1 - degree / most)
         # of `most` ways one is taken; a step is CELL long: SPEED is the root mean square per s
-        rounds = max(1, round(most / 4 * 2 * (SPEED * STEP / 0.5) ** 2))
+        rounds = max(1, round(most / 4 * 2 * (SPEED * STEP / CELL) ** 2))
         matrix = identity(count, format='csr')
         for _ in range(rounds):
             matrix = matrix @ once

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.ndimage import distance_transform_edt, label
 
 from angen_tools.common.failure import Failure
-from angen_tools.maps.gridmap import FREE, STOREY, GridMap, load_world, make_map
+from angen_tools.maps.gridmap import FREE, STOREY, GridMap, floor_of, load_world, make_map
 from angen_tools.maps.rays import Caster
 from angen_tools.robot.building import Entity, Start, Survey, find_start
 from angen_tools.robot.planner import Door, Planner, distances
@@ -128,7 +128,7 @@ def floor_links(world: Any) -> dict[int, list[tuple[str, float, float]]]:
     for name, pose in zip(world.links, np.asarray(world.link_poses)):
         link = name.split('::')[-1]
         if link.startswith('floor_'):
-            floor = int(np.floor((pose[2] + 0.5) / STOREY))
+            floor = floor_of(pose[2])
             found.setdefault(floor, []).append((link.removeprefix('floor_'), pose[0], pose[1]))
     return found
 

@@ -10,8 +10,7 @@ import numpy as np
 from lxml import etree
 
 from angen_tools.common.failure import Failure
-from angen_tools.maps.gridmap import OCCUPIED, STOREY, GridMap
-from angen_tools.robot.driver import floor_of
+from angen_tools.maps.gridmap import OCCUPIED, STOREY, GridMap, floor_of
 from angen_tools.robot.planner import Door, Planner, Point
 from angen_tools.robot.route import Action, Drive, Ride, Router, Turn
 from angen_tools.robot.route_file import Route, Waypoint

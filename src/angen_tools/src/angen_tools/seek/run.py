@@ -12,7 +12,8 @@ from lxml import etree
 
 from angen_tools.patrol.scene import start_offset
 from angen_tools.robot.building import find_start, move_robot, remove_actors
-from angen_tools.robot.driver import Track, floor_of
+from angen_tools.maps.gridmap import floor_of
+from angen_tools.robot.driver import Track
 from angen_tools.robot.interface import Event, collisions
 from angen_tools.robot.route_file import Route
 from angen_tools.seek.home import Home
