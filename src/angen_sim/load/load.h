@@ -28,6 +28,21 @@ desc::World world(const std::string& path);
 desc::World world_from_text(const std::string& xml, const std::string& name,
                             const SearchPaths& paths);
 
+/// A world file with its includes written out: it loads as the file does, but needs no other file
+/// besides those that files_of() lists.
+std::string world_text(const std::string& path);
+
+/// A file that a mesh, a heightmap or an image of a text is read from.
+struct UsedFile {
+  std::string uri;   // as the text has it
+  std::string path;  // where it is found, "" where it is not
+};
+std::vector<UsedFile> files_of(const std::string& xml, const SearchPaths& paths);
+/// The text with those files read from these paths.
+std::string with_files(const std::string& xml, const std::vector<UsedFile>& files);
+/// A world of SDF 1.9 with nothing in it but this model.
+std::string world_around(const desc::Model& model);
+
 /// One model from a text (<sdf>, <model>, <include>, <actor>, or URDF <robot>), from a path, or
 /// from a model:// uri; `name` replaces its own unless empty, `pose` is where it stands in the
 /// world (an actor's waypoints are relative to it). A lone element is read as SDF 1.6 or later.

@@ -124,7 +124,7 @@ void place_all(const Parts& parts, const sdf::World& from, desc::World& to) {
   }
 }
 
-desc::World describe_world(const Element& sdf, Session& session) {
+const Element& only_world(const Element& sdf) {
   const Element* found = nullptr;
   for (const Element& child : sdf.children) {
     if (child.name != "world") continue;
@@ -133,14 +133,18 @@ desc::World describe_world(const Element& sdf, Session& session) {
   }
   if (found == nullptr)
     throw Error(sdf.source, "the file holds no <world>; a world file needs one");
-  Parts parts = split(*found, session);
-  if (name_of(*found).empty())
-    throw Error(found->source, "<world> has no name; write name=\"home\"");
+  return *found;
+}
+
+desc::World describe_world(const Element& sdf, Session& session) {
+  const Element& given = only_world(sdf);
+  Parts parts = split(given, session);
+  if (name_of(given).empty()) throw Error(given.source, "<world> has no name; write name=\"home\"");
   check_settings(parts.settings);
   check_entry_names(parts.entries);
 
   desc::World world;
-  world.name = name_of(*found);
+  world.name = name_of(given);
   world.xml = print_xml(parts.own);
   read_settings(parts.settings, world, session);
   for (const Element& child : parts.settings.children) {
@@ -158,6 +162,10 @@ desc::World describe_world(const Element& sdf, Session& session) {
   return world;
 }
 
+SearchPaths paths_beside(const std::string& path) {
+  return SearchPaths::from_environment((fs::absolute(path).parent_path() / "models").string());
+}
+
 desc::World read_world(const std::string& xml, const std::string& name, Session& session) {
   const Open open(session, name);
   return describe_world(read_document(xml, name, session), session);
@@ -171,9 +179,24 @@ desc::World world_from_text(const std::string& xml, const std::string& name,
   return read_world(xml, name, session);
 }
 
+std::string world_text(const std::string& path) {
+  const SearchPaths paths = paths_beside(path);
+  Session session{paths};
+  const Open open(session, path);
+  const Element given = read_document(session.sources.read(path), path, session);
+  Parts parts = split(only_world(given), session);
+  Element world = std::move(parts.settings);
+  for (Entry& entry : parts.entries) world.children.push_back(std::move(entry.expanded));
+  for (Element& state : parts.states) world.children.push_back(std::move(state));
+  Element sdf;
+  sdf.name = "sdf";
+  sdf.attributes = {{"version", "1.9"}};
+  sdf.children.push_back(std::move(world));
+  return print_xml(sdf);
+}
+
 desc::World world(const std::string& path) {
-  const std::string models = (fs::absolute(path).parent_path() / "models").string();
-  const SearchPaths paths = SearchPaths::from_environment(models);
+  const SearchPaths paths = paths_beside(path);
   const Cache cache(path, paths);
   if (std::optional<desc::World> kept = cache.recall()) return *std::move(kept);
   Session session{paths};

@@ -1,5 +1,6 @@
 #include "py/world.h"
 
+#include <algorithm>
 #include <cmath>
 #include <future>
 #include <utility>
@@ -30,9 +31,14 @@ std::string folder_of(const std::string& path) {
 
 }  // namespace
 
-World::World(const std::string& path, std::uint64_t seed, std::shared_ptr<Catalog> catalog)
+World::World(const std::string& path, std::uint64_t seed, std::shared_ptr<Catalog> catalog,
+             const std::string& log)
     : paths_(load::SearchPaths::from_environment(folder_of(path) + "/models")),
-      simulation_(load::world(path), seed, std::move(catalog)) {
+      owned_(std::make_unique<sim::Simulation>(load::world(path), seed, std::move(catalog))),
+      simulation_(*owned_) {
+  if (!log.empty()) {
+    recorder_ = std::make_unique<record::Recorder>(log, record::origin_of(path), simulation_);
+  }
   note(simulation_.world().warnings);
   note_warnings(*simulation_.snapshot());  // of how it was built
   begin();
@@ -41,9 +47,18 @@ World::World(const std::string& path, std::uint64_t seed, std::shared_ptr<Catalo
 World::World(const std::string& text, const std::string& name, std::uint64_t seed,
              std::shared_ptr<Catalog> catalog)
     : paths_(load::SearchPaths::from_environment()),
-      simulation_(load::world_from_text(text, name, paths_), seed, std::move(catalog)) {
+      owned_(std::make_unique<sim::Simulation>(load::world_from_text(text, name, paths_), seed,
+                                               std::move(catalog))),
+      simulation_(*owned_) {
   note(simulation_.world().warnings);
   note_warnings(*simulation_.snapshot());  // of how it was built
+  begin();
+}
+
+World::World(std::unique_ptr<sim::Simulation> simulation, const std::string& models)
+    : paths_(load::SearchPaths::from_environment(models)),
+      owned_(std::move(simulation)),
+      simulation_(*owned_) {
   begin();
 }
 
@@ -66,6 +81,13 @@ void World::note_warnings(const sim::Snapshot& snapshot) {
 void World::take(std::shared_ptr<const sim::Snapshot> snapshot) {
   snapshot_ = std::move(snapshot);
   fingerprint_.add(*snapshot_);
+  if (recorder_) {
+    recorder_->add(*snapshot_);
+    if (!recorder_->error().empty()) {
+      failure_ = recorder_->error();
+      recorder_.reset();
+    }
+  }
   events_.insert(events_.end(), snapshot_->events.begin(), snapshot_->events.end());
   note_warnings(*snapshot_);
   for (const sim::Event& event : snapshot_->events) {
@@ -89,8 +111,12 @@ void World::run(std::uint64_t ticks) {
   if (ticks == 0) return;
   const std::future<sim::Outcome> done = simulation_.post(sim::Step{ticks});
   const std::int64_t last = snapshot_->tick + static_cast<std::int64_t>(ticks);
-  while (snapshot_->tick < last) take(simulation_.leap(last * snapshot_->step));
+  while (snapshot_->tick < last) take(simulation_.leap(leap_limit(last * snapshot_->step)));
   raise_failure();
+}
+
+Nanoseconds World::leap_limit(Nanoseconds until) const {
+  return recorder_ ? std::min(until, recorder_->leap_limit(*snapshot_)) : until;
 }
 
 std::uint64_t World::ticks_in(double seconds) const {

@@ -7,6 +7,8 @@
 #include "load/load.h"
 #include "py/convert.h"
 #include "record/fingerprint.h"
+#include "record/recorder.h"
+#include "record/replay.h"
 #include "record/world_file.h"
 #include "sim/simulation.h"
 
@@ -15,9 +17,14 @@ namespace angen::py {
 /// A simulation as Python sees it: loads, steps, commands, reads. Not shared between threads.
 class World {
  public:
-  World(const std::string& path, std::uint64_t seed, std::shared_ptr<Catalog> catalog);
+  /// `log` names a file to record into, unless it is empty.
+  World(const std::string& path, std::uint64_t seed, std::shared_ptr<Catalog> catalog,
+        const std::string& log = "");
   World(const std::string& text, const std::string& name, std::uint64_t seed,
         std::shared_ptr<Catalog> catalog);
+
+  /// Goes on with a simulation that has run already, of a world whose models are found in `models`.
+  World(std::unique_ptr<sim::Simulation> simulation, const std::string& models);
 
   void step(std::uint64_t ticks);
   /// The same, leaping over the ticks in which nothing happens.
@@ -47,6 +54,7 @@ class World {
 
  private:
   void begin();
+  Nanoseconds leap_limit(Nanoseconds until) const;
   void note(const std::vector<Diagnostic>& warnings);
   void note_warnings(const sim::Snapshot& snapshot);
   void drain(sim::Action action);
@@ -55,7 +63,9 @@ class World {
   void take(std::shared_ptr<const sim::Snapshot> snapshot);
 
   load::SearchPaths paths_;
-  sim::Simulation simulation_;
+  std::unique_ptr<sim::Simulation> owned_;
+  sim::Simulation& simulation_;
+  std::unique_ptr<record::Recorder> recorder_;
   std::shared_ptr<const sim::Snapshot> snapshot_;
   std::vector<sim::Event> events_;
   std::vector<std::string> warnings_;

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 #include "core/random.h"
 
@@ -101,9 +102,43 @@ void Fingerprint::add(const sim::Snapshot& snapshot) {
   hash_ = mixer.hash();
 }
 
-std::string Fingerprint::text() const {
+void RunFingerprint::add(const sim::Snapshot& snapshot) {
+  Mixer mixer(hash_);
+  bool changed = false;
+  const auto add = [&](const auto&... values) {
+    if (!std::exchange(changed, true)) mixer.add(snapshot.tick);
+    (mixer.add(values), ...);
+  };
+  if (snapshot.structure != structure_) {
+    structure_ = snapshot.structure;
+    for (const auto& model : structure_->models) add(model->name);
+    for (std::size_t i = 0; i < snapshot.link_poses.size(); ++i) add(snapshot.link_poses[i]);
+    for (std::size_t i = 0; i < snapshot.joint_positions.size(); ++i) {
+      add(snapshot.joint_positions[i]);
+    }
+  }
+  for (const std::uint32_t i : snapshot.moved_links) add(i, snapshot.link_poses[i]);
+  if (snapshot.light_levels != light_levels_) {
+    if (light_levels_ == nullptr || *snapshot.light_levels != *light_levels_) {
+      add(*snapshot.light_levels);
+    }
+    light_levels_ = snapshot.light_levels;
+  }
+  for (const std::uint32_t i : snapshot.new_readings) {
+    const std::shared_ptr<const Reading>& reading = snapshot.sensors[i].reading;
+    if (reading->stamp == snapshot.time && !structure_->sensors[i].on_demand()) add(i, *reading);
+  }
+  for (const std::uint32_t i : snapshot.new_states) add(i, *snapshot.devices[i]);
+  for (const sim::Event& event : snapshot.events) {
+    add(event.stamp, event.source, event.kind, event.event);
+    if (event.event != "warning" && event.event != "rejected") add(event.detail);
+  }
+  hash_ = mixer.hash();
+}
+
+std::string fingerprint_text(std::uint64_t hash) {
   char digits[17];
-  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash_));
+  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
   return digits;
 }
 

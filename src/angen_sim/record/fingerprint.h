@@ -9,6 +9,9 @@
 
 namespace angen::record {
 
+/// 16 hexadecimal digits.
+std::string fingerprint_text(std::uint64_t hash);
+
 /// One number for a whole run: equal for runs whose snapshots are equal, bit for bit.
 class Fingerprint {
  public:
@@ -17,7 +20,21 @@ class Fingerprint {
   void add(const sim::Snapshot& snapshot);
 
   std::uint64_t value() const { return hash_; }
-  std::string text() const;  // 16 hexadecimal digits
+  std::string text() const { return fingerprint_text(hash_); }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325ULL;
+  std::shared_ptr<const sim::Structure> structure_;
+  std::shared_ptr<const std::vector<double>> light_levels_;
+};
+
+/// The same, but equal for a run that leaps and one that takes each tick, whoever listens and on
+/// whichever computer the files lie: it adds only ticks in which something changed, leaves out
+/// sensors that sample on demand, and the texts of warnings and rejections, which name files.
+class RunFingerprint {
+ public:
+  void add(const sim::Snapshot& snapshot);
+  std::string text() const { return fingerprint_text(hash_); }
 
  private:
   std::uint64_t hash_ = 0xcbf29ce484222325ULL;

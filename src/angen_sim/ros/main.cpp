@@ -19,6 +19,8 @@
 #include "core/text.h"
 #include "load/load.h"
 #include "plugin/library.h"
+#include "record/recorder.h"
+#include "record/replay.h"
 #include "ros/node.h"
 #include "sim/simulation.h"
 
@@ -28,11 +30,13 @@ using angen::sim::Simulation;
 
 constexpr char kUsage[] =
     "usage: angen_node [WORLD] [_rate:=1] [_paused:=false] [_seed:=1] [_clock_rate:=100]\n"
-    "                  [_fast:=false] [_topics:=sensor|kind]\n"
+    "                  [_fast:=false] [_topics:=sensor|kind] [_record:=FILE]\n"
+    "                  [_replay:=FILE [_until:=SECONDS]]\n"
     "       angen_node --check WORLD    only loads; exit code 1 when it cannot\n"
     "WORLD may also stand in the parameter ~world.\n";
 
 constexpr std::uint64_t kDefaultSeed = 1;
+constexpr double kLongestTime = 9e9;  // s, so that it fits into nanoseconds
 
 std::atomic<bool> stop{false};
 
@@ -98,8 +102,55 @@ std::uint64_t seed_in(const std::vector<std::string>& words) {
   return kDefaultSeed;
 }
 
+/// ~until, a time in s; a launch file gives an empty text for none.
+std::optional<angen::Nanoseconds> until_param() {
+  std::string text;
+  double seconds = 0.0;
+  if (ros::param::get("~until", text)) {
+    if (text.empty()) return std::nullopt;
+    seconds = angen::parse_finite(text).value_or(-1.0);
+  } else if (ros::param::has("~until")) {
+    seconds = number_param("~until", 0.0, 0.0);
+  } else {
+    return std::nullopt;
+  }
+  if (seconds < 0.0 || seconds > kLongestTime) {
+    throw angen::Error("~until must be a time in s, such as 12.5");
+  }
+  return angen::from_seconds(seconds);
+}
+
+/// What ~replay names, up to ~until; null where it names nothing.
+std::unique_ptr<angen::record::Replay> make_replay(angen::node::Settings& settings) {
+  const auto path = ros::param::param<std::string>("~replay", "");
+  if (path.empty()) return nullptr;
+  const std::optional<angen::Nanoseconds> until = until_param();
+  settings.hurry = until.has_value();
+  auto replay = std::make_unique<angen::record::Replay>(
+      angen::record::read_log(path), std::make_shared<angen::Catalog>(),
+      angen::record::ReplaySettings{settings.fast || settings.hurry, false});
+  if (until) replay->stop_at(*until);
+  return replay;
+}
+
+/// Null where ~record names nothing.
+std::unique_ptr<angen::record::Recorder> make_recorder(const std::string& world,
+                                                       const angen::node::Settings& settings,
+                                                       Simulation& simulation) {
+  const auto file = ros::param::param<std::string>("~record", "");
+  if (file.empty()) return nullptr;
+  if (settings.replay == nullptr) {
+    return std::make_unique<angen::record::Recorder>(file, angen::record::origin_of(world),
+                                                     simulation);
+  }
+  const angen::record::LogHeader& header = settings.replay->log().header;
+  return std::make_unique<angen::record::Recorder>(
+      file, angen::record::Origin{header.world, header.sdf, header.models}, simulation);
+}
+
 int run(std::string path, std::unique_ptr<Simulation> simulation) {
-  if (!simulation && !ros::param::get("~world", path)) {
+  const bool replays = !ros::param::param<std::string>("~replay", "").empty();
+  if (!simulation && !replays && !ros::param::get("~world", path)) {
     throw angen::Error(std::string("no world: give one as argument or in ~world\n") + kUsage);
   }
   angen::node::Settings settings;
@@ -110,14 +161,23 @@ int run(std::string path, std::unique_ptr<Simulation> simulation) {
   }
   settings.clock_rate = number_param("~clock_rate", 100.0, 0.01);
   settings.plugins = angen::Catalog().own();
-  settings.models = folder_of(path) + "/models";
+  const std::unique_ptr<angen::record::Replay> replay = make_replay(settings);
+  if (replay) path = replay->log().header.world;
+  settings.replay = replay.get();
+  settings.models = replay ? replay->log().header.models : folder_of(path) + "/models";
   settings.topics = angen::node::topics_named(ros::param::param<std::string>("~topics", "sensor"));
   const auto seed = static_cast<std::uint64_t>(number_param("~seed", kDefaultSeed, 0.0));
-  if (!simulation || simulation->seed() != seed) simulation = make(read(path), seed);
-  if (ros::param::param("~paused", false)) simulation->post(angen::sim::Pause{true});
+  const bool usable = simulation && simulation->seed() == seed;
+  if (!replay && !usable) simulation = make(read(path), seed);
+  Simulation& running = replay ? replay->simulation() : *simulation;
+  const auto recorder = make_recorder(path, settings, running);
+  settings.recorder = recorder.get();
+  settings.paused_after = ros::param::param("~paused", false);
+  if (settings.paused_after && !replay) running.post(angen::sim::Pause{true});
   if (!ros::param::has("/use_sim_time")) ros::param::set("/use_sim_time", true);
-  angen::node::Node node(*simulation, settings);
-  ROS_INFO("%s; seed %lu", summary(path, *simulation).c_str(), static_cast<unsigned long>(seed));
+  angen::node::Node node(running, settings);
+  ROS_INFO("%s; seed %lu", summary(path, running).c_str(),
+           static_cast<unsigned long>(running.seed()));
   node.run(stop);
   ros::shutdown();
   return EXIT_SUCCESS;

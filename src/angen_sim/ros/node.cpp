@@ -1,5 +1,6 @@
 #include "ros/node.h"
 
+#include <ros/console.h>
 #include <ros/spinner.h>
 #include <std_msgs/Bool.h>
 
@@ -25,6 +26,10 @@ constexpr Nanoseconds kLongestLeap = 10 * kSecond;  // so far may /clock jump
 Node::Node(sim::Simulation& simulation, const Settings& settings)
     : simulation_(simulation),
       fast_(settings.fast),
+      recorder_(settings.recorder),
+      replay_(settings.replay),
+      hurry_(settings.hurry),
+      paused_after_(settings.paused_after),
       inbox_(simulation),
       pacer_(settings.rate),
       clock_(handle_, settings.clock_rate),
@@ -61,7 +66,36 @@ void Node::announce() {
 }
 
 std::shared_ptr<const sim::Snapshot> Node::advance() {
-  return fast_ ? simulation_.leap(simulation_.snapshot()->time + kLongestLeap) : simulation_.tick();
+  if (recorder_ == nullptr) return simulate();
+  std::shared_ptr<const sim::Snapshot> snapshot = simulate();
+  recorder_->add(*snapshot);
+  if (!recorder_->error().empty()) {
+    ROS_ERROR("%s", recorder_->error().c_str());
+    recorder_ = nullptr;
+  }
+  return snapshot;
+}
+
+std::shared_ptr<const sim::Snapshot> Node::simulate() {
+  const std::shared_ptr<const sim::Snapshot> here = simulation_.snapshot();
+  Nanoseconds until = here->time + kLongestLeap;
+  if (recorder_ != nullptr) until = std::min(until, recorder_->leap_limit(*here));
+  if (replaying()) {
+    std::shared_ptr<const sim::Snapshot> snapshot = replay_->advance(until);
+    if (replay_->done()) go_live();
+    return snapshot;
+  }
+  return fast_ ? simulation_.leap(until) : simulation_.tick();
+}
+
+void Node::go_live() {
+  const std::string& path = replay_->log().path;
+  if (!replay_->log().truncated.empty()) ROS_WARN("%s", replay_->log().truncated.c_str());
+  if (!replay_->mismatch().empty()) ROS_ERROR("%s", replay_->mismatch().c_str());
+  ROS_INFO("%s: %zu actions replayed, %zu fingerprints were equal; live from %.3f s", path.c_str(),
+           replay_->actions(), replay_->compared(), to_seconds(simulation_.snapshot()->time));
+  pacer_.restart();
+  if (paused_after_) simulation_.post(sim::Pause{true});
 }
 
 void Node::publish(const sim::Snapshot& snapshot) {
@@ -88,6 +122,10 @@ void Node::publish(const sim::Snapshot& snapshot) {
 }
 
 void Node::pace(const sim::Snapshot& snapshot) {
+  if (replaying() && (hurry_ || snapshot.paused)) {
+    pacer_.restart();
+    return;
+  }
   if (snapshot.paused) {
     pacer_.restart();
     if (!simulation_.running()) inbox_.wait(kPausedNap);

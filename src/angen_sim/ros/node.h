@@ -4,6 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "record/recorder.h"
+#include "record/replay.h"
 #include "ros/commands.h"
 #include "ros/cost.h"
 #include "ros/inbox.h"
@@ -25,6 +27,10 @@ struct Settings {
   Topics topics = Topics::kSensor;
   std::vector<std::shared_ptr<const Plugin>> plugins;  // whose command topics are always there
   std::string models;  // a folder that model:// is searched in, besides the usual ones
+  record::Recorder* recorder = nullptr;  // where the run is recorded
+  record::Replay* replay = nullptr;      // what comes before commands are taken; of this simulation
+  bool hurry = false;                    // the replay leaps, and does not wait for the rate
+  bool paused_after = false;             // the replay
 };
 
 /// A simulation in ROS. The thread that calls run() owns the world and publishes; roscpp's threads
@@ -43,8 +49,16 @@ class Node {
   /// Advertises /angen/ready, the last topic: whoever sees it finds all others and every service.
   void announce();
 
+  std::shared_ptr<const sim::Snapshot> simulate();
+  bool replaying() const { return replay_ != nullptr && !replay_->done(); }
+  void go_live();
+
   sim::Simulation& simulation_;
   bool fast_;
+  record::Recorder* recorder_;
+  record::Replay* replay_;
+  bool hurry_;
+  bool paused_after_;
   ros::NodeHandle handle_;
   Inbox inbox_;
   Pacer pacer_;

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <future>
 #include <memory>
 #include <string>
 #include <variant>
 
+#include "core/time.h"
 #include "desc/world.h"
 #include "plugin/plugin.h"
 #include "sim/saved.h"
@@ -69,6 +71,10 @@ struct Save {
 
 using Action =
     std::variant<ToDevice, Spawn, Attach, Delete, Pause, Step, Reset, Reject, Note, Save>;
+
+/// Sees each action before it is carried out, in order, and the time at which it is; in the thread
+/// that ticks.
+using ActionObserver = std::function<void(const Action&, Nanoseconds)>;
 
 struct Request {
   Action action;

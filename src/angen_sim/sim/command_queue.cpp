@@ -96,8 +96,10 @@ CommandQueue::Effects CommandQueue::drain(Building& building, InstanceView::Cloc
     const std::lock_guard<std::mutex> lock(mutex_);
     requests.swap(inbox_);
   }
+  if (!taken_over_.empty()) requests = only_replayed(std::move(requests));
   Effects effects;
   for (Request& request : requests) {
+    if (observer_) observer_(request.action, clock.time);
     if (const Step* step = std::get_if<Step>(&request.action)) {
       if (step->ticks == 0) {
         answers_.emplace_back(std::move(request.answer), Outcome{true, "no ticks"});
@@ -112,6 +114,19 @@ CommandQueue::Effects CommandQueue::drain(Building& building, InstanceView::Cloc
     answers_.emplace_back(std::move(request.answer), std::move(outcome));
   }
   return effects;
+}
+
+std::vector<Request> CommandQueue::only_replayed(std::vector<Request> requests) {
+  std::vector<Request> kept;
+  for (Request& request : requests) {
+    if (std::holds_alternative<Save>(request.action)) {
+      kept.push_back(std::move(request));
+    } else {
+      answers_.emplace_back(std::move(request.answer), Outcome{false, taken_over_});
+    }
+  }
+  for (Action& action : std::exchange(replayed_, {})) kept.push_back({std::move(action), {}});
+  return kept;
 }
 
 std::int64_t CommandQueue::ticks_to_go() const {

@@ -4,6 +4,7 @@
 #include <deque>
 #include <future>
 #include <mutex>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,13 @@ class CommandQueue {
   ~CommandQueue();
 
   std::future<Outcome> post(Action action);  // any thread
+  void observe(ActionObserver observer) { observer_ = std::move(observer); }
+
+  /// From now on only what replay() gives is carried out, and a Save; what others post is rejected
+  /// with this reason. "" ends that.
+  void take_over(std::string reason) { taken_over_ = std::move(reason); }
+  /// To be carried out by the next drain().
+  void replay(std::vector<Action> actions) { replayed_ = std::move(actions); }
 
   struct Effects {
     bool reset = false;
@@ -47,11 +55,16 @@ class CommandQueue {
   Outcome execute(const Action& action, Building& building, InstanceView::Clock clock,
                   std::vector<Event>& events, Effects& effects);
 
+  std::vector<Request> only_replayed(std::vector<Request> requests);
+
   mutable std::mutex mutex_;  // of inbox_ only
   std::vector<Request> inbox_;
   std::deque<Pending> steps_;
   std::vector<std::pair<std::promise<Outcome>, Outcome>> answers_;
   bool paused_ = false;
+  ActionObserver observer_;
+  std::string taken_over_;
+  std::vector<Action> replayed_;
 };
 
 }  // namespace angen::sim

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <mutex>
 #include <set>
 #include <string>
@@ -11,8 +12,17 @@ namespace angen::sim {
 /// and name; any thread.
 class RequestedSensors {
  public:
+  using Observer = std::function<void(const std::string&, const std::string&, bool)>;
+
+  /// It sees what set() is called with.
+  void observe(Observer observer) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    observer_ = std::move(observer);
+  }
+
   void set(const std::string& kind, const std::string& name, bool wanted) {
     const std::lock_guard<std::mutex> lock(mutex_);
+    if (observer_) observer_(kind, name, wanted);
     if (wanted) {
       wanted_.emplace(kind, name);
     } else {
@@ -28,6 +38,7 @@ class RequestedSensors {
  private:
   mutable std::mutex mutex_;
   std::set<std::pair<std::string, std::string>> wanted_;
+  Observer observer_;
 };
 
 }  // namespace angen::sim

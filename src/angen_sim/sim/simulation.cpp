@@ -218,6 +218,15 @@ bool Simulation::requested(const std::string& kind, const std::string& name) con
   return impl_->requested.has(kind, name);
 }
 
+void Simulation::observe(ActionObserver actions, RequestedSensors::Observer requests) {
+  impl_->commands.observe(std::move(actions));
+  impl_->requested.observe(std::move(requests));
+}
+
+void Simulation::take_over(std::string reason) { impl_->commands.take_over(std::move(reason)); }
+
+void Simulation::replay(std::vector<Action> actions) { impl_->commands.replay(std::move(actions)); }
+
 void Simulation::measure(bool on) { impl_->meter.on = on; }
 
 Cost Simulation::take_cost() { return impl_->take_cost(); }

@@ -4,10 +4,12 @@
 #include <future>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "plugin/library.h"
 #include "sim/command.h"
 #include "sim/meter.h"
+#include "sim/requested_sensors.h"
 #include "sim/saved.h"
 #include "sim/snapshot.h"
 
@@ -43,6 +45,16 @@ class Simulation {
   /// only. The sensor need not exist yet. Any thread.
   void request(const std::string& kind, const std::string& name, bool wanted);
   bool requested(const std::string& kind, const std::string& name) const;
+
+  /// `actions` sees each action before it is carried out, `requests` each call of request().
+  /// Both may be null. The thread that ticks.
+  void observe(ActionObserver actions, RequestedSensors::Observer requests);
+
+  /// From now on only what replay() gives is carried out, and a Save; what others post is rejected
+  /// with this reason. "" ends that. The thread that ticks, as all of these.
+  void take_over(std::string reason);
+  /// To be carried out in the next tick, after a take_over().
+  void replay(std::vector<Action> actions);
 
   /// Whether ticks are to measure what they cost, from the next one on. No result depends on it.
   /// The thread that ticks.

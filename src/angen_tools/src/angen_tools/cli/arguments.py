@@ -60,6 +60,14 @@ def duration(text: str) -> float:
     return number
 
 
+def moment(text: str) -> float:
+    """A time in s, 0 or more."""
+    number = _number(text)
+    if not 0.0 <= number < math.inf:
+        raise ValueError(f"'{text}' is not a valid time; give seconds, 0 or more")
+    return number
+
+
 def span(text: str) -> float:
     """A duration with its unit, as 24h, in s."""
     from angen_tools.care.clock import duration as read

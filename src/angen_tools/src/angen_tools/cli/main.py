@@ -43,7 +43,7 @@ def make_parser() -> Parser:
                 live.add_save, live.add_watch, live.add_top, offline.add_checks, offline.add_map,
                 live.add_drive, offline.add_run, patrol.add_task, offline.add_world,
                 bench.add_bench, walktest.add_walktest, care.add_care,
-                locate.add_locate, pid.add_pid):
+                locate.add_locate, pid.add_pid, offline.add_replay):
         add(commands)
     completion = command(commands, 'completion', run_completion,
                          'prints what makes a shell complete angen',

@@ -1,11 +1,13 @@
-"""The commands that need no running simulator: plugins, check, luxcheck, world, map, run."""
+"""The commands that need no running simulator: plugins, check, luxcheck, world, map, run,
+replay.
+"""
 from __future__ import annotations
 
 import argparse
 from pathlib import Path
 from typing import Any
 
-from angen_tools.cli.arguments import at_least, checked, duration
+from angen_tools.cli.arguments import at_least, checked, duration, moment
 from angen_tools.cli.parser import add_json, add_out, command
 from angen_tools.common.output import show
 
@@ -60,6 +62,14 @@ def run_map(args: argparse.Namespace) -> int:
 def run_fast(args: argparse.Namespace) -> int:
     from angen_tools.offline.fast_run import run
     print(run(args.world, args.span, args.seed, args.out))
+    return 0
+
+
+def run_replay(args: argparse.Namespace) -> int:
+    from angen_tools.offline.replay import go_live, replay
+    if args.until is not None:
+        go_live(args.log, args.until)
+    print(replay(args.log, not args.every_tick))
     return 0
 
 
@@ -138,3 +148,15 @@ def add_run(commands: Any) -> None:
     run.add_argument('--seed', metavar='S', type=checked(at_least(0)), default=1,
                      help='of all noise (1)')
     add_out(run, 'events.csv')
+
+
+def add_replay(commands: Any) -> None:
+    """angen replay."""
+    parser = command(commands, 'replay', run_replay,
+                     'runs a session again that record:= recorded, and compares it second by '
+                     'second; needs no simulator', 'replay bug.log', 'replay bug.log --until 41.5')
+    parser.add_argument('log', metavar='FILE', help='the log of ./angen run record:=FILE')
+    parser.add_argument('--until', metavar='SECONDS', type=checked(moment), help='goes on live in '
+                        'ROS from that simulated time')
+    parser.add_argument('--every-tick', action='store_true',
+                        help='leaps over nothing; the fingerprints are the same')

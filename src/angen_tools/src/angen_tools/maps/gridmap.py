@@ -79,11 +79,19 @@ class GridMap:
         return [picture, text]
 
 
+def _is_log(path: str) -> bool:
+    try:
+        with Path(path).open('rb') as file:
+            return file.read(12) == b'{"angen_log"'
+    except OSError:
+        return False
+
+
 def load_world(path: str) -> Any:
-    """The angen.World of a file; Failure where it does not load."""
+    """The angen.World of a file, or of the beginning of a log; Failure where it does not load."""
     angen = angen_module()
     try:
-        return angen.World(path)
+        return angen.Replay(path).world() if _is_log(path) else angen.World(path)
     except angen.Error as error:
         raise Failure(str(error)) from None
 

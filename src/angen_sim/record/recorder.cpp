@@ -1,0 +1,150 @@
+#include "record/recorder.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include "core/random.h"
+#include "load/xml.h"
+
+namespace angen::record {
+
+namespace fs = std::filesystem;
+
+std::string file_hash(const std::string& path) {
+  try {
+    return fingerprint_text(hash_bytes(load::read_file(path)));
+  } catch (const Error&) {
+    return "";
+  }
+}
+
+load::SearchPaths paths_of(const std::string& models) {
+  return load::SearchPaths::from_environment(models);
+}
+
+Origin origin_of(const std::string& world) {
+  const fs::path file = fs::absolute(world).lexically_normal();
+  return {file.string(), load::world_text(world), (file.parent_path() / "models").string()};
+}
+
+Recorder::Recorder(std::string file, const Origin& origin, sim::Simulation& simulation)
+    : path_(std::move(file)), simulation_(simulation), paths_(paths_of(origin.models)) {
+  file_ = open(path_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_APPEND | O_CLOEXEC, 0644);
+  if (file_ < 0) {
+    const std::string why =
+        errno == EEXIST ? "exists already; record into another file" : std::strerror(errno);
+    throw Error({path_, 0}, "cannot be recorded into: " + why);
+  }
+  LogHeader header{this_version(), this_host(),   simulation.seed(),  simulation.snapshot()->step,
+                   origin.world,   origin.models, hashed(origin.sdf), origin.sdf};
+  LineWriter line;
+  write_header(header, line);
+  write(line);
+  if (!error_.empty()) {
+    close(file_);
+    throw Error(error_);
+  }
+  fingerprint_.add(*simulation.snapshot());
+  simulation.observe(
+      [this](const sim::Action& action, Nanoseconds time) { this->action(action, time); },
+      [this](const std::string& kind, const std::string& name, bool wanted) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        requests_.push_back({kind, name, wanted});
+      });
+}
+
+Recorder::~Recorder() {
+  simulation_.observe(nullptr, nullptr);
+  write_fingerprint();  // of the end
+  close(file_);
+}
+
+void Recorder::action(const sim::Action& action, Nanoseconds time) {
+  if (!error_.empty()) return;
+  write_requests();
+  std::vector<LogFile> files;
+  if (const auto* spawn = std::get_if<sim::Spawn>(&action)) {
+    files = hashed(load::world_around(spawn->model));
+  }
+  LineWriter line;
+  line.whole("tick", static_cast<std::uint64_t>(time / simulation_.snapshot()->step));
+  line.whole("batch", batch_);
+  if (!write_action(action, files, line)) return;
+  batch_used_ = true;
+  write(line);
+}
+
+void Recorder::add(const sim::Snapshot& snapshot) {
+  fingerprint_.add(snapshot);
+  write_requests();
+  if (std::exchange(batch_used_, false)) ++batch_;
+  tick_ = snapshot.tick;
+  if (snapshot.time / kSecond == second_) return;
+  second_ = snapshot.time / kSecond;
+  write_fingerprint();
+}
+
+Nanoseconds Recorder::leap_limit(const sim::Snapshot& snapshot) const {
+  const Nanoseconds second = (snapshot.time / kSecond + 1) * kSecond;
+  return (second + snapshot.step - 1) / snapshot.step * snapshot.step;
+}
+
+void Recorder::write_requests() {
+  std::vector<Demand> requests;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    requests.swap(requests_);
+  }
+  for (const Demand& request : requests) {
+    LineWriter line;
+    line.whole("tick", static_cast<std::uint64_t>(tick_)).text("do", "request");
+    line.text("kind", request.kind).text("name", request.name).flag("wanted", request.wanted);
+    write(line);
+  }
+}
+
+void Recorder::write_fingerprint() {
+  LineWriter line;
+  line.whole("tick", static_cast<std::uint64_t>(tick_)).text("do", "fingerprint");
+  line.text("hash", fingerprint_.text());
+  write(line);
+}
+
+// A line that does not fit on the disk is taken back, and ends the log.
+void Recorder::write(LineWriter& line) {
+  if (!error_.empty()) return;
+  const std::string text = line.done(sum_);
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t count = ::write(file_, text.data() + done, text.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) {
+      error_ = path_ + ": cannot be written any more: " + std::strerror(errno) +
+               "; what was recorded before can be replayed";
+      if (ftruncate(file_, static_cast<off_t>(written_)) != 0) error_ += ", but for its last line";
+      return;
+    }
+    done += static_cast<std::size_t>(count);
+  }
+  written_ += text.size();
+}
+
+std::vector<LogFile> Recorder::hashed(const std::string& sdf) {
+  std::vector<LogFile> files;
+  for (const load::UsedFile& used : load::files_of(sdf, paths_)) {
+    std::error_code failed;
+    const auto changed = fs::last_write_time(used.path, failed).time_since_epoch().count();
+    const auto known = hashes_.find(used.path);
+    if (known == hashes_.end() || known->second.changed != changed) {
+      hashes_[used.path] = {changed, file_hash(used.path)};
+    }
+    files.push_back({used.uri, hashes_[used.path].hash});
+  }
+  return files;
+}
+
+}  // namespace angen::record

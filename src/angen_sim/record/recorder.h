@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "load/load.h"
+#include "record/fingerprint.h"
+#include "record/log.h"
+#include "sim/simulation.h"
+
+namespace angen::record {
+
+/// What a recording begins with.
+struct Origin {
+  std::string world;  // the file's path
+  std::string sdf;    // load::world_text
+  std::string models;
+};
+
+/// Of a world's file.
+Origin origin_of(const std::string& world);
+
+/// Writes the log of a simulation, each line at once: whatever ends the process, what was carried
+/// out before can be replayed. The simulation must not have ticked yet, and outlive this.
+class Recorder {
+ public:
+  /// Throws Error where the file exists, or cannot be written.
+  Recorder(std::string file, const Origin& origin, sim::Simulation& simulation);
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  /// Each snapshot after the first, in the thread that ticks.
+  void add(const sim::Snapshot& snapshot);
+  /// How far a leap from this snapshot may go: to the next fingerprint.
+  Nanoseconds leap_limit(const sim::Snapshot& snapshot) const;
+  /// Why nothing is written any more, empty while it is.
+  const std::string& error() const { return error_; }
+
+ private:
+  void action(const sim::Action& action, Nanoseconds time);
+  void write_requests();
+  void write_fingerprint();
+  void write(LineWriter& line);
+  std::vector<LogFile> hashed(const std::string& sdf);
+
+  std::string path_;
+  sim::Simulation& simulation_;
+  load::SearchPaths paths_;
+  int file_ = -1;
+  std::uint64_t written_ = 0;  // bytes of whole lines
+  std::uint64_t sum_ = 0;
+  std::string error_;
+  RunFingerprint fingerprint_;
+  std::int64_t tick_ = 0;
+  Nanoseconds second_ = 0;
+  std::uint64_t batch_ = 0;
+  bool batch_used_ = false;
+  struct Hashed {
+    std::int64_t changed;
+    std::string hash;
+  };
+  std::map<std::string, Hashed> hashes_;  // by path
+  std::mutex mutex_;                      // of requests_
+  std::vector<Demand> requests_;
+};
+
+/// Where a world's or spawned model's text says that files are; "" where it cannot be read.
+std::string file_hash(const std::string& path);
+
+/// Where models of a log are searched besides the usual folders.
+load::SearchPaths paths_of(const std::string& models);
+
+}  // namespace angen::record

@@ -1,0 +1,46 @@
+"""angen replay: runs a recorded session again, and compares its fingerprints."""
+from __future__ import annotations
+
+import os
+import sys
+import time
+from pathlib import Path
+
+from angen_tools.common.catalog import angen_module
+from angen_tools.common.failure import Failure
+from angen_tools.common.progress import Progress
+
+SLICE = 1.0  # simulated s between two progress reports
+
+
+def replay(path: str, leap: bool) -> str:
+    """What was compared, where all of it was equal; Failure where it was not, or cannot be read."""
+    angen = angen_module()
+    began = time.monotonic()
+    try:
+        run = angen.Replay(path, leap=leap)
+        with Progress(path) as progress:
+            while run.advance(SLICE) and not run.mismatch:
+                progress.update(run.time / max(run.end, SLICE))
+    except angen.Error as error:
+        raise Failure(str(error)) from None
+    if run.truncated:
+        print(f'warning: {run.truncated}', file=sys.stderr)
+    if run.mismatch:
+        raise Failure(f'{run.mismatch} ({run.compared} before it were equal)')
+    wall = time.monotonic() - began
+    return (f'{path}: {run.actions} actions in {run.time:g} s, all {run.compared} fingerprints '
+            f'are equal; took {wall:.1f} s')
+
+
+def go_live(path: str, until: float) -> None:
+    """Replaces this process by the building in ROS, as it was at that time; it goes on live."""
+    if not Path(path).is_file():
+        raise Failure(f'{path}: no such file; give a log that record:= wrote')
+    gui = 'true' if os.environ.get('DISPLAY') else 'false'
+    words = ['roslaunch', 'angen_sim', 'angen.launch', f'replay:={Path(path).resolve()}',
+             f'until:={until:.9g}', f'gui:={gui}']
+    try:
+        os.execvp(words[0], words)
+    except OSError as error:
+        raise Failure(f'roslaunch does not start: {error.strerror}; use ./angen') from None
