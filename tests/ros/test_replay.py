@@ -20,6 +20,8 @@ from harness import WORLD, Cli, Master, end, node_binary, until
 
 SECONDS = float(os.environ.get("ANGEN_REPLAY_SECONDS", "60"))
 RATE = 10.0
+LISTENED = ("/tf", "/angen/markers", "/angen/pir/eye", "/angen/lamp/kitchen0", "/scan",
+            "/camera/depth/points")  # the last two are sampled on demand
 CLIENTS = ("ann", "bob", "eve")
 
 
@@ -43,7 +45,7 @@ def session(master: Master, folder: Path, seconds: float, kill: bool = False, **
     done = []
     try:
         if kill:
-            until(lambda: lines(log)[-1]["tick"] > seconds * 500, "half of the session", 300.0)
+            until(lambda: lines(log)[-1].get("tick", 0) > seconds * 500, "half of the session", 300.0)
             node.send_signal(signal.SIGKILL)
             node.wait()
         for client in clients:
@@ -70,6 +72,11 @@ def replay(master: Master, log: Path, *words: str) -> str:
     assert done.returncode == 0, done.stderr
     print(done.stderr + done.stdout)
     return done.stdout
+
+
+def seen(master: Master) -> dict[str, str]:
+    """The environment in which what a node prints is in its log at once."""
+    return dict(master.environment, ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
 
 
 @pytest.fixture(scope="module")
@@ -102,20 +109,15 @@ def test_a_node_replays_with_listeners_at_another_rate(own_master: Master, recor
                                                        tmp_path: Path, rate: str) -> None:
     checks = [line for line in lines(recorded) if line.get("do") == "fingerprint"]
     log = tmp_path / "node"
+    listeners = [subprocess.Popen(["/usr/bin/rostopic", "echo", topic],
+                                  env=own_master.environment, stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.DEVNULL) for topic in LISTENED]
     with log.open("w") as out:
         node = subprocess.Popen(
             [str(node_binary()), f"_replay:={recorded}", "_record:=", "_until:=",
              "_fast:=" + str(rate == "fast").lower(), "_rate:=0"],
-            env=own_master.environment, text=True, stdout=out, stderr=out)
-    listeners: list[subprocess.Popen[bytes]] = []
+            env=seen(own_master), text=True, stdout=out, stderr=out)
     try:
-        until(lambda: "/clock" in own_master.topics(), "the node publishes")
-        wanted = [topic for topic in own_master.topics()
-                  if re.search("scan|image|pir|markers|tf", topic)]
-        listeners += [subprocess.Popen(["/usr/bin/rostopic", "hz", topic],
-                                       env=own_master.environment, stdout=subprocess.DEVNULL,
-                                       stderr=subprocess.DEVNULL) for topic in wanted[:8]]
-        assert len(listeners) > 3
         until(lambda: "live from" in log.read_text(), "the end of the replay",
               60 + 3 * SECONDS)
         assert f"{len(checks)} fingerprints were equal" in log.read_text()
@@ -134,11 +136,11 @@ def test_until_stops_there_and_goes_on_live(own_master: Master, recorded: Path, 
         node = subprocess.Popen(
             [str(node_binary()), f"_replay:={recorded}", "_until:=20.5", "_rate:=1",
              f"_record:={second}", "_fast:=false"],
-            env=own_master.environment, text=True, stdout=out, stderr=out)
+            env=seen(own_master), text=True, stdout=out, stderr=out)
     try:
         until(lambda: "live from 20.500 s" in log.read_text(), "the replay is there", 120.0)
         cli = Cli(own_master)
-        assert cli.does("set", "lamp", "kitchen0", "17") == "kitchen0: 17 %"
+        assert "17 %" in cli.does("set", "lamp", "kitchen0", "17")
     finally:
         end(node)
     # What the replayed node recorded is a log of its own, of the old actions and the new one.
