@@ -2,7 +2,9 @@
 import fcntl
 import os
 from pathlib import Path
+import shutil
 import subprocess
+import tempfile
 
 import pytest
 
@@ -123,3 +125,59 @@ def test_the_demo_hands_on_options_and_exit_code(tmp_path):
     assert result.returncode == 1
     assert result.stderr.splitlines()[-1] == (
         f'angen: {tmp_path}/none.yaml: cannot be read: No such file or directory')
+
+
+@pytest.fixture
+def checkout():
+    """A built checkout that the user of `prepare_in` may not write."""
+    root = Path(tempfile.mkdtemp(prefix='angen_'))
+    shutil.copy(ROOT / 'angen', root)
+    for path in ROOT.glob('dependencies*.apt'):
+        shutil.copy(path, root)
+    (root / 'src').mkdir()
+    (root / 'CMakeLists.txt').touch()
+    (root / 'devel').mkdir()
+    (root / 'devel/setup.bash').touch()
+    (root / 'build/angen').mkdir(parents=True)
+    for name in ('built-run', 'built-all'):
+        (root / 'build/angen' / name).write_text(f'{root}\n')
+    yield root
+    set_modes(root, 0o755)
+    shutil.rmtree(root)
+
+
+def set_modes(root, mode):
+    for path in (root, *root.rglob('*')):
+        if path.is_dir():
+            path.chmod(mode)
+
+
+def prepare_in(root):
+    """Runs what every command does first, as a user who is not root."""
+    set_modes(root, 0o555)
+    nobody = {'user': 65534, 'group': 65534, 'extra_groups': []} if os.getuid() == 0 else {}
+    return subprocess.run(['/bin/bash', '-c', 'source "$1"; prepare run; echo ready', 'test',
+                           root / 'angen'], capture_output=True, text=True, cwd='/', **nobody)
+
+
+def test_a_checkout_of_another_user_works_when_it_is_built(checkout):
+    result = prepare_in(checkout)  # its stamp of packages is older than the last apt-get
+    assert (result.returncode, result.stdout, result.stderr) == (0, 'ready\n', '')
+
+
+def test_a_checkout_of_another_user_that_has_changed_is_named(checkout):
+    (checkout / 'src/new.cpp').touch()
+    os.utime(checkout / 'build/angen/built-run', (0, 0))
+    assert_one_line(prepare_in(checkout), f'{checkout} cannot be written', 'not built',
+                    f'{checkout}/angen build')
+
+
+def test_a_checkout_of_another_user_names_missing_packages(checkout):
+    with (checkout / 'dependencies.apt').open('a') as file:
+        file.write('no-such-package # for the test\n')
+    assert_one_line(prepare_in(checkout), f'{checkout} cannot be written', 'no-such-package')
+
+
+def test_a_checkout_of_another_user_without_a_build_is_named(checkout):
+    shutil.rmtree(checkout / 'build')
+    assert_one_line(prepare_in(checkout), f'{checkout} cannot be written', 'not built')

@@ -1,14 +1,18 @@
 """./angen run: whatever it started is gone after Ctrl-C, and a roscore that it found is not."""
 import os
 from pathlib import Path
+import random
 import re
 import signal
 import socket
 import subprocess
 import threading
+import time
 import uuid
 
 import pytest
+
+from angen_tools.common.watchdog import VARIABLE, marked as with_mark, watchdog
 
 ROOT = Path(__file__).resolve().parents[2]
 pytestmark = pytest.mark.ros
@@ -23,22 +27,13 @@ def environment(tmp_path):
         port = probe.getsockname()[1]
     environment = dict(os.environ, ROS_MASTER_URI=f'http://localhost:{port}', DISPLAY='',
                        ROS_HOME=str(tmp_path), ANGEN_TEST_MARK=uuid.uuid4().hex)
-    yield environment
-    for process_id in marked(environment):
-        os.kill(process_id, signal.SIGKILL)
+    with watchdog():  # also when the tests are killed
+        yield dict(environment, **{VARIABLE: os.environ[VARIABLE]})
 
 
 def marked(environment):
     """Ids of the processes that carry the environment's mark."""
-    mark = f'ANGEN_TEST_MARK={environment["ANGEN_TEST_MARK"]}'.encode()
-    found = []
-    for folder in Path('/proc').iterdir():
-        try:
-            if folder.name.isdigit() and mark in (folder / 'environ').read_bytes().split(b'\0'):
-                found.append(int(folder.name))
-        except OSError:
-            pass  # it ended meanwhile, or is another user's
-    return found
+    return with_mark(f'ANGEN_TEST_MARK={environment["ANGEN_TEST_MARK"]}')
 
 
 def restore_signals():
@@ -105,8 +100,57 @@ def test_a_world_that_cannot_be_read_ends_it_with_failure(environment, tmp_path)
     assert 'process has died' in result.stderr  # of roslaunch's lines those of errors stay
 
 
-def test_an_unknown_argument_is_named(environment):
-    result = subprocess.run([ROOT / 'angen', 'run', 'wrold:=worlds/empty.world'],
+@pytest.mark.parametrize('word, part', [
+    ('wrold:=worlds/empty.world', 'did you mean world:=?'),
+    ('gui:=fasle', 'did you mean false?')])
+def test_a_wrong_argument_is_named_and_nothing_starts(environment, word, part):
+    result = subprocess.run([ROOT / 'angen', 'run', word],
                             capture_output=True, text=True, env=environment, timeout=120)
-    assert result.returncode == 1
-    assert 'wrold' in result.stderr
+    line, = result.stderr.splitlines()
+    assert result.returncode == 1 and line.startswith(f'angen: {word}: ') and part in line
+
+
+@pytest.mark.parametrize('word, part', [('wrld:=x', 'did you mean world:=?'),
+                                        ('gui:=fasle', 'did you mean false?')])
+def test_roslaunch_rejects_it_too(environment, word, part):
+    result = subprocess.run([ROOT / 'angen', 'shell', '-c',
+                             f'roslaunch angen_sim angen.launch {word}'],
+                            capture_output=True, text=True, env=environment, timeout=120)
+    assert result.returncode == 1 and f'{word}: ' in result.stderr and part in result.stderr
+    assert marked(environment) == []
+
+
+def test_a_second_one_leaves_the_first_alone(environment):
+    first, _ = start(environment)
+    before = marked(environment)
+    second = subprocess.run([ROOT / 'angen', 'run'], capture_output=True, text=True,
+                            env=environment, timeout=120)
+    last = second.stderr.splitlines()[-1]
+    uri = environment['ROS_MASTER_URI']
+    assert second.returncode == 1 and f'already running at {uri} (process ' in last
+    port = int(uri.rpartition(':')[2]) + 1
+    assert f'ROS_MASTER_URI=http://localhost:{port} ./angen run' in last and 'rosnode kill' in last
+    time.sleep(2.0)
+    assert first.poll() is None and marked(environment) == before
+    first.send_signal(signal.SIGINT)
+    first.communicate(timeout=60)
+    assert marked(environment) == []
+
+
+@pytest.mark.parametrize('seed', range(4))
+def test_a_kill_leaves_nothing(environment, seed):
+    """At any moment: from before the master is up until after the node runs."""
+    process = subprocess.Popen([ROOT / 'angen', 'run', f'world:={ROOT}/worlds/empty.world'],
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                               env=environment, preexec_fn=restore_signals)
+    for line in process.stdout:
+        if ('Ctrl-C ends it' if seed < 2 else NODE_RUNS) in line:
+            break
+    time.sleep(random.Random(seed).uniform(0.0, 1.5))
+    assert len(marked(environment)) > 1
+    process.kill()
+    process.wait()
+    end = time.monotonic() + 5.0
+    while marked(environment) and time.monotonic() < end:
+        time.sleep(0.05)
+    assert marked(environment) == []

@@ -3,12 +3,16 @@ from __future__ import annotations
 
 import csv
 import os
+import random
+import resource
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
+from harness import until
 
 SCRIPT = Path(__file__).resolve().parents[2] / 'src/angen_tools/scripts/angen'
 WALLS = {'south': (3, -0.06, 6.24, 0.12), 'north': (3, 3.06, 6.24, 0.12),
@@ -42,7 +46,8 @@ def world_text() -> str:
       <plugin name="robots" filename="librobot_controller.so"/></world></sdf>'''
 
 
-def start(folder: Path, name: str, route: str = ROUTE) -> subprocess.Popen[str]:
+def start(folder: Path, name: str, route: str = ROUTE, largest: int = -1) -> subprocess.Popen[str]:
+    """`largest`: of a file that it writes, bytes; as on a full disk."""
     (folder / 'rooms.world').write_text(world_text())
     (folder / 'route.yaml').write_text(route)
     command = [sys.executable, str(SCRIPT), 'task', 'patrol',
@@ -50,7 +55,13 @@ def start(folder: Path, name: str, route: str = ROUTE) -> subprocess.Popen[str]:
                '--route', str(folder / 'route.yaml'), '--seed', '3', '-o', str(folder / name)]
     return subprocess.Popen(command, text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                             stderr=subprocess.PIPE,
-                            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+                            preexec_fn=lambda: prepare(largest))
+
+
+def prepare(largest: int) -> None:
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    if largest > 0:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (largest, largest))
 
 
 def running(folder: Path) -> list[int]:
@@ -152,3 +163,52 @@ def test_a_signal_ends_all(tmp_path: Path, number: int) -> None:
     assert patrol.returncode == 128 + number, trouble
     assert 'Traceback' not in trouble
     assert not running(tmp_path)
+
+
+def gone(folder: Path) -> bool:
+    """Whether nothing that a patrol has started is left within 5 s."""
+    end = time.monotonic() + 5.0
+    while running(folder) and time.monotonic() < end:
+        time.sleep(0.05)
+    return not running(folder)
+
+
+@pytest.mark.parametrize('seed', range(3))
+def test_a_kill_while_it_starts_leaves_nothing(tmp_path: Path, seed: int) -> None:
+    patrol = start(tmp_path, 'out')
+    until(lambda: len(running(tmp_path)) > seed, 'master, node, rosbag')
+    time.sleep(random.Random(seed).uniform(0.0, 0.5))
+    patrol.kill()
+    patrol.communicate()
+    assert gone(tmp_path)
+
+
+def test_a_kill_while_it_drives_leaves_a_bag_that_can_be_read(tmp_path: Path) -> None:
+    import rosbag
+    patrol = start(tmp_path, 'out')
+    for line in patrol.stderr:
+        if 'reached' in line:
+            break
+    assert len(running(tmp_path)) > 2
+    patrol.kill()
+    patrol.communicate()
+    assert gone(tmp_path)
+    with rosbag.Bag(str(tmp_path / 'out/patrol.bag')) as bag:
+        assert bag.get_message_count('/clock') > 10
+    assert not (tmp_path / 'out/summary.csv').exists()
+
+
+def test_a_bag_that_the_disk_has_no_room_for_ends_it_in_a_line(tmp_path: Path) -> None:
+    import rosbag
+    patrol = start(tmp_path, 'out', largest=2_000_000)
+    said, trouble = patrol.communicate(timeout=300)
+    assert patrol.returncode == 1 and said == '' and 'Traceback' not in trouble
+    last = trouble.splitlines()[-1]
+    assert last.startswith(f'angen: {tmp_path}/out/patrol.bag: cannot be written: ')
+    assert 'rosbag reindex' in last and not (tmp_path / 'out/patrol.bag').exists()
+    assert gone(tmp_path)
+    with rosbag.Bag(str(tmp_path / 'out/patrol.bag.active'), 'a', allow_unindexed=True) as bag:
+        for _ in bag.reindex():
+            pass
+    with rosbag.Bag(str(tmp_path / 'out/patrol.bag.active')) as bag:
+        assert bag.get_message_count('/clock') > 10

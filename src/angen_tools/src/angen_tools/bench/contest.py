@@ -20,6 +20,7 @@ from angen_tools.bench.report import Session as OwnSession
 from angen_tools.bench.report import combine
 from angen_tools.bench.sensors import WARM_UP, Bench, Case, rate_of, robot_round
 from angen_tools.common.failure import Failure
+from angen_tools.common.files import write_text
 from angen_tools.common.geometry import quaternion
 from angen_tools.common.output import as_json
 from angen_tools.common.progress import Steps
@@ -204,7 +205,7 @@ def _report(folder: Path, case: Case, rows: Sequence[Row], json: bool) -> None:
     numbers, text, figure = (_path(folder, case, ending) for ending in ('csv', 'md', 'png'))
     write_csv(numbers, rows)
     lines = table(rows)
-    text.write_text('\n'.join(lines) + '\n', encoding='utf-8')
+    write_text(text, '\n'.join(lines) + '\n')
     draw(figure, rows)
     if json:
         print(as_json([asdict(row) for row in rows]), flush=True)

@@ -1,13 +1,13 @@
 """angen bench sensors --vs gazebo: the same worlds in both simulators, measured in turn."""
 from __future__ import annotations
 
-import csv
 import math
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Callable, Sequence
 
 from angen_tools.bench.report import cell
+from angen_tools.common import files
 
 ANGEN, EACH, ONE_LINK = 'angen', 'gazebo', 'gazebo_one_link'
 NAMES = {ANGEN: 'Angen', EACH: 'Gazebo, a model a sensor', ONE_LINK: 'Gazebo, all on one link'}
@@ -53,11 +53,7 @@ COLUMNS = ('kind', 'count', 'simulator', 'repeats', *(field.name for field in fi
 
 def write_csv(path: Path, rows: Sequence[Row]) -> None:
     """Writes a line a count and simulator, empty where nothing was measured."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with path.open('w', newline='', encoding='utf-8') as file:
-        writer = csv.writer(file, lineterminator='\n')
-        writer.writerow(COLUMNS)
-        writer.writerows([cell(getattr(row, name)) for name in COLUMNS] for row in rows)
+    files.write_csv(path, COLUMNS, ([cell(getattr(row, name)) for name in COLUMNS] for row in rows))
 
 
 @dataclass(frozen=True)
@@ -160,6 +156,5 @@ def draw(path: Path, rows: Sequence[Row]) -> None:
     for axis in (load, speed):
         axis.grid(alpha=0.3)
         axis.legend(fontsize='small')
-    path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=100)
+    files.save_figure(figure, path, dpi=100)
     pyplot.close(figure)

@@ -1,7 +1,6 @@
 """angen bench core: what the simulator's core costs without ROS, as ratios, by google-benchmark."""
 from __future__ import annotations
 
-import csv
 import json as jsonlib
 import os
 import resource
@@ -12,8 +11,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from angen_tools.common.failure import Failure
+from angen_tools.common.files import write_csv
 from angen_tools.common.output import as_json, show, table
 from angen_tools.common.progress import Steps
+from angen_tools.common.watchdog import watchdog
 from angen_tools.world.apartment import write_apartment
 
 PROGRAMS = ('core_bench', 'motion_bench', 'rays_bench', 'physics_bench')
@@ -111,11 +112,9 @@ def commit_of(folder: Path) -> str:
     return described.stdout.strip() or 'unknown'
 
 
-def measure(out: Path, json: bool) -> None:
-    """Runs all benchmarks one after the other and writes out/core.csv."""
-    programs = [program(name) for name in PROGRAMS]
+def all_cases(programs: list[Path], steps: Steps) -> list[Case]:
+    """Runs the benchmarks; Failure where one fails."""
     cases: list[Case] = []
-    steps = Steps(len(programs) + 1)
     for path in programs:
         steps.next(path.name)
         run = subprocess.run([str(path), '--benchmark_format=json'], stdout=subprocess.PIPE,
@@ -124,13 +123,17 @@ def measure(out: Path, json: bool) -> None:
             raise Failure(f'{path.name} ended with exit code {run.returncode}')
         cases += cases_of(run.stdout)
     steps.next('start')
-    cases += start_cases()
+    return cases + start_cases()
+
+
+def measure(out: Path, json: bool) -> None:
+    """Runs all benchmarks one after the other and writes out/core.csv."""
+    programs = [program(name) for name in PROGRAMS]
+    steps = Steps(len(programs) + 1)
+    with watchdog():
+        cases = all_cases(programs, steps)
     rows = rows_of(cases, commit_of(Path(__file__).resolve().parent))
-    out.mkdir(parents=True, exist_ok=True)
-    with (out / 'core.csv').open('w', newline='', encoding='utf-8') as file:
-        writer = csv.DictWriter(file, COLUMNS, lineterminator='\n')
-        writer.writeheader()
-        writer.writerows(rows)
+    write_csv(out / 'core.csv', COLUMNS, ([row[key] for key in COLUMNS] for row in rows))
     steps.close()
     if json:
         print(as_json(rows))

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Mapping
 
 from angen_tools.common.failure import Failure
+from angen_tools.common.watchdog import watchdog
 from angen_tools.live.sandbox import end
 from angen_tools.world.models import worlds_models
 
@@ -23,6 +24,7 @@ ANSWER_LIMIT = 10.0  # s of wall time; after deletions Gazebo sometimes never an
 LAUNCH = '''
 mount -t proc proc "$1/proc" && mount --bind "$2" "$1/mnt" && mount --bind "$3" "$1/media" &&
 exec chroot "$1" /usr/bin/env -i HOME=/root PATH=/usr/bin:/bin DISPLAY="$DISPLAY" \\
+  ANGEN_STARTED_BY="$ANGEN_STARTED_BY" \\
   LIBGL_ALWAYS_SOFTWARE=1 sh -c '. /usr/share/gazebo/setup.sh
   export GAZEBO_MASTER_URI=http://127.0.0.1:$1 GAZEBO_MODEL_DATABASE_URI= GAZEBO_MODEL_PATH=/media
   exec gzserver -s /opt/libangen_probe.so "/mnt/$2"' gzserver "$4" "$5"
@@ -45,7 +47,9 @@ def prepare(root: Path) -> None:
     program = script()
     if not program.exists():
         raise Failure(f'{program} is missing; it makes the chroot that Gazebo runs in')
-    made = subprocess.run([str(program), str(root)], stdout=subprocess.PIPE, text=True, check=False)
+    with watchdog():
+        made = subprocess.run([str(program), str(root)], stdout=subprocess.PIPE, text=True,
+                              check=False)
     if made.returncode != 0:
         raise Failure((made.stdout.splitlines() or [f'{program} failed'])[-1])
 

@@ -1,12 +1,13 @@
 """What the benches found: medians, CSV, a straight line, a figure."""
 from __future__ import annotations
 
-import csv
 import math
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from statistics import median
 from typing import Any, Sequence
+
+from angen_tools.common import files
 
 REAL_TIME = 0.99  # of simulated seconds a second, and of readings, that still count as real time
 
@@ -84,13 +85,8 @@ COLUMNS = ('mode', 'kind', 'count', 'sensors', 'floors', 'repeats',
 
 def write_csv(path: Path, rows: Sequence[Row]) -> None:
     """Writes the rows, empty where nothing was measured."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with path.open('w', newline='', encoding='utf-8') as file:
-        writer = csv.DictWriter(file, COLUMNS, lineterminator='\n')
-        writer.writeheader()
-        for row in rows:
-            cells = as_cells(row) | {'real_time': 'yes' if row.real_time else 'no'}
-            writer.writerow({key: cell(cells[key]) for key in COLUMNS})
+    cells = [as_cells(row) | {'real_time': 'yes' if row.real_time else 'no'} for row in rows]
+    files.write_csv(path, COLUMNS, ([cell(row[key]) for key in COLUMNS] for row in cells))
 
 
 def as_cells(row: Row) -> dict[str, Any]:
@@ -161,8 +157,7 @@ def draw(path: Path, rows: Sequence[Row]) -> None:
     figure.suptitle({'added': 'Sensors in the world when it starts',
                      'deployed': 'Sensors spawned while it runs',
                      'desired': 'Flats with all the sensors that they should have'}[rows[0].mode])
-    path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=100)
+    files.save_figure(figure, path, dpi=100)
     pyplot.close(figure)
 
 
@@ -181,8 +176,7 @@ def draw_together(path: Path, tables: Sequence[Sequence[Row]]) -> None:
             if any(getattr(r, panel) is not None for r in rows):
                 _panel(axis, panel, rows, 'sensor')
         axis.set_title(f'{rows[0].kind} sensors, {rows[0].mode}', fontsize='medium')
-    path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=100)
+    files.save_figure(figure, path, dpi=100)
     pyplot.close(figure)
 
 

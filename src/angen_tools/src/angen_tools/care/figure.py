@@ -11,6 +11,7 @@ from angen_tools.care.clock import DAY, HOUR, MINUTE, show_time
 from angen_tools.care.engine import CareWarning, Engine
 from angen_tools.care.membership import Trapezoid
 from angen_tools.care.rules import Condition, Rule
+from angen_tools.common.files import save_figure
 
 INK, FAINT, GRID = '#22303c', '#7d8a94', '#dfe4e8'
 DEGREE, WARNED, SEEN = '#5b8db8', '#c8372d', '#e8a33d'  # SEEN: acknowledged
@@ -40,8 +41,7 @@ def draw(engine: Engine, warnings: Sequence[CareWarning], path: Path) -> None:
     figure.legend(handles=_legend(), loc='upper right', ncols=6, fontsize=8.5, frameon=False,
                   bbox_to_anchor=(0.995, 1.0), handlelength=1.6, columnspacing=1.4)
     figure.tight_layout(rect=(0, 0, 1, 1 - 0.15 / figure.get_figheight()), h_pad=0.5)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path)
+    save_figure(figure, path)
     pyplot.close(figure)
 
 

@@ -1,14 +1,13 @@
 """What care leaves: lines for people, warnings.csv, events.csv, care.png."""
 from __future__ import annotations
 
-import csv
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Iterable, Sequence
 
 from angen_tools.care.clock import show_time
 from angen_tools.care.engine import RAISED, CareWarning, Change, Engine
 from angen_tools.care.signals import Event
-from angen_tools.common.failure import Failure
+from angen_tools.common.files import write_csv
 from angen_tools.common.output import table
 from angen_tools.offline.fast_run import COLUMNS
 
@@ -64,7 +63,7 @@ def write(engine: Engine, out: Path) -> None:
     heads = ('rule', 'raised', 'degree', 'acknowledged', 'ended', 'reason', 'detail')
     rows = [['' if value is None else f'{value:.3f}' if isinstance(value, float) else value
              for value in as_dict(warning).values()] for warning in warnings]
-    _write_csv(out / 'warnings.csv', heads, rows)
+    write_csv(out / 'warnings.csv', heads, rows)
     draw(engine, warnings, out / 'care.png')
 
 
@@ -72,17 +71,6 @@ def write_events(events: Iterable[Event], changes: Iterable[Change], out: Path) 
     """Writes events.csv as angen run --fast does, with the warnings among the events."""
     every = sorted([*events, *(event_of(change) for change in changes)],
                    key=lambda event: event.time)
-    _write_csv(out / 'events.csv', COLUMNS,
-               ((f'{event.time:.6f}', event.source, event.kind, event.event, event.detail)
-                for event in every))
-
-
-def _write_csv(path: Path, heads: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with path.open('w', newline='', encoding='utf-8') as file:
-            writer = csv.writer(file, lineterminator='\n')
-            writer.writerow(heads)
-            writer.writerows(rows)
-    except OSError as error:
-        raise Failure(f'{path} cannot be written: {error.strerror}') from None
+    write_csv(out / 'events.csv', COLUMNS,
+              ((f'{event.time:.6f}', event.source, event.kind, event.event, event.detail)
+               for event in every))

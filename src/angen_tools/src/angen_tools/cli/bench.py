@@ -8,12 +8,14 @@ from typing import Any
 from angen_tools.cli.arguments import at_least, checked, counts, window
 from angen_tools.cli.parser import add_json, add_out, command
 from angen_tools.common.failure import Failure
+from angen_tools.common.files import check_folder
 
 KINDS = ('pir', 'switch', 'luminosity', 'contact')
 
 
 def run_bench(args: argparse.Namespace) -> int:
     from angen_tools.bench import sensors
+    check_folder(args.out)
     if args.vs:
         from angen_tools.bench import contest
         if args.mode != 'added':
@@ -28,6 +30,7 @@ def run_bench(args: argparse.Namespace) -> int:
 
 def run_bench_core(args: argparse.Namespace) -> int:
     from angen_tools.bench import core
+    check_folder(args.out)
     core.measure(args.out, args.json)
     return 0
 

@@ -8,10 +8,12 @@ from typing import Any
 from angen_tools.cli.arguments import at_least, checked, span
 from angen_tools.care.clock import DAY
 from angen_tools.cli.parser import add_json, add_out, command
+from angen_tools.common.files import check_folder
 
 
 def run_care(args: argparse.Namespace) -> int:
     from angen_tools.care.command import care_live, care_offline
+    check_folder(args.out)
     if args.world is None:
         for option, given in (('for', args.span), ('day', args.day), ('json', args.json)):
             if given:

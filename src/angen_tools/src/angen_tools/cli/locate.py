@@ -7,10 +7,13 @@ from typing import Any
 
 from angen_tools.cli.arguments import at_least, checked, duration
 from angen_tools.cli.parser import add_json, add_out, command
+from angen_tools.common.files import check_folder
 from angen_tools.common.output import show
 
 
 def run_locate(args: argparse.Namespace) -> int:
+    if args.world is not None or args.span is not None:
+        check_folder(args.out)
     if args.world is not None:
         if args.span is None:
             args.parser.error('--world needs --for SECONDS')

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import argparse
+import logging
 import os
 import signal
 import sys
@@ -71,7 +72,8 @@ def run(arguments: Sequence[str]) -> int:
     except BrokenPipeError:
         return PIPE_CLOSED
     except OSError as error:
-        print(f'angen: cannot write: {error.strerror}', file=sys.stderr)
+        where = f'{error.filename}: ' * bool(error.filename)
+        print(f'angen: {where}cannot be written: {error.strerror}', file=sys.stderr)
         return 1
 
 
@@ -89,6 +91,7 @@ def leave() -> None:
 
 def main() -> None:
     """The program. Ends at once: threads that still wait for an answer are abandoned."""
+    logging.raiseExceptions = False  # a log that cannot be written, of rospy's, is not reported
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, stop)
     try:

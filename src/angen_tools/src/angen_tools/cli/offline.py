@@ -9,6 +9,7 @@ from typing import Any
 
 from angen_tools.cli.arguments import at_least, checked, duration, moment
 from angen_tools.cli.parser import add_json, add_out, command
+from angen_tools.common.files import check_folder
 from angen_tools.common.output import show
 
 KINDS = ('pir', 'switch', 'luminosity', 'contact')
@@ -61,6 +62,7 @@ def run_map(args: argparse.Namespace) -> int:
 
 def run_fast(args: argparse.Namespace) -> int:
     from angen_tools.offline.fast_run import run
+    check_folder(args.out)
     print(run(args.world, args.span, args.seed, args.out))
     return 0
 

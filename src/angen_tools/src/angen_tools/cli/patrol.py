@@ -7,9 +7,11 @@ from typing import Any
 
 from angen_tools.cli.arguments import at_least, checked, duration, rate
 from angen_tools.cli.parser import add_json, add_out, command
+from angen_tools.common.files import check_folder
 
 
 def run_patrol(args: argparse.Namespace) -> int:
+    check_folder(args.out)
     if args.seeds > 1:
         from angen_tools.patrol.seeds import patrols
         words = [word for name in ('route', 'world') if getattr(args, name)
@@ -48,6 +50,7 @@ def add_task(commands: Any) -> None:
 
 def run_seek(args: argparse.Namespace) -> int:
     from angen_tools.seek.command import seek, seek_seeds
+    check_folder(args.out)
     if args.seeds > 1:
         return seek_seeds(args.route, args.world, range(args.seed, args.seed + args.seeds),
                           args.limit, args.out, args.json)

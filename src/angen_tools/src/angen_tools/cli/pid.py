@@ -5,11 +5,13 @@ import argparse
 from typing import Any
 
 from angen_tools.cli.parser import add_json, add_out, command
+from angen_tools.common.files import check_folder
 from angen_tools.common.output import show
 
 
 def run_pid(args: argparse.Namespace) -> int:
     from angen_tools.offline.pid import answers, draw, list_answers
+    check_folder(args.out)
     found = answers(args.kind)
     show(list_answers(found, args.json))
     path = args.out / f'pid_{args.kind}.png'

@@ -6,6 +6,7 @@ from typing import Any
 
 from angen_tools.cli.arguments import checked, degrees, setting
 from angen_tools.cli.parser import add_json, add_out, command
+from angen_tools.common.files import check_folder
 
 PROFILES = ('nema-wd7', 'iec63180', 'en50131-g2')
 MODELS = ('pyroelectric', 'range_difference')
@@ -13,6 +14,7 @@ MODELS = ('pyroelectric', 'range_difference')
 
 def run_walktest(args: argparse.Namespace) -> int:
     from angen_tools.walktest.command import detector, run
+    check_folder(args.out)
     tested = detector(args.model, args.set, args.turn)
     return 0 if run(args.profile, tested, args.out, args.json) else 1
 

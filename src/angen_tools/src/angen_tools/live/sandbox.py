@@ -1,4 +1,5 @@
-"""A ROS master of its own on a free port, the node, rviz. Ends what it starts, by process id."""
+"""A ROS master of its own on a free port, the node, rviz. Ends what it starts, by process id; when
+it is killed itself, a watchdog does."""
 from __future__ import annotations
 
 import os
@@ -14,6 +15,7 @@ from pathlib import Path
 from typing import Any, Callable, Iterator
 
 from angen_tools.common.failure import Failure
+from angen_tools.common.watchdog import watchdog
 
 START_LIMIT = 120.0  # s; hundreds of models take a while on a busy machine
 CLIENT_LIMIT = 40.0
@@ -46,6 +48,7 @@ class Sandbox:
         self.folder = folder
         self.launched = 0.0  # when the last node was started, s of wall time
         self._all = ExitStack()
+        self._all.enter_context(watchdog())
         with socket.socket() as probe:
             probe.bind(('127.0.0.1', 0))
             port = probe.getsockname()[1]

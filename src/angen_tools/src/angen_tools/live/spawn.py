@@ -2,9 +2,7 @@
 from __future__ import annotations
 
 import math
-import os
 import re
-import tempfile
 from pathlib import Path
 from typing import Sequence
 
@@ -12,6 +10,7 @@ from lxml import etree
 
 from angen_tools.common.catalog import kind_of, kinds
 from angen_tools.common.failure import Failure
+from angen_tools.common.files import write_text
 from angen_tools.common.geometry import quaternion, yaw_of
 from angen_tools.common.nearest import did_you_mean
 from angen_tools.live.client import Client
@@ -132,28 +131,8 @@ def save(path: Path) -> str:
     except etree.XMLSyntaxError as error:
         raise Failure(f'the simulator sent a world that is not XML: {error}') from None
     models = len(root.xpath('world/model | world/include | world/actor'))
-    _write(path, xml)
+    write_text(path, xml)
     return f'saved {models} models to {path}'
-
-
-def _write(path: Path, content: str) -> None:
-    target = path.resolve()
-    try:
-        with tempfile.NamedTemporaryFile('w', dir=target.parent, prefix=f'.{target.name}.',
-                                         encoding='utf-8', delete=False) as file:
-            try:
-                file.write(content)
-                file.flush()
-                os.fsync(file.fileno())
-                umask = os.umask(0)
-                os.umask(umask)
-                os.chmod(file.name, 0o666 & ~umask)
-                os.replace(file.name, target)
-            except BaseException:
-                os.unlink(file.name)
-                raise
-    except OSError as error:
-        raise Failure(f'{path}: cannot be written: {error.strerror}') from None
 
 
 def _call_spawn(client: Client, name: str, xml: str, on: str, pose: Sequence[float]) -> None:

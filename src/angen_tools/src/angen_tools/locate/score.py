@@ -1,7 +1,6 @@
 """How right the answers were: a table, a CSV file and a figure."""
 from __future__ import annotations
 
-import csv
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,6 +8,7 @@ from typing import Iterable, Sequence
 
 import numpy as np
 
+from angen_tools.common import files
 from angen_tools.common.output import number
 from angen_tools.locate.belief import Answer
 from angen_tools.locate.site import Site
@@ -75,15 +75,12 @@ def _share(part: int, whole: int) -> str:
 
 def write_csv(path: Path, rows: Iterable[Row]) -> None:
     """A line for each answer; lengths in m, time in s."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with path.open('w', newline='', encoding='utf-8') as file:
-        writer = csv.writer(file, lineterminator='\n')
-        writer.writerow(COLUMNS)
-        for row in rows:
-            answer = row.answer
-            writer.writerow([f'{row.time:.1f}', answer.tag, answer.room, f'{answer.chance:.3f}',
-                             *(f'{v:.3f}' for v in answer.at), row.true_room,
-                             *(f'{v:.3f}' for v in row.true_at), f'{row.error:.3f}'])
+    def cells(row: Row) -> list[str]:
+        answer = row.answer
+        return [f'{row.time:.1f}', answer.tag, answer.room, f'{answer.chance:.3f}',
+                *(f'{v:.3f}' for v in answer.at), row.true_room,
+                *(f'{v:.3f}' for v in row.true_at), f'{row.error:.3f}']
+    files.write_csv(path, COLUMNS, map(cells, rows))
 
 
 def draw(path: Path, rows: Sequence[Row], site: Site) -> None:
@@ -110,5 +107,5 @@ def draw(path: Path, rows: Sequence[Row], site: Site) -> None:
     axes[0, 0].legend(loc='upper right', fontsize=8)
     axes[-1, 0].set_xlabel('s')
     figure.tight_layout()
-    figure.savefig(path, dpi=110)
+    files.save_figure(figure, path, dpi=110)
     plt.close(figure)

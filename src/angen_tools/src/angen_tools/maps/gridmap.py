@@ -11,6 +11,7 @@ from scipy.ndimage import binary_propagation, distance_transform_edt
 
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.failure import Failure
+from angen_tools.common.files import write_text, writing
 
 RESOLUTION = 0.05  # m; cells are centered on its multiples, where the faces of buildings lie
 STOREY = 4.0  # m
@@ -69,13 +70,11 @@ class GridMap:
         """Writes STEM.pgm and STEM.yaml as map_server reads them; returns their paths."""
         picture, text = stem.with_name(stem.name + '.pgm'), stem.with_name(stem.name + '.yaml')
         rows, columns = self.cells.shape
-        try:
-            picture.write_bytes(b'P5\n%d %d\n255\n' % (columns, rows) + self.shades().tobytes())
-            text.write_text(f'image: {picture.name}\nresolution: {self.resolution}\n'
-                            f'origin: [{self.origin[0]:.3f}, {self.origin[1]:.3f}, 0.0]\n'
-                            'negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n')
-        except OSError as error:
-            raise Failure(f'{stem}: cannot be written: {error.strerror}') from None
+        with writing(picture, binary=True) as file:
+            file.write(b'P5\n%d %d\n255\n' % (columns, rows) + self.shades().tobytes())
+        write_text(text, f'image: {picture.name}\nresolution: {self.resolution}\n'
+                   f'origin: [{self.origin[0]:.3f}, {self.origin[1]:.3f}, 0.0]\n'
+                   'negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n')
         return [picture, text]
 
 

@@ -24,6 +24,8 @@ class Checked:
 def check(path: str) -> Checked:
     """Loads a world; or a model (its SDF, URDF, folder or model:// address) into an empty world."""
     angen = angen_module()
+    if not path:
+        return Checked(wrong=["'': not a path; give a file, a folder or model://NAME"])
     try:
         if holds_world(path):
             return _checked_world(angen.World(path), path)

@@ -4,10 +4,11 @@ from __future__ import annotations
 import csv
 import time
 from pathlib import Path
-from typing import Any
+from typing import Any, Callable
 
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.failure import Failure
+from angen_tools.common.files import writing
 from angen_tools.common.progress import Progress
 
 SLICE = 10.0  # simulated s between two checks for Ctrl-C and two progress reports
@@ -27,21 +28,17 @@ def run(path: str, seconds: float, seed: int, out: Path) -> str:
     except angen.Error as error:
         raise Failure(str(error)) from None
     log = out / 'events.csv'
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-        with log.open('w', newline='') as file:
-            writer = csv.writer(file, lineterminator='\n')
-            writer.writerow(COLUMNS)
-            began = time.monotonic()
-            count = _run(world, seconds, path, writer)
-            wall = time.monotonic() - began
-    except OSError as error:
-        raise Failure(f'{log} cannot be written: {error.strerror}') from None
+    with writing(log, log=True) as file:
+        writer = csv.writer(file, lineterminator='\n')
+        writer.writerow(COLUMNS)
+        began = time.monotonic()
+        count = _run(world, seconds, path, writer, file.flush)
+        wall = time.monotonic() - began
     return (f'{world.time:g} s in {wall:.1f} s, {world.time / wall:.0f} times real time; '
             f'{world.readings} readings, {count} events in {log}')
 
 
-def _run(world: Any, seconds: float, name: str, writer: Any) -> int:
+def _run(world: Any, seconds: float, name: str, writer: Any, flush: Callable[[], None]) -> int:
     """Runs slice by slice; returns how many events it has written."""
     count = 0
     slices, rest = divmod(seconds, SLICE)
@@ -50,6 +47,7 @@ def _run(world: Any, seconds: float, name: str, writer: Any) -> int:
             world.run(SLICE if number < slices else rest)
             events = world.events()
             writer.writerows((f'{at:.6f}', *what) for at, *what in events)
+            flush()
             count += len(events)
             progress.update(world.time / seconds)
     return count

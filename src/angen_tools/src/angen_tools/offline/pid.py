@@ -12,6 +12,7 @@ import numpy as np
 
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.failure import Failure
+from angen_tools.common.files import save_figure
 from angen_tools.common.output import as_json, number, table
 
 if TYPE_CHECKING:
@@ -199,6 +200,5 @@ def draw(path: Path, kind: str, found: list[Answer]) -> None:
     axes[0].set_title(f'{kind}, {plant.command}: {plant.inertia:g} '
                       f'{"kg m²" if plant.unit == "rad" else "kg"}', fontsize=10)
     axes[-1].set_xlabel('s')
-    path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=100)
+    save_figure(figure, path, dpi=100)
     pyplot.close(figure)

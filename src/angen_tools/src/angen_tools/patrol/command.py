@@ -8,9 +8,10 @@ import sys
 import time
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 from angen_tools.common.failure import Failure
+from angen_tools.common.files import make_folder
 from angen_tools.common.output import as_json, show
 from angen_tools.common.progress import Progress
 from angen_tools.live.sandbox import Sandbox, wait
@@ -30,6 +31,7 @@ RECORDED = (f'/angen/(?!contact/{BUMPER})'
             '(pir|switch|luminosity|contact|door|elevator|lamp|events|stats|markers).*'
             '|/gazebo/.*_controller|/clock|/tf|/tf_static')
 BAG_LIMIT = 30.0  # s
+LEFT, FEW = '32M', 64_000_000  # on the disk: with less rosbag stops; with less it is why it did
 SENSORS = ('pir', 'switch', 'luminosity', 'contact')
 
 
@@ -50,10 +52,7 @@ def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, 
     elevator was not level. Failure where the route cannot be driven."""
     route = read_route(route_file or default_route())
     world = (world or default_world()).absolute()
-    try:
-        (out / 'logs').mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise Failure(f'{out}: cannot be written: {error.strerror}') from None
+    make_folder(out / 'logs')
     began = time.monotonic()
     own_world = out.absolute() / 'patrol.world'
     scene.write_world(world, route.robot, seed, own_world)
@@ -68,9 +67,14 @@ def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, 
         put_bumper(lockstep, route.robot, own_world)
         clock = Clock(rate)
         robot = RosRobot(route, place, lockstep)
-        drive = Patrol(route, place, robot, seed, clock.cycle, clock.note)
         robot.connect()
         bag = Bag(sandbox, out.absolute() / 'patrol.bag', route.robot)
+
+        def cycle(now: float, share: float, text: str) -> None:
+            bag.check()
+            clock.cycle(now, share, text)
+
+        drive = Patrol(route, place, robot, seed, cycle, clock.note)
         lockstep.wait_for_subscribers(2)
         if rate > 0:
             watch(sandbox)
@@ -131,25 +135,45 @@ def show_robot(sandbox: Sandbox) -> None:
 
 
 class Bag:
-    """A rosbag of the run, by rosbag itself."""
+    """A rosbag of the run, by rosbag itself. It is PATH.active until it is closed."""
 
     def __init__(self, sandbox: Sandbox, path: Path, robot: str) -> None:
-        self._path = path
+        self._path, self._log = path, sandbox.folder / 'rosbag.log'
         pattern = f'{RECORDED}|/{robot}/(odom|cmd_vel|scan|joint_states)'
         path.unlink(missing_ok=True)
-        program = shutil.which('rosbag')
-        if not program:
-            raise Failure('rosbag is not found; install ros-core')
-        self._process = sandbox.start(['/usr/bin/env', 'python3', program, 'record', '-q', '-O',
-                                       str(path), '-b', '256', '-e', pattern], 'rosbag')
+        self._process = sandbox.start(
+            ['rosrun', 'rosbag', 'record', '--quiet', '-O', str(path), '--buffsize', '256',
+             '--min-space', LEFT, '--regex', pattern], 'rosbag')
         topics = sandbox.topics(pattern)
-        wait(lambda: topics <= sandbox.subscribed_by('record'), 'rosbag has not subscribed',
-             BAG_LIMIT)
+
+        def subscribes() -> bool:
+            self.check()
+            return topics <= sandbox.subscribed_by('record')
+
+        wait(subscribes, 'rosbag has not subscribed', BAG_LIMIT)
+
+    def check(self) -> None:
+        """Failure where rosbag has ended."""
+        if self._process.poll() is not None:
+            self._complain()
 
     def close(self) -> None:
-        """Ends the recording; the file is whole then."""
+        """Ends the recording; the file is whole then. Failure where it is not."""
+        self.check()
         self._process.send_signal(signal.SIGINT)
-        wait(self._path.exists, f'rosbag has not written {self._path}', BAG_LIMIT)
+        wait(lambda: self._process.poll() is not None, 'rosbag has not ended', BAG_LIMIT)
+        if not self._path.exists() or 'Disabling recording' in self._log.read_text('utf-8'):
+            self._complain()
+
+    def _complain(self) -> NoReturn:
+        lines = self._log.read_text(errors='replace').splitlines()
+        free = shutil.disk_usage(self._path.parent).free
+        why = f'the disk has {free // 1_000_000} MB left; ' if free < FEW else ''
+        why += lines[-1] if lines else f'rosbag ended with {self._process.returncode}'
+        active = self._path.with_name(self._path.name + '.active')
+        kept = (f'; rosbag reindex makes {active} readable, which has what was recorded before'
+                if active.exists() else '')
+        raise Failure(f'{self._path}: cannot be written: {why}{kept}')
 
 
 class Clock:

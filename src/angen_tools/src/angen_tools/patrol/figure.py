@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from angen_tools.common.files import save_figure
 from angen_tools.maps.gridmap import FREE, OCCUPIED, STOREY
 from angen_tools.patrol.report import Row, Run, begun, moving
 from angen_tools.robot.building import Entity
@@ -50,7 +51,7 @@ def draw(run: Run, rows: list[Row], route: Route, floor: int, path: Path) -> Non
     figure.legend(handles=legend(), loc='lower center', ncols=4, fontsize=8, frameon=False,
                   columnspacing=1.5, handletextpad=0.5)
     figure.tight_layout(rect=(0, 0.06, 1, 1))
-    figure.savefig(path)
+    save_figure(figure, path)
     pyplot.close(figure)
 
 

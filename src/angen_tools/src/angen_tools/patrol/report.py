@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from angen_tools.common.files import write_csv
 from angen_tools.common.output import table
 from angen_tools.world import sdf
 
@@ -161,11 +162,9 @@ def write_tables(run: Run, rows: list[Row], out: Path) -> None:
     none."""
     write_track(run.track, out)
     write_events(run.events, out)
-    with (out / 'rooms.csv').open('w', newline='') as file:
-        lines = csv.writer(file)
-        lines.writerow(['room', 'sensor', 'kind', 'first_sight_s', 'first_detection_s', 'delay_s'])
-        lines.writerows([row.room, row.sensor, row.kind, *times(row, '')]
-                        for row in rows)
+    write_csv(out / 'rooms.csv',
+              ('room', 'sensor', 'kind', 'first_sight_s', 'first_detection_s', 'delay_s'),
+              ((row.room, row.sensor, row.kind, *times(row, '')) for row in rows))
 
 
 def times(row: Row, none: str) -> list[str]:
@@ -206,11 +205,9 @@ def measure(run: Run, seed: int, wall: float) -> Figures:
 
 def write_figures(found: list[Figures], path: Path) -> None:
     """Writes a line a run."""
-    with path.open('w', newline='') as file:
-        lines = csv.writer(file)
-        lines.writerow([field.name for field in fields(Figures)])
-        lines.writerows([f'{value:.4f}' if isinstance(value, float) else value
-                         for value in astuple(figures)] for figures in found)
+    write_csv(path, [field.name for field in fields(Figures)],
+              ([f'{value:.4f}' if isinstance(value, float) else value
+                for value in astuple(figures)] for figures in found))
 
 
 def read_figures(path: Path) -> list[Figures]:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from angen_tools.common.files import write_text
 from angen_tools.maps.gridmap import GridMap, load_world
 from angen_tools.patrol.sight import beam_angles, outline
 from angen_tools.robot.building import (Entity, Start, Survey, find_start, move_robot,
@@ -32,7 +33,7 @@ def write_world(world: Path, robot: str, seed: int, to: Path) -> None:
     root = sdf.read(world)
     remove_actors(root)
     move_robot(root, robot, start_offset(seed), world)
-    to.write_text(sdf.text(root))
+    write_text(to, sdf.text(root))
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from pathlib import Path
 from angen_tools.common.failure import Failure
 from angen_tools.common.output import as_json, show, table
 from angen_tools.common.progress import Steps
+from angen_tools.common.watchdog import watchdog
 from angen_tools.patrol.report import Figures, read_figures, verdict, write_figures
 
 HEAD = ('SEED', 'm', 's', 'WALL s', 'COLLISIONS', 'ELEVATOR mm', 'ASIDE cm', 'WHEELS cm')
@@ -25,7 +26,8 @@ def patrols(words: list[str], seeds: range, out: Path, json: bool) -> int:
     try:
         for seed in seeds:
             steps.next(f'seed {seed}')
-            found.append(patrol(words, seed, out / f'seed_{seed}'))
+            with watchdog():
+                found.append(patrol(words, seed, out / f'seed_{seed}'))
             write_figures(found, out / 'summary.csv')
     finally:
         steps.close()

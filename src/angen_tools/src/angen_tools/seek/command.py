@@ -8,9 +8,10 @@ import sys
 from dataclasses import asdict
 from pathlib import Path
 
-from angen_tools.common.failure import Failure
+from angen_tools.common.files import make_folder
 from angen_tools.common.output import as_json, show
 from angen_tools.common.progress import Progress
+from angen_tools.common.watchdog import end_with_parent
 from angen_tools.maps.gridmap import load_world
 from angen_tools.patrol.command import default_route, default_world
 from angen_tools.robot.route_file import Route, read_route
@@ -57,12 +58,12 @@ def seek_seeds(route_file: Path | None, world: Path | None, seeds: range, limit:
     figure. 0, or 1 where one did not find anybody or touched something."""
     route, world = _prepare(route_file, world, out)
     # By processes that end: this one, which they are made from, has no world and no threads.
-    with multiprocessing.get_context('fork').Pool(1, _ignore_interrupt) as pool:
+    with multiprocessing.get_context('fork').Pool(1, _begin, (os.getpid(),)) as pool:
         home = pool.apply(survey, (world, route, out))
     jobs = [(world, route, home, seed, ambient, limit, out) for seed in seeds
             for ambient in (False, True)]
     found: list[Figures] = []
-    with multiprocessing.get_context('fork').Pool(os.cpu_count(), _ignore_interrupt,
+    with multiprocessing.get_context('fork').Pool(os.cpu_count(), _begin, (os.getpid(),),
                                                   maxtasksperchild=4) as pool, \
             Progress('seek', 0.0) as progress:
         for figures in pool.imap_unordered(_one, jobs):
@@ -95,8 +96,9 @@ def _one(job: tuple[Path, Route, Home, int, bool, float, Path]) -> Figures:
         scratch.unlink(missing_ok=True)
 
 
-def _ignore_interrupt() -> None:
+def _begin(parent: int) -> None:
     """Ctrl-C ends the parent, which ends these."""
+    end_with_parent(parent)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
 
@@ -105,10 +107,7 @@ def _prepare(route_file: Path | None, world: Path | None, out: Path) -> tuple[Ro
     """The route's file and the world, once everything can be found and written."""
     route = read_route(route_file or default_route())
     world = (world or default_world()).absolute()
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise Failure(f'{out}: cannot be written: {error.strerror}') from None
+    make_folder(out)
     paths = [str(world.parent / 'models'), os.environ.get('ANGEN_MODEL_PATH', '')]
     os.environ['ANGEN_MODEL_PATH'] = ':'.join(path for path in paths if path)
     return route, world

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from angen_tools.common.files import save_figure
 from angen_tools.maps.gridmap import OCCUPIED, STOREY
 from angen_tools.seek.home import CELL, Home
 from angen_tools.seek.report import pairs
@@ -44,7 +45,7 @@ def draw_search(home: Home, outcome: Outcome, path: Path) -> None:
     bar.ax.tick_params(labelsize=7)
     figure.legend(handles=_legend(), loc='lower center', ncols=6, fontsize=8, frameon=False)
     figure.get_layout_engine().set(rect=(0, 0.06, 1, 0.94))
-    figure.savefig(path)
+    save_figure(figure, path)
     pyplot.close(figure)
 
 
@@ -174,7 +175,7 @@ def draw_times(found: list[Figures], limit: float, path: Path) -> None:
             ax.spines[side].set_visible(False)
     figure.suptitle('What a smart apartment is worth to a robot that looks for somebody',
                     fontsize=12)
-    figure.savefig(path)
+    save_figure(figure, path)
     pyplot.close(figure)
 
 

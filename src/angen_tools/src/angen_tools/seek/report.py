@@ -8,6 +8,7 @@ from pathlib import Path
 from statistics import mean, median
 from typing import TYPE_CHECKING, Any, Callable
 
+from angen_tools.common.files import write_csv
 from angen_tools.common.output import table
 from angen_tools.robot.tables import write_events, write_track
 from angen_tools.seek.home import Home
@@ -26,25 +27,18 @@ def write_outcome(outcome: Outcome, home: Home, out: Path) -> None:
     write_figures([outcome.figures], out / 'search.csv')
     write_events(outcome.events, out)
     write_track(outcome.track, out)
-    with (out / 'person.csv').open('w', newline='') as file:
-        lines = csv.writer(file)
-        lines.writerow(['time_s', 'x_m', 'y_m', 'z_m'])
-        lines.writerows([f'{value:.3f}' for value in row] for row in outcome.person)
-    with (out / 'goals.csv').open('w', newline='') as file:
-        lines = csv.writer(file)
-        lines.writerow(['time_s', 'room', 'x_m', 'y_m'])
-        for t, cell in outcome.goals:
-            x, y = home.point(cell)
-            lines.writerow([f'{t:.1f}', home.rooms[home.room[cell]], f'{x:.2f}', f'{y:.2f}'])
+    write_csv(out / 'person.csv', ('time_s', 'x_m', 'y_m', 'z_m'),
+              ([f'{value:.3f}' for value in row] for row in outcome.person))
+    write_csv(out / 'goals.csv', ('time_s', 'room', 'x_m', 'y_m'),
+              ([f'{t:.1f}', home.rooms[home.room[cell]], *(f'{v:.2f}' for v in home.point(cell))]
+               for t, cell in outcome.goals))
 
 
 def write_figures(found: list[Figures], path: Path) -> None:
     """Writes a line a search."""
-    with path.open('w', newline='') as file:
-        lines = csv.writer(file)
-        lines.writerow([field.name for field in fields(Figures)])
-        lines.writerows([f'{value:.4f}' if isinstance(value, float) else value
-                         for value in astuple(figures)] for figures in found)
+    write_csv(path, [field.name for field in fields(Figures)],
+              ([f'{value:.4f}' if isinstance(value, float) else value
+                for value in astuple(figures)] for figures in found))
 
 
 def read_figures(path: Path) -> list[Figures]:

@@ -10,6 +10,7 @@ from typing import Callable
 import numpy as np
 from lxml import etree
 
+from angen_tools.common.files import write_text
 from angen_tools.patrol.scene import start_offset
 from angen_tools.robot.building import find_start, move_robot, remove_actors
 from angen_tools.maps.gridmap import floor_of
@@ -73,7 +74,7 @@ def write_world(world: Path, route: Route, home: Home | None, seed: int, limit: 
         move_robot(root, route.robot, start_offset(seed), world)
         if people:
             add_actor(root, people[0], plan_walk(home, route, seed, LEAD + limit))
-    to.write_text(sdf.text(root))
+    write_text(to, sdf.text(root))
     return people[0] if people and home is not None else NOBODY
 
 

@@ -1,12 +1,12 @@
 """What a walk test found: words, CSV, a plan of what was seen and what was not."""
 from __future__ import annotations
 
-import csv
 import math
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Sequence
 
+from angen_tools.common import files
 from angen_tools.walktest.plan import Probe, Result
 
 SEEN, MISSED = '#8fc98d', '#d9534f'  # cells
@@ -40,15 +40,10 @@ def _share(result: Result, direction: str) -> str:
 
 def write_csv(path: Path, results: Sequence[Result]) -> None:
     """A row for each place and direction."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with path.open('w', newline='', encoding='utf-8') as file:
-        writer = csv.writer(file, lineterminator='\n')
-        writer.writerow(['test', 'direction', 'x', 'y', 'detected'])
-        for result in results:
-            for probe in result.probes:
-                x, y = probe.place
-                writer.writerow([result.name, probe.direction, f'{x:.3f}', f'{y:.3f}',
-                                 'yes' if probe.seen else 'no'])
+    files.write_csv(path, ('test', 'direction', 'x', 'y', 'detected'),
+                    ([result.name, probe.direction, *(f'{v:.3f}' for v in probe.place),
+                      'yes' if probe.seen else 'no']
+                     for result in results for probe in result.probes))
 
 
 def draw(path: Path, title: str, results: Sequence[Result]) -> None:
@@ -62,8 +57,7 @@ def draw(path: Path, title: str, results: Sequence[Result]) -> None:
         _plan(axis, result)
     verdict = 'PASS' if all(result.passed for result in results) else 'FAIL'
     figure.suptitle(f'{title}: {verdict}')
-    path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=100)
+    files.save_figure(figure, path, dpi=100)
     pyplot.close(figure)
 
 

@@ -8,6 +8,7 @@ from typing import Mapping, Sequence
 from lxml import etree
 
 from angen_tools.common.failure import Failure
+from angen_tools.common.files import write_text
 from angen_tools.world import sdf
 from angen_tools.world.models import find
 from angen_tools.world.placing import KINDS, Placement, generator, has_contact, placements
@@ -63,7 +64,7 @@ def write_apartment(path: Path, floors: int, counts: Mapping[str, int], seed: in
     elif mover == 'robot':
         _add_robot(world)
     blocks.add_state(world, 'apartment')
-    generator('sdf').write(root, path)
+    write_text(path, f'<?xml version="1.0"?>\n{sdf.text(root)}')
     return len(sensors)
 
 

@@ -1,0 +1,141 @@
+"""Files that commands write. A file has its name only when all of it is written: before, it is
+NAME.part beside it. After an error, a full disk or SIGKILL, what had the name before still has it.
+"""
+from __future__ import annotations
+
+import csv
+import errno
+import fcntl
+import os
+import time
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import IO, Any, Iterable, Iterator
+
+from angen_tools.common.failure import Failure
+
+WAIT = 5.0  # s, for another command that writes the same file
+LONGEST = 1 << 20  # bytes of a line
+
+
+@contextmanager
+def writing(path: Path, binary: bool = False, log: bool = False) -> Iterator[IO[Any]]:
+    """A file to write, as UTF-8 unless `binary`; missing folders are made.
+
+    A `log` is useful in part: after an error its whole lines stay in NAME.part, and a signal that
+    ends the command ends it, too, so that it gets its name. Failure where it cannot be written.
+    """
+    target = path.resolve()
+    make_folder(target.parent)
+    try:
+        if target.exists() and not target.is_file():  # a terminal, a pipe
+            with _opened(os.open(target, os.O_WRONLY), binary) as file:
+                yield file
+        else:
+            yield from _in_part(target, binary, log)
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        rest = f'; what was written before is in {path}.part' if log else ''
+        raise Failure(f'{path}: cannot be written: {error.strerror or error}{rest}') from None
+
+
+def _in_part(target: Path, binary: bool, log: bool) -> Iterator[IO[Any]]:
+    if target.exists() and not os.access(target, os.W_OK):  # replacing it would be allowed
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+    part = target.with_name(target.name + '.part')
+    file = _opened(_locked(part), binary)
+    try:
+        try:
+            yield file
+        except (KeyboardInterrupt, SystemExit):
+            if log:
+                _finish(file, part, target)
+            raise
+        _finish(file, part, target)
+    except BaseException:
+        with suppress(OSError):  # of what could not be written
+            file.close()
+        with suppress(FileNotFoundError):  # it is finished
+            _cut(part) if log else part.unlink()
+        raise
+
+
+def _opened(descriptor: int, binary: bool) -> IO[Any]:
+    if binary:
+        return open(descriptor, 'wb')
+    return open(descriptor, 'w', encoding='utf-8', newline='')
+
+
+def _locked(part: Path) -> int:
+    """A descriptor of the empty file, which no other command writes until it is closed."""
+    end = time.monotonic() + WAIT
+    while True:
+        made = os.open(part, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW, 0o666)
+        try:
+            fcntl.flock(made, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            if os.path.samestat(os.fstat(made), os.stat(part)):  # it is not finished meanwhile
+                os.ftruncate(made, 0)
+                return made
+        except (BlockingIOError, FileNotFoundError):
+            if time.monotonic() > end:
+                os.close(made)
+                raise BlockingIOError(errno.EAGAIN, 'another command writes it') from None
+        os.close(made)
+        time.sleep(0.02)
+
+
+def _finish(file: IO[Any], part: Path, target: Path) -> None:
+    file.flush()
+    os.fsync(file.fileno())
+    os.replace(part, target)
+    file.close()
+
+
+def _cut(part: Path) -> None:
+    """Removes the end of a line that could not be written whole."""
+    with part.open('rb+') as file:
+        size = file.seek(0, os.SEEK_END)
+        begin = file.seek(max(0, size - LONGEST))
+        file.truncate(begin + file.read().rfind(b'\n') + 1)
+
+
+def make_folder(path: Path) -> None:
+    """Makes a folder where there is none; Failure where it cannot be made."""
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except FileExistsError:
+        raise Failure(f'{path}: is not a folder') from None
+    except OSError as error:
+        raise Failure(f'{path}: cannot be made: {error.strerror}') from None
+
+
+def check_folder(path: Path) -> None:
+    """Failure where files cannot be written into a folder, which may be missing: before work whose
+    result would be lost."""
+    nearest = next(folder for folder in (path.absolute(), *path.absolute().parents)
+                   if folder.exists())
+    if not nearest.is_dir():
+        raise Failure(f'{nearest}: is not a folder')
+    if not os.access(nearest, os.W_OK | os.X_OK):
+        raise Failure(f'{nearest}: cannot be written; give a folder of yours, as --out DIR')
+
+
+def write_text(path: Path, text: str) -> None:
+    """Writes a text file."""
+    with writing(path) as file:
+        file.write(text)
+
+
+def write_csv(path: Path, head: Iterable[Any], rows: Iterable[Iterable[Any]]) -> None:
+    """Writes a table with a line of names."""
+    with writing(path) as file:
+        writer = csv.writer(file, lineterminator='\n')
+        writer.writerow(head)
+        writer.writerows(rows)
+
+
+def save_figure(figure: Any, path: Path, **options: Any) -> None:
+    """Writes a figure of matplotlib as PNG; `options` as of its savefig."""
+    with writing(path, binary=True) as file:
+        figure.savefig(file, format='png', **options)

@@ -1,0 +1,101 @@
+"""The arguments of a launch file, NAME:=VALUE: roslaunch ignores names that it does not know."""
+from __future__ import annotations
+
+import math
+import os
+import sys
+from pathlib import Path
+from typing import Callable
+from xml.etree import ElementTree
+
+from angen_tools.common.failure import Failure
+from angen_tools.common.nearest import nearest
+
+BOOLEANS = ('true', 'false')
+INPUTS = {'world': 'one that is there is world:=worlds/empty.world',
+          'replay': 'give a log that record:= wrote'}
+
+
+def kinds(launch: Path) -> dict[str, str]:
+    """The arguments of a launch file, each with bool, int, double or str.
+
+    That is the type of the <param> which has its value; true or false as default are of bool.
+    """
+    root = ElementTree.parse(launch).getroot()
+    found = {arg.get('name', ''): 'bool' if arg.get('default') in BOOLEANS else 'str'
+             for arg in root.iter('arg') if arg.get('value') is None}
+    for name in found:
+        for param in root.iter('param'):
+            if param.get('value') == f'$(arg {name})':
+                found[name] = param.get('type', 'str')
+    return found
+
+
+def check_arguments(launch: Path, words: list[str]) -> None:
+    """Failure where a word is not an option of roslaunch, nor NAME:=VALUE with a name and a value
+    that the launch file has."""
+    known = kinds(launch)
+    for word in words:
+        if not word.startswith('--'):
+            _check(word, known)
+
+
+def _check(word: str, known: dict[str, str]) -> None:
+    name, separator, value = word.partition(':=')
+    if not separator:
+        name, separator, value = word.partition('=')
+        file = f'world:={word}' if os.path.exists(word) else ''
+        meant = f'{name}:={value}' if separator else file
+        raise Failure(f'{word}: not NAME:=VALUE' + (f'; did you mean {meant}?' if meant else ''))
+    if name not in known:
+        likely = nearest(name, known)[0]
+        raise Failure(f'{word}: not an argument; did you mean {likely}:=? known are '
+                      + ' '.join(f'{other}:=' for other in known))
+    if not value:
+        raise Failure(f'{word}: has no value')
+    problem = CHECKS[known[name]](value)
+    if problem:
+        raise Failure(f'{word}: {problem}')
+    if name in INPUTS and not Path(value).is_file():
+        raise Failure(f'{word}: no such file; {INPUTS[name]}')
+
+
+def _boolean(value: str) -> str:
+    if value.lower() in (*BOOLEANS, '0', '1'):
+        return ''
+    return f'neither true nor false; did you mean {nearest(value, BOOLEANS)[0]}?'
+
+
+def _number(convert: Callable[[str], float], what: str) -> Callable[[str], str]:
+    def check(value: str) -> str:
+        try:
+            return '' if math.isfinite(convert(value)) else f'not {what}'
+        except ValueError:
+            return f'not {what}'
+    return check
+
+
+CHECKS: dict[str, Callable[[str], str]] = {
+    'bool': _boolean, 'int': _number(int, 'a whole number'), 'double': _number(float, 'a number'),
+    'str': lambda value: ''}
+
+
+def check_roslaunch(launch: str) -> None:
+    """What the launch file of that path calls while roslaunch reads it, for the words given to
+    roslaunch itself; another launch file that includes it has its own."""
+    words = sys.argv[1:]
+    if Path(sys.argv[0]).name == 'roslaunch' and any(
+            Path(word).name == Path(launch).name for word in words):
+        check_arguments(Path(launch), [word for word in words if ':=' in word])
+
+
+def main() -> None:
+    """LAUNCH WORD...: exit code 1 and a line on stderr where a word is wrong."""
+    try:
+        check_arguments(Path(sys.argv[1]), sys.argv[2:])
+    except Failure as failure:
+        sys.exit(f'angen: {failure}')
+
+
+if __name__ == '__main__':
+    main()

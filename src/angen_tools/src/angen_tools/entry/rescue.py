@@ -1,0 +1,57 @@
+"""The world that the node saves when it loses the ROS master, and how often it is taken up."""
+from __future__ import annotations
+
+import os
+import time
+from collections import deque
+from pathlib import Path
+
+from angen_tools.common.failure import Failure
+
+MOST, SPAN = 3, 60.0  # restarts in so many s
+
+
+def own_folder() -> Path:
+    """A folder that only this user can write, in $XDG_RUNTIME_DIR or /tmp."""
+    folder = Path(os.environ.get('XDG_RUNTIME_DIR') or '/tmp') / f'angen-{os.getuid()}'
+    try:
+        folder.mkdir(mode=0o700, exist_ok=True)
+        found = folder.lstat()
+    except OSError as error:
+        raise Failure(f'{folder}: cannot be made: {error.strerror}') from None
+    if found.st_uid != os.getuid() or folder.is_symlink() or not folder.is_dir():
+        raise Failure(f'{folder}: is not a folder of yours; remove it')
+    return folder
+
+
+class Rescue:
+    """The file of one ./angen run. A context: its end removes what nobody needs any more."""
+
+    def __init__(self) -> None:
+        folder = own_folder()
+        self.path = folder / f'rescue-{os.getpid()}.world'  # the node writes it
+        self._world = folder / f'rescued-{os.getpid()}.world'  # the next node reads it
+        self._times: deque[float] = deque(maxlen=MOST)
+        self._kept = False
+
+    def __enter__(self) -> Rescue:
+        self.path.unlink(missing_ok=True)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if not self._kept:
+            self.path.unlink(missing_ok=True)
+            self._world.unlink(missing_ok=True)
+
+    def take(self) -> Path | None:
+        """The world that the node has left, for the next one; None where it left none. Failure
+        where that happens too often."""
+        if not self.path.exists():
+            return None
+        now = time.monotonic()
+        if len(self._times) == MOST and now - self._times[0] < SPAN:
+            self._kept = True
+            raise Failure(f'the ROS master was lost {MOST + 1} times within {SPAN:g} s; the world '
+                          f'as it was is in {self.path}')
+        self._times.append(now)
+        return self.path.replace(self._world)

@@ -1,0 +1,165 @@
+"""./angen run: a ROS master where none runs, and the launch file. Ends all that it has started, and
+starts both anew where the master was lost.
+"""
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any, NoReturn
+
+from angen_tools.common.failure import Failure
+from angen_tools.common.watchdog import watchdog
+from angen_tools.entry.arguments import check_arguments
+from angen_tools.entry.master import running_node, start_master
+from angen_tools.entry.rescue import Rescue
+
+FILES = ('world', 'record', 'replay')  # arguments
+END_LIMIT = 4.0  # s for an orderly end
+SAVE_LIMIT = 30.0  # s that the node has to notice that the master is gone, and to save the world
+TURN = 0.1
+# roslaunch's own progress is left out, which it prints by Python; errors and nodes' lines are not.
+ROSLAUNCH = '''
+import os, sys, roslaunch
+sys.stdout = open(os.devnull, "w")
+try:
+    roslaunch.main()
+except KeyboardInterrupt:  # while it still starts nodes
+    pass'''
+OPTIONS = ('--disable-title', '--no-summary', '--skip-log-check', '--sigint-timeout=1.5',
+           '--sigterm-timeout=0.5')
+HELP = '''Ctrl-C ends it. To try, in a second terminal, after {angen} shell:
+         rostopic pub -1 /gazebo/Door_controller std_msgs/String "Open, bathroom1"
+         rostopic pub -1 /gazebo/Light_controller std_msgs/String "On, kitchen0"
+         rostopic pub -1 /gazebo/Elevator_controller std_msgs/String "Floor1"'''
+# A shell's exit codes of what these signals have ended.
+CODES = {signal.SIGINT: 130, signal.SIGQUIT: 130, signal.SIGTERM: 143, signal.SIGHUP: 129}
+
+
+def say(text: str) -> None:
+    print(f'angen: {text}', file=sys.stderr, flush=True)
+
+
+def stop(number: int, _: Any) -> NoReturn:
+    """At a signal; what comes after it changes nothing any more."""
+    for other in CODES:
+        signal.signal(other, signal.SIG_IGN)
+    sys.exit(CODES[signal.Signals(number)])
+
+
+class Session:
+    """The master and roslaunch. A context: its end ends them."""
+
+    def __init__(self, uri: str) -> None:
+        self._uri = uri
+        self._master: subprocess.Popen[bytes] | None = None
+        self._launch: subprocess.Popen[bytes] | None = None
+
+    def __enter__(self) -> Session:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for process in (self._launch, self._master):
+            if process is not None and process.poll() is None:
+                process.send_signal(signal.SIGINT)
+                try:
+                    process.wait(END_LIMIT)
+                except subprocess.TimeoutExpired:
+                    process.kill()  # the watchdog ends what it has left
+
+    def launch(self, launch: Path, words: list[str]) -> int:
+        """Runs the launch file to its end; roslaunch's exit code."""
+        started = start_master(self._uri)
+        if started or (self._master is not None and self._master.poll() is not None):
+            self._master = started
+        self._launch = subprocess.Popen(
+            [sys.executable, '-c', ROSLAUNCH, *OPTIONS, str(launch), *words],
+            stdin=subprocess.DEVNULL, start_new_session=True,
+            env=dict(os.environ, ROSCONSOLE_STDOUT_LINE_BUFFERED='1'))  # also through a pipe
+        return self._wait(self._launch)
+
+    def _wait(self, launch: subprocess.Popen[bytes]) -> int:
+        lost = 0.0
+        while launch.poll() is None:
+            if self._master is not None and self._master.poll() is not None:
+                if not lost:
+                    lost = time.monotonic()
+                    say('the ROS master has ended; the node saves the world')
+                elif time.monotonic() - lost > SAVE_LIMIT:
+                    raise Failure('the node has not ended without its ROS master')
+            time.sleep(TURN)
+        return launch.returncode
+
+
+def require_no_other(uri: str) -> None:
+    """Failure where a node of ours runs already: a second one would end it."""
+    from rosgraph.names import get_ros_namespace
+    process = running_node(uri, get_ros_namespace() + 'angen')
+    if process:
+        host, _, port = uri.rstrip('/').rpartition(':')
+        beside = f'{host}:{int(port) + 1}' if port.isdigit() else 'another'
+        raise Failure(f'already running at {uri} ({process}); it is left alone. To end it: Ctrl-C '
+                      'where it was started, or rosnode kill /angen; to start another beside it: '
+                      f'ROS_MASTER_URI={beside} ./angen run')
+
+
+def with_world(words: list[str], world: Path, count: int) -> list[str]:
+    """The words with the world of the start number `count`. Its models are found where those of
+    the first are; it is recorded into a file of its own."""
+    given = dict(word.split(':=', 1) for word in words if ':=' in word)
+    if 'world' in given:
+        path = [str(Path(given['world']).parent / 'models'), os.environ.get('ANGEN_MODEL_PATH', '')]
+        os.environ['ANGEN_MODEL_PATH'] = ':'.join(dict.fromkeys(part for part in path if part))
+    if given.get('record'):
+        log = Path(given['record'])
+        given['record'] = str(log.with_name(f'{log.stem}_{count}{log.suffix}'))
+        say(f"it is recorded into {given['record']} from here")
+    changed = {**given, 'world': str(world), 'replay': '', 'until': ''}
+    return [*(word for word in words if ':=' not in word),
+            *(f'{name}:={value}' for name, value in changed.items() if value)]
+
+
+def absolute(word: str) -> str:
+    """roslaunch starts nodes in another folder."""
+    name, _, value = word.partition(':=')
+    return f'{name}:={os.path.realpath(value)}' if name in FILES else word
+
+
+def run(launch: Path, words: list[str]) -> int:
+    """Runs the simulator until it ends; the exit code, which is never 0."""
+    from rosgraph import get_master_uri
+    check_arguments(launch, words)
+    uri = get_master_uri()
+    require_no_other(uri)
+    words = [absolute(word) for word in words]
+    say(HELP.format(angen=launch.parent.parent / 'angen'))
+    count = 1
+    with watchdog(), Rescue() as rescue, Session(uri) as session:
+        while True:
+            code = session.launch(launch, [*words, f'rescue:={rescue.path}'])
+            world = rescue.take()
+            if world is None:
+                say('the simulator ended by itself')
+                return code or 1  # roslaunch ends with 0 where a node has failed
+            say('the ROS master was lost: starting again with the world as it was')
+            count += 1
+            words = with_world(words, world, count)
+
+
+def main() -> None:
+    """LAUNCH WORD..."""
+    for number in CODES:
+        if signal.getsignal(number) != signal.SIG_IGN:  # as under nohup
+            signal.signal(number, stop)
+    try:
+        sys.exit(run(Path(sys.argv[1]), sys.argv[2:]))
+    except Failure as failure:
+        say(str(failure))
+        sys.exit(1)
+
+
+if __name__ == '__main__':
+    main()

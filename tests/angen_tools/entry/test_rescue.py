@@ -1,0 +1,61 @@
+"""The world that the node leaves when it has lost the ROS master."""
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from angen_tools.common.failure import Failure
+from angen_tools.entry import rescue
+from angen_tools.entry.rescue import Rescue, own_folder
+
+
+@pytest.fixture(autouse=True)
+def runtime(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder of $XDG_RUNTIME_DIR."""
+    monkeypatch.setenv('XDG_RUNTIME_DIR', str(tmp_path))
+    return tmp_path / f'angen-{os.getuid()}'
+
+
+def test_the_world_is_taken_once_and_removed_at_the_end(runtime: Path) -> None:
+    with Rescue() as found:
+        assert found.path.parent == runtime and found.take() is None
+        found.path.write_text('<sdf/>')
+        world = found.take()
+        assert world is not None and world.read_text() == '<sdf/>'
+        assert found.take() is None
+    assert list(runtime.iterdir()) == []
+
+
+def test_nobody_else_may_read_it(runtime: Path) -> None:
+    assert own_folder().stat().st_mode & 0o777 == 0o700
+
+
+def test_a_folder_of_somebody_else_is_not_used(runtime: Path, tmp_path: Path) -> None:
+    (tmp_path / 'theirs').mkdir()
+    runtime.symlink_to(tmp_path / 'theirs')
+    with pytest.raises(Failure, match='is not a folder of yours'):
+        own_folder()
+
+
+def test_it_gives_up_and_keeps_the_world(runtime: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    now = [100.0]
+    monkeypatch.setattr(rescue.time, 'monotonic', lambda: now[0])
+    with pytest.raises(Failure) as failed, Rescue() as found:
+        for i in range(10):
+            found.path.write_text(f'{i}')
+            found.take()
+            now[0] += 10.0
+    assert f'lost 4 times within 60 s; the world as it was is in {found.path}' in str(failed.value)
+    assert found.path.read_text() == '3'
+
+
+def test_now_and_then_is_no_reason_to_give_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    now = [100.0]
+    monkeypatch.setattr(rescue.time, 'monotonic', lambda: now[0])
+    with Rescue() as found:
+        for i in range(10):
+            found.path.write_text(f'{i}')
+            assert found.take() is not None
+            now[0] += 25.0
