@@ -36,6 +36,12 @@ def marked(environment):
     return with_mark(f'ANGEN_TEST_MARK={environment["ANGEN_TEST_MARK"]}')
 
 
+def running(environment):
+    """Of those, master and node."""
+    return [number for number in marked(environment)
+            if re.search(b'rosmaster|angen_node', Path(f'/proc/{number}/cmdline').read_bytes())]
+
+
 def restore_signals():
     """In the child: undoes what a test run in the background or under nohup ignores."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
@@ -122,7 +128,8 @@ def test_roslaunch_rejects_it_too(environment, word, part):
 
 def test_a_second_one_leaves_the_first_alone(environment):
     first, _ = start(environment)
-    before = marked(environment)
+    before = running(environment)
+    assert len(before) == 2
     second = subprocess.run([ROOT / 'angen', 'run'], capture_output=True, text=True,
                             env=environment, timeout=120)
     last = second.stderr.splitlines()[-1]
@@ -131,7 +138,7 @@ def test_a_second_one_leaves_the_first_alone(environment):
     port = int(uri.rpartition(':')[2]) + 1
     assert f'ROS_MASTER_URI=http://localhost:{port} ./angen run' in last and 'rosnode kill' in last
     time.sleep(2.0)
-    assert first.poll() is None and marked(environment) == before
+    assert first.poll() is None and running(environment) == before
     first.send_signal(signal.SIGINT)
     first.communicate(timeout=60)
     assert marked(environment) == []

@@ -70,6 +70,8 @@ class GridMap:
         """Writes STEM.pgm and STEM.yaml as map_server reads them; returns their paths."""
         picture, text = stem.with_name(stem.name + '.pgm'), stem.with_name(stem.name + '.yaml')
         rows, columns = self.cells.shape
+        if not stem.absolute().parent.is_dir():
+            raise Failure(f'{stem}: cannot be written; give a name in a folder that exists')
         with writing(picture, binary=True) as file:
             file.write(b'P5\n%d %d\n255\n' % (columns, rows) + self.shades().tobytes())
         write_text(text, f'image: {picture.name}\nresolution: {self.resolution}\n'
