@@ -1,4 +1,4 @@
-"""./angen run where the ROS master is lost: with a node of the tests, which does as the real one."""
+"""./angen run where the ROS master is lost: with a node of the tests that does as the real one."""
 import os
 from pathlib import Path
 import signal

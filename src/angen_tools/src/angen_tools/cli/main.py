@@ -72,8 +72,8 @@ def run(arguments: Sequence[str]) -> int:
     except BrokenPipeError:
         return PIPE_CLOSED
     except OSError as error:
-        where = f'{error.filename}: ' * bool(error.filename)
-        print(f'angen: {where}cannot be written: {error.strerror}', file=sys.stderr)
+        what = f'{error.filename}: cannot be written' if error.filename else 'cannot write'
+        print(f'angen: {what}: {error.strerror}', file=sys.stderr)
         return 1
 
 
