@@ -136,17 +136,17 @@ def run(launch: Path, words: list[str]) -> int:
     require_no_other(uri)
     words = [absolute(word) for word in words]
     say(HELP.format(angen=launch.parent.parent / 'angen'))
-    count = 1
+    now, count = words, 1
     with watchdog(), Rescue() as rescue, Session(uri) as session:
         while True:
-            code = session.launch(launch, [*words, f'rescue:={rescue.path}'])
+            code = session.launch(launch, [*now, f'rescue:={rescue.path}'])
             world = rescue.take()
             if world is None:
                 say('the simulator ended by itself')
                 return code or 1  # roslaunch ends with 0 where a node has failed
             say('the ROS master was lost: starting again with the world as it was')
             count += 1
-            words = with_world(words, world, count)
+            now = with_world(words, world, count)
 
 
 def main() -> None:

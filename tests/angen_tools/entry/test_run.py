@@ -1,0 +1,29 @@
+"""The words with which a building starts again."""
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from angen_tools.entry.run import absolute, with_world
+
+
+def test_the_rest_of_the_words_stays(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv('ANGEN_MODEL_PATH', '/mine')
+    words = ['--screen', 'world:=/a/b.world', 'seed:=7', 'replay:=/a/bug.log', 'until:=3']
+    for count in (2, 3):
+        assert with_world(words, Path('/run/rescued.world'), count) == [
+            '--screen', 'world:=/run/rescued.world', 'seed:=7']
+    assert os.environ['ANGEN_MODEL_PATH'] == '/a/models:/mine'
+
+
+def test_no_log_is_written_over() -> None:
+    assert with_world(['record:=/a/bug.log'], Path('/w'), 3) == [
+        'record:=/a/bug_3.log', 'world:=/w']
+
+
+def test_files_are_those_of_this_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert absolute('world:=a.world') == f'world:={tmp_path}/a.world'
+    assert absolute('seed:=1') == 'seed:=1' and absolute('--screen') == '--screen'
