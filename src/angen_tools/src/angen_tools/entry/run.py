@@ -111,8 +111,9 @@ def with_world(words: list[str], world: Path, count: int) -> list[str]:
     the first are; it is recorded into a file of its own."""
     given = dict(word.split(':=', 1) for word in words if ':=' in word)
     if 'world' in given:
-        path = [str(Path(given['world']).parent / 'models'), os.environ.get('ANGEN_MODEL_PATH', '')]
-        os.environ['ANGEN_MODEL_PATH'] = ':'.join(dict.fromkeys(part for part in path if part))
+        path = [str(Path(given['world']).parent / 'models'),
+                *filter(None, os.environ.get('ANGEN_MODEL_PATH', '').split(':'))]
+        os.environ['ANGEN_MODEL_PATH'] = ':'.join(dict.fromkeys(path))
     if given.get('record'):
         log = Path(given['record'])
         given['record'] = str(log.with_name(f'{log.stem}_{count}{log.suffix}'))
