@@ -1,4 +1,9 @@
 """A world out of the cache runs as the one that was read from its files."""
+import random
+import resource
+import subprocess
+import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -37,3 +42,47 @@ def test_cached_world_runs_the_same(path, tmp_path, monkeypatch):
     cached = run(path)
     assert cached.fingerprint == read.fingerprint
     assert cached.save() == read.save()
+
+
+LOADER = '''
+import sys, angen
+while True:
+    open(sys.argv[1], "a").write("\\n")  # so that it is not in the cache
+    angen.World(sys.argv[1])
+    print(end=".", flush=True)
+'''
+
+
+def test_a_kill_while_it_is_written_does_no_harm(tmp_path, monkeypatch):
+    monkeypatch.setenv('XDG_CACHE_HOME', str(tmp_path / 'cache'))
+    path, chance = tmp_path / 'flats.world', random.Random(13)
+    write_apartment(path, floors=3, counts=COUNTS, seed=1, elevator=True)
+    fingerprint = run(path).fingerprint
+    for _ in range(8):
+        loader = subprocess.Popen([sys.executable, '-c', LOADER, str(path)],
+                                  stdout=subprocess.PIPE, bufsize=0)
+        for _ in range(chance.randrange(1, 4)):
+            assert loader.stdout.read(1) == b'.'
+        time.sleep(chance.uniform(0.0, 0.3))
+        loader.kill()
+        loader.communicate()
+        assert run(path).fingerprint == fingerprint  # read, and kept
+        assert run(path).fingerprint == fingerprint  # out of the cache
+
+
+def test_a_full_disk_leaves_nothing_in_the_cache(tmp_path, monkeypatch):
+    monkeypatch.setenv('XDG_CACHE_HOME', str(tmp_path / 'cache'))
+    path = tmp_path / 'flats.world'
+    write_apartment(path, floors=1, counts=COUNTS, seed=1)
+    load = [sys.executable, '-c', 'import sys, angen; angen.World(sys.argv[1])', str(path)]
+    subprocess.run(load, check=True, preexec_fn=lambda: resource.setrlimit(
+        resource.RLIMIT_FSIZE, (1000, 1000)))
+    assert list((tmp_path / 'cache/angen').iterdir()) == []
+    subprocess.run(load, check=True)
+    assert len(list((tmp_path / 'cache/angen').iterdir())) == 1
+
+
+def test_a_cache_that_may_not_be_written_is_not_used(tmp_path, monkeypatch):
+    (tmp_path / 'file').touch()
+    monkeypatch.setenv('XDG_CACHE_HOME', str(tmp_path / 'file'))
+    assert angen.World(str(WORLDS / 'empty.world')).models

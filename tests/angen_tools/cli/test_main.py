@@ -129,3 +129,14 @@ def test_completion_completes_in_bash(line: str, words: list[str]) -> None:
 
 def test_completion_of_addresses_on_the_model_path() -> None:
     assert '//chair' in completed('angen spawn model model://cha')  # bash has taken model: itself
+
+
+@pytest.mark.parametrize('words', [
+    'run --fast {root}/worlds/empty.world --for 1', 'task patrol', 'task patrol --seeds 2',
+    'task seek', 'bench sensors', 'bench core', 'walktest --profile nema-wd7', 'care',
+    'care --world {root}/worlds/empty.world', 'locate --for 1', 'pid door'])
+def test_a_folder_that_cannot_be_written_is_named_before_the_work(
+        words: str, no_master: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / 'file').touch()
+    assert cli.run([*words.format(root=ROOT).split(), '--out', str(tmp_path / 'file/out')]) == 1
+    assert capsys.readouterr() == ('', f'angen: {tmp_path}/file: is not a folder\n')

@@ -85,3 +85,9 @@ def test_check_shows_warnings_and_succeeds(tmp_path: Path) -> None:
 @pytest.mark.parametrize('words', [['check'], ['check', '--no-such-option', 'x']])
 def test_wrong_words_end_with_2(words: list[str]) -> None:
     assert angen(*words).returncode == 2
+
+
+def test_an_empty_path_is_named() -> None:
+    done = angen('check', '')
+    assert (done.returncode, done.stdout) == (1, '')
+    assert done.stderr == "'': not a path; give a file, a folder or model://NAME\n"

@@ -2,9 +2,12 @@
 from __future__ import annotations
 
 import csv
+import random
+import resource
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import angen
 import pytest
@@ -31,9 +34,9 @@ def world(tmp_path: Path) -> Path:
     return path
 
 
-def run(*words: object) -> subprocess.CompletedProcess[str]:
+def run(*words: object, **options: Any) -> subprocess.CompletedProcess[str]:
     return subprocess.run([sys.executable, str(SCRIPT), 'run', '--fast', *map(str, words)],
-                          text=True, capture_output=True, timeout=120)
+                          text=True, capture_output=True, timeout=120, **options)
 
 
 def test_it_leaves_the_events_that_all_ticks_would_tell(world: Path, tmp_path: Path) -> None:
@@ -69,3 +72,34 @@ def test_a_place_that_cannot_be_written_is_named(world: Path) -> None:
 def test_a_time_is_needed(world: Path, words: list[str]) -> None:
     done = run(world, *words)
     assert done.returncode == 2 and '--for' in done.stderr
+
+
+@pytest.mark.parametrize('seed', range(4))
+def test_a_kill_leaves_the_events_until_then(world: Path, tmp_path: Path, seed: int) -> None:
+    log, part = tmp_path / 'events.csv', tmp_path / 'events.csv.part'
+    log.write_text('of the last run')
+    process = subprocess.Popen([sys.executable, str(SCRIPT), 'run', '--fast', str(world), '--for',
+                                '1e9', '-o', str(tmp_path)], stderr=subprocess.DEVNULL)
+    enough = random.Random(seed).randrange(100, 5000)
+    while not part.exists() or part.stat().st_size < enough:
+        assert process.poll() is None
+    process.kill()
+    process.wait()
+    assert log.read_text() == 'of the last run'
+    written = part.read_text().splitlines()[:-1]  # the last line may be cut
+    whole = run(world, '--for', '3000', '-o', tmp_path)
+    assert whole.returncode == 0 and not part.exists()
+    lines = log.read_text().splitlines()
+    assert len(written) > 1 and written[:len(lines)] == lines[:len(written)]
+
+
+def test_a_full_disk_leaves_whole_lines(world: Path, tmp_path: Path) -> None:
+    done = run(world, '--for', '1e9', '-o', tmp_path, preexec_fn=lambda: resource.setrlimit(
+        resource.RLIMIT_FSIZE, (3000, 3000)))
+    assert (done.returncode, done.stdout) == (1, '')
+    line, = done.stderr.splitlines()
+    assert line == (f'angen: {tmp_path}/events.csv: cannot be written: File too large; what was '
+                    f'written before is in {tmp_path}/events.csv.part')
+    assert [path.name for path in tmp_path.glob('events*')] == ['events.csv.part']
+    with (tmp_path / 'events.csv.part').open() as file:
+        assert {len(row) for row in csv.reader(file)} == {5}
