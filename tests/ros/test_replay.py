@@ -45,7 +45,7 @@ def session(master: Master, folder: Path, seconds: float, kill: bool = False, **
     done = []
     try:
         if kill:
-            until(lambda: lines(log)[-1].get("tick", 0) > seconds * 500, "half of the session", 300.0)
+            until(lambda: lines(log)[-1].get("tick", 0) > seconds * 500, "half of it", 300.0)
             node.send_signal(signal.SIGKILL)
             node.wait()
         for client in clients:
