@@ -46,17 +46,15 @@ def session(master: Master, folder: Path, seconds: float, kill: bool = False, **
     try:
         if kill:
             until(lambda: lines(log)[-1].get("tick", 0) > seconds * 500, "half of it", 300.0)
-            node.send_signal(signal.SIGKILL)
-            node.wait()
-        for client in clients:
-            if not kill:
-                done.append(client.communicate(timeout=60 + 3 * seconds)[0])
+            node.kill()
+        else:
+            done = [client.communicate(timeout=60 + 3 * seconds)[0] for client in clients]
+            node.send_signal(signal.SIGINT)
+            assert node.wait(20) == 0
     finally:
-        for client in clients:
-            client.kill()
-            client.wait()
-        if not kill:
-            assert end(node) == 0
+        for process in (*clients, node):
+            process.kill()
+            process.wait()
     return log, done
 
 
