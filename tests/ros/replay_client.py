@@ -23,6 +23,8 @@ BOX = """<model name="box"><link name="link"><inertial><mass>2</mass></inertial>
   <visual name="v"><geometry><box><size>0.2 0.2 0.2</size></box></geometry></visual></link>
 </model>"""
 MODELS = [BOX, BOX, "model://pir", "model://chair", "model://cup", "model://temperature_sensor"]
+MOST = 5  # models of one client at a time
+PAUSE = 0.8  # simulated s between two actions, at most
 
 
 class Client:
@@ -48,6 +50,8 @@ class Client:
                 ("/gazebo/reset_world", Empty))}
 
     def spawn(self) -> None:
+        if len(self.mine) >= MOST:
+            self.delete()
         self.count += 1
         name = f"{self.name}_{self.count}"
         pose = Pose()
@@ -59,7 +63,7 @@ class Client:
             self.mine.append(name)
 
     def delete(self) -> None:
-        if len(self.mine) > 3:
+        if self.mine:
             self.services["/angen/delete"](self.mine.pop(0))
 
     def door(self) -> None:
@@ -121,7 +125,7 @@ class Client:
             except rospy.ServiceException:
                 if rospy.is_shutdown():
                     return
-            time.sleep(self.random.uniform(0.0, 0.08))
+            rospy.sleep(self.random.uniform(0.0, PAUSE))
 
 
 def main() -> None:
