@@ -102,9 +102,8 @@ void doors_at_rest(benchmark::State& state) {
 }
 BENCHMARK(doors_at_rest)->ArgName("doors")->Arg(0)->Arg(100)->Arg(1000);
 
-/// So many floors like the lower one of angen.world, a person on the lowest, per tick; the rays of
-/// their sensors have their noise or none.
-void storeys(benchmark::State& state) {
+/// angen.world with so many floors like its lower one.
+desc::World tower(std::int64_t floors) {
   desc::World world = apartment();
   const auto on_ground = [](const desc::Model& model) {
     return model.pose.position.z() < 3.5 && model.name != "elevator" && model.name != "turtlebot" &&
@@ -116,31 +115,59 @@ void storeys(benchmark::State& state) {
       std::remove_if(world.models.begin(), world.models.end(),
                      [&](const desc::Model& model) { return model.pose.position.z() >= 3.5; }),
       world.models.end());
-  for (int i = 1; i < state.range(0); ++i) {
+  for (std::int64_t i = 1; i < floors; ++i) {
     for (desc::Model model : floor) {
       const std::string number = std::to_string(i);
       if (!model.name.empty() && model.name.back() == '0') model.name.pop_back();
       model.name += "_" + number;
-      model.pose.position.z() += 4.0 * i;
+      model.pose.position.z() += 4.0 * static_cast<double>(i);
       world.models.push_back(std::move(model));
     }
   }
-  if (state.range(1) == 0) drop_ray_noise(world);
-  const auto simulation = simulate(std::move(world));
-  run(*simulation, 6.0);
+  return world;
+}
+
+/// Takes the ticks of a second; counts what is awake and the time of a tick.
+void run_seconds(benchmark::State& state, sim::Simulation& simulation) {
+  double awake = 0.0;
   for (auto _ : state) {
-    for (int i = 0; i < 1000; ++i) simulation->tick();
+    for (int i = 0; i < 1000; ++i) awake += simulation.tick()->counts.awake_bodies;
   }
-  state.counters["awake"] = simulation->snapshot()->counts.awake_bodies;
+  state.counters["awake"] = 1e-3 * awake / static_cast<double>(state.iterations());
   state.counters["us_a_tick"] =
       benchmark::Counter(1e-3 * static_cast<double>(state.iterations()),
                          benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+/// Such a tower, a person on the lowest floor, per tick; the rays of its sensors have their noise or
+/// none.
+void storeys(benchmark::State& state) {
+  desc::World world = tower(state.range(0));
+  if (state.range(1) == 0) drop_ray_noise(world);
+  const auto simulation = simulate(std::move(world));
+  run(*simulation, 6.0);
+  run_seconds(state, *simulation);
 }
 BENCHMARK(storeys)
     ->ArgNames({"floors", "noise"})
     ->ArgsProduct({{2, 20, 100}, {0, 1}})
     ->Unit(benchmark::kMillisecond)
     ->Iterations(10);
+
+/// Ten people a floor who walk one behind the other, or one alone; no sensors. Per tick.
+void people(benchmark::State& state) {
+  desc::World world = tower(std::max<std::int64_t>(1, state.range(0) / 10));
+  drop_sensors(world);
+  put_walkers(world, static_cast<int>(state.range(0)));
+  const auto simulation = simulate(std::move(world));
+  run(*simulation, 6.0);
+  Factor factor;
+  run_seconds(state, *simulation);
+  factor.simulated = static_cast<double>(state.iterations());
+  factor.report(state);
+}
+BENCHMARK(people)->ArgName("people")->Arg(1)->Arg(10)->Arg(100)->Unit(benchmark::kMillisecond)
+    ->Iterations(12);
 
 /// A person whose walk of about `walk` s is followed by nine times as long a stand.
 void let_rest(desc::World& world) {

@@ -3,7 +3,9 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -70,6 +72,38 @@ inline void put_persons(desc::World& world, int count) {
     person.name += std::to_string(i);
     person.pose.position.z() += 4.0 * (i % 2);
     child(person.plugins[0].element, "delay_start").text = std::to_string(6.0 * (i / 2));
+    world.models.push_back(std::move(person));
+  }
+}
+
+/// Where a person is at `time` s on the way that its waypoints (t x y z yaw) describe.
+inline Pose on_the_way(const desc::Model& person, double time) {
+  std::vector<double> before, after;
+  for (const Element& c : person.plugins[0].element.children) {
+    if (c.name != "waypoint") continue;
+    std::istringstream text(c.text);
+    before = std::move(after);
+    after.assign(std::istream_iterator<double>(text), {});
+    if (after.at(0) > time) break;
+  }
+  const double part = (time - before.at(0)) / (after.at(0) - before.at(0));
+  const auto between = [&](int i) { return before.at(i) + part * (after.at(i) - before.at(i)); };
+  return {{between(1), between(2), between(3)}, from_rpy(0, 0, between(4))};
+}
+
+/// So many people on the way of the world's own, evenly along it, ten on a floor of 4 m.
+inline void put_walkers(desc::World& world, int count) {
+  constexpr int kOnFloor = 10;
+  constexpr double kRound = 11.5;  // s, that the way takes
+  const desc::Model one = *std::find_if(world.models.begin(), world.models.end(), is_person);
+  drop_persons(world);
+  for (int i = 0; i < count; ++i) {
+    const double time = kRound * (i % kOnFloor) / kOnFloor;
+    desc::Model person = one;
+    person.name += std::to_string(i);
+    person.pose = on_the_way(one, time);
+    person.pose.position.z() += 4.0 * (i / kOnFloor);
+    child(person.plugins[0].element, "path_time").text = std::to_string(time);
     world.models.push_back(std::move(person));
   }
 }

@@ -54,10 +54,10 @@ void Inbox::published() {
   done_.notify_all();
 }
 
-void Inbox::wait(std::chrono::milliseconds limit) {
+bool Inbox::wait(std::chrono::nanoseconds limit) {
   std::unique_lock<std::mutex> lock(mutex_);
   wake_.wait_for(lock, limit, [this] { return waiting_ || closed_; });
-  waiting_ = false;
+  return std::exchange(waiting_, false);
 }
 
 void Inbox::close() {

@@ -30,8 +30,8 @@ class Inbox {
 
   /// Main thread: everything that the last tick changed has been published.
   void published();
-  /// Main thread, paused: sleeps until an action comes or `limit` is over.
-  void wait(std::chrono::milliseconds limit);
+  /// Main thread: sleeps until an action comes or `limit` is over; whether one has come.
+  bool wait(std::chrono::nanoseconds limit);
   void close();
 
   sim::Simulation& simulation() { return simulation_; }

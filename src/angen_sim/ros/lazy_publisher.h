@@ -2,6 +2,7 @@
 
 #include <ros/node_handle.h>
 #include <ros/single_subscriber_publisher.h>
+#include <ros/this_node.h>
 
 #include <atomic>
 #include <cstdint>
@@ -36,11 +37,14 @@ class LazyPublisher {
     const std::shared_ptr<Listeners> listeners = made.listeners_;
     options.init<Message>(
         topic, queue,
-        [listeners](const ros::SingleSubscriberPublisher&) {
+        [listeners](const ros::SingleSubscriberPublisher& subscriber) {
+          if (is_this_node(subscriber)) return;
           ++listeners->count;
           ++listeners->joined;
         },
-        [listeners](const ros::SingleSubscriberPublisher&) { --listeners->count; });
+        [listeners](const ros::SingleSubscriberPublisher& subscriber) {
+          if (!is_this_node(subscriber)) --listeners->count;
+        });
     made.publisher_ = node.advertise(options);
     return made;
   }
@@ -58,6 +62,11 @@ class LazyPublisher {
   }
 
  private:
+  // roscpp subscribes to /clock in each node, also in the one that publishes it.
+  static bool is_this_node(const ros::SingleSubscriberPublisher& subscriber) {
+    return subscriber.getSubscriberName() == ros::this_node::getName();
+  }
+
   struct Listeners {
     std::atomic<int> count{0};
     std::atomic<std::uint64_t> joined{0};

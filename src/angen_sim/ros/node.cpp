@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <thread>
 
 #include "ros/frames.h"
 
@@ -16,8 +15,6 @@ namespace {
 constexpr std::uint32_t kThreads = 4;
 constexpr std::chrono::milliseconds kPausedNap(20);
 constexpr std::chrono::milliseconds kLongestNap(100);  // Ctrl-C is seen that soon
-// Sleeping for single milliseconds would wake the processor more often than anybody can see.
-constexpr std::chrono::milliseconds kShortestNap(2);
 
 constexpr Nanoseconds kLongestLeap = 10 * kSecond;  // so far may /clock jump
 
@@ -52,7 +49,7 @@ void Node::run(const std::atomic<bool>& stop) {
     publish(*snapshot);
     inbox_.published();
     if (!ready_) announce();
-    pace(*snapshot);
+    pace(*snapshot, stop);
   }
   inbox_.close();
   spinner.stop();
@@ -66,6 +63,7 @@ void Node::announce() {
 }
 
 std::shared_ptr<const sim::Snapshot> Node::advance() {
+  stats_.start();
   if (recorder_ == nullptr) return simulate();
   std::shared_ptr<const sim::Snapshot> snapshot = simulate();
   recorder_->add(*snapshot);
@@ -121,7 +119,7 @@ void Node::publish(const sim::Snapshot& snapshot) {
   cost_.publish(snapshot, now);
 }
 
-void Node::pace(const sim::Snapshot& snapshot) {
+void Node::pace(const sim::Snapshot& snapshot, const std::atomic<bool>& stop) {
   if (replaying() && (hurry_ || snapshot.paused)) {
     pacer_.restart();
     return;
@@ -131,9 +129,14 @@ void Node::pace(const sim::Snapshot& snapshot) {
     if (!simulation_.running()) inbox_.wait(kPausedNap);
     return;
   }
-  const auto ahead = pacer_.ahead(snapshot.time, Pacer::Clock::now());
-  if (ahead >= kShortestNap) {
-    std::this_thread::sleep_for(std::min<std::chrono::nanoseconds>(ahead, kLongestNap));
+  const auto ahead = [&] { return pacer_.ahead(snapshot.time, Pacer::Clock::now()); };
+  if (ahead() < Pacer::kBatch) return;
+  // A command need not wait for the schedule: the ticks that a batch has left carry it out.
+  std::chrono::nanoseconds enough(0);
+  for (auto left = ahead(); left > enough && !stop; left = ahead()) {
+    if (inbox_.wait(std::min<std::chrono::nanoseconds>(left - enough, kLongestNap))) {
+      enough = Pacer::kBatch;
+    }
   }
 }
 

@@ -45,7 +45,8 @@ class Node {
  private:
   std::shared_ptr<const sim::Snapshot> advance();
   void publish(const sim::Snapshot& snapshot);
-  void pace(const sim::Snapshot& snapshot);
+  /// Sleeps where time is ahead of its schedule by a batch of ticks.
+  void pace(const sim::Snapshot& snapshot, const std::atomic<bool>& stop);
   /// Advertises /angen/ready, the last topic: whoever sees it finds all others and every service.
   void announce();
 

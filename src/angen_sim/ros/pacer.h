@@ -13,6 +13,9 @@ class Pacer {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::nanoseconds kMaxLag = std::chrono::seconds(1);
+  /// Ticks are taken ahead of the schedule for so long, and then slept for together: waking for
+  /// each of them costs more than most of them do.
+  static constexpr std::chrono::nanoseconds kBatch = std::chrono::milliseconds(10);
 
   /// Simulated seconds a wall second; 0 = as fast as it goes.
   explicit Pacer(double rate) : rate_(rate) {}

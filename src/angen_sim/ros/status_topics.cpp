@@ -29,6 +29,7 @@ void ClockTopic::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point
   if (slot == slot_ && now - sent_ < kStill) return;
   slot_ = slot;
   sent_ = now;
+  ros::Time::setNow(to_ros(snapshot.time));  // this node's own: what it logs has that stamp
   publisher_.publish([&] {
     rosgraph_msgs::Clock message;
     message.clock = to_ros(snapshot.time);
@@ -39,7 +40,16 @@ void ClockTopic::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point
 Stats::Stats(ros::NodeHandle& node)
     : publisher_(LazyPublisher::of<angen_msgs::Stats>(node, "/angen/stats", 10)) {}
 
+void Stats::start() {
+  if (publisher_.has_subscribers() != timing_) {
+    timing_ = !timing_;
+    ticks_.take();
+  }
+  watch_.start(timing_);
+}
+
 void Stats::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {
+  if (timing_) ticks_.add(watch_.lap());
   if (now - sent_ < kStatsPeriod) return;
   const double wall = seconds(now - sent_);
   const double simulated = to_seconds(snapshot.time - sent_time_);
@@ -49,7 +59,7 @@ void Stats::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point now)
 }
 
 angen_msgs::Stats Stats::message_of(const sim::Snapshot& snapshot, Pacer::Clock::time_point now,
-                                    double factor) const {
+                                    double factor) {
   angen_msgs::Stats message;
   message.header.stamp = message.sim_time = to_ros(snapshot.time);
   message.real_time = ros::Duration(seconds(now - start_));
@@ -65,6 +75,10 @@ angen_msgs::Stats Stats::message_of(const sim::Snapshot& snapshot, Pacer::Clock:
   message.readings = snapshot.counts.readings;
   message.failed_steps = snapshot.counts.failed_steps;
   message.messages = Traffic::sent();
+  const TickTimes::Summary ticks = ticks_.take();
+  message.tick_median = to_seconds(ticks.median);
+  message.tick_p99 = to_seconds(ticks.p99);
+  message.tick_longest = to_seconds(ticks.longest);
   return message;
 }
 

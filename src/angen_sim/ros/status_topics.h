@@ -5,8 +5,10 @@
 #include <atomic>
 #include <cstdint>
 
+#include "core/stopwatch.h"
 #include "ros/lazy_publisher.h"
 #include "ros/pacer.h"
+#include "ros/tick_times.h"
 #include "sim/snapshot.h"
 
 namespace angen::node {
@@ -29,16 +31,21 @@ class ClockTopic {
 class Stats {
  public:
   explicit Stats(ros::NodeHandle& node);
+  /// A tick begins, which publish() ends; both are timed while there are subscribers.
+  void start();
   void publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point now);
 
  private:
   angen_msgs::Stats message_of(const sim::Snapshot& snapshot, Pacer::Clock::time_point now,
-                               double factor) const;
+                               double factor);
 
   LazyPublisher publisher_;
   Pacer::Clock::time_point start_ = Pacer::Clock::now();
   Pacer::Clock::time_point sent_ = start_;
   Nanoseconds sent_time_ = 0;
+  Stopwatch watch_;
+  bool timing_ = false;
+  TickTimes ticks_;
 };
 
 /// /angen/events; what was rejected, and warnings, also stand in the log.

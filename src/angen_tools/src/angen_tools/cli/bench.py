@@ -35,8 +35,15 @@ def run_bench_core(args: argparse.Namespace) -> int:
     return 0
 
 
+def run_bench_load(args: argparse.Namespace) -> int:
+    from angen_tools.bench import load
+    load.measure([args.topics] if args.topics else list(load.READERS), args.sensors, args.window,
+                 args.out, args.json)
+    return 0
+
+
 def add_bench(commands: Any) -> None:
-    """angen bench sensors, angen bench core."""
+    """angen bench sensors, angen bench core, angen bench load."""
     bench = command(commands, 'bench', run_bench, 'measures what things cost in a node of its own',
                     'bench sensors --kind pir --counts 0,10,50,100')
     kinds = bench.add_subparsers(dest='what', metavar='WHAT', required=True)
@@ -70,3 +77,15 @@ def add_bench(commands: Any) -> None:
                    'PIRs, towers, an hour; some minutes', 'bench core', 'bench core -o out')
     add_json(core)
     add_out(core, 'core.csv')
+    load = command(kinds, 'load', run_bench_load, 'measures a node under load: 1,000 sensors, '
+                   'subscribers to every topic and one that never reads, 50 commands and 10 spawns '
+                   'a second', 'bench load', 'bench load --topics kind --window 60')
+    load.add_argument('--topics', choices=['kind', 'sensor'],
+                      help='a topic for all sensors of a kind, with 20 subscribers, or one for '
+                      'each, with 2 (both, one after the other)')
+    load.add_argument('--sensors', metavar='N', type=checked(at_least(1)), default=1000,
+                      help='in the world (1000)')
+    load.add_argument('--window', metavar='S', type=checked(window), default=60.0,
+                      help='how long to measure, in s (60)')
+    add_json(load)
+    add_out(load, 'load.csv')
