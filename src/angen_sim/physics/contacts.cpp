@@ -106,7 +106,8 @@ bool Contacts::collide(Geom& a, Geom& b) {
   std::array<dContactGeom, kMostFound> found;
   const std::size_t n = touching_points(first, second, found.data());
   if (n == 0) return false;
-  const std::size_t kept = reduce_points(found.data(), n);
+  std::size_t kept = reduce_points(found.data(), n);
+  if (first.body->upright && second.body->upright) kept = reduce_upright(found.data(), kept);
   note_change(first, second);
   pairs_.push_back({&first, &second, found_.size(), kept});
   found_.insert(found_.end(), found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept));

@@ -14,12 +14,18 @@ bool same(const dContactGeom& a, const dContactGeom& b) {
          ode::vec(a.normal).dot(ode::vec(b.normal)) > kSameNormal;
 }
 
-// Of two points in one place the deeper one stays.
-std::size_t remove_doubles(dContactGeom* points, std::size_t n) {
+bool one_above_the_other(const dContactGeom& a, const dContactGeom& b) {
+  return (ode::vec(a.pos) - ode::vec(b.pos)).head<2>().norm() < kSamePlace &&
+         ode::vec(a.normal).dot(ode::vec(b.normal)) > kSameNormal;
+}
+
+// Of two points that are `twins` the deeper one stays.
+template <class Twins>
+std::size_t remove_doubles(dContactGeom* points, std::size_t n, Twins&& twins) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < n; ++i) {
     dContactGeom* twin = std::find_if(points, points + kept,
-                                      [&](const dContactGeom& p) { return same(p, points[i]); });
+                                      [&](const dContactGeom& p) { return twins(p, points[i]); });
     if (twin == points + kept) {
       points[kept++] = points[i];
     } else if (points[i].depth > twin->depth) {
@@ -31,8 +37,12 @@ std::size_t remove_doubles(dContactGeom* points, std::size_t n) {
 
 }  // namespace
 
+std::size_t reduce_upright(dContactGeom* points, std::size_t n) {
+  return remove_doubles(points, n, one_above_the_other);
+}
+
 std::size_t reduce_points(dContactGeom* points, std::size_t n) {
-  n = remove_doubles(points, n);
+  n = remove_doubles(points, n, same);
   if (n <= kMostPoints) return n;
   std::iter_swap(points, std::max_element(points, points + n, [](const auto& a, const auto& b) {
                    return a.depth < b.depth;

@@ -13,4 +13,8 @@ constexpr std::size_t kMostPoints = 8;
 /// time the one farthest from those kept; doubles go. Returns how many are left.
 std::size_t reduce_points(dContactGeom* points, std::size_t n);
 
+/// Of points one above the other with one normal the deepest stays, as between two bodies of which
+/// none can tilt: there they do the same, and the exact solver fails at what is redundant.
+std::size_t reduce_upright(dContactGeom* points, std::size_t n);
+
 }  // namespace angen::physics

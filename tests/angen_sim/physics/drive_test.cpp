@@ -191,5 +191,30 @@ TEST(Door, FreeSwingLosesEnergyOnlyByDamping) {
               0.01 * start);
 }
 
+TEST(Drive, PeopleWhoPressOnEachOtherAreSolvedExactly) {
+  TestWorld world;
+  world.add(floor_model());
+  constexpr int kPeople = 5;
+  std::vector<LinkId> bodies;
+  for (int i = 0; i < kPeople; ++i) {
+    const double angle = 2.0 * M_PI * i / kPeople;
+    const Vec3 at(std::cos(angle), std::sin(angle), 0.001);
+    bodies.push_back(world.only_link(world.add(person_model("person" + std::to_string(i), at))));
+  }
+  for (int step = 0; step < 3000; ++step) {
+    for (const LinkId body : bodies) {
+      const Vec3 way = -world.link(body).pose.position;
+      world.drive(body, way.norm() > 0.8 ? Vec3(0.8 * way.normalized()) : way, 0.0, 150.0);
+    }
+    world.run(kStep);
+  }
+  EXPECT_EQ(world.failed_steps(), 0U);
+  for (const LinkId body : bodies) {
+    const double from_middle = world.link(body).pose.position.head<2>().norm();
+    EXPECT_GT(from_middle, 0.40);  // five circles of 0.25 m about a point
+    EXPECT_LT(from_middle, 0.45);
+  }
+}
+
 }  // namespace
 }  // namespace angen::physics::testing
