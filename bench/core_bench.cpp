@@ -139,8 +139,8 @@ void run_seconds(benchmark::State& state, sim::Simulation& simulation) {
                          benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-/// Such a tower, a person on the lowest floor, per tick; the rays of its sensors have their noise or
-/// none.
+/// Such a tower, a person on the lowest floor, per tick; the rays of its sensors have their noise
+/// or none.
 void storeys(benchmark::State& state) {
   desc::World world = tower(state.range(0));
   if (state.range(1) == 0) drop_ray_noise(world);
@@ -166,7 +166,12 @@ void people(benchmark::State& state) {
   factor.simulated = static_cast<double>(state.iterations());
   factor.report(state);
 }
-BENCHMARK(people)->ArgName("people")->Arg(1)->Arg(10)->Arg(100)->Unit(benchmark::kMillisecond)
+BENCHMARK(people)
+    ->ArgName("people")
+    ->Arg(1)
+    ->Arg(10)
+    ->Arg(100)
+    ->Unit(benchmark::kMillisecond)
     ->Iterations(12);
 
 /// A person whose walk of about `walk` s is followed by nine times as long a stand.

@@ -47,7 +47,7 @@ void Building::make_engines() {
 
 void Building::note_change() {
   ++revision_;
-  by_field_.clear();
+  forget_fields();
 }
 
 Pose Building::pose_of(const LiveModel& live) const {

@@ -52,8 +52,13 @@ class Building {
   /// the order of the models.
   std::vector<FoundDevice> find_devices(const std::string& field,
                                         const Eigen::AlignedBox3d& within) const;
+  /// Whether a device that find_devices() may find can move.
+  bool may_move(const std::string& field) const { return !devices_by_field(field).movable.empty(); }
   /// To be called when a device has other fields than before.
-  void forget_fields() { by_field_.clear(); }
+  void forget_fields() {
+    by_field_.clear();
+    engines_->states.note_all(engines_->movers.now());
+  }
 
   struct Target {
     LiveModel* live;

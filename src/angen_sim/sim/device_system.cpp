@@ -145,10 +145,13 @@ void DeviceSystem::report(Building& building, InstanceView::Clock clock, Snapsho
     device.cost += meter_.watch.lap();
     if (all) device.to_report = false;
     if (device.last && device.last->same_values(device.scratch)) continue;
-    if (!device.last || !device.last->same_names(device.scratch)) building.forget_fields();
+    if (!device.last || !device.last->same_names(device.scratch)) {
+      building.forget_fields();
+    } else {
+      building.engines().states.note(device.scratch, building.engines().movers.now());
+    }
     device.scratch.stamp = clock.time;
     device.last = std::make_shared<const Reading>(device.scratch);
-    building.engines().note_state_change();
     next.devices.set(index, device.last);
     next.new_states.push_back(index);
   }

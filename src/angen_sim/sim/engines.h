@@ -9,6 +9,7 @@
 #include "rays/scene.h"
 #include "render/scene.h"
 #include "sim/mover_index.h"
+#include "sim/state_changes.h"
 
 namespace angen::sim {
 
@@ -55,15 +56,13 @@ class Engines {
   double ambient_temperature;  // K
   light::Lighting light{rays};
   MoverIndex movers;  // which movers are near which sensors' rays
+  StateChanges states;
 
   /// Something that sensors may query besides rays has changed: a pose, a light, a contact.
   void note_change() { changed_ = movers.now(); }
   MoverIndex::Moment changed() const { return changed_; }  // when last
   /// The same of static shapes and those that are joined to them, as doors are.
   MoverIndex::Moment standing_changed() const { return standing_changed_; }
-  /// The state of a device has changed.
-  void note_state_change() { states_changed_ = movers.now(); }
-  MoverIndex::Moment states_changed() const { return states_changed_; }  // when last
 
  private:
   void show(const Parts& parts, const Parts::Shape& shape);
@@ -71,7 +70,6 @@ class Engines {
 
   MoverIndex::Moment changed_ = 0;
   MoverIndex::Moment standing_changed_ = 0;
-  MoverIndex::Moment states_changed_ = 0;
 };
 
 }  // namespace angen::sim

@@ -64,12 +64,14 @@ struct WatchedLight {
 struct Queried {
   bool contacts = false;
   bool light = false;
-  bool devices = false;  // their states
+  bool devices = false;  // which there are
   bool other = false;
+  StateChanges::Fields fields = 0;  // by which it queried devices
 
   bool any() const { return contacts || light || devices || other; }
   Queried operator|(const Queried& o) const {
-    return {contacts || o.contacts, light || o.light, devices || o.devices, other || o.other};
+    return {contacts || o.contacts, light || o.light, devices || o.devices, other || o.other,
+            fields | o.fields};
   }
 };
 
@@ -87,7 +89,7 @@ struct SensorInstance : SensorInfo {
   std::unique_ptr<WatchedLight> light;             // null where light may come from anywhere
   MoverIndex::Moment seen = 0;                     // its last sample has all changes before
   SensorActivity activity;
-  Queried queried{false, false, false, true};  // for its reading
+  Queried queried{false, false, false, true, 0};  // for its reading
   bool link_moves = true;                      // false where its link is static
 
   std::unique_ptr<Sensor> sensor;

@@ -38,7 +38,9 @@ std::vector<ContactPair> InstanceView::contacts(ContactRef collision) const {
 
 std::vector<DeviceView> InstanceView::devices(const std::string& field,
                                               const Eigen::AlignedBox3d& within) const {
-  queried_.devices = queried_.other = true;
+  queried_.devices = true;
+  queried_.other = queried_.other || building_.may_move(field);
+  queried_.fields |= engines_.states.bit_of(field);
   std::vector<DeviceView> found;
   const std::vector<Building::FoundDevice> all = building_.find_devices(field, within);
   found.reserve(all.size());

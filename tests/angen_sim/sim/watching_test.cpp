@@ -99,7 +99,9 @@ const std::vector<std::string> kLibraries = {kPir,
                                              "libsmart_plug.so",
                                              "libpressure_mat.so",
                                              "libreed_contact.so",
-                                             "librfid_reader.so"};
+                                             "librfid_reader.so",
+                                             "libmicrophone.so",
+                                             "libradio_receiver.so"};
 
 std::shared_ptr<Catalog> catalog() {
   static const auto shared = [] {
@@ -186,8 +188,18 @@ TEST(Watching, ReadingsAreThoseOfCastingAllRaysAtEachDueTime) {
   EXPECT_GT(rest.lazy, 2);
 }
 
+/// A household with sensors of what several kinds of devices report, and a transmitter.
+std::string text_of_listeners() {
+  const std::string first = "<sensor name='t'";
+  const std::string stove = "<plugin name='h' filename='libheater.so'/>";
+  return replaced(replaced(text_of_household(), first,
+                           custom("mic", "microphone", "<threshold>40</threshold>") +
+                               custom("radio", "radio_receiver", "") + first),
+                  stove, stove + "<plugin name='r' filename='libradio_transmitter.so'/>");
+}
+
 TEST(Watching, AHouseholdIsReadAsAtEachDueTime) {
-  Twins twins(text_of_household());
+  Twins twins(text_of_listeners());
   twins.run(6000);
   for (const char* order : {"On", "Off"}) {
     twins.order("heater", "stove", order);
@@ -196,8 +208,11 @@ TEST(Watching, AHouseholdIsReadAsAtEachDueTime) {
     twins.run(1500);
   }
   twins.order("person", "person", "Stop");
+  twins.order("transmitter", "stove_transmitter", "Off");
   twins.order("door", "hall0", "Open");
-  twins.run(8000);
+  twins.run(4000);
+  twins.order("person", "person", "Speak");
+  twins.run(4000);
   EXPECT_GT(at_rest(*twins.skipping->snapshot()).lazy, 0);
 }
 

@@ -30,13 +30,15 @@ from angen_tools.world.placing import generator
 
 FLOORS = 10
 SEED = 1
-SHARES = {'pir': 0.4, 'switch': 0.25, 'luminosity': 0.1, 'contact': 0.25}  # of all sensors
+SHARES = {'pir': 0.5, 'switch': 0.3, 'luminosity': 0.15, 'contact': 0.05}  # of all sensors
 READERS = {'kind': 20, 'sensor': 2}  # subscribers of every topic
 SLEEPERS = 1  # subscribers that never read
 COMMANDS = 50.0  # a second
 SPAWNS = 10.0  # a second, each with a deletion
 LIVES = 5.0  # s that a spawned sensor is there
-WARM_UP = 10.0  # s of wall time
+SETTLED = 3.0  # simulated s, until which furniture comes to rest
+WARM_UP = 5.0  # s of wall time, under load
+SETTLE_LIMIT = 600.0
 CONNECT_LIMIT = 120.0
 STATS_LIMIT = 120.0
 VERBS = {'door': ('Open', 'Close'), 'lamp': ('On', 'Off')}
@@ -227,6 +229,8 @@ def run(sandbox: Sandbox, topics: str, sensors: int, seconds: float) -> Row:
         open_now.callback(end, node)
         client = Client()
         watch = open_now.enter_context(Watch(client, node))
+        wait(lambda: bool(watch.seconds) and watch.seconds[-1].sim >= SETTLED,
+             'the world has not come to rest', SETTLE_LIMIT)
         said = sandbox.folder / 'listeners.log'
         readers = READERS[topics]
         group = sandbox.start([sys.executable, '-m', listeners.__name__, str(readers),
