@@ -90,7 +90,7 @@ struct SensorInstance : SensorInfo {
   MoverIndex::Moment seen = 0;                     // its last sample has all changes before
   SensorActivity activity;
   Queried queried{false, false, false, true, 0};  // for its reading
-  bool link_moves = true;                      // false where its link is static
+  bool link_moves = true;                         // false where its link is static
 
   std::unique_ptr<Sensor> sensor;
   NoisySensor* noisy = nullptr;                // `sensor`, where it applies its noise itself

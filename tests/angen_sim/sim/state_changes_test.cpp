@@ -83,7 +83,8 @@ TEST(StateChanges, ASensorSamplesAgainForDevicesThatItQueried) {
     catalog->add(std::string("lib") + field + ".so", std::make_shared<CountingPlugin>(field));
     sensors += custom(field, field, "");
   }
-  // Warmed by a heater, the climate reports another temperature each second, and the heater nothing.
+  // Warmed by a heater, the climate reports another temperature each second, and the heater
+  // nothing.
   const std::string text =
       "<sdf version='1.6'><world name='w'><model name='flat'><static>true</static><link name='l'/>"
       "<plugin name='c' filename='libroom_climate.so'><room>-3 -3 0 3 2 2.5</room></plugin></model>"

@@ -40,7 +40,7 @@ def address_of(master: Any, topic: str) -> tuple[str, int]:
     """Where the node takes connections, the same for all its topics."""
     import xmlrpc.client
     uri = master.lookupNode('/listeners', NODE)[2]
-    node = xmlrpc.client.ServerProxy(uri)
+    node: Any = xmlrpc.client.ServerProxy(uri)
     _, host, port = node.requestTopic('/listeners', topic, [['TCPROS']])[2]
     return host, port
 
@@ -74,7 +74,7 @@ def main() -> None:
     import xmlrpc.client
     allow_many_connections()
     readers, sleepers = int(sys.argv[1]), int(sys.argv[2])
-    master = xmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI'])
+    master: Any = xmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI'])
     topics = topics_of(master)
     address = address_of(master, topics[0])
     reading = [connect(address, topic, f'/reader{i}') for i in range(readers) for topic in topics]
