@@ -17,14 +17,15 @@ TWO_PIRS = WORLD.replace('<include><uri>model://pir', '''
 
 
 class House:
-    """A node with a master of its own, without a subscriber of /clock."""
+    """A node with a master of its own, and no subscriber of /clock but roscpp in that node."""
 
     def __init__(self, folder: Path, **params: object) -> None:
         self.master = Master(folder)
-        self.master.api.setParam('/test', '/use_sim_time', False)
+        self.master.api.setParam('/test', '/use_sim_time', True)
         world = folder / 'two.world'
         world.write_text(TWO_PIRS)
         self.node = self.master.node(world, folder / 'log', **params)
+        self.master.api.setParam('/test', '/use_sim_time', False)
         self.cli = Cli(self.master)
 
     def end(self) -> None:
