@@ -3,6 +3,7 @@ starts both anew where the master was lost.
 """
 from __future__ import annotations
 
+import math
 import os
 import signal
 import subprocess
@@ -19,7 +20,7 @@ from angen_tools.entry.rescue import Rescue
 
 FILES = ('world', 'record', 'replay')  # arguments
 END_LIMIT = 4.0  # s for an orderly end
-SAVE_LIMIT = 30.0  # s that the node has to notice that the master is gone, and to save the world
+SAVE_LIMIT = 30.0  # s that the node has to notice that its master is another, and save the world
 TURN = 0.1
 # roslaunch's own progress is left out, which it prints by Python; errors and nodes' lines are not.
 ROSLAUNCH = '''
@@ -82,14 +83,14 @@ class Session:
         return self._wait(self._launch)
 
     def _wait(self, launch: subprocess.Popen[bytes]) -> int:
-        lost = 0.0
+        lost = math.inf
         while launch.poll() is None:
             if self._master is not None and self._master.poll() is not None:
-                if not lost:
-                    lost = time.monotonic()
-                    say('the ROS master has ended; the node saves the world')
-                elif time.monotonic() - lost > SAVE_LIMIT:
-                    raise Failure('the node has not ended without its ROS master')
+                say('the ROS master has ended; another one is started, and the node saves the world')
+                lost = time.monotonic()
+                self._master = start_master(self._uri)
+            elif time.monotonic() - lost > SAVE_LIMIT:
+                raise Failure('the node has not ended without its ROS master')
             time.sleep(TURN)
         return launch.returncode
 
