@@ -86,7 +86,7 @@ class Session:
         lost = math.inf
         while launch.poll() is None:
             if self._master is not None and self._master.poll() is not None:
-                say('the ROS master has ended; another one is started, and the node saves the world')
+                say('the ROS master has ended; another one is started, the node saves the world')
                 lost = time.monotonic()
                 self._master = start_master(self._uri)
             elif time.monotonic() - lost > SAVE_LIMIT:
