@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <limits>
+#include <utility>
 
 #include "load/load.h"
 #include "load/xml.h"
@@ -199,7 +200,9 @@ Log read_log(const std::string& path) {
   std::uint64_t sum = 0;
   std::uint64_t byte = 0;
   int number = 0;
-  for (std::string line; std::getline(stream, line); byte += line.size() + 1) {
+  std::uint64_t next_byte = 0;
+  for (std::string line; std::getline(stream, line);) {
+    byte = std::exchange(next_byte, next_byte + line.size() + 1);
     const Source at{path, ++number};
     if (number == 1 && line.rfind(kMark, 0) != 0) {
       throw Error(at, "is not a log of angen; it must begin with " + std::string(kMark));
@@ -215,7 +218,12 @@ Log read_log(const std::string& path) {
     const LineReader reader(line, at, byte);
     if (number == 1) log.header = header_in(reader, at);
     reader.check(sum);
-    if (number > 1) log.entries.push_back(entry_in(reader, number, log.header.step));
+    if (number == 1) continue;
+    log.entries.push_back(entry_in(reader, number, log.header.step));
+    const std::int64_t last = log.entries.size() < 2 ? 0 : log.entries.end()[-2].tick;
+    if (log.entries.back().tick - last > (kSecond + log.header.step - 1) / log.header.step) {
+      reader.fail("'tick' is more than a second later than in the line before");
+    }
   }
   if (number == 0) throw Error({path, 0}, "is empty; nothing can be replayed");
   return log;

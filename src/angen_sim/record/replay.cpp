@@ -20,6 +20,15 @@ std::string name_in(const std::string& uri) {
       .string();
 }
 
+// A pose is checked in its text, which has it rounded.
+bool is_near(const Pose& text, const Pose& exact) {
+  constexpr double kNear = 1e-4;
+  const auto& one = text.rotation.coeffs();
+  const auto& other = exact.rotation.coeffs();
+  return (text.position - exact.position).norm() < kNear &&
+         ((one - other).norm() < kNear || (one + other).norm() < kNear);
+}
+
 }  // namespace
 
 Replay::Replay(Log log, std::shared_ptr<Catalog> catalog, ReplaySettings settings)
@@ -97,6 +106,7 @@ sim::Action Replay::action_of(const LogEntry& entry) const {
     desc::World alone = load::world_from_text(sdf, "(text)", paths_);
     if (alone.models.size() != 1) throw Error("is not one model");
     desc::Model model = std::move(alone.models.front());
+    if (!is_near(model.pose, spawn.pose)) throw Error("its pose is not that of its text");
     model.pose = spawn.pose;
     return sim::Spawn{std::move(model)};
   } catch (const Error& error) {

@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <array>
 #include <csignal>
 
 #include "angen_sim/record/logged.h"
@@ -118,6 +119,103 @@ TEST(Log, IsNotOverwritten) {
   const std::string before = read_all(folder.log());
   EXPECT_THROW(Session again(folder), Error);
   EXPECT_EQ(read_all(folder.log()), before);
+}
+
+/// The log again with one text replaced in each line that has it, with the right checksums.
+std::string forged(const std::string& whole, const std::string& from, const std::string& to) {
+  std::istringstream lines(whole);
+  std::string all;
+  std::uint64_t sum = 0;
+  for (std::string line; std::getline(lines, line);) {
+    line.resize(line.rfind(",\"sum\""));
+    const std::size_t at = line.find(from);
+    if (at != std::string::npos) line.replace(at, from.size(), to);
+    sum = hash_bytes(line, sum);
+    all += line + ",\"sum\":\"" + fingerprint_text(sum) + "\"}\n";
+  }
+  return all;
+}
+
+TEST(Log, WhatIsMissingOrOfAnotherTypeIsAnError) {
+  const Folder folder;
+  {
+    Session session(folder);
+    (*session).post(crate("one", 0.5, 1.0));
+    (*session).post(sim::Attach{
+        load::sensor(sim::custom("air", "temperature_sensor", ""), "air", {}), "brick::link"});
+    (*session).post(sim::ToDevice{"heater", "stove", {"", {0.5}}});
+    (*session).post(sim::Note{"a", "b", "c", "d"});
+    (*session).post(sim::Reject{"a", "b", "c"});
+    (*session).post(sim::Delete{"one"});
+    (*session).post(sim::Pause{true});
+    (*session).post(sim::Reset{true});
+    (*session).post(sim::Step{10});
+    (*session).request("lidar", "none", true);
+    session.tick();
+  }
+  const std::string whole = read_all(folder.log());
+  EXPECT_EQ(forged(whole, "nothing that is there", ""), whole);
+  const std::string bad = folder.log() + ".bad";
+  for (const char* key : {"version",   "host",   "seed",   "step",  "world",  "models", "files",
+                          "sdf",       "tick",   "batch",  "do",    "kind",   "name",   "text",
+                          "values",    "verb",   "number", "pose",  "on",     "paused", "ticks",
+                          "with_time", "source", "reason", "event", "detail", "wanted", "hash"}) {
+    const std::string quoted = "\"" + std::string(key) + "\":";
+    ASSERT_NE(whole.find(quoted), std::string::npos) << key;
+    write_all(bad, forged(whole, quoted, "\"x\":"));
+    EXPECT_NE(wrong_with(bad).find("'" + std::string(key) + "' is missing, or not "),
+              std::string::npos)
+        << wrong_with(bad);
+    write_all(bad, forged(whole, quoted, quoted + "{},\"x\":"));
+    EXPECT_NE(wrong_with(bad).find("'" + std::string(key) + "' is missing, or not "),
+              std::string::npos)
+        << wrong_with(bad);
+  }
+  for (const auto& [from, to, why] : std::vector<std::array<std::string, 3>>{
+           {"\"tick\":0", "\"tick\":18446744073709551615", "'tick' is later than time goes"},
+           {"\"tick\":0", "\"tick\":-1", "'tick' is missing, or not a whole number"},
+           {"\"do\":\"delete\"", "\"do\":\"explode\"",
+            "'explode' is not something that a log does"},
+           {"\"step\":1000000", "\"step\":0", "'step' is not 1 ns to 1 s"},
+           {"\"pose\":[", "\"pose\":[1,", "'pose' has not seven numbers"}}) {
+    write_all(bad, forged(whole, from, to));
+    EXPECT_NE(wrong_with(bad).find(why), std::string::npos) << wrong_with(bad);
+  }
+}
+
+TEST(Log, ActionsThatCannotBeAreErrorsWithTheirLine) {
+  const Folder folder;
+  {
+    Session session(folder);
+    session.run(0.5);
+    (*session).post(crate("one", 0.5, 1.0));
+    (*session).post(sim::Pause{true});
+    session.tick();
+    (*session).post(sim::Step{10});
+    session.tick();
+  }
+  const std::string whole = read_all(folder.log());
+  const auto refusal = [&](const std::string& from, const std::string& to) {
+    write_all(folder.log(), forged(whole, from, to));
+    try {
+      replayed(folder.log());
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const auto expect = [&](const std::string& from, const std::string& to, const std::string& why) {
+    EXPECT_NE(refusal(from, to).find(why), std::string::npos) << refusal(from, to);
+  };
+  EXPECT_EQ(refusal("", ""), "");
+  expect("\"pose\":[0.5", "\"pose\":[NaN", "run.log:2: cannot be replayed: its pose is not that");
+  expect("\"pose\":[0.5", "\"pose\":[1e300", "run.log:2: cannot be replayed: its pose is not that");
+  expect("<model name=\\\"one\\\"", "<modle name=\\\"one\\\"", "run.log:2: cannot be replayed: ");
+  expect("\"tick\":501", "\"tick\":300", "belongs to tick 300, but the replay is at tick 501");
+  expect("\"tick\":500,\"batch\":1", "\"tick\":900,\"batch\":1",
+         "run.log:4: belongs to tick 900, but the replay stands still at tick 500");
+  expect("\"tick\":500", "\"tick\":500000000",
+         "'tick' is more than a second later than in the line before");
 }
 
 // A full disk ends the log with a whole line, and not the run.
