@@ -51,6 +51,13 @@ def test_a_world_that_is_not_there(tmp_path: Path) -> None:
     assert done.returncode == 1 and "none.world" in done.stderr
 
 
+def test_an_empty_path_is_named() -> None:
+    done = subprocess.run([str(node_binary()), "--check", ""], text=True, capture_output=True,
+                          timeout=60, check=False)
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr == "'': not a path; give the file of a world\n"
+
+
 def test_interrupt_ends_it(master: Master, tmp_path: Path) -> None:
     own = Master(tmp_path)
     try:

@@ -56,6 +56,7 @@ std::string folder_of(const std::string& path) {
 
 /// Throws Error for what does not load; warnings go to stderr.
 angen::desc::World read(const std::string& path) {
+  if (path.empty()) throw angen::Error("'': not a path; give the file of a world");
   angen::desc::World world = angen::load::world(path);
   for (const angen::Diagnostic& warning : world.warnings) {
     std::fprintf(stderr, "%s\n", warning.text().c_str());

@@ -133,7 +133,7 @@ def test_completion_of_addresses_on_the_model_path() -> None:
 
 @pytest.mark.parametrize('words', [
     'run --fast {root}/worlds/empty.world --for 1', 'task patrol', 'task patrol --seeds 2',
-    'task seek', 'bench sensors', 'bench core', 'walktest --profile nema-wd7', 'care',
+    'task seek', 'bench sensors', 'bench core', 'bench load', 'walktest --profile nema-wd7', 'care',
     'care --world {root}/worlds/empty.world', 'locate --for 1', 'pid door'])
 def test_a_folder_that_cannot_be_written_is_named_before_the_work(
         words: str, no_master: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

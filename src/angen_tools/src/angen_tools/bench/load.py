@@ -1,7 +1,6 @@
 """angen bench load: a node that serves many sensors, subscribers, commands and spawns at once."""
 from __future__ import annotations
 
-import csv
 import itertools
 import random
 import subprocess
@@ -21,6 +20,7 @@ from angen_tools.bench.measure import load as cpu_load
 from angen_tools.bench.measure import machine_time
 from angen_tools.bench.report import REAL_TIME, cell
 from angen_tools.common.failure import Failure
+from angen_tools.common.files import write_csv
 from angen_tools.common.output import as_json, show, table
 from angen_tools.common.progress import Steps
 from angen_tools.live.client import Client
@@ -291,12 +291,8 @@ def measure(modes: Sequence[str], sensors: int, seconds: float, out: Path, json:
             rows.append(run(sandbox, mode, sensors, seconds))
     steps.close()
     cells = [asdict(row) | {'real_time': row.real_time} for row in rows]
-    out.mkdir(parents=True, exist_ok=True)
     columns = [*(f.name for f in fields(Row)), 'real_time']
-    with (out / 'load.csv').open('w', newline='', encoding='utf-8') as file:
-        writer = csv.DictWriter(file, columns, lineterminator='\n')
-        writer.writeheader()
-        writer.writerows({key: cell(value) for key, value in row.items()} for row in cells)
+    write_csv(out / 'load.csv', columns, ([cell(row[key]) for key in columns] for row in cells))
     if json:
         print(as_json(cells))
         return

@@ -37,6 +37,7 @@ def run_bench_core(args: argparse.Namespace) -> int:
 
 def run_bench_load(args: argparse.Namespace) -> int:
     from angen_tools.bench import load
+    check_folder(args.out)
     load.measure([args.topics] if args.topics else list(load.READERS), args.sensors, args.window,
                  args.out, args.json)
     return 0

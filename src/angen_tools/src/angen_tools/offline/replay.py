@@ -9,6 +9,7 @@ from pathlib import Path
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.failure import Failure
 from angen_tools.common.progress import Progress
+from angen_tools.world.models import worlds_models
 
 SLICE = 1.0  # simulated s between two progress reports
 
@@ -38,9 +39,7 @@ def go_live(path: str, until: float) -> None:
     if not Path(path).is_file():
         raise Failure(f'{path}: no such file; give a log that record:= wrote')
     gui = 'true' if os.environ.get('DISPLAY') else 'false'
-    words = ['roslaunch', 'angen_sim', 'angen.launch', f'replay:={Path(path).resolve()}',
-             f'until:={until:.9g}', f'gui:={gui}']
-    try:
-        os.execvp(words[0], words)
-    except OSError as error:
-        raise Failure(f'roslaunch does not start: {error.strerror}; use ./angen') from None
+    launch = worlds_models().parent.parent / 'launch/angen.launch'
+    os.execv(sys.executable, [sys.executable, '-m', 'angen_tools.entry.run', str(launch.resolve()),
+                              f'replay:={Path(path).resolve()}', f'until:={until:.9g}',
+                              f'gui:={gui}'])
