@@ -212,3 +212,22 @@ def test_a_bag_that_the_disk_has_no_room_for_ends_it_in_a_line(tmp_path: Path) -
             pass
     with rosbag.Bag(str(tmp_path / 'out/patrol.bag.active')) as bag:
         assert bag.get_message_count('/clock') > 10
+
+
+def test_a_disk_that_is_too_small_ends_it_in_a_line(tmp_path: Path) -> None:
+    disk = tmp_path / 'disk'
+    disk.mkdir()
+    in_it = ['unshare', '-rm', 'sh', '-c', 'mount -t tmpfs -o size=20m none "$0" && exec "$@"',
+             str(disk)]
+    if subprocess.run([*in_it, 'true'], capture_output=True).returncode != 0:
+        pytest.skip('this user may not mount a file system of its own')
+    (tmp_path / 'rooms.world').write_text(world_text())
+    (tmp_path / 'route.yaml').write_text(ROUTE)
+    done = subprocess.run(
+        [*in_it, sys.executable, str(SCRIPT), 'task', 'patrol', '--world',
+         str(tmp_path / 'rooms.world'), '--route', str(tmp_path / 'route.yaml'), '-o',
+         str(disk / 'out')], text=True, capture_output=True, timeout=120)
+    assert done.returncode == 1 and 'Traceback' not in done.stderr
+    last = done.stderr.splitlines()[-1]
+    assert last.startswith(f'angen: {disk}/out/patrol.bag: cannot be written: the disk has ')
+    assert 'MB left' in last and 'Less than 32M' in last

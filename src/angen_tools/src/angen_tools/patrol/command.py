@@ -31,6 +31,7 @@ RECORDED = (f'/angen/(?!contact/{BUMPER})'
             '(pir|switch|luminosity|contact|door|elevator|lamp|events|stats|markers).*'
             '|/gazebo/.*_controller|/clock|/tf|/tf_static')
 BAG_LIMIT = 30.0  # s
+NO_SPACE = 'Disabling recording'  # in what rosbag prints then
 LEFT, FEW = '32M', 64_000_000  # on the disk: with less rosbag stops; with less it is why it did
 SENSORS = ('pir', 'switch', 'luminosity', 'contact')
 
@@ -153,8 +154,8 @@ class Bag:
         wait(subscribes, 'rosbag has not subscribed', BAG_LIMIT)
 
     def check(self) -> None:
-        """Failure where rosbag has ended."""
-        if self._process.poll() is not None:
+        """Failure where rosbag has ended, or has stopped for want of space."""
+        if self._process.poll() is not None or NO_SPACE in self._said():
             self._complain()
 
     def close(self) -> None:
@@ -162,11 +163,14 @@ class Bag:
         self.check()
         self._process.send_signal(signal.SIGINT)
         wait(lambda: self._process.poll() is not None, 'rosbag has not ended', BAG_LIMIT)
-        if not self._path.exists() or 'Disabling recording' in self._log.read_text('utf-8'):
+        if not self._path.exists() or NO_SPACE in self._said():
             self._complain()
 
+    def _said(self) -> str:
+        return self._log.read_text(errors='replace')
+
     def _complain(self) -> NoReturn:
-        lines = self._log.read_text(errors='replace').splitlines()
+        lines = self._said().splitlines()
         free = shutil.disk_usage(self._path.parent).free
         why = f'the disk has {free // 1_000_000} MB left; ' if free < FEW else ''
         why += lines[-1] if lines else f'rosbag ended with {self._process.returncode}'
