@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# What ./angen test, coverage, tidy and docs do; `angen` sources this and has the functions that install and build.
+# What ./angen test, fuzz, coverage, tidy and docs do; `angen` sources this and has the functions that install and build.
 # shellcheck disable=SC2154 # root, suites: of `angen`
 
 summary=()
@@ -48,7 +48,7 @@ check_ctest() { # [WORDS]
 check_pytest() { # [WORDS]
   local code=0
   # A file's tests share a ROS master and a node; files are independent. Most of them wait for wall time.
-  timeout 2400 python3 -m pytest -q -n "$(nproc)" --dist loadfile ${1:+-k "$1"} "${pytest_arguments[@]}" || code=$?
+  timeout 2400 env ${preloaded:+"LD_PRELOAD=$preloaded"} python3 -m pytest -q -n "$(nproc)" --dist loadfile ${1:+-k "$1"} "${pytest_arguments[@]}" || code=$?
   if ((code != 5)); then
     matched=1
   elif [[ ${1:-} ]]; then
@@ -57,6 +57,7 @@ check_pytest() { # [WORDS]
   return $code
 }
 pytest_arguments=(tests)
+preloaded= # libraries, before Python's own
 
 run_test() { # [-k WORDS] [--asan | --tsan] [SUITE...]
   local words='' sanitizer='' chosen=() name
@@ -95,25 +96,109 @@ build_tree() { # FOLDER OPTIONS... -- TARGETS...: outside of build/, with a deve
   compile "$folder" "${@:2}"
 }
 
-# The C++ tests, and the node in the tests of tests/ros. Python is not instrumented, nor what it imports.
-run_sanitized() { # asan|tsan WORDS [SUITE...]
-  local tree=build-$1 flags name chosen=("${@:3}")
-  ((${#chosen[@]})) || chosen=(ctest pytest)
+# A sanitizer's tree; core and load alone take two minutes, all of it with the node ten.
+sanitized_tree() { # asan|tsan TARGETS...
+  local flags
   case $1 in
-    asan) flags="-fsanitize=address,undefined -fno-sanitize-recover=undefined" ;;
-    tsan) flags="-fsanitize=thread" ;;
+    asan) flags='-fsanitize=address,undefined -fno-sanitize-recover=all' ;;
+    tsan) flags='-fsanitize=thread' ;;
   esac
+  locked build_tree "build-$1" -DCMAKE_BUILD_TYPE=Sanitized '-DCMAKE_CXX_FLAGS_SANITIZED=-O1 -g1' \
+    "-DCMAKE_CXX_FLAGS=$flags -fno-omit-frame-pointer" -- "${@:2}"
+}
+
+# What a sanitizer finds in others' libraries is named in the files of tests/sanitizers. Programs are built while these
+# options hold: angen_describe runs after each plug-in.
+sanitizer_options() {
+  local lists=$root/tests/sanitizers
+  export ASAN_OPTIONS=detect_leaks=0:quarantine_size_mb=64 UBSAN_OPTIONS=print_stacktrace=1
+  export TSAN_OPTIONS=exitcode=66:history_size=4:suppressions=$lists/tsan.txt
+}
+
+# Unit tests of what reads files, under AddressSanitizer and UndefinedBehaviorSanitizer; part of each ./angen test.
+check_asan() { # [WORDS]
+  local program failed=0
+  (sanitizer_options && sanitized_tree asan core_test load_test) || return
+  for program in core load; do
+    (sanitizer_options && "build-asan/tests/${program}_test" --gtest_brief=1 --gtest_filter="*${1:-}*") || failed=1
+  done
+  return $failed
+}
+
+# The C++ tests, and the node in the tests of tests/ros. Python itself is not instrumented.
+run_sanitized() { # asan|tsan WORDS [SUITE...]
+  local tree=build-$1 name chosen=("${@:3}") goals=(angen_run tests)
+  ((${#chosen[@]})) || chosen=(ctest pytest)
   prepare test
-  locked build_tree "$tree" "-DCMAKE_CXX_FLAGS=$flags -fno-omit-frame-pointer" -- angen_run tests
+  sanitizer_options
+  sanitized_tree "$1" "${goals[@]}"
   # Each program finds the libraries of its own build by its RUNPATH, which LD_LIBRARY_PATH would overrule.
   unset LD_LIBRARY_PATH
   export CMAKE_PREFIX_PATH=$root/$tree/devel:$CMAKE_PREFIX_PATH
-  export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 TSAN_OPTIONS=exitcode=66
   pytest_arguments=(tests/ros)
+  if [[ $1 == asan ]]; then # Python loads the instrumented module where it has the sanitizer already
+    export PYTHONPATH=$root/$tree/devel/lib/python3/dist-packages:$PYTHONPATH PYTHONMALLOC=malloc
+    pytest_arguments=(tests/py tests/ros)
+    preloaded=$(g++ -print-file-name=libasan.so):$(g++ -print-file-name=libstdc++.so)
+  fi
   for name in "${chosen[@]}"; do
     suite "$1 $name" "check_$name" "$2"
   done
   report
+}
+
+# --- fuzzing
+
+run_fuzz() { # [TARGET...] [--seconds N | --runs N]
+  local tree=build-fuzz limit=-max_total_time=60 chosen=() known name
+  cd "$root" || exit
+  known=$(find tests/fuzz/corpus -mindepth 1 -maxdepth 1 -printf '%f\n' | sort)
+  while (($#)); do
+    case $1 in
+      --seconds | --runs)
+        [[ ${2:-} =~ ^[1-9][0-9]*$ ]] || die "$1 needs a whole number above 0"
+        if [[ $1 == --runs ]]; then limit=-runs=$2; else limit=-max_total_time=$2; fi
+        shift
+        ;;
+      *)
+        grep -qxF -- "$1" <<<"$known" || die "no target is named $1; there are: ${known//$'\n'/ }"
+        chosen+=("$1")
+        ;;
+    esac
+    shift
+  done
+  ((${#chosen[@]})) || mapfile -t chosen <<<"$known"
+  install fuzz
+  sanitizer_options
+  locked build_tree "$tree" -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DANGEN_FUZZ=ON \
+    -DCMAKE_BUILD_TYPE=Sanitized '-DCMAKE_CXX_FLAGS_SANITIZED=-O1 -g1' \
+    '-DCMAKE_CXX_FLAGS=-w -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize=vptr -fno-sanitize-recover=all' \
+    -- angen_fuzz
+  mkdir -p "$tree"/{corpus,found,logs}
+  for name in "${chosen[@]}"; do
+    suite "fuzz $name" fuzz_target "$tree" "$name" "$limit"
+  done
+  report
+}
+
+# Finds crashes, what takes longer than 5 s, and what takes more than 1 GB; new inputs are kept in the tree.
+fuzz_target() { # TREE NAME LIMIT
+  local log=$1/logs/$2 code=0 seeds=tests/fuzz/corpus/$2 runs
+  mkdir -p "$1/corpus/$2"
+  words_of "$seeds" >"$1/corpus/$2.dict"
+  ANGEN_FUZZ_TARGET=$2 "$1/tests/fuzz/angen_fuzz" "$3" -timeout=5 -rss_limit_mb=1024 -detect_leaks=0 -max_len=8192 \
+    -print_final_stats=1 -dict="$1/corpus/$2.dict" -artifact_prefix="$1/found/$2-" "$1/corpus/$2" "$seeds" \
+    >"$log" 2>&1 || code=$?
+  runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
+  printf '%s executions, %s inputs kept\n' "${runs:-unknown}" "$(find "$1/corpus/$2" -type f | wc -l)"
+  printf '%s %s %s\n' "$2" "${runs:-0}" "$code" >>"$1/executions"
+  ((code == 0)) || { grep -aE '^(SUMMARY|broken promise|==[0-9]+==ERROR|Test unit written)' "$log"; say "see $log"; }
+  return $code
+}
+
+# The words of a target's seeds, as libFuzzer's dictionary.
+words_of() { # FOLDER
+  find "$1" -type f -exec grep -aohE '</?[A-Za-z_:]+|[A-Za-z_]{2,30}=?' {} + | sort -u | head -n 600 | sed 's/.*/"&"/'
 }
 
 run_coverage() {

@@ -34,10 +34,14 @@ function(angen_plugin file)
   angen_compile_options(${file} angen_core)
   set_target_properties(${file} PROPERTIES UNITY_BUILD OFF)  # few sources each
   add_dependencies(angen_run ${file})
+  add_dependencies(angen_plugins ${file})
   target_link_libraries(${file} PRIVATE angen_plugin angen_class_loader)
   # A function that is missing is found when the library is linked or loaded, not in the middle of a run; and a
   # class is the library's own, also when another library has one of the same name.
-  target_link_options(${file} PRIVATE -Wl,-z,defs -Wl,-z,now -Wl,-Bsymbolic)
+  target_link_options(${file} PRIVATE -Wl,-z,now -Wl,-Bsymbolic)
+  if(NOT ANGEN_FUZZ)  # the functions of clang's sanitizers are in the program
+    target_link_options(${file} PRIVATE -Wl,-z,defs)
+  endif()
   install(TARGETS ${file} LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
   add_custom_command(TARGET ${file} POST_BUILD COMMAND angen_describe $<TARGET_FILE:${file}>)
   install(FILES ${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/lib${file}.json

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cereal/archives/binary.hpp>
 #include <cereal/types/map.hpp>
 #include <cereal/types/string.hpp>
 #include <cstdio>
@@ -15,6 +14,7 @@
 #include <sstream>
 
 #include "core/random.h"
+#include "load/bounded_input.h"
 #include "load/pack.h"
 #include "load/xml.h"
 
@@ -117,9 +117,9 @@ std::optional<desc::World> Cache::recall() const {
     std::string sum(16, ' ');
     std::ostringstream rest;
     if (!stream.read(sum.data(), 16) || !(rest << stream.rdbuf())) return std::nullopt;
-    if (sum != hex(hash_bytes(rest.str()))) return std::nullopt;
-    std::istringstream bytes(rest.str(), std::ios::binary);
-    cereal::BinaryInputArchive archive(bytes);
+    const std::string bytes = rest.str();
+    if (sum != hex(hash_bytes(bytes))) return std::nullopt;
+    BoundedInput archive(bytes);
     std::string key;
     Sources sources;
     archive(key);

@@ -1,12 +1,13 @@
 #include "load/pack.h"
 
-#include <cereal/archives/binary.hpp>
 #include <cereal/types/memory.hpp>
 #include <cereal/types/optional.hpp>
 #include <cereal/types/string.hpp>
 #include <cereal/types/utility.hpp>
 #include <cereal/types/vector.hpp>
 #include <sstream>
+
+#include "load/bounded_input.h"
 
 // The bindings name every member of a struct: one that is added does not compile before it is
 // packed, too.
@@ -50,7 +51,7 @@ void serialize(A& a, angen::Element& v) {
 template <class A, class T>
 void serialize_plain(A& a, std::vector<T>& v) {
   auto size = static_cast<std::uint64_t>(v.size());
-  a(size);
+  a(make_size_tag(size));
   v.resize(size);
   a(binary_data(v.data(), size * sizeof(T)));
 }
@@ -185,8 +186,7 @@ std::string pack(const desc::World& world) {
 }
 
 desc::World unpack(const std::string& bytes) {
-  std::istringstream stream(bytes, std::ios::binary);
-  cereal::BinaryInputArchive archive(stream);
+  BoundedInput archive(bytes);
   desc::World world;
   archive(world);
   return world;

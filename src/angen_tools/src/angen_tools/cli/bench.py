@@ -43,8 +43,14 @@ def run_bench_load(args: argparse.Namespace) -> int:
     return 0
 
 
+def run_bench_soak(args: argparse.Namespace) -> int:
+    from angen_tools.bench import soak
+    soak.measure(args.cycles, args.core, args.out, args.json)
+    return 0
+
+
 def add_bench(commands: Any) -> None:
-    """angen bench sensors, angen bench core, angen bench load."""
+    """angen bench sensors, core, load and soak."""
     bench = command(commands, 'bench', run_bench, 'measures what things cost in a node of its own',
                     'bench sensors --kind pir --counts 0,10,50,100')
     kinds = bench.add_subparsers(dest='what', metavar='WHAT', required=True)
@@ -90,3 +96,11 @@ def add_bench(commands: Any) -> None:
                       help='how long to measure, in s (60)')
     add_json(load)
     add_out(load, 'load.csv')
+    soak = command(kinds, 'soak', run_bench_soak, 'spawns and deletes all kinds again and again in '
+                   'a node of its own; ends with 1 where memory grows, or descriptors, threads or '
+                   'registrations stay', 'bench soak --cycles 1000', 'bench soak --core')
+    soak.add_argument('--cycles', metavar='N', type=checked(at_least(1)), default=100_000,
+                      help='how often something is spawned and deleted (100000)')
+    soak.add_argument('--core', action='store_true', help='the simulator alone, without ROS')
+    add_json(soak)
+    add_out(soak, 'soak.csv, soak_core.csv')

@@ -96,6 +96,15 @@ class Sandbox:
         subscribed = self._api.getSystemState('/angen_bench')[2][1]
         return {topic for topic, nodes in subscribed if any(name in node for node in nodes)}
 
+    def registered_by(self, name: str) -> set[str]:
+        """Topics and services of the node with this name: `publishes /x`, `subscribes /x`,
+        `serves /x`.
+        """
+        state = self._api.getSystemState('/angen_bench')[2]
+        return {f'{verb} {topic}' for verb, entries in zip(
+            ('publishes', 'subscribes', 'serves'), state) for topic, nodes in entries
+            if f'/{name}' in nodes}
+
     def start(self, words: list[str], log: str, **options: Any) -> subprocess.Popen[bytes]:
         """Starts a process that Ctrl-C does not reach; its output goes to a file named `log`."""
         with (self.folder / f'{log}.log').open('wb') as out, uninterrupted():

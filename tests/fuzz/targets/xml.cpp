@@ -1,0 +1,19 @@
+#include "fuzz/targets.h"
+#include "load/xml.h"
+
+namespace angen::fuzz {
+
+void xml(const std::string& input) {
+  Element root;
+  try {
+    root = load::parse_xml(input, "fuzz.xml");
+  } catch (const Error&) {
+    return;
+  }
+  const std::string printed = load::print_xml(root);
+  std::string again;
+  answered([&] { again = load::print_xml(load::parse_xml(printed, "printed.xml")); });
+  require(again == printed, "what was read and printed reads the same");
+}
+
+}  // namespace angen::fuzz
