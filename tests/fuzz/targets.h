@@ -28,11 +28,10 @@ void service(const std::string& input);
 void sim(const std::string& input);
 
 inline const std::vector<Target>& targets() {
-  static const std::vector<Target> all = {{"xml", xml},         {"world", world},
-                                          {"urdf", urdf},       {"mesh", mesh},
-                                          {"png", png},         {"cache", cache},
-                                          {"params", params},   {"command", command},
-                                          {"service", service}, {"sim", sim}};
+  static const std::vector<Target> all = {
+      {"xml", xml},         {"world", world}, {"urdf", urdf},     {"mesh", mesh},
+      {"png", png},         {"cache", cache}, {"params", params}, {"command", command},
+      {"service", service}, {"sim", sim}};
   return all;
 }
 

@@ -14,6 +14,24 @@ namespace angen::load {
 
 namespace {
 
+// How many bytes from the start are characters that XML 1.0 allows.
+std::size_t allowed_prefix(const std::string& text) {
+  std::size_t end = valid_utf8_prefix(text);
+  for (const char* noncharacter : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"}) {  // U+FFFE, U+FFFF
+    end = std::min(end, text.find(noncharacter));
+  }
+  const auto bad = std::find_if(text.begin(), text.begin() + static_cast<long>(end), [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r';
+  });
+  return static_cast<std::size_t>(bad - text.begin());
+}
+
+// tinyxml2 makes any bytes of a reference such as &#xD800; or &#1;.
+std::string checked(const char* text, const Source& at) {
+  if (allowed_prefix(text) == std::char_traits<char>::length(text)) return text;
+  throw Error(at, "a reference to a character that XML does not allow; leave it out");
+}
+
 Element convert(const tinyxml2::XMLElement& from, const std::string& file, std::size_t& count) {
   if (++count > kMaxElements) {
     throw Error({file, from.GetLineNum()}, "more than " + std::to_string(kMaxElements) +
@@ -23,14 +41,14 @@ Element convert(const tinyxml2::XMLElement& from, const std::string& file, std::
   to.name = from.Name();
   to.source = {file, from.GetLineNum()};
   for (auto* a = from.FirstAttribute(); a != nullptr; a = a->Next()) {
-    to.attributes.emplace_back(a->Name(), a->Value());
+    to.attributes.emplace_back(a->Name(), checked(a->Value(), to.source));
   }
   std::string text;
   for (auto* node = from.FirstChild(); node != nullptr; node = node->NextSibling()) {
     if (auto* child = node->ToElement()) {
       to.children.push_back(convert(*child, file, count));
     } else if (auto* piece = node->ToText()) {
-      text += piece->Value();
+      text += checked(piece->Value(), to.source);
     }
   }
   to.text = trimmed(text);
@@ -177,9 +195,12 @@ void print(const Element& element, int indent, std::string& out, std::vector<Sou
 Element parse_xml(const std::string& text, const std::string& file) {
   if (text.size() > kMaxFileBytes)
     throw Error({file, 0}, "larger than 64 MB; split it into models");
-  const std::size_t bad = std::min(valid_utf8_prefix(text), text.find('\0'));
+  const std::size_t bad = allowed_prefix(text);
   if (bad < text.size()) {
-    throw Error({file, line_at(text, bad)}, "a byte that is not UTF-8; save the file as UTF-8");
+    const bool is_utf8 = valid_utf8_prefix(text) > bad && text[bad] != '\0';
+    throw Error({file, line_at(text, bad)},
+                is_utf8 ? "a control character, which XML does not allow; leave it out"
+                        : "a byte that is not UTF-8; save the file as UTF-8");
   }
   tinyxml2::XMLDocument document;
   document.Parse(text.data(), text.size());

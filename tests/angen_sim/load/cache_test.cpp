@@ -1,5 +1,7 @@
 #include "load/cache.h"
 
+#include <algorithm>
+#include <cereal/details/helpers.hpp>
 #include <chrono>
 #include <cstdlib>
 #include <iterator>
@@ -219,6 +221,28 @@ TEST_F(CacheTest, GivesTheWholeBuildingByteByByte) {
   ASSERT_TRUE(kept());
   EXPECT_EQ(pack(world(path_)), first);
   EXPECT_EQ(anew(), first);
+}
+
+TEST(Pack, SizesBeyondTheBytesThrowBeforeMemoryIsTaken) {
+  desc::World world;
+  world.name = "w";
+  std::string bytes = pack(world);
+  ASSERT_EQ(unpack(bytes).name, "w");
+  ASSERT_EQ(bytes[0], 1);  // the length of the name, in 8 bytes
+  bytes[4] = 1;            // 4 GB
+  EXPECT_THROW(unpack(bytes), cereal::Exception);
+}
+
+TEST(Pack, FlagsThatAreNeitherThrow) {
+  desc::World world;
+  world.models.emplace_back();
+  const std::string off = pack(world);
+  world.models[0].is_static = true;
+  std::string bytes = pack(world);
+  const auto differs = std::mismatch(bytes.begin(), bytes.end(), off.begin()).first;
+  ASSERT_NE(differs, bytes.end());
+  *differs = 7;
+  EXPECT_THROW(unpack(bytes), cereal::Exception);
 }
 
 }  // namespace

@@ -31,5 +31,19 @@ TEST(Xml, DepthIsBounded) {
   EXPECT_NE(error_of("<sdf version='1.6'>" + deep).find("w.world:1: "), std::string::npos);
 }
 
+// tinyxml2 reads them; no other program would read the world that is saved.
+TEST(Xml, CharactersThatXmlDoesNotAllowAreErrors) {
+  for (const std::string reference : {"&#1;", "&#x1F;", "&#xD800;", "&#xFFFF;", "&#x1FFFFF;"}) {
+    for (const std::string& text : {"<a b='" + reference + "'/>", "<a>\n" + reference + "</a>"}) {
+      EXPECT_NE(error_of(in_world("<gui>" + text + "</gui>")).find("w.world:1: a reference to a"),
+                std::string::npos)
+          << text;
+    }
+  }
+  EXPECT_NE(error_of(in_world("\n<gui>\x01</gui>")).find("w.world:2: a control character"),
+            std::string::npos);
+  read(in_world("<gui>&#9;&#xE9;\t&#x1F600;</gui>"));
+}
+
 }  // namespace
 }  // namespace angen::load

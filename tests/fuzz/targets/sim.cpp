@@ -1,7 +1,6 @@
-#include "sim/simulation.h"
-
 #include "fuzz/targets.h"
 #include "load/load.h"
+#include "sim/simulation.h"
 
 namespace angen::fuzz {
 

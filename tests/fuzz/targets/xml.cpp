@@ -1,5 +1,6 @@
-#include "fuzz/targets.h"
 #include "load/xml.h"
+
+#include "fuzz/targets.h"
 
 namespace angen::fuzz {
 

@@ -125,7 +125,7 @@ class Core:
 
 
 class Node:
-    """A node at rate 1 with a master of its own; this process subscribes to all that it publishes."""
+    """A node at rate 1 with a master of its own; this process subscribes to all its topics."""
 
     def __init__(self, open_now: ExitStack, folder: Path, path: Path) -> None:
         import psutil
@@ -210,8 +210,7 @@ def _cycle(home: Home, thing: Thing) -> None:
 
 
 def grown(samples: Sequence[Sample]) -> list[str]:
-    """What is wrong with memory: medians of the first and last tenth after the warm-up are compared.
-    """
+    """What is wrong with memory, by the medians of the first and last tenth after the warm-up."""
     steady = [s.rss_mb for s in samples if s.cycle >= WARM_UP * samples[-1].cycle]
     tenth = max(1, len(steady) // 10)
     before, after = median(steady[:tenth]), median(steady[-tenth:])
