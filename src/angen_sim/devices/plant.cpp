@@ -147,7 +147,7 @@ class Plant : public Device {
 
 ANGEN_REGISTER_DEVICE(Plant,
                       Kind("plant", "A plant in a pot, whose soil dries and is watered.")
-                          .model("plant_pot")
+                          .model("plant")
                           .example("set plant entrance_plant0 water 300")
                           .verb("Water", "milliliters", "ml", {0.0, 1e5}, "pours water on its soil")
                           .number("moisture", "%", "water in the soil, of its volume")

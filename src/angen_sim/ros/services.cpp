@@ -2,17 +2,38 @@
 
 #include <ros/console.h>
 
+#include <cmath>
 #include <exception>
 
+#include "core/diagnostics.h"
+#include "core/names.h"
+#include "core/text.h"
 #include "plugin/summary.h"
 #include "record/world_file.h"
 #include "ros/convert.h"
 #include "ros/listing.h"
-#include "ros/requests.h"
 #include "ros/text.h"
 
 namespace angen::node {
 namespace {
+
+// A message whose quaternion nobody filled means no rotation.
+Pose to_pose(const geometry_msgs::Pose& message) {
+  Pose pose;
+  pose.position = {message.position.x, message.position.y, message.position.z};
+  const geometry_msgs::Quaternion& q = message.orientation;
+  pose.rotation = Quat(q.w, q.x, q.y, q.z);
+  if (!pose.finite()) throw Error("the pose holds a number that is not finite");
+  const double norm = pose.rotation.norm();
+  if (norm == 0.0) {
+    pose.rotation = Quat::Identity();
+  } else if (std::abs(norm - 1.0) > 0.01) {
+    throw Error("the pose's quaternion has length " + std::to_string(norm) + ", must have 1");
+  } else {
+    pose.rotation.normalize();
+  }
+  return pose;
+}
 
 /// The summary of a device, NAME or KIND/NAME; empty where there is no state of one alone.
 std::string state_of(const sim::Snapshot& snapshot, const std::string& target) {
@@ -89,12 +110,32 @@ bool Services::step(angen_msgs::Step::Request& request, angen_msgs::Step::Respon
   });
 }
 
+sim::Action Services::spawn_action(const angen_msgs::Spawn::Request& request) const {
+  check_name(request.name);
+  if (trimmed(request.xml).empty()) throw Error("nothing to spawn: xml is empty");
+  if (!valid_utf8(request.xml)) throw Error("xml is not UTF-8");
+  const Pose pose = to_pose(request.pose);
+  const bool lone_sensor = load::is_sensor(request.xml);
+  if (lone_sensor && request.on.empty()) {
+    throw Error("a lone <sensor> needs a link to sit on: give `on` as MODEL::LINK");
+  }
+  if (!lone_sensor && !request.on.empty()) {
+    throw Error("only a <sensor> can be put on a link, and xml holds none");
+  }
+  if (!valid_utf8(request.on)) throw Error("`on` is not UTF-8");
+  if (lone_sensor) return sim::Attach{load::sensor(request.xml, request.name, pose), request.on};
+  return sim::Spawn{load::model(request.xml, request.name, pose, paths_)};
+}
+
 bool Services::spawn(angen_msgs::Spawn::Request& request, angen_msgs::Spawn::Response& response) {
-  return answered(response, [&] { return inbox_.call(spawn_action(request, paths_)); });
+  return answered(response, [&] { return inbox_.call(spawn_action(request)); });
 }
 
 bool Services::erase(angen_msgs::Delete::Request& request, angen_msgs::Delete::Response& response) {
-  return answered(response, [&] { return inbox_.call(delete_action(request)); });
+  return answered(response, [&] {
+    check_name(request.name);
+    return inbox_.call(sim::Delete{request.name});
+  });
 }
 
 bool Services::command(angen_msgs::SendCommand::Request& request,

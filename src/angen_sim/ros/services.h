@@ -39,6 +39,7 @@ class Services {
                angen_msgs::SendCommand::Response& response);
   bool list(angen_msgs::List::Request& request, angen_msgs::List::Response& response);
   bool save(angen_msgs::Save::Request& request, angen_msgs::Save::Response& response);
+  sim::Action spawn_action(const angen_msgs::Spawn::Request& request) const;
 
   Inbox& inbox_;
   const Events& events_;

@@ -5,8 +5,9 @@
 
 #include <optional>
 
+#include "core/names.h"
 #include "fuzz/targets.h"
-#include "ros/requests.h"
+#include "load/load.h"
 #include "ros/text.h"
 
 namespace angen::fuzz {
@@ -26,6 +27,16 @@ std::optional<Request> deserialized(const std::string& bytes) {
   return request;
 }
 
+// As the node parses what is to be spawned, before it queues it.
+void parse(const angen_msgs::SpawnRequest& request) {
+  check_name(request.name);
+  if (load::is_sensor(request.xml)) {
+    load::sensor(request.xml, request.name, {});
+  } else {
+    load::model(request.xml, request.name, {}, {});
+  }
+}
+
 }  // namespace
 
 void service(const std::string& input) {
@@ -33,10 +44,10 @@ void service(const std::string& input) {
   answered([&] {
     if (given.choice % 3 == 0) {
       const auto request = deserialized<angen_msgs::SpawnRequest>(given.rest);
-      if (request) node::spawn_action(*request, {});
+      if (request) parse(*request);
     } else if (given.choice % 3 == 1) {
       const auto request = deserialized<angen_msgs::DeleteRequest>(given.rest);
-      if (request) node::delete_action(*request);
+      if (request) check_name(request->name);
     } else {
       const auto request = deserialized<angen_msgs::SendCommandRequest>(given.rest);
       if (request) node::any_action(request->target, request->text);

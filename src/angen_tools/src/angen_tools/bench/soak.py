@@ -31,6 +31,7 @@ ANCHOR = '''<model name="anchor"><static>true</static><link name="link"><collisi
 <geometry><box><size>0.1 0.1 0.1</size></box></geometry></collision></link></model>'''
 ROBOT = 'turtlebot'
 FAR = (60.0, 0.0, 0.05, 0.0, 0.0, 0.0)  # from the flat, where what is spawned stands
+NEEDS = {'accelerometer': [('link', 'link')]}  # parameters without which there is none
 ON_ANCHOR = (0.0, 0.0, 0.1, 0.0, 0.0, 0.0)
 
 
@@ -73,8 +74,8 @@ def things() -> list[Thing]:
 
 
 def _attached(kind: str, plugin: Plugin) -> Thing:
-    element = sensor.build(kind, kind, [('collision', 'box')] if sensor.senses_contacts(plugin)
-                           else [], True)
+    contacts = [('collision', 'box')] if sensor.senses_contacts(plugin) else []
+    element = sensor.build(kind, kind, [*contacts, *NEEDS.get(kind, [])], True)
     return Thing(kind, sdf.text(element), 'anchor::link')
 
 
@@ -205,7 +206,7 @@ def _cycle(home: Home, thing: Thing) -> None:
     try:
         home.spawn(thing, name)
         home.delete(name)
-    except Failure as error:
+    except Exception as error:  # angen.Error, which this module does not know before the core runs
         raise Failure(f'{thing.kind} {thing.what[:60]}: {error}') from None
 
 
