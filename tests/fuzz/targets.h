@@ -26,12 +26,13 @@ void params(const std::string& input);
 void command(const std::string& input);
 void service(const std::string& input);
 void sim(const std::string& input);
+void replay(const std::string& input);
 
 inline const std::vector<Target>& targets() {
   static const std::vector<Target> all = {
       {"xml", xml},         {"world", world}, {"urdf", urdf},     {"mesh", mesh},
       {"png", png},         {"cache", cache}, {"params", params}, {"command", command},
-      {"service", service}, {"sim", sim}};
+      {"service", service}, {"sim", sim},     {"replay", replay}};
   return all;
 }
 
