@@ -31,7 +31,8 @@ ANCHOR = '''<model name="anchor"><static>true</static><link name="link"><collisi
 <geometry><box><size>0.1 0.1 0.1</size></box></geometry></collision></link></model>'''
 ROBOT = 'turtlebot'
 FAR = (60.0, 0.0, 0.05, 0.0, 0.0, 0.0)  # from the flat, where what is spawned stands
-NEEDS = {'accelerometer': [('link', 'link')]}  # parameters without which there is none
+# Parameters without which there is none.
+NEEDS = {'accelerometer': [('link', 'link')], 'reed': [('magnet_link', 'link')]}
 ON_ANCHOR = (0.0, 0.0, 0.1, 0.0, 0.0, 0.0)
 
 
