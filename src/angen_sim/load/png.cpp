@@ -11,7 +11,6 @@ namespace angen::load {
 namespace {
 
 constexpr unsigned kMaxSide = 2049;
-constexpr png_alloc_size_t kMaxChunk = 8U << 20U;  // bytes of a text or a profile
 
 // libpng reports errors by longjmp: no function between setjmp and the error may own anything.
 struct PngReader {
@@ -41,7 +40,8 @@ struct PngReader {
   bool read_header() {
     if (file == nullptr || info == nullptr || setjmp(png_jmpbuf(png)) != 0) return false;
     png_init_io(png, file);
-    png_set_chunk_malloc_max(png, kMaxChunk);  // before any of a chunk is there, it takes as much
+    // Texts and profiles change no sample, and libpng takes what memory their length claims.
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_read_info(png, info);
     png_set_expand(png);
     png_set_strip_alpha(png);

@@ -132,15 +132,5 @@ TEST(Image, WhatIsWrongIsSaid) {
             std::string::npos);
 }
 
-TEST(Image, AChunkThatClaimsAGigabyteTakesNone) {
-  const Folder folder;
-  const std::string path = picture(folder, {"##"});
-  std::ifstream stream(path, std::ios::binary);
-  std::string bytes(33, ' ');  // signature and IHDR
-  stream.read(bytes.data(), 33);
-  folder.write("h.png", bytes + "\x50\x4C\x54\x45tEXta");
-  EXPECT_NE(error_of(with_image(), folder.paths()).find("too large"), std::string::npos);
-}
-
 }  // namespace
 }  // namespace angen::load
