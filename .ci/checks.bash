@@ -186,7 +186,7 @@ fuzz_target() { # TREE NAME LIMIT
   local log=$1/logs/$2 code=0 seeds=tests/fuzz/corpus/$2 runs
   mkdir -p "$1/corpus/$2"
   { printf '"angen"\n' && words_of "$seeds"; } >"$1/corpus/$2.dict" # libFuzzer takes no empty one
-  ANGEN_FUZZ_TARGET=$2 "$1/tests/fuzz/angen_fuzz" "$3" -timeout=5 -rss_limit_mb=1024 -detect_leaks=0 -max_len=8192 \
+  ANGEN_FUZZ_TARGET=$2 "$1/tests/angen_fuzz" "$3" -timeout=5 -rss_limit_mb=1024 -detect_leaks=0 -max_len=8192 \
     -print_final_stats=1 -dict="$1/corpus/$2.dict" -artifact_prefix="$1/found/$2-" "$1/corpus/$2" "$seeds" \
     >"$log" 2>&1 || code=$?
   runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
