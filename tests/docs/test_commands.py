@@ -23,7 +23,7 @@ pytestmark = pytest.mark.ros
 # In a terminal of its own; ends with Ctrl-C.
 START = re.compile(r'\./angen run(?! --)((?: \w+:=\S+)*)')
 LEFT_OUT = re.compile('|'.join((
-    r'\./angen (shell|demo|build|test|coverage|tidy|docs)( [^"]*)?$',  # what CI does anyhow
+    r'\./angen (shell|demo|build|test|fuzz|coverage|tidy|docs)( [^"]*)?$',  # what CI does anyhow
     r'(\./)?angen (drive|watch$|care$|bench|task|replay .*--until)',  # hands, no end, minutes
     r'rostopic pub -r', r'roslaunch', r'rosrun (image_view|angen_tools)',  # no end
     r'sudo', r'apt-get', r'docker', r'cd ~/catkin_ws',  # root, network

@@ -45,6 +45,7 @@ def run_bench_load(args: argparse.Namespace) -> int:
 
 def run_bench_soak(args: argparse.Namespace) -> int:
     from angen_tools.bench import soak
+    check_folder(args.out)
     soak.measure(args.cycles, args.core, args.out, args.json)
     return 0
 
