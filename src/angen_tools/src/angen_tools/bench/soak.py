@@ -246,7 +246,11 @@ def measure(cycles: int, core: bool, folder: Path, json: bool) -> None:
         work = Path(open_now.enter_context(tempfile.TemporaryDirectory(prefix='angen_bench_')))
         path = work / 'soak.world'
         write_apartment(path, 1, {'pir': 4, 'luminosity': 2, 'switch': 2, 'contact': 1}, SEED, True)
-        home = Core(path) if core else Node(open_now, work, path)
+        home: Home
+        if core:
+            home = Core(path)
+        else:
+            home = Node(open_now, work, path)
         progress = open_now.enter_context(Progress('soak', 0.1))
         began = time.monotonic()
         samples, wrong = soak(home, cycles, progress)
