@@ -38,7 +38,7 @@ def test_cached_world_runs_the_same(path, tmp_path, monkeypatch):
     monkeypatch.delenv('ANGEN_NO_CACHE')
     monkeypatch.setenv('XDG_CACHE_HOME', str(tmp_path / 'cache'))
     run(path)
-    assert len(list((tmp_path / 'cache' / 'angen').iterdir())) == 1
+    assert len(list((tmp_path / 'cache' / 'angen').glob('*.world'))) == 1
     cached = run(path)
     assert cached.fingerprint == read.fingerprint
     assert cached.save() == read.save()

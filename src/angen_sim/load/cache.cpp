@@ -15,6 +15,7 @@
 
 #include "core/random.h"
 #include "load/bounded_input.h"
+#include "load/converter.h"
 #include "load/pack.h"
 #include "load/xml.h"
 
@@ -40,16 +41,20 @@ fs::path folder() {
   return home.is_absolute() ? home / ".cache" / "angen" : fs::path{};
 }
 
+// A file and when it was written, empty where there is none.
+std::string state_of(const std::string& path) {
+  std::error_code failed;
+  const auto size = fs::file_size(path, failed);
+  if (failed) return "";
+  const auto changed = fs::last_write_time(path, failed).time_since_epoch().count();
+  return failed ? "" : path + "\n" + std::to_string(size) + "\n" + std::to_string(changed);
+}
+
 // Another build of this library may read the same files otherwise.
 std::string this_library() {
   Dl_info info{};
   if (dladdr(reinterpret_cast<const void*>(&this_library), &info) == 0) return "";
-  std::error_code failed;
-  const auto size = fs::file_size(info.dli_fname, failed);
-  const auto changed = fs::last_write_time(info.dli_fname, failed).time_since_epoch().count();
-  return failed ? ""
-                : std::string(info.dli_fname) + "\n" + std::to_string(size) + "\n" +
-                      std::to_string(changed);
+  return state_of(info.dli_fname);
 }
 
 void add_path(std::string& key, const std::string& path) {
@@ -97,6 +102,42 @@ void write_whole(const fs::path& file, const std::string& bytes) {
   }
 }
 
+// The bytes of a file that write_summed() left there whole.
+std::optional<std::string> read_summed(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string sum(16, ' ');
+  std::ostringstream rest;
+  if (!stream.read(sum.data(), 16) || !(rest << stream.rdbuf())) return std::nullopt;
+  std::string bytes = rest.str();
+  return sum == hex(hash_bytes(bytes)) ? std::make_optional(std::move(bytes)) : std::nullopt;
+}
+
+void write_summed(const fs::path& file, const std::string& bytes) {
+  const fs::path where = file.parent_path();
+  fs::create_directories(where);
+  write_whole(file, hex(hash_bytes(bytes)) + bytes);
+  make_room(where);
+}
+
+void mark_used(const fs::path& file) {
+  std::error_code failed;
+  fs::last_write_time(file, fs::file_time_type::clock::now(), failed);
+}
+
+struct MeshFile {
+  std::string head;  // what its bytes begin with
+  fs::path path;     // empty where there is no cache
+};
+
+MeshFile mesh_file(const std::string& key) {
+  const fs::path where = folder();
+  const std::string library = this_library();
+  const std::string program = state_of(mesh_program());
+  if (where.empty() || library.empty() || program.empty()) return {};
+  const std::string head = library + "\n" + program + "\n" + key + "\n";
+  return {head, where / (hex(hash_bytes(head)) + ".mesh")};
+}
+
 }  // namespace
 
 Cache::Cache(const std::string& world, const SearchPaths& paths) {
@@ -107,19 +148,18 @@ Cache::Cache(const std::string& world, const SearchPaths& paths) {
   for (const std::string& path : paths.models) add_path(key_, path);
   key_ += "\nresources";
   for (const std::string& path : paths.resources) add_path(key_, path);
+  key_ += "\npackages";
+  for (const std::string& path : paths.packages) add_path(key_, path);
+  if (paths.allow_any) key_ += "\nany";
   file_ = (where / (hex(hash_bytes(key_)) + ".world")).string();
 }
 
 std::optional<desc::World> Cache::recall() const {
   if (file_.empty()) return std::nullopt;
   try {
-    std::ifstream stream(file_, std::ios::binary);
-    std::string sum(16, ' ');
-    std::ostringstream rest;
-    if (!stream.read(sum.data(), 16) || !(rest << stream.rdbuf())) return std::nullopt;
-    const std::string bytes = rest.str();
-    if (sum != hex(hash_bytes(bytes))) return std::nullopt;
-    BoundedInput archive(bytes);
+    const std::optional<std::string> whole = read_summed(file_);
+    if (!whole) return std::nullopt;
+    BoundedInput archive(*whole);
     std::string key;
     Sources sources;
     archive(key);
@@ -129,8 +169,7 @@ std::optional<desc::World> Cache::recall() const {
     std::string packed;
     archive(packed);
     desc::World world = unpack(packed);
-    std::error_code failed;
-    fs::last_write_time(file_, fs::file_time_type::clock::now(), failed);
+    mark_used(file_);
     return world;
   } catch (const std::exception&) {
     return std::nullopt;
@@ -143,13 +182,31 @@ void Cache::keep(const desc::World& world, const Sources& sources) const {
     std::ostringstream rest(std::ios::binary);
     cereal::BinaryOutputArchive archive(rest);
     archive(key_, sources, pack(world));
-    const fs::path where = fs::path(file_).parent_path();
-    fs::create_directories(where);
-    const std::string bytes = rest.str();
-    write_whole(file_, hex(hash_bytes(bytes)) + bytes);
-    make_room(where);
+    write_summed(file_, rest.str());
   } catch (const std::exception&) {
     return;  // it will be read again
+  }
+}
+
+std::optional<std::string> recall_mesh(const std::string& key) {
+  try {
+    const MeshFile file = mesh_file(key);
+    if (file.path.empty()) return std::nullopt;
+    const std::optional<std::string> bytes = read_summed(file.path);
+    if (!bytes || bytes->compare(0, file.head.size(), file.head) != 0) return std::nullopt;
+    mark_used(file.path);
+    return bytes->substr(file.head.size());
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+void keep_mesh(const std::string& key, const std::string& answer) {
+  try {
+    const MeshFile file = mesh_file(key);
+    if (!file.path.empty()) write_summed(file.path, file.head + answer);
+  } catch (const std::exception&) {
+    return;  // it will be converted again
   }
 }
 

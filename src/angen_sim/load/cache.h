@@ -32,4 +32,9 @@ class Cache {
   std::string file_;
 };
 
+/// What angen_mesh once answered to what `key` says, by an earlier keep_mesh() of this build, in
+/// the same folder.
+std::optional<std::string> recall_mesh(const std::string& key);
+void keep_mesh(const std::string& key, const std::string& answer);
+
 }  // namespace angen::load

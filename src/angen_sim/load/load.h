@@ -10,19 +10,25 @@
 /// nothing.
 namespace angen::load {
 
-/// Where model:// and file:// are searched, first hit wins.
+/// Where model:// and file:// are searched, first hit wins; what lies elsewhere no document may
+/// name.
 struct SearchPaths {
   std::vector<std::string> models;
   std::vector<std::string> resources;
+  std::string beside{};                 // the one of `models` that came with a world
+  std::vector<std::string> packages{};  // folders with ROS packages, whose files may be named
+  std::vector<std::string> files{};     // may be named, too
+  bool allow_any = false;               // documents may name every file
 
-  /// ANGEN_MODEL_PATH, GAZEBO_MODEL_PATH, `extra_models`, the installed worlds/models;
-  /// GAZEBO_RESOURCE_PATH for resources.
-  static SearchPaths from_environment(const std::string& extra_models = "");
+  /// ANGEN_MODEL_PATH, GAZEBO_MODEL_PATH, `beside`, the installed worlds/models;
+  /// GAZEBO_RESOURCE_PATH for resources; ROS_PACKAGE_PATH; ANGEN_ALLOW_PATHS=true.
+  static SearchPaths from_environment(const std::string& beside = "");
 };
 
 /// A whole world file; worlds/models beside it is searched too. What an earlier load of the same
-/// files gave is taken from the user's cache, unless ANGEN_NO_CACHE is set.
-desc::World world(const std::string& path);
+/// files gave is taken from the user's cache, unless ANGEN_NO_CACHE is set. `allow_any` as in
+/// SearchPaths.
+desc::World world(const std::string& path, bool allow_any = false);
 
 /// A world from text; `name` stands for the file in messages.
 desc::World world_from_text(const std::string& xml, const std::string& name,
@@ -30,7 +36,7 @@ desc::World world_from_text(const std::string& xml, const std::string& name,
 
 /// A world file with its includes written out: it loads as the file does, but needs no other file
 /// besides those that files_of() lists.
-std::string world_text(const std::string& path);
+std::string world_text(const std::string& path, bool allow_any = false);
 
 /// A file that a mesh, a heightmap or an image of a text is read from.
 struct UsedFile {

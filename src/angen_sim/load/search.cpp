@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "core/allow_paths.h"
 #include "load/xml.h"
 
 namespace angen::load {
@@ -57,18 +58,32 @@ std::optional<std::string> existing(const fs::path& path, Sources& sources) {
   return found.size() > 1 && found.back() == '/' ? found.substr(0, found.size() - 1) : found;
 }
 
+void check_allowed(const std::string& file, const std::string& what, const Source& at,
+                   Session& session) {
+  if (session.allowed.holds(file, at.file)) return;
+  std::error_code failed;
+  throw Error(at, what + " is " + fs::weakly_canonical(file, failed).string() +
+                      ", which lies neither on the model or resource path, nor in a package on "
+                      "ROS_PACKAGE_PATH, nor in the folder of this file; move it there, add its "
+                      "folder to ANGEN_MODEL_PATH, or allow every file by allow_paths:=true "
+                      "(ANGEN_ALLOW_PATHS=true)");
+}
+
 }  // namespace
 
-SearchPaths SearchPaths::from_environment(const std::string& extra_models) {
+SearchPaths SearchPaths::from_environment(const std::string& beside) {
   SearchPaths paths;
   add_path_list("ANGEN_MODEL_PATH", paths.models);
   add_path_list("GAZEBO_MODEL_PATH", paths.models);
-  if (!extra_models.empty()) paths.models.push_back(extra_models);
+  if (!beside.empty()) paths.models.push_back(beside);
+  paths.beside = beside;
   for (const char* folder : {ANGEN_SOURCE_MODELS, ANGEN_INSTALLED_MODELS}) {
     std::error_code failed;
     if (fs::is_directory(folder, failed)) paths.models.emplace_back(folder);
   }
   add_path_list("GAZEBO_RESOURCE_PATH", paths.resources);
+  add_path_list("ROS_PACKAGE_PATH", paths.packages);
+  paths.allow_any = allow_paths();
   return paths;
 }
 
@@ -110,6 +125,8 @@ std::string need_uri(const std::string& uri, const std::string& what, const Sour
   }
   if (auto found = find_uri(uri, at.file, session)) {
     std::error_code failed;
+    // What no document holds the user has named.
+    if (!at.file.empty()) check_allowed(*found, what + " '" + uri + "'", at, session);
     if (what == "model" || fs::is_regular_file(*found, failed)) return *found;
     throw Error(at, what + " '" + uri + "' is not a file (" + *found + "); name one");
   }
@@ -131,9 +148,13 @@ std::string model_file(const std::string& path, const Source& at, Session& sessi
   const fs::path folder = path;
   const fs::path config = folder / "model.config";
   if (!sources.exists(config.string())) {
-    if (auto found = existing(folder / "model.sdf", sources)) return *found;
+    if (auto found = existing(folder / "model.sdf", sources)) {
+      check_allowed(*found, "'model.sdf'", {*found, 0}, session);
+      return *found;
+    }
     throw Error(at, "the model folder " + path + " has no model.config; add one with <sdf>");
   }
+  check_allowed(config.string(), "'model.config'", {config.string(), 0}, session);
   const Element root = parse_xml(sources.read(config.string()), config.string());
   const Element* best = nullptr;
   int best_version = -1;
@@ -150,7 +171,10 @@ std::string model_file(const std::string& path, const Source& at, Session& sessi
     throw Error(root.source,
                 "no <sdf version=\"1.6\">model.sdf</sdf> of a version up to 1.9 in it");
   }
-  if (auto found = existing(folder / best->text, sources)) return *found;
+  if (auto found = existing(folder / best->text, sources)) {
+    check_allowed(*found, "the file '" + best->text + "'", best->source, session);
+    return *found;
+  }
   throw Error(best->source, "the file '" + best->text + "' is not in " + path);
 }
 
@@ -165,8 +189,8 @@ void make_uris_absolute(Element& element, Session& session) {
     const bool relative = !address.path.empty() && address.path[0] != '/';
     if (!relative || (!address.scheme.empty() && address.scheme != "file")) continue;
     if (find_uri(child.text, "", session)) continue;
-    if (auto found = find_uri(child.text, child.source.file, session))
-      child.text = "file://" + *found;
+    const auto found = find_uri(child.text, child.source.file, session);
+    if (found && session.allowed.holds(*found, child.source.file)) child.text = "file://" + *found;
   }
 }
 

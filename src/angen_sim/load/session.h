@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/element.h"
+#include "load/allowed.h"
 #include "load/load.h"
 #include "load/sources.h"
 
@@ -12,6 +13,7 @@ namespace angen::load {
 /// What one load carries along: where to search, what it saw there, what to say, how much was read.
 struct Session {
   const SearchPaths& paths;
+  AllowedFiles allowed{paths};
   Sources sources{};
   std::vector<Diagnostic> warnings{};
   std::size_t elements = 0;         // of all documents so far

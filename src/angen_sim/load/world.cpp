@@ -162,8 +162,11 @@ desc::World describe_world(const Element& sdf, Session& session) {
   return world;
 }
 
-SearchPaths paths_beside(const std::string& path) {
-  return SearchPaths::from_environment((fs::absolute(path).parent_path() / "models").string());
+SearchPaths paths_beside(const std::string& path, bool allow_any) {
+  SearchPaths paths =
+      SearchPaths::from_environment((fs::absolute(path).parent_path() / "models").string());
+  paths.allow_any = paths.allow_any || allow_any;
+  return paths;
 }
 
 desc::World read_world(const std::string& xml, const std::string& name, Session& session) {
@@ -179,8 +182,8 @@ desc::World world_from_text(const std::string& xml, const std::string& name,
   return read_world(xml, name, session);
 }
 
-std::string world_text(const std::string& path) {
-  const SearchPaths paths = paths_beside(path);
+std::string world_text(const std::string& path, bool allow_any) {
+  const SearchPaths paths = paths_beside(path, allow_any);
   Session session{paths};
   const Open open(session, path);
   const Element given = read_document(session.sources.read(path), path, session);
@@ -195,8 +198,8 @@ std::string world_text(const std::string& path) {
   return print_xml(sdf);
 }
 
-desc::World world(const std::string& path) {
-  const SearchPaths paths = paths_beside(path);
+desc::World world(const std::string& path, bool allow_any) {
+  const SearchPaths paths = paths_beside(path, allow_any);
   const Cache cache(path, paths);
   if (std::optional<desc::World> kept = cache.recall()) return *std::move(kept);
   Session session{paths};

@@ -13,6 +13,7 @@
 #include <sstream>
 #include <utility>
 
+#include "core/allow_paths.h"
 #include "core/text.h"
 
 namespace angen {
@@ -95,14 +96,45 @@ std::string why_not_loadable(const std::string& path, const std::string& otherwi
   return otherwise;
 }
 
-// The file to load for `filename`; when only files without Angen plug-ins are found, the first of
-// them.
-fs::path locate(const std::string& filename) {
+bool is_elf(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  char begin[4] = {};
+  return stream.read(begin, sizeof begin) && std::string(begin, sizeof begin) ==
+                                                 "\x7f"
+                                                 "ELF";
+}
+
+[[noreturn]] void holds_none(const std::string& file) {
+  if (!is_elf(file)) throw Error(file + " is not a shared library");
+  throw Error("no Angen plug-in in " + file +
+              "; a plug-in library registers one with ANGEN_REGISTER_PLUGIN");
+}
+
+// Whether a path names something directly in one of the folders that are searched.
+bool is_on_search_path(const fs::path& file) {
+  std::error_code ignored;
+  const fs::path folder = fs::canonical(fs::absolute(file, ignored).parent_path(), ignored);
+  const std::vector<fs::path> folders = search_path();
+  return !ignored && std::any_of(folders.begin(), folders.end(), [&](const fs::path& known) {
+    std::error_code missing;
+    return folder == fs::canonical(known, missing) && !missing;
+  });
+}
+
+// The file to load for `filename`, by its path or from the search path.
+fs::path locate(const std::string& filename, bool any_path) {
   std::error_code ignored;  // of paths that are too long, or lead where we may not read
   if (filename.find('/') != std::string::npos) {
+    if (!any_path && !is_on_search_path(filename)) {
+      throw Error(
+          "plug-in library " + printable(filename, 300) +
+          " does not lie on the plug-in path; add its folder to ANGEN_PLUGIN_PATH, or allow "
+          "every path by allow_paths:=true (ANGEN_ALLOW_PATHS=true)");
+    }
     if (!fs::is_regular_file(filename, ignored)) {
       throw Error("there is no plug-in library " + printable(filename, 300));
     }
+    if (!registers_plugins(filename)) holds_none(filename);
     return fs::absolute(filename);
   }
   fs::path unsuitable;
@@ -114,7 +146,7 @@ fs::path locate(const std::string& filename) {
     if (registers_plugins(candidate)) return candidate;
     if (unsuitable.empty()) unsuitable = candidate;
   }
-  if (!unsuitable.empty()) return unsuitable;
+  if (!unsuitable.empty()) holds_none(unsuitable);
   throw Error("plug-in library " + printable(filename, 300) + " is not found; searched " +
               join_names(searched) + " (set ANGEN_PLUGIN_PATH for more)");
 }
@@ -134,10 +166,7 @@ Plugins load(const std::string& file) {
     throw Error("plug-in library " + file +
                 " does not load: " + why_not_loadable(file, problem.what()));
   }
-  if (plugins.empty()) {
-    throw Error("no Angen plug-in in " + file +
-                "; a plug-in library registers one with ANGEN_REGISTER_PLUGIN");
-  }
+  if (plugins.empty()) holds_none(file);
   dlopen(file.c_str(), RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);
   return plugins;
 }
@@ -153,6 +182,11 @@ const Plugins& loaded(const std::string& file) {
 }  // namespace
 
 std::string find_library(const std::string& filename) {
+  if (filename.find('/') != std::string::npos) {
+    std::error_code ignored;
+    const bool known = allow_paths() || is_on_search_path(filename);
+    return known && fs::is_regular_file(filename, ignored) ? filename : "";
+  }
   for (const fs::path& directory : search_path()) {
     std::error_code ignored;
     if (fs::is_regular_file(directory / filename, ignored)) return directory / filename;
@@ -161,12 +195,15 @@ std::string find_library(const std::string& filename) {
 }
 
 struct Catalog::Impl {
+  explicit Impl(bool any) : any_path(any) {}
+  const bool any_path;
   std::mutex mutex;
   std::map<std::string, Plugins> libraries;  // by the requested name
   std::set<std::string> aliases;             // of these names
 };
 
-Catalog::Catalog() : impl_(std::make_unique<Impl>()) {}
+Catalog::Catalog() : Catalog(allow_paths()) {}
+Catalog::Catalog(bool any_path) : impl_(std::make_unique<Impl>(any_path)) {}
 Catalog::~Catalog() = default;
 
 const Plugins& Catalog::library(const std::string& filename) {
@@ -174,7 +211,7 @@ const Plugins& Catalog::library(const std::string& filename) {
   const auto known = impl_->libraries.find(filename);
   if (known != impl_->libraries.end()) return known->second;
   if (filename.empty()) throw Error("a plug-in has no filename, must be lib….so");
-  const fs::path file = locate(filename);
+  const fs::path file = locate(filename, impl_->any_path);
   const Plugins& plugins = loaded(fs::weakly_canonical(file));
   if (is_alias(file)) impl_->aliases.insert(filename);
   return impl_->libraries.emplace(filename, plugins).first->second;

@@ -11,12 +11,15 @@ namespace angen {
 
 /// The plug-ins of every library that was asked for, by file name. Looked for on ANGEN_PLUGIN_PATH,
 /// GAZEBO_PLUGIN_PATH, in `lib` of each catkin workspace that is sourced (CMAKE_PREFIX_PATH), then
-/// beside Angen's own libraries; a library of that name that holds no
-/// Angen plug-in (Gazebo's own, say) is passed over. A library once loaded stays so until the
-/// process ends: what it made may outlive the catalog. Calls from several threads are safe.
+/// beside Angen's own libraries; a library of that name that holds no Angen plug-in (Gazebo's own,
+/// say) is passed over. What lies elsewhere is not loaded, and neither is what registers no
+/// plug-in: loading runs code. A library once loaded stays so until the process ends: what it made
+/// may outlive the catalog. Calls from several threads are safe.
 class Catalog {
  public:
   Catalog();
+  /// With `any_path` it takes a path to any folder.
+  explicit Catalog(bool any_path);
   ~Catalog();
   Catalog(const Catalog&) = delete;
   Catalog& operator=(const Catalog&) = delete;
@@ -42,7 +45,8 @@ class Catalog {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The path of a library on the plug-in path, empty where there is none of that name.
+/// The path of a library on the plug-in path, empty where there is none of that name; of a path,
+/// where its folder is on it.
 std::string find_library(const std::string& filename);
 
 struct PluginDoc {

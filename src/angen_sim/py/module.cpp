@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/allow_paths.h"
 #include "core/names.h"
 #include "plugin/json.h"
 #include "py/subclass.h"
@@ -14,9 +15,11 @@ namespace {
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>;
 
-std::shared_ptr<Catalog> catalog() {
-  static const auto the_catalog = std::make_shared<Catalog>();
-  return the_catalog;
+// Of worlds whose models may name libraries anywhere, or on the plug-in path only.
+std::shared_ptr<Catalog> catalog(bool any_path) {
+  static const auto bound = std::make_shared<Catalog>(false);
+  static const auto free = std::make_shared<Catalog>(true);
+  return any_path ? free : bound;
 }
 
 template <class Entries>
@@ -93,17 +96,23 @@ void advance(World& world, std::uint64_t ticks, void (World::*advance)(std::uint
 
 void bind_world(pyb::module_& module) {
   pyb::class_<World>(module, "World", "A world that advances by step() and run().")
-      .def(pyb::init([](const std::string& path, std::uint64_t seed, const std::string& record) {
-             return std::make_unique<World>(path, seed, catalog(), record);
+      .def(pyb::init([](const std::string& path, std::uint64_t seed, const std::string& record,
+                        bool anywhere) {
+             return std::make_unique<World>(path, seed, catalog(anywhere || allow_paths()), record,
+                                            anywhere);
            }),
            pyb::arg("path"), pyb::arg("seed") = 0, pyb::arg("record") = "",
-           "Loads a world file (SDF); `record` is a file for the log that Replay reads.")
+           pyb::arg("allow_paths") = false,
+           "Loads a world file (SDF); `record` is a file for the log that Replay reads. With "
+           "allow_paths, models may name files and plug-in libraries anywhere.")
       .def_static(
           "from_text",
-          [](const std::string& text, std::uint64_t seed) {
-            return std::make_unique<World>(text, "<text>", seed, catalog());
+          [](const std::string& text, std::uint64_t seed, bool anywhere) {
+            return std::make_unique<World>(text, "<text>", seed, catalog(anywhere || allow_paths()),
+                                           anywhere);
           },
-          pyb::arg("text"), pyb::arg("seed") = 0, "Loads a world from SDF text.")
+          pyb::arg("text"), pyb::arg("seed") = 0, pyb::arg("allow_paths") = false,
+          "Loads a world from SDF text.")
       .def(
           "step", [](World& w, std::uint64_t ticks) { advance(w, ticks, &World::step); },
           pyb::arg("ticks") = 1, "Advances by ticks, each of them taken.")
@@ -224,7 +233,7 @@ void bind_replay(pyb::module_& module) {
   using record::Replay;
   pyb::class_<Replay>(module, "Replay", "A recorded run, run again; see docs/replay.md.")
       .def(pyb::init([](const std::string& path, bool leap) {
-             return std::make_unique<Replay>(record::read_log(path), catalog(),
+             return std::make_unique<Replay>(record::read_log(path), catalog(allow_paths()),
                                              record::ReplaySettings{leap, true});
            }),
            pyb::arg("path"), pyb::arg("leap") = true,
@@ -315,13 +324,18 @@ void bind_catalog(pyb::module_& module) {
         const bool sensor =
             PyObject_IsSubclass(type.ptr(), pyb::module_::import("angen").attr("Sensor").ptr()) ==
             1;
-        catalog()->add(filename, sensor ? python_sensor(kind, type) : python_device(kind, type));
+        const std::shared_ptr<const Plugin> plugin =
+            sensor ? python_sensor(kind, type) : python_device(kind, type);
+        for (const bool any_path : {false, true}) catalog(any_path)->add(filename, plugin);
       },
       pyb::arg("filename"), pyb::arg("kind"), pyb::arg("type"),
       "Makes a Python subclass of Sensor or Device a plug-in: <plugin filename=\"FILENAME\">.");
   module.def(
       "plugins",
-      [] { return pyb::module_::import("json").attr("loads")(to_json(describe(*catalog()))); },
+      [] {
+        return pyb::module_::import("json").attr("loads")(
+            to_json(describe(*catalog(allow_paths()))));
+      },
       "Every kind of sensor and device on the plug-in path: a list of dicts with library, kind, "
       "doc, role, rate, on_demand, models, sensor_type, example, command_topic, verbs, fields and "
       "params, as `angen plugins --json` prints it.");

@@ -29,15 +29,23 @@ std::string folder_of(const std::string& path) {
   return slash == std::string::npos ? "." : path.substr(0, slash);
 }
 
+load::SearchPaths search_paths(const std::string& beside, bool allow_paths) {
+  load::SearchPaths paths = load::SearchPaths::from_environment(beside);
+  paths.allow_any = paths.allow_any || allow_paths;
+  return paths;
+}
+
 }  // namespace
 
 World::World(const std::string& path, std::uint64_t seed, std::shared_ptr<Catalog> catalog,
-             const std::string& log)
-    : paths_(load::SearchPaths::from_environment(folder_of(path) + "/models")),
-      owned_(std::make_unique<sim::Simulation>(load::world(path), seed, std::move(catalog))),
+             const std::string& log, bool allow_paths)
+    : paths_(search_paths(folder_of(path) + "/models", allow_paths)),
+      owned_(std::make_unique<sim::Simulation>(load::world(path, allow_paths), seed,
+                                               std::move(catalog))),
       simulation_(*owned_) {
   if (!log.empty()) {
-    recorder_ = std::make_unique<record::Recorder>(log, record::origin_of(path), simulation_);
+    recorder_ =
+        std::make_unique<record::Recorder>(log, record::origin_of(path, allow_paths), simulation_);
   }
   note(simulation_.world().warnings);
   note_warnings(*simulation_.snapshot());  // of how it was built
@@ -45,8 +53,8 @@ World::World(const std::string& path, std::uint64_t seed, std::shared_ptr<Catalo
 }
 
 World::World(const std::string& text, const std::string& name, std::uint64_t seed,
-             std::shared_ptr<Catalog> catalog)
-    : paths_(load::SearchPaths::from_environment()),
+             std::shared_ptr<Catalog> catalog, bool allow_paths)
+    : paths_(search_paths("", allow_paths)),
       owned_(std::make_unique<sim::Simulation>(load::world_from_text(text, name, paths_), seed,
                                                std::move(catalog))),
       simulation_(*owned_) {

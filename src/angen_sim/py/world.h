@@ -17,11 +17,12 @@ namespace angen::py {
 /// A simulation as Python sees it: loads, steps, commands, reads. Not shared between threads.
 class World {
  public:
-  /// `log` names a file to record into, unless it is empty.
+  /// `log` names a file to record into, unless it is empty. With `allow_paths` documents may name
+  /// files anywhere; what libraries, the catalog knows.
   World(const std::string& path, std::uint64_t seed, std::shared_ptr<Catalog> catalog,
-        const std::string& log = "");
+        const std::string& log, bool allow_paths);
   World(const std::string& text, const std::string& name, std::uint64_t seed,
-        std::shared_ptr<Catalog> catalog);
+        std::shared_ptr<Catalog> catalog, bool allow_paths);
 
   /// Goes on with a simulation that has run already, of a world whose models are found in `models`.
   World(std::unique_ptr<sim::Simulation> simulation, const std::string& models);

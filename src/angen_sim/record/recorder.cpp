@@ -27,9 +27,10 @@ load::SearchPaths paths_of(const std::string& models) {
   return load::SearchPaths::from_environment(models);
 }
 
-Origin origin_of(const std::string& world) {
+Origin origin_of(const std::string& world, bool allow_any) {
   const fs::path file = fs::absolute(world).lexically_normal();
-  return {file.string(), load::world_text(world), (file.parent_path() / "models").string()};
+  return {file.string(), load::world_text(world, allow_any),
+          (file.parent_path() / "models").string()};
 }
 
 Recorder::Recorder(std::string file, const Origin& origin, sim::Simulation& simulation)

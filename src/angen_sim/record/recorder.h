@@ -20,8 +20,8 @@ struct Origin {
   std::string models;
 };
 
-/// Of a world's file.
-Origin origin_of(const std::string& world);
+/// Of a world's file; `allow_any` as in load::SearchPaths.
+Origin origin_of(const std::string& world, bool allow_any = false);
 
 /// Writes the log of a simulation, each line at once: whatever ends the process, what was carried
 /// out before can be replayed. The simulation must not have ticked yet, and outlive this.

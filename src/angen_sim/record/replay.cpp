@@ -34,8 +34,8 @@ bool is_near(const Pose& text, const Pose& exact) {
 Replay::Replay(Log log, std::shared_ptr<Catalog> catalog, ReplaySettings settings)
     : log_(std::move(log)), settings_(settings), paths_(paths_of(log_.header.models)) {
   const LogHeader& header = log_.header;
-  desc::World world =
-      load::world_from_text(located(header.sdf, header.files, 1), log_.path, paths_);
+  const Located located = this->located(header.sdf, header.files, 1);
+  desc::World world = load::world_from_text(located.sdf, log_.path, located.paths);
   simulation_ =
       std::make_unique<sim::Simulation>(std::move(world), header.seed, std::move(catalog));
   if (simulation_->snapshot()->step != header.step) {
@@ -102,8 +102,8 @@ sim::Action Replay::action_of(const LogEntry& entry) const {
       return sim::Attach{load::sensor(attach->sdf, attach->name, attach->pose), attach->link};
     }
     const SpawnText& spawn = std::get<SpawnText>(entry.what);
-    const std::string sdf = located(spawn.sdf, spawn.files, entry.line);
-    desc::World alone = load::world_from_text(sdf, "(text)", paths_);
+    const Located located = this->located(spawn.sdf, spawn.files, entry.line);
+    desc::World alone = load::world_from_text(located.sdf, "(text)", located.paths);
     if (alone.models.size() != 1) throw Error("is not one model");
     desc::Model model = std::move(alone.models.front());
     if (!is_near(model.pose, spawn.pose)) throw Error("its pose is not that of its text");
@@ -154,14 +154,20 @@ std::unique_ptr<sim::Simulation> Replay::take_simulation() {
   return std::move(simulation_);
 }
 
-/// The text, with files that are elsewhere now read from where they are: beside the log.
-std::string Replay::located(const std::string& sdf, const std::vector<LogFile>& files,
-                            int line) const {
+/// The text, with files that are elsewhere now read from where they are: beside the log. One whose
+/// contents the log knows may be read wherever it is.
+Replay::Located Replay::located(const std::string& sdf, const std::vector<LogFile>& files,
+                                int line) const {
+  Located found{sdf, paths_};
   std::vector<load::UsedFile> moved;
   for (const load::UsedFile& used : load::files_of(sdf, paths_)) {
     const auto recorded = std::find_if(files.begin(), files.end(),
                                        [&](const LogFile& file) { return file.uri == used.uri; });
-    if (recorded == files.end() || recorded->hash == file_hash(used.path)) continue;
+    if (recorded == files.end()) continue;
+    if (recorded->hash == file_hash(used.path)) {
+      found.paths.files.push_back(used.path);
+      continue;
+    }
     const std::string beside = (folder_of(log_.path) / name_in(used.uri)).string();
     if (recorded->hash != file_hash(beside)) {
       throw Error({log_.path, line},
@@ -170,8 +176,10 @@ std::string Replay::located(const std::string& sdf, const std::vector<LogFile>& 
                       ": put the one that was used beside the log, as " + beside);
     }
     moved.push_back({used.uri, beside});
+    found.paths.files.push_back(beside);
   }
-  return moved.empty() ? sdf : load::with_files(sdf, moved);
+  if (!moved.empty()) found.sdf = load::with_files(sdf, moved);
+  return found;
 }
 
 }  // namespace angen::record

@@ -49,7 +49,11 @@ class Replay {
   sim::Action action_of(const LogEntry& entry) const;
   void compare(const sim::Snapshot& snapshot);
   void note(const sim::Snapshot& snapshot);
-  std::string located(const std::string& sdf, const std::vector<LogFile>& files, int line) const;
+  struct Located {
+    std::string sdf;
+    load::SearchPaths paths;
+  };
+  Located located(const std::string& sdf, const std::vector<LogFile>& files, int line) const;
 
   Log log_;
   ReplaySettings settings_;

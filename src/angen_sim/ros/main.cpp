@@ -3,6 +3,7 @@
 #include <ros/param.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <atomic>
 #include <clocale>
 #include <cmath>
@@ -31,7 +32,7 @@ using angen::sim::Simulation;
 constexpr char kUsage[] =
     "usage: angen_node [WORLD] [_rate:=1] [_paused:=false] [_seed:=1] [_clock_rate:=100]\n"
     "                  [_fast:=false] [_topics:=sensor|kind] [_record:=FILE]\n"
-    "                  [_replay:=FILE [_until:=SECONDS]]\n"
+    "                  [_replay:=FILE [_until:=SECONDS]] [_allow_paths:=false]\n"
     "       angen_node --check WORLD    only loads; exit code 1 when it cannot\n"
     "WORLD may also stand in the parameter ~world.\n";
 
@@ -149,7 +150,11 @@ std::unique_ptr<angen::record::Recorder> make_recorder(const std::string& world,
       file, angen::record::Origin{header.world, header.sdf, header.models}, simulation);
 }
 
+// Everything that is loaded from now on may name files and libraries anywhere.
+void allow_all_paths() { setenv("ANGEN_ALLOW_PATHS", "true", 1); }
+
 int run(std::string path, std::unique_ptr<Simulation> simulation) {
+  if (ros::param::param("~allow_paths", false)) allow_all_paths();
   const bool replays = !ros::param::param<std::string>("~replay", "").empty();
   if (!simulation && !replays && !ros::param::get("~world", path)) {
     throw angen::Error(std::string("no world: give one as argument or in ~world\n") + kUsage);
@@ -211,6 +216,7 @@ int main(int argc, char** argv) {
     const std::string path = paths.empty() ? "" : paths[0];
     // Before ROS, which waits for a master: errors in the world need none.
     std::unique_ptr<Simulation> simulation;
+    if (std::count(raw.begin(), raw.end(), "_allow_paths:=true") != 0) allow_all_paths();
     if (!paths.empty()) simulation = make(read(path), seed_in(raw));
     ros::init(argc, argv, "angen", ros::init_options::NoSigintHandler);
     end_on_signals();

@@ -83,11 +83,73 @@ TEST_F(Library, FindsAUsersOnEitherPath) {
   }
 }
 
-TEST_F(Library, TakesAPathAsItIs) {
-  unsetenv("ANGEN_PLUGIN_PATH");
-  Catalog catalog;
-  EXPECT_EQ(catalog.library(ANGEN_FIXTURES_DIR "/libtwin_a.so").at(0)->kind().name, "twin_a");
-  EXPECT_EQ(complaint("/nowhere/libx.so"), "there is no plug-in library /nowhere/libx.so");
+TEST_F(Library, TakesAPathThatLiesOnThePluginPath) {
+  fs::create_directory_symlink(ANGEN_FIXTURES_DIR, directory_ / "link");
+  const fs::path around = directory_ / ".." / directory_.filename() / "link/libtwin_a.so";
+  for (const std::string& path :
+       {std::string(ANGEN_FIXTURES_DIR "/libtwin_a.so"), around.string()}) {
+    Catalog catalog;
+    EXPECT_EQ(catalog.library(path).at(0)->kind().name, "twin_a") << path;
+  }
+  EXPECT_EQ(complaint(ANGEN_FIXTURES_DIR "/libx.so"),
+            "there is no plug-in library " ANGEN_FIXTURES_DIR "/libx.so");
+}
+
+/// A file that the constructor of a hostile library writes.
+class HostileLibrary : public Library {
+ protected:
+  void SetUp() override {
+    Library::SetUp();
+    mark_ = directory_ / "mark";
+    setenv("ANGEN_EVIL", mark_.c_str(), 1);
+  }
+  void TearDown() override {
+    unsetenv("ANGEN_EVIL");
+    Library::TearDown();
+  }
+  bool ran() const { return fs::exists(mark_); }
+
+  fs::path mark_;
+};
+
+TEST_F(HostileLibrary, ElsewhereIsNotLoaded) {
+  const fs::path file = directory_ / "libevil_plugin.so";
+  fs::copy_file(ANGEN_FIXTURES_DIR "/elsewhere/libevil_plugin.so", file);
+  fs::create_directory(directory_ / "path");
+  search(directory_ / "path");
+  const std::string relative = fs::relative(file).string();
+  const std::string around = directory_ / "path/../libevil_plugin.so";
+  for (const std::string& path : {file.string(), relative, around}) {
+    EXPECT_NE(complaint(path).find("does not lie on the plug-in path"), std::string::npos) << path;
+    EXPECT_EQ(find_library(path), "") << path;
+  }
+  EXPECT_NE(complaint("../libevil_plugin.so").find("does not lie on"), std::string::npos);
+  EXPECT_NE(complaint("libevil_plugin.so").find("is not found"), std::string::npos);
+  EXPECT_FALSE(ran());
+}
+
+TEST_F(HostileLibrary, WithoutAPluginIsNotLoadedFromThePathEither) {
+  for (const char* name : {"libevil.so", ANGEN_FIXTURES_DIR "/libevil.so"}) {
+    EXPECT_NE(complaint(name).find("no Angen plug-in in"), std::string::npos);
+  }
+  EXPECT_EQ(describe(*std::make_unique<Catalog>()).empty(), false);
+  EXPECT_FALSE(ran());
+}
+
+TEST_F(HostileLibrary, IsLoadedWhereEveryPathIsAllowed) {
+  const std::string file = ANGEN_FIXTURES_DIR "/elsewhere/libevil_plugin.so";
+  EXPECT_EQ(Catalog(true).library(file).at(0)->kind().name, "evil");
+  EXPECT_TRUE(ran()) << "the other tests would not notice it";
+}
+
+TEST_F(HostileLibrary, TheEnvironmentAllowsEveryPath) {
+  setenv("ANGEN_ALLOW_PATHS", "true", 1);
+  const std::string complained = complaint("/nowhere/libx.so");
+  setenv("ANGEN_ALLOW_PATHS", "false", 1);
+  const std::string forbidden = complaint("/nowhere/libx.so");
+  unsetenv("ANGEN_ALLOW_PATHS");
+  EXPECT_EQ(complained, "there is no plug-in library /nowhere/libx.so");
+  EXPECT_NE(forbidden.find("does not lie on"), std::string::npos);
 }
 
 TEST_F(Library, AskedTwiceIsLoadedOnce) {
@@ -148,8 +210,7 @@ TEST_F(Library, NotLoadableGivesTheLoadersReason) {
   std::ofstream(directory_ / "libtext.so") << std::string(4096, 'x');
   search(directory_);
   const std::string text = complaint("libtext.so");
-  EXPECT_NE(text.find("does not load"), std::string::npos);
-  EXPECT_NE(text.find("invalid ELF header"), std::string::npos) << text;
+  EXPECT_NE(text.find("libtext.so is not a shared library"), std::string::npos) << text;
 }
 
 TEST_F(Library, ListsThoseThatHoldPlugins) {

@@ -7,7 +7,7 @@ from typing import Any
 
 from angen_tools.cli.arguments import at_least, checked, span
 from angen_tools.care.clock import DAY
-from angen_tools.cli.parser import add_json, add_out, command
+from angen_tools.cli.parser import add_allow_paths, add_json, add_out, command
 from angen_tools.common.files import check_folder
 
 
@@ -41,5 +41,6 @@ def add_care(commands: Any) -> None:
                       help='commands to devices: a CSV file with time,target,command')
     care.add_argument('--seed', metavar='S', type=checked(at_least(0)), default=1,
                       help='of all noise (1)')
+    add_allow_paths(care)
     add_json(care)
     add_out(care, 'care.png, warnings.csv and, with --world, events.csv')

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from angen_tools.cli.arguments import at_least, checked, duration
-from angen_tools.cli.parser import add_json, add_out, command
+from angen_tools.cli.parser import add_allow_paths, add_json, add_out, command
 from angen_tools.common.files import check_folder
 from angen_tools.common.output import show
 
@@ -60,5 +60,6 @@ def add_locate(commands: Any) -> None:
                         help='in a world of its own, without a running simulator')
     locate.add_argument('--seed', metavar='S', type=checked(at_least(0)), default=1,
                         help='of all noise, with --world (1)')
+    add_allow_paths(locate)
     add_json(locate)
     add_out(locate, 'locate.csv and locate.png')

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from angen_tools.cli.arguments import at_least, checked, duration, moment
-from angen_tools.cli.parser import add_json, add_out, command
+from angen_tools.cli.parser import add_allow_paths, add_json, add_out, command
 from angen_tools.common.files import check_folder
 from angen_tools.common.output import show
 
@@ -89,6 +89,7 @@ def add_checks(commands: Any) -> None:
                     'check my_models/shelf robot.urdf model://bath_door0')
     check.add_argument('paths', metavar='PATH', nargs='+', help='a world, a model (SDF, URDF, or '
                        'its folder), or model://NAME')
+    add_allow_paths(check)
     lux = command(commands, 'luxcheck', run_luxcheck,
                   'compares the simulated light with closed forms; needs no simulator', 'luxcheck')
     add_json(lux)
@@ -134,6 +135,7 @@ def add_map(commands: Any) -> None:
                         help='away: doorways are free; otherwise as the leaves stand (away)')
     parser.add_argument('-o', '--output', metavar='NAME', type=Path, default=Path('map'),
                         help='writes NAME.pgm and NAME.yaml (map)')
+    add_allow_paths(parser)
 
 
 def add_run(commands: Any) -> None:
@@ -149,6 +151,7 @@ def add_run(commands: Any) -> None:
                      required=True, help='how much time to simulate')
     run.add_argument('--seed', metavar='S', type=checked(at_least(0)), default=1,
                      help='of all noise (1)')
+    add_allow_paths(run)
     add_out(run, 'events.csv')
 
 
@@ -162,3 +165,4 @@ def add_replay(commands: Any) -> None:
                         'ROS from that simulated time')
     parser.add_argument('--every-tick', action='store_true',
                         help='leaps over nothing; the fingerprints are the same')
+    add_allow_paths(parser)

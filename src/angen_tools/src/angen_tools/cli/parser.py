@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from pathlib import Path
 from typing import Any, Callable, NoReturn
 
@@ -44,3 +45,16 @@ def add_out(parser: Parser, what: str) -> None:
     """The folder in which a command leaves files."""
     parser.add_argument('-o', '--out', metavar='DIR', type=Path, default=Path('out'),
                         help=f'folder for {what} (out)')
+
+
+class AllowPaths(argparse.Action):
+    """Lets models name files and plug-in libraries anywhere, also for what this process starts."""
+
+    def __call__(self, *_: Any) -> None:
+        os.environ['ANGEN_ALLOW_PATHS'] = 'true'
+
+
+def add_allow_paths(parser: Parser) -> None:
+    """The option of every command that loads a world or a model into its own process."""
+    parser.add_argument('--allow-paths', action=AllowPaths, nargs=0,
+                        help='models may name files and plug-in libraries anywhere')

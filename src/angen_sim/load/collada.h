@@ -1,0 +1,17 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace angen::load {
+
+/// Why a mesh is not converted, to be read after "mesh FILE".
+struct Refused : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws Refused for a COLLADA text whose instances end nowhere or make too many nodes, or with a
+/// count of what it cannot hold: assimp would expand them until memory ends.
+void check_collada(const std::string& text);
+
+}  // namespace angen::load

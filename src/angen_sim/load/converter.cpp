@@ -1,0 +1,209 @@
+#include "load/converter.h"
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include "core/diagnostics.h"
+#include "core/text.h"
+
+namespace angen::load {
+
+namespace {
+
+constexpr std::size_t kMaxAnswer = 256U << 20U;  // bytes: 5,000,000 triangles that share no corner
+
+[[noreturn]] void not_started(const std::string& program, int error) {
+  throw Error("cannot be read: " + program + " cannot be started (" + std::strerror(error) +
+              "); build it, or install Angen anew");
+}
+
+/// A file descriptor that is closed at the end.
+class Descriptor {
+ public:
+  explicit Descriptor(int number = -1) : number_(number) {}
+  ~Descriptor() { close(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number() const { return number_; }
+  void close() {
+    if (number_ >= 0) ::close(number_);
+    number_ = -1;
+  }
+
+ private:
+  int number_;
+};
+
+// A file in memory, to be read from its start: unlike a pipe it never blocks or ends a writer.
+int file_of(const std::string& bytes) {
+  const int file = memfd_create("mesh", MFD_CLOEXEC);
+  for (std::size_t done = 0; file >= 0 && done < bytes.size();) {
+    const ssize_t count = write(file, bytes.data() + done, bytes.size() - done);
+    if (count < 0) {
+      ::close(file);
+      return -1;
+    }
+    done += static_cast<std::size_t>(count);
+  }
+  if (file >= 0) lseek(file, 0, SEEK_SET);
+  return file;
+}
+
+pid_t start(const std::string& program, const std::vector<std::string>& words, int in, int out) {
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_adddup2(&files, in, STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&files, out, STDOUT_FILENO);
+  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
+  // No signal that this process ignores or blocks is lost on it.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  sigset_t signals;
+  sigemptyset(&signals);
+  posix_spawnattr_setsigmask(&attributes, &signals);
+  sigfillset(&signals);
+  posix_spawnattr_setsigdefault(&attributes, &signals);
+  std::vector<char*> arguments = {const_cast<char*>(program.c_str())};
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  pid_t child = -1;
+  const int error =
+      posix_spawn(&child, program.c_str(), &files, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&files);
+  if (error != 0) not_started(program, error);
+  return child;
+}
+
+/// A child process, which does not outlive this.
+class Child {
+ public:
+  explicit Child(pid_t id) : id_(id) {}
+  ~Child() {
+    if (id_ > 0) kill(id_, SIGKILL);
+    wait();
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  /// Its status; that of a success where the process lets the system forget its children.
+  int wait() {
+    int status = 0;
+    while (id_ > 0 && waitpid(id_, &status, 0) < 0) {
+      if (errno != EINTR) break;
+    }
+    id_ = -1;
+    return status;
+  }
+
+ private:
+  pid_t id_;
+};
+
+// All that comes until the other end is closed.
+std::string read_answer(int pipe) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point end = Clock::now() + std::chrono::seconds(kMeshWallSeconds);
+  std::string answer;
+  char piece[1U << 16U];
+  for (;;) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
+    pollfd ready{pipe, POLLIN, 0};
+    const int count = left.count() > 0 ? poll(&ready, 1, static_cast<int>(left.count())) : 0;
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) {
+      throw Error("takes more than " + std::to_string(kMeshWallSeconds) +
+                  " s to read; simplify it");
+    }
+    const ssize_t size = read(pipe, piece, sizeof piece);
+    if (size < 0 && errno == EINTR) continue;
+    if (size <= 0) return answer;
+    answer.append(piece, static_cast<std::size_t>(size));
+    if (answer.size() > kMaxAnswer) throw Error(kTooManyTriangles);
+  }
+}
+
+std::string hex_float(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%a", value);
+  return text;
+}
+
+}  // namespace
+
+std::string mesh_program() {
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<const void*>(&mesh_program), &info) == 0) return "angen_mesh";
+  return (std::filesystem::absolute(info.dli_fname).parent_path() / "angen_sim/angen_mesh")
+      .string();
+}
+
+std::string convert_mesh(const std::string& program, const std::string& bytes,
+                         const std::string& extension, const Vec3& scale) {
+  const Descriptor in(file_of(bytes));
+  int ends[2] = {-1, -1};
+  if (in.number() < 0 || pipe2(ends, O_CLOEXEC) != 0) not_started(program, errno);
+  const Descriptor from(ends[0]);
+  Descriptor to(ends[1]);
+  Child child(start(program,
+                    {extension, hex_float(scale.x()), hex_float(scale.y()), hex_float(scale.z())},
+                    in.number(), to.number()));
+  to.close();
+  std::string answer = read_answer(from.number());
+  const int status = child.wait();
+  if (WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS) return answer;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kMeshRefused) throw Error(printable(answer, 300));
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 127) {
+    throw Error("cannot be read: " + program + " does not start; build it, or install Angen anew");
+  }
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
+    throw Error("takes more than " + std::to_string(kMeshCpuSeconds) +
+                " s of CPU time to read; simplify it");
+  }
+  throw Error("is damaged: reading it has crashed " + program);
+}
+
+TriangleMesh decode_mesh(const std::string& answer) {
+  std::uint64_t counts[2] = {0, 0};
+  constexpr std::size_t kHead = sizeof kMeshMagic + sizeof counts;
+  const bool headed =
+      answer.size() >= kHead && std::memcmp(answer.data(), kMeshMagic, sizeof kMeshMagic) == 0;
+  if (headed) std::memcpy(counts, answer.data() + sizeof kMeshMagic, sizeof counts);
+  constexpr std::size_t kVertex = sizeof(Eigen::Vector3f);
+  TriangleMesh mesh;
+  constexpr std::size_t kTriangle = sizeof mesh.triangles[0];
+  if (!headed || counts[0] > kMaxAnswer / kVertex || counts[1] > kMaxTriangles ||
+      answer.size() != kHead + counts[0] * kVertex + counts[1] * kTriangle) {
+    throw Error("cannot be read: angen_mesh gives no whole answer");
+  }
+  if (counts[1] == 0) throw Error("holds no triangle");
+  mesh.vertices.resize(counts[0]);
+  mesh.triangles.resize(counts[1]);
+  const char* at = answer.data() + kHead;
+  std::memcpy(static_cast<void*>(mesh.vertices.data()), at, counts[0] * kVertex);
+  std::memcpy(mesh.triangles.data(), at + counts[0] * kVertex, counts[1] * kTriangle);
+  for (const Eigen::Vector3f& vertex : mesh.vertices) {
+    if (!vertex.allFinite()) throw Error("has a vertex that is not finite");
+  }
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t corner : triangle) {
+      if (corner >= counts[0]) throw Error("has a triangle with a corner that is not there");
+    }
+  }
+  return mesh;
+}
+
+}  // namespace angen::load
