@@ -80,7 +80,7 @@ TEST_F(Allowed, NothingElseByDotsOrAFullPath) {
 
 TEST_F(Allowed, NothingByAModelAddress) {
   const SearchPaths paths{{home()}, {}};
-  for (const std::string& uri : {"model://a/../../secret/s.stl", "model://../secret/s.stl"}) {
+  for (const char* uri : {"model://a/../../secret/s.stl", "model://../secret/s.stl"}) {
     expect_refused(complaint("a", uri, paths), home() + "/a/model.sdf:2: mesh '" + uri);
   }
   expect_refused(complaint("a", "model://" + secret("s.stl"), paths), home() + "/a/model.sdf:2: ");
