@@ -1,4 +1,4 @@
-"""What a world's models may name: files and libraries of the paths, unless every path is allowed."""
+"""What a world may name: files and libraries of the paths, unless every path is allowed."""
 from pathlib import Path
 
 import pytest

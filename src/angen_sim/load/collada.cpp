@@ -2,6 +2,7 @@
 
 #include <tinyxml2.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <vector>
@@ -49,38 +50,47 @@ class Nodes {
     }
   }
 
-  // How many nodes and shapes `element`, a node or a scene, stands for.
-  std::size_t count(const XMLElement& element, int depth = 0) {
-    if (depth > kMaxDepth) {
-      refuse(element,
-             "nodes stand more than " + std::to_string(kMaxDepth) + " deep in one another");
-    }
-    const auto [known, fresh] = sizes_.insert({&element, 0});
+  struct Size {
+    std::size_t nodes = 0;  // and shapes; 0 while it is being counted
+    int depth = 0;
+  };
+
+  // What `element`, a node or a scene, stands for. `above` nodes stand around it.
+  Size measure(const XMLElement& element, int above = 0) {
+    const auto [known, fresh] = sizes_.insert({&element, {}});
     if (!fresh) {
-      if (known->second == 0)
-        refuse(element, "the node '" + value(element, "id") + "' instances itself");
-      return known->second;
+      if (known->second.nodes != 0) return known->second;
+      refuse(element, "the node '" + value(element, "id") + "' instances itself");
     }
-    std::size_t size = 1;
+    Size size{1, 1};
+    const auto add = [&](const XMLElement& part) {
+      if (above >= kMaxDepth) too_deep(part);
+      const Size more = measure(part, above + 1);
+      size = {size.nodes + more.nodes, std::max(size.depth, more.depth + 1)};
+    };
     for (auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement()) {
       const std::string name = child->Name();
       if (name == "node") {
-        size += count(*child, depth + 1);
+        add(*child);
       } else if (name == "instance_node") {
-        for (const XMLElement* instanced : named_by(*child)) size += count(*instanced, depth + 1);
+        for (const XMLElement* instanced : named_by(*child)) add(*instanced);
       } else if (name == "instance_geometry" || name == "instance_controller") {
-        ++size;
+        ++size.nodes;
       }
-      if (size > kMaxNodes) {
+      if (size.depth > kMaxDepth) too_deep(*child);
+      if (size.nodes > kMaxNodes) {
         refuse(*child,
                "its instances make more than " + std::to_string(kMaxNodes) + " nodes; simplify it");
       }
     }
-    sizes_[&element] = size;
-    return size;
+    return sizes_[&element] = size;
   }
 
  private:
+  [[noreturn]] static void too_deep(const XMLElement& at) {
+    refuse(at, "nodes stand more than " + std::to_string(kMaxDepth) + " deep in one another");
+  }
+
   using Index = std::multimap<std::string, const XMLElement*>;
 
   // As assimp resolves it: by id, otherwise by name.
@@ -96,12 +106,12 @@ class Nodes {
   std::size_t bytes_;
   Index by_id_;
   Index by_name_;
-  std::map<const XMLElement*, std::size_t> sizes_;  // 0 while it is being counted
+  std::map<const XMLElement*, Size> sizes_;
 };
 
 void count_all(const XMLElement& element, Nodes& nodes) {
   const std::string name = element.Name();
-  if (name == "node" || name == "visual_scene") nodes.count(element);
+  if (name == "node" || name == "visual_scene") nodes.measure(element);
   for (auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement()) {
     count_all(*child, nodes);
   }

@@ -3,6 +3,13 @@
 namespace angen::load {
 namespace {
 
+// A text has no folder: what lies in none of the paths is named by who trusts it.
+SearchPaths anywhere() {
+  SearchPaths paths;
+  paths.allow_any = true;
+  return paths;
+}
+
 std::vector<ModelState> states_of(const desc::World& world) {
   std::vector<ModelState> states;
   for (const desc::Model& model : world.models) {
@@ -145,7 +152,7 @@ TEST(Save, DeletedAndSpawnedModels) {
   const desc::Model by_path = model(file, "by_path", pose, {});
   const desc::Model by_text = model(sdf(kDoor, "1.4"), "by_text", pose, {});
   const desc::World second =
-      read(save(first, {{&by_path, pose, {}, {}}, {&by_text, pose, {}, {}}}));
+      read(save(first, {{&by_path, pose, {}, {}}, {&by_text, pose, {}, {}}}), anywhere());
   ASSERT_EQ(second.models.size(), 2U);
   expect_same(second.models[0], by_path);
   expect_same(second.models[1], by_text);
@@ -197,7 +204,7 @@ TEST(Save, RelativeFilesStayFoundElsewhere) {
       folder.write("a.world", in_link("<visual name='v'><geometry><mesh><uri>file://meshes/s.stl"
                                       "</uri></mesh></geometry></visual>"));
   const desc::World first = world(file);
-  const desc::World second = read(save(first, states_of(first)));
+  const desc::World second = read(save(first, states_of(first)), anywhere());
   expect_same(first, second);
 }
 
