@@ -11,11 +11,13 @@ from angen_tools.entry.run import absolute, with_world
 
 def test_the_rest_of_the_words_stays(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv('ANGEN_MODEL_PATH', '/mine')
+    monkeypatch.setenv('GAZEBO_RESOURCE_PATH', '')
     words = ['--screen', 'world:=/a/b.world', 'seed:=7', 'replay:=/a/bug.log', 'until:=3']
     for count in (2, 3):
         assert with_world(words, Path('/run/rescued.world'), count) == [
             '--screen', 'world:=/run/rescued.world', 'seed:=7']
     assert os.environ['ANGEN_MODEL_PATH'] == '/a/models:/mine'
+    assert os.environ['GAZEBO_RESOURCE_PATH'] == '/a'  # what lies beside the first may be named
 
 
 def test_no_log_is_written_over() -> None:

@@ -112,9 +112,11 @@ def with_world(words: list[str], world: Path, count: int) -> list[str]:
     the first are; it is recorded into a file of its own."""
     given = dict(word.split(':=', 1) for word in words if ':=' in word)
     if 'world' in given:
-        path = [str(Path(given['world']).parent / 'models'),
-                *filter(None, os.environ.get('ANGEN_MODEL_PATH', '').split(':'))]
-        os.environ['ANGEN_MODEL_PATH'] = ':'.join(dict.fromkeys(path))
+        folder = Path(given['world']).parent  # whose files it may go on to name
+        for variable, first in (('ANGEN_MODEL_PATH', folder / 'models'),
+                                ('GAZEBO_RESOURCE_PATH', folder)):
+            path = [str(first), *filter(None, os.environ.get(variable, '').split(':'))]
+            os.environ[variable] = ':'.join(dict.fromkeys(path))
     if given.get('record'):
         log = Path(given['record'])
         given['record'] = str(log.with_name(f'{log.stem}_{count}{log.suffix}'))
