@@ -112,6 +112,8 @@ struct JointAxis {
   double velocity = -1.0;  // rad/s or m/s, negative = no limit
   double damping = 0.0;    // N m s/rad or N s/m
   double friction = 0.0;   // N m or N
+  double spring_stiffness = 0.0;  // N m/rad or N/m
+  double spring_reference = 0.0;  // rad or m, where the spring is slack
   double initial_position = 0.0;
   std::optional<JointSafety> safety;
 };
@@ -147,6 +149,7 @@ struct Model {
   std::string expanded_xml;  // where xml holds includes: the same with them written out
   std::vector<Diagnostic>
       warnings;  // of a model that was loaded by itself; else the world has them
+  std::vector<Diagnostic> ignored;  // the same, as the world's
   Source source;
 };
 
@@ -176,6 +179,7 @@ struct World {
   std::vector<Model> models;
   std::vector<Plugin> plugins;
   std::vector<Diagnostic> warnings;
+  std::vector<Diagnostic> ignored;  // elements and attributes that nothing reads
   std::string xml;  // the world's own text without models, for `save`
 };
 

@@ -55,6 +55,8 @@ const std::map<Key, Rule>& rules() {
       {{"limit", "velocity"}, kOne},
       {{"dynamics", "damping"}, kNotNegative},
       {{"dynamics", "friction"}, kNotNegative},
+      {{"dynamics", "spring_stiffness"}, kNotNegative},
+      {{"dynamics", "spring_reference"}, kOne},
       {{"ode", "mu"}, kNotNegative},
       {{"ode", "mu2"}, kNotNegative},
       {{"ode", "fdir1"}, kThree},

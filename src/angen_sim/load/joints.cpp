@@ -68,6 +68,8 @@ desc::JointAxis axis_of(const Element& element, const sdf::JointAxis& from, bool
   axis.velocity = std::isfinite(from.MaxVelocity()) ? from.MaxVelocity() : -1.0;
   axis.damping = from.Damping();
   axis.friction = from.Friction();
+  axis.spring_stiffness = from.SpringStiffness();
+  axis.spring_reference = from.SpringReference();
   axis.initial_position = child_number(element, "initial_position", 0.0);
   axis.safety = safety_of(element, axis.lower, axis.upper);
   const bool endless = free || (axis.lower <= -kFree && axis.upper >= kFree);

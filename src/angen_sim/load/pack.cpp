@@ -129,8 +129,10 @@ void serialize(A& a, angen::desc::JointSafety& v) {
 
 template <class A>
 void serialize(A& a, angen::desc::JointAxis& v) {
-  auto& [xyz, lower, upper, effort, velocity, damping, friction, initial_position, safety] = v;
-  a(xyz, lower, upper, effort, velocity, damping, friction, initial_position, safety);
+  auto& [xyz, lower, upper, effort, velocity, damping, friction, spring_stiffness, spring_reference,
+         initial_position, safety] = v;
+  a(xyz, lower, upper, effort, velocity, damping, friction, spring_stiffness, spring_reference,
+    initial_position, safety);
 }
 
 template <class A>
@@ -148,9 +150,9 @@ void serialize(A& a, angen::desc::Plugin& v) {
 template <class A>
 void serialize(A& a, angen::desc::Model& v) {
   auto& [name, pose, is_static, allow_auto_disable, self_collide, links, joints, plugins, xml,
-         expanded_xml, warnings, source] = v;
+         expanded_xml, warnings, ignored, source] = v;
   a(name, pose, is_static, allow_auto_disable, self_collide, links, joints, plugins, xml,
-    expanded_xml, warnings, source);
+    expanded_xml, warnings, ignored, source);
 }
 
 template <class A>
@@ -170,8 +172,9 @@ void serialize(A& a, angen::desc::Scene& v) {
 template <class A>
 void serialize(A& a, angen::desc::World& v) {
   auto& [name, gravity, physics, scene, ambient_temperature, lights, models, plugins, warnings,
-         xml] = v;
-  a(name, gravity, physics, scene, ambient_temperature, lights, models, plugins, warnings, xml);
+         ignored, xml] = v;
+  a(name, gravity, physics, scene, ambient_temperature, lights, models, plugins, warnings, ignored,
+    xml);
 }
 
 }  // namespace cereal

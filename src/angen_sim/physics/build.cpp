@@ -224,6 +224,7 @@ class Builder {
       if (!body.dynamic() || body.mechanism != nullptr) return;
       body.mechanism = &mechanism;
       mechanism.bodies.push_back(&body);
+      mechanism.mass += body.mass;
     };
     take(start);
     for (std::size_t i = 0; i < mechanism.bodies.size(); ++i) {
@@ -255,10 +256,11 @@ class Builder {
         throw Error(joint.source, what + "has a lower limit above its upper one");
       }
       if (!std::isfinite(axis.initial_position) || !(axis.damping >= 0.0) ||
-          !(axis.friction >= 0.0)) {
+          !(axis.friction >= 0.0) || !(axis.spring_stiffness >= 0.0) ||
+          !std::isfinite(axis.spring_stiffness + axis.spring_reference)) {
         throw Error(joint.source, what +
-                                      "has a damping, friction or initial position that is "
-                                      "negative or no number");
+                                      "has a damping, friction, spring or initial position that "
+                                      "is negative or not a number");
       }
     }
     if (joint.type != Type::kUniversal) return;
@@ -276,6 +278,8 @@ class Builder {
     axis.velocity = from.velocity;
     axis.damping = from.damping;
     axis.friction = from.friction;
+    axis.stiffness = from.spring_stiffness;
+    axis.slack_at = from.spring_reference;
     axis.safety = from.safety;
     axis.initial = std::clamp(from.initial_position, axis.lower, axis.upper);
     return axis;

@@ -18,7 +18,10 @@ constexpr double kSoftest = 1e-8;       // least CFM of a contact: keeps redunda
 constexpr double kBounceSpeed = 0.05;   // m/s, nothing bounces below it
 constexpr double kStickMu = 1e6;        // from here on nothing slides
 constexpr std::size_t kManyJoints = 256;
-constexpr double kApart = 1e-9;  // m, centers that are less apart coincide
+constexpr double kStopSteps = 2.0;   // what friction stops within so many steps does not slide
+constexpr double kLeastSlip = 1e-6;  // m/s
+constexpr double kLeastLoad = 1e-6;  // N
+constexpr double kApart = 1e-9;      // m, centers that are less apart coincide
 
 bool joined(const Body& a, const Body& b) {
   const Body& moving = a.dynamic() ? a : b;
@@ -30,25 +33,36 @@ bool joined(const Body& a, const Body& b) {
 
 double usable_mu(double mu) { return mu >= kStickMu ? dInfinity : std::max(0.0, mu); }
 
-void set_friction(dContact& contact, const Geom& a, const Geom& b) {
-  dSurfaceParameters& s = contact.surface;
-  s.mode |= dContactApprox1;
-  s.mu = usable_mu(std::min(a.friction.mu, b.friction.mu));
-  s.mu2 = usable_mu(std::min(a.friction.mu2, b.friction.mu2));
-  if (s.mu2 != s.mu) s.mode |= dContactMu2;
-  s.slip1 = a.friction.slip1 + b.friction.slip1;
-  s.slip2 = a.friction.slip2 + b.friction.slip2;
-  if (s.slip1 > 0.0) s.mode |= dContactSlip1;
-  if (s.slip2 > 0.0) s.mode |= dContactSlip2;
+PairKey key_of(const Contacts::Pair& pair) { return {pair.first->serial, pair.second->serial}; }
+
+// The dynamic one first, and none for a static one.
+std::pair<const Mechanism*, const Mechanism*> mechanisms_of(const Contacts::Pair& pair) {
+  const Body& a = *pair.first->body;
+  const Body& b = *pair.second->body;
+  return a.dynamic() ? std::pair(a.mechanism, b.mechanism) : std::pair(b.mechanism, a.mechanism);
+}
+
+Vec3 across(const Vec3& normal, const Vec3& v) { return v - normal.dot(v) * normal; }
+
+Vec3 velocity_at(const Body& body, const Vec3& point) {
+  if (body.ode == nullptr) return Vec3::Zero();
+  return body.velocity() + body.spin().cross(point - body.at.position);
+}
+
+double inverse_mass(const Body& body) { return body.dynamic() ? 1.0 / body.mechanism->mass : 0.0; }
+
+void set_direction(dContact& contact, const Vec3& direction) {
+  contact.surface.mode |= dContactFDir1;
+  for (int i = 0; i < 3; ++i) contact.fdir1[i] = direction[i];
+}
+
+void keep_direction(dContact& contact, const Geom& a, const Geom& b) {
   const Geom& chooser = a.friction.direction1.isZero() ? b : a;
   if (chooser.friction.direction1.isZero()) return;
-  const Vec3 normal = ode::vec(contact.geom.normal);
-  Vec3 along = chooser.body->at.rotation * (chooser.in_body.rotation * chooser.friction.direction1);
-  along -= normal.dot(along) * normal;
-  if (along.norm() < 1e-6) return;
-  along.normalize();
-  s.mode |= dContactFDir1;
-  for (int i = 0; i < 3; ++i) contact.fdir1[i] = along[i];
+  const Vec3 given =
+      chooser.body->at.rotation * (chooser.in_body.rotation * chooser.friction.direction1);
+  const Vec3 along = across(ode::vec(contact.geom.normal), given);
+  if (along.norm() > 1e-6) set_direction(contact, along.normalized());
 }
 
 // ODE's cylinders have no normal (NaN) where a center lies on an axis or two stand exactly side by
@@ -86,15 +100,18 @@ bool may_touch(const Geom& a, const Geom& b) {
   return one.model->self_collide && !joined(one, two);
 }
 
-Contacts::Contacts(dWorldID world, const desc::Physics& settings)
+Contacts::Contacts(dWorldID world, const desc::Physics& settings, const Vec3& gravity)
     : world_(world),
       step_(to_seconds(settings.step)),
+      gravity_(gravity),
       erp_(settings.erp),
       cfm_(std::max(settings.cfm, kSoftest)),
       group_(dJointGroupCreate(0)) {}
 
 void Contacts::start() {
   for (const Pair& pair : pairs_) note_change(*pair.first, *pair.second);
+  pairs_before_.swap(pairs_);
+  points_before_.swap(points_);
   pairs_.clear();
   found_.clear();
   points_.clear();
@@ -115,13 +132,77 @@ bool Contacts::collide(Geom& a, Geom& b) {
 }
 
 void Contacts::make_joints() {
-  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
-    return PairKey(a.first->serial, a.second->serial) < PairKey(b.first->serial, b.second->serial);
-  });
+  std::sort(pairs_.begin(), pairs_.end(),
+            [](const Pair& a, const Pair& b) { return key_of(a) < key_of(b); });
   feedback_.assign(found_.size(), dJointFeedback{});
+  sum_loads();
   for (const Pair& pair : pairs_) {
     for (std::size_t i = 0; i < pair.count; ++i) make_joint(pair, pair.begin + i);
   }
+}
+
+void Contacts::set_friction(dContact& contact, const Pair& pair) const {
+  const Geom& a = *pair.first;
+  const Geom& b = *pair.second;
+  dSurfaceParameters& s = contact.surface;
+  s.mode |= dContactApprox1;
+  s.mu = usable_mu(std::min(a.friction.mu, b.friction.mu));
+  s.mu2 = usable_mu(std::min(a.friction.mu2, b.friction.mu2));
+  if (s.mu2 != s.mu) s.mode |= dContactMu2;
+  s.slip1 = a.friction.slip1 + b.friction.slip1;
+  s.slip2 = a.friction.slip2 + b.friction.slip2;
+  if (s.slip1 > 0.0) s.mode |= dContactSlip1;
+  if (s.slip2 > 0.0) s.mode |= dContactSlip2;
+  if (s.mu != s.mu2 || s.slip1 != s.slip2) {
+    keep_direction(contact, a, b);
+  } else if (s.mu > 0.0 && s.mu < dInfinity) {
+    align(contact, pair);
+  }
+}
+
+// ODE bounds the friction along two directions, each by itself: a pyramid. Coulomb's cone follows
+// from the choice of the first. What slides has friction against its slip and none across. What
+// does not, or may stop within a step, has the first direction along the force that would make it
+// slip: against the friction of the last step, and along the slip that is left. That force is one
+// for all points between two mechanisms, as what the points hold against each other is no load.
+void Contacts::align(dContact& contact, const Pair& pair) const {
+  const Body& a = *pair.first->body;
+  const Body& b = *pair.second->body;
+  const Vec3 normal = ode::vec(contact.geom.normal);
+  const Vec3 position = ode::vec(contact.geom.pos);
+  const Vec3 slip = across(normal, velocity_at(a, position) - velocity_at(b, position));
+  const double inverse = inverse_mass(a) + inverse_mass(b);
+  const auto found = loads_.find(mechanisms_of(pair));
+  Vec3 load = slip / (step_ * inverse);  // N, on the first body
+  if (found == loads_.end()) {
+    const double falls = (a.dynamic() ? 1.0 : 0.0) - (b.dynamic() ? 1.0 : 0.0);
+    load += falls / inverse * across(normal, gravity_);
+  } else {
+    const Load& last = found->second;
+    const double stopped = kStopSteps * contact.surface.mu * last.pressed * step_ * inverse;
+    if (slip.norm() > std::max(stopped, kLeastSlip)) {  // m/s
+      contact.surface.mode |= dContactMu2;
+      contact.surface.mu2 = 0.0;
+      return set_direction(contact, slip.normalized());
+    }
+    load -= (a.dynamic() ? 1.0 : -1.0) * across(normal, last.friction);
+  }
+  if (load.norm() > kLeastLoad) set_direction(contact, load.normalized());
+}
+
+void Contacts::sum_loads() {
+  loads_.clear();
+  for (const Pair& pair : pairs_before_) {
+    const double sign = pair.first->body->dynamic() ? 1.0 : -1.0;
+    Load& load = loads_[mechanisms_of(pair)];
+    for (std::size_t i = pair.begin; i < pair.begin + pair.count; ++i) {
+      const ContactPoint& point = points_before_[i];
+      const double pressed = point.normal.dot(point.force);
+      load.pressed += std::abs(pressed);
+      load.friction += sign * (point.force - pressed * point.normal);
+    }
+  }
+  pairs_before_.clear();
 }
 
 void Contacts::make_joint(const Pair& pair, std::size_t index) {
@@ -133,7 +214,7 @@ void Contacts::make_joint(const Pair& pair, std::size_t index) {
   s.mode = dContactSoftERP | dContactSoftCFM;
   s.soft_erp = erp_;
   s.soft_cfm = cfm_;
-  set_friction(contact, a, b);
+  set_friction(contact, pair);
   const double bounce = std::min(a.restitution, b.restitution);
   if (bounce > 0.0) {
     s.mode |= dContactBounce;

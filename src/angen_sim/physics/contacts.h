@@ -23,7 +23,7 @@ class Contacts {
     std::size_t count = 0;
   };
 
-  Contacts(dWorldID world, const desc::Physics& settings);
+  Contacts(dWorldID world, const desc::Physics& settings, const Vec3& gravity);
 
   /// Forgets the pairs of the last step.
   void start();
@@ -70,6 +70,12 @@ class Contacts {
   std::vector<ContactPair> of(const Geom& geom) const;
 
  private:
+  /// What the contacts between two mechanisms, or one and the static world, gave in the last step.
+  struct Load {
+    Vec3 friction = Vec3::Zero();  // N, on the first mechanism
+    double pressed = 0.0;          // N
+  };
+
   struct Resting {
     Geom* first = nullptr;
     Geom* second = nullptr;
@@ -82,11 +88,15 @@ class Contacts {
   }
   void drop_active(const ModelRecord& model);
   std::vector<ContactPoint> points_of(const Pair& pair) const;
+  void sum_loads();
   void make_joint(const Pair& pair, std::size_t index);
+  void set_friction(dContact& contact, const Pair& pair) const;
+  void align(dContact& contact, const Pair& pair) const;
   void read_forces(const Pair& pair);
 
   dWorldID world_;
   double step_;
+  Vec3 gravity_;
   double erp_;
   double cfm_;
   ode::JointGroupHandle group_;
@@ -94,6 +104,9 @@ class Contacts {
   std::vector<Pair> pairs_;
   std::vector<dContactGeom> found_;
   std::vector<ContactPoint> points_;
+  std::map<std::pair<const Mechanism*, const Mechanism*>, Load> loads_;
+  std::vector<Pair> pairs_before_;  // of the step before this one
+  std::vector<ContactPoint> points_before_;
   std::vector<dJointFeedback> feedback_;
   std::map<PairKey, Resting> resting_;
   std::set<PairKey> with_smaller_;  // the keys of resting_, turned

@@ -6,48 +6,30 @@ namespace angen::physics {
 
 namespace {
 
-// Shares of the force along and across the change of velocity that is requested (of one who stands:
-// along x and y); their squares add up to just under 1.
-constexpr double kAlong = 0.95;
-constexpr double kAcross = 0.31;
-constexpr double kStanding = 0.707;
-constexpr double kSameSpeed = 1e-3;  // m/s
-constexpr double kArm = 0.25;        // m; the turning torque is the force on this arm
+// Shares of the force along and across what is wanted of it, and along each axis where that is less
+// than kEasy: their squares add up to just under 1.
+constexpr double kAlong = 0.99;
+constexpr double kAcross = 0.14;
+constexpr double kEither = 0.707;
+constexpr double kEasy = 0.5;  // of the greatest force
+constexpr double kArm = 0.25;  // m; the turning torque is the force on this arm
 
 void make_motors(dWorldID world, Body& body) {
   Drive& drive = *body.drive;
   drive.linear.reset(dJointCreateLMotor(world, nullptr));
   dJointAttach(drive.linear.get(), body.ode.get(), nullptr);
   dJointSetLMotorNumAxes(drive.linear.get(), 2);
+  drive.feedback = {};
+  dJointSetFeedback(drive.linear.get(), &drive.feedback);
   drive.angular.reset(dJointCreateAMotor(world, nullptr));
   dJointAttach(drive.angular.get(), body.ode.get(), nullptr);
   dJointSetAMotorNumAxes(drive.angular.get(), 1);
   dJointSetAMotorAxis(drive.angular.get(), 0, 0, 0.0, 0.0, 1.0);
 }
 
-void apply(Drive& drive, const Vec3& velocity) {
-  const bool walks = !drive.velocity.isZero(0.0);
-  const Vec3 change(drive.velocity.x() - velocity.x(), drive.velocity.y() - velocity.y(), 0.0);
-  Vec3 along = Vec3::UnitX();
-  if (walks) along = change.norm() > kSameSpeed ? change.normalized() : drive.velocity.normalized();
-  const Vec3 across = Vec3::UnitZ().cross(along);
-  dJointID linear = drive.linear.get();
-  dJointSetLMotorAxis(linear, 0, 0, along.x(), along.y(), 0.0);
-  dJointSetLMotorAxis(linear, 1, 0, across.x(), across.y(), 0.0);
-  dJointSetLMotorParam(linear, dParamVel1, along.dot(drive.velocity));
-  dJointSetLMotorParam(linear, dParamVel2, across.dot(drive.velocity));
-  dJointSetLMotorParam(linear, dParamFMax1, (walks ? kAlong : kStanding) * drive.max_force);
-  dJointSetLMotorParam(linear, dParamFMax2, (walks ? kAcross : kStanding) * drive.max_force);
-  dJointSetAMotorParam(drive.angular.get(), dParamVel1, drive.yaw_rate);
-  dJointSetAMotorParam(drive.angular.get(), dParamFMax1, kArm * drive.max_force);
-}
-
 }  // namespace
 
-void make_drive(dWorldID world, Body& body) {
-  make_motors(world, body);
-  apply(*body.drive, body.velocity());
-}
+void make_drive(dWorldID world, Body& body) { make_motors(world, body); }
 
 bool set_drive(dWorldID world, Body& body, const Vec3& velocity, double yaw_rate,
                double max_force) {
@@ -68,8 +50,28 @@ bool set_drive(dWorldID world, Body& body, const Vec3& velocity, double yaw_rate
   drive.max_force = max_force;
   if (body.ode == nullptr) return true;
   if (drive.linear == nullptr) make_motors(world, body);
-  apply(drive, body.velocity());
   return true;
+}
+
+// The force wanted is what held the load in the last step, and what takes the speed that is missing
+// to its goal in this one.
+void aim_drive(const Body& body, double h) {
+  const Drive& drive = *body.drive;
+  const Vec3 wanted =
+      ode::vec(drive.feedback.f1) + body.mechanism->mass / h * (drive.velocity - body.velocity());
+  const Vec3 flat(wanted.x(), wanted.y(), 0.0);
+  const bool easy = flat.norm() < kEasy * drive.max_force;
+  const Vec3 along = easy ? Vec3::UnitX() : flat.normalized();
+  const Vec3 across = Vec3::UnitZ().cross(along);
+  dJointID linear = drive.linear.get();
+  dJointSetLMotorAxis(linear, 0, 0, along.x(), along.y(), 0.0);
+  dJointSetLMotorAxis(linear, 1, 0, across.x(), across.y(), 0.0);
+  dJointSetLMotorParam(linear, dParamVel1, along.dot(drive.velocity));
+  dJointSetLMotorParam(linear, dParamVel2, across.dot(drive.velocity));
+  dJointSetLMotorParam(linear, dParamFMax1, (easy ? kEither : kAlong) * drive.max_force);
+  dJointSetLMotorParam(linear, dParamFMax2, (easy ? kEither : kAcross) * drive.max_force);
+  dJointSetAMotorParam(drive.angular.get(), dParamVel1, drive.yaw_rate);
+  dJointSetAMotorParam(drive.angular.get(), dParamFMax1, kArm * drive.max_force);
 }
 
 void straighten(Body& body) {

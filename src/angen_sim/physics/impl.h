@@ -54,7 +54,7 @@ struct World::Impl {
   void collide();
   void collide_body(Body& body);
   void add_lift();
-  void bound_motors();
+  void set_up_joints();
   void integrate(std::int64_t tick);
   void read_bodies();
 };

@@ -12,6 +12,7 @@ using Type = desc::Joint::Type;
 // Stops give a fifth of what went past them back in each step: a door comes to rest at its stop.
 constexpr double kStopErp = 0.2;
 constexpr double kStopCfm = 1e-9;
+constexpr double kStiffest = 0.25;  // (rad/step)^2, of a spring that is taken explicitly
 
 dBodyID ode_of(const Body* body) { return body->ode.get(); }
 
@@ -39,11 +40,15 @@ void set_motor_param(const Joint& joint, int parameter, double value) {
   }
 }
 
-void set_stops(const Joint& joint, const Axis& axis, int group) {
-  set_param(joint, dParamLoStop + group, axis.lower);
-  set_param(joint, dParamHiStop + group, axis.upper);
+void set_range(const Joint& joint, double lower, double upper, int group) {
+  set_param(joint, dParamLoStop + group, lower);
+  set_param(joint, dParamHiStop + group, upper);
   // Once more: a stop beyond the other one's old value may have been refused.
-  set_param(joint, dParamLoStop + group, axis.lower);
+  set_param(joint, dParamLoStop + group, lower);
+}
+
+void set_stops(const Joint& joint, const Axis& axis, int group) {
+  set_range(joint, axis.lower, axis.upper, group);
   set_param(joint, dParamBounce + group, 0.0);
   set_param(joint, dParamStopERP + group, kStopErp);
   set_param(joint, dParamStopCFM + group, kStopCfm);
@@ -60,6 +65,20 @@ ode::JointHandle make_main(dWorldID world, Type type) {
     default:
       return ode::JointHandle(dJointCreateUniversal(world, nullptr));
   }
+}
+
+// What turns about the axis, or moves along it, with the least that hangs on it.
+double least_inertia(const Joint& joint, const Vec3& axis) {
+  const auto of_body = [&](const Body& body, bool pivots) {
+    if (joint.type == Type::kPrismatic) return body.mass;
+    const Vec3 turned = body.zero.rotation.conjugate() * axis;
+    const Vec3 arm = axis.cross(joint.anchor - body.zero.position);
+    return turned.dot(body.moment * turned) + (pivots ? body.mass * arm.squaredNorm() : 0.0);
+  };
+  if (!joint.second->dynamic()) return of_body(*joint.first, true);
+  const double one = of_body(*joint.first, false);
+  const double two = of_body(*joint.second, false);
+  return one * two / (one + two);
 }
 
 // A damper is a motor of speed 0 whose row gives way by 1/d: implicit, so stable for any d.
@@ -114,6 +133,22 @@ const Body& axis_body(const Joint& joint) {
 
 Vec3 world_axis(const Joint& joint) { return axis_body(joint).at.rotation * joint.axis_in_body; }
 
+void push_freely(const Joint& joint, double force) {
+  const Vec3 push = force * world_axis(joint);
+  dBodyID first = joint.first->ode.get();
+  dBodyID second = joint.second->ode.get();
+  if (joint.type == Type::kPrismatic) {
+    const Vec3& point = joint.first->at.position;
+    dBodyAddForce(first, push.x(), push.y(), push.z());
+    if (second != nullptr) {
+      dBodyAddForceAtPos(second, -push.x(), -push.y(), -push.z(), point.x(), point.y(), point.z());
+    }
+    return;
+  }
+  dBodyAddTorque(first, push.x(), push.y(), push.z());
+  if (second != nullptr) dBodyAddTorque(second, -push.x(), -push.y(), -push.z());
+}
+
 bool turns(const Joint& joint) {
   return joint.type == Type::kRevolute || joint.type == Type::kUniversal;
 }
@@ -124,6 +159,7 @@ void measure_joint(Joint& joint) {
   joint.anchor_in_first = joint.first->zero.inverse() * joint.anchor;
   if (joint.type == Type::kBall) return;
   joint.axis_in_body = axis_body(joint).zero.rotation.conjugate() * joint.axes[0].in_model;
+  joint.inertia = least_inertia(joint, joint.axes[0].in_model);
 }
 
 void create_joint(dWorldID world, Joint& joint) {
@@ -146,7 +182,7 @@ void create_joint(dWorldID world, Joint& joint) {
   dJointSetFeedback(joint.motor.get(), &joint.motor_feedback);
   set_stops(joint, joint.axes[0], 0);
   set_damping(joint);
-  apply_motor(joint);
+  apply_latch(joint);
 }
 
 void anchor_joint(const Joint& joint, const Pose& model) {
@@ -196,6 +232,9 @@ void reset_joint(Joint& joint) {
   } else {
     joint.position = dJointGetSliderPosition(joint.main.get());
   }
+  if (!joint.latched) return;
+  joint.latch_at = ode_position(joint);
+  apply_latch(joint);
 }
 
 Bounds velocity_bounds(const Joint& joint) {
@@ -224,10 +263,23 @@ void apply_motor(const Joint& joint) {
   const bool on = joint.motor_force > 0.0;
   const Bounds speeds = on ? velocity_bounds(joint) : Bounds{};
   const double velocity = std::clamp(on ? joint.motor_velocity : 0.0, speeds.low, speeds.high);
-  const double force = on ? joint.motor_force : joint.axes[0].friction;
+  double force = on ? joint.motor_force : joint.axes[0].friction;
+  if (joint.latched && std::isfinite(joint.latch_force)) force = joint.latch_force;
   const int group = joint.type == Type::kUniversal ? universal_group(joint, 0) : 0;
   set_motor_param(joint, dParamVel + group, velocity);
   set_motor_param(joint, dParamFMax + group, force);
+}
+
+// Two stops in one place hold against any force, a brake against a limited one.
+void apply_latch(const Joint& joint) {
+  const Axis& axis = joint.axes[0];
+  const bool stuck = joint.latched && !std::isfinite(joint.latch_force);
+  set_range(joint, stuck ? joint.latch_at : axis.lower, stuck ? joint.latch_at : axis.upper, 0);
+  apply_motor(joint);
+}
+
+double ode_position(const Joint& joint) {
+  return turns(joint) ? read_angle(joint) : dJointGetSliderPosition(joint.main.get());
 }
 
 void update_joint(Joint& joint) {
@@ -244,10 +296,10 @@ void update_joint(Joint& joint) {
     joint.position = angle + 2.0 * M_PI * joint.turns;
     const Vec3 arm = -(at.rotation * joint.anchor_in_first);
     const Vec3 torque = ode::vec(main.t1) + arm.cross(ode::vec(main.f1)) + ode::vec(motor.t1);
-    joint.effort = axis.dot(torque);
+    joint.effort = axis.dot(torque) + joint.spring_effort;
   } else {
     joint.position = dJointGetSliderPosition(joint.main.get());
-    joint.effort = axis.dot(ode::vec(main.f1) + ode::vec(motor.f1));
+    joint.effort = axis.dot(ode::vec(main.f1) + ode::vec(motor.f1)) + joint.spring_effort;
   }
 }
 
@@ -263,20 +315,23 @@ double joint_velocity(const Joint& joint) {
 
 void push_joint(Joint& joint, double force) {
   const Bounds efforts = effort_bounds(joint, joint_velocity(joint));
-  force = std::clamp(force, efforts.low, efforts.high);
-  const Vec3 push = force * world_axis(joint);
-  dBodyID first = joint.first->ode.get();
-  dBodyID second = joint.second->ode.get();
-  if (joint.type == Type::kPrismatic) {
-    const Vec3& point = joint.first->at.position;
-    dBodyAddForce(first, push.x(), push.y(), push.z());
-    if (second != nullptr) {
-      dBodyAddForceAtPos(second, -push.x(), -push.y(), -push.z(), point.x(), point.y(), point.z());
-    }
-    return;
-  }
-  dBodyAddTorque(first, push.x(), push.y(), push.z());
-  if (second != nullptr) dBodyAddTorque(second, -push.x(), -push.y(), -push.z());
+  push_freely(joint, std::clamp(force, efforts.low, efforts.high));
+}
+
+// At the position where the step starts: with the solver's semi-implicit steps that keeps the
+// energy, up to half a radian a step. What is stiffer is taken with the damper, implicitly: stable,
+// but it loses energy.
+void apply_spring(Joint& joint, double h) {
+  const Axis& axis = joint.axes[0];
+  const double away = joint.position - axis.slack_at;
+  const bool stiff = axis.stiffness * h * h > kStiffest * joint.inertia;
+  joint.spring_effort = stiff ? 0.0 : -axis.stiffness * away;
+  if (!stiff) return push_freely(joint, joint.spring_effort);
+  const double yields = 1.0 / (h * axis.stiffness + axis.damping);
+  const int group = dParamGroup2 - dParamGroup1;
+  set_motor_param(joint, dParamVel + group, -axis.stiffness * away * yields);
+  set_motor_param(joint, dParamFMax + group, dInfinity);
+  set_motor_param(joint, dParamCFM + group, yields);
 }
 
 Pose joint_displacement(const Joint& joint) {

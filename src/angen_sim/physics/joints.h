@@ -32,6 +32,15 @@ Bounds effort_bounds(const Joint& joint, double velocity);
 /// Sets motor, or dry friction where there is none, of a joint that ODE has.
 void apply_motor(const Joint& joint);
 
+/// Sets stops and motor of a latched joint that ODE has, or gives it its own again.
+void apply_latch(const Joint& joint);
+
+/// Where ODE measures the joint to be, rad in [-pi, pi] or m.
+double ode_position(const Joint& joint);
+
+/// Applies the spring of the first axis for a step of h seconds.
+void apply_spring(Joint& joint, double h);
+
 /// Reads position and effort after a step.
 void update_joint(Joint& joint);
 

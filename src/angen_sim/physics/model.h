@@ -68,6 +68,8 @@ struct Axis {
   double velocity = -1.0;
   double damping = 0.0;
   double friction = 0.0;
+  double stiffness = 0.0;  // of its spring
+  double slack_at = 0.0;   // where the spring is slack
   double initial = 0.0;
   std::optional<desc::JointSafety> safety;
 };
@@ -90,7 +92,12 @@ struct Joint {
   Vec3 anchor_in_first = Vec3::Zero();
   double motor_velocity = 0.0;
   double motor_force = 0.0;
-  double raw_angle = 0.0;  // in [-pi, pi]
+  bool latched = false;
+  double latch_force = 0.0;    // N m or N, infinite: nothing breaks it
+  double latch_at = 0.0;       // rad or m, as ODE measures it
+  double inertia = 0.0;        // least that moves about or along the first axis, kg m^2 or kg
+  double spring_effort = 0.0;  // in the last step, where no row of `motor` gave it
+  double raw_angle = 0.0;      // in [-pi, pi]
   int turns = 0;
   double position = 0.0;
   double effort = 0.0;
@@ -103,6 +110,7 @@ struct Drive {
   Vec3 velocity = Vec3::Zero();
   double yaw_rate = 0.0;
   double max_force = 0.0;
+  dJointFeedback feedback{};  // of `linear`, in the last step
 };
 
 /// Part of a body that gravity leaves alone.
@@ -115,6 +123,7 @@ struct Weightless {
 struct Mechanism {
   std::vector<Body*> bodies;   // by serial
   std::vector<Joint*> joints;  // also those to static bodies
+  double mass = 0.0;           // kg, of all its bodies
 };
 
 /// One or more links that are fixed to each other. Its frame has the axes of its first link and its

@@ -69,19 +69,21 @@ void World::Impl::add_lift() {
   }
 }
 
-// Bounds of speeds that depend on where a joint is follow it.
-void World::Impl::bound_motors() {
+// What depends on where bodies and joints are: springs, bounds of speeds, directions of drives.
+void World::Impl::set_up_joints() {
   for (Body* body : awake) {
-    for (const Joint* joint : body->joints) {
-      if (joint->first != body || joint->motor_force <= 0.0) continue;
-      if (joint->axes[0].safety) apply_motor(*joint);
+    if (body->drive) aim_drive(*body, h);
+    for (Joint* joint : body->joints) {
+      if (joint->first != body || joint->axes.empty()) continue;
+      if (joint->axes[0].stiffness > 0.0) apply_spring(*joint, h);
+      if (joint->motor_force > 0.0 && joint->axes[0].safety) apply_motor(*joint);
     }
   }
 }
 
 void World::Impl::integrate(std::int64_t tick) {
   add_lift();
-  bound_motors();
+  set_up_joints();
   if (!solve_step(world.get(), awake, h, seed, tick)) ++failed;
   contacts.finish();
 }

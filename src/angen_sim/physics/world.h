@@ -64,6 +64,12 @@ class World {
   /// it. Velocity 0 is a brake: bodies may fall asleep under it. Wakes bodies when it changes.
   void set_motor(JointId joint, double velocity, double max_force);
 
+  /// Holds a revolute or prismatic joint where it is, whatever its axis' limit of effort, against
+  /// less than `break_force` (N m or N; infinite: against anything), until unlatch(). Wakes bodies
+  /// when it changes.
+  void latch(JointId joint, double break_force);
+  void unlatch(JointId joint);
+
   /// Drives a link in the plane: horizontal velocity (m/s) and yaw rate (rad/s) held by a motor of
   /// at most max_force (N, in any direction); z stays free. max_force 0 frees it. Wakes when it
   /// changes.
