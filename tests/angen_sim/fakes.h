@@ -18,6 +18,7 @@ struct FakeJoint {
   double force = 0.0;  // what the device requested in this tick
   double motor_velocity = 0.0;
   double motor_force = 0.0;
+  double latch_force = 0.0;  // 0: not latched
 };
 
 struct FakeLink {
@@ -102,6 +103,9 @@ class FakeWorld : public View, public Wiring, public Outputs {
     }
     return found;
   }
+  void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override {
+    hits.assign(rays.size(), {});
+  }
   light::Sample illuminance(light::Probe& probe, const Pose& pose) const override {
     return light_at ? light_at(probe, pose) : light::Sample{};
   }
@@ -152,6 +156,10 @@ class FakeWorld : public View, public Wiring, public Outputs {
     joints.at(ref.index).second.motor_velocity = velocity;
     joints.at(ref.index).second.motor_force = max_force;
   }
+  void latch(JointRef ref, double break_force) override {
+    joints.at(ref.index).second.latch_force = break_force;
+  }
+  void unlatch(JointRef ref) override { joints.at(ref.index).second.latch_force = 0.0; }
   void drive(LinkRef ref, const Vec3& velocity, double yaw_rate, double max_force) override {
     FakeLink& link = links.at(ref.index).second;
     link.drive_velocity = velocity;

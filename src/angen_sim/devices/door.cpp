@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -22,6 +23,7 @@ constexpr double kNearError = 0.003;     // rad
 constexpr double kArriveSpeed = 0.02;    // rad/s
 constexpr double kMaxLag = 0.08;         // rad
 constexpr double kStallSpeed = 0.004;    // rad/s
+constexpr Nanoseconds kHandleTime = 3 * kSecond;
 
 constexpr PidGains kGains{70.0, 200.0, 25.0, 100.0, -100.0, 120.0, -120.0};
 constexpr PidUnits kUnits{"N m/rad", "N m/(rad s)", "N m s/rad", "N m"};
@@ -59,7 +61,10 @@ void Door::configure(Params& params, Wiring& wiring) {
       params.number("edge_force_max", 150.0, "N", "greatest force at the far edge", kPositive);
   brake_torque_ =
       params.number("brake_torque", 20.0, "N m", "brake of a door that stands open", kNotNegative);
-  latch_torque_ = params.number("latch_torque", 200.0, "N m", "brake of a shut door", kNotNegative);
+  latch_torque_ = params.number("latch_torque", std::numeric_limits<double>::infinity(), "N m",
+                                "that breaks the latch of a shut door open; inf: nothing does, "
+                                "0: it has no latch",
+                                kNotNegative);
   refresh_ = Refresh(params.number(
       "update_rate", 50.0, "Hz", "how often its state is published while it moves", kRefreshRate));
   params.choice("topicName", leaf_.topic, {leaf_.topic},
@@ -67,6 +72,7 @@ void Door::configure(Params& params, Wiring& wiring) {
   params.text("device_name", "", "the name commands use, instead of the model's and its floor");
   if (leaf_.any_joint) params.texts("joint", "", kJointDoc);
   wire(params, wiring);
+  warn_of_effort(params);
   // A leaf is a slab: its mass and its moment give its width, m w^2 / 3 = I.
   const double mass = wiring.mass(wiring.link(wiring.child_of(hinge_)));
   if (width_ == 0.0) width_ = std::sqrt(3.0 * limits_.inertia / mass);
@@ -82,6 +88,17 @@ void Door::configure(Params& params, Wiring& wiring) {
   servo.stall_speed = kStallSpeed;
   servo.integrate_standing = true;
   servo_ = Servo(servo);
+}
+
+void Door::warn_of_effort(Params& params) const {
+  for (const char* key : {"brake_torque", "cmd_max", "cmd_min"}) {
+    if (!params.has(key)) continue;
+    const double torque = std::abs(params.number(key, 0.0, "N m", ""));
+    if (torque <= limits_.effort) continue;
+    params.warn(key, std::string("<") + key + "> asks for " + number_text(torque) +
+                         " N m, but the <effort> of joint '" + joint_ + "' allows " +
+                         number_text(limits_.effort) + " N m, which holds");
+  }
 }
 
 // A hinge that ends before the usual angles opens as far as it does from where it is shut.
@@ -121,6 +138,12 @@ void Door::read_target(Params& params) {
 }
 
 Verdict Door::command(const Command& command, const View& view) {
+  if (command.verb == "Unlatch") {
+    return Verdict::accept([this, until = view.time() + kHandleTime] {
+      unlatches_ = true;
+      handle_until_ = until;
+    });
+  }
   double target = command.verb == "Open" ? open_position_ : closed_position_;
   if (command.verb == "Set") {
     target = command.number;
@@ -151,19 +174,16 @@ void Door::update(const View& view, Outputs& outputs) {
     started_ = true;
   }
   const bool renew = refresh_.due(view.time(), view.step());
+  if (std::exchange(unlatches_, false)) outputs.event("unlatched", "");
   if (resting_ && !leaving_) {
-    if (!renew) return;
-    const JointView hinge = view.joint(hinge_);
-    const Mode mode = mode_at_rest(hinge.position);
-    // Something moved it: the latch holds a shut door only.
-    if ((mode == Mode::kClosed) != (mode_ == Mode::kClosed)) rest(hinge, outputs);
-    show(mode, hinge, true, outputs);
+    stay(view, renew, outputs);
     return;
   }
   const JointView hinge = view.joint(hinge_);
   if (leaving_) {
     leaving_ = false;
     resting_ = false;
+    hold(false, outputs);
     outputs.motor(hinge_, 0.0, 0.0);
     servo_.start(hinge.position, hinge.velocity);
   }
@@ -180,17 +200,39 @@ void Door::update(const View& view, Outputs& outputs) {
 }
 
 Nanoseconds Door::idle_until(const View& view) const {
-  if (!resting_ || leaving_) return 0;
+  if (!resting_ || leaving_ || unlatches_) return 0;
   const JointView hinge = view.joint(hinge_);
+  // The latch must not miss a leaf that passes by.
+  if (!latched_ && latch_torque_ > 0.0 && hinge.velocity != 0.0) return 0;
   const bool up_to_date = hinge.position == shown_.position && hinge.velocity == shown_.velocity &&
                           mode_at_rest(hinge.position) == mode_;
-  return up_to_date ? kForever : refresh_.next(view.time());
+  const Nanoseconds next = up_to_date ? kForever : refresh_.next(view.time());
+  return view.time() < handle_until_ ? std::min(next, handle_until_) : next;
+}
+
+// Something may move it: the latch catches it where it is shut, and lets go where it has broken.
+void Door::stay(const View& view, bool renew, Outputs& outputs) {
+  const JointView hinge = view.joint(hinge_);
+  const Mode mode = mode_at_rest(hinge.position);
+  hold(mode == Mode::kClosed && view.time() >= handle_until_, outputs);
+  if (renew) show(mode, hinge, true, outputs);
 }
 
 void Door::rest(const JointView& hinge, Outputs& outputs) {
-  const bool shut = mode_at_rest(hinge.position) == Mode::kClosed;
-  outputs.motor(hinge_, 0.0, shut ? latch_torque_ : brake_torque_);
+  outputs.motor(hinge_, 0.0, brake_torque_);
+  hold(mode_at_rest(hinge.position) == Mode::kClosed, outputs);
   resting_ = true;
+}
+
+void Door::hold(bool shut, Outputs& outputs) {
+  const bool latches = shut && latch_torque_ > 0.0;
+  if (latches == latched_) return;
+  latched_ = latches;
+  if (latches) {
+    outputs.latch(hinge_, latch_torque_);
+  } else {
+    outputs.unlatch(hinge_);
+  }
 }
 
 Door::Mode Door::mode_at_rest(double position) const {
@@ -245,6 +287,7 @@ LeafPlugin::LeafPlugin(const LeafKind& leaf)
       .commanded_on(leaf.topic)
       .verb("Open", "goes to its open_position")
       .verb("Close", "goes to its closed_position")
+      .verb("Unlatch", "turns its handle: for 3 s its latch does not hold")
       .verb("Set", "radians", "rad", {}, "goes to this angle of its hinge")
       .choice("mode", {std::begin(kModeNames), std::end(kModeNames)},
               "AJAR: at rest between shut and open; BLOCKED: commanded, but something holds it")

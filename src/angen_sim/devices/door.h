@@ -23,7 +23,8 @@ struct LeafKind {
   std::vector<const char*> models;  // of worlds/models; the first is the default
 };
 
-/// A leaf on a revolute joint: a PID drives it, a brake holds it, a latch when it is shut.
+/// A leaf on a revolute joint: a PID drives it, a brake holds it, and a latch where it is shut,
+/// until it is commanded, its handle is turned, or something breaks it open.
 class Door : public Device {
  public:
   Door(const LeafKind& leaf, std::string joint) : leaf_(leaf), joint_(std::move(joint)) {}
@@ -40,7 +41,10 @@ class Door : public Device {
   void wire(Params& params, Wiring& wiring);
   void read_target(Params& params);
   void go(double target, double position);
+  void warn_of_effort(Params& params) const;
   void rest(const JointView& hinge, Outputs& outputs);
+  void hold(bool shut, Outputs& outputs);
+  void stay(const View& view, bool renew, Outputs& outputs);
   Mode mode_at_rest(double position) const;
   double free_width(double position) const;
   void show(Mode mode, const JointView& hinge, bool renew, Outputs& outputs);
@@ -63,6 +67,9 @@ class Door : public Device {
   bool resting_ = true;
   bool leaving_ = false;  // a command came: the brake is to be let go
   bool opening_ = false;
+  bool latched_ = false;
+  bool unlatches_ = false;              // its handle was turned since the last update
+  Nanoseconds handle_until_ = 0;        // the time until which its handle is turned
   std::optional<double> first_target_;  // rad, where it goes at the start
   double target_ = 0.0;
   Mode mode_ = Mode::kClosed;

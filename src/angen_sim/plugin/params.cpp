@@ -200,6 +200,11 @@ Error Params::error(const std::string& path, const std::string& message) const {
   return Error(found.empty() ? plugin_.source : found[0]->source, message);
 }
 
+void Params::warn(const std::string& path, const std::string& message) {
+  warnings_.push_back(
+      {Diagnostic::Severity::kWarning, error(path, "").diagnostics().front().source, message});
+}
+
 void Params::finish() const { finish(plugin_, ""); }
 
 void Params::finish(const Element& parent, const std::string& prefix) const {

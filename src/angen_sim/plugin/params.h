@@ -62,6 +62,10 @@ class Params {
   /// An Error at the place of `path`, or of the plug-in when it is not given there.
   Error error(const std::string& path, const std::string& message) const;
 
+  /// Adds a warning at the place of `path`: what is given there has less effect than it says.
+  void warn(const std::string& path, const std::string& message);
+  const std::vector<Diagnostic>& warnings() const { return warnings_; }
+
   /// Throws for the first key of the plug-in that was not read, naming the known ones. Keys that
   /// any of Gazebo's plug-ins may carry (topicName, alwaysOn, …) are always known.
   void finish() const;
@@ -81,6 +85,7 @@ class Params {
   std::set<std::string> read_;
   std::vector<ParamDoc> docs_;
   std::vector<Noise> noise_;
+  std::vector<Diagnostic> warnings_;
 };
 
 }  // namespace angen

@@ -50,6 +50,7 @@ struct JointLimits {
   double damping = 0.0;   // N m s/rad or N s/m
   double friction = 0.0;  // N m or N
   double inertia = 0.0;   // kg m^2 about the axis, or kg: of the child and what is fixed to it
+  double effort = std::numeric_limits<double>::infinity();  // N m or N, most that a motor gives
 };
 
 /// Another device as everybody sees it: where it is, and its last state.
@@ -81,6 +82,8 @@ class View {
     const Vec3 far = Vec3::Constant(std::numeric_limits<double>::infinity());
     return devices(field, {-far, far});
   }
+  /// Nearest hits: hits[i] answers rays[i].
+  virtual void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const = 0;
   virtual light::Sample illuminance(light::Probe& probe, const Pose& pose) const = 0;
   virtual double ambient_temperature() const = 0;  // K
   /// What is warmer or colder than the air, and where.
@@ -122,6 +125,10 @@ class Outputs {
   virtual void force(JointRef joint, double force) = 0;
   /// Velocity motor with a force limit, until changed. Velocity 0 is a brake; max_force 0 frees.
   virtual void motor(JointRef joint, double velocity, double max_force) = 0;
+  /// Holds a joint where it is against less than `break_force` (N m or N, may be infinite), until
+  /// unlatch().
+  virtual void latch(JointRef joint, double break_force) = 0;
+  virtual void unlatch(JointRef joint) = 0;
   /// Horizontal velocity (m/s) and yaw rate (rad/s) by a motor of at most max_force (N).
   virtual void drive(LinkRef link, const Vec3& velocity, double yaw_rate, double max_force) = 0;
   /// A force (N) at a point (world, m) and a torque (N m) on a link, for this tick only. Wakes a

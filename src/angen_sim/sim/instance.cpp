@@ -68,11 +68,13 @@ bool has_own(const desc::Model& model, const std::string& filename, std::size_t 
 /// Makes the devices of a model.
 class DeviceMaker {
  public:
-  DeviceMaker(LiveModel& live, const Vec3& gravity, Catalog& catalog)
+  DeviceMaker(LiveModel& live, const Vec3& gravity, Catalog& catalog,
+              std::vector<std::string>& warnings)
       : live_(live),
         model_(*live.desc),
         gravity_(gravity),
         catalog_(catalog),
+        warnings_(warnings),
         info_(info_of(*live.desc)) {}
 
   void make_all(const std::vector<desc::Plugin>& world_plugins) {
@@ -89,7 +91,7 @@ class DeviceMaker {
   }
 
   // A door that nobody has given its plug-in would swing freely, and no command would reach it.
-  void warn_of_idle_joints(std::vector<std::string>& warnings) const {
+  void warn_of_idle_joints() {
     for (const ModelInfo::Joint& joint : info_.joints) {
       if (!joint.on_world || driven_.count(joint.name) != 0) continue;
       if (!joint.vertical() || joint.upper - joint.lower > 2e15) continue;
@@ -102,13 +104,18 @@ class DeviceMaker {
                                  model_.name + "'; for " + kind + " add <plugin name=\"" + kind +
                                  "\" filename=\"" + catalog_.library_of(*plugin) +
                                  "\"/> to the model or the world";
-        warnings.push_back(
-            Diagnostic{Diagnostic::Severity::kWarning, described->source, text}.text());
+        warn(Diagnostic{Diagnostic::Severity::kWarning, described->source, text}.text());
       }
     }
   }
 
  private:
+  // Once where several leaves read one plug-in.
+  void warn(const std::string& text) {
+    if (std::find(warnings_.begin(), warnings_.end(), text) != warnings_.end()) return;
+    warnings_.push_back(text);
+  }
+
   // Whether there was anything that serves the model. `own`: it is the model's, not the world's.
   bool make_of(const desc::Plugin& described, bool own) {
     bool served = false;
@@ -165,6 +172,7 @@ class DeviceMaker {
       ModelWiring wiring(model_, instance.name, gravity_);
       instance.device->configure(params, wiring);
       params.finish();
+      for (const Diagnostic& warning : params.warnings()) warn(warning.text());
       instance.element = described.element;
       instance.device->save(instance.started_with);
       driven_.insert(wiring.joints().begin(), wiring.joints().end());
@@ -204,6 +212,7 @@ class DeviceMaker {
   const desc::Model& model_;
   const Vec3& gravity_;
   Catalog& catalog_;
+  std::vector<std::string>& warnings_;
   ModelInfo info_;
   std::set<std::string> driven_;  // joints that a device has
 };
@@ -336,9 +345,9 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
 
 void make_instances(LiveModel& live, const std::vector<desc::Plugin>& world_plugins,
                     const Vec3& gravity, Catalog& catalog, std::vector<std::string>& warnings) {
-  DeviceMaker maker(live, gravity, catalog);
+  DeviceMaker maker(live, gravity, catalog, warnings);
   maker.make_all(world_plugins);
-  maker.warn_of_idle_joints(warnings);
+  maker.warn_of_idle_joints();
   const desc::Model& model = *live.desc;
   const bool alone = sensor_count(model) == 1;
   for (std::uint32_t i = 0; i < model.links.size(); ++i) {

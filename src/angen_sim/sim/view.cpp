@@ -50,6 +50,12 @@ std::vector<DeviceView> InstanceView::devices(const std::string& field,
   return found;
 }
 
+void InstanceView::cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const {
+  queried_.other = true;
+  engines_.rays.commit();
+  engines_.rays.cast(rays, hits);
+}
+
 light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) const {
   queried_.other = queried_.other || queried_.light;  // only one place's light is watched
   queried_.light = true;
@@ -105,6 +111,14 @@ void InstanceOutputs::force(JointRef joint, double force) {
 
 void InstanceOutputs::motor(JointRef joint, double velocity, double max_force) {
   engines_.physics.set_motor(live_.parts.joints.at(at(joint)), velocity, max_force);
+}
+
+void InstanceOutputs::latch(JointRef joint, double break_force) {
+  engines_.physics.latch(live_.parts.joints.at(at(joint)), break_force);
+}
+
+void InstanceOutputs::unlatch(JointRef joint) {
+  engines_.physics.unlatch(live_.parts.joints.at(at(joint)));
 }
 
 void InstanceOutputs::drive(LinkRef link, const Vec3& velocity, double yaw_rate, double max_force) {

@@ -33,6 +33,7 @@ class InstanceView : public View {
   using View::devices;
   std::vector<DeviceView> devices(const std::string& field,
                                   const Eigen::AlignedBox3d& within) const override;
+  void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override;
   light::Sample illuminance(light::Probe& probe, const Pose& pose) const override;
   double ambient_temperature() const override { return engines_.ambient_temperature; }
   const std::vector<rays::WarmShape>& warm_shapes() const override;
@@ -62,6 +63,8 @@ class InstanceOutputs : public Outputs {
 
   void force(JointRef joint, double force) override;
   void motor(JointRef joint, double velocity, double max_force) override;
+  void latch(JointRef joint, double break_force) override;
+  void unlatch(JointRef joint) override;
   void drive(LinkRef link, const Vec3& velocity, double yaw_rate, double max_force) override;
   void push(LinkRef link, const Vec3& force, const Vec3& torque, const Vec3& point) override;
   void light(LightRef light, double level, double luminous_flux) override;

@@ -1,5 +1,6 @@
 #include "sim/wiring.h"
 
+#include <limits>
 #include <utility>
 
 namespace angen::sim {
@@ -85,7 +86,8 @@ JointLimits ModelWiring::limits(JointRef joint) const {
   const desc::Joint& described = model_.joints.at(static_cast<std::size_t>(joint.index));
   if (described.axes.empty()) return {};
   const desc::JointAxis& axis = described.axes.front();
-  return {axis.lower, axis.upper, axis.damping, axis.friction, inertia(model_, described)};
+  const double effort = axis.effort >= 0.0 ? axis.effort : std::numeric_limits<double>::infinity();
+  return {axis.lower, axis.upper, axis.damping, axis.friction, inertia(model_, described), effort};
 }
 
 LinkRef ModelWiring::link(const std::string& link) {

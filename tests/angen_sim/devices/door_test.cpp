@@ -254,6 +254,131 @@ TEST(Door, TheLatchHoldsAgainstAPushThatTheBrakeWouldNot) {
   EXPECT_EQ(door.mode(), "CLOSED");
 }
 
+/// Somebody of 70 kg who walks towards -y, against a leaf that opens that way.
+void walk_against(Bench& bench, double speed, double seconds) {
+  const physics::ModelId id = bench.add(person({0.6, 1.0, 0.001}));
+  const physics::LinkId body = bench.world.links(id)[0];
+  bench.run(seconds, [&] { bench.world.drive(body, {0, -speed, 0}, 0.0, 150.0); });
+  bench.world.drive(body, Vec3::Zero(), 0.0, 150.0);
+}
+
+TEST(Door, TheLatchHoldsWhoeverWalksAgainstIt) {
+  for (const double speed : {0.2, 0.7, 2.0}) {
+    Bench bench;
+    bench.add(ground());
+    Rig& door = add_door(bench);
+    bench.run(0.2);
+    double most = 0.0;
+    const physics::ModelId id = bench.add(person({0.6, 1.0, 0.001}));
+    const physics::LinkId body = bench.world.links(id)[0];
+    bench.run(1.0 / speed + 3.0, [&] {
+      bench.world.drive(body, {0, -speed, 0}, 0.0, 150.0);
+      most = std::max(most, std::abs(angle(door)));
+    });
+    printf("a person at %.1f m/s moves a latched leaf by %.2e rad\n", speed, most);
+    EXPECT_LT(most, 1e-3) << speed;
+    EXPECT_GT(bench.world.link(body).pose.position.y(), 0.0) << speed;
+    EXPECT_EQ(door.mode(), "CLOSED");
+  }
+}
+
+TEST(Door, TheLatchHoldsAThrownCrate) {
+  Bench bench;
+  Rig& door = add_door(bench);
+  bench.run(0.2);
+  desc::Model crate = box("crate", {0.8, 1.0, 1.0}, {0.3, 0.3, 0.3}, 20.0);
+  crate.links[0].gravity = false;
+  const physics::ModelId id = bench.add(crate);
+  const physics::LinkId body = bench.world.links(id)[0];
+  bench.world.push(body, {0, -20.0 * 8.0 / 1e-3, 0}, Vec3::Zero(), {0.8, 1.0, 1.0});
+  double most = 0.0;
+  bench.run(2.0, [&] { most = std::max(most, std::abs(angle(door))); });
+  printf("a crate of 20 kg at 8 m/s moves a latched leaf by %.2e rad\n", most);
+  EXPECT_LT(most, 1e-3);
+}
+
+TEST(Door, AHandOnItsHandleLetsItBePushedOpen) {
+  Bench bench;
+  bench.add(ground());
+  Rig& door = add_door(bench);
+  bench.run(0.2);
+  ASSERT_TRUE(door.command("Unlatch").accepted);
+  walk_against(bench, 0.7, 3.0);
+  EXPECT_TRUE(has_event(door, "unlatched"));
+  EXPECT_LT(angle(door), -0.5);
+  EXPECT_EQ(door.mode(), "AJAR");
+}
+
+TEST(Door, AHandleThatIsLetGoLatchesAgain) {
+  Bench bench;
+  bench.add(ground());
+  Rig& door = add_door(bench);
+  bench.run(0.2);
+  ASSERT_TRUE(door.command("Unlatch").accepted);
+  bench.run(3.1);
+  walk_against(bench, 0.7, 3.0);
+  EXPECT_NEAR(angle(door), 0.0, 1e-3);
+}
+
+TEST(Door, LatchesWhereItIsThrownShut) {
+  Bench bench;
+  DoorMeasures measures;
+  measures.angle = -1.0;
+  Rig& door = add_door(bench, measures);
+  bench.run(0.2);
+  ASSERT_EQ(door.mode(), "AJAR");
+  const physics::JointId hinge = bench.world.joints(door.id())[1];
+  bench.run(0.25, [&] { bench.world.add_force(hinge, 100.0); });
+  EXPECT_GT(door.at("hinge").velocity, 1.0);
+  bench.run_until(2.0, [&] { return angle(door) > -0.01; });
+  double most = 0.0;
+  bench.run(2.0, [&] {
+    bench.world.add_force(hinge, -100.0);
+    most = std::max(most, -angle(door));
+  });
+  EXPECT_LT(most, 0.011);
+  EXPECT_EQ(door.mode(), "CLOSED");
+  ASSERT_TRUE(door.command("Open").accepted);
+  bench.run(4.0);
+  EXPECT_EQ(door.mode(), "OPEN");
+}
+
+TEST(Door, ALatchThatCanBreakDoesSoAtItsTorque) {
+  for (const double torque : {45.0, 55.0}) {
+    Bench bench;
+    Rig& door = add_door(bench, {}, {{"latch_torque", "50"}});
+    bench.run(0.2);
+    const physics::JointId hinge = bench.world.joints(door.id())[1];
+    bench.run(2.0, [&] { bench.world.add_force(hinge, -torque); });
+    EXPECT_EQ(door.mode() == "CLOSED", torque < 50.0);
+    EXPECT_EQ(angle(door) < -0.1, torque > 50.0);
+  }
+}
+
+TEST(Door, WithoutALatchItsBrakeHoldsIt) {
+  Bench bench;
+  Rig& door = add_door(bench, {}, {{"latch_torque", "0"}});
+  bench.run(0.2);
+  const physics::JointId hinge = bench.world.joints(door.id())[1];
+  bench.run(1.0, [&] { bench.world.add_force(hinge, -15.0); });
+  EXPECT_EQ(door.mode(), "CLOSED");
+  bench.run(1.0, [&] { bench.world.add_force(hinge, -40.0); });
+  EXPECT_LT(angle(door), -0.1);
+}
+
+TEST(Door, WarnsOfWhatItsJointsEffortCaps) {
+  Bench bench;
+  desc::Model model = door();
+  model.joints[1].axes[0].effort = 50.0;
+  Rig& capped = bench.add(model, "libdoor_world_plugin.so", "door", {{"brake_torque", "80"}});
+  ASSERT_EQ(capped.warnings.size(), 1U);
+  EXPECT_NE(capped.warnings[0].message.find("80"), std::string::npos);
+  EXPECT_NE(capped.warnings[0].message.find("50"), std::string::npos);
+  model.name = "other";
+  EXPECT_TRUE(bench.add(model, "libdoor_world_plugin.so", "door", {{"brake_torque", "50"}})
+                  .warnings.empty());
+}
+
 TEST(Door, RefusesWhatItDoesNotKnowAndStaysAsItIs) {
   Bench bench;
   Rig& door = add_door(bench);

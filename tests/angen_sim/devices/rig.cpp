@@ -1,5 +1,6 @@
 #include "angen_sim/devices/rig.h"
 
+#include <limits>
 #include <stdexcept>
 
 #include "angen_sim/fakes.h"
@@ -9,6 +10,35 @@ namespace angen::test {
 Bench::Bench(const desc::Physics& settings) : settings_(settings), world(settings, gravity_, 1) {}
 
 Bench::~Bench() = default;
+
+physics::ModelId Bench::add(const desc::Model& model) {
+  const physics::ModelId id = world.add(model);
+  show(model, id);
+  return id;
+}
+
+void Bench::show(const desc::Model& model, physics::ModelId id) {
+  for (std::size_t i = 0; i < model.links.size(); ++i) {
+    for (const desc::Collision& c : model.links[i].collisions) {
+      shown_.push_back({world.links(id)[i], c.pose,
+                        rays_.add(c.shape, c.pose, rays::Mobility::kMoving, {0.5F, 0.5F, 0.5F})});
+    }
+  }
+}
+
+void Bench::cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) {
+  for (auto shape = shown_.begin(); shape != shown_.end();) {
+    try {
+      rays_.move(shape->shape, world.link(shape->link).pose * shape->in_link);
+      ++shape;
+    } catch (const std::out_of_range&) {  // its model was removed
+      rays_.remove(shape->shape);
+      shape = shown_.erase(shape);
+    }
+  }
+  rays_.commit();
+  rays_.cast(rays, hits);
+}
 
 Rig& Bench::add(const desc::Model& model, const std::string& library, const std::string& kind,
                 const Parameters& parameters) {
@@ -60,11 +90,13 @@ Vec3 Bench::contact_force(const std::string& one, const std::string& other) cons
 Rig::Rig(Bench& bench, desc::Model model, std::shared_ptr<const Plugin> plugin,
          const Parameters& parameters)
     : bench_(bench), model_(std::move(model)), model_id_(bench.world.add(model_)) {
+  bench_.show(model_, model_id_);
   plugin_ = std::move(plugin);
   device_ = plugin_->make_device();
   Params params(plugin_element(parameters));
   device_->configure(params, *this);
   params.finish();
+  warnings = params.warnings();
 }
 
 Reading Rig::state() const {
@@ -138,7 +170,8 @@ JointLimits Rig::limits(JointRef joint) const {
     inertia = turned.dot(child.inertial.moment * turned) +
               inertia * axis.xyz.cross(center.position - described.anchor).squaredNorm();
   }
-  return {axis.lower, axis.upper, axis.damping, axis.friction, inertia};
+  const double effort = axis.effort >= 0.0 ? axis.effort : std::numeric_limits<double>::infinity();
+  return {axis.lower, axis.upper, axis.damping, axis.friction, inertia, effort};
 }
 
 LinkRef Rig::link(const std::string& link) { return {link_index(link)}; }
@@ -164,6 +197,20 @@ void Rig::force(JointRef joint, double force) {
 void Rig::motor(JointRef joint, double velocity, double max_force) {
   ++calls;
   bench_.world.set_motor(id_of(joint), velocity, max_force);
+}
+
+void Rig::cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const {
+  bench_.cast(rays, hits);
+}
+
+void Rig::latch(JointRef joint, double break_force) {
+  ++calls;
+  bench_.world.latch(id_of(joint), break_force);
+}
+
+void Rig::unlatch(JointRef joint) {
+  ++calls;
+  bench_.world.unlatch(id_of(joint));
 }
 
 void Rig::push(LinkRef link, const Vec3& force, const Vec3& torque, const Vec3& point) {

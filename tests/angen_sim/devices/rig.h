@@ -23,10 +23,14 @@ class Bench {
   ~Bench();
 
   /// A model without a device.
-  physics::ModelId add(const desc::Model& model) { return world.add(model); }
+  physics::ModelId add(const desc::Model& model);
   /// A model and the device of `kind` out of `library`.
   Rig& add(const desc::Model& model, const std::string& library, const std::string& kind,
            const Parameters& parameters = {});
+
+  /// Makes rays meet a model.
+  void show(const desc::Model& model, physics::ModelId id);
+  void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits);
 
   void tick();
   /// Ticks for so many seconds; `each` is called after every tick.
@@ -50,6 +54,13 @@ class Bench {
   physics::World world;
 
  private:
+  struct Shown {
+    physics::LinkId link;
+    Pose in_link;
+    rays::ShapeId shape;
+  };
+  rays::Scene rays_;
+  std::vector<Shown> shown_;
   Catalog catalog_;
   std::vector<std::unique_ptr<Rig>> rigs_;
 };
@@ -70,6 +81,7 @@ class Rig : public View, public Wiring, public Outputs {
   physics::ModelId id() const { return model_id_; }
 
   std::vector<std::string> events;
+  std::vector<Diagnostic> warnings;  // of its parameters
   int forces = 0;  // how often the device has added a force that is not 0
   int calls = 0;   // how often it has done anything to the world
 
@@ -83,6 +95,7 @@ class Rig : public View, public Wiring, public Outputs {
   std::vector<DeviceView> devices(const std::string&, const Eigen::AlignedBox3d&) const override {
     return {};
   }
+  void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override;
   light::Sample illuminance(light::Probe&, const Pose&) const override { return {}; }
   double ambient_temperature() const override { return 295.15; }
   const std::vector<rays::WarmShape>& warm_shapes() const override { return warm_; }
@@ -109,6 +122,8 @@ class Rig : public View, public Wiring, public Outputs {
   // Outputs
   void force(JointRef joint, double force) override;
   void motor(JointRef joint, double velocity, double max_force) override;
+  void latch(JointRef joint, double break_force) override;
+  void unlatch(JointRef joint) override;
   void drive(LinkRef link, const Vec3& velocity, double yaw_rate, double max_force) override;
   void push(LinkRef link, const Vec3& force, const Vec3& torque, const Vec3& point) override;
   void light(LightRef, double, double) override {}

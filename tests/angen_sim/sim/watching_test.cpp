@@ -27,6 +27,9 @@ class Forgetful : public View {
                                   const Eigen::AlignedBox3d& within) const override {
     return view_.devices(field, within);
   }
+  void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override {
+    view_.cast(rays, hits);
+  }
   light::Sample illuminance(light::Probe&, const Pose& pose) const override {
     light::Probe fresh;
     return view_.illuminance(fresh, pose);
