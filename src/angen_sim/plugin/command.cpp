@@ -97,7 +97,11 @@ bool takes_values(const Kind& kind, const std::vector<std::string>& words, Comma
 std::string forms_of(const Kind& kind) {
   std::vector<std::string> forms;
   for (const Verb& verb : kind.verbs) {
-    const std::string number = verb.argument.empty() ? "" : "<" + described(verb) + ">";
+    std::string number = verb.argument.empty() ? "" : "<" + described(verb) + ">";
+    for (std::size_t at = 0; verb.count > 1 && (at = number.find(' ', at)) != std::string::npos;) {
+      number.replace(at, 1, "> <");
+      at += 3;
+    }
     forms.push_back(verb.name + (number.empty() || verb.whole ? "" : " ") + number);
   }
   std::string values;
@@ -117,17 +121,19 @@ std::string parse_command(const Kind& kind, Command& command) {
   if (words.empty()) return "no verb; " + right;
   const Verb* verb = find_verb(kind, words);
   if (verb == nullptr) return "unknown verb '" + words[0] + "'; " + right;
-  const std::size_t wanted = verb->argument.empty() ? 1 : 2;
+  const std::size_t wanted = verb->argument.empty() ? 1 : 1 + verb->count;
   if (words.size() > wanted) return "too many words after " + verb->name + "; " + right;
   if (words.size() < wanted) return verb->name + " without " + verb->argument + "; " + right;
-  if (wanted == 2) {
-    if (!parse_number(words[1], verb->whole, command.number)) {
-      return "'" + words[1] + "' is not a number of " + verb->argument + "; " + right;
+  std::vector<double> numbers;
+  for (std::size_t i = 1; i < wanted; ++i) {
+    numbers.emplace_back();
+    if (!parse_number(words[i], verb->whole, numbers.back())) {
+      return "'" + words[i] + "' is not a number of " + verb->argument + "; " + right;
     }
-    if (!verb->range.contains(command.number)) {
-      return words[1] + " is out of range; " + right;
-    }
+    if (!verb->range.contains(numbers.back())) return words[i] + " is out of range; " + right;
   }
+  if (!numbers.empty()) command.number = numbers.front();
+  if (numbers.size() > 1) command.values = std::move(numbers);
   command.verb = verb->name;
   return "";
 }

@@ -10,7 +10,8 @@ namespace angen {
 /// A command for one device: what followed the target's name.
 struct Command {
   std::string text;  // as it was sent: "Open", "Dim 40"; empty where it has values alone
-  std::vector<double> values = {};  // a text that is nothing but numbers (a drive: m/s, rad/s)
+  std::vector<double> values = {};  // a text that is nothing but numbers (a drive: m/s, rad/s), or
+                                    // the numbers of a verb that takes several
   std::string verb = {};  // one of the kind's, written as there; none where the kind has none
   double number = 0.0;    // of a verb that takes one, within its range
 };

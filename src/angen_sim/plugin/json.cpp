@@ -67,7 +67,8 @@ std::string object(const Verb& v) {
   return "{" +
          members("name", json(v.name), "doc", json(v.doc), "argument", json(v.argument), "type",
                  json(type), "unit", json(v.unit), "min", json(v.range.min), "max",
-                 json(v.range.max)) +
+                 json(v.range.max), "count",
+                 json(static_cast<int>(v.argument.empty() ? 0 : v.count))) +
          "}";
 }
 

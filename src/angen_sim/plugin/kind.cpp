@@ -71,6 +71,13 @@ Kind& Kind::verb(std::string verb_name, std::string argument, std::string unit, 
   return *this;
 }
 
+Kind& Kind::pair_verb(std::string verb_name, std::string arguments, std::string unit, Range range,
+                      std::string verb_doc) {
+  verb(std::move(verb_name), std::move(arguments), std::move(unit), range, std::move(verb_doc));
+  verbs.back().count = 2;
+  return *this;
+}
+
 Kind& Kind::counted_verb(std::string verb_name, std::string argument, Range range,
                          std::string verb_doc) {
   verbs.push_back(

@@ -16,6 +16,7 @@ struct Verb {
   std::string unit;      // of the number
   Range range;           // of the number
   bool whole = false;    // the number is an integer; it may follow the verb without a blank
+  std::size_t count = 1;  // how many numbers it takes, where it takes any; `argument` names each
 };
 
 /// A field of a sensor's reading or a device's state.
@@ -78,6 +79,9 @@ class Kind {
   Kind& verb(std::string name, std::string doc);
   Kind& verb(std::string name, std::string argument, std::string unit, Range range,
              std::string doc);
+  /// A verb that takes two numbers, as "GoTo 1.5 2"; `arguments` is "x y".
+  Kind& pair_verb(std::string name, std::string arguments, std::string unit, Range range,
+                  std::string doc);
   /// A verb whose number is an integer.
   Kind& counted_verb(std::string name, std::string argument, Range range, std::string doc);
 

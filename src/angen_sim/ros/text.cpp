@@ -39,10 +39,13 @@ sim::Action topic_action(const Kind& kind, const std::string& text,
   if (!valid_utf8(text)) return wrong("not UTF-8");
   const std::vector<std::string> fields = fields_of(unquoted(text));
   if (fields[0].empty()) return wrong("no verb");
-  if (fields.size() > 3) return wrong("too many parts");
+  std::size_t most = 1;
+  for (const Verb& verb : kind.verbs) most = std::max(most, verb.count);
+  if (fields.size() > 2 + most) return wrong("too many parts");
   std::string name = fields.size() > 1 ? fields[1] : "";
   if (fields.size() > 1 && name.empty()) return wrong("no name");
-  Command command{fields[0] + (fields.size() > 2 ? " " + fields[2] : ""), {}, "", 0.0};
+  Command command{fields[0], {}, "", 0.0};
+  for (std::size_t i = 2; i < fields.size(); ++i) command.text += " " + fields[i];
   const std::string reason = parse_command(kind, command);
   if (!reason.empty()) return wrong(printable(reason, 400));
   // The only elevator needs no name: `Floor1`.

@@ -69,6 +69,18 @@ TEST(Command, NumbersAloneAreValuesOfAKindThatTakesThem) {
   EXPECT_NE(refusal(lamp(), "", {0.1, 0.2}), "");
 }
 
+TEST(Command, AVerbMayTakeTwoNumbers) {
+  const Kind person = Kind("person", "").verb("Stop", "").pair_verb("GoTo", "x y", "m", {}, "");
+  const Command sent = parsed(person, "goto 1.5, -2");
+  EXPECT_EQ(sent.verb, "GoTo");
+  EXPECT_EQ(sent.values, (std::vector<double>{1.5, -2.0}));
+  EXPECT_EQ(sent.number, 1.5);
+  for (const char* text : {"GoTo", "GoTo 1", "GoTo 1 x", "GoTo 1 2 3", "GoTo nan 1"}) {
+    EXPECT_NE(refusal(person, text).find("Stop, GoTo <x> <y>"), std::string::npos)
+        << refusal(person, text);
+  }
+}
+
 TEST(Command, AKindWithoutVerbsTakesAnyText) {
   EXPECT_EQ(parsed(Kind("toy", ""), "dance 3").text, "dance 3");
 }

@@ -13,7 +13,9 @@ from angen_tools.common.catalog import kind_of
     ('elevator', 'floor1', 'Floor 1'), ('elevator', 'Floor 1', 'Floor 1'), ('lamp', 'on', 'On'),
     ('lamp', '40%', 'Dim 40'), ('lamp', 'dim 40', 'Dim 40'), ('lamp', '40 %', None),
     ('heater', '0', 'Set 0'), ('drive', '0.2 -0.1', '0.2 -0.1'), ('drive', '0.2, -0.1', '0.2 -0.1'),
-    ('drive', 'stop', 'Stop'), ('person', 'go', 'Go'), ('climate', '-5', 'Outside -5')])
+    ('drive', 'stop', 'Stop'), ('person', 'go', 'Go'),
+    ('person', 'goto 1.5, -2', 'GoTo 1.5 -2'), ('door', 'unlatch', 'Unlatch'),
+    ('climate', '-5', 'Outside -5')])
 def test_values_become_commands(kind: str, words: str, text: str | None) -> None:
     if text is None:
         with pytest.raises(ValueError):
@@ -23,14 +25,16 @@ def test_values_become_commands(kind: str, words: str, text: str | None) -> None
 
 
 @pytest.mark.parametrize('kind, words, part', [
-    ('door', 'ajar', "'ajar' is not a command of a door, which takes open, close or radians"),
-    ('door', 'nan', 'open, close or radians'), ('door', 'open 3', 'too much after open'),
+    ('door', 'ajar',
+     "'ajar' is not a command of a door, which takes open, close, unlatch or radians"),
+    ('door', 'nan', 'open, close, unlatch or radians'), ('door', 'open 3', 'too much after open'),
     ('door', 'set', 'set takes one number of radians'), ('door', 'set x', 'not a number'),
     ('lamp', '101', 'out of range; a lamp takes on, off or 0 to 100 percent'),
     ('lamp', '-1', '0 to 100 percent'), ('lamp', 'dim -1', '0 to 100 percent'),
     ('elevator', '1.5', 'not a number of floor'), ('elevator', '-1', 'not a number of floor'),
     ('drive', '0.2', 'a number of m/s and a number of rad/s'), ('drive', '1 2 3', 'stop'),
-    ('drive', 'nan 1', 'stop'), ('lamp', '1e999', '0 to 100')])
+    ('drive', 'nan 1', 'stop'), ('person', 'goto 1', 'goto takes 2 numbers, x y'),
+    ('person', 'goto 1 x', "'x' is not a number of x y"), ('lamp', '1e999', '0 to 100')])
 def test_what_is_not_a_command_says_what_is(kind: str, words: str, part: str) -> None:
     with pytest.raises(ValueError) as error:
         verbs.parse(kind_of(kind), words.split())

@@ -34,8 +34,8 @@ def parse(kind: Plugin, words: Sequence[str]) -> Order:
     if counted is not None:
         return counted
     with_number = [v for v in kind['verbs'] if v['argument']]
-    if len(given) == 1 and len(with_number) == 1 and math.isfinite(
-            _number(given[0].removesuffix('%'))):
+    if len(with_number) == 1 and len(given) == with_number[0].get('count', 1) and all(
+            math.isfinite(_number(word.removesuffix('%'))) for word in given):
         return _with_verb(kind, with_number[0], given)
     raise ValueError(f"'{' '.join(words)}' is not a command of {article(kind['kind'])}, "
                      f'which takes {forms_in_words(kind)}')
@@ -57,17 +57,19 @@ def _with_verb(kind: Plugin, verb: dict[str, Any], rest: Sequence[str]) -> Order
             raise ValueError(f"'{' '.join(rest)}' is too much after {verb['name'].lower()}; "
                              f'{takes}')
         return Order(verb['name'], verb)
-    if len(rest) != 1:
-        raise ValueError(f'{verb["name"].lower()} takes one number of {verb["argument"]}; {takes}')
-    word = rest[0].removesuffix(verb['unit']) if verb['unit'] == '%' else rest[0]
-    number = _number(word)
-    if verb['type'] == 'integer' and not (word.isascii() and word.isdigit()):
-        number = math.nan
-    if not math.isfinite(number):
-        raise ValueError(f"'{rest[0]}' is not a number of {verb['argument']}; {takes}")
-    if not _bound(verb['min'], -math.inf) <= number <= _bound(verb['max'], math.inf):
-        raise ValueError(f"'{rest[0]}' is out of range; {takes}")
-    return Order(f'{verb["name"]} {word}', verb, number)
+    count = verb.get('count', 1)
+    if len(rest) != count:
+        wanted = 'one number of' if count == 1 else f'{count} numbers,'
+        raise ValueError(f'{verb["name"].lower()} takes {wanted} {verb["argument"]}; {takes}')
+    words = [word.removesuffix(verb['unit']) if verb['unit'] == '%' else word for word in rest]
+    numbers = [_number(word) for word in words]
+    for given, word, number in zip(rest, words, numbers):
+        whole = word.isascii() and word.isdigit()
+        if not math.isfinite(number) or (verb['type'] == 'integer' and not whole):
+            raise ValueError(f"'{given}' is not a number of {verb['argument']}; {takes}")
+        if not _bound(verb['min'], -math.inf) <= number <= _bound(verb['max'], math.inf):
+            raise ValueError(f"'{given}' is out of range; {takes}")
+    return Order(' '.join([verb['name'], *words]), verb, numbers[0])
 
 
 def _bound(value: float | None, otherwise: float) -> float:
