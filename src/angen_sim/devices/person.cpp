@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/text.h"
 #include "plugin/register.h"
 
 namespace angen::devices {
@@ -29,8 +30,26 @@ constexpr Nanoseconds kAway = 5 * kSecond;      // and comes again: a door opens
 constexpr double kStepBack = 1.2;               // m, out of the way of a leaf that opens towards it
 constexpr Nanoseconds kLookBack = kSecond / 20;
 constexpr int kMostLooks = 200;
+constexpr Nanoseconds kLookPeriod = kSecond / 10;
+constexpr int kPlanLooks = 3;        // a way round is looked for in each third look
+constexpr double kStopShort = 0.08;  // m before what it sees
+constexpr double kBraking = 1.0;     // m/s^2, before it
+constexpr double kApproaches = 0.3;  // m/s: what comes slower stands still
+constexpr double kSameWay = 0.995;   // cosine of a turn that leaves the free way as it was
+constexpr double kArrived = 0.03;    // m: nearer than this an order is carried out
+constexpr double kNearRejoin = 0.3;  // m
+constexpr double kAround = 0.3;      // m: so far from where it came to is progress on a way round
+constexpr double kPushSpeed = 0.3;   // m/s, against what it is told to push
+constexpr Nanoseconds kLookAhead = 7 * kSecond / 5;  // of its path, for what stands on it
+constexpr Nanoseconds kRejoinWithin = 6 * kSecond;
 constexpr double kMouth = 1.5;  // m above the floor, where its sound comes from
 constexpr Range kSoundPower{-100.0, 200.0};
+
+double turn_towards(const Surroundings::Vec2& velocity, const LinkView& body) {
+  if (velocity.norm() < 0.05) return 0.0;
+  const double heading = std::atan2(velocity.y(), velocity.x());
+  return std::remainder(heading - yaw_of(body.pose.rotation), 2.0 * M_PI);
+}
 
 const char* const kModeNames[] = {"STANDING", "WALKING", "BLOCKED"};
 const char* const kModeEvents[] = {"stands", "walks", "blocked"};
@@ -72,6 +91,16 @@ void Person::configure(Params& params, Wiring& wiring) {
   refresh_ = Refresh(params.number(
       "update_rate", 20.0, "Hz", "how often its state is published while it walks", kRefreshRate));
   params.text("device_name", "", "the name commands use, instead of the actor's");
+  avoids_ = params.flag(
+      "avoid", true, "walks round what it sees in its way, or stops before it; otherwise pushes");
+  speed_ = params.number("speed", 1.0, "m/s", "of its walk to where it is sent", kPositive);
+  for (const bool pushes : {false, true}) {
+    const std::vector<std::vector<double>> sent =
+        params.rows(pushes ? "push_to" : "go_to", 2, "m",
+                    pushes ? "x y of where it goes at the start, as after PushTo"
+                           : "x y of where it goes at the start, as after GoTo");
+    if (!sent.empty()) order_ = Order{{sent.back()[0], sent.back()[1]}, pushes};
+  }
   body_ = wiring.link("body");
 }
 
@@ -79,7 +108,19 @@ Verdict Person::command(const Command& command, const View&) {
   if (command.verb == "Speak" || command.verb == "Quiet") {
     return Verdict::accept([this, speaks = command.verb == "Speak"] { speaks_ = speaks; });
   }
-  return Verdict::accept([this, stop = command.verb == "Stop"] { paused_ = stop; });
+  if (command.verb == "GoTo" || command.verb == "PushTo") {
+    const Order order{{command.values.at(0), command.values.at(1)}, command.verb == "PushTo"};
+    return Verdict::accept([this, order] {
+      order_ = order;
+      paused_ = false;
+      rejoin_.reset();
+      stalled_ = away_until_ = 0;
+    });
+  }
+  return Verdict::accept([this, stop = command.verb == "Stop"] {
+    paused_ = stop;
+    if (!stop && order_ && order_->arrived) order_.reset();
+  });
 }
 
 void Person::update(const View& view, Outputs& outputs) {
@@ -92,6 +133,7 @@ void Person::update(const View& view, Outputs& outputs) {
     if (renew) show(Mode::kStanding, view.link(body_), true, outputs);
     return;
   }
+  if (order_) return go(view, renew, outputs);
   const Path::Place place = path_.at(clock_);
   if (resting_ && place.still() && !renew) {
     clock_ += view.step();
@@ -102,7 +144,7 @@ void Person::update(const View& view, Outputs& outputs) {
 
 void Person::start(const LinkView& body) {
   started_ = true;
-  came_to_ = body.pose.position;
+  came_to_ = body.pose.position.head<2>();
   shown_ = body;
   if (!path_.empty()) return;
   const Vec3& here = body.pose.position;
@@ -111,22 +153,20 @@ void Person::start(const LinkView& body) {
 
 void Person::walk(const Path::Place& place, const View& view, bool renew, Outputs& outputs) {
   const LinkView body = view.link(body_);
-  if (stalled_ >= kPatience) make_room(body, view.time());
-  if (view.time() < away_until_) {
-    head_for(back_to_ - body.pose.position, kReturnSpeed, 0.0, outputs);
-    came_to_ = body.pose.position;
-    show(Mode::kBlocked, body, renew, outputs);
-    return;
-  }
+  if (steps_back(body, view, renew, outputs)) return;
+  const Vec2 at = body.pose.position.head<2>();
+  const bool near =
+      resting_ && place.still() && Vec2(place.x - at.x(), place.y - at.y()).norm() < kPushedAway;
+  if (avoids_ && !near && look(body, view)) find_rejoin(at);
+  if (rejoin_) return go_round(body, view, renew, outputs);
   const Path::Place goal = path_.at(clock_ + from_seconds(kAhead));
-  const Vec3& at = body.pose.position;
-  const Vec3 to_goal(goal.x - at.x(), goal.y - at.y(), 0.0);
+  const Vec2 to(goal.x, goal.y);
   const double lag = std::hypot(place.x - at.x(), place.y - at.y());
   const double turn = std::remainder(goal.yaw - yaw_of(body.pose.rotation), 2.0 * M_PI);
   // Ahead of its place is no reason to wait, so it is the way to the goal that counts.
-  const bool waits = to_goal.norm() > kMaxLag + std::hypot(goal.x - place.x, goal.y - place.y);
+  const bool waits = (to - at).norm() > kMaxLag + std::hypot(goal.x - place.x, goal.y - place.y);
   if (!waits) clock_ += view.step();
-  watch(at, goal, lag < (place.still() ? kThere : kNearPath), view.step());
+  watch(at, to, lag < (place.still() ? kThere : kNearPath), view.step());
 
   const bool there = lag < kThere && std::abs(turn) < kFacing;
   if (place.still() && (there || (resting_ && lag < kPushedAway))) {
@@ -135,38 +175,168 @@ void Person::walk(const Path::Place& place, const View& view, bool renew, Output
     show(Mode::kStanding, body, renew, outputs);
     return;
   }
+  aim_.reset();
   const double fastest = std::max(kReturnSpeed, kCatchUp * std::hypot(place.vx, place.vy));
-  head_for(to_goal, fastest, turn, outputs);
+  head_for(steer(body, to, fastest), turn, outputs);
   show(stalled_ >= kStallTime ? Mode::kBlocked : Mode::kWalking, body, renew, outputs);
 }
 
-void Person::head_for(const Vec3& way, double fastest, double turn, Outputs& outputs) {
-  resting_ = false;
-  Vec3 velocity = Vec3(way.x(), way.y(), 0.0) / kAhead;
-  if (velocity.norm() > fastest) velocity *= fastest / velocity.norm();
-  outputs.drive(body_, velocity, std::clamp(kTurnGain * turn, -kMaxTurn, kMaxTurn), force_max_);
+// The path's clock goes on up to where it comes back to the path, and waits for it there.
+void Person::go_round(const LinkView& body, const View& view, bool renew, Outputs& outputs) {
+  const Vec2 at = body.pose.position.head<2>();
+  const Path::Place end = path_.at(*rejoin_);
+  const Vec2 to(end.x, end.y);
+  const Nanoseconds last = *rejoin_ - from_seconds(kAhead);
+  if (clock_ < last) clock_ += view.step();
+  if (clock_ >= last && (to - at).norm() < kNearRejoin) rejoin_.reset();
+  watch(at, to, false, view.step());
+  const Vec2 velocity = steer(body, to, std::max(kReturnSpeed, std::hypot(end.vx, end.vy)));
+  head_for(velocity, turn_towards(velocity, body), outputs);
+  show(stalled_ >= kStallTime ? Mode::kBlocked : Mode::kWalking, body, renew, outputs);
 }
 
-// A door that opens towards whoever leans on it could never be opened: after a while the person
-// goes back the way it came, and tries again.
-void Person::make_room(const LinkView& body, Nanoseconds now) {
-  stalled_ = 0;
-  away_until_ = now + kAway;
-  back_to_ = body.pose.position;
-  Nanoseconds time = clock_;
-  for (int look = 0; look < kMostLooks; ++look, time -= kLookBack) {
+void Person::go(const View& view, bool renew, Outputs& outputs) {
+  const LinkView body = view.link(body_);
+  const Vec2 at = body.pose.position.head<2>();
+  const double way = (order_->to - at).norm();
+  if (way < (order_->arrived && resting_ ? kPushedAway : kArrived)) {
+    order_->arrived = true;
+    if (!resting_) stand(outputs);
+    show(Mode::kStanding, body, renew, outputs);
+    return;
+  }
+  if (steps_back(body, view, renew, outputs)) return;
+  look(body, view);
+  watch(at, order_->to, false, view.step());
+  const Vec2 velocity = steer(body, order_->to, speed_);
+  head_for(velocity, turn_towards(velocity, body), outputs);
+  show(stalled_ >= kStallTime ? Mode::kBlocked : Mode::kWalking, body, renew, outputs);
+}
+
+// A door that opens towards whoever waits before it needs room: after a while the person goes back
+// the way it came, and tries again.
+bool Person::steps_back(const LinkView& body, const View& view, bool renew, Outputs& outputs) {
+  if (stalled_ >= kPatience) make_room(body, view.time());
+  if (view.time() >= away_until_) return false;
+  look(body, view);
+  const Vec2 at = body.pose.position.head<2>();
+  aim_.reset();
+  head_for(steer(body, back_to_, kReturnSpeed), 0.0, outputs);
+  came_to_ = at;
+  show(Mode::kBlocked, body, renew, outputs);
+  return true;
+}
+
+// Ten times a second; whether it did.
+bool Person::look(const LinkView& body, const View& view) {
+  if (!avoids_ && !order_) return false;
+  const Nanoseconds now = view.time() / kLookPeriod;
+  if (now == looked_) return false;
+  const bool plans = now % kPlanLooks == 0 || now - looked_ > 1;
+  looked_ = now;
+  looked_anew_ = true;
+  seen_.look(view, body.pose.position);
+  const Vec2 at = body.pose.position.head<2>();
+  if (order_ && plans) aim_ = way_for(at, order_->to);
+  if (rejoin_ && plans) {
+    const Path::Place end = path_.at(*rejoin_);
+    aim_ = way_for(at, {end.x, end.y});
+  }
+  return true;
+}
+
+std::optional<Person::Vec2> Person::way_for(const Vec2& at, const Vec2& to) const {
+  if ((order_ && order_->pushes) || seen_.is_free(at, to)) return std::nullopt;
+  return seen_.way_round(at, to);
+}
+
+// Where something stands on the path ahead, or between it and the path: the first place behind.
+void Person::find_rejoin(const Vec2& at) {
+  const auto place_at = [&](Nanoseconds time) {
     const Path::Place place = path_.at(time);
-    back_to_.head<2>() << place.x, place.y;
-    if ((back_to_ - body.pose.position).head<2>().norm() >= kStepBack) return;
+    return Vec2(place.x, place.y);
+  };
+  const Nanoseconds ahead = from_seconds(kAhead);
+  bool met = !seen_.is_free(at, place_at(clock_ + ahead));
+  for (Nanoseconds t = ahead; t <= kLookAhead; t += ahead) {
+    met = met || seen_.is_occupied(place_at(clock_ + t));
+  }
+  if (!met) return rejoin_.reset();
+  if (rejoin_ && !seen_.is_occupied(place_at(*rejoin_))) return;
+  rejoin_.reset();
+  bool behind = false;
+  for (Nanoseconds t = ahead; t < kRejoinWithin; t += kLookPeriod) {
+    const Vec2 place = place_at(clock_ + t);
+    if ((place - at).norm() > Surroundings::kSight) return;
+    if (seen_.is_occupied(place)) {
+      behind = true;
+    } else if (behind || !seen_.is_free(at, place)) {
+      aim_ = seen_.way_round(at, place);
+      if (aim_) rejoin_ = clock_ + t;
+      return;
+    }
   }
 }
 
-// Nearer to the goal is progress; along a leaf that one leans on is none.
-void Person::watch(const Vec3& at, const Path::Place& goal, bool on_path, Nanoseconds step) {
-  const auto way_from = [&](const Vec3& from) {
-    return std::hypot(goal.x - from.x(), goal.y - from.y());
-  };
-  if (on_path || way_from(came_to_) - way_from(at) > kProgress) {
+// The velocity towards a place, or the first one of a way round.
+Person::Vec2 Person::steer(const LinkView& body, const Vec2& to, double fastest) {
+  const Vec2 at = body.pose.position.head<2>();
+  const Vec2 way = aim_.value_or(to) - at;
+  const double length = way.norm();
+  if (length < 1e-9) return Vec2::Zero();
+  const Vec2 direction = way / length;
+  double speed = aim_ ? fastest : std::min(fastest, length / kAhead);
+  if (avoids_ || order_) speed = slowed(at, direction, speed);
+  return speed * direction;
+}
+
+// So that it stops before what it sees, unless it is to push that.
+double Person::slowed(const Vec2& at, const Vec2& direction, double speed) {
+  const bool turned = free_along_.dot(direction) < kSameWay;
+  if (turned || std::exchange(looked_anew_, false)) {
+    const double expected = free_ - (at - free_from_).norm();
+    free_ = seen_.free_way(at, direction);
+    approach_ = turned ? 0.0 : (expected - free_) / to_seconds(kLookPeriod);
+    if (approach_ < kApproaches) approach_ = 0.0;
+    free_from_ = at;
+    free_along_ = direction;
+  }
+  const double left = std::max(0.0, free_ - (at - free_from_).norm() - kStopShort);
+  const double share = approach_ > 0.0 ? speed / (speed + approach_) : 1.0;
+  const double allowed = std::sqrt(2.0 * kBraking * left * share);
+  const bool pushes = !avoids_ || (order_ && order_->pushes);
+  return std::min(speed, pushes ? std::max(allowed, kPushSpeed) : allowed);
+}
+
+void Person::head_for(const Vec2& velocity, double turn, Outputs& outputs) {
+  resting_ = false;
+  outputs.drive(body_, {velocity.x(), velocity.y(), 0.0},
+                std::clamp(kTurnGain * turn, -kMaxTurn, kMaxTurn), force_max_);
+}
+
+void Person::make_room(const LinkView& body, Nanoseconds now) {
+  stalled_ = 0;
+  away_until_ = now + kAway;
+  const Vec2 at = body.pose.position.head<2>();
+  back_to_ = at;
+  if (order_) {
+    back_to_ -= kStepBack * (order_->to - at).normalized();
+    return;
+  }
+  Nanoseconds time = clock_;
+  for (int look = 0; look < kMostLooks; ++look, time -= kLookBack) {
+    const Path::Place place = path_.at(time);
+    back_to_ << place.x, place.y;
+    if ((back_to_ - at).norm() >= kStepBack) return;
+  }
+}
+
+// Nearer to the goal is progress, and the way round something; along a leaf that one leans on is
+// none.
+void Person::watch(const Vec2& at, const Vec2& goal, bool on_path, Nanoseconds step) {
+  const bool nearer = (goal - came_to_).norm() - (goal - at).norm() > kProgress;
+  const bool around = aim_ && (at - came_to_).norm() > kAround;
+  if (on_path || nearer || around) {
     came_to_ = at;
     stalled_ = 0;
   } else {
@@ -196,8 +366,12 @@ Nanoseconds Person::idle_until(const View& view) const {
     return refresh_.next(view.time());
   }
   if (paused_) return kForever;
-  const Path::Place place = path_.at(clock_);
   const Vec3& at = body.pose.position;
+  if (order_) {
+    const bool stays = order_->arrived && (order_->to - at.head<2>()).norm() < kPushedAway;
+    return stays ? kForever : refresh_.next(view.time());
+  }
+  const Path::Place place = path_.at(clock_);
   const bool near = std::hypot(place.x - at.x(), place.y - at.y()) < kPushedAway;
   if (!near) return refresh_.next(view.time());
   const Nanoseconds leaves = path_.still_until(clock_);
@@ -208,10 +382,15 @@ void Person::save(SavedParams& params) const {
   params.number("path_time", to_seconds(clock_));
   params.flag("stopped", paused_);
   params.flag("speaking", speaks_);
+  params.unset("go_to");
+  params.unset("push_to");
+  if (!order_) return;
+  params.text(order_->pushes ? "push_to" : "go_to",
+              number_text(order_->to.x()) + " " + number_text(order_->to.y()));
 }
 
 void Person::skip(Nanoseconds time) {
-  if (!paused_) clock_ += time;
+  if (!paused_ && !order_) clock_ += time;
 }
 
 void Person::report(const View& view, Reading& state) const {
@@ -235,27 +414,31 @@ double Person::sound() const {
 }
 
 const Kind& PersonPlugin::kind() const {
-  static const Kind kind = Kind("person", "A person who walks a path.")
-                               .example("set person walker stop")
-                               .verb("Stop", "stands still where the person is")
-                               .verb("Go", "walks on along the path")
-                               .verb("Speak", "speaks until Quiet")
-                               .verb("Quiet", "speaks no more")
-                               .choice("mode", {std::begin(kModeNames), std::end(kModeNames)},
-                                       "BLOCKED: something stands in the way")
-                               .shown()
-                               .number("x", "m", "in the world")
-                               .shown(2)
-                               .number("y", "m", "in the world")
-                               .shown(2)
-                               .number("z", "m", "in the world")
-                               .number("yaw", "rad", "in the world")
-                               .number("speed", "m/s", "horizontal")
-                               .shown(2)
-                               .flag("speaking", "whether the person speaks")
-                               .number("sound_power_level", "dB",
-                                       "of steps and speech, over 1 pW; minus infinity: silent")
-                               .numbers("position", "m", "of the mouth, in the model's frame");
+  static const Kind kind =
+      Kind("person", "A person who walks a path.")
+          .example("set person walker stop")
+          .verb("Stop", "stands still where the person is")
+          .verb("Go", "walks on: to where it was sent, or along its path")
+          .pair_verb("GoTo", "x y", "m", {}, "walks there, round what it sees in its way")
+          .pair_verb("PushTo", "x y", "m", {},
+                     "walks there straight, and pushes what is in its way")
+          .verb("Speak", "speaks until Quiet")
+          .verb("Quiet", "speaks no more")
+          .choice("mode", {std::begin(kModeNames), std::end(kModeNames)},
+                  "BLOCKED: something stands in the way")
+          .shown()
+          .number("x", "m", "in the world")
+          .shown(2)
+          .number("y", "m", "in the world")
+          .shown(2)
+          .number("z", "m", "in the world")
+          .number("yaw", "rad", "in the world")
+          .number("speed", "m/s", "horizontal")
+          .shown(2)
+          .flag("speaking", "whether the person speaks")
+          .number("sound_power_level", "dB",
+                  "of steps and speech, over 1 pW; minus infinity: silent")
+          .numbers("position", "m", "of the mouth, in the model's frame");
   return kind;
 }
 

@@ -1,16 +1,19 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "devices/path.h"
 #include "devices/refresh.h"
+#include "devices/surroundings.h"
 #include "plugin/plugin.h"
 
 namespace angen::devices {
 
-/// Walks a path by a motor of limited force. What does not give way stops it, and its path waits;
-/// it steps back from time to time, so that a door can open towards it.
+/// Walks a path, or to where it is sent, by a motor of limited force. It walks round what it sees
+/// in its way, or stops before it; its path waits then, and it steps back from time to time, so
+/// that a door can open towards it. It pushes only where it is told to.
 class Person : public Device {
  public:
   void configure(Params& params, Wiring& wiring) override;
@@ -22,14 +25,23 @@ class Person : public Device {
   void save(SavedParams& params) const override;
 
  private:
+  using Vec2 = Surroundings::Vec2;
   enum class Mode { kStanding, kWalking, kBlocked };
 
   static Path read_path(Params& params);
   void start(const LinkView& body);
   void walk(const Path::Place& place, const View& view, bool renew, Outputs& outputs);
-  void head_for(const Vec3& way, double fastest, double turn, Outputs& outputs);
+  void go(const View& view, bool renew, Outputs& outputs);
+  bool steps_back(const LinkView& body, const View& view, bool renew, Outputs& outputs);
+  void go_round(const LinkView& body, const View& view, bool renew, Outputs& outputs);
+  bool look(const LinkView& body, const View& view);
+  void find_rejoin(const Vec2& at);
+  std::optional<Vec2> way_for(const Vec2& at, const Vec2& to) const;
+  Vec2 steer(const LinkView& body, const Vec2& to, double fastest);
+  double slowed(const Vec2& at, const Vec2& direction, double speed);
+  void head_for(const Vec2& velocity, double turn, Outputs& outputs);
   void make_room(const LinkView& body, Nanoseconds now);
-  void watch(const Vec3& at, const Path::Place& goal, bool on_path, Nanoseconds step);
+  void watch(const Vec2& at, const Vec2& goal, bool on_path, Nanoseconds step);
   void stand(Outputs& outputs);
   double sound() const;
   void show(Mode mode, const LinkView& body, bool renew, Outputs& outputs);
@@ -42,9 +54,26 @@ class Person : public Device {
   double speech_sound_ = 0.0;    // dB over 1 pW
   Nanoseconds clock_ = 0;        // time on the path; below 0 while the start is delayed
   Nanoseconds stalled_ = 0;      // since it last came on
-  Vec3 came_to_ = Vec3::Zero();  // where that was
+  Vec2 came_to_ = Vec2::Zero();  // where that was
   Nanoseconds away_until_ = 0;   // of stepping back
-  Vec3 back_to_ = Vec3::Zero();  // where it does so
+  Vec2 back_to_ = Vec2::Zero();  // where it does so
+  struct Order {
+    Vec2 to;  // m, world
+    bool pushes = false;
+    bool arrived = false;
+  };
+  std::optional<Order> order_;  // in place of its path
+  double speed_ = 1.0;          // m/s, on an order
+  bool avoids_ = true;
+  Surroundings seen_;
+  Nanoseconds looked_ = -1;            // when, as a multiple of kLookPeriod
+  std::optional<Nanoseconds> rejoin_;  // time on the path where it comes back to it
+  std::optional<Vec2> aim_;            // first place of a way round
+  bool looked_anew_ = false;           // since the free way was measured
+  double approach_ = 0.0;              // m/s, of what stands in the way
+  double free_ = 0.0;                  // m, the free way …
+  Vec2 free_from_ = Vec2::Zero();      // … from here …
+  Vec2 free_along_ = Vec2::Zero();     // … in this direction; zero: not known
   bool speaks_ = false;
   bool spoke_ = false;  // at the last update
   bool paused_ = false;

@@ -154,8 +154,13 @@ desc::Model person(const Vec3& at) {
   desc::Model model;
   model.name = "person";
   model.pose.position = at;
-  desc::Link body = box_link("body", {0, 0, 0.875}, {0.3, 0.5, 1.75}, 70.0);
+  desc::Link body = box_link("body", Vec3::Zero(), {0.5, 0.5, 1.75}, 70.0);
   body.upright = true;
+  body.inertial.pose.position.z() = body.collisions[0].pose.position.z() = 0.875;
+  Shape& shape = body.collisions[0].shape;
+  shape.type = Shape::Type::kCapsule;
+  shape.radius = 0.25;
+  shape.length = 1.25;
   body.collisions[0].friction.mu = body.collisions[0].friction.mu2 = 0.0;
   model.links.push_back(body);
   return model;

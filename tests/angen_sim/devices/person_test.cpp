@@ -80,8 +80,13 @@ TEST(Person, WaitsForItsDelay) {
   EXPECT_NEAR(walk.place().x(), 2.0, 0.1);
 }
 
+Parameters without_avoiding(Parameters parameters) {
+  parameters.push_back({"avoid", "false"});
+  return parameters;
+}
+
 TEST(Person, AWallStopsItItPushesWithNoMoreThanItsForceAndGoesOnWhenFreed) {
-  Walk walk(kStraight);
+  Walk walk(without_avoiding(kStraight));
   const physics::ModelId wall = walk.bench.add(box("wall", {2.0, 0, 1}, {0.1, 3, 2}));
   ASSERT_GT(walk.bench.run_until(6.0,
                                  [&] {
@@ -105,7 +110,7 @@ TEST(Person, AWallStopsItItPushesWithNoMoreThanItsForceAndGoesOnWhenFreed) {
 }
 
 TEST(Person, SlidingAlongALeafIsNoProgress) {
-  Walk walk(kStraight);
+  Walk walk(without_avoiding(kStraight));
   desc::Model leaf = box("leaf", {2.0, 0, 1}, {0.05, 6, 2});
   leaf.pose.rotation = from_rpy(0, 0, 0.3);
   walk.bench.add(leaf);
@@ -121,8 +126,8 @@ TEST(Person, SlidingAlongALeafIsNoProgress) {
   EXPECT_LE(took, 1.5);
 }
 
-TEST(Person, PushesALightBoxAlong) {
-  Walk walk(kStraight);
+TEST(Person, PushesALightBoxAlongWhereItDoesNotAvoid) {
+  Walk walk(without_avoiding(kStraight));
   walk.bench.add(box("crate", {1.5, 0, 0.151}, {0.3, 0.3, 0.3}, 5.0));
   walk.bench.run(7.0);
   EXPECT_NEAR(walk.place().x(), 5.0, 0.1);
@@ -144,8 +149,8 @@ TEST(Person, StopsAndGoes) {
   ASSERT_TRUE(walk.rig->command("Stop").accepted);
   walk.bench.run(5.0);
   EXPECT_EQ(walk.rig->mode(), "STANDING");
-  // It brakes from 1 m/s with 0.7 of its force: 1 / (2 * 106 / 70) m.
-  EXPECT_LT(walk.place().x(), 2.0 + 0.33 + 0.02);
+  // It brakes from 1 m/s with its force: 1 / (2 * 150 / 70) m.
+  EXPECT_LT(walk.place().x(), 2.0 + 0.233 + 0.02);
   ASSERT_TRUE(walk.rig->command("go").accepted);
   walk.bench.run(4.0);
   EXPECT_NEAR(walk.place().x(), 5.0, 0.05);
@@ -162,6 +167,170 @@ TEST(Person, WithoutWaypointsItStandsWhereItIs) {
 TEST(Person, TimesOfWaypointsMustRise) {
   const Parameters parameters{{"waypoint", "1 0 0 0 0"}, {"waypoint", "1 5 0 0 0"}};
   EXPECT_THROW(Walk{parameters}, Error);
+}
+
+/// The farthest that a model's only link got from where it was.
+struct Watched {
+  Bench& bench;
+  physics::LinkId link;
+  Vec3 start;
+  double moved = 0.0;
+
+  Watched(Bench& bench_, const desc::Model& model)
+      : bench(bench_),
+        link(bench.world.links(bench.add(model))[0]),
+        start(bench.world.link(link).pose.position) {}
+  void see() { moved = std::max(moved, (bench.world.link(link).pose.position - start).norm()); }
+};
+
+desc::Model crate(const Vec3& at, double mass = 60.0) {
+  return box("crate", at + Vec3(0, 0, 0.301), {0.6, 0.6, 0.6}, mass);
+}
+
+TEST(Person, StopsBeforeAWallThatItSeesAndGoesOnWhenFreed) {
+  Walk walk(kStraight);
+  const physics::ModelId wall = walk.bench.add(box("wall", {2.0, 0, 1}, {0.1, 8, 2}));
+  double push = 0.0;
+  double farthest = 0.0;
+  bool blocked = false;
+  walk.bench.run(12.0, [&] {
+    push = std::max(push, walk.bench.contact_force("wall", "person").norm());
+    farthest = std::max(farthest, walk.place().x());
+    blocked = blocked || walk.rig->mode() == "BLOCKED";
+  });
+  printf("person before a wall at 1.95 m comes up to %.3f m and pushes with %.1f N\n", farthest,
+         push);
+  EXPECT_TRUE(blocked);
+  EXPECT_EQ(push, 0.0);
+  EXPECT_GT(farthest, 1.5);
+  EXPECT_LT(farthest, 1.95 - 0.25 - 0.05);
+  walk.bench.world.remove(wall);
+  EXPECT_GT(walk.bench.run_until(20.0, [&] { return walk.rig->mode() == "STANDING"; }), 0.0);
+  EXPECT_NEAR(walk.place().x(), 5.0, 0.02);
+}
+
+TEST(Person, WalksRoundACrateOnItsPathAndComesBackToIt) {
+  for (const double aside : {-0.2, 0.0, 0.2}) {
+    Walk walk(kStraight);
+    Watched stays(walk.bench, crate({2.5, aside, 0}));
+    double off = 0.0;
+    const double took = walk.bench.run_until(15.0, [&] {
+      stays.see();
+      off = std::max(off, std::abs(walk.place().y()));
+      return walk.place().x() > 4.97;
+    });
+    printf("person round a crate %.1f m aside: %.2f s for 5 m, %.2f m off, crate moved %.1e m\n",
+           aside, took, off, stays.moved);
+    EXPECT_GT(took, 0.0);
+    EXPECT_LT(took, 9.0);
+    EXPECT_LT(off, 1.5);
+    EXPECT_LT(stays.moved, 2e-3);
+    EXPECT_LT(std::abs(walk.place().y()), 0.1);
+  }
+}
+
+TEST(Person, GoesWhereItIsSentRoundWhatStandsInTheWay) {
+  Walk walk(Parameters{});
+  Watched stays(walk.bench, crate({2.0, 0, 0}));
+  walk.bench.run(0.2);
+  ASSERT_TRUE(walk.rig->command("GoTo 4 0.5").accepted);
+  const double took = walk.bench.run_until(15.0, [&] {
+    stays.see();
+    return walk.rig->mode() == "STANDING" && walk.place().x() > 3.0;
+  });
+  printf("person sent 4 m past a crate: there after %.2f s\n", took);
+  EXPECT_GT(took, 0.0);
+  EXPECT_LT(took, 8.0);
+  EXPECT_LT((walk.place().head<2>() - Eigen::Vector2d(4, 0.5)).norm(), 0.05);
+  EXPECT_LT(stays.moved, 2e-3);
+  walk.bench.run(2.0);
+  EXPECT_FALSE(walk.rig->body("body").awake);
+  ASSERT_TRUE(walk.rig->command("Go").accepted);  // back to its path: where it stood
+  walk.bench.run(12.0);
+  EXPECT_LT(walk.place().head<2>().norm(), 0.1);
+}
+
+TEST(Person, RefusesToGoNowhere) {
+  Walk walk(Parameters{});
+  for (const char* text : {"GoTo", "GoTo 1", "GoTo 1 x", "GoTo nan 1", "GoTo 1 2 3", "PushTo 1"}) {
+    const Verdict verdict = walk.rig->command(text);
+    EXPECT_FALSE(verdict.accepted) << text;
+    EXPECT_NE(verdict.reason.find("GoTo <x> <y>"), std::string::npos) << verdict.reason;
+  }
+}
+
+TEST(Person, PushesWhatItIsToldToWithNoMoreThanItsForce) {
+  Walk walk(Parameters{});
+  Watched pushed(walk.bench, crate({1.5, 0, 0}, 10.0));
+  walk.bench.run(0.2);
+  ASSERT_TRUE(walk.rig->command("PushTo 2.5 0").accepted);
+  double push = 0.0;
+  double impulse = 0.0;  // N s, of the first 0.1 s
+  double touched = -1.0;
+  walk.bench.run(20.0, [&] {
+    pushed.see();
+    const double force = walk.bench.contact_force("crate", "person").norm();
+    const double now = to_seconds(walk.bench.now());
+    if (force > 0.0 && touched < 0.0) touched = now;
+    if (touched < 0.0 || now < touched + 0.1) {
+      impulse += force * 1e-3;
+    } else {
+      push = std::max(push, force);
+    }
+  });
+  printf("person pushes a crate of 10 kg by %.2f m with at most %.0f N, after %.1f N s\n",
+         pushed.moved, push, impulse);
+  EXPECT_LE(push, 151.0);
+  EXPECT_LT(impulse, 0.1 * 150.0 + 70.0 * 0.3);
+  EXPECT_NEAR(pushed.moved, 2.5 + 0.25 + 0.3 - 1.5, 0.1);
+  EXPECT_LT(walk.place().x(), 2.52);
+}
+
+TEST(Person, WaitsAtAShutDoorAndGoesThroughWhenItIsOpen) {
+  Walk walk(Parameters{}, {0.45, 2.0, 0.001});
+  walk.bench.add(box("left", {-2.0, 0, 1}, {3.98, 0.1, 2}));
+  walk.bench.add(box("right", {2.92, 0, 1}, {4.0, 0.1, 2}));
+  Rig& leaf = walk.bench.add(door(), "libdoor_world_plugin.so", "door");
+  walk.bench.run(0.2);
+  ASSERT_TRUE(walk.rig->command("GoTo 0.45 -2").accepted);
+  double push = 0.0;
+  walk.bench.run(10.0,
+                 [&] { push = std::max(push, walk.bench.contact_force("door", "person").norm()); });
+  EXPECT_EQ(push, 0.0);
+  EXPECT_GT(walk.place().y(), 0.2);
+  ASSERT_TRUE(leaf.command("Open").accepted);
+  EXPECT_GT(walk.bench.run_until(25.0, [&] { return walk.place().y() < -1.9; }), 0.0)
+      << walk.place().transpose();
+}
+
+TEST(Person, TwoPeopleAndARobotGetPastEachOtherInACorridor) {
+  for (const double at : {-0.3, 0.0, 0.3}) {
+    Walk walk(Parameters{}, {0, 0, 0.001});
+    Bench& bench = walk.bench;
+    bench.add(box("left", {3.5, 1.05, 1}, {12, 0.1, 2}));
+    bench.add(box("right", {3.5, -1.05, 1}, {12, 0.1, 2}));
+    desc::Model second = person({7, 0, 0.001});
+    second.name = "other";
+    Rig& other = bench.add(second, "libperson_controller.so", "person");
+    desc::Model robot = box("robot", {3.0, at, 0.151}, {0.35, 0.35, 0.3}, 6.0);
+    Watched stays(bench, robot);
+    bench.run(0.2);
+    ASSERT_TRUE(walk.rig->command("GoTo 7 0").accepted);
+    ASSERT_TRUE(other.command("GoTo 0 0").accepted);
+    double touch = 0.0;
+    const double took = bench.run_until(40.0, [&] {
+      stays.see();
+      touch = std::max(touch, bench.contact_force("other", "person").norm());
+      return walk.place().x() > 6.9 && other.body("body").pose.position.x() < 0.1;
+    });
+    printf(
+        "two people and a robot at %.1f in a corridor of 2 m: past after %.1f s, robot moved "
+        "%.1e m, they touch with %.0f N\n",
+        at, took, stays.moved, touch);
+    EXPECT_GT(took, 0.0);
+    EXPECT_LT(stays.moved, 2e-3);
+    EXPECT_EQ(touch, 0.0);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,199 @@
+#include "devices/surroundings.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+
+namespace angen::devices {
+
+namespace {
+
+using Vec2 = Surroundings::Vec2;
+
+constexpr int kDirections = 48;
+constexpr double kHeights[] = {0.15, 0.5, 1.2};  // m
+constexpr double kGraze = 1e-3;                  // m
+constexpr double kOwn = 0.255;                   // m, up to the person's own surface
+
+// The way round is looked for on a grid around the person.
+constexpr double kCell = 0.1;  // m
+constexpr int kHalf = 30;      // cells from the middle to the edge
+constexpr int kSide = 2 * kHalf + 1;
+constexpr double kWide = 0.33;    // m
+constexpr double kRoomy = 0.5;    // m: nearer to something costs more
+constexpr double kTight = 3.0;    // of cost a meter, per meter nearer than that
+constexpr double kLeft = 0.3;     // of cost a meter, per meter to the left of the straight way
+constexpr double kStuck = 0.15;   // m around the person that it may leave in any case
+constexpr double kNearer = 0.3;   // m, at least, that a way must lead nearer
+constexpr double kLongest = 3.0;  // times the straight way …
+constexpr double kExtra = 2.0;    // … and so many meters more
+
+class Grid {
+ public:
+  Grid(const Vec2& middle, const std::vector<Vec2>& points, double body)
+      : middle_(middle), body_(body) {
+    gap_.fill(kRoomy);
+    for (const Vec2& point : points) add(point);
+  }
+
+  Vec2 place(int cell) const {
+    return middle_ + kCell * Vec2(cell % kSide - kHalf, cell / kSide - kHalf);
+  }
+
+  // Dijkstra's shortest ways from the middle to all cells, by cost.
+  void spread(const Vec2& left) {
+    cost_.fill(std::numeric_limits<double>::infinity());
+    from_.fill(-1);
+    using Entry = std::pair<double, int>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+    cost_[kMiddle] = 0.0;
+    open.push({0.0, kMiddle});
+    while (!open.empty()) {
+      const auto [cost, cell] = open.top();
+      open.pop();
+      if (cost > cost_[cell]) continue;
+      for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+          const int x = cell % kSide + dx;
+          const int y = cell / kSide + dy;
+          if (x < 0 || y < 0 || x >= kSide || y >= kSide) continue;
+          const int next = y * kSide + x;
+          if (!passable(next)) continue;
+          const double aside = std::max(0.0, left.dot(place(next) - middle_));
+          const double rate = 1.0 + kTight * (kRoomy - gap_[next]) + kLeft * aside;
+          const double reached = cost + kCell * std::hypot(dx, dy) * rate;
+          if (reached >= cost_[next]) continue;
+          cost_[next] = reached;
+          from_[next] = cell;
+          open.push({reached, next});
+        }
+      }
+    }
+  }
+
+  // The reached cell from which it is the shortest to `to`.
+  int best(const Vec2& to) const {
+    int best = kMiddle;
+    double least = std::numeric_limits<double>::infinity();
+    for (int cell = 0; cell < kSide * kSide; ++cell) {
+      if (!std::isfinite(cost_[cell])) continue;
+      const double rest = (to - place(cell)).norm() + 1e-3 * cost_[cell];
+      if (rest >= least) continue;
+      least = rest;
+      best = cell;
+    }
+    return best;
+  }
+
+  std::vector<int> way_to(int cell) const {
+    std::vector<int> way;
+    for (; cell >= 0; cell = from_[cell]) way.push_back(cell);
+    std::reverse(way.begin(), way.end());
+    return way;
+  }
+
+ private:
+  static constexpr int kMiddle = kHalf * kSide + kHalf;
+
+  void add(const Vec2& point) {
+    const Vec2 at = (point - middle_) / kCell;
+    const int reach = static_cast<int>(kRoomy / kCell) + 1;
+    const int column = static_cast<int>(std::lround(at.x()));
+    const int row = static_cast<int>(std::lround(at.y()));
+    for (int y = std::max(row - reach, -kHalf); y <= std::min(row + reach, kHalf); ++y) {
+      for (int x = std::max(column - reach, -kHalf); x <= std::min(column + reach, kHalf); ++x) {
+        double& gap = gap_[(y + kHalf) * kSide + x + kHalf];
+        gap = std::min(gap, kCell * (Vec2(x, y) - at).norm());
+      }
+    }
+  }
+
+  bool passable(int cell) const {
+    return gap_[cell] >= body_ || (place(cell) - middle_).norm() < kStuck;
+  }
+
+  Vec2 middle_;
+  double body_;
+  std::array<double, kSide * kSide> gap_;   // m to the next point, at most kRoomy
+  std::array<double, kSide * kSide> cost_;  // of the way from the middle
+  std::array<int, kSide * kSide> from_;
+};
+
+}  // namespace
+
+// Each look's directions lie between those of the one before.
+void Surroundings::look(const View& view, const Vec3& feet) {
+  points_.resize(fresh_);
+  rays_.clear();
+  turned_ = !turned_;
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = 2.0 * M_PI * (i + (turned_ ? 0.5 : 0.0)) / kDirections;
+    const Vec3 direction(std::cos(angle), std::sin(angle), 0.0);
+    for (const double height : kHeights) {
+      rays_.push_back({feet + height * Vec3::UnitZ(), direction, kOwn, kSight});
+    }
+  }
+  view.cast(rays_, hits_);
+  std::vector<Vec2> seen;
+  for (std::size_t i = 0; i < rays_.size(); ++i) {
+    if (!hits_[i].hit()) continue;
+    seen.emplace_back((rays_[i].origin + hits_[i].range * rays_[i].direction).head<2>());
+  }
+  fresh_ = seen.size();
+  points_.insert(points_.begin(), seen.begin(), seen.end());
+}
+
+double Surroundings::free_way(const Vec2& from, const Vec2& direction, double body) const {
+  double least = kSight;
+  double width = body;  // less where it stands closer to something: along that it may walk on
+  for (const Vec2& point : points_) width = std::min(width, (point - from).norm() - kGraze);
+  for (const Vec2& point : points_) {
+    const Vec2 to = point - from;
+    const double along = direction.dot(to);
+    const double aside = direction.x() * to.y() - direction.y() * to.x();
+    if (along <= 0.0 || std::abs(aside) >= width) continue;
+    least = std::min(least, along - std::sqrt(width * width - aside * aside));
+  }
+  return std::max(0.0, least);
+}
+
+bool Surroundings::is_free(const Vec2& from, const Vec2& to, double body) const {
+  const double way = (to - from).norm();
+  return way < 1e-6 || free_way(from, (to - from) / way, body) >= std::min(way, kSight);
+}
+
+bool Surroundings::is_occupied(const Vec2& place) const {
+  return std::any_of(points_.begin(), points_.end(), [&](const Vec2& point) {
+    return (point - place).squaredNorm() < kBody * kBody;
+  });
+}
+
+// Wide of what it sees, as it sees only points of that; close where that is the only way.
+std::optional<Surroundings::Vec2> Surroundings::way_round(const Vec2& from, const Vec2& to) const {
+  const std::optional<Vec2> wide = way_round(from, to, kWide);
+  return wide ? wide : way_round(from, to, kBody);
+}
+
+std::optional<Surroundings::Vec2> Surroundings::way_round(const Vec2& from, const Vec2& to,
+                                                          double body) const {
+  const double straight = (to - from).norm();
+  if (straight < 1e-6) return std::nullopt;
+  const Vec2 ahead = (to - from) / straight;
+  Grid grid(from, points_, body);
+  grid.spread({-ahead.y(), ahead.x()});
+  const std::vector<int> way = grid.way_to(grid.best(to));
+  const double left = (to - grid.place(way.back())).norm();
+  const double length = kCell * static_cast<double>(way.size());
+  if (straight - left < std::min(kNearer, 0.5 * straight)) return std::nullopt;
+  if (length > kLongest * (straight - left) + kExtra) return std::nullopt;
+  for (std::size_t i = way.size() - 1; i > 1; --i) {
+    if (is_free(from, grid.place(way[i]), body)) return grid.place(way[i]);
+  }
+  return grid.place(way[std::min<std::size_t>(1, way.size() - 1)]);
+}
+
+}  // namespace angen::devices
