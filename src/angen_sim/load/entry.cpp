@@ -4,6 +4,7 @@
 
 #include "load/check.h"
 #include "load/describe.h"
+#include "load/ignored.h"
 #include "load/xml.h"
 
 namespace angen::load {
@@ -108,6 +109,7 @@ std::vector<desc::Model> describe_entries(std::vector<Entry>& entries, Session& 
     model.name = name_of(element);
     model.source = entry.original.source;
     model.xml = print_xml(entry.original);
+    note_ignored(element, session);
     if (holds_include(entry.original)) model.expanded_xml = print_xml(element);
     models.push_back(std::move(model));
   }

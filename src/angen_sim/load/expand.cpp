@@ -150,6 +150,7 @@ void Session::warn(const Source& source, const std::string& message) {
 Element read_document(const std::string& text, const std::string& file, Session& session) {
   Element root = parse_xml(text, file);
   const bool changed = straighten_numbers(root, session);
+  if (root.name == "robot") session.converted.insert(file);
   if (root.name == "robot") root = convert_urdf(changed ? print_xml(root) : text, root);
   if (root.name != "sdf") {
     throw Error(root.source, "the file begins with <" + root.name +

@@ -119,6 +119,7 @@ desc::Model model(const std::string& what, const std::string& name, const Pose& 
   desc::Model model = std::move(describe_entries(entries, session).front());
   if (entry.expanded.name == "model") model.pose = pose;
   model.warnings = session.warnings;
+  model.ignored = session.ignored;
   return model;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,11 +17,15 @@ struct Session {
   AllowedFiles allowed{paths};
   Sources sources{};
   std::vector<Diagnostic> warnings{};
-  std::size_t elements = 0;         // of all documents so far
-  std::vector<std::string> open{};  // documents being read, outermost first
+  std::vector<Diagnostic> ignored{};       // what nothing reads
+  std::set<std::string> ignored_places{};  // of those, with their text
+  std::set<std::string> converted{};       // URDF files: what nothing reads is libsdformat's doing
+  std::size_t elements = 0;                // of all documents so far
+  std::vector<std::string> open{};         // documents being read, outermost first
 
   /// Once for each place: a file that is included ten times warns as often as if it were once.
   void warn(const Source& source, const std::string& message);
+  void ignore(const Source& source, const std::string& what);
 };
 
 /// Keeps a document on the list of open ones while it is read.

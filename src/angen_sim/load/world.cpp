@@ -6,6 +6,7 @@
 #include "load/check.h"
 #include "load/describe.h"
 #include "load/entry.h"
+#include "load/ignored.h"
 #include "load/light.h"
 #include "load/load.h"
 #include "load/search.h"
@@ -127,6 +128,7 @@ void place_all(const Parts& parts, const sdf::World& from, desc::World& to) {
 const Element& only_world(const Element& sdf) {
   const Element* found = nullptr;
   for (const Element& child : sdf.children) {
+    if (child.name != "world") session.ignore(child.source, "<" + child.name + "> in <sdf>");
     if (child.name != "world") continue;
     if (found != nullptr) throw Error(child.source, "a second <world> in one file; keep one");
     found = &child;
@@ -157,8 +159,13 @@ desc::World describe_world(const Element& sdf, Session& session) {
     const sdf::Root root = parse_world(with_stand_ins(parts), session);
     place_all(parts, *root.WorldByIndex(0), world);
   }
-  for (const Element& state : parts.states) apply_state(state, world);
+  note_ignored(parts.settings, session);
+  for (const Element& state : parts.states) {
+    apply_state(state, world);
+    note_ignored(state, session);
+  }
   world.warnings = session.warnings;
+  world.ignored = session.ignored;
   return world;
 }
 

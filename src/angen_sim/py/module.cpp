@@ -198,6 +198,9 @@ void bind_world(pyb::module_& module) {
       .def_property_readonly(
           "warnings", [](const World& w) { return w.warnings(); },
           "what was wrong with files that were loaded all the same: 'file:line: what'")
+      .def_property_readonly(
+          "ignored", [](const World& w) { return w.ignored(); },
+          "what nothing reads of the files that were loaded: 'file:line: <element> in <parent>'")
       .def(
           "events",
           [](World& w) {

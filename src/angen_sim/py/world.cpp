@@ -47,7 +47,8 @@ World::World(const std::string& path, std::uint64_t seed, std::shared_ptr<Catalo
     recorder_ =
         std::make_unique<record::Recorder>(log, record::origin_of(path, allow_paths), simulation_);
   }
-  note(simulation_.world().warnings);
+  note(simulation_.world().warnings, warnings_);
+  note(simulation_.world().ignored, ignored_);
   note_warnings(*simulation_.snapshot());  // of how it was built
   begin();
 }
@@ -58,7 +59,8 @@ World::World(const std::string& text, const std::string& name, std::uint64_t see
       owned_(std::make_unique<sim::Simulation>(load::world_from_text(text, name, paths_), seed,
                                                std::move(catalog))),
       simulation_(*owned_) {
-  note(simulation_.world().warnings);
+  note(simulation_.world().warnings, warnings_);
+  note(simulation_.world().ignored, ignored_);
   note_warnings(*simulation_.snapshot());  // of how it was built
   begin();
 }
@@ -76,8 +78,8 @@ void World::begin() {
   events_.clear();
 }
 
-void World::note(const std::vector<Diagnostic>& warnings) {
-  for (const Diagnostic& warning : warnings) warnings_.push_back(warning.text());
+void World::note(const std::vector<Diagnostic>& found, std::vector<std::string>& to) {
+  for (const Diagnostic& each : found) to.push_back(each.text());
 }
 
 void World::note_warnings(const sim::Snapshot& snapshot) {
@@ -153,8 +155,10 @@ void World::spawn(const std::string& what, const std::string& name, const std::v
   } else {
     sim::Spawn spawn{load::model(what, name, to_pose(pose), paths_)};
     const std::vector<Diagnostic> warnings = spawn.model.warnings;
+    const std::vector<Diagnostic> ignored = spawn.model.ignored;
     drain(std::move(spawn));
-    note(warnings);
+    note(warnings, warnings_);
+    note(ignored, ignored_);
   }
 }
 

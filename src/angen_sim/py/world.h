@@ -51,12 +51,14 @@ class World {
   std::vector<sim::Event> take_events();
   /// Of all that was loaded so far, as "file:line: what".
   const std::vector<std::string>& warnings() const { return warnings_; }
+  /// What nothing reads of those files, as "file:line: what".
+  const std::vector<std::string>& ignored() const { return ignored_; }
   std::string fingerprint() const { return fingerprint_.text(); }
 
  private:
   void begin();
   Nanoseconds leap_limit(Nanoseconds until) const;
-  void note(const std::vector<Diagnostic>& warnings);
+  static void note(const std::vector<Diagnostic>& found, std::vector<std::string>& to);
   void note_warnings(const sim::Snapshot& snapshot);
   void drain(sim::Action action);
   /// Error where a plug-in has thrown since; the world has gone on without it.
@@ -70,6 +72,7 @@ class World {
   std::shared_ptr<const sim::Snapshot> snapshot_;
   std::vector<sim::Event> events_;
   std::vector<std::string> warnings_;
+  std::vector<std::string> ignored_;
   std::string failure_;  // of a plug-in, until it is raised
   record::Fingerprint fingerprint_;
 };

@@ -62,6 +62,12 @@ angen::desc::World read(const std::string& path) {
   for (const angen::Diagnostic& warning : world.warnings) {
     std::fprintf(stderr, "%s\n", warning.text().c_str());
   }
+  const std::size_t count = world.ignored.size();
+  if (count > 0) {
+    std::fprintf(stderr, "%zu %s ignored, angen check lists %s: angen check %s\n", count,
+                 count == 1 ? "element is" : "elements are", count == 1 ? "it" : "them",
+                 path.c_str());
+  }
   return world;
 }
 

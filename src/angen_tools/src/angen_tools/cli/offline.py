@@ -29,7 +29,8 @@ def run_check(args: argparse.Namespace) -> int:
     code = 0
     for path in args.paths:
         checked = check(path)
-        for line in checked.wrong + [f'warning: {warning}' for warning in checked.warnings]:
+        for line in checked.wrong + [f'warning: {warning}' for warning in checked.warnings] + [
+                f'ignored: {ignored}' for ignored in checked.ignored]:
             print(line, file=sys.stderr)
         if checked.wrong:
             code = 1

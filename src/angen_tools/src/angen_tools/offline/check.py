@@ -18,6 +18,7 @@ class Checked:
     """What is to be said of a file: `found` is what is in it, where nothing is wrong."""
     wrong: list[str] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
+    ignored: list[str] = field(default_factory=list)
     found: str = ''
 
 
@@ -49,7 +50,7 @@ def _checked_world(world: Any, path: str) -> Checked:
     found = ', '.join((_counted(len(world.models), 'model'),
                        _counted(len(world.devices()), 'device'),
                        _counted(len(world.sensors()), 'sensor')))
-    return _right(path, found, world.warnings)
+    return _right(path, found, world)
 
 
 def _checked_model(angen: Any, path: str) -> Checked:
@@ -63,12 +64,15 @@ def _checked_model(angen: Any, path: str) -> Checked:
     found = ', '.join((f'model {world.models[0]} with {_counted(len(world.links), "link")}',
                        _counted(len(world.joints), 'joint'), _listed(devices, 'device'),
                        _listed(sensors, 'sensor')))
-    return _right(path, found, world.warnings)
+    return _right(path, found, world)
 
 
-def _right(path: str, found: str, warnings: list[str]) -> Checked:
+def _right(path: str, found: str, world: Any) -> Checked:
+    warnings, ignored = world.warnings, world.ignored
     state = f'loads with {_counted(len(warnings), "warning")}' if warnings else 'nothing is wrong'
-    return Checked(warnings=warnings, found=f'{path}: {state}; {found}')
+    if ignored:
+        state += f'; {_counted(len(ignored), "element")} of it ignored'
+    return Checked(warnings=warnings, ignored=ignored, found=f'{path}: {state}; {found}')
 
 
 def _counted(count: int, noun: str) -> str:
