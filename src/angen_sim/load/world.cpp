@@ -128,7 +128,6 @@ void place_all(const Parts& parts, const sdf::World& from, desc::World& to) {
 const Element& only_world(const Element& sdf) {
   const Element* found = nullptr;
   for (const Element& child : sdf.children) {
-    if (child.name != "world") session.ignore(child.source, "<" + child.name + "> in <sdf>");
     if (child.name != "world") continue;
     if (found != nullptr) throw Error(child.source, "a second <world> in one file; keep one");
     found = &child;
@@ -158,6 +157,9 @@ desc::World describe_world(const Element& sdf, Session& session) {
     const Hush hush;
     const sdf::Root root = parse_world(with_stand_ins(parts), session);
     place_all(parts, *root.WorldByIndex(0), world);
+  }
+  for (const Element& child : sdf.children) {
+    if (child.name != "world") session.ignore(child.source, "<" + child.name + "> in <sdf>");
   }
   note_ignored(parts.settings, session);
   for (const Element& state : parts.states) {

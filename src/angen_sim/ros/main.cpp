@@ -64,9 +64,8 @@ angen::desc::World read(const std::string& path) {
   }
   const std::size_t count = world.ignored.size();
   if (count > 0) {
-    std::fprintf(stderr, "%zu %s ignored, angen check lists %s: angen check %s\n", count,
-                 count == 1 ? "element is" : "elements are", count == 1 ? "it" : "them",
-                 path.c_str());
+    std::fprintf(stderr, "%zu %s ignored, angen check lists %s\n", count,
+                 count == 1 ? "element is" : "elements are", count == 1 ? "it" : "them");
   }
   return world;
 }
