@@ -82,6 +82,17 @@ def test_check_shows_warnings_and_succeeds(tmp_path: Path) -> None:
     assert done.stderr.startswith(f'warning: {pasted}:2: <pose> holds') and 'U+2212' in done.stderr
 
 
+def test_check_lists_what_is_ignored(tmp_path: Path) -> None:
+    model = tmp_path / 'model.sdf'
+    model.write_text('<sdf version="1.6"><model name="m">\n<enable_wind>true</enable_wind>\n'
+                     '<link name="l"/></model></sdf>')
+    done = angen('check', str(model))
+    assert (done.returncode, done.stderr) == (0, '')
+    first, second = done.stdout.splitlines()
+    assert first == f'ignored: {model}:2: <enable_wind> in <model>'
+    assert 'nothing is wrong; model m' in second
+
+
 @pytest.mark.parametrize('words', [['check'], ['check', '--no-such-option', 'x']])
 def test_wrong_words_end_with_2(words: list[str]) -> None:
     assert angen(*words).returncode == 2

@@ -29,9 +29,10 @@ def run_check(args: argparse.Namespace) -> int:
     code = 0
     for path in args.paths:
         checked = check(path)
-        for line in checked.wrong + [f'warning: {warning}' for warning in checked.warnings] + [
-                f'ignored: {ignored}' for ignored in checked.ignored]:
+        for line in checked.wrong + [f'warning: {warning}' for warning in checked.warnings]:
             print(line, file=sys.stderr)
+        for ignored in checked.ignored:
+            print(f'ignored: {ignored}')
         if checked.wrong:
             code = 1
         else:

@@ -68,11 +68,9 @@ def _checked_model(angen: Any, path: str) -> Checked:
 
 
 def _right(path: str, found: str, world: Any) -> Checked:
-    warnings, ignored = world.warnings, world.ignored
+    warnings = world.warnings
     state = f'loads with {_counted(len(warnings), "warning")}' if warnings else 'nothing is wrong'
-    if ignored:
-        state += f'; {_counted(len(ignored), "element")} of it ignored'
-    return Checked(warnings=warnings, ignored=ignored, found=f'{path}: {state}; {found}')
+    return Checked(warnings=warnings, ignored=world.ignored, found=f'{path}: {state}; {found}')
 
 
 def _counted(count: int, noun: str) -> str:
