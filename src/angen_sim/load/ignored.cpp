@@ -36,7 +36,7 @@ const std::map<std::string, Used>& table() {
       {"atmosphere", {{"temperature"}, {"type"}}},
       {"state", {{"model"}, {"world_name"}}},
       {"state/model", {{"pose", "joint"}}},
-      {"model/joint", {{"angle"}}},
+      {"saved/joint", {{"angle"}}},
       {"angle", {{}, {"axis"}}},
       {"light",
        {{"pose", "diffuse", "intensity", "cast_shadows", "attenuation", "direction", "spot",
@@ -100,9 +100,9 @@ const std::map<std::string, Used>& table() {
 }
 
 // What has had its own warning.
-bool is_told(const std::string& name) {
-  static const Names told = {"gripper", "projector", "battery", "population", "road"};
-  return told.count(name) != 0;
+bool has_warning(const std::string& name) {
+  static const Names warned = {"gripper", "projector", "battery", "population", "road"};
+  return warned.count(name) != 0;
 }
 
 const Used* used_of(const Element& element, const std::string& parent) {
@@ -147,7 +147,7 @@ void walk(const Element& element, const std::string& parent, bool springs, Sessi
     const bool unused = used->children.count(child.name) == 0 ||
                         (element.name == "joint" && has_no_use(element, child)) ||
                         (!springs && child.name.compare(0, 7, "spring_") == 0);
-    if (unused && !is_told(child.name)) {
+    if (unused && !has_warning(child.name)) {
       session.ignore(child.source, "<" + child.name + "> in <" + element.name + ">");
     }
     if (unused || child.name == "plugin") continue;  // plug-ins say what they do not know
@@ -155,7 +155,7 @@ void walk(const Element& element, const std::string& parent, bool springs, Sessi
       walk_sensor(child, session);
       continue;
     }
-    walk(child, element.name, springs, session);
+    walk(child, parent == "state" ? "saved" : element.name, springs, session);
   }
 }
 
