@@ -1,4 +1,6 @@
 """The person of the whole building, and a door that opens towards it."""
+import pytest
+
 import angen
 
 
@@ -24,3 +26,24 @@ def test_person_waits_at_a_shut_door_and_makes_room_for_it_to_open(building):
     world.command('door', 'livingroom0', 'Open')
     assert until(world, 20, lambda: person()['y'] > 4.5)
     assert world.device('door', 'livingroom0')['mode'] == 'OPEN'
+
+
+CRATE = '''<model name="crate"><pose>2 0 0.301 0 0 0</pose><link name="l">
+<inertial><mass>60</mass><inertia>
+<ixx>4</ixx><iyy>4</iyy><izz>4</izz></inertia></inertial><collision name="c"><geometry><box>
+<size>0.6 0.6 0.6</size></box></geometry></collision></link></model>
+<actor name="person"><pose>0 0 0 0 0 0</pose></actor>'''
+
+
+def test_person_goes_where_it_is_sent_round_a_crate(world):
+    w = world(CRATE)
+    w.run(1.0)
+    w.command('person', 'person', 'GoTo 4 0.5')
+    assert until(w, 10, lambda: w.device('person', 'person')['mode'] == 'STANDING'
+                 and w.device('person', 'person')['x'] > 3.9)
+    assert abs(w.device('person', 'person')['y'] - 0.5) < 0.05
+    crate = w.links.index('crate::l')
+    assert abs(w.link_poses[crate][0] - 2.0) < 1e-3
+    assert '<go_to>4 0.5</go_to>' in w.save()
+    with pytest.raises(angen.Error, match='GoTo <x> <y>'):
+        w.command('person', 'person', 'GoTo 4')
