@@ -90,8 +90,8 @@ def end(process: subprocess.Popen[str], timeout: float = 20.0) -> int:
 class Master:
     """A rosmaster process at `uri`, and the environment that points to it."""
 
-    def __init__(self, folder: Path) -> None:
-        port = free_port()
+    def __init__(self, folder: Path, port: int = 0) -> None:
+        port = port or free_port()
         self.uri = f"http://127.0.0.1:{port}"
         self.environment = dict(
             os.environ, ROS_MASTER_URI=self.uri, ROS_IP="127.0.0.1", ROS_LOG_DIR=str(folder),

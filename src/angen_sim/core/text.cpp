@@ -29,6 +29,12 @@ std::size_t utf8_length(const std::string& text, std::size_t i) {
   return overlong || surrogate || too_large ? 0 : length;
 }
 
+bool is_tail(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
+
+std::string length_of(const std::string& text) {
+  return "… (" + std::to_string(text.size()) + " bytes)";
+}
+
 template <class T>
 std::optional<T> parse(const std::string& text) {
   const char* begin = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
@@ -60,12 +66,20 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
+std::string shortened(const std::string& text, std::size_t limit) {
+  if (text.size() <= limit) return text;
+  constexpr std::size_t kMostTails = 3;  // bytes of a character after its first
+  std::size_t end = limit;
+  while (end > 0 && limit - end < kMostTails && is_tail(text[end])) --end;
+  return text.substr(0, is_tail(text[end]) ? limit : end) + length_of(text);
+}
+
 std::string printable(const std::string& text, std::size_t limit) {
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t length = utf8_length(text, i);
     const bool plain = length > 1 || (length == 1 && text[i] >= 0x20 && text[i] != 0x7F);
-    if (out.size() + std::max<std::size_t>(length, 1) > limit) return out + "…";
+    if (out.size() + std::max<std::size_t>(length, 1) > limit) return out + length_of(text);
     out += plain ? text.substr(i, length) : "?";
     i += std::max<std::size_t>(length, 1);
   }

@@ -13,7 +13,11 @@ bool valid_utf8(const std::string& text);
 /// Without blanks (space, tab, line breaks) at both ends.
 std::string trimmed(const std::string& text);
 
-/// `text` fit for a log line: at most `limit` bytes, control characters and invalid UTF-8 as `?`.
+/// The whole text where it has at most `limit` bytes; else its beginning up to there, without a
+/// part of a character, and its length: "Open, kitch… (1000000 bytes)".
+std::string shortened(const std::string& text, std::size_t limit);
+
+/// The same, fit for a log line: control characters and invalid UTF-8 as `?`.
 std::string printable(const std::string& text, std::size_t limit = 80);
 
 /// The whole text as a number in the C locale, which may be infinite or NaN; a leading + is

@@ -51,20 +51,25 @@ Message to_message(const StampedReading& reading, Fill<Message> fill) {
   return message;
 }
 
+/// So many messages wait for a slow subscriber. Pictures, of megabytes each, are fewer.
+template <class Message>
+std::uint32_t queue_length() {
+  const std::string type = ros::message_traits::datatype<Message>();
+  return type == "sensor_msgs/Image" || type == "sensor_msgs/PointCloud2" ? 4 : 20;
+}
+
 /// A message for each reading.
 template <class Message>
 class EachChannel : public Channel {
  public:
   EachChannel(ros::NodeHandle& node, const std::string& topic, Fill<Message> fill)
-      : publisher_(LazyPublisher::of<Message>(node, topic, kQueue)), fill_(fill) {}
+      : publisher_(LazyPublisher::of<Message>(node, topic, queue_length<Message>())), fill_(fill) {}
   bool has_subscribers() const override { return publisher_.has_subscribers(); }
   void publish(const StampedReading& reading) override {
     publisher_.publish([&] { return to_message<Message>(reading, fill_); });
   }
 
  private:
-  static constexpr std::uint32_t kQueue = 20;
-
   LazyPublisher publisher_;
   Fill<Message> fill_;
 };

@@ -9,7 +9,7 @@
 namespace angen::node {
 namespace {
 
-constexpr std::chrono::seconds kCostPeriod(1);
+constexpr std::chrono::seconds kWallSecond(1);
 
 Nanoseconds process_time() {
   timespec now{};
@@ -56,24 +56,56 @@ CostTopic::CostTopic(ros::NodeHandle& node, sim::Simulation& simulation)
     : simulation_(simulation),
       publisher_(LazyPublisher::of<angen_msgs::Cost>(node, "/angen/cost", 10)) {}
 
-void CostTopic::restart(Pacer::Clock::time_point now) {
-  since_ = now;
+void CostPeriod::restart(Nanoseconds time, Time now) {
+  since_ = time;
+  since_now_ = now;
+}
+
+bool CostPeriod::settled(Nanoseconds time, Time now) const {
+  return time - first_ >= kSecond && now - first_now_ >= kWallSecond;
+}
+
+CostPeriod::Due CostPeriod::check(Nanoseconds time, bool paused, Time now) {
+  const bool back = time < last_;  // a reset
+  const bool still = paused && time == last_;
+  if (last_ < 0 || (back && !settled_)) {
+    first_ = time;
+    first_now_ = now;
+  }
+  last_ = time;
+  if (back) return Due::kDiscard;
+  if (!settled_ && settled(time, now)) {
+    settled_ = true;
+    return Due::kDiscard;
+  }
+  if (now - since_now_ < kWallSecond) return Due::kNo;
+  if (settled_ && time - since_ >= kSecond) return Due::kYes;
+  return still ? Due::kStill : Due::kNo;
+}
+
+void CostTopic::restart(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {
+  period_.restart(snapshot.time, now);
   process_since_ = process_time();
   publishing_ = 0;
 }
 
 void CostTopic::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {
   publishing_ += watch_.lap();
+  using Due = CostPeriod::Due;
+  const Due due = period_.check(snapshot.time, snapshot.paused, now);
   if (publisher_.has_subscribers() != measuring_) {
     measuring_ = !measuring_;
     simulation_.measure(measuring_);
     simulation_.take_cost();
-    restart(now);
+    restart(snapshot, now);
+    return;
   }
-  if (!measuring_ || now - since_ < kCostPeriod) return;
-  const Spent spent{simulation_.take_cost(), publishing_, process_time() - process_since_,
-                    std::chrono::nanoseconds(now - since_).count()};
-  restart(now);
+  if (!measuring_ || due == Due::kNo) return;
+  Spent spent{simulation_.take_cost(), publishing_, process_time() - process_since_,
+              std::chrono::nanoseconds(now - period_.since()).count()};
+  restart(snapshot, now);
+  if (due == Due::kDiscard) return;
+  if (due == Due::kStill) spent.ticks.simulated = 0;
   publisher_.publish([&] {
     angen_msgs::Cost message = to_message(spent);
     message.header.stamp = to_ros(snapshot.time);

@@ -20,6 +20,34 @@ struct Spent {
 /// What that was for each simulated second; the caller fills the header.
 angen_msgs::Cost to_message(const Spent& spent);
 
+/// When what was measured is published: after a second of wall time and one of simulated time. The
+/// first second after the node's start is left out: in it everything is set up and comes to rest.
+class CostPeriod {
+ public:
+  using Time = Pacer::Clock::time_point;
+  enum class Due {
+    kNo,
+    kDiscard,  // what was measured belongs to the first second, or to before a reset
+    kStill,    // time stands still: there is nothing to measure
+    kYes,
+  };
+
+  void restart(Nanoseconds time, Time now);
+  /// To be called after each tick.
+  Due check(Nanoseconds time, bool paused, Time now);
+  Time since() const { return since_now_; }
+
+ private:
+  bool settled(Nanoseconds time, Time now) const;
+
+  bool settled_ = false;
+  Nanoseconds last_ = -1;  // time of the last tick; none before the first
+  Nanoseconds first_ = 0;  // of the node
+  Time first_now_;
+  Nanoseconds since_ = 0;  // of the period
+  Time since_now_;
+};
+
 /// /angen/cost, once a second of wall time. The simulation measures only while it has subscribers.
 class CostTopic {
  public:
@@ -30,13 +58,13 @@ class CostTopic {
   void publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point now);
 
  private:
-  void restart(Pacer::Clock::time_point now);
+  void restart(const sim::Snapshot& snapshot, Pacer::Clock::time_point now);
 
   sim::Simulation& simulation_;
   LazyPublisher publisher_;
   Stopwatch watch_;
   bool measuring_ = false;
-  Pacer::Clock::time_point since_;
+  CostPeriod period_;
   Nanoseconds process_since_ = 0;
   Nanoseconds publishing_ = 0;
 };

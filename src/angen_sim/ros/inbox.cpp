@@ -1,6 +1,11 @@
 #include "ros/inbox.h"
 
+#include <memory>
+#include <string>
 #include <utility>
+#include <variant>
+
+#include "core/text.h"
 
 namespace angen::node {
 namespace {
@@ -23,10 +28,20 @@ void Inbox::queue(sim::Action action) {
   wake_.notify_one();
 }
 
-sim::Outcome Inbox::call(sim::Action action) {
-  std::future<sim::Outcome> answer = simulation_.post(std::move(action));
+sim::Outcome Inbox::give_up(sim::Ticket& ticket, bool is_step) const {
+  const double seconds = std::chrono::duration<double>(patience_).count();
+  const std::string why = "the simulation did not answer within " + number_text(seconds) + " s; ";
+  if (ticket.withdraw()) return {false, why + "nothing was done"};
+  if (is_step) return {false, why + "the tick that it takes now is the last of this step"};
+  return {false, why + "it has begun, and takes effect when it is done: see /angen/events"};
+}
+
+sim::Outcome Inbox::call(sim::Action action, const std::function<bool()>& is_lost) {
+  const bool is_step = std::holds_alternative<sim::Step>(action);
+  const auto ticket = std::make_shared<sim::Ticket>();
+  std::future<sim::Outcome> answer = simulation_.post(std::move(action), ticket);
   std::int64_t tick = simulation_.snapshot()->tick;
-  Clock::time_point limit = Clock::now() + kPatience;
+  Clock::time_point limit = Clock::now() + patience_;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     waiting_ = true;
@@ -34,10 +49,11 @@ sim::Outcome Inbox::call(sim::Action action) {
   }
   while (answer.wait_for(kSlice) != std::future_status::ready) {
     if (closed_) return {false, "the simulator ends"};
+    if (is_lost && is_lost()) ticket->withdraw();
     const std::int64_t now = simulation_.snapshot()->tick;
-    if (now != tick) limit = Clock::now() + kPatience;
+    if (now != tick) limit = Clock::now() + patience_;
     tick = now;
-    if (Clock::now() > limit) return {false, "the simulation did not answer within 10 s"};
+    if (Clock::now() > limit) return give_up(*ticket, is_step);
   }
   sim::Outcome outcome = answer.get();
   std::unique_lock<std::mutex> lock(mutex_);

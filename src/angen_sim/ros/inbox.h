@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <functional>
 #include <mutex>
 #include <utility>
 
@@ -13,7 +14,10 @@ namespace angen::node {
 /// The way from ROS's threads to the one that owns the world, and back.
 class Inbox {
  public:
-  explicit Inbox(sim::Simulation& simulation) : simulation_(simulation) {}
+  static constexpr std::chrono::milliseconds kPatience{10'000};
+
+  explicit Inbox(sim::Simulation& simulation, std::chrono::milliseconds patience = kPatience)
+      : simulation_(simulation), patience_(patience) {}
 
   /// Queues an action; nobody waits. A refusal is published on /angen/events and logged.
   void post(sim::Action action);
@@ -22,8 +26,10 @@ class Inbox {
   void note(sim::Note note) { queue(std::move(note)); }
 
   /// Queues an action and waits for what became of it, until the topics say so too. Gives up when
-  /// simulated time has stood still for kPatience of wall time, or when the node ends.
-  sim::Outcome call(sim::Action action);
+  /// simulated time has stood still for its patience of wall time, when `is_lost` says that nobody
+  /// waits for the answer any more, or when the node ends. An action that is given up is withdrawn;
+  /// one that has begun takes effect all the same, and the outcome says so.
+  sim::Outcome call(sim::Action action, const std::function<bool()>& is_lost = {});
 
   /// How many actions have been queued by post().
   std::uint64_t posted() const { return posted_; }
@@ -36,12 +42,12 @@ class Inbox {
 
   sim::Simulation& simulation() { return simulation_; }
 
-  static constexpr std::chrono::seconds kPatience{10};
-
  private:
   void queue(sim::Action action);
+  sim::Outcome give_up(sim::Ticket& ticket, bool is_step) const;
 
   sim::Simulation& simulation_;
+  std::chrono::milliseconds patience_;
   std::mutex mutex_;
   std::condition_variable wake_;  // of the main thread
   std::condition_variable done_;  // of those who wait for a pass

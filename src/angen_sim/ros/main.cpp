@@ -1,5 +1,6 @@
 #include <ros/console.h>
 #include <ros/init.h>
+#include <ros/master.h>
 #include <ros/param.h>
 #include <signal.h>
 
@@ -23,6 +24,7 @@
 #include "record/recorder.h"
 #include "record/replay.h"
 #include "ros/node.h"
+#include "ros/rescue.h"
 #include "sim/simulation.h"
 
 namespace {
@@ -32,9 +34,10 @@ using angen::sim::Simulation;
 constexpr char kUsage[] =
     "usage: angen_node [WORLD] [_rate:=1] [_paused:=false] [_seed:=1] [_clock_rate:=100]\n"
     "                  [_fast:=false] [_topics:=sensor|kind] [_record:=FILE]\n"
-    "                  [_replay:=FILE [_until:=SECONDS]] [_allow_paths:=false]\n"
+    "                  [_replay:=FILE [_until:=SECONDS]] [_allow_paths:=false] [_rescue:=FILE]\n"
     "       angen_node --check WORLD    only loads; exit code 1 when it cannot\n"
-    "WORLD may also stand in the parameter ~world.\n";
+    "WORLD may also stand in the parameter ~world. Where the ROS master is started anew, the node\n"
+    "saves the world in FILE and ends with exit code 75.\n";
 
 constexpr std::uint64_t kDefaultSeed = 1;
 constexpr double kLongestTime = 9e9;  // s, so that it fits into nanoseconds
@@ -158,6 +161,17 @@ std::unique_ptr<angen::record::Recorder> make_recorder(const std::string& world,
 // Everything that is loaded from now on may name files and libraries anywhere.
 void allow_all_paths() { setenv("ANGEN_ALLOW_PATHS", "true", 1); }
 
+int save_and_end(Simulation& simulation, const std::string& path) {
+  angen::node::rescue(simulation, path);
+  std::fprintf(stderr,
+               "angen_node: the ROS master at %s was started anew and does not know this node; the "
+               "world as of %.3f s is saved in %s: start a node anew with it\n",
+               ros::master::getURI().c_str(), angen::to_seconds(simulation.snapshot()->time),
+               path.c_str());
+  ros::shutdown();
+  return angen::node::kRescued;
+}
+
 int run(std::string path, std::unique_ptr<Simulation> simulation) {
   if (ros::param::param("~allow_paths", false)) allow_all_paths();
   const bool replays = !ros::param::param<std::string>("~replay", "").empty();
@@ -177,6 +191,8 @@ int run(std::string path, std::unique_ptr<Simulation> simulation) {
   settings.replay = replay.get();
   settings.models = replay ? replay->log().header.models : folder_of(path) + "/models";
   settings.topics = angen::node::topics_named(ros::param::param<std::string>("~topics", "sensor"));
+  const auto rescue_path =
+      ros::param::param<std::string>("~rescue", angen::node::default_rescue_path());
   const auto seed = static_cast<std::uint64_t>(number_param("~seed", kDefaultSeed, 0.0));
   const bool usable = simulation && simulation->seed() == seed;
   if (!replay && !usable) simulation = make(read(path), seed);
@@ -189,7 +205,8 @@ int run(std::string path, std::unique_ptr<Simulation> simulation) {
   angen::node::Node node(running, settings);
   ROS_INFO("%s; seed %lu", summary(path, running).c_str(),
            static_cast<unsigned long>(running.seed()));
-  node.run(stop);
+  const angen::node::Node::End end = node.run(stop);
+  if (end == angen::node::Node::End::kMasterLost) return save_and_end(running, rescue_path);
   ros::shutdown();
   return EXIT_SUCCESS;
 }

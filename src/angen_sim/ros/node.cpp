@@ -6,13 +6,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
 #include "ros/frames.h"
+#include "ros/master_watch.h"
 
 namespace angen::node {
 namespace {
 
-constexpr std::uint32_t kThreads = 4;
+constexpr std::uint32_t kThreads = 2;  // of subscribers, which never wait
 constexpr std::chrono::milliseconds kPausedNap(20);
 constexpr std::chrono::milliseconds kLongestNap(100);  // Ctrl-C is seen that soon
 
@@ -39,20 +41,27 @@ Node::Node(sim::Simulation& simulation, const Settings& settings)
       publishers_(handle_, simulation, settings.topics),
       joints_(handle_),
       commands_(handle_, inbox_, settings.plugins),
-      services_(handle_, inbox_, events_, settings.models, settings.topics) {}
+      services_(inbox_, events_, settings.models, settings.topics) {}
 
-void Node::run(const std::atomic<bool>& stop) {
+Node::End Node::run(const std::atomic<bool>& stop) {
   ros::AsyncSpinner spinner(kThreads);
   spinner.start();
-  while (!stop && ros::ok()) {
+  services_.start();
+  std::optional<MasterWatch> master;
+  while (!stop && ros::ok() && !(master && master->lost())) {
     const std::shared_ptr<const sim::Snapshot> snapshot = advance();
     publish(*snapshot);
     inbox_.published();
-    if (!ready_) announce();
+    if (!ready_) {
+      announce();
+      master.emplace();
+    }
     pace(*snapshot, stop);
   }
   inbox_.close();
+  services_.stop();
   spinner.stop();
+  return master && master->lost() ? End::kMasterLost : End::kStopped;
 }
 
 void Node::announce() {

@@ -33,14 +33,16 @@ struct Settings {
   bool paused_after = false;             // the replay
 };
 
-/// A simulation in ROS. The thread that calls run() owns the world and publishes; roscpp's threads
-/// only queue actions and wait for their answers.
+/// A simulation in ROS. The thread that calls run() owns the world and publishes; those of
+/// subscribers only queue actions, those of services wait for the answers too.
 class Node {
  public:
   Node(sim::Simulation& simulation, const Settings& settings);
 
-  /// Ticks until `stop` or roscpp's end.
-  void run(const std::atomic<bool>& stop);
+  enum class End { kStopped, kMasterLost };
+
+  /// Ticks until `stop` or roscpp's end, or until the master has been started anew.
+  End run(const std::atomic<bool>& stop);
 
  private:
   std::shared_ptr<const sim::Snapshot> advance();

@@ -12,10 +12,32 @@
 #include "record/world_file.h"
 #include "ros/convert.h"
 #include "ros/listing.h"
+#include "ros/lost_clients.h"
+#include "ros/taken_topics.h"
 #include "ros/text.h"
 
 namespace angen::node {
 namespace {
+
+constexpr std::uint32_t kThreads = 8;
+constexpr std::size_t kMostSteps = 4;             // calls that wait at once
+constexpr std::uint32_t kMostTicks = 10'000'000;  // of a call
+constexpr std::size_t kLongestAnswer = 10'000;    // bytes
+
+/// Counts one more while it lives.
+class Count {
+ public:
+  explicit Count(std::atomic<std::size_t>& counter) : counter_(counter), now_(++counter) {}
+  ~Count() { --counter_; }
+  Count(const Count&) = delete;
+  Count& operator=(const Count&) = delete;
+
+  std::size_t now() const { return now_; }
+
+ private:
+  std::atomic<std::size_t>& counter_;
+  std::size_t now_;
+};
 
 // A message whose quaternion nobody filled means no rotation.
 Pose to_pose(const geometry_msgs::Pose& message) {
@@ -59,17 +81,20 @@ bool answered(Response& response, Work&& work) {
     response.success = false;
     response.message = problem.what();
   }
+  response.message = shortened(response.message, kLongestAnswer);
   return true;
 }
 
 }  // namespace
 
-Services::Services(ros::NodeHandle& node, Inbox& inbox, const Events& events,
-                   const std::string& models, Topics topics)
+Services::Services(Inbox& inbox, const Events& events, const std::string& models, Topics topics)
     : inbox_(inbox),
       events_(events),
       paths_(load::SearchPaths::from_environment(models)),
-      topics_(topics) {
+      topics_(topics),
+      spinner_(kThreads, &queue_) {
+  ros::NodeHandle node;
+  node.setCallbackQueue(&queue_);
   const auto serve_empty = [&](const std::string& name, const sim::Action& action) {
     const boost::function<bool(Empty::Request&, Empty::Response&)> called =
         [this, action](Empty::Request&, Empty::Response&) { return empty(action); };
@@ -101,16 +126,26 @@ bool Services::empty(sim::Action action) {
 
 bool Services::step(angen_msgs::Step::Request& request, angen_msgs::Step::Response& response) {
   return answered(response, [&] {
+    if (request.ticks > kMostTicks) {
+      throw Error("a call takes at most " + std::to_string(kMostTicks) + " ticks");
+    }
+    const Count waiting(steps_);
+    if (waiting.now() > kMostSteps) {
+      throw Error(std::to_string(kMostSteps) + " other steps wait; try again");
+    }
     // Counted before the step is queued: what came later may have taken effect later.
     response.commands = inbox_.posted();
-    const sim::Outcome outcome = inbox_.call(sim::Step{request.ticks});
+    ClientWatch client;
+    const sim::Outcome outcome =
+        inbox_.call(sim::Step{request.ticks}, [&] { return client.lost(steps_); });
+    response.taken = static_cast<std::uint32_t>(outcome.ticks);
     response.events = events_.count();
     response.sim_time = to_ros(inbox_.simulation().snapshot()->time);
     return outcome;
   });
 }
 
-sim::Action Services::spawn_action(const angen_msgs::Spawn::Request& request) const {
+sim::Action Services::spawn_action(const angen_msgs::Spawn::Request& request) {
   check_name(request.name);
   if (trimmed(request.xml).empty()) throw Error("nothing to spawn: xml is empty");
   if (!valid_utf8(request.xml)) throw Error("xml is not UTF-8");
@@ -123,8 +158,14 @@ sim::Action Services::spawn_action(const angen_msgs::Spawn::Request& request) co
     throw Error("only a <sensor> can be put on a link, and xml holds none");
   }
   if (!valid_utf8(request.on)) throw Error("`on` is not UTF-8");
-  if (lone_sensor) return sim::Attach{load::sensor(request.xml, request.name, pose), request.on};
-  return sim::Spawn{load::model(request.xml, request.name, pose, paths_)};
+  if (lone_sensor) {
+    sim::Attach attach{load::sensor(request.xml, request.name, pose), request.on};
+    check_topics({{request.name, &attach.sensor}}, catalog_, topics_);
+    return attach;
+  }
+  sim::Spawn spawn{load::model(request.xml, request.name, pose, paths_)};
+  check_topics(new_sensors(spawn.model), catalog_, topics_);
+  return spawn;
 }
 
 bool Services::spawn(angen_msgs::Spawn::Request& request, angen_msgs::Spawn::Response& response) {

@@ -6,9 +6,12 @@
 #include <angen_msgs/SendCommand.h>
 #include <angen_msgs/Spawn.h>
 #include <angen_msgs/Step.h>
+#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
+#include <ros/spinner.h>
 #include <std_srvs/Empty.h>
 
+#include <atomic>
 #include <string>
 #include <vector>
 
@@ -21,12 +24,15 @@ namespace angen::node {
 
 /// What the node can be requested to do. Parsing happens here, on the thread of the request; the
 /// world changes in its own. Nothing is thrown out: what goes wrong is success = false and a
-/// message.
+/// message. Services have threads of their own, and calls that wait long never have all of them.
 class Services {
  public:
   /// `models` is a further folder that model:// is searched in.
-  Services(ros::NodeHandle& node, Inbox& inbox, const Events& events, const std::string& models,
-           Topics topics);
+  Services(Inbox& inbox, const Events& events, const std::string& models, Topics topics);
+
+  /// Serves until stop(), which waits for the calls that are being served.
+  void start() { spinner_.start(); }
+  void stop() { spinner_.stop(); }
 
  private:
   using Empty = std_srvs::Empty;
@@ -39,12 +45,16 @@ class Services {
                angen_msgs::SendCommand::Response& response);
   bool list(angen_msgs::List::Request& request, angen_msgs::List::Response& response);
   bool save(angen_msgs::Save::Request& request, angen_msgs::Save::Response& response);
-  sim::Action spawn_action(const angen_msgs::Spawn::Request& request) const;
+  sim::Action spawn_action(const angen_msgs::Spawn::Request& request);
 
   Inbox& inbox_;
   const Events& events_;
   load::SearchPaths paths_;
   Topics topics_;
+  Catalog catalog_;                    // to know the kinds of new sensors by
+  std::atomic<std::size_t> steps_{0};  // calls that wait
+  ros::CallbackQueue queue_;
+  ros::AsyncSpinner spinner_;
   std::vector<ros::ServiceServer> servers_;
 };
 

@@ -11,6 +11,12 @@
 namespace angen::node {
 namespace {
 
+constexpr std::size_t kLongest = 4096;  // bytes of a command
+
+std::string too_long(std::size_t bytes) {
+  return std::to_string(bytes) + " bytes, at most " + std::to_string(kLongest) + " are read";
+}
+
 std::vector<std::string> fields_of(const std::string& text) {
   std::vector<std::string> fields;
   std::size_t start = 0;
@@ -36,6 +42,7 @@ sim::Action topic_action(const Kind& kind, const std::string& text,
     return reject(source, kind.name, text, why,
                   "right is VERB, NAME[, NUMBER]; verbs are " + forms_of(kind));
   };
+  if (text.size() > kLongest) return wrong(too_long(text.size()));
   if (!valid_utf8(text)) return wrong("not UTF-8");
   const std::vector<std::string> fields = fields_of(unquoted(text));
   if (fields[0].empty()) return wrong("no verb");
@@ -62,6 +69,8 @@ sim::Action any_action(const std::string& target, const std::string& text) {
     return reject("command", "command", target + ": " + text, why,
                   "right is a device's name (or KIND/NAME) as target and its verb as text");
   };
+  const std::size_t bytes = target.size() + text.size();
+  if (bytes > kLongest) return wrong(too_long(bytes));
   if (!valid_utf8(target) || !valid_utf8(text)) return wrong("not UTF-8");
   const std::string name = unquoted(target);
   if (name.empty()) return wrong("no target");

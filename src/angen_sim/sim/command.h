@@ -11,6 +11,7 @@
 #include "desc/world.h"
 #include "plugin/plugin.h"
 #include "sim/saved.h"
+#include "sim/ticket.h"
 
 namespace angen::sim {
 
@@ -18,6 +19,7 @@ namespace angen::sim {
 struct Outcome {
   bool ok = true;
   std::string message;
+  std::uint64_t ticks = 0;  // that a Step has taken
 };
 
 /// To the device `name` of `kind`; kind "" = whichever kind has the name alone; name "all" = each.
@@ -41,7 +43,8 @@ struct Delete {
 struct Pause {
   bool paused = true;
 };
-/// Runs so many ticks although paused; answered when they are done.
+/// Runs so many ticks although paused; answered when they are done, or when a pause, its end or a
+/// reset interrupts it.
 struct Step {
   std::uint64_t ticks = 1;
 };
@@ -79,6 +82,7 @@ using ActionObserver = std::function<void(const Action&, Nanoseconds)>;
 struct Request {
   Action action;
   std::promise<Outcome> answer;
+  std::shared_ptr<Ticket> ticket;  // null: it cannot be withdrawn
 };
 
 }  // namespace angen::sim

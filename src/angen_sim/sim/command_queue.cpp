@@ -7,11 +7,14 @@
 #include <utility>
 
 #include "core/nearest.h"
+#include "core/text.h"
 #include "sim/guard.h"
 
 namespace angen::sim {
 
 namespace {
+
+constexpr std::size_t kLongestReason = 800;  // bytes
 
 Event world_event(Nanoseconds time, const std::string& source, const std::string& event,
                   const std::string& detail = "") {
@@ -28,10 +31,10 @@ ToDevice with_kind(const ToDevice& action) {
 Outcome unknown_device(const Building& building, const ToDevice& action) {
   const bool any = action.kind.empty();
   const std::vector<std::string> names = building.device_names(action.kind);
-  std::string message = "no " + (any ? "device" : action.kind) + " named '" + action.name + "'; " +
-                        did_you_mean(action.name, names);
-  if (names.size() > 3)
-    message += " `angen list" + (any ? "" : " --kind " + action.kind) + "` lists all";
+  const std::string kind = printable(action.kind);
+  std::string message = "no " + (any ? "device" : kind) + " named '" + printable(action.name) +
+                        "'; " + did_you_mean(action.name, names);
+  if (names.size() > 3) message += " `angen list" + (any ? "" : " --kind " + kind) + "` lists all";
   return {false, message};
 }
 
@@ -41,7 +44,7 @@ std::string prepare(const Building::Target& target, Command command, Building& b
   DeviceInstance& device = *target.device;
   if (!device.error.empty()) return "its plug-in has failed: " + device.error;
   const std::string wrong = parse_command(device.plugin->kind(), command);
-  if (!wrong.empty()) return wrong;
+  if (!wrong.empty()) return printable(wrong, kLongestReason);
   Verdict verdict;
   const std::string thrown = thrown_by([&] {
     device.catch_up(clock.time, clock.step);
@@ -74,6 +77,38 @@ Outcome to_device(const ToDevice& given, Building& building, InstanceView::Clock
   return {true, ""};
 }
 
+struct TextBytes {
+  std::size_t operator()(const ToDevice& action) const {
+    return action.kind.size() + action.name.size() + action.command.text.size() +
+           action.command.values.size() * sizeof(double);
+  }
+  std::size_t operator()(const Reject& action) const {
+    return action.source.size() + action.kind.size() + action.reason.size();
+  }
+  std::size_t operator()(const Note& action) const {
+    return action.source.size() + action.kind.size() + action.event.size() + action.detail.size();
+  }
+  template <class Other>
+  std::size_t operator()(const Other&) const {
+    return 0;  // their senders wait, so there are few
+  }
+};
+
+std::size_t bytes_of(const Action& action) {
+  return sizeof(Request) + std::visit(TextBytes{}, action);
+}
+
+void cut(Event& event) {
+  for (std::string* text : {&event.source, &event.kind, &event.event}) {
+    *text = shortened(*text, CommandQueue::kLongestName);
+  }
+  event.detail = shortened(event.detail, CommandQueue::kLongestDetail);
+}
+
+std::string progress(std::int64_t taken, std::int64_t ticks) {
+  return " after " + std::to_string(taken) + " of " + std::to_string(ticks) + " ticks";
+}
+
 }  // namespace
 
 CommandQueue::~CommandQueue() {
@@ -81,38 +116,62 @@ CommandQueue::~CommandQueue() {
   for (Pending& step : steps_) step.answer.set_value({false, "the simulator ended"});
 }
 
-std::future<Outcome> CommandQueue::post(Action action) {
-  Request request{std::move(action), {}};
+std::future<Outcome> CommandQueue::post(Action action, std::shared_ptr<Ticket> ticket) {
+  const std::size_t bytes = bytes_of(action);
+  Request request{std::move(action), {}, std::move(ticket)};
   std::future<Outcome> future = request.answer.get_future();
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (waiting_ + bytes > kMostWaiting) {
+    ++refused_;
+    request.answer.set_value({false, "too many commands wait; try again"});
+    return future;
+  }
+  waiting_ += bytes;
   inbox_.push_back(std::move(request));
   return future;
 }
 
-CommandQueue::Effects CommandQueue::drain(Building& building, InstanceView::Clock clock,
-                                          std::vector<Event>& events) {
+std::vector<Request> CommandQueue::take() {
   std::vector<Request> requests;
+  std::size_t refused = 0;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     requests.swap(inbox_);
+    waiting_ = 0;
+    refused = std::exchange(refused_, 0);
   }
-  if (!taken_over_.empty()) requests = only_replayed(std::move(requests));
+  if (refused > 0) {
+    Request told;
+    told.action = Reject{"world", "world",
+                         std::to_string(refused) + " commands were refused: more than " +
+                             std::to_string(kMostWaiting >> 20U) + " MB of them waited"};
+    requests.push_back(std::move(told));
+  }
+  return requests;
+}
+
+CommandQueue::Effects CommandQueue::drain(Building& building, InstanceView::Clock clock,
+                                          std::vector<Event>& events) {
   Effects effects;
+  stop_withdrawn_steps();
+  const std::size_t before = events.size();
+  std::vector<Request> requests = take();
+  if (!taken_over_.empty()) requests = only_replayed(std::move(requests));
   for (Request& request : requests) {
+    if (request.ticket && !request.ticket->begin()) {
+      answers_.emplace_back(std::move(request.answer), Outcome{false, "withdrawn"});
+      continue;
+    }
     if (observer_) observer_(request.action, clock.time);
     if (const Step* step = std::get_if<Step>(&request.action)) {
-      if (step->ticks == 0) {
-        answers_.emplace_back(std::move(request.answer), Outcome{true, "no ticks"});
-      } else {
-        const auto ticks = static_cast<std::int64_t>(
-            std::min<std::uint64_t>(step->ticks, std::numeric_limits<std::int64_t>::max()));
-        steps_.push_back({ticks, std::move(request.answer)});
-      }
+      begin_step(step->ticks, request);
       continue;
     }
     Outcome outcome = execute(request.action, building, clock, events, effects);
+    outcome.message = shortened(outcome.message, kLongestDetail);
     answers_.emplace_back(std::move(request.answer), std::move(outcome));
   }
+  for (std::size_t i = before; i < events.size(); ++i) cut(events[i]);
   return effects;
 }
 
@@ -125,8 +184,40 @@ std::vector<Request> CommandQueue::only_replayed(std::vector<Request> requests) 
       answers_.emplace_back(std::move(request.answer), Outcome{false, taken_over_});
     }
   }
-  for (Action& action : std::exchange(replayed_, {})) kept.push_back({std::move(action), {}});
+  for (Action& action : std::exchange(replayed_, {})) kept.push_back({std::move(action), {}, nullptr});
   return kept;
+}
+
+void CommandQueue::begin_step(std::uint64_t ticks, Request& request) {
+  if (ticks == 0) {
+    answers_.emplace_back(std::move(request.answer), Outcome{true, "no ticks"});
+    return;
+  }
+  const auto count = static_cast<std::int64_t>(
+      std::min<std::uint64_t>(ticks, std::numeric_limits<std::int64_t>::max()));
+  steps_.push_back({count, count, std::move(request.answer), std::move(request.ticket)});
+}
+
+void CommandQueue::stop(Pending& step, const std::string& why) {
+  const std::int64_t taken = step.ticks - step.left;
+  answers_.emplace_back(std::move(step.answer), Outcome{false, why + progress(taken, step.ticks),
+                                                        static_cast<std::uint64_t>(taken)});
+}
+
+void CommandQueue::stop_withdrawn_steps() {
+  for (auto step = steps_.begin(); step != steps_.end();) {
+    if (!step->ticket || !step->ticket->withdrawn()) {
+      ++step;
+      continue;
+    }
+    stop(*step, "stopped");
+    step = steps_.erase(step);
+  }
+}
+
+void CommandQueue::interrupt_steps(const std::string& what) {
+  for (Pending& step : steps_) stop(step, "interrupted by " + what);
+  steps_.clear();
 }
 
 std::int64_t CommandQueue::ticks_to_go() const {
@@ -135,7 +226,8 @@ std::int64_t CommandQueue::ticks_to_go() const {
 
 void CommandQueue::ticks_done(std::int64_t count) {
   if (steps_.empty() || (steps_.front().left -= count) > 0) return;
-  answers_.emplace_back(std::move(steps_.front().answer), Outcome{});
+  const auto taken = static_cast<std::uint64_t>(steps_.front().ticks);
+  answers_.emplace_back(std::move(steps_.front().answer), Outcome{true, "", taken});
   steps_.pop_front();
 }
 
@@ -172,9 +264,11 @@ Outcome CommandQueue::execute(const Action& action, Building& building, Instance
       events.push_back(world_event(clock.time, del->name, "deleted"));
       outcome.message = "deleted " + del->name;
     } else if (const auto* pause = std::get_if<Pause>(&action)) {
+      interrupt_steps(pause->paused ? "a pause" : "the end of the pause");
       paused_ = pause->paused;
       events.push_back(world_event(clock.time, "world", paused_ ? "paused" : "unpaused"));
     } else if (const auto* reset = std::get_if<Reset>(&action)) {
+      interrupt_steps("a reset");
       effects.reset = true;
       effects.reset_time = effects.reset_time || reset->with_time;
       building.reset(reset->with_time ? 0 : clock.time);

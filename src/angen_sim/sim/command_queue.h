@@ -14,12 +14,19 @@
 
 namespace angen::sim {
 
-/// The one queue that everything from outside goes through, and the world's running state.
+/// The one queue that everything from outside goes through, and the world's running state. What it
+/// repeats of a text from outside, in events and answers, is cut to a length.
 class CommandQueue {
  public:
+  static constexpr std::size_t kMostWaiting = 16U << 20U;  // bytes of texts; more is refused
+  static constexpr std::size_t kLongestName = 255;         // bytes in an event
+  static constexpr std::size_t kLongestDetail = 2000;      // bytes in an event or an answer
+
   ~CommandQueue();
 
-  std::future<Outcome> post(Action action);  // any thread
+  /// Any thread. What is refused because too much waits is answered at once, and published as one
+  /// event with the next tick.
+  std::future<Outcome> post(Action action, std::shared_ptr<Ticket> ticket = nullptr);
   void observe(ActionObserver observer) { observer_ = std::move(observer); }
 
   /// From now on only what replay() gives is carried out, and a Save; what others post is rejected
@@ -48,17 +55,26 @@ class CommandQueue {
 
  private:
   struct Pending {
+    std::int64_t ticks;
     std::int64_t left;
     std::promise<Outcome> answer;
+    std::shared_ptr<Ticket> ticket;
   };
 
+  std::vector<Request> take();
+  void begin_step(std::uint64_t ticks, Request& request);
+  void stop_withdrawn_steps();
+  void interrupt_steps(const std::string& what);
+  void stop(Pending& step, const std::string& why);
   Outcome execute(const Action& action, Building& building, InstanceView::Clock clock,
                   std::vector<Event>& events, Effects& effects);
 
   std::vector<Request> only_replayed(std::vector<Request> requests);
 
-  mutable std::mutex mutex_;  // of inbox_ only
+  mutable std::mutex mutex_;  // of the next three
   std::vector<Request> inbox_;
+  std::size_t waiting_ = 0;  // bytes of texts in inbox_
+  std::size_t refused_ = 0;  // actions since the last drain
   std::deque<Pending> steps_;
   std::vector<std::pair<std::promise<Outcome>, Outcome>> answers_;
   bool paused_ = false;

@@ -195,8 +195,8 @@ Simulation::Simulation(desc::World world, std::uint64_t seed, std::shared_ptr<Ca
 
 Simulation::~Simulation() = default;
 
-std::future<Outcome> Simulation::post(Action action) {
-  return impl_->commands.post(std::move(action));
+std::future<Outcome> Simulation::post(Action action, std::shared_ptr<Ticket> ticket) {
+  return impl_->commands.post(std::move(action), std::move(ticket));
 }
 
 std::shared_ptr<const Snapshot> Simulation::tick() { return impl_->take_tick(0); }

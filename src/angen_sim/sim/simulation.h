@@ -26,7 +26,8 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   /// Queues an action for the next tick. The future is answered there (a Step's when it is done).
-  std::future<Outcome> post(Action action);
+  /// With a ticket it can be withdrawn.
+  std::future<Outcome> post(Action action, std::shared_ptr<Ticket> ticket = nullptr);
 
   /// Commands, devices, physics, sensors, snapshot; while paused commands and snapshot only.
   /// Returns the snapshot it made.

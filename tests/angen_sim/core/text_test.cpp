@@ -38,8 +38,17 @@ TEST(Trimmed, LosesBlanksAtBothEndsOnly) {
 TEST(Printable, ReplacesWhatALogCannotShow) {
   EXPECT_EQ(printable("a\nb\x7F\xFF"), "a?b??");
   EXPECT_EQ(printable("ü"), "ü");
-  EXPECT_EQ(printable("abcdef", 3), "abc…");
-  EXPECT_EQ(printable("aüb", 2), "a…") << "no character is cut in two";
+  EXPECT_EQ(printable("abcdef", 3), "abc… (6 bytes)");
+  EXPECT_EQ(printable("aüb", 2), "a… (4 bytes)") << "no character is cut in two";
+}
+
+TEST(Shortened, EndsAtAWholeCharacterWithTheLength) {
+  EXPECT_EQ(shortened("abc", 3), "abc");
+  EXPECT_EQ(shortened("a\nbcdef", 3), "a\nb… (7 bytes)");
+  EXPECT_EQ(shortened("aüb", 2), "a… (4 bytes)");
+  EXPECT_EQ(shortened("a\U0001F600b", 4), "a… (6 bytes)");
+  EXPECT_EQ(shortened(std::string(1000000, 'x'), 3), "xxx… (1000000 bytes)");
+  EXPECT_EQ(shortened("\x80\x80\x80\x80\x80", 4), "\x80\x80\x80\x80… (5 bytes)");
 }
 
 TEST(ParseNumber, TakesTheWholeTextInTheCLocale) {

@@ -73,6 +73,17 @@ TEST(DoorText, CaseOfVerbsAndBlanksDoNotMatter) {
   EXPECT_EQ(std::get<sim::ToDevice>(set).command.number, 0.1);
 }
 
+TEST(LongText, IsRefusedWithItsLength) {
+  const std::string longest(1'000'000, 'x');
+  for (const sim::Action& action :
+       {topic_action(door(), longest, kTwo), topic_action(door(), "Open, " + longest, kTwo),
+        any_action(longest, "Open"), any_action("a", longest)}) {
+    EXPECT_TRUE(says(refused(action), "at most 4096")) << refused(action);
+    EXPECT_TRUE(says(refused(action), "(10000")) << refused(action);
+    EXPECT_LT(refused(action).size(), 400U);
+  }
+}
+
 TEST(DoorText, CaseOfNamesMatters) {
   EXPECT_EQ(sent(topic_action(door(), "Open, Bathroom1", kTwo)), "door/Bathroom1: Open");
 }

@@ -63,6 +63,90 @@ TEST_F(Queue, StepsRunOneAfterTheOtherWhilePaused) {
   EXPECT_FALSE(queue->running());
 }
 
+TEST_F(Queue, PauseItsEndAndResetInterruptSteps) {
+  for (const Action& action : {Action(Pause{true}), Action(Pause{false}), Action(Reset{})}) {
+    queue->post(Pause{true});
+    drain();
+    std::future<Outcome> first = queue->post(Step{4'000'000'000});
+    std::future<Outcome> second = queue->post(Step{5});
+    drain();
+    queue->ticks_done(300);
+    queue->post(action);
+    drain();
+    EXPECT_EQ(queue->ticks_to_go(), INT64_MAX);
+    queue->answer();
+    const Outcome outcome = first.get();
+    EXPECT_FALSE(outcome.ok);
+    EXPECT_EQ(outcome.ticks, 300U);
+    EXPECT_NE(outcome.message.find("after 300 of 4000000000 ticks"), std::string::npos);
+    EXPECT_EQ(second.get().ticks, 0U);
+  }
+}
+
+TEST_F(Queue, WhatIsWithdrawnHasNoEffect) {
+  const auto ticket = std::make_shared<Ticket>();
+  std::future<Outcome> gone = queue->post(Delete{"box"}, ticket);
+  EXPECT_TRUE(ticket->withdraw());
+  drain();
+  queue->answer();
+  EXPECT_FALSE(gone.get().ok);
+  EXPECT_FALSE(building.models().empty());
+  EXPECT_TRUE(events.empty());
+}
+
+TEST_F(Queue, WhatHasBegunCannotBeWithdrawn) {
+  const auto ticket = std::make_shared<Ticket>();
+  queue->post(Delete{"box"}, ticket);
+  drain();
+  EXPECT_FALSE(ticket->withdraw());
+  EXPECT_TRUE(building.models().empty());
+}
+
+TEST_F(Queue, AWithdrawnStepEndsWithTheTickThatIsTaken) {
+  const auto ticket = std::make_shared<Ticket>();
+  std::future<Outcome> step = queue->post(Step{1000}, ticket);
+  drain();
+  queue->ticks_done(7);
+  EXPECT_FALSE(ticket->withdraw());
+  drain();
+  queue->answer();
+  EXPECT_EQ(step.get().ticks, 7U);
+  EXPECT_EQ(queue->ticks_to_go(), INT64_MAX);
+}
+
+TEST_F(Queue, LongTextsAreCutWhereTheyAreRepeated) {
+  const std::string longest(1'000'000, 'x');
+  std::future<Outcome> unknown = queue->post(ToDevice{longest, longest, {longest, {}, "", 0.0}});
+  queue->post(Note{longest, longest, longest, longest});
+  queue->post(Reject{longest, longest, longest});
+  drain();
+  queue->answer();
+  EXPECT_LT(unknown.get().message.size(), 1000U);
+  ASSERT_EQ(events.size(), 3U);
+  for (const Event& event : events) {
+    EXPECT_LT(event.source.size() + event.kind.size() + event.event.size(), 900U);
+    EXPECT_LT(event.detail.size(), 2100U);
+    EXPECT_NE(event.source.find("(1000000 bytes)"), std::string::npos);
+  }
+}
+
+TEST_F(Queue, RefusesWhatIsMoreThanItsBytes) {
+  const std::string long_text(1U << 20U, 'x');
+  std::vector<std::future<Outcome>> answers;
+  for (int i = 0; i < 40; ++i) answers.push_back(queue->post(Note{"a", "b", "c", long_text}));
+  EXPECT_FALSE(is_ready(answers.front()));
+  ASSERT_TRUE(is_ready(answers.back()));
+  EXPECT_FALSE(answers.back().get().ok);
+  drain();
+  ASSERT_EQ(events.size(), 16U);
+  EXPECT_EQ(events.back().event, "rejected");
+  EXPECT_EQ(events.back().detail, "25 commands were refused: more than 16 MB of them waited");
+  std::future<Outcome> later = queue->post(Note{"a", "b", "c", "d"});
+  drain();
+  queue->answer();
+  EXPECT_TRUE(later.get().ok);
+}
+
 TEST_F(Queue, SaysWhatItsCallerMustDo) {
   queue->post(Reset{true});
   queue->post(Reset{false});

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/height_grid.h"
+#include "rays/triangle_tree.h"
+
+namespace angen::rays {
+
+/// The triangles of a heightmap. They are worked out when a ray comes near: only the lowest and
+/// greatest height of each block of cells is kept, of four such blocks, and so on.
+class HeightTree : public TriangleTree {
+ public:
+  explicit HeightTree(std::shared_ptr<const HeightGrid> grid);
+
+  bool meet(const Vec3& origin, const Vec3& direction, double min, double max, double& range,
+            std::uint32_t& triangle) const override;
+  Vec3 normal(std::uint32_t triangle) const override;
+
+ private:
+  struct Range {
+    float low = 0.0F;
+    float high = 0.0F;
+  };
+  struct Level {  // blocks of `side` by `side` cells
+    std::uint32_t side = 0;
+    std::uint32_t columns = 0;
+    std::uint32_t rows = 0;
+    std::vector<Range> blocks;
+  };
+  struct Query;
+
+  void add_first_level();
+  void add_level();
+  Eigen::AlignedBox3d box(std::uint32_t column, std::uint32_t row, std::uint32_t side,
+                          const Range& heights) const;
+  void visit(std::size_t level, std::uint32_t column, std::uint32_t row, Query& q) const;
+  void visit_cells(std::uint32_t column, std::uint32_t row, Query& q) const;
+
+  std::shared_ptr<const HeightGrid> grid_;
+  double pad_ = 0.0;           // m, more than rounding can move a ray or a box
+  std::vector<Level> levels_;  // the last has one block
+};
+
+}  // namespace angen::rays

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/pose.h"
+
+namespace angen::rays {
+
+/// Triangles in their own frame, with a hierarchy over them; shared by all their placements.
+class TriangleTree {
+ public:
+  virtual ~TriangleTree() = default;
+
+  /// Nearest triangle in [min, max], both sides; on a tie the one that comes first.
+  virtual bool meet(const Vec3& origin, const Vec3& direction, double min, double max,
+                    double& range, std::uint32_t& triangle) const = 0;
+  virtual Vec3 normal(std::uint32_t triangle) const = 0;
+  const Eigen::AlignedBox3d& bounds() const { return bounds_; }
+
+ protected:
+  Eigen::AlignedBox3d bounds_;
+};
+
+}  // namespace angen::rays

@@ -1,0 +1,105 @@
+"""The node when its master ends, or is started anew."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+from typing import Iterator
+from urllib.parse import urlparse
+
+import pytest
+from harness import WORLD, Master, end, node_binary, until
+
+BALL = """<model name="ball"><pose>1 1 9 0 0 0</pose><link name="link">
+  <inertial><mass>1</mass></inertial>
+  <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
+</link></model>"""
+
+
+@pytest.fixture
+def master(tmp_path: Path) -> Iterator[Master]:
+    started = Master(tmp_path)
+    yield started
+    if started.process.poll() is None:
+        end(started.process)
+
+
+def world_file(folder: Path) -> Path:
+    path = folder / "small.world"
+    path.write_text(WORLD.replace("</world>", BALL + "</world>"))
+    return path
+
+
+def killed_and_started_anew(master: Master, folder: Path) -> Master:
+    master.process.kill()
+    master.process.wait()
+    time.sleep(2.5)  # the node must outlive that
+    return Master(folder, int(urlparse(master.uri).port or 0))
+
+
+def test_it_ends_with_its_world_saved(master: Master, tmp_path: Path) -> None:
+    log, saved = tmp_path / "log", tmp_path / "saved.world"
+    process = master.node(world_file(tmp_path), log, rescue=saved)
+    until(lambda: "/angen/stats" in master.topics(), "it runs")
+    anew = killed_and_started_anew(master, tmp_path)
+    try:
+        assert process.poll() is None, log.read_text()
+        assert process.wait(20) == 75, log.read_text()
+        text = log.read_text()
+        assert "does not answer; the simulation goes on" in text
+        assert "was started anew and does not know this node; the world as of" in text
+        assert str(saved) in text
+        assert saved.stat().st_mode & 0o777 == 0o600
+        assert [path.name for path in tmp_path.glob("saved*")] == ["saved.world"]
+        end(anew.node(saved, tmp_path / "second"))  # a node goes on with what was saved
+        height = float(saved.read_text().split('name="ball"')[1].split("<pose>")[1].split()[2])
+        assert height == pytest.approx(0.1, abs=0.01)  # it fell from 9 m in the meantime
+    finally:
+        end(anew.process)
+
+
+def test_the_default_place_is_the_users_own(master: Master, tmp_path: Path) -> None:
+    runtime = tmp_path / "runtime"
+    runtime.mkdir()
+    master.environment["XDG_RUNTIME_DIR"] = str(runtime)
+    process = master.node(world_file(tmp_path), tmp_path / "log")
+    anew = killed_and_started_anew(master, tmp_path)
+    try:
+        assert process.wait(20) == 75
+        assert (runtime / f"angen-{os.geteuid()}" / "rescue.world").exists()
+    finally:
+        end(anew.process)
+
+
+def test_a_world_that_cannot_be_saved_is_an_error(master: Master, tmp_path: Path) -> None:
+    log = tmp_path / "log"
+    process = master.node(world_file(tmp_path), log, rescue=tmp_path / "none" / "saved.world")
+    anew = killed_and_started_anew(master, tmp_path)
+    try:
+        assert process.wait(20) == 1
+        assert "cannot be saved in" in log.read_text()
+    finally:
+        end(anew.process)
+
+
+def test_a_master_that_only_sleeps_is_waited_for(master: Master, tmp_path: Path) -> None:
+    log = tmp_path / "log"
+    process = master.node(world_file(tmp_path), log)
+    try:
+        master.process.send_signal(signal.SIGSTOP)
+        time.sleep(3)
+        master.process.send_signal(signal.SIGCONT)
+        time.sleep(3)
+        assert process.poll() is None, log.read_text()
+        assert "/angen/ready" in master.topics()
+    finally:
+        assert end(process) == 0
+
+
+def test_usage_names_it() -> None:
+    done = subprocess.run([str(node_binary()), "--help"], text=True, capture_output=True,
+                          timeout=60, check=True)
+    assert "_rescue:=FILE" in done.stdout and "exit code 75" in done.stdout
