@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/height_grid.h"
 #include "core/pose.h"
 
 namespace angen {
@@ -18,15 +19,16 @@ struct TriangleMesh {
 
 /// A solid in its own frame, centered on the origin; a plane passes through it with normal z.
 struct Shape {
-  enum class Type { kEmpty, kBox, kSphere, kCylinder, kCapsule, kPlane, kMesh };
+  enum class Type { kEmpty, kBox, kSphere, kCylinder, kCapsule, kPlane, kMesh, kHeightmap };
 
   Type type = Type::kEmpty;
   Vec3 size = Vec3::Zero();  // box: full lengths; plane: x and y extents (for display), else unused
   double radius = 0.0;       // sphere, cylinder, capsule
   double length = 0.0;       // cylinder (along z); capsule: of its cylindrical part
-  std::shared_ptr<const TriangleMesh> mesh;  // mesh and heightmap, shared between copies
-  std::string mesh_file;           // absolute path a viewer can load, empty for heightmaps
-  Vec3 mesh_scale = Vec3::Ones();  // what mesh_file must be scaled by to equal `mesh`
+  std::shared_ptr<const TriangleMesh> mesh;   // shared between copies
+  std::shared_ptr<const HeightGrid> heights;  // of a heightmap, shared between copies
+  std::string mesh_file;                      // absolute path a viewer can load
+  Vec3 mesh_scale = Vec3::Ones();             // what mesh_file must be scaled by to equal `mesh`
 };
 
 }  // namespace angen

@@ -50,11 +50,11 @@ Shape mesh(const Element& element, Session& session) {
 
 Shape heightmap(const Element& element, Pose& pose, Session& session) {
   Shape shape;
-  shape.type = Shape::Type::kMesh;
+  shape.type = Shape::Type::kHeightmap;
   const Element& uri = *element.child("uri");
   const std::string file = need_uri(uri.text, "heightmap", uri.source, session);
   session.sources.will_be_read(file);
-  shape.mesh = read_heightmap(file, vector_of(element, "size", Vec3::Ones()), uri.source);
+  shape.heights = read_heightmap(file, vector_of(element, "size", Vec3::Ones()), uri.source);
   pose.position += pose.rotation * vector_of(element, "pos", Vec3::Zero());
   return shape;
 }

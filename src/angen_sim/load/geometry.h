@@ -22,8 +22,9 @@ std::vector<PlacedShape> image_boxes(const Element& image, const Pose& pose, Ses
 std::shared_ptr<const TriangleMesh> read_mesh(const std::string& path, const Vec3& scale,
                                               const Source& at);
 
-/// A grayscale PNG as a surface of size x, y and height z, centered on the origin.
-std::shared_ptr<const TriangleMesh> read_heightmap(const std::string& path, const Vec3& size,
-                                                   const Source& at);
+/// A grayscale PNG as a surface of size x, y and height z, centered on the origin. Kept and shared
+/// as meshes are.
+std::shared_ptr<const HeightGrid> read_heightmap(const std::string& path, const Vec3& size,
+                                                 const Source& at);
 
 }  // namespace angen::load

@@ -1,34 +1,42 @@
+#include <filesystem>
+#include <map>
+#include <mutex>
+
+#include "core/text.h"
 #include "load/geometry.h"
 #include "load/png.h"
 
 namespace angen::load {
+namespace {
 
-std::shared_ptr<const TriangleMesh> read_heightmap(const std::string& path, const Vec3& size,
-                                                   const Source& at) {
-  const GrayImage heights = read_png(path, "heightmap", 2, at);
-  const unsigned width = heights.width;
-  const unsigned height = heights.height;
-  auto mesh = std::make_shared<TriangleMesh>();
-  for (unsigned row = 0; row < height; ++row) {
-    for (unsigned column = 0; column < width; ++column) {
-      const double x = size.x() * (static_cast<double>(column) / (width - 1) - 0.5);
-      const double y = size.y() * (0.5 - static_cast<double>(row) / (height - 1));
-      const double z = size.z() * heights.values[row * width + column];
-      mesh->vertices.emplace_back(static_cast<float>(x), static_cast<float>(y),
-                                  static_cast<float>(z));
-    }
+HeightGrid read(const std::string& path, const Vec3& size, const Source& at) {
+  const GrayImage image = read_png(path, "heightmap", 2, at);
+  HeightGrid grid{image.width, image.height, size.x(), size.y(), {}};
+  grid.heights.reserve(image.values.size());
+  for (const double value : image.values) {
+    grid.heights.push_back(static_cast<float>(size.z() * value));
   }
-  for (unsigned row = 0; row + 1 < height; ++row) {
-    for (unsigned column = 0; column + 1 < width; ++column) {
-      const std::uint32_t a = row * width + column;
-      const std::uint32_t b = a + 1;
-      const std::uint32_t c = a + width;
-      const std::uint32_t d = c + 1;
-      mesh->triangles.push_back({a, c, b});
-      mesh->triangles.push_back({b, c, d});
-    }
+  return grid;
+}
+
+}  // namespace
+
+std::shared_ptr<const HeightGrid> read_heightmap(const std::string& path, const Vec3& size,
+                                                 const Source& at) {
+  static std::mutex mutex;
+  static std::map<std::string, std::weak_ptr<const HeightGrid>> kept;
+  std::error_code failed;
+  const auto changed = std::filesystem::last_write_time(path, failed).time_since_epoch().count();
+  std::string key = path + "|" + std::to_string(changed);
+  for (int i = 0; i < 3; ++i) key += "|" + number_text(size[i]);
+  const std::lock_guard<std::mutex> lock(mutex);
+  for (auto it = kept.begin(); it != kept.end();) {
+    it = it->second.expired() ? kept.erase(it) : std::next(it);
   }
-  return mesh;
+  if (auto found = kept[key].lock()) return found;
+  auto grid = std::make_shared<const HeightGrid>(read(path, size, at));
+  kept[key] = grid;
+  return grid;
 }
 
 }  // namespace angen::load

@@ -64,9 +64,16 @@ void serialize(A& a, angen::TriangleMesh& v) {
 }
 
 template <class A>
+void serialize(A& a, angen::HeightGrid& v) {
+  auto& [columns, rows, width, depth, heights] = v;
+  a(columns, rows, width, depth);
+  serialize_plain(a, heights);
+}
+
+template <class A>
 void serialize(A& a, angen::Shape& v) {
-  auto& [type, size, radius, length, mesh, mesh_file, mesh_scale] = v;
-  a(type, size, radius, length, mesh, mesh_file, mesh_scale);
+  auto& [type, size, radius, length, mesh, heights, mesh_file, mesh_scale] = v;
+  a(type, size, radius, length, mesh, heights, mesh_file, mesh_scale);
 }
 
 template <class A>

@@ -85,6 +85,7 @@ GrayImage read_png(const std::string& path, const std::string& what, unsigned le
   // One sample a pixel, or three of a color image: then their mean.
   const std::size_t samples = png_get_channels(reader.png, reader.info);
   const bool wide = png_get_bit_depth(reader.png, reader.info) == 16;
+  image.values.reserve(std::size_t{image.width} * image.height);
   for (const png_bytep row : rows) {
     for (std::size_t column = 0; column < image.width; ++column) {
       double sum = 0.0;

@@ -78,7 +78,38 @@ void mend_normals(const Geom& first, const Geom& second, dContactGeom* points, s
   }
 }
 
+/// The box in the world as one in the geom's own frame.
+Eigen::AlignedBox3d in_frame_of(const Geom& geom, const Aabb& box) {
+  const Pose to_own = (geom.body->at * geom.in_body).inverse();
+  const Vec3 half = to_own.rotation.toRotationMatrix().cwiseAbs() * (box.max - box.min) / 2;
+  const Vec3 center = to_own * Vec3((box.min + box.max) / 2);
+  return {center - half, center + half};
+}
+
+// A heightmap is ground: two of them do not touch.
+std::size_t collide_tiles(const Geom& first, const Geom& second, dContactGeom* points) {
+  if (first.tiles && second.tiles) return 0;
+  const Geom& ground = first.tiles ? first : second;
+  const Geom& other = first.tiles ? second : first;
+  std::array<dContactGeom, kMostFound> found;
+  std::size_t n = 0;
+  ground.tiles->each_in(in_frame_of(ground, other.box), [&](dTriMeshDataID mesh) {
+    dGeomTriMeshSetData(ground.tile.get(), mesh);
+    dGeomID a = first.tiles ? ground.tile.get() : first.ode.get();
+    dGeomID b = first.tiles ? second.ode.get() : ground.tile.get();
+    const int most = static_cast<int>(kMostFound);
+    auto count = static_cast<std::size_t>(dCollide(a, b, most, found.data(), sizeof(found[0])));
+    mend_normals(first, second, found.data(), count);
+    count = reduce_points(found.data(), count);
+    if (n + count > kMostFound) n = reduce_points(points, n);
+    std::copy_n(found.begin(), count, points + n);
+    n += count;
+  });
+  return n;
+}
+
 std::size_t touching_points(const Geom& first, const Geom& second, dContactGeom* points) {
+  if (first.tiles || second.tiles) return collide_tiles(first, second, points);
   dGeomID a = first.ode.get();
   dGeomID b = second.ode.get();
   if (dGeomGetClass(a) == dBoxClass && dGeomGetClass(b) == dBoxClass) {

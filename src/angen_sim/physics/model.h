@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "desc/world.h"
+#include "physics/height_tiles.h"
 #include "physics/ode.h"
 #include "physics/world.h"
 
@@ -49,7 +50,9 @@ struct Geom {
   std::optional<double> stiffness;
   std::optional<double> damping;
   std::shared_ptr<const MeshData> mesh;
-  ode::GeomHandle ode;
+  std::shared_ptr<HeightTiles> tiles;  // of a heightmap
+  ode::GeomHandle ode;                 // of a heightmap: the box around it
+  ode::GeomHandle tile;                // takes the mesh of one tile after the other
   bool is_plane = false;
   Aabb box;
   std::array<int, 6> cells{};  // the grid's, first and last in x, y, z

@@ -31,7 +31,11 @@ void require_size(const desc::Collision& collision, const std::string& name) {
   }
 }
 
-dGeomID make_ode(const Shape& shape, const MeshData* mesh) {
+dGeomID make_mesh(dTriMeshDataID data) {
+  return dCreateTriMesh(nullptr, data, nullptr, nullptr, nullptr);
+}
+
+dGeomID make_ode(const Shape& shape, const Geom& geom) {
   switch (shape.type) {
     case ShapeType::kBox:
       return dCreateBox(nullptr, shape.size.x(), shape.size.y(), shape.size.z());
@@ -43,8 +47,10 @@ dGeomID make_ode(const Shape& shape, const MeshData* mesh) {
       return dCreateCapsule(nullptr, shape.radius, shape.length);
     case ShapeType::kPlane:
       return dCreatePlane(nullptr, 0.0, 0.0, 1.0, 0.0);
+    case ShapeType::kHeightmap:
+      return make_mesh(geom.tiles->bounds());
     default:
-      return dCreateTriMesh(nullptr, mesh->data.get(), nullptr, nullptr, nullptr);
+      return make_mesh(geom.mesh->data.get());
   }
 }
 
@@ -103,7 +109,14 @@ std::unique_ptr<Geom> ShapeFactory::make(const desc::Collision& collision, const
   geom->damping = collision.damping;
   geom->is_plane = shape.type == ShapeType::kPlane;
   if (shape.type == ShapeType::kMesh) geom->mesh = mesh_data(collision, name);
-  geom->ode.reset(make_ode(shape, geom->mesh.get()));
+  if (shape.type == ShapeType::kHeightmap) {
+    if (!shape.heights || shape.heights->heights.empty()) {
+      throw Error(collision.source, "collision \"" + name + "\" has a heightmap without heights");
+    }
+    geom->tiles = std::make_shared<HeightTiles>(shape.heights);
+    geom->tile.reset(make_mesh(geom->tiles->bounds()));
+  }
+  geom->ode.reset(make_ode(shape, *geom));
   dGeomSetData(geom->ode.get(), geom.get());
   return geom;
 }
@@ -116,6 +129,7 @@ void follow_body(Geom& geom) {
                         normal.dot(at.position));
   } else {
     ode::set_pose(geom.ode.get(), at);
+    if (geom.tile) ode::set_pose(geom.tile.get(), at);
   }
   dReal b[6];
   dGeomGetAABB(geom.ode.get(), b);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
 
 #include "rays/triangle.h"
 
@@ -53,6 +55,20 @@ HeightTree::HeightTree(std::shared_ptr<const HeightGrid> grid) : grid_(std::move
   pad_ = kPad * (1.0 + bounds_.min().cwiseAbs().cwiseMax(bounds_.max().cwiseAbs()).maxCoeff());
 }
 
+std::shared_ptr<const HeightTree> HeightTree::of(const std::shared_ptr<const HeightGrid>& grid) {
+  static std::mutex mutex;
+  static std::map<const HeightGrid*, std::weak_ptr<const HeightTree>> kept;
+  if (!grid || grid->heights.empty()) return nullptr;
+  const std::lock_guard<std::mutex> lock(mutex);
+  for (auto it = kept.begin(); it != kept.end();) {
+    it = it->second.expired() ? kept.erase(it) : std::next(it);
+  }
+  if (auto found = kept[grid.get()].lock()) return found;
+  auto tree = std::make_shared<const HeightTree>(grid);
+  kept[grid.get()] = tree;
+  return tree;
+}
+
 void HeightTree::add_first_level() {
   Level level{kBlock, (grid_->columns - 2) / kBlock + 1, (grid_->rows - 2) / kBlock + 1, {}};
   for (std::uint32_t row = 0; row < level.rows; ++row) {
@@ -102,8 +118,7 @@ Eigen::AlignedBox3d HeightTree::box(std::uint32_t column, std::uint32_t row, std
           Vec3(right + pad_, top + pad_, heights.high + pad_)};
 }
 
-void HeightTree::visit(std::size_t level, std::uint32_t column, std::uint32_t row,
-                       Query& q) const {
+void HeightTree::visit(std::size_t level, std::uint32_t column, std::uint32_t row, Query& q) const {
   const Level& here = levels_[level];
   if (column >= here.columns || row >= here.rows) return;
   const Range& heights = here.blocks[std::size_t{row} * here.columns + column];

@@ -14,6 +14,9 @@ class HeightTree : public TriangleTree {
  public:
   explicit HeightTree(std::shared_ptr<const HeightGrid> grid);
 
+  /// The one of this grid: kept and shared while somebody uses it. Null where there are no heights.
+  static std::shared_ptr<const HeightTree> of(const std::shared_ptr<const HeightGrid>& grid);
+
   bool meet(const Vec3& origin, const Vec3& direction, double min, double max, double& range,
             std::uint32_t& triangle) const override;
   Vec3 normal(std::uint32_t triangle) const override;

@@ -1,6 +1,7 @@
 #include "rays/mesh_tree.h"
 
 #include "rays/query.h"
+#include "rays/triangle.h"
 
 namespace angen::rays {
 namespace {
@@ -23,24 +24,6 @@ struct Query {
   std::uint32_t triangle;
 };
 
-/// Plücker's test: neighbors compute bit-equal opposites for a shared edge, so no ray slips
-/// through.
-bool meet_triangle(const Corners& in, const Query& q, double& range) {
-  const Vec3 a = in.a - q.origin, b = in.b - q.origin, c = in.c - q.origin;
-  const Vec3 ca = c - a, ab = a - b, bc = b - c;
-  const double u = ca.cross(c + a).dot(q.direction);
-  const double v = ab.cross(a + b).dot(q.direction);
-  const double w = bc.cross(b + c).dot(q.direction);
-  const bool front = u >= 0 && v >= 0 && w >= 0;
-  const bool back = u <= 0 && v <= 0 && w <= 0;
-  if (!front && !back) return false;
-  const Vec3 normal = ab.cross(ca);
-  const double along = normal.dot(q.direction);
-  if (along == 0.0) return false;
-  range = normal.dot(a) / along;
-  return std::isfinite(range);
-}
-
 void box_of_triangle(const RTCBoundsFunctionArguments* args) {
   const auto& mesh = *static_cast<const TriangleMesh*>(args->geometryUserPtr);
   const Corners t = corners(mesh, args->primID);
@@ -50,7 +33,8 @@ void box_of_triangle(const RTCBoundsFunctionArguments* args) {
 
 bool nearer(Query& q, std::uint32_t triangle) {
   double range = 0.0;
-  if (!meet_triangle(corners(*q.mesh, triangle), q, range)) return false;
+  const Corners t = corners(*q.mesh, triangle);
+  if (!meet_triangle(t.a, t.b, t.c, q.origin, q.direction, range)) return false;
   if (range < q.min || range > q.range) return false;
   if (range == q.range && triangle >= q.triangle) return false;
   q.range = range;

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "core/slots.h"
+#include "rays/height_tree.h"
 #include "rays/layer.h"
+#include "rays/mesh_tree.h"
 
 namespace angen::rays {
 namespace {
@@ -27,7 +29,8 @@ struct Place {
 
 Solid make_solid(const Shape& shape, const Pose& pose) {
   Solid solid;
-  solid.type = shape.type;
+  const bool is_mesh = shape.type == Shape::Type::kHeightmap;
+  solid.type = is_mesh ? Shape::Type::kMesh : shape.type;
   solid.half =
       shape.type == Shape::Type::kBox ? Vec3(shape.size / 2) : Vec3(0, 0, shape.length / 2);
   solid.radius = shape.radius;
@@ -103,7 +106,8 @@ ShapeId Scene::add(const Shape& shape, const Pose& pose, Mobility mobility,
                    const Eigen::Vector3f& reflectance) {
   Solid solid = make_solid(shape, pose);
   if (shape.type == Shape::Type::kMesh) solid.mesh = impl_->mesh_tree(shape.mesh);
-  const ShapeId id = impl_->entries.add({mobility, shape.type, pose});
+  if (shape.type == Shape::Type::kHeightmap) solid.mesh = HeightTree::of(shape.heights);
+  const ShapeId id = impl_->entries.add({mobility, solid.type, pose});
   impl_->reflectances.resize(std::max<std::size_t>(impl_->reflectances.size(), id.index + 1));
   impl_->places.resize(impl_->reflectances.size());
   impl_->reflectances[id.index] = reflectance;

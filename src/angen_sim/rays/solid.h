@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "core/shape.h"
-#include "rays/mesh_tree.h"
+#include "rays/triangle_tree.h"
 
 namespace angen::rays {
 
@@ -19,7 +19,7 @@ struct Solid {
   std::uint32_t slot = UINT32_MAX;
   bool aligned = true;  // rotation is exactly the identity
   bool anchored = false;
-  std::shared_ptr<const MeshTree> mesh;
+  std::shared_ptr<const TriangleTree> mesh;  // also of a heightmap, which is a mesh here
 
   void place(const Pose& pose);
 };

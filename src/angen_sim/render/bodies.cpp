@@ -1,8 +1,64 @@
 #include "render/bodies.h"
 
+#include <limits>
+#include <utility>
+
+#include "rays/query.h"
 #include "render/tessellate.h"
 
 namespace angen::render {
+
+namespace {
+
+Eigen::AlignedBox3d bounds_of(const Ground& ground) {
+  const Eigen::AlignedBox3d& own = ground.tree->bounds();
+  const Vec3 center = ground.rotation * own.center() + ground.position;
+  const Vec3 half = ground.rotation.cwiseAbs() * own.sizes() / 2;
+  return {center - half, center + half};
+}
+
+void bound(const RTCBoundsFunctionArguments* args) {
+  *args->bounds_o = rays::padded(bounds_of(*static_cast<const Ground*>(args->geometryUserPtr)));
+}
+
+bool meet(const Ground& ground, RTCRayN* rays, unsigned count, unsigned i, double& range,
+          std::uint32_t& triangle) {
+  const Vec3 origin(RTCRayN_org_x(rays, count, i), RTCRayN_org_y(rays, count, i),
+                    RTCRayN_org_z(rays, count, i));
+  const Vec3 direction(RTCRayN_dir_x(rays, count, i), RTCRayN_dir_y(rays, count, i),
+                       RTCRayN_dir_z(rays, count, i));
+  const Eigen::Matrix3d back = ground.rotation.transpose();
+  return ground.tree->meet(back * (origin - ground.position), back * direction,
+                           RTCRayN_tnear(rays, count, i), RTCRayN_tfar(rays, count, i), range,
+                           triangle);
+}
+
+void intersect(const RTCIntersectFunctionNArguments* args) {
+  const auto& ground = *static_cast<const Ground*>(args->geometryUserPtr);
+  RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
+  RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, args->N);
+  for (unsigned i = 0; i < args->N; ++i) {
+    double range = 0.0;
+    std::uint32_t triangle = 0;
+    if (args->valid[i] == 0 || !meet(ground, rays, args->N, i, range, triangle)) continue;
+    RTCRayN_tfar(rays, args->N, i) = static_cast<float>(range);
+    RTCHitN_primID(hits, args->N, i) = triangle;
+    RTCHitN_geomID(hits, args->N, i) = args->geomID;
+    RTCHitN_instID(hits, args->N, i, 0) = args->context->instID[0];
+  }
+}
+
+void occlude(const RTCOccludedFunctionNArguments* args) {
+  const auto& ground = *static_cast<const Ground*>(args->geometryUserPtr);
+  for (unsigned i = 0; i < args->N; ++i) {
+    double range = 0.0;
+    std::uint32_t triangle = 0;
+    if (args->valid[i] == 0 || !meet(ground, args->ray, args->N, i, range, triangle)) continue;
+    RTCRayN_tfar(args->ray, args->N, i) = -std::numeric_limits<float>::infinity();
+  }
+}
+
+}  // namespace
 
 Patch::Patch(const std::vector<std::pair<const Body*, Pose>>& bodies)
     : scene_(rtcNewScene(rays::device())) {
@@ -10,23 +66,59 @@ Patch::Patch(const std::vector<std::pair<const Body*, Pose>>& bodies)
     for (const Surface& surface : body->surfaces) append(surface, pose);
   }
   rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
-  if (!triangles_.empty()) {
-    vertices_.emplace_back();  // Embree may read a little beyond the last one
-    const rays::Embree<RTCGeometry> geometry(
-        rtcNewGeometry(rays::device(), RTC_GEOMETRY_TYPE_TRIANGLE));
-    rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                               vertices_.data(), 0, sizeof(vertices_[0]), vertices_.size() - 1);
-    rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                               triangles_.data(), 0, sizeof(triangles_[0]), triangles_.size());
-    rtcCommitGeometry(geometry.get());
-    rtcAttachGeometry(scene_.get(), geometry.get());
-  }
+  attach_triangles();
+  attach_grounds();
   rtcCommitScene(scene_.get());
 }
 
+void Patch::attach_triangles() {
+  if (triangles_.empty()) return;
+  vertices_.emplace_back();  // Embree may read a little beyond the last one
+  const rays::Embree<RTCGeometry> geometry(
+      rtcNewGeometry(rays::device(), RTC_GEOMETRY_TYPE_TRIANGLE));
+  rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                             vertices_.data(), 0, sizeof(vertices_[0]), vertices_.size() - 1);
+  rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                             triangles_.data(), 0, sizeof(triangles_[0]), triangles_.size());
+  rtcCommitGeometry(geometry.get());
+  rtcAttachGeometryByID(scene_.get(), geometry.get(), 0);
+}
+
+void Patch::attach_grounds() {
+  for (std::size_t i = 0; i < grounds_.size(); ++i) {
+    const rays::Embree<RTCGeometry> geometry(
+        rtcNewGeometry(rays::device(), RTC_GEOMETRY_TYPE_USER));
+    rtcSetGeometryUserPrimitiveCount(geometry.get(), 1);
+    rtcSetGeometryUserData(geometry.get(), &grounds_[i]);
+    rtcSetGeometryBoundsFunction(geometry.get(), bound, nullptr);
+    rtcSetGeometryIntersectFunction(geometry.get(), intersect);
+    rtcSetGeometryOccludedFunction(geometry.get(), occlude);
+    rtcCommitGeometry(geometry.get());
+    rtcAttachGeometryByID(scene_.get(), geometry.get(), static_cast<unsigned>(i + 1));
+  }
+}
+
+Facet Patch::facet(std::uint32_t geometry, std::uint32_t triangle) const {
+  if (geometry == 0) return facets_[triangle];
+  const Ground& ground = grounds_[geometry - 1];
+  return {(ground.rotation * ground.tree->normal(triangle)).cast<float>(), ground.finish};
+}
+
+void Patch::append_ground(const Surface& surface, const Pose& at) {
+  auto tree = rays::HeightTree::of(surface.shape.heights);
+  if (!tree) return;
+  grounds_.push_back({std::move(tree), at.rotation.normalized().toRotationMatrix(), at.position,
+                      static_cast<std::uint32_t>(finishes_.size())});
+  finishes_.push_back({surface.color, surface.emissive});
+}
+
 void Patch::append(const Surface& surface, const Pose& pose) {
-  const TriangleMesh mesh = tessellate(surface.shape);
   const Pose at = pose * surface.pose;
+  if (surface.shape.type == Shape::Type::kHeightmap) {
+    append_ground(surface, at);
+    return;
+  }
+  const TriangleMesh mesh = tessellate(surface.shape);
   const Eigen::Matrix3d rotation = at.rotation.normalized().toRotationMatrix();
   const auto first = static_cast<std::uint32_t>(vertices_.size());
   const auto finish = static_cast<std::uint32_t>(finishes_.size());

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "rays/device.h"
+#include "rays/height_tree.h"
 #include "render/scene.h"
 
 namespace angen::render {
@@ -19,22 +20,35 @@ struct Finish {
   Eigen::Vector3f emissive;
 };
 
-/// Triangles that move as one, with a hierarchy of their own.
+/// A heightmap in its patch.
+struct Ground {
+  std::shared_ptr<const rays::HeightTree> tree;
+  Eigen::Matrix3d rotation;
+  Vec3 position;
+  std::uint32_t finish = 0;
+};
+
+/// Triangles and heightmaps that move as one, with a hierarchy of their own.
 class Patch {
  public:
   /// Bodies with their poses in the patch's frame.
   explicit Patch(const std::vector<std::pair<const Body*, Pose>>& bodies);
 
-  const Facet& facet(std::uint32_t triangle) const { return facets_[triangle]; }
+  /// Of what a ray met: geometry 0 holds the triangles, each further one is a heightmap.
+  Facet facet(std::uint32_t geometry, std::uint32_t triangle) const;
   const Finish& finish(const Facet& facet) const { return finishes_[facet.finish]; }
   RTCScene scene() const { return scene_.get(); }
 
  private:
   void append(const Surface& surface, const Pose& pose);
+  void append_ground(const Surface& surface, const Pose& at);
+  void attach_triangles();
+  void attach_grounds();
 
   std::vector<Eigen::Vector3f> vertices_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<Facet> facets_;
+  std::vector<Ground> grounds_;
   std::vector<Finish> finishes_;
   rays::Embree<RTCScene> scene_;
 };

@@ -99,7 +99,7 @@ void gather(const Stand& stand, const int* valid, const RTCRayHit16& rays,
     tile.valid[i] = valid[i] != 0 && met(rays, i) ? -1 : 0;
     if (tile.valid[i] == 0) continue;
     const Placed& placed = stand[rays.hit.instID[0][i]];
-    const Facet& facet = placed.patch->facet(rays.hit.primID[i]);
+    const Facet facet = placed.patch->facet(rays.hit.geomID[i], rays.hit.primID[i]);
     const Eigen::Vector3f direction = direction_of(rays.ray, i);
     const Eigen::Vector3f origin(rays.ray.org_x[i], rays.ray.org_y[i], rays.ray.org_z[i]);
     tile.point[i] = origin + rays.ray.tfar[i] * direction;

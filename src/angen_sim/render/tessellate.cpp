@@ -92,6 +92,7 @@ TriangleMesh tessellate(const Shape& shape) {
       return capsule(shape.radius, shape.length);
     case Shape::Type::kMesh:
       return shape.mesh ? *shape.mesh : TriangleMesh{};
+    case Shape::Type::kHeightmap:  // is met without triangles of its own
     case Shape::Type::kEmpty:
       break;
   }

@@ -51,6 +51,30 @@ Marker draw_triangles(const TriangleMesh& mesh) {
   return marker;
 }
 
+// A message holds three points a triangle: rviz gets at most so many columns and rows.
+Marker draw_heights(const HeightGrid& grid) {
+  constexpr std::uint32_t kMost = 128;
+  Marker marker = sized(Marker::TRIANGLE_LIST, 1.0, 1.0, 1.0);
+  const std::uint32_t across = std::min(kMost, grid.columns - 1);
+  const std::uint32_t down = std::min(kMost, grid.rows - 1);
+  const auto add = [&](std::uint32_t column, std::uint32_t row) {
+    const Eigen::Vector3f vertex =
+        grid.vertex(column * (grid.columns - 1) / across, row * (grid.rows - 1) / down);
+    marker.points.push_back(to_point(vertex.cast<double>()));
+  };
+  for (std::uint32_t row = 0; row < down; ++row) {
+    for (std::uint32_t column = 0; column < across; ++column) {
+      add(column, row);
+      add(column, row + 1);
+      add(column + 1, row);
+      add(column + 1, row);
+      add(column, row + 1);
+      add(column + 1, row + 1);
+    }
+  }
+  return marker;
+}
+
 double number_at(const Element* element, const char* name, double fallback) {
   const Element* child = element != nullptr ? element->child(name) : nullptr;
   return child != nullptr ? std::strtod(child->text.c_str(), nullptr) : fallback;
@@ -135,6 +159,9 @@ std::vector<Drawing> draw(const desc::Visual& visual) {
       } else if (shape.mesh != nullptr) {
         add(draw_triangles(*shape.mesh));
       }
+      break;
+    case Shape::Type::kHeightmap:
+      if (shape.heights != nullptr) add(draw_heights(*shape.heights));
       break;
   }
   return drawings;

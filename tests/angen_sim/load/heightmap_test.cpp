@@ -13,7 +13,7 @@ std::string png(const Folder& folder, unsigned side, const std::vector<unsigned>
 }
 
 float first_height(const std::string& file) {
-  return read_heightmap(file, Vec3::Ones(), {})->vertices.at(0).z();
+  return read_heightmap(file, Vec3::Ones(), {})->heights.at(0);
 }
 
 constexpr Format::Gamma kGammas[] = {Format::Gamma::kNone, Format::Gamma::kGama,
@@ -49,15 +49,22 @@ TEST(Heightmap, OfAColorImageIsTheMeanWhateverItsAlpha) {
 TEST(Heightmap, SpansItsSizeAndRisesWithGray) {
   const Folder folder;
   const std::string file = png(folder, 3, {255, 0, 0, 0, 0, 0, 0, 0, 51});
-  const auto mesh = read_heightmap(file, {4.0, 6.0, 10.0}, {});
-  ASSERT_EQ(mesh->vertices.size(), 9U);
-  EXPECT_EQ(mesh->triangles.size(), 8U);
-  EXPECT_LT((mesh->vertices[0] - Eigen::Vector3f(-2, 3, 10)).norm(), 1e-5);
-  EXPECT_LT((mesh->vertices[8] - Eigen::Vector3f(2, -3, 2)).norm(), 1e-5);
-  for (const auto& t : mesh->triangles) {
-    const Eigen::Vector3f a = mesh->vertices[t[0]];
-    EXPECT_GT((mesh->vertices[t[1]] - a).cross(mesh->vertices[t[2]] - a).z(), 0.0F);
+  const auto grid = read_heightmap(file, {4.0, 6.0, 10.0}, {});
+  EXPECT_LT((grid->vertex(0, 0) - Eigen::Vector3f(-2, 3, 10)).norm(), 1e-5);
+  EXPECT_LT((grid->vertex(2, 2) - Eigen::Vector3f(2, -3, 2)).norm(), 1e-5);
+  EXPECT_EQ(grid->triangle_of(1, 1) + 2, 8U);
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    const HeightGrid::Triangle t = grid->triangle(i);
+    EXPECT_GT((t[1] - t[0]).cross(t[2] - t[0]).z(), 0.0);
   }
+}
+
+TEST(Heightmap, IsKeptWhileItIsUsed) {
+  const Folder folder;
+  const std::string file = png(folder, 2, {1, 2, 3, 4});
+  const auto first = read_heightmap(file, Vec3::Ones(), {});
+  EXPECT_EQ(read_heightmap(file, Vec3::Ones(), {}), first);
+  EXPECT_NE(read_heightmap(file, 2 * Vec3::Ones(), {}), first);
 }
 
 TEST(Heightmap, StandsWhereItsPosSays) {
@@ -70,7 +77,7 @@ TEST(Heightmap, StandsWhereItsPosSays) {
           .models[0]
           .links[0]
           .collisions[0];
-  EXPECT_EQ(c.shape.type, Shape::Type::kMesh);
+  EXPECT_EQ(c.shape.type, Shape::Type::kHeightmap);
   EXPECT_TRUE(c.shape.mesh_file.empty());
   expect_near(c.pose.position, {0.0, 0.0, 5.0});
 }

@@ -45,6 +45,17 @@ Shape mesh_ground(int half) {
   return shape;
 }
 
+/// The same as a heightmap of `cells` by `cells`, of `size` m, all of it at height 0 but a corner.
+Shape height_ground(std::uint32_t cells, double size) {
+  auto grid = std::make_shared<HeightGrid>();
+  *grid = {cells + 1, cells + 1, size, size, std::vector<float>((cells + 1) * (cells + 1), 0.0F)};
+  grid->heights[0] = 3.0F;
+  Shape shape;
+  shape.type = Shape::Type::kHeightmap;
+  shape.heights = grid;
+  return shape;
+}
+
 desc::Model static_shape(const std::string& name, const Shape& shape) {
   desc::Model model = static_box(name, {1, 1, 1});
   model.links[0].collisions[0].shape = shape;
@@ -96,7 +107,63 @@ TEST(Shapes, RestOnAHeightmap) {
   for (const Rest& solid : solids()) {
     if (solid.shape.type == Shape::Type::kMesh) continue;
     expect_rest(static_shape("ground", mesh_ground(3)), solid);
+    expect_rest(static_shape("ground", height_ground(6, 6.0)), solid);
+    expect_rest(static_shape("ground", height_ground(600, 6.0)), solid);  // across many tiles
   }
+}
+
+TEST(Shapes, AHeightmapMeetsAsTheMeshOfItsTriangles) {
+  std::vector<double> z[2];
+  for (int i = 0; i < 2; ++i) {
+    auto grid = std::make_shared<HeightGrid>();
+    *grid = {41, 41, 8.0, 8.0, {}};
+    for (int k = 0; k < 41 * 41; ++k) {
+      grid->heights.push_back(
+          static_cast<float>(0.3 * std::sin(0.4 * (k % 41)) + 0.2 * std::cos(0.3 * (k / 41))));
+    }
+    Shape ground;
+    if (i == 0) {
+      ground.type = Shape::Type::kHeightmap;
+      ground.heights = grid;
+    } else {
+      auto mesh = std::make_shared<TriangleMesh>();
+      for (std::uint32_t r = 0; r < 41; ++r) {
+        for (std::uint32_t c = 0; c < 41; ++c) mesh->vertices.push_back(grid->vertex(c, r));
+      }
+      for (std::uint32_t r = 0; r < 40; ++r) {
+        for (std::uint32_t c = 0; c < 40; ++c) {
+          const std::uint32_t a = r * 41 + c;
+          mesh->triangles.push_back({a, a + 41, a + 1});
+          mesh->triangles.push_back({a + 1, a + 41, a + 42});
+        }
+      }
+      ground.type = Shape::Type::kMesh;
+      ground.mesh = mesh;
+    }
+    TestWorld world;
+    world.add(static_shape("ground", ground));
+    desc::Model ball = box_model("ball", 1, {0.1, 0.1, 0.1}, {0.3, -0.4, 0.8});
+    ball.links[0].collisions[0].shape = round_shape(Shape::Type::kSphere, 0.1);
+    const LinkId link = world.only_link(world.add(ball));
+    for (int step = 0; step < 100; ++step) {
+      world.run(0.01);
+      z[i].push_back(world.link(link).pose.position.z());
+    }
+  }
+  for (std::size_t i = 0; i < z[0].size(); ++i) ASSERT_NEAR(z[0][i], z[1][i], 1e-6) << i;
+}
+
+TEST(Shapes, AHeightmapThatIsTurnedAndMovedIsMetThere) {
+  TestWorld world;
+  desc::Model ground = static_shape("ground", height_ground(600, 6.0));
+  ground.pose = {{30, -20, 5}, from_rpy(0.0, 0.1, 2.0)};
+  world.add(ground);
+  const LinkId box =
+      world.only_link(world.add(box_model("box", 1, {0.2, 0.2, 0.2}, {30, -20, 5.2})));
+  world.run(2.0);
+  const Vec3 up = ground.pose.rotation * Vec3::UnitZ();
+  EXPECT_NEAR((world.link(box).pose.position - ground.pose.position).dot(up), 0.1, 2e-3);
+  EXPECT_FALSE(world.awake(box));
 }
 
 TEST(Shapes, RobotDrivesOnAMesh) {
@@ -138,6 +205,8 @@ TEST(Shapes, WithoutASizeAreRefused) {
   broken->triangles[0][0] = 99;
   bad.mesh = broken;
   model.links[0].collisions[0].shape = bad;
+  EXPECT_THROW(world.add(model), Error);
+  model.links[0].collisions[0].shape.type = Shape::Type::kHeightmap;
   EXPECT_THROW(world.add(model), Error);
   model.links[0].collisions[0].shape = plane_model().links[0].collisions[0].shape;
   EXPECT_THROW(world.add(model), Error);
