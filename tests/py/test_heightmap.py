@@ -18,7 +18,7 @@ HIGH = 4.0      # m, of white
 SIZE = 200.0    # m
 MEMORY = 500.0  # MB, of the whole process
 
-GROUND = f'''<model name="ground"><static>true</static><link name="link">
+GROUND = '''<model name="ground"><static>true</static><link name="link">
   <collision name="c"><geometry>FORM</geometry></collision>
   <visual name="v"><geometry>FORM</geometry></visual></link></model>'''.replace(
     'FORM', f'<heightmap><uri>FILE</uri><size>{SIZE} {SIZE} {HIGH}</size></heightmap>')
@@ -71,7 +71,8 @@ def largest(tmp_path_factory: pytest.TempPathFactory) -> Path:
     write_png(folder / 'h.png', heights(SIDE))
     world = folder / 'w.world'
     ball = BALL.replace('X Y Z', f'0 0 {HIGH / 2 + 0.52}')
-    world.write_text(sdf_world(GROUND.replace('FILE', str(folder / 'h.png')) + ball).replace(FLOOR_POSE, '0 0 -9'))
+    models = GROUND.replace('FILE', str(folder / 'h.png')) + ball
+    world.write_text(sdf_world(models).replace(FLOOR_POSE, '0 0 -9'))
     return world
 
 

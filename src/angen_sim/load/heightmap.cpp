@@ -9,7 +9,7 @@
 namespace angen::load {
 namespace {
 
-HeightGrid read(const std::string& path, const Vec3& size, const Source& at) {
+HeightGrid read_grid(const std::string& path, const Vec3& size, const Source& at) {
   const GrayImage image = read_png(path, "heightmap", 2, at);
   HeightGrid grid{image.width, image.height, size.x(), size.y(), {}};
   grid.heights.reserve(image.values.size());
@@ -34,7 +34,7 @@ std::shared_ptr<const HeightGrid> read_heightmap(const std::string& path, const 
     it = it->second.expired() ? kept.erase(it) : std::next(it);
   }
   if (auto found = kept[key].lock()) return found;
-  auto grid = std::make_shared<const HeightGrid>(read(path, size, at));
+  auto grid = std::make_shared<const HeightGrid>(read_grid(path, size, at));
   kept[key] = grid;
   return grid;
 }

@@ -11,7 +11,7 @@
 namespace angen::node {
 namespace {
 
-constexpr std::chrono::seconds kPeriod(1);
+constexpr std::chrono::seconds kMasterPeriod(1);
 constexpr char kService[] = "/angen/list";  // one that each node has
 
 enum class Answer { kNone, kError, kGood };
@@ -49,7 +49,7 @@ void MasterWatch::watch() {
   std::optional<int> first;
   bool answered = true;
   std::unique_lock<std::mutex> lock(mutex_);
-  while (!wake_.wait_for(lock, kPeriod, [this] { return ended_; })) {
+  while (!wake_.wait_for(lock, kMasterPeriod, [this] { return ended_; })) {
     const std::optional<int> pid = pid_of_master();
     XmlRpc::XmlRpcValue provider;
     const Answer service = ask("lookupService", kService, provider);

@@ -14,7 +14,7 @@
 namespace angen::node {
 namespace {
 
-constexpr std::uint32_t kThreads = 2;  // of subscribers, which never wait
+constexpr std::uint32_t kSubscriberThreads = 2;  // of subscribers, which never wait
 constexpr std::chrono::milliseconds kPausedNap(20);
 constexpr std::chrono::milliseconds kLongestNap(100);  // Ctrl-C is seen that soon
 
@@ -44,7 +44,7 @@ Node::Node(sim::Simulation& simulation, const Settings& settings)
       services_(inbox_, events_, settings.models, settings.topics) {}
 
 Node::End Node::run(const std::atomic<bool>& stop) {
-  ros::AsyncSpinner spinner(kThreads);
+  ros::AsyncSpinner spinner(kSubscriberThreads);
   spinner.start();
   services_.start();
   std::optional<MasterWatch> master;

@@ -10,16 +10,17 @@
 #include "core/text.h"
 #include "plugin/summary.h"
 #include "record/world_file.h"
+#include "ros/client_watch.h"
 #include "ros/convert.h"
 #include "ros/listing.h"
-#include "ros/lost_clients.h"
 #include "ros/taken_topics.h"
 #include "ros/text.h"
 
 namespace angen::node {
 namespace {
 
-constexpr std::uint32_t kThreads = 8;
+constexpr char kStep[] = "/angen/step";
+constexpr std::uint32_t kServiceThreads = 8;
 constexpr std::size_t kMostSteps = 4;             // calls that wait at once
 constexpr std::uint32_t kMostTicks = 10'000'000;  // of a call
 constexpr std::size_t kLongestAnswer = 10'000;    // bytes
@@ -92,7 +93,7 @@ Services::Services(Inbox& inbox, const Events& events, const std::string& models
       events_(events),
       paths_(load::SearchPaths::from_environment(models)),
       topics_(topics),
-      spinner_(kThreads, &queue_) {
+      spinner_(kServiceThreads, &queue_) {
   ros::NodeHandle node;
   node.setCallbackQueue(&queue_);
   const auto serve_empty = [&](const std::string& name, const sim::Action& action) {
@@ -104,7 +105,7 @@ Services::Services(Inbox& inbox, const Events& events, const std::string& models
   serve_empty("/gazebo/unpause_physics", sim::Pause{false});
   serve_empty("/gazebo/reset_simulation", sim::Reset{true});
   serve_empty("/gazebo/reset_world", sim::Reset{false});
-  servers_.push_back(node.advertiseService("/angen/step", &Services::step, this));
+  servers_.push_back(node.advertiseService(kStep, &Services::step, this));
   servers_.push_back(node.advertiseService("/angen/spawn", &Services::spawn, this));
   servers_.push_back(node.advertiseService("/angen/delete", &Services::erase, this));
   servers_.push_back(node.advertiseService("/angen/command", &Services::command, this));
@@ -124,20 +125,25 @@ bool Services::empty(sim::Action action) {
   }
 }
 
-bool Services::step(angen_msgs::Step::Request& request, angen_msgs::Step::Response& response) {
+sim::Outcome Services::take(std::uint32_t ticks, const ros::M_string& client) {
+  if (ticks == 0) return inbox_.call(sim::Step{0});
+  if (ticks > kMostTicks) {
+    return {false, "a call takes at most " + std::to_string(kMostTicks) + " ticks"};
+  }
+  const Count waiting(steps_);
+  if (waiting.now() > kMostSteps) {
+    return {false, std::to_string(kMostSteps) + " other steps wait; try again"};
+  }
+  ClientWatch watch(kStep, client);
+  return inbox_.call(sim::Step{ticks}, [&] { return watch.lost(); });
+}
+
+bool Services::step(StepCall& call) {
+  angen_msgs::Step::Response& response = call.getResponse();
   return answered(response, [&] {
-    if (request.ticks > kMostTicks) {
-      throw Error("a call takes at most " + std::to_string(kMostTicks) + " ticks");
-    }
-    const Count waiting(steps_);
-    if (waiting.now() > kMostSteps) {
-      throw Error(std::to_string(kMostSteps) + " other steps wait; try again");
-    }
     // Counted before the step is queued: what came later may have taken effect later.
     response.commands = inbox_.posted();
-    ClientWatch client;
-    const sim::Outcome outcome =
-        inbox_.call(sim::Step{request.ticks}, [&] { return client.lost(steps_); });
+    const sim::Outcome outcome = take(call.getRequest().ticks, call.getConnectionHeader());
     response.taken = static_cast<std::uint32_t>(outcome.ticks);
     response.events = events_.count();
     response.sim_time = to_ros(inbox_.simulation().snapshot()->time);

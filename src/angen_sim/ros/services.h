@@ -36,9 +36,11 @@ class Services {
 
  private:
   using Empty = std_srvs::Empty;
+  using StepCall = ros::ServiceEvent<angen_msgs::Step::Request, angen_msgs::Step::Response>;
 
   bool empty(sim::Action action);
-  bool step(angen_msgs::Step::Request& request, angen_msgs::Step::Response& response);
+  sim::Outcome take(std::uint32_t ticks, const ros::M_string& client);
+  bool step(StepCall& call);
   bool spawn(angen_msgs::Spawn::Request& request, angen_msgs::Spawn::Response& response);
   bool erase(angen_msgs::Delete::Request& request, angen_msgs::Delete::Response& response);
   bool command(angen_msgs::SendCommand::Request& request,
