@@ -184,7 +184,8 @@ std::vector<Request> CommandQueue::only_replayed(std::vector<Request> requests) 
       answers_.emplace_back(std::move(request.answer), Outcome{false, taken_over_});
     }
   }
-  for (Action& action : std::exchange(replayed_, {})) kept.push_back({std::move(action), {}, nullptr});
+  for (Action& action : std::exchange(replayed_, {}))
+    kept.push_back({std::move(action), {}, nullptr});
   return kept;
 }
 
