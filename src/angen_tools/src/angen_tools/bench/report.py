@@ -193,4 +193,4 @@ def _panel(axis: Any, panel: str, rows: Sequence[Row], thing: str) -> None:
     axis.set_ylim(0, max(1.2 * max(values) or 1, axis.get_ylim()[1]))
     axis.set_ylabel('CPU, % of a core')
     axis.grid(alpha=0.3)
-    axis.legend(loc='lower right', fontsize='small')
+    axis.legend(loc='best', fontsize='small')
