@@ -10,8 +10,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Iterator, Sequence
 
-from angen_tools.bench.measure import (SUBSCRIBED, Meter, client_load, deploy, due, load, share,
-                                       spread, topic_of)
+from angen_tools.bench.measure import (SUBSCRIBED, Meter, Sample, client_load, deploy, due, load,
+                                       share, spread, topic_of)
 from angen_tools.bench.report import (Row, Session, as_cells, combine, describe, describe_fit, draw,
                                       draw_together, write_csv)
 from angen_tools.common.failure import Failure
@@ -95,6 +95,7 @@ class Bench:
     shows: bool  # whether there is an rviz to measure
     window: float  # s of wall time
     trouble: list[str] = field(default_factory=list)
+    furniture: float = 0.0  # readings of its sensors, as of plants, in a simulated second
 
     def session(self, case: Case) -> Session:
         """One repeat of a case."""
@@ -114,6 +115,10 @@ class Bench:
     def write(self, case: Case, one_link: bool = False) -> None:
         """Writes its world."""
         deployed = case.mode == 'deployed'
+        write_apartment(self.world, case.floors, {}, SEED, False, 'nobody')
+        self.furniture = sum(float(rate.text) for uri in sdf.read(self.world).iter('uri')
+                             if uri.text.startswith('model://') and (path := find(uri.text))
+                             for rate in sdf.read(path).iterfind('.//sensor/update_rate'))
         write_apartment(self.world, case.floors, {} if deployed else case.counts, SEED,
                         case.elevator and not deployed, case.mover, one_link)
 
@@ -139,7 +144,7 @@ class Bench:
         found.others_cpu = (load(first.machine, last.machine, seconds)
                             - server - (found.client_cpu or 0.0))
         found.rss_mb = last.rss / 1e6
-        found.delivered = share(last.readings - first.readings,
+        found.delivered = share(self._made(first, last),
                                 expected(case, sensors, first.sim, last.sim))
         found.received = share(last.received - first.received,
                                expected(case, subscribed, first.sim, last.sim))
@@ -153,8 +158,12 @@ class Bench:
         first, last = meter.window(WARM_UP, self.window)
         found.rtf_fast = (last.sim - first.sim) / (last.wall - first.wall)
         found.sim_per_cpu = share(last.sim - first.sim, last.server - first.server)
-        found.delivered_fast = share(last.readings - first.readings,
+        found.delivered_fast = share(self._made(first, last),
                                      expected(case, sensors, first.sim, last.sim))
+
+    def _made(self, first: Sample, last: Sample) -> float:
+        """Readings of the case's sensors; those of its furniture, such as plants, are all made."""
+        return last.readings - first.readings - self.furniture * (last.sim - first.sim)
 
     def start(self, open_now: ExitStack, case: Case, rate: float, shows: bool
               ) -> tuple[Meter, Client]:
