@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws figures of the thesis as they are here: pictures of the building, and diagrams.
+"""Draws figures of the thesis as they are here, and what opens besides: pictures and diagrams.
 
     ./angen shell
     python3 docs/thesis_figures.py [-o FOLDER] [NAME ...]     # all of them into docs/images/thesis
@@ -93,6 +93,16 @@ def robot_livingroom() -> plt.Figure:
     world.command('drive', 'turtlebot', values=[0.2, 0.0])
     world.run(1)
     return picture(world, (9.2, 3.0, 1.5, 0, 0.3, -2.95), 1.1)
+
+
+def kitchen_open() -> plt.Figure:
+    """Fridge, freezer, oven, counter and window, open."""
+    world = lit_world('kitchen0')
+    for name in ('kitchen_fridge0', 'kitchen_freezer0', 'kitchen_oven0', 'kitchen_counter_b0'):
+        world.command('cabinet', name, 'Open')
+    world.command('window', 'kitchen0', 'Open')
+    world.run(6)
+    return picture(world, (1.3, 3.6, 1.6, 0, 0.16, -1.15), 1.35)
 
 
 class Diagram:
@@ -194,7 +204,7 @@ def communication() -> plt.Figure:
 
 FIGURES: dict[str, Draw] = {draw.__name__: draw for draw in (
     architecture, models_and_plugins, communication, door_open, door_closed, elevator_open,
-    elevator_closed, robot_livingroom)}
+    elevator_closed, robot_livingroom, kitchen_open)}
 
 
 def main() -> None:
