@@ -106,9 +106,10 @@ class FakeWorld : public View, public Wiring, public Outputs {
   void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override {
     hits.assign(rays.size(), {});
   }
-  light::Sample illuminance(light::Probe& probe, const Pose& pose) const override {
+  std::optional<light::Sample> illuminance(light::Probe& probe, const Pose& pose) const override {
     return light_at ? light_at(probe, pose) : light::Sample{};
   }
+  void prepare_light() const override {}
 
   double ambient_temperature() const override { return ambient; }
   const std::vector<rays::WarmShape>& warm_shapes() const override { return warm; }

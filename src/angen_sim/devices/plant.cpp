@@ -16,6 +16,7 @@ constexpr double kPsychrometer = 0.66;         // hPa/K, at sea level
 constexpr double kLatentHeat = 2.45e6;         // J/kg, of water at 20 degrees
 constexpr double kDryingPower = 0.35 / 1.333;  // mm/(day hPa) in still air: Penman's 0.35 a mm Hg
 constexpr double kWhiteLight = 100.0;          // lm/W, of daylight and of white lamps
+constexpr Nanoseconds kAhead = 5 * kSecond;    // light is prepared so long before it is queried
 
 // hPa over water, Magnus with Sonntag's constants, as in the climate.
 double vapor_pressure(double temperature) {
@@ -62,6 +63,10 @@ class Plant : public Device {
   }
 
   void update(const View& view, Outputs& outputs) override {
+    if (!prepared_ && view.time() >= prepare_at(view)) {
+      view.prepare_light();
+      prepared_ = true;
+    }
     const bool due = due_.due(view.time(), view.step());
     if (!due && watered_ == 0.0) return;
     dry(view);
@@ -69,7 +74,10 @@ class Plant : public Device {
     note(outputs);
   }
 
-  Nanoseconds idle_until(const View& view) const override { return due_.next(view.time()); }
+  Nanoseconds idle_until(const View& view) const override {
+    const Nanoseconds due = due_.next(view.time());
+    return prepared_ ? due : std::min(due, prepare_at(view));
+  }
 
   void save(SavedParams& params) const override { params.number("moisture", moisture_); }
 
@@ -81,6 +89,10 @@ class Plant : public Device {
   }
 
  private:
+  /// Before the step that queries light: the first, then those of lit_.
+  Nanoseconds prepare_at(const View& view) const {
+    return (lit_at_ > 0 ? lit_at_ : due_.next(view.time())) - kAhead;
+  }
   double per_ml() const { return 100.0 / (1000.0 * soil_); }  // % of moisture
 
   // R. G. Allen et al., Crop evapotranspiration, FAO Irrigation and Drainage Paper 56 (1998): the
@@ -94,9 +106,11 @@ class Plant : public Device {
     const double temperature =
         std::isnan(here.temperature) ? view.ambient_temperature() - kKelvin : here.temperature;
     const double humidity = std::isnan(here.humidity) ? 50.0 : here.humidity;
-    if (lit_.due(view.time(), dried_at_ - before)) {
+    if (view.time() >= lit_at_) {
       const Pose up{leaves, Quat::FromTwoVectors(Vec3::UnitX(), Vec3::UnitZ())};
-      light_ = view.illuminance(probe_, up).illuminance;
+      light_ = view.illuminance(probe_, up)->illuminance;
+      lit_at_ = lit_.next(view.time());
+      prepared_ = false;
     }
     const double wet = 1000.0 * area_ * penman(temperature, humidity, light_) / kDay;  // ml/s
     const double seconds = to_seconds(dried_at_ - before);
@@ -141,6 +155,8 @@ class Plant : public Device {
   light::Probe probe_;
   double light_ = 0.0;      // lx
   Refresh lit_{1.0 / 600};  // light costs more than all else
+  Nanoseconds lit_at_ = 0;
+  bool prepared_ = false;
   Nanoseconds dried_at_ = -1;
   Refresh due_{1.0 / 60.0};
 };

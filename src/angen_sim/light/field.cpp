@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/random.h"
 #include "light/beam.h"
@@ -25,6 +26,9 @@ constexpr float kDark = 2e-4F;   // lx: what throws back less is not followed fa
 constexpr double kBeyondSites = 0.5;  // m
 constexpr double kSettled = 1e-4;     // of the mean: a change that ends the bounces
 constexpr int kMostBounces = 200;
+// Costs of the parts of a solution, measured; they decide only how it is cut into ticks.
+constexpr std::size_t kSumsPerRay = 500;
+constexpr std::size_t kBouncesToPrepare = 4;
 
 /// Directions for one patch's links, about z, and which of its sites each starts from.
 struct Fan {
@@ -229,105 +233,140 @@ float Field::direct(const Lamp& lamp, std::uint32_t patch) const {
   return static_cast<float>(sum / static_cast<double>(on.sites.size()));
 }
 
-void Field::start(const Lamp& lamp, Solution& solution) {
-  const std::vector<rays::Ray> rays = first_rays(lamp, scene_.static_bounds());
-  std::vector<rays::Hit> hits(rays.size());
-  scene_.cast(rays.data(), hits.data(), rays.size(), kStanding);
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const std::uint32_t patch = link_of(rays[i], hits[i]).patch;
+/// Finds what the lamp shines on; returns how many rays it cast.
+std::size_t Field::start(Unfinished& work, std::size_t rays) {
+  const std::size_t count = std::min(rays, work.first.size() - work.cast);
+  std::vector<rays::Hit> hits(count);
+  scene_.cast(work.first.data() + work.cast, hits.data(), count, kStanding);
+  Solution& solution = work.solution;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t patch = link_of(work.first[work.cast + i], hits[i]).patch;
     if (patch == kNoPatch) continue;
     const auto place = static_cast<std::uint32_t>(solution.patches.size());
     if (solution.places.try_emplace(patch, place).second) solution.patches.push_back(patch);
   }
+  work.cast += count;
+  return count;
 }
 
-/// Follows the light from patch to patch as far as it matters, with a first guess of what each
-/// gets: what those before it throw back.
-void Field::spread(const Lamp& lamp, Solution& solution) {
-  const double reach = reach_of(lamp);
+/// Follows the light from patch to patch as far as it matters; returns how many rays it cast.
+std::size_t Field::spread(Unfinished& work, std::size_t rays) {
+  std::size_t count = 0;
+  for (; work.followed < work.solution.patches.size() && count < rays; ++work.followed) {
+    const std::uint32_t patch = work.solution.patches[work.followed];
+    if (sights_.size() <= patch || sights_[patch].links.empty()) count += kLinks;
+    count += surfaces_[patch].sites.size();
+    follow_patch(work);
+  }
+  return count;
+}
+
+/// The light that a patch gets, with a first guess of what comes from others: what those before it
+/// throw back.
+void Field::follow_patch(Unfinished& work) {
+  Solution& solution = work.solution;
+  const std::size_t i = work.followed;
+  const std::uint32_t patch = solution.patches[i];
+  const std::vector<Link>& seen = links(patch);
+  Rgb sum = Rgb::Zero();
+  for (const Link& link : seen) {
+    const auto place = solution.places.find(link.patch);
+    if (place != solution.places.end() && place->second < i) sum += work.leaving[place->second];
+  }
+  solution.direct.push_back(direct(work.lamp, patch));
+  solution.reflected.push_back(sum / static_cast<float>(kLinks));
+  work.leaving.push_back(albedo_of(patch) * (solution.direct[i] + solution.reflected[i]));
+  if (work.leaving[i].maxCoeff() < kDark) return;
+  const double reach = reach_of(work.lamp);
   const Eigen::AlignedBox3d world = scene_.static_bounds();
-  const auto near = [&](std::uint32_t patch) {
-    const Vec3& at = surfaces_[patch].sites.front().position;
-    return lamp.type == Lamp::Type::kDirectional
+  const auto near = [&](std::uint32_t other) {
+    const Vec3& at = surfaces_[other].sites.front().position;
+    return work.lamp.type == Lamp::Type::kDirectional
                ? world.squaredExteriorDistance(at) < kReach * kReach
-               : (at - lamp.pose.position).norm() < reach;
+               : (at - work.lamp.pose.position).norm() < reach;
   };
-  std::vector<Rgb> leaving;  // lx, of the patches before
-  for (std::size_t i = 0; i < solution.patches.size(); ++i) {
-    const std::uint32_t patch = solution.patches[i];
-    const std::vector<Link>& seen = links(patch);
-    Rgb sum = Rgb::Zero();
-    for (const Link& link : seen) {
-      const auto place = solution.places.find(link.patch);
-      if (place != solution.places.end() && place->second < i) sum += leaving[place->second];
+  for (const Link& link : seen) {
+    if (link.patch == kNoPatch || solution.places.count(link.patch) != 0 || !near(link.patch)) {
+      continue;
     }
-    solution.direct.push_back(direct(lamp, patch));
-    solution.reflected.push_back(sum / static_cast<float>(kLinks));
-    leaving.push_back(albedo_of(patch) * (solution.direct[i] + solution.reflected[i]));
-    if (leaving[i].maxCoeff() < kDark) continue;
-    for (const Link& link : seen) {
-      if (link.patch == kNoPatch || solution.places.count(link.patch) != 0 || !near(link.patch)) {
-        continue;
-      }
-      solution.places.emplace(link.patch, static_cast<std::uint32_t>(solution.patches.size()));
-      solution.patches.push_back(link.patch);
-    }
+    solution.places.emplace(link.patch, static_cast<std::uint32_t>(solution.patches.size()));
+    solution.patches.push_back(link.patch);
   }
 }
 
-/// Bounce after bounce until no patch's light changes: each takes what it sees of the others, of
-/// those before it what they throw back by now (Gauss and Seidel).
-void Field::balance(Solution& solution) {
-  const std::size_t count = solution.patches.size();
-  std::vector<std::uint32_t> places(surfaces_.size(), static_cast<std::uint32_t>(count));
+void Field::prepare_balance(Unfinished& work) {
+  const Solution& solution = work.solution;
+  const auto count = static_cast<std::uint32_t>(solution.patches.size());
+  std::vector<std::uint32_t> places(surfaces_.size(), count);
+  for (std::uint32_t i = 0; i < count; ++i) places[solution.patches[i]] = i;
+  work.seen.reserve(count * kLinks);
   for (std::size_t i = 0; i < count; ++i) {
-    places[solution.patches[i]] = static_cast<std::uint32_t>(i);
-  }
-  std::vector<std::uint32_t> seen;
-  seen.reserve(count * kLinks);
-  std::vector<Rgb> albedos, leaving;
-  for (std::size_t i = 0; i < count; ++i) {
-    albedos.push_back(albedo_of(solution.patches[i]));
-    leaving.push_back(albedos[i] * (solution.direct[i] + solution.reflected[i]));
+    work.albedos.push_back(albedo_of(solution.patches[i]));
+    work.leaving[i] = work.albedos[i] * (solution.direct[i] + solution.reflected[i]);
     for (const Link& link : links(solution.patches[i])) {
-      seen.push_back(link.patch == kNoPatch ? static_cast<std::uint32_t>(count)
-                                            : places[link.patch]);
+      work.seen.push_back(link.patch == kNoPatch ? count : places[link.patch]);
     }
   }
-  leaving.push_back(Rgb::Zero());  // the dark
-  for (int bounce = 0; bounce < kMostBounces; ++bounce) {
-    float change = 0.0F;
-    double total = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-      Rgb sum = Rgb::Zero();
-      const std::uint32_t* row = &seen[i * kLinks];
-      for (std::size_t k = 0; k < kLinks; ++k) sum += leaving[row[k]];
-      sum /= static_cast<float>(kLinks);
-      change = std::max(change, (sum - solution.reflected[i]).abs().maxCoeff());
-      total += solution.direct[i] + sum.maxCoeff();
-      solution.reflected[i] = sum;
-      leaving[i] = albedos[i] * (solution.direct[i] + sum);
-    }
-    if (change <= kSettled * total / static_cast<double>(count)) break;
-  }
+  work.leaving.push_back(Rgb::Zero());  // the dark
 }
 
-Solution Field::solve(const Lamp& lamp) {
+/// One bounce: each patch takes what it sees of the others, of those before it what they throw back
+/// by now (Gauss and Seidel). True when no patch's light has changed.
+bool Field::bounce(Unfinished& work) {
+  Solution& solution = work.solution;
+  const std::size_t count = solution.patches.size();
+  float change = 0.0F;
+  double total = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    Rgb sum = Rgb::Zero();
+    const std::uint32_t* row = &work.seen[i * kLinks];
+    for (std::size_t k = 0; k < kLinks; ++k) sum += work.leaving[row[k]];
+    sum /= static_cast<float>(kLinks);
+    change = std::max(change, (sum - solution.reflected[i]).abs().maxCoeff());
+    total += solution.direct[i] + sum.maxCoeff();
+    solution.reflected[i] = sum;
+    work.leaving[i] = work.albedos[i] * (solution.direct[i] + sum);
+  }
+  return change <= kSettled * total / static_cast<double>(count);
+}
+
+bool Field::advance(Unfinished& work, std::size_t rays) {
   static std::atomic<std::uint64_t> stamps{0};
-  Solution solution;
-  solution.valid = true;
-  solution.stamp = ++stamps;
-  start(lamp, solution);
-  spread(lamp, solution);
-  if (lamp.type != Lamp::Type::kDirectional) solution.bounds.extend(lamp.pose.position);
+  Solution& solution = work.solution;
+  const auto take = [&rays](std::size_t cost) { rays -= std::min(rays, cost); };
+  if (work.first.empty()) work.first = first_rays(work.lamp, scene_.static_bounds());
+  if (work.cast < work.first.size()) take(start(work, rays));
+  if (work.cast < work.first.size() || rays == 0) return false;
+  if (work.followed < solution.patches.size()) take(spread(work, rays));
+  if (work.followed < solution.patches.size() || rays == 0) return false;
+  const std::size_t cost = 1 + solution.patches.size() * kLinks / kSumsPerRay;
+  if (!work.balancing) {
+    prepare_balance(work);
+    work.balancing = true;
+    take(kBouncesToPrepare * cost);
+  }
+  for (;; take(cost)) {
+    if (rays == 0) return false;
+    if (bounce(work) || ++work.bounces == kMostBounces) break;
+  }
+  if (work.lamp.type != Lamp::Type::kDirectional) {
+    solution.bounds.extend(work.lamp.pose.position);
+  }
   for (const std::uint32_t patch : solution.patches) {
     for (const Site& site : surfaces_[patch].sites) solution.bounds.extend(site.position);
   }
   // A patch goes on beyond its outermost sites.
   solution.bounds.min().array() -= kBeyondSites;
   solution.bounds.max().array() += kBeyondSites;
-  balance(solution);
-  return solution;
+  solution.valid = true;
+  solution.stamp = ++stamps;
+  return true;
+}
+
+Solution Field::solve(const Lamp& lamp) {
+  Unfinished work(lamp);
+  advance(work, SIZE_MAX);
+  return std::move(work.solution);
 }
 
 float Field::direct(const Solution& solution, std::uint32_t patch) const {

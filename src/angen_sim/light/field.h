@@ -32,6 +32,22 @@ struct Solution {
   std::uint64_t stamp = 0;  // no two are alike
 };
 
+/// A solution on its way: what Field::advance has found so far.
+struct Unfinished {
+  explicit Unfinished(const Lamp& of) : lamp(of) {}
+
+  Lamp lamp;
+  Solution solution;
+  std::vector<rays::Ray> first;     // that find what the lamp shines on
+  std::size_t cast = 0;             // of these
+  std::size_t followed = 0;         // of the solution's patches: with what they throw back
+  std::vector<Rgb> leaving;         // lx, of those
+  bool balancing = false;           // all are followed
+  std::vector<std::uint32_t> seen;  // by patch, the places of those that it sees
+  std::vector<Rgb> albedos;
+  int bounces = 0;
+};
+
 /// Diffuse light between the patches of a scene: what each sees is found by rays once, and anew
 /// only where an anchored shape has moved.
 class Field {
@@ -47,6 +63,10 @@ class Field {
   Rgb albedo_of(std::uint32_t patch) const;
 
   Solution solve(const Lamp& lamp);
+  /// Goes on with a solution for the cost of about `rays` rays, at least one step. True when it is
+  /// complete: the same as that of solve(), in however many parts. What follow() found changed in
+  /// between makes it worthless.
+  bool advance(Unfinished& work, std::size_t rays);
 
   /// lx that a patch gets from the lamp itself; 0 where its light was not followed to.
   float direct(const Solution& solution, std::uint32_t patch) const;
@@ -69,9 +89,11 @@ class Field {
   rays::Ray ray(std::uint32_t patch, std::size_t link) const;
   Link link_of(const rays::Ray& ray, const rays::Hit& hit);
   void update_links(const std::vector<Eigen::AlignedBox3d>& touched);
-  void start(const Lamp& lamp, Solution& solution);
-  void spread(const Lamp& lamp, Solution& solution);
-  void balance(Solution& solution);
+  std::size_t start(Unfinished& work, std::size_t rays);
+  std::size_t spread(Unfinished& work, std::size_t rays);
+  void follow_patch(Unfinished& work);
+  void prepare_balance(Unfinished& work);
+  bool bounce(Unfinished& work);
   float direct(const Lamp& lamp, std::uint32_t patch) const;
 
   const rays::Scene& scene_;

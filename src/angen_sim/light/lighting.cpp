@@ -12,6 +12,7 @@ namespace {
 
 // Half of the color range: about what a white wall returns at 200 lx.
 constexpr float kMiddleLuminance = 50.0F;  // cd/m^2
+constexpr std::size_t kRaysAtOnce = 6000;  // some 10 ms
 
 /// A probe that outlives a Lighting (a world that was reset) knows nothing about the next one.
 std::uint64_t first_revision() {
@@ -66,6 +67,7 @@ void Lighting::move(LampId lamp, const Pose& pose) {
   if (entry.lamp.pose == pose) return;
   entry.lamp.pose = pose;
   entry.solution.reset();
+  if (worked_on_ == lamp) work_.reset();
   ++lamps_revision_;
   count(entry.level, entry.level);
 }
@@ -78,11 +80,11 @@ std::vector<Lit> Lighting::lit() const {
   return all;
 }
 
-/// Drops what lamps' light did where walls or doors have moved since.
-void Lighting::follow() const {
+/// Drops what lamps' light did where walls or doors have moved since. Whether none has.
+bool Lighting::follow() const {
   std::vector<Eigen::AlignedBox3d> touched;
   const bool same = field_->follow(touched);
-  if (same && touched.empty()) return;
+  if (same && touched.empty()) return true;
   lamps_.each([&](LampId, Entry& entry) {
     const auto meets = [&](const Eigen::AlignedBox3d& box) {
       return entry.solution->bounds.intersects(box);
@@ -90,6 +92,42 @@ void Lighting::follow() const {
     if (entry.solution == nullptr) return;
     if (!same || std::any_of(touched.begin(), touched.end(), meets)) entry.solution.reset();
   });
+  return false;
+}
+
+/// The first lit lamp without a solution.
+std::optional<LampId> Lighting::missing() const {
+  std::optional<LampId> first;
+  lamps_.each([&](LampId id, const Entry& entry) {
+    if (!first && entry.level > 0.0 && entry.solution == nullptr) first = id;
+  });
+  return first;
+}
+
+void Lighting::prepare() {
+  if (!follow()) work_.reset();
+  busy_ = missing().has_value();
+}
+
+std::optional<Sample> Lighting::try_measure(Probe& probe, const Pose& pose, bool still) {
+  prepare();
+  if (busy_) return std::nullopt;
+  return measure(probe, pose, still);
+}
+
+void Lighting::advance() {
+  if (busy_) prepare();
+  if (!busy_) return;
+  const std::optional<LampId> lamp = missing();
+  Entry& entry = lamps_.at(*lamp);
+  if (work_ == nullptr || worked_on_ != *lamp) {
+    work_ = std::make_unique<Unfinished>(entry.lamp);
+    worked_on_ = *lamp;
+  }
+  if (!field_->advance(*work_, kRaysAtOnce)) return;
+  entry.solution = std::make_shared<const Solution>(std::move(work_->solution));
+  work_.reset();
+  busy_ = missing().has_value();
 }
 
 /// Forgets what no longer holds.

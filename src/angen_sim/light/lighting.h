@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/pose.h"
@@ -15,6 +16,7 @@ namespace angen::light {
 class Field;
 class Gather;
 struct Solution;
+struct Unfinished;
 
 /// What one lamp at level 1 sends to one place.
 struct Transport {
@@ -76,13 +78,25 @@ class Lighting {
   /// reach, so that lamps are not looked for again whose light takes the same ways as then.
   Sample measure(Probe& probe, const Pose& pose, bool still = false) const;
 
+  /// As measure(), but nothing where the light of a lit lamp between the surfaces must be found
+  /// first, which takes up to a second: advance() does that part by part.
+  std::optional<Sample> try_measure(Probe& probe, const Pose& pose, bool still = false);
+  /// Has advance() find what measure() needs of the lamps that are lit now.
+  void prepare();
+  /// Goes on with what try_measure() or prepare() lacked, for some 10 ms of CPU time. The scene
+  /// must be committed.
+  void advance();
+  /// Whether something is lacking.
+  bool busy() const { return busy_; }
+
  private:
   struct Entry {
     Lamp lamp;
     double level;
     std::shared_ptr<const Solution> solution;  // made when the lamp is lit and somebody measures
   };
-  void follow() const;
+  bool follow() const;
+  std::optional<LampId> missing() const;
   void renew(Probe& probe, const Pose& pose, bool still) const;
   const Transport& find(Probe& probe, LampId id, Entry& entry) const;
   void count(double before, double after);
@@ -90,6 +104,9 @@ class Lighting {
   const rays::Scene& scene_;
   mutable Slots<Entry, LampTag> lamps_;
   std::unique_ptr<Field> field_;
+  std::unique_ptr<Unfinished> work_;  // on the solution of `worked_on_`
+  LampId worked_on_;
+  bool busy_ = false;
   std::uint64_t lamps_revision_;  // no two Lightings share one
   std::size_t lit_count_ = 0;
   std::uint64_t lit_revision_ = 0;

@@ -56,7 +56,8 @@ void InstanceView::cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hi
   engines_.rays.cast(rays, hits);
 }
 
-light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) const {
+std::optional<light::Sample> InstanceView::illuminance(light::Probe& probe,
+                                                       const Pose& pose) const {
   queried_.other = queried_.other || queried_.light;  // only one place's light is watched
   queried_.light = true;
   if (engines_.light.dark()) return engines_.light.measure(probe, pose);
@@ -65,7 +66,9 @@ light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) c
   std::unique_ptr<WatchedLight>& watched = sensor_->light;
   const bool still =
       watched && watched->probe == &probe && !watched->region.changed_since(watched->sampled);
-  const light::Sample sample = engines_.light.measure(probe, pose, still);
+  const std::optional<light::Sample> sample = engines_.light.try_measure(probe, pose, still);
+  lacks_light_ = lacks_light_ || !sample;
+  if (!sample) return sample;
   if (!probe.reach.diagonal().allFinite()) {
     watched = nullptr;
   } else if (!still || probe.reach.min() != watched->box.min() ||
@@ -74,6 +77,12 @@ light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) c
   }
   if (watched) watched->sampled = engines_.movers.now() + 1;
   return sample;
+}
+
+void InstanceView::prepare_light() const {
+  if (engines_.light.dark()) return;
+  engines_.rays.commit();
+  engines_.light.prepare();
 }
 
 const std::vector<rays::WarmShape>& InstanceView::warm_shapes() const {

@@ -96,7 +96,10 @@ class Rig : public View, public Wiring, public Outputs {
     return {};
   }
   void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override;
-  light::Sample illuminance(light::Probe&, const Pose&) const override { return {}; }
+  std::optional<light::Sample> illuminance(light::Probe&, const Pose&) const override {
+    return light::Sample{};
+  }
+  void prepare_light() const override {}
   double ambient_temperature() const override { return 295.15; }
   const std::vector<rays::WarmShape>& warm_shapes() const override { return warm_; }
   std::uint64_t scene_revision() const override { return 0; }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -161,6 +162,47 @@ TEST(Lighting, OrderOfSwitchingLeavesNoTrace) {
   EXPECT_EQ(b, a);
   expect_same_bits(first.lighting.measure(probe_a, first.sensor),
                    second.lighting.measure(probe_b, second.sensor));
+}
+
+TEST(Lighting, InPartsItHasTheSameBits) {
+  Room whole, parts;
+  for (Room* room : {&whole, &parts}) room->lighting.add(point_lamp(Vec3(1, 3, 1), 300.0), 0.5);
+  Probe probe;
+  int advances = 0;
+  std::optional<Sample> sample;
+  while (!(sample = parts.lighting.try_measure(probe, parts.sensor))) {
+    EXPECT_TRUE(parts.lighting.busy());
+    parts.lighting.advance();
+    ASSERT_LT(++advances, 10000);
+  }
+  EXPECT_GT(advances, 10);
+  EXPECT_FALSE(parts.lighting.busy());
+  expect_same_bits(*sample, measure(whole.lighting, whole.sensor));
+}
+
+TEST(Lighting, AChangeMeanwhileLeavesNoTrace) {
+  Room whole, parts;
+  Probe probe;
+  EXPECT_FALSE(parts.lighting.try_measure(probe, parts.sensor));
+  for (int i = 0; i < 5; ++i) parts.lighting.advance();
+  for (Room* room : {&parts, &whole}) {
+    add_box(room->scene, Vec3(1, 1, 0.5), Vec3(1, 1, 1), gray(0.2F));
+    room->lighting.move(room->lamp, {Vec3(1, 2, 2.2), Quat::Identity()});
+    room->scene.commit();
+  }
+  while (!parts.lighting.try_measure(probe, parts.sensor)) parts.lighting.advance();
+  expect_same_bits(*parts.lighting.try_measure(probe, parts.sensor),
+                   measure(whole.lighting, whole.sensor));
+}
+
+TEST(Lighting, WhatIsSwitchedOffMeanwhileIsNotWaitedFor) {
+  Room room;
+  Probe probe;
+  EXPECT_FALSE(room.lighting.try_measure(probe, room.sensor));
+  room.lighting.set_level(room.lamp, 0.0);
+  room.lighting.advance();
+  EXPECT_FALSE(room.lighting.busy());
+  EXPECT_EQ(room.lighting.try_measure(probe, room.sensor)->illuminance, 0.0);
 }
 
 TEST(Lighting, ProbeFollowsEveryChange) {

@@ -30,10 +30,11 @@ class Forgetful : public View {
   void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override {
     view_.cast(rays, hits);
   }
-  light::Sample illuminance(light::Probe&, const Pose& pose) const override {
+  std::optional<light::Sample> illuminance(light::Probe&, const Pose& pose) const override {
     light::Probe fresh;
     return view_.illuminance(fresh, pose);
   }
+  void prepare_light() const override { view_.prepare_light(); }
   double ambient_temperature() const override { return view_.ambient_temperature(); }
   const std::vector<rays::WarmShape>& warm_shapes() const override { return view_.warm_shapes(); }
   std::uint64_t scene_revision() const override { return view_.scene_revision(); }
@@ -277,8 +278,11 @@ class TwoPlaces : public Sensor {
   void configure(Params&, Wiring&) override {}
   void read(const View& view, Hits, Rng&, Reading& reading) override {
     const Pose beyond = view.pose() * Pose{Vec3(5.0, 0.0, 0.0), Quat::Identity()};
-    reading.set("beyond", view.illuminance(probes_[0], beyond).illuminance);
-    reading.set("here", view.illuminance(probes_[1], view.pose()).illuminance);
+    const auto far = view.illuminance(probes_[0], beyond);
+    const auto near = view.illuminance(probes_[1], view.pose());
+    if (!far || !near) return;
+    reading.set("beyond", far->illuminance);
+    reading.set("here", near->illuminance);
   }
   bool steady() const override { return true; }
 
