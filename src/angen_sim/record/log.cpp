@@ -83,6 +83,10 @@ struct ActionWriter {
     line.text("do", "step").whole("ticks", a.ticks);
     return true;
   }
+  bool operator()(const sim::StopStep& a) const {
+    line.text("do", "stop_step").whole("which", a.which);
+    return true;
+  }
   bool operator()(const sim::Reset& a) const {
     line.text("do", "reset").flag("with_time", a.with_time);
     return true;
@@ -119,6 +123,7 @@ decltype(LogEntry::what) what_in(const LineReader& line) {
   if (what == "delete") return action(sim::Delete{line.text("name")});
   if (what == "pause") return action(sim::Pause{line.flag("paused")});
   if (what == "step") return action(sim::Step{line.whole("ticks")});
+  if (what == "stop_step") return action(sim::StopStep{line.whole("which")});
   if (what == "reset") return action(sim::Reset{line.flag("with_time")});
   if (what == "reject") {
     return action(sim::Reject{line.text("source"), line.text("kind"), line.text("reason")});

@@ -48,6 +48,11 @@ struct Pause {
 struct Step {
   std::uint64_t ticks = 1;
 };
+/// Ends the step that is the `which`th of those that are not done, as when nobody waits for it any
+/// more; of a replay.
+struct StopStep {
+  std::uint64_t which = 0;
+};
 /// Every model back to where it was when it was added; with_time: the clock to 0 as well.
 struct Reset {
   bool with_time = true;
@@ -73,7 +78,7 @@ struct Save {
 };
 
 using Action =
-    std::variant<ToDevice, Spawn, Attach, Delete, Pause, Step, Reset, Reject, Note, Save>;
+    std::variant<ToDevice, Spawn, Attach, Delete, Pause, Step, StopStep, Reset, Reject, Note, Save>;
 
 /// Sees each action before it is carried out, in order, and the time at which it is; in the thread
 /// that ticks.

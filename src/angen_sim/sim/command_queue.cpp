@@ -153,7 +153,7 @@ std::vector<Request> CommandQueue::take() {
 CommandQueue::Effects CommandQueue::drain(Building& building, InstanceView::Clock clock,
                                           std::vector<Event>& events) {
   Effects effects;
-  stop_withdrawn_steps();
+  stop_withdrawn_steps(clock.time);
   const std::size_t before = events.size();
   std::vector<Request> requests = take();
   if (!taken_over_.empty()) requests = only_replayed(std::move(requests));
@@ -165,6 +165,11 @@ CommandQueue::Effects CommandQueue::drain(Building& building, InstanceView::Cloc
     if (observer_) observer_(request.action, clock.time);
     if (const Step* step = std::get_if<Step>(&request.action)) {
       begin_step(step->ticks, request);
+      continue;
+    }
+    if (const auto* ended = std::get_if<StopStep>(&request.action)) {
+      stop_step(ended->which);
+      answers_.emplace_back(std::move(request.answer), Outcome{});
       continue;
     }
     Outcome outcome = execute(request.action, building, clock, events, effects);
@@ -205,15 +210,21 @@ void CommandQueue::stop(Pending& step, const std::string& why) {
                                                         static_cast<std::uint64_t>(taken)});
 }
 
-void CommandQueue::stop_withdrawn_steps() {
-  for (auto step = steps_.begin(); step != steps_.end();) {
-    if (!step->ticket || !step->ticket->withdrawn()) {
-      ++step;
+void CommandQueue::stop_withdrawn_steps(Nanoseconds time) {
+  for (std::size_t i = 0; i < steps_.size();) {
+    if (!steps_[i].ticket || !steps_[i].ticket->withdrawn()) {
+      ++i;
       continue;
     }
-    stop(*step, "stopped");
-    step = steps_.erase(step);
+    if (observer_) observer_(StopStep{i}, time);
+    stop_step(i);
   }
+}
+
+void CommandQueue::stop_step(std::uint64_t which) {
+  if (which >= steps_.size()) return;
+  stop(steps_[which], "stopped");
+  steps_.erase(steps_.begin() + static_cast<std::ptrdiff_t>(which));
 }
 
 void CommandQueue::interrupt_steps(const std::string& what) {

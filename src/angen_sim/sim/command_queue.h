@@ -63,7 +63,8 @@ class CommandQueue {
 
   std::vector<Request> take();
   void begin_step(std::uint64_t ticks, Request& request);
-  void stop_withdrawn_steps();
+  void stop_withdrawn_steps(Nanoseconds time);
+  void stop_step(std::uint64_t which);
   void interrupt_steps(const std::string& what);
   void stop(Pending& step, const std::string& why);
   Outcome execute(const Action& action, Building& building, InstanceView::Clock clock,

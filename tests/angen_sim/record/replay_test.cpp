@@ -123,6 +123,27 @@ TEST(Replay, DoesNotDependOnWhoListens) {
   EXPECT_EQ(silent.compared(), same.compared());
 }
 
+TEST(Replay, EndsAStepThatWasWithdrawn) {
+  const Folder folder;
+  Session session(folder);
+  (*session).post(sim::Pause{true});
+  session.tick();
+  const auto ticket = std::make_shared<sim::Ticket>();
+  auto answer = (*session).post(sim::Step{5000}, ticket);
+  session.run(1.2);
+  ticket->withdraw();
+  session.tick();
+  EXPECT_NE(answer.get().message.find("stopped after 1200 of 5000"), std::string::npos);
+  session.command("lamp", "hall0", "On");
+  session.tick();
+  (*session).post(sim::Pause{false});
+  session.run(1.0);
+  session.end();
+  const Replay replay = replayed(folder.log());
+  EXPECT_EQ(replay.mismatch(), "");
+  EXPECT_EQ(replay.compared(), 3U);
+}
+
 TEST(Replay, StopsAtATimeAndGoesOnLive) {
   const Folder folder;
   Session session(folder);
