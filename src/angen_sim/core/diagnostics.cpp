@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/text.h"
+
 namespace angen {
 
 std::string Diagnostic::text() const {
@@ -12,6 +14,13 @@ std::string Diagnostic::text() const {
 }
 
 namespace {
+
+// A message repeats what a user gave, whatever its length.
+constexpr std::size_t kMaxMessageBytes = 4000;
+
+std::string cut(std::string message) {
+  return message.size() <= kMaxMessageBytes ? message : printable(message, kMaxMessageBytes);
+}
 
 std::string lines_of(const std::vector<Diagnostic>& diagnostics) {
   std::string all;
@@ -25,7 +34,7 @@ Error::Error(std::string message) : Error(Source{}, std::move(message)) {}
 
 Error::Error(Source source, std::string message)
     : Error(std::vector<Diagnostic>{
-          {Diagnostic::Severity::kError, std::move(source), std::move(message)}}) {}
+          {Diagnostic::Severity::kError, std::move(source), cut(std::move(message))}}) {}
 
 Error::Error(std::vector<Diagnostic> diagnostics)
     : std::runtime_error(lines_of(diagnostics)), diagnostics_(std::move(diagnostics)) {}

@@ -25,21 +25,27 @@ bool holds_control_character(const std::string& name) {
 
 }  // namespace
 
+std::string label_problem(const std::string& label) {
+  const std::string named = "the name '" + printable(label) + "' ";
+  if (!valid_utf8(label)) return named + "is not UTF-8";
+  if (label.size() > kMaxNameBytes) {
+    return named + "has " + std::to_string(label.size()) + " bytes; give one of at most " +
+           std::to_string(kMaxNameBytes);
+  }
+  if (holds_control_character(label)) return named + "holds a control character; leave it out";
+  return "";
+}
+
 std::string name_problem(const std::string& name) {
   if (name.empty()) return "the name is empty; give one, such as kitchen_pir";
   const std::string named = "the name '" + printable(name) + "' ";
-  if (!valid_utf8(name)) return named + "is not UTF-8";
-  if (name.size() > kMaxNameBytes) {
-    return named + "has " + std::to_string(name.size()) + " bytes; give one of at most " +
-           std::to_string(kMaxNameBytes);
-  }
+  if (std::string problem = label_problem(name); !problem.empty()) return problem;
   if (name.find("::") != std::string::npos) {
     return named + "holds '::', which joins the names of nested models; leave it out";
   }
   if (name.find('/') != std::string::npos) {
     return named + "holds '/', which separates the parts of a topic; leave it out";
   }
-  if (holds_control_character(name)) return named + "holds a control character; leave it out";
   if (name.front() == ' ' || name.back() == ' ') {
     return named + "begins or ends with a blank; leave it out";
   }

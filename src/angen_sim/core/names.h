@@ -15,6 +15,10 @@ constexpr std::size_t kMaxNameBytes = 255;
 /// What is wrong with a name, as "the name 'a/b' holds '/'; leave it out"; empty for a valid one.
 std::string name_problem(const std::string& name);
 
+/// The rule for labels, which nothing is found by and no topic is made of (the names of worlds and
+/// of <plugin>s, where "::" and '/' are common): as for names, with any other characters allowed.
+std::string label_problem(const std::string& label);
+
 /// Throws Error at `at` unless the name is valid; `what` is what has it ("<model>").
 void check_name(const std::string& name, const std::string& what = "", const Source& at = {});
 

@@ -131,7 +131,8 @@ desc::Link body(const Source& source) {
 
 desc::Model describe_actor(const Element& actor, Session& session) {
   check_name(name_of(actor), "<actor>", actor.source);
-  check_values(actor);
+  Element checked = actor;
+  check_values(checked, session);
   const Element* pose = actor.child("pose");
   if (pose != nullptr && pose->attribute("relative_to") != nullptr) {
     throw Error(pose->source, "an actor's pose is given in the world; leave relative_to out");

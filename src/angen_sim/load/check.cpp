@@ -85,12 +85,15 @@ void check_plugin(const Element& plugin) {
   if (file == nullptr || file->empty()) {
     throw Error(plugin.source, "<plugin> has no filename; write filename=\"libNAME.so\"");
   }
+  const std::string problem = label_problem(name_of(plugin));
+  if (!problem.empty()) throw Error(plugin.source, "<plugin>: " + problem);
 }
 
 void check_light(const Element& light) {
   const std::string* type = light.attribute("type");
   if (type != nullptr && kLights.count(*type) == 0) {
-    throw Error(light.source, "unknown light type '" + *type + "'; known are " + listed(kLights));
+    throw Error(light.source,
+                "unknown light type '" + printable(*type) + "'; known are " + listed(kLights));
   }
 }
 
@@ -133,8 +136,8 @@ void check_joint_end(const Element& joint, const std::string& end,
   }
   const std::string& name = element->text;
   if ((end == "parent" && name == "world") || known.count(name) != 0 || name == "__model__") return;
-  throw Error(element->source, tag_of(joint) + " names an unknown link '" + name + "'; known are " +
-                                   join_names({known.begin(), known.end()}));
+  throw Error(element->source, tag_of(joint) + " names an unknown link '" + printable(name) +
+                                   "'; known are " + join_names({known.begin(), known.end()}));
 }
 
 bool zero_axis(const Element& axis) {
@@ -176,10 +179,10 @@ void check_axes(Element& joint, Session& session) {
 void check_joint(Element& joint, const std::set<std::string>& known, Session& session) {
   const std::string* type = joint.attribute("type");
   if (type == nullptr || kJoints.count(*type) == 0) {
-    throw Error(joint.source,
-                type == nullptr
-                    ? tag_of(joint) + " has no type; known are " + listed(kJoints)
-                    : "unknown joint type '" + *type + "'; known are " + listed(kJoints));
+    throw Error(joint.source, type == nullptr
+                                  ? tag_of(joint) + " has no type; known are " + listed(kJoints)
+                                  : "unknown joint type '" + printable(*type) + "'; known are " +
+                                        listed(kJoints));
   }
   check_joint_end(joint, "parent", known);
   check_joint_end(joint, "child", known);
@@ -231,28 +234,28 @@ void check_model_parts(Element& model, Session& session) {
 
 }  // namespace
 
-void check_settings(const Element& world) {
+void check_settings(Element& world, Session& session) {
   check_children_names(world);
   for (const Element& child : world.children) {
     if (child.name == "light") check_light(child);
     if (child.name == "plugin") check_plugin(child);
   }
-  check_values(world);
+  check_values(world, session);
 }
 
 void check_model(Element& model, Session& session) {
   check_name(name_of(model), "<model>", model.source);
-  check_values(model);
+  check_values(model, session);
   check_model_parts(model, session);
 }
 
-void check_part(const Element& element) {
+void check_part(Element& element, Session& session) {
   if (element.name == "sensor") check_sensor(element);
   if (element.name == "light") check_light(element);
   for (const Element& part : element.children) {
     if (part.name == "plugin") check_plugin(part);
   }
-  check_values(element);
+  check_values(element, session);
 }
 
 }  // namespace angen::load

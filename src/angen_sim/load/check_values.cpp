@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numeric>
 
+#include "core/limits.h"
 #include "core/text.h"
 #include "load/check.h"
 #include "load/describe.h"
@@ -13,53 +16,85 @@ namespace angen::load {
 
 namespace {
 
-enum class Want { kAny, kPositive, kNotNegative, kFlag };
+enum class Want { kAny, kPositive, kNotNegative, kFlag, kDirection };
 
 struct Rule {
   std::size_t least;  // how many numbers
   std::size_t most;
   Want want = Want::kAny;
+  Limit limit = limits::kOther;
 };
 
 using Key = std::pair<std::string, std::string>;  // parent ("" = any), element
 
 constexpr Rule kOne{1, 1};
-constexpr Rule kThree{3, 3};
-constexpr Rule kColor{3, 4, Want::kNotNegative};
+constexpr Rule kColor{3, 4, Want::kNotNegative, limits::kColor};
 constexpr Rule kPositive{1, 1, Want::kPositive};
 constexpr Rule kNotNegative{1, 1, Want::kNotNegative};
 constexpr Rule kFlag{0, 0, Want::kFlag};
+constexpr Rule kLength{1, 1, Want::kPositive, limits::kLength};
+constexpr Rule kDirection{3, 3, Want::kDirection, limits::kDirection};
+constexpr Rule kAngle{1, 1, Want::kAny, limits::kAngle};
+constexpr Rule kNoLimit{1, 1, Want::kAny, limits::kNoLimit};
+constexpr Limit kFinite{"", std::numeric_limits<double>::max(), 0.0};
+constexpr Rule kAnyNumber{1, 1, Want::kAny, kFinite};  // a large one is no limit, or no sliding
+constexpr Rule kAnyNotNegative{1, 1, Want::kNotNegative, kFinite};
+
+// What tunes the solver: a number beyond these has the same effect as the bound itself, as far as
+// the solver can tell, so it is replaced, with a warning.
+struct Bounds {
+  double low;
+  double high;
+};
+
+const std::map<Key, Bounds>& solver_bounds() {
+  static const std::map<Key, Bounds> table = {
+      {{"ode", "kp"}, {1e-6, 1e16}},
+      {{"ode", "kd"}, {0.0, 1e16}},
+      {{"ode", "slip1"}, {0.0, 1e9}},
+      {{"ode", "slip2"}, {0.0, 1e9}},
+      {{"bounce", "restitution_coefficient"}, {0.0, 1.0}},
+      {{"dynamics", "damping"}, {1e-9, 1e12}},
+      {{"dynamics", "friction"}, {0.0, 1e12}},
+      {{"solver", "iters"}, {1.0, 1e4}},
+      {{"constraints", "cfm"}, {0.0, 1e6}},
+      {{"constraints", "erp"}, {0.0, 1.0}},
+      {{"constraints", "contact_max_correcting_vel"}, {0.0, limits::kSpeed.most}},
+      {{"constraints", "contact_surface_layer"}, {0.0, 1.0}},
+  };
+  return table;
+}
 
 const std::map<Key, Rule>& rules() {
   static const std::map<Key, Rule> table = {
-      {{"box", "size"}, {3, 3, Want::kPositive}},
-      {{"plane", "size"}, {2, 2, Want::kPositive}},
-      {{"plane", "normal"}, kThree},
-      {{"heightmap", "size"}, {3, 3, Want::kPositive}},
-      {{"heightmap", "pos"}, kThree},
-      {{"mesh", "scale"}, kThree},
-      {{"sphere", "radius"}, kPositive},
-      {{"cylinder", "radius"}, kPositive},
-      {{"cylinder", "length"}, kPositive},
-      {{"capsule", "radius"}, kPositive},
-      {{"capsule", "length"}, kPositive},
-      {{"axis", "xyz"}, kThree},
-      {{"axis2", "xyz"}, kThree},
-      {{"axis", "initial_position"}, kOne},
-      {{"axis2", "initial_position"}, kOne},
-      {{kSafety, "soft_lower_limit"}, kOne},
-      {{kSafety, "soft_upper_limit"}, kOne},
+      {{"box", "size"}, {3, 3, Want::kPositive, limits::kLength}},
+      {{"plane", "size"}, {2, 2, Want::kPositive, limits::kNoLimit}},
+      {{"plane", "normal"}, kDirection},
+      {{"heightmap", "size"}, {3, 3, Want::kPositive, limits::kLength}},
+      {{"heightmap", "pos"}, {3, 3, Want::kAny, limits::kPosition}},
+      {{"mesh", "scale"}, {3, 3, Want::kAny, limits::kScale}},
+      {{"sphere", "radius"}, kLength},
+      {{"cylinder", "radius"}, kLength},
+      {{"cylinder", "length"}, kLength},
+      {{"capsule", "radius"}, kLength},
+      {{"capsule", "length"}, kLength},
+      {{"axis", "xyz"}, kDirection},
+      {{"axis2", "xyz"}, kDirection},
+      {{"axis", "initial_position"}, {1, 1, Want::kAny, limits::kPosition}},
+      {{"axis2", "initial_position"}, {1, 1, Want::kAny, limits::kPosition}},
+      {{kSafety, "soft_lower_limit"}, kNoLimit},
+      {{kSafety, "soft_upper_limit"}, kNoLimit},
       {{kSafety, "k_position"}, kNotNegative},
       {{kSafety, "k_velocity"}, kNotNegative},
-      {{"limit", "effort"}, kOne},
-      {{"limit", "velocity"}, kOne},
+      {{"limit", "effort"}, kAnyNumber},
+      {{"limit", "velocity"}, kAnyNumber},
       {{"dynamics", "damping"}, kNotNegative},
       {{"dynamics", "friction"}, kNotNegative},
       {{"dynamics", "spring_stiffness"}, kNotNegative},
-      {{"dynamics", "spring_reference"}, kOne},
-      {{"ode", "mu"}, kNotNegative},
-      {{"ode", "mu2"}, kNotNegative},
-      {{"ode", "fdir1"}, kThree},
+      {{"dynamics", "spring_reference"}, kNoLimit},
+      {{"ode", "mu"}, kAnyNotNegative},
+      {{"ode", "mu2"}, kAnyNotNegative},
+      {{"ode", "fdir1"}, {3, 3, Want::kAny, limits::kDirection}},
       {{"ode", "slip1"}, kNotNegative},
       {{"ode", "slip2"}, kNotNegative},
       {{"ode", "kp"}, kPositive},
@@ -72,23 +107,23 @@ const std::map<Key, Rule>& rules() {
       {{"visual", "transparency"}, kNotNegative},
       {{"light", "diffuse"}, kColor},
       {{"light", "specular"}, kColor},
-      {{"light", "direction"}, kThree},
-      {{"light", "intensity"}, kNotNegative},
+      {{"light", "direction"}, kDirection},
+      {{"light", "intensity"}, {1, 1, Want::kNotNegative, limits::kIntensity}},
       {{"light", "cast_shadows"}, kFlag},
-      {{"light", "angen:rectangle"}, {2, 2, Want::kPositive}},
-      {{"light", "angen:disc"}, kPositive},
+      {{"light", "angen:rectangle"}, {2, 2, Want::kPositive, limits::kLength}},
+      {{"light", "angen:disc"}, kLength},
       {{"attenuation", "range"}, kPositive},
       {{"attenuation", "constant"}, kNotNegative},
       {{"attenuation", "linear"}, kNotNegative},
       {{"attenuation", "quadratic"}, kNotNegative},
-      {{"spot", "inner_angle"}, kNotNegative},
-      {{"spot", "outer_angle"}, kNotNegative},
+      {{"spot", "inner_angle"}, {1, 1, Want::kNotNegative, limits::kAngle}},
+      {{"spot", "outer_angle"}, {1, 1, Want::kNotNegative, limits::kAngle}},
       {{"spot", "falloff"}, kNotNegative},
       {{"scene", "ambient"}, kColor},
       {{"scene", "background"}, kColor},
       {{"scene", "shadows"}, kFlag},
-      {{"world", "gravity"}, kThree},
-      {{"atmosphere", "temperature"}, kPositive},
+      {{"world", "gravity"}, {3, 3, Want::kAny, {"m/s^2", 1e4}}},
+      {{"atmosphere", "temperature"}, {1, 1, Want::kPositive, limits::kTemperature}},
       {{"link", "gravity"}, kFlag},
       {{"link", "kinematic"}, kFlag},
       {{"link", "self_collide"}, kFlag},
@@ -96,8 +131,8 @@ const std::map<Key, Rule>& rules() {
       {{"include", "static"}, kFlag},
       {{"model", "self_collide"}, kFlag},
       {{"model", "allow_auto_disable"}, kFlag},
-      {{"physics", "max_step_size"}, kPositive},
-      {{"physics", "real_time_factor"}, kNotNegative},
+      {{"physics", "max_step_size"}, {1, 1, Want::kPositive, {"s", 1.0, 1e-9}}},
+      {{"physics", "real_time_factor"}, {1, 1, Want::kNotNegative, {"", 1e6}}},
       {{"physics", "real_time_update_rate"}, kNotNegative},
       {{"solver", "iters"}, kPositive},
       {{"constraints", "cfm"}, kNotNegative},
@@ -126,44 +161,80 @@ const std::map<Key, Rule>& rules() {
       {{"image", "granularity"}, kPositive},
       {{"clip", "near"}, kPositive},
       {{"clip", "far"}, kPositive},
-      {{"waypoint", "time"}, kNotNegative},
-      {{"script", "delay_start"}, kNotNegative},
+      {{"waypoint", "time"}, {1, 1, Want::kNotNegative, limits::kTime}},
+      {{"script", "delay_start"}, {1, 1, Want::kNotNegative, limits::kTime}},
       {{"script", "loop"}, kFlag},
       {{"script", "auto_start"}, kFlag},
   };
   return table;
 }
 
-void check_rule(const Element& element, const Rule& rule) {
+double length_of(const std::vector<double>& v) {
+  return std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0));
+}
+
+[[noreturn]] void refuse(const Element& element, double value, const std::string& right,
+                         const Limit& limit = limits::kOther) {
+  const std::string unit = *limit.unit == '\0' ? "" : std::string(" ") + limit.unit;
+  throw Error(element.source,
+              "<" + element.name + "> is " + number_text(value) + unit + "; " + right);
+}
+
+void check_rule(const Element& element, const Rule& rule, bool clamped) {
   if (rule.want == Want::kFlag) {
     flag_of(element);
     return;
   }
   const std::size_t count = numbers_in(element.text).values.size();
   const std::vector<double> values = numbers_of(element, std::clamp(count, rule.least, rule.most));
+  const bool positive = rule.want == Want::kPositive;
   for (const double value : values) {
-    if (rule.want == Want::kPositive && !(value > 0.0)) {
-      throw Error(element.source, "<" + element.name + "> is " + number_text(value) +
-                                      "; it must be greater than 0");
-    }
+    if (positive && !(value > 0.0)) refuse(element, value, "it must be greater than 0");
     if (rule.want == Want::kNotNegative && value < 0.0) {
-      throw Error(element.source,
-                  "<" + element.name + "> is " + number_text(value) + "; it must not be negative");
+      refuse(element, value, "it must not be negative");
     }
+    if (clamped) continue;
+    const std::string problem = limit_problem(rule.limit, value, positive);
+    if (!problem.empty()) refuse(element, value, problem, rule.limit);
+  }
+  // A zero vector has a meaning of its own in some places.
+  const double length = rule.want == Want::kDirection ? length_of(values) : 0.0;
+  const bool zero = std::all_of(values.begin(), values.end(), [](double v) { return v == 0.0; });
+  if (rule.want == Want::kDirection && !zero && length < rule.limit.least) {
+    throw Error(element.source, "<" + element.name + "> has length " + number_text(length) +
+                                    "; give a direction such as 0 0 1");
   }
 }
 
-// A limit may also be infinite.
+void clamp_to(const Bounds& bounds, Element& element, Session& session) {
+  const double value = number_of(element);
+  const double kept = value == 0.0 ? 0.0 : std::clamp(value, bounds.low, bounds.high);
+  if (kept == value) return;
+  session.warn(element.source, "<" + element.name + "> is " + number_text(value) +
+                                   "; it is taken as " + number_text(kept) +
+                                   (kept < value ? ", the most" : ", the least") +
+                                   " that the solver can use");
+  element.text = number_text(kept);
+}
+
+// A limit may also be infinite, but nothing can stand beyond where positions end.
 void check_limit(const Element& element) {
   const Numbers found = numbers_in(element.text);
-  if (found.bad.empty() && found.values.size() == 1 && !std::isnan(found.values[0])) return;
-  numbers_of(element, 1);
+  if (!found.bad.empty() || found.values.size() != 1 || std::isnan(found.values[0])) {
+    numbers_of(element, 1);
+  }
+  const double value = found.values[0];
+  const double inward = element.name == "lower" ? value : -value;
+  if (inward <= limits::kPosition.most) return;
+  refuse(element, value,
+         element.name == "lower" ? "it must be at most " + number_text(limits::kPosition.most)
+                                 : "it must be at least " + number_text(-limits::kPosition.most));
 }
 
 }  // namespace
 
-void check_values(const Element& element) {
-  for (const Element& child : element.children) {
+void check_values(Element& element, Session& session) {
+  for (Element& child : element.children) {
     if (child.name == "plugin" || child.name == "state" || child.name == "gui") continue;
     if (child.name == "pose") {
       pose_of(child);
@@ -171,9 +242,12 @@ void check_values(const Element& element) {
       check_limit(child);
     } else if (child.children.empty()) {
       const auto rule = rules().find({element.name, child.name});
-      if (rule != rules().end()) check_rule(child, rule->second);
+      const auto bounds = solver_bounds().find({element.name, child.name});
+      const bool clamped = bounds != solver_bounds().end();
+      if (rule != rules().end()) check_rule(child, rule->second, clamped);
+      if (clamped) clamp_to(bounds->second, child, session);
     }
-    check_values(child);
+    check_values(child, session);
   }
 }
 

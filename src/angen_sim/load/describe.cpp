@@ -1,9 +1,11 @@
 #include "load/describe.h"
 
+#include "core/limits.h"
 #include "core/text.h"
 #include "load/geometry.h"
 #include "load/light.h"
 #include "load/material.h"
+#include "load/sdf.h"
 #include "load/values.h"
 #include "load/xml.h"
 
@@ -11,10 +13,11 @@ namespace angen::load {
 
 namespace {
 
-struct Place {
-  std::string prefix;  // of names in a nested model
-  Pose pose;           // the nested model's frame in the outermost one's
-  bool never_moves = false;
+// What a model's parts are described with.
+struct Context {
+  Frames& frames;    // of the outermost model
+  bool never_moves;  // it is static
+  Session& session;
 };
 
 std::optional<double> optional_number(const Element* parent, const std::string& name) {
@@ -53,10 +56,9 @@ void read_surface(const Element& element, desc::Collision& collision) {
 
 // `part` once for each shape of its geometry: several are called NAME_0, NAME_1, …
 template <class Part>
-void add_shapes(const Element& element, const sdf::SemanticPose& pose, Part part, Session& session,
+void add_shapes(const Element& element, const Pose& pose, Part part, Session& session,
                 std::vector<Part>& to) {
-  const std::vector<PlacedShape> shapes =
-      shapes_of(*element.child("geometry"), resolve(pose, "", element.source), session);
+  const std::vector<PlacedShape> shapes = shapes_of(*element.child("geometry"), pose, session);
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     part.name = name_of(element) + (shapes.size() == 1 ? "" : "_" + std::to_string(i));
     part.shape = shapes[i].shape;
@@ -65,12 +67,11 @@ void add_shapes(const Element& element, const sdf::SemanticPose& pose, Part part
   }
 }
 
-void add_collisions(const Element& element, const sdf::Collision& from, Session& session,
-                    desc::Link& link) {
+void add_collisions(const Element& element, const Pose& pose, Session& session, desc::Link& link) {
   desc::Collision collision;
   collision.source = element.source;
   read_surface(element, collision);
-  add_shapes(element, from.SemanticPose(), collision, session, link.collisions);
+  add_shapes(element, pose, collision, session, link.collisions);
 }
 
 // As gz-sim's Thermal system has it: <plugin filename="gz-sim-thermal-system"><temperature>.
@@ -82,85 +83,70 @@ std::optional<double> temperature_of(const Element& visual) {
     const Element* given = plugin.child("temperature");
     if (given == nullptr) continue;
     const double kelvin = number_of(*given);
-    if (!(kelvin > 0.0)) {
-      throw Error(given->source,
-                  "<temperature> is " + number_text(kelvin) + " K; it must be greater than 0");
+    const std::string wrong = kelvin > 0.0 ? limit_problem(limits::kTemperature, kelvin, true)
+                                           : "it must be greater than 0";
+    if (!wrong.empty()) {
+      throw Error(given->source, "<temperature> is " + number_text(kelvin) + " K; " + wrong);
     }
     return kelvin;
   }
   return std::nullopt;
 }
 
-void add_visuals(const Element& element, const sdf::Visual& from, Session& session,
-                 desc::Link& link) {
+void add_visuals(const Element& element, const Pose& pose, Session& session, desc::Link& link) {
   desc::Visual visual;
   visual.material = material_of(element, session);
   visual.temperature = temperature_of(element);
-  add_shapes(element, from.SemanticPose(), visual, session, link.visuals);
+  add_shapes(element, pose, visual, session, link.visuals);
 }
 
-template <class T>
-const T& need(const T* found, const Element& element) {
-  if (found == nullptr) throw Error(element.source, "libsdformat does not read " + tag_of(element));
-  return *found;
-}
-
-desc::Link link_of(const Element& element, const sdf::Link& from, const Place& place,
-                   Session& session) {
+desc::Link link_of(const Element& element, const std::string& scope, const Context& context) {
   desc::Link link;
-  link.name = place.prefix + name_of(element);
+  link.name = scope + name_of(element);
   link.source = element.source;
-  link.pose = place.pose * resolve(from.SemanticPose(), "__model__", element.source);
-  link.inertial = inertial_of(element, place.never_moves, session);
+  link.pose = context.frames.pose(link.name);
+  link.inertial = inertial_of(element, context.never_moves, context.session);
   link.gravity = child_flag(element, "gravity", true);
   link.kinematic = child_flag(element, "kinematic", false);
+  const auto place = [&](const Element& part) {
+    return context.frames.part_pose(part, link.name, scope);
+  };
   for (const Element& part : element.children) {
-    const std::string name = name_of(part);
     if (part.name == "collision") {
-      add_collisions(part, need(from.CollisionByName(name), part), session, link);
+      add_collisions(part, place(part), context.session, link);
     } else if (part.name == "visual") {
-      add_visuals(part, need(from.VisualByName(name), part), session, link);
+      add_visuals(part, place(part), context.session, link);
     } else if (part.name == "sensor") {
-      const sdf::Sensor& sensor = need(from.SensorByName(name), part);
-      link.sensors.push_back(
-          sensor_of(part, resolve(sensor.SemanticPose(), "", part.source), session));
+      link.sensors.push_back(sensor_of(part, place(part), context.session));
     } else if (part.name == "light") {
-      const sdf::Light& light = need(from.LightByName(name), part);
-      link.lights.push_back(light_of(part, resolve(light.SemanticPose(), "", part.source)));
+      link.lights.push_back(light_of(part, place(part)));
     }
   }
   return link;
 }
 
-void add_parts(const Element& element, const sdf::Model& from, const Place& place, desc::Model& to,
-               Session& session) {
+void add_parts(const Element& element, const std::string& scope, const Context& context,
+               desc::Model& to) {
   for (const Element& part : element.children) {
-    const std::string name = name_of(part);
     if (part.name == "link") {
-      to.links.push_back(link_of(part, need(from.LinkByName(name), part), place, session));
+      to.links.push_back(link_of(part, scope, context));
     } else if (part.name == "joint") {
-      to.joints.push_back(
-          joint_of(part, need(from.JointByName(name), part), place.prefix, place.pose));
+      to.joints.push_back(joint_of(part, scope, context.frames));
     } else if (part.name == "plugin") {
       to.plugins.push_back(plugin_of(part));
     } else if (part.name == "model") {
-      const sdf::Model& nested = need(from.ModelByName(name), part);
-      Place inner = place;
-      inner.prefix += name + "::";
-      inner.pose = place.pose * resolve(nested.SemanticPose(), "__model__", part.source);
-      add_parts(part, nested, inner, to, session);
+      add_parts(part, scope + name_of(part) + "::", context, to);
     }
   }
 }
 
-desc::Model described_model(const Element& model, const sdf::Model& from, Session& session) {
+desc::Model described_model(const Element& model, Session& session) {
   desc::Model to;
   to.is_static = child_flag(model, "static", false);
   to.allow_auto_disable = child_flag(model, "allow_auto_disable", true);
   to.self_collide = child_flag(model, "self_collide", false);
-  Place place;
-  place.never_moves = to.is_static;
-  add_parts(model, from, place, to, session);
+  Frames frames(model);
+  add_parts(model, "", {frames, to.is_static, session}, to);
   merge_hinges(to, session);
   return to;
 }
@@ -208,13 +194,8 @@ std::vector<desc::Model> describe_models(const std::vector<Element>& models, Ses
   world.attributes = {{"name", "default"}};
   world.children = models;
   for (Element& model : world.children) remove_children(model, "pose");
-  const Memory memory;
-  const Hush hush;
-  const sdf::Root root = parse_world(world, session);
-  for (const Element& model : models) {
-    described.push_back(described_model(
-        model, need(root.WorldByIndex(0)->ModelByName(name_of(model)), model), session));
-  }
+  check_schema(world, session);
+  for (const Element& model : models) described.push_back(described_model(model, session));
   return described;
 }
 

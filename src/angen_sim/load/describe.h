@@ -2,7 +2,7 @@
 
 #include "desc/world.h"
 #include "load/expand.h"
-#include "load/sdf.h"
+#include "load/frames.h"
 
 /// Checked trees to descriptions.
 namespace angen::load {
@@ -21,10 +21,8 @@ desc::Sensor sensor_of(const Element& sensor, const Pose& pose, Session& session
 
 desc::Plugin plugin_of(const Element& plugin);
 
-/// A checked <joint>: `prefix` is put before its names, `place` is its model's frame in the
-/// outermost one.
-desc::Joint joint_of(const Element& element, const sdf::Joint& joint, const std::string& prefix,
-                     const Pose& place);
+/// A checked <joint>: `scope` is put before its names; `frames` are the outermost model's.
+desc::Joint joint_of(const Element& element, const std::string& scope, Frames& frames);
 
 /// What holds a <safety_controller>'s numbers in an <axis>.
 constexpr char kSafety[] = "angen:safety_controller";

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "load/check.h"
+#include "load/cost.h"
 #include "load/describe.h"
 #include "load/ignored.h"
 #include "load/xml.h"
@@ -47,6 +48,7 @@ void check_entry(Entry& entry, Session& session) {
     throw Error(entry.original.source, "more than " + std::to_string(kMaxModelElements) +
                                            " elements in one model; split it into several");
   }
+  charge(element, session);
   if (element.name == "model") check_model(element, session);
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/names.h"
+#include "core/text.h"
 #include "core/typography.h"
 #include "load/search.h"
 #include "load/urdf.h"
@@ -144,7 +145,9 @@ void Session::warn(const Source& source, const std::string& message) {
       return;
     }
   }
-  warnings.push_back({Diagnostic::Severity::kWarning, source, message});
+  constexpr std::size_t kMaxBytes = 4000;  // it may repeat what a user gave
+  warnings.push_back({Diagnostic::Severity::kWarning, source,
+                      message.size() <= kMaxBytes ? message : printable(message, kMaxBytes)});
 }
 
 Element read_document(const std::string& text, const std::string& file, Session& session) {

@@ -1,5 +1,9 @@
 #include "load/geometry.h"
 
+#include <algorithm>
+
+#include "core/limits.h"
+#include "core/text.h"
 #include "load/search.h"
 #include "load/values.h"
 #include "load/xml.h"
@@ -83,14 +87,33 @@ Shape shape_of(const Element& geometry, Pose& pose, Session& session) {
   return shape;
 }
 
+// What a scale or a picture makes of a shape.
+void check_size(const Shape& shape, const Element& element) {
+  double largest = shape.type == Shape::Type::kBox ? shape.size.maxCoeff() : 0.0;
+  if (shape.mesh) {
+    for (const Eigen::Vector3f& v : shape.mesh->vertices) {
+      largest = std::max<double>(largest, v.cwiseAbs().maxCoeff());
+    }
+  }
+  const std::string problem = limit_problem(limits::kLength, largest);
+  if (problem.empty()) return;
+  throw Error(element.source,
+              "<" + element.name + "> is " + number_text(largest) + " m large; " + problem);
+}
+
 }  // namespace
 
 std::vector<PlacedShape> shapes_of(const Element& geometry, const Pose& pose, Session& session) {
   const Element& element = geometry.children.at(0);
-  if (element.name == "image") return image_boxes(element, pose, session);
-  PlacedShape placed{{}, pose};
-  placed.shape = shape_of(geometry, placed.pose, session);
-  return {placed};
+  std::vector<PlacedShape> placed;
+  if (element.name == "image") {
+    placed = image_boxes(element, pose, session);
+  } else {
+    placed.push_back({{}, pose});
+    placed[0].shape = shape_of(geometry, placed[0].pose, session);
+  }
+  for (const PlacedShape& each : placed) check_size(each.shape, element);
+  return placed;
 }
 
 }  // namespace angen::load

@@ -1,6 +1,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "core/limits.h"
 #include "core/text.h"
 #include "load/describe.h"
 #include "load/values.h"
@@ -10,10 +11,34 @@ namespace angen::load {
 
 namespace {
 
+// Ratios at which the solver keeps no digits.
+std::string ratio_problem(double mass, const Vec3& moments, const std::string& all) {
+  if (moments[0] < limits::kMoment.least || moments[0] < limits::kLeastMomentRatio * moments[2]) {
+    return "the principal moments of inertia are " + all + "; the least must be at least " +
+           number_text(limits::kMoment.least) + " kg m^2 and " +
+           number_text(limits::kLeastMomentRatio) + " of the greatest";
+  }
+  for (const double moment : {moments[0], moments[2]}) {
+    const double gyration = std::sqrt(moment / mass);
+    const std::string wrong = limit_problem(limits::kGyration, gyration, true);
+    if (wrong.empty()) continue;
+    return "a radius of gyration, sqrt(" + number_text(moment) + " kg m^2 / " + number_text(mass) +
+           " kg), is " + number_text(gyration) + " m; " + wrong;
+  }
+  return "";
+}
+
 // Moments of a body that exists: each positive, none above the sum of the others.
 std::string why_impossible(const desc::Inertial& inertial) {
   if (!(inertial.mass > 0.0)) {
     return "the mass is " + number_text(inertial.mass) + " kg; it must be greater than 0";
+  }
+  if (const std::string wrong = limit_problem(limits::kMass, inertial.mass, true); !wrong.empty()) {
+    return "the mass is " + number_text(inertial.mass) + " kg; " + wrong;
+  }
+  const double largest = inertial.moment.cwiseAbs().maxCoeff();
+  if (const std::string wrong = limit_problem(limits::kMoment, largest); !wrong.empty()) {
+    return "a moment of inertia is " + number_text(largest) + " kg m^2; " + wrong;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertial.moment,
                                                               Eigen::EigenvaluesOnly);
@@ -27,7 +52,7 @@ std::string why_impossible(const desc::Inertial& inertial) {
     return "no body has the principal moments of inertia " + all +
            ": the greatest must not exceed the sum of the others";
   }
-  return "";
+  return ratio_problem(inertial.mass, moments, all);
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "core/text.h"
 #include "load/describe.h"
+#include "load/frames.h"
 #include "load/values.h"
 #include "load/xml.h"
 
@@ -13,22 +15,20 @@ namespace {
 
 constexpr double kFree = 1e16;  // SDF's "no limit"
 
-desc::Joint::Type type_of(sdf::JointType type, const Element& element) {
-  switch (type) {
-    case sdf::JointType::FIXED:
-      return desc::Joint::Type::kFixed;
-    case sdf::JointType::REVOLUTE:
-    case sdf::JointType::CONTINUOUS:
-      return desc::Joint::Type::kRevolute;
-    case sdf::JointType::PRISMATIC:
-      return desc::Joint::Type::kPrismatic;
-    case sdf::JointType::BALL:
-      return desc::Joint::Type::kBall;
-    case sdf::JointType::UNIVERSAL:
-      return desc::Joint::Type::kUniversal;
-    default:
-      throw Error(element.source, "a joint of an unknown type; write type=\"revolute\"");
-  }
+desc::Joint::Type type_of(const std::string& type) {
+  if (type == "revolute" || type == "continuous") return desc::Joint::Type::kRevolute;
+  if (type == "prismatic") return desc::Joint::Type::kPrismatic;
+  if (type == "ball") return desc::Joint::Type::kBall;
+  if (type == "universal") return desc::Joint::Type::kUniversal;
+  return desc::Joint::Type::kFixed;
+}
+
+// A number of a limit, which may be infinite.
+double limit_of(const Element* limit, const std::string& name, double fallback) {
+  const Element* child = limit == nullptr ? nullptr : limit->child(name);
+  if (child == nullptr) return fallback;
+  const Numbers found = numbers_in(child->text);
+  return found.values.size() == 1 ? found.values[0] : number_of(*child);
 }
 
 // <angen:safety_controller>, as <axis> has it in SDF.
@@ -53,37 +53,37 @@ std::optional<desc::JointSafety> safety_of(const Element& axis, double lower, do
   return safety;
 }
 
-desc::JointAxis axis_of(const Element& element, const sdf::JointAxis& from, bool free,
-                        const Pose& place) {
+desc::JointAxis axis_of(const Element& element, bool free, const std::string& joint,
+                        const std::string& scope, Frames& frames) {
   desc::JointAxis axis;
-  ignition::math::Vector3d xyz;
-  const sdf::Errors errors = from.ResolveXyz(xyz, "__model__");
-  if (!errors.empty()) throw Error(element.source, errors.front().Message());
-  axis.xyz = (place.rotation * to_vec(xyz)).normalized();
-  if (!free) {
-    axis.lower = std::max(-kFree, from.Lower());
-    axis.upper = std::min(kFree, from.Upper());
+  Vec3 xyz = Vec3::UnitZ();
+  const Element* given = element.child("xyz");
+  if (given != nullptr) {
+    const std::vector<double> v = numbers_of(*given, 3);
+    xyz = {v[0], v[1], v[2]};
   }
-  axis.effort = std::isfinite(from.Effort()) ? from.Effort() : -1.0;
-  axis.velocity = std::isfinite(from.MaxVelocity()) ? from.MaxVelocity() : -1.0;
-  axis.damping = from.Damping();
-  axis.friction = from.Friction();
-  axis.spring_stiffness = from.SpringStiffness();
-  axis.spring_reference = from.SpringReference();
+  const std::string* frame = given == nullptr ? nullptr : given->attribute("expressed_in");
+  const Quat& turn = frame == nullptr || frame->empty() ? frames.pose(joint).rotation
+                                                        : frames.rotation(*frame, scope, element);
+  axis.xyz = (turn * xyz).normalized();
+  const Element* limit = element.child("limit");
+  if (!free) {
+    axis.lower = std::max(-kFree, limit_of(limit, "lower", -kFree));
+    axis.upper = std::min(kFree, limit_of(limit, "upper", kFree));
+  }
+  axis.effort = std::max(-1.0, limit_of(limit, "effort", -1.0));
+  axis.velocity = std::max(-1.0, limit_of(limit, "velocity", -1.0));
+  if (const Element* dynamics = element.child("dynamics")) {
+    axis.damping = child_number(*dynamics, "damping", 0.0);
+    axis.friction = child_number(*dynamics, "friction", 0.0);
+    axis.spring_stiffness = child_number(*dynamics, "spring_stiffness", 0.0);
+    axis.spring_reference = child_number(*dynamics, "spring_reference", 0.0);
+  }
   axis.initial_position = child_number(element, "initial_position", 0.0);
   axis.safety = safety_of(element, axis.lower, axis.upper);
   const bool endless = free || (axis.lower <= -kFree && axis.upper >= kFree);
   if (axis.safety && endless) axis.safety->k_position = 0.0;
   return axis;
-}
-
-// A joint may name a frame; what it holds is that frame's link.
-std::string end_of(const sdf::Joint& joint, bool parent, const std::string& prefix,
-                   const Source& at) {
-  std::string link;
-  const sdf::Errors errors = parent ? joint.ResolveParentLink(link) : joint.ResolveChildLink(link);
-  if (!errors.empty()) throw Error(at, errors.front().Message());
-  return link == "world" ? link : prefix + link;
 }
 
 bool is_hinge(const desc::Joint& joint) { return joint.type == desc::Joint::Type::kRevolute; }
@@ -97,44 +97,48 @@ bool on_one_line(const desc::Joint& a, const desc::Joint& b) {
 }  // namespace
 
 void merge_hinges(desc::Model& model, Session& session) {
-  for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    const desc::Joint& first = model.joints[i];
-    for (std::size_t j = i + 1; j < model.joints.size();) {
-      const desc::Joint& other = model.joints[j];
-      if (!is_hinge(first) || !is_hinge(other) || first.parent != other.parent ||
-          first.child != other.child) {
-        ++j;
-        continue;
-      }
+  std::map<std::pair<std::string, std::string>, std::vector<std::size_t>> between;
+  std::vector<bool> merged(model.joints.size(), false);
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    const desc::Joint& other = model.joints[j];
+    if (!is_hinge(other)) continue;
+    std::vector<std::size_t>& before = between[{other.parent, other.child}];
+    for (const std::size_t i : before) {
+      const desc::Joint& first = model.joints[i];
       const std::string both = "joint '" + other.name + "' joins '" + other.parent + "' and '" +
                                other.child + "', as joint '" + first.name + "' does";
       if (on_one_line(first, other)) {
         session.warn(other.source, both + ", about the same line: they are one, of that name");
-        model.joints.erase(model.joints.begin() + static_cast<std::ptrdiff_t>(j));
-      } else {
-        session.warn(other.source, both + ", about another line: neither can turn");
-        ++j;
+        merged[j] = true;
+        break;
       }
+      session.warn(other.source, both + ", about another line: neither can turn");
     }
+    if (!merged[j]) before.push_back(j);
   }
+  std::size_t kept = 0;
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    if (!merged[j] && kept++ != j) model.joints[kept - 1] = std::move(model.joints[j]);
+  }
+  model.joints.resize(kept);
 }
 
-desc::Joint joint_of(const Element& element, const sdf::Joint& from, const std::string& prefix,
-                     const Pose& place) {
+desc::Joint joint_of(const Element& element, const std::string& scope, Frames& frames) {
   desc::Joint joint;
-  joint.name = prefix + name_of(element);
+  joint.name = scope + name_of(element);
   joint.source = element.source;
-  joint.type = type_of(from.Type(), element);
-  joint.parent = end_of(from, true, prefix, element.source);
-  joint.child = end_of(from, false, prefix, element.source);
-  joint.anchor = (place * resolve(from.SemanticPose(), "__model__", element.source)).position;
+  const std::string& type = *element.attribute("type");
+  joint.type = type_of(type);
+  joint.parent = frames.link_of(child_text(element, "parent"), scope, element);
+  joint.child = frames.link_of(child_text(element, "child"), scope, element);
+  joint.anchor = frames.pose(joint.name).position;
   if (joint.type == desc::Joint::Type::kFixed || joint.type == desc::Joint::Type::kBall) {
     return joint;
   }
-  const bool free = from.Type() == sdf::JointType::CONTINUOUS;
-  joint.axes.push_back(axis_of(*element.child("axis"), *from.Axis(0), free, place));
+  const bool free = type == "continuous";
+  joint.axes.push_back(axis_of(*element.child("axis"), free, joint.name, scope, frames));
   if (joint.type == desc::Joint::Type::kUniversal) {
-    joint.axes.push_back(axis_of(*element.child("axis2"), *from.Axis(1), free, place));
+    joint.axes.push_back(axis_of(*element.child("axis2"), free, joint.name, scope, frames));
   }
   return joint;
 }

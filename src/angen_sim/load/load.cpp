@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "core/limits.h"
 #include "core/names.h"
 #include "load/check.h"
 #include "load/describe.h"
@@ -105,7 +106,7 @@ void give_name(Element& element, const std::string& name) {
 desc::Model model(const std::string& what, const std::string& name, const Pose& pose,
                   const SearchPaths& paths) {
   if (!name.empty()) check_name(name, "the model", {});
-  if (!pose.finite()) throw Error("the pose is not finite; give x y z roll pitch yaw as numbers");
+  if (const std::string problem = pose_problem(pose); !problem.empty()) throw Error(problem);
   Session session{paths};
   Element element = is_text(what) ? model_from_text(what, session) : model_from_file(what);
   give_name(element, name);
@@ -136,7 +137,7 @@ bool is_sensor(const std::string& what) {
 
 desc::Sensor sensor(const std::string& what, const std::string& name, const Pose& pose) {
   if (!name.empty()) check_name(name, "the sensor", {});
-  if (!pose.finite()) throw Error("the pose is not finite; give x y z roll pitch yaw as numbers");
+  if (const std::string problem = pose_problem(pose); !problem.empty()) throw Error(problem);
   Element root = parse_xml(what, kText);
   if (root.name == "sdf") {
     const Element* child = lone_child(root, [](const Element& e) { return e.name == "sensor"; });
@@ -155,7 +156,7 @@ desc::Sensor sensor(const std::string& what, const std::string& name, const Pose
                         root.attributes.end());
   give_name(root, name);
   check_name(name_of(root), "<sensor>", root.source);
-  check_part(root);
+  check_part(root, session);
   set_child(root, "pose", pose_text(pose));
   // What libsdformat would refuse in a saved world is refused here.
   describe_models({holder_of(root)}, session);

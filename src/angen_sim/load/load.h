@@ -25,6 +25,11 @@ struct SearchPaths {
   static SearchPaths from_environment(const std::string& beside = "");
 };
 
+/// The most memory, in MB, that a world or a model may be estimated to take: the environment's
+/// ANGEN_MEMORY_LIMIT, 4096 without it, or what was set for this process.
+double memory_limit();
+void set_memory_limit(double megabytes);
+
 /// A whole world file; worlds/models beside it is searched too. What an earlier load of the same
 /// files gave is taken from the user's cache, unless ANGEN_NO_CACHE is set. `allow_any` as in
 /// SearchPaths.

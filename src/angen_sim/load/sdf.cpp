@@ -48,21 +48,11 @@ void collect_names(const Element& element, std::set<std::string>& names) {
   for (const Element& child : element.children) collect_names(child, names);
 }
 
-// What a document may lack without libsdformat querying its schema for a default. Without the
-// others some of its classes would follow a null pointer (a camera sensor's without <camera>).
-bool may_be_pruned(const std::string& name) {
-  static const std::set<std::string> names = {"sensor",    "light",      "particle_emitter",
-                                              "projector", "audio_sink", "audio_source",
-                                              "battery",   "plugin",     "material",
-                                              "surface",   "actor",      "joint",
-                                              "gripper",   "empty",      "box",
-                                              "capsule",   "cylinder",   "ellipsoid",
-                                              "polyline",  "heightmap",  "mesh",
-                                              "plane",     "sphere"};
-  return names.count(name) != 0;
+bool wanted(const sdf::ElementPtr& schema, const std::set<std::string>& names) {
+  const std::string required = schema->GetRequired();
+  return required == "1" || required == "+" || names.count(schema->GetName()) != 0;
 }
 
-// A schema without what may be pruned, but for elements of the given names.
 sdf::ElementPtr pruned(const sdf::ElementPtr& schema, const std::set<std::string>& names) {
   sdf::ElementPtr kept(new sdf::Element());
   kept->SetName(schema->GetName());
@@ -80,26 +70,44 @@ sdf::ElementPtr pruned(const sdf::ElementPtr& schema, const std::set<std::string
   }
   for (std::size_t i = 0; i < schema->GetElementDescriptionCount(); ++i) {
     const sdf::ElementPtr child = schema->GetElementDescription(static_cast<unsigned>(i));
-    if (names.count(child->GetName()) != 0 || !may_be_pruned(child->GetName())) {
-      kept->AddElementDescription(pruned(child, names));
-    }
+    if (wanted(child, names)) kept->AddElementDescription(pruned(child, names));
   }
   return kept;
 }
 
-// libsdformat copies an element's schema, with all that might be below it, for each element that it
-// reads: a megabyte a link. It gets the part of the schema that `document` uses. Under Hush's lock.
-sdf::SDFPtr empty_document(const Element& document) {
-  static const sdf::SDFPtr schema = [] {
-    sdf::SDFPtr all(new sdf::SDF());
-    sdf::init(all);
-    return all;
-  }();
-  std::set<std::string> names;
-  collect_names(document, names);
-  sdf::SDFPtr fresh(new sdf::SDF());
-  fresh->Root(pruned(schema->Root(), names));
-  return fresh;
+// A model's parts go to libsdformat in pieces of so many elements, each of which takes some
+// kilobytes there.
+constexpr std::size_t kPieceElements = 2'000;
+
+// `world` in pieces: its settings with the first, a large model in several.
+std::vector<Element> pieces_of(const Element& world) {
+  Element empty = world;
+  empty.children.clear();
+  std::vector<Element> pieces = {empty};
+  std::size_t size = 0;
+  const auto make_room = [&](std::size_t more) {
+    const bool full = size > 0 && size + more > kPieceElements;
+    if (full) pieces.push_back(empty);
+    size = full ? more : size + more;
+    return full;
+  };
+  for (const Element& child : world.children) {
+    const std::size_t count = count_elements(child);
+    if (child.name != "model" || count <= kPieceElements) {
+      make_room(count);
+      pieces.back().children.push_back(bare(child));
+      continue;
+    }
+    Element model = child;
+    model.children.clear();
+    pieces.back().children.push_back(model);
+    for (const Element& part : child.children) {
+      if (hidden(part, child.name)) continue;
+      if (make_room(count_elements(part))) pieces.back().children.push_back(model);
+      pieces.back().children.back().children.push_back(bare(part));
+    }
+  }
+  return pieces;
 }
 
 std::string one_line(std::string text) {
@@ -162,59 +170,64 @@ Hush::~Hush() {
   sdf::Console::Instance()->GetMsgStream().SetStream(impl_->before);
 }
 
-Memory::~Memory() { malloc_trim(0); }
-
 std::string Hush::messages() const { return impl_->text.str(); }
+
+// libsdformat copies an element's schema, with all that might be below it, for each element that it
+// reads: a megabyte a link. It gets the part of the schema that a document uses.
+sdf::SDFPtr empty_document(const std::set<std::string>& names) {
+  static const sdf::SDFPtr schema = [] {
+    sdf::SDFPtr all(new sdf::SDF());
+    sdf::init(all);
+    return all;
+  }();
+  sdf::SDFPtr fresh(new sdf::SDF());
+  fresh->Root(pruned(schema->Root(), names));
+  return fresh;
+}
+
+namespace {
 
 // Why it gets a printed tree and not the file: its Element::LineNumber and FilePath are right for
 // what stands in a file, included files too, but missing for elements that it does not know (all of
 // a plug-in's parameters), for an include's pose and for defaults, and 0 for what an upgrade from
 // an older version moves. Messages with file and line need a tree of our own; see print_xml's
 // lines.
-sdf::Root parse_world(const Element& world, Session& session) {
+void check_piece(const Element& world, Session& session) {
   Element document;
   document.name = "sdf";
   document.source = world.source;
   document.attributes = {{"version", "1.9"}};
-  document.children = {bare(world)};
+  document.children = {world};
   std::vector<Source> lines;
   const std::string text = print_xml(document, 0, &lines);
+  std::set<std::string> names;
+  collect_names(document, names);
 
   sdf::ParserConfig config;
   config.SetWarningsPolicy(sdf::EnforcementPolicy::LOG);
   config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::ERR);
   config.SetDeprecatedElementsPolicy(sdf::EnforcementPolicy::LOG);
-  const sdf::SDFPtr parsed = empty_document(document);
   sdf::Errors errors;
+  const sdf::SDFPtr parsed = empty_document(names);
   sdf::readString(text, config, parsed, errors);
-  sdf::Root root;
-  const sdf::Errors more = root.Load(parsed, config);
-  errors.insert(errors.end(), more.begin(), more.end());
   for (const sdf::Error& error : errors) {
-    if (error.Code() == sdf::ErrorCode::ELEMENT_INCORRECT_TYPE) {
-      session.warn(source_of(error, lines), one_line(error.Message()));
-      continue;
-    }
     const Source at =
         error.LineNumber() ? source_of(error, lines) : named_in(error.Message(), world);
-    throw Error(at, one_line(error.Message()));
+    if (error.Code() != sdf::ErrorCode::ELEMENT_INCORRECT_TYPE) {
+      throw Error(at, one_line(error.Message()));
+    }
+    session.warn(at, one_line(error.Message()));
   }
-  if (root.WorldCount() != 1) throw Error(world.source, "libsdformat finds no world in it");
-  return root;
 }
 
-Pose resolve(const sdf::SemanticPose& pose, const std::string& frame, const Source& at) {
-  ignition::math::Pose3d resolved;
-  const sdf::Errors errors = pose.Resolve(resolved, frame);
-  if (!errors.empty()) throw Error(at, one_line(errors.front().Message()));
-  return to_pose(resolved);
-}
+}  // namespace
 
-Pose to_pose(const ignition::math::Pose3d& pose) {
-  const auto& q = pose.Rot();
-  return {to_vec(pose.Pos()), Quat(q.W(), q.X(), q.Y(), q.Z()).normalized()};
+void check_schema(const Element& world, Session& session) {
+  {
+    const Hush hush;
+    for (const Element& piece : pieces_of(world)) check_piece(piece, session);
+  }
+  malloc_trim(0);
 }
-
-Vec3 to_vec(const ignition::math::Vector3d& v) { return {v.X(), v.Y(), v.Z()}; }
 
 }  // namespace angen::load

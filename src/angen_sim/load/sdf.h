@@ -3,12 +3,13 @@
 #include <memory>
 #include <mutex>
 #include <sdf/sdf.hh>
+#include <set>
 #include <string>
 
-#include "core/pose.h"
 #include "load/expand.h"
 
-/// The only place that calls libsdformat: types, the schema, frames and poses.
+/// The only place that calls libsdformat: the schema, and URDF. Frames and poses are worked out by
+/// frames.h: libsdformat's graphs of them take time with the square of a model's size.
 namespace angen::load {
 
 /// While one lives, nothing that libsdformat or urdfdom say reaches the console; it is kept
@@ -27,22 +28,11 @@ class Hush {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Gives back to the system, at its end, what libsdformat needed: a megabyte a link.
-struct Memory {
-  Memory() = default;
-  ~Memory();
-  Memory(const Memory&) = delete;
-  Memory& operator=(const Memory&) = delete;
-};
+/// Throws the first error that libsdformat's schema finds in a <world> element of SDF 1.9 that has
+/// passed the checks, as Error at the place the element came from; unknown elements are warnings.
+void check_schema(const Element& world, Session& session);
 
-/// A <world> element of SDF 1.9 that has passed the checks, as libsdformat sees it. Its first error
-/// is thrown as Error at the place the element came from; unknown elements are warnings.
-sdf::Root parse_world(const Element& world, Session& session);
-
-/// The pose of something seen from `frame` ("" = what it stands in). Throws Error at `at`.
-Pose resolve(const sdf::SemanticPose& pose, const std::string& frame, const Source& at);
-
-Pose to_pose(const ignition::math::Pose3d& pose);
-Vec3 to_vec(const ignition::math::Vector3d& v);
+/// The schema with what is required or has one of `names`, and nothing else. Under Hush's lock.
+sdf::SDFPtr empty_document(const std::set<std::string>& names);
 
 }  // namespace angen::load

@@ -21,6 +21,8 @@ struct Session {
   std::set<std::string> ignored_places{};  // of those, with their text
   std::set<std::string> converted{};       // URDF files: what nothing reads is libsdformat's doing
   std::size_t elements = 0;                // of all documents so far
+  double bytes = 0.0;                      // of memory that what was expanded will take, about
+  std::set<std::string> charged{};         // files of meshes that are counted in it
   std::vector<std::string> open{};         // documents being read, outermost first
 
   /// Once for each place: a file that is included ten times warns as often as if it were once.

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "core/limits.h"
 #include "core/text.h"
 #include "load/describe.h"
 #include "load/values.h"
@@ -32,6 +33,11 @@ void apply_joint(const Element& element, desc::Joint& joint) {
     }
     const double position = number_of(angle);
     desc::JointAxis& to = joint.axes[axis];
+    const std::string wrong = limit_problem(limits::kPosition, position);
+    if (!wrong.empty()) {
+      throw Error(angle.source, "the position of " + tag_of(element) + " is " +
+                                    number_text(position) + "; " + wrong);
+    }
     constexpr double kSlack = 1e-3;  // a joint at its stop may stand a little beyond it
     if (position < to.lower - kSlack || position > to.upper + kSlack) {
       throw Error(angle.source, "the position " + number_text(position) + " of " + tag_of(element) +

@@ -1,7 +1,11 @@
 #include "load/urdf.h"
 
+#include <algorithm>
+#include <cmath>
+#include <map>
 #include <set>
 
+#include "core/text.h"
 #include "load/describe.h"
 #include "load/sdf.h"
 #include "load/values.h"
@@ -18,7 +22,7 @@ void need_link(const Element& joint, const char* end, const std::set<std::string
     throw Error(joint.source, tag_of(joint) + " has no <" + end + " link=\"…\"/>; name a link");
   }
   if (links.count(*link) == 0) {
-    throw Error(element->source, tag_of(joint) + " names an unknown link '" + *link +
+    throw Error(element->source, tag_of(joint) + " names an unknown link '" + printable(*link) +
                                      "'; known are " + join_names({links.begin(), links.end()}));
   }
 }
@@ -27,13 +31,26 @@ void check_numbers(const Element& element) {
   static const std::set<std::string> texts = {"name",        "link",      "type",
                                               "filename",    "reference", "joint",
                                               "xmlns:xacro", "version",   "value_type"};
+  static const std::map<std::string, std::size_t> rows = {
+      {"xyz", 3}, {"rpy", 3}, {"size", 3}, {"scale", 3}, {"rgba", 4}};
+  static const std::set<std::string> limits = {"lower", "upper", "effort", "velocity"};
   if (element.name == "gazebo" || element.name == "transmission") return;
   for (const auto& [key, value] : element.attributes) {
     if (texts.count(key) != 0) continue;
     const Numbers found = numbers_in(value);
+    const std::string where = "<" + element.name + " " + key + "> holds '";
     if (!found.bad.empty()) {
-      throw Error(element.source, "<" + element.name + " " + key + "> holds '" + found.bad +
-                                      "', which is not a number");
+      throw Error(element.source, where + printable(found.bad) + "', which is not a number");
+    }
+    const auto row = rows.find(key);
+    const std::size_t count = row == rows.end() ? 1 : row->second;
+    const bool any = limits.count(key) != 0;
+    const bool good = std::all_of(found.values.begin(), found.values.end(), [&](double v) {
+      return any ? !std::isnan(v) : std::isfinite(v);
+    });
+    if (found.values.size() != count || !good) {
+      throw Error(element.source, where + printable(value) + "'; give " + std::to_string(count) +
+                                      " finite number" + (count == 1 ? "" : "s"));
     }
   }
   for (const Element& child : element.children) check_numbers(child);
@@ -94,13 +111,95 @@ void keep_safety(const Element& joint, Element& root) {
   }
 }
 
+// What the conversion writes, and what <gazebo> elements add.
+void add_names(const Element& element, std::set<std::string>& names) {
+  names.insert(element.name);
+  for (const Element& child : element.children) add_names(child, names);
+}
+
+std::set<std::string> names_in(const Element& robot) {
+  std::set<std::string> names = {"model",
+                                 "link",
+                                 "joint",
+                                 "pose",
+                                 "frame",
+                                 "inertial",
+                                 "mass",
+                                 "inertia",
+                                 "ixx",
+                                 "ixy",
+                                 "ixz",
+                                 "iyy",
+                                 "iyz",
+                                 "izz",
+                                 "collision",
+                                 "visual",
+                                 "sensor",
+                                 "geometry",
+                                 "box",
+                                 "size",
+                                 "cylinder",
+                                 "radius",
+                                 "length",
+                                 "sphere",
+                                 "mesh",
+                                 "uri",
+                                 "scale",
+                                 "surface",
+                                 "contact",
+                                 "friction",
+                                 "bounce",
+                                 "ode",
+                                 "kp",
+                                 "kd",
+                                 "mu",
+                                 "mu2",
+                                 "fdir1",
+                                 "material",
+                                 "script",
+                                 "name",
+                                 "axis",
+                                 "axis2",
+                                 "xyz",
+                                 "limit",
+                                 "lower",
+                                 "upper",
+                                 "effort",
+                                 "velocity",
+                                 "dynamics",
+                                 "damping",
+                                 "spring_reference",
+                                 "spring_stiffness",
+                                 "parent",
+                                 "child",
+                                 "plugin",
+                                 "static",
+                                 "gravity",
+                                 "self_collide",
+                                 "max_vel",
+                                 "min_depth",
+                                 "diffuse",
+                                 "ambient",
+                                 "specular",
+                                 "emissive",
+                                 "use_parent_model_frame",
+                                 "physics",
+                                 "provide_feedback",
+                                 "implicit_spring_damper",
+                                 "cfm_damping",
+                                 "fudge_factor",
+                                 "torsional",
+                                 "coefficient"};
+  add_names(robot, names);
+  return names;
+}
+
 }  // namespace
 
 Element convert_urdf(const std::string& text, const Element& robot) {
   check_robot(robot);
   const Hush hush;
-  const sdf::SDFPtr document(new sdf::SDF());
-  sdf::init(document);
+  const sdf::SDFPtr document = empty_document(names_in(robot));
   sdf::Errors errors;
   if (!sdf::readString(text, document, errors) || !errors.empty()) {
     const std::string why = errors.empty() ? hush.messages() : errors.front().Message();

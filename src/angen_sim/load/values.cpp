@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/limits.h"
 #include "core/text.h"
 #include "load/xml.h"
 
@@ -29,7 +30,7 @@ std::vector<double> numbers_of(const Element& element, std::size_t count) {
   const Numbers found = numbers_in(element.text);
   const std::string want = count == 1 ? "one number" : std::to_string(count) + " numbers";
   if (!found.bad.empty()) {
-    throw Error(element.source, "<" + element.name + "> holds '" + found.bad +
+    throw Error(element.source, "<" + element.name + "> holds '" + printable(found.bad) +
                                     "', which is not a number; give " + want);
   }
   if (found.values.size() != count) {
@@ -50,8 +51,25 @@ bool flag_of(const Element& element) {
   const std::string& t = element.text;
   if (t == "true" || t == "1" || t == "True" || t == "TRUE") return true;
   if (t == "false" || t == "0" || t == "False" || t == "FALSE") return false;
-  throw Error(element.source, "<" + element.name + "> holds '" + t + "'; give true or false");
+  throw Error(element.source,
+              "<" + element.name + "> holds '" + printable(t) + "'; give true or false");
 }
+
+namespace {
+
+// Angles in radians.
+void check_pose(const Pose& pose, const std::vector<double>& angles, const Element& element) {
+  std::string problem = pose_problem(pose);
+  for (const double angle : angles) {
+    const std::string wrong = limit_problem(limits::kAngle, angle);
+    if (problem.empty() && !wrong.empty()) {
+      problem = "an angle is " + number_text(angle) + " rad; " + wrong;
+    }
+  }
+  if (!problem.empty()) throw Error(element.source, "<" + element.name + ">: " + problem);
+}
+
+}  // namespace
 
 Pose pose_of(const Element& element) {
   if (element.text.empty()) return {};
@@ -60,11 +78,13 @@ Pose pose_of(const Element& element) {
   if (format != nullptr && *format == "quat_xyzw") {
     const std::vector<double> v = numbers_of(element, 7);
     pose.rotation = Quat(v[6], v[3], v[4], v[5]);
-    if (pose.rotation.norm() < 1e-6) {
-      throw Error(element.source, "<pose> holds a quaternion of length 0; give a unit quaternion");
+    if (!(pose.rotation.norm() >= 1e-6 && pose.rotation.norm() <= 1e6)) {
+      throw Error(element.source,
+                  "<pose> holds a quaternion of length 0 or infinite; give a unit quaternion");
     }
     pose.rotation.normalize();
     pose.position = {v[0], v[1], v[2]};
+    check_pose(pose, {}, element);
     return pose;
   }
   const std::vector<double> v = numbers_of(element, 6);
@@ -73,6 +93,7 @@ Pose pose_of(const Element& element) {
       degrees != nullptr && (*degrees == "true" || *degrees == "1") ? M_PI / 180.0 : 1.0;
   pose.position = {v[0], v[1], v[2]};
   pose.rotation = from_rpy(v[3] * unit, v[4] * unit, v[5] * unit);
+  check_pose(pose, {v[3] * unit, v[4] * unit, v[5] * unit}, element);
   return pose;
 }
 

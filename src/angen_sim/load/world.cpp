@@ -6,9 +6,11 @@
 #include "load/check.h"
 #include "load/describe.h"
 #include "load/entry.h"
+#include "load/frames.h"
 #include "load/ignored.h"
 #include "load/light.h"
 #include "load/load.h"
+#include "load/sdf.h"
 #include "load/search.h"
 #include "load/values.h"
 #include "load/xml.h"
@@ -18,11 +20,6 @@ namespace angen::load {
 namespace fs = std::filesystem;
 
 namespace {
-
-bool relative(const Element& element) {
-  const Element* pose = element.child("pose");
-  return pose != nullptr && pose->attribute("relative_to") != nullptr;
-}
 
 // Models and settings of a <world>, includes written out.
 struct Parts {
@@ -77,51 +74,26 @@ void check_entry_names(const std::vector<Entry>& entries) {
   }
 }
 
-// Poses that are given relative to something in the world need libsdformat, and models to refer to.
-Element with_stand_ins(const Parts& parts) {
+// Models stand by their names and poses alone.
+void place_all(const Parts& parts, desc::World& to) {
   Element world = parts.settings;
-  bool needed = false;
-  for (const Element& child : parts.settings.children) needed = needed || relative(child);
-  for (const Entry& entry : parts.entries) needed = needed || relative(entry.expanded);
-  if (!needed) return world;
   for (const Entry& entry : parts.entries) {
     Element model;
     model.name = "model";
     model.source = entry.original.source;
     model.attributes = {{"name", name_of(entry.expanded)}};
     if (const Element* pose = entry.expanded.child("pose")) model.children.push_back(*pose);
-    Element link;
-    link.name = "link";
-    link.source = model.source;
-    link.attributes = {{"name", "stand_in"}};
-    model.children.push_back(link);
-    world.children.push_back(model);
+    world.children.push_back(std::move(model));
   }
-  return world;
-}
-
-const sdf::Light* light_by_name(const sdf::World& world, const std::string& name) {
-  for (std::uint64_t i = 0; i < world.LightCount(); ++i) {
-    if (world.LightByIndex(i)->Name() == name) return world.LightByIndex(i);
-  }
-  return nullptr;
-}
-
-void place_all(const Parts& parts, const sdf::World& from, desc::World& to) {
+  Frames frames(world);
   for (const Element& child : parts.settings.children) {
-    if (child.name != "light") continue;
-    const sdf::Light* light = light_by_name(from, name_of(child));
-    const bool given = relative(child) && light != nullptr;
-    to.lights.push_back(light_of(
-        child, given ? resolve(light->SemanticPose(), "", child.source) : child_pose(child)));
+    if (child.name == "light") {
+      to.lights.push_back(light_of(child, frames.part_pose(child, "", "")));
+    }
   }
   for (std::size_t i = 0; i < parts.entries.size(); ++i) {
     const Element& element = parts.entries[i].expanded;
-    if (element.name != "model") continue;
-    const sdf::Model* model = from.ModelByName(name_of(element));
-    to.models[i].pose = relative(element) && model != nullptr
-                            ? resolve(model->SemanticPose(), "", element.source)
-                            : child_pose(element);
+    if (element.name == "model") to.models[i].pose = frames.pose(name_of(element));
   }
 }
 
@@ -141,7 +113,9 @@ desc::World describe_world(const Element& sdf, Session& session) {
   const Element& given = only_world(sdf);
   Parts parts = split(given, session);
   if (name_of(given).empty()) throw Error(given.source, "<world> has no name; write name=\"home\"");
-  check_settings(parts.settings);
+  const std::string problem = label_problem(name_of(given));
+  if (!problem.empty()) throw Error(given.source, "<world>: " + problem);
+  check_settings(parts.settings, session);
   check_entry_names(parts.entries);
 
   desc::World world;
@@ -152,12 +126,8 @@ desc::World describe_world(const Element& sdf, Session& session) {
     if (child.name == "plugin") world.plugins.push_back(plugin_of(child));
   }
   world.models = describe_entries(parts.entries, session);
-  {
-    const Memory memory;
-    const Hush hush;
-    const sdf::Root root = parse_world(with_stand_ins(parts), session);
-    place_all(parts, *root.WorldByIndex(0), world);
-  }
+  check_schema(parts.settings, session);
+  place_all(parts, world);
   for (const Element& child : sdf.children) {
     if (child.name != "world") session.ignore(child.source, "<" + child.name + "> in <sdf>");
   }

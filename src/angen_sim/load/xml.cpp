@@ -292,7 +292,7 @@ std::string name_of(const Element& element) {
 }
 
 std::string tag_of(const Element& element) {
-  const std::string name = name_of(element);
+  const std::string name = printable(name_of(element));
   return name.empty() ? "<" + element.name + ">" : "<" + element.name + " name=\"" + name + "\">";
 }
 

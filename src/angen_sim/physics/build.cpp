@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "core/diagnostics.h"
 #include "physics/insertion.h"
@@ -27,6 +29,7 @@ class Builder {
     record_ = std::make_unique<ModelRecord>();
     record_->name = model_.name;
     record_->self_collide = model_.self_collide;
+    for (std::size_t i = 0; i < model_.links.size(); ++i) index_.emplace(model_.links[i].name, i);
     check_links();
     group_links();
     make_bodies();
@@ -45,11 +48,10 @@ class Builder {
   // The world counts as one link more.
   std::size_t link_index(const std::string& name, const desc::Joint& joint) const {
     if (name == "world") return model_.links.size();
+    const auto found = index_.find(name);
+    if (found != index_.end()) return found->second;
     std::vector<std::string> known;
-    for (std::size_t i = 0; i < model_.links.size(); ++i) {
-      if (model_.links[i].name == name) return i;
-      known.push_back(model_.links[i].name);
-    }
+    for (const desc::Link& link : model_.links) known.push_back(link.name);
     throw Error(joint.source, "joint \"" + model_.name + "::" + joint.name + "\" names no link \"" +
                                   name + "\", known are " + join_names(known));
   }
@@ -102,8 +104,10 @@ class Builder {
       }
       body_of_[i] = body;
     }
+    std::vector<std::vector<const desc::Link*>> members(n + 1);
+    for (std::size_t i = 0; i < n; ++i) members[root(i)].push_back(&model_.links[i]);
     for (std::size_t i = 0; i <= n; ++i) {
-      if (of_root[i] != nullptr) make_body(*of_root[i], root(i));
+      if (of_root[i] != nullptr) make_body(*of_root[i], root(i), members[root(i)]);
     }
     for (std::size_t i = 0; i < n; ++i) {
       const desc::Link& link = model_.links[i];
@@ -113,14 +117,10 @@ class Builder {
     }
   }
 
-  void make_body(Body& body, std::size_t root_index) {
+  void make_body(Body& body, std::size_t root_index, const std::vector<const desc::Link*>& links) {
     const std::size_t n = model_.links.size();
     if (root_index < n) body.zero = model_.links[root_index].pose;
     if (root(n) == root_index) return;
-    std::vector<const desc::Link*> links;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (body_of_[i] == &body) links.push_back(&model_.links[i]);
-    }
     add_masses(body, links);
     for (const desc::Link* link : links) {
       body.upright = body.upright || link->upright;
@@ -289,14 +289,15 @@ class Builder {
   ShapeFactory& shapes_;
   std::uint64_t& serial_;
   std::unique_ptr<ModelRecord> record_;
-  std::vector<std::size_t> group_;  // of each link and, last, the world
+  std::unordered_map<std::string, std::size_t> index_;  // of links
+  std::vector<std::size_t> group_;                      // of each link and, last, the world
   std::vector<Body*> body_of_;
 };
 
 // Displaces what hangs on each joint by its initial position, from the roots outwards.
 void displace(ModelRecord& record) {
   std::vector<std::pair<Body*, Pose>> queue;
-  std::vector<const Body*> seen;
+  std::unordered_set<const Body*> seen;
   for (const auto& body : record.bodies) {
     const bool hangs = std::any_of(body->joints.begin(), body->joints.end(),
                                    [&](const Joint* joint) { return joint->first == body.get(); });
@@ -306,8 +307,7 @@ void displace(ModelRecord& record) {
     const auto [body, moved] = queue[i];
     for (const Joint* joint : body->joints) {
       if (joint->second != body || joint->first == body) continue;
-      if (std::find(seen.begin(), seen.end(), joint->first) != seen.end()) continue;
-      seen.push_back(joint->first);
+      if (!seen.insert(joint->first).second) continue;
       queue.emplace_back(joint->first, moved * joint_displacement(*joint));
     }
     if (!(moved == Pose{})) body->at = record.pose * moved * body->zero;
@@ -327,6 +327,7 @@ void configure(dWorldID world, ModelRecord& record, const Pose& pose) {
   displace(record);
   for (const auto& mechanism : record.mechanisms) {
     take_out(*mechanism);
+    mechanism->stopped = false;
     for (Body* body : mechanism->bodies) body->upright_at = body->at.rotation;
     insert(world, *mechanism);
     // What ODE keeps is the quaternion normalized once more.

@@ -116,7 +116,11 @@ std::size_t touching_points(const Geom& first, const Geom& second, dContactGeom*
     return collide_boxes(a, b, points, kMostFound);
   }
   const int most = static_cast<int>(kMostFound);
-  const auto n = static_cast<std::size_t>(dCollide(a, b, most, points, sizeof(dContactGeom)));
+  std::size_t n = 0;
+  try {
+    n = static_cast<std::size_t>(dCollide(a, b, most, points, sizeof(dContactGeom)));
+  } catch (const ode::Failure&) {  // of a degenerate triangle, say: they do not touch
+  }
   mend_normals(first, second, points, n);
   return n;
 }
@@ -131,13 +135,17 @@ bool may_touch(const Geom& a, const Geom& b) {
   return one.model->self_collide && !joined(one, two);
 }
 
-Contacts::Contacts(dWorldID world, const desc::Physics& settings, const Vec3& gravity)
-    : world_(world),
-      step_(to_seconds(settings.step)),
+Contacts::Contacts(const desc::Physics& settings, const Vec3& gravity)
+    : step_(to_seconds(settings.step)),
       gravity_(gravity),
       erp_(settings.erp),
-      cfm_(std::max(settings.cfm, kSoftest)),
-      group_(dJointGroupCreate(0)) {}
+      cfm_(std::max(settings.cfm, kSoftest)) {}
+
+void Contacts::use(dWorldID world) {
+  world_ = world;
+  group_ = ode::JointGroupHandle(dJointGroupCreate(0));
+  most_joints_ = 0;
+}
 
 void Contacts::start() {
   for (const Pair& pair : pairs_) note_change(*pair.first, *pair.second);
@@ -272,11 +280,12 @@ void Contacts::make_joint(const Pair& pair, std::size_t index) {
 }
 
 void Contacts::read_forces(const Pair& pair) {
-  const double sign = pair.first->body->dynamic() ? 1.0 : -1.0;
+  const double sign = pair.first->body->ode != nullptr ? 1.0 : -1.0;
   for (std::size_t i = pair.begin; i < pair.begin + pair.count; ++i) {
     const dContactGeom& found = found_[i];
-    points_[i] = {ode::vec(found.pos), ode::vec(found.normal), found.depth,
-                  sign * ode::vec(feedback_[i].f1)};
+    Vec3 force = sign * ode::vec(feedback_[i].f1);
+    if (!force.allFinite()) force = Vec3::Zero();  // of a step that found no motion
+    points_[i] = {ode::vec(found.pos), ode::vec(found.normal), found.depth, force};
   }
 }
 

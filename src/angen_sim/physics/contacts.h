@@ -23,10 +23,13 @@ class Contacts {
     std::size_t count = 0;
   };
 
-  Contacts(dWorldID world, const desc::Physics& settings, const Vec3& gravity);
+  Contacts(const desc::Physics& settings, const Vec3& gravity);
 
   /// Forgets the pairs of the last step.
   void start();
+
+  /// Where contact joints go; another world takes over between finish() and make_joints().
+  void use(dWorldID world);
 
   /// Narrow phase; true when the geoms touch.
   bool collide(Geom& a, Geom& b);
@@ -94,7 +97,7 @@ class Contacts {
   void align(dContact& contact, const Pair& pair) const;
   void read_forces(const Pair& pair);
 
-  dWorldID world_;
+  dWorldID world_ = nullptr;
   double step_;
   Vec3 gravity_;
   double erp_;

@@ -9,6 +9,7 @@
 #include "physics/grid.h"
 #include "physics/model.h"
 #include "physics/shapes.h"
+#include "physics/solver.h"
 #include "physics/world.h"
 
 namespace angen::physics {
@@ -18,6 +19,8 @@ namespace angen::physics {
 struct World::Impl {
   Impl(const desc::Physics& settings, const Vec3& gravity, std::uint64_t seed);
 
+  ModelId add(const desc::Model& model);
+  void remove(ModelId id);
   void take_step(std::int64_t tick);
   void wake(Body& body);
   void wake_joint(const Joint& joint);
@@ -26,12 +29,15 @@ struct World::Impl {
   void settle(ModelRecord& model, const Pose& pose);
   /// Lets ODE have a body that is awake.
   void give_to_ode(Body& body);
+  /// A world of ODE's with nothing in it, and the settings.
+  void make_ode_world();
   Joint& joint_at(JointId id) { return *joints.at(id); }
 
   double h;  // s
   desc::Physics settings;
   Vec3 gravity;
   std::uint64_t seed;
+  ode::ThreadingHandle threading;  // of its own: what fails in a step leaves jobs in it
   ode::WorldHandle world;
   ShapeFactory shapes;
   std::uint64_t serial = 0;
@@ -47,6 +53,8 @@ struct World::Impl {
   std::vector<Body*> awake;
   std::vector<LinkId> moved;
   std::vector<LinkId> placed;  // since the last step
+  Trouble trouble;
+  std::vector<Stopped> stopped;
   std::vector<ContactPair> listed;
   bool list_is_old = false;
 
@@ -56,6 +64,7 @@ struct World::Impl {
   void add_lift();
   void set_up_joints();
   void integrate(std::int64_t tick);
+  void renew();
   void read_bodies();
 };
 

@@ -127,6 +127,7 @@ struct Mechanism {
   std::vector<Body*> bodies;   // by serial
   std::vector<Joint*> joints;  // also those to static bodies
   double mass = 0.0;           // kg, of all its bodies
+  bool stopped = false;        // went beyond the limits: asleep until it is placed again
 };
 
 /// One or more links that are fixed to each other. Its frame has the axes of its first link and its

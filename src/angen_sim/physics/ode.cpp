@@ -19,9 +19,18 @@ void on_message(int number, const char* text, va_list arguments) {
   std::fputc('\n', stderr);
 }
 
+// ODE would abort() or exit() after it.
+void on_failure(int, const char* text, va_list arguments) {
+  char line[200];
+  std::vsnprintf(line, sizeof line, text, arguments);
+  throw Failure(line);
+}
+
 bool start() {
   dInitODE2(0);
   dSetMessageHandler(on_message);
+  dSetErrorHandler(on_failure);
+  dSetDebugHandler(on_failure);
   return true;
 }
 

@@ -3,6 +3,7 @@
 #include <ode/ode.h>
 
 #include <memory>
+#include <stdexcept>
 
 #include "core/pose.h"
 
@@ -19,6 +20,15 @@ struct Destroy {
   void operator()(dxJointGroup* group) const { dJointGroupDestroy(group); }
   void operator()(dxGeom* geom) const { dGeomDestroy(geom); }
   void operator()(dxTriMeshData* data) const { dGeomTriMeshDataDestroy(data); }
+  void operator()(dxThreadingImplementation* threads) const {
+    dThreadingFreeImplementation(threads);
+  }
+};
+
+/// An assertion of ODE that does not hold: thrown instead of ending the process. What it was thrown
+/// out of (a step, a collision) is left half done.
+struct Failure : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 using WorldHandle = std::unique_ptr<dxWorld, Destroy>;
@@ -26,6 +36,7 @@ using BodyHandle = std::unique_ptr<dxBody, Destroy>;
 using JointHandle = std::unique_ptr<dxJoint, Destroy>;
 using JointGroupHandle = std::unique_ptr<dxJointGroup, Destroy>;
 using GeomHandle = std::unique_ptr<dxGeom, Destroy>;
+using ThreadingHandle = std::unique_ptr<dxThreadingImplementation, Destroy>;
 using MeshHandle = std::unique_ptr<dxTriMeshData, Destroy>;
 
 /// Starts ODE once a process, takes over its messages, and gives the calling thread what colliding

@@ -25,6 +25,9 @@ bool motor_turns(const Body& body) {
   });
 }
 
+// A body that has been stopped is like a static one.
+bool joins(const Body& body) { return body.dynamic() && body.awake; }
+
 void put_to_sleep(Body& body) {
   body.awake = false;
   if (body.ode != nullptr) take_out(*body.mechanism);
@@ -38,7 +41,7 @@ class Islands {
     for (std::uint32_t i = 0; i < bodies.size(); ++i) bodies[i]->island = i;
   }
   void join(const Body* a, const Body* b) {
-    if (!a->dynamic() || !b->dynamic()) return;
+    if (!joins(*a) || !joins(*b)) return;
     const std::uint32_t x = root(a->island);
     const std::uint32_t y = root(b->island);
     parent_[std::max(x, y)] = std::min(x, y);
@@ -55,11 +58,19 @@ class Islands {
 }  // namespace
 
 void wake_up(Body& body, std::vector<Body*>& awake) {
-  if (body.awake) return;
+  if (body.awake || body.mechanism->stopped) return;
   for (Body* part : body.mechanism->bodies) {
     part->awake = true;
     awake.push_back(part);
   }
+}
+
+void stop(Mechanism& mechanism, std::vector<Body*>& awake) {
+  mechanism.stopped = true;
+  for (Body* body : mechanism.bodies) put_to_sleep(*body);
+  awake.erase(std::remove_if(awake.begin(), awake.end(),
+                             [&](const Body* body) { return body->mechanism == &mechanism; }),
+              awake.end());
 }
 
 bool let_sleep(std::vector<Body*>& awake, const Contacts& contacts, double h) {

@@ -8,6 +8,9 @@ namespace angen::physics {
 /// Wakes the mechanism of a dynamic body, whose idle times go on. ODE does not have it yet.
 void wake_up(Body& body, std::vector<Body*>& awake);
 
+/// Puts a mechanism to sleep where it stood before the step, for good: nothing wakes it.
+void stop(Mechanism& mechanism, std::vector<Body*>& awake);
+
 /// Puts whole islands to sleep (bodies that touch or are jointed) when each of their bodies has
 /// been slower than 0.01 m/s and 0.01 rad/s for half a second and no motor turns. Takes them out of
 /// `awake`; returns true when something fell asleep. Must follow each step of h seconds.

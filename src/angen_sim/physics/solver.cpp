@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "core/limits.h"
 #include "core/random.h"
+#include "core/text.h"
 
 namespace angen::physics {
 
@@ -33,39 +35,75 @@ void restore(const Body& body, const State& s) {
   dBodySetTorque(b, s.torque.x(), s.torque.y(), s.torque.z());
 }
 
-bool finite(const Body& body) {
+std::string too_fast(double speed, const Limit& limit) {
+  return "its speed would be " + number_text(speed) + " " + limit.unit + ", more than " +
+         number_text(limit.most);
+}
+
+// "" where the body is within the limits.
+std::string wild_problem(const Body& body) {
   const State s = state_of(body);
-  return s.position.allFinite() && s.rotation.coeffs().allFinite() && s.velocity.allFinite() &&
-         s.spin.allFinite();
+  if (!s.velocity.allFinite() || !s.spin.allFinite() || !s.rotation.coeffs().allFinite()) {
+    return "its motion has no finite solution";
+  }
+  if (s.velocity.norm() > limits::kSpeed.most) return too_fast(s.velocity.norm(), limits::kSpeed);
+  if (s.spin.norm() > limits::kTurnRate.most) return too_fast(s.spin.norm(), limits::kTurnRate);
+  const std::string problem = pose_problem({s.position, s.rotation});
+  return problem.empty() ? "" : "its position: " + problem;
+}
+
+void list_wild(const std::vector<Body*>& bodies, std::vector<Wild>& wild) {
+  wild.clear();
+  for (Body* body : bodies) {
+    std::string why = wild_problem(*body);
+    if (!why.empty()) wild.push_back({body, std::move(why)});
+  }
 }
 
 bool all_finite(const std::vector<Body*>& bodies) {
-  return std::all_of(bodies.begin(), bodies.end(), [](const Body* b) { return finite(*b); });
+  return std::all_of(bodies.begin(), bodies.end(), [](const Body* body) {
+    const State s = state_of(*body);
+    return s.position.allFinite() && s.rotation.coeffs().allFinite() && s.velocity.allFinite() &&
+           s.spin.allFinite();
+  });
 }
 
 }  // namespace
 
 bool solve_step(dWorldID world, const std::vector<Body*>& awake, double h, std::uint64_t seed,
-                std::int64_t tick, const std::function<void(dWorldID, double)>& first_try) {
+                std::int64_t tick, const std::function<void(dWorldID, double)>& first_try,
+                Trouble* trouble) {
   thread_local std::vector<State> start;
   start.clear();
   for (const Body* body : awake) start.push_back(state_of(*body));
-  ode::take_lcp_failure();
-  first_try(world, h);
-  if (!ode::take_lcp_failure() && all_finite(awake)) return true;
-
-  for (std::size_t i = 0; i < awake.size(); ++i) restore(*awake[i], start[i]);
-  dRandSetSeed(static_cast<unsigned long>(Rng(seed, hash_bytes("physics"), tick).next()));
-  dWorldQuickStep(world, h);
-  // Should even that end nowhere, the bodies stand still for this step.
-  if (!all_finite(awake)) {
+  const auto back = [&](bool forces) {
     for (std::size_t i = 0; i < awake.size(); ++i) {
-      State still = start[i];
-      still.velocity = still.spin = still.force = still.torque = Vec3::Zero();
-      restore(*awake[i], still);
+      State state = start[i];
+      if (!forces) state.force = state.torque = Vec3::Zero();
+      restore(*awake[i], state);
     }
+  };
+  Trouble unused;
+  Trouble& found = trouble == nullptr ? unused : *trouble;
+  found = {};
+  bool first = true;
+  try {
+    ode::take_lcp_failure();
+    first_try(world, h);
+    if (ode::take_lcp_failure() || !all_finite(awake)) {
+      first = false;
+      back(true);
+      dRandSetSeed(static_cast<unsigned long>(Rng(seed, hash_bytes("physics"), tick).next()));
+      dWorldQuickStep(world, h);
+      found.never = !all_finite(awake);
+    }
+  } catch (const ode::Failure&) {
+    first = false;
+    found.never = found.broken = true;
   }
-  return false;
+  list_wild(awake, found.wild);
+  if (found.never) back(false);
+  return first;
 }
 
 }  // namespace angen::physics

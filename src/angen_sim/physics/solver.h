@@ -2,11 +2,25 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "physics/model.h"
 
 namespace angen::physics {
+
+/// A body that a step would take beyond the limits (core/limits.h), and how.
+struct Wild {
+  Body* body = nullptr;
+  std::string why;
+};
+
+/// What a step could not do.
+struct Trouble {
+  std::vector<Wild> wild;
+  bool never = false;   // no solver found a motion: all bodies are as before the step
+  bool broken = false;  // ODE failed within the step: its world cannot be stepped again
+};
 
 /// Integrates one step of h seconds. When `first_try` (dWorldStep unless a test says otherwise)
 /// fails, the awake bodies are put back to where they started and the step is taken by
@@ -14,6 +28,7 @@ namespace angen::physics {
 /// enabled in the world. Returns false when the step had to be taken again.
 bool solve_step(dWorldID world, const std::vector<Body*>& awake, double h, std::uint64_t seed,
                 std::int64_t tick,
-                const std::function<void(dWorldID, double)>& first_try = dWorldStep);
+                const std::function<void(dWorldID, double)>& first_try = dWorldStep,
+                Trouble* trouble = nullptr);
 
 }  // namespace angen::physics

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <set>
 
 #include "physics/drive.h"
 #include "physics/impl.h"
+#include "physics/insertion.h"
 #include "physics/joints.h"
 #include "physics/shapes.h"
 #include "physics/sleep.h"
@@ -20,6 +22,7 @@ void World::Impl::take_step(std::int64_t tick) {
   ++steps;
   moved.clear();
   moved.swap(placed);
+  stopped.clear();
   if (!awake.empty()) {
     collide();
     integrate(tick);
@@ -84,8 +87,41 @@ void World::Impl::set_up_joints() {
 void World::Impl::integrate(std::int64_t tick) {
   add_lift();
   set_up_joints();
-  if (!solve_step(world.get(), awake, h, seed, tick)) ++failed;
+  if (!solve_step(world.get(), awake, h, seed, tick, dWorldStep, &trouble)) ++failed;
   contacts.finish();
+  if (trouble.broken) renew();
+  if (trouble.never && trouble.wild.empty()) {
+    for (Body* body : awake) trouble.wild.push_back({body, "its motion has no solution"});
+  }
+  for (const Wild& wild : trouble.wild) {
+    if (!wild.body->awake) continue;  // its mechanism has been stopped
+    stop(*wild.body->mechanism, awake);
+    stopped.push_back({wild.body->links.front(), wild.why});
+  }
+}
+
+// After a failure within a step ODE's world holds half-done work, which its destructor would step
+// on: it is given up, and what is awake goes into a new one as it was.
+void World::Impl::renew() {
+  struct Motion {
+    Vec3 velocity, spin;
+  };
+  std::vector<Motion> motions;
+  std::set<Mechanism*> mechanisms;
+  for (const Body* body : awake) {
+    motions.push_back({body->velocity(), body->spin()});
+    mechanisms.insert(body->mechanism);
+  }
+  for (Mechanism* mechanism : mechanisms) take_out(*mechanism);
+  static_cast<void>(world.release());
+  static_cast<void>(threading.release());
+  make_ode_world();
+  for (std::size_t i = 0; i < awake.size(); ++i) {
+    give_to_ode(*awake[i]);
+    const auto& [v, w] = motions[i];
+    dBodySetLinearVel(awake[i]->ode.get(), v.x(), v.y(), v.z());
+    dBodySetAngularVel(awake[i]->ode.get(), w.x(), w.y(), w.z());
+  }
 }
 
 void World::Impl::read_bodies() {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/diagnostics.h"
+#include "core/limits.h"
 #include "core/time.h"
 #include "physics/build.h"
 #include "physics/drive.h"
@@ -24,9 +25,12 @@ constexpr double kSoftestJoint = 1e-9;
 // is taken from the energy: with 0.2 a double pendulum loses some percent a minute.
 constexpr double kJointErp = 1.0;
 
-ode::WorldHandle make_world() {
-  ode::prepare_thread();
-  return ode::WorldHandle(dWorldCreate());
+double bounded(double value, const Limit& limit) {
+  return std::clamp(value, -limit.most, limit.most);
+}
+
+Vec3 bounded(const Vec3& value, const Limit& limit) {
+  return value.cwiseMin(limit.most).cwiseMax(-limit.most);
 }
 
 bool has_axis(const Joint& joint) {
@@ -36,20 +40,25 @@ bool has_axis(const Joint& joint) {
 }  // namespace
 
 World::Impl::Impl(const desc::Physics& s, const Vec3& g, std::uint64_t seed_)
-    : h(to_seconds(s.step)),
-      settings(s),
-      gravity(g),
-      seed(seed_),
-      world(make_world()),
-      contacts(world.get(), s, g) {
+    : h(to_seconds(s.step)), settings(s), gravity(g), seed(seed_), contacts(s, g) {
+  make_ode_world();
+}
+
+void World::Impl::make_ode_world() {
+  ode::prepare_thread();
+  threading.reset(dThreadingAllocateSelfThreadedImplementation());
+  world.reset(dWorldCreate());
   dWorldID w = world.get();
-  dWorldSetGravity(w, g.x(), g.y(), g.z());
+  dWorldSetStepThreadingImplementation(w, dThreadingImplementationGetFunctions(threading.get()),
+                                       threading.get());
+  dWorldSetGravity(w, gravity.x(), gravity.y(), gravity.z());
   dWorldSetERP(w, kJointErp);
-  dWorldSetCFM(w, std::max(s.cfm, kSoftestJoint));
-  dWorldSetQuickStepNumIterations(w, s.iterations);
-  dWorldSetContactMaxCorrectingVel(w, s.contact_max_correcting_vel);
-  dWorldSetContactSurfaceLayer(w, s.contact_surface_layer);
+  dWorldSetCFM(w, std::max(settings.cfm, kSoftestJoint));
+  dWorldSetQuickStepNumIterations(w, settings.iterations);
+  dWorldSetContactMaxCorrectingVel(w, settings.contact_max_correcting_vel);
+  dWorldSetContactSurfaceLayer(w, settings.contact_surface_layer);
   dWorldSetAutoDisableFlag(w, 0);
+  contacts.use(w);
 }
 
 void World::Impl::wake(Body& body) {
@@ -89,26 +98,42 @@ World::~World() = default;
 
 ModelId World::add(const desc::Model& model) {
   ode::prepare_thread();
-  auto built = build_model(model, impl_->shapes, impl_->serial);
+  try {
+    return impl_->add(model);
+  } catch (const ode::Failure& failure) {
+    throw Error(model.source, "model \"" + model.name + "\" cannot be simulated: " +
+                                  failure.what() + " (an assertion of ODE)");
+  }
+}
+
+ModelId World::Impl::add(const desc::Model& model) {
+  auto built = build_model(model, shapes, serial);
   ModelRecord& record = *built;
   for (const LinkRecord& link : record.links) {
-    record.link_ids.push_back(impl_->links.add(link));
+    record.link_ids.push_back(links.add(link));
     link.body->links.push_back(record.link_ids.back());
   }
   for (const auto& geom : record.geoms) {
-    geom->id = impl_->collisions.add(geom.get());
-    impl_->geoms[geom->name] = geom.get();
+    geom->id = collisions.add(geom.get());
+    geoms[geom->name] = geom.get();
   }
   for (const auto& joint : record.joints) {
-    record.joint_ids.push_back(impl_->joints.add(joint.get()));
+    record.joint_ids.push_back(joints.add(joint.get()));
   }
-  const ModelId id = impl_->models.add(std::move(built));
-  impl_->settle(record, model.pose);
+  const ModelId id = models.add(std::move(built));
+  try {
+    settle(record, model.pose);
+  } catch (const ode::Failure&) {
+    remove(id);
+    throw;
+  }
   return id;
 }
 
-void World::remove(ModelId id) {
-  Impl& w = *impl_;
+void World::remove(ModelId id) { impl_->remove(id); }
+
+void World::Impl::remove(ModelId id) {
+  Impl& w = *this;
   ModelRecord& model = *w.models.at(id);
   w.contacts.drop(model, [&](Body& body) { w.wake(body); });
   w.list_is_old = true;
@@ -165,14 +190,17 @@ void World::add_force(JointId id, double force) {
   // A <safety_controller> may make a force of none.
   if (force == 0.0 && !(joint.axes[0].safety && joint.first->awake)) return;
   impl_->wake_joint(joint);
+  if (!joint.first->awake) return;  // it has been stopped
   impl_->give_to_ode(*joint.first);
-  push_joint(joint, force);
+  push_joint(joint, bounded(force, limits::kForce));
 }
 
 void World::set_motor(JointId id, double velocity, double max_force) {
   Joint& joint = impl_->joint_at(id);
   if (!has_axis(joint) || !std::isfinite(velocity) || std::isnan(max_force)) return;
   const Axis& axis = joint.axes[0];
+  velocity = bounded(velocity, limits::kTurnRate);
+  max_force = std::min(max_force, limits::kNoLimit.most);
   if (axis.velocity >= 0.0) velocity = std::clamp(velocity, -axis.velocity, axis.velocity);
   if (axis.effort >= 0.0) max_force = std::min(max_force, axis.effort);
   if (max_force <= 0.0) max_force = velocity = 0.0;
@@ -208,7 +236,10 @@ void World::unlatch(JointId id) {
 void World::drive(LinkId id, const Vec3& velocity, double yaw_rate, double max_force) {
   Body& body = *impl_->links.at(id).body;
   if (!body.dynamic() || !velocity.allFinite() || !std::isfinite(yaw_rate + max_force)) return;
-  if (set_drive(impl_->world.get(), body, velocity, yaw_rate, max_force)) impl_->wake(body);
+  if (set_drive(impl_->world.get(), body, bounded(velocity, limits::kSpeed),
+                bounded(yaw_rate, limits::kTurnRate), std::min(max_force, limits::kForce.most))) {
+    impl_->wake(body);
+  }
 }
 
 void World::push(LinkId id, const Vec3& force, const Vec3& torque, const Vec3& point) {
@@ -216,17 +247,21 @@ void World::push(LinkId id, const Vec3& force, const Vec3& torque, const Vec3& p
   const bool finite = force.allFinite() && torque.allFinite() && point.allFinite();
   if (!body.dynamic() || !finite || (force.isZero(0.0) && torque.isZero(0.0))) return;
   if (!body.awake) impl_->wake(body);
+  if (!body.awake) return;  // it has been stopped
   impl_->give_to_ode(body);
-  dBodyAddForceAtPos(body.ode.get(), force.x(), force.y(), force.z(), point.x(), point.y(),
-                     point.z());
-  dBodyAddTorque(body.ode.get(), torque.x(), torque.y(), torque.z());
+  const Vec3 f = bounded(force, limits::kForce);
+  const Vec3 t = bounded(torque, limits::kTorque);
+  const Vec3 p = bounded(point, limits::kPosition);
+  dBodyAddForceAtPos(body.ode.get(), f.x(), f.y(), f.z(), p.x(), p.y(), p.z());
+  dBodyAddTorque(body.ode.get(), t.x(), t.y(), t.z());
 }
 
 void World::place(ModelId id, const Pose& pose) {
   Impl& w = *impl_;
   ModelRecord& model = *w.models.at(id);
-  if (!pose.finite())
-    throw Error("model \"" + model.name + "\" cannot be put at a pose not finite");
+  if (const std::string problem = pose_problem(pose); !problem.empty()) {
+    throw Error("model \"" + model.name + "\" cannot be put there: " + problem);
+  }
   w.contacts.drop(model, [&](Body& body) { w.wake(body); });
   w.list_is_old = true;
   w.settle(model, pose);
@@ -237,6 +272,8 @@ void World::place(ModelId id, const Pose& pose) {
 }
 
 void World::step(std::int64_t tick) { impl_->take_step(tick); }
+
+const std::vector<Stopped>& World::stopped() const { return impl_->stopped; }
 
 const std::vector<LinkId>& World::moved() const { return impl_->moved; }
 

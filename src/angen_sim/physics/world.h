@@ -35,6 +35,13 @@ struct JointState {
       0.0;  // N m or N along the axis that joint and motor gave the child in the last step
 };
 
+/// A link whose mechanism has been put to sleep for good, since it would have gone beyond the
+/// limits.
+struct Stopped {
+  LinkId link;
+  std::string why;
+};
+
 class World {
  public:
   World(const desc::Physics& settings, const Vec3& gravity, std::uint64_t seed);
@@ -86,6 +93,10 @@ class World {
   /// Collides and integrates one step of settings.step. `tick` keys what randomness the solver
   /// needs.
   void step(std::int64_t tick);
+
+  /// What the last step stopped: it stays where it was before the step, and is like a static body
+  /// until its model is placed again.
+  const std::vector<Stopped>& stopped() const;
 
   /// Links whose pose changed in the last step (or place), in id order.
   const std::vector<LinkId>& moved() const;

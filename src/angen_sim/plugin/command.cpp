@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/diagnostics.h"
+#include "core/limits.h"
 #include "core/text.h"
 #include "core/typography.h"
 
@@ -92,6 +93,15 @@ bool takes_values(const Kind& kind, const std::vector<std::string>& words, Comma
   return true;
 }
 
+/// Which of as many numbers as the kind takes is beyond its limit.
+std::string values_problem(const Kind& kind, const std::vector<double>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::string problem = limit_problem(limit_of_unit(kind.value_units[i]), values[i]);
+    if (!problem.empty()) return number_text(values[i]) + " is out of range: " + problem;
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string forms_of(const Kind& kind) {
@@ -116,11 +126,11 @@ std::string parse_command(const Kind& kind, Command& command) {
   const std::string right = with_article(kind.name) + " takes " + forms_of(kind);
   command.text = unquoted(without_typography(command.text));
   std::vector<std::string> words = words_of(command.text);
-  if (takes_values(kind, words, command)) return "";
+  if (takes_values(kind, words, command)) return values_problem(kind, command.values);
   if (words.empty() && !command.values.empty()) return "numbers without a verb; " + right;
   if (words.empty()) return "no verb; " + right;
   const Verb* verb = find_verb(kind, words);
-  if (verb == nullptr) return "unknown verb '" + words[0] + "'; " + right;
+  if (verb == nullptr) return "unknown verb '" + printable(words[0]) + "'; " + right;
   const std::size_t wanted = verb->argument.empty() ? 1 : 1 + verb->count;
   if (words.size() > wanted) return "too many words after " + verb->name + "; " + right;
   if (words.size() < wanted) return verb->name + " without " + verb->argument + "; " + right;
@@ -128,9 +138,13 @@ std::string parse_command(const Kind& kind, Command& command) {
   for (std::size_t i = 1; i < wanted; ++i) {
     numbers.emplace_back();
     if (!parse_number(words[i], verb->whole, numbers.back())) {
-      return "'" + words[i] + "' is not a number of " + verb->argument + "; " + right;
+      return "'" + printable(words[i]) + "' is not a number of " + verb->argument + "; " + right;
     }
-    if (!verb->range.contains(numbers.back())) return words[i] + " is out of range; " + right;
+    if (!verb->range.contains(numbers.back())) {
+      return printable(words[i]) + " is out of range; " + right;
+    }
+    const std::string problem = limit_problem(limit_of_unit(verb->unit), numbers.back());
+    if (!problem.empty()) return printable(words[i]) + " is out of range: " + problem;
   }
   if (!numbers.empty()) command.number = numbers.front();
   if (numbers.size() > 1) command.values = std::move(numbers);

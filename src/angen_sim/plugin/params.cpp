@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 
+#include "core/limits.h"
 #include "core/text.h"
 
 namespace angen {
@@ -84,6 +85,11 @@ double Params::number(const std::string& path, double fallback, const std::strin
     throw error(path,
                 "<" + path + "> is " + with_unit(given->text, unit) + ", must be " + shown(range));
   }
+  const std::string problem =
+      limit_problem(limit_of_unit(unit), *value, range.min == kPositive.min);
+  if (!problem.empty()) {
+    throw error(path, "<" + path + "> is " + with_unit(given->text, unit) + "; " + problem);
+  }
   return *value;
 }
 
@@ -142,6 +148,10 @@ std::vector<std::vector<double>> Params::rows(const std::string& path, std::size
       const std::optional<double> value = parse_finite(word);
       if (!value) {
         throw Error(given->source, "<" + path + "> has \"" + word + "\", must be a finite number");
+      }
+      const std::string problem = limit_problem(limit_of_unit(unit), *value);
+      if (!problem.empty()) {
+        throw Error(given->source, "<" + path + "> has " + word + "; " + problem);
       }
       row.push_back(*value);
     }

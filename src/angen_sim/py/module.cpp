@@ -1,7 +1,9 @@
 // `import angen`: the simulator without ROS. SI units, radians, NumPy arrays.
 #include <pybind11/eval.h>
+#include <pybind11/stl.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "core/allow_paths.h"
 #include "core/names.h"
@@ -97,22 +99,26 @@ void advance(World& world, std::uint64_t ticks, void (World::*advance)(std::uint
 void bind_world(pyb::module_& module) {
   pyb::class_<World>(module, "World", "A world that advances by step() and run().")
       .def(pyb::init([](const std::string& path, std::uint64_t seed, const std::string& record,
-                        bool anywhere) {
+                        bool anywhere, std::optional<double> memory_limit) {
+             if (memory_limit) load::set_memory_limit(*memory_limit);
              return std::make_unique<World>(path, seed, catalog(anywhere || allow_paths()), record,
                                             anywhere);
            }),
            pyb::arg("path"), pyb::arg("seed") = 0, pyb::arg("record") = "",
-           pyb::arg("allow_paths") = false,
+           pyb::arg("allow_paths") = false, pyb::arg("memory_limit") = pyb::none(),
            "Loads a world file (SDF); `record` is a file for the log that Replay reads. With "
-           "allow_paths, models may name files and plug-in libraries anywhere.")
+           "allow_paths, models may name files and plug-in libraries anywhere. One that would take "
+           "more than `memory_limit` MB is refused; see set_memory_limit.")
       .def_static(
           "from_text",
-          [](const std::string& text, std::uint64_t seed, bool anywhere) {
+          [](const std::string& text, std::uint64_t seed, bool anywhere,
+             std::optional<double> memory_limit) {
+            if (memory_limit) load::set_memory_limit(*memory_limit);
             return std::make_unique<World>(text, "<text>", seed, catalog(anywhere || allow_paths()),
                                            anywhere);
           },
           pyb::arg("text"), pyb::arg("seed") = 0, pyb::arg("allow_paths") = false,
-          "Loads a world from SDF text.")
+          pyb::arg("memory_limit") = pyb::none(), "Loads a world from SDF text.")
       .def(
           "step", [](World& w, std::uint64_t ticks) { advance(w, ticks, &World::step); },
           pyb::arg("ticks") = 1, "Advances by ticks, each of them taken.")
@@ -344,6 +350,13 @@ void bind_catalog(pyb::module_& module) {
       "params, as `angen plugins --json` prints it.");
 }
 
+void bind_limits(pyb::module_& module) {
+  module.def("memory_limit", &load::memory_limit,
+             "The most memory, in MB, that a world or model may be estimated to take.");
+  module.def("set_memory_limit", &load::set_memory_limit, pyb::arg("megabytes"),
+             "Sets it for this process; ANGEN_MEMORY_LIMIT of the environment, or 4096, without.");
+}
+
 }  // namespace
 
 PYBIND11_MODULE(angen, module) {
@@ -356,6 +369,7 @@ PYBIND11_MODULE(angen, module) {
   bind_replay(module);
   bind_catalog(module);
   bind_names(module);
+  bind_limits(module);
 }
 
 }  // namespace angen::py

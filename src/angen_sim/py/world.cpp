@@ -5,6 +5,8 @@
 #include <future>
 #include <utility>
 
+#include "core/limits.h"
+#include "core/text.h"
 #include "core/typography.h"
 #include "plugin/summary.h"
 
@@ -21,7 +23,8 @@ std::size_t index_of(const std::vector<Entry>& entries, const std::string& kind,
     if (entries[i].name == name) return i;
     known.push_back(entries[i].name);
   }
-  throw Error("no " + kind + " named '" + name + "'; known are " + join_names(known));
+  throw Error("no " + printable(kind) + " named '" + printable(name) + "'; known are " +
+              join_names(known));
 }
 
 std::string folder_of(const std::string& path) {
@@ -132,6 +135,9 @@ Nanoseconds World::leap_limit(Nanoseconds until) const {
 std::uint64_t World::ticks_in(double seconds) const {
   if (!std::isfinite(seconds) || seconds < 0)
     throw Error("seconds must be finite and not negative");
+  if (const std::string problem = limit_problem(limits::kTime, seconds); !problem.empty()) {
+    throw Error("seconds are " + number_text(seconds) + "; " + problem);
+  }
   return static_cast<std::uint64_t>(from_seconds(seconds) / snapshot_->step);
 }
 

@@ -49,7 +49,8 @@ bool query_inside(RTCPointQueryFunctionArguments* args) {
   return false;  // the query's radius stays
 }
 
-bool finite_as_floats(const Vec3& v) { return v.cast<float>().allFinite(); }
+// Embree asserts that what it gets is below 1.8e18.
+bool fit_for_embree(const Vec3& v) { return (v.array().abs() < 1e18).all(); }
 
 }  // namespace
 
@@ -65,8 +66,7 @@ bool SceneQuery::prepare(const Vec3& from, const Vec3& towards, double nearest, 
   anchored = (among & only(Mobility::kAnchored)) != 0;
   moving = (among & only(Mobility::kMoving)) != 0;
   const double length2 = direction.squaredNorm();
-  return finite_as_floats(origin) && finite_as_floats(direction) && length2 > 1e-30 &&
-         min <= farthest;
+  return fit_for_embree(origin) && fit_for_embree(direction) && length2 > 1e-30 && min <= farthest;
 }
 
 bool SceneQuery::try_solid(const Solid& candidate, bool fixed) {

@@ -35,6 +35,7 @@ constexpr char kUsage[] =
     "usage: angen_node [WORLD] [_rate:=1] [_paused:=false] [_seed:=1] [_clock_rate:=100]\n"
     "                  [_fast:=false] [_topics:=sensor|kind] [_record:=FILE]\n"
     "                  [_replay:=FILE [_until:=SECONDS]] [_allow_paths:=false] [_rescue:=FILE]\n"
+    "                  [_memory_limit:=4096]\n"
     "       angen_node --check WORLD    only loads; exit code 1 when it cannot\n"
     "WORLD may also stand in the parameter ~world. Where the ROS master is started anew, the node\n"
     "saves the world in FILE and ends with exit code 75.\n";
@@ -99,6 +100,16 @@ double number_param(const std::string& name, double fallback, double least) {
                        std::to_string(least));
   }
   return value;
+}
+
+// The ~memory_limit that the command line gives, as far as it is known without ROS.
+void limit_memory_by(const std::vector<std::string>& words) {
+  constexpr char kLimit[] = "_memory_limit:=";
+  for (const std::string& word : words) {
+    if (word.rfind(kLimit, 0) != 0) continue;
+    const std::optional<double> given = angen::parse_finite(word.substr(sizeof kLimit - 1));
+    if (given) angen::load::set_memory_limit(*given);
+  }
 }
 
 // The ~seed that the command line gives, as far as it is known without ROS.
@@ -178,6 +189,7 @@ int run(std::string path, std::unique_ptr<Simulation> simulation) {
   if (!simulation && !replays && !ros::param::get("~world", path)) {
     throw angen::Error(std::string("no world: give one as argument or in ~world\n") + kUsage);
   }
+  angen::load::set_memory_limit(number_param("~memory_limit", angen::load::memory_limit(), 1.0));
   angen::node::Settings settings;
   settings.fast = ros::param::param("~fast", false);
   settings.rate = number_param("~rate", settings.fast ? 0.0 : 1.0, 0.0);
@@ -239,6 +251,7 @@ int main(int argc, char** argv) {
     // Before ROS, which waits for a master: errors in the world need none.
     std::unique_ptr<Simulation> simulation;
     if (std::count(raw.begin(), raw.end(), "_allow_paths:=true") != 0) allow_all_paths();
+    limit_memory_by(raw);
     if (!paths.empty()) simulation = make(read(path), seed_in(raw));
     ros::init(argc, argv, "angen", ros::init_options::NoSigintHandler);
     end_on_signals();

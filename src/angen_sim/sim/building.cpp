@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/nearest.h"
+#include "core/text.h"
 
 namespace angen::sim {
 
@@ -226,19 +227,20 @@ void Building::add(desc::Model model, Nanoseconds now) { build(std::move(model),
 void Building::attach(const desc::Sensor& sensor, const std::string& link, Nanoseconds now) {
   const std::size_t split = link.find("::");
   if (split == std::string::npos) {
-    throw Error("'" + link + "' is not the name of a link; links are written model::link");
+    throw Error("'" + printable(link) +
+                "' is not the name of a link; links are written model::link");
   }
   LiveModel* live = find(link.substr(0, split));
   if (live == nullptr) {
-    throw Error("no model named '" + link.substr(0, split) + "'; " +
+    throw Error("no model named '" + printable(link.substr(0, split)) + "'; " +
                 did_you_mean(link.substr(0, split), model_names()));
   }
   std::vector<std::string> names;
   for (const desc::Link& l : live->desc->links) names.push_back(l.name);
   const auto at = std::find(names.begin(), names.end(), link.substr(split + 2));
   if (at == names.end()) {
-    throw Error("model '" + live->desc->name + "' has no link '" + link.substr(split + 2) +
-                "'; known are " + join_names(names));
+    throw Error("model '" + live->desc->name + "' has no link '" +
+                printable(link.substr(split + 2)) + "'; known are " + join_names(names));
   }
   if (sensor.plugin.empty()) throw Error(sensor.source, "the sensor has no <plugin>");
   SensorInstance instance = make_sensor(*live, static_cast<std::uint32_t>(at - names.begin()),
@@ -275,7 +277,7 @@ void Building::erase(const std::string& name) {
       return;
     }
   }
-  throw Error("no model or attached sensor named '" + name + "'; " +
+  throw Error("no model or attached sensor named '" + printable(name) + "'; " +
               did_you_mean(name, names_to_delete()));
 }
 

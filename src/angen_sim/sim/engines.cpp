@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <unordered_map>
+
+#include "sim/joined.h"
 
 namespace angen::sim {
 
@@ -29,14 +32,18 @@ desc::Visual surface(const desc::Link& link, const desc::Collision& collision) {
 
 // A door is, and the leaf's handles; a robot is not.
 std::set<std::string> links_joined_to_world(const desc::Model& model) {
-  std::set<std::string> joined{"world"};
-  for (std::size_t before = 0; before != joined.size();) {
-    before = joined.size();
-    for (const desc::Joint& joint : model.joints) {
-      if (joined.count(joint.parent) != 0) joined.insert(joint.child);
-    }
+  return joined_to({"world"}, model, false, [](const desc::Joint&) { return true; });
+}
+
+std::vector<std::vector<std::uint32_t>> joints_by_child(const desc::Model& model) {
+  std::unordered_map<std::string, std::size_t> index;
+  for (std::size_t i = 0; i < model.links.size(); ++i) index.emplace(model.links[i].name, i);
+  std::vector<std::vector<std::uint32_t>> joints(model.links.size());
+  for (std::uint32_t i = 0; i < model.joints.size(); ++i) {
+    const auto child = index.find(model.joints[i].child);
+    if (child != index.end()) joints[child->second].push_back(i);
   }
-  return joined;
+  return joints;
 }
 
 // Glass and the like, which lets more than half of the light through, is not seen.
@@ -70,10 +77,12 @@ Parts Engines::add(const desc::Model& model) {
   parts.links = physics.links(parts.body);
   parts.joints = physics.joints(parts.body);
   const auto anchored = links_joined_to_world(model);
+  parts.child_joints = joints_by_child(model);
   note_change();
   for (std::uint32_t i = 0; i < model.links.size(); ++i) {
     const desc::Link& link = model.links[i];
     const Pose pose = physics.link(parts.links[i]).pose;
+    parts.first_shape.push_back(static_cast<std::uint32_t>(parts.shapes.size()));
     const auto mobility = model.is_static             ? rays::Mobility::kStatic
                           : anchored.count(link.name) ? rays::Mobility::kAnchored
                                                       : rays::Mobility::kMoving;
@@ -93,6 +102,7 @@ Parts Engines::add(const desc::Model& model) {
       parts.lamps.push_back(lamp);
     }
   }
+  parts.first_shape.push_back(static_cast<std::uint32_t>(parts.shapes.size()));
   return parts;
 }
 
@@ -159,8 +169,8 @@ void Engines::show(const Parts& parts, const Parts::Shape& shape) {
 
 void Engines::follow(const Parts& parts, std::uint32_t link) {
   const Pose pose = physics.link(parts.links[link]).pose;
-  for (const Parts::Shape& shape : parts.shapes) {
-    if (shape.link != link) continue;
+  for (std::uint32_t i = parts.first_shape[link]; i < parts.first_shape[link + 1]; ++i) {
+    const Parts::Shape& shape = parts.shapes[i];
     if (parts.is_static) movers.change_static(rays.bounds(shape.id));
     rays.move(shape.id, pose * shape.offset);
     show(parts, shape);

@@ -30,11 +30,13 @@ struct Parts {
   };
   physics::ModelId body;
   bool is_static = false;
-  std::vector<physics::LinkId> links;    // as desc::Model::links
-  std::vector<physics::JointId> joints;  // as desc::Model::joints
-  std::vector<Shape> shapes;
-  std::vector<render::BodyId> bodies;  // as links: what cameras see of them
-  std::vector<Lamp> lamps;             // in the order of links and their lights
+  std::vector<physics::LinkId> links;                    // as desc::Model::links
+  std::vector<physics::JointId> joints;                  // as desc::Model::joints
+  std::vector<Shape> shapes;                             // in the order of links
+  std::vector<std::uint32_t> first_shape;                // of each link, and how many there are
+  std::vector<std::vector<std::uint32_t>> child_joints;  // of each link: that it is the child of
+  std::vector<render::BodyId> bodies;                    // as links: what cameras see of them
+  std::vector<Lamp> lamps;                               // in the order of links and their lights
 };
 
 /// The engines, kept in step: a body's shapes and lamps follow it.

@@ -5,6 +5,7 @@
 
 #include "core/names.h"
 #include "plugin/ray_color.h"
+#include "sim/joined.h"
 #include "sim/wiring.h"
 
 namespace angen::sim {
@@ -35,15 +36,7 @@ std::set<std::string> fixed_to_world(const desc::Model& model) {
   for (const desc::Link& link : model.links) {
     if (model.is_static || link.kinematic) fixed.insert(link.name);
   }
-  for (std::size_t before = 0; before != fixed.size();) {
-    before = fixed.size();
-    for (const desc::Joint& joint : model.joints) {
-      if (joint.type != desc::Joint::Type::kFixed) continue;
-      if (fixed.count(joint.parent) != 0) fixed.insert(joint.child);
-      if (fixed.count(joint.child) != 0) fixed.insert(joint.parent);
-    }
-  }
-  return fixed;
+  return joined_to(std::move(fixed), model, true, is_fixed);
 }
 
 // An error in a plug-in gets the plug-in's file and line, unless it has some already.

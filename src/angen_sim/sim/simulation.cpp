@@ -84,6 +84,7 @@ struct Simulation::Impl {
     engines.physics.step(next.tick);
     if (was_awake || !engines.physics.moved().empty()) engines.note_change();
     ++next.tick;
+    for (const physics::Stopped& stopped : engines.physics.stopped()) note(stopped);
     devices.note_awake(building, next.tick);
     next.time = next.tick * next.step;
     for (const physics::LinkId link : building.engines().physics.moved()) {
@@ -92,6 +93,14 @@ struct Simulation::Impl {
       write_link(*owner.model, owner.link);
       next.moved_links.push_back(owner.model->first_link + owner.link);
     }
+  }
+
+  void note(const physics::Stopped& stopped) {
+    const Building::Owner owner = building.owner(stopped.link);
+    const desc::Model& model = *owner.model->desc;
+    next.events.push_back({next.time, model.name, "world", "stopped",
+                           "link '" + model.links[owner.link].name + "' has been stopped: " +
+                               stopped.why + "; reset the world or delete the model"});
   }
 
   void observe() {
@@ -159,9 +168,7 @@ struct Simulation::Impl {
   void write_link(const LiveModel& live, std::uint32_t link) {
     next.link_poses.set(live.first_link + link,
                         building.engines().physics.link(live.parts.links[link]).pose);
-    for (std::uint32_t i = 0; i < live.desc->joints.size(); ++i) {
-      if (live.desc->joints[i].child == live.desc->links[link].name) write_joint(live, i);
-    }
+    for (const std::uint32_t joint : live.parts.child_joints[link]) write_joint(live, joint);
   }
 
   void write_joints(const LiveModel& live) {

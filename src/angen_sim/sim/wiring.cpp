@@ -3,6 +3,8 @@
 #include <limits>
 #include <utility>
 
+#include "sim/joined.h"
+
 namespace angen::sim {
 
 namespace {
@@ -30,15 +32,7 @@ int index_of(const List& list, const std::string& name) {
 
 // Links on fixed joints move as one.
 std::vector<const desc::Link*> moving_with(const desc::Model& model, const std::string& link) {
-  std::set<std::string> together{link};
-  for (std::size_t before = 0; before != together.size();) {
-    before = together.size();
-    for (const desc::Joint& joint : model.joints) {
-      if (joint.type != desc::Joint::Type::kFixed) continue;
-      if (together.count(joint.parent) != 0) together.insert(joint.child);
-      if (together.count(joint.child) != 0) together.insert(joint.parent);
-    }
-  }
+  const std::set<std::string> together = joined_to({link}, model, true, is_fixed);
   std::vector<const desc::Link*> links;
   for (const desc::Link& l : model.links) {
     if (together.count(l.name) != 0) links.push_back(&l);

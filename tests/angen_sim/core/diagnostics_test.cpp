@@ -22,6 +22,11 @@ TEST(Error, WhatHasOneLineForEach) {
   EXPECT_EQ(error.diagnostics().size(), 2U);
 }
 
+TEST(Error, RepeatsOnlySoMuchOfWhatAUserGave) {
+  const Error error(std::string(100'000, 'n'));
+  EXPECT_LT(std::string(error.what()).size(), 4010U);
+}
+
 TEST(JoinNames, NamesTheFirstAndCountsTheRest) {
   EXPECT_EQ(join_names({}), "(none)");
   EXPECT_EQ(join_names({"a", "b"}), "a, b");

@@ -34,6 +34,16 @@ TEST(Name, OfAnotherFormSaysWhatIsWrong) {
   }
 }
 
+TEST(Label, HasTheRuleWithoutWhatSeparatesTopics) {
+  for (const char* label : {"", "gz::sim::systems::Physics", "a/b", "world", " a"}) {
+    EXPECT_EQ(label_problem(label), "");
+  }
+  for (const std::string& label :
+       {std::string(kMaxNameBytes + 1, 'n'), std::string("a\xff"), std::string("a\nb")}) {
+    EXPECT_NE(label_problem(label), "");
+  }
+}
+
 TEST(Name, IsRefusedWithWhatBearsItAndItsPlace) {
   try {
     check_name("a/b", "<link>", {"a.world", 3});
