@@ -108,10 +108,10 @@ struct JointAxis {
   Vec3 xyz = Vec3::UnitZ();  // unit, in the model's frame at position 0
   double lower = -1e16;      // rad or m
   double upper = 1e16;
-  double effort = -1.0;    // N m or N, negative = no limit
-  double velocity = -1.0;  // rad/s or m/s, negative = no limit
-  double damping = 0.0;    // N m s/rad or N s/m
-  double friction = 0.0;   // N m or N
+  double effort = -1.0;           // N m or N, negative = no limit
+  double velocity = -1.0;         // rad/s or m/s, negative = no limit
+  double damping = 0.0;           // N m s/rad or N s/m
+  double friction = 0.0;          // N m or N
   double spring_stiffness = 0.0;  // N m/rad or N/m
   double spring_reference = 0.0;  // rad or m, where the spring is slack
   double initial_position = 0.0;
@@ -148,7 +148,7 @@ struct Model {
   std::string xml;  // as it stood in its file (an <include>, <model> or <actor>), for `save`
   std::string expanded_xml;  // where xml holds includes: the same with them written out
   std::vector<Diagnostic>
-      warnings;  // of a model that was loaded by itself; else the world has them
+      warnings;                     // of a model that was loaded by itself; else the world has them
   std::vector<Diagnostic> ignored;  // the same, as the world's
   Source source;
 };
@@ -180,7 +180,7 @@ struct World {
   std::vector<Plugin> plugins;
   std::vector<Diagnostic> warnings;
   std::vector<Diagnostic> ignored;  // elements and attributes that nothing reads
-  std::string xml;  // the world's own text without models, for `save`
+  std::string xml;                  // the world's own text without models, for `save`
 };
 
 }  // namespace angen::desc

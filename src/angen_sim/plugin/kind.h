@@ -10,12 +10,12 @@ namespace angen {
 
 /// A word that commands take, with a number or without one.
 struct Verb {
-  std::string name;      // "Dim", as commands write it; upper and lower case are the same
-  std::string doc;       // one line
-  std::string argument;  // what the number is: "percent"; empty where the verb takes none
-  std::string unit;      // of the number
-  Range range;           // of the number
-  bool whole = false;    // the number is an integer; it may follow the verb without a blank
+  std::string name;       // "Dim", as commands write it; upper and lower case are the same
+  std::string doc;        // one line
+  std::string argument;   // what the number is: "percent"; empty where the verb takes none
+  std::string unit;       // of the number
+  Range range;            // of the number
+  bool whole = false;     // the number is an integer; it may follow the verb without a blank
   std::size_t count = 1;  // how many numbers it takes, where it takes any; `argument` names each
 };
 

@@ -82,8 +82,8 @@ class Rig : public View, public Wiring, public Outputs {
 
   std::vector<std::string> events;
   std::vector<Diagnostic> warnings;  // of its parameters
-  int forces = 0;  // how often the device has added a force that is not 0
-  int calls = 0;   // how often it has done anything to the world
+  int forces = 0;                    // how often the device has added a force that is not 0
+  int calls = 0;                     // how often it has done anything to the world
 
   // View
   Nanoseconds time() const override { return bench_.now(); }
