@@ -24,7 +24,7 @@ constexpr double kMegabyte = 1024.0 * 1024.0;
 constexpr double kElement = 2e3;
 constexpr double kRay = 300.0;
 constexpr double kPixel = 24.0;
-constexpr double kHeight = 60.0;   // of a heightmap, with what rays and contacts keep of it
+constexpr double kHeightSample = 60.0;  // of a heightmap, with what rays and contacts keep of it
 constexpr double kMeshByte = 6.0;  // a triangle of a binary STL has 50 bytes, of other files more
 const std::map<std::string, double>& parts() {
   static const std::map<std::string, double> table = {
@@ -73,7 +73,7 @@ double file_cost(const Element& shape, Session& session) {
   if (uri == nullptr) return 0.0;
   const std::optional<std::string> file = find_uri(uri->text, uri->source.file, session);
   if (!file || !session.charged.insert(*file).second) return 0.0;  // shared between its uses
-  if (shape.name == "heightmap") return kHeight * heights_in(*file);
+  if (shape.name == "heightmap") return kHeightSample * heights_in(*file);
   std::error_code failed;
   const auto size = std::filesystem::file_size(*file, failed);
   return failed ? 0.0 : kMeshByte * static_cast<double>(size);
