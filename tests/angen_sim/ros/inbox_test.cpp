@@ -24,6 +24,8 @@ class SlowDevice : public Device {
     gate_->open.get_future().wait();
     return Verdict::accept([] {});
   }
+  void update(const View&, Outputs&) override {}
+  void report(const View&, Reading&) const override {}
 
  private:
   std::shared_ptr<Gate> gate_;
