@@ -106,7 +106,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
   void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override {
     hits.assign(rays.size(), {});
   }
-  std::optional<light::Sample> illuminance(light::Probe& probe, const Pose& pose) const override {
+  light::Sample illuminance(light::Probe& probe, const Pose& pose) const override {
     return light_at ? light_at(probe, pose) : light::Sample{};
   }
   void prepare_light() const override {}

@@ -124,32 +124,3 @@ def test_daylight_follows_its_command():
 def test_a_flat_light_needs_two_lengths():
     with pytest.raises(angen.Error, match='angen:rectangle'):
         world_of(WINDOW.replace('1.4 1.0', '1.4'))
-
-
-def test_a_lamp_that_is_switched_on_is_never_read_in_part() -> None:
-    """Finding its light takes several ticks; the sensor's reading waits for it."""
-    world = world_of(room() + LAMP.replace('<pose>0 0.3', '<pose>2 2').replace('>100<', '>0<')
-                     + lux('face', '0.05 1 2 0 0 0'))
-    world.run(0.55)
-    assert world.sensor('luminosity', 'face')['illuminance'] == 0
-    assert world.command('lamp', 'hall0', 'On')
-    seen = {}
-    for _ in range(1000):
-        world.step()
-        reading = world.sensor('luminosity', 'face')
-        seen.setdefault(reading['illuminance'], round(reading['stamp'], 3))
-    dark, lit = sorted(seen)
-    assert dark == 0 and lit > 10
-    assert 0.6 < seen[lit] < 0.7  # at least one tick after the sample that was due at 0.6 s
-
-
-def test_ticks_and_leaps_wait_alike_for_light() -> None:
-    text = room() + LAMP.replace('<pose>0 0.3', '<pose>2 2') + lux('face', '0.05 1 2 0 0 0')
-    worlds = world_of(text), world_of(text)
-    for world in worlds:
-        world.command('lamp', 'hall0', 'Dim, 40')
-    worlds[0].run(3.0)
-    for _ in range(3000):
-        worlds[1].step()
-    one, other = (world.sensor('luminosity', 'face') for world in worlds)
-    assert one == other and one['illuminance'] > 10

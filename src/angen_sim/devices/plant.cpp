@@ -108,7 +108,7 @@ class Plant : public Device {
     const double humidity = std::isnan(here.humidity) ? 50.0 : here.humidity;
     if (view.time() >= lit_at_) {
       const Pose up{leaves, Quat::FromTwoVectors(Vec3::UnitX(), Vec3::UnitZ())};
-      light_ = view.illuminance(probe_, up)->illuminance;
+      light_ = view.illuminance(probe_, up).illuminance;
       lit_at_ = lit_.next(view.time());
       prepared_ = false;
     }

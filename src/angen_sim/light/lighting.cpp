@@ -109,12 +109,6 @@ void Lighting::prepare() {
   busy_ = missing().has_value();
 }
 
-std::optional<Sample> Lighting::try_measure(Probe& probe, const Pose& pose, bool still) {
-  prepare();
-  if (busy_) return std::nullopt;
-  return measure(probe, pose, still);
-}
-
 void Lighting::advance() {
   if (busy_) prepare();
   if (!busy_) return;

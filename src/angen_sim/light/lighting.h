@@ -78,12 +78,10 @@ class Lighting {
   /// reach, so that lamps are not looked for again whose light takes the same ways as then.
   Sample measure(Probe& probe, const Pose& pose, bool still = false) const;
 
-  /// As measure(), but nothing where the light of a lit lamp between the surfaces must be found
-  /// first, which takes up to a second: advance() does that part by part.
-  std::optional<Sample> try_measure(Probe& probe, const Pose& pose, bool still = false);
-  /// Has advance() find what measure() needs of the lamps that are lit now.
+  /// Has advance() find what measure() needs of the lamps that are lit now: their light between the
+  /// surfaces, a part of a second of CPU time for each. measure() finds what is not there yet.
   void prepare();
-  /// Goes on with what try_measure() or prepare() lacked, for some 10 ms of CPU time. The scene
+  /// Goes on with what prepare() has asked for, for some 10 ms of CPU time. The scene
   /// must be committed.
   void advance();
   /// Whether something is lacking.

@@ -72,7 +72,9 @@ double file_cost(const Element& shape, Session& session) {
   const Element* uri = shape.child("uri");
   if (uri == nullptr) return 0.0;
   const std::optional<std::string> file = find_uri(uri->text, uri->source.file, session);
-  if (!file || !session.charged.insert(*file).second) return 0.0;  // shared between its uses
+  // One that it may not name is refused later; others are shared between their uses.
+  if (!file || !session.allowed.holds(*file, uri->source.file)) return 0.0;
+  if (!session.charged.insert(*file).second) return 0.0;
   if (shape.name == "heightmap") return kHeightSample * heights_in(*file);
   std::error_code failed;
   const auto size = std::filesystem::file_size(*file, failed);

@@ -155,7 +155,7 @@ std::string Frames::link_of(const std::string& frame, const std::string& scope,
     if (node.attached.empty() && node.element->name == "link") return at;
     const bool model = node.element->name == "model";  // its link's key is whole
     at = model ? node.attached : key(node.attached, node.scope, *node.element);
-    if (at.empty() || nodes_.count(at) == 0) break;
+    if ((model && at.empty()) || nodes_.count(at) == 0) break;
   }
   throw Error(what.source,
               tag_of(what) + " refers to '" + printable(frame) + "', which is attached to no link");

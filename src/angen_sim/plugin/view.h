@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -85,11 +84,10 @@ class View {
   }
   /// Nearest hits: hits[i] answers rays[i].
   virtual void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const = 0;
-  /// Light at a place; see light::Lighting::measure. Nothing where the light of a lamp that came or
-  /// was switched on must be found first, which takes some ticks: a sensor that returns without it
-  /// is read again at each tick until it is there. A device always gets it, after up to a second of
-  /// CPU time; it may call prepare_light() a step before, so that it takes none.
-  virtual std::optional<light::Sample> illuminance(light::Probe& probe, const Pose& pose) const = 0;
+  /// Light at a place; see light::Lighting::measure. Where the light of a lamp that came or was
+  /// switched on must be found first, it takes a part of a second of CPU time: prepare_light(),
+  /// some seconds before, spreads that over ticks.
+  virtual light::Sample illuminance(light::Probe& probe, const Pose& pose) const = 0;
   virtual void prepare_light() const = 0;
   virtual double ambient_temperature() const = 0;  // K
   /// What is warmer or colder than the air, and where.

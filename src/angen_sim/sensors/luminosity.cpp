@@ -16,13 +16,12 @@ class Luminosity : public Sensor {
   }
 
   void read(const View& view, Hits, Rng&, Reading& reading) override {
-    const std::optional<light::Sample> sample = view.illuminance(probe_, view.pose());
-    if (!sample) return;
-    reading.set("illuminance", sample->illuminance);
-    reading.set("r", static_cast<double>(sample->color.x()));
-    reading.set("g", static_cast<double>(sample->color.y()));
-    reading.set("b", static_cast<double>(sample->color.z()));
-    note_change(sample->illuminance, reading);
+    const light::Sample sample = view.illuminance(probe_, view.pose());
+    reading.set("illuminance", sample.illuminance);
+    reading.set("r", static_cast<double>(sample.color.x()));
+    reading.set("g", static_cast<double>(sample.color.y()));
+    reading.set("b", static_cast<double>(sample.color.z()));
+    note_change(sample.illuminance, reading);
   }
 
   bool steady() const override { return true; }

@@ -105,10 +105,8 @@ struct SensorInstance : SensorInfo {
   std::uint64_t contacts_seen = 0;  // their revisions at its last sample
   std::uint64_t light_seen = 0;     // as well
   NoiseForecast forecast;
-  bool waits_for_light = false;  // it is sampled again at each tick until it has what it queried
-  bool missed = false;           // a publication meanwhile
-  Nanoseconds cost = 0;          // CPU time that the meter counts
-  std::string error;             // what it threw; it is called no more
+  Nanoseconds cost = 0;  // CPU time that the meter counts
+  std::string error;     // what it threw; it is called no more
 
   /// Whether readings of a steady sensor differ from sample to sample.
   bool varies() const;

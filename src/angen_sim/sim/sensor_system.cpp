@@ -85,7 +85,7 @@ void SensorSystem::sample(Building& building, InstanceView::Clock clock, std::in
     engines.light.advance();
   }
   const std::vector<std::uint32_t>& groups = scheduler_.collect(clock.time);
-  if (!groups.empty() || !waiting_.empty()) {
+  if (!groups.empty()) {
     for (const std::uint32_t group : groups) activate(engines, scheduler_.group(group), clock);
     meter_.rest.sensors += meter_.watch.lap();
     visit_due(building, groups, clock, next);
@@ -103,14 +103,13 @@ void SensorSystem::sample(Building& building, InstanceView::Clock clock, std::in
 
 void SensorSystem::visit_due(Building& building, const std::vector<std::uint32_t>& groups,
                              InstanceView::Clock clock, Snapshot& next) {
-  due_ = std::exchange(waiting_, {});
+  due_.clear();
   for (const std::uint32_t group : groups) {
     const std::vector<std::uint32_t>& active = scheduler_.group(group).active;
     const std::size_t others = due_.size();
     due_.insert(due_.end(), active.begin(), active.end());
     merge_from(due_, others);
   }
-  due_.erase(std::unique(due_.begin(), due_.end()), due_.end());
   samples_.clear();
   rays_.clear();
   for (const std::uint32_t index : due_) {
@@ -182,11 +181,9 @@ void SensorSystem::list(Building& building, Nanoseconds now) {
   outdated_ = false;
   entries_.clear();
   owners_.clear();
-  waiting_.clear();
   std::vector<Schedule> schedules;
   for (auto& live : building.models()) {
     for (SensorInstance& sensor : live->sensors) {
-      if (sensor.waits_for_light) waiting_.push_back(schedules.size());
       schedules.push_back(sensor.schedule);
       entries_.push_back({live.get(), &sensor});
     }
@@ -269,10 +266,9 @@ void SensorSystem::visit(Building& building, std::uint32_t index, InstanceView::
                          Snapshot& next) {
   SensorInstance& sensor = *entries_[index].sensor;
   if (!sensor.error.empty()) return;
-  const bool waited = std::exchange(sensor.waits_for_light, false);
   if (sensor.activity.state() == SensorActivity::State::kActive && sensor.on_demand()) {
     if (!requested_.has(sensor.kind, sensor.name)) return;
-  } else if (!waited && unchanged(building.engines(), entries_[index])) {
+  } else if (unchanged(building.engines(), entries_[index])) {
     sensor.activity.note_unchanged();
     if (skip_sample(index, clock, next)) {
       make_idle(building.engines(), index, clock);
@@ -348,19 +344,13 @@ void SensorSystem::read(Building& building, const Sample& sample, InstanceView::
       fail(sample.index, thrown, clock.time, next);
       return;
     }
-    if (sensor.waits_for_light) {
-      sensor.missed = sensor.missed || publishes(sensor, clock);
-      waiting_.push_back(sample.index);
-      return;
-    }
     const Reading& reading = sensor.latest;
     if (!reading.event.empty()) {
       next.events.push_back(
           {clock.time, sensor.name, sensor.kind, reading.event, reading.event_detail});
     }
   }
-  if (publishes(sensor, clock) || std::exchange(sensor.missed, false) ||
-      (sensor.latest.urgent && !sensor.activity.published())) {
+  if (publishes(sensor, clock) || (sensor.latest.urgent && !sensor.activity.published())) {
     publish(sample.index, clock.time, next);
   }
   sensor.cost += meter_.watch.lap();
@@ -381,8 +371,6 @@ void SensorSystem::measure(Building& building, const Sample& sample, Hits hits,
   Rng rng(seed_, has_noise ? sensor.key ^ kOwnDraws : sensor.key, tick);
   const InstanceView view(building, *entries_[sample.index].live, clock, &sensor);
   sensor.sensor->read(view, hits, rng, reading);
-  sensor.waits_for_light = view.lacks_light();
-  if (sensor.waits_for_light) return;
   if (has_noise) sensor.latest = with_noise(sensor.noise, reading, Rng(seed_, sensor.key, tick));
   const bool steady = !sensor.on_demand() && sensor.sensor->steady();
   sensor.activity.sampled(steady, steady && sensor.varies(), as_published(sensor));

@@ -86,7 +86,6 @@ class SensorSystem {
   std::vector<Nanoseconds> checked_;   // as entries_: an idle one's noise is known until then
   std::vector<std::uint32_t> owners_;  // whose a watch region is, by its number
   std::vector<std::uint32_t> due_;
-  std::vector<std::uint32_t> waiting_;  // for light; ascending
   std::vector<Sample> samples_;
   RayBatch rays_;
   std::vector<rays::Hit> hits_;

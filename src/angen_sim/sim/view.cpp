@@ -56,8 +56,7 @@ void InstanceView::cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hi
   engines_.rays.cast(rays, hits);
 }
 
-std::optional<light::Sample> InstanceView::illuminance(light::Probe& probe,
-                                                       const Pose& pose) const {
+light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) const {
   queried_.other = queried_.other || queried_.light;  // only one place's light is watched
   queried_.light = true;
   if (engines_.light.dark()) return engines_.light.measure(probe, pose);
@@ -66,9 +65,7 @@ std::optional<light::Sample> InstanceView::illuminance(light::Probe& probe,
   std::unique_ptr<WatchedLight>& watched = sensor_->light;
   const bool still =
       watched && watched->probe == &probe && !watched->region.changed_since(watched->sampled);
-  const std::optional<light::Sample> sample = engines_.light.try_measure(probe, pose, still);
-  lacks_light_ = lacks_light_ || !sample;
-  if (!sample) return sample;
+  const light::Sample sample = engines_.light.measure(probe, pose, still);
   if (!probe.reach.diagonal().allFinite()) {
     watched = nullptr;
   } else if (!still || probe.reach.min() != watched->box.min() ||

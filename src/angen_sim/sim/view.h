@@ -34,7 +34,7 @@ class InstanceView : public View {
   std::vector<DeviceView> devices(const std::string& field,
                                   const Eigen::AlignedBox3d& within) const override;
   void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override;
-  std::optional<light::Sample> illuminance(light::Probe& probe, const Pose& pose) const override;
+  light::Sample illuminance(light::Probe& probe, const Pose& pose) const override;
   void prepare_light() const override;
   double ambient_temperature() const override { return engines_.ambient_temperature; }
   const std::vector<rays::WarmShape>& warm_shapes() const override;
@@ -45,8 +45,6 @@ class InstanceView : public View {
   std::vector<float> depths(const render::PinholeCamera& lens, const Pose& pose) const override;
 
   const Queried& queried() const { return queried_; }
-  /// Whether light that was queried is not there yet.
-  bool lacks_light() const { return lacks_light_; }
 
  private:
   Building& building_;
@@ -55,7 +53,6 @@ class InstanceView : public View {
   Clock clock_;
   SensorInstance* sensor_;
   mutable Queried queried_;
-  mutable bool lacks_light_ = false;
 };
 
 /// What one device does to the world.

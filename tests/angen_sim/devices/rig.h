@@ -96,9 +96,7 @@ class Rig : public View, public Wiring, public Outputs {
     return {};
   }
   void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override;
-  std::optional<light::Sample> illuminance(light::Probe&, const Pose&) const override {
-    return light::Sample{};
-  }
+  light::Sample illuminance(light::Probe&, const Pose&) const override { return {}; }
   void prepare_light() const override {}
   double ambient_temperature() const override { return 295.15; }
   const std::vector<rays::WarmShape>& warm_shapes() const override { return warm_; }

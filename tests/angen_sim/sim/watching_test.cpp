@@ -30,7 +30,7 @@ class Forgetful : public View {
   void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override {
     view_.cast(rays, hits);
   }
-  std::optional<light::Sample> illuminance(light::Probe&, const Pose& pose) const override {
+  light::Sample illuminance(light::Probe&, const Pose& pose) const override {
     light::Probe fresh;
     return view_.illuminance(fresh, pose);
   }
@@ -278,11 +278,8 @@ class TwoPlaces : public Sensor {
   void configure(Params&, Wiring&) override {}
   void read(const View& view, Hits, Rng&, Reading& reading) override {
     const Pose beyond = view.pose() * Pose{Vec3(5.0, 0.0, 0.0), Quat::Identity()};
-    const auto far = view.illuminance(probes_[0], beyond);
-    const auto near = view.illuminance(probes_[1], view.pose());
-    if (!far || !near) return;
-    reading.set("beyond", far->illuminance);
-    reading.set("here", near->illuminance);
+    reading.set("beyond", view.illuminance(probes_[0], beyond).illuminance);
+    reading.set("here", view.illuminance(probes_[1], view.pose()).illuminance);
   }
   bool steady() const override { return true; }
 

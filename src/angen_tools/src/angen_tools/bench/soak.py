@@ -1,7 +1,6 @@
 """angen bench soak: spawns and deletes everything again and again, and shows what stays behind."""
 from __future__ import annotations
 
-import csv
 import gc
 import tempfile
 import time
@@ -11,6 +10,7 @@ from pathlib import Path
 from statistics import median
 from typing import Any, Protocol, Sequence
 
+from angen_tools.common import files
 from angen_tools.common.catalog import Plugin, angen_module, kinds
 from angen_tools.common.failure import Failure
 from angen_tools.common.geometry import quaternion
@@ -256,11 +256,9 @@ def measure(cycles: int, core: bool, folder: Path, json: bool) -> None:
         samples, wrong = soak(home, cycles, progress)
         seconds = time.monotonic() - began
     table = folder / ('soak_core.csv' if core else 'soak.csv')
-    folder.mkdir(parents=True, exist_ok=True)
-    with table.open('w', newline='', encoding='utf-8') as file:
-        writer = csv.writer(file, lineterminator='\n')
-        writer.writerow([field.name for field in fields(Sample)])
-        writer.writerows(astuple(sample) for sample in samples)
+    files.make_folder(folder)
+    files.write_csv(table, [field.name for field in fields(Sample)],
+                    (astuple(sample) for sample in samples))
     if json:
         print(as_json([asdict(sample) for sample in samples]))
     else:

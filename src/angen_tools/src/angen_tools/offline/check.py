@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Collection
 
 from lxml import etree
 
@@ -57,6 +57,7 @@ def _checked_model(angen: Any, path: str) -> Checked:
     world = angen.World(str(worlds_models().parent / 'empty.world'))
     for name in world.models:
         world.delete(name)
+    around = set(world.ignored)
     world.spawn(path)
     kinds = sorted({plugin['kind'] for plugin in angen.plugins()})
     devices = [f'{kind} {name}' for kind in kinds for name in world.devices(kind)]
@@ -64,13 +65,16 @@ def _checked_model(angen: Any, path: str) -> Checked:
     found = ', '.join((f'model {world.models[0]} with {_counted(len(world.links), "link")}',
                        _counted(len(world.joints), 'joint'), _listed(devices, 'device'),
                        _listed(sensors, 'sensor')))
-    return _right(path, found, world)
+    return _right(path, found, world, around)
 
 
-def _right(path: str, found: str, world: Any) -> Checked:
+def _right(path: str, found: str, world: Any, around: Collection[str] = ()) -> Checked:
+    """`around`: what is ignored of the world that a model was loaded into."""
     warnings = world.warnings
     state = f'loads with {_counted(len(warnings), "warning")}' if warnings else 'nothing is wrong'
-    return Checked(warnings=warnings, ignored=world.ignored, found=f'{path}: {state}; {found}')
+    ignored = [line for line in world.ignored if line not in around]
+    return Checked(warnings=warnings, ignored=ignored,
+                   found=f'{path}: {state}; {found}')
 
 
 def _counted(count: int, noun: str) -> str:
