@@ -46,13 +46,20 @@ struct Folder {
   fs::path path = fs::path(testing::TempDir()) / "angen_standalone";
 };
 
+// A text has no folder: files that it may name besides those of the paths.
+SearchPaths naming(const std::string& file) {
+  SearchPaths paths;
+  paths.files = {file};
+  return paths;
+}
+
 TEST(Standalone, TheTextOfAWorldLoadsAsTheWorldDoes) {
   const Folder folder;
   const std::string text = world_text(folder.at("home.world"));
   EXPECT_EQ(text.find("<include"), std::string::npos) << text;
   const desc::World from_file = world(folder.at("home.world"));
   fs::remove(folder.path / "plate.sdf");
-  const desc::World from_text = world_from_text(text, "text", {});
+  const desc::World from_text = world_from_text(text, "text", naming(folder.at("plate.stl")));
   ASSERT_EQ(from_text.models.size(), from_file.models.size());
   EXPECT_EQ(from_text.gravity, from_file.gravity);
   for (std::size_t i = 0; i < from_file.models.size(); ++i) {
@@ -81,14 +88,15 @@ TEST(Standalone, TellsWhichFilesATextNeeds) {
   EXPECT_EQ(files_of(text, {})[0].path, "");
   EXPECT_THROW(world_from_text(text, "text", {}), Error);
   const std::string moved = with_files(text, {{files[0].uri, folder.at("moved.stl")}});
-  EXPECT_EQ(world_from_text(moved, "text", {}).models.size(), 2U);
+  EXPECT_EQ(world_from_text(moved, "text", naming(folder.at("moved.stl"))).models.size(), 2U);
 }
 
 TEST(Standalone, AModelIsTheSameInAWorldAroundIt) {
   const Folder folder;
   const Pose pose{{0.1, 0.2, 0.3}, from_rpy(0.1, 0.2, 1.0 / 3.0)};
   const desc::Model model = load::model(folder.at("plate.sdf"), "mine", pose, {});
-  const desc::World around = world_from_text(world_around(model), "text", {});
+  const desc::World around =
+      world_from_text(world_around(model), "text", naming(folder.at("plate.stl")));
   ASSERT_EQ(around.models.size(), 1U);
   EXPECT_EQ(around.models[0].name, "mine");
   EXPECT_EQ(around.models[0].links.size(), model.links.size());
