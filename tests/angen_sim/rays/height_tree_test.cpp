@@ -12,7 +12,7 @@ namespace {
 std::shared_ptr<const HeightGrid> rough(std::uint32_t columns, std::uint32_t rows, bool steps) {
   auto grid = std::make_shared<HeightGrid>();
   *grid = {columns, rows, 7.0, 5.0, {}};
-  Rng rng(3, 0);
+  Rng rng(3, 0, 0);
   for (std::uint32_t i = 0; i < columns * rows; ++i) {
     const double height = rng.uniform();
     grid->heights.push_back(static_cast<float>(steps ? std::floor(4 * height) / 4 : height));
@@ -56,7 +56,7 @@ TEST(HeightTree, MeetsWhatAMeshMeetsBitForBit) {
       const MeshTree mesh(mesh_of(*grid));
       EXPECT_EQ(heights.bounds().min(), mesh.bounds().min());
       EXPECT_EQ(heights.bounds().max(), mesh.bounds().max());
-      Rng rng(7, 0);
+      Rng rng(7, 0, 0);
       int hits = 0;
       for (int i = 0; i < 20'000; ++i) {
         const Vec3 origin = random_point(rng, 4.0);
@@ -104,7 +104,7 @@ TEST(HeightTree, StandsInASceneAsAMesh) {
     scenes[i].commit();
   }
   EXPECT_EQ(scenes[0].static_bounds().min(), scenes[1].static_bounds().min());
-  Rng rng(11, 0);
+  Rng rng(11, 0, 0);
   for (int i = 0; i < 5000; ++i) {
     Ray ray{pose * random_point(rng, 4.0), random_point(rng, 1.0)};
     Hit hits[2];
