@@ -17,7 +17,11 @@ struct HeightGrid {
   double depth = 0.0;  // m along y
   std::vector<float> heights;
 
-  using Triangle = std::array<Vec3, 3>;  // counter-clockwise seen from above
+  struct Corner {
+    std::uint32_t column = 0;
+    std::uint32_t row = 0;
+  };
+  using Triangle = std::array<Corner, 3>;  // counter-clockwise seen from above
 
   float height(std::uint32_t column, std::uint32_t row) const {
     return heights[std::size_t{row} * columns + column];
@@ -38,10 +42,10 @@ struct HeightGrid {
   Triangle triangle(std::uint32_t number) const {
     const std::uint32_t column = number / 2 % (columns - 1);
     const std::uint32_t row = number / 2 / (columns - 1);
-    const Vec3 below = vertex(column, row + 1).cast<double>();
-    const Vec3 right = vertex(column + 1, row).cast<double>();
-    if (number % 2 == 0) return {vertex(column, row).cast<double>(), below, right};
-    return {right, below, vertex(column + 1, row + 1).cast<double>()};
+    const Corner below{column, row + 1};
+    const Corner right{column + 1, row};
+    if (number % 2 == 0) return {Corner{column, row}, below, right};
+    return {right, below, Corner{column + 1, row + 1}};
   }
 };
 

@@ -4,7 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
-#include <sys/mman.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -45,21 +45,6 @@ class Descriptor {
  private:
   int number_;
 };
-
-// A file in memory, to be read from its start: unlike a pipe it never blocks or ends a writer.
-int file_of(const std::string& bytes) {
-  const int file = memfd_create("mesh", MFD_CLOEXEC);
-  for (std::size_t done = 0; file >= 0 && done < bytes.size();) {
-    const ssize_t count = write(file, bytes.data() + done, bytes.size() - done);
-    if (count < 0) {
-      ::close(file);
-      return -1;
-    }
-    done += static_cast<std::size_t>(count);
-  }
-  if (file >= 0) lseek(file, 0, SEEK_SET);
-  return file;
-}
 
 pid_t start(const std::string& program, const std::vector<std::string>& words, int in, int out) {
   posix_spawn_file_actions_t files;
@@ -113,21 +98,33 @@ class Child {
   pid_t id_;
 };
 
-// All that comes until the other end is closed.
-std::string read_answer(int pipe) {
+// Sends what the socket takes now; closes it when all is sent, or nobody reads any more.
+void send_some(Descriptor& socket, const std::string& bytes, std::size_t& sent) {
+  const ssize_t count =
+      send(socket.number(), bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL | MSG_DONTWAIT);
+  if (count >= 0) sent += static_cast<std::size_t>(count);
+  const bool later = count < 0 && (errno == EAGAIN || errno == EINTR);
+  if (sent == bytes.size() || (count < 0 && !later)) socket.close();
+}
+
+// Sends the bytes; returns all that comes until the other end is closed.
+std::string exchange(Descriptor& socket, const std::string& bytes, int pipe) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point end = Clock::now() + std::chrono::seconds(kMeshWallSeconds);
   std::string answer;
+  std::size_t sent = 0;
   char piece[1U << 16U];
   for (;;) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
-    pollfd ready{pipe, POLLIN, 0};
-    const int count = left.count() > 0 ? poll(&ready, 1, static_cast<int>(left.count())) : 0;
+    pollfd ready[2] = {{pipe, POLLIN, 0}, {socket.number(), POLLOUT, 0}};  // -1 is left out
+    const int count = left.count() > 0 ? poll(ready, 2, static_cast<int>(left.count())) : 0;
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) {
       throw Error("takes more than " + std::to_string(kMeshWallSeconds) +
                   " s to read; simplify it");
     }
+    if (ready[1].revents != 0) send_some(socket, bytes, sent);
+    if (ready[0].revents == 0) continue;
     const ssize_t size = read(pipe, piece, sizeof piece);
     if (size < 0 && errno == EINTR) continue;
     if (size <= 0) return answer;
@@ -153,16 +150,21 @@ std::string mesh_program() {
 
 std::string convert_mesh(const std::string& program, const std::string& bytes,
                          const std::string& extension, const Vec3& scale) {
-  const Descriptor in(file_of(bytes));
+  // A socket, as writing to a pipe that nobody reads would be a signal to this process.
+  int sockets[2] = {-1, -1};
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets) != 0) not_started(program, errno);
+  Descriptor socket(sockets[0]);
+  Descriptor in(sockets[1]);
   int ends[2] = {-1, -1};
-  if (in.number() < 0 || pipe2(ends, O_CLOEXEC) != 0) not_started(program, errno);
+  if (pipe2(ends, O_CLOEXEC) != 0) not_started(program, errno);
   const Descriptor from(ends[0]);
   Descriptor to(ends[1]);
   Child child(start(program,
                     {extension, hex_float(scale.x()), hex_float(scale.y()), hex_float(scale.z())},
                     in.number(), to.number()));
+  in.close();
   to.close();
-  std::string answer = read_answer(from.number());
+  std::string answer = exchange(socket, bytes, from.number());
   const int status = child.wait();
   if (WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS) return answer;
   if (WIFEXITED(status) && WEXITSTATUS(status) == kMeshRefused) throw Error(printable(answer, 300));

@@ -38,10 +38,13 @@ struct HeightTree::Query {
   double min, range;
   std::uint32_t triangle;
 
-  void test(const HeightGrid& grid, std::uint32_t number) {
-    const HeightGrid::Triangle t = grid.triangle(number);
+  void test(const HeightTree& tree, std::uint32_t number) {
+    const HeightGrid::Triangle t = tree.grid_->triangle(number);
     double found = 0.0;
-    if (!meet_triangle(t[0], t[1], t[2], origin, direction, found)) return;
+    if (!meet_triangle(tree.corner(t[0]), tree.corner(t[1]), tree.corner(t[2]), origin, direction,
+                       found)) {
+      return;
+    }
     if (found < min || found > range || (found == range && number >= triangle)) return;
     range = found;
     triangle = number;
@@ -49,6 +52,8 @@ struct HeightTree::Query {
 };
 
 HeightTree::HeightTree(std::shared_ptr<const HeightGrid> grid) : grid_(std::move(grid)) {
+  for (std::uint32_t column = 0; column < grid_->columns; ++column) xs_.push_back(grid_->x(column));
+  for (std::uint32_t row = 0; row < grid_->rows; ++row) ys_.push_back(grid_->y(row));
   add_first_level();
   while (levels_.back().blocks.size() > 1) add_level();
   bounds_ = box(0, 0, std::max(grid_->columns, grid_->rows), levels_.back().blocks[0]);
@@ -110,10 +115,10 @@ void HeightTree::add_level() {
 
 Eigen::AlignedBox3d HeightTree::box(std::uint32_t column, std::uint32_t row, std::uint32_t side,
                                     const Range& heights) const {
-  const double left = grid_->x(column);
-  const double right = grid_->x(std::min(column + side, grid_->columns - 1));
-  const double top = grid_->y(row);
-  const double bottom = grid_->y(std::min(row + side, grid_->rows - 1));
+  const double left = xs_[column];
+  const double right = xs_[std::min(column + side, grid_->columns - 1)];
+  const double top = ys_[row];
+  const double bottom = ys_[std::min(row + side, grid_->rows - 1)];
   return {Vec3(left - pad_, bottom - pad_, heights.low - pad_),
           Vec3(right + pad_, top + pad_, heights.high + pad_)};
 }
@@ -146,8 +151,8 @@ void HeightTree::visit_cells(std::uint32_t column, std::uint32_t row, Query& q) 
       const Range heights{std::min({a, b, d, e}), std::max({a, b, d, e})};
       if (!crosses(box(c, r, 1, heights), q.origin, q.direction, q.min, q.range)) continue;
       const std::uint32_t number = grid_->triangle_of(c, r);
-      q.test(*grid_, number);
-      q.test(*grid_, number + 1);
+      q.test(*this, number);
+      q.test(*this, number + 1);
     }
   }
 }
@@ -163,7 +168,8 @@ bool HeightTree::meet(const Vec3& origin, const Vec3& direction, double min, dou
 
 Vec3 HeightTree::normal(std::uint32_t triangle) const {
   const HeightGrid::Triangle t = grid_->triangle(triangle);
-  return (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+  const Vec3 a = corner(t[0]);
+  return (corner(t[1]) - a).cross(corner(t[2]) - a).normalized();
 }
 
 }  // namespace angen::rays

@@ -34,6 +34,9 @@ class HeightTree : public TriangleTree {
   };
   struct Query;
 
+  Vec3 corner(HeightGrid::Corner at) const {
+    return {xs_[at.column], ys_[at.row], grid_->height(at.column, at.row)};
+  }
   void add_first_level();
   void add_level();
   Eigen::AlignedBox3d box(std::uint32_t column, std::uint32_t row, std::uint32_t side,
@@ -42,7 +45,9 @@ class HeightTree : public TriangleTree {
   void visit_cells(std::uint32_t column, std::uint32_t row, Query& q) const;
 
   std::shared_ptr<const HeightGrid> grid_;
-  double pad_ = 0.0;           // m, more than rounding can move a ray or a box
+  std::vector<float> xs_;  // of the columns. GCC 12 at -O2 loses the rounding to float otherwise
+  std::vector<float> ys_;  // of the rows
+  double pad_ = 0.0;       // m, more than rounding can move a ray or a box
   std::vector<Level> levels_;  // the last has one block
 };
 

@@ -55,7 +55,10 @@ TEST(Heightmap, SpansItsSizeAndRisesWithGray) {
   EXPECT_EQ(grid->triangle_of(1, 1) + 2, 8U);
   for (std::uint32_t i = 0; i < 8; ++i) {
     const HeightGrid::Triangle t = grid->triangle(i);
-    EXPECT_GT((t[1] - t[0]).cross(t[2] - t[0]).z(), 0.0);
+    const Eigen::Vector3f a = grid->vertex(t[0].column, t[0].row);
+    const Eigen::Vector3f b = grid->vertex(t[1].column, t[1].row);
+    const Eigen::Vector3f c = grid->vertex(t[2].column, t[2].row);
+    EXPECT_GT((b - a).cross(c - a).z(), 0.0F);
   }
 }
 

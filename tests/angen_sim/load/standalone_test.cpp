@@ -26,13 +26,6 @@ const std::string kWorld = R"(<sdf version='1.5'><world name='home'>
   <state world_name='home'><model name='b'><pose>5 6 7 0 0 0</pose></model></state>
 </world></sdf>)";
 
-/// A text lies in no folder, so it may name files of paths only.
-SearchPaths anywhere() {
-  SearchPaths paths;
-  paths.allow_any = true;
-  return paths;
-}
-
 struct Folder {
   Folder() {
     fs::remove_all(path);
@@ -53,13 +46,20 @@ struct Folder {
   fs::path path = fs::path(testing::TempDir()) / "angen_standalone";
 };
 
+// A text has no folder: files that it may name besides those of the paths.
+SearchPaths naming(const std::string& file) {
+  SearchPaths paths;
+  paths.files = {file};
+  return paths;
+}
+
 TEST(Standalone, TheTextOfAWorldLoadsAsTheWorldDoes) {
   const Folder folder;
   const std::string text = world_text(folder.at("home.world"));
   EXPECT_EQ(text.find("<include"), std::string::npos) << text;
   const desc::World from_file = world(folder.at("home.world"));
   fs::remove(folder.path / "plate.sdf");
-  const desc::World from_text = world_from_text(text, "text", anywhere());
+  const desc::World from_text = world_from_text(text, "text", naming(folder.at("plate.stl")));
   ASSERT_EQ(from_text.models.size(), from_file.models.size());
   EXPECT_EQ(from_text.gravity, from_file.gravity);
   for (std::size_t i = 0; i < from_file.models.size(); ++i) {
@@ -86,16 +86,17 @@ TEST(Standalone, TellsWhichFilesATextNeeds) {
   EXPECT_EQ(files[0].path, folder.at("plate.stl"));
   fs::rename(folder.path / "plate.stl", folder.path / "moved.stl");
   EXPECT_EQ(files_of(text, {})[0].path, "");
-  EXPECT_THROW(world_from_text(text, "text", anywhere()), Error);
+  EXPECT_THROW(world_from_text(text, "text", {}), Error);
   const std::string moved = with_files(text, {{files[0].uri, folder.at("moved.stl")}});
-  EXPECT_EQ(world_from_text(moved, "text", anywhere()).models.size(), 2U);
+  EXPECT_EQ(world_from_text(moved, "text", naming(folder.at("moved.stl"))).models.size(), 2U);
 }
 
 TEST(Standalone, AModelIsTheSameInAWorldAroundIt) {
   const Folder folder;
   const Pose pose{{0.1, 0.2, 0.3}, from_rpy(0.1, 0.2, 1.0 / 3.0)};
   const desc::Model model = load::model(folder.at("plate.sdf"), "mine", pose, {});
-  const desc::World around = world_from_text(world_around(model), "text", anywhere());
+  const desc::World around =
+      world_from_text(world_around(model), "text", naming(folder.at("plate.stl")));
   ASSERT_EQ(around.models.size(), 1U);
   EXPECT_EQ(around.models[0].name, "mine");
   EXPECT_EQ(around.models[0].links.size(), model.links.size());
