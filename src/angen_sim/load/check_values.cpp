@@ -173,8 +173,8 @@ double length_of(const std::vector<double>& v) {
   return std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0));
 }
 
-[[noreturn]] void refuse(const Element& element, double value, const std::string& right,
-                         const Limit& limit = limits::kOther) {
+[[noreturn]] void refuse_number(const Element& element, double value, const std::string& right,
+                                const Limit& limit = limits::kOther) {
   const std::string unit = *limit.unit == '\0' ? "" : std::string(" ") + limit.unit;
   throw Error(element.source,
               "<" + element.name + "> is " + number_text(value) + unit + "; " + right);
@@ -189,13 +189,13 @@ void check_rule(const Element& element, const Rule& rule, bool clamped) {
   const std::vector<double> values = numbers_of(element, std::clamp(count, rule.least, rule.most));
   const bool positive = rule.want == Want::kPositive;
   for (const double value : values) {
-    if (positive && !(value > 0.0)) refuse(element, value, "it must be greater than 0");
+    if (positive && !(value > 0.0)) refuse_number(element, value, "it must be greater than 0");
     if (rule.want == Want::kNotNegative && value < 0.0) {
-      refuse(element, value, "it must not be negative");
+      refuse_number(element, value, "it must not be negative");
     }
     if (clamped) continue;
     const std::string problem = limit_problem(rule.limit, value, positive);
-    if (!problem.empty()) refuse(element, value, problem, rule.limit);
+    if (!problem.empty()) refuse_number(element, value, problem, rule.limit);
   }
   // A zero vector has a meaning of its own in some places.
   const double length = rule.want == Want::kDirection ? length_of(values) : 0.0;
@@ -226,9 +226,10 @@ void check_limit(const Element& element) {
   const double value = found.values[0];
   const double inward = element.name == "lower" ? value : -value;
   if (inward <= limits::kPosition.most) return;
-  refuse(element, value,
-         element.name == "lower" ? "it must be at most " + number_text(limits::kPosition.most)
-                                 : "it must be at least " + number_text(-limits::kPosition.most));
+  refuse_number(element, value,
+                element.name == "lower"
+                    ? "it must be at most " + number_text(limits::kPosition.most)
+                    : "it must be at least " + number_text(-limits::kPosition.most));
 }
 
 }  // namespace
