@@ -75,7 +75,7 @@ run_test() { # [-k WORDS] [--asan | --tsan] [SUITE...]
   cd "$root" || exit
   [[ ! $sanitizer ]] || { run_sanitized "$sanitizer" "$words" "${chosen[@]}"; return; }
   if ((${#chosen[@]} == 0)); then
-    if [[ $words ]]; then chosen=(ctest pytest); else read -ra chosen <<<"$suites"; fi
+    if [[ $words ]]; then chosen=(ctest pytest); else read -ra chosen <<<"${suites/asan /}"; fi # asan when it is named
   fi
   if [[ " ${chosen[*]} " == *test* ]]; then prepare test; else install test; fi
   for name in "${chosen[@]}"; do
