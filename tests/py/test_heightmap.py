@@ -89,7 +89,8 @@ def test_balls_lie_where_the_pixels_say(largest: Path) -> None:
     world = angen.World(str(largest))
     for x, y in ((-9.0, 0.0), (0.0, 9.0), (7.3, -8.1)):
         name = f'ball{x}{y}'
-        world.spawn(BALL.replace('<pose>X Y Z 0 0 0</pose>', ''), name, [x, y, HIGH / 2 + 0.6])
+        world.spawn(BALL.replace('<pose>X Y Z 0 0 0</pose>', ''), name,
+                    [x, y, HIGH / 2 + 0.6, 0, 0, 0])
         world.run(1.0)
         assert place(world, name)[2] == pytest.approx(HIGH / 2 + 0.5, abs=0.01)
         assert place(world, name)[:2] == pytest.approx([x, y], abs=0.02)
