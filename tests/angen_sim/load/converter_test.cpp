@@ -1,11 +1,12 @@
 // Damaged and hostile meshes: each is an error of the file that names it, and the process goes on.
+#include "load/converter.h"
+
 #include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <cstdlib>
 
 #include "angen_sim/load/texts.h"
-#include "load/converter.h"
 #include "load/geometry.h"
 
 namespace angen::load {
