@@ -119,6 +119,7 @@ def _walk(standard: Mapping[str, Any], tested: Detector, area: Area, way: Walk, 
     world = _world(standard, tested, area, f'''<actor name="person"><script><loop>false</loop>
       <trajectory id="0" type="walk">{points}</trajectory></script>
       <plugin name="person" filename="libperson_controller.so">
+      <avoid>false</avoid>
       <skin_temperature>{person["skin"]}</skin_temperature>
       <clothing_temperature>{person["clothing"]}</clothing_temperature>
       <force_max>{FORCE}</force_max></plugin></actor>''')
