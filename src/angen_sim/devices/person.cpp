@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <utility>
 #include <vector>
 
 #include "core/text.h"
-#include "plugin/register.h"
 
 namespace angen::devices {
 
@@ -28,19 +25,14 @@ constexpr Nanoseconds kStallTime = kSecond;
 constexpr Nanoseconds kPatience = 3 * kSecond;  // held for so long, it makes room
 constexpr Nanoseconds kAway = 5 * kSecond;      // and comes again: a door opens in less
 constexpr double kStepBack = 1.2;               // m, out of the way of a leaf that opens towards it
-constexpr Nanoseconds kLookBack = kSecond / 20;
-constexpr int kMostLooks = 200;
-constexpr Nanoseconds kLookPeriod = kSecond / 10;
-constexpr int kPlanLooks = 3;        // a way round is looked for in each third look
-constexpr double kStopShort = 0.08;  // m before what it sees
-constexpr double kBraking = 1.0;     // m/s^2, before it
-constexpr double kApproaches = 0.3;  // m/s: what comes slower stands still
-constexpr double kSameWay = 0.995;   // cosine of a turn that leaves the free way as it was
+constexpr Nanoseconds kBackStep = kSecond / 20;
+constexpr int kMostBackSteps = 200;
+constexpr int kPlanEvery = 3;        // samples of the surroundings: a way round is planned anew
 constexpr double kArrived = 0.03;    // m: nearer than this an order is carried out
 constexpr double kNearRejoin = 0.3;  // m
 constexpr double kAround = 0.3;      // m: so far from where it came to is progress on a way round
 constexpr double kPushSpeed = 0.3;   // m/s, against what it is told to push
-constexpr Nanoseconds kLookAhead = 7 * kSecond / 5;  // of its path, for what stands on it
+constexpr Nanoseconds kPathAhead = 7 * kSecond / 5;  // of its path, for what stands on it
 constexpr Nanoseconds kRejoinWithin = 6 * kSecond;
 constexpr double kMouth = 1.5;  // m above the floor, where its sound comes from
 constexpr Range kSoundPower{-100.0, 200.0};
@@ -51,7 +43,6 @@ double turn_towards(const Surroundings::Vec2& velocity, const LinkView& body) {
   return std::remainder(heading - yaw_of(body.pose.rotation), 2.0 * M_PI);
 }
 
-const char* const kModeNames[] = {"STANDING", "WALKING", "BLOCKED"};
 const char* const kModeEvents[] = {"stands", "walks", "blocked"};
 
 }  // namespace
@@ -157,7 +148,7 @@ void Person::walk(const Path::Place& place, const View& view, bool renew, Output
   const Vec2 at = body.pose.position.head<2>();
   const bool near =
       resting_ && place.still() && Vec2(place.x - at.x(), place.y - at.y()).norm() < kPushedAway;
-  if (avoids_ && !near && look(body, view)) find_rejoin(at);
+  if (avoids_ && !near && update_surroundings(body, view)) find_rejoin(at);
   if (rejoin_) return go_round(body, view, renew, outputs);
   const Path::Place goal = path_.at(clock_ + from_seconds(kAhead));
   const Vec2 to(goal.x, goal.y);
@@ -206,7 +197,7 @@ void Person::go(const View& view, bool renew, Outputs& outputs) {
     return;
   }
   if (steps_back(body, view, renew, outputs)) return;
-  look(body, view);
+  update_surroundings(body, view);
   watch(at, order_->to, false, view.step());
   const Vec2 velocity = steer(body, order_->to, speed_);
   head_for(velocity, turn_towards(velocity, body), outputs);
@@ -218,7 +209,7 @@ void Person::go(const View& view, bool renew, Outputs& outputs) {
 bool Person::steps_back(const LinkView& body, const View& view, bool renew, Outputs& outputs) {
   if (stalled_ >= kPatience) make_room(body, view.time());
   if (view.time() >= away_until_) return false;
-  look(body, view);
+  update_surroundings(body, view);
   const Vec2 at = body.pose.position.head<2>();
   aim_.reset();
   head_for(steer(body, back_to_, kReturnSpeed), 0.0, outputs);
@@ -228,14 +219,14 @@ bool Person::steps_back(const LinkView& body, const View& view, bool renew, Outp
 }
 
 // Ten times a second; whether it did.
-bool Person::look(const LinkView& body, const View& view) {
+bool Person::update_surroundings(const LinkView& body, const View& view) {
   if (!avoids_ && !order_) return false;
-  const Nanoseconds now = view.time() / kLookPeriod;
-  if (now == looked_) return false;
-  const bool plans = now % kPlanLooks == 0 || now - looked_ > 1;
-  looked_ = now;
-  looked_anew_ = true;
-  seen_.look(view, body.pose.position);
+  const Nanoseconds now = view.time() / kSurroundingsPeriod;
+  if (now == sampled_at_) return false;
+  const bool plans = now % kPlanEvery == 0 || now - sampled_at_ > 1;
+  sampled_at_ = now;
+  braking_.invalidate();
+  surroundings_.update(view, body.pose.position);
   const Vec2 at = body.pose.position.head<2>();
   if (order_ && plans) aim_ = way_for(at, order_->to);
   if (rejoin_ && plans) {
@@ -246,8 +237,8 @@ bool Person::look(const LinkView& body, const View& view) {
 }
 
 std::optional<Person::Vec2> Person::way_for(const Vec2& at, const Vec2& to) const {
-  if ((order_ && order_->pushes) || seen_.is_free(at, to)) return std::nullopt;
-  return seen_.way_round(at, to);
+  if ((order_ && order_->pushes) || surroundings_.is_free(at, to)) return std::nullopt;
+  return surroundings_.way_round(at, to);
 }
 
 // Where something stands on the path ahead, or between it and the path: the first place behind.
@@ -257,21 +248,21 @@ void Person::find_rejoin(const Vec2& at) {
     return Vec2(place.x, place.y);
   };
   const Nanoseconds ahead = from_seconds(kAhead);
-  bool met = !seen_.is_free(at, place_at(clock_ + ahead));
-  for (Nanoseconds t = ahead; t <= kLookAhead; t += ahead) {
-    met = met || seen_.is_occupied(place_at(clock_ + t));
+  bool met = !surroundings_.is_free(at, place_at(clock_ + ahead));
+  for (Nanoseconds t = ahead; t <= kPathAhead; t += ahead) {
+    met = met || surroundings_.is_occupied(place_at(clock_ + t));
   }
   if (!met) return rejoin_.reset();
-  if (rejoin_ && !seen_.is_occupied(place_at(*rejoin_))) return;
+  if (rejoin_ && !surroundings_.is_occupied(place_at(*rejoin_))) return;
   rejoin_.reset();
   bool behind = false;
-  for (Nanoseconds t = ahead; t < kRejoinWithin; t += kLookPeriod) {
+  for (Nanoseconds t = ahead; t < kRejoinWithin; t += kSurroundingsPeriod) {
     const Vec2 place = place_at(clock_ + t);
     if ((place - at).norm() > Surroundings::kSight) return;
-    if (seen_.is_occupied(place)) {
+    if (surroundings_.is_occupied(place)) {
       behind = true;
-    } else if (behind || !seen_.is_free(at, place)) {
-      aim_ = seen_.way_round(at, place);
+    } else if (behind || !surroundings_.is_free(at, place)) {
+      aim_ = surroundings_.way_round(at, place);
       if (aim_) rejoin_ = clock_ + t;
       return;
     }
@@ -292,18 +283,7 @@ Person::Vec2 Person::steer(const LinkView& body, const Vec2& to, double fastest)
 
 // So that it stops before what it sees, unless it is to push that.
 double Person::slowed(const Vec2& at, const Vec2& direction, double speed) {
-  const bool turned = free_along_.dot(direction) < kSameWay;
-  if (turned || std::exchange(looked_anew_, false)) {
-    const double expected = free_ - (at - free_from_).norm();
-    free_ = seen_.free_way(at, direction);
-    approach_ = turned ? 0.0 : (expected - free_) / to_seconds(kLookPeriod);
-    if (approach_ < kApproaches) approach_ = 0.0;
-    free_from_ = at;
-    free_along_ = direction;
-  }
-  const double left = std::max(0.0, free_ - (at - free_from_).norm() - kStopShort);
-  const double share = approach_ > 0.0 ? speed / (speed + approach_) : 1.0;
-  const double allowed = std::sqrt(2.0 * kBraking * left * share);
+  const double allowed = braking_.limit(surroundings_, at, direction, speed);
   const bool pushes = !avoids_ || (order_ && order_->pushes);
   return std::min(speed, pushes ? std::max(allowed, kPushSpeed) : allowed);
 }
@@ -324,7 +304,7 @@ void Person::make_room(const LinkView& body, Nanoseconds now) {
     return;
   }
   Nanoseconds time = clock_;
-  for (int look = 0; look < kMostLooks; ++look, time -= kLookBack) {
+  for (int i = 0; i < kMostBackSteps; ++i, time -= kBackStep) {
     const Path::Place place = path_.at(time);
     back_to_ << place.x, place.y;
     if ((back_to_ - at).norm() >= kStepBack) return;
@@ -395,7 +375,7 @@ void Person::skip(Nanoseconds time) {
 
 void Person::report(const View& view, Reading& state) const {
   const LinkView body = started_ ? shown_ : view.link(body_);
-  state.set("mode", choice_of(mode_, kModeNames));
+  state.set("mode", choice_of(mode_, kPersonModes));
   state.set("x", body.pose.position.x());
   state.set("y", body.pose.position.y());
   state.set("z", body.pose.position.z());
@@ -413,39 +393,4 @@ double Person::sound() const {
   return 10.0 * std::log10(steps + speech);
 }
 
-const Kind& PersonPlugin::kind() const {
-  static const Kind kind =
-      Kind("person", "A person who walks a path.")
-          .example("set person walker stop")
-          .verb("Stop", "stands still where the person is")
-          .verb("Go", "walks on: to where it was sent, or along its path")
-          .pair_verb("GoTo", "x y", "m", {}, "walks there, round what it sees in its way")
-          .pair_verb("PushTo", "x y", "m", {},
-                     "walks there straight, and pushes what is in its way")
-          .verb("Speak", "speaks until Quiet")
-          .verb("Quiet", "speaks no more")
-          .choice("mode", {std::begin(kModeNames), std::end(kModeNames)},
-                  "BLOCKED: something stands in the way")
-          .shown()
-          .number("x", "m", "in the world")
-          .shown(2)
-          .number("y", "m", "in the world")
-          .shown(2)
-          .number("z", "m", "in the world")
-          .number("yaw", "rad", "in the world")
-          .number("speed", "m/s", "horizontal")
-          .shown(2)
-          .flag("speaking", "whether the person speaks")
-          .number("sound_power_level", "dB",
-                  "of steps and speech, over 1 pW; minus infinity: silent")
-          .numbers("position", "m", "of the mouth, in the model's frame");
-  return kind;
-}
-
-bool PersonPlugin::serves(const ModelInfo& model) const {
-  return std::find(model.links.begin(), model.links.end(), "body") != model.links.end();
-}
-
 }  // namespace angen::devices
-
-ANGEN_REGISTER_PLUGIN(angen::devices::PersonPlugin)

@@ -4,12 +4,15 @@
 #include <optional>
 #include <string>
 
+#include "devices/braking.h"
 #include "devices/path.h"
 #include "devices/refresh.h"
 #include "devices/surroundings.h"
 #include "plugin/plugin.h"
 
 namespace angen::devices {
+
+inline constexpr const char* kPersonModes[] = {"STANDING", "WALKING", "BLOCKED"};
 
 /// Walks a path, or to where it is sent, by a motor of limited force. It walks round what it sees
 /// in its way, or stops before it; its path waits then, and it steps back from time to time, so
@@ -34,7 +37,7 @@ class Person : public Device {
   void go(const View& view, bool renew, Outputs& outputs);
   bool steps_back(const LinkView& body, const View& view, bool renew, Outputs& outputs);
   void go_round(const LinkView& body, const View& view, bool renew, Outputs& outputs);
-  bool look(const LinkView& body, const View& view);
+  bool update_surroundings(const LinkView& body, const View& view);
   void find_rejoin(const Vec2& at);
   std::optional<Vec2> way_for(const Vec2& at, const Vec2& to) const;
   Vec2 steer(const LinkView& body, const Vec2& to, double fastest);
@@ -65,15 +68,11 @@ class Person : public Device {
   std::optional<Order> order_;  // in place of its path
   double speed_ = 1.0;          // m/s, on an order
   bool avoids_ = true;
-  Surroundings seen_;
-  Nanoseconds looked_ = -1;            // when, as a multiple of kLookPeriod
+  Surroundings surroundings_;
+  Nanoseconds sampled_at_ = -1;        // that, as a multiple of kSurroundingsPeriod
+  Braking braking_;                    // before what is there
   std::optional<Nanoseconds> rejoin_;  // time on the path where it comes back to it
   std::optional<Vec2> aim_;            // first place of a way round
-  bool looked_anew_ = false;           // since the free way was measured
-  double approach_ = 0.0;              // m/s, of what stands in the way
-  double free_ = 0.0;                  // m, the free way …
-  Vec2 free_from_ = Vec2::Zero();      // … from here …
-  Vec2 free_along_ = Vec2::Zero();     // … in this direction; zero: not known
   bool speaks_ = false;
   bool spoke_ = false;  // at the last update
   bool paused_ = false;

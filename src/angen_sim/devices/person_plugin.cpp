@@ -1,0 +1,44 @@
+#include <algorithm>
+#include <iterator>
+
+#include "devices/person.h"
+#include "plugin/register.h"
+
+namespace angen::devices {
+
+const Kind& PersonPlugin::kind() const {
+  static const Kind kind =
+      Kind("person", "A person who walks a path.")
+          .example("set person walker stop")
+          .verb("Stop", "stands still where the person is")
+          .verb("Go", "walks on: to where it was sent, or along its path")
+          .pair_verb("GoTo", "x y", "m", {}, "walks there, round what it sees in its way")
+          .pair_verb("PushTo", "x y", "m", {},
+                     "walks there straight, and pushes what is in its way")
+          .verb("Speak", "speaks until Quiet")
+          .verb("Quiet", "speaks no more")
+          .choice("mode", {std::begin(kPersonModes), std::end(kPersonModes)},
+                  "BLOCKED: something stands in the way")
+          .shown()
+          .number("x", "m", "in the world")
+          .shown(2)
+          .number("y", "m", "in the world")
+          .shown(2)
+          .number("z", "m", "in the world")
+          .number("yaw", "rad", "in the world")
+          .number("speed", "m/s", "horizontal")
+          .shown(2)
+          .flag("speaking", "whether the person speaks")
+          .number("sound_power_level", "dB",
+                  "of steps and speech, over 1 pW; minus infinity: silent")
+          .numbers("position", "m", "of the mouth, in the model's frame");
+  return kind;
+}
+
+bool PersonPlugin::serves(const ModelInfo& model) const {
+  return std::find(model.links.begin(), model.links.end(), "body") != model.links.end();
+}
+
+}  // namespace angen::devices
+
+ANGEN_REGISTER_PLUGIN(angen::devices::PersonPlugin)
