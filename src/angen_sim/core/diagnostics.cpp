@@ -15,8 +15,8 @@ std::string Diagnostic::text() const {
 
 namespace {
 
-// A message repeats what a user gave, whatever its length.
-constexpr std::size_t kMaxMessageBytes = 4000;
+// A message repeats what a user gave, whatever its length; where it is cut, its length follows.
+constexpr std::size_t kMaxMessageBytes = 3960;
 
 std::string cut(std::string message) {
   return message.size() <= kMaxMessageBytes ? message : printable(message, kMaxMessageBytes);

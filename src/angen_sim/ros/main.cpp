@@ -66,16 +66,20 @@ angen::desc::World read(const std::string& path) {
   for (const angen::Diagnostic& warning : world.warnings) {
     std::fprintf(stderr, "%s\n", warning.text().c_str());
   }
-  const std::size_t count = world.ignored.size();
-  if (count > 0) {
-    std::fprintf(stderr, "%zu %s ignored, angen check lists %s\n", count,
-                 count == 1 ? "element is" : "elements are", count == 1 ? "it" : "them");
-  }
   return world;
 }
 
-std::unique_ptr<Simulation> make(angen::desc::World world, std::uint64_t seed) {
-  return std::make_unique<Simulation>(std::move(world), seed, std::make_shared<angen::Catalog>());
+/// Throws Error for what does not load; what is ignored of the rest is counted on stderr.
+std::unique_ptr<Simulation> make(const std::string& path, std::uint64_t seed) {
+  angen::desc::World world = read(path);
+  const std::size_t ignored = world.ignored.size();
+  auto simulation =
+      std::make_unique<Simulation>(std::move(world), seed, std::make_shared<angen::Catalog>());
+  if (ignored > 0) {
+    std::fprintf(stderr, "%zu %s ignored, angen check lists %s\n", ignored,
+                 ignored == 1 ? "element is" : "elements are", ignored == 1 ? "it" : "them");
+  }
+  return simulation;
 }
 
 std::string summary(const std::string& path, const Simulation& simulation) {
@@ -86,7 +90,7 @@ std::string summary(const std::string& path, const Simulation& simulation) {
 }
 
 int check(const std::string& path) {
-  std::printf("%s\n", summary(path, *make(read(path), kDefaultSeed)).c_str());
+  std::printf("%s\n", summary(path, *make(path, kDefaultSeed)).c_str());
   return EXIT_SUCCESS;
 }
 
@@ -207,7 +211,7 @@ int run(std::string path, std::unique_ptr<Simulation> simulation) {
       ros::param::param<std::string>("~rescue", angen::node::default_rescue_path());
   const auto seed = static_cast<std::uint64_t>(number_param("~seed", kDefaultSeed, 0.0));
   const bool usable = simulation && simulation->seed() == seed;
-  if (!replay && !usable) simulation = make(read(path), seed);
+  if (!replay && !usable) simulation = make(path, seed);
   Simulation& running = replay ? replay->simulation() : *simulation;
   const auto recorder = make_recorder(path, settings, running);
   settings.recorder = recorder.get();
@@ -252,7 +256,7 @@ int main(int argc, char** argv) {
     std::unique_ptr<Simulation> simulation;
     if (std::count(raw.begin(), raw.end(), "_allow_paths:=true") != 0) allow_all_paths();
     limit_memory_by(raw);
-    if (!paths.empty()) simulation = make(read(path), seed_in(raw));
+    if (!paths.empty()) simulation = make(path, seed_in(raw));
     ros::init(argc, argv, "angen", ros::init_options::NoSigintHandler);
     end_on_signals();
     return run(path, std::move(simulation));
