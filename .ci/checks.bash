@@ -121,6 +121,7 @@ check_asan() { # [WORDS]
   (sanitizer_options && sanitized_tree asan core_test load_test) || return
   for program in core load; do
     (sanitizer_options && "build-asan/tests/${program}_test" --gtest_brief=1 --gtest_filter="*${1:-}*") || failed=1
+    [[ ! $(sanitizer_options && "build-asan/tests/${program}_test" --gtest_list_tests --gtest_filter="*${1:-}*") ]] || matched=1
   done
   return $failed
 }

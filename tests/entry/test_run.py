@@ -48,20 +48,27 @@ def restore_signals():
         signal.signal(number, signal.SIG_DFL)
 
 
+def until(process, words):
+    """What it has printed, up to a line with these words."""
+    printed = []
+    alarm = threading.Timer(120, process.kill)  # a line that never comes must not hold up the tests
+    alarm.start()
+    try:
+        for line in process.stdout:
+            printed.append(line)
+            if words in line:
+                return printed
+    finally:
+        alarm.cancel()
+    raise AssertionError(f'{words} is not in:\n{"".join(printed)}')
+
+
 def start(environment):
     """Starts ./angen run and returns it when the node runs, with the lines printed so far."""
     process = subprocess.Popen([ROOT / 'angen', 'run', f'world:={ROOT}/worlds/empty.world'],
                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                                env=environment, preexec_fn=restore_signals)
-    printed = []
-    alarm = threading.Timer(120, process.kill)  # a line that never comes must not hold up the tests
-    alarm.start()
-    for line in process.stdout:
-        printed.append(line)
-        if NODE_RUNS in line:
-            break
-    alarm.cancel()
-    return process, printed
+    return process, until(process, NODE_RUNS)
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])

@@ -1,6 +1,9 @@
-"""What large worlds take in memory and time, and that it is refused before it is paid."""
+"""What large worlds take in memory and time; too large ones are rejected before they take it."""
 import multiprocessing
+import os
 import resource
+import subprocess
+import sys
 import time
 
 import pytest
@@ -87,8 +90,8 @@ def limit():
     angen.set_memory_limit(before)
 
 
-def test_what_would_take_too_much_is_refused_before_it_is_paid(limit) -> None:
-    """20 sensors of a million rays, by their file and line; and it costs nothing to be told."""
+def test_what_would_take_too_much_is_rejected_before_it_is_allocated(limit) -> None:
+    """20 sensors of a million rays, by their file and line; and rejecting takes no memory."""
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     with pytest.raises(angen.Error, match=r'<text>:\d+: <model name="m"> would take about \d+ MB '
                                           r'of memory.*the limit is 4096 MB.*ANGEN_MEMORY_LIMIT'):
@@ -111,3 +114,33 @@ def test_the_limit_may_be_an_argument(limit) -> None:
     with pytest.raises(angen.Error, match='the limit is 20 MB'):
         angen.World.from_text(sdf_world(links(9000)), memory_limit=20)
     assert angen.memory_limit() == 20
+
+
+def test_a_cached_world_has_the_same_limit(limit, tmp_path, monkeypatch) -> None:
+    monkeypatch.setenv('XDG_CACHE_HOME', str(tmp_path))
+    path = tmp_path / 'large.world'
+    path.write_text(sdf_world(links(9000)))
+    assert len(angen.World(str(path)).links) == 9000
+    limit(20)
+    with pytest.raises(angen.Error, match='the limit is 20 MB'):
+        angen.World(str(path))
+
+
+def test_what_is_not_a_heightmap_is_named_as_that(tmp_path) -> None:
+    path = tmp_path / 'm.world'
+    (tmp_path / 'h.png').write_bytes(b'this is a text, and no picture at all')
+    path.write_text(sdf_world(
+        '<model name="m"><static>true</static><link name="l"><collision name="c"><geometry>'
+        '<heightmap><uri>h.png</uri><size>1 1 1</size></heightmap></geometry></collision></link>'
+        '</model>'))
+    with pytest.raises(angen.Error, match=r'm.world:\d+: .*PNG'):
+        angen.World(str(path))
+
+
+@pytest.mark.parametrize('wrong', ['4GB', '-1', 'abc', '0'])
+def test_a_wrong_limit_of_the_environment_is_an_error(wrong) -> None:
+    done = subprocess.run([sys.executable, '-c', 'import angen; angen.World.from_text('
+                           '"<sdf version=\\"1.9\\"><world name=\\"w\\"/></sdf>")'],
+                          env=dict(os.environ, ANGEN_MEMORY_LIMIT=wrong), capture_output=True,
+                          text=True, check=False)
+    assert f"ANGEN_MEMORY_LIMIT is '{wrong}'; give a number of MB" in done.stderr

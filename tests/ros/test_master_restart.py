@@ -13,6 +13,8 @@ from urllib.parse import urlparse
 import pytest
 from harness import WORLD, Master, end, node_binary, until
 
+from angen_tools.common.watchdog import watchdog
+
 BALL = """<model name="ball"><pose>1 1 9 0 0 0</pose><link name="link">
   <inertial><mass>1</mass></inertial>
   <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
@@ -21,10 +23,11 @@ BALL = """<model name="ball"><pose>1 1 9 0 0 0</pose><link name="link">
 
 @pytest.fixture
 def master(tmp_path: Path) -> Iterator[Master]:
-    started = Master(tmp_path)
-    yield started
-    if started.process.poll() is None:
-        end(started.process)
+    with watchdog():  # ends what a test that fails leaves
+        started = Master(tmp_path)
+        yield started
+        if started.process.poll() is None:
+            end(started.process)
 
 
 def world_file(folder: Path) -> Path:

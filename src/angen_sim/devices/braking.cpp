@@ -21,7 +21,7 @@ double Braking::limit(const Surroundings& surroundings, const Vec2& at, const Ve
   if (turned || std::exchange(outdated_, false)) {
     const double expected = free_ - (at - from_).norm();
     free_ = surroundings.free_way(at, direction);
-    approach_ = turned ? 0.0 : (expected - free_) / to_seconds(kSurroundingsPeriod);
+    approach_ = turned ? 0.0 : (expected - free_) / to_seconds(kScanPeriod);
     if (approach_ < kApproaches) approach_ = 0.0;
     from_ = at;
     along_ = direction;

@@ -5,15 +5,15 @@
 
 namespace angen::devices {
 
-/// A person's surroundings are sampled so often.
-constexpr Nanoseconds kSurroundingsPeriod = kSecond / 10;
+/// A person's surroundings are scanned so often.
+constexpr Nanoseconds kScanPeriod = kSecond / 10;
 
 /// How fast a person may walk so that it stops before what is in its way.
 class Braking {
  public:
   using Vec2 = Surroundings::Vec2;
 
-  /// To be called when the surroundings were sampled.
+  /// To be called when the surroundings were scanned.
   void invalidate() { outdated_ = true; }
   /// m/s along a unit direction from `at` (m, world), for who walks at `speed`: sqrt(2 a d) at the
   /// distance d to what stands there, and less before what comes towards it.

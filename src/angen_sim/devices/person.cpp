@@ -27,7 +27,7 @@ constexpr Nanoseconds kAway = 5 * kSecond;      // and comes again: a door opens
 constexpr double kStepBack = 1.2;               // m, out of the way of a leaf that opens towards it
 constexpr Nanoseconds kBackStep = kSecond / 20;
 constexpr int kMostBackSteps = 200;
-constexpr int kPlanEvery = 3;        // samples of the surroundings: a way round is planned anew
+constexpr int kScansPerPlan = 3;
 constexpr double kArrived = 0.03;    // m: nearer than this an order is carried out
 constexpr double kNearRejoin = 0.3;  // m
 constexpr double kAround = 0.3;      // m: so far from where it came to is progress on a way round
@@ -105,6 +105,8 @@ Verdict Person::command(const Command& command, const View&) {
       order_ = order;
       paused_ = false;
       rejoin_.reset();
+      aim_.reset();
+      scanned_at_ = -1;  // a way is planned at once
       stalled_ = away_until_ = 0;
     });
   }
@@ -148,7 +150,14 @@ void Person::walk(const Path::Place& place, const View& view, bool renew, Output
   const Vec2 at = body.pose.position.head<2>();
   const bool near =
       resting_ && place.still() && Vec2(place.x - at.x(), place.y - at.y()).norm() < kPushedAway;
-  if (avoids_ && !near && update_surroundings(body, view)) find_rejoin(at);
+  if (avoids_ && !near) {
+    const Scan scan = scan_surroundings(body, view);
+    if (scan == Scan::kPlans && rejoin_) {
+      const Path::Place end = path_.at(*rejoin_);
+      aim_ = way_for(at, {end.x, end.y});
+    }
+    if (scan != Scan::kNone) find_rejoin(at);
+  }
   if (rejoin_) return go_round(body, view, renew, outputs);
   const Path::Place goal = path_.at(clock_ + from_seconds(kAhead));
   const Vec2 to(goal.x, goal.y);
@@ -157,7 +166,7 @@ void Person::walk(const Path::Place& place, const View& view, bool renew, Output
   // Ahead of its place is no reason to wait, so it is the way to the goal that counts.
   const bool waits = (to - at).norm() > kMaxLag + std::hypot(goal.x - place.x, goal.y - place.y);
   if (!waits) clock_ += view.step();
-  watch(at, to, lag < (place.still() ? kThere : kNearPath), view.step());
+  note_progress(at, to, lag < (place.still() ? kThere : kNearPath), view.step());
 
   const bool there = lag < kThere && std::abs(turn) < kFacing;
   if (place.still() && (there || (resting_ && lag < kPushedAway))) {
@@ -180,7 +189,7 @@ void Person::go_round(const LinkView& body, const View& view, bool renew, Output
   const Nanoseconds last = *rejoin_ - from_seconds(kAhead);
   if (clock_ < last) clock_ += view.step();
   if (clock_ >= last && (to - at).norm() < kNearRejoin) rejoin_.reset();
-  watch(at, to, false, view.step());
+  note_progress(at, to, false, view.step());
   const Vec2 velocity = steer(body, to, std::max(kReturnSpeed, std::hypot(end.vx, end.vy)));
   head_for(velocity, turn_towards(velocity, body), outputs);
   show(stalled_ >= kStallTime ? Mode::kBlocked : Mode::kWalking, body, renew, outputs);
@@ -197,8 +206,8 @@ void Person::go(const View& view, bool renew, Outputs& outputs) {
     return;
   }
   if (steps_back(body, view, renew, outputs)) return;
-  update_surroundings(body, view);
-  watch(at, order_->to, false, view.step());
+  if (scan_surroundings(body, view) == Scan::kPlans) aim_ = way_for(at, order_->to);
+  note_progress(at, order_->to, false, view.step());
   const Vec2 velocity = steer(body, order_->to, speed_);
   head_for(velocity, turn_towards(velocity, body), outputs);
   show(stalled_ >= kStallTime ? Mode::kBlocked : Mode::kWalking, body, renew, outputs);
@@ -209,7 +218,7 @@ void Person::go(const View& view, bool renew, Outputs& outputs) {
 bool Person::steps_back(const LinkView& body, const View& view, bool renew, Outputs& outputs) {
   if (stalled_ >= kPatience) make_room(body, view.time());
   if (view.time() >= away_until_) return false;
-  update_surroundings(body, view);
+  scan_surroundings(body, view);
   const Vec2 at = body.pose.position.head<2>();
   aim_.reset();
   head_for(steer(body, back_to_, kReturnSpeed), 0.0, outputs);
@@ -218,22 +227,16 @@ bool Person::steps_back(const LinkView& body, const View& view, bool renew, Outp
   return true;
 }
 
-// Ten times a second; whether it did.
-bool Person::update_surroundings(const LinkView& body, const View& view) {
-  if (!avoids_ && !order_) return false;
-  const Nanoseconds now = view.time() / kSurroundingsPeriod;
-  if (now == sampled_at_) return false;
-  const bool plans = now % kPlanEvery == 0 || now - sampled_at_ > 1;
-  sampled_at_ = now;
+// Ten times a second; a way round is planned with each third scan.
+Person::Scan Person::scan_surroundings(const LinkView& body, const View& view) {
+  if (!avoids_ && !order_) return Scan::kNone;
+  const Nanoseconds now = view.time() / kScanPeriod;
+  if (now == scanned_at_) return Scan::kNone;
+  const bool plans = now % kScansPerPlan == 0 || now - scanned_at_ > 1;
+  scanned_at_ = now;
   braking_.invalidate();
-  surroundings_.update(view, body.pose.position);
-  const Vec2 at = body.pose.position.head<2>();
-  if (order_ && plans) aim_ = way_for(at, order_->to);
-  if (rejoin_ && plans) {
-    const Path::Place end = path_.at(*rejoin_);
-    aim_ = way_for(at, {end.x, end.y});
-  }
-  return true;
+  surroundings_.scan(view, body.pose.position);
+  return plans ? Scan::kPlans : Scan::kScanned;
 }
 
 std::optional<Person::Vec2> Person::way_for(const Vec2& at, const Vec2& to) const {
@@ -256,7 +259,7 @@ void Person::find_rejoin(const Vec2& at) {
   if (rejoin_ && !surroundings_.is_occupied(place_at(*rejoin_))) return;
   rejoin_.reset();
   bool behind = false;
-  for (Nanoseconds t = ahead; t < kRejoinWithin; t += kSurroundingsPeriod) {
+  for (Nanoseconds t = ahead; t < kRejoinWithin; t += kScanPeriod) {
     const Vec2 place = place_at(clock_ + t);
     if ((place - at).norm() > Surroundings::kSight) return;
     if (surroundings_.is_occupied(place)) {
@@ -313,7 +316,7 @@ void Person::make_room(const LinkView& body, Nanoseconds now) {
 
 // Nearer to the goal is progress, and the way round something; along a leaf that one leans on is
 // none.
-void Person::watch(const Vec2& at, const Vec2& goal, bool on_path, Nanoseconds step) {
+void Person::note_progress(const Vec2& at, const Vec2& goal, bool on_path, Nanoseconds step) {
   const bool nearer = (goal - came_to_).norm() - (goal - at).norm() > kProgress;
   const bool around = aim_ && (at - came_to_).norm() > kAround;
   if (on_path || nearer || around) {

@@ -30,6 +30,7 @@ class Person : public Device {
  private:
   using Vec2 = Surroundings::Vec2;
   enum class Mode { kStanding, kWalking, kBlocked };
+  enum class Scan { kNone, kScanned, kPlans };
 
   static Path read_path(Params& params);
   void start(const LinkView& body);
@@ -37,14 +38,14 @@ class Person : public Device {
   void go(const View& view, bool renew, Outputs& outputs);
   bool steps_back(const LinkView& body, const View& view, bool renew, Outputs& outputs);
   void go_round(const LinkView& body, const View& view, bool renew, Outputs& outputs);
-  bool update_surroundings(const LinkView& body, const View& view);
+  Scan scan_surroundings(const LinkView& body, const View& view);
   void find_rejoin(const Vec2& at);
   std::optional<Vec2> way_for(const Vec2& at, const Vec2& to) const;
   Vec2 steer(const LinkView& body, const Vec2& to, double fastest);
   double slowed(const Vec2& at, const Vec2& direction, double speed);
   void head_for(const Vec2& velocity, double turn, Outputs& outputs);
   void make_room(const LinkView& body, Nanoseconds now);
-  void watch(const Vec2& at, const Vec2& goal, bool on_path, Nanoseconds step);
+  void note_progress(const Vec2& at, const Vec2& goal, bool on_path, Nanoseconds step);
   void stand(Outputs& outputs);
   double sound() const;
   void show(Mode mode, const LinkView& body, bool renew, Outputs& outputs);
@@ -69,7 +70,7 @@ class Person : public Device {
   double speed_ = 1.0;          // m/s, on an order
   bool avoids_ = true;
   Surroundings surroundings_;
-  Nanoseconds sampled_at_ = -1;        // that, as a multiple of kSurroundingsPeriod
+  Nanoseconds scanned_at_ = -1;        // that, as a multiple of kScanPeriod
   Braking braking_;                    // before what is there
   std::optional<Nanoseconds> rejoin_;  // time on the path where it comes back to it
   std::optional<Vec2> aim_;            // first place of a way round

@@ -125,8 +125,8 @@ class Grid {
 
 }  // namespace
 
-// Each update's directions lie between those of the one before.
-void Surroundings::update(const View& view, const Vec3& feet) {
+// Each scan's directions lie between those of the one before.
+void Surroundings::scan(const View& view, const Vec3& feet) {
   points_.resize(fresh_);
   rays_.clear();
   turned_ = !turned_;

@@ -17,9 +17,9 @@ class Surroundings {
   static constexpr double kSight = 3.0;  // m
   static constexpr double kBody = 0.26;  // m, half a person's width and a centimeter
 
-  /// Casts rays from a body that stands at `feet` (world, m). Keeps what those of the update before
+  /// Casts rays from a body that stands at `feet` (world, m). Keeps what those of the scan before
   /// met.
-  void update(const View& view, const Vec3& feet);
+  void scan(const View& view, const Vec3& feet);
 
   /// How far a body of that half width gets along a unit direction, at most kSight: m.
   double free_way(const Vec2& from, const Vec2& direction, double body = kBody) const;
@@ -34,7 +34,7 @@ class Surroundings {
  private:
   std::optional<Vec2> way_round(const Vec2& from, const Vec2& to, double body) const;
 
-  std::vector<Vec2> points_;  // those of the last update first
+  std::vector<Vec2> points_;  // those of the last scan first
   std::size_t fresh_ = 0;     // how many those are
   bool turned_ = false;
   std::vector<rays::Ray> rays_;

@@ -32,7 +32,7 @@ struct Solution {
   std::uint64_t stamp = 0;  // no two are alike
 };
 
-/// A solution on its way: what Field::advance has found so far.
+/// A partly computed solution; see Field::advance.
 struct Unfinished {
   explicit Unfinished(const Lamp& of) : lamp(of) {}
 

@@ -80,11 +80,12 @@ std::vector<Lit> Lighting::lit() const {
   return all;
 }
 
-/// Drops what lamps' light did where walls or doors have moved since. Whether none has.
-bool Lighting::follow() const {
+/// Drops what lamps' light did where walls or doors have moved since.
+void Lighting::follow() const {
   std::vector<Eigen::AlignedBox3d> touched;
   const bool same = field_->follow(touched);
-  if (same && touched.empty()) return true;
+  if (same && touched.empty()) return;
+  work_.reset();  // of patches that may be others now
   lamps_.each([&](LampId, Entry& entry) {
     const auto meets = [&](const Eigen::AlignedBox3d& box) {
       return entry.solution->bounds.intersects(box);
@@ -92,7 +93,6 @@ bool Lighting::follow() const {
     if (entry.solution == nullptr) return;
     if (!same || std::any_of(touched.begin(), touched.end(), meets)) entry.solution.reset();
   });
-  return false;
 }
 
 /// The first lit lamp without a solution.
@@ -105,14 +105,19 @@ std::optional<LampId> Lighting::missing() const {
 }
 
 void Lighting::prepare() {
-  if (!follow()) work_.reset();
+  follow();
   busy_ = missing().has_value();
 }
 
 void Lighting::advance() {
-  if (busy_) prepare();
   if (!busy_) return;
+  follow();
   const std::optional<LampId> lamp = missing();
+  busy_ = lamp.has_value();
+  if (!busy_) {
+    work_.reset();  // somebody has measured in the meantime
+    return;
+  }
   Entry& entry = lamps_.at(*lamp);
   if (work_ == nullptr || worked_on_ != *lamp) {
     work_ = std::make_unique<Unfinished>(entry.lamp);
@@ -121,7 +126,6 @@ void Lighting::advance() {
   if (!field_->advance(*work_, kRaysAtOnce)) return;
   entry.solution = std::make_shared<const Solution>(std::move(work_->solution));
   work_.reset();
-  busy_ = missing().has_value();
 }
 
 /// Forgets what no longer holds.

@@ -93,7 +93,7 @@ class Lighting {
     double level;
     std::shared_ptr<const Solution> solution;  // made when the lamp is lit and somebody measures
   };
-  bool follow() const;
+  void follow() const;
   std::optional<LampId> missing() const;
   void renew(Probe& probe, const Pose& pose, bool still) const;
   const Transport& find(Probe& probe, LampId id, Entry& entry) const;
@@ -102,7 +102,7 @@ class Lighting {
   const rays::Scene& scene_;
   mutable Slots<Entry, LampTag> lamps_;
   std::unique_ptr<Field> field_;
-  std::unique_ptr<Unfinished> work_;  // on the solution of `worked_on_`
+  mutable std::unique_ptr<Unfinished> work_;  // on the solution of `worked_on_`
   LampId worked_on_;
   bool busy_ = false;
   std::uint64_t lamps_revision_;  // no two Lightings share one

@@ -77,6 +77,7 @@ void AllowedFiles::add_beside() {
 void AllowedFiles::resolve_paths() {
   if (resolved_) return;
   resolved_ = true;
+  for (const std::string& file : paths_.files) files_.insert(real(file));
   std::vector<std::string> given = paths_.models;
   const auto beside = std::find(given.begin(), given.end(), paths_.beside);
   if (beside != given.end()) {
@@ -102,10 +103,8 @@ bool AllowedFiles::holds(const std::string& path, const std::string& document) {
   const std::string file = real(path);
   if (file.empty()) return false;
   if (is_within(file, folder_of(document))) return true;
-  for (const std::string& named : paths_.files) {
-    if (file == real(named)) return true;
-  }
   resolve_paths();
+  if (files_.count(file) != 0) return true;
   const auto has = [&](const std::string& folder) { return is_within(file, folder); };
   if (std::any_of(folders_.begin(), folders_.end(), has)) return true;
   return std::any_of(packages_.begin(), packages_.end(),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ class AllowedFiles {
   bool resolved_ = false;
   std::vector<std::string> folders_;   // real paths
   std::vector<std::string> packages_;  // of these only what is in a package
+  std::set<std::string> files_;        // real paths
 };
 
 }  // namespace angen::load

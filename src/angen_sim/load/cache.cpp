@@ -151,6 +151,7 @@ Cache::Cache(const std::string& world, const SearchPaths& paths) {
   key_ += "\npackages";
   for (const std::string& path : paths.packages) add_path(key_, path);
   if (paths.allow_any) key_ += "\nany";
+  key_ += "\nlimit " + number_text(memory_limit());
   file_ = (where / (hex(hash_bytes(key_)) + ".world")).string();
 }
 

@@ -29,7 +29,7 @@ class Nodes {
  public:
   explicit Nodes(std::size_t bytes) : bytes_(bytes) {}
 
-  // Files every node below by id and name, and checks counts. <extra> is what programs like.
+  // Indexes every node below by id and name, and checks counts. <extra> is free-form and skipped.
   void collect(const XMLElement& element) {
     const std::string name = element.Name();
     if (name == "extra") return;

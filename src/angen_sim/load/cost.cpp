@@ -1,14 +1,17 @@
 #include "load/cost.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
 
 #include "core/text.h"
 #include "load/load.h"
+#include "load/png.h"
 #include "load/search.h"
 #include "load/values.h"
 #include "load/xml.h"
@@ -36,8 +39,13 @@ const std::map<std::string, double>& parts() {
 std::atomic<double>& limit() {
   static std::atomic<double> megabytes = [] {
     const char* given = std::getenv("ANGEN_MEMORY_LIMIT");
-    const std::optional<double> value = given == nullptr ? std::nullopt : parse_finite(given);
-    return value && *value > 0.0 ? *value : kDefaultLimit;
+    if (given == nullptr) return kDefaultLimit;
+    const std::optional<double> value = parse_finite(given);
+    if (!value || *value <= 0.0) {
+      throw Error("ANGEN_MEMORY_LIMIT is '" + printable(given, 80) +
+                  "'; give a number of MB greater than 0, such as 4096");
+    }
+    return *value;
   }();
   return megabytes;
 }
@@ -61,11 +69,13 @@ std::uint32_t big_endian(const unsigned char* bytes) {
          static_cast<std::uint32_t>(bytes[2]) << 8U | bytes[3];
 }
 
-// By a PNG's header.
+// By a PNG's header; what is not a PNG, or too large a one, is refused when it is read.
 double heights_in(const std::string& heightmap) {
   unsigned char head[24] = {};
   std::ifstream(heightmap, std::ios::binary).read(reinterpret_cast<char*>(head), sizeof head);
-  return 1.0 * big_endian(head + 16) * big_endian(head + 20);
+  if (std::memcmp(head, "\x89PNG\r\n\x1a\n", 8) != 0) return 0.0;
+  const double width = big_endian(head + 16), height = big_endian(head + 20);
+  return std::max(width, height) > kMaxPngSide ? 0.0 : width * height;
 }
 
 double file_cost(const Element& shape, Session& session) {

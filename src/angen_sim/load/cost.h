@@ -2,7 +2,7 @@
 
 #include "load/expand.h"
 
-/// What a file will take, estimated before it is paid.
+/// The memory that a file will take, estimated before it is allocated.
 namespace angen::load {
 
 /// Adds what an expanded <model>, <actor> or <light> takes in memory to the session's sum: its

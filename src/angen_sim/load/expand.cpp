@@ -139,12 +139,7 @@ bool straighten_numbers(Element& element, Session& session) {
 }
 
 void Session::warn(const Source& source, const std::string& message) {
-  for (const Diagnostic& old : warnings) {
-    if (old.source.line == source.line && old.source.file == source.file &&
-        old.message == message) {
-      return;
-    }
-  }
+  if (!warned_places.insert(place_of(source, message)).second) return;
   constexpr std::size_t kMaxBytes = 4000;  // it may repeat what a user gave
   warnings.push_back({Diagnostic::Severity::kWarning, source,
                       message.size() <= kMaxBytes ? message : printable(message, kMaxBytes)});

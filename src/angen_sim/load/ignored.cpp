@@ -22,7 +22,6 @@ struct Used {
 const std::map<std::string, Used>& table() {
   static const Used axis{{"xyz", "limit", "dynamics", "initial_position", kSafety}};
   static const std::map<std::string, Used> used = {
-      {"sdf", {{"world", "model", "actor", "light"}, {"version"}}},
       {"world",
        {{"gravity", "physics", "scene", "atmosphere", "light", "frame", "model", "actor", "include",
          "plugin", "state"}}},
@@ -44,7 +43,6 @@ const std::map<std::string, Used>& table() {
         {"type"}}},
       {"attenuation", {{"range"}}},
       {"spot", {{"inner_angle", "outer_angle"}}},
-      {"include", {{"uri", "pose", "static", "plugin", "name"}, {"merge"}}},
       {"model",
        {{"static", "self_collide", "allow_auto_disable", "pose", "link", "joint", "frame", "model",
          "include", "plugin"},
@@ -164,9 +162,7 @@ void walk(const Element& element, const std::string& parent, bool springs, Sessi
 
 void Session::ignore(const Source& source, const std::string& what) {
   if (converted.count(source.file) != 0) return;
-  if (!ignored_places.insert(source.file + ":" + std::to_string(source.line) + ":" + what).second) {
-    return;
-  }
+  if (!ignored_places.insert(place_of(source, what)).second) return;
   ignored.push_back({Diagnostic::Severity::kWarning, source, what});
 }
 

@@ -10,8 +10,6 @@ namespace angen::load {
 
 namespace {
 
-constexpr unsigned kMaxSide = 2049;
-
 // libpng reports errors by longjmp: no function between setjmp and the error may own anything.
 struct PngReader {
   std::FILE* file = nullptr;
@@ -70,10 +68,10 @@ GrayImage read_png(const std::string& path, const std::string& what, unsigned le
   image.width = png_get_image_width(reader.png, reader.info);
   image.height = png_get_image_height(reader.png, reader.info);
   if (std::min(image.width, image.height) < least ||
-      std::max(image.width, image.height) > kMaxSide) {
+      std::max(image.width, image.height) > kMaxPngSide) {
     throw Error(at, what + " " + path + " is " + std::to_string(image.width) + " by " +
                         std::to_string(image.height) + " pixels; give " + std::to_string(least) +
-                        " to " + std::to_string(kMaxSide) + " a side");
+                        " to " + std::to_string(kMaxPngSide) + " a side");
   }
   const std::size_t stride = png_get_rowbytes(reader.png, reader.info);
   std::vector<png_byte> bytes(stride * image.height);

@@ -15,7 +15,10 @@ struct GrayImage {
   std::vector<double> values;
 };
 
-/// A PNG of `least` to 2049 pixels a side; `what` names it in messages. Throws Error at `at`.
+constexpr unsigned kMaxPngSide = 2049;
+
+/// A PNG of `least` to kMaxPngSide pixels a side; `what` names it in messages. Throws Error at
+/// `at`.
 GrayImage read_png(const std::string& path, const std::string& what, unsigned least,
                    const Source& at);
 

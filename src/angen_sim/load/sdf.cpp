@@ -43,11 +43,6 @@ Element bare(const Element& element) {
   return copy;
 }
 
-void collect_names(const Element& element, std::set<std::string>& names) {
-  names.insert(element.name);
-  for (const Element& child : element.children) collect_names(child, names);
-}
-
 bool wanted(const sdf::ElementPtr& schema, const std::set<std::string>& names) {
   const std::string required = schema->GetRequired();
   return required == "1" || required == "+" || names.count(schema->GetName()) != 0;
@@ -147,6 +142,11 @@ Source named_in(const std::string& message, const Element& world) {
 }
 
 }  // namespace
+
+void collect_names(const Element& element, std::set<std::string>& names) {
+  names.insert(element.name);
+  for (const Element& child : element.children) collect_names(child, names);
+}
 
 struct Hush::Impl : console_bridge::OutputHandler {
   std::lock_guard<std::mutex> lock{console_mutex()};

@@ -32,6 +32,9 @@ class Hush {
 /// passed the checks, as Error at the place the element came from; unknown elements are warnings.
 void check_schema(const Element& world, Session& session);
 
+/// Adds the names of an element and of all below it.
+void collect_names(const Element& element, std::set<std::string>& names);
+
 /// The schema with what is required or has one of `names`, and nothing else. Under Hush's lock.
 sdf::SDFPtr empty_document(const std::set<std::string>& names);
 

@@ -18,7 +18,8 @@ struct Session {
   Sources sources{};
   std::vector<Diagnostic> warnings{};
   std::vector<Diagnostic> ignored{};       // what nothing reads
-  std::set<std::string> ignored_places{};  // of those, with their text
+  std::set<std::string> warned_places{};   // of `warnings`, with their text
+  std::set<std::string> ignored_places{};  // of `ignored`, as well
   std::set<std::string> converted{};       // URDF files: what nothing reads is libsdformat's doing
   std::size_t elements = 0;                // of all documents so far
   double bytes = 0.0;                      // of memory that what was expanded will take, about
@@ -29,6 +30,10 @@ struct Session {
   void warn(const Source& source, const std::string& message);
   void ignore(const Source& source, const std::string& what);
 };
+
+inline std::string place_of(const Source& source, const std::string& text) {
+  return source.file + ":" + std::to_string(source.line) + ":" + text;
+}
 
 /// Keeps a document on the list of open ones while it is read.
 class Open {

@@ -112,11 +112,6 @@ void keep_safety(const Element& joint, Element& root) {
 }
 
 // What the conversion writes, and what <gazebo> elements add.
-void add_names(const Element& element, std::set<std::string>& names) {
-  names.insert(element.name);
-  for (const Element& child : element.children) add_names(child, names);
-}
-
 std::set<std::string> names_in(const Element& robot) {
   std::set<std::string> names = {"model",
                                  "link",
@@ -190,7 +185,7 @@ std::set<std::string> names_in(const Element& robot) {
                                  "fudge_factor",
                                  "torsional",
                                  "coefficient"};
-  add_names(robot, names);
+  collect_names(robot, names);
   return names;
 }
 

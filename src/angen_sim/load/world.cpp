@@ -74,10 +74,14 @@ void check_entry_names(const std::vector<Entry>& entries) {
   }
 }
 
-// Models stand by their names and poses alone.
+// Most models stand by their names and poses alone.
 void place_all(const Parts& parts, desc::World& to) {
   Element world = parts.settings;
   for (const Entry& entry : parts.entries) {
+    if (entry.expanded.attribute("placement_frame") != nullptr) {
+      world.children.push_back(entry.expanded);  // stands by a frame of its own
+      continue;
+    }
     Element model;
     model.name = "model";
     model.source = entry.original.source;

@@ -86,6 +86,16 @@ Eigen::AlignedBox3d in_frame_of(const Geom& geom, const Aabb& box) {
   return {center - half, center + half};
 }
 
+// None where ODE fails, at a degenerate triangle, say.
+std::size_t collide_geoms(dGeomID a, dGeomID b, dContactGeom* points) {
+  try {
+    return static_cast<std::size_t>(
+        dCollide(a, b, static_cast<int>(kMostFound), points, sizeof(dContactGeom)));
+  } catch (const ode::Failure&) {
+    return 0;
+  }
+}
+
 // A heightmap is ground: two of them do not touch.
 std::size_t collide_tiles(const Geom& first, const Geom& second, dContactGeom* points) {
   if (first.tiles && second.tiles) return 0;
@@ -97,8 +107,7 @@ std::size_t collide_tiles(const Geom& first, const Geom& second, dContactGeom* p
     dGeomTriMeshSetData(ground.tile.get(), mesh);
     dGeomID a = first.tiles ? ground.tile.get() : first.ode.get();
     dGeomID b = first.tiles ? second.ode.get() : ground.tile.get();
-    const int most = static_cast<int>(kMostFound);
-    auto count = static_cast<std::size_t>(dCollide(a, b, most, found.data(), sizeof(found[0])));
+    std::size_t count = collide_geoms(a, b, found.data());
     mend_normals(first, second, found.data(), count);
     count = reduce_points(found.data(), count);
     if (n + count > kMostFound) n = reduce_points(points, n);
@@ -115,12 +124,7 @@ std::size_t touching_points(const Geom& first, const Geom& second, dContactGeom*
   if (dGeomGetClass(a) == dBoxClass && dGeomGetClass(b) == dBoxClass) {
     return collide_boxes(a, b, points, kMostFound);
   }
-  const int most = static_cast<int>(kMostFound);
-  std::size_t n = 0;
-  try {
-    n = static_cast<std::size_t>(dCollide(a, b, most, points, sizeof(dContactGeom)));
-  } catch (const ode::Failure&) {  // of a degenerate triangle, say: they do not touch
-  }
+  const std::size_t n = collide_geoms(a, b, points);
   mend_normals(first, second, points, n);
   return n;
 }

@@ -14,7 +14,9 @@ constexpr double kEither = 0.707;
 constexpr double kEasy = 0.5;  // of the greatest force
 constexpr double kArm = 0.25;  // m; the turning torque is the force on this arm
 
-void make_motors(dWorldID world, Body& body) {
+}  // namespace
+
+void make_drive(dWorldID world, Body& body) {
   Drive& drive = *body.drive;
   drive.linear.reset(dJointCreateLMotor(world, nullptr));
   dJointAttach(drive.linear.get(), body.ode.get(), nullptr);
@@ -26,10 +28,6 @@ void make_motors(dWorldID world, Body& body) {
   dJointSetAMotorNumAxes(drive.angular.get(), 1);
   dJointSetAMotorAxis(drive.angular.get(), 0, 0, 0.0, 0.0, 1.0);
 }
-
-}  // namespace
-
-void make_drive(dWorldID world, Body& body) { make_motors(world, body); }
 
 bool set_drive(dWorldID world, Body& body, const Vec3& velocity, double yaw_rate,
                double max_force) {
@@ -49,7 +47,7 @@ bool set_drive(dWorldID world, Body& body, const Vec3& velocity, double yaw_rate
   drive.yaw_rate = yaw_rate;
   drive.max_force = max_force;
   if (body.ode == nullptr) return true;
-  if (drive.linear == nullptr) make_motors(world, body);
+  if (drive.linear == nullptr) make_drive(world, body);
   return true;
 }
 

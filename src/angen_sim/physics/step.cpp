@@ -27,7 +27,8 @@ void World::Impl::take_step(std::int64_t tick) {
     collide();
     integrate(tick);
     read_bodies();
-    if (let_sleep(awake, contacts, h)) contacts.put_to_rest();
+    const bool slept = let_sleep(awake, contacts, h);
+    if (slept || !stopped.empty()) contacts.put_to_rest();
     list_is_old = true;
   }
   std::sort(moved.begin(), moved.end());

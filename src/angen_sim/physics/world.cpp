@@ -218,6 +218,7 @@ void World::latch(JointId id, double break_force) {
   if (joint.first == nullptr || !holds || !(break_force > 0.0)) return;
   if (joint.latched && joint.latch_force == break_force) return;
   impl_->wake_joint(joint);
+  if (!joint.first->awake) return;  // it has been stopped
   impl_->give_to_ode(*joint.first);
   joint.latched = true;
   joint.latch_force = break_force;

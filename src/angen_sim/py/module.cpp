@@ -222,7 +222,7 @@ void bind_world(pyb::module_& module) {
 
 // Until the end, or `seconds` further; true while something is left.
 bool advance_replay(record::Replay& replay, double seconds) {
-  const Nanoseconds end = replay.simulation().snapshot()->time + from_seconds(seconds);
+  const Nanoseconds end = replay.simulation().snapshot()->time + duration(seconds);
   while (!replay.done() && replay.simulation().snapshot()->time < end) {
     {
       const pyb::gil_scoped_release release;

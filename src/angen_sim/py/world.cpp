@@ -132,13 +132,17 @@ Nanoseconds World::leap_limit(Nanoseconds until) const {
   return recorder_ ? std::min(until, recorder_->leap_limit(*snapshot_)) : until;
 }
 
-std::uint64_t World::ticks_in(double seconds) const {
+Nanoseconds duration(double seconds) {
   if (!std::isfinite(seconds) || seconds < 0)
     throw Error("seconds must be finite and not negative");
   if (const std::string problem = limit_problem(limits::kTime, seconds); !problem.empty()) {
     throw Error("seconds are " + number_text(seconds) + "; " + problem);
   }
-  return static_cast<std::uint64_t>(from_seconds(seconds) / snapshot_->step);
+  return from_seconds(seconds);
+}
+
+std::uint64_t World::ticks_in(double seconds) const {
+  return static_cast<std::uint64_t>(duration(seconds) / snapshot_->step);
 }
 
 // The world stays paused: a tick carries out what waits, and time moves by step() alone.

@@ -14,6 +14,9 @@
 
 namespace angen::py {
 
+/// Of seconds that Python gives; Error where they are negative, not finite, or beyond the limit.
+Nanoseconds duration(double seconds);
+
 /// A simulation as Python sees it: loads, steps, commands, reads. Not shared between threads.
 class World {
  public:

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::chrono::milliseconds kClientPeriod(500);
 
-// roscpp drops the connection of a client that has gone, but tells nobody: its list of open ones is
-// private. An explicit instantiation may name private members.
+// roscpp drops the connection of a client that has gone, but does not report it: its list of open
+// ones is private. An explicit instantiation may name private members.
 template <auto Links, auto Mutex>
 struct OpenLinks {
   friend ros::V_ServiceClientLink& links_of(ros::ServicePublication& service) {

@@ -203,6 +203,23 @@ TEST(Lighting, WhatIsSwitchedOffMeanwhileIsNotWaitedFor) {
   EXPECT_EQ(room.lighting.measure(probe, room.sensor).illuminance, 0.0);
 }
 
+TEST(Lighting, AMeasurementMeanwhileLeavesNoTrace) {
+  Room whole, parts;
+  Probe probe;
+  parts.lighting.prepare();
+  for (int i = 0; i < 5; ++i) parts.lighting.advance();
+  parts.lighting.set_level(parts.lamp, 0.0);
+  for (Room* room : {&parts, &whole}) {
+    add_box(room->scene, Vec3(1, 1, 0.5), Vec3(1, 1, 1), gray(0.2F));
+    room->scene.commit();
+  }
+  EXPECT_EQ(parts.lighting.measure(probe, parts.sensor).illuminance, 0.0);  // follows the change
+  parts.lighting.set_level(parts.lamp, 1.0);
+  for (parts.lighting.prepare(); parts.lighting.busy();) parts.lighting.advance();
+  expect_same_bits(parts.lighting.measure(probe, parts.sensor),
+                   measure(whole.lighting, whole.sensor));
+}
+
 TEST(Lighting, ProbeFollowsEveryChange) {
   Room room;
   Probe probe;

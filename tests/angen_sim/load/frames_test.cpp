@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "angen_sim/load/texts.h"
+#include "load/load.h"
 #include "load/xml.h"
 
 namespace angen::load {
@@ -107,6 +108,18 @@ TEST(Frames, OfALongChain) {
   const Element root = model(inside);
   Frames frames(root);
   expect_near(frames.pose("l19999").position, {19999.0, 0.0, 0.0}, 1e-6);
+}
+
+TEST(Frames, OfAModelThatIsPlacedByAFrameOfItsOwn) {
+  const desc::World world = world_from_text(
+      "<sdf version='1.9'><world name='w'><model name='m' placement_frame='f'>"
+      "<pose>1 2 3 0 0 1.5707963267948966</pose><link name='l'/>"
+      "<frame name='f'><pose>5 0 0 0 0 0</pose></frame></model>"
+      "<model name='n'><pose relative_to='m'>1 0 0 0 0 0</pose><link name='l'/></model>"
+      "</world></sdf>",
+      "w", {});
+  expect_near(world.models.at(0).pose.position, {1.0, -3.0, 3.0});
+  expect_near(world.models.at(1).pose.position, {1.0, -2.0, 3.0});
 }
 
 }  // namespace

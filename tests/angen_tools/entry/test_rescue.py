@@ -39,7 +39,8 @@ def test_a_folder_of_somebody_else_is_not_used(runtime: Path, tmp_path: Path) ->
         own_folder()
 
 
-def test_it_gives_up_and_keeps_the_world(runtime: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_it_gives_up_and_keeps_the_world(runtime: Path, monkeypatch: pytest.MonkeyPatch,
+                                         capsys: pytest.CaptureFixture[str]) -> None:
     now = [100.0]
     monkeypatch.setattr(rescue.time, 'monotonic', lambda: now[0])
     with pytest.raises(Failure) as failed, Rescue() as found:
@@ -47,8 +48,20 @@ def test_it_gives_up_and_keeps_the_world(runtime: Path, monkeypatch: pytest.Monk
             found.path.write_text(f'{i}')
             found.take()
             now[0] += 10.0
-    assert f'lost 4 times within 60 s; the world as it was is in {found.path}' in str(failed.value)
+    assert 'lost 4 times within 60 s' in str(failed.value)
+    assert capsys.readouterr().err == f'angen: the world as it was is in {found.path}\n'
+    assert list(runtime.iterdir()) == [found.path]
     assert found.path.read_text() == '3'
+
+
+def test_a_restart_that_fails_keeps_the_world(runtime: Path,
+                                              capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(Failure), Rescue() as found:
+        found.path.write_text('<sdf/>')
+        world = found.take()
+        raise Failure('no ROS master could be started')
+    assert world is not None and world.read_text() == '<sdf/>'
+    assert f'the world as it was is in {world}' in capsys.readouterr().err
 
 
 def test_now_and_then_is_no_reason_to_give_up(monkeypatch: pytest.MonkeyPatch) -> None:

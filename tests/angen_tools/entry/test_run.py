@@ -13,16 +13,18 @@ def test_the_rest_of_the_words_stays(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv('ANGEN_MODEL_PATH', '/mine')
     monkeypatch.setenv('GAZEBO_RESOURCE_PATH', '')
     words = ['--screen', 'world:=/a/b.world', 'seed:=7', 'replay:=/a/bug.log', 'until:=3']
-    for count in (2, 3):
-        assert with_world(words, Path('/run/rescued.world'), count) == [
+    for _ in range(2):
+        assert with_world(words, Path('/run/rescued.world')) == [
             '--screen', 'world:=/run/rescued.world', 'seed:=7']
     assert os.environ['ANGEN_MODEL_PATH'] == '/a/models:/mine'
     assert os.environ['GAZEBO_RESOURCE_PATH'] == '/a'  # what lies beside the first may be named
 
 
-def test_no_log_is_written_over() -> None:
-    assert with_world(['record:=/a/bug.log'], Path('/w'), 3) == [
-        'record:=/a/bug_3.log', 'world:=/w']
+def test_no_log_is_written_over(tmp_path: Path) -> None:
+    for number in (2, 3):
+        assert with_world([f'record:={tmp_path}/bug.log'], Path('/w')) == [
+            f'record:={tmp_path}/bug_{number}.log', 'world:=/w']
+        (tmp_path / f'bug_{number}.log').touch()  # as of an earlier run
 
 
 def test_files_are_those_of_this_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,7 +1,8 @@
 """Subscribers of all that a node publishes, many in one process: python3 -m … READERS SLEEPERS
 
 They speak TCPROS and decode nothing, so that the machine measures the node and not them. Readers
-take what comes and drop it; sleepers connect and never read. A line on stdout says when all stand.
+take what comes and drop it; sleepers connect and never read. A line on stdout
+says when all are connected.
 """
 from __future__ import annotations
 

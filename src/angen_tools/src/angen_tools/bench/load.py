@@ -8,7 +8,7 @@ import sys
 import tempfile
 import threading
 import time
-from collections import deque
+from collections import Counter, deque
 from contextlib import ExitStack
 from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
@@ -25,7 +25,7 @@ from angen_tools.common.output import as_json, show, table
 from angen_tools.common.progress import Steps
 from angen_tools.live.client import Client
 from angen_tools.live.sandbox import Sandbox, end, wait
-from angen_tools.world.apartment import apartment, write_apartment
+from angen_tools.world.apartment import write_apartment
 from angen_tools.world.placing import generator
 
 FLOORS = 10
@@ -222,7 +222,6 @@ def run(sandbox: Sandbox, topics: str, sensors: int, seconds: float) -> Row:
     listeners.allow_many_connections()
     world = sandbox.folder / 'load.world'
     counts = counts_of(sensors)
-    apartment(FLOORS, counts, SEED)  # Failure where there is no room
     write_apartment(world, FLOORS, counts, SEED)
     with ExitStack() as open_now:
         node = sandbox.node(world, 1.0, topics=topics)
@@ -249,18 +248,12 @@ def run(sandbox: Sandbox, topics: str, sensors: int, seconds: float) -> Row:
         taken = watch.pass_by(seconds)
         answers, refused = list(callers.answers), list(callers.refused)
         callers.end()
-    for reason, count in _counted(refused):
+    if not answers:
+        raise Failure('no service call was answered' + (f': {refused[0]}' if refused else ''))
+    for reason, count in Counter(refused).most_common(3):
         print(f'angen: {count} times refused: {reason}', file=sys.stderr)
     return row_of(taken, answers, topics=topics, sensors=sensors, readers=readers,
                   connections=connections, refused=len(refused))
-
-
-def _counted(reasons: Sequence[str]) -> list[tuple[str, int]]:
-    """The most frequent reasons, without what differs in them."""
-    counts: dict[str, int] = {}
-    for reason in reasons:
-        counts[reason] = counts.get(reason, 0) + 1
-    return sorted(counts.items(), key=lambda item: -item[1])[:3]
 
 
 def row_of(seconds: Sequence[Second], answers: Sequence[float], **what: Any) -> Row:

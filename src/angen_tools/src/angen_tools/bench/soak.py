@@ -199,6 +199,8 @@ def soak(home: Home, cycles: int, progress: Progress) -> tuple[list[Sample], lis
             home.command(cycle // EACH)
             samples.append(home.sample(cycle))
             progress.update(cycle / cycles, f'cycle {cycle}, {samples[-1].rss_mb:.1f} MB')
+    if samples[-1].cycle < cycles:
+        samples.append(home.sample(cycles))
     return samples, [*grown(samples), *_left(home, start, registered, cycles)]
 
 
@@ -256,7 +258,6 @@ def measure(cycles: int, core: bool, folder: Path, json: bool) -> None:
         samples, wrong = soak(home, cycles, progress)
         seconds = time.monotonic() - began
     table = folder / ('soak_core.csv' if core else 'soak.csv')
-    files.make_folder(folder)
     files.write_csv(table, [field.name for field in fields(Sample)],
                     (astuple(sample) for sample in samples))
     if json:

@@ -163,8 +163,9 @@ def add_replay(commands: Any) -> None:
                      'runs a session again that record:= recorded, and compares it second by '
                      'second; needs no simulator', 'replay bug.log', 'replay bug.log --until 41.5')
     parser.add_argument('log', metavar='FILE', help='the log of ./angen run record:=FILE')
-    parser.add_argument('--until', metavar='SECONDS', type=checked(moment), help='goes on live in '
-                        'ROS from that simulated time')
-    parser.add_argument('--every-tick', action='store_true',
-                        help='leaps over nothing; the fingerprints are the same')
+    ways = parser.add_mutually_exclusive_group()
+    ways.add_argument('--until', metavar='SECONDS', type=checked(moment), help='goes on live in '
+                      'ROS from that simulated time')
+    ways.add_argument('--every-tick', action='store_true',
+                      help='leaps over nothing; the fingerprints are the same')
     add_allow_paths(parser)

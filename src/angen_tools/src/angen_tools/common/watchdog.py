@@ -73,7 +73,7 @@ def end_marked(mark: str, grace: float) -> None:
     """Ends the processes with that mark: by SIGTERM, after `grace` s by SIGKILL."""
     end = time.monotonic() + grace
     quiet = 0
-    asked: set[int] = set()
+    signaled: set[int] = set()
     while quiet < (QUIET if grace else 1) and time.monotonic() < end + LIMIT:
         found = marked(mark)
         quiet = 0 if found else quiet + 1
@@ -81,8 +81,8 @@ def end_marked(mark: str, grace: float) -> None:
             with suppress(OSError):
                 if time.monotonic() >= end:
                     os.kill(number, signal.SIGKILL)
-                elif number not in asked:
-                    asked.add(number)
+                elif number not in signaled:
+                    signaled.add(number)
                     os.kill(number, signal.SIGTERM)
         if found or grace:
             time.sleep(TURN)

@@ -70,7 +70,7 @@ def _number(convert: Callable[[str], float], what: str) -> Callable[[str], str]:
     def check(value: str) -> str:
         try:
             return '' if math.isfinite(convert(value)) else f'not {what}'
-        except ValueError:
+        except (ValueError, OverflowError):
             return f'not {what}'
     return check
 

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import os
+import sys
 import time
 from collections import deque
 from pathlib import Path
@@ -25,23 +26,25 @@ def own_folder() -> Path:
 
 
 class Rescue:
-    """The file of one ./angen run. A context: its end removes what nobody needs any more."""
+    """The file of one ./angen run. A context: its end removes it, but not after a Failure."""
 
     def __init__(self) -> None:
         folder = own_folder()
         self.path = folder / f'rescue-{os.getpid()}.world'  # the node writes it
         self._world = folder / f'rescued-{os.getpid()}.world'  # the next node reads it
         self._times: deque[float] = deque(maxlen=MOST)
-        self._kept = False
 
     def __enter__(self) -> Rescue:
         self.path.unlink(missing_ok=True)
         return self
 
-    def __exit__(self, *_: object) -> None:
-        if not self._kept:
-            self.path.unlink(missing_ok=True)
-            self._world.unlink(missing_ok=True)
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        """After a Failure the world stays, and its path is printed."""
+        for path in (self.path, self._world):
+            if kind is not None and issubclass(kind, Failure) and path.exists():
+                print(f'angen: the world as it was is in {path}', file=sys.stderr, flush=True)
+            else:
+                path.unlink(missing_ok=True)
 
     def take(self) -> Path | None:
         """The world that the node has left, for the next one; None where it left none. Failure
@@ -50,8 +53,7 @@ class Rescue:
             return None
         now = time.monotonic()
         if len(self._times) == MOST and now - self._times[0] < SPAN:
-            self._kept = True
-            raise Failure(f'the ROS master was lost {MOST + 1} times within {SPAN:g} s; the world '
-                          f'as it was is in {self.path}')
+            self._world.unlink()  # an older one
+            raise Failure(f'the ROS master was lost {MOST + 1} times within {SPAN:g} s')
         self._times.append(now)
         return self.path.replace(self._world)

@@ -3,6 +3,7 @@ starts both anew where the master was lost.
 """
 from __future__ import annotations
 
+import itertools
 import math
 import os
 import signal
@@ -14,7 +15,8 @@ from typing import Any, NoReturn
 
 from angen_tools.common.failure import Failure
 from angen_tools.common.watchdog import watchdog
-from angen_tools.entry.arguments import check_arguments
+from angen_tools.entry.arguments import check_arguments, kinds
+from angen_tools.entry.machine import has_display, stay_local
 from angen_tools.entry.master import running_node, start_master
 from angen_tools.entry.rescue import Rescue
 
@@ -107,9 +109,9 @@ def require_no_other(uri: str) -> None:
                       f'ROS_MASTER_URI={beside} ./angen run')
 
 
-def with_world(words: list[str], world: Path, count: int) -> list[str]:
-    """The words with the world of the start number `count`. Its models are found where those of
-    the first are; it is recorded into a file of its own."""
+def with_world(words: list[str], world: Path) -> list[str]:
+    """The words with the world of a further start. Its models are found where those of the first
+    are; it is recorded into a file of its own."""
     given = dict(word.split(':=', 1) for word in words if ':=' in word)
     if 'world' in given:
         folder = Path(given['world']).parent  # whose files it may go on to name
@@ -119,7 +121,9 @@ def with_world(words: list[str], world: Path, count: int) -> list[str]:
             os.environ[variable] = ':'.join(dict.fromkeys(path))
     if given.get('record'):
         log = Path(given['record'])
-        given['record'] = str(log.with_name(f'{log.stem}_{count}{log.suffix}'))
+        given['record'] = str(next(
+            other for number in itertools.count(2)
+            if not (other := log.with_name(f'{log.stem}_{number}{log.suffix}')).exists()))
         say(f"it is recorded into {given['record']} from here")
     changed = {**given, 'world': str(world), 'replay': '', 'until': ''}
     return [*(word for word in words if ':=' not in word),
@@ -136,21 +140,28 @@ def run(launch: Path, words: list[str]) -> int:
     """Runs the simulator until it ends; the exit code, which is never 0."""
     from rosgraph import get_master_uri
     check_arguments(launch, words)
+    stay_local()
     uri = get_master_uri()
     require_no_other(uri)
     words = [absolute(word) for word in words]
+    hidden = 'gui' not in kinds(launch) or {'gui:=false', 'headless:=true'} & set(words)
+    if not hidden and not has_display():
+        say('no display, so no rviz; the building runs all the same')
+        words.append('gui:=false')
     say(HELP.format(angen=launch.parent.parent / 'angen'))
     now, count = words, 1
     with watchdog(), Rescue() as rescue, Session(uri) as session:
         while True:
             code = session.launch(launch, [*now, f'rescue:={rescue.path}'])
             world = rescue.take()
+            if world is None and count > 1:
+                raise Failure('the simulator ended by itself after it was started again')
             if world is None:
                 say('the simulator ended by itself')
                 return code or 1  # roslaunch ends with 0 where a node has failed
             say('the ROS master was lost: starting again with the world as it was')
             count += 1
-            now = with_world(words, world, count)
+            now = with_world(words, world)
 
 
 def main() -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 import os
 import sys
 import time
-from pathlib import Path
 
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.failure import Failure
@@ -36,10 +35,6 @@ def replay(path: str, leap: bool) -> str:
 
 def go_live(path: str, until: float) -> None:
     """Replaces this process by the building in ROS, as it was at that time; it goes on live."""
-    if not Path(path).is_file():
-        raise Failure(f'{path}: no such file; give a log that record:= wrote')
-    gui = 'true' if os.environ.get('DISPLAY') else 'false'
     launch = worlds_models().parent.parent / 'launch/angen.launch'
     os.execv(sys.executable, [sys.executable, '-m', 'angen_tools.entry.run', str(launch.resolve()),
-                              f'replay:={Path(path).resolve()}', f'until:={until:.9g}',
-                              f'gui:={gui}'])
+                              f'replay:={path}', f'until:={until:.9g}'])
