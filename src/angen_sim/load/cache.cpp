@@ -16,6 +16,7 @@
 #include "core/random.h"
 #include "load/bounded_input.h"
 #include "load/converter.h"
+#include "core/text.h"
 #include "load/pack.h"
 #include "load/xml.h"
 
