@@ -88,6 +88,8 @@ def test_the_command_line_allows_every_path(world_file: Path, capsys: pytest.Cap
     monkeypatch.setenv('ANGEN_ALLOW_PATHS', 'false')
     assert cli.run(['check', str(world_file)]) == 1
     assert REFUSED in capsys.readouterr().err
+    cli.make_parser().parse_args(['check', '--allow-paths', str(world_file)])
+    assert cli.run(['check', str(world_file)]) == 1, 'understood is not run'
     assert cli.run(['check', '--allow-paths', str(world_file)]) == 0
 
 

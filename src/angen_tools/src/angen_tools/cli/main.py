@@ -61,6 +61,8 @@ def run(arguments: Sequence[str]) -> int:
         argcomplete.autocomplete(parser)
     try:
         args = parser.parse_args(straightened(arguments))
+        if getattr(args, 'allow_paths', False):  # also for what this process starts
+            os.environ['ANGEN_ALLOW_PATHS'] = 'true'
         code: int = args.run(args)
         sys.stdout.flush()
         return code

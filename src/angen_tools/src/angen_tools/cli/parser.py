@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 from pathlib import Path
 from typing import Any, Callable, NoReturn
 
@@ -47,14 +46,7 @@ def add_out(parser: Parser, what: str) -> None:
                         help=f'folder for {what} (out)')
 
 
-class AllowPaths(argparse.Action):
-    """Lets models name files and plug-in libraries anywhere, also for what this process starts."""
-
-    def __call__(self, *_: Any) -> None:
-        os.environ['ANGEN_ALLOW_PATHS'] = 'true'
-
-
 def add_allow_paths(parser: Parser) -> None:
     """The option of every command that loads a world or a model into its own process."""
-    parser.add_argument('--allow-paths', action=AllowPaths, nargs=0,
+    parser.add_argument('--allow-paths', action='store_true',
                         help='models may name files and plug-in libraries anywhere')
