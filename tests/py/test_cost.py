@@ -120,7 +120,7 @@ def test_a_cached_world_has_the_same_limit(limit, tmp_path, monkeypatch) -> None
     monkeypatch.setenv('XDG_CACHE_HOME', str(tmp_path))
     path = tmp_path / 'large.world'
     path.write_text(sdf_world(links(9000)))
-    assert len(angen.World(str(path)).links) == 9000
+    assert len(angen.World(str(path)).links) == 9001  # and the floor's
     limit(20)
     with pytest.raises(angen.Error, match='the limit is 20 MB'):
         angen.World(str(path))
@@ -139,8 +139,8 @@ def test_what_is_not_a_heightmap_is_named_as_that(tmp_path) -> None:
 
 @pytest.mark.parametrize('wrong', ['4GB', '-1', 'abc', '0'])
 def test_a_wrong_limit_of_the_environment_is_an_error(wrong) -> None:
-    done = subprocess.run([sys.executable, '-c', 'import angen; angen.World.from_text('
-                           '"<sdf version=\\"1.9\\"><world name=\\"w\\"/></sdf>")'],
+    load = 'import angen, sys; angen.World.from_text(sys.argv[1])'
+    done = subprocess.run([sys.executable, '-c', load, sdf_world(links(1))],
                           env=dict(os.environ, ANGEN_MEMORY_LIMIT=wrong), capture_output=True,
                           text=True, check=False)
     assert f"ANGEN_MEMORY_LIMIT is '{wrong}'; give a number of MB" in done.stderr
