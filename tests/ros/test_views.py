@@ -84,6 +84,35 @@ def test_what_is_deleted_disappears(angen: Angen) -> None:
         until(lambda: keyed(inbox.messages).keys() == before, "as before")
 
 
+def test_a_spawn_sends_what_it_adds_and_no_more(angen: Angen) -> None:
+    angen.wait("/angen/stats", Stats, lambda stats: stats.awake_bodies == 0)
+    with Inbox("/angen/markers", MarkerArray) as inbox:
+        until(lambda: inbox.messages, "the whole world")
+        whole = keyed(inbox.messages).keys()
+        before = len(inbox.messages)
+        assert angen.call("/angen/spawn", Spawn, name="newcomer", xml="model://pir",
+                          pose=at(0.0, 3.0, 2.0)).success
+        until(lambda: len(keyed(inbox.messages)) > len(whole), "its markers")
+        again = keyed(inbox.messages[before:]).keys() & whole
+        assert not {key for key in again if "rays" not in key[0]}
+        assert angen.call("/angen/delete", Delete, name="newcomer").success
+
+
+def test_frames_are_sent_again_only_with_a_new_one(angen: Angen) -> None:
+    """All of them: a second listener in a process is given the last message."""
+    with Inbox("/tf_static", TFMessage) as inbox:
+        frames = {t.child_frame_id for t in until(lambda: inbox.messages, "frames")[-1].transforms}
+        for name in ("one", "two"):
+            sent = len(inbox.messages)
+            assert angen.call("/angen/spawn", Spawn, name=name, xml="model://pir").success
+            until(lambda: len(inbox.messages) > sent, "frames again")
+            frames |= {name}
+            assert {t.child_frame_id for t in inbox.messages[sent].transforms} >= frames
+            assert angen.call("/angen/delete", Delete, name=name).success
+            frames -= {name}
+        assert len(inbox.messages) == sent + 1
+
+
 def box(name: str, middle: str, size: str) -> str:
     return (f'<link name="{name}"><pose>{middle} 0 0 0</pose><visual name="v"><geometry><box>'
             f'<size>{size}</size></box></geometry></visual></link>')

@@ -108,11 +108,11 @@ class LatchedLazyPublisher {
   }
 
   /// From now on the message is what `make` returns; it may be called by any thread until the next
-  /// call of this.
-  void set(Make make) {
+  /// call of this. Present subscribers get it too, unless the last one tells them the same.
+  void set(Make make, bool is_news = true) {
     const std::lock_guard<std::mutex> lock(state_->mutex);
     state_->make = std::move(make);
-    if (state_->listeners == 0) return;
+    if (state_->listeners == 0 || !is_news) return;
     publisher_.publish(state_->make());
     Traffic::count();
   }

@@ -148,8 +148,11 @@ std::optional<angen::Nanoseconds> until_param() {
 /// What ~replay names, up to ~until; null where it names nothing.
 std::unique_ptr<angen::record::Replay> make_replay(angen::node::Settings& settings) {
   const auto path = ros::param::param<std::string>("~replay", "");
-  if (path.empty()) return nullptr;
   const std::optional<angen::Nanoseconds> until = until_param();
+  if (path.empty()) {
+    if (until) throw angen::Error("~until ends a replay; give its file as ~replay");
+    return nullptr;
+  }
   settings.hurry = until.has_value();
   auto replay = std::make_unique<angen::record::Replay>(
       angen::record::read_log(path), std::make_shared<angen::Catalog>(),

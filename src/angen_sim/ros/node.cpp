@@ -20,6 +20,28 @@ constexpr std::chrono::milliseconds kLongestNap(100);  // Ctrl-C is seen that so
 
 constexpr Nanoseconds kLongestLeap = 10 * kSecond;  // so far may /clock jump
 
+/// Serves topics and services while it lives.
+class Serving {
+ public:
+  Serving(Inbox& inbox, Services& services)
+      : inbox_(inbox), services_(services), spinner_(kSubscriberThreads) {
+    spinner_.start();
+    services_.start();
+  }
+  ~Serving() {
+    inbox_.close();
+    services_.stop();
+    spinner_.stop();
+  }
+  Serving(const Serving&) = delete;
+  Serving& operator=(const Serving&) = delete;
+
+ private:
+  Inbox& inbox_;
+  Services& services_;
+  ros::AsyncSpinner spinner_;
+};
+
 }  // namespace
 
 Node::Node(sim::Simulation& simulation, const Settings& settings)
@@ -44,9 +66,7 @@ Node::Node(sim::Simulation& simulation, const Settings& settings)
       services_(inbox_, events_, settings.models, settings.topics) {}
 
 Node::End Node::run(const std::atomic<bool>& stop) {
-  ros::AsyncSpinner spinner(kSubscriberThreads);
-  spinner.start();
-  services_.start();
+  const Serving serving(inbox_, services_);
   std::optional<MasterWatch> master;
   while (!stop && ros::ok() && !(master && master->lost())) {
     const std::shared_ptr<const sim::Snapshot> snapshot = advance();
@@ -58,9 +78,6 @@ Node::End Node::run(const std::atomic<bool>& stop) {
     }
     pace(*snapshot, stop);
   }
-  inbox_.close();
-  services_.stop();
-  spinner.stop();
   return master && master->lost() ? End::kMasterLost : End::kStopped;
 }
 

@@ -111,6 +111,7 @@ void Overlays::add_lamp(const sim::Structure& structure, std::uint32_t light) {
   const sim::LightEntry& entry = structure.lights[light];
   if (entry.light.type == desc::Light::Type::kDirectional) return;
   Overlay overlay;
+  if (entry.model != UINT32_MAX) overlay.subject = structure.models[entry.model];
   overlay.index = light;
   overlay.link = entry.link;
   overlay.offset = entry.light.pose;
@@ -121,6 +122,7 @@ void Overlays::add_lamp(const sim::Structure& structure, std::uint32_t light) {
   const Room* room = still ? room_around(rooms_, pose.position) : nullptr;
   if (room != nullptr) {
     Overlay lit = overlay;
+    lit.subject = nullptr;  // its room may be another
     lit.link = UINT32_MAX;
     lit.offset = {pose.position, room->pose.rotation};
     glows_.emplace(entry.name, std::move(lit));
@@ -131,6 +133,7 @@ void Overlays::add_lamp(const sim::Structure& structure, std::uint32_t light) {
 void Overlays::add_sensor(const sim::Structure& structure, std::uint32_t sensor) {
   const sim::SensorEntry& entry = structure.sensors[sensor];
   Overlay overlay;
+  overlay.subject = entry.desc;
   overlay.index = sensor;
   overlay.link = entry.link;
   overlay.offset = entry.pose;
@@ -151,6 +154,7 @@ void Overlays::add_device(const sim::Structure& structure, std::uint32_t device)
       std::any_of(fields.begin(), fields.end(), [](const Field& field) { return field.alarm; });
   if (!has_alarm || !ros_kind(entry.kind, entry.library).caption) return;
   Overlay overlay;
+  overlay.subject = structure.models[entry.model];
   overlay.index = device;
   overlay.of_device = true;
   overlay.link = first_link(structure, entry.model);
@@ -167,6 +171,7 @@ void Overlays::add_label(const sim::Structure& structure, std::uint32_t device) 
   const desc::Model& model = *structure.models[entry.model];
   const Vec3 place = place_of_label(model);
   Overlay overlay;
+  overlay.subject = structure.models[entry.model];
   overlay.storey = storey_suffix(structure, entry.model, model.pose.position.z());
   overlay.offset.position = model.pose * place;
   if (travels) {
@@ -194,11 +199,24 @@ void Overlays::add_room_labels() {
   }
 }
 
-void Overlays::keep_markers(const Named& old, Named& now, std::int32_t& next_id, Array& gone) {
+void Overlays::keep_drawn(Overlay& old, Overlay& now) {
+  now.marker = old.marker;
+  now.pose = old.pose;
+  now.drawn = old.drawn;
+  now.level = old.level;
+  now.last = std::move(old.last);
+  now.stamp = old.stamp;
+  now.ranges = std::move(old.ranges);
+  now.fired = old.fired;
+}
+
+void Overlays::keep_markers(Named& old, Named& now, std::int32_t& next_id, Array& gone) {
   for (auto& [name, overlay] : now) {
     const auto before = old.find(name);
     if (before == old.end()) {
       overlay.marker.id = next_id++;
+    } else if (overlay.subject != nullptr && overlay.subject == before->second.subject) {
+      keep_drawn(before->second, overlay);
     } else if (overlay.marker.ns.empty()) {
       overlay.marker = before->second.marker;
     } else {

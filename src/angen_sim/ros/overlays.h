@@ -27,9 +27,10 @@ class Overlays {
 
  private:
   struct Overlay {
-    visualization_msgs::Marker marker;  // as appended last; without a namespace: not shown
-    std::string storey;                 // " 0", or empty; see storey_suffix
-    std::uint32_t index = 0;            // in Structure::lights, ::sensors or ::devices
+    visualization_msgs::Marker marker;    // as appended last; without a namespace: not shown
+    std::string storey;                   // " 0", or empty; see storey_suffix
+    std::shared_ptr<const void> subject;  // the description of what it shows; none: the world's
+    std::uint32_t index = 0;              // in Structure::lights, ::sensors or ::devices
     bool of_device = false;
     std::uint32_t link = UINT32_MAX;  // in Structure::links; none: it is still
     Pose offset;
@@ -48,8 +49,11 @@ class Overlays {
   void add_device(const sim::Structure& structure, std::uint32_t device);
   void add_label(const sim::Structure& structure, std::uint32_t device);
   void add_room_labels();
-  /// Gives overlays that existed before their markers back; others get an id, or are `gone`.
-  static void keep_markers(const Named& old, Named& now, std::int32_t& next_id, Array& gone);
+  /// Gives overlays that existed before their markers back, and those of the same subject all that
+  /// was appended last; others get an id, or are `gone`.
+  static void keep_markers(Named& old, Named& now, std::int32_t& next_id, Array& gone);
+  /// What was appended last stays so. Where an overlay is, and in which structure, is `now`.
+  static void keep_drawn(Overlay& old, Overlay& now);
   /// What an overlay shows from now on; in another namespace than before, or nowhere if that is
   /// empty, what it showed is deleted.
   void show(Overlay& overlay, visualization_msgs::Marker marker, const std::string& group);

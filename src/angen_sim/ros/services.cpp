@@ -13,7 +13,6 @@
 #include "ros/client_watch.h"
 #include "ros/convert.h"
 #include "ros/listing.h"
-#include "ros/taken_topics.h"
 #include "ros/text.h"
 
 namespace angen::node {
@@ -151,6 +150,11 @@ bool Services::step(StepCall& call) {
   });
 }
 
+void Services::check(const std::vector<NewSensor>& sensors) {
+  const std::lock_guard<std::mutex> lock(catalog_mutex_);
+  check_topics(sensors, catalog_, topics_);
+}
+
 sim::Action Services::spawn_action(const angen_msgs::Spawn::Request& request) {
   check_name(request.name);
   if (trimmed(request.xml).empty()) throw Error("nothing to spawn: xml is empty");
@@ -166,11 +170,11 @@ sim::Action Services::spawn_action(const angen_msgs::Spawn::Request& request) {
   if (!valid_utf8(request.on)) throw Error("`on` is not UTF-8");
   if (lone_sensor) {
     sim::Attach attach{load::sensor(request.xml, request.name, pose), request.on};
-    check_topics({{request.name, &attach.sensor}}, catalog_, topics_);
+    check({{request.name, &attach.sensor}});
     return attach;
   }
   sim::Spawn spawn{load::model(request.xml, request.name, pose, paths_)};
-  check_topics(new_sensors(spawn.model), catalog_, topics_);
+  check(new_sensors(spawn.model));
   return spawn;
 }
 

@@ -12,12 +12,14 @@
 #include <std_srvs/Empty.h>
 
 #include <atomic>
+#include <mutex>
 #include <string>
 #include <vector>
 
 #include "load/load.h"
 #include "ros/inbox.h"
 #include "ros/status_topics.h"
+#include "ros/taken_topics.h"
 #include "ros/topics.h"
 
 namespace angen::node {
@@ -47,12 +49,14 @@ class Services {
                angen_msgs::SendCommand::Response& response);
   bool list(angen_msgs::List::Request& request, angen_msgs::List::Response& response);
   bool save(angen_msgs::Save::Request& request, angen_msgs::Save::Response& response);
+  void check(const std::vector<NewSensor>& sensors);
   sim::Action spawn_action(const angen_msgs::Spawn::Request& request);
 
   Inbox& inbox_;
   const Events& events_;
   load::SearchPaths paths_;
   Topics topics_;
+  std::mutex catalog_mutex_;           // of the next
   Catalog catalog_;                    // to know the kinds of new sensors by
   std::atomic<std::size_t> steps_{0};  // calls that wait
   ros::CallbackQueue queue_;

@@ -2,6 +2,12 @@
 
 #include <tf2_msgs/TFMessage.h>
 
+#include <algorithm>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
 #include "ros/convert.h"
 #include "ros/kinds/states.h"
 
@@ -20,6 +26,17 @@ void add(tf2_msgs::TFMessage& message, Nanoseconds time, const std::string& pare
   message.transforms.push_back(std::move(transform));
 }
 
+/// Whether a listener that knows `before` has something to learn from `now`: frames stay for it.
+bool has_new_frames(const std::vector<FixedFrame>& before, const std::vector<FixedFrame>& now) {
+  std::unordered_map<std::string, const FixedFrame*> known;
+  for (const FixedFrame& frame : before) known[frame.child] = &frame;
+  return std::any_of(now.begin(), now.end(), [&](const FixedFrame& frame) {
+    const auto found = known.find(frame.child);
+    return found == known.end() || found->second->parent != frame.parent ||
+           !(found->second->pose == frame.pose);
+  });
+}
+
 }  // namespace
 
 Transforms::Transforms(ros::NodeHandle& node)
@@ -28,18 +45,22 @@ Transforms::Transforms(ros::NodeHandle& node)
 
 void Transforms::on_structure(const sim::Snapshot& snapshot, const FrameTree& frames,
                               const std::vector<Robot>& robots) {
+  const std::vector<FixedFrame> before = std::exchange(frames_.fixed, {});
   frames_ = frames;
   robots_ = robots;
   moved_.clear();
   marked_.assign(frames_.moving.size(), false);
-  fixed_.set([fixed = std::make_shared<const std::vector<FixedFrame>>(frames_.fixed),
-              time = snapshot.time] {
-    tf2_msgs::TFMessage message;
-    for (const FixedFrame& frame : *fixed) {
-      add(message, time, frame.parent, frame.child, frame.pose);
-    }
-    return message;
-  });
+  const bool is_news = has_new_frames(before, frames_.fixed);
+  fixed_.set(
+      [fixed = std::make_shared<const std::vector<FixedFrame>>(frames_.fixed),
+       time = snapshot.time] {
+        tf2_msgs::TFMessage message;
+        for (const FixedFrame& frame : *fixed) {
+          add(message, time, frame.parent, frame.child, frame.pose);
+        }
+        return message;
+      },
+      is_news);
   new_structure_ = true;
 }
 

@@ -180,12 +180,22 @@ CommandQueue::Effects CommandQueue::drain(Building& building, InstanceView::Cloc
   return effects;
 }
 
+void CommandQueue::take_over(std::string reason) {
+  const std::string before = std::exchange(taken_over_, std::move(reason));
+  const std::size_t count = std::exchange(turned_away_, 0);
+  if (count == 0) return;
+  post(Reject{"world", "world",
+              std::to_string(count) + (count == 1 ? " command was" : " commands were") +
+                  " rejected: " + before});
+}
+
 std::vector<Request> CommandQueue::only_replayed(std::vector<Request> requests) {
   std::vector<Request> kept;
   for (Request& request : requests) {
     if (std::holds_alternative<Save>(request.action)) {
       kept.push_back(std::move(request));
     } else {
+      if (!request.ticket && !std::holds_alternative<Note>(request.action)) ++turned_away_;
       answers_.emplace_back(std::move(request.answer), Outcome{false, taken_over_});
     }
   }

@@ -30,8 +30,9 @@ class CommandQueue {
   void observe(ActionObserver observer) { observer_ = std::move(observer); }
 
   /// From now on only what replay() gives is carried out, and a Save; what others post is rejected
-  /// with this reason. "" ends that.
-  void take_over(std::string reason) { taken_over_ = std::move(reason); }
+  /// with this reason. "" ends that; what was rejected without a sender that waits is then counted
+  /// in an event.
+  void take_over(std::string reason);
   /// To be carried out by the next drain().
   void replay(std::vector<Action> actions) { replayed_ = std::move(actions); }
 
@@ -81,6 +82,7 @@ class CommandQueue {
   bool paused_ = false;
   ActionObserver observer_;
   std::string taken_over_;
+  std::size_t turned_away_ = 0;  // actions without a sender that waits, while taken over
   std::vector<Action> replayed_;
 };
 

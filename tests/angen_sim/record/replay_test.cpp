@@ -160,6 +160,10 @@ TEST(Replay, StopsAtATimeAndGoesOnLive) {
   EXPECT_EQ(replay.simulation().snapshot()->time, from_seconds(2.001));
   EXPECT_EQ(refused.get().message,
             folder.log() + " is being replayed; commands are executed after it");
+  const auto rejected = replay.simulation().tick()->events;
+  ASSERT_EQ(rejected.size(), 1U);
+  EXPECT_EQ(rejected[0].detail, "1 command was rejected: " + folder.log() +
+                                    " is being replayed; commands are executed after it");
   auto taken = replay.simulation().post(sim::ToDevice{"lamp", "hall0", {"Dim 30", {}}});
   replay.simulation().tick();
   EXPECT_TRUE(taken.get().ok);
