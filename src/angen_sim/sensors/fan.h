@@ -49,8 +49,11 @@ struct Fan {
 
   /// with_noise() keeps noise within ±limit (m) of its mean at every ray where the first uniform()
   /// of its random numbers is below this.
-  double quiet_chance(double limit) const {
-    return noise_stddev > 0.0 ? chance_within(size(), limit / noise_stddev) : 1.0;
+  double quiet_chance(double limit) const { return quiet_chance(limit, size()); }
+
+  /// The same for a scan of so many rays.
+  double quiet_chance(double limit, std::size_t rays) const {
+    return noise_stddev > 0.0 ? chance_within(rays, limit / noise_stddev) : 1.0;
   }
 };
 

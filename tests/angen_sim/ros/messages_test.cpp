@@ -39,6 +39,7 @@ TEST(Messages, KnownKindsHaveTheirOwnOthersTheGenericOne) {
 TEST(Messages, Pir) {
   Reading reading;
   reading.set("motion", true);
+  reading.set("departure", true);
   reading.set("difference", 0.4);
   reading.set("threshold", 0.1);
   reading.set("signal", 4.0);
@@ -46,6 +47,7 @@ TEST(Messages, Pir) {
   angen_msgs::PirMsg message;
   fill("pir", reading, {}, message);
   EXPECT_TRUE(message.motion);
+  EXPECT_TRUE(message.departure);
   EXPECT_EQ(message.difference, 0.4);
   EXPECT_EQ(message.threshold, 0.1);
   EXPECT_EQ(message.signal, 4.0);

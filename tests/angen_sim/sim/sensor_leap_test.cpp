@@ -77,7 +77,9 @@ TEST(Leaping, AStillWorldTakesFewTicks) {
   Race race("<sdf version='1.6'><world name='w'>" + kDoor +
             body("it", "<box><size>0.1 0.1 0.1</size></box>", "0 0 1 0 0 0", true,
                  ray_sensor("clean", kPir, 10, 0.0) + ray_sensor("noisy", kPir, 10, 0.01) +
-                     ray_sensor("nods", kPir, 10, 0.01, kNodding)) +
+                     ray_sensor("nods", kPir, 10, 0.01, kNodding) +
+                     ray_sensor("holds", kPir, 10, 0.01,
+                                "<hold_time>1.25</hold_time><lockout_time>2.5</lockout_time>")) +
             "</world></sdf>");
   race.run(60.0);
   EXPECT_LT(race.landings, 6000U);

@@ -9,6 +9,7 @@ namespace {
 
 void fill(const Reading& reading, const Label&, angen_msgs::PirMsg& message) {
   message.motion = reading.get<bool>("motion");
+  message.departure = reading.get<bool>("departure", false);
   message.difference = reading.get<double>("difference");
   message.threshold = reading.get<double>("threshold");
   message.signal = reading.get<double>("signal");

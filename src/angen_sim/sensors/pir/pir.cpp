@@ -50,8 +50,11 @@ ANGEN_REGISTER_SENSOR(
              .rays("0 0 1 0.45")
              .flag("motion", "whether it detects motion")
              .alarm("MOTION", "still")
+             .flag("departure",
+                   "whether something has left since the last nod, without motion now; with model "
+                   "range_difference that nods")
              .number("difference", "m",
-                     "greatest, of a range from the one before; with model "
+                     "greatest, of a range from the one a sample before; with model "
                      "range_difference")
              .shown(3)
              .number("threshold", "m", "as its parameter; with model range_difference")

@@ -8,6 +8,7 @@ namespace angen::sensors {
 namespace {
 
 constexpr Range kAngles{-M_PI, M_PI};
+constexpr Trigger::Times kTimes{kSecond * 5 / 4, kSecond * 5 / 2, 60 * kSecond, true};
 
 Window window_of(const std::vector<double>& row, std::size_t first, const char* key,
                  const Params& params) {
@@ -54,18 +55,6 @@ BandPass::Corners read_corners(Params& params) {
   return corners;
 }
 
-Trigger::Times read_times(Params& params) {
-  Trigger::Times times;
-  const auto time = [&](const char* key, double fallback, const char* doc) {
-    return from_seconds(params.number(key, fallback, "s", doc, {0.0, 1e6}));
-  };
-  times.hold = time("hold_time", 1.25, "motion lasts so long after the last crossing");
-  times.blocking = time("blocking_time", 2.5, "and nothing is detected for so long after it");
-  times.warm_up = time("warm_up", 60.0, "nor for so long after the start");
-  times.retrigger = params.flag("retrigger", true, "whether each crossing prolongs motion");
-  return times;
-}
-
 }  // namespace
 
 void Pyroelectric::configure(Params& params, Wiring&) {
@@ -88,7 +77,7 @@ void Pyroelectric::configure(Params& params, Wiring&) {
       params.number("signal_threshold", 3e-4, "V", "motion beyond plus or minus this", kPositive);
   rest_ = params.number("rest_threshold", 1e-6, "V", "a filter nearer than this to rest is at rest",
                         kPositive);
-  times_ = read_times(params);
+  times_ = read_times(params, kTimes);
   false_alarm_rate_ = params.number("false_alarm_rate", 0.0, "1/h", "without any cause", {0, 3600});
 }
 

@@ -20,6 +20,21 @@ Fan default_fan() {
   return fan;
 }
 
+/// Whether a range is longer by more than `threshold` than it was: what it met is gone.
+bool any_longer(const Ranges& now, const Ranges& before, double threshold) {
+  for (std::size_t i = 0; i < std::min(now.size(), before.size()); ++i) {
+    if (now[i] - before[i] > threshold) return true;
+  }
+  return false;
+}
+
+void announce_range(bool motion, double difference, Reading& reading) {
+  reading.event = motion ? "motion" : "still";
+  std::ostringstream detail;
+  detail << "difference " << difference << " m";
+  reading.event_detail = detail.str();
+}
+
 }  // namespace
 
 struct RangeDifference::Scans : LazyReading {
@@ -29,11 +44,13 @@ struct RangeDifference::Scans : LazyReading {
   std::vector<Ranges> clean;  // by phase
 
   void read(Nanoseconds time, const Draws& draws, Reading& reading) const override {
-    const Ranges& scan = clean[nod.phase(time)];
-    Ranges now = fan.with_noise(scan, draws(0));
-    const Ranges before = fan.with_noise(scan, draws(static_cast<int>(nod.phases)));
-    const double difference = greatest_difference(now, before);
+    const std::size_t phase = nod.phase(time);
+    const Ranges& last = clean[(phase + nod.phases - 1) % nod.phases];
+    Ranges now = scan_of(fan, clean[phase], draws(0)).ranges;
+    const double difference = greatest_difference(now, scan_of(fan, last, draws(1)).ahead);
     write(std::move(now), difference, threshold, reading);
+    reading.set("motion", false);
+    reading.set("departure", false);
   }
 };
 
@@ -41,19 +58,26 @@ void RangeDifference::configure(Params& params, Wiring&) {
   fan_ = read_fan(params, default_fan());
   threshold_ =
       params.number("threshold", 0.1, "m", "a range that differs by more is motion", kPositive);
-  // Two scans that are both within half the threshold do not differ by more than it.
-  quiet_chance_ = fan_.quiet_chance(threshold_ / 2.0);
   const double amplitude =
       params.number("nod_amplitude", 0.0, "rad", "nods so far up and down", {0.0, M_PI_2});
   const double nod_period = params.number("nod_period", 0.0, "s", "of a whole nod", kNotNegative);
   nod_.period = params.update_period();
   nod_.phases = amplitude > 0.0 ? count_phases(params, nod_period) : 1;
-  for (std::size_t k = 0; k < nod_.phases; ++k) {
+  times_ = read_times(params, {});
+  const auto tilted = [&](std::size_t k) {
     const double turn = 2.0 * M_PI * static_cast<double>(k) / static_cast<double>(nod_.phases);
-    directions_.push_back(fan_.directions(amplitude * std::sin(turn)));
+    return fan_.directions(amplitude * std::sin(turn));
+  };
+  for (std::size_t k = 0; k < nod_.phases; ++k) {
+    directions_.push_back(tilted(k));
+    if (nod_.phases == 1) break;
+    const std::vector<Vec3> next = tilted((k + 1) % nod_.phases);
+    directions_.back().insert(directions_.back().end(), next.begin(), next.end());
   }
+  // Two scans that are both within half the threshold do not differ by more than it.
+  quiet_chance_ = fan_.quiet_chance(threshold_ / 2.0, directions_[0].size());
   previous_.resize(nod_.phases);
-  if (fan_.noisy()) clean_.resize(nod_.phases);
+  clean_.resize(nod_.phases);
 }
 
 int RangeDifference::ray_set(const View& view) {
@@ -61,6 +85,8 @@ int RangeDifference::ray_set(const View& view) {
   if (first) {
     nod_.first_time = view.time();
     std::fill(previous_.begin(), previous_.end(), Ranges{});
+    ahead_.clear();
+    trigger_ = Trigger(times_, view.time());
   }
   last_time_ = view.time();
   phase_ = nod_.phase(view.time());
@@ -71,33 +97,42 @@ void RangeDifference::aim(const View& view, RayBatch& rays) {
   fan_.aim(view.pose(), directions_[phase_], rays);
 }
 
+RangeDifference::Scan RangeDifference::scan_of(const Fan& fan, const Ranges& clean,
+                                               const Rng& rng) {
+  const auto rays = static_cast<std::ptrdiff_t>(fan.size());
+  Scan scan;
+  scan.ranges = fan.with_noise(clean, rng);
+  scan.ahead = Ranges(scan.ranges.end() - rays, scan.ranges.end());
+  scan.ranges.resize(fan.size());
+  return scan;
+}
+
 void RangeDifference::write(Ranges ranges, double difference, double threshold, Reading& reading) {
   reading.set("ranges", std::move(ranges));  // for drawing the rays
-  reading.set("motion", difference > threshold);
   reading.set("difference", difference);
   reading.set("threshold", threshold);
   reading.set("signal", difference);
   reading.set("signal_threshold", threshold);
 }
 
-void RangeDifference::read(const View&, Hits hits, Rng& rng, Reading& reading) {
-  Ranges ranges = fan_.measure(hits);
-  if (fan_.noisy()) clean_[phase_] = ranges;
-  ranges = fan_.with_noise(std::move(ranges), rng);
-  const double difference = greatest_difference(ranges, previous_[phase_]);
-  previous_[phase_] = ranges;
-  write(std::move(ranges), difference, threshold_, reading);
-  const bool motion = difference > threshold_;
-  if (motion != motion_) {
-    reading.event = motion ? "motion" : "still";
-    std::ostringstream detail;
-    detail << "difference " << difference << " m";
-    reading.event_detail = detail.str();
-  }
-  motion_ = motion;
-  changes_ = difference > 0.0;
+void RangeDifference::read(const View& view, Hits hits, Rng& rng, Reading& reading) {
+  clean_[phase_] = fan_.measure(hits);
+  Scan scan = scan_of(fan_, clean_[phase_], rng);
+  const double difference = greatest_difference(scan.ranges, ahead_);
+  const bool was_on = trigger_.on();
+  const bool motion = trigger_.step(view.time(), difference > threshold_);
+  const bool departure =
+      !motion && nod_.phases > 1 && any_longer(scan.ranges, previous_[phase_], threshold_);
+  previous_[phase_] = scan.ranges;
+  ahead_ = std::move(scan.ahead);
+  write(std::move(scan.ranges), difference, threshold_, reading);
+  reading.set("motion", motion);
+  reading.set("departure", departure);
+  if (motion != was_on) announce_range(motion, difference, reading);
+  changes_ = difference > 0.0 || motion;
   const bool loud = rng.uniform() >= quiet_chance_;  // with_noise() drew from a copy
-  quiet_scans_ = loud || motion ? 0 : quiet_scans_ + 1;
+  const bool quiet = !loud && !motion && !departure && difference <= threshold_;
+  quiet_scans_ = quiet ? quiet_scans_ + 1 : 0;
 }
 
 bool RangeDifference::steady() const {
@@ -109,15 +144,16 @@ std::shared_ptr<const LazyReading> RangeDifference::lazy_reading() const {
   scans->fan = fan_;
   scans->nod = nod_;
   scans->threshold = threshold_;
-  scans->clean = fan_.noisy() ? clean_ : previous_;
+  scans->clean = clean_;
   return scans;
 }
 
 void RangeDifference::resume(Nanoseconds time, const Draws& draws) {
-  if (!fan_.noisy()) return;
-  for (std::size_t ago = 0; ago < nod_.phases; ++ago) {
+  for (std::size_t ago = nod_.phases; ago-- > 0;) {
     const std::size_t phase = (nod_.phase(time) + nod_.phases - ago) % nod_.phases;
-    previous_[phase] = fan_.with_noise(clean_[phase], draws(static_cast<int>(ago)));
+    Scan scan = scan_of(fan_, clean_[phase], draws(static_cast<int>(ago)));
+    previous_[phase] = std::move(scan.ranges);
+    ahead_ = std::move(scan.ahead);  // at last that of `time`
   }
 }
 

@@ -4,11 +4,12 @@
 
 #include "plugin/plugin.h"
 #include "sensors/fan.h"
+#include "sensors/pir/trigger.h"
 
 namespace angen::sensors {
 
-/// A motion detector that compares successive range scans. One that nods compares each scan with
-/// the one that it took at the same height a nod ago.
+/// A motion detector that compares successive range scans. One that nods scans two tilts at a time,
+/// its own and that of its next scan, so that the next has something to be compared with.
 class RangeDifference : public Sensor, public NoisySensor {
  public:
   void configure(Params& params, Wiring& wiring) override;
@@ -33,21 +34,29 @@ class RangeDifference : public Sensor, public NoisySensor {
       return static_cast<std::size_t>(scans) % phases;
     }
   };
+  /// One scan with noise: what is published, and what the next scan is compared with.
+  struct Scan {
+    Ranges ranges;
+    Ranges ahead;  // at the tilt of the next scan; the same as `ranges` of one that does not nod
+  };
   struct Scans;  // its lazy reading
 
   std::size_t count_phases(const Params& params, double nod_period) const;
+  static Scan scan_of(const Fan& fan, const Ranges& clean, const Rng& rng);
   static void write(Ranges ranges, double difference, double threshold, Reading& reading);
 
   Fan fan_;
   Nod nod_;
   double threshold_ = 0.0;
   double quiet_chance_ = 0.0;
-  std::vector<std::vector<Vec3>> directions_;  // by phase of the nod
+  Trigger::Times times_;
+  Trigger trigger_;
+  std::vector<std::vector<Vec3>> directions_;  // by phase of the nod: its tilt's, the next tilt's
   std::vector<Ranges> previous_;               // by phase; empty before its first scan
-  std::vector<Ranges> clean_;                  // the same without noise, of one that has noise
+  std::vector<Ranges> clean_;                  // by phase, without noise, as its directions
+  Ranges ahead_;                               // the last scan's, at the tilt of this one
   Nanoseconds last_time_ = -1;
   std::size_t phase_ = 0;
-  bool motion_ = false;
   bool changes_ = true;  // the last scan differs from the one before
   std::size_t quiet_scans_ = 0;
 };

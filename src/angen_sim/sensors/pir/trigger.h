@@ -1,8 +1,7 @@
 #pragma once
 
-#include <limits>
-
 #include "core/time.h"
+#include "plugin/params.h"
 
 namespace angen::sensors {
 
@@ -10,10 +9,10 @@ namespace angen::sensors {
 class Trigger {
  public:
   struct Times {
-    Nanoseconds hold = 0;      // on for so long
-    Nanoseconds blocking = 0;  // then deaf for so long
-    Nanoseconds warm_up = 0;   // deaf for so long after the start
-    bool retrigger = true;     // whether the hold begins anew with each firing
+    Nanoseconds hold = 0;     // on for so long
+    Nanoseconds lockout = 0;  // then deaf for so long
+    Nanoseconds warm_up = 0;  // deaf for so long after the start
+    bool retrigger = true;    // whether the hold begins anew with each firing
   };
 
   Trigger() = default;
@@ -24,7 +23,7 @@ class Trigger {
   bool step(Nanoseconds now, bool fires) {
     if (on_ && now >= off_at_ && !(fires && times_.retrigger)) {
       on_ = false;
-      deaf_until_ = off_at_ + times_.blocking;
+      deaf_until_ = off_at_ + times_.lockout;
     }
     if (!fires || now < deaf_until_ || (on_ && !times_.retrigger)) return on_;
     on_ = true;
@@ -40,5 +39,9 @@ class Trigger {
   Nanoseconds off_at_ = 0;
   bool on_ = false;
 };
+
+/// Reads <hold_time>, <lockout_time>, <warm_up> and <retrigger>; `fallback` stands for what is not
+/// given.
+Trigger::Times read_times(Params& params, const Trigger::Times& fallback);
 
 }  // namespace angen::sensors

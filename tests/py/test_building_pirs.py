@@ -1,0 +1,49 @@
+"""The PIRs of the building: what they report at rest, and once somebody has gone."""
+from pathlib import Path
+
+import angen
+
+BUILDING = Path(__file__).resolve().parents[2] / 'worlds/angen.world'
+NODDING = 'livingroom_pir0_a'
+NOD = 4.0     # s
+SAMPLE = 0.1  # s
+
+
+def pir_events(world: angen.World) -> list[tuple[float, str, str]]:
+    return [(time, name, event) for time, name, kind, event, _ in world.events() if kind == 'pir']
+
+
+def test_noise_alone_moves_none_of_them_from_the_start_on():
+    w = angen.World(str(BUILDING))
+    w.command('person', 'person', 'Stop')
+    w.run(300)
+    assert pir_events(w) == []
+
+
+def test_the_nodding_one_reports_a_departure_and_no_motion_once_somebody_has_gone():
+    w = angen.World(str(BUILDING))
+    w.run(2.5)  # he walks by
+    assert any(name == NODDING and event == 'motion' for _, name, event in pir_events(w))
+    w.delete('person')
+    gone = w.time
+    departures = []
+    while w.time < gone + 3 * NOD:
+        w.run(SAMPLE)
+        reading = w.sensor('pir', NODDING)
+        if reading['departure']:
+            departures.append(w.time)
+        assert not reading['motion'] or w.time <= gone + SAMPLE
+    assert all(time <= gone + SAMPLE for time, _, event in pir_events(w) if event == 'motion')
+    assert departures and departures[-1] <= gone + NOD + SAMPLE
+
+
+def test_the_nodding_one_reports_no_motion_of_who_has_stopped():
+    w = angen.World(str(BUILDING))
+    for _ in range(6):
+        w.command('person', 'person', 'Go')
+        w.run(1.7)
+        w.command('person', 'person', 'Stop')
+        w.run(1)  # until he stands
+        pir_events(w)
+        w.run(2 * NOD)
+        assert [event for event in pir_events(w) if event[2] == 'motion'] == []
