@@ -18,6 +18,8 @@ import angen
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt  # noqa: E402
 
+from pir_plots import pir_polar, pir_signal, pir_zones  # noqa: E402
+
 IMAGES = Path(__file__).resolve().parent / 'images'
 PLUGINS = '''<plugin name="doors" filename="libdoor_world_plugin.so"/>
 <plugin name="robots" filename="librobot_controller.so">
@@ -457,7 +459,7 @@ def plant() -> plt.Figure:
 PLOTS: dict[str, Callable[[], plt.Figure]] = {
     draw.__name__: draw for draw in (proximity, pressure_mat, reed, rfid, smart_plug, temperature,
                                      battery, stove, appliance, microphone, radio, cup, cup_cools,
-                                     load_cells, plant)}
+                                     load_cells, plant, pir_polar, pir_signal, pir_zones)}
 
 
 def main(names: list[str]) -> None:

@@ -95,3 +95,32 @@ def test_a_door_between_hides_the_person(world):
     w = world(PIR + wall + walker(['0 5 -3', '2 5 -3', '8 5 3']))
     w.run(10)
     assert motions(w) == []
+
+
+def on_times(world: angen.World, seconds: float) -> list[tuple[float, float]]:
+    """When the PIR goes on and off."""
+    world.run(seconds)
+    changes = [time for time, source, *_ in world.events() if source == 'eye']
+    return list(zip(changes[::2], changes[1::2]))
+
+
+def test_the_pir_of_the_casas_flats_is_off_a_second_and_a_quarter_after_the_last_motion(world):
+    w = world(model('pir_casas', 'eye', '0 0 2.5 0 1.5708 0')
+              + walker(['0 3 0', '2 3 0', '8 -3 0']))
+    times = on_times(w, 20)
+    assert times and all(off - on >= 1.25 for on, off in times)
+    # its circle of 0.9 m on the floor: he is below it, at 1 m/s, about 5 s after the start
+    assert 3.5 < times[0][0] < 5.0 and times[-1][1] < 9.0
+    assert not w.sensor('pir', 'eye')['motion']
+
+
+def test_an_hc_sr501_warms_up_is_locked_out_and_sees_seven_meters(world):
+    def seen(away: float) -> list[tuple[float, float]]:
+        way = walker([f'0 {away} -3', f'70 {away} -3', f'76 {away} 3', f'82 {away} -3'])
+        return on_times(world(model('pir_hc_sr501', 'eye', '0 0 2.2 0 0 0') + way), 90)
+
+    times = seen(5)
+    assert times and times[0][0] > 60
+    assert all(off - on >= 0.5 for on, off in times)
+    assert all(later[0] - earlier[1] >= 2.5 for earlier, later in zip(times, times[1:]))
+    assert seen(6.5) and not seen(8.5)

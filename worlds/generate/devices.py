@@ -3,11 +3,12 @@ from __future__ import annotations
 
 from math import pi, radians
 from pathlib import Path
+from typing import Sequence
 
 from lxml import etree
 
 from . import urdf
-from .sdf import (Part, add, add_joint, add_link, add_plugin, add_pose, new_model,
+from .sdf import (Part, add, add_joint, add_link, add_plugin, add_pose, new_model, numbers,
                   spanned, write_model)
 
 LIGHT_DROP = 0.35       # the light hangs this far under the ceiling
@@ -96,15 +97,37 @@ def write_pir(models: Path, name: str, nods: bool) -> None:
 
 
 def write_pyroelectric(models: Path) -> None:
-    """Writes models/pir_pyroelectric: for a wall at 2.2 m; warm already when the world starts."""
-    root, sensor = _new_pir("pir_pyroelectric")
-    # what rviz draws: the zones of the wide lens are in the plug-in
-    add_ray(sensor, (13, radians(51)), (1, 0.0), (0.05, 20.0), 0.0)
-    add_plugin(sensor, "pir_controller", "libpir_controller.so", model="pyroelectric", lens="area",
-               warm_up=0)
-    write_model(root, models, "Pyroelectric PIR",
-                "Motion detector by heat behind a wide-angle Fresnel lens, 12 m, 102 degrees, for "
-                "a wall at 2.2 m. Served by libpir_controller.so.")
+    """Writes models/pir_pyroelectric, for a wall at 2.2 m, and two PIRs as they are sold."""
+    _write_heat_pir(
+        models, "pir_pyroelectric", "Pyroelectric PIR", 52.5,
+        "Motion detector by heat behind a wide-angle Fresnel lens, 12 m, 105 degrees, for a wall "
+        "at 2.2 m; warm already when the world starts.", lens="area", warm_up=0)
+    # The readme of the CASAS data sets (UCI): off 1.25 s after motion ends; a circle of 3 ft.
+    _write_heat_pir(
+        models, "pir_casas", "PIR of the CASAS flats", 11,
+        "Motion detector of the CASAS flats, which sees a circle of 3 ft from the ceiling: turn it "
+        "by 1.5708 about y. Still 1.25 s after the last motion.",
+        rows=[(2, -0.19, 0.19, -0.18, -0.08), (2, -0.1425, 0.2375, -0.05, 0.05),
+              (2, -0.19, 0.19, 0.08, 0.18)], hold_time=1.25, lockout_time=0, warm_up=0)
+    # Its data sheet: 0.5 to 200 s by a knob, then 2.5 s locked out, retriggers, 60 s to warm up.
+    _write_heat_pir(
+        models, "pir_hc_sr501", "HC-SR501", 52.5,
+        "Motion detector HC-SR501, 7 m, for a wall at 2.2 m: on for 0.5 s, the least of its knob, "
+        "then locked out for 2.5 s; deaf for 60 s after the start.", lens="area", hold_time=0.5,
+        lockout_time=2.5, warm_up=60, signal_threshold=0.002)
+
+
+def _write_heat_pir(models: Path, name: str, title: str, half_angle: float, description: str,
+                    rows: Sequence[tuple[float, ...]] = (), **values: object) -> None:
+    """Writes a pyroelectric PIR with zone rows of its own, if any; half_angle in degrees."""
+    root, sensor = _new_pir(name)
+    # what rviz draws: the zones are in the plug-in
+    add_ray(sensor, (13, radians(half_angle)), (1, 0.0), (0.05, 20.0), 0.0)
+    plugin = add_plugin(sensor, "pir_controller", "libpir_controller.so", model="pyroelectric",
+                        **values)
+    for row in rows:
+        add(plugin, "zone_row", numbers(*row))
+    write_model(root, models, title, description + " Served by libpir_controller.so.")
 
 
 def write_switch(models: Path) -> None:

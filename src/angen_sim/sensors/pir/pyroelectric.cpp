@@ -61,7 +61,7 @@ void Pyroelectric::configure(Params& params, Wiring&) {
   FresnelLens lens = read_camera(params);
   const double range = params.number("ray/range/max", 20.0, "m", "farther is not seen", kPositive);
   const double facet =
-      params.number("facet_area", 2.5e-5, "m^2", "of the lens, for one zone pair", kPositive);
+      params.number("facet_area", 3e-5, "m^2", "of the lens, for one zone pair", kPositive);
   const double passes = params.number("transmission", 0.4, "",
                                       "of lens and window, of all heat radiation", {1e-6, 1.0});
   heat_ = Heat(std::move(lens), range, facet * passes);
