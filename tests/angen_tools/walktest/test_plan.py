@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from angen_tools.walktest.plan import Area, boundary, cells, crossings, walk
+from angen_tools.walktest.plan import Area, approaches, boundary, cells, crossings, walk
 
 
 def test_cells_fill_the_area_and_no_more():
@@ -41,3 +41,13 @@ def test_boundary_walks_end_inside():
         assert math.hypot(*probe.place) == pytest.approx(8.0)
         assert math.hypot(*probe.end) < 8.0 < math.hypot(*probe.start)
         assert math.dist(probe.start, probe.end) == pytest.approx(3.0)
+
+
+def test_approaches_come_straight_from_every_direction_of_the_area():
+    probes = approaches(Area(4.0, 90.0), 37, 0.8)
+    off = [math.degrees(math.atan2(*reversed(probe.start))) for probe in probes]
+    assert off == pytest.approx([2.5 * k - 45 for k in range(37)])
+    for probe in probes:
+        assert math.hypot(*probe.start) == pytest.approx(4.0)
+        assert math.hypot(*probe.end) == pytest.approx(0.8)
+        assert math.atan2(*probe.end) == pytest.approx(math.atan2(*probe.start))

@@ -106,6 +106,17 @@ def boundary(area: Area, spacing: float, length: float) -> list[Probe]:
     return probes
 
 
+def approaches(area: Area, count: int, end: float) -> list[Probe]:
+    """Walks straight towards the detector down to `end` m, from `count` directions of the area."""
+    probes = []
+    for k in range(count):
+        angle = math.radians(area.angle * (k / (count - 1) - 0.5))
+        x, y = math.cos(angle), math.sin(angle)
+        start = area.reach * x, area.reach * y
+        probes.append(Probe(start, start, (end * x, end * y), 'approach'))
+    return probes
+
+
 def arms(area: Area, size: float) -> list[Probe]:
     """An arm in the middle of every cell."""
     return [Probe(place, place, place, 'arm') for place in cells(area, size)]
@@ -117,6 +128,8 @@ def probes_of(test: Mapping[str, Any], area: Area) -> Iterator[list[Probe]]:
         yield arms(area, test['cell'])
     elif 'boundary' in test:
         yield boundary(area, test['boundary'], test['length'])
+    elif 'approaches' in test:
+        yield approaches(area, test['approaches'], test['end'])
     else:
         for direction in test['directions']:
             yield crossings(area, test['cell'], direction)
