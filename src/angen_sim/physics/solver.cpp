@@ -41,7 +41,7 @@ std::string too_fast(double speed, const Limit& limit) {
 }
 
 // "" where the body is within the limits.
-std::string wild_problem(const Body& body) {
+std::string instability(const Body& body) {
   const State s = state_of(body);
   if (!s.velocity.allFinite() || !s.spin.allFinite() || !s.rotation.coeffs().allFinite()) {
     return "its motion has no finite solution";
@@ -52,11 +52,11 @@ std::string wild_problem(const Body& body) {
   return problem.empty() ? "" : "its position: " + problem;
 }
 
-void list_wild(const std::vector<Body*>& bodies, std::vector<Wild>& wild) {
-  wild.clear();
+void list_unstable(const std::vector<Body*>& bodies, std::vector<Unstable>& unstable) {
+  unstable.clear();
   for (Body* body : bodies) {
-    std::string why = wild_problem(*body);
-    if (!why.empty()) wild.push_back({body, std::move(why)});
+    std::string why = instability(*body);
+    if (!why.empty()) unstable.push_back({body, std::move(why)});
   }
 }
 
@@ -101,7 +101,7 @@ bool solve_step(dWorldID world, const std::vector<Body*>& awake, double h, std::
     first = false;
     found.never = found.broken = true;
   }
-  list_wild(awake, found.wild);
+  list_unstable(awake, found.unstable);
   if (found.never) back(false);
   return first;
 }

@@ -10,14 +10,14 @@
 namespace angen::physics {
 
 /// A body that a step would take beyond the limits (core/limits.h), and how.
-struct Wild {
+struct Unstable {
   Body* body = nullptr;
   std::string why;
 };
 
 /// What a step could not do.
 struct Trouble {
-  std::vector<Wild> wild;
+  std::vector<Unstable> unstable;
   bool never = false;   // no solver found a motion: all bodies are as before the step
   bool broken = false;  // ODE failed within the step: its world cannot be stepped again
 };

@@ -91,13 +91,13 @@ void World::Impl::integrate(std::int64_t tick) {
   if (!solve_step(world.get(), awake, h, seed, tick, dWorldStep, &trouble)) ++failed;
   contacts.finish();
   if (trouble.broken) renew();
-  if (trouble.never && trouble.wild.empty()) {
-    for (Body* body : awake) trouble.wild.push_back({body, "its motion has no solution"});
+  if (trouble.never && trouble.unstable.empty()) {
+    for (Body* body : awake) trouble.unstable.push_back({body, "its motion has no solution"});
   }
-  for (const Wild& wild : trouble.wild) {
-    if (!wild.body->awake) continue;  // its mechanism has been stopped
-    stop(*wild.body->mechanism, awake);
-    stopped.push_back({wild.body->links.front(), wild.why});
+  for (const Unstable& unstable : trouble.unstable) {
+    if (!unstable.body->awake) continue;  // its mechanism has been stopped
+    stop(*unstable.body->mechanism, awake);
+    stopped.push_back({unstable.body->links.front(), unstable.why});
   }
 }
 

@@ -13,11 +13,11 @@ from typing import Any, Protocol, Sequence
 from angen_tools.common import files
 from angen_tools.common.catalog import Plugin, angen_module, kinds
 from angen_tools.common.failure import Failure
-from angen_tools.common.geometry import quaternion
 from angen_tools.common.output import as_json
 from angen_tools.common.progress import Progress
 from angen_tools.live.client import Client
 from angen_tools.live.sandbox import Sandbox, wait
+from angen_tools.live.spawn import call_spawn
 from angen_tools.world import sdf, sensor
 from angen_tools.world.apartment import write_apartment
 
@@ -141,8 +141,8 @@ class Node:
         self._client.join()
         self._subscribers: dict[str, Any] = {}
         self._met: set[str] = set()  # kinds whose topics are subscribed to
-        self._spawn(ANCHOR, 'anchor', '', FAR)
-        self._spawn(f'model://{ROBOT}', ROBOT, '', (0.5, 0.5, 0.01, 0.0, 0.0, 0.0))
+        call_spawn(self._client, 'anchor', ANCHOR, '', FAR)
+        call_spawn(self._client, ROBOT, f'model://{ROBOT}', '', (0.5, 0.5, 0.01, 0.0, 0.0, 0.0))
         self._drive = self._client.publisher('/cmd_vel', Twist)
         self._commands = self._client.publisher('/angen/command', Command)
         self._subscribe()
@@ -152,15 +152,8 @@ class Node:
         for topic in self._sandbox.topics('/.*') - self._subscribers.keys():
             self._subscribers[topic] = rospy.Subscriber(topic, rospy.AnyMsg, lambda _: None)
 
-    def _spawn(self, what: str, name: str, on: str, pose: Sequence[float]) -> None:
-        from geometry_msgs.msg import Point, Pose, Quaternion
-
-        from angen_msgs.srv import Spawn
-        place = Pose(Point(*pose[:3]), Quaternion(*quaternion(*pose[3:])))
-        self._client.call('/angen/spawn', Spawn, name=name, xml=what, on=on, pose=place)
-
     def spawn(self, thing: Thing, name: str) -> None:
-        self._spawn(thing.what, name, thing.on, ON_ANCHOR if thing.on else FAR)
+        call_spawn(self._client, name, thing.what, thing.on, ON_ANCHOR if thing.on else FAR)
         if thing.kind not in self._met:  # its topics have the same names the next time
             self._met.add(thing.kind)
             self._subscribe()

@@ -41,7 +41,7 @@ def spawn_model(source: str, name: str, pose: Sequence[float]) -> str:
     """Adds a model at `pose` (x y z roll pitch yaw in the world); returns what was done."""
     source = model_source(source)
     try:
-        _call_spawn(Client(), name, source, '', pose)
+        call_spawn(Client(), name, source, '', pose)
     except Failure as error:
         if not source.startswith('model://') or models.find(source):
             raise
@@ -59,7 +59,7 @@ def spawn_sensor(kind: str, name: str, pose: Sequence[float], on: str,
     client = Client()
     if on and sensor.senses_contacts(kind_of(kind)) and element.find(sensor.COLLISION) is None:
         _watch_all(client, element, on)
-    _call_spawn(client, name, sdf.text(element), on, pose)
+    call_spawn(client, name, sdf.text(element), on, pose)
     topic = next((entity.topic for entity in client.entities(kind) if entity.name == name), '')
     return f'spawned the {kind} {name}{" on " + on if on else ""}, see {topic}'
 
@@ -86,7 +86,7 @@ def seat_sitter(name: str, chair: str) -> str:
         there = place.position
         if other != chair and math.dist((x, y, z), (there.x, there.y, there.z)) < SITTER_WIDTH:
             raise Failure(f"on '{chair}' is '{other}'")
-    _call_spawn(client, name, 'model://sitter', '', (x, y, z, 0.0, 0.0, heading))
+    call_spawn(client, name, 'model://sitter', '', (x, y, z, 0.0, 0.0, heading))
     return f'seated {name}, 75 kg, on {chair}'
 
 
@@ -135,7 +135,8 @@ def save(path: Path) -> str:
     return f'saved {models} models to {path}'
 
 
-def _call_spawn(client: Client, name: str, xml: str, on: str, pose: Sequence[float]) -> None:
+def call_spawn(client: Client, name: str, xml: str, on: str, pose: Sequence[float]) -> None:
+    """Calls /angen/spawn; pose is x y z roll pitch yaw (m, rad). Raises Failure if it refuses."""
     from geometry_msgs.msg import Point, Pose, Quaternion
 
     from angen_msgs.srv import Spawn
