@@ -150,7 +150,9 @@ int arms_detected(double away) {
 }
 
 TEST(FresnelLens, AnArmIsDetectedNearItFromNearlyAllDirectionsFartherAwayFromFewer) {
+  EXPECT_EQ(arms_detected(0.7), 37);
   EXPECT_EQ(arms_detected(1.0), 37);
+  EXPECT_GE(arms_detected(1.5), 36);
   EXPECT_GE(arms_detected(2.0), 35);
   EXPECT_GE(arms_detected(3.0), 35);
   EXPECT_GE(arms_detected(5.0), 19);
