@@ -140,10 +140,15 @@ bool may_touch(const Geom& a, const Geom& b) {
 }
 
 Contacts::Contacts(const desc::Physics& settings, const Vec3& gravity)
-    : step_(to_seconds(settings.step)),
-      gravity_(gravity),
-      erp_(settings.erp),
-      cfm_(std::max(settings.cfm, kSoftest)) {}
+    : step_(to_seconds(settings.step)) {
+  set(settings, gravity);
+}
+
+void Contacts::set(const desc::Physics& settings, const Vec3& gravity) {
+  gravity_ = gravity;
+  erp_ = settings.erp;
+  cfm_ = std::max(settings.cfm, kSoftest);
+}
 
 void Contacts::use(dWorldID world) {
   world_ = world;

@@ -25,6 +25,8 @@ class Contacts {
 
   Contacts(const desc::Physics& settings, const Vec3& gravity);
 
+  void set(const desc::Physics& settings, const Vec3& gravity);
+
   /// Forgets the pairs of the last step.
   void start();
 

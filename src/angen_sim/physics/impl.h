@@ -31,6 +31,13 @@ struct World::Impl {
   void give_to_ode(Body& body);
   /// A world of ODE's with nothing in it, and the settings.
   void make_ode_world();
+  void give_settings();
+  /// Gives ODE a mechanism anew, at rest, its bodies where they stand.
+  void reinsert(Mechanism& mechanism);
+  /// Before and after a model's bodies are put elsewhere.
+  void leave(ModelRecord& model);
+  void arrive(ModelRecord& model);
+  void note_placed(const ModelRecord& model);
   Joint& joint_at(JointId id) { return *joints.at(id); }
 
   double h;  // s

@@ -224,10 +224,13 @@ void reset_joint(Joint& joint) {
   joint.turns = 0;
   joint.position = 0.0;
   if (joint.first == nullptr || joint.type == Type::kBall) return;
+  count_turns(joint, joint.type == Type::kRevolute ? joint.axes[0].initial : 0.0);
+}
+
+void count_turns(Joint& joint, double position) {
   if (turns(joint)) {
     joint.raw_angle = read_angle(joint);
-    const double initial = joint.type == Type::kRevolute ? joint.axes[0].initial : 0.0;
-    joint.turns = static_cast<int>(std::lround((initial - joint.raw_angle) / (2.0 * M_PI)));
+    joint.turns = static_cast<int>(std::lround((position - joint.raw_angle) / (2.0 * M_PI)));
     joint.position = joint.raw_angle + 2.0 * M_PI * joint.turns;
   } else {
     joint.position = dJointGetSliderPosition(joint.main.get());
@@ -235,6 +238,19 @@ void reset_joint(Joint& joint) {
   if (!joint.latched) return;
   joint.latch_at = ode_position(joint);
   apply_latch(joint);
+}
+
+Pose joint_step(const Joint& joint, double by) {
+  const Vec3 axis = world_axis(joint);
+  Pose moved;
+  if (joint.type == Type::kPrismatic) {
+    moved.position = by * axis;
+    return moved;
+  }
+  const Vec3 anchor = joint.first->at * joint.anchor_in_first;
+  moved.rotation = Eigen::AngleAxisd(by, axis);
+  moved.position = anchor - moved.rotation * anchor;
+  return moved;
 }
 
 Bounds velocity_bounds(const Joint& joint) {

@@ -51,6 +51,13 @@ double joint_velocity(const Joint& joint);
 /// bodies.
 void push_joint(Joint& joint, double force);
 
+/// What `by` more along or about the axis (rad or m) displaces the first body by, in the world.
+Pose joint_step(const Joint& joint, double by);
+
+/// After its bodies were put somewhere: the position is the one near `position`, whole turns
+/// counted.
+void count_turns(Joint& joint, double position);
+
 /// The displacement that `position` of the first axis gives the child, in the model's frame at 0.
 Pose joint_displacement(const Joint& joint);
 

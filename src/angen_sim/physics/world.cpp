@@ -48,17 +48,21 @@ void World::Impl::make_ode_world() {
   ode::prepare_thread();
   threading.reset(dThreadingAllocateSelfThreadedImplementation());
   world.reset(dWorldCreate());
+  dWorldSetStepThreadingImplementation(
+      world.get(), dThreadingImplementationGetFunctions(threading.get()), threading.get());
+  dWorldSetAutoDisableFlag(world.get(), 0);
+  give_settings();
+  contacts.use(world.get());
+}
+
+void World::Impl::give_settings() {
   dWorldID w = world.get();
-  dWorldSetStepThreadingImplementation(w, dThreadingImplementationGetFunctions(threading.get()),
-                                       threading.get());
   dWorldSetGravity(w, gravity.x(), gravity.y(), gravity.z());
   dWorldSetERP(w, kJointErp);
   dWorldSetCFM(w, std::max(settings.cfm, kSoftestJoint));
   dWorldSetQuickStepNumIterations(w, settings.iterations);
   dWorldSetContactMaxCorrectingVel(w, settings.contact_max_correcting_vel);
   dWorldSetContactSurfaceLayer(w, settings.contact_surface_layer);
-  dWorldSetAutoDisableFlag(w, 0);
-  contacts.use(w);
 }
 
 void World::Impl::wake(Body& body) {
@@ -263,13 +267,9 @@ void World::place(ModelId id, const Pose& pose) {
   if (const std::string problem = pose_problem(pose); !problem.empty()) {
     throw Error("model \"" + model.name + "\" cannot be put there: " + problem);
   }
-  w.contacts.drop(model, [&](Body& body) { w.wake(body); });
-  w.list_is_old = true;
+  w.leave(model);
   w.settle(model, pose);
-  w.placed.insert(w.placed.end(), model.link_ids.begin(), model.link_ids.end());
-  w.moved.insert(w.moved.end(), model.link_ids.begin(), model.link_ids.end());
-  std::sort(w.moved.begin(), w.moved.end());
-  w.moved.erase(std::unique(w.moved.begin(), w.moved.end()), w.moved.end());
+  w.note_placed(model);
 }
 
 void World::step(std::int64_t tick) { impl_->take_step(tick); }

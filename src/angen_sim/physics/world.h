@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -89,6 +90,24 @@ class World {
   /// Puts a whole model as it was described, joints at their initial positions and velocities zero,
   /// so that its frame is at `pose`. Motors stay as they are. Throws Error for a pose not finite.
   void place(ModelId model, const Pose& pose);
+
+  /// Moves a whole model by a displacement in the world, static ones too, its joints as they stand;
+  /// it is at rest then. Throws Error for a place beyond the limits.
+  void move(ModelId model, const Pose& by);
+  /// The same of a link and what is joined to it. Throws Error where a joint holds it to something
+  /// static.
+  void move(LinkId link, const Pose& by);
+  /// Of a link's origin, and of what is fixed to it; wakes it.
+  void set_velocity(LinkId link, const Vec3& linear, const Vec3& angular);
+  /// Puts joints where they have a position, within their limits (rad or m, as ids from joints());
+  /// what hangs on them goes along and then moves as what it hangs on. Throws Error for a joint
+  /// without exactly one axis, or in a loop.
+  void arrange(ModelId model, const std::vector<std::optional<double>>& positions);
+  /// Inertials, gravity of links and axes of joints are as described from now on; all else must be
+  /// as the model was. Throws Error as add() does.
+  void redescribe(ModelId model, const desc::Model& described);
+  /// Gravity and the solver's settings from now on; the step stays. Wakes everything.
+  void set(const desc::Physics& settings, const Vec3& gravity);
 
   /// Collides and integrates one step of settings.step. `tick` keys what randomness the solver
   /// needs.
