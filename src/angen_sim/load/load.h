@@ -66,6 +66,13 @@ bool is_sensor(const std::string& what);
 /// A <sensor> element, to be attached to a link; `name` replaces its own unless empty.
 desc::Sensor sensor(const std::string& what, const std::string& name, const Pose& pose);
 
+/// True when `what` is a lone <light> element (or an <sdf> around one) for light().
+bool is_light(const std::string& what);
+
+/// A <light> element as a light of the world's own, with `pose` before its own; `name` replaces its
+/// own unless empty.
+desc::Light light(const std::string& what, const std::string& name, const Pose& pose);
+
 /// A sensor that was attached to a link at run time.
 struct AttachedSensor {
   std::string link;

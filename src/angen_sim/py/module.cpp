@@ -8,6 +8,7 @@
 #include "core/allow_paths.h"
 #include "core/names.h"
 #include "plugin/json.h"
+#include "py/edits.h"
 #include "py/subclass.h"
 #include "py/world.h"
 
@@ -97,7 +98,9 @@ void advance(World& world, std::uint64_t ticks, void (World::*advance)(std::uint
 }
 
 void bind_world(pyb::module_& module) {
-  pyb::class_<World>(module, "World", "A world that advances by step() and run().")
+  pyb::class_<World> world(module, "World", "A world that advances by step() and run().");
+  bind_edits(world);
+  world
       .def(pyb::init([](const std::string& path, std::uint64_t seed, const std::string& record,
                         bool anywhere, std::optional<double> memory_limit) {
              if (memory_limit) load::set_memory_limit(*memory_limit);

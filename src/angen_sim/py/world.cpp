@@ -179,6 +179,12 @@ void World::request(const std::string& kind, const std::string& name, bool wante
 
 void World::remove(const std::string& name) { drain(sim::Delete{name}); }
 
+void World::edit(sim::Edit edit) { drain(std::move(edit)); }
+
+sim::Motion World::motion(const std::string& entity) const {
+  return simulation_.observe({{entity}, {}}).entities.front();
+}
+
 void World::reset() {
   drain(sim::Reset{});
   fingerprint_ = {};

@@ -41,6 +41,9 @@ class World {
   void spawn(const std::string& what, const std::string& name, const std::vector<double>& pose,
              const std::string& on);
   void remove(const std::string& name);
+  void edit(sim::Edit edit);
+  /// Of a model, link or collision, now.
+  sim::Motion motion(const std::string& entity) const;
   void request(const std::string& kind, const std::string& name, bool wanted);
   void reset();
 

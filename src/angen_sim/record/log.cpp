@@ -8,27 +8,13 @@
 
 #include "load/load.h"
 #include "load/xml.h"
+#include "record/edit_line.h"
 
 namespace angen::record {
 
 namespace {
 
 constexpr const char* kMark = "{\"angen_log\"";
-
-std::vector<double> numbers_of(const Pose& pose) {
-  const Vec3& p = pose.position;
-  const auto& q = pose.rotation.coeffs();
-  return {p.x(), p.y(), p.z(), q[0], q[1], q[2], q[3]};
-}
-
-Pose pose_in(const LineReader& line) {
-  const std::vector<double> v = line.numbers("pose");
-  if (v.size() != 7) line.fail("'pose' has not seven numbers");
-  Pose pose;
-  pose.position = {v[0], v[1], v[2]};
-  pose.rotation = Quat(v[6], v[3], v[4], v[5]);
-  return pose;
-}
 
 // Pairs of address and hash.
 void write_files(const std::vector<LogFile>& files, LineWriter& line) {
@@ -101,7 +87,12 @@ struct ActionWriter {
     line.text("event", a.event).text("detail", a.detail);
     return true;
   }
+  bool operator()(const sim::Edit& a) const {
+    write_edit(a, line);
+    return true;
+  }
   bool operator()(const sim::Save&) const { return false; }
+  bool operator()(const sim::Observe&) const { return false; }
 };
 
 sim::ToDevice command_in(const LineReader& line) {
@@ -134,6 +125,7 @@ decltype(LogEntry::what) what_in(const LineReader& line) {
   }
   if (what == "request") return Demand{line.text("kind"), line.text("name"), line.flag("wanted")};
   if (what == "fingerprint") return Check{line.text("hash")};
+  if (std::optional<sim::Edit> edit = edit_in(what, line)) return action(std::move(*edit));
   line.fail("'" + what + "' is not something that a log does");
 }
 

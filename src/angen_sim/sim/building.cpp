@@ -25,7 +25,12 @@ std::string key_of(const Instance& instance) {
 }  // namespace
 
 Building::Building(const desc::World& world, std::uint64_t seed, std::shared_ptr<Catalog> catalog)
-    : world_(world), seed_(seed), catalog_(std::move(catalog)) {
+    : world_(world),
+      physics_(world.physics),
+      gravity_(world.gravity),
+      seed_(seed),
+      catalog_(std::move(catalog)) {
+  for (const desc::Light& light : world.lights) lights_.push_back({light, {}});
   make_engines();
   for (const desc::Plugin& plugin : world_.plugins) {
     try {
@@ -39,11 +44,11 @@ Building::Building(const desc::World& world, std::uint64_t seed, std::shared_ptr
 
 void Building::make_engines() {
   engines_ = std::make_unique<Engines>(world_, seed_);
+  engines_->physics.set(physics_, gravity_);
   owners_.clear();
-  lights_.clear();
-  for (const desc::Light& light : world_.lights) {
-    lights_.push_back({light, engines_->add_light(light, light.pose)});
-  }
+  placed_.clear();
+  pushes_.clear();
+  for (WorldLight& own : lights_) own.lamp = engines_->add_light(own.light, own.light.pose);
 }
 
 void Building::note_change() {
@@ -201,11 +206,10 @@ void Building::build(desc::Model model, const std::vector<SensorInstance>* attac
                      Nanoseconds now) {
   auto live = std::make_unique<LiveModel>();
   live->desc = std::make_shared<const desc::Model>(std::move(model));
-  make_instances(*live, world_.plugins, world_.gravity, *catalog_, warnings_);
+  make_instances(*live, world_.plugins, gravity_, *catalog_, warnings_);
   for (std::size_t i = 0; attached != nullptr && i < attached->size(); ++i) {
     const SensorInstance& old = (*attached)[i];
-    live->sensors.push_back(
-        make_sensor(*live, old.link, old.desc, old.name, world_.gravity, *catalog_));
+    live->sensors.push_back(make_sensor(*live, old.link, old.desc, old.name, gravity_, *catalog_));
     live->sensors.back().attached = true;
   }
   check_names(*live);
@@ -243,9 +247,9 @@ void Building::attach(const desc::Sensor& sensor, const std::string& link, Nanos
                 printable(link.substr(split + 2)) + "'; known are " + join_names(names));
   }
   if (sensor.plugin.empty()) throw Error(sensor.source, "the sensor has no <plugin>");
-  SensorInstance instance = make_sensor(*live, static_cast<std::uint32_t>(at - names.begin()),
-                                        std::make_shared<const desc::Sensor>(sensor), sensor.name,
-                                        world_.gravity, *catalog_);
+  SensorInstance instance =
+      make_sensor(*live, static_cast<std::uint32_t>(at - names.begin()),
+                  std::make_shared<const desc::Sensor>(sensor), sensor.name, gravity_, *catalog_);
   check_sensor_name(instance);
   instance.attached = true;
   start(instance, now);
@@ -259,6 +263,8 @@ void Building::erase(const std::string& name) {
                                   [&](const auto& live) { return live->desc->name == name; });
   if (model != models_.end()) {
     engines_->remove((*model)->parts);
+    pushes_.forget(**model);
+    placed_.erase(std::remove(placed_.begin(), placed_.end(), model->get()), placed_.end());
     remove_names(**model);
     models_.erase(model);
     note_change();
@@ -322,6 +328,8 @@ std::vector<std::shared_ptr<const Plugin>> Building::device_plugins() {
 std::shared_ptr<const Structure> Building::structure() {
   auto all = std::make_shared<Structure>();
   all->revision = revision_;
+  all->physics = physics_;
+  all->gravity = gravity_;
   all->device_plugins = device_plugins();
   for (const WorldLight& world_light : lights_) {
     LightEntry entry;
@@ -355,14 +363,6 @@ std::shared_ptr<const Structure> Building::structure() {
     }
   }
   return all;
-}
-
-std::vector<double> Building::light_levels() const {
-  std::vector<double> levels(lights_.size(), 1.0);
-  for (const auto& live : models_) {
-    for (const Parts::Lamp& lamp : live->parts.lamps) levels.push_back(lamp.level);
-  }
-  return levels;
 }
 
 std::vector<std::string> Building::take_warnings() { return std::exchange(warnings_, {}); }

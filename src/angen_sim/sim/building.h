@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/instance.h"
+#include "sim/pushes.h"
 #include "sim/saved.h"
 
 namespace angen::sim {
@@ -70,6 +71,30 @@ class Building {
   /// The names of a kind's devices; of all devices as KIND/NAME where it is empty.
   std::vector<std::string> device_names(const std::string& kind) const;
 
+  /// Null where there is none.
+  LiveModel* find(const std::string& model) const;
+  std::vector<std::string> model_names() const;
+
+  Pushes& pushes() { return pushes_; }
+
+  /// The model was put elsewhere between ticks.
+  void note_placed(LiveModel& live);
+  /// Those models, in the order in which they came into the world, taken out.
+  std::vector<LiveModel*> take_placed();
+
+  /// Inertials, gravity of links and axes of joints from now on. Throws Error and changes nothing.
+  void redescribe(LiveModel& live, desc::Model described);
+
+  /// Devices and sensors are configured with it when they are made, also by reset().
+  void set_physics(const desc::Physics& physics, const Vec3& gravity);
+
+  /// As Structure::lights names it, its pose in the world. These throw Error for names that are
+  /// unknown, or taken.
+  desc::Light light(const std::string& name) const;
+  void set_light(const std::string& name, desc::Light light);
+  void add_light(const desc::Light& light);
+  void erase_light(const std::string& name);
+
   /// Grows with every change of what exists.
   std::uint64_t revision() const { return revision_; }
   /// A new Structure; also numbers every model's parts in it.
@@ -95,14 +120,24 @@ class Building {
   void make_engines();
   void check_names(const LiveModel& live) const;
   void check_sensor_name(const SensorInstance& sensor) const;
-  LiveModel* find(const std::string& model) const;
-  std::vector<std::string> model_names() const;
   std::vector<std::string> names_to_delete() const;
   void note_change();
   void add_names(LiveModel& live);
   void remove_names(const LiveModel& live);
 
+  /// A light of the world's own, or of a model's link.
+  struct FoundLight {
+    std::size_t own = SIZE_MAX;  // in lights_
+    LiveModel* model = nullptr;
+    std::uint32_t link = 0;
+    std::size_t in_link = 0;
+    std::size_t lamp = 0;  // in its parts
+  };
+  FoundLight find_light(const std::string& name) const;
+
   const desc::World& world_;
+  desc::Physics physics_;
+  Vec3 gravity_;
   std::uint64_t seed_;
   std::shared_ptr<Catalog> catalog_;
   std::unique_ptr<Engines> engines_;
@@ -112,6 +147,8 @@ class Building {
   std::unordered_map<std::string, std::vector<LiveModel*>> with_device_;  // by the device's name
   std::unordered_map<std::string, LiveModel*> sensors_;                   // as well
   std::vector<WorldLight> lights_;
+  Pushes pushes_;
+  std::vector<LiveModel*> placed_;
   std::vector<Owner> owners_;  // by index of physics::LinkId
   std::vector<std::string> warnings_;
   std::uint64_t revision_ = 0;

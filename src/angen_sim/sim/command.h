@@ -10,6 +10,8 @@
 #include "core/time.h"
 #include "desc/world.h"
 #include "plugin/plugin.h"
+#include "sim/edit.h"
+#include "sim/entities.h"
 #include "sim/saved.h"
 #include "sim/ticket.h"
 
@@ -77,8 +79,19 @@ struct Save {
   std::shared_ptr<SavedState> into;
 };
 
-using Action =
-    std::variant<ToDevice, Spawn, Attach, Delete, Pause, Step, StopStep, Reset, Reject, Note, Save>;
+/// Fills in what entities and joints do between two ticks.
+struct Observe {
+  Observation what;
+  std::shared_ptr<Observed> into;
+};
+
+using Action = std::variant<ToDevice, Spawn, Attach, Delete, Pause, Step, StopStep, Reset, Reject,
+                            Note, Save, Edit, Observe>;
+
+/// True for what only reads, and is in no log.
+inline bool only_reads(const Action& action) {
+  return std::holds_alternative<Save>(action) || std::holds_alternative<Observe>(action);
+}
 
 /// Sees each action before it is carried out, in order, and the time at which it is; in the thread
 /// that ticks.

@@ -192,7 +192,7 @@ void CommandQueue::take_over(std::string reason) {
 std::vector<Request> CommandQueue::only_replayed(std::vector<Request> requests) {
   std::vector<Request> kept;
   for (Request& request : requests) {
-    if (std::holds_alternative<Save>(request.action)) {
+    if (only_reads(request.action)) {
       kept.push_back(std::move(request));
     } else {
       if (!request.ticket && !std::holds_alternative<Note>(request.action)) ++turned_away_;
@@ -297,6 +297,12 @@ Outcome CommandQueue::execute(const Action& action, Building& building, Instance
       events.push_back(world_event(clock.time, "world", "reset"));
     } else if (const auto* save = std::get_if<Save>(&action)) {
       effects.saves.push_back(save->into);
+    } else if (const auto* edit = std::get_if<Edit>(&action)) {
+      effects.commanded = true;  // devices may see it
+      apply(*edit, building, clock.time);
+    } else if (const auto* observation = std::get_if<Observe>(&action)) {
+      *observation->into = sim::observe(building, observation->what);
+      observation->into->time = clock.time;
     } else if (const auto* reject = std::get_if<Reject>(&action)) {
       outcome = {false, reject->reason};
       events.push_back({clock.time, reject->source, reject->kind, "rejected", reject->reason});

@@ -36,6 +36,20 @@ struct Simulation::Impl {
       next.counts.readings = 0;
     }
     restructure();
+    follow_placed();
+  }
+
+  // Sensors sample it in the next tick; snapshots show it also while time stands still.
+  void follow_placed() {
+    for (LiveModel* live : building.take_placed()) {
+      building.engines().note_change();
+      for (std::uint32_t i = 0; i < live->parts.links.size(); ++i) {
+        building.engines().follow(live->parts, i);
+        write_link(*live, i);
+        if (!commands.running()) next.moved_links.push_back(live->first_link + i);
+      }
+      write_joints(*live);
+    }
   }
 
   SavedState saved() { return {latest, building.saved_plugins(next.time, next.step)}; }
@@ -45,6 +59,8 @@ struct Simulation::Impl {
     if (tick <= next.tick || !next.events.empty()) return;
     if (building.engines().physics.awake_count() > 0) return;
     tick = std::min(tick, devices.next_tick(building, clock()));
+    const Nanoseconds push = std::min(building.pushes().next(next.time), kForever - next.step);
+    tick = std::min(tick, (push + next.step - 1) / next.step);
     const std::int64_t most = commands.ticks_to_go() - 1;
     if (most < tick - next.tick) tick = next.tick + most;
     if (tick <= next.tick) return;
@@ -76,7 +92,10 @@ struct Simulation::Impl {
     return made;
   }
 
-  void act() { devices.update(building, clock(), next.events); }
+  void act() {
+    devices.update(building, clock(), next.events);
+    building.pushes().apply(building.engines(), next.time, next.step);
+  }
 
   void move() {
     Engines& engines = building.engines();
@@ -239,6 +258,18 @@ void Simulation::measure(bool on) { impl_->meter.on = on; }
 Cost Simulation::take_cost() { return impl_->take_cost(); }
 
 SavedState Simulation::saved() { return impl_->saved(); }
+
+Motion Simulation::motion(std::uint32_t link) const {
+  const LinkEntry& entry = impl_->next.structure->links.at(link);
+  return motion_of(impl_->building,
+                   Entity{impl_->building.models().at(entry.model).get(), entry.link, {}, false});
+}
+
+Observed Simulation::observe(const Observation& what) const {
+  Observed observed = sim::observe(impl_->building, what);
+  observed.time = impl_->next.time;
+  return observed;
+}
 
 bool Simulation::running() const { return impl_->commands.running(); }
 

@@ -57,6 +57,12 @@ class Simulation {
   /// To be carried out in the next tick, after a take_over().
   void replay(std::vector<Action> actions);
 
+  /// What a link does now, by its number in Structure::links of the latest snapshot. The thread
+  /// that ticks; others post an Observe.
+  Motion motion(std::uint32_t link) const;
+  /// As an Observe; throws Error for names that do not exist. The thread that ticks.
+  Observed observe(const Observation& what) const;
+
   /// Whether ticks are to measure what they cost, from the next one on. No result depends on it.
   /// The thread that ticks.
   void measure(bool on);

@@ -85,6 +85,8 @@ struct Structure {
   std::vector<SensorEntry> sensors;
   std::vector<LightEntry> lights;
   std::vector<std::shared_ptr<const Plugin>> device_plugins;  // of each kind there is or may be
+  desc::Physics physics;                                      // as it is set now
+  Vec3 gravity = Vec3::Zero();                                // m/s^2
 };
 
 struct Counts {

@@ -1,0 +1,54 @@
+#include "core/limits.h"
+#include "core/names.h"
+#include "load/check.h"
+#include "load/expand.h"
+#include "load/light.h"
+#include "load/load.h"
+#include "load/session.h"
+#include "load/values.h"
+#include "load/xml.h"
+
+namespace angen::load {
+
+namespace {
+
+constexpr const char* kLightText = "(text)";
+constexpr int kLightVersion = 106;  // of an element without <sdf> around it
+
+// Null where the text holds something else.
+const Element* light_in(const Element& root) {
+  if (root.name == "light") return &root;
+  const bool lone =
+      root.name == "sdf" && root.children.size() == 1 && root.children[0].name == "light";
+  return lone ? &root.children[0] : nullptr;
+}
+
+}  // namespace
+
+bool is_light(const std::string& what) {
+  if (what.find("<light") == std::string::npos) return false;
+  try {
+    return light_in(parse_xml(what, kLightText)) != nullptr;
+  } catch (const Error&) {
+    return false;  // whoever reads it as a model will say what is wrong
+  }
+}
+
+desc::Light light(const std::string& what, const std::string& name, const Pose& pose) {
+  if (!name.empty()) check_name(name, "the light", {});
+  if (const std::string problem = pose_problem(pose); !problem.empty()) throw Error(problem);
+  const Element root = parse_xml(what, kLightText);
+  const Element* found = light_in(root);
+  if (found == nullptr) throw Error(root.source, "a <light> is wanted here");
+  Element element = *found;
+  const SearchPaths nowhere;
+  Session session{nowhere};
+  straighten_numbers(element, session);
+  upgrade(element, kLightVersion, session);
+  if (!name.empty()) set_attribute(element, "name", name);
+  check_name(name_of(element), "<light>", element.source);
+  check_part(element, session);
+  return light_of(element, pose * child_pose(element));
+}
+
+}  // namespace angen::load
