@@ -38,6 +38,7 @@ sim::Outcome Inbox::give_up(sim::Ticket& ticket, bool is_step) const {
 
 sim::Outcome Inbox::call(sim::Action action, const std::function<bool()>& is_lost) {
   const bool is_step = std::holds_alternative<sim::Step>(action);
+  const bool changes = !sim::only_reads(action);
   const auto ticket = std::make_shared<sim::Ticket>();
   std::future<sim::Outcome> answer = simulation_.post(std::move(action), ticket);
   std::int64_t tick = simulation_.snapshot()->tick;
@@ -56,6 +57,7 @@ sim::Outcome Inbox::call(sim::Action action, const std::function<bool()>& is_los
     if (Clock::now() > limit) return give_up(*ticket, is_step);
   }
   sim::Outcome outcome = answer.get();
+  if (!changes) return outcome;
   std::unique_lock<std::mutex> lock(mutex_);
   waiting_ = true;
   wake_.notify_one();

@@ -25,7 +25,8 @@ class Inbox {
   /// The same for what a program notes in the event log; lockstep does not count it as a command.
   void note(sim::Note note) { queue(std::move(note)); }
 
-  /// Queues an action and waits for what became of it, until the topics say so too. Gives up when
+  /// Queues an action and waits for what became of it; of one that changes something, until the
+  /// topics say so too. Gives up when
   /// simulated time has stood still for its patience of wall time, when `is_lost` says that nobody
   /// waits for the answer any more, or when the node ends. An action that is given up is withdrawn;
   /// one that has begun takes effect all the same, and the outcome says so.

@@ -35,7 +35,7 @@ constexpr char kUsage[] =
     "usage: angen_node [WORLD] [_rate:=1] [_paused:=false] [_seed:=1] [_clock_rate:=100]\n"
     "                  [_fast:=false] [_topics:=sensor|kind] [_record:=FILE]\n"
     "                  [_replay:=FILE [_until:=SECONDS]] [_allow_paths:=false] [_rescue:=FILE]\n"
-    "                  [_memory_limit:=4096]\n"
+    "                  [_memory_limit:=4096] [_states_rate:=30]\n"
     "       angen_node --check WORLD    only loads; exit code 1 when it cannot\n"
     "WORLD may also stand in the parameter ~world. Where the ROS master is started anew, the node\n"
     "saves the world in FILE and ends with exit code 75.\n";
@@ -204,6 +204,7 @@ int run(std::string path, std::unique_ptr<Simulation> simulation) {
     throw angen::Error("~fast goes as fast as it can, with ~rate 0 or none");
   }
   settings.clock_rate = number_param("~clock_rate", 100.0, 0.01);
+  settings.states_rate = number_param("~states_rate", 30.0, 0.01);
   settings.plugins = angen::Catalog().own();
   const std::unique_ptr<angen::record::Replay> replay = make_replay(settings);
   if (replay) path = replay->log().header.world;

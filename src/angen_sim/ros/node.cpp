@@ -52,6 +52,7 @@ Node::Node(sim::Simulation& simulation, const Settings& settings)
       hurry_(settings.hurry),
       paused_after_(settings.paused_after),
       inbox_(simulation),
+      rate_(settings.rate),
       pacer_(settings.rate),
       clock_(handle_, settings.clock_rate),
       stats_(handle_),
@@ -63,7 +64,9 @@ Node::Node(sim::Simulation& simulation, const Settings& settings)
       publishers_(handle_, simulation, settings.topics),
       joints_(handle_),
       commands_(handle_, inbox_, settings.plugins),
-      services_(inbox_, events_, settings.models, settings.topics) {}
+      states_(handle_, inbox_, settings.states_rate),
+      performance_(handle_, simulation),
+      services_(inbox_, events_, settings.models, settings.topics, rate_) {}
 
 Node::End Node::run(const std::atomic<bool>& stop) {
   const Serving serving(inbox_, services_);
@@ -109,7 +112,7 @@ std::shared_ptr<const sim::Snapshot> Node::simulate() {
     if (replay_->done()) go_live();
     return snapshot;
   }
-  return fast_ ? simulation_.leap(until) : simulation_.tick();
+  return fast_ && pacer_.rate() == 0.0 ? simulation_.leap(until) : simulation_.tick();
 }
 
 void Node::go_live() {
@@ -137,6 +140,8 @@ void Node::publish(const sim::Snapshot& snapshot) {
   }
   publishers_.publish(snapshot);
   joints_.publish(snapshot);
+  states_.publish(snapshot, now);
+  performance_.publish(snapshot, now);
   transforms_.publish(snapshot);
   markers_.publish(snapshot, now);
   events_.publish(snapshot);
@@ -146,6 +151,7 @@ void Node::publish(const sim::Snapshot& snapshot) {
 }
 
 void Node::pace(const sim::Snapshot& snapshot, const std::atomic<bool>& stop) {
+  pacer_.set_rate(rate_);
   if (replaying() && (hurry_ || snapshot.paused)) {
     pacer_.restart();
     return;

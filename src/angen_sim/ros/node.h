@@ -8,6 +8,8 @@
 #include "record/replay.h"
 #include "ros/commands.h"
 #include "ros/cost.h"
+#include "ros/gazebo/performance.h"
+#include "ros/gazebo/states.h"
 #include "ros/inbox.h"
 #include "ros/joints.h"
 #include "ros/markers.h"
@@ -24,6 +26,7 @@ struct Settings {
   double rate = 1.0;          // simulated seconds a wall second; 0 = as fast as it goes
   bool fast = false;          // leaps over ticks in which nothing happens; needs rate 0
   double clock_rate = 100.0;  // Hz
+  double states_rate = 30.0;  // Hz, of /gazebo/model_states and link_states
   Topics topics = Topics::kSensor;
   std::vector<std::shared_ptr<const Plugin>> plugins;  // whose command topics are always there
   std::string models;  // a folder that model:// is searched in, besides the usual ones
@@ -64,6 +67,7 @@ class Node {
   bool paused_after_;
   ros::NodeHandle handle_;
   Inbox inbox_;
+  std::atomic<double> rate_;  // as Settings::rate, but a service may set it
   Pacer pacer_;
   std::uint64_t revision_ = UINT64_MAX;
   ClockTopic clock_;
@@ -76,6 +80,8 @@ class Node {
   Publishers publishers_;
   JointStates joints_;
   Commands commands_;
+  gazebo::StateTopics states_;
+  gazebo::Performance performance_;
   Services services_;
   ros::Publisher ready_;
 };

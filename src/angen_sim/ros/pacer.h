@@ -20,6 +20,13 @@ class Pacer {
   /// Simulated seconds a wall second; 0 = as fast as it goes.
   explicit Pacer(double rate) : rate_(rate) {}
 
+  double rate() const { return rate_; }
+  void set_rate(double rate) {
+    if (rate == rate_) return;
+    rate_ = rate;
+    restart();
+  }
+
   /// Starts the schedule anew: after a pause, a jump of time, or at the first tick.
   void restart() { anchored_ = false; }
 

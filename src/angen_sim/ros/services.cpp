@@ -87,7 +87,8 @@ bool answered(Response& response, Work&& work) {
 
 }  // namespace
 
-Services::Services(Inbox& inbox, const Events& events, const std::string& models, Topics topics)
+Services::Services(Inbox& inbox, const Events& events, const std::string& models, Topics topics,
+                   std::atomic<double>& rate)
     : inbox_(inbox),
       events_(events),
       paths_(load::SearchPaths::from_environment(models)),
@@ -110,6 +111,7 @@ Services::Services(Inbox& inbox, const Events& events, const std::string& models
   servers_.push_back(node.advertiseService("/angen/command", &Services::command, this));
   servers_.push_back(node.advertiseService("/angen/list", &Services::list, this));
   servers_.push_back(node.advertiseService("/angen/save", &Services::save, this));
+  gazebo_ = std::make_unique<gazebo::Api>(node, inbox_, paths_, topics_, rate);
 }
 
 // An Empty service has no message: false is all that it can say.

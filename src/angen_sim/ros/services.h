@@ -12,11 +12,13 @@
 #include <std_srvs/Empty.h>
 
 #include <atomic>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
 
 #include "load/load.h"
+#include "ros/gazebo/api.h"
 #include "ros/inbox.h"
 #include "ros/status_topics.h"
 #include "ros/taken_topics.h"
@@ -30,7 +32,9 @@ namespace angen::node {
 class Services {
  public:
   /// `models` is a further folder that model:// is searched in.
-  Services(Inbox& inbox, const Events& events, const std::string& models, Topics topics);
+  /// `rate` is that of the node, which a service may set.
+  Services(Inbox& inbox, const Events& events, const std::string& models, Topics topics,
+           std::atomic<double>& rate);
 
   /// Serves until stop(), which waits for the calls that are being served.
   void start() { spinner_.start(); }
@@ -62,6 +66,7 @@ class Services {
   ros::CallbackQueue queue_;
   ros::AsyncSpinner spinner_;
   std::vector<ros::ServiceServer> servers_;
+  std::unique_ptr<gazebo::Api> gazebo_;
 };
 
 }  // namespace angen::node

@@ -1,0 +1,21 @@
+#include "ros/gazebo/api.h"
+
+#include "ros/gazebo/joints.h"
+#include "ros/gazebo/links.h"
+#include "ros/gazebo/models.h"
+
+namespace angen::node::gazebo {
+
+Api::Api(ros::NodeHandle& node, Inbox& inbox, const load::SearchPaths& paths, Topics topics,
+         std::atomic<double>& rate)
+    : server_(node),
+      spawner_(server_, inbox, paths, topics),
+      physics_(server_, inbox, rate),
+      lights_(server_, inbox),
+      reconfigure_(node, physics_) {
+  serve_models(server_, inbox);
+  serve_links(server_, inbox);
+  serve_joints(server_, inbox);
+}
+
+}  // namespace angen::node::gazebo
