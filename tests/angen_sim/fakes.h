@@ -58,9 +58,11 @@ class FakeWorld : public View, public Wiring, public Outputs {
   std::vector<std::pair<std::string, FakeLink>> links;
   std::vector<std::pair<std::string, FakeLight>> lights;
   Names collisions;
+  Names surface_names;
   double ambient = 295.15;  // K
   std::vector<rays::WarmShape> warm;
   std::uint64_t revision = 0;
+  std::uint64_t surface = 0;
   std::map<std::string, std::vector<ContactPair>> touching;           // by collision name
   std::function<light::Sample(light::Probe&, const Pose&)> light_at;  // dark where not given
   std::function<std::vector<std::uint8_t>(const render::PinholeCamera&, const Pose&)> colors_at;
@@ -73,6 +75,11 @@ class FakeWorld : public View, public Wiring, public Outputs {
     Vec3 torque;
   };
   std::vector<Push> pushes;
+  struct Warming {
+    int surface;
+    double now, limit, time_constant;
+  };
+  std::vector<Warming> warmings;
   std::vector<std::pair<std::string, std::string>> events;
 
   FakeJoint& joint_named(const std::string& name) { return joints[index(joints, name)].second; }
@@ -114,6 +121,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
   double ambient_temperature() const override { return ambient; }
   const std::vector<rays::WarmShape>& warm_shapes() const override { return warm; }
   std::uint64_t scene_revision() const override { return revision; }
+  std::uint64_t surface_revision() const override { return surface; }
   std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to) const override {
     return crossings_at ? crossings_at(from, to) : std::vector<rays::Crossing>{};
   }
@@ -150,6 +158,13 @@ class FakeWorld : public View, public Wiring, public Outputs {
     }
     throw Error("no collision " + collision + "; known are " + join_names(collisions));
   }
+  std::vector<SurfaceRef> surfaces(const std::string& visual) override {
+    std::vector<SurfaceRef> found;
+    for (std::size_t i = 0; i < surface_names.size(); ++i) {
+      if (visual.empty() || surface_names[i] == visual) found.push_back({static_cast<int>(i)});
+    }
+    return found;
+  }
 
   // Outputs
   void force(JointRef ref, double force) override { joints.at(ref.index).second.force += force; }
@@ -172,6 +187,9 @@ class FakeWorld : public View, public Wiring, public Outputs {
   }
   void light(LightRef ref, double level, double luminous_flux) override {
     lights.at(ref.index).second = {level, luminous_flux};
+  }
+  void temperature(SurfaceRef ref, double warm, double limit, double time_constant) override {
+    warmings.push_back({ref.index, warm, limit, time_constant});
   }
   void event(const std::string& event, const std::string& detail) override {
     events.emplace_back(event, detail);

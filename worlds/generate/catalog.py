@@ -26,6 +26,7 @@ def write_catalog(models: Path) -> None:
     write_rfid_tag(models)
     write_smart_plug(models)
     write_heater(models)
+    write_warm_surface(models)
     write_daylight(models)
     for kind, title in (("temperature", "Temperature sensor"), ("humidity", "Humidity sensor")):
         _write_air_sensor(models, kind, title)
@@ -196,6 +197,17 @@ def write_heater(models: Path) -> None:
     add_plugin(model, "heater", "libheater.so", power=1000)
     write_model(root, models, "Heater",
                 "An electric convector of 1 kW, off at the start. Served by libheater.so.")
+
+
+def write_warm_surface(models: Path) -> None:
+    """Writes models/warm_surface: a panel of 0.6 x 0.6 m on a wall, its back to it, x inwards."""
+    root, model = new_model("warm_surface", static=True)
+    panel = spanned("panel", (0.0, -0.3, -0.3), (0.02, 0.3, 0.3), same=True)
+    add_link(model, "panel", [panel], moves=False)
+    add_plugin(model, "warm_surface", "libwarm_surface.so")
+    write_model(root, models, "Warm surface",
+                "A panel of 0.6 x 0.6 m whose temperature is commanded. Served by "
+                "libwarm_surface.so.")
 
 
 def write_daylight(models: Path) -> None:

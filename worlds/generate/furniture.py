@@ -153,7 +153,7 @@ def _counter() -> Piece:
 
 def _stove() -> Piece:
     plates = tuple(
-        Part(f"plate_{i}", (0.085, 0.006), (x, y, 0.903), material=(0.1, 0.1, 0.1), collide=False)
+        Part(f"plate_{i}", (0.085, 0.006), (x, y, 0.903), material=(0.1, 0.1, 0.1), same=True)
         for i, (x, y) in enumerate(((0.13, 0.14), (0.13, -0.14), (-0.13, 0.14), (-0.13, -0.14))))
     oven = _case((-0.3, -0.3, 0.15), (0.27, 0.3, 0.7), 0.04, (0.2, 0.2, 0.22), shelves=(0.38,))
     front = (
@@ -264,7 +264,9 @@ def write_piece(models: Path, name: str, piece: Piece) -> None:
         add(add(sensor, "contact"), "collision", f"{piece.touch}_collision")
         add_plugin(sensor, "bumper", "libgazebo_ros_bumper.so", noise_stddev=0.05)
     if name in PLUGINS:
-        add_plugin(model, name, PLUGINS[name])
+        plugin = add_plugin(model, name, PLUGINS[name])
+        for plate in (p.name for p in parts if p.same):
+            add(plugin, "plate_visual", f"{plate}_visual")
     if piece.potted:
         add_soil(model, link)
     how = "" if piece.static else "; moves when pushed, reports contacts"

@@ -19,6 +19,7 @@ class Part:
 
     size is (x, y, z) of a box, (radius, length) of a cylinder, (radius,) of a sphere. A part
     with `mesh` (a uri) is looks only. `material` is a Gazebo material's name or an RGB colour.
+    With `same`, collision and visual have one name: rays meet it with its own surface.
     """
     name: str
     size: Sequence[float] = ()
@@ -31,6 +32,7 @@ class Part:
     friction: float | None = None
     mesh: str | None = None
     emissive: bool = False
+    same: bool = False
 
 
 @dataclass
@@ -140,7 +142,8 @@ def _add_material(visual: etree._Element, part: Part) -> None:
 
 def _add_part(link: etree._Element, part: Part) -> None:
     if part.collide and not part.mesh:
-        collision = add(link, "collision", name=part.name + "_collision")
+        kind = "visual" if part.same else "collision"
+        collision = add(link, "collision", name=f"{part.name}_{kind}")
         add_pose(collision, part.at, part.rpy)
         _add_geometry(collision, part)
         if part.friction is not None:

@@ -1,15 +1,30 @@
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "devices/approach.h"
 #include "plugin/register.h"
 
 namespace angen::devices {
 
-/// An electric heater: what it takes from its socket is heat in its room.
+/// An electric heater: what it takes from its socket is heat in its room, and its casing warms.
 class Heater : public Device {
  public:
-  void configure(Params& params, Wiring&) override {
+  void configure(Params& params, Wiring& wiring) override {
     full_power_ = params.number("power", 1000.0, "W", "electric power at 100 %", kPositive);
     level_ = params.number("level", 0.0, "%", "level at the start", {0.0, 100.0});
+    full_rise_ = params.number("surface_rise", 40.0, "K",
+                               "its surface is warmer than the air at 100 %", {0.0, 1000.0});
+    rise_.time_constant =
+        params.number("surface_time_constant", 300.0, "s", "of its warming", {0.0, 1e6});
+    rise_.limit = full_rise_ * level_ / 100.0;
+    rise_.value = params.number("surface_start", rise_.limit, "K",
+                                "by which its surface is warmer at the start; as after a long "
+                                "time at its level unless given",
+                                {-1000.0, 1000.0});
+    const std::string visual =
+        params.text("surface", "", "the visual that warms; all of the model unless given");
+    surfaces_ = wiring.surfaces(visual);
     params.text("device_name", "", "the name commands use, instead of the model's");
   }
 
@@ -20,7 +35,9 @@ class Heater : public Device {
     return Verdict::accept([this, level] { level_ = level; });
   }
 
-  void update(const View&, Outputs& outputs) override {
+  void update(const View& view, Outputs& outputs) override {
+    rise_.advance(to_seconds(view.step()));
+    if (last_level_ != level_) warm(view, outputs);
     if (last_level_ && *last_level_ != level_) {
       const bool same = (*last_level_ > 0.0) == (level_ > 0.0);
       outputs.event(same ? "set" : level_ > 0.0 ? "on" : "off", "");
@@ -28,7 +45,12 @@ class Heater : public Device {
     last_level_ = level_;
   }
 
-  void save(SavedParams& params) const override { params.number("level", level_); }
+  void skip(Nanoseconds time) override { rise_.advance(to_seconds(time)); }
+
+  void save(SavedParams& params) const override {
+    params.number("level", level_);
+    params.number("surface_start", rise_.value);
+  }
 
   Nanoseconds idle_until(const View&) const override { return kForever; }
 
@@ -39,7 +61,18 @@ class Heater : public Device {
   }
 
  private:
-  double full_power_ = 0.0;           // W at 100 %
+  void warm(const View& view, Outputs& outputs) {
+    rise_.limit = full_rise_ * level_ / 100.0;
+    const double air = view.ambient_temperature();
+    for (const SurfaceRef surface : surfaces_) {
+      outputs.temperature(surface, air + rise_.value, air + rise_.limit, rise_.time_constant);
+    }
+  }
+
+  double full_power_ = 0.0;  // W at 100 %
+  double full_rise_ = 0.0;   // K at 100 %
+  Approach rise_;            // K, of its surface over the air
+  std::vector<SurfaceRef> surfaces_;
   double level_ = 0.0;                // percent
   std::optional<double> last_level_;  // percent, none before the first update
 };

@@ -3,6 +3,7 @@
 #include <iterator>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "devices/refresh.h"
 #include "devices/storeys.h"
@@ -28,7 +29,7 @@ constexpr std::size_t kMostPlates = std::size(kPlateVerbs);
 /// A stove: each plate is a heat capacity that its electric power warms and the room's air cools.
 class Stove : public Device {
  public:
-  void configure(Params& params, Wiring&) override {
+  void configure(Params& params, Wiring& wiring) override {
     const auto rows = params.rows("plate", 3, "W J/K W/K",
                                   "a plate's electric power at 100 %, heat capacity, and heat "
                                   "loss to the air; front left, front right, rear left, rear "
@@ -62,6 +63,15 @@ class Stove : public Device {
       plates_[i].temperature = temperature;
       started_ = true;
     }
+    const auto visuals = params.texts("plate_visual", "",
+                                      "the visual of each plate, which PIRs see warm; in the "
+                                      "order of the plates");
+    if (visuals.size() > plates_.size()) {
+      throw params.error("plate_visual", "there are more <plate_visual> than plates");
+    }
+    for (std::size_t i = 0; i < visuals.size(); ++i) {
+      plates_[i].surfaces = wiring.surfaces(visuals[i]);
+    }
     params.text("device_name", "", "the name commands use, instead of the model's and its floor");
   }
 
@@ -94,6 +104,7 @@ class Stove : public Device {
       if (!known && view.time() < kPatience) return;
       started_ = true;
     }
+    const bool first = stepped_at_ < 0;
     const Nanoseconds before = stepped_at_ < 0 ? view.time() : stepped_at_;
     stepped_at_ = view.time();
     const bool was_on = on_;
@@ -101,6 +112,8 @@ class Stove : public Device {
     on_ = false;
     for (Plate& plate : plates_) {
       plate.step(to_seconds(stepped_at_ - before), air_);
+      if (first) plate.rise = plate.temperature - air_;
+      if (first || plate.heated_at != plate.level) plate.warm(view, outputs);
       plate.heated_at = plate.level;
       on_ = on_ || plate.level > 0.0;
     }
@@ -145,11 +158,24 @@ class Stove : public Device {
     double temperature = 0.0;  // degrees Celsius
     double level = 0.0;        // percent
     double heated_at = 0.0;    // percent, since the last step
+    double rise = 0.0;         // K over the air, as PIRs see it
+    std::vector<SurfaceRef> surfaces = {};
+
+    double limit(double percent) const { return power * percent / 100.0 / loss; }
 
     // C dT/dt = P - G (T - air), solved for a constant power and air.
     void step(double seconds, double air) {
-      const double limit = air + power * heated_at / 100.0 / loss;
-      temperature = limit + (temperature - limit) * std::exp(-seconds * loss / capacity);
+      const double left = std::exp(-seconds * loss / capacity);
+      const double hottest = air + limit(heated_at);
+      temperature = hottest + (temperature - hottest) * left;
+      rise = limit(heated_at) + (rise - limit(heated_at)) * left;
+    }
+
+    void warm(const View& view, Outputs& outputs) const {
+      const double air = view.ambient_temperature();
+      for (const SurfaceRef surface : surfaces) {
+        outputs.temperature(surface, air + rise, air + limit(level), capacity / loss);
+      }
     }
   };
 

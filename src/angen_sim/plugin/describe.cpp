@@ -23,6 +23,7 @@ class AnyWiring : public Wiring {
   double mass(LinkRef) const override { return 1.0; }
   LightRef light(const std::string&) override { return {0}; }
   ContactRef collision(const std::string&) override { return {0}; }
+  std::vector<SurfaceRef> surfaces(const std::string&) override { return {}; }
 
  private:
   std::string kind_;

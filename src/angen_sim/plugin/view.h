@@ -31,6 +31,9 @@ struct LightRef {
 struct ContactRef {
   int index = -1;
 };
+struct SurfaceRef {
+  int index = -1;
+};
 
 struct JointView {
   double position = 0.0;  // rad or m
@@ -90,10 +93,12 @@ class View {
   virtual light::Sample illuminance(light::Probe& probe, const Pose& pose) const = 0;
   virtual void prepare_light() const = 0;
   virtual double ambient_temperature() const = 0;  // K
-  /// What is warmer or colder than the air, and where.
+  /// What is warmer or colder than the air, and where, as of now.
   virtual const std::vector<rays::WarmShape>& warm_shapes() const = 0;
   /// Grows when shapes come, go or move: where it is the same, rays get the same answers.
   virtual std::uint64_t scene_revision() const = 0;
+  /// Grows while temperatures of warm_shapes() change.
+  virtual std::uint64_t surface_revision() const = 0;
   /// The shapes on the segment between two points (world, m), in the order in which it enters them.
   virtual std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to) const = 0;
   /// What a camera at `pose` (world, x ahead, z up) sees: height x width x 3 bytes, sRGB.
@@ -119,6 +124,9 @@ class Wiring {
   virtual double mass(LinkRef link) const = 0;                     // kg
   virtual LightRef light(const std::string& light) = 0;            // "" = the model's only one
   virtual ContactRef collision(const std::string& collision) = 0;  // in the sensor's link
+  /// The visuals of that name ("" = all, also as LINK/VISUAL) that a collision has its surface
+  /// from; rays meet no others. Throws Error where a name has none.
+  virtual std::vector<SurfaceRef> surfaces(const std::string& visual) = 0;
 };
 
 /// What a device may do to the world in one tick.
@@ -140,6 +148,9 @@ class Outputs {
   virtual void push(LinkRef link, const Vec3& force, const Vec3& torque, const Vec3& point) = 0;
   /// Light level 0..1 and the flux in lm that level 1 stands for.
   virtual void light(LightRef light, double level, double luminous_flux) = 0;
+  /// Temperature (K) of a surface, as PIRs see it: from `now` on it goes to `limit` exponentially,
+  /// with a time constant in s (0 = it is there at once). Holds until it is set again.
+  virtual void temperature(SurfaceRef surface, double now, double limit, double time_constant) = 0;
   /// PublishedReading to everybody on /angen/events.
   virtual void event(const std::string& event, const std::string& detail) = 0;
 };

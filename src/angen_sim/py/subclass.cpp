@@ -157,6 +157,7 @@ void bind_wiring(pyb::module_& module) {
   pyb::class_<JointRef>(module, "JointRef");
   pyb::class_<LinkRef>(module, "LinkRef");
   pyb::class_<LightRef>(module, "LightRef");
+  pyb::class_<SurfaceRef>(module, "SurfaceRef");
   pyb::class_<Wiring>(module, "Wiring", "Names of the model to handles; unknown names raise.")
       .def_property_readonly("name", &Wiring::name)
       .def_property_readonly("model", &Wiring::model)
@@ -164,6 +165,8 @@ void bind_wiring(pyb::module_& module) {
       .def("joint", &Wiring::joint)
       .def("link", &Wiring::link)
       .def("light", &Wiring::light)
+      .def("surfaces", &Wiring::surfaces, pyb::arg("visual") = "",
+           "Visuals of that name, or all, that a collision has its surface from.")
       .def("mass", &Wiring::mass, "kg, of the link and all that is fixed to it");
 }
 
@@ -199,6 +202,9 @@ void bind_view(pyb::module_& module) {
       .def("force", &Outputs::force, "N or N m on a joint, for this tick")
       .def("motor", &Outputs::motor, "velocity, greatest force; until changed")
       .def("light", &Outputs::light, "level 0..1, luminous flux in lm at level 1")
+      .def("temperature", &Outputs::temperature, pyb::arg("surface"), pyb::arg("now"),
+           pyb::arg("limit"), pyb::arg("time_constant") = 0.0,
+           "K of a surface: from now to a limit, exponentially with a time constant in s")
       .def("event", &Outputs::event, pyb::arg("event"), pyb::arg("detail") = "");
   pyb::class_<Rng>(module, "Rng", "Random numbers of this sensor at this tick.")
       .def("uniform", &Rng::uniform)

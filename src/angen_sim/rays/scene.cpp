@@ -52,7 +52,9 @@ struct Scene::Impl {
   std::uint64_t revision = 0;
   std::uint64_t static_revision = 0;
   std::uint64_t anchored_revision = 0;
+  std::uint64_t warm_revision = 0;
   bool anchored_dirty = false;
+  bool warm_dirty = false;
 
   void touch(Mobility mobility) {
     layer(mobility).dirty = true;
@@ -125,8 +127,17 @@ ShapeId Scene::add(const Shape& shape, const Pose& pose, Mobility mobility,
 void Scene::warm(ShapeId shape, double temperature) {
   const Entry& entry = impl_->entries.at(shape);
   if (entry.type == Shape::Type::kEmpty) return;
-  impl_->warmed.push_back({shape, {shape.index, temperature, {}}});
-  impl_->layer(entry.mobility).dirty = true;
+  auto& warmed = impl_->warmed;
+  const auto known = std::find_if(warmed.begin(), warmed.end(),
+                                  [&](const auto& each) { return each.first == shape; });
+  if (known == warmed.end()) {
+    warmed.push_back({shape, {shape.index, temperature, {}}});
+  } else if (known->second.temperature == temperature) {
+    return;
+  } else {
+    known->second.temperature = temperature;
+  }
+  impl_->warm_dirty = true;
 }
 
 void Scene::move(ShapeId shape, const Pose& pose) {
@@ -161,7 +172,13 @@ void Scene::remove(ShapeId shape) {
 
 void Scene::commit() {
   const bool static_changed = impl_->fixed.dirty;
-  if (!static_changed && !impl_->moving.dirty) return;
+  const bool moved = static_changed || impl_->moving.dirty;
+  if (!moved && !impl_->warm_dirty) return;
+  if (std::exchange(impl_->warm_dirty, false)) ++impl_->warm_revision;
+  if (!moved) {
+    impl_->bound_warm_shapes();
+    return;
+  }
   impl_->fixed.rebuild();
   impl_->moving.rebuild();
   impl_->bound_warm_shapes();
@@ -310,5 +327,6 @@ std::vector<std::pair<ShapeId, Eigen::AlignedBox3d>> Scene::anchored() const {
 std::uint64_t Scene::revision() const { return impl_->revision; }
 std::uint64_t Scene::static_revision() const { return impl_->static_revision; }
 std::uint64_t Scene::anchored_revision() const { return impl_->anchored_revision; }
+std::uint64_t Scene::warm_revision() const { return impl_->warm_revision; }
 
 }  // namespace angen::rays

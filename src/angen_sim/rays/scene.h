@@ -71,7 +71,7 @@ class Scene {
   /// Reflectance is the diffuse albedo (r g b, 0..1) that `light` uses. Empty shapes are never met.
   ShapeId add(const Shape& shape, const Pose& pose, Mobility mobility,
               const Eigen::Vector3f& reflectance);
-  /// Gives a shape that is not empty a surface temperature in K.
+  /// Gives a shape that is not empty a surface temperature in K, or another one.
   void warm(ShapeId shape, double temperature);
   void move(ShapeId shape, const Pose& pose);
   void remove(ShapeId shape);
@@ -108,8 +108,10 @@ class Scene {
   bool covered(const Vec3& point, std::uint32_t except) const;
 
   Eigen::Vector3f reflectance(std::uint32_t shape_index) const;
-  /// In the order in which they were warmed, as of the last commit().
+  /// In the order in which they were first warmed, as of the last commit().
   const std::vector<WarmShape>& warm_shapes() const;
+  /// Counts commits after which warm_shapes() have other temperatures.
+  std::uint64_t warm_revision() const;
 
   Mobility mobility(std::uint32_t shape_index) const;
   Placement placement(std::uint32_t shape_index) const;

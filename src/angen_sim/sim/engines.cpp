@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "sim/joined.h"
+#include "sim/like_visual.h"
 
 namespace angen::sim {
 
@@ -20,14 +21,6 @@ constexpr float kNight = 0.1F;  // of SDF's ambient: what a dark world gives a c
 Eigen::Vector3f with_luminance_one(const Eigen::Vector3f& color) {
   const float luminance = Eigen::Vector3f(0.2126F, 0.7152F, 0.0722F).dot(color);  // Rec. 709
   return luminance > 0.0F ? Eigen::Vector3f(color / luminance) : Eigen::Vector3f::Ones();
-}
-
-// The collision's surface is like the visual of the same name, or like the link's first.
-desc::Visual surface(const desc::Link& link, const desc::Collision& collision) {
-  const auto same = std::find_if(link.visuals.begin(), link.visuals.end(),
-                                 [&](const desc::Visual& v) { return v.name == collision.name; });
-  if (same != link.visuals.end()) return *same;
-  return link.visuals.empty() ? desc::Visual{} : link.visuals.front();
 }
 
 // A door is, and the leaf's handles; a robot is not.
@@ -79,6 +72,7 @@ Parts Engines::add(const desc::Model& model) {
   const auto anchored = links_joined_to_world(model);
   parts.child_joints = joints_by_child(model);
   note_change();
+  int first_visual = 0;
   for (std::uint32_t i = 0; i < model.links.size(); ++i) {
     const desc::Link& link = model.links[i];
     const Pose pose = physics.link(parts.links[i]).pose;
@@ -87,13 +81,16 @@ Parts Engines::add(const desc::Model& model) {
                           : anchored.count(link.name) ? rays::Mobility::kAnchored
                                                       : rays::Mobility::kMoving;
     for (const desc::Collision& collision : link.collisions) {
-      const desc::Visual visual = surface(link, collision);
+      const int like = like_visual(link, collision);
+      const desc::Visual visual = like < 0 ? desc::Visual{} : link.visuals[like];
       const rays::ShapeId shape = rays.add(collision.shape, pose * collision.pose, mobility,
                                            visual.material.diffuse.head<3>());
       if (visual.temperature) rays.warm(shape, *visual.temperature);
-      parts.shapes.push_back({shape, i, collision.pose, mobility == rays::Mobility::kAnchored});
+      parts.shapes.push_back({shape, i, collision.pose, mobility == rays::Mobility::kAnchored,
+                              like < 0 ? -1 : first_visual + like});
       show(parts, parts.shapes.back());
     }
+    first_visual += static_cast<int>(link.visuals.size());
     parts.bodies.push_back(visuals.add(visible(link, pose, !model.is_static)));
     for (const desc::Light& light : link.lights) {
       Parts::Lamp lamp = add_light(light, pose * light.pose);
@@ -115,6 +112,7 @@ void Engines::remove(const Parts& parts) {
     } else {
       movers.remove(shape.id);
     }
+    surfaces.remove(shape.id);
     rays.remove(shape.id);
   }
   for (const render::BodyId body : parts.bodies) visuals.remove(body);

@@ -10,6 +10,7 @@
 #include "render/scene.h"
 #include "sim/mover_index.h"
 #include "sim/state_changes.h"
+#include "sim/surface_temperatures.h"
 
 namespace angen::sim {
 
@@ -20,6 +21,7 @@ struct Parts {
     std::uint32_t link = 0;
     Pose offset;            // in the link's frame
     bool anchored = false;  // it moves, but only about the static world's joints
+    int surface = -1;       // SurfaceRef of the visual that it is like, -1: none
   };
   struct Lamp {
     light::LampId id;
@@ -58,6 +60,7 @@ class Engines {
   double ambient_temperature;  // K
   light::Lighting light{rays};
   MoverIndex movers;  // which movers are near which sensors' rays
+  SurfaceTemperatures surfaces{rays};
   StateChanges states;
 
   /// Something that sensors may query besides rays has changed: a pose, a light, a contact.

@@ -67,11 +67,12 @@ struct Queried {
   bool devices = false;  // which there are
   bool other = false;
   StateChanges::Fields fields = 0;  // by which it queried devices
+  bool heat = false;                // temperatures of surfaces
 
-  bool any() const { return contacts || light || devices || other; }
+  bool any() const { return contacts || light || devices || other || heat; }
   Queried operator|(const Queried& o) const {
-    return {contacts || o.contacts, light || o.light, devices || o.devices, other || o.other,
-            fields | o.fields};
+    return {contacts || o.contacts, light || o.light,  devices || o.devices,
+            other || o.other,       fields | o.fields, heat || o.heat};
   }
 };
 
@@ -89,8 +90,8 @@ struct SensorInstance : SensorInfo {
   std::unique_ptr<WatchedLight> light;             // null where light may come from anywhere
   MoverIndex::Moment seen = 0;                     // its last sample has all changes before
   SensorActivity activity;
-  Queried queried{false, false, false, true, 0};  // for its reading
-  bool link_moves = true;                         // false where its link is static
+  Queried queried{false, false, false, true, 0, false};  // for its reading
+  bool link_moves = true;                                // false where its link is static
 
   std::unique_ptr<Sensor> sensor;
   NoisySensor* noisy = nullptr;                // `sensor`, where it applies its noise itself

@@ -60,6 +60,7 @@ bool queries_unchanged(const Engines& engines, const LiveModel& live,
   const Queried& queried = sensor.queried;
   const bool moved = engines.changed() >= sensor.seen;  // anything
   if (queried.other && moved) return false;
+  if (queried.heat && engines.surfaces.changed_since(sensor.seen)) return false;
   if (queried.devices && engines.states.changed_since(queried.fields, sensor.seen)) return false;
   if (queried.light && !light_unchanged(engines, sensor)) return false;
   if (queried.contacts && contacts_revision(engines, sensor) != sensor.contacts_seen) return false;

@@ -83,7 +83,8 @@ void InstanceView::prepare_light() const {
 }
 
 const std::vector<rays::WarmShape>& InstanceView::warm_shapes() const {
-  queried_.other = true;
+  queried_.other = queried_.heat = true;
+  engines_.surfaces.advance(clock_.time, engines_.movers.now());
   engines_.rays.commit();
   return engines_.rays.warm_shapes();
 }
@@ -92,6 +93,13 @@ std::uint64_t InstanceView::scene_revision() const {
   queried_.other = true;
   engines_.rays.commit();
   return engines_.rays.revision();
+}
+
+std::uint64_t InstanceView::surface_revision() const {
+  queried_.heat = true;
+  engines_.surfaces.advance(clock_.time, engines_.movers.now());
+  engines_.rays.commit();
+  return engines_.rays.warm_revision();
 }
 
 std::vector<rays::Crossing> InstanceView::crossings(const Vec3& from, const Vec3& to) const {
@@ -141,6 +149,14 @@ void InstanceOutputs::light(LightRef light, double level, double luminous_flux) 
   engines_.light.set_level(lamp.id, level * luminous_flux / lamp.nominal_flux);
   engines_.note_change();
   lights_changed_ = true;
+}
+
+void InstanceOutputs::temperature(SurfaceRef surface, double now, double limit,
+                                  double time_constant) {
+  for (const Parts::Shape& shape : live_.parts.shapes) {
+    if (shape.surface != surface.index) continue;
+    engines_.surfaces.set(shape.id, now, limit, time_constant, time_, engines_.movers.now());
+  }
 }
 
 void InstanceOutputs::event(const std::string& event, const std::string& detail) {

@@ -39,6 +39,7 @@ class InstanceView : public View {
   double ambient_temperature() const override { return engines_.ambient_temperature; }
   const std::vector<rays::WarmShape>& warm_shapes() const override;
   std::uint64_t scene_revision() const override;
+  std::uint64_t surface_revision() const override;
   std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to) const override;
   std::vector<std::uint8_t> colors(const render::PinholeCamera& lens,
                                    const Pose& pose) const override;
@@ -69,6 +70,7 @@ class InstanceOutputs : public Outputs {
   void drive(LinkRef link, const Vec3& velocity, double yaw_rate, double max_force) override;
   void push(LinkRef link, const Vec3& force, const Vec3& torque, const Vec3& point) override;
   void light(LightRef light, double level, double luminous_flux) override;
+  void temperature(SurfaceRef surface, double now, double limit, double time_constant) override;
   void event(const std::string& event, const std::string& detail) override;
 
   bool lights_changed() const { return lights_changed_; }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "sim/joined.h"
+#include "sim/like_visual.h"
 
 namespace angen::sim {
 
@@ -123,6 +124,30 @@ ContactRef ModelWiring::collision(const std::string& collision) {
   }
   collisions_.push_back(model_.name + "::" + link.name + "::" + local);
   return {static_cast<int>(collisions_.size() - 1)};
+}
+
+std::vector<SurfaceRef> ModelWiring::surfaces(const std::string& visual) {
+  std::vector<SurfaceRef> found;
+  std::vector<std::string> known;
+  int first = 0;
+  for (const desc::Link& link : model_.links) {
+    std::set<int> met;  // by rays
+    for (const desc::Collision& collision : link.collisions)
+      met.insert(like_visual(link, collision));
+    met.erase(-1);
+    for (const int number : met) {
+      const std::string& name = link.visuals[number].name;
+      known.push_back(name);
+      if (visual.empty() || visual == name || visual == link.name + "/" + name) {
+        found.push_back({first + number});
+      }
+    }
+    first += static_cast<int>(link.visuals.size());
+  }
+  if (!visual.empty() && found.empty()) {
+    unknown(model_.name, "visual with a collision of its name", visual, known);
+  }
+  return found;
 }
 
 }  // namespace angen::sim

@@ -26,6 +26,7 @@ class ModelWiring : public Wiring {
   double mass(LinkRef link) const override;
   LightRef light(const std::string& light) override;
   ContactRef collision(const std::string& collision) override;
+  std::vector<SurfaceRef> surfaces(const std::string& visual) override;
 
   const std::set<std::string>& joints() const { return joints_; }  // those asked for
   /// Full names of the collisions asked for, by ContactRef.

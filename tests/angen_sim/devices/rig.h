@@ -101,6 +101,7 @@ class Rig : public View, public Wiring, public Outputs {
   double ambient_temperature() const override { return 295.15; }
   const std::vector<rays::WarmShape>& warm_shapes() const override { return warm_; }
   std::uint64_t scene_revision() const override { return 0; }
+  std::uint64_t surface_revision() const override { return 0; }
   std::vector<rays::Crossing> crossings(const Vec3&, const Vec3&) const override { return {}; }
   std::vector<std::uint8_t> colors(const render::PinholeCamera&, const Pose&) const override {
     return {};
@@ -119,6 +120,7 @@ class Rig : public View, public Wiring, public Outputs {
   double mass(LinkRef link) const override;
   LightRef light(const std::string& light) override;
   ContactRef collision(const std::string& collision) override;
+  std::vector<SurfaceRef> surfaces(const std::string&) override { return {}; }
 
   // Outputs
   void force(JointRef joint, double force) override;
@@ -128,6 +130,7 @@ class Rig : public View, public Wiring, public Outputs {
   void drive(LinkRef link, const Vec3& velocity, double yaw_rate, double max_force) override;
   void push(LinkRef link, const Vec3& force, const Vec3& torque, const Vec3& point) override;
   void light(LightRef, double, double) override {}
+  void temperature(SurfaceRef, double, double, double) override {}
   void event(const std::string& event, const std::string&) override { events.push_back(event); }
 
  private:

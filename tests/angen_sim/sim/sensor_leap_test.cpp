@@ -117,6 +117,40 @@ TEST(Leaping, WhatChangesByItselfIsNotLeaptOver) {
   EXPECT_FALSE(of("hall_door").get<bool>("closed"));
 }
 
+TEST(Leaping, ASurfaceThatWarmsIsSeenAsAtEachTick) {
+  const auto plate = [](const std::string& name, const std::string& pose) {
+    const std::string box = "<geometry><box><size>0.02 0.4 0.4</size></box></geometry>";
+    return "<model name='" + name + "'><static>true</static><pose>" + pose +
+           "</pose><link name='l'><collision name='c'>" + box + "</collision><visual name='v'>" +
+           box +
+           "</visual></link><plugin name='w' filename='libwarm_surface.so'>"
+           "<time_constant>3</time_constant></plugin></model>";
+  };
+  const std::string pir = "<model>pyroelectric</model><warm_up>0</warm_up>";
+  Race race("<sdf version='1.6'><world name='w'>" +
+            body("it", "<box><size>0.1 0.1 0.1</size></box>", "0 0 2.2 0 0 0", true,
+                 ray_sensor("heat", kPir, 10, 0.0, pir) + ray_sensor("fan", kPir, 10, 0.01)) +
+            plate("near", "2 0.2 1 0 0 0") + plate("aside", "3 -0.5 1 0 0 0") + "</world></sdf>");
+  race.run(5.0);
+  race.landings = 0;
+  race.run(20.0);
+  EXPECT_LT(race.landings, 300U);
+  race.command("warm_surface", "near", "Temperature 400");
+  race.run(2.5);
+  const auto signal = [&] { return race.leaps->snapshot()->reading(0)->get<double>("signal"); };
+  EXPECT_NE(signal(), 0.0);
+  race.command("warm_surface", "aside", "Temperature 280");
+  race.run(50.0);  // both are steady: 12 time constants, and the filter's rest
+  EXPECT_EQ(signal(), 0.0);
+  race.landings = 0;
+  race.run(60.0);
+  EXPECT_LT(race.landings, 700U);
+  race.command("warm_surface", "near", "Air");
+  race.run(1.0);
+  EXPECT_NE(signal(), 0.0);
+  race.run(40.0);
+}
+
 TEST(Leaping, AStepIsAnsweredAtItsEnd) {
   Race race("<sdf version='1.6'><world name='w'/></sdf>");
   race.leaps->post(Pause{true});

@@ -38,6 +38,7 @@ class Forgetful : public View {
   double ambient_temperature() const override { return view_.ambient_temperature(); }
   const std::vector<rays::WarmShape>& warm_shapes() const override { return view_.warm_shapes(); }
   std::uint64_t scene_revision() const override { return view_.scene_revision(); }
+  std::uint64_t surface_revision() const override { return view_.surface_revision(); }
   std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to) const override {
     return view_.crossings(from, to);
   }

@@ -45,6 +45,11 @@ Window common(const Window& a, const Window& b, double turn) {
           std::max(a.low, b.low), std::min(a.high, b.high)};
 }
 
+/// W/(m^2 sr) that a surface of that temperature (K) sends out more than the air.
+double radiance_over(double air, double temperature) {
+  return kStefanBoltzmann / M_PI * (std::pow(temperature, 4) - std::pow(air, 4));
+}
+
 int cells(double angle, double size) {
   return std::clamp(static_cast<int>(std::ceil(angle / size)), kFewest, kMost);
 }
@@ -54,17 +59,44 @@ int cells(double angle, double size) {
 void Heat::aim(const View& view, RayBatch& rays) {
   const Pose pose = view.pose();
   sampled_ = false;
-  if (view.scene_revision() == revision_ && pose == pose_) return;
+  const bool as_warm = view.surface_revision() == surface_revision_;
+  const bool still = view.scene_revision() == revision_ && pose == pose_;
+  if (still && (as_warm || reheat(view))) return;
   if (unseen_lately()) return;
   sampled_ = true;
   revision_ = view.scene_revision();
+  surface_revision_ = view.surface_revision();
   pose_ = pose;
+  surfaces_.clear();
   samples_.clear();
-  const double air = std::pow(view.ambient_temperature(), 4);
   for (const rays::WarmShape& shape : view.warm_shapes()) {
-    const double radiance = kStefanBoltzmann / M_PI * (std::pow(shape.temperature, 4) - air);
-    if (radiance != 0.0) aim_at(shape, radiance, pose, rays);
+    const double radiance = radiance_over(view.ambient_temperature(), shape.temperature);
+    if (radiance == 0.0) continue;
+    surfaces_.push_back({shape.shape, radiance});
+    aim_at(shape.box, pose, rays);
   }
+}
+
+// Where only temperatures changed, rays would meet what they met. False where something radiates
+// that did not when it was sampled.
+bool Heat::reheat(const View& view) {
+  std::size_t next = 0;
+  for (const rays::WarmShape& shape : view.warm_shapes()) {  // surfaces_ has some, in this order
+    const double radiance = radiance_over(view.ambient_temperature(), shape.temperature);
+    if (next < surfaces_.size() && surfaces_[next].shape == shape.shape) {
+      surfaces_[next++].radiance = radiance;
+    } else if (radiance != 0.0) {
+      return false;
+    }
+  }
+  surface_revision_ = view.surface_revision();
+  sum_up();
+  return true;
+}
+
+void Heat::sum_up() {
+  flux_ = 0.0;
+  for (const Surface& surface : surfaces_) flux_ += surface.radiance * surface.factor;
 }
 
 // What stands behind a wall is sampled less often.
@@ -78,20 +110,17 @@ bool Heat::unseen_lately() {
   return false;
 }
 
-void Heat::aim_at(const rays::WarmShape& shape, double radiance, const Pose& pose, RayBatch& rays) {
-  if (shape.box.isEmpty() || shape.box.exteriorDistance(pose.position) > range_) return;
-  const Window box = window_of(shape.box, pose, lens_.window());
+void Heat::aim_at(const Eigen::AlignedBox3d& box, const Pose& pose, RayBatch& rays) {
+  if (box.isEmpty() || box.exteriorDistance(pose.position) > range_) return;
+  const Window around = window_of(box, pose, lens_.window());
   for (const double turn : {0.0, kTurn, -kTurn}) {
-    const Window seen = common(lens_.window(), box, turn);
-    if (seen.right < seen.left && seen.low < seen.high) {
-      scan(shape.shape, radiance, seen, pose, rays);
-    }
+    const Window seen = common(lens_.window(), around, turn);
+    if (seen.right < seen.left && seen.low < seen.high) scan(seen, pose, rays);
   }
 }
 
 // A grid of rays that goes with the shape, so that its outline makes no noise as it moves.
-void Heat::scan(std::uint32_t shape, double radiance, const Window& seen, const Pose& pose,
-                RayBatch& rays) {
+void Heat::scan(const Window& seen, const Pose& pose, RayBatch& rays) {
   const int columns = cells(seen.left - seen.right, kCellWidth);
   const int rows = cells(seen.high - seen.low, kCellHeight);
   const double width = (seen.left - seen.right) / columns;
@@ -108,17 +137,18 @@ void Heat::scan(std::uint32_t shape, double radiance, const Window& seen, const 
                            std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
       const double solid_angle = width * height * std::cos(elevation);
       rays.push_back({pose.position, (rotation * direction).normalized(), kNearest, range_});
-      samples_.push_back({shape, radiance * solid_angle * sensitivity * opening_});
+      samples_.push_back({surfaces_.size() - 1, solid_angle * sensitivity * opening_});
     }
   }
 }
 
 double Heat::flux(Hits hits) {
   if (!sampled_) return flux_;
-  flux_ = 0.0;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
-    if (hits[i].shape == samples_[i].shape) flux_ += samples_[i].flux;
+    Surface& surface = surfaces_[samples_[i].surface];
+    if (hits[i].shape == surface.shape) surface.factor += samples_[i].factor;
   }
+  sum_up();
   return flux_;
 }
 

@@ -26,26 +26,35 @@ class Heat {
   /// Whether it has still to sample what moved.
   bool pending() const { return waits_ > 0; }
 
-  /// Samples anew at the next aim(), whatever moved.
+  /// Samples anew at the next aim(), whatever changed.
   void forget() { revision_ = UINT64_MAX; }
 
  private:
   /// A part of a surface's surroundings that one ray stands for.
   struct Sample {
+    std::size_t surface;  // in surfaces_
+    double factor;        // m^2 sr, of the elements' difference, where the ray meets the surface
+  };
+  /// What radiates more or less than the air.
+  struct Surface {
     std::uint32_t shape;
-    double flux;  // W on the elements' difference, where the ray meets the shape
+    double radiance;      // W/(m^2 sr) more than the air
+    double factor = 0.0;  // m^2 sr: W on the elements' difference for a radiance of 1
   };
 
-  void aim_at(const rays::WarmShape& shape, double radiance, const Pose& pose, RayBatch& rays);
-  void scan(std::uint32_t shape, double radiance, const Window& seen, const Pose& pose,
-            RayBatch& rays);
+  void aim_at(const Eigen::AlignedBox3d& box, const Pose& pose, RayBatch& rays);
+  void scan(const Window& seen, const Pose& pose, RayBatch& rays);
   bool unseen_lately();
+  bool reheat(const View& view);
+  void sum_up();
 
   FresnelLens lens_;
   double range_ = 0.0;
   double opening_ = 0.0;
+  std::vector<Surface> surfaces_;
   std::vector<Sample> samples_;
   std::uint64_t revision_ = UINT64_MAX;
+  std::uint64_t surface_revision_ = UINT64_MAX;
   Pose pose_;
   bool sampled_ = false;  // whether aim() has requested rays
   int waits_ = 0;         // samples left out since the last one

@@ -8,7 +8,7 @@ import signal
 import sys
 from typing import Any, NoReturn, Sequence
 
-from angen_tools.cli import bench, care, live, locate, offline, patrol, pid, walktest
+from angen_tools.cli import bench, care, live, locate, offline, patrol, pid, situations, walktest
 from angen_tools.cli.parser import Parser, command
 from angen_tools.common.failure import Failure
 from angen_tools.common.typography import straightened
@@ -43,8 +43,8 @@ def make_parser() -> Parser:
     for add in (live.add_spawn, live.add_delete, live.add_list, offline.add_plugins, live.add_set,
                 live.add_save, live.add_watch, live.add_top, offline.add_checks, offline.add_map,
                 live.add_drive, offline.add_run, patrol.add_task, offline.add_world,
-                bench.add_bench, walktest.add_walktest, care.add_care,
-                locate.add_locate, pid.add_pid, offline.add_replay):
+                bench.add_bench, walktest.add_walktest, situations.add_situations,
+                care.add_care, locate.add_locate, pid.add_pid, offline.add_replay):
         add(commands)
     completion = command(commands, 'completion', run_completion,
                          'prints what makes a shell complete angen',

@@ -15,6 +15,7 @@ from angen_tools.common.progress import Progress
 from angen_tools.walktest import report
 from angen_tools.walktest.arm import ARM_LIBRARY, arm_model, register_arm
 from angen_tools.walktest.plan import Area, Probe, Result, Walk, probes_of, walk
+from angen_tools.walktest.room import room
 from angen_tools.world import sdf, sensor
 
 STANDARDS = Path(__file__).resolve().parent / 'standards'
@@ -87,28 +88,11 @@ def _test(standard: Mapping[str, Any], test: Mapping[str, Any], tested: Detector
 def _world(standard: Mapping[str, Any], tested: Detector, area: Area, content: str) -> Any:
     """The empty room around the area, with the detector on its wall at x = 0."""
     margin = standard['room']['margin']
-    text = _room(area.reach + margin, area.half_width + margin, standard['room']['ambient'],
-                 content)
+    text = room(area.reach + margin, area.half_width + margin, standard['room']['ambient'], STEP,
+                content)
     world = angen_module().World.from_text(text, seed=SEED)
     world.spawn(tested.xml, 'detector', [0, 0, tested.height, 0, 0, tested.yaw])
     return world
-
-
-def _room(depth: float, half: float, ambient: float, content: str) -> str:
-    boxes = {'floor': (depth / 2, 0, -0.05, depth + 1, 2 * half + 1, 0.1),
-             'ceiling': (depth / 2, 0, 3.05, depth + 1, 2 * half + 1, 0.1),
-             'back': (-0.15, 0, 1.5, 0.1, 2 * half, 3), 'front': (depth, 0, 1.5, 0.1, 2 * half, 3),
-             'left': (depth / 2, half, 1.5, depth, 0.1, 3),
-             'right': (depth / 2, -half, 1.5, depth, 0.1, 3)}
-    walls = ''.join(
-        f'<collision name="{name}"><pose>{x} {y} {z} 0 0 0</pose><geometry><box>'
-        f'<size>{a} {b} {c}</size></box></geometry></collision>'
-        for name, (x, y, z, a, b, c) in boxes.items())
-    return f'''<sdf version="1.6"><world name="walktest">
-  <physics type="ode"><max_step_size>{STEP}</max_step_size></physics>
-  <atmosphere type="adiabatic"><temperature>{ambient}</temperature></atmosphere>
-  <model name="room"><static>true</static><link name="room">{walls}</link></model>
-  {content}</world></sdf>'''
 
 
 def _walk(standard: Mapping[str, Any], tested: Detector, area: Area, way: Walk, name: str) -> None:

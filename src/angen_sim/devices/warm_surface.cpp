@@ -1,0 +1,112 @@
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "devices/approach.h"
+#include "devices/refresh.h"
+#include "plugin/register.h"
+
+namespace angen::devices {
+
+namespace {
+
+constexpr double kRate = 1.0;  // Hz: how often its state is renewed while it changes
+constexpr Range kKelvin{1.0, 5000.0};
+constexpr double kThere = 1e-3;  // K from its target: from then on it is there
+
+}  // namespace
+
+/// A surface whose temperature is commanded: a radiator, a kettle, a patch of sunshine. PIRs see
+/// it.
+class WarmSurface : public Device {
+ public:
+  void configure(Params& params, Wiring& wiring) override {
+    std::vector<std::string> visuals =
+        params.texts("surface", "", "a visual that warms; all of the model unless given");
+    if (visuals.empty()) visuals.emplace_back();
+    for (const std::string& visual : visuals) {
+      const std::vector<SurfaceRef> found = wiring.surfaces(visual);
+      surfaces_.insert(surfaces_.end(), found.begin(), found.end());
+    }
+    given_ = params.has("temperature");
+    const double start = params.number("temperature", 295.15, "K",
+                                       "at the start; as the world's air unless given", kKelvin);
+    targeted_ = params.has("target");
+    const double target = params.number("target", start, "K",
+                                        "what it goes to; as at the start unless given", kKelvin);
+    heat_ = {start, target,
+             params.number("time_constant", 60.0, "s",
+                           "with which it goes to its target; 0 = at once", {0.0, 1e6})};
+    params.text("device_name", "", "the name commands use, instead of the model's");
+  }
+
+  Verdict command(const Command& command, const View& view) override {
+    const double target =
+        command.verb == "Temperature" ? command.number : view.ambient_temperature();
+    return Verdict::accept([this, target] {
+      heat_.limit = target;
+      targeted_ = true;
+      set_ = false;
+    });
+  }
+
+  void update(const View& view, Outputs& outputs) override {
+    if (std::exchange(first_, false)) {
+      if (!given_) heat_.value = view.ambient_temperature();
+      if (!targeted_) heat_.limit = heat_.value;
+    } else {
+      heat_.advance(to_seconds(view.step()));
+    }
+    if (!std::exchange(set_, true)) {
+      for (const SurfaceRef surface : surfaces_) {
+        outputs.temperature(surface, heat_.value, heat_.limit, heat_.time_constant);
+      }
+    }
+    const bool was = std::exchange(changes_, std::abs(heat_.value - heat_.limit) >= kThere);
+    if (!changes_) heat_.value = heat_.limit;
+    if (was != changes_) outputs.event(changes_ ? "changes" : "steady", "");
+  }
+
+  void skip(Nanoseconds time) override { heat_.advance(to_seconds(time)); }
+
+  Nanoseconds idle_until(const View& view) const override {
+    return changes_ ? due_.next(view.time()) : kForever;
+  }
+
+  void save(SavedParams& params) const override {
+    if (first_) return;
+    params.number("temperature", heat_.value);
+    params.number("target", heat_.limit);
+  }
+
+  void report(const View&, Reading& state) const override {
+    state.set("temperature", heat_.value);
+    state.set("target", heat_.limit);
+    state.set("changes", changes_);
+  }
+
+ private:
+  std::vector<SurfaceRef> surfaces_;
+  Approach heat_;          // K
+  bool given_ = false;     // its temperature at the start
+  bool targeted_ = false;  // as well, its target; or commanded
+  bool first_ = true;
+  bool set_ = false;  // whether the world has its present target
+  bool changes_ = false;
+  Refresh due_{kRate};
+};
+
+ANGEN_REGISTER_DEVICE(WarmSurface,
+                      Kind("warm_surface",
+                           "A surface that warms and cools by command; PIRs see it.")
+                          .model("warm_surface")
+                          .example("set warm_surface panel1 temperature 320")
+                          .verb("Temperature", "kelvin", "K", kKelvin, "what it goes to")
+                          .verb("Air", "goes to the temperature of the world's air")
+                          .number("temperature", "K", "of the surface, once a second")
+                          .shown(1)
+                          .number("target", "K", "what it goes to")
+                          .flag("changes", "whether it is more than 1 mK from its target")
+                          .shown_as("changes", "steady"))
+
+}  // namespace angen::devices

@@ -1,0 +1,49 @@
+#include "sim/surface_temperatures.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace angen::sim {
+
+namespace {
+
+constexpr double kArrived = 1e-3;  // K from its limit: from then on it is there
+
+}  // namespace
+
+void SurfaceTemperatures::set(rays::ShapeId shape, double temperature, double limit,
+                              double time_constant, Nanoseconds now, Moment moment) {
+  remove(shape);
+  changed_ = moment;
+  if (!(time_constant > 0.0) || std::abs(temperature - limit) < kArrived) {
+    rays_.warm(shape, limit);
+    return;
+  }
+  rays_.warm(shape, temperature);
+  changing_.push_back({shape, temperature, limit, time_constant, now});
+}
+
+void SurfaceTemperatures::remove(rays::ShapeId shape) {
+  changing_.erase(std::remove_if(changing_.begin(), changing_.end(),
+                                 [&](const Changing& each) { return each.shape == shape; }),
+                  changing_.end());
+}
+
+void SurfaceTemperatures::advance(Nanoseconds now, Moment moment) {
+  for (Changing& each : changing_) {
+    const double left =
+        (each.start - each.limit) * std::exp(-to_seconds(now - each.since) / each.time_constant);
+    if (std::abs(left) >= kArrived) {
+      rays_.warm(each.shape, each.limit + left);
+      continue;
+    }
+    rays_.warm(each.shape, each.limit);
+    each.time_constant = 0.0;
+    changed_ = moment;
+  }
+  changing_.erase(std::remove_if(changing_.begin(), changing_.end(),
+                                 [](const Changing& each) { return each.time_constant == 0.0; }),
+                  changing_.end());
+}
+
+}  // namespace angen::sim

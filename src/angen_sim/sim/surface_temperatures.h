@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "core/time.h"
+#include "rays/scene.h"
+#include "sim/mover_index.h"
+
+namespace angen::sim {
+
+/// Surfaces whose temperature devices set. One that changes is evaluated when a sensor queries it,
+/// so without such a sensor it costs nothing, and its temperature depends on the time alone.
+class SurfaceTemperatures {
+ public:
+  using Moment = MoverIndex::Moment;
+
+  explicit SurfaceTemperatures(rays::Scene& rays) : rays_(rays) {}
+
+  /// From `temperature` (K) at `now` to `limit`, exponentially with `time_constant` in s.
+  void set(rays::ShapeId shape, double temperature, double limit, double time_constant,
+           Nanoseconds now, Moment moment);
+  void remove(rays::ShapeId shape);
+
+  /// Gives the surfaces that change their temperatures at `now`.
+  void advance(Nanoseconds now, Moment moment);
+
+  /// Whether one changes now, or was set or has come to its limit at `since` or later.
+  bool changed_since(Moment since) const { return !changing_.empty() || changed_ >= since; }
+
+ private:
+  struct Changing {
+    rays::ShapeId shape;
+    double start;  // K
+    double limit;
+    double time_constant;  // s
+    Nanoseconds since;
+  };
+
+  rays::Scene& rays_;
+  std::vector<Changing> changing_;
+  Moment changed_ = 0;
+};
+
+}  // namespace angen::sim
