@@ -269,6 +269,32 @@ def stove() -> plt.Figure:
     return drawn
 
 
+def warm_surface() -> plt.Figure:
+    drawn, (ax, volts) = figure(2, 'A plate of 0.2 x 0.5 m at 2 m warms by 40 K')
+    shape = '<geometry><box><size>0.02 0.2 0.5</size></box></geometry>'
+    for time_constant in (0.5, 2, 10):
+        w = world(block('pir_pyroelectric', 'eye', '0 0 2.2 0 0 0') + f'''
+          <model name="plate"><static>true</static><pose>2 0.15 1.2 0 0 0</pose><link name="link">
+          <collision name="face">{shape}</collision><visual name="face">{shape}</visual></link>
+          <plugin name="warm" filename="libwarm_surface.so"><time_constant>{time_constant}
+          </time_constant></plugin></model>''')
+        w.run(1.0)
+        w.command('warm_surface', 'plate', 'Temperature 335.15')
+        times, signal = np.arange(1, 150) / 10, []
+        for _ in times:
+            w.run(0.1)
+            signal.append(1e6 * w.sensor('pir', 'eye')['signal'])
+        ax.plot(times, 40 * (1 - np.exp(-times / time_constant)), label=f'{time_constant} s')
+        volts.plot(times, signal)
+    for level in (-300, 300):
+        volts.axhline(level, color='0.6', linestyle='--', linewidth=0.8)
+    ax.set_ylabel('above the air, K')
+    ax.legend()
+    volts.set_ylabel('signal, µV')
+    volts.set_xlabel('s')
+    return drawn
+
+
 def appliance() -> plt.Figure:
     w = world(block('fan', 'fan', '0 0 0 0 0 0') + block('stereo', 'stereo', '2 0 0 0 0 0'))
     levels = list(range(10, 101, 5))
@@ -458,8 +484,9 @@ def plant() -> plt.Figure:
 
 PLOTS: dict[str, Callable[[], plt.Figure]] = {
     draw.__name__: draw for draw in (proximity, pressure_mat, reed, rfid, smart_plug, temperature,
-                                     battery, stove, appliance, microphone, radio, cup, cup_cools,
-                                     load_cells, plant, pir_polar, pir_signal, pir_zones)}
+                                     battery, stove, warm_surface, appliance, microphone, radio,
+                                     cup, cup_cools, load_cells, plant, pir_polar, pir_signal,
+                                     pir_zones)}
 
 
 def main(names: list[str]) -> None:
