@@ -83,7 +83,7 @@ def _link(segment: Segment, place: Vector) -> str:
 
 def _joint(segment: Segment) -> str:
     kind = 'prismatic' if segment.slides else 'revolute'
-    return (f'<joint name="{segment.name}" type="{kind}"><parent>{segment.parent}</parent>'
+    return (f'<joint name="{segment.name}_joint" type="{kind}"><parent>{segment.parent}</parent>'
             f'<child>{segment.name}</child><axis><xyz>{" ".join(map(str, segment.axis))}</xyz>'
             '</axis></joint>')
 
@@ -105,7 +105,7 @@ def _register() -> None:
 
         def configure(self, params: Any, wiring: Any) -> None:
             names, self.script = _scripts[wiring.model]
-            self.joints = [(name, wiring.joint(name)) for name in names]
+            self.joints = [(name, wiring.joint(f'{name}_joint')) for name in names]
 
         def update(self, view: Any, outputs: Any) -> None:
             wanted = self.script(view.time + view.step)
