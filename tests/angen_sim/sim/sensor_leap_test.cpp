@@ -128,7 +128,7 @@ TEST(Leaping, ASurfaceThatWarmsIsSeenAsAtEachTick) {
   };
   const std::string pir = "<model>pyroelectric</model><warm_up>0</warm_up>";
   Race race("<sdf version='1.6'><world name='w'>" +
-            body("it", "<box><size>0.1 0.1 0.1</size></box>", "0 0 2.2 0 0 0", true,
+            body("it", "<box><size>0.05 0.05 0.05</size></box>", "0 0 2.2 0 0 0", true,
                  ray_sensor("heat", kPir, 10, 0.0, pir) + ray_sensor("fan", kPir, 10, 0.01)) +
             plate("near", "2 0.2 1 0 0 0") + plate("aside", "3 -0.5 1 0 0 0") + "</world></sdf>");
   race.run(5.0);
