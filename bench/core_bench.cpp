@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 #include <sys/resource.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -207,6 +208,73 @@ void an_hour(benchmark::State& state) {
   state.counters["ticks"] = static_cast<double>(ticks);
 }
 BENCHMARK(an_hour)->Unit(benchmark::kMillisecond)->Iterations(1);
+
+double thread_cpu_now() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// What happens in the building in second `i`: each lamp is switched now and then, alone or with
+/// all others, doors and the elevator move, and a lit lamp comes and goes.
+void use_all(sim::Simulation& simulation, int i) {
+  const auto order = [&](const char* kind, const char* name, const char* text) {
+    simulation.post(sim::ToDevice{kind, name, {text, {}}});
+  };
+  static const std::vector<std::string> rooms = {
+      "kitchen0", "livingroom0", "bedroom0", "workroom0", "bathroom0", "entrance0",
+      "kitchen1", "livingroom1", "bedroom1", "workroom1", "bathroom1", "entrance1"};
+  const std::string& room = rooms[static_cast<std::size_t>(i / 5) % rooms.size()];
+  if (i % 5 == 0) order("lamp", room.c_str(), i % 120 < 60 ? "On" : "Off");
+  if (i % 10 == 3) order("door", room.c_str(), i % 20 == 3 ? "Open" : "Close");
+  if (i % 100 == 62) order("lamp", "all", "On");
+  if (i % 100 == 71) order("door", "all", "Open");
+  if (i % 100 == 81) order("door", "all", "Close");
+  if (i % 100 == 92) order("lamp", "all", "Off");
+  if (i % 30 == 7) order("elevator", "all", i % 60 == 7 ? "Floor1" : "Floor0");
+  if (i % 40 == 20) {
+    const std::string lamp =
+        "<sdf version='1.9'><model name='bench_lamp'><static>true</static><link name='l'>"
+        "<light name='b' type='point'/></link><plugin name='p' filename='libros_plugin.so'>"
+        "<level>100</level></plugin></model></sdf>";
+    simulation.post(
+        sim::Spawn{load::model(lamp, "", {{2, 2, 2.2}, Quat::Identity()}, load::SearchPaths{})});
+  }
+  if (i % 40 == 35) simulation.post(sim::Delete{"bench_lamp"});
+}
+
+/// The CPU time of the longest tick of 10 minutes of angen.world in which everything is used; the
+/// first tick is a part of loading.
+void longest_tick(benchmark::State& state) {
+  const auto simulation = simulate(apartment());
+  double first = -thread_cpu_now();
+  simulation->tick();
+  first += thread_cpu_now();
+  double longest = 0.0, longest_at = 0.0;
+  int over = 0;
+  Factor factor;
+  for (auto _ : state) {
+    for (int i = 0; i < 600; ++i) {
+      use_all(*simulation, i);
+      for (int tick = 0; tick < 1000; ++tick) {
+        const double before = thread_cpu_now();
+        simulation->tick();
+        const double took = thread_cpu_now() - before;
+        over += took > 0.020 ? 1 : 0;
+        if (took <= longest) continue;
+        longest = took;
+        longest_at = to_seconds(simulation->snapshot()->time);
+      }
+    }
+    factor.simulated += 600.0;
+  }
+  factor.report(state);
+  state.counters["longest_ms"] = 1e3 * longest;
+  state.counters["at_s"] = longest_at;
+  state.counters["over_20_ms"] = over;
+  state.counters["first_ms"] = 1e3 * first;
+}
+BENCHMARK(longest_tick)->Iterations(1)->Unit(benchmark::kMillisecond);
 
 /// Bytes that a PIR of 96 rays takes, when it has sampled.
 void memory_of_a_pir(benchmark::State& state) {

@@ -83,7 +83,7 @@ def test_shutting_the_door_darkens_the_next_room(building):
     w.run(3.1)
     lit = w.sensor('luminosity', 'entrance_lux0')['illuminance']
     w.command('door', 'kitchen0', 'Close')
-    w.run(3.1)
+    w.run(4.1)  # it shuts in 3 s, and reflected light follows
     assert w.sensor('luminosity', 'entrance_lux0')['illuminance'] < 0.2 * lit
     assert lit > 0.2
     assert w.sensor('luminosity', 'kitchen_lux0')['illuminance'] > 10 * lit
@@ -119,6 +119,83 @@ def test_daylight_follows_its_command():
     assert readings[1] == pytest.approx(readings[0] / 4, rel=1e-6)
     with pytest.raises(angen.Error, match='daylight takes Set <0 to 100000 lux>'):
         w.command('daylight', 'study0', 'Set -1')
+
+
+CABINET = '''<model name="cabinet"><static>{static}</static><pose>0.3 3.2 1 0 0 0</pose>
+  <link name="link"><collision name="c"><geometry><box><size>0.6 1.2 2</size></box></geometry>
+  </collision><visual name="v"><geometry><box><size>0.6 1.2 2</size></box></geometry><material>
+  <diffuse>0.1 0.1 0.1 1</diffuse></material></visual></link></model>'''
+
+
+def test_a_cabinet_that_could_move_lights_the_room_as_one_that_cannot():
+    readings = {}
+    for static in ('true', 'false'):
+        w = world_of(room(0.8) + LAMP.replace('0 0.3 2.6', '2 2 2.2')
+                     + lux('l', '0.05 1 2 0 0 0') + CABINET.format(static=static))
+        w.step(1)
+        first = w.sensor('luminosity', 'l')['illuminance']
+        w.run(6.0)
+        readings[static] = first, w.sensor('luminosity', 'l')['illuminance']
+    assert readings['false'] == pytest.approx(readings['true'], rel=0.005)
+    without = world_of(room(0.8) + LAMP.replace('0 0.3 2.6', '2 2 2.2')
+                       + lux('l', '0.05 1 2 0 0 0'))
+    without.step(1)
+    assert without.sensor('luminosity', 'l')['illuminance'] > 1.1 * readings['true'][0]
+
+
+def test_a_lamp_that_was_never_lit_is_seen_within_half_a_second():
+    w = world_of(room() + LAMP.replace('<level>100', '<level>0') + lux('l', '0.05 2 1.5 0 0 0'))
+    w.step(1)
+    w.command('lamp', 'hall0', 'On')
+    w.run(0.5)
+    seen = w.sensor('luminosity', 'l')['illuminance']
+    lit = world_of(room() + LAMP + lux('l', '0.05 2 1.5 0 0 0'))
+    lit.step(1)
+    assert seen == lit.sensor('luminosity', 'l')['illuminance']
+
+
+def test_a_warm_lamp_is_redder_than_a_cold_one_and_as_bright():
+    seen = []
+    for kelvin in (2700, 6500):
+        warm = f'<angen:color_temperature>{kelvin}</angen:color_temperature></light>'
+        w = world_of(room() + LAMP.replace('0 0.3 2.6', '2 2 2.2').replace('</light>', warm)
+                     + lux('l', '0.05 2 1.5 0 0 0') + CAMERA)
+        w.request('camera', 'eye')
+        w.step(1)
+        reading = w.sensor('luminosity', 'l')
+        picture = luminances(w.sensor('camera', 'eye')['image'])
+        seen.append((reading['illuminance'], reading['r'] / reading['b'], picture[0] / picture[2]))
+    assert seen[0][0] == pytest.approx(seen[1][0], rel=1e-3)
+    assert seen[0][1] > 1.3 * seen[1][1]
+    assert seen[0][2] > 1.5 * seen[1][2]
+
+
+@pytest.mark.parametrize('shape, message', [
+    ('<angen:tube>1.2</angen:tube>', 'angen:tube'),
+    ('<angen:sphere>-1</angen:sphere>', 'angen:sphere'),
+    ('<angen:disc>1</angen:disc><angen:tube>1 0.1</angen:tube>', 'give one of them'),
+    ('<angen:half_angle>2</angen:half_angle>', 'from 0.01 to 1.55 rad'),
+    ('<angen:color_temperature>100</angen:color_temperature>', 'from 1667 to 25000 K'),
+    ('<angen:ies/>', 'has no <uri>'),
+    ('<angen:ies><uri>model://nowhere/x.ies</uri></angen:ies>', 'is not found')])
+def test_a_wrong_source_is_an_error(shape, message):
+    with pytest.raises(angen.Error, match=message):
+        world_of(LAMP.replace('</light>', shape + '</light>'))
+
+
+def test_a_broken_ies_file_is_an_error_with_its_line(tmp_path):
+    (tmp_path / 'lamp.ies').write_text('IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 x 1 1 2 0 0 0\n')
+    world = tmp_path / 'w.world'
+    ies = '<angen:ies><uri>lamp.ies</uri></angen:ies></light>'
+    world.write_text(f'<sdf version="1.9"><world name="w">{LAMP.replace("</light>", ies)}'
+                     '</world></sdf>')
+    with pytest.raises(angen.Error, match=r"lamp.ies:3: 'x' is not a number"):
+        angen.World(str(world))
+    outside = tmp_path.parent / 'secret.ies'
+    outside.write_text('IESNA:LM-63-2002\n')
+    world.write_text(world.read_text().replace('lamp.ies', str(outside)))
+    with pytest.raises(angen.Error, match='allow'):
+        angen.World(str(world))
 
 
 def test_a_flat_light_needs_two_lengths():

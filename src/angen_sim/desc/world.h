@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/element.h"
+#include "core/photometry.h"
 #include "core/pose.h"
 #include "core/shape.h"
 #include "core/time.h"
@@ -53,7 +54,7 @@ struct Inertial {
 };
 
 struct Light {
-  enum class Type { kPoint, kSpot, kDirectional, kRectangle, kDisc };
+  enum class Type { kPoint, kSpot, kDirectional, kRectangle, kDisc, kTube };
   std::string name;
   Type type = Type::kPoint;
   Pose pose;                                  // in the link's frame, or the world's
@@ -63,9 +64,12 @@ struct Light {
   Vec3 direction = -Vec3::UnitZ();            // in its own frame, all but point
   double inner_angle = 0.0;                   // rad, spot
   double outer_angle = 0.0;
-  double width = 0.0;   // m, rectangle: along its own x axis (y, where it shines along x)
-  double height = 0.0;  // m, rectangle: across
-  double radius = 0.0;  // m, disc
+  double width = 0.0;       // m, rectangle: along its own x axis (y, where it shines along x)
+  double height = 0.0;      // m, rectangle: across
+  double length = 0.0;      // m, tube: along its own x axis (y, where it shines along x)
+  double radius = 0.0;      // m, disc, tube, and the globe of a point or spot; 0 for a common one
+  double half_angle = 0.0;  // rad, spot: where its intensity is half of that ahead; 0 for cones
+  std::shared_ptr<const Photometry> photometry;  // of a point or spot; null for none
   bool cast_shadows = true;
   Source source;
 };

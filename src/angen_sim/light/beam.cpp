@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "light/directions.h"
+#include "light/photometry.h"
 
 namespace angen::light {
 namespace {
@@ -13,21 +14,6 @@ namespace {
 constexpr double kFar = 1e4;         // m, as far as anything can stand before a directional lamp
 constexpr double kOnSurface = 1e-9;  // m
 constexpr std::size_t kSides = 64;   // of the polygon that stands for a disc
-
-/// Candela along `away` (unit, from the lamp). A spot's flux is spread evenly over its inner cone
-/// and falls off linearly in the cosine to its outer one; SDF gives both cones' full angles. A flat
-/// lamp is Lambertian on the side it shines to.
-double intensity(const Lamp& lamp, const Vec3& away) {
-  if (lamp.type == Lamp::Type::kPoint) return lamp.luminous_flux / (4.0 * M_PI);
-  const double cosine = away.dot(lamp.pose.rotation * lamp.direction);
-  if (lamp.flat()) return std::max(0.0, cosine) * lamp.luminous_flux / M_PI;
-  const double outer = std::cos(std::min(lamp.outer_angle, 2.0 * M_PI) / 2.0);
-  const double inner =
-      std::max(outer, std::cos(std::min(lamp.inner_angle, lamp.outer_angle) / 2.0));
-  if (cosine <= outer) return 0.0;
-  const double share = cosine >= inner ? 1.0 : (cosine - outer) / (inner - outer);
-  return share * lamp.luminous_flux / (2.0 * M_PI * (1.0 - (inner + outer) / 2.0));
-}
 
 /// Unit vectors along a flat lamp's width and height.
 struct Axes {
@@ -44,6 +30,45 @@ Axes axes_of(const Lamp& lamp) {
 double area_of(const Lamp& lamp) {
   return lamp.type == Lamp::Type::kDisc ? M_PI * lamp.radius * lamp.radius
                                         : lamp.width * lamp.height;
+}
+
+/// Of a spot whose intensity is that ahead times a power of the cosine: half at
+/// its half angle.
+double spot_intensity(const Lamp& lamp, double cosine) {
+  const double exponent = std::log(0.5) / std::log(std::cos(lamp.half_angle));
+  const double ahead = lamp.luminous_flux * (exponent + 1.0) / (2.0 * M_PI);
+  return cosine > 0.0 ? ahead * std::pow(cosine, exponent) : 0.0;
+}
+
+/// A spot's flux is spread evenly over its inner cone and falls off linearly in
+/// the cosine to its outer one; SDF gives both cones' full angles.
+double cone_intensity(const Lamp& lamp, double cosine) {
+  const double outer = std::cos(std::min(lamp.outer_angle, 2.0 * M_PI) / 2.0);
+  const double inner =
+      std::max(outer, std::cos(std::min(lamp.inner_angle, lamp.outer_angle) / 2.0));
+  if (cosine <= outer) return 0.0;
+  const double share = cosine >= inner ? 1.0 : (cosine - outer) / (inner - outer);
+  return share * lamp.luminous_flux / (2.0 * M_PI * (1.0 - (inner + outer) / 2.0));
+}
+
+double photometric_intensity(const Lamp& lamp, const Vec3& away, double cosine) {
+  const Axes axes = axes_of(lamp);
+  const double about = std::atan2(away.dot(axes.across), away.dot(axes.along));
+  return intensity(*lamp.photometry, std::acos(std::clamp(cosine, -1.0, 1.0)), about) *
+         lamp.luminous_flux / lamp.photometric_flux;
+}
+
+/// Candela along `away` (unit, from the lamp). A flat lamp is Lambertian on the
+/// side it shines to, a tube's skin all around.
+double intensity_along(const Lamp& lamp, const Vec3& away) {
+  const double cosine = away.dot(lamp.pose.rotation * lamp.direction);
+  if (lamp.flat()) return std::max(0.0, cosine) * lamp.luminous_flux / M_PI;
+  if (lamp.photometry) return photometric_intensity(lamp, away, cosine);
+  if (lamp.type == Lamp::Type::kTube) {
+    return away.cross(axes_of(lamp).along).norm() * lamp.luminous_flux / (M_PI * M_PI);
+  }
+  if (lamp.type == Lamp::Type::kPoint) return lamp.luminous_flux / (4.0 * M_PI);
+  return lamp.half_angle > 0.0 ? spot_intensity(lamp, cosine) : cone_intensity(lamp, cosine);
 }
 
 struct Corners {
@@ -90,11 +115,11 @@ Corners clipped(const Corners& all, const Vec3& normal) {
   return out;
 }
 
-/// Lambert 1760: the sum over the edges of the angle each fills, times its plane's cosine.
-double flat_illuminance(const Lamp& lamp, const Vec3& point, const Vec3& normal) {
-  const Vec3 shines = lamp.pose.rotation * lamp.direction;
-  if ((point - lamp.pose.position).dot(shines) <= kOnSurface) return 0.0;
-  const Corners corners = clipped(corners_of(lamp, point), normal);
+/// Lambert 1760: the sum over the edges of the angle each fills, times its
+/// plane's cosine. Of what of the polygon lies before the plane, for a
+/// luminance of 1.
+double polygon_illuminance(const Corners& all, const Vec3& normal) {
+  const Corners corners = clipped(all, normal);
   if (corners.count < 3) return 0.0;
   double sum = 0.0;
   for (std::size_t i = 0; i < corners.count; ++i) {
@@ -105,8 +130,51 @@ double flat_illuminance(const Lamp& lamp, const Vec3& point, const Vec3& normal)
     if (length < 1e-15) continue;
     sum += std::atan2(length, a.dot(b)) * across.dot(normal) / length;
   }
+  return std::abs(sum) / 2.0;
+}
+
+double flat_illuminance(const Lamp& lamp, const Vec3& point, const Vec3& normal) {
+  const Vec3 shines = lamp.pose.rotation * lamp.direction;
+  if ((point - lamp.pose.position).dot(shines) <= kOnSurface) return 0.0;
   const double luminance = lamp.luminous_flux / (M_PI * area_of(lamp));
-  return luminance * std::abs(sum) / 2.0;
+  return luminance * polygon_illuminance(corners_of(lamp, point), normal);
+}
+
+/// A thin tube looks like a strip as wide as it is thick that faces the point.
+double tube_illuminance(const Lamp& lamp, const Vec3& point, const Vec3& normal) {
+  const Vec3 along = axes_of(lamp).along;
+  const Vec3 middle = lamp.pose.position - point;
+  const Vec3 away = middle - middle.dot(along) * along;
+  const double distance = std::max(away.norm(), lamp.radius);
+  if (distance < kOnSurface) return 0.0;
+  const Vec3 across = lamp.radius * along.cross(away / distance);
+  const Vec3 half = lamp.length / 2 * along;
+  Corners strip;
+  for (const Vec3& corner :
+       {Vec3(-half - across), Vec3(half - across), Vec3(half + across), Vec3(across - half)}) {
+    strip.at[strip.count++] = middle + corner;
+  }
+  const double skin = 2.0 * M_PI * lamp.radius * lamp.length;
+  return lamp.luminous_flux / (M_PI * skin) * polygon_illuminance(strip, normal);
+}
+
+/// An evenly bright globe that the plane cuts: J. M. Snyder, Area light sources
+/// for real-time graphics (Microsoft Research, 1996).
+double globe_illuminance(const Lamp& lamp, const Vec3& point, const Vec3& normal) {
+  const Vec3 towards = lamp.pose.position - point;
+  const double distance = std::max(towards.norm(), lamp.radius);
+  const double cosine =
+      std::clamp(towards.dot(normal) / std::max(towards.norm(), kOnSurface), -1.0, 1.0);
+  const double far = distance / lamp.radius;
+  const double skin = lamp.luminous_flux / (4.0 * M_PI * lamp.radius * lamp.radius);  // lm/m^2
+  if (far * cosine >= 1.0) return skin * cosine / (far * far);
+  if (far * cosine <= -1.0) return 0.0;
+  const double sine = std::sqrt(1.0 - cosine * cosine);
+  const double x = std::sqrt(far * far - 1.0);
+  const double y = std::clamp(-x * cosine / sine, -1.0, 1.0);
+  const double root = std::sqrt(1.0 - y * y);
+  return skin / M_PI *
+         ((cosine * std::acos(y) - x * sine * root) / (far * far) + std::atan(sine * root / x));
 }
 
 bool sees(const rays::Scene& scene, const Lamp& lamp, const Vec3& point, const Vec3& on_lamp,
@@ -118,9 +186,14 @@ bool sees(const rays::Scene& scene, const Lamp& lamp, const Vec3& point, const V
 
 /// What a lamp's point gives on the plane, in a measure of its own.
 double weight_of(const Lamp& lamp, const Vec3& on_lamp, const Vec3& point, const Vec3& normal) {
-  if (!lamp.flat()) return 1.0;
   const Vec3 way = on_lamp - point;
+  if (lamp.type == Lamp::Type::kPoint) return way.dot(normal) > 0.0 ? 1.0 : 0.0;
+  if (lamp.type != Lamp::Type::kTube && !lamp.flat()) return 1.0;
   const double distance2 = way.squaredNorm();
+  if (lamp.type == Lamp::Type::kTube) {
+    return std::max(0.0, way.dot(normal)) * way.cross(axes_of(lamp).along).norm() /
+           (distance2 * distance2);
+  }
   const Vec3 shines = lamp.pose.rotation * lamp.direction;
   return std::max(0.0, way.dot(normal)) * std::max(0.0, -way.dot(shines)) / (distance2 * distance2);
 }
@@ -148,6 +221,10 @@ Count count_seen(const rays::Scene& scene, const Lamp& lamp, const Vec3& point, 
 
 Vec3 lamp_point(const Lamp& lamp, std::size_t which) {
   const std::size_t i = which % kLampPoints;
+  if (lamp.type == Lamp::Type::kTube) {
+    const double at = (square_points()[i].first - 0.5) * lamp.length;
+    return lamp.pose.position + at * axes_of(lamp).along;
+  }
   if (!lamp.flat()) return lamp.pose.position + lamp.radius * lamp_points()[i];
   const Axes axes = axes_of(lamp);
   const auto [u, v] = square_points()[i];
@@ -172,12 +249,16 @@ Beam beam(const Lamp& lamp, const Vec3& point) {
   if (out.distance < kOnSurface) return out;
   out.towards = offset / out.distance;
   const double clamped = std::max(out.distance, lamp.radius);
-  out.illuminance = intensity(lamp, -out.towards) / (clamped * clamped);
+  out.illuminance = intensity_along(lamp, -out.towards) / (clamped * clamped);
   return out;
 }
 
 double illuminance(const Lamp& lamp, const Vec3& point, const Vec3& normal) {
   if (lamp.flat()) return flat_illuminance(lamp, point, normal);
+  if (lamp.type == Lamp::Type::kTube) return tube_illuminance(lamp, point, normal);
+  if (lamp.type == Lamp::Type::kPoint && !lamp.photometry && lamp.radius > 0.0) {
+    return globe_illuminance(lamp, point, normal);
+  }
   const Beam from_lamp = beam(lamp, point);
   return from_lamp.illuminance * std::max(0.0, normal.dot(from_lamp.towards));
 }
@@ -188,7 +269,8 @@ double visible_share(const rays::Scene& scene, const Lamp& lamp, const Vec3& poi
   if (lamp.type == Lamp::Type::kDirectional) {
     return sees(scene, lamp, point, Vec3::Zero(), among) ? 1.0 : 0.0;
   }
-  // A few points show whether a shadow's edge is near; only there many are worth their cost.
+  // A few points show whether a shadow's edge is near; only there many are
+  // worth their cost.
   const double coarse = count_seen(scene, lamp, point, normal, among, kLampPoints / 8).share();
   if (coarse == 0.0 || coarse == 1.0) return coarse;
   return count_seen(scene, lamp, point, normal, among, kLampPoints).share();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 #include <utility>
 
 #include "light/beam.h"
@@ -18,13 +19,14 @@ constexpr std::size_t kStride = 797;     // odd: every direction is taken once
 constexpr std::uint32_t kNoMover = UINT32_MAX;
 constexpr double kGatherMargin = 1e-4;  // m, a surface does not meet its own rays
 constexpr rays::Mobilities kMovable = rays::kAll & ~rays::only(rays::Mobility::kStatic);
-constexpr std::size_t kViewPoints = 16;  // of a flat lamp
+constexpr std::size_t kViewPoints = 16;  // of a flat lamp or a tube
 
 const double kViewTangent = std::tan(M_PI / 6);            // half of 60 degrees
 const double kViewArea = 4 * kViewTangent * kViewTangent;  // on the plane 1 m ahead
 const Rgb kLuminance = {0.2126F, 0.7152F, 0.0722F, 0.0F};  // Rec. 709
 
-/// Where the view's square image sees a direction of the probe's own frame (x ahead).
+/// Where the view's square image sees a direction of the probe's own frame (x
+/// ahead).
 bool in_view(const Vec3& local) {
   const double edge = local.x() * kViewTangent;
   return local.x() > 0 && std::abs(local.y()) <= edge && std::abs(local.z()) <= edge;
@@ -40,7 +42,8 @@ const std::vector<Vec3>& directions() {
   return all;
 }
 
-/// By direction: cosine-weighted directions as an image plane weighs them, all its points alike.
+/// By direction: cosine-weighted directions as an image plane weighs them, all
+/// its points alike.
 const std::vector<float>& view_weights() {
   static const std::vector<float> weights = [] {
     std::vector<double> all;
@@ -77,7 +80,8 @@ void extend(Eigen::AlignedBox3d& reach, const Lamp& lamp) {
     make_infinite(reach);
     return;
   }
-  const double out = std::max(lamp.radius, std::hypot(lamp.width, lamp.height) / 2);
+  const double out = std::max(
+      {lamp.radius, std::hypot(lamp.width, lamp.height) / 2, lamp.length / 2 + lamp.radius});
   reach.extend(lamp.pose.position - Vec3::Constant(out));
   reach.extend(lamp.pose.position + Vec3::Constant(out));
 }
@@ -95,14 +99,11 @@ Gather::Gather(const rays::Scene& scene, Field& field, const Pose& pose)
   for (std::size_t i = 0; i < kDirections; ++i) {
     surfaces_.push_back(surface(rays_[i], hits[i]));
     extend(fixed_reach_, rays_[i], hits[i].range);
-    if (!hits[i].hit()) continue;
-    Surface& seen = surfaces_.back();
-    seen.patch = field_.patch_at(hits[i].shape, seen.position, seen.normal);
   }
   for (std::size_t i = 0; i < kDirections; ++i) {
     rays::Hit hit;
-    const rays::Ray ray = next(i);
-    if (surfaces_[i].patch != kNoPatch) {
+    const rays::Ray ray = hits[i].hit() ? next(i) : rays::Ray{};
+    if (hits[i].hit()) {
       scene_.cast(&ray, &hit, 1, rays::only(rays::Mobility::kStatic));
       extend(fixed_reach_, ray, hit.range);
     }
@@ -110,8 +111,8 @@ Gather::Gather(const rays::Scene& scene, Field& field, const Pose& pose)
   }
 }
 
-/// One way that light may come to the surface in direction i: all of them together fill each
-/// surface's hemisphere.
+/// One way that light may come to the surface in direction i: all of them
+/// together fill each surface's hemisphere.
 rays::Ray Gather::next(std::size_t i) const {
   const Vec3& about_x = directions()[(i * kStride) % kDirections];
   const Vec3 way = frame_about(surfaces_[i].normal) * Vec3(about_x.y(), about_x.z(), about_x.x());
@@ -126,7 +127,40 @@ Gather::Surface Gather::surface(const rays::Ray& ray, const rays::Hit& hit) cons
   out.position = ray.origin + hit.range * ray.direction;
   out.normal = hit.normal.cast<double>().normalized();
   out.albedo = field_.albedo(hit.shape);
+  out.shape = hit.shape;
+  if (scene_.mobility(hit.shape) != rays::Mobility::kMoving) locate(out);
   return out;
+}
+
+void Gather::locate(Surface& surface) const {
+  surface.patch = field_.patch_at(surface.shape, surface.position, surface.normal);
+  surface.serial = surface.patch == kNoPatch ? 0 : field_.serial(surface.patch);
+}
+
+/// Finds patches again that the field has made anew since, and lists all.
+void Gather::relocate() {
+  if (located_ == field_.revision()) return;
+  located_ = field_.revision();
+  const auto check = [&](Surface& seen) {
+    if (seen.shape == UINT32_MAX) return;
+    const bool holds = seen.patch != kNoPatch && field_.alive(seen.patch) &&
+                       field_.serial(seen.patch) == seen.serial;
+    if (!holds) locate(seen);
+  };
+  for (Mover& mover : movers_) {
+    if (mover.anchored) check(mover.surface);
+  }
+  for (Surface& seen : around_) check(seen);
+  std::unordered_map<std::uint32_t, std::uint32_t> slots;
+  patches_.clear();
+  slots_.clear();
+  for (Surface& seen : surfaces_) {
+    check(seen);
+    const auto [slot, fresh] =
+        slots.try_emplace(seen.patch, static_cast<std::uint32_t>(patches_.size()));
+    if (fresh) patches_.push_back(seen.patch);
+    slots_.push_back(slot->second);
+  }
 }
 
 void Gather::forget(const std::function<bool(LampId)>& gone) {
@@ -149,9 +183,6 @@ void Gather::find_movers() {
     before_[i] = static_cast<std::uint32_t>(movers_.size());
     movers_.push_back(
         {surface(rays[i], hits[i]), scene_.mobility(hits[i].shape) == rays::Mobility::kAnchored});
-    Surface& seen = movers_.back().surface;
-    if (!movers_.back().anchored) continue;
-    seen.patch = field_.patch_at(hits[i].shape, seen.position, seen.normal);
   }
   find_between();
   find_around();
@@ -161,7 +192,7 @@ void Gather::find_movers() {
 void Gather::find_between() {
   between_.assign(kDirections, Rgb::Constant(-1.0F));
   for (std::size_t i = 0; i < kDirections; ++i) {
-    if (surfaces_[i].patch == kNoPatch) continue;
+    if (surfaces_[i].shape == UINT32_MAX) continue;
     rays::Ray ray = next(i);
     ray.max = next_ranges_[i];
     rays::Hit hit;
@@ -170,7 +201,8 @@ void Gather::find_between() {
   }
 }
 
-/// Points of free movers find the light they reflect: the more points, the fewer ways each.
+/// Points of free movers find the light they reflect: the more points, the
+/// fewer ways each.
 void Gather::find_around() {
   around_.clear();
   const auto free = static_cast<std::size_t>(std::count_if(
@@ -189,16 +221,16 @@ void Gather::find_around() {
       rays::Hit hit;
       scene_.cast(&ray, &hit, 1, kStanding);
       extend(reach_, ray, hit.range);
-      Surface& seen = around_.emplace_back(surface(ray, hit));
-      if (hit.hit()) seen.patch = field_.patch_at(hit.shape, seen.position, seen.normal);
+      around_.push_back(surface(ray, hit));
     }
   }
 }
 
-/// As in an integrating sphere: free movers take their share of the light that goes to and fro, by
-/// what they and the room absorb. Areas are those seen from here; a body has another half. The two
-/// last surfaces on the light's way are taken one by one, so only what was reflected before
-/// counts: of each bounce's light the mean albedo's share.
+/// As in an integrating sphere: free movers take their share of the light that
+/// goes to and fro, by what they and the room absorb. Areas are those seen from
+/// here; a body has another half. The two last surfaces on the light's way are
+/// taken one by one, so only what was reflected before counts: of each bounce's
+/// light the mean albedo's share.
 void Gather::weigh() {
   double room = 0.0, movers = 0.0, albedos = 0.0;
   for (std::size_t i = 0; i < kDirections; ++i) {
@@ -224,34 +256,43 @@ bool Gather::shaded(const Lamp& lamp, const Surface& surface, std::size_t i) con
   return !sees_one(scene_, lamp, surface.position, i, kMovable);
 }
 
-const Gather::Received& Gather::received(LampId id, const Lamp& lamp, const Solution& solution) {
+void Gather::prepare(LampId id, const Lamp& lamp, std::uint64_t geometry) {
   Received& from = received_[id];
-  if (from.stamp == solution.stamp) return from;
-  from.stamp = solution.stamp;
+  if (from.geometry == geometry) return;
+  from.geometry = geometry;
+  from.lit = false;
   from.direct.assign(kDirections, 0.0F);
-  from.reflected.assign(kDirections, Rgb::Zero());
-  bool any = false;
   for (std::size_t i = 0; i < kDirections; ++i) {
     const Surface& seen = surfaces_[i];
     if ((seen.albedo == 0.0F).all()) continue;
-    if (!solution.bounds.contains(seen.position)) continue;
     const double lux = illuminance(lamp, seen.position, seen.normal);
     if (lux > 0.0 &&
         sees_one(scene_, lamp, seen.position, i, rays::only(rays::Mobility::kStatic))) {
       from.direct[i] = static_cast<float>(lux);
+      from.lit = true;
     }
-    from.reflected[i] = field_.reflected(solution, seen.patch);
-    any = any || from.direct[i] > 0.0F || (from.reflected[i] > 0.0F).any();
   }
-  if (!any) {
-    from.direct.clear();
-    from.reflected.clear();
+}
+
+const Gather::Received& Gather::received(const Source& source) {
+  prepare(source.id, source.lamp, source.geometry);
+  Received& from = received_[source.id];
+  if (source.lasting && from.stamp == source.solution.stamp) return from;
+  from.stamp = source.lasting ? source.solution.stamp : UINT64_MAX;
+  std::vector<Rgb> by_patch;
+  from.any = from.lit;
+  for (const std::uint32_t patch : patches_) {
+    by_patch.push_back(field_.reflected(source.solution, patch));
+    from.any = from.any || (by_patch.back() > 0.0F).any();
   }
+  from.reflected.clear();
+  for (const std::uint32_t slot : slots_) from.reflected.push_back(by_patch[slot]);
   return from;
 }
 
-Rgb Gather::on_mover(const Mover& mover, const Lamp& lamp, const Solution& solution, std::size_t i,
-                     bool& in_play) const {
+Rgb Gather::on_mover(const Mover& mover, const Source& source, std::size_t i, bool& in_play) const {
+  const Lamp& lamp = source.lamp;
+  const Solution& solution = source.solution;
   const Surface& seen = mover.surface;
   const double lux = illuminance(lamp, seen.position, seen.normal);
   Rgb direct = Rgb::Zero(), reflected = Rgb::Zero();
@@ -271,21 +312,22 @@ Rgb Gather::on_mover(const Mover& mover, const Lamp& lamp, const Solution& solut
   return direct + reflected / static_cast<float>(ways_);
 }
 
-Gathered Gather::gather(LampId id, const Lamp& lamp, const Solution& solution,
-                        Eigen::AlignedBox3d& reach) {
+Gathered Gather::gather(const Source& source, Eigen::AlignedBox3d& reach) {
   if (!movers_found_) find_movers();
-  const Received& from = received(id, lamp, solution);
-  bool in_play = !from.direct.empty();
+  relocate();
+  const Lamp& lamp = source.lamp;
+  const Received& from = received(source);
+  bool in_play = from.any;
   const auto count = static_cast<float>(kDirections);
   std::vector<Rgb> on_movers;  // lx
   Rgb mean = Rgb::Zero();      // of those
   for (std::size_t i = 0; i < kDirections; ++i) {
     if (before_[i] == kNoMover) continue;
-    on_movers.push_back(on_mover(movers_[before_[i]], lamp, solution, i, in_play));
+    on_movers.push_back(on_mover(movers_[before_[i]], source, i, in_play));
     mean += on_movers.back();
   }
   if (!on_movers.empty()) mean /= static_cast<float>(on_movers.size());
-  for (std::size_t i = 0; on_movers.empty() && i < from.direct.size(); ++i) {
+  for (std::size_t i = 0; on_movers.empty() && from.any && i < kDirections; ++i) {
     mean += (from.direct[i] + from.reflected[i]) / count;
   }
   Gathered out;
@@ -294,7 +336,7 @@ Gathered Gather::gather(LampId id, const Lamp& lamp, const Solution& solution,
     Rgb leaving = Rgb::Zero();
     if (before_[i] != kNoMover) {
       leaving = movers_[before_[i]].surface.albedo * on_movers[before_[i]];
-    } else if (!from.direct.empty()) {
+    } else if (from.any) {
       const bool dark = from.direct[i] == 0.0F || shaded(lamp, surfaces_[i], i);
       const Rgb reflected =
           between_[i].x() < 0.0F ? Rgb(left_ * from.reflected[i]) : Rgb(between_[i] * mean);
@@ -328,13 +370,14 @@ Direct direct(const rays::Scene& scene, const Pose& pose, const Lamp& lamp,
   Direct out;
   out.illuminance = free * share;
   if (lamp.type == Lamp::Type::kDirectional) return out;
-  // The lamp covers (1 / x^3) of its solid angle on the image plane: what it sends is the same
-  // whatever its size.
-  const std::size_t points = lamp.flat() ? kViewPoints : 1;
+  // The lamp covers (1 / x^3) of its solid angle on the image plane: what it
+  // sends is the same whatever its size.
+  const bool extended = lamp.flat() || lamp.type == Lamp::Type::kTube;
+  const std::size_t points = extended ? kViewPoints : 1;
   for (std::size_t i = 0; i < points; ++i) {
     Lamp part = lamp;
-    if (lamp.flat()) part.pose.position = lamp_point(lamp, i);
-    part.radius = lamp.flat() ? 0.0 : lamp.radius;
+    if (extended) part.pose.position = lamp_point(lamp, i);
+    part.radius = extended ? 0.0 : lamp.radius;
     const Beam from = beam(part, pose.position);
     const Vec3 local = pose.rotation.conjugate() * from.towards;
     if (!in_view(local)) continue;

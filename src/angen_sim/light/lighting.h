@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/pose.h"
 #include "core/slots.h"
+#include "core/time.h"
 #include "light/lamp.h"
 #include "rays/scene.h"
 
@@ -31,7 +34,7 @@ struct Transport {
 struct Probe {
   Pose pose;
   std::uint64_t revision = UINT64_MAX;  // of the scene and lamp set that `transports` belong to
-  std::uint64_t static_revision = UINT64_MAX;
+  std::uint64_t walls = 0;              // changes of static shapes that are taken into account
   std::uint64_t lamps_revision = UINT64_MAX;
   std::vector<Transport> transports;
   std::shared_ptr<Gather> gather;  // what the place sees of what stands still
@@ -73,38 +76,81 @@ class Lighting {
   /// which moving shapes block and reflect. Albedos above 0.9 count as 0.9. A shape around a lamp
   /// or around the place keeps the light out, the sensor's own housing too: leave it out of the
   /// scene or put the place before it. The scene must be committed. Same scene, same lamps, same
-  /// pose: same bits, whatever was measured before. One thread at a time.
+  /// pose: same bits, whatever was measured before. One thread at a time. After pace() the light
+  /// between surfaces is what advance() has found so far, and a lamp whose light it has not found
+  /// yet gives none.
   /// `still` says that since the last time no shape has moved, come or gone within the probe's
   /// reach, so that lamps are not looked for again whose light takes the same ways as then.
   Sample measure(Probe& probe, const Pose& pose, bool still = false) const;
 
-  /// Has advance() find what measure() needs of the lamps that are lit now: their light between the
-  /// surfaces, a part of a second of CPU time for each. measure() finds what is not there yet.
+  /// Whether the place has been measured before.
+  bool knows(const Probe& probe) const {
+    return probe.lamps_revision >> 32 == lamps_revision_ >> 32;
+  }
+
+  /// From now on only advance() finds light between surfaces, but what measure() needs now. The
+  /// scene must be committed.
+  void pace();
+  /// Has advance() begin, so that less is left for pace().
   void prepare();
-  /// Goes on with what prepare() has asked for, for some 10 ms of CPU time. The scene
-  /// must be committed.
-  void advance();
-  /// Whether something is lacking.
-  bool busy() const { return busy_; }
+  /// Finds what measure() needs of the lamps that are lit, for some 5 ms of CPU time: that of lamps
+  /// that were switched on or came, and anew where standing shapes have come, gone or moved, once
+  /// they have rested for 0.1 s, or else once a second. How long that takes depends on what
+  /// happened and when (`now`), not on what was measured. The scene must be committed.
+  void advance(Nanoseconds now);
+  /// Whether advance() has been asked for.
+  bool active() const { return active_; }
+  /// Whether advance() has something to do, as far as is known.
+  bool busy() const { return active_ && busy_; }
 
  private:
   struct Entry {
     Lamp lamp;
     double level;
-    std::shared_ptr<const Solution> solution;  // made when the lamp is lit and somebody measures
+    std::shared_ptr<const Solution> solution;  // null until it has been lit
+    std::uint64_t geometry = 0;                // see Source
+    bool stale = false;                        // lamp or shapes have changed since
+    bool due = false;                          // to be found anew
   };
-  void follow() const;
-  std::optional<LampId> missing() const;
+  struct Delivery {
+    std::weak_ptr<Gather> gather;
+    LampId lamp;
+  };
+
+  bool follow() const;
+  void complete() const;
+  void note(Nanoseconds now);
+  bool due(Nanoseconds now) const;
+  void take_up();
+  void pick();
+  void publish();
+  void deliver();
+  std::optional<LampId> next() const;
+  bool missing() const;
   void renew(Probe& probe, const Pose& pose, bool still) const;
+  std::shared_ptr<Gather> make_gather(const Pose& pose) const;
+  bool walls_changed(const Probe& probe) const;
   const Transport& find(Probe& probe, LampId id, Entry& entry) const;
   void count(double before, double after);
 
   const rays::Scene& scene_;
   mutable Slots<Entry, LampTag> lamps_;
   std::unique_ptr<Field> field_;
-  mutable std::unique_ptr<Unfinished> work_;  // on the solution of `worked_on_`
+  mutable std::vector<std::weak_ptr<Gather>> gathers_;  // of all probes
+  mutable std::vector<Eigen::AlignedBox3d> walls_;      // where static shapes came and went, latest
+  mutable std::uint64_t walls_count_ = 0;               // of all there were
+  mutable std::unique_ptr<Unfinished> work_;            // on the solution of `worked_on_`
+  mutable std::vector<Eigen::AlignedBox3d> work_changes_;  // in the scene, since it began
+  bool work_moved_ = false;                                // its lamp has, since
   LampId worked_on_;
-  bool busy_ = false;
+  std::deque<Delivery> deliveries_;
+  bool active_ = false;
+  bool paced_ = false;
+  mutable bool busy_ = false;
+  mutable bool changed_ = false;  // something, since the last advance()
+  bool waiting_ = false;          // for changes to end
+  Nanoseconds first_change_ = 0;  // of those that wait
+  Nanoseconds last_change_ = 0;   // the same
   std::uint64_t lamps_revision_;  // no two Lightings share one
   std::size_t lit_count_ = 0;
   std::uint64_t lit_revision_ = 0;

@@ -90,9 +90,11 @@ std::uint32_t Surfaces::make(const Key& key) {
   if (!fresh) return found->second;
   keys_[static_cast<std::uint32_t>(key[0])].push_back(key);
   const bool fine = key[5] == 1;
-  Patch patch{key, HashKey{}(key), sites(key, fine ? kFineSitesPerSide : kSitesPerSide)};
+  Patch patch{key, HashKey{}(key), sites(key, fine ? kFineSitesPerSide : kSitesPerSide),
+              serials_ + 1};
   if (!fine && (patch.sites.empty() || divided(patch.sites))) return found->second = kDivided;
   if (patch.sites.empty()) return kNoPatch;
+  ++serials_;
   if (free_.empty()) {
     found->second = static_cast<std::uint32_t>(patches_.size());
     patches_.push_back(std::move(patch));
@@ -167,8 +169,7 @@ bool Surfaces::divided(const std::vector<Site>& sites) const {
     for (std::size_t i = 0; i < sites.size(); ++i) {
       if (seen[i] || (sites[i].position - from.position).squaredNorm() > near2) continue;
       if (scene_.blocked(from.position + kLift * from.normal,
-                         sites[i].position + kLift * sites[i].normal, 1e-4,
-                         rays::only(rays::Mobility::kStatic))) {
+                         sites[i].position + kLift * sites[i].normal, 1e-4, kStanding)) {
         continue;
       }
       seen[i] = true;
@@ -178,25 +179,57 @@ bool Surfaces::divided(const std::vector<Site>& sites) const {
   return reached.size() != sites.size();
 }
 
-void Surfaces::clear() {
-  known_.clear();
-  keys_.clear();
-  patches_.clear();
-  free_.clear();
+template <class Meets>
+void Surfaces::forget_if(std::uint32_t shape, std::vector<std::uint32_t>& gone, Meets&& meets) {
+  const auto found = keys_.find(shape);
+  if (found == keys_.end()) return;
+  std::vector<Key>& keys = found->second;
+  const auto forgotten = std::remove_if(keys.begin(), keys.end(), [&](const Key& key) {
+    if (!meets(key)) return false;
+    const auto entry = known_.find(key);
+    if (entry->second < kDivided) {
+      patches_[entry->second].alive = false;
+      gone.push_back(entry->second);
+    }
+    known_.erase(entry);
+    return true;
+  });
+  keys.erase(forgotten, keys.end());
+  if (keys.empty()) keys_.erase(found);
 }
 
-std::vector<std::uint32_t> Surfaces::forget(std::uint32_t shape) {
-  std::vector<std::uint32_t> gone;
-  const auto found = keys_.find(shape);
-  if (found == keys_.end()) return gone;
-  for (const Key& key : found->second) {
-    const auto entry = known_.find(key);
-    if (entry->second < kDivided) gone.push_back(entry->second);
-    known_.erase(entry);
+void Surfaces::forget(std::uint32_t shape, std::vector<std::uint32_t>& gone) {
+  forget_if(shape, gone, [](const Key&) { return true; });
+}
+
+/// By whole cells: whether a cell is divided depends on all of it.
+void Surfaces::forget_near(std::uint32_t shape, const Eigen::AlignedBox3d& box,
+                           std::vector<std::uint32_t>& gone) {
+  if (keys_.count(shape) == 0) return;
+  std::array<Lattice, 6> faces;
+  for (int face = 0; face < 6; ++face) faces[static_cast<std::size_t>(face)] = lattice(shape, face);
+  const Pose back = faces[0].placement.pose.inverse();
+  const bool endless = !box.diagonal().allFinite();
+  Eigen::AlignedBox3d local;
+  for (int corner = 0; corner < 8 && !endless; ++corner) {
+    local.extend(back * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
   }
-  keys_.erase(found);
+  forget_if(shape, gone, [&](const Key& key) {
+    if (endless) return true;
+    const Lattice& cells = faces[static_cast<std::size_t>(key[1])];
+    for (int side = 0; side < 2; ++side) {
+      const int axis = (cells.axis + 1 + side) % 3;
+      const int at = key[3 + side];
+      const int cell = key[5] == 0 ? at : static_cast<int>(std::floor(at / double{kFine}));
+      const double low = cells.low[side] + cell * cells.step[side];
+      if (local.min()[axis] > low + cells.step[side] || local.max()[axis] < low) return false;
+    }
+    return true;
+  });
+}
+
+void Surfaces::release(const std::vector<std::uint32_t>& gone) {
   free_.insert(free_.end(), gone.begin(), gone.end());
-  return gone;
 }
 
 }  // namespace angen::light

@@ -11,6 +11,10 @@ namespace angen::light {
 
 constexpr std::uint32_t kNoPatch = UINT32_MAX;
 
+/// Static and anchored shapes: light is balanced between them.
+constexpr rays::Mobilities kStanding =
+    rays::only(rays::Mobility::kStatic) | rays::only(rays::Mobility::kAnchored);
+
 /// A point of a patch where nothing covers it.
 struct Site {
   Vec3 position;
@@ -23,6 +27,8 @@ struct Patch {
   std::array<std::int32_t, 6> key;  // shape, face, depth, u, v, level
   std::uint64_t hash = 0;
   std::vector<Site> sites;
+  std::uint64_t serial = 0;  // no two patches have had the same
+  bool alive = true;         // not forgotten since
 };
 
 /// Patches, found when they are first hit. What a patch is depends on the shapes alone, not on
@@ -37,10 +43,13 @@ class Surfaces {
   const Patch& operator[](std::uint32_t patch) const { return patches_[patch]; }
   std::size_t size() const { return patches_.size(); }  // numbers given so far, removed or not
 
-  void clear();
-
-  /// Forgets the patches of one shape and returns their numbers, which may be given anew.
-  std::vector<std::uint32_t> forget(std::uint32_t shape);
+  /// Forgets the patches of one shape, or those of it that may meet a box (m, world). Appends their
+  /// numbers to `gone`; they stay what they were until release().
+  void forget(std::uint32_t shape, std::vector<std::uint32_t>& gone);
+  void forget_near(std::uint32_t shape, const Eigen::AlignedBox3d& box,
+                   std::vector<std::uint32_t>& gone);
+  /// Lets the numbers of forgotten patches be given anew.
+  void release(const std::vector<std::uint32_t>& gone);
 
  private:
   using Key = std::array<std::int32_t, 6>;
@@ -59,12 +68,15 @@ class Surfaces {
   std::vector<Site> sites(const Key& key, int per_side) const;
   bool site(const Lattice& lattice, const Key& key, double u, double v, Site& out) const;
   bool divided(const std::vector<Site>& sites) const;
+  template <class Meets>
+  void forget_if(std::uint32_t shape, std::vector<std::uint32_t>& gone, Meets&& meets);
 
   const rays::Scene& scene_;
   std::unordered_map<Key, std::uint32_t, HashKey> known_;     // looked up, never iterated
   std::unordered_map<std::uint32_t, std::vector<Key>> keys_;  // by shape
   std::vector<Patch> patches_;
   std::vector<std::uint32_t> free_;
+  std::uint64_t serials_ = 0;
 };
 
 }  // namespace angen::light

@@ -119,7 +119,7 @@ desc::Link link_of(const Element& element, const std::string& scope, const Conte
     } else if (part.name == "sensor") {
       link.sensors.push_back(sensor_of(part, place(part), context.session));
     } else if (part.name == "light") {
-      link.lights.push_back(light_of(part, place(part)));
+      link.lights.push_back(light_of(part, place(part), context.session));
     }
   }
   return link;

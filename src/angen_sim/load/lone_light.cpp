@@ -48,7 +48,7 @@ desc::Light light(const std::string& what, const std::string& name, const Pose& 
   if (!name.empty()) set_attribute(element, "name", name);
   check_name(name_of(element), "<light>", element.source);
   check_part(element, session);
-  return light_of(element, pose * child_pose(element));
+  return light_of(element, pose * child_pose(element), session);
 }
 
 }  // namespace angen::load

@@ -71,6 +71,14 @@ void serialize(A& a, angen::HeightGrid& v) {
 }
 
 template <class A>
+void serialize(A& a, angen::Photometry& v) {
+  auto& [vertical, horizontal, candela] = v;
+  serialize_plain(a, vertical);
+  serialize_plain(a, horizontal);
+  serialize_plain(a, candela);
+}
+
+template <class A>
 void serialize(A& a, angen::Shape& v) {
   auto& [type, size, radius, length, mesh, heights, mesh_file, mesh_scale] = v;
   a(type, size, radius, length, mesh, heights, mesh_file, mesh_scale);
@@ -109,9 +117,9 @@ void serialize(A& a, angen::desc::Inertial& v) {
 template <class A>
 void serialize(A& a, angen::desc::Light& v) {
   auto& [name, type, pose, diffuse, intensity, range, direction, inner_angle, outer_angle, width,
-         height, radius, cast_shadows, source] = v;
+         height, length, radius, half_angle, photometry, cast_shadows, source] = v;
   a(name, type, pose, diffuse, intensity, range, direction, inner_angle, outer_angle, width, height,
-    radius, cast_shadows, source);
+    length, radius, half_angle, photometry, cast_shadows, source);
 }
 
 template <class A>

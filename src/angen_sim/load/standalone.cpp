@@ -11,8 +11,8 @@ namespace angen::load {
 namespace {
 
 void each_file_uri(Element& element, const std::function<void(Element&)>& visit) {
-  const bool reads =
-      element.name == "mesh" || element.name == "heightmap" || element.name == "image";
+  const bool reads = element.name == "mesh" || element.name == "heightmap" ||
+                     element.name == "image" || element.name == "angen:ies";
   for (Element& child : element.children) {
     if (reads && child.name == "uri") {
       visit(child);

@@ -75,7 +75,7 @@ void check_entry_names(const std::vector<Entry>& entries) {
 }
 
 // Most models stand by their names and poses alone.
-void place_all(const Parts& parts, desc::World& to) {
+void place_all(const Parts& parts, desc::World& to, Session& session) {
   Element world = parts.settings;
   for (const Entry& entry : parts.entries) {
     if (entry.expanded.attribute("placement_frame") != nullptr) {
@@ -92,7 +92,7 @@ void place_all(const Parts& parts, desc::World& to) {
   Frames frames(world);
   for (const Element& child : parts.settings.children) {
     if (child.name == "light") {
-      to.lights.push_back(light_of(child, frames.part_pose(child, "", "")));
+      to.lights.push_back(light_of(child, frames.part_pose(child, "", ""), session));
     }
   }
   for (std::size_t i = 0; i < parts.entries.size(); ++i) {
@@ -131,7 +131,7 @@ desc::World describe_world(const Element& sdf, Session& session) {
   }
   world.models = describe_entries(parts.entries, session);
   check_schema(parts.settings, session);
-  place_all(parts, world);
+  place_all(parts, world, session);
   for (const Element& child : sdf.children) {
     if (child.name != "world") session.ignore(child.source, "<" + child.name + "> in <sdf>");
   }

@@ -87,9 +87,9 @@ class View {
   }
   /// Nearest hits: hits[i] answers rays[i].
   virtual void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const = 0;
-  /// Light at a place; see light::Lighting::measure. Where the light of a lamp that came or was
-  /// switched on must be found first, it takes a part of a second of CPU time: prepare_light(),
-  /// some seconds before, spreads that over ticks.
+  /// Light at a place; see light::Lighting::measure. The first query in a world finds the light of
+  /// all lit lamps, which takes up to some seconds of CPU time: prepare_light(), some seconds
+  /// before, spreads that over ticks, as light that changes later is.
   virtual light::Sample illuminance(light::Probe& probe, const Pose& pose) const = 0;
   virtual void prepare_light() const = 0;
   virtual double ambient_temperature() const = 0;  // K

@@ -39,13 +39,15 @@ struct Cover {
   const std::vector<Solid>* solids;
   Vec3 point;
   std::uint32_t except;
+  bool fixed;
   bool found = false;
 };
 
 bool query_inside(RTCPointQueryFunctionArguments* args) {
   auto& cover = *static_cast<Cover*>(args->userPtr);
   const Solid& solid = (*cover.solids)[args->primID];
-  cover.found = cover.found || (solid.slot != cover.except && contains(solid, cover.point));
+  if (solid.slot == cover.except || !(cover.fixed || solid.anchored)) return false;
+  cover.found = cover.found || contains(solid, cover.point);
   return false;  // the query's radius stays
 }
 
@@ -120,6 +122,7 @@ bool Layer::covers(const Vec3& point, std::uint32_t except) const {
   cover.solids = &bounded;
   cover.point = point;
   cover.except = except;
+  cover.fixed = fixed;
   const Eigen::Vector3f at = point.cast<float>();
   RTCPointQuery query{at.x(), at.y(), at.z(), 0.0F, 1e-5F};  // m, what floats lose
   rtcPointQuery(tree.scene.get(), &query, &cover.context, query_inside, &cover);

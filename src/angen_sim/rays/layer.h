@@ -69,7 +69,7 @@ struct Layer {
   void nearest(SceneQuery& q) const;
   /// Whether the ray meets anything here.
   bool any(SceneQuery& q) const;
-  /// Whether a solid with a box, other than `except`, has the point inside.
+  /// Whether a static or anchored solid with a box, other than `except`, has the point inside.
   bool covers(const Vec3& point, std::uint32_t except) const;
 };
 

@@ -113,6 +113,7 @@ ShapeId Scene::add(const Shape& shape, const Pose& pose, Mobility mobility,
   impl_->reflectances.resize(std::max<std::size_t>(impl_->reflectances.size(), id.index + 1));
   impl_->places.resize(impl_->reflectances.size());
   impl_->reflectances[id.index] = reflectance;
+  impl_->places[id.index] = {};
   if (shape.type == Shape::Type::kEmpty) return id;
   solid.slot = id.index;
   solid.anchored = mobility == Mobility::kAnchored;
@@ -148,6 +149,16 @@ void Scene::move(ShapeId shape, const Pose& pose) {
   Layer& layer = impl_->layer(entry.mobility);
   layer.list(entry.type)[impl_->places[shape.index].at].place(pose);
   impl_->touch(entry.mobility);
+}
+
+void Scene::set_anchored(ShapeId shape, bool anchored) {
+  Entry& entry = impl_->entries.at(shape);
+  const Mobility mobility = anchored ? Mobility::kAnchored : Mobility::kMoving;
+  if (entry.mobility == mobility || entry.mobility == Mobility::kStatic) return;
+  entry.mobility = mobility;
+  if (entry.type == Shape::Type::kEmpty) return;
+  impl_->moving.list(entry.type)[impl_->places[shape.index].at].anchored = anchored;
+  impl_->touch(Mobility::kAnchored);
 }
 
 void Scene::remove(ShapeId shape) {
@@ -290,7 +301,7 @@ Hit Scene::cast_at(std::uint32_t shape_index, const Ray& ray) const {
 }
 
 bool Scene::covered(const Vec3& point, std::uint32_t except) const {
-  return impl_->fixed.covers(point, except);
+  return impl_->fixed.covers(point, except) || impl_->moving.covers(point, except);
 }
 
 Eigen::Vector3f Scene::reflectance(std::uint32_t shape_index) const {
@@ -301,6 +312,7 @@ const std::vector<WarmShape>& Scene::warm_shapes() const { return impl_->warm; }
 Mobility Scene::mobility(std::uint32_t shape_index) const {
   const Place& place = impl_->places.at(shape_index);
   if (place.layer == &impl_->fixed) return Mobility::kStatic;
+  if (place.layer == nullptr) return Mobility::kMoving;  // empty
   return impl_->solid(shape_index).anchored ? Mobility::kAnchored : Mobility::kMoving;
 }
 
@@ -315,11 +327,11 @@ Eigen::AlignedBox3d Scene::static_bounds() const {
   return all;
 }
 
-std::vector<std::pair<ShapeId, Eigen::AlignedBox3d>> Scene::anchored() const {
+std::vector<std::pair<ShapeId, Eigen::AlignedBox3d>> Scene::boxes(Mobility mobility) const {
   std::vector<std::pair<ShapeId, Eigen::AlignedBox3d>> all;
   impl_->entries.each([&](ShapeId id, const Entry& entry) {
-    if (entry.mobility != Mobility::kAnchored || entry.type == Shape::Type::kEmpty) return;
-    all.emplace_back(id, bounds_of(impl_->solid(id.index)));
+    if (entry.mobility != mobility || entry.type == Shape::Type::kEmpty) return;
+    all.emplace_back(id, bounds(id));
   });
   return all;
 }

@@ -39,7 +39,7 @@ struct Crossing {
                                                      // leaves by where it starts inside
 };
 
-/// Anchored: moves, but only as its joints to the static world let it, as a door does.
+/// Anchored: stands until it moves, as a door does, or a chair that nobody pushes.
 enum class Mobility { kStatic, kAnchored, kMoving };
 
 /// Which mobilities a cast meets.
@@ -74,6 +74,8 @@ class Scene {
   /// Gives a shape that is not empty a surface temperature in K, or another one.
   void warm(ShapeId shape, double temperature);
   void move(ShapeId shape, const Pose& pose);
+  /// Makes an anchored shape a moving one, or the other way round.
+  void set_anchored(ShapeId shape, bool anchored);
   void remove(ShapeId shape);
 
   /// Makes additions, moves and removals visible to casts. Cheap when nothing changed.
@@ -104,7 +106,8 @@ class Scene {
 
   /// The nearest hit on one shape alone.
   Hit cast_at(std::uint32_t shape_index, const Ray& ray) const;
-  /// Whether a static solid other than `except` has the point inside; meshes and planes have none.
+  /// Whether a static or anchored solid other than `except` has the point inside; meshes and planes
+  /// have none.
   bool covered(const Vec3& point, std::uint32_t except) const;
 
   Eigen::Vector3f reflectance(std::uint32_t shape_index) const;
@@ -118,8 +121,8 @@ class Scene {
 
   /// Around all static shapes but planes, world frame.
   Eigen::AlignedBox3d static_bounds() const;
-  /// World boxes of the anchored shapes, by index.
-  std::vector<std::pair<ShapeId, Eigen::AlignedBox3d>> anchored() const;
+  /// World boxes of the shapes of one mobility, by index.
+  std::vector<std::pair<ShapeId, Eigen::AlignedBox3d>> boxes(Mobility mobility) const;
 
   /// Counts commits that changed something: equal revisions mean equal answers.
   std::uint64_t revision() const;

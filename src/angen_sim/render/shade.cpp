@@ -29,7 +29,7 @@ std::array<std::uint8_t, kCodes + 1> make_codes() {
 struct Source {
   explicit Source(const light::Lit& lit)
       : lamp(lit.lamp), level(lit.level), position(lit.lamp.pose.position.cast<float>()) {
-    is_point = lamp.type == light::Lamp::Type::kPoint;
+    is_point = lamp.type == light::Lamp::Type::kPoint && !lamp.photometry;
     candela = static_cast<float>(level * lamp.luminous_flux / (4.0 * M_PI));
     nearest2 = static_cast<float>(lamp.radius * lamp.radius);
   }

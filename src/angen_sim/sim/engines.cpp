@@ -5,6 +5,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "light/photometry.h"
 #include "sim/joined.h"
 #include "sim/like_visual.h"
 
@@ -12,8 +13,8 @@ namespace angen::sim {
 
 namespace {
 
-// SDF gives lights no photometric unit: intensity 1 at full diffuse stands for a common lamp, or
-// for overcast daylight.
+// SDF gives lights no photometric unit: intensity 1 at full diffuse stands for
+// a common lamp, or for overcast daylight.
 constexpr double kPointFlux = 800.0;             // lm
 constexpr double kDirectionalIlluminance = 1e3;  // lx
 constexpr float kNight = 0.1F;  // of SDF's ambient: what a dark world gives a camera all the same
@@ -39,7 +40,8 @@ std::vector<std::vector<std::uint32_t>> joints_by_child(const desc::Model& model
   return joints;
 }
 
-// Glass and the like, which lets more than half of the light through, is not seen.
+// Glass and the like, which lets more than half of the light through, is not
+// seen.
 render::Body visible(const desc::Link& link, const Pose& pose, bool moves) {
   render::Body body;
   body.pose = pose;
@@ -77,17 +79,17 @@ Parts Engines::add(const desc::Model& model) {
     const desc::Link& link = model.links[i];
     const Pose pose = physics.link(parts.links[i]).pose;
     parts.first_shape.push_back(static_cast<std::uint32_t>(parts.shapes.size()));
-    const auto mobility = model.is_static             ? rays::Mobility::kStatic
-                          : anchored.count(link.name) ? rays::Mobility::kAnchored
-                                                      : rays::Mobility::kMoving;
+    const bool held = model.is_static || anchored.count(link.name) != 0;
+    const auto mobility = model.is_static ? rays::Mobility::kStatic : rays::Mobility::kAnchored;
+    parts.loose.push_back(held ? Resting::kNone : loose.add(pose));
     for (const desc::Collision& collision : link.collisions) {
       const int like = like_visual(link, collision);
       const desc::Visual visual = like < 0 ? desc::Visual{} : link.visuals[like];
       const rays::ShapeId shape = rays.add(collision.shape, pose * collision.pose, mobility,
                                            visual.material.diffuse.head<3>());
       if (visual.temperature) rays.warm(shape, *visual.temperature);
-      parts.shapes.push_back({shape, i, collision.pose, mobility == rays::Mobility::kAnchored,
-                              like < 0 ? -1 : first_visual + like});
+      parts.shapes.push_back({shape, i, collision.pose, like < 0 ? -1 : first_visual + like});
+      if (!held) loose.add_shape(parts.loose.back(), shape);
       show(parts, parts.shapes.back());
     }
     first_visual += static_cast<int>(link.visuals.size());
@@ -105,6 +107,9 @@ Parts Engines::add(const desc::Model& model) {
 
 void Engines::remove(const Parts& parts) {
   note_change();
+  for (const Resting::Body body : parts.loose) {
+    if (body != Resting::kNone) loose.remove(body);
+  }
   for (const Parts::Shape& shape : parts.shapes) {
     note_standing(parts, shape);
     if (parts.is_static) {
@@ -141,10 +146,15 @@ Parts::Lamp Engines::add_light(const desc::Light& described, const Pose& pose) {
     lamp.width = described.width;
     lamp.height = described.height;
   }
-  if (described.type == desc::Light::Type::kDisc) {
-    lamp.type = light::Lamp::Type::kDisc;
-    lamp.radius = described.radius;
+  if (described.type == desc::Light::Type::kDisc) lamp.type = light::Lamp::Type::kDisc;
+  if (described.type == desc::Light::Type::kTube) {
+    lamp.type = light::Lamp::Type::kTube;
+    lamp.length = described.length;
   }
+  if (described.radius > 0.0) lamp.radius = described.radius;
+  lamp.half_angle = described.half_angle;
+  lamp.photometry = described.photometry;
+  if (lamp.photometry) lamp.photometric_flux = light::flux(*lamp.photometry);
   Parts::Lamp part;
   part.level = given > 0.0 ? 1.0 : 0.0;
   part.id = light.add(lamp, part.level);
@@ -153,7 +163,8 @@ Parts::Lamp Engines::add_light(const desc::Light& described, const Pose& pose) {
 }
 
 void Engines::note_standing(const Parts& parts, const Parts::Shape& shape) {
-  if (parts.is_static || shape.anchored) standing_changed_ = movers.now();
+  const bool stands = rays.mobility(shape.id.index) != rays::Mobility::kMoving;
+  if (parts.is_static || stands) standing_changed_ = movers.now();
 }
 
 void Engines::show(const Parts& parts, const Parts::Shape& shape) {
@@ -165,8 +176,34 @@ void Engines::show(const Parts& parts, const Parts::Shape& shape) {
   }
 }
 
+void Engines::set_standing(Resting::Body body, bool stands) {
+  note_change();
+  standing_changed_ = movers.now();
+  for (const rays::ShapeId shape : loose.shapes(body)) {
+    rays.set_anchored(shape, stands);
+    movers.put(shape, rays.bounds(shape));
+  }
+}
+
+void Engines::note_rest(Nanoseconds now) {
+  loose.update(now, [&](Resting::Body body) { set_standing(body, true); });
+}
+
+void Engines::advance_light(Nanoseconds now) {
+  if (!light_busy()) return;
+  light_followed_ = movers.now() + 1;
+  rays.commit();
+  light.advance(now);
+}
+
 void Engines::follow(const Parts& parts, std::uint32_t link) {
   const Pose pose = physics.link(parts.links[link]).pose;
+  const Resting::Body body = parts.loose[link];
+  visuals.move(parts.bodies[link], pose);
+  if (body != Resting::kNone) {
+    if (loose.move(body, pose)) set_standing(body, false);
+    if (loose.rests(body)) return;  // it trembles by less than matters
+  }
   for (std::uint32_t i = parts.first_shape[link]; i < parts.first_shape[link + 1]; ++i) {
     const Parts::Shape& shape = parts.shapes[i];
     if (parts.is_static) movers.change_static(rays.bounds(shape.id));
@@ -176,7 +213,6 @@ void Engines::follow(const Parts& parts, std::uint32_t link) {
   for (const Parts::Lamp& lamp : parts.lamps) {
     if (lamp.link == link) light.move(lamp.id, pose * lamp.offset);
   }
-  visuals.move(parts.bodies[link], pose);
 }
 
 }  // namespace angen::sim

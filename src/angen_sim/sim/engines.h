@@ -9,6 +9,7 @@
 #include "rays/scene.h"
 #include "render/scene.h"
 #include "sim/mover_index.h"
+#include "sim/resting.h"
 #include "sim/state_changes.h"
 #include "sim/surface_temperatures.h"
 
@@ -19,9 +20,8 @@ struct Parts {
   struct Shape {
     rays::ShapeId id;
     std::uint32_t link = 0;
-    Pose offset;            // in the link's frame
-    bool anchored = false;  // it moves, but only about the static world's joints
-    int surface = -1;       // SurfaceRef of the visual that it is like, -1: none
+    Pose offset;       // in the link's frame
+    int surface = -1;  // SurfaceRef of the visual that it is like, -1: none
   };
   struct Lamp {
     light::LampId id;
@@ -37,6 +37,7 @@ struct Parts {
   std::vector<Shape> shapes;                             // in the order of links
   std::vector<std::uint32_t> first_shape;                // of each link, and how many there are
   std::vector<std::vector<std::uint32_t>> child_joints;  // of each link: that it is the child of
+  std::vector<Resting::Body> loose;                      // of each link; kNone for one that is held
   std::vector<render::BodyId> bodies;                    // as links: what cameras see of them
   std::vector<Lamp> lamps;                               // in the order of links and their lights
 };
@@ -53,6 +54,16 @@ class Engines {
   /// Shapes and lamps of `link` follow its body.
   void follow(const Parts& parts, std::uint32_t link);
 
+  /// To be called once a tick, when all that moved has been followed: what has come to rest counts
+  /// among what stands.
+  void note_rest(Nanoseconds now);
+  /// When something will have come to rest, at the earliest.
+  Nanoseconds next_rest() const { return loose.next(); }
+
+  /// Finds light between surfaces, a part in each tick.
+  void advance_light(Nanoseconds now);
+  bool light_busy() const { return light.busy() || (light.active() && light_lags()); }
+
   physics::World physics;
   rays::Scene rays;
   render::Scene visuals;
@@ -61,20 +72,24 @@ class Engines {
   light::Lighting light{rays};
   MoverIndex movers;  // which movers are near which sensors' rays
   SurfaceTemperatures surfaces{rays};
+  Resting loose;
   StateChanges states;
 
   /// Something that sensors may query besides rays has changed: a pose, a light, a contact.
   void note_change() { changed_ = movers.now(); }
   MoverIndex::Moment changed() const { return changed_; }  // when last
-  /// The same of static shapes and those that are joined to them, as doors are.
+  /// The same of static shapes, those that are joined to them, as doors are, and those that rest.
   MoverIndex::Moment standing_changed() const { return standing_changed_; }
 
  private:
   void show(const Parts& parts, const Parts::Shape& shape);
   void note_standing(const Parts& parts, const Parts::Shape& shape);
+  void set_standing(Resting::Body body, bool stands);
+  bool light_lags() const { return standing_changed_ >= light_followed_; }
 
   MoverIndex::Moment changed_ = 0;
   MoverIndex::Moment standing_changed_ = 0;
+  MoverIndex::Moment light_followed_ = 0;  // advance_light() knows all changes before
 };
 
 }  // namespace angen::sim

@@ -39,7 +39,7 @@ Nanoseconds SensorSystem::next_check(SensorInstance& sensor, InstanceView::Clock
 std::int64_t SensorSystem::next_tick(Building& building, InstanceView::Clock clock,
                                      std::int64_t tick) {
   if (outdated_) list(building, clock.time);
-  if (building.engines().light.busy()) return clock.time / clock.step;
+  if (building.engines().light_busy()) return clock.time / clock.step;
   const auto stop_before = [&](Nanoseconds sample) {
     tick = std::min(tick, sample / clock.step - 1);  // the tick that ends with it
   };

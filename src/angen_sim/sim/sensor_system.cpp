@@ -81,10 +81,7 @@ void SensorSystem::sample(Building& building, InstanceView::Clock clock, std::in
                           Snapshot& next) {
   if (outdated_) list(building, clock.time - clock.step);
   Engines& engines = building.engines();
-  if (engines.light.busy()) {
-    engines.rays.commit();
-    engines.light.advance();
-  }
+  engines.advance_light(clock.time);
   const std::vector<std::uint32_t>& groups = scheduler_.collect(clock.time);
   if (!groups.empty()) {
     for (const std::uint32_t group : groups) activate(engines, scheduler_.group(group), clock);

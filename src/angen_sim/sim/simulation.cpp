@@ -58,6 +58,7 @@ struct Simulation::Impl {
     std::int64_t tick = until / next.step - 1;
     if (tick <= next.tick || !next.events.empty()) return;
     if (building.engines().physics.awake_count() > 0) return;
+    tick = std::min(tick, (building.engines().next_rest() - 1) / next.step);
     tick = std::min(tick, devices.next_tick(building, clock()));
     const Nanoseconds push = std::min(building.pushes().next(next.time), kForever - next.step);
     tick = std::min(tick, (push + next.step - 1) / next.step);
@@ -112,6 +113,7 @@ struct Simulation::Impl {
       write_link(*owner.model, owner.link);
       next.moved_links.push_back(owner.model->first_link + owner.link);
     }
+    building.engines().note_rest(next.time);
   }
 
   void note(const physics::Stopped& stopped) {

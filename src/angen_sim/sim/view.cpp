@@ -59,8 +59,10 @@ void InstanceView::cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hi
 light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) const {
   queried_.other = queried_.other || queried_.light;  // only one place's light is watched
   queried_.light = true;
-  if (engines_.light.dark()) return engines_.light.measure(probe, pose);
+  if (engines_.light.dark() && engines_.light.knows(probe))
+    return engines_.light.measure(probe, pose);
   engines_.rays.commit();
+  engines_.light.pace();
   if (sensor_ == nullptr) return engines_.light.measure(probe, pose);
   std::unique_ptr<WatchedLight>& watched = sensor_->light;
   const bool still =
@@ -76,11 +78,7 @@ light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) c
   return sample;
 }
 
-void InstanceView::prepare_light() const {
-  if (engines_.light.dark()) return;
-  engines_.rays.commit();
-  engines_.light.prepare();
-}
+void InstanceView::prepare_light() const { engines_.light.prepare(); }
 
 const std::vector<rays::WarmShape>& InstanceView::warm_shapes() const {
   queried_.other = queried_.heat = true;

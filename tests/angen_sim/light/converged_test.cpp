@@ -88,6 +88,47 @@ TEST(Converged, Corridor) {
   expect_converged(scene, lighting, lamp, facing(Vec3(6, 0.7, 1.5), Vec3::UnitX()), 100'000);
 }
 
+/// Shelves, a chest and a screen, as things that stand or as loose ones that rest.
+void expect_converged_among(rays::Mobility mobility, float albedo) {
+  const Lamp lamp = point_lamp(Vec3(2, 2, 2.2), 800.0);
+  rays::Scene scene;
+  add_room(scene, Vec3(0, 0, 0), Vec3(4, 4, 2.6), gray(0.7F));
+  add_box(scene, Vec3(0.3, 3.2, 1.0), Vec3(0.6, 1.2, 2.0), gray(albedo), mobility);
+  add_box(scene, Vec3(3.75, 1.0, 0.9), Vec3(0.5, 1.6, 1.8), gray(albedo), mobility);
+  add_box(scene, Vec3(1.5, 0.6, 0.8), Vec3(1.2, 0.03, 1.6), gray(albedo), mobility);
+  add_box(scene, Vec3(2.6, 2.8, 0.7), Vec3(1.4, 0.8, 0.05), gray(albedo), mobility);
+  scene.commit();
+  Lighting lighting(scene);
+  lighting.add(lamp, 1.0);
+  for (const Pose& at :
+       {facing(Vec3(0.05, 1, 2), Vec3::UnitX()), facing(Vec3(2.6, 2.8, 0.1), Vec3::UnitZ()),
+        facing(Vec3(1.5, 0.3, 0.3), Vec3::UnitZ()), facing(Vec3(0.8, 3.9, 0.4), -Vec3::UnitY())}) {
+    expect_converged(scene, lighting, lamp, at);
+  }
+}
+
+TEST(Converged, FurnitureThatStands) { expect_converged_among(rays::Mobility::kStatic, 0.3F); }
+
+TEST(Converged, LooseFurnitureAtRest) {
+  expect_converged_among(rays::Mobility::kAnchored, 0.3F);
+  expect_converged_among(rays::Mobility::kAnchored, 0.8F);
+}
+
+TEST(Converged, DoorAjar) {
+  TwoRooms rooms;
+  for (const double angle : {0.15, 0.6, 1.2}) {
+    const Eigen::Matrix3d turn = from_rpy(0, 0, angle).toRotationMatrix();
+    const Vec3 hinge(4.05, 1.5, 1.005);
+    rooms.scene.move(rooms.door, {hinge + turn * Vec3(0, 0.45, 0), from_rpy(0, 0, angle)});
+    rooms.scene.commit();
+    for (const Pose& at : {rooms.dark_sensor, facing(Vec3(6, 3, 0.05), Vec3::UnitZ()),
+                           facing(Vec3(4.2, 3.9, 1.5), -Vec3::UnitY()),
+                           facing(Vec3(4.2, 0.1, 0.3), Vec3::UnitY())}) {
+      expect_converged(rooms.scene, rooms.lighting, rooms.lamp, at, 100'000);
+    }
+  }
+}
+
 TEST(Converged, PersonInTheRoom) {
   Furnished room(point_lamp(Vec3(2, 2, 2.2), 800.0));
   const rays::ShapeId person = add_box(room.scene, Vec3(0, 0, 0.85), Vec3(0.3, 0.5, 1.7),

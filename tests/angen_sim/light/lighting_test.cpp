@@ -24,6 +24,19 @@ struct Room {
   Pose sensor = facing(Vec3(0.05, 1.0, 2.0), Vec3::UnitX());
 };
 
+/// Of 1 ms each.
+struct Ticks {
+  Nanoseconds now = 0;
+  void advance(Lighting& lighting) { lighting.advance(now += kSecond / 1000); }
+  /// How many it took until there was nothing left to do.
+  int work_off(Lighting& lighting) {
+    int count = 0;
+    for (; lighting.busy() && count < 20000; ++count) advance(lighting);
+    EXPECT_FALSE(lighting.busy());
+    return count;
+  }
+};
+
 void expect_same_bits(const Sample& a, const Sample& b) {
   EXPECT_EQ(a.illuminance, b.illuminance);
   EXPECT_EQ(a.color, b.color);
@@ -167,11 +180,8 @@ TEST(Lighting, InPartsItHasTheSameBits) {
   Room whole, parts;
   for (Room* room : {&whole, &parts}) room->lighting.add(point_lamp(Vec3(1, 3, 1), 300.0), 0.5);
   Probe probe;
-  int advances = 0;
-  for (parts.lighting.prepare(); parts.lighting.busy(); parts.lighting.advance()) {
-    ASSERT_LT(++advances, 10000);
-  }
-  EXPECT_GT(advances, 10);
+  parts.lighting.prepare();
+  EXPECT_GT(Ticks().work_off(parts.lighting), 10);
   expect_same_bits(parts.lighting.measure(probe, parts.sensor),
                    measure(whole.lighting, whole.sensor));
 }
@@ -179,15 +189,16 @@ TEST(Lighting, InPartsItHasTheSameBits) {
 TEST(Lighting, AChangeMeanwhileLeavesNoTrace) {
   Room whole, parts;
   Probe probe;
+  Ticks ticks;
   parts.lighting.prepare();
-  for (int i = 0; i < 5; ++i) parts.lighting.advance();
+  for (int i = 0; i < 5; ++i) ticks.advance(parts.lighting);
   EXPECT_TRUE(parts.lighting.busy());
   for (Room* room : {&parts, &whole}) {
     add_box(room->scene, Vec3(1, 1, 0.5), Vec3(1, 1, 1), gray(0.2F));
     room->lighting.move(room->lamp, {Vec3(1, 2, 2.2), Quat::Identity()});
     room->scene.commit();
   }
-  while (parts.lighting.busy()) parts.lighting.advance();
+  ticks.work_off(parts.lighting);
   expect_same_bits(parts.lighting.measure(probe, parts.sensor),
                    measure(whole.lighting, whole.sensor));
 }
@@ -198,7 +209,7 @@ TEST(Lighting, WhatIsSwitchedOffMeanwhileIsNotWaitedFor) {
   room.lighting.prepare();
   EXPECT_TRUE(room.lighting.busy());
   room.lighting.set_level(room.lamp, 0.0);
-  room.lighting.advance();
+  Ticks().advance(room.lighting);
   EXPECT_FALSE(room.lighting.busy());
   EXPECT_EQ(room.lighting.measure(probe, room.sensor).illuminance, 0.0);
 }
@@ -206,8 +217,9 @@ TEST(Lighting, WhatIsSwitchedOffMeanwhileIsNotWaitedFor) {
 TEST(Lighting, AMeasurementMeanwhileLeavesNoTrace) {
   Room whole, parts;
   Probe probe;
+  Ticks ticks;
   parts.lighting.prepare();
-  for (int i = 0; i < 5; ++i) parts.lighting.advance();
+  for (int i = 0; i < 5; ++i) ticks.advance(parts.lighting);
   parts.lighting.set_level(parts.lamp, 0.0);
   for (Room* room : {&parts, &whole}) {
     add_box(room->scene, Vec3(1, 1, 0.5), Vec3(1, 1, 1), gray(0.2F));
@@ -215,9 +227,96 @@ TEST(Lighting, AMeasurementMeanwhileLeavesNoTrace) {
   }
   EXPECT_EQ(parts.lighting.measure(probe, parts.sensor).illuminance, 0.0);  // follows the change
   parts.lighting.set_level(parts.lamp, 1.0);
-  for (parts.lighting.prepare(); parts.lighting.busy();) parts.lighting.advance();
+  ticks.work_off(parts.lighting);
   expect_same_bits(parts.lighting.measure(probe, parts.sensor),
                    measure(whole.lighting, whole.sensor));
+}
+
+TEST(Lighting, ALampIsSeenWhenItsLightIsKnownWhoeverMeasures) {
+  Room watched, alone;
+  Probe probe;
+  int seen_after[2] = {0, 0};
+  for (Room* room : {&watched, &alone}) {
+    room->lighting.set_level(room->lamp, 0.0);
+    room->lighting.pace();
+    room->lighting.set_level(room->lamp, 1.0);
+    EXPECT_EQ(lux(room->lighting, room->sensor), 0.0);
+    Ticks ticks;
+    int& count = seen_after[room == &alone ? 1 : 0];
+    for (; room->lighting.busy() && count < 1000; ++count) {
+      ticks.advance(room->lighting);
+      if (room == &watched) room->lighting.measure(probe, room->sensor);
+    }
+  }
+  EXPECT_GT(seen_after[0], 2);
+  EXPECT_NEAR(seen_after[0], seen_after[1], 1);  // a tick for the sensor's own part
+  EXPECT_GT(lux(alone.lighting, alone.sensor), 10.0);
+  expect_same_bits(watched.lighting.measure(probe, watched.sensor),
+                   measure(alone.lighting, alone.sensor));
+  expect_same_bits(measure(watched.lighting, watched.sensor),
+                   measure(Room().lighting, alone.sensor));
+}
+
+TEST(Lighting, PacedLightEndsWhereItIsFoundAtOnce) {
+  TwoRooms rooms;
+  Probe probe;
+  Ticks ticks;
+  rooms.lighting.pace();
+  const double shut = rooms.lighting.measure(probe, rooms.dark_sensor).illuminance;
+  rooms.open();
+  for (int i = 0; i < 5; ++i) {  // on its way it stands elsewhere
+    rooms.scene.move(rooms.door, {Vec3(4.3, 1.6, 1.005), from_rpy(0, 0, 0.3 * i)});
+    rooms.scene.commit();
+    ticks.advance(rooms.lighting);
+    rooms.lighting.measure(probe, rooms.dark_sensor);
+  }
+  rooms.open();
+  ticks.advance(rooms.lighting);
+  EXPECT_GT(ticks.work_off(rooms.lighting), 50);  // it waits for the door to rest
+  const Sample open = rooms.lighting.measure(probe, rooms.dark_sensor);
+  EXPECT_GT(open.illuminance, 2 * shut);
+  TwoRooms fresh;
+  fresh.open();
+  expect_same_bits(open, measure(fresh.lighting, fresh.dark_sensor));
+}
+
+TEST(Lighting, AWallThatComesAndGoesLeavesNoTrace) {
+  TwoRooms rooms;
+  Probe lit, dark;
+  Ticks ticks;
+  rooms.open();
+  const Sample before = measure(rooms.lighting, rooms.dark_sensor);
+  rooms.lighting.pace();
+  const auto both = [&] {
+    ticks.advance(rooms.lighting);
+    ticks.work_off(rooms.lighting);
+    rooms.lighting.measure(lit, rooms.lit_sensor);
+    return rooms.lighting.measure(dark, rooms.dark_sensor);
+  };
+  both();
+  const rays::ShapeId wall =
+      add_box(rooms.scene, Vec3(3.9, 1.95, 1.3), Vec3(0.1, 1.5, 2.6), gray(0.5F));
+  rooms.scene.commit();
+  EXPECT_LT(both().illuminance, 0.2 * before.illuminance);
+  rooms.scene.remove(wall);
+  rooms.scene.commit();
+  expect_same_bits(both(), before);
+}
+
+TEST(Lighting, WhatComesToRestCountsAsStanding) {
+  Room loose, fixed;
+  const rays::ShapeId chest = add_box(loose.scene, Vec3(0.8, 3.2, 1.0), Vec3(1.2, 1.0, 2.0),
+                                      gray(0.2F), rays::Mobility::kMoving);
+  add_box(fixed.scene, Vec3(0.8, 3.2, 1.0), Vec3(1.2, 1.0, 2.0), gray(0.2F),
+          rays::Mobility::kAnchored);
+  for (Room* room : {&loose, &fixed}) room->scene.commit();
+  const Sample moving = measure(loose.lighting, loose.sensor);
+  loose.scene.set_anchored(chest, true);
+  loose.scene.commit();
+  expect_same_bits(measure(loose.lighting, loose.sensor), measure(fixed.lighting, fixed.sensor));
+  loose.scene.set_anchored(chest, false);
+  loose.scene.commit();
+  expect_same_bits(measure(loose.lighting, loose.sensor), moving);
 }
 
 TEST(Lighting, ProbeFollowsEveryChange) {

@@ -41,7 +41,9 @@ TEST(Reference, WithinItsRadiusALampIsNoBrighterThanItsSurface) {
 }
 
 TEST(Reference, CosineOfTheTilt) {
-  const Open open(point_lamp(Vec3(0, 0, 2), kThousandCandela));
+  Lamp lamp = point_lamp(Vec3(0, 0, 2), kThousandCandela);
+  lamp.radius = 0.0;  // of a globe a plane at 90 degrees would still see half
+  const Open open(lamp);
   for (int degrees = 0; degrees < 180; degrees += 15) {
     const double tilt = degrees * M_PI / 180;
     const Vec3 normal(std::sin(tilt), 0, std::cos(tilt));
@@ -129,6 +131,85 @@ TEST(Reference, ASquareBehindTheSensorsPlaneIsClippedByIt) {
   EXPECT_GT(facing_lux(Vec3::UnitX()), 0.0);
   EXPECT_NEAR(facing_lux(Vec3::UnitX()), facing_lux(-Vec3::UnitX()), 1e-9);
   EXPECT_EQ(facing_lux(-Vec3::UnitZ()), 0.0);
+}
+
+/// The sum over the parts of a globe's skin of what each, a Lambertian disc, gives a plane.
+double summed_globe(double radius, const Vec3& center, const Vec3& normal, double flux) {
+  const double luminance = flux / (4 * M_PI * M_PI * radius * radius);
+  constexpr int kRings = 1000;
+  double sum = 0.0;
+  for (int i = 0; i < kRings; ++i) {
+    for (int j = 0; j < 2 * kRings; ++j) {
+      const double z = 1 - 2 * (i + 0.5) / kRings, angle = M_PI * (j + 0.5) / kRings;
+      const double around = std::sqrt(1 - z * z);
+      const Vec3 out(around * std::cos(angle), around * std::sin(angle), z);
+      const Vec3 way = center + radius * out;
+      const double leaving = std::max(0.0, -out.dot(way)),
+                   arriving = std::max(0.0, normal.dot(way));
+      sum += leaving * arriving / std::pow(way.squaredNorm(), 2);
+    }
+  }
+  return luminance * sum * 4 * M_PI * radius * radius / (2.0 * kRings * kRings);
+}
+
+TEST(Reference, AnOpalGlobeThatThePlaneCuts) {
+  Lamp globe = point_lamp(Vec3(0, 0, 0.5), 800.0);
+  globe.radius = 0.2;
+  const Open open(globe);
+  for (const double tilt : {0.0, 0.8, 1.3, 1.5, 1.7, 1.9}) {
+    const Vec3 normal(std::sin(tilt), 0, std::cos(tilt));
+    const double expected = summed_globe(0.2, Vec3(0, 0, 0.5), normal, 800.0);
+    EXPECT_NEAR(lux(open.lighting, facing(Vec3(0, 0, 0), normal)), expected,
+                0.002 * expected + 0.05)
+        << tilt;
+  }
+  EXPECT_EQ(lux(open.lighting, facing(Vec3(0, 0, 0), Vec3(std::sin(2.1), 0, std::cos(2.1)))), 0.0);
+}
+
+TEST(Reference, UnderTheMiddleOfATube) {
+  // A thin line: I' / d (a + sin a cos a), a the angle to its end; I' cd/m across it.
+  Lamp tube = point_lamp(Vec3(0, 0, 1), 1000.0);
+  tube.type = Lamp::Type::kTube;
+  tube.length = 1.2;
+  tube.radius = 0.008;
+  const Open open(tube);
+  for (const double distance : {0.3, 1.0, 4.0}) {
+    const double a = std::atan(0.6 / distance);
+    const double across = 1000.0 / (M_PI * M_PI) / 1.2;
+    const double expected = across / distance * (a + std::sin(a) * std::cos(a));
+    EXPECT_NEAR(lux(open.lighting, facing(Vec3(0, 0, 1 - distance), Vec3::UnitZ())), expected,
+                0.002 * expected);
+  }
+  EXPECT_NEAR(lux(open.lighting, facing(Vec3(30, 0, 1), -Vec3::UnitX())), 0.0, 1e-3);  // its end
+}
+
+TEST(Reference, ATubesFluxIsTheIntegralOverASphere) {
+  Lamp tube = point_lamp(Vec3(0, 0, 0), 1000.0);
+  tube.type = Lamp::Type::kTube;
+  tube.length = 0.6;
+  tube.radius = 0.01;
+  const Open open(tube);
+  double flux = 0.0;
+  constexpr int kRings = 200;
+  for (int i = 0; i < kRings; ++i) {
+    const double x = 1 - 2 * (i + 0.5) / kRings;
+    const Vec3 out(x, std::sqrt(1 - x * x), 0);
+    flux += lux(open.lighting, facing(3 * out, -out)) * 4 * M_PI * 9 / kRings;
+  }
+  EXPECT_NEAR(flux, 1000.0, 5.0);
+}
+
+TEST(Reference, ASpotHasHalfItsIntensityAtItsHalfAngle) {
+  Lamp spot = point_lamp(Vec3(0, 0, 2), 800.0);
+  spot.type = Lamp::Type::kSpot;
+  spot.half_angle = 0.3;
+  const Open open(spot);
+  const double exponent = std::log(0.5) / std::log(std::cos(0.3));
+  const double ahead = 800.0 * (exponent + 1) / (2 * M_PI);
+  EXPECT_NEAR(lux(open.lighting, facing(Vec3(0, 0, 0), Vec3::UnitZ())), ahead / 4, 1e-6);
+  const Vec3 out(std::sin(0.3), 0, -std::cos(0.3));
+  EXPECT_NEAR(lux(open.lighting, facing(Vec3(0, 0, 2) + 2 * out, -out)), ahead / 8, 1e-6);
+  EXPECT_EQ(lux(open.lighting, facing(Vec3(0, 0, 4), -Vec3::UnitZ())), 0.0);
 }
 
 /// A closed cube of 4 m with 10,000 lm at its center: direct and total, as means over a wall's

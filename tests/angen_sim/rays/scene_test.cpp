@@ -340,11 +340,33 @@ TEST(Scene, AnchoredShapesHaveARevisionOfTheirOwn) {
   scene.move(door, at(5, 0, 0));
   scene.commit();
   EXPECT_NE(scene.anchored_revision(), before);
-  ASSERT_EQ(scene.anchored().size(), 1U);
-  EXPECT_EQ(scene.anchored()[0].second.min().x(), 4.5);
+  ASSERT_EQ(scene.boxes(Mobility::kAnchored).size(), 1U);
+  EXPECT_EQ(scene.boxes(Mobility::kAnchored)[0].second.min().x(), 4.5);
 }
 
-TEST(Scene, CoveredIsWithinAStaticSolidButNotTheOneLeftOut) {
+TEST(Scene, AShapeCanBecomeAnchored) {
+  Scene scene;
+  const ShapeId wall = add(scene, box(1, 1, 1), at(8, 0, 0));
+  const ShapeId chair = add(scene, box(1, 1, 1), at(2, 0, 0), Mobility::kMoving);
+  scene.commit();
+  const std::uint64_t before = scene.anchored_revision();
+  scene.set_anchored(chair, true);
+  scene.set_anchored(wall, true);  // stays what it is
+  scene.commit();
+  EXPECT_NE(scene.anchored_revision(), before);
+  EXPECT_EQ(scene.mobility(chair.index), Mobility::kAnchored);
+  EXPECT_EQ(scene.mobility(wall.index), Mobility::kStatic);
+  EXPECT_EQ(scene.boxes(Mobility::kAnchored).size(), 1U);
+  EXPECT_TRUE(scene.covered(Vec3(2, 0, 0), UINT32_MAX));
+  EXPECT_TRUE(scene.blocked(Vec3(0, 0, 0), Vec3(4, 0, 0), 1e-4, only(Mobility::kAnchored)));
+  scene.set_anchored(chair, false);
+  scene.commit();
+  EXPECT_FALSE(scene.covered(Vec3(2, 0, 0), UINT32_MAX));
+  EXPECT_FALSE(scene.blocked(Vec3(0, 0, 0), Vec3(4, 0, 0), 1e-4, only(Mobility::kAnchored)));
+  EXPECT_TRUE(scene.boxes(Mobility::kAnchored).empty());
+}
+
+TEST(Scene, CoveredIsWithinAStandingSolidButNotTheOneLeftOut) {
   Scene scene;
   const ShapeId crate = add(scene, box(1, 1, 1));
   add(scene, round(Shape::Type::kSphere, 0.5), at(3, 0, 0));

@@ -16,7 +16,8 @@ def test_the_simulator_agrees_with_theory(capsys):
 
 def test_two_percent_too_much_light_is_found(monkeypatch, capsys):
     right = luxcheck.lamp
-    monkeypatch.setattr(luxcheck, 'cube_cases', lambda: [])
+    for others in ('cube_cases', 'source_cases', 'furniture_cases'):
+        monkeypatch.setattr(luxcheck, others, list)
     monkeypatch.setattr(luxcheck, 'lamp', lambda flux, *rest: right(1.02 * flux, *rest))
     assert run(['luxcheck']) == 1
     assert capsys.readouterr().out.count('WRONG') == 6

@@ -3,9 +3,11 @@ sensors, as any world's are.
 """
 from __future__ import annotations
 
+import tempfile
 from dataclasses import asdict, dataclass
 from itertools import product
-from math import atan, hypot, pi
+from math import atan, cos, hypot, log, pi, sin
+from pathlib import Path
 from typing import TYPE_CHECKING, Iterator
 
 from angen_tools.common.catalog import angen_module
@@ -17,6 +19,7 @@ if TYPE_CHECKING:
 NUMBERS = ('THEORY lx', 'MEASURED lx', 'ERROR', 'LIMIT')
 DIRECT_LIMIT = 0.01     # relative
 MEAN_LIMIT = 0.02
+FURNITURE_LIMIT = 0.02
 CUBE = 4.0              # m, its side
 CUBE_FLUX = 10_000.0    # lm
 GRID = 8                # places along a side of each of the cube's faces
@@ -55,7 +58,7 @@ class Place:
 
 
 def lamp(flux: float, pose: str, shape: str = '') -> str:
-    """A lit lamp of `flux` lm; `shape` makes it flat, shining along its -z."""
+    """A lit lamp of `flux` lm; `shape` says what of it shines, and where to, its -z."""
     return f'''<model name="lamp"><static>true</static><pose>{pose}</pose><link name="link">
   <light name="bulb" type="point">{shape}</light></link>
   <plugin name="lamp" filename="libros_plugin.so"><luminous_flux>{flux}</luminous_flux>
@@ -85,11 +88,22 @@ def cube(albedo: float) -> str:
     return f'<model name="cube"><static>true</static>{"".join(slabs)}</model>'
 
 
-def measure(content: str, places: list[Place]) -> list[float]:
-    """Illuminances in lx at the places, in a world with `content`."""
-    world = angen_module().World.from_text(
-        f'<sdf version="1.9"><world name="luxcheck">{content}{sensors(places)}</world></sdf>')
-    world.step(1)
+def measure(content: str, places: list[Place], seconds: float = 0.0,
+            folder: str = '') -> list[float]:
+    """Illuminances in lx at the places, in a world with `content`, after so many seconds; its file
+    is in `folder` where it names others.
+    """
+    text = f'<sdf version="1.9"><world name="luxcheck">{content}{sensors(places)}</world></sdf>'
+    if folder:
+        path = Path(folder) / 'luxcheck.world'
+        path.write_text(text, encoding='utf-8')
+        world = angen_module().World(str(path))
+    else:
+        world = angen_module().World.from_text(text)
+    if seconds > 0.0:
+        world.run(seconds)
+    else:
+        world.step(1)
     name = 'meter' if len(places) == 1 else 'meter_s{}'
     return [world.sensor('luminosity', name.format(i))['illuminance'] for i in range(len(places))]
 
@@ -122,6 +136,64 @@ def under_square(side: float, height: float) -> float:
     return 4 * pi * CANDELA * a / (pi * slant) * atan(a / slant)
 
 
+def write_ies(path: Path) -> None:
+    """Writes a luminaire of 1000 cd ahead that falls off with the cosine."""
+    angles = range(0, 91, 5)
+    candela = ' '.join(f'{1000 * cos(pi * angle / 180):.3f}' for angle in angles)
+    text = (f'IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 {len(angles)} 1 1 2 0 0 0\n1 1 10\n'
+            f'{" ".join(str(angle) for angle in angles)}\n0\n{candela}\n')
+    path.write_text(text, encoding='ascii')
+
+
+def source_cases() -> Iterator[Case]:
+    """Lamps of other shapes and distributions over a sensor that faces up."""
+    def below(flux: float, shape: str, height: float, aside: float = 0.0,
+              folder: str = '') -> float:
+        return measure(lamp(flux, f'0 0 {height} 0 0 0', shape), [Place((aside, 0.0, 0.0))],
+                       folder=folder)[0]
+
+    yield Case('globe of 0.3 m radius, 0.5 m above, 800 lm', 800 / (4 * pi * 0.25),
+               below(800.0, '<angen:sphere>0.3</angen:sphere>', 0.5), DIRECT_LIMIT)
+    half = atan(0.6 / 0.5)  # the angle to the tube's end
+    yield Case('tube of 1.2 m, 0.5 m above, 1000 lm',
+               1000 / pi ** 2 / 1.2 / 0.5 * (half + sin(half) * cos(half)),
+               below(1000.0, '<angen:tube>1.2 0.008</angen:tube>', 0.5), DIRECT_LIMIT)
+    exponent = log(0.5) / log(cos(0.3))
+    yield Case('spot of 0.3 rad half angle, 2 m above, 800 lm',
+               800 * (exponent + 1) / (2 * pi) / 4,
+               below(800.0, '<angen:half_angle>0.3</angen:half_angle>', 2.0), DIRECT_LIMIT)
+    with tempfile.TemporaryDirectory() as folder:
+        write_ies(Path(folder) / 'lambertian.ies')
+        shape = '<angen:ies><uri>lambertian.ies</uri></angen:ies>'
+        for aside in (0.0, 2.0):
+            yield Case(f'IES file of 1000 cd ahead, 2 m above, {aside:g} m aside',
+                       CANDELA * 16 / (4 + aside ** 2) ** 2 / 4,
+                       below(pi * CANDELA, shape, 2.0, aside, folder), DIRECT_LIMIT)
+
+
+def crate(static: bool, yaw: float = 0.0, joint: str = '') -> str:
+    """A dark cabinet on the cube's floor that stands for good, or a loose or a hinged one."""
+    box = '<geometry><box><size>0.6 1.2 2</size></box></geometry>'
+    return f'''<model name="cabinet"><static>{"true" if static else "false"}</static>
+  <pose>-1.6 0.9 -1 0 0 {yaw}</pose><link name="link"><collision name="c">{box}</collision>
+  <visual name="v">{box}<material><diffuse>0.2 0.2 0.2 1</diffuse></material></visual></link>
+  {joint}</model>'''
+
+
+def furniture_cases() -> Iterator[Case]:
+    """Things that could move and do not, against the same ones that cannot."""
+    hinge = ('<joint name="hinge" type="revolute"><parent>world</parent><child>link</child>'
+             '<axis><xyz>0 0 1</xyz></axis></joint>')
+    places = [Place((-1.99, -1.0, 0.0), 0, 1), Place((0.5, 0.5, -1.9)),
+              Place((-1.0, 1.99, -1.0), 1, -1)]
+    room = cube(0.7) + lamp(800.0, '0 0 1.5 0 0 0')
+    for what, yaw, joint in (('loose cabinet', 0.0, ''), ('leaf ajar on a hinge', 0.5, hinge)):
+        standing = measure(room + crate(True, yaw), places)
+        moving = measure(room + crate(False, yaw, joint), places, 7.0)
+        for i, (expected, lux) in enumerate(zip(standing, moving)):
+            yield Case(f'{what}, place {i + 1}', expected, lux, FURNITURE_LIMIT)
+
+
 def cube_places() -> list[Place]:
     """A grid just before each face of the cube, facing inward."""
     ticks = [CUBE * ((i + 0.5) / GRID - 0.5) for i in range(GRID)]
@@ -147,7 +219,7 @@ def cube_cases() -> Iterator[Case]:
 
 def check() -> list[Case]:
     """Measures all cases."""
-    return [*direct_cases(), *cube_cases()]
+    return [*direct_cases(), *source_cases(), *cube_cases(), *furniture_cases()]
 
 
 def list_cases(cases: list[Case], json: bool) -> RenderableType:

@@ -1,0 +1,161 @@
+// The part of Field that takes up what came, went or moved.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "light/field.h"
+#include "light/field_rays.h"
+
+namespace angen::light {
+namespace {
+
+constexpr double kNear = 1e-3;         // m, as near as touches
+constexpr double kStill = 5e-5;        // m that a shape may move unnoticed: a ray's margin is more
+constexpr double kBeside = 0.02;       // m: how far from a surface what covers or divides it may be
+constexpr double kLargestPatch = 1.5;  // m across
+// Costs in rays, measured; they decide only how an update is cut into ticks.
+constexpr std::size_t kCostToSkip = 1;      // a patch that sees no change
+constexpr std::size_t kCostToCompare = 16;  // the links of one with a box
+
+/// Slabs, over the segment from the ray's origin.
+bool passes(const Eigen::AlignedBox3d& box, const rays::Ray& ray, double range) {
+  double enter = 0.0, leave = range;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double inverse = 1.0 / ray.direction[axis];
+    const double a = (box.min()[axis] - ray.origin[axis]) * inverse;
+    const double b = (box.max()[axis] - ray.origin[axis]) * inverse;
+    if (std::isnan(a) || std::isnan(b)) continue;  // along a face: counts as within
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  return enter <= leave;
+}
+
+}  // namespace
+
+void Field::note(rays::ShapeId shape, const Box& box, bool is_static,
+                 std::vector<Change>& changes) {
+  changes.push_back({box, is_static});
+  outdated_[shape.index].extend(box);
+}
+
+/// Both lists ascend by index.
+void Field::compare(Boxes& known, Boxes now, bool is_static, std::vector<Change>& changes) {
+  const auto ended = [](const auto& at, const Boxes& all) { return at == all.end(); };
+  auto a = known.begin(), b = now.begin();
+  while (!ended(a, known) || !ended(b, now)) {
+    const bool gone = ended(b, now) || (!ended(a, known) && a->first.index < b->first.index);
+    const bool came = !gone && (ended(a, known) || b->first.index < a->first.index);
+    if (gone) {
+      note(a->first, a->second, is_static, changes);
+      ++a;
+    } else if (came) {
+      note(b->first, b->second, is_static, changes);
+      ++b;
+    } else {
+      const Box before = a->second, after = b->second;
+      const bool stays = (before.min() - after.min()).cwiseAbs().maxCoeff() < kStill &&
+                         (before.max() - after.max()).cwiseAbs().maxCoeff() < kStill;
+      if (a->first == b->first && (stays || !after.diagonal().allFinite())) {
+        b->second = before;  // creeping adds up
+      } else {
+        note(b->first, before.merged(after), is_static, changes);
+      }
+      ++a;
+      ++b;
+    }
+  }
+  known = std::move(now);
+}
+
+std::vector<Field::Change> Field::follow() {
+  std::vector<Change> changes;
+  if (!begun_) {  // nothing is known that could change
+    begun_ = true;
+    static_revision_ = scene_.static_revision();
+    anchored_revision_ = scene_.anchored_revision();
+    static_ = scene_.boxes(rays::Mobility::kStatic);
+    anchored_ = scene_.boxes(rays::Mobility::kAnchored);
+  }
+  if (static_revision_ != scene_.static_revision()) {
+    static_revision_ = scene_.static_revision();
+    compare(static_, scene_.boxes(rays::Mobility::kStatic), true, changes);
+  }
+  if (anchored_revision_ != scene_.anchored_revision()) {
+    anchored_revision_ = scene_.anchored_revision();
+    compare(anchored_, scene_.boxes(rays::Mobility::kAnchored), false, changes);
+  }
+  return changes;
+}
+
+/// What stands near a surface may cover or divide its patches.
+void Field::forget_near(const Box& box) {
+  const Box near(box.min() - Vec3::Constant(kBeside), box.max() + Vec3::Constant(kBeside));
+  for (const Boxes* all : {&static_, &anchored_}) {
+    for (const auto& [shape, place] : *all) {
+      if (near.intersects(place)) surfaces_.forget_near(shape.index, near, releasing_);
+    }
+  }
+}
+
+void Field::start_update() {
+  ++revision_;
+  updating_ = true;
+  updated_ = 0;
+  boxes_.clear();
+  for (const auto& [shape, box] : outdated_) {
+    boxes_.push_back({box.min() - Vec3::Constant(kNear), box.max() + Vec3::Constant(kNear)});
+    surfaces_.forget(shape, releasing_);
+    forget_near(box);
+  }
+  for (const std::uint32_t patch : releasing_) {
+    if (patch < sights_.size()) sights_[patch] = {};
+  }
+  outdated_.clear();
+}
+
+std::size_t Field::update(std::size_t rays) {
+  std::size_t cost = 0;
+  for (; updated_ < sights_.size() && cost < rays; ++updated_) cost += update_links(updated_);
+  if (updated_ < sights_.size()) return cost;
+  updating_ = false;
+  for (const std::uint32_t patch : releasing_) {
+    if (patch < sights_.size()) sights_[patch] = {};
+  }
+  surfaces_.release(releasing_);
+  releasing_.clear();
+  return cost;
+}
+
+/// Returns the cost in rays.
+std::size_t Field::update_links(std::uint32_t patch) {
+  if (sights_[patch].links.empty()) return 0;
+  std::vector<Box> near;
+  for (const Box& box : boxes_) {
+    // A link ends on a patch that may go on beyond it.
+    const Box grown(box.min() - Vec3::Constant(kLargestPatch),
+                    box.max() + Vec3::Constant(kLargestPatch));
+    if (sights_[patch].reach.intersects(grown)) near.push_back(box);
+  }
+  if (near.empty()) return sights_[patch].charged ? kCostToSkip : 0;
+  std::size_t cost = kCostToCompare * near.size();
+  const std::array<rays::Ray, kLinks> rays = link_rays(surfaces_[patch]);
+  for (std::size_t i = 0; i < kLinks; ++i) {
+    const Link known = sights_[patch].links[i];
+    const rays::Ray& again = rays[i];
+    const auto passed = [&](const Box& box) { return passes(box, again, known.range + kNear); };
+    const bool misses = known.patch == kNoPatch && !std::isfinite(known.range);
+    const bool holds = misses || (known.patch != kNoPatch && surfaces_[known.patch].alive);
+    if (holds && std::none_of(near.begin(), near.end(), passed)) continue;
+    ++cost;
+    rays::Hit hit;
+    scene_.cast(&again, &hit, 1, kStanding);
+    const Link link = link_of(again, hit);
+    sights_[patch].links[i] = link;
+    sights_[patch].reach.extend(end_of(again, hit.range));
+  }
+  return sights_[patch].charged ? cost : 0;
+}
+
+}  // namespace angen::light

@@ -1,0 +1,108 @@
+#include "light/field_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/random.h"
+#include "light/beam.h"
+#include "light/directions.h"
+
+namespace angen::light {
+namespace {
+
+constexpr std::size_t kFans = 32;      // ways to spread a patch's links
+constexpr std::size_t kFirst = 2048;   // rays that find what a lamp shines on
+constexpr std::size_t kLattice = 128;  // rays along a side of the world that find what the sun does
+constexpr double kMargin = 1e-4;       // m, a surface does not meet its own rays
+constexpr double kFarthest = 1e4;      // m
+
+/// Directions for one patch's links, about z, and which of its sites each starts from.
+struct Fan {
+  std::array<Vec3, kLinks> directions;
+  std::array<std::size_t, kLinks> sites;
+};
+
+std::vector<Fan> make_fans() {
+  std::vector<Fan> fans(kFans);
+  for (std::size_t f = 0; f < kFans; ++f) {
+    Rng rng(0, hash_bytes("light links"), static_cast<std::int64_t>(f));
+    const double shift_u = rng.uniform(), shift_v = rng.uniform();
+    for (std::size_t i = 0; i < kLinks; ++i) {
+      const double u = (static_cast<double>(i) + 0.5) / kLinks + shift_u;
+      const double v = radical_inverse(static_cast<unsigned>(i)) + shift_v;
+      fans[f].directions[i] = cosine_direction(u - std::floor(u), v - std::floor(v));
+      fans[f].sites[i] = i;
+    }
+    for (std::size_t i = kLinks - 1; i > 0; --i) {
+      std::swap(fans[f].sites[i], fans[f].sites[rng.next() % (i + 1)]);
+    }
+  }
+  return fans;
+}
+
+const std::vector<Fan>& fans() {
+  static const std::vector<Fan> all = make_fans();
+  return all;
+}
+
+rays::Ray ray_from(const Vec3& origin, const Vec3& direction) {
+  rays::Ray ray;
+  ray.origin = origin;
+  ray.direction = direction;
+  ray.min = kMargin;
+  return ray;
+}
+
+}  // namespace
+
+/// Each patch turns its fan about the normal by an angle of its own.
+std::array<rays::Ray, kLinks> link_rays(const Patch& patch) {
+  const Fan& fan = fans()[patch.hash % kFans];
+  const double angle = 2.0 * M_PI * static_cast<double>(patch.hash >> 40) / (1 << 24);
+  const double c = std::cos(angle), s = std::sin(angle);
+  std::array<rays::Ray, kLinks> rays;
+  for (std::size_t i = 0; i < kLinks; ++i) {
+    const Site& site = patch.sites[fan.sites[i] % patch.sites.size()];
+    const Vec3& d = fan.directions[i];
+    const Vec3 turned(c * d.x() - s * d.y(), s * d.x() + c * d.y(), d.z());
+    rays[i] = ray_from(site.position, (frame_about(site.normal) * turned).normalized());
+  }
+  return rays;
+}
+
+Vec3 end_of(const rays::Ray& ray, double range) {
+  return ray.origin + std::min(range, kFarthest) * ray.direction;
+}
+
+std::vector<rays::Ray> first_rays(const Lamp& lamp, const Eigen::AlignedBox3d& world) {
+  std::vector<rays::Ray> rays;
+  const Vec3 shines = lamp.pose.rotation * lamp.direction;
+  const Eigen::Matrix3d frame = frame_about(shines);
+  if (lamp.type == Lamp::Type::kDirectional) {
+    const Vec3 middle = world.isEmpty() ? Vec3::Zero() : Vec3(world.center());
+    const double half = world.isEmpty() ? 1.0 : world.diagonal().norm() / 2;
+    for (std::size_t i = 0; i < kLattice * kLattice; ++i) {
+      const double u = 2.0 * (static_cast<double>(i % kLattice) + 0.5) / kLattice - 1.0;
+      const double v = 2.0 * (static_cast<double>(i / kLattice) + 0.5) / kLattice - 1.0;
+      rays.push_back(ray_from(middle + half * (frame * Vec3(u, v, -1.0)), shines));
+    }
+    return rays;
+  }
+  for (std::size_t i = 0; i < kFirst; ++i) {
+    const double u = (static_cast<double>(i) + 0.5) / kFirst;
+    const double v = radical_inverse(static_cast<unsigned>(i));
+    if (lamp.flat()) {
+      rays.push_back(ray_from(lamp_point(lamp, i), frame * cosine_direction(u, v)));
+      continue;
+    }
+    const double z = 1.0 - 2.0 * u, around = std::sqrt(1.0 - z * z), angle = 2.0 * M_PI * v;
+    const Vec3 way(around * std::cos(angle), around * std::sin(angle), z);
+    if (beam(lamp, lamp.pose.position + way).illuminance > 0.0) {
+      rays.push_back(ray_from(lamp.pose.position, way));
+    }
+  }
+  return rays;
+}
+
+}  // namespace angen::light
