@@ -15,6 +15,7 @@ struct FakeJoint {
   JointView state;
   JointLimits limits{-1e16, 1e16};
   std::string child = "child";
+  Vec3 anchor = Vec3::Zero();
   double force = 0.0;  // what the device requested in this tick
   double motor_velocity = 0.0;
   double motor_force = 0.0;
@@ -147,6 +148,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
   JointLimits limits(JointRef ref) const override { return joints.at(ref.index).second.limits; }
   LinkRef link(const std::string& link) override { return {index(links, link)}; }
   std::string child_of(JointRef ref) const override { return joints.at(ref.index).second.child; }
+  Vec3 anchor(JointRef ref) const override { return joints.at(ref.index).second.anchor; }
   double mass(LinkRef ref) const override { return links.at(ref.index).second.mass; }
   LightRef light(const std::string& light) override {
     if (light.empty() && lights.size() == 1) return {0};

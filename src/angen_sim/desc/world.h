@@ -36,6 +36,7 @@ struct Collision {
   double restitution = 0.0;
   std::optional<double> stiffness;  // N/m
   std::optional<double> damping;    // N s/m
+  std::optional<double> min_depth;  // m, by which it may sink in before contacts push it out
   Source source;
 };
 
@@ -146,6 +147,7 @@ struct Model {
   bool is_static = false;
   bool allow_auto_disable = true;
   bool self_collide = false;
+  bool tolerant = false;  // what its plug-ins do not know is a warning
   std::vector<Link> links;
   std::vector<Joint> joints;
   std::vector<Plugin> plugins;
@@ -179,6 +181,7 @@ struct World {
   Physics physics;
   Scene scene;
   double ambient_temperature = 295.15;  // K, of the air and of all that has no temperature given
+  bool tolerant = false;                // as each of its models, also those that are spawned
   std::vector<Light> lights;
   std::vector<Model> models;
   std::vector<Plugin> plugins;

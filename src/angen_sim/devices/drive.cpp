@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/text.h"
 #include "plugin/register.h"
 
 namespace angen::devices {
@@ -12,6 +13,14 @@ namespace angen::devices {
 namespace {
 
 constexpr double kRestSpeed = 1e-4;  // rad/s: slower wheels stand
+constexpr double kFarOff = 0.1;      // of the wheels' distance that wheelSeparation may be wrong by
+
+std::string left_joint(Params& params) {
+  return params.text("leftJoint", "left_wheel_joint", "joint, axis +y");
+}
+std::string right_joint(Params& params) {
+  return params.text("rightJoint", "right_wheel_joint", "joint, axis +y");
+}
 
 }  // namespace
 
@@ -32,8 +41,16 @@ void Drive::configure(Params& params, Wiring& wiring) {
   params.text("robotBaseFrame", "base_footprint", "frame that odometry moves");
   params.text("device_name", "", "the name commands use, instead of the model's");
   model_ = wiring.model();
-  left_.joint = wiring.joint(params.text("leftJoint", "left_wheel_joint", "joint, axis +y"));
-  right_.joint = wiring.joint(params.text("rightJoint", "right_wheel_joint", "joint, axis +y"));
+  left_.joint = wiring.joint(left_joint(params));
+  right_.joint = wiring.joint(right_joint(params));
+  const double apart = (wiring.anchor(left_.joint) - wiring.anchor(right_.joint)).norm();
+  if (apart > 0.0 && std::abs(apart - separation_) > kFarOff * apart) {
+    params.warn("wheelSeparation", "<wheelSeparation> is " + number_text(separation_) +
+                                       " m, but the wheels of model '" + model_ + "' are " +
+                                       number_text(apart) +
+                                       " m apart: it turns by another angle "
+                                       "than it is commanded; give the model a plug-in of its own");
+  }
 }
 
 Verdict Drive::command(const Command& command, const View& view) {
@@ -164,8 +181,12 @@ const Kind& DrivePlugin::kind() const {
   return kind;
 }
 
-bool DrivePlugin::serves(const ModelInfo& model) const {
-  return model.joint("left_wheel_joint") != nullptr && model.joint("right_wheel_joint") != nullptr;
+// A robot whose wheels another plug-in drives or names is not adopted.
+std::vector<Mount> DrivePlugin::mounts(const ModelInfo& model, Params& params) const {
+  const ModelInfo::Joint* left = model.joint(left_joint(params));
+  const ModelInfo::Joint* right = model.joint(right_joint(params));
+  if (left == nullptr || right == nullptr || left->taken || right->taken) return {};
+  return {{instance_name(model), left->name}};
 }
 
 }  // namespace angen::devices

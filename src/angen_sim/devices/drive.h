@@ -68,7 +68,11 @@ class Drive : public Device {
 class DrivePlugin : public Plugin {
  public:
   const Kind& kind() const override;
-  bool serves(const ModelInfo& model) const override;
+  std::vector<Mount> mounts(const ModelInfo& model, Params& params) const override;
+  std::string needs() const override {
+    return "joints left_wheel_joint and right_wheel_joint, or those that leftJoint and rightJoint "
+           "name";
+  }
   std::unique_ptr<Device> make_device() const override { return std::make_unique<Drive>(); }
 };
 

@@ -13,10 +13,11 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/plugin_path.h"
 #include "core/random.h"
+#include "core/text.h"
 #include "load/bounded_input.h"
 #include "load/converter.h"
-#include "core/text.h"
 #include "load/pack.h"
 #include "load/xml.h"
 
@@ -152,6 +153,9 @@ Cache::Cache(const std::string& world, const SearchPaths& paths) {
   key_ += "\npackages";
   for (const std::string& path : paths.packages) add_path(key_, path);
   if (paths.allow_any) key_ += "\nany";
+  key_ += "\nstrictness " + std::to_string(static_cast<int>(paths.strictness));
+  key_ += "\nplugins";
+  for (const fs::path& path : plugin_path()) add_path(key_, path.string());
   key_ += "\nlimit " + number_text(memory_limit());
   file_ = (where / (hex(hash_bytes(key_)) + ".world")).string();
 }

@@ -51,6 +51,7 @@ const std::map<Key, Bounds>& solver_bounds() {
   static const std::map<Key, Bounds> table = {
       {{"ode", "kp"}, {1e-6, 1e16}},
       {{"ode", "kd"}, {0.0, 1e16}},
+      {{"ode", "min_depth"}, {0.0, 1.0}},
       {{"ode", "slip1"}, {0.0, 1e9}},
       {{"ode", "slip2"}, {0.0, 1e9}},
       {{"bounce", "restitution_coefficient"}, {0.0, 1.0}},
@@ -99,6 +100,7 @@ const std::map<Key, Rule>& rules() {
       {{"ode", "slip2"}, kNotNegative},
       {{"ode", "kp"}, kPositive},
       {{"ode", "kd"}, kNotNegative},
+      {{"ode", "min_depth"}, kNotNegative},
       {{"bounce", "restitution_coefficient"}, kNotNegative},
       {{"material", "ambient"}, kColor},
       {{"material", "diffuse"}, kColor},

@@ -52,6 +52,7 @@ void read_surface(const Element& element, desc::Collision& collision) {
   const Element* contact = walk(element, {"surface", "contact", "ode"});
   collision.stiffness = optional_number(contact, "kp");
   collision.damping = optional_number(contact, "kd");
+  collision.min_depth = optional_number(contact, "min_depth");
 }
 
 // `part` once for each shape of its geometry: several are called NAME_0, NAME_1, …

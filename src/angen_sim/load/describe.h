@@ -36,7 +36,8 @@ desc::Model describe_actor(const Element& actor, Session& session);
 /// Physics, gravity and scene out of a checked <world>.
 void read_settings(const Element& world, desc::World& to, Session& session);
 
-/// Applies the world's <state>: poses and joint positions. Throws Error for unknown names.
-void apply_state(const Element& state, desc::World& world);
+/// Applies the world's <state>: poses and joint positions. Throws Error for unknown names, unless
+/// the session is tolerant.
+void apply_state(const Element& state, desc::World& world, Session& session);
 
 }  // namespace angen::load

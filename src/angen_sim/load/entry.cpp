@@ -6,6 +6,7 @@
 #include "load/cost.h"
 #include "load/describe.h"
 #include "load/ignored.h"
+#include "load/tolerance.h"
 #include "load/xml.h"
 
 namespace angen::load {
@@ -110,6 +111,7 @@ std::vector<desc::Model> describe_entries(std::vector<Entry>& entries, Session& 
     }
     model.name = name_of(element);
     model.source = entry.original.source;
+    model.tolerant = marked_strict(entry.original) == false;
     model.xml = print_xml(entry.original);
     note_ignored(element, session);
     if (holds_include(entry.original)) model.expanded_xml = print_xml(element);

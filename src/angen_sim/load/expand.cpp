@@ -191,7 +191,13 @@ void expand_model(Element& model, Session& session) {
   std::vector<Element> expanded;
   for (Element& child : model.children) {
     if (child.name == "include") {
-      Element included = expand_include(child, session);
+      Element included;
+      try {
+        included = expand_include(child, session);
+      } catch (const Error& error) {
+        session.forgive(error);
+        continue;
+      }
       if (included.name != "model") {
         throw Error(child.source, "an <include> in a <model> stands for a <model>; this is <" +
                                       included.name + ">");

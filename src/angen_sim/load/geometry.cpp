@@ -37,7 +37,6 @@ Shape plane(const Element& element, Pose& pose) {
 
 Shape mesh(const Element& element, Session& session) {
   Shape shape;
-  shape.type = Shape::Type::kMesh;
   if (const Element* part = element.child("submesh")) {
     throw Error(part->source, "<submesh> is not supported; write that part to a file of its own");
   }
@@ -46,9 +45,14 @@ Shape mesh(const Element& element, Session& session) {
   if (shape.mesh_scale.cwiseAbs().minCoeff() < 1e-12) {
     throw Error(element.child("scale")->source, "a scale of 0 leaves nothing; give 1 1 1");
   }
-  shape.mesh_file = need_uri(uri.text, "mesh", uri.source, session);
-  session.sources.will_be_read(shape.mesh_file);
-  shape.mesh = read_mesh(shape.mesh_file, shape.mesh_scale, uri.source);
+  try {
+    shape.mesh_file = need_uri(uri.text, "mesh", uri.source, session);
+    session.sources.will_be_read(shape.mesh_file);
+    shape.mesh = read_mesh(shape.mesh_file, shape.mesh_scale, uri.source);
+    shape.type = Shape::Type::kMesh;
+  } catch (const Error& error) {
+    session.forgive(error);  // nothing stands in its place
+  }
   return shape;
 }
 

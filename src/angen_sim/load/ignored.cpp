@@ -4,6 +4,7 @@
 #include <set>
 
 #include "load/describe.h"
+#include "load/tolerance.h"
 #include "load/xml.h"
 
 namespace angen::load {
@@ -74,7 +75,7 @@ const std::map<std::string, Used>& table() {
       {"friction/ode", {{"mu", "mu2", "fdir1", "slip1", "slip2"}}},
       {"bounce", {{"restitution_coefficient"}}},
       {"contact", {{"ode"}}},
-      {"contact/ode", {{"kp", "kd"}}},
+      {"contact/ode", {{"kp", "kd", "min_depth"}}},
       {"joint", {{"parent", "child", "pose", "axis", "axis2"}, {"type"}}},
       {"axis", axis},
       {"axis2", axis},
@@ -102,7 +103,7 @@ const std::map<std::string, Used>& table() {
 
 // What has had its own warning.
 bool has_warning(const std::string& name) {
-  static const Names warned = {"gripper", "projector", "battery", "population", "road"};
+  static const Names warned = {"gripper", "projector", "battery"};
   return warned.count(name) != 0;
 }
 
@@ -139,7 +140,7 @@ void walk(const Element& element, const std::string& parent, bool springs, Sessi
   const Used* found = used_of(element, parent);
   const Used* used = found == nullptr ? &value : found;
   for (const auto& [name, value] : element.attributes) {
-    if (name == "name" || used->attributes.count(name) != 0) continue;
+    if (name == "name" || name == kStrict || used->attributes.count(name) != 0) continue;
     session.ignore(element.source, name + "=\"" + value + "\" of <" + element.name + ">");
   }
   const std::string* type = element.attribute("type");

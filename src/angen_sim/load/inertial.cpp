@@ -55,9 +55,25 @@ std::string why_impossible(const desc::Inertial& inertial) {
   return ratio_problem(inertial.mass, moments, all);
 }
 
-}  // namespace
+// A body that exists, of nearly those moments: they are raised until each is above 0 and none
+// exceeds the sum of the others.
+desc::Inertial possible(desc::Inertial inertial) {
+  constexpr double kLeastGyration = 1e-3;  // m
+  const bool has_mass =
+      inertial.mass > 0.0 && limit_problem(limits::kMass, inertial.mass, true).empty();
+  if (!has_mass) inertial.mass = 1.0;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertial.moment);
+  const double least = inertial.mass * kLeastGyration * kLeastGyration;
+  Vec3 moments = solver.eigenvalues().cwiseMax(least);  // ascending
+  const double missing = std::max(0.0, moments[2] - moments[0] - moments[1]);
+  moments[0] += missing / 2.0;
+  moments[1] += missing / 2.0;
+  const Eigen::Matrix3d& axes = solver.eigenvectors();
+  inertial.moment = axes * moments.asDiagonal() * axes.transpose();
+  return inertial;
+}
 
-desc::Inertial inertial_of(const Element& link, bool never_moves, Session& session) {
+desc::Inertial read_inertial(const Element& link, bool never_moves, Session& session) {
   desc::Inertial inertial;
   const Element* element = link.child("inertial");
   if (element == nullptr) return inertial;
@@ -81,9 +97,25 @@ desc::Inertial inertial_of(const Element& link, bool never_moves, Session& sessi
   const std::string wrong = why_impossible(inertial);
   if (wrong.empty()) return inertial;
   const std::string message = tag_of(link) + ": " + wrong;
+  if (!never_moves && session.tolerant && why_impossible(possible(inertial)).empty()) {
+    session.warn(at, message + " (the nearest that a body can have is used)");
+    return possible(inertial);
+  }
   if (!never_moves) throw Error(at, message);
   session.warn(at, message + " (the model is static, so it is not used)");
   return {};
+}
+
+}  // namespace
+
+desc::Inertial inertial_of(const Element& link, bool never_moves, Session& session) {
+  if (!session.tolerant) return read_inertial(link, never_moves, session);
+  try {
+    return read_inertial(link, never_moves, session);
+  } catch (const Error& error) {
+    session.forgive(error);  // what moves gets the default, 1 kg with moments of 1 kg m^2
+    return {};
+  }
 }
 
 }  // namespace angen::load

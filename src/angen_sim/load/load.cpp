@@ -8,6 +8,7 @@
 #include "load/describe.h"
 #include "load/entry.h"
 #include "load/search.h"
+#include "load/tolerance.h"
 #include "load/values.h"
 #include "load/xml.h"
 
@@ -92,6 +93,12 @@ Element holder_of(const Element& sensor) {
   return model;
 }
 
+bool is_tolerant(const Element& element, const SearchPaths& paths, bool wanted) {
+  if (const std::optional<bool> strict = marked_strict(element)) return !*strict;
+  if (paths.strictness == Strictness::kAuto) return wanted;
+  return paths.strictness == Strictness::kTolerant;
+}
+
 void give_name(Element& element, const std::string& name) {
   if (name.empty()) return;
   if (element.name == "include") {
@@ -104,11 +111,14 @@ void give_name(Element& element, const std::string& name) {
 }  // namespace
 
 desc::Model model(const std::string& what, const std::string& name, const Pose& pose,
-                  const SearchPaths& paths) {
+                  const SearchPaths& paths, bool tolerant) {
   if (!name.empty()) check_name(name, "the model", {});
   if (const std::string problem = pose_problem(pose); !problem.empty()) throw Error(problem);
   Session session{paths};
+  session.tolerant = paths.strictness != Strictness::kStrict;  // until the document is read
   Element element = is_text(what) ? model_from_text(what, session) : model_from_file(what);
+  session.decide(is_tolerant(element, paths, tolerant));
+  if (session.tolerant) set_attribute(element, kStrict, "false");
   give_name(element, name);
   set_child(element, "pose", pose_text(pose));
   std::vector<Entry> entries = {expand_entry(element, session)};

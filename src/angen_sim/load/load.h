@@ -10,6 +10,11 @@
 /// nothing.
 namespace angen::load {
 
+/// Whether what Angen does not know of a document, or finds wrong with a part that the rest can do
+/// without, is an error or a warning. kAuto: a world without any of Angen's plug-ins is tolerant, a
+/// model strict.
+enum class Strictness { kStrict, kTolerant, kAuto };
+
 /// Where model:// and file:// are searched, first hit wins; what lies elsewhere no document may
 /// name.
 struct SearchPaths {
@@ -19,9 +24,11 @@ struct SearchPaths {
   std::vector<std::string> packages{};  // folders with ROS packages, whose files may be named
   std::vector<std::string> files{};     // may be named, too
   bool allow_any = false;               // documents may name every file
+  Strictness strictness = Strictness::kStrict;
 
   /// ANGEN_MODEL_PATH, GAZEBO_MODEL_PATH, `beside`, the installed worlds/models;
-  /// GAZEBO_RESOURCE_PATH for resources; ROS_PACKAGE_PATH; ANGEN_ALLOW_PATHS=true.
+  /// GAZEBO_RESOURCE_PATH for resources; ROS_PACKAGE_PATH; ANGEN_ALLOW_PATHS=true;
+  /// ANGEN_STRICT=true|false, kAuto without it.
   static SearchPaths from_environment(const std::string& beside = "");
 };
 
@@ -57,8 +64,9 @@ std::string world_around(const desc::Model& model);
 /// One model from a text (<sdf>, <model>, <include>, <actor>, or URDF <robot>), from a path, or
 /// from a model:// uri; `name` replaces its own unless empty, `pose` is where it stands in the
 /// world (an actor's waypoints are relative to it). A lone element is read as SDF 1.6 or later.
+/// `tolerant`: so is the model, unless `strictness` or its own angen:strict says otherwise.
 desc::Model model(const std::string& what, const std::string& name, const Pose& pose,
-                  const SearchPaths& paths);
+                  const SearchPaths& paths, bool tolerant = false);
 
 /// True when `what` is a lone <sensor> element (or an <sdf> around one) for sensor().
 bool is_sensor(const std::string& what);

@@ -98,8 +98,8 @@ void serialize(A& a, angen::desc::Friction& v) {
 
 template <class A>
 void serialize(A& a, angen::desc::Collision& v) {
-  auto& [name, pose, shape, friction, restitution, stiffness, damping, source] = v;
-  a(name, pose, shape, friction, restitution, stiffness, damping, source);
+  auto& [name, pose, shape, friction, restitution, stiffness, damping, min_depth, source] = v;
+  a(name, pose, shape, friction, restitution, stiffness, damping, min_depth, source);
 }
 
 template <class A>
@@ -164,9 +164,9 @@ void serialize(A& a, angen::desc::Plugin& v) {
 
 template <class A>
 void serialize(A& a, angen::desc::Model& v) {
-  auto& [name, pose, is_static, allow_auto_disable, self_collide, links, joints, plugins, xml,
-         expanded_xml, warnings, ignored, source] = v;
-  a(name, pose, is_static, allow_auto_disable, self_collide, links, joints, plugins, xml,
+  auto& [name, pose, is_static, allow_auto_disable, self_collide, tolerant, links, joints, plugins,
+         xml, expanded_xml, warnings, ignored, source] = v;
+  a(name, pose, is_static, allow_auto_disable, self_collide, tolerant, links, joints, plugins, xml,
     expanded_xml, warnings, ignored, source);
 }
 
@@ -186,10 +186,10 @@ void serialize(A& a, angen::desc::Scene& v) {
 
 template <class A>
 void serialize(A& a, angen::desc::World& v) {
-  auto& [name, gravity, physics, scene, ambient_temperature, lights, models, plugins, warnings,
-         ignored, xml] = v;
-  a(name, gravity, physics, scene, ambient_temperature, lights, models, plugins, warnings, ignored,
-    xml);
+  auto& [name, gravity, physics, scene, ambient_temperature, tolerant, lights, models, plugins,
+         warnings, ignored, xml] = v;
+  a(name, gravity, physics, scene, ambient_temperature, tolerant, lights, models, plugins, warnings,
+    ignored, xml);
 }
 
 }  // namespace cereal

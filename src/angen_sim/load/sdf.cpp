@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "load/tolerance.h"
 #include "load/xml.h"
 
 namespace angen::load {
@@ -31,7 +32,9 @@ Element bare(const Element& element) {
   Element copy;
   copy.name = element.name;
   copy.text = element.text;
-  copy.attributes = element.attributes;
+  for (const auto& attribute : element.attributes) {
+    if (attribute.first != kStrict) copy.attributes.push_back(attribute);
+  }
   copy.source = element.source;
   for (const Element& child : element.children) {
     if (!hidden(child, element.name)) copy.children.push_back(bare(child));
@@ -76,8 +79,7 @@ constexpr std::size_t kPieceElements = 2'000;
 
 // `world` in pieces: its settings with the first, a large model in several.
 std::vector<Element> pieces_of(const Element& world) {
-  Element empty = world;
-  empty.children.clear();
+  Element empty = bare(Element{world.name, "", world.attributes, {}, world.source});
   std::vector<Element> pieces = {empty};
   std::size_t size = 0;
   const auto make_room = [&](std::size_t more) {
@@ -93,8 +95,7 @@ std::vector<Element> pieces_of(const Element& world) {
       pieces.back().children.push_back(bare(child));
       continue;
     }
-    Element model = child;
-    model.children.clear();
+    const Element model = bare(Element{child.name, child.text, child.attributes, {}, child.source});
     pieces.back().children.push_back(model);
     for (const Element& part : child.children) {
       if (hidden(part, child.name)) continue;
@@ -213,10 +214,11 @@ void check_piece(const Element& world, Session& session) {
   for (const sdf::Error& error : errors) {
     const Source at =
         error.LineNumber() ? source_of(error, lines) : named_in(error.Message(), world);
-    if (error.Code() != sdf::ErrorCode::ELEMENT_INCORRECT_TYPE) {
-      throw Error(at, one_line(error.Message()));
+    if (error.Code() == sdf::ErrorCode::ELEMENT_INCORRECT_TYPE) {
+      session.warn(at, one_line(error.Message()));
+    } else {
+      session.forgive(Error(at, one_line(error.Message())));
     }
-    session.warn(at, one_line(error.Message()));
   }
 }
 

@@ -6,6 +6,8 @@
 #include <set>
 
 #include "core/allow_paths.h"
+#include "core/plugin_path.h"
+#include "core/text.h"
 #include "load/xml.h"
 
 namespace angen::load {
@@ -15,14 +17,15 @@ namespace fs = std::filesystem;
 namespace {
 
 void add_path_list(const char* variable, std::vector<std::string>& to) {
-  const char* value = std::getenv(variable);
-  if (value == nullptr) return;
-  const std::string list = value;
-  for (std::size_t at = 0; at <= list.size();) {
-    const std::size_t end = std::min(list.find(':', at), list.size());
-    if (end > at) to.push_back(list.substr(at, end - at));
-    at = end + 1;
-  }
+  for (std::string& entry : entries_of(variable)) to.push_back(std::move(entry));
+}
+
+Strictness strictness_of(const char* given) {
+  const std::string text = given == nullptr ? "" : given;
+  if (text == "true" || text == "1") return Strictness::kStrict;
+  if (text == "false" || text == "0") return Strictness::kTolerant;
+  if (text.empty()) return Strictness::kAuto;
+  throw Error("ANGEN_STRICT is '" + printable(text, 80) + "'; give true or false");
 }
 
 struct Address {
@@ -33,7 +36,16 @@ struct Address {
 Address split(const std::string& uri) {
   const std::size_t at = uri.find("://");
   if (at == std::string::npos) return {"", uri};
-  return {uri.substr(0, at), uri.substr(at + 3)};
+  Address address{uri.substr(0, at), uri.substr(at + 3)};
+  if (address.scheme == "model" || address.scheme == "package") {  // model:///NAME is model://NAME
+    address.path.erase(0, std::min(address.path.find_first_not_of('/'), address.path.size()));
+  }
+  return address;
+}
+
+const Packages& packages(Session& session) {
+  if (!session.packages) session.packages.emplace(session.paths.packages);
+  return *session.packages;
 }
 
 std::string folder_of(const std::string& document, Sources& sources) {
@@ -56,6 +68,23 @@ std::optional<std::string> existing(const fs::path& path, Sources& sources) {
   if (!sources.exists(path.string())) return std::nullopt;
   const std::string found = fs::absolute(path).lexically_normal().string();
   return found.size() > 1 && found.back() == '/' ? found.substr(0, found.size() - 1) : found;
+}
+
+// model://PACKAGE/… and package://PACKAGE/…, and what packages export to Gazebo.
+std::optional<std::string> find_in_packages(const Address& address, Session& session) {
+  if (session.paths.packages.empty()) return std::nullopt;
+  const bool is_model = address.scheme == "model";
+  const Packages& known = packages(session);
+  for (const std::string& folder : is_model ? known.model_folders() : known.media_folders()) {
+    if (address.scheme == "package") break;
+    if (auto found = existing(fs::path(folder) / address.path, session.sources)) return found;
+  }
+  if (!is_model && address.scheme != "package") return std::nullopt;
+  const std::size_t slash = address.path.find('/');
+  const std::optional<std::string> folder = known.folder(address.path.substr(0, slash));
+  if (!folder) return std::nullopt;
+  const std::string rest = slash == std::string::npos ? "" : address.path.substr(slash + 1);
+  return existing(fs::path(*folder) / rest, session.sources);
 }
 
 void check_allowed(const std::string& file, const std::string& what, const Source& at,
@@ -84,6 +113,7 @@ SearchPaths SearchPaths::from_environment(const std::string& beside) {
   add_path_list("GAZEBO_RESOURCE_PATH", paths.resources);
   add_path_list("ROS_PACKAGE_PATH", paths.packages);
   paths.allow_any = allow_paths();
+  paths.strictness = strictness_of(std::getenv("ANGEN_STRICT"));
   return paths;
 }
 
@@ -91,7 +121,7 @@ std::optional<std::string> find_uri(const std::string& uri, const std::string& f
                                     Session& session) {
   const Address address = split(uri);
   if (address.path.empty()) return std::nullopt;
-  if (address.scheme != "model" && address.path[0] == '/') {
+  if (address.path[0] == '/') {
     return address.scheme.empty() || address.scheme == "file"
                ? existing(address.path, session.sources)
                : std::nullopt;
@@ -99,7 +129,7 @@ std::optional<std::string> find_uri(const std::string& uri, const std::string& f
   for (const std::string& folder : folders_for(address, from, session)) {
     if (auto found = existing(fs::path(folder) / address.path, session.sources)) return found;
   }
-  return std::nullopt;
+  return find_in_packages(address, session);
 }
 
 std::string searched_places(const std::string& uri, const std::string& from, Session& session) {
@@ -108,6 +138,8 @@ std::string searched_places(const std::string& uri, const std::string& from, Ses
     return address.path;
   }
   std::vector<std::string> places = folders_for(address, from, session);
+  const std::vector<std::string>& roots = session.paths.packages;
+  places.insert(places.end(), roots.begin(), roots.end());
   if (!places.empty()) return join_names(places);
   return address.scheme == "model" ? "nowhere (ANGEN_MODEL_PATH is empty)"
                                    : "nowhere (GAZEBO_RESOURCE_PATH is empty)";
@@ -119,7 +151,8 @@ std::string need_uri(const std::string& uri, const std::string& what, const Sour
   if (address.path.empty()) {
     throw Error(at, "the <uri> of this " + what + " is empty; write model://NAME/… or file://…");
   }
-  if (address.scheme != "model" && address.scheme != "file" && !address.scheme.empty()) {
+  static const std::set<std::string> schemes = {"model", "file", "package", ""};
+  if (schemes.count(address.scheme) == 0) {
     throw Error(
         at, "unknown uri '" + uri + "'; " + what + "s are read from model://NAME/… and file://…");
   }

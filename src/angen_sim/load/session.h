@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "core/element.h"
 #include "load/allowed.h"
 #include "load/load.h"
+#include "load/packages.h"
 #include "load/sources.h"
 
 namespace angen::load {
@@ -25,10 +27,17 @@ struct Session {
   double bytes = 0.0;                      // of memory that what was expanded will take, about
   std::set<std::string> charged{};         // files of meshes that are counted in it
   std::vector<std::string> open{};         // documents being read, outermost first
+  std::optional<Packages> packages{};      // once something was searched there
+  bool tolerant = false;                   // as far as it is known; see decide()
+  std::vector<Error> forgiven{};           // what was wrong and did not stop the load
 
   /// Once for each place: a file that is included ten times warns as often as if it were once.
   void warn(const Source& source, const std::string& message);
   void ignore(const Source& source, const std::string& what);
+  /// Where tolerant, a warning in place of the error: the part is left out. Throws it otherwise.
+  void forgive(const Error& error);
+  /// What a document is, once that is known; a strict one throws what was forgiven until then.
+  void decide(bool is_tolerant);
 };
 
 inline std::string place_of(const Source& source, const std::string& text) {

@@ -48,17 +48,25 @@ void apply_joint(const Element& element, desc::Joint& joint) {
   }
 }
 
+void apply_model(const Element& element, desc::World& world) {
+  desc::Model& model = find_named(world.models, element, "");
+  if (const Element* pose = element.child("pose")) model.pose = pose_of(*pose);
+  for (const Element& part : element.children) {
+    if (part.name == "joint") {
+      apply_joint(part, find_named(model.joints, part, " of model '" + model.name + "'"));
+    }
+  }
+}
+
 }  // namespace
 
-void apply_state(const Element& state, desc::World& world) {
+void apply_state(const Element& state, desc::World& world, Session& session) {
   for (const Element& element : state.children) {
     if (element.name != "model") continue;
-    desc::Model& model = find_named(world.models, element, "");
-    if (const Element* pose = element.child("pose")) model.pose = pose_of(*pose);
-    for (const Element& part : element.children) {
-      if (part.name == "joint") {
-        apply_joint(part, find_named(model.joints, part, " of model '" + model.name + "'"));
-      }
+    try {
+      apply_model(element, world);
+    } catch (const Error& error) {
+      session.forgive(error);
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "core/text.h"
@@ -111,6 +112,79 @@ void keep_safety(const Element& joint, Element& root) {
   }
 }
 
+Pose pose_in(const Element* origin) {
+  Pose pose;
+  if (origin == nullptr) return pose;
+  const auto vector = [&](const char* name) {
+    const std::string* text = origin->attribute(name);
+    const std::vector<double> v =
+        text == nullptr ? std::vector<double>{} : numbers_in(*text).values;
+    return v.size() == 3 ? Vec3(v[0], v[1], v[2]) : Vec3(Vec3::Zero());
+  };
+  const Vec3 rpy = vector("rpy");
+  pose.position = vector("xyz");
+  pose.rotation = from_rpy(rpy.x(), rpy.y(), rpy.z());
+  return pose;
+}
+
+// Where a link is in another one that fixed joints hold it to, some way up; none where it is not.
+std::optional<Pose> lumped_pose(const Element& robot, std::string link, const std::string& into) {
+  Pose pose;
+  for (std::size_t i = 0; i <= robot.children.size() && link != into; ++i) {
+    const auto joint =
+        std::find_if(robot.children.begin(), robot.children.end(), [&](const Element& each) {
+          const Element* child = each.child("child");
+          return each.name == "joint" && child != nullptr && *child->attribute("link") == link;
+        });
+    if (joint == robot.children.end()) return std::nullopt;
+    pose = pose_in(joint->child("origin")) * pose;
+    link = *joint->child("parent")->attribute("link");
+  }
+  return link == into ? std::make_optional(pose) : std::nullopt;
+}
+
+// libsdformat names the link that a plug-in's body is lumped into, but gets the offset to it wrong
+// where that takes several joints.
+void mend_offset(const Element& given, const Element& robot, Element& made) {
+  const std::string body = child_text(given, "bodyName");
+  const std::string into = child_text(made, "bodyName");
+  if (body.empty() || body == into) return;
+  const std::optional<Pose> lumped = lumped_pose(robot, body, into);
+  if (!lumped) return;
+  Element offset;
+  offset.attributes = {{"xyz", child_text(given, "xyzOffset")},
+                       {"rpy", child_text(given, "rpyOffset")}};
+  const std::string text = pose_text(*lumped * pose_in(&offset));
+  const std::vector<double> v = numbers_in(text).values;
+  const auto three = [&](std::size_t from) {
+    return number_text(v[from]) + " " + number_text(v[from + 1]) + " " + number_text(v[from + 2]);
+  };
+  set_child(made, "xyzOffset", three(0));
+  set_child(made, "rpyOffset", three(3));
+}
+
+void give_source(Element& element, const Source& source) {
+  element.source = source;
+  for (Element& child : element.children) give_source(child, source);
+}
+
+// The plug-ins of a robot keep their lines, and sit where they should.
+void mend_plugins(const Element& robot, Element& root) {
+  Element* model = find_child(root, "model");
+  if (model == nullptr) return;
+  for (const Element& extension : robot.children) {
+    if (extension.name != "gazebo") continue;
+    for (const Element& given : extension.children) {
+      for (Element& made : model->children) {
+        if (given.name != "plugin" || made.name != "plugin") continue;
+        if (given.attributes != made.attributes && name_of(given) != name_of(made)) continue;
+        give_source(made, given.source);
+        mend_offset(given, robot, made);
+      }
+    }
+  }
+}
+
 // What the conversion writes, and what <gazebo> elements add.
 std::set<std::string> names_in(const Element& robot) {
   std::set<std::string> names = {"model",
@@ -205,6 +279,7 @@ Element convert_urdf(const std::string& text, const Element& robot) {
   for (const Element& child : robot.children) {
     if (child.name == "joint") keep_safety(child, root);
   }
+  mend_plugins(robot, root);
   return root;
 }
 

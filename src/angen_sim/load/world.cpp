@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <map>
 
@@ -12,6 +13,8 @@
 #include "load/load.h"
 #include "load/sdf.h"
 #include "load/search.h"
+#include "load/shorthand.h"
+#include "load/tolerance.h"
 #include "load/values.h"
 #include "load/xml.h"
 
@@ -41,7 +44,10 @@ Parts split(const Element& world, Session& session) {
       continue;
     }
     if (child.name == "population" || child.name == "road") {
-      session.warn(child.source, "<" + child.name + "> has no effect");
+      for (Element& model : child.name == "road" ? std::vector<Element>{road_model(child)}
+                                                 : population_models(child)) {
+        parts.entries.push_back(expand_entry(model, session));
+      }
       continue;
     }
     if (child.name != "model" && child.name != "actor" && child.name != "include") {
@@ -49,7 +55,13 @@ Parts split(const Element& world, Session& session) {
       parts.settings.children.push_back(child);
       continue;
     }
-    Entry entry = expand_entry(child, session);
+    Entry entry;
+    try {
+      entry = expand_entry(child, session);
+    } catch (const Error& error) {
+      session.forgive(error);
+      continue;
+    }
     if (entry.expanded.name == "light") {
       parts.own.children.push_back(child);
       parts.settings.children.push_back(entry.expanded);
@@ -58,6 +70,31 @@ Parts split(const Element& world, Session& session) {
     }
   }
   return parts;
+}
+
+bool is_tolerant(const Element& given, const Parts& parts, const SearchPaths& paths) {
+  if (const std::optional<bool> strict = marked_strict(given)) return !*strict;
+  if (paths.strictness != Strictness::kAuto) return paths.strictness == Strictness::kTolerant;
+  return !holds_own_plugin(parts.settings) &&
+         std::none_of(parts.entries.begin(), parts.entries.end(),
+                      [](const Entry& entry) { return holds_own_plugin(entry.expanded); });
+}
+
+// The parts of a world, and whether it is tolerant, which its own texts then say.
+Parts split_and_decide(const Element& given, Session& session) {
+  const bool strict = session.paths.strictness == Strictness::kStrict;
+  session.tolerant = !marked_strict(given).value_or(strict);
+  Parts parts = split(given, session);
+  session.decide(is_tolerant(given, parts, session.paths));
+  if (!session.tolerant) return parts;
+  set_attribute(parts.own, kStrict, "false");
+  set_attribute(parts.settings, kStrict, "false");
+  return parts;
+}
+
+bool holds_tolerant_model(const Parts& parts) {
+  return std::any_of(parts.entries.begin(), parts.entries.end(),
+                     [](const Entry& entry) { return marked_strict(entry.original) == false; });
 }
 
 void check_entry_names(const std::vector<Entry>& entries) {
@@ -115,7 +152,7 @@ const Element& only_world(const Element& sdf) {
 
 desc::World describe_world(const Element& sdf, Session& session) {
   const Element& given = only_world(sdf);
-  Parts parts = split(given, session);
+  Parts parts = split_and_decide(given, session);
   if (name_of(given).empty()) throw Error(given.source, "<world> has no name; write name=\"home\"");
   const std::string problem = label_problem(name_of(given));
   if (!problem.empty()) throw Error(given.source, "<world>: " + problem);
@@ -123,6 +160,8 @@ desc::World describe_world(const Element& sdf, Session& session) {
   check_entry_names(parts.entries);
 
   desc::World world;
+  world.tolerant = session.tolerant;
+  session.tolerant = session.tolerant || holds_tolerant_model(parts);
   world.name = name_of(given);
   world.xml = print_xml(parts.own);
   read_settings(parts.settings, world, session);
@@ -137,7 +176,7 @@ desc::World describe_world(const Element& sdf, Session& session) {
   }
   note_ignored(parts.settings, session);
   for (const Element& state : parts.states) {
-    apply_state(state, world);
+    apply_state(state, world, session);
     note_ignored(state, session);
   }
   world.warnings = session.warnings;
@@ -170,7 +209,7 @@ std::string world_text(const std::string& path, bool allow_any) {
   Session session{paths};
   const Open open(session, path);
   const Element given = read_document(session.sources.read(path), path, session);
-  Parts parts = split(only_world(given), session);
+  Parts parts = split_and_decide(only_world(given), session);
   Element world = std::move(parts.settings);
   for (Entry& entry : parts.entries) world.children.push_back(std::move(entry.expanded));
   for (Element& state : parts.states) world.children.push_back(std::move(state));
@@ -187,7 +226,7 @@ desc::World world(const std::string& path, bool allow_any) {
   if (std::optional<desc::World> kept = cache.recall()) return *std::move(kept);
   Session session{paths};
   desc::World world = read_world(session.sources.read(path), path, session);
-  cache.keep(world, session.sources);
+  if (session.forgiven.empty()) cache.keep(world, session.sources);
   return world;
 }
 

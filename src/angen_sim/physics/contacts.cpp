@@ -148,6 +148,7 @@ void Contacts::set(const desc::Physics& settings, const Vec3& gravity) {
   gravity_ = gravity;
   erp_ = settings.erp;
   cfm_ = std::max(settings.cfm, kSoftest);
+  surface_layer_ = settings.contact_surface_layer;
 }
 
 void Contacts::use(dWorldID world) {
@@ -275,6 +276,10 @@ void Contacts::make_joint(const Pair& pair, std::size_t index) {
     const double damping = a.damping.value_or(0.0) + b.damping.value_or(0.0);
     s.soft_erp = step_ / (step_ + damping * yield);
     s.soft_cfm = std::max(kSoftest, 1.0 / (step_ / yield + damping));
+  }
+  if (a.min_depth || b.min_depth) {  // in place of the layer that ODE takes off all depths
+    const double depth = std::max(a.min_depth.value_or(0.0), b.min_depth.value_or(0.0));
+    contact.geom.depth += surface_layer_ - depth;
   }
   // ODE wants a moving body first, and the normal towards it.
   dBodyID one = a.body->ode.get();

@@ -104,6 +104,7 @@ class Contacts {
   Vec3 gravity_;
   double erp_;
   double cfm_;
+  double surface_layer_;  // m
   ode::JointGroupHandle group_;
   std::size_t most_joints_ = 0;  // that group_ has held
   std::vector<Pair> pairs_;

@@ -49,6 +49,7 @@ struct Geom {
   double restitution = 0.0;
   std::optional<double> stiffness;
   std::optional<double> damping;
+  std::optional<double> min_depth;
   std::shared_ptr<const MeshData> mesh;
   std::shared_ptr<HeightTiles> tiles;  // of a heightmap
   ode::GeomHandle ode;                 // of a heightmap: the box around it

@@ -107,6 +107,7 @@ std::unique_ptr<Geom> ShapeFactory::make(const desc::Collision& collision, const
   geom->restitution = collision.restitution;
   geom->stiffness = collision.stiffness;
   geom->damping = collision.damping;
+  geom->min_depth = collision.min_depth;
   geom->is_plane = shape.type == ShapeType::kPlane;
   if (shape.type == ShapeType::kMesh) geom->mesh = mesh_data(collision, name);
   if (shape.type == ShapeType::kHeightmap) {

@@ -20,6 +20,7 @@ class AnyWiring : public Wiring {
   JointLimits limits(JointRef) const override { return {-1e16, 1e16}; }
   LinkRef link(const std::string&) override { return {0}; }
   std::string child_of(JointRef) const override { return "link"; }
+  Vec3 anchor(JointRef) const override { return Vec3::Zero(); }
   double mass(LinkRef) const override { return 1.0; }
   LightRef light(const std::string&) override { return {0}; }
   ContactRef collision(const std::string&) override { return {0}; }

@@ -4,16 +4,15 @@
 
 #include <algorithm>
 #include <class_loader/class_loader.hpp>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <mutex>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "core/allow_paths.h"
+#include "core/plugin_path.h"
 #include "core/text.h"
 
 namespace angen {
@@ -45,29 +44,6 @@ fs::path own_library() {
   if (dladdr(&here, &info) == 0 || info.dli_fname == nullptr) return {};
   std::error_code ignored;
   return fs::weakly_canonical(info.dli_fname, ignored);
-}
-
-/// The entries of a variable such as PATH.
-std::vector<std::string> entries_of(const char* variable) {
-  const char* value = std::getenv(variable);
-  std::istringstream list(value == nullptr ? "" : value);
-  std::vector<std::string> entries;
-  for (std::string entry; std::getline(list, entry, ':');) {
-    if (!entry.empty()) entries.push_back(entry);
-  }
-  return entries;
-}
-
-std::vector<fs::path> search_path() {
-  std::vector<fs::path> directories;
-  for (const char* variable : {"ANGEN_PLUGIN_PATH", "GAZEBO_PLUGIN_PATH"}) {
-    for (const std::string& entry : entries_of(variable)) directories.emplace_back(entry);
-  }
-  for (const std::string& workspace : entries_of("CMAKE_PREFIX_PATH")) {
-    directories.emplace_back(fs::path(workspace) / "lib");
-  }
-  directories.push_back(own_library().parent_path());
-  return directories;
 }
 
 // True when the file's type names show a plug-in registered for angen::Plugin. Read, not loaded:
@@ -114,7 +90,7 @@ bool is_elf(const fs::path& file) {
 bool is_on_search_path(const fs::path& file) {
   std::error_code ignored;
   const fs::path folder = fs::canonical(fs::absolute(file, ignored).parent_path(), ignored);
-  const std::vector<fs::path> folders = search_path();
+  const std::vector<fs::path> folders = plugin_path();
   return !ignored && std::any_of(folders.begin(), folders.end(), [&](const fs::path& known) {
     std::error_code missing;
     return folder == fs::canonical(known, missing) && !missing;
@@ -139,7 +115,7 @@ fs::path locate(const std::string& filename, bool any_path) {
   }
   fs::path unsuitable;
   std::vector<std::string> searched;
-  for (const fs::path& directory : search_path()) {
+  for (const fs::path& directory : plugin_path()) {
     const fs::path candidate = directory / filename;
     searched.push_back(directory.string());
     if (!fs::is_regular_file(candidate, ignored)) continue;
@@ -187,7 +163,7 @@ std::string find_library(const std::string& filename) {
     const bool known = allow_paths() || is_on_search_path(filename);
     return known && fs::is_regular_file(filename, ignored) ? filename : "";
   }
-  for (const fs::path& directory : search_path()) {
+  for (const fs::path& directory : plugin_path()) {
     std::error_code ignored;
     if (fs::is_regular_file(directory / filename, ignored)) return directory / filename;
   }
@@ -257,7 +233,7 @@ std::vector<std::string> Catalog::available() {
       if (impl_->aliases.count(name) == 0) names.insert(name);
     }
   }
-  for (const fs::path& directory : search_path()) {
+  for (const fs::path& directory : plugin_path()) {
     std::error_code ignored;
     for (const fs::directory_entry& entry : fs::directory_iterator(directory, ignored)) {
       const std::string name = entry.path().filename();

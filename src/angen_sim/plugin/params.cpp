@@ -184,7 +184,10 @@ std::vector<std::string> Params::texts(const std::string& path, const std::strin
 
 Nanoseconds Params::update_period() {
   constexpr double kSlowest = 1e-6;  // Hz; what is much slower has no period in nanoseconds
-  const std::string path = has("updateRate") ? "updateRate" : "update_rate";
+  std::string path = "update_rate";
+  for (const char* other : {"odometryRate", "updateRateHZ", "updateRate"}) {
+    if (has(other)) path = other;
+  }
   const double rate = number(path, rate_, "Hz", "how often it publishes", {0.0, 1e6});
   if (rate > 0.0 && rate < kSlowest) {
     throw error(path, "<" + path + "> is " + number_text(rate) +
@@ -215,23 +218,35 @@ void Params::warn(const std::string& path, const std::string& message) {
       {Diagnostic::Severity::kWarning, error(path, "").diagnostics().front().source, message});
 }
 
-void Params::finish() const { finish(plugin_, ""); }
+void Params::finish() const {
+  const std::vector<Diagnostic> found = unread();
+  if (!found.empty()) throw Error(found.front().source, found.front().message);
+}
 
-void Params::finish(const Element& parent, const std::string& prefix) const {
+std::vector<Diagnostic> Params::unread() const {
+  std::vector<Diagnostic> found;
+  list_unread(plugin_, "", found);
+  return found;
+}
+
+void Params::list_unread(const Element& parent, const std::string& prefix,
+                         std::vector<Diagnostic>& to) const {
   for (const Element& child : parent.children) {
     const std::string path = prefix + child.name;
+    if (child.name.find("::") != std::string::npos) continue;  // libsdformat's own
     if (read_.count(path) > 0 || (prefix.empty() && kAlwaysKnown.count(path) > 0)) continue;
     const auto below = read_.lower_bound(path + "/");
     if (below != read_.end() && below->compare(0, path.size() + 1, path + "/") == 0) {
-      finish(child, path + "/");
+      list_unread(child, path + "/", to);
       continue;
     }
     const std::string* file = plugin_.attribute("filename");
     std::vector<std::string> known;
     for (const ParamDoc& doc : docs_) known.push_back(doc.path);
-    throw Error(child.source, "<" + path + "> is not a parameter of " +
-                                  (file != nullptr ? *file : "this plug-in") + "; known are " +
-                                  join_names(known));
+    to.push_back({Diagnostic::Severity::kWarning, child.source,
+                  "<" + path + "> is not a parameter of " +
+                      (file != nullptr ? *file : "this plug-in") + "; known are " +
+                      join_names(known)});
   }
 }
 

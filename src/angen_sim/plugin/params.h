@@ -47,7 +47,8 @@ class Params {
   /// The text of every `path`, none when it is not given.
   std::vector<std::string> texts(const std::string& path, const std::string& unit,
                                  const std::string& doc);
-  /// <update_rate> (or the plug-in's <updateRate>) in Hz as a period in ns; 0 or none = the kind's.
+  /// <update_rate> (or the plug-in's <updateRate>, as Gazebo's plug-ins also call <updateRateHZ>
+  /// and <odometryRate>) in Hz as a period in ns; 0 or none = the kind's.
   Nanoseconds update_period();
   bool has(const std::string& path) const;
 
@@ -69,6 +70,8 @@ class Params {
   /// Throws for the first key of the plug-in that was not read, naming the known ones. Keys that
   /// any of Gazebo's plug-ins may carry (topicName, alwaysOn, …) are always known.
   void finish() const;
+  /// All of these, as warnings.
+  std::vector<Diagnostic> unread() const;
   const std::vector<ParamDoc>& docs() const { return docs_; }
 
  private:
@@ -77,7 +80,8 @@ class Params {
                       const std::string& unit, const std::string& doc);
   void note(const std::string& path, const std::string& type, const std::string& fallback,
             const std::string& unit, const std::string& doc);
-  void finish(const Element& parent, const std::string& prefix) const;
+  void list_unread(const Element& parent, const std::string& prefix,
+                   std::vector<Diagnostic>& to) const;
 
   Element plugin_;
   Element sensor_;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -115,7 +116,7 @@ struct ModelInfo {
     double upper = 0.0;
     double height = 0.0;    // m, of its anchor in the world
     bool on_world = false;  // its child can move, its parent is the world or fixed to it
-    bool taken = false;     // a device of the model's own plug-ins drives it
+    bool taken = false;     // a device of the model's own plug-ins drives it, or one names it
 
     bool vertical() const { return std::abs(axis.z()) > 0.999; }
   };
@@ -152,6 +153,9 @@ class Plugin {
   /// Devices: what a model must have to get one, such as "a light"; errors say it.
   virtual std::string needs() const { return ""; }
   virtual std::unique_ptr<Sensor> make_sensor() const { return nullptr; }
+  /// Sensors that a <plugin> of a model makes, as Gazebo's IMU: the link that it sits on by these
+  /// parameters, "" = the model's first. None: it is a <sensor>'s plug-in, or switched off.
+  virtual std::optional<std::string> link_of(Params&) const { return std::nullopt; }
 };
 
 }  // namespace angen

@@ -119,10 +119,11 @@ class Wiring {
   virtual bool has_joint(const std::string& joint) const = 0;
   virtual JointRef joint(const std::string& joint) = 0;
   virtual JointLimits limits(JointRef joint) const = 0;
-  virtual LinkRef link(const std::string& link) = 0;
-  virtual std::string child_of(JointRef joint) const = 0;          // name of the link it moves
-  virtual double mass(LinkRef link) const = 0;                     // kg
-  virtual LightRef light(const std::string& light) = 0;            // "" = the model's only one
+  virtual LinkRef link(const std::string& link) = 0;       // "" = the sensor's, or the first
+  virtual std::string child_of(JointRef joint) const = 0;  // name of the link it moves
+  virtual Vec3 anchor(JointRef joint) const = 0;           // m, in the model's frame
+  virtual double mass(LinkRef link) const = 0;             // kg
+  virtual LightRef light(const std::string& light) = 0;    // "" = the model's only one
   virtual ContactRef collision(const std::string& collision) = 0;  // in the sensor's link
   /// The visuals of that name ("" = all, also as LINK/VISUAL) that a collision has its surface
   /// from; rays meet no others. Throws Error where a name has none.

@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "ros/text.h"
+#include "ros/topics.h"
+#include "ros/wire.h"
 
 namespace angen::node {
 namespace {
@@ -23,6 +25,42 @@ std::vector<std::string> names_of(const sim::Structure& structure, const std::st
     if (device.kind == kind) names.push_back(device.name);
   }
   return names;
+}
+
+/// A topic of velocities, and the drive that takes them.
+struct Steering {
+  std::string topic;
+  std::string kind;
+  std::string name;
+  bool sideways = false;  // it takes three numbers
+};
+
+// Gazebo's kinds of drives, by the <plugin> that each was made of.
+std::vector<Steering> foreign_drives(const sim::Structure& structure) {
+  static const std::set<std::string> kinds = {"diff_drive", "skid_steer_drive", "planar_move"};
+  std::vector<Steering> found;
+  for (const sim::DeviceEntry& device : structure.devices) {
+    if (kinds.count(device.kind) == 0) continue;
+    for (const desc::Plugin& plugin : structure.models[device.model]->plugins) {
+      if (plugin.filename != device.library) continue;
+      const Element* given = plugin.element.child("commandTopic");
+      const std::string topic = given == nullptr ? "cmd_vel" : given->text;
+      found.push_back({graph_name(below_namespace(plugin.element, topic)), device.kind, device.name,
+                       device.plugin->kind().value_units.size() == 3});
+    }
+  }
+  return found;
+}
+
+std::vector<Steering> all_drives(const sim::Structure& structure,
+                                 const std::vector<Robot>& robots) {
+  std::vector<Steering> all = foreign_drives(structure);
+  for (const Robot& robot : robots) {
+    for (const std::string& topic : robot.command_topics) {
+      all.push_back({topic, "drive", robot.name, false});
+    }
+  }
+  return all;
 }
 
 }  // namespace
@@ -83,30 +121,26 @@ void Commands::on_kinds(const sim::Structure& structure) {
 void Commands::on_structure(const sim::Structure& structure, const std::vector<Robot>& robots) {
   on_kinds(structure);
   decltype(drives_) kept;
-  for (const Robot& robot : robots) {
-    for (const std::string& topic : robot.command_topics) {
-      const auto old = drives_.find({topic, robot.name});
-      if (old != drives_.end()) {
-        kept.insert(*old);
-        continue;
-      }
-      const boost::function<void(const geometry_msgs::Twist::ConstPtr&)> received =
-          [this, name = robot.name](const geometry_msgs::Twist::ConstPtr& twist) {
-            drive(name, *twist);
-          };
-      try {
-        kept[{topic, robot.name}] =
-            node_.subscribe<geometry_msgs::Twist>(topic, kDriveQueue, received);
-      } catch (const ros::Exception& error) {
-        ROS_WARN("%s takes no commands on %s: %s", robot.name.c_str(), topic.c_str(), error.what());
-      }
+  for (const Steering& drive : all_drives(structure, robots)) {
+    const std::pair<std::string, std::string> key{drive.topic, drive.kind + "/" + drive.name};
+    if (const auto old = drives_.find(key); old != drives_.end()) {
+      kept.insert(*old);
+      continue;
+    }
+    const boost::function<void(const geometry_msgs::Twist::ConstPtr&)> received =
+        [this, drive](const geometry_msgs::Twist::ConstPtr& twist) {
+          std::vector<double> values = {twist->linear.x, twist->angular.z};
+          if (drive.sideways) values.insert(values.begin() + 1, twist->linear.y);
+          inbox_.post(sim::ToDevice{drive.kind, drive.name, {"", std::move(values), "", 0.0}});
+        };
+    try {
+      kept[key] = node_.subscribe<geometry_msgs::Twist>(drive.topic, kDriveQueue, received);
+    } catch (const ros::Exception& error) {
+      ROS_WARN("%s takes no commands on %s: %s", drive.name.c_str(), drive.topic.c_str(),
+               error.what());
     }
   }
   drives_ = std::move(kept);
-}
-
-void Commands::drive(const std::string& robot, const geometry_msgs::Twist& twist) {
-  inbox_.post(sim::ToDevice{"drive", robot, {"", {twist.linear.x, twist.angular.z}, "", 0.0}});
 }
 
 }  // namespace angen::node

@@ -29,7 +29,6 @@ class Commands {
   void on_kinds(const sim::Structure& structure);
   void subscribe(const std::shared_ptr<const Plugin>& plugin);
   void receive(const Plugin& plugin, const std::string& text);
-  void drive(const std::string& robot, const geometry_msgs::Twist& twist);
 
   ros::NodeHandle& node_;
   Inbox& inbox_;

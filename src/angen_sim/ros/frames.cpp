@@ -15,6 +15,10 @@ constexpr char kWorld[] = "world";
 // REP 103: images are seen along z, with x to the right.
 const Quat kOptical = from_rpy(-M_PI_2, 0.0, -M_PI_2);
 
+bool is_odometry(const std::string& kind) {
+  return kind == "odometry" || kind == "planar_odometry" || kind == "skid_steer_odometry";
+}
+
 bool is_camera(const sim::SensorEntry& sensor) {
   return sensor.kind == "camera" || sensor.kind == "depth";
 }
@@ -72,10 +76,31 @@ std::string value_of(const std::vector<const Element*>& elements, const std::str
   return fallback;
 }
 
+// The frame of what a sensor of a robot made for Gazebo publishes, which others know: nobody here
+// says where it is. None for other sensors.
+std::optional<std::string> foreign_frame(const sim::SensorEntry& sensor, const desc::Model& model) {
+  static const std::set<std::string> states = {"joint_states", "wheel_states"};
+  static const std::set<std::string> bodies = {"imu", "imu_sensor"};
+  if (states.count(sensor.kind) != 0) return "";
+  if (is_odometry(sensor.kind))
+    return value_of({&sensor.desc->plugin_element}, "odometryFrame", "odom");
+  if (sensor.kind == "p3d") return sensor.frame.empty() ? kWorld : sensor.frame;
+  if (bodies.count(sensor.kind) != 0 && sensor.frame.empty()) {
+    return value_of({&sensor.desc->plugin_element}, "bodyName", sensor.name);
+  }
+  if (sensor.frame.empty() || (!model.tolerant && bodies.count(sensor.kind) == 0)) {
+    return std::nullopt;
+  }
+  return sensor.frame;
+}
+
 class Builder {
  public:
-  Builder(const sim::Snapshot& snapshot, const std::vector<Robot>& robots)
-      : snapshot_(snapshot), structure_(*snapshot.structure), clusters_(structure_) {
+  Builder(const sim::Snapshot& snapshot, const std::vector<Robot>& robots, bool odometry_in_world)
+      : snapshot_(snapshot),
+        structure_(*snapshot.structure),
+        odometry_in_world_(odometry_in_world),
+        clusters_(structure_) {
     frames_.resize(structure_.links.size());
     for (const Robot& robot : robots) robot_of_[robot.model] = &robot;
     for (std::uint32_t i = 0; i < frames_.size(); ++i) frames_[i] = link_frame(structure_, i);
@@ -132,8 +157,19 @@ class Builder {
     tree_.fixed.push_back({frames_[top], frames_[link], in_model(top).inverse() * in_model(link)});
   }
 
-  // Odometry starts at 0 where its robot was put.
+  // Odometry starts at 0 where its robot was put; a true one says where in the world it is.
   void add_odometry() {
+    if (!odometry_in_world_) return;
+    std::set<std::string> added;
+    for (const sim::SensorEntry& sensor : structure_.sensors) {
+      if (!is_odometry(sensor.kind)) continue;
+      const std::vector<const Element*> plugin = {&sensor.desc->plugin_element};
+      const std::string frame = value_of(plugin, "odometryFrame", "odom");
+      const bool by_wheels = value_of(plugin, "odometrySource", "world") == "encoder";
+      if (!added.insert(frame).second) continue;
+      tree_.fixed.push_back(
+          {kWorld, frame, by_wheels ? structure_.models[sensor.model]->pose : Pose{}});
+    }
     for (const auto& [model, owner] : robot_of_) {
       tree_.fixed.push_back(
           {kWorld, owner->odom_frame, structure_.models[model]->pose * in_model(owner->base)});
@@ -142,6 +178,10 @@ class Builder {
 
   void add_sensors() {
     for (const sim::SensorEntry& sensor : structure_.sensors) {
+      if (const auto foreign = foreign_frame(sensor, *structure_.models[sensor.model])) {
+        tree_.sensors.push_back(*foreign);
+        continue;
+      }
       std::string frame = sensor.frame;
       if (frame.empty()) frame = sensor.name + (is_camera(sensor) ? "_optical_frame" : "");
       const Robot* owner = robot(sensor.link);
@@ -164,6 +204,7 @@ class Builder {
 
   const sim::Snapshot& snapshot_;
   const sim::Structure& structure_;
+  bool odometry_in_world_;
   Clusters clusters_;
   std::map<std::uint32_t, const Robot*> robot_of_;
   std::vector<std::string> frames_;
@@ -225,8 +266,9 @@ std::vector<Robot> find_robots(const sim::Structure& structure,
   return robots;
 }
 
-FrameTree make_frames(const sim::Snapshot& snapshot, const std::vector<Robot>& robots) {
-  return Builder(snapshot, robots).build();
+FrameTree make_frames(const sim::Snapshot& snapshot, const std::vector<Robot>& robots,
+                      bool odometry_in_world) {
+  return Builder(snapshot, robots, odometry_in_world).build();
 }
 
 }  // namespace angen::node

@@ -57,7 +57,8 @@ struct FrameTree {
 
 /// `world` is the root. Links that fixed joints hold together hang on the first of them; a robot's
 /// hang on its base, whose own place under its odometry frame is its odometry's business, not this
-/// tree's.
-FrameTree make_frames(const sim::Snapshot& snapshot, const std::vector<Robot>& robots);
+/// tree's. Odometry frames stand in the world, unless a localization places them.
+FrameTree make_frames(const sim::Snapshot& snapshot, const std::vector<Robot>& robots,
+                      bool odometry_in_world = true);
 
 }  // namespace angen::node

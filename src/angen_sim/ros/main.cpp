@@ -35,7 +35,8 @@ constexpr char kUsage[] =
     "usage: angen_node [WORLD] [_rate:=1] [_paused:=false] [_seed:=1] [_clock_rate:=100]\n"
     "                  [_fast:=false] [_topics:=sensor|kind] [_record:=FILE]\n"
     "                  [_replay:=FILE [_until:=SECONDS]] [_allow_paths:=false] [_rescue:=FILE]\n"
-    "                  [_memory_limit:=4096] [_states_rate:=30]\n"
+    "                  [_memory_limit:=4096] [_states_rate:=30] [_strict:=true|false]\n"
+    "                  [_odom_parent:=world|none]\n"
     "       angen_node --check WORLD    only loads; exit code 1 when it cannot\n"
     "WORLD may also stand in the parameter ~world. Where the ROS master is started anew, the node\n"
     "saves the world in FILE and ends with exit code 75.\n";
@@ -75,6 +76,9 @@ std::unique_ptr<Simulation> make(const std::string& path, std::uint64_t seed) {
   const std::size_t ignored = world.ignored.size();
   auto simulation =
       std::make_unique<Simulation>(std::move(world), seed, std::make_shared<angen::Catalog>());
+  for (const angen::sim::Event& event : simulation->snapshot()->events) {  // of how it was built
+    if (event.event == "warning") std::fprintf(stderr, "%s\n", event.detail.c_str());
+  }
   if (ignored > 0) {
     std::fprintf(stderr, "%zu %s ignored, angen check lists %s\n", ignored,
                  ignored == 1 ? "element is" : "elements are", ignored == 1 ? "it" : "them");
@@ -179,6 +183,32 @@ std::unique_ptr<angen::record::Recorder> make_recorder(const std::string& world,
 // Everything that is loaded from now on may name files and libraries anywhere.
 void allow_all_paths() { setenv("ANGEN_ALLOW_PATHS", "true", 1); }
 
+// What Angen does not know in any world or model is an error, or a warning.
+void set_strict(const std::string& word) {
+  if (word.empty()) return;
+  if (word != "true" && word != "false") {
+    throw angen::Error("~strict is '" + word + "', must be true or false");
+  }
+  setenv("ANGEN_STRICT", word.c_str(), 1);
+}
+
+void set_strict_by(const std::vector<std::string>& words) {
+  constexpr char kStrict[] = "_strict:=";
+  for (const std::string& word : words) {
+    if (word.rfind(kStrict, 0) == 0) set_strict(word.substr(sizeof kStrict - 1));
+  }
+}
+
+// A launch file gives true or false, or an empty text for neither.
+void set_strict_by_param() {
+  bool flag = false;
+  if (ros::param::get("~strict", flag)) {
+    set_strict(flag ? "true" : "false");
+  } else {
+    set_strict(ros::param::param<std::string>("~strict", ""));
+  }
+}
+
 int save_and_end(Simulation& simulation, const std::string& path) {
   angen::node::rescue(simulation, path);
   std::fprintf(stderr,
@@ -192,6 +222,7 @@ int save_and_end(Simulation& simulation, const std::string& path) {
 
 int run(std::string path, std::unique_ptr<Simulation> simulation) {
   if (ros::param::param("~allow_paths", false)) allow_all_paths();
+  set_strict_by_param();
   const bool replays = !ros::param::param<std::string>("~replay", "").empty();
   if (!simulation && !replays && !ros::param::get("~world", path)) {
     throw angen::Error(std::string("no world: give one as argument or in ~world\n") + kUsage);
@@ -203,11 +234,17 @@ int run(std::string path, std::unique_ptr<Simulation> simulation) {
   if (settings.fast && settings.rate > 0.0) {
     throw angen::Error("~fast goes as fast as it can, with ~rate 0 or none");
   }
-  settings.clock_rate = number_param("~clock_rate", 100.0, 0.01);
+  settings.clock_rate =
+      number_param("~clock_rate", number_param("~pub_clock_frequency", 100.0, 0.01), 0.01);
   settings.states_rate = number_param("~states_rate", 30.0, 0.01);
   settings.plugins = angen::Catalog().own();
   const std::unique_ptr<angen::record::Replay> replay = make_replay(settings);
   if (replay) path = replay->log().header.world;
+  const auto odom_parent = ros::param::param<std::string>("~odom_parent", "world");
+  if (odom_parent != "world" && odom_parent != "none") {
+    throw angen::Error("~odom_parent is '" + odom_parent + "', must be world or none");
+  }
+  settings.odometry_in_world = odom_parent == "world";
   settings.replay = replay.get();
   settings.models = replay ? replay->log().header.models : folder_of(path) + "/models";
   settings.topics = angen::node::topics_named(ros::param::param<std::string>("~topics", "sensor"));
@@ -260,6 +297,7 @@ int main(int argc, char** argv) {
     std::unique_ptr<Simulation> simulation;
     if (std::count(raw.begin(), raw.end(), "_allow_paths:=true") != 0) allow_all_paths();
     limit_memory_by(raw);
+    set_strict_by(raw);
     if (!paths.empty()) simulation = make(path, seed_in(raw));
     ros::init(argc, argv, "angen", ros::init_options::NoSigintHandler);
     end_on_signals();

@@ -51,6 +51,7 @@ Node::Node(sim::Simulation& simulation, const Settings& settings)
       replay_(settings.replay),
       hurry_(settings.hurry),
       paused_after_(settings.paused_after),
+      odometry_in_world_(settings.odometry_in_world),
       inbox_(simulation),
       rate_(settings.rate),
       pacer_(settings.rate),
@@ -132,7 +133,7 @@ void Node::publish(const sim::Snapshot& snapshot) {
   if (snapshot.structure->revision != revision_) {
     revision_ = snapshot.structure->revision;
     const std::vector<Robot> robots = find_robots(*snapshot.structure, simulation_.world().plugins);
-    const FrameTree frames = make_frames(snapshot, robots);
+    const FrameTree frames = make_frames(snapshot, robots, odometry_in_world_);
     transforms_.on_structure(snapshot, frames, robots);
     publishers_.on_structure(snapshot, frames, robots);
     joints_.on_structure(snapshot, robots);

@@ -34,6 +34,7 @@ struct Settings {
   record::Replay* replay = nullptr;      // what comes before commands are taken; of this simulation
   bool hurry = false;                    // the replay leaps, and does not wait for the rate
   bool paused_after = false;             // the replay
+  bool odometry_in_world = true;         // world is the parent of odometry frames
 };
 
 /// A simulation in ROS. The thread that calls run() owns the world and publishes; those of
@@ -65,6 +66,7 @@ class Node {
   record::Replay* replay_;
   bool hurry_;
   bool paused_after_;
+  bool odometry_in_world_;
   ros::NodeHandle handle_;
   Inbox inbox_;
   std::atomic<double> rate_;  // as Settings::rate, but a service may set it

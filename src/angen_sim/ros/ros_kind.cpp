@@ -4,6 +4,7 @@
 #include <angen_msgs/ReadingArray.h>
 #include <dlfcn.h>
 #include <ros/console.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <map>
 #include <mutex>
@@ -77,6 +78,28 @@ void load_ros_library(const std::string& library) {
   }
 }
 
+/// Transforms for readings, on /tf.
+class TransformChannel : public Channel {
+ public:
+  TransformChannel(ros::NodeHandle& node, const std::string& topic,
+                   Fill<geometry_msgs::TransformStamped> fill)
+      : publisher_(LazyPublisher::of<tf2_msgs::TFMessage>(node, topic, kQueue)), fill_(fill) {}
+  bool has_subscribers() const override { return publisher_.has_subscribers(); }
+  void publish(const StampedReading& reading) override {
+    publisher_.publish([&] {
+      tf2_msgs::TFMessage message;
+      message.transforms.push_back(to_message<geometry_msgs::TransformStamped>(reading, fill_));
+      return message;
+    });
+  }
+
+ private:
+  static constexpr std::uint32_t kQueue = 100;
+
+  LazyPublisher publisher_;
+  Fill<geometry_msgs::TransformStamped> fill_;
+};
+
 const RosKind* find(const std::string& kind) {
   const std::lock_guard<std::mutex> lock(registry().mutex);
   const auto found = registry().kinds.find(kind);
@@ -84,6 +107,22 @@ const RosKind* find(const std::string& kind) {
 }
 
 }  // namespace
+
+RosKindBuilder& RosKindBuilder::transform(Fill<geometry_msgs::TransformStamped> fill,
+                                          std::string off_switch) {
+  Format format;
+  format.type = ros::message_traits::datatype<tf2_msgs::TFMessage>();
+  format.topic = "/tf";
+  format.off_switch = std::move(off_switch);
+  format.open = format.latched = opener<TransformChannel>(fill);
+  format.fill = [fill](const Reading& reading, const Label& label, void* made) {
+    auto& message = *static_cast<tf2_msgs::TFMessage*>(made);
+    message.transforms.emplace_back();
+    fill(reading, label, message.transforms.back());
+  };
+  kind_.formats.push_back(std::move(format));
+  return *this;
+}
 
 RosKindRegistration::RosKindRegistration(const std::vector<std::string>& kinds,
                                          RosKindBuilder& builder) {

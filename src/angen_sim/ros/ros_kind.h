@@ -1,5 +1,6 @@
 #pragma once
 
+#include <geometry_msgs/TransformStamped.h>
 #include <std_msgs/ColorRGBA.h>
 
 #include <functional>
@@ -22,10 +23,13 @@ struct Format {
   /// Of a kind with several messages: the end of the topic, and the parameter that changes it.
   std::string leaf;
   std::string leaf_parameter;
-  Open open;               // a message for each reading; throws what roscpp throws
-  Open latched;            // the same for states, the last of them latched
-  std::string array_type;  // angen_msgs/PirArray, or empty: there is none
-  Open array;              // one message for all readings between two flushes
+  bool leaf_alone = false;  // it is the topic, below <robotNamespace>; not the end of one
+  std::string topic;        // of all sensors: /tf
+  std::string off_switch;   // a parameter that is false where it is not published
+  Open open;                // a message for each reading; throws what roscpp throws
+  Open latched;             // the same for states, the last of them latched
+  std::string array_type;   // angen_msgs/PirArray, or empty: there is none
+  Open array;               // one message for all readings between two flushes
   /// Fills in a message of that type: for tests, and for what is no topic.
   std::function<void(const Reading&, const Label&, void* message)> fill;
 };
@@ -60,6 +64,18 @@ class RosKindBuilder {
     kind_.formats.push_back(std::move(format));
     return *this;
   }
+
+  /// The same for a message whose topic a parameter names, as Gazebo's plug-ins do.
+  template <class Message>
+  RosKindBuilder& named_message(Fill<Message> fill, std::string fallback,
+                                std::string parameter = "topicName") {
+    message<Message>(fill, std::move(fallback), std::move(parameter));
+    kind_.formats.back().leaf_alone = true;
+    return *this;
+  }
+
+  /// A transform for each reading, on /tf, unless the parameter is false.
+  RosKindBuilder& transform(Fill<geometry_msgs::TransformStamped> fill, std::string off_switch);
 
   /// The same for a kind of which there may be thousands: with topics:=kind they share a topic.
   template <class Message, class Array>

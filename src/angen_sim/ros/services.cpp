@@ -181,7 +181,17 @@ sim::Action Services::spawn_action(const angen_msgs::Spawn::Request& request) {
 }
 
 bool Services::spawn(angen_msgs::Spawn::Request& request, angen_msgs::Spawn::Response& response) {
-  return answered(response, [&] { return inbox_.call(spawn_action(request)); });
+  return answered(response, [&] {
+    const sim::Action action = spawn_action(request);
+    sim::Outcome outcome = inbox_.call(action);
+    const auto* spawned = std::get_if<sim::Spawn>(&action);
+    for (std::size_t i = 0; spawned && outcome.ok && i < spawned->model.warnings.size(); ++i) {
+      const std::string warning = spawned->model.warnings[i].text();
+      ROS_WARN("%s", printable(warning, 2000).c_str());
+      outcome.message += "\nwarning: " + warning;
+    }
+    return outcome;
+  });
 }
 
 bool Services::erase(angen_msgs::Delete::Request& request, angen_msgs::Delete::Response& response) {

@@ -11,18 +11,35 @@ std::string text_of(const sim::SensorEntry& sensor, const std::string& parameter
   return found == nullptr ? "" : found->text;
 }
 
+bool is_off(const sim::SensorEntry& sensor, const std::string& parameter) {
+  const std::string text = parameter.empty() ? "" : text_of(sensor, parameter);
+  return text == "false" || text == "0";
+}
+
 }  // namespace
+
+std::string below_namespace(const Element& plugin, const std::string& topic) {
+  const Element* space = plugin.child("robotNamespace");
+  const bool stands = topic.empty() || topic[0] == '/' || space == nullptr || space->text.empty();
+  return stands ? topic : "/" + space->text + "/" + topic;
+}
 
 std::vector<std::string> sensor_topics(const sim::SensorEntry& sensor, const Format& format,
                                        const Robot* robot) {
+  if (is_off(sensor, format.off_switch)) return {};
+  if (!format.topic.empty()) return {format.topic};
   std::string requested = sensor.topic;
-  if (!format.leaf.empty()) {  // one of several, as Gazebo's camera plug-ins name them
+  if (format.leaf_alone) {
+    const std::string leaf = text_of(sensor, format.leaf_parameter);
+    requested = leaf.empty() ? format.leaf : leaf;
+  } else if (!format.leaf.empty()) {  // one of several, as Gazebo's camera plug-ins name them
     const std::string base = text_of(sensor, "cameraName");
     const std::string leaf = text_of(sensor, format.leaf_parameter);
     requested = (base.empty() ? default_topic(sensor.kind, sensor.name) : base) + "/" +
                 (leaf.empty() ? format.leaf : leaf);
     if (!leaf.empty() && leaf[0] == '/') requested = leaf;
   }
+  if (sensor.desc) requested = below_namespace(sensor.desc->plugin_element, requested);
   if (robot != nullptr && !requested.empty()) return robot_topics(*robot, requested);
   return {topic_of(sensor.kind, sensor.name, requested)};
 }

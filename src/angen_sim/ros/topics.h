@@ -18,10 +18,14 @@ enum class Topics {
 /// Throws Error for a word that is neither "sensor" nor "kind".
 Topics topics_named(const std::string& word);
 
-/// Where one message of a sensor is published if it has topics of its own; `robot` is the one that
-/// carries it, or null. The first is the one to name.
+/// Where one message of a sensor is published if it has topics of its own, nowhere where it is
+/// switched off; `robot` is the one that carries it, or null. The first is the one to name.
 std::vector<std::string> sensor_topics(const sim::SensorEntry& sensor, const Format& format,
                                        const Robot* robot);
+
+/// A topic of a plug-in as Gazebo has it: one that does not start with / is below its
+/// <robotNamespace>.
+std::string below_namespace(const Element& plugin, const std::string& topic);
 
 /// Whether that message is published on the topic of its kind.
 bool goes_with_its_kind(Topics topics, const Format& format, const Robot* robot);

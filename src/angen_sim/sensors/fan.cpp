@@ -7,8 +7,10 @@ namespace angen::sensors {
 
 namespace {
 
-constexpr Range kSamples{1.0, 1000.0};
-constexpr Range kAngle{-M_PI, M_PI};
+constexpr Range kSamples{1.0, 10000.0};
+constexpr Range kPitch{-M_PI, M_PI};
+constexpr Range kYaw{-2.0 * M_PI - 1e-3, 2.0 * M_PI + 1e-3};  // files round 2 pi
+constexpr double kFullTurn = 2.0 * M_PI + 1e-3;
 
 double angle(double first, double last, int index, int count) {
   return count == 1 ? 0.5 * (first + last) : first + (last - first) * index / (count - 1);
@@ -68,11 +70,11 @@ Fan read_fan(Params& params, const Fan& fallback) {
   const std::string v = "ray/scan/vertical/";
   Fan fan;
   fan.columns = params.integer(h + "samples", fallback.columns, "", "rays side by side", kSamples);
-  fan.min_yaw = params.number(h + "min_angle", fallback.min_yaw, "rad", "rightmost ray", kAngle);
-  fan.max_yaw = params.number(h + "max_angle", fallback.max_yaw, "rad", "leftmost ray", kAngle);
+  fan.min_yaw = params.number(h + "min_angle", fallback.min_yaw, "rad", "rightmost ray", kYaw);
+  fan.max_yaw = params.number(h + "max_angle", fallback.max_yaw, "rad", "leftmost ray", kYaw);
   fan.rows = params.integer(v + "samples", fallback.rows, "", "rows of rays", kSamples);
-  fan.min_pitch = params.number(v + "min_angle", fallback.min_pitch, "rad", "lowest row", kAngle);
-  fan.max_pitch = params.number(v + "max_angle", fallback.max_pitch, "rad", "highest row", kAngle);
+  fan.min_pitch = params.number(v + "min_angle", fallback.min_pitch, "rad", "lowest row", kPitch);
+  fan.max_pitch = params.number(v + "max_angle", fallback.max_pitch, "rad", "highest row", kPitch);
   fan.min = params.number("ray/range/min", fallback.min, "m", "nearer is not seen", kNotNegative);
   fan.max = params.number("ray/range/max", fallback.max, "m", "farther is not seen", kPositive);
   const std::string noise = params.choice("ray/noise/type", "gaussian", {"gaussian", "none"},
@@ -82,6 +84,9 @@ Fan read_fan(Params& params, const Fan& fallback) {
                                    "standard deviation of a range", kNotNegative);
   if (noise == "none") fan.noise_mean = fan.noise_stddev = 0.0;
   check_order(params, "ray/scan/horizontal", fan.min_yaw, fan.max_yaw);
+  if (fan.max_yaw - fan.min_yaw > kFullTurn) {
+    throw params.error("ray/scan/horizontal", "<ray/scan/horizontal>: more than a full turn");
+  }
   check_order(params, "ray/scan/vertical", fan.min_pitch, fan.max_pitch);
   check_order(params, "ray/range", fan.min, fan.max);
   return fan;

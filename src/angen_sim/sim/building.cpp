@@ -35,8 +35,11 @@ Building::Building(const desc::World& world, std::uint64_t seed, std::shared_ptr
   for (const desc::Plugin& plugin : world_.plugins) {
     try {
       catalog_->library(plugin.filename);
+      plugins_.push_back(plugin);
     } catch (const Error& error) {
-      throw Error(plugin.source, error.diagnostics().front().message);
+      const Error placed(plugin.source, error.diagnostics().front().message);
+      if (!world_.tolerant) throw placed;
+      warnings_.push_back(placed.what() + std::string(" (ignored)"));
     }
   }
   for (const desc::Model& model : world_.models) build(model, nullptr, 0);
@@ -205,11 +208,13 @@ void Building::start(SensorInstance& sensor, Nanoseconds now) const {
 void Building::build(desc::Model model, const std::vector<SensorInstance>* attached,
                      Nanoseconds now) {
   auto live = std::make_unique<LiveModel>();
+  model.tolerant = model.tolerant || world_.tolerant;
   live->desc = std::make_shared<const desc::Model>(std::move(model));
-  make_instances(*live, world_.plugins, gravity_, *catalog_, warnings_);
+  make_instances(*live, plugins_, gravity_, *catalog_, warnings_);
   for (std::size_t i = 0; attached != nullptr && i < attached->size(); ++i) {
     const SensorInstance& old = (*attached)[i];
-    live->sensors.push_back(make_sensor(*live, old.link, old.desc, old.name, gravity_, *catalog_));
+    live->sensors.push_back(
+        make_sensor(*live, old.link, old.desc, old.name, gravity_, *catalog_, warnings_));
     live->sensors.back().attached = true;
   }
   check_names(*live);
@@ -226,7 +231,15 @@ void Building::build(desc::Model model, const std::vector<SensorInstance>* attac
   note_change();
 }
 
-void Building::add(desc::Model model, Nanoseconds now) { build(std::move(model), nullptr, now); }
+void Building::add(desc::Model model, Nanoseconds now) {
+  const std::size_t before = warnings_.size();
+  try {
+    build(std::move(model), nullptr, now);
+  } catch (...) {
+    warnings_.resize(before);  // those of a model that is not there
+    throw;
+  }
+}
 
 void Building::attach(const desc::Sensor& sensor, const std::string& link, Nanoseconds now) {
   const std::size_t split = link.find("::");
@@ -247,9 +260,9 @@ void Building::attach(const desc::Sensor& sensor, const std::string& link, Nanos
                 printable(link.substr(split + 2)) + "'; known are " + join_names(names));
   }
   if (sensor.plugin.empty()) throw Error(sensor.source, "the sensor has no <plugin>");
-  SensorInstance instance =
-      make_sensor(*live, static_cast<std::uint32_t>(at - names.begin()),
-                  std::make_shared<const desc::Sensor>(sensor), sensor.name, gravity_, *catalog_);
+  SensorInstance instance = make_sensor(*live, static_cast<std::uint32_t>(at - names.begin()),
+                                        std::make_shared<const desc::Sensor>(sensor), sensor.name,
+                                        gravity_, *catalog_, warnings_);
   check_sensor_name(instance);
   instance.attached = true;
   start(instance, now);
@@ -312,7 +325,7 @@ void Building::reset(Nanoseconds now) {
 /// The plug-ins of the world's libraries and of all devices, one a kind.
 std::vector<std::shared_ptr<const Plugin>> Building::device_plugins() {
   std::map<std::string, std::shared_ptr<const Plugin>> kinds;
-  for (const desc::Plugin& plugin : world_.plugins) {
+  for (const desc::Plugin& plugin : plugins_) {
     for (const auto& each : catalog_->library(plugin.filename)) {
       kinds.emplace(each->kind().name, each);
     }

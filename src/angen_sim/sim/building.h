@@ -105,7 +105,9 @@ class Building {
   /// The plug-ins of devices that differ from how they started, as of `now`.
   std::vector<SavedPlugin> saved_plugins(Nanoseconds now, Nanoseconds step);
 
-  /// Warnings of the last add or of construction, taken out.
+  /// Warnings of the last add or of construction.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  /// The same, taken out.
   std::vector<std::string> take_warnings();
 
  private:
@@ -149,7 +151,8 @@ class Building {
   std::vector<WorldLight> lights_;
   Pushes pushes_;
   std::vector<LiveModel*> placed_;
-  std::vector<Owner> owners_;  // by index of physics::LinkId
+  std::vector<Owner> owners_;          // by index of physics::LinkId
+  std::vector<desc::Plugin> plugins_;  // the world's, but those that are ignored
   std::vector<std::string> warnings_;
   std::uint64_t revision_ = 0;
   struct DevicesByField {

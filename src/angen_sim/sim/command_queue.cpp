@@ -273,9 +273,13 @@ Outcome CommandQueue::execute(const Action& action, Building& building, Instance
         events.push_back({clock.time, command->name, command->kind, "rejected", outcome.message});
       }
     } else if (const auto* spawn = std::get_if<Spawn>(&action)) {
+      const std::size_t before = building.warnings().size();
       building.add(spawn->model, clock.time);
       events.push_back(world_event(clock.time, spawn->model.name, "spawned"));
       outcome.message = "spawned " + spawn->model.name;
+      for (std::size_t i = before; i < building.warnings().size(); ++i) {
+        outcome.message += "\nwarning: " + building.warnings()[i];
+      }
     } else if (const auto* attach = std::get_if<Attach>(&action)) {
       building.attach(attach->sensor, attach->link, clock.time);
       events.push_back(

@@ -137,9 +137,11 @@ ModelInfo info_of(const desc::Model& model);  // `taken` is left out
 void make_instances(LiveModel& live, const std::vector<desc::Plugin>& world_plugins,
                     const Vec3& gravity, Catalog& catalog, std::vector<std::string>& warnings);
 
-/// A sensor of `live`, on its link number `link`; shares its description.
+/// A sensor of `live`, on its link number `link`; shares its description. `wanted`: of a model's
+/// own plug-in, the one of its library.
 SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
                            std::shared_ptr<const desc::Sensor> shared, const std::string& name,
-                           const Vec3& gravity, Catalog& catalog);
+                           const Vec3& gravity, Catalog& catalog,
+                           std::vector<std::string>& warnings, const Plugin* wanted = nullptr);
 
 }  // namespace angen::sim

@@ -86,13 +86,18 @@ JointLimits ModelWiring::limits(JointRef joint) const {
 }
 
 LinkRef ModelWiring::link(const std::string& link) {
-  const int index = index_of(model_.links, link);
+  const std::string& own = sensor_link_.empty() ? model_.links.front().name : sensor_link_;
+  const int index = index_of(model_.links, link.empty() ? own : link);
   if (index < 0) unknown(model_.name, "link", link, names_of(model_.links));
   return {index};
 }
 
 std::string ModelWiring::child_of(JointRef joint) const {
   return model_.joints.at(static_cast<std::size_t>(joint.index)).child;
+}
+
+Vec3 ModelWiring::anchor(JointRef joint) const {
+  return model_.joints.at(static_cast<std::size_t>(joint.index)).anchor;
 }
 
 double ModelWiring::mass(LinkRef link) const {

@@ -180,6 +180,10 @@ std::string Rig::child_of(JointRef joint) const {
   return model_.joints.at(static_cast<std::size_t>(joint.index)).child;
 }
 
+Vec3 Rig::anchor(JointRef joint) const {
+  return model_.joints.at(static_cast<std::size_t>(joint.index)).anchor;
+}
+
 double Rig::mass(LinkRef link) const {
   return model_.links.at(static_cast<std::size_t>(link.index)).inertial.mass;
 }

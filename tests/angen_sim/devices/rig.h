@@ -117,6 +117,7 @@ class Rig : public View, public Wiring, public Outputs {
   JointLimits limits(JointRef joint) const override;
   LinkRef link(const std::string& link) override;
   std::string child_of(JointRef joint) const override;
+  Vec3 anchor(JointRef joint) const override;
   double mass(LinkRef link) const override;
   LightRef light(const std::string& light) override;
   ContactRef collision(const std::string& collision) override;

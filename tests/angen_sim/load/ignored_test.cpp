@@ -39,14 +39,14 @@ TEST(Ignored, IsListedWithFileAndLine) {
       "<velocity_decay><linear>0.1</linear></velocity_decay>\n"
       "<collision name='c'><geometry><box><size>1 2 3</size></box></geometry>\n"
       "<max_contacts>4</max_contacts>\n"
-      "<surface><contact><ode><min_depth>0.01</min_depth></ode></contact></surface></collision>\n"
+      "<surface><contact><ode><max_vel>0.01</max_vel></ode></contact></surface></collision>\n"
       "<visual name='v'><geometry><box><size>1 2 3</size></box></geometry>\n"
       "<cast_shadows>false</cast_shadows></visual>\n"
       "</link></model></world></sdf>");
   const std::vector<std::string> wanted = {
       "test.world:3: <wind> in <world>",          "test.world:5: <enable_wind> in <model>",
       "test.world:7: <velocity_decay> in <link>", "test.world:9: <max_contacts> in <collision>",
-      "test.world:10: <min_depth> in <ode>",      "test.world:12: <cast_shadows> in <visual>",
+      "test.world:10: <max_vel> in <ode>",        "test.world:12: <cast_shadows> in <visual>",
   };
   for (const std::string& text : wanted) EXPECT_TRUE(has(found, text)) << text;
   EXPECT_EQ(found.size(), wanted.size());

@@ -1,0 +1,58 @@
+#include "load/tolerance.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/plugin_path.h"
+#include "core/text.h"
+#include "load/session.h"
+#include "load/values.h"
+
+namespace angen::load {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_own(const std::string& filename) {
+  const fs::path library = fs::path(filename).filename();
+  if (library.string().rfind("libgazebo_ros_", 0) == 0) return false;
+  fs::path catalog = library;
+  catalog.replace_extension(".json");
+  const std::vector<fs::path> folders = plugin_path();
+  return std::any_of(folders.begin(), folders.end(), [&](const fs::path& folder) {
+    std::error_code failed;
+    return fs::exists(folder / library, failed) && fs::exists(folder / catalog, failed);
+  });
+}
+
+}  // namespace
+
+std::optional<bool> marked_strict(const Element& element) {
+  const std::string* text = element.attribute(kStrict);
+  if (text == nullptr) return std::nullopt;
+  if (*text != "true" && *text != "false") {
+    throw Error(element.source,
+                std::string(kStrict) + " is '" + printable(*text) + "'; give true or false");
+  }
+  return *text == "true";
+}
+
+bool holds_own_plugin(const Element& element) {
+  const std::string* file = element.attribute("filename");
+  if (element.name == "plugin") return file != nullptr && is_own(*file);
+  return std::any_of(element.children.begin(), element.children.end(), holds_own_plugin);
+}
+
+void Session::forgive(const Error& error) {
+  if (!tolerant) throw Error(error);
+  forgiven.push_back(error);
+  for (const Diagnostic& each : error.diagnostics()) warn(each.source, each.message);
+}
+
+void Session::decide(bool is_tolerant) {
+  tolerant = is_tolerant;
+  if (!tolerant && !forgiven.empty()) throw Error(forgiven.front());
+}
+
+}  // namespace angen::load

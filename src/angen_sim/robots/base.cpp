@@ -1,0 +1,95 @@
+#include "robots/base.h"
+
+#include <cmath>
+#include <utility>
+
+namespace angen::robots {
+
+std::vector<double> numbers(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+std::vector<double> numbers(const Quat& q) { return {q.x(), q.y(), q.z(), q.w()}; }
+
+Topics read_topics(Params& params) {
+  params.text("commandTopic", "cmd_vel", "where commands come from, below robotNamespace");
+  params.text("odometryTopic", "odom", "where odometry goes to, below robotNamespace");
+  params.text("rosDebugLevel", "", "not used: the node's log level is set by ROS");
+  Topics topics;
+  topics.odometry_frame = params.text("odometryFrame", "odom", "frame of its odometry");
+  topics.base_frame = params.text("robotBaseFrame", "base_footprint", "frame that it moves");
+  return topics;
+}
+
+void Base::configure(Params& params, Wiring& wiring) {
+  topics_ = read_topics(params);
+  link_ = wiring.link("");
+}
+
+void Base::read(const Pose& pose, const Vec3& velocity, double yaw_rate, Reading& reading) const {
+  const double yaw = to_rpy(pose.rotation).z();
+  reading.set("position", numbers(pose.position));
+  reading.set("orientation", numbers(pose.rotation));
+  reading.set("forward", std::cos(yaw) * velocity.x() + std::sin(yaw) * velocity.y());
+  reading.set("left", std::cos(yaw) * velocity.y() - std::sin(yaw) * velocity.x());
+  reading.set("turn", yaw_rate);
+  reading.set("frame", topics_.odometry_frame);
+  reading.set("base_frame", topics_.base_frame);
+}
+
+void Base::read_true(const View& view, Reading& reading) {
+  const LinkView link = view.link(link_);
+  rests_ = link.linear_velocity.isZero(0.0) && link.angular_velocity.isZero(0.0);
+  read(link.pose, link.linear_velocity, link.angular_velocity.z(), reading);
+}
+
+Kind odometry_kind(std::string name, std::string doc, double rate) {
+  return Kind(std::move(name), std::move(doc))
+      .publishes_at(rate)
+      .numbers("position", "m", "x y z of the base in the odometry frame")
+      .shown(2)
+      .numbers("orientation", "", "quaternion x y z w")
+      .number("forward", "m/s", "along the base")
+      .shown(2)
+      .number("left", "m/s", "across it")
+      .number("turn", "rad/s", "to the left")
+      .shown(2)
+      .text("frame", "that the odometry starts in")
+      .text("base_frame", "that it moves");
+}
+
+void Inertia::configure(LinkRef link, const Vec3& gravity) {
+  link_ = link;
+  gravity_ = gravity;
+}
+
+void Inertia::read(const View& view, Reading& reading) {
+  const LinkView link = view.link(link_);
+  const Pose pose = view.pose();
+  const Vec3 velocity =
+      link.linear_velocity + link.angular_velocity.cross(pose.position - link.pose.position);
+  // While it slept or nobody subscribed it had no samples: then it takes this one for rest.
+  const Nanoseconds longest = kSecond;
+  const bool follows = time_ >= 0 && view.time() > time_ && view.time() - time_ <= longest;
+  Vec3 acceleration = Vec3::Zero();
+  if (follows && link.awake)
+    acceleration = (velocity - velocity_) / to_seconds(view.time() - time_);
+  rests_ = acceleration.isZero(0.0) && link.angular_velocity.isZero(0.0);
+  time_ = view.time();
+  velocity_ = velocity;
+  const Quat to_own = pose.rotation.conjugate();
+  reading.set("orientation", numbers(pose.rotation));
+  reading.set("angular_velocity", numbers(to_own * link.angular_velocity));
+  reading.set("acceleration", numbers(to_own * (acceleration - gravity_)));
+}
+
+Kind inertia_kind(std::string name, std::string doc, double rate) {
+  return Kind(std::move(name), std::move(doc))
+      .publishes_at(rate)
+      .on_demand()
+      .numbers("orientation", "", "in the world, quaternion x y z w")
+      .numbers("angular_velocity", "rad/s", "about its x, y, z")
+      .shown(2)
+      .numbers("acceleration", "m/s^2", "along its x, y, z; at rest g upwards")
+      .shown(2);
+}
+
+}  // namespace angen::robots

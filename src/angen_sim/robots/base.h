@@ -1,0 +1,76 @@
+#pragma once
+
+#include <string>
+
+#include "plugin/plugin.h"
+
+/// Plug-ins that robots made for Gazebo carry: what they share.
+namespace angen::robots {
+
+/// Where Gazebo's drives take commands from and publish odometry to.
+struct Topics {
+  std::string odometry_frame;
+  std::string base_frame;
+};
+Topics read_topics(Params& params);
+
+/// Where the base of a robot is, and how it moves: what its drive publishes as odometry.
+class Base {
+ public:
+  void configure(Params& params, Wiring& wiring);
+  const Topics& topics() const { return topics_; }
+  /// The fields of a reading that odometry is made of, from the pose (world) of the base and its
+  /// velocities.
+  void read(const Pose& pose, const Vec3& velocity, double yaw_rate, Reading& reading) const;
+  /// The same, as the world has it.
+  void read_true(const View& view, Reading& reading);
+  /// Whether it stood at the last read_true().
+  bool rests() const { return rests_; }
+
+ private:
+  Topics topics_;
+  LinkRef link_;
+  bool rests_ = false;
+};
+
+/// Adds those fields to a kind.
+Kind odometry_kind(std::string name, std::string doc, double rate);
+
+/// The true odometry of a drive.
+class TrueOdometry : public Sensor {
+ public:
+  void configure(Params& params, Wiring& wiring) override { base_.configure(params, wiring); }
+  void read(const View& view, Hits, Rng&, Reading& reading) override {
+    base_.read_true(view, reading);
+  }
+  bool steady() const override { return base_.rests(); }
+
+ private:
+  Base base_;
+};
+
+/// What an inertial measurement unit feels where it is fastened.
+class Inertia {
+ public:
+  /// `link` is its own.
+  void configure(LinkRef link, const Vec3& gravity);
+  /// Orientation (world), and angular velocity and proper acceleration along its own axes.
+  void read(const View& view, Reading& reading);
+  /// Whether it felt no motion at the last sample.
+  bool rests() const { return rests_; }
+
+ private:
+  LinkRef link_;
+  bool rests_ = false;
+  Vec3 gravity_ = Vec3::Zero();
+  Vec3 velocity_ = Vec3::Zero();  // m/s, at the last sample
+  Nanoseconds time_ = -1;         // of it
+};
+
+/// Adds these fields to a kind.
+Kind inertia_kind(std::string name, std::string doc, double rate);
+
+std::vector<double> numbers(const Vec3& v);
+std::vector<double> numbers(const Quat& q);  // x, y, z, w
+
+}  // namespace angen::robots

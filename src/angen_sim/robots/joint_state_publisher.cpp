@@ -1,0 +1,37 @@
+#include <sstream>
+
+#include "core/text.h"
+#include "plugin/register.h"
+#include "robots/joint_states.h"
+
+namespace angen::robots {
+
+/// The joints that a comma-separated list names.
+class JointStatePublisher : public JointStates {
+ public:
+  void configure(Params& params, Wiring& wiring) override {
+    std::istringstream list(params.text("jointName", "", "names of joints, with commas between"));
+    std::vector<std::string> names;
+    for (std::string name; std::getline(list, name, ',');) names.push_back(trimmed(name));
+    if (names.empty()) {
+      throw params.error("jointName", "<jointName> names no joint; give \"a, b\"");
+    }
+    set_up(std::move(names), wiring);
+  }
+};
+
+class JointStatePublisherPlugin : public Plugin {
+ public:
+  const Kind& kind() const override {
+    static const Kind kind = joint_states_kind("joint_states", "Positions of a robot's joints.");
+    return kind;
+  }
+  std::optional<std::string> link_of(Params&) const override { return ""; }
+  std::unique_ptr<Sensor> make_sensor() const override {
+    return std::make_unique<JointStatePublisher>();
+  }
+};
+
+}  // namespace angen::robots
+
+ANGEN_REGISTER_PLUGIN(angen::robots::JointStatePublisherPlugin)

@@ -1,0 +1,57 @@
+#include "plugin/register.h"
+#include "robots/base.h"
+
+namespace angen::robots {
+
+/// Where a link truly is, and how it moves, in the world.
+class P3d : public Sensor {
+ public:
+  void configure(Params& params, Wiring& wiring) override {
+    Noise noise;
+    noise.stddev =
+        params.number("gaussianNoise", 0.0, "", "standard deviation of each number", kNotNegative);
+    for (const char* field : {"position", "velocity", "angular_velocity"}) {
+      noise.field = field;
+      params.noise(noise);
+    }
+    link_ = wiring.link("");
+  }
+  void read(const View& view, Hits, Rng&, Reading& reading) override {
+    const LinkView link = view.link(link_);
+    const Pose pose = view.pose();
+    const Vec3 arm = pose.position - link.pose.position;
+    reading.set("position", numbers(pose.position));
+    reading.set("orientation", numbers(pose.rotation));
+    reading.set("velocity", numbers(link.linear_velocity + link.angular_velocity.cross(arm)));
+    reading.set("angular_velocity", numbers(link.angular_velocity));
+    rests_ = link.linear_velocity.isZero(0.0) && link.angular_velocity.isZero(0.0);
+  }
+  bool steady() const override { return rests_; }
+
+ private:
+  LinkRef link_;
+  bool rests_ = false;
+};
+
+class P3dPlugin : public Plugin {
+ public:
+  const Kind& kind() const override {
+    static const Kind kind = Kind("p3d", "Where a link truly is in the world.")
+                                 .publishes_at(1000.0)
+                                 .on_demand()
+                                 .numbers("position", "m", "x y z")
+                                 .shown(2)
+                                 .numbers("orientation", "", "quaternion x y z w")
+                                 .numbers("velocity", "m/s", "x y z")
+                                 .numbers("angular_velocity", "rad/s", "about x, y, z");
+    return kind;
+  }
+  std::optional<std::string> link_of(Params& params) const override {
+    return params.text("bodyName", "", "the link");
+  }
+  std::unique_ptr<Sensor> make_sensor() const override { return std::make_unique<P3d>(); }
+};
+
+}  // namespace angen::robots
+
+ANGEN_REGISTER_PLUGIN(angen::robots::P3dPlugin)

@@ -1,0 +1,117 @@
+#include "plugin/register.h"
+#include "robots/base.h"
+
+namespace angen::robots {
+
+namespace {
+
+constexpr double kForcePerMass = 200.0;  // N/kg: it has its speed within some milliseconds
+
+struct Planar {
+  double timeout;  // s; negative = never
+};
+
+Planar read_planar(Params& params) {
+  read_topics(params);
+  params.number("odometryRate", 20.0, "Hz", "of the odometry", {0.0, 1e6});
+  return {params.number("cmdTimeout", -1.0, "s", "it stops this long after a command; -1: never")};
+}
+
+}  // namespace
+
+/// A robot that is pushed over the floor as commanded, whatever it stands on.
+class PlanarMove : public Device {
+ public:
+  void configure(Params& params, Wiring& wiring) override {
+    const Planar planar = read_planar(params);
+    timeout_ = planar.timeout < 0.0 ? kForever : from_seconds(planar.timeout);
+    link_ = wiring.link("");
+    force_ = kForcePerMass * wiring.mass(link_);
+  }
+
+  Verdict command(const Command& command, const View& view) override {
+    std::vector<double> values = command.values;
+    if (command.verb == "Stop") values = {0.0, 0.0, 0.0};
+    return Verdict::accept([this, values, now = view.time()] {
+      velocity_ = {values[0], values[1], 0.0};
+      turn_ = values[2];
+      commanded_at_ = now;
+      released_ = false;
+    });
+  }
+
+  void update(const View& view, Outputs& outputs) override {
+    if (released_) return;
+    if (view.time() - commanded_at_ >= timeout_) {
+      velocity_ = Vec3::Zero();
+      turn_ = 0.0;
+    }
+    const double yaw = to_rpy(view.link(link_).pose.rotation).z();
+    outputs.drive(link_, Eigen::AngleAxisd(yaw, Vec3::UnitZ()) * velocity_, turn_, force_);
+    released_ = stands();
+  }
+
+  Nanoseconds idle_until(const View&) const override { return released_ ? kForever : 0; }
+
+  void report(const View&, Reading& state) const override {
+    state.set("forward", velocity_.x());
+    state.set("left", velocity_.y());
+    state.set("turn", turn_);
+  }
+
+ private:
+  bool stands() const { return velocity_.isZero(0.0) && turn_ == 0.0; }
+
+  LinkRef link_;
+  double force_ = 0.0;  // N
+  Nanoseconds timeout_ = kForever;
+  Nanoseconds commanded_at_ = 0;
+  Vec3 velocity_ = Vec3::Zero();  // m/s, in its own frame
+  double turn_ = 0.0;             // rad/s
+  bool released_ = false;         // it stands, held by its brake
+};
+
+class PlanarMovePlugin : public Plugin {
+ public:
+  const Kind& kind() const override {
+    static const Kind kind =
+        Kind("planar_move", "A robot that moves over the floor in any direction.")
+            .verb("Stop", "stands still")
+            .values({"m/s", "m/s", "rad/s"})
+            .number("forward", "m/s", "as commanded")
+            .shown(2)
+            .number("left", "m/s", "as commanded")
+            .shown(2)
+            .number("turn", "rad/s", "to the left, as commanded")
+            .shown(2);
+    return kind;
+  }
+  bool serves(const ModelInfo&) const override { return true; }
+  std::unique_ptr<Device> make_device() const override { return std::make_unique<PlanarMove>(); }
+};
+
+class PlanarOdometry : public TrueOdometry {
+ public:
+  void configure(Params& params, Wiring& wiring) override {
+    read_planar(params);
+    TrueOdometry::configure(params, wiring);
+  }
+};
+
+class PlanarOdometryPlugin : public Plugin {
+ public:
+  const Kind& kind() const override {
+    static const Kind kind =
+        odometry_kind("planar_odometry", "Odometry of a robot that moves in any direction.", 20.0);
+    return kind;
+  }
+  std::optional<std::string> link_of(Params&) const override { return ""; }
+  std::unique_ptr<Sensor> make_sensor() const override {
+    return std::make_unique<PlanarOdometry>();
+  }
+};
+
+}  // namespace angen::robots
+
+ANGEN_REGISTER_PLUGIN(angen::robots::PlanarMovePlugin)
+ANGEN_REGISTER_PLUGIN(angen::robots::PlanarOdometryPlugin)

@@ -1,0 +1,67 @@
+#include "robots/wheels.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace angen::robots {
+
+void Wheels::set_up(const Geometry& geometry, std::vector<JointRef> left,
+                    std::vector<JointRef> right) {
+  geometry_ = geometry;
+  left_.joints = std::move(left);
+  right_.joints = std::move(right);
+}
+
+Verdict Wheels::command(const Command& command, const View&) {
+  std::vector<double> values = command.values;
+  if (command.verb == "Stop") values = {0.0, 0.0};
+  return Verdict::accept([this, v = values[0], w = values[1]] {
+    v_ = v;
+    w_ = w;
+    ramping_ = true;
+  });
+}
+
+void Wheels::update(const View& view, Outputs& outputs) {
+  if (!ramping_) return;
+  const double step = geometry_.acceleration * to_seconds(view.step());
+  const double turn = w_ * geometry_.separation / 2.0;
+  const bool left = lead(left_, v_ - turn, step, outputs);
+  const bool right = lead(right_, v_ + turn, step, outputs);
+  started_ = true;
+  ramping_ = !left || !right;
+}
+
+// True when the motors have the speed that is wanted.
+bool Wheels::lead(Side& side, double wanted, double step, Outputs& outputs) const {
+  const double next =
+      step > 0.0 ? std::clamp(wanted, side.speed - step, side.speed + step) : wanted;
+  if (next != side.speed || !started_) {
+    side.speed = next;
+    for (const JointRef joint : side.joints) {
+      outputs.motor(joint, next / geometry_.radius, geometry_.torque);
+    }
+  }
+  return next == wanted;
+}
+
+void Wheels::report(const View&, Reading& state) const {
+  state.set("v", v_);
+  state.set("w", w_);
+  state.set("left", left_.speed);
+  state.set("right", right_.speed);
+}
+
+Kind wheels_kind(std::string name, std::string doc) {
+  return Kind(std::move(name), std::move(doc))
+      .verb("Stop", "stands still")
+      .values({"m/s", "rad/s"})
+      .number("v", "m/s", "forward, as commanded")
+      .shown(2)
+      .number("w", "rad/s", "to the left, as commanded")
+      .shown(2)
+      .number("left", "m/s", "at the rims of the left wheels, as their motors have it")
+      .number("right", "m/s", "at the rims of the right wheels");
+}
+
+}  // namespace angen::robots

@@ -1,0 +1,73 @@
+#include <nav_msgs/Odometry.h>
+
+#include <utility>
+
+#include "ros/ros_kind.h"
+
+namespace angen::node {
+namespace {
+
+geometry_msgs::Quaternion quaternion_in(const Reading& reading) {
+  const auto q = reading.get<std::vector<double>>("orientation");
+  geometry_msgs::Quaternion out;
+  out.x = q[0];
+  out.y = q[1];
+  out.z = q[2];
+  out.w = q[3];
+  return out;
+}
+
+template <class Vector>
+Vector vector_in(const Reading& reading, const char* field) {
+  const auto v = reading.get<std::vector<double>>(field);
+  Vector out;
+  out.x = v[0];
+  out.y = v[1];
+  out.z = v[2];
+  return out;
+}
+
+void fill(const Reading& reading, const Label&, nav_msgs::Odometry& message) {
+  message.header.frame_id = reading.get<std::string>("frame");
+  message.child_frame_id = reading.get<std::string>("base_frame");
+  message.pose.pose.position = vector_in<geometry_msgs::Point>(reading, "position");
+  message.pose.pose.orientation = quaternion_in(reading);
+  message.twist.twist.linear.x = reading.get<double>("forward");
+  message.twist.twist.linear.y = reading.get<double>("left");
+  message.twist.twist.angular.z = reading.get<double>("turn");
+  // Those of Gazebo's drives: large where a drive knows nothing.
+  constexpr std::pair<std::size_t, double> kVariances[] = {{0, 1e-5},  {7, 1e-5},  {14, 1e12},
+                                                           {21, 1e12}, {28, 1e12}, {35, 1e-3}};
+  for (const auto& [at, variance] : kVariances) {
+    message.pose.covariance[at] = message.twist.covariance[at] = variance;
+  }
+}
+
+void fill_transform(const Reading& reading, const Label&, geometry_msgs::TransformStamped& made) {
+  made.header.frame_id = reading.get<std::string>("frame");
+  made.child_frame_id = reading.get<std::string>("base_frame");
+  made.transform.translation = vector_in<geometry_msgs::Vector3>(reading, "position");
+  made.transform.rotation = quaternion_in(reading);
+}
+
+/// The truth of a link: velocities are along the axes of the frame.
+void fill_truth(const Reading& reading, const Label&, nav_msgs::Odometry& message) {
+  message.pose.pose.position = vector_in<geometry_msgs::Point>(reading, "position");
+  message.pose.pose.orientation = quaternion_in(reading);
+  message.twist.twist.linear = vector_in<geometry_msgs::Vector3>(reading, "velocity");
+  message.twist.twist.angular = vector_in<geometry_msgs::Vector3>(reading, "angular_velocity");
+}
+
+ANGEN_REGISTER_ROS_KIND({"odometry", "planar_odometry"},
+                        RosKindBuilder()
+                            .named_message<nav_msgs::Odometry>(&fill, "odom", "odometryTopic")
+                            .transform(&fill_transform, "publishOdomTF"));
+ANGEN_REGISTER_ROS_KIND({"skid_steer_odometry"},
+                        RosKindBuilder()
+                            .named_message<nav_msgs::Odometry>(&fill, "odom", "odometryTopic")
+                            .transform(&fill_transform, "broadcastTF"));
+ANGEN_REGISTER_ROS_KIND({"p3d"},
+                        RosKindBuilder().named_message<nav_msgs::Odometry>(&fill_truth, "p3d"));
+
+}  // namespace
+}  // namespace angen::node

@@ -1,0 +1,248 @@
+#include "sim/device_maker.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "core/names.h"
+#include "sim/wiring.h"
+#include "sim/with_source.h"
+
+namespace angen::sim {
+
+namespace {
+
+// Whether the model has a plug-in of that library; of several that Gazebo's robots name, each is
+// one of its own.
+bool has_own(const desc::Model& model, const desc::Plugin& plugin, std::size_t from = 0) {
+  const bool any_number = plugin.filename.rfind("libgazebo_ros_", 0) == 0;
+  return std::any_of(model.plugins.begin() + static_cast<std::ptrdiff_t>(from), model.plugins.end(),
+                     [&](const desc::Plugin& other) {
+                       return other.filename == plugin.filename &&
+                              (!any_number || other.name == plugin.name);
+                     });
+}
+
+bool names(const Element& element, const std::string& text) {
+  return element.text == text ||
+         std::any_of(element.children.begin(), element.children.end(),
+                     [&](const Element& child) { return names(child, text); });
+}
+
+/// Makes the devices of a model, and the sensors that its plug-ins are.
+class DeviceMaker {
+ public:
+  DeviceMaker(LiveModel& live, const Vec3& gravity, Catalog& catalog,
+              std::vector<std::string>& warnings)
+      : live_(live),
+        model_(*live.desc),
+        gravity_(gravity),
+        catalog_(catalog),
+        warnings_(warnings),
+        info_(info_of(*live.desc)) {}
+
+  void make_all(const std::vector<desc::Plugin>& world_plugins) {
+    for (std::size_t i = 0; i < model_.plugins.size(); ++i) {
+      const desc::Plugin& described = model_.plugins[i];
+      // The <include>'s, which comes last, holds.
+      if (has_own(model_, described, i + 1)) continue;
+      try {
+        if (!make_of(described, true)) throw serves_nothing(described);
+      } catch (const Error& error) {
+        if (!model_.tolerant) throw;
+        for (const Diagnostic& each : error.diagnostics()) warn_ignored(each);
+      }
+    }
+    for (ModelInfo::Joint& joint : info_.joints) joint.taken = is_taken(joint.name);
+    for (const desc::Plugin& described : world_plugins) {
+      if (!has_own(model_, described)) make_of(described, false);
+    }
+  }
+
+  // A door that nobody has given its plug-in would swing freely, and no command would reach it; the
+  // same holds for the wheels of a robot.
+  void warn_of_idle_joints() {
+    for (const ModelInfo::Joint& joint : info_.joints) {
+      const bool endless = joint.upper - joint.lower > 2e15;
+      const bool door = joint.on_world && joint.vertical() && !endless;
+      const bool wheel = !joint.on_world && endless && joint.type == "revolute";
+      if (is_taken(joint.name) || (!door && !wheel)) continue;
+      for (const auto& plugin : catalog_.own()) {
+        if (!would_drive(*plugin, joint)) continue;
+        const auto described = std::find_if(model_.joints.begin(), model_.joints.end(),
+                                            [&](const auto& j) { return j.name == joint.name; });
+        const std::string& kind = plugin->kind().name;
+        const std::string text = "no plug-in drives joint '" + joint.name + "' of model '" +
+                                 model_.name + "'; for " + kind + " add <plugin name=\"" + kind +
+                                 "\" filename=\"" + catalog_.library_of(*plugin) +
+                                 "\"/> to the model or the world";
+        warn(Diagnostic{Diagnostic::Severity::kWarning, described->source, text}.text());
+      }
+    }
+  }
+
+ private:
+  // Once where several leaves read one plug-in.
+  void warn(const std::string& text) {
+    if (std::find(warnings_.begin(), warnings_.end(), text) != warnings_.end()) return;
+    warnings_.push_back(text);
+  }
+
+  void warn_ignored(const Diagnostic& what) {
+    warn(Diagnostic{what.severity, what.source, what.message + " (ignored)"}.text());
+  }
+
+  // A device has the joint, or one of the model's plug-ins names it, whether it is known or not.
+  bool is_taken(const std::string& joint) const {
+    return driven_.count(joint) != 0 ||
+           std::any_of(model_.plugins.begin(), model_.plugins.end(),
+                       [&](const desc::Plugin& each) { return names(each.element, joint); });
+  }
+
+  // Whether there was anything that serves the model. `own`: it is the model's, not the world's.
+  bool make_of(const desc::Plugin& described, bool own) {
+    bool served = false;
+    for (const auto& plugin : library(described)) {
+      if (own && make_sensor_of(described, *plugin)) served = true;
+      for (const Mount& mount : mounts_of(described, *plugin, own)) {
+        DeviceInstance device = make(described, plugin, mount);
+        for (const DeviceInstance& other : live_.devices) {
+          if (other.kind != device.kind || other.name != device.name) continue;
+          throw Error(described.source, "model '" + model_.name + "' has a second " + device.kind +
+                                            " '" + device.name + "'; names of a kind must differ");
+        }
+        live_.devices.push_back(std::move(device));
+        served = true;
+      }
+    }
+    return served;
+  }
+
+  // A sensor that stands as a plug-in of the model.
+  bool make_sensor_of(const desc::Plugin& described, const Plugin& plugin) {
+    Params params(described.element);
+    const std::optional<std::string> link = plugin.link_of(params);
+    if (!link) return false;
+    desc::Sensor sensor;
+    sensor.name = name_problem(described.name).empty() ? described.name : plugin.kind().name;
+    sensor.type = plugin.kind().name;
+    sensor.plugin = described.filename;
+    sensor.plugin_element = described.element;
+    sensor.source = described.source;
+    const std::string name = model_.name + "_" + sensor.name;
+    const std::uint32_t index = with_source(described.source, [&] { return link_index(*link); });
+    auto shared = std::make_shared<const desc::Sensor>(std::move(sensor));
+    live_.sensors.push_back(
+        make_sensor(live_, index, shared, name, gravity_, catalog_, warnings_, &plugin));
+    return true;
+  }
+
+  // Of "link" or "model::link"; the first for "".
+  std::uint32_t link_index(const std::string& name) const {
+    if (name.empty()) return 0;
+    const std::string prefix = model_.name + "::";
+    const std::string local = name.rfind(prefix, 0) == 0 ? name.substr(prefix.size()) : name;
+    for (std::uint32_t i = 0; i < model_.links.size(); ++i) {
+      if (model_.links[i].name == local) return i;
+    }
+    throw Error("model '" + model_.name + "' has no link '" + name + "'; known are " +
+                join_names(info_.links));
+  }
+
+  std::vector<std::shared_ptr<const Plugin>> library(const desc::Plugin& described) const {
+    return with_source(described.source, [&] { return catalog_.library(described.filename); });
+  }
+
+  std::vector<Mount> mounts_of(const desc::Plugin& described, const Plugin& plugin,
+                               bool own) const {
+    return with_source(described.source, [&] {
+      Params params(described.element);
+      std::vector<Mount> mounts = plugin.mounts(info_, params);
+      const bool takes_joints =
+          std::any_of(params.docs().begin(), params.docs().end(),
+                      [](const ParamDoc& doc) { return doc.path == "joint"; });
+      if (own && takes_joints) check_joints_named(described);
+      if (mounts.size() > 1 && params.has("device_name")) {
+        throw params.error("device_name",
+                           "<device_name> would name " + std::to_string(mounts.size()) +
+                               " devices of model '" + model_.name + "'; name their links instead");
+      }
+      return mounts;
+    });
+  }
+
+  DeviceInstance make(const desc::Plugin& described, const std::shared_ptr<const Plugin>& plugin,
+                      const Mount& mount) {
+    return with_source(described.source, [&] {
+      DeviceInstance instance;
+      instance.kind = plugin->kind().name;
+      instance.plugin = plugin;
+      instance.library = described.filename;
+      instance.device = plugin->make_device_on(mount);
+      instance.scratch.kind = instance.kind;
+      Params params(described.element);
+      instance.name = params.text("device_name", mount.name, "the name that commands use");
+      const std::string problem = name_problem(instance.name);
+      if (!problem.empty()) throw params.error("device_name", problem);
+      ModelWiring wiring(model_, instance.name, gravity_);
+      instance.device->configure(params, wiring);
+      if (model_.tolerant) {
+        for (const Diagnostic& each : params.unread()) warn_ignored(each);
+      } else {
+        params.finish();
+      }
+      for (const Diagnostic& warning : params.warnings()) warn(warning.text());
+      instance.element = described.element;
+      instance.device->save(instance.started_with);
+      driven_.insert(wiring.joints().begin(), wiring.joints().end());
+      return instance;
+    });
+  }
+
+  void check_joints_named(const desc::Plugin& described) const {
+    for (const Element& child : described.element.children) {
+      if (child.name != "joint" || info_.joint(child.text) != nullptr) continue;
+      std::vector<std::string> known;
+      for (const ModelInfo::Joint& joint : info_.joints) known.push_back(joint.name);
+      throw Error(child.source, "model '" + model_.name + "' has no joint '" + child.text +
+                                    "'; known are " + join_names(known));
+    }
+  }
+
+  Error serves_nothing(const desc::Plugin& described) const {
+    std::string wanted;
+    for (const auto& plugin : library(described)) {
+      if (plugin->needs().empty()) continue;
+      wanted += "; " + plugin->kind().name + " needs " + plugin->needs();
+    }
+    if (wanted.empty()) wanted = ": it lacks the joints or lights of one";
+    return Error(described.source, described.filename + " has nothing that serves model '" +
+                                       model_.name + "'" + wanted);
+  }
+
+  bool would_drive(const Plugin& plugin, const ModelInfo::Joint& joint) const {
+    Params nothing{Element{}};
+    const std::vector<Mount> mounts = plugin.mounts(info_, nothing);
+    return std::any_of(mounts.begin(), mounts.end(),
+                       [&](const Mount& mount) { return mount.joint == joint.name; });
+  }
+
+  LiveModel& live_;
+  const desc::Model& model_;
+  const Vec3& gravity_;
+  Catalog& catalog_;
+  std::vector<std::string>& warnings_;
+  ModelInfo info_;
+  std::set<std::string> driven_;  // joints that a device has
+};
+
+}  // namespace
+
+void make_devices(LiveModel& live, const std::vector<desc::Plugin>& world_plugins,
+                  const Vec3& gravity, Catalog& catalog, std::vector<std::string>& warnings) {
+  DeviceMaker maker(live, gravity, catalog, warnings);
+  maker.make_all(world_plugins);
+  maker.warn_of_idle_joints();
+}
+
+}  // namespace angen::sim

@@ -1,0 +1,5 @@
+"""Lets catkin put the gazebo_ros package on the Python path; not to be called by hand."""
+from catkin_pkg.python_setup import generate_distutils_setup
+from setuptools import setup
+
+setup(**generate_distutils_setup(packages=['gazebo_ros'], package_dir={'': 'src'}))

@@ -1,0 +1,1 @@
+"""What launch files and scripts written for Gazebo's gazebo_ros use, served by Angen."""

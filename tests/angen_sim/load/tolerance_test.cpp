@@ -1,0 +1,110 @@
+#include "load/tolerance.h"
+
+#include <gtest/gtest.h>
+
+#include "angen_sim/load/texts.h"
+#include "load/xml.h"
+
+namespace angen::load {
+namespace {
+
+const std::string kBadInertia =
+    "<static>true</static><link name='l'><inertial><mass>1</mass><inertia><ixx>nan</ixx>"
+    "</inertia></inertial></link>";
+
+SearchPaths with(Strictness strictness) {
+  SearchPaths paths;
+  paths.strictness = strictness;
+  return paths;
+}
+
+bool warns(const std::vector<Diagnostic>& warnings, const std::string& words) {
+  return std::any_of(warnings.begin(), warnings.end(), [&](const Diagnostic& each) {
+    return each.text().find(words) != std::string::npos;
+  });
+}
+
+TEST(Tolerance, AnInertiaThatIsNotFiniteIsAnErrorOrAWarningWithItsLine) {
+  const std::string text = in_model(kBadInertia);
+  EXPECT_NE(error_of(text).find("<ixx> is not finite"), std::string::npos);
+  const desc::World world = read(text, with(Strictness::kTolerant));
+  EXPECT_TRUE(world.tolerant);
+  EXPECT_TRUE(warns(world.warnings, "w.world:1: <ixx> is not finite"));
+}
+
+TEST(Tolerance, AWorldWithoutOwnPluginsIsTolerant) {
+  EXPECT_TRUE(read(in_world(""), with(Strictness::kAuto)).tolerant);
+  const std::string gazebo = in_world(
+      "<plugin name='p' filename='libgazebo_ros_laser.so'/><plugin name='q' "
+      "filename='libnosuch.so'/>");
+  EXPECT_TRUE(read(gazebo, with(Strictness::kAuto)).tolerant);
+  EXPECT_FALSE(read(gazebo, with(Strictness::kStrict)).tolerant);
+}
+
+TEST(Tolerance, WhatAWorldSaysOfItselfHolds) {
+  const std::string marked = "<sdf version='1.6'><world name='w' angen:strict='false'>" +
+                             std::string("<model name='m'>") + kBadInertia +
+                             "</model></world></sdf>";
+  const desc::World world = read(marked);
+  EXPECT_TRUE(world.tolerant);
+  EXPECT_TRUE(world.ignored.empty());
+  const std::string wrong = "<sdf version='1.6'><world name='w' angen:strict='no'/></sdf>";
+  EXPECT_NE(error_of(wrong).find("give true or false"), std::string::npos);
+}
+
+TEST(Tolerance, AMissingModelOrMeshIsLeftOut) {
+  const std::string text = in_world(
+      "<include><uri>model://nowhere</uri></include><model name='m'><link name='l'>"
+      "<visual name='v'><geometry><mesh><uri>model://nowhere/a.dae</uri></mesh>"
+      "</geometry></visual></link></model>");
+  const desc::World world = read(text, with(Strictness::kTolerant));
+  ASSERT_EQ(world.models.size(), 1U);
+  EXPECT_EQ(world.models[0].links[0].visuals[0].shape.type, Shape::Type::kEmpty);
+  EXPECT_EQ(world.warnings.size(), 2U);
+  EXPECT_NE(error_of(text).find("model 'model://nowhere' is not found"), std::string::npos);
+}
+
+TEST(Tolerance, AnInertiaThatNoBodyHasBecomesTheNearest) {
+  const desc::World world =
+      read(in_link("<inertial><mass>2</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>1</izz>"
+                   "</inertia></inertial>"),
+           with(Strictness::kTolerant));
+  const Eigen::Matrix3d moment = world.models[0].links[0].inertial.moment;
+  EXPECT_NEAR(moment(0, 0), 0.5, 1e-12);
+  EXPECT_NEAR(moment(1, 1), 0.5, 1e-12);
+  EXPECT_NEAR(moment(2, 2), 1.0, 1e-12);
+}
+
+TEST(Tolerance, ASpawnedModelKeepsItInItsText) {
+  const std::string text = "<sdf version='1.6'><model name='m'>" + kBadInertia +
+                           "<plugin name='p' filename='libnosuch.so'/></model></sdf>";
+  const desc::Model model = load::model(text, "m", {}, with(Strictness::kAuto), true);
+  EXPECT_TRUE(model.tolerant);
+  const desc::World again = read(world_around(model));
+  EXPECT_TRUE(again.models.at(0).tolerant);
+  EXPECT_FALSE(
+      load::model("<model name='m'><link name='l'/></model>", "", {}, with(Strictness::kAuto))
+          .tolerant);
+  EXPECT_THROW(load::model(text, "m", {}, with(Strictness::kStrict), true), Error);
+}
+
+TEST(Tolerance, AStateOfWhatIsNotThereIsPassedOver) {
+  const std::string text = in_world(
+      "<model name='m'><link name='l'/></model><state world_name='w'>"
+      "<model name='gone'><pose>1 0 0 0 0 0</pose></model>"
+      "<model name='m'><pose>2 0 0 0 0 0</pose></model></state>");
+  EXPECT_EQ(read(text, with(Strictness::kTolerant)).models[0].pose.position.x(), 2.0);
+  EXPECT_NE(error_of(text).find("unknown model 'gone'"), std::string::npos);
+}
+
+TEST(Tolerance, MinDepthOfASurfaceIsRead) {
+  const desc::World world =
+      read(in_link("<collision name='c'><geometry><box><size>1 1 1</size></box></geometry>"
+                   "<surface><contact><ode><min_depth>0.001</min_depth></ode></contact>"
+                   "</surface></collision>"));
+  EXPECT_EQ(world.models[0].links[0].collisions[0].min_depth, 0.001);
+  EXPECT_TRUE(world.ignored.empty());
+}
+
+}  // namespace
+}  // namespace angen::load
