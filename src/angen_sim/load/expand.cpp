@@ -195,7 +195,7 @@ void expand_model(Element& model, Session& session) {
       try {
         included = expand_include(child, session);
       } catch (const Error& error) {
-        session.forgive(error);
+        forgive_missing(child, error, session);
         continue;
       }
       if (included.name != "model") {

@@ -47,12 +47,13 @@ Shape mesh(const Element& element, Session& session) {
   }
   try {
     shape.mesh_file = need_uri(uri.text, "mesh", uri.source, session);
-    session.sources.will_be_read(shape.mesh_file);
-    shape.mesh = read_mesh(shape.mesh_file, shape.mesh_scale, uri.source);
-    shape.type = Shape::Type::kMesh;
   } catch (const Error& error) {
-    session.forgive(error);  // nothing stands in its place
+    forgive_missing(element, error, session);  // nothing stands in its place
+    return shape;
   }
+  session.sources.will_be_read(shape.mesh_file);
+  shape.mesh = read_mesh(shape.mesh_file, shape.mesh_scale, uri.source);
+  shape.type = Shape::Type::kMesh;
   return shape;
 }
 

@@ -59,9 +59,6 @@ std::string why_impossible(const desc::Inertial& inertial) {
 // exceeds the sum of the others.
 desc::Inertial possible(desc::Inertial inertial) {
   constexpr double kLeastGyration = 1e-3;  // m
-  const bool has_mass =
-      inertial.mass > 0.0 && limit_problem(limits::kMass, inertial.mass, true).empty();
-  if (!has_mass) inertial.mass = 1.0;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertial.moment);
   const double least = inertial.mass * kLeastGyration * kLeastGyration;
   Vec3 moments = solver.eigenvalues().cwiseMax(least);  // ascending
@@ -109,11 +106,11 @@ desc::Inertial read_inertial(const Element& link, bool never_moves, Session& ses
 }  // namespace
 
 desc::Inertial inertial_of(const Element& link, bool never_moves, Session& session) {
-  if (!session.tolerant) return read_inertial(link, never_moves, session);
+  if (!never_moves) return read_inertial(link, never_moves, session);
   try {
     return read_inertial(link, never_moves, session);
   } catch (const Error& error) {
-    session.forgive(error);  // what moves gets the default, 1 kg with moments of 1 kg m^2
+    session.forgive(error);  // numbers that are none, of what never moves
     return {};
   }
 }

@@ -167,6 +167,13 @@ std::string need_uri(const std::string& uri, const std::string& what, const Sour
                       "' is not found; searched: " + searched_places(uri, at.file, session));
 }
 
+void forgive_missing(const Element& element, const Error& error, Session& session) {
+  const Element* uri = element.child("uri");
+  const bool named = uri != nullptr && !split(uri->text).path.empty();
+  if (!named || find_uri(uri->text, uri->source.file, session)) throw Error(error);
+  session.forgive(error);
+}
+
 int version_number(const std::string& text) {
   int minor = -1;
   if (text.compare(0, 2, "1.") != 0 || text.size() > 4) return -1;

@@ -59,7 +59,7 @@ Parts split(const Element& world, Session& session) {
     try {
       entry = expand_entry(child, session);
     } catch (const Error& error) {
-      session.forgive(error);
+      forgive_missing(child, error, session);
       continue;
     }
     if (entry.expanded.name == "light") {
