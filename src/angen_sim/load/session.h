@@ -29,6 +29,7 @@ struct Session {
   std::vector<std::string> open{};         // documents being read, outermost first
   std::optional<Packages> packages{};      // once something was searched there
   bool tolerant = false;                   // as far as it is known; see decide()
+  bool guessed = false;                    // by what a world holds: its author may have misspelled
   std::vector<Error> forgiven{};           // what was wrong and did not stop the load
 
   /// Once for each place: a file that is included ten times warns as often as if it were once.

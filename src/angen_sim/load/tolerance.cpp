@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 namespace {
 
 bool is_own(const std::string& filename) {
-  const fs::path library = fs::path(filename).filename();
+  if (filename.find('/') != std::string::npos) return true;  // a path of this machine
+  const fs::path library = filename;
   if (library.string().rfind("libgazebo_ros_", 0) == 0) return false;
   fs::path catalog = library;
   catalog.replace_extension(".json");

@@ -84,6 +84,7 @@ bool is_tolerant(const Element& given, const Parts& parts, const SearchPaths& pa
 Parts split_and_decide(const Element& given, Session& session) {
   const bool strict = session.paths.strictness == Strictness::kStrict;
   session.tolerant = !marked_strict(given).value_or(strict);
+  session.guessed = !marked_strict(given) && session.paths.strictness == Strictness::kAuto;
   Parts parts = split(given, session);
   session.decide(is_tolerant(given, parts, session.paths));
   if (!session.tolerant) return parts;
