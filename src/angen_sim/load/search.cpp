@@ -170,7 +170,8 @@ std::string need_uri(const std::string& uri, const std::string& what, const Sour
 void forgive_missing(const Element& element, const Error& error, Session& session) {
   const Element* uri = element.child("uri");
   const bool named = uri != nullptr && !split(uri->text).path.empty();
-  if (!named || session.guessed || find_uri(uri->text, uri->source.file, session)) throw Error(error);
+  if (!named || session.guessed || find_uri(uri->text, uri->source.file, session))
+    throw Error(error);
   session.forgive(error);
 }
 
