@@ -64,7 +64,7 @@ Spawner::Spawner(Server& server, Inbox& inbox, const load::SearchPaths& paths, T
 
 sim::Action Spawner::action_of(const std::string& xml, const std::string& name, const Pose& pose) {
   if (load::is_light(xml)) return sim::Edit(sim::AddLight{load::light(xml, name, pose), xml});
-  sim::Spawn spawn{load::model(xml, name, pose, paths_)};
+  sim::Spawn spawn{load::model(xml, name, pose, paths_, true)};
   const std::lock_guard<std::mutex> lock(mutex_);
   check_topics(new_sensors(spawn.model), catalog_, topics_);
   return spawn;
