@@ -15,7 +15,8 @@ ROOT = Path(__file__).resolve().parents[3]
 SCRIPT = ROOT / 'src/angen_tools/scripts/angen'
 COMMANDS = ['spawn', 'spawn model', 'spawn sitter', 'delete', 'list', 'plugins', 'set', 'save',
             'watch', 'top', 'run', 'drive', 'map', 'task', 'task patrol', 'task seek', 'check',
-            'luxcheck', 'pid', 'situations', 'completion', *(f'spawn {kind}' for kind in kinds('sensor')),
+            'luxcheck', 'pid', 'situations', 'completion',
+            *(f'spawn {kind}' for kind in kinds('sensor')),
             *(f'set {name}' for name, kind in kinds('device').items()
               if kind['verbs'] or kind['values'])]
 
