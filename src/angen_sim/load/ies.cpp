@@ -67,7 +67,9 @@ class IesNumbers {
     return angles;
   }
 
-  [[noreturn]] void fail(const std::string& message) const { throw Error({file_, line_}, message); }
+  [[noreturn]] void fail(const std::string& message) const {
+    throw Error({file_, std::max(line_, 1)}, message);
+  }
 
  private:
   bool next_line(std::string& text) {

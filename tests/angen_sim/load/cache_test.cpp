@@ -61,7 +61,7 @@ class CacheTest : public testing::Test {
 
   void write_world(const std::string& name) {
     path_ = folder_.write("small.world", in_world("<include><uri>model://thing</uri><name>" + name +
-                                                  "</name></include><population/>"));
+                                                  "</name></include><physics type=\"bullet\"/>"));
   }
   SearchPaths paths() const {
     return SearchPaths::from_environment((fs::path(path_).parent_path() / "models").string());

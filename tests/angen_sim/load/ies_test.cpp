@@ -40,7 +40,7 @@ TEST(Ies, ABrokenFileIsAnErrorWithItsLine) {
     EXPECT_NE(error.find("lamp.ies:" + line + ": "), std::string::npos) << error;
     EXPECT_NE(error.find(message), std::string::npos) << error;
   };
-  expect("", "0", "TILT=NONE");
+  expect("", "1", "TILT=NONE");
   expect("a cake\n2 eggs\n", "2", "TILT=NONE");
   expect("IESNA:LM-63-2002\nTILT=INCLUDE\n1\n", "2", "TILT=INCLUDE");
   expect(kHead + "1 1000 2.0 three 2 1 2 0 0 0\n", "5", "'three' is not a number");
@@ -50,7 +50,7 @@ TEST(Ies, ABrokenFileIsAnErrorWithItsLine) {
   expect(kHead + "1 1000 1 3 2 2 2 0 0 0\n", "5", "type C");
   expect(kHead + "1 1000 1 3 2 1 7 0 0 0\n", "5", "unit");
   expect(kHead + kNumbers + "0 45 40\n", "7", "do not ascend");
-  expect(kHead + kNumbers + "0 45 80\n0 90\n", "8", "vertical angles do not go");
+  expect(kHead + kNumbers + "0 45 80\n0 90\n", "7", "vertical angles do not go");
   expect(kHead + kNumbers + "0 45 90\n0 100\n", "8", "horizontal angles do not go");
   expect(kHead + kNumbers + kAngles + "100 70 0\n90 nan 5\n", "10", "'nan' is not a number");
   expect(kHead + kNumbers + kAngles + "100 70 0\n90 -1 5\n", "10", "below 0");

@@ -32,9 +32,12 @@ TEST(Worlds, EveryModelOfTheDatabaseLoads) {
   int count = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator(kModels)) {
     if (!fs::exists(entry.path() / "model.config")) continue;
-    const desc::Model m = model("model://" + entry.path().filename().string(), "", {},
-                                SearchPaths::from_environment(kModels));
-    for (const Diagnostic& warning : m.warnings) ADD_FAILURE() << warning.text();
+    const desc::World w =
+        world_from_text("<sdf version='1.6'><world name='w'><include><uri>model://" +
+                            entry.path().filename().string() + "</uri></include></world></sdf>",
+                        "text", SearchPaths::from_environment(kModels));
+    for (const Diagnostic& warning : w.warnings) ADD_FAILURE() << warning.text();
+    EXPECT_EQ(w.models.size() + w.lights.size(), 1U) << entry.path();
     ++count;
   }
   EXPECT_GE(count, 10);
