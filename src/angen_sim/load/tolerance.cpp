@@ -17,6 +17,7 @@ namespace {
 bool is_own(const std::string& filename) {
   if (filename.find('/') != std::string::npos) return true;  // a path of this machine
   const fs::path library = filename;
+  if (library.extension() == ".py") return true;  // registered by a Python program
   if (library.string().rfind("libgazebo_ros_", 0) == 0) return false;
   fs::path catalog = library;
   catalog.replace_extension(".json");

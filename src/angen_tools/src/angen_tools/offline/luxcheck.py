@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Iterator
 
 from angen_tools.common.catalog import angen_module
+from angen_tools.common.files import write_text
 from angen_tools.common.output import as_json, number, table
 
 if TYPE_CHECKING:
@@ -96,7 +97,7 @@ def measure(content: str, places: list[Place], seconds: float = 0.0,
     text = f'<sdf version="1.9"><world name="luxcheck">{content}{sensors(places)}</world></sdf>'
     if folder:
         path = Path(folder) / 'luxcheck.world'
-        path.write_text(text, encoding='utf-8')
+        write_text(path, text)
         world = angen_module().World(str(path))
     else:
         world = angen_module().World.from_text(text)
@@ -142,7 +143,7 @@ def write_ies(path: Path) -> None:
     candela = ' '.join(f'{1000 * cos(pi * angle / 180):.3f}' for angle in angles)
     text = (f'IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 {len(angles)} 1 1 2 0 0 0\n1 1 10\n'
             f'{" ".join(str(angle) for angle in angles)}\n0\n{candela}\n')
-    path.write_text(text, encoding='ascii')
+    write_text(path, text)
 
 
 def source_cases() -> Iterator[Case]:

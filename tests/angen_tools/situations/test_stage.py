@@ -15,7 +15,7 @@ from angen_tools.situations.stage import Outcome
 # One of each sort, of the shortest.
 QUICK = ('an adult walks across at 2 m', 'stands still at 3 m', 'sits down at 3 m',
          'falls aside at 5 m', 'crawls across at 3 m', 'a cat sleeps', 'a mouse runs',
-         'as warm as the room sways', 'it sways before a cold pane', 'a thin blind in the sun',
+         'as warm as the room sways', 'it sways before a cold pane', 'a fan heater glows',
          'a radiator warms', 'behind a pane of glass', 'behind a wardrobe',
          'a robot carries a pot')
 
