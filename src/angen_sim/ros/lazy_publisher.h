@@ -108,7 +108,7 @@ class LatchedLazyPublisher {
   }
 
   /// From now on the message is what `make` returns; it may be called by any thread until the next
-  /// call of this. Present subscribers get it too, unless the last one tells them the same.
+  /// call of this. Present subscribers get it too if `is_news`.
   void set(Make make, bool is_news = true) {
     const std::lock_guard<std::mutex> lock(state_->mutex);
     state_->make = std::move(make);

@@ -26,7 +26,7 @@ void add(tf2_msgs::TFMessage& message, Nanoseconds time, const std::string& pare
   message.transforms.push_back(std::move(transform));
 }
 
-/// Whether a listener that knows `before` has something to learn from `now`: frames stay for it.
+/// Whether `now` has a frame that differs from `before`. tf listeners keep frames that are gone.
 bool has_new_frames(const std::vector<FixedFrame>& before, const std::vector<FixedFrame>& now) {
   std::unordered_map<std::string, const FixedFrame*> known;
   for (const FixedFrame& frame : before) known[frame.child] = &frame;

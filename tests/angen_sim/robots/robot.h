@@ -53,7 +53,7 @@ class Hall {
                            models + "</world></sdf>",
                        "hall.world", {}),
                    1, std::make_shared<Catalog>()) {
-    snapshot = simulation.snapshot();  // it tells of how the world was built
+    snapshot = simulation.snapshot();  // its structure is as the world was built
     for (const sim::Event& event : snapshot->events) {
       if (event.event == "warning") warnings.push_back(event.detail);
     }
