@@ -27,8 +27,13 @@ struct Lit {
 void BM_MeasureChanged(benchmark::State& state) {
   Lit lit(static_cast<int>(state.range(0)));
   light::Probe probe;
+  const Pose places[] = {{Vec3(2.0, 2.0, 0.5), Quat::Identity()},
+                         {Vec3(2.0, 2.1, 0.5), Quat::Identity()}};
+  bool there = false;
   for (auto _ : state) {
-    probe.revision = UINT64_MAX;
+    there = !there;
+    lit.scene.move(lit.ids.back(), places[there ? 1 : 0]);
+    lit.scene.commit();
     benchmark::DoNotOptimize(lit.lighting.measure(probe, lit.sensor));
   }
 }

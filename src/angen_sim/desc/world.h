@@ -13,11 +13,21 @@
 
 /// Plain values that describe a world as its files say it, before anything moves. SI units and
 /// radians.
+namespace angen {
+
+struct MeshLook;
+struct Texture;
+
+}  // namespace angen
+
 namespace angen::desc {
 
 struct Material {
   Eigen::Vector4f diffuse{0.7F, 0.7F, 0.7F, 1.0F};  // r g b a, 0..1; r g b also serve as albedo
   Eigen::Vector4f emissive{0.0F, 0.0F, 0.0F, 1.0F};
+  std::shared_ptr<const MeshLook> look;  // that the file of a mesh has, where SDF has none
+  // Of the look's parts, null where one has none; otherwise the one of all, if there is any.
+  std::vector<std::shared_ptr<const Texture>> textures;
 };
 
 struct Friction {
@@ -72,6 +82,7 @@ struct Light {
   double half_angle = 0.0;  // rad, spot: where its intensity is half of that ahead; 0 for cones
   std::shared_ptr<const Photometry> photometry;  // of a point or spot; null for none
   bool cast_shadows = true;
+  std::optional<double> level;  // percent at the start, of one that is a lamp without a plug-in
   Source source;
 };
 
@@ -93,7 +104,8 @@ struct Link {
   Inertial inertial;
   bool gravity = true;
   bool kinematic = false;
-  bool upright = false;  // never tilts: rotates about world z only (people)
+  bool upright = false;              // never tilts: rotates about world z only (people)
+  std::optional<bool> self_collide;  // where it differs from its model's
   std::vector<Collision> collisions;
   std::vector<Visual> visuals;
   std::vector<Sensor> sensors;

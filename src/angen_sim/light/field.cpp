@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "light/beam.h"
@@ -19,9 +20,11 @@ constexpr double kBeyondSites = 0.5;  // m
 constexpr double kSettled = 1e-4;     // of the mean: a change that ends the bounces
 constexpr int kMostBounces = 200;
 // Costs of the parts of a solution, measured; they decide only how it is cut into ticks.
-constexpr std::size_t kSumsPerRay = 500;
-constexpr std::size_t kCostToMake = 128;  // a patch
-constexpr std::size_t kBouncesToPrepare = 4;
+constexpr std::int64_t kSumsPerRay = 500;
+constexpr std::int64_t kRowsPerRay = kSumsPerRay / kLinks;  // patches that are balanced
+constexpr std::int64_t kCostToMake = 64;                    // a patch
+constexpr std::int64_t kBouncesToPrepare = 4;
+constexpr std::size_t kFirstAtOnce = 64;
 
 double reach_of(const Lamp& lamp) {
   if (lamp.type == Lamp::Type::kDirectional) return std::numeric_limits<double>::infinity();
@@ -38,6 +41,35 @@ void reach_patch(std::uint32_t patch, Unfinished& work) {
   if (work.places.size() <= patch) work.places.resize(patch + 1 + patch / 2, kNoPatch);
   work.places[patch] = static_cast<std::uint32_t>(work.solution.patches.size());
   work.solution.patches.push_back(patch);
+}
+
+/// The end of as many rows from `first` on as `rays` take, of `count` in all.
+std::size_t rows_from(std::size_t first, std::size_t count, std::int64_t rays) {
+  const auto left = static_cast<std::int64_t>(count - first);
+  const std::int64_t affordable = std::clamp<std::int64_t>(rays, 1, left / kRowsPerRay + 1);
+  return first + static_cast<std::size_t>(std::min(left, affordable * kRowsPerRay));
+}
+
+std::uint64_t next_stamp() {
+  static std::atomic<std::uint64_t> stamps{0};
+  return ++stamps;
+}
+
+void number_places(Solution& solution) {
+  if (solution.patches.empty()) return;
+  const auto [low, high] = std::minmax_element(solution.patches.begin(), solution.patches.end());
+  solution.first_patch = *low;
+  solution.places.assign(*high - *low + 1, kNoPatch);
+  for (std::uint32_t i = 0; i < solution.patches.size(); ++i) {
+    solution.places[solution.patches[i] - *low] = i;
+  }
+}
+
+std::uint32_t place_of_hash(const Solution& solution, std::uint64_t hash) {
+  const auto found = std::lower_bound(solution.by_hash.begin(), solution.by_hash.end(),
+                                      std::pair<std::uint64_t, std::uint32_t>(hash, 0));
+  const bool known = found != solution.by_hash.end() && found->first == hash;
+  return known ? found->second : kNoPatch;
 }
 
 }  // namespace
@@ -63,19 +95,30 @@ Field::Link Field::link_of(const rays::Ray& ray, const rays::Hit& hit) {
 }
 
 const std::vector<Field::Link>& Field::links(std::uint32_t patch) {
-  if (sights_.size() <= patch) sights_.resize(std::max<std::size_t>(patch + 1, surfaces_.size()));
-  if (!sights_[patch].links.empty()) return sights_[patch].links;
+  static_assert(std::is_nothrow_move_constructible_v<PatchLinks>,
+                "all lists were copied as it grows");
+  if (patch_links_.size() <= patch)
+    patch_links_.resize(std::max<std::size_t>(patch + 1, surfaces_.size()));
+  // What nobody was charged for leaves no trace: while shapes change it is found anew.
+  const PatchLinks& known = patch_links_[patch];
+  if (!known.links.empty() && (known.charged || !in_flux() || known.scene == scene_.revision())) {
+    return known.links;
+  }
   const std::array<rays::Ray, kLinks> rays = link_rays(surfaces_[patch]);
   std::array<rays::Hit, kLinks> hits;
   scene_.cast(rays.data(), hits.data(), kLinks, kStanding);
-  Sight& sight = sights_[patch];
-  sight.links.reserve(kLinks);
+  PatchLinks& own = patch_links_[patch];
+  own.scene = scene_.revision();
+  own.reach.setEmpty();
+  own.links.clear();
+  own.links.reserve(kLinks);
+  if (!own.charged) uncharged_.push_back(patch);
   for (std::size_t i = 0; i < kLinks; ++i) {
-    sight.links.push_back(link_of(rays[i], hits[i]));
-    sight.reach.extend(rays[i].origin);
-    sight.reach.extend(end_of(rays[i], hits[i].range));
+    own.links.push_back(link_of(rays[i], hits[i]));
+    own.reach.extend(rays[i].origin);
+    own.reach.extend(end_of(rays[i], hits[i].range));
   }
-  return sight.links;
+  return own.links;
 }
 
 float Field::direct(const Lamp& lamp, std::uint32_t patch) const {
@@ -91,33 +134,51 @@ float Field::direct(const Lamp& lamp, std::uint32_t patch) const {
   return static_cast<float>(sum / static_cast<double>(on.sites.size()));
 }
 
-/// Finds what the lamp shines on; returns how many rays it cast.
-std::size_t Field::start(Unfinished& work, std::size_t rays) {
-  const std::size_t count = std::min(rays, work.first.size() - work.cast);
-  std::vector<rays::Hit> hits(count);
-  scene_.cast(work.first.data() + work.cast, hits.data(), count, kStanding);
-  for (std::size_t i = 0; i < count; ++i) {
-    reach_patch(link_of(work.first[work.cast + i], hits[i]).patch, work);
+/// Finds what the lamp shines on; returns what it cost in rays, as all of these parts do.
+std::int64_t Field::start(Unfinished& work, std::int64_t rays) {
+  std::array<rays::Hit, kFirstAtOnce> hits;
+  std::int64_t cost = 0;
+  while (work.cast < work.first.size() && cost < rays) {
+    const std::size_t count = std::min(kFirstAtOnce, work.first.size() - work.cast);
+    const rays::Ray* first = work.first.data() + work.cast;
+    scene_.cast(first, hits.data(), count, kStanding);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t patch = link_of(first[i], hits[i]).patch;
+      cost += 1 + charge_making(patch);
+      reach_patch(patch, work);
+    }
+    work.cast += count;
   }
-  work.cast += count;
-  return count;
+  return cost;
 }
 
-/// Follows the light from patch to patch as far as it matters; returns how many rays it cast.
-std::size_t Field::spread(Unfinished& work, std::size_t rays) {
-  std::size_t count = 0;
-  for (; work.followed < work.solution.patches.size() && count < rays; ++work.followed) {
-    count += cost_of(work.solution.patches[work.followed]);
+/// Follows the light from patch to patch as far as it matters.
+std::int64_t Field::spread(Unfinished& work, std::int64_t rays) {
+  std::int64_t cost = 0;
+  for (; work.followed < work.solution.patches.size() && cost < rays; ++work.followed) {
+    const std::uint32_t patch = work.solution.patches[work.followed];
+    cost += charge(patch) + static_cast<std::int64_t>(surfaces_[patch].sites.size());
     follow_patch(work);
   }
-  return count;
+  return cost;
 }
 
-/// In rays. Does not depend on who has measured what.
-std::size_t Field::cost_of(std::uint32_t patch) {
-  const std::size_t sites = surfaces_[patch].sites.size();
+std::int64_t Field::charge_making(std::uint32_t patch) {
+  if (patch == kNoPatch) return 0;
+  if (patch_links_.size() <= patch)
+    patch_links_.resize(std::max<std::size_t>(patch + 1, surfaces_.size()));
+  return std::exchange(patch_links_[patch].made, true) ? 0 : kCostToMake;
+}
+
+std::int64_t Field::charge(std::uint32_t patch) {
+  if (patch == kNoPatch || charged(patch)) return 0;
   links(patch);
-  return std::exchange(sights_[patch].charged, true) ? sites : kCostToMake + kLinks + sites;
+  patch_links_[patch].charged = true;
+  charged_.push_back(patch);
+  std::int64_t cost = kLinks;
+  for (std::size_t i = 0; i < kLinks; ++i)
+    cost += charge_making(patch_links_[patch].links[i].patch);
+  return cost;
 }
 
 /// The light that a patch gets, with a first guess of what comes from others: what those before it
@@ -137,11 +198,10 @@ void Field::follow_patch(Unfinished& work) {
   work.leaving.push_back(albedo_of(patch) * (solution.direct[i] + solution.reflected[i]));
   if (work.leaving[i].maxCoeff() < kDark) return;
   const double reach = reach_of(work.lamp);
-  const Eigen::AlignedBox3d world = scene_.static_bounds();
   const auto near = [&](std::uint32_t other) {
     const Vec3& at = surfaces_[other].sites.front().position;
     return work.lamp.type == Lamp::Type::kDirectional
-               ? world.squaredExteriorDistance(at) < kReach * kReach
+               ? work.world.squaredExteriorDistance(at) < kReach * kReach
                : (at - work.lamp.pose.position).norm() < reach;
   };
   for (const Link& link : seen) {
@@ -152,103 +212,163 @@ void Field::follow_patch(Unfinished& work) {
   }
 }
 
-void Field::prepare_balance(Unfinished& work) {
+/// Lists what some more of the patches see.
+std::int64_t Field::prepare_balance(Unfinished& work, std::int64_t rays) {
   const Solution& solution = work.solution;
   const auto count = static_cast<std::uint32_t>(solution.patches.size());
-  work.seen.reserve(count * kLinks);
-  for (std::size_t i = 0; i < count; ++i) {
+  std::size_t i = work.albedos.size();
+  const std::size_t first = i;
+  const std::size_t end = rows_from(first, count, rays / kBouncesToPrepare);
+  for (; i < end; ++i) {
     work.albedos.push_back(albedo_of(solution.patches[i]));
     work.leaving[i] = work.albedos[i] * (solution.direct[i] + solution.reflected[i]);
     for (const Link& link : links(solution.patches[i])) {
       work.seen.push_back(std::min(count, place_of(link.patch, work)));
     }
   }
-  work.leaving.push_back(Rgb::Zero());  // the dark
+  if (i == count) work.leaving.push_back(Rgb::Zero());  // the dark
+  return 1 + static_cast<std::int64_t>(i - first) * kBouncesToPrepare / kRowsPerRay;
 }
 
-/// One bounce: each patch takes what it sees of the others, of those before it what they throw back
-/// by now (Gauss and Seidel). True when no patch's light has changed.
-bool Field::bounce(Unfinished& work) {
+/// Goes on with a bounce: each patch takes what it sees of the others, of those before it what they
+/// throw back by now (Gauss and Seidel).
+std::int64_t Field::balance(Unfinished& work, std::int64_t rays) {
   Solution& solution = work.solution;
-  const std::size_t count = solution.patches.size();
-  float change = 0.0F;
-  double total = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
+  const std::size_t first = work.balanced;
+  const std::size_t end = rows_from(first, solution.patches.size(), rays);
+  for (std::size_t i = first; i < end; ++i) {
     Rgb sum = Rgb::Zero();
     const std::uint32_t* row = &work.seen[i * kLinks];
     for (std::size_t k = 0; k < kLinks; ++k) sum += work.leaving[row[k]];
     sum /= static_cast<float>(kLinks);
-    change = std::max(change, (sum - solution.reflected[i]).abs().maxCoeff());
-    total += solution.direct[i] + sum.maxCoeff();
+    work.change = std::max(work.change, (sum - solution.reflected[i]).abs().maxCoeff());
+    work.total += solution.direct[i] + sum.maxCoeff();
     solution.reflected[i] = sum;
     work.leaving[i] = work.albedos[i] * (solution.direct[i] + sum);
   }
-  return change <= kSettled * total / static_cast<double>(count);
+  work.balanced = end;
+  return 1 + static_cast<std::int64_t>(end - first) / kRowsPerRay;
 }
 
-bool Field::advance(Unfinished& work, std::size_t rays) {
-  Solution& solution = work.solution;
-  const auto take = [&rays](std::size_t cost) { rays -= std::min(rays, cost); };
-  if (work.first.empty()) work.first = first_rays(work.lamp, scene_.static_bounds());
-  if (work.cast < work.first.size()) take(start(work, rays));
-  if (work.cast < work.first.size() || rays == 0) return false;
-  if (work.followed < solution.patches.size()) take(spread(work, rays));
-  if (work.followed < solution.patches.size() || rays == 0) return false;
-  const std::size_t cost = 1 + solution.patches.size() * kLinks / kSumsPerRay;
-  if (!work.balancing) {
-    prepare_balance(work);
-    work.balancing = true;
-    take(kBouncesToPrepare * cost);
+bool Field::advance(Unfinished& work, std::int64_t& rays) {
+  const std::vector<std::uint32_t>& patches = work.solution.patches;
+  const auto take = [&rays](std::int64_t cost) {
+    rays -= cost;
+    return rays > 0;
+  };
+  if (work.first.empty()) {
+    work.world = scene_.static_bounds();
+    work.first = first_rays(work.lamp, work.world);
+    work.solution.serials_before = surfaces_.serials();
   }
-  for (;; take(cost)) {
-    if (rays == 0) return false;
-    if (bounce(work) || ++work.bounces == kMostBounces) break;
+  if (work.cast < work.first.size() && !take(start(work, rays))) return false;
+  if (work.followed < patches.size() && !take(spread(work, rays))) return false;
+  while (work.albedos.size() < patches.size()) {
+    if (!take(prepare_balance(work, rays))) return false;
+  }
+  while (!patches.empty() && work.bounces < kMostBounces) {
+    const bool within = take(balance(work, rays));
+    if (work.balanced < patches.size()) return false;
+    ++work.bounces;
+    work.balanced = 0;
+    const double mean = std::exchange(work.total, 0.0) / static_cast<double>(patches.size());
+    if (std::exchange(work.change, 0.0F) <= kSettled * mean) break;
+    if (!within) return false;
   }
   finish(work);
   return true;
 }
 
 void Field::finish(Unfinished& work) {
-  static std::atomic<std::uint64_t> stamps{0};
   Solution& solution = work.solution;
   if (work.lamp.type != Lamp::Type::kDirectional) {
     solution.bounds.extend(work.lamp.pose.position);
   }
+  solution.by_hash.reserve(solution.patches.size());
   for (std::uint32_t i = 0; i < solution.patches.size(); ++i) {
     const Patch& patch = surfaces_[solution.patches[i]];
-    solution.places.emplace(patch.serial, i);
+    solution.by_hash.emplace_back(patch.hash, i);
+    solution.serials.push_back(patch.serial);
     for (const Site& site : patch.sites) solution.bounds.extend(site.position);
   }
+  std::sort(solution.by_hash.begin(), solution.by_hash.end());
+  solution.patches.shrink_to_fit();
+  solution.direct.shrink_to_fit();
+  solution.reflected.shrink_to_fit();
+  number_places(solution);
   // A patch goes on beyond its outermost sites.
   solution.bounds.min().array() -= kBeyondSites;
   solution.bounds.max().array() += kBeyondSites;
-  solution.stamp = ++stamps;
+  solution.stamp = next_stamp();
 }
 
 Solution Field::solve(const Lamp& lamp) {
   Unfinished work(lamp);
-  advance(work, SIZE_MAX);
+  std::int64_t rays = INT64_MAX;
+  advance(work, rays);
   return std::move(work.solution);
 }
 
-float Field::direct(const Solution& solution, std::uint32_t patch) const {
-  const auto place = solution.places.find(surfaces_[patch].serial);
-  return place == solution.places.end() ? 0.0F : solution.direct[place->second];
+Solution Field::outline(const Lamp& lamp, std::int64_t& rays) const {
+  Solution out;
+  out.outlined = true;
+  if (lamp.type != Lamp::Type::kDirectional) out.bounds.extend(lamp.pose.position);
+  const std::vector<rays::Ray> first = first_rays(lamp, scene_.static_bounds());
+  std::vector<rays::Hit> hits(first.size());
+  scene_.cast(first.data(), hits.data(), first.size(), kStanding);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (hits[i].hit()) out.bounds.extend(end_of(first[i], hits[i].range));
+  }
+  out.bounds.min().array() -= kBeyondSites;
+  out.bounds.max().array() += kBeyondSites;
+  out.stamp = next_stamp();
+  rays -= static_cast<std::int64_t>(first.size());
+  return out;
 }
 
-Rgb Field::reflected(const Solution& solution, std::uint32_t patch) {
+std::uint32_t Field::place(const Solution& solution, std::uint32_t patch, bool stale) const {
+  const std::uint32_t number = patch - solution.first_patch;  // wraps around below the first
+  if (number < solution.places.size()) {
+    const std::uint32_t at = solution.places[number];
+    if (at != kNoPatch && solution.serials[at] == surfaces_[patch].serial) return at;
+  }
+  const bool made_since = surfaces_[patch].serial > solution.serials_before;
+  return stale && made_since ? place_of_hash(solution, surfaces_[patch].hash) : kNoPatch;
+}
+
+bool Field::reaches(const Solution& solution, std::uint32_t patch, bool stale) const {
+  return patch == kNoPatch || place(solution, patch, stale) != kNoPatch;
+}
+
+float Field::direct(const Solution& solution, std::uint32_t patch, bool stale) const {
+  const std::uint32_t at = place(solution, patch, stale);
+  return at == kNoPatch ? 0.0F : solution.direct[at];
+}
+
+Rgb Field::reflected(const Solution& solution, std::uint32_t patch, bool stale) {
   if (patch == kNoPatch) return Rgb::Zero();
-  const auto place = solution.places.find(surfaces_[patch].serial);
-  if (place != solution.places.end()) return solution.reflected[place->second];
+  const std::uint32_t at = place(solution, patch, stale);
+  if (at != kNoPatch) return solution.reflected[at];
+  if (solution.patches.empty()) return Rgb::Zero();
+  // What of a stale one has to be found first is found with the next: who queries leaves no trace.
+  return stale && !charged(patch) ? Rgb(Rgb::Zero()) : beyond(solution, patch, stale);
+}
+
+/// One more bounce, from what the solution reaches.
+Rgb Field::beyond(const Solution& solution, std::uint32_t patch, bool stale) {
+  const std::uint64_t state = 2 * (in_flux() ? ~scene_.revision() : revision_) + (stale ? 1 : 0);
+  if (solution.beyond_state != state) solution.beyond.clear();
+  solution.beyond_state = state;
+  const auto [known, is_new] = solution.beyond.try_emplace(surfaces_[patch].hash, Rgb::Zero());
+  if (!is_new) return known->second;
   Rgb sum = Rgb::Zero();
   for (const Link& link : links(patch)) {
     if (link.patch == kNoPatch) continue;
-    const auto seen = solution.places.find(surfaces_[link.patch].serial);
-    if (seen == solution.places.end()) continue;
-    sum +=
-        albedo_of(link.patch) * (solution.direct[seen->second] + solution.reflected[seen->second]);
+    const std::uint32_t seen = place(solution, link.patch, stale);
+    if (seen == kNoPatch) continue;
+    sum += albedo_of(link.patch) * (solution.direct[seen] + solution.reflected[seen]);
   }
-  return sum / static_cast<float>(kLinks);
+  return known->second = sum / static_cast<float>(kLinks);
 }
 
 }  // namespace angen::light

@@ -15,8 +15,9 @@ constexpr double kStill = 5e-5;        // m that a shape may move unnoticed: a r
 constexpr double kBeside = 0.02;       // m: how far from a surface what covers or divides it may be
 constexpr double kLargestPatch = 1.5;  // m across
 // Costs in rays, measured; they decide only how an update is cut into ticks.
-constexpr std::size_t kCostToSkip = 1;      // a patch that sees no change
-constexpr std::size_t kCostToCompare = 16;  // the links of one with a box
+constexpr std::int64_t kCostToSkip = 1;     // a patch that sees no change
+constexpr std::int64_t kCostToCompare = 6;  // the links of one with a box
+constexpr std::int64_t kCostToFind = 4;     // a link anew, alone
 
 /// Slabs, over the segment from the ray's origin.
 bool passes(const Eigen::AlignedBox3d& box, const rays::Ray& ray, double range) {
@@ -89,6 +90,11 @@ std::vector<Field::Change> Field::follow() {
   return changes;
 }
 
+bool Field::outdated_in(const Box& box) const {
+  return std::any_of(outdated_.begin(), outdated_.end(),
+                     [&](const auto& change) { return box.intersects(change.second); });
+}
+
 /// What stands near a surface may cover or divide its patches.
 void Field::forget_near(const Box& box) {
   const Box near(box.min() - Vec3::Constant(kBeside), box.max() + Vec3::Constant(kBeside));
@@ -110,52 +116,68 @@ void Field::start_update() {
     forget_near(box);
   }
   for (const std::uint32_t patch : releasing_) {
-    if (patch < sights_.size()) sights_[patch] = {};
+    if (patch < patch_links_.size()) patch_links_[patch] = {};
   }
   outdated_.clear();
+  drop_uncharged();
 }
 
-std::size_t Field::update(std::size_t rays) {
-  std::size_t cost = 0;
-  for (; updated_ < sights_.size() && cost < rays; ++updated_) cost += update_links(updated_);
-  if (updated_ < sights_.size()) return cost;
-  updating_ = false;
-  for (const std::uint32_t patch : releasing_) {
-    if (patch < sights_.size()) sights_[patch] = {};
+void Field::drop_uncharged() {
+  for (const std::uint32_t patch : uncharged_) {
+    if (!charged(patch)) patch_links_[patch].links.clear();
   }
+  uncharged_.clear();
+}
+
+std::int64_t Field::update(std::int64_t rays) {
+  std::int64_t cost = 0;
+  for (; updated_ < charged_.size() && cost < rays; ++updated_) {
+    cost += update_links(charged_[updated_]);
+  }
+  if (updated_ < charged_.size()) return cost;
+  updating_ = false;
+  drop_uncharged();
+  ++revision_;
+  ++updates_;
+  for (const std::uint32_t patch : releasing_) {
+    if (patch < patch_links_.size()) patch_links_[patch] = {};
+  }
+  const auto gone = [&](std::uint32_t patch) { return !charged(patch); };
+  charged_.erase(std::remove_if(charged_.begin(), charged_.end(), gone), charged_.end());
   surfaces_.release(releasing_);
   releasing_.clear();
   return cost;
 }
 
 /// Returns the cost in rays.
-std::size_t Field::update_links(std::uint32_t patch) {
-  if (sights_[patch].links.empty()) return 0;
+std::int64_t Field::update_links(std::uint32_t patch) {
+  if (!patch_links_[patch].charged) return 0;
   std::vector<Box> near;
   for (const Box& box : boxes_) {
     // A link ends on a patch that may go on beyond it.
     const Box grown(box.min() - Vec3::Constant(kLargestPatch),
                     box.max() + Vec3::Constant(kLargestPatch));
-    if (sights_[patch].reach.intersects(grown)) near.push_back(box);
+    if (patch_links_[patch].reach.intersects(grown)) near.push_back(box);
   }
-  if (near.empty()) return sights_[patch].charged ? kCostToSkip : 0;
-  std::size_t cost = kCostToCompare * near.size();
+  if (near.empty()) return kCostToSkip;
+  std::int64_t cost = kCostToCompare * static_cast<std::int64_t>(near.size());
   const std::array<rays::Ray, kLinks> rays = link_rays(surfaces_[patch]);
   for (std::size_t i = 0; i < kLinks; ++i) {
-    const Link known = sights_[patch].links[i];
+    const Link known = patch_links_[patch].links[i];
     const rays::Ray& again = rays[i];
     const auto passed = [&](const Box& box) { return passes(box, again, known.range + kNear); };
     const bool misses = known.patch == kNoPatch && !std::isfinite(known.range);
     const bool holds = misses || (known.patch != kNoPatch && surfaces_[known.patch].alive);
     if (holds && std::none_of(near.begin(), near.end(), passed)) continue;
-    ++cost;
+    cost += kCostToFind;
     rays::Hit hit;
     scene_.cast(&again, &hit, 1, kStanding);
     const Link link = link_of(again, hit);
-    sights_[patch].links[i] = link;
-    sights_[patch].reach.extend(end_of(again, hit.range));
+    patch_links_[patch].links[i] = link;
+    cost += charge_making(link.patch);
+    patch_links_[patch].reach.extend(end_of(again, hit.range));
   }
-  return sights_[patch].charged ? cost : 0;
+  return cost;
 }
 
 }  // namespace angen::light

@@ -2,67 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <unordered_map>
 #include <utility>
 
 #include "light/beam.h"
 #include "light/directions.h"
+#include "light/hemisphere.h"
 
 namespace angen::light {
 namespace {
 
-constexpr std::size_t kDirections = 2048;
 constexpr std::size_t kMostWays = 1024;  // from all points of movers, about
 constexpr double kGrazing = 0.15;        // cosine: areas seen at less are not trusted
 constexpr std::size_t kStride = 797;     // odd: every direction is taken once
 constexpr std::uint32_t kNoMover = UINT32_MAX;
 constexpr double kGatherMargin = 1e-4;  // m, a surface does not meet its own rays
 constexpr rays::Mobilities kMovable = rays::kAll & ~rays::only(rays::Mobility::kStatic);
-constexpr std::size_t kViewPoints = 16;  // of a flat lamp or a tube
-
-const double kViewTangent = std::tan(M_PI / 6);            // half of 60 degrees
-const double kViewArea = 4 * kViewTangent * kViewTangent;  // on the plane 1 m ahead
-const Rgb kLuminance = {0.2126F, 0.7152F, 0.0722F, 0.0F};  // Rec. 709
-
-/// Where the view's square image sees a direction of the probe's own frame (x
-/// ahead).
-bool in_view(const Vec3& local) {
-  const double edge = local.x() * kViewTangent;
-  return local.x() > 0 && std::abs(local.y()) <= edge && std::abs(local.z()) <= edge;
-}
-
-/// In the probe's frame: about x instead of z.
-const std::vector<Vec3>& directions() {
-  static const std::vector<Vec3> all = [] {
-    std::vector<Vec3> turned;
-    for (const Vec3& d : cosine_directions(kDirections)) turned.emplace_back(d.z(), d.x(), d.y());
-    return turned;
-  }();
-  return all;
-}
-
-/// By direction: cosine-weighted directions as an image plane weighs them, all
-/// its points alike.
-const std::vector<float>& view_weights() {
-  static const std::vector<float> weights = [] {
-    std::vector<double> all;
-    double sum = 0.0;
-    for (const Vec3& local : directions()) {
-      all.push_back(in_view(local) ? 1.0 / std::pow(local.x(), 4) : 0.0);
-      sum += all.back();
-    }
-    std::vector<float> shares;
-    for (const double weight : all) shares.push_back(static_cast<float>(weight / sum));
-    return shares;
-  }();
-  return weights;
-}
-
-void make_infinite(Eigen::AlignedBox3d& box) {
-  const Vec3 corner = Vec3::Constant(std::numeric_limits<double>::infinity());
-  box = {-corner, corner};
-}
 
 /// By the ray's way up to `range`.
 void extend(Eigen::AlignedBox3d& reach, const rays::Ray& ray, double range) {
@@ -74,24 +29,12 @@ void extend(Eigen::AlignedBox3d& reach, const rays::Ray& ray, double range) {
   }
 }
 
-/// By the ways to a lamp from what is in it.
-void extend(Eigen::AlignedBox3d& reach, const Lamp& lamp) {
-  if (lamp.type == Lamp::Type::kDirectional) {
-    make_infinite(reach);
-    return;
-  }
-  const double out = std::max(
-      {lamp.radius, std::hypot(lamp.width, lamp.height) / 2, lamp.length / 2 + lamp.radius});
-  reach.extend(lamp.pose.position - Vec3::Constant(out));
-  reach.extend(lamp.pose.position + Vec3::Constant(out));
-}
-
 }  // namespace
 
 Gather::Gather(const rays::Scene& scene, Field& field, const Pose& pose)
     : scene_(scene), field_(field), pose_(pose), fixed_reach_(pose.position) {
   const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
-  for (const Vec3& local : directions()) {
+  for (const Vec3& local : gather_directions()) {
     rays_.push_back({pose.position, (rotation * local).normalized(), kGatherMargin});
   }
   std::vector<rays::Hit> hits(kDirections);
@@ -114,7 +57,7 @@ Gather::Gather(const rays::Scene& scene, Field& field, const Pose& pose)
 /// One way that light may come to the surface in direction i: all of them
 /// together fill each surface's hemisphere.
 rays::Ray Gather::next(std::size_t i) const {
-  const Vec3& about_x = directions()[(i * kStride) % kDirections];
+  const Vec3& about_x = gather_directions()[(i * kStride) % kDirections];
   const Vec3 way = frame_about(surfaces_[i].normal) * Vec3(about_x.y(), about_x.z(), about_x.x());
   return {surfaces_[i].position, way.normalized(), kGatherMargin};
 }
@@ -147,10 +90,14 @@ void Gather::relocate() {
                        field_.serial(seen.patch) == seen.serial;
     if (!holds) locate(seen);
   };
-  for (Mover& mover : movers_) {
-    if (mover.anchored) check(mover.surface);
+  if (movers_known()) {
+    for (Mover& mover : movers_) {
+      if (mover.anchored) check(mover.surface);
+    }
+    for (Surface& seen : around_) check(seen);
+  } else {
+    movers_revision_ = kNever;  // their shapes may be gone
   }
-  for (Surface& seen : around_) check(seen);
   std::unordered_map<std::uint32_t, std::uint32_t> slots;
   patches_.clear();
   slots_.clear();
@@ -163,14 +110,14 @@ void Gather::relocate() {
   }
 }
 
-void Gather::forget(const std::function<bool(LampId)>& gone) {
-  for (auto it = received_.begin(); it != received_.end();) {
-    it = gone(it->first) ? received_.erase(it) : std::next(it);
-  }
+bool Gather::movers_known() const { return movers_revision_ == scene_.revision(); }
+
+void Gather::hold_movers(const Eigen::AlignedBox3d& within) {
+  if (movers_revision_ != kNever && within.contains(reach_)) movers_revision_ = scene_.revision();
 }
 
 void Gather::find_movers() {
-  movers_found_ = true;
+  movers_revision_ = scene_.revision();
   reach_ = fixed_reach_;
   movers_.clear();
   std::vector<rays::Ray> rays = rays_;
@@ -238,7 +185,7 @@ void Gather::weigh() {
     const Surface& seen = mover ? movers_[before_[i]].surface : surfaces_[i];
     albedos += surfaces_[i].albedo.head<3>().mean() / static_cast<double>(kDirections);
     if (!std::isfinite(seen.range)) continue;
-    const double leaving = std::max(kGrazing, directions()[i].x());
+    const double leaving = std::max(kGrazing, gather_directions()[i].x());
     const double arriving = std::max(kGrazing, -seen.normal.dot(rays_[i].direction));
     const double area = seen.range * seen.range / (leaving * arriving);
     const double absorbed = area * (1.0 - seen.albedo.head<3>().mean());
@@ -256,10 +203,33 @@ bool Gather::shaded(const Lamp& lamp, const Surface& surface, std::size_t i) con
   return !sees_one(scene_, lamp, surface.position, i, kMovable);
 }
 
-void Gather::prepare(LampId id, const Lamp& lamp, std::uint64_t geometry) {
-  Received& from = received_[id];
-  if (from.geometry == geometry) return;
-  from.geometry = geometry;
+std::size_t Gather::lacking(const Source& source) {
+  if (source.stale || !may_see(source.solution.bounds)) return 0;
+  relocate();
+  return static_cast<std::size_t>(std::count_if(
+      patches_.begin(), patches_.end(), [&](std::uint32_t patch) { return lacks(patch, source); }));
+}
+
+bool Gather::lacks(std::uint32_t patch, const Source& source) const {
+  return !field_.reaches(source.solution, patch, false) && !field_.charged(patch);
+}
+
+bool Gather::prepare(const Source& source, std::int64_t& rays) {
+  if (source.stale || !may_see(source.solution.bounds)) return true;
+  relocate();
+  for (const std::uint32_t patch : patches_) {
+    if (!lacks(patch, source)) continue;
+    if (rays <= 0) return false;
+    rays -= field_.charge(patch);
+  }
+  return true;
+}
+
+void Gather::find_direct(const Source& source) {
+  const Lamp& lamp = source.lamp;
+  Received& from = received_[source.id];
+  if (from.geometry == source.geometry) return;
+  from.geometry = source.geometry;
   from.lit = false;
   from.direct.assign(kDirections, 0.0F);
   for (std::size_t i = 0; i < kDirections; ++i) {
@@ -275,14 +245,19 @@ void Gather::prepare(LampId id, const Lamp& lamp, std::uint64_t geometry) {
 }
 
 const Gather::Received& Gather::received(const Source& source) {
-  prepare(source.id, source.lamp, source.geometry);
+  find_direct(source);
   Received& from = received_[source.id];
-  if (source.lasting && from.stamp == source.solution.stamp) return from;
-  from.stamp = source.lasting ? source.solution.stamp : UINT64_MAX;
+  if (from.stamp == source.solution.stamp && from.located == located_ &&
+      from.stale == source.stale) {
+    return from;
+  }
+  from.stamp = source.solution.stamp;
+  from.located = located_;
+  from.stale = source.stale;
   std::vector<Rgb> by_patch;
   from.any = from.lit;
   for (const std::uint32_t patch : patches_) {
-    by_patch.push_back(field_.reflected(source.solution, patch));
+    by_patch.push_back(field_.reflected(source.solution, patch, source.stale));
     from.any = from.any || (by_patch.back() > 0.0F).any();
   }
   from.reflected.clear();
@@ -300,20 +275,20 @@ Rgb Gather::on_mover(const Mover& mover, const Source& source, std::size_t i, bo
     in_play = true;
     if (!shaded(lamp, seen, i)) direct += static_cast<float>(lux);
   }
-  if (mover.anchored) return direct + left_ * field_.reflected(solution, seen.patch);
+  if (mover.anchored) return direct + left_ * field_.reflected(solution, seen.patch, source.stale);
   for (std::size_t k = mover.around; k < mover.around + ways_; ++k) {
     const Surface& from = around_[k];
     if (from.patch == kNoPatch) continue;
-    const float first = field_.direct(solution, from.patch);
+    const float first = field_.direct(solution, from.patch, source.stale);
     in_play = in_play || first > 0.0F;
     if (first > 0.0F && !shaded(lamp, from, i + k)) reflected += from.albedo * first;
-    reflected += left_ * from.albedo * field_.reflected(solution, from.patch);
+    reflected += left_ * from.albedo * field_.reflected(solution, from.patch, source.stale);
   }
   return direct + reflected / static_cast<float>(ways_);
 }
 
 Gathered Gather::gather(const Source& source, Eigen::AlignedBox3d& reach) {
-  if (!movers_found_) find_movers();
+  if (!movers_known()) find_movers();
   relocate();
   const Lamp& lamp = source.lamp;
   const Received& from = received(source);
@@ -347,58 +322,6 @@ Gathered Gather::gather(const Source& source, Eigen::AlignedBox3d& reach) {
   }
   reach.extend(reach_);
   if (in_play) extend(reach, lamp);
-  return out;
-}
-
-namespace {
-
-struct Direct {
-  double illuminance = 0.0;  // lx
-  double radiance = 0.0;     // cd/m^2, the lamp's own share of the one-pixel view
-};
-
-Direct direct(const rays::Scene& scene, const Pose& pose, const Lamp& lamp,
-              Eigen::AlignedBox3d& reach) {
-  const Vec3 normal = pose.rotation * Vec3::UnitX();
-  const double free = illuminance(lamp, pose.position, normal);
-  if (free <= 0.0) return {};
-  const auto share_among = [&](rays::Mobilities among) {
-    return visible_share(scene, lamp, pose.position, normal, among);
-  };
-  const double share = share_among(rays::kAll);
-  if (share > 0.0 || share_among(rays::only(rays::Mobility::kStatic)) > 0.0) extend(reach, lamp);
-  Direct out;
-  out.illuminance = free * share;
-  if (lamp.type == Lamp::Type::kDirectional) return out;
-  // The lamp covers (1 / x^3) of its solid angle on the image plane: what it
-  // sends is the same whatever its size.
-  const bool extended = lamp.flat() || lamp.type == Lamp::Type::kTube;
-  const std::size_t points = extended ? kViewPoints : 1;
-  for (std::size_t i = 0; i < points; ++i) {
-    Lamp part = lamp;
-    if (extended) part.pose.position = lamp_point(lamp, i);
-    part.radius = extended ? 0.0 : lamp.radius;
-    const Beam from = beam(part, pose.position);
-    const Vec3 local = pose.rotation.conjugate() * from.towards;
-    if (!in_view(local)) continue;
-    out.radiance += share * from.illuminance / static_cast<double>(points) /
-                    (std::pow(local.x(), 3) * kViewArea);
-  }
-  return out;
-}
-
-}  // namespace
-
-Transport transport(const rays::Scene& scene, const Pose& pose, const Lamp& lamp,
-                    const Gathered& gathered, Eigen::AlignedBox3d& reach) {
-  const Direct own = direct(scene, pose, lamp, reach);
-  Rgb color = Rgb::Zero();
-  color.head<3>() = lamp.color.array();
-  Transport out;
-  out.illuminance = own.illuminance + (kLuminance * color * gathered.illuminance).sum();
-  const Rgb radiance =
-      color * (static_cast<float>(own.radiance) + gathered.view / static_cast<float>(M_PI));
-  out.radiance = radiance.head<3>().matrix();
   return out;
 }
 

@@ -1,20 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <vector>
 
 #include "light/field.h"
-#include "light/lighting.h"
+#include "light/transport.h"
 
 namespace angen::light {
-
-/// What surfaces send to a place of one lamp's light, were it white.
-struct Gathered {
-  Rgb illuminance = Rgb::Zero();  // lx
-  Rgb view = Rgb::Zero();         // lx leaving what the one-pixel view sees, their mean
-};
 
 /// A lamp as a place receives its light.
 struct Source {
@@ -22,35 +15,38 @@ struct Source {
   const Lamp& lamp;
   const Solution& solution;
   std::uint64_t geometry = 0;  // grows when the lamp has moved or walls have around it
-  bool lasting = true;         // the solution is what it would be if it were found now
+  bool stale = false;          // the solution is not what it would be if it were found now
 };
-
-/// What a lamp at level 1 sends to a place, straight and by way of surfaces. `reach` grows by the
-/// ways of its light on which shapes that move could stand.
-Transport transport(const rays::Scene& scene, const Pose& pose, const Lamp& lamp,
-                    const Gathered& gathered, Eigen::AlignedBox3d& reach);
 
 /// What one place sees over its hemisphere: static surfaces once, then what moves before them.
 class Gather {
  public:
   Gather(const rays::Scene& scene, Field& field, const Pose& pose);
 
-  /// Forgets what came from lamps that are gone.
-  void forget(const std::function<bool(LampId)>& gone);
+  /// Forgets what came from a lamp.
+  void forget(LampId lamp) { received_.erase(lamp); }
 
   /// Whether any of the surfaces may be in the box.
   bool may_see(const Eigen::AlignedBox3d& box) const { return fixed_reach_.intersects(box); }
 
-  /// Forgets the anchored and moving shapes before them.
-  void forget_movers() { movers_found_ = false; }
+  /// Whether the anchored and moving shapes before the surfaces are known as they are now.
+  bool movers_known() const;
+  /// Nothing has moved in the box since they were found.
+  void hold_movers(const Eigen::AlignedBox3d& within);
 
-  /// What they all send to the place. Finds shapes that move, unless they are known.
+  /// How many surfaces' patches see what prepare() has not been charged for.
+  std::size_t lacking(const Source& source);
+  /// Finds what they see, for the cost of about `rays` rays, which it takes off. True when that is
+  /// all.
+  bool prepare(const Source& source, std::int64_t& rays);
+
+  /// What all surfaces send to the place. `reach` grows by the ways of its light on which shapes
+  /// that move could stand.
   Gathered gather(const Source& source, Eigen::AlignedBox3d& reach);
 
-  /// Finds what of it only geometry decides, so that gather() costs less.
-  void prepare(LampId id, const Lamp& lamp, std::uint64_t geometry);
-
  private:
+  static constexpr std::uint64_t kNever = UINT64_MAX;
+
   struct Surface {
     Vec3 position;
     Vec3 normal;  // towards the place
@@ -65,16 +61,20 @@ class Gather {
     bool anchored = false;
     std::uint32_t around = 0;  // the first of the surfaces that a point of a free one sees
   };
-  struct Received {                       // from one lamp, by direction
-    std::uint64_t geometry = UINT64_MAX;  // that `direct` belongs to
-    std::uint64_t stamp = UINT64_MAX;     // of the solution that `reflected` belongs to
-    bool lit = false;                     // any of `direct` is more than 0
-    bool any = false;                     // any of both is
-    std::vector<float> direct;            // lx, when nothing moves
-    std::vector<Rgb> reflected;           // lx
+  struct Received {                   // from one lamp, by direction
+    std::uint64_t geometry = kNever;  // that `direct` belongs to
+    std::uint64_t stamp = kNever;     // of the solution that `reflected` belongs to
+    std::uint64_t located = kNever;   // the patches that it belongs to
+    bool stale = false;               // as that was
+    bool lit = false;                 // any of `direct` is more than 0
+    bool any = false;                 // any of both is
+    std::vector<float> direct;        // lx, when nothing moves
+    std::vector<Rgb> reflected;       // lx
   };
   Surface surface(const rays::Ray& ray, const rays::Hit& hit) const;
   rays::Ray next(std::size_t i) const;
+  bool lacks(std::uint32_t patch, const Source& source) const;
+  void find_direct(const Source& source);
   void find_movers();
   void find_between();
   void find_around();
@@ -98,10 +98,10 @@ class Gather {
   std::vector<Rgb> between_;  // albedo of the moving shape before that; negative where none is
   float left_ = 1.0F;         // share that moving shapes leave of light still farther back
   std::map<LampId, Received> received_;
-  std::vector<std::uint32_t> patches_;  // of all surfaces, each once
-  std::vector<std::uint32_t> slots_;    // by direction: where its patch is in that list
-  std::uint64_t located_ = UINT64_MAX;  // the field's revision that patches belong to
-  bool movers_found_ = false;
+  std::vector<std::uint32_t> patches_;      // of all surfaces, each once
+  std::vector<std::uint32_t> slots_;        // by direction: where its patch is in that list
+  std::uint64_t located_ = kNever;          // the field's revision that patches belong to
+  std::uint64_t movers_revision_ = kNever;  // the scene's, that `movers_` belong to
   Eigen::AlignedBox3d fixed_reach_;  // of the ways between place and surfaces, and to the next
   Eigen::AlignedBox3d reach_;        // and of those from what moves
 };

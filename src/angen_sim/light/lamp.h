@@ -32,4 +32,10 @@ struct Lamp {
   bool flat() const { return type == Type::kRectangle || type == Type::kDisc; }
 };
 
+/// A lamp that shines, and at what share of its flux.
+struct Lit {
+  Lamp lamp;
+  double level = 0.0;
+};
+
 }  // namespace angen::light

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -10,49 +11,18 @@
 #include "core/pose.h"
 #include "core/slots.h"
 #include "core/time.h"
+#include "light/allowance.h"
 #include "light/lamp.h"
+#include "light/probe.h"
 #include "rays/scene.h"
 
 /// Lux at a point from lamps, surfaces and rays.
 namespace angen::light {
 
 class Field;
-class Gather;
 struct Solution;
+struct Source;
 struct Unfinished;
-
-/// What one lamp at level 1 sends to one place.
-struct Transport {
-  LampId lamp;
-  std::uint64_t solution = 0;                          // the stamp of the one it belongs to
-  double illuminance = 0.0;                            // lx
-  Eigen::Vector3f radiance = Eigen::Vector3f::Zero();  // mean of a one-pixel view, r g b in cd/m^2
-};
-
-/// A place of measurement that remembers its transports while geometry stands still. A plain value,
-/// held by a sensor.
-struct Probe {
-  Pose pose;
-  std::uint64_t revision = UINT64_MAX;  // of the scene and lamp set that `transports` belong to
-  std::uint64_t walls = 0;              // changes of static shapes that are taken into account
-  std::uint64_t lamps_revision = UINT64_MAX;
-  std::vector<Transport> transports;
-  std::shared_ptr<Gather> gather;  // what the place sees of what stands still
-  /// m, world: anchored and moving shapes outside of it are in no way of light to the place.
-  /// Infinite where light may come from anywhere.
-  Eigen::AlignedBox3d reach;
-};
-
-/// A lamp that shines, and at what share of its flux.
-struct Lit {
-  Lamp lamp;
-  double level = 0.0;
-};
-
-struct Sample {
-  double illuminance = 0.0;                         // lx on a plane through the point, normal x
-  Eigen::Vector3f color = Eigen::Vector3f::Zero();  // mean colour of the view, 0..1 (tone mapped)
-};
 
 class Lighting {
  public:
@@ -77,26 +47,33 @@ class Lighting {
   /// or around the place keeps the light out, the sensor's own housing too: leave it out of the
   /// scene or put the place before it. The scene must be committed. Same scene, same lamps, same
   /// pose: same bits, whatever was measured before. One thread at a time. After pace() the light
-  /// between surfaces is what advance() has found so far, and a lamp whose light it has not found
-  /// yet gives none.
-  /// `still` says that since the last time no shape has moved, come or gone within the probe's
-  /// reach, so that lamps are not looked for again whose light takes the same ways as then.
+  /// between surfaces is what advance() has found so far: of a new lamp at first what comes
+  /// straight or after one reflection. All probes that are measured `ahead` share a budget of rays
+  /// for each tick. Where that is used up, or where surfaces are seen that no solution has reached
+  /// yet, a lamp counts as it was last found to, and advance() finds it anew. The first query of a
+  /// probe finds everything, unless expect() has been called. `still` says that since the last time
+  /// no shape has moved, come or gone within the probe's reach, so that lamps are not looked for
+  /// again whose light takes the same ways as then.
   Sample measure(Probe& probe, const Pose& pose, bool still = false) const;
 
   /// Whether the place has been measured before.
-  bool knows(const Probe& probe) const {
-    return probe.lamps_revision >> 32 == lamps_revision_ >> 32;
-  }
+  bool knows(const Probe& probe) const { return probe.lighting == id_; }
 
   /// From now on only advance() finds light between surfaces, but what measure() needs now. The
   /// scene must be committed.
   void pace();
   /// Has advance() begin, so that less is left for pace().
   void prepare();
-  /// Finds what measure() needs of the lamps that are lit, for some 5 ms of CPU time: that of lamps
-  /// that were switched on or came, and anew where standing shapes have come, gone or moved, once
-  /// they have rested for 0.1 s, or else once a second. How long that takes depends on what
-  /// happened and when (`now`), not on what was measured. The scene must be committed.
+  /// The same, for a query of that probe some time later.
+  void expect(Probe& probe, const Pose& pose);
+  /// Begins a tick: measure() has its budget again.
+  void begin_tick() { budget_ = kMeasureRays; }
+  /// Finds what measure() needs of the lamps that are lit: that of lamps that were switched on or
+  /// came, and anew where standing shapes have come, gone or moved, once they have rested for 0.1
+  /// s, or else once a second; and what of it comes to each probe that is measured `ahead`. It
+  /// takes some 5 ms of CPU time at most, and over time less than what passes. How long
+  /// it all takes depends on what happened and when (`now`), and on which of these probes there
+  /// are, not on what was measured. The scene must be committed.
   void advance(Nanoseconds now);
   /// Whether advance() has been asked for.
   bool active() const { return active_; }
@@ -113,37 +90,50 @@ class Lighting {
     bool due = false;                          // to be found anew
   };
   struct Delivery {
-    std::weak_ptr<Gather> gather;
-    LampId lamp;
+    std::weak_ptr<Receiver> receiver;
+    std::optional<LampId> lamp;  // without one only what the place sees is found
   };
+  static constexpr std::size_t kMeasureRays = 12000;  // some 4 ms
 
   bool follow() const;
   void complete() const;
   void note(Nanoseconds now);
   bool due(Nanoseconds now) const;
   void take_up();
+  void outline_new(std::int64_t& left);
+  void update(std::int64_t& left);
+  void solve_on(std::int64_t& left);
   void pick();
   void publish();
-  void deliver();
   std::optional<LampId> next() const;
   bool missing() const;
-  void renew(Probe& probe, const Pose& pose, bool still) const;
-  std::shared_ptr<Gather> make_gather(const Pose& pose) const;
-  bool walls_changed(const Probe& probe) const;
-  const Transport& find(Probe& probe, LampId id, Entry& entry) const;
   void count(double before, double after);
+
+  Receiver& receiver(Probe& probe, const Pose& pose) const;
+  template <class F>
+  void each_ahead(F&& visit) const;
+  void queue(const std::shared_ptr<Receiver>& receiver, LampId lamp) const;
+  void queue_all(LampId lamp) const;
+  void drop_near(const Eigen::AlignedBox3d& box) const;
+  void deliver();
+  bool deliver(Receiver& receiver, LampId lamp, std::int64_t& left);
+  bool affords(Receiver& receiver, const Source& source) const;
+  Source source(LampId id, const Entry& entry) const;
+  std::uint64_t key_of(const Source& source) const;
+  void see(Receiver& receiver) const;
+  void find(Receiver& receiver, const Source& source) const;
 
   const rays::Scene& scene_;
   mutable Slots<Entry, LampTag> lamps_;
   std::unique_ptr<Field> field_;
-  mutable std::vector<std::weak_ptr<Gather>> gathers_;  // of all probes
-  mutable std::vector<Eigen::AlignedBox3d> walls_;      // where static shapes came and went, latest
-  mutable std::uint64_t walls_count_ = 0;               // of all there were
-  mutable std::unique_ptr<Unfinished> work_;            // on the solution of `worked_on_`
-  mutable std::vector<Eigen::AlignedBox3d> work_changes_;  // in the scene, since it began
-  bool work_moved_ = false;                                // its lamp has, since
+  mutable std::vector<std::weak_ptr<Receiver>> receivers_;  // of all probes
+  mutable std::unique_ptr<Unfinished> work_;                // on the solution of `worked_on_`
+  bool work_moved_ = false;                                 // its lamp has, since
   LampId worked_on_;
-  std::deque<Delivery> deliveries_;
+  Allowance solving_;     // for light between surfaces
+  Allowance delivering_;  // for what of it comes to places
+  mutable std::deque<Delivery> deliveries_;
+  mutable std::size_t budget_ = kMeasureRays;  // that measure() has left in this tick
   bool active_ = false;
   bool paced_ = false;
   mutable bool busy_ = false;
@@ -151,7 +141,7 @@ class Lighting {
   bool waiting_ = false;          // for changes to end
   Nanoseconds first_change_ = 0;  // of those that wait
   Nanoseconds last_change_ = 0;   // the same
-  std::uint64_t lamps_revision_;  // no two Lightings share one
+  std::uint64_t id_;              // no two Lightings share one
   std::size_t lit_count_ = 0;
   std::uint64_t lit_revision_ = 0;
 };

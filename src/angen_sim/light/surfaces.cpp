@@ -109,17 +109,17 @@ std::uint32_t Surfaces::make(const Key& key) {
 std::vector<Site> Surfaces::sites(const Key& key, int per_side) const {
   const Lattice cells = lattice(static_cast<std::uint32_t>(key[0]), key[1]);
   const double scale = key[5] == 1 ? 1.0 / kFine : 1.0;
-  std::vector<Site> all;
-  Site found;
+  std::array<Site, kSitesPerSide * kSitesPerSide> found;
+  std::size_t count = 0;
   for (int i = 0; i < per_side * per_side; ++i) {
     const double u = (key[3] + (i % per_side + 0.5) / per_side) * scale;
     const double v = (key[4] + (i / per_side + 0.5) / per_side) * scale;
     if (site(cells, key, cells.low.x() + u * cells.step.x(), cells.low.y() + v * cells.step.y(),
-             found)) {
-      all.push_back(found);
+             found[count])) {
+      ++count;
     }
   }
-  return all;
+  return {found.begin(), found.begin() + count};
 }
 
 /// Casts rays at the shape alone, straight along the face's axis.

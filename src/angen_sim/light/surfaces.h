@@ -41,6 +41,7 @@ class Surfaces {
   std::uint32_t at(std::uint32_t shape, const Vec3& point, const Vec3& normal);
 
   const Patch& operator[](std::uint32_t patch) const { return patches_[patch]; }
+  std::uint64_t serials() const { return serials_; }    // given so far, from 1 on
   std::size_t size() const { return patches_.size(); }  // numbers given so far, removed or not
 
   /// Forgets the patches of one shape, or those of it that may meet a box (m, world). Appends their

@@ -14,15 +14,18 @@ class AnyWiring : public Wiring {
   explicit AnyWiring(std::string kind) : kind_(std::move(kind)) {}
   std::string name() const override { return kind_; }
   std::string model() const override { return "model"; }
-  Vec3 gravity() const override { return {0.0, 0.0, -9.81}; }
   bool has_joint(const std::string&) const override { return true; }
+  std::vector<std::string> joint_names() const override { return {"joint"}; }
   JointRef joint(const std::string&) override { return {0}; }
   JointLimits limits(JointRef) const override { return {-1e16, 1e16}; }
   LinkRef link(const std::string&) override { return {0}; }
+  bool is_fixed(JointRef) const override { return false; }
   std::string child_of(JointRef) const override { return "link"; }
   Vec3 anchor(JointRef) const override { return Vec3::Zero(); }
   double mass(LinkRef) const override { return 1.0; }
+  Vec3 center(LinkRef) const override { return Vec3::Zero(); }
   LightRef light(const std::string&) override { return {0}; }
+  std::vector<std::string> collision_names() const override { return {"collision"}; }
   ContactRef collision(const std::string&) override { return {0}; }
   std::vector<SurfaceRef> surfaces(const std::string&) override { return {}; }
 
@@ -55,7 +58,10 @@ std::vector<ParamDoc> params_of(const std::string& library, const Plugin& plugin
   } catch (const Error&) {
     // It cannot do without something that nothing has; what it read until then is known.
   }
-  if (sensor) read_common(params, plugin.kind());
+  if (sensor) {
+    plugin.link_of(params);
+    read_common(params, plugin.kind());
+  }
   return params.docs();
 }
 

@@ -12,7 +12,7 @@ namespace angen {
 
 namespace {
 
-// What Gazebo's own plug-ins carry; whoever needs one of them reads it.
+// What Gazebo's own plug-ins carry; a plug-in that needs one of them reads it.
 const std::set<std::string> kAlwaysKnown = {
     "alwaysOn",  "updateRate",      "update_rate",    "topicName",   "frameName",
     "visualize", "bumperTopicName", "robotNamespace", "device_name",
@@ -67,7 +67,10 @@ const Element* Params::take(const std::string& path, const std::string& type,
   note(path, type, fallback, unit, doc);
   const std::vector<const Element*> found = all(path);
   if (found.size() > 1) {
-    throw Error(found[1]->source, "<" + path + "> is given twice, one is enough");
+    const std::string twice = "<" + path + "> is given twice";
+    if (!takes_first_) throw Error(found[1]->source, twice + ", one is enough");
+    warnings_.push_back(
+        {Diagnostic::Severity::kWarning, found[1]->source, twice + "; the first holds"});
   }
   return found.empty() ? nullptr : found[0];
 }
@@ -188,7 +191,12 @@ Nanoseconds Params::update_period() {
   for (const char* other : {"odometryRate", "updateRateHZ", "updateRate"}) {
     if (has(other)) path = other;
   }
-  const double rate = number(path, rate_, "Hz", "how often it publishes", {0.0, 1e6});
+  const Range rates{0.0, 1e6};
+  double rate = number(path, rate_, "Hz", "how often it publishes", rates);
+  if (rate == 0.0 && path != "update_rate" && has("update_rate")) {
+    path = "update_rate";
+    rate = number(path, rate_, "Hz", "how often it publishes", rates);
+  }
   if (rate > 0.0 && rate < kSlowest) {
     throw error(path, "<" + path + "> is " + number_text(rate) +
                           " Hz, must be 0 or >= " + number_text(kSlowest));

@@ -48,9 +48,12 @@ class Params {
   std::vector<std::string> texts(const std::string& path, const std::string& unit,
                                  const std::string& doc);
   /// <update_rate> (or the plug-in's <updateRate>, as Gazebo's plug-ins also call <updateRateHZ>
-  /// and <odometryRate>) in Hz as a period in ns; 0 or none = the kind's.
+  /// and <odometryRate>, where that is not 0) in Hz as a period in ns; 0 or none = the kind's.
   Nanoseconds update_period();
   bool has(const std::string& path) const;
+  /// From now on the first of a parameter that is given twice holds, with a warning, as in Gazebo;
+  /// otherwise that is an error.
+  void take_first() { takes_first_ = true; }
 
   /// Reads <noise_stddev>, returns it, and gives that field of the sensor's readings such noise.
   double noise(const std::string& field, const std::string& unit, const std::string& doc,
@@ -86,6 +89,7 @@ class Params {
   Element plugin_;
   Element sensor_;
   double rate_;
+  bool takes_first_ = false;
   std::set<std::string> read_;
   std::vector<ParamDoc> docs_;
   std::vector<Noise> noise_;

@@ -11,7 +11,7 @@
 #include "core/contact.h"
 #include "core/pose.h"
 #include "core/time.h"
-#include "light/lighting.h"
+#include "light/probe.h"
 #include "plugin/reading.h"
 #include "rays/scene.h"
 #include "render/pinhole_camera.h"
@@ -46,6 +46,12 @@ struct LinkView {
   Vec3 angular_velocity = Vec3::Zero();
   bool awake = false;
 };
+/// What the child of a joint gives its parent through it, in the last step: with motor and what is
+/// applied to the joint.
+struct JointWrench {
+  Vec3 force = Vec3::Zero();   // N, world axes
+  Vec3 torque = Vec3::Zero();  // N m, world axes, about the joint's anchor
+};
 /// What a joint is like: where it stops, and what it takes to move it.
 struct JointLimits {
   double lower = 0.0;
@@ -71,11 +77,16 @@ class View {
   virtual ~View() = default;
   virtual Nanoseconds time() const = 0;
   virtual Nanoseconds step() const = 0;
-  virtual Pose pose() const = 0;  // world; of the sensor, or of the device's model
+  virtual Vec3 gravity() const = 0;  // m/s^2
+  virtual Pose pose() const = 0;     // world; of the sensor, or of the device's model
   virtual JointView joint(JointRef joint) const = 0;
+  virtual JointWrench wrench(JointRef joint) const = 0;
   virtual LinkView link(LinkRef link) const = 0;
   /// Pairs that the wired collision takes part in; it is `first` in each.
   virtual std::vector<ContactPair> contacts(ContactRef collision) const = 0;
+  /// The same, and those that touched at any time in the last `period` (ns), as they last did.
+  virtual std::vector<ContactPair> contacts_within(ContactRef collision,
+                                                   Nanoseconds period) const = 0;
   /// The devices whose state has a field of that name and whose models stand in `within` (world,
   /// m), in the order in which they came into the world.
   virtual std::vector<DeviceView> devices(const std::string& field,
@@ -87,11 +98,13 @@ class View {
   }
   /// Nearest hits: hits[i] answers rays[i].
   virtual void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const = 0;
+  /// The albedo, r g b, 0 to 1, of a shape that a ray hit.
+  virtual Eigen::Vector3f reflectance(std::uint32_t shape) const = 0;
   /// Light at a place; see light::Lighting::measure. The first query in a world finds the light of
-  /// all lit lamps, which takes up to some seconds of CPU time: prepare_light(), some seconds
+  /// all lit lamps, which takes up to some seconds of CPU time: expect_light(), some seconds
   /// before, spreads that over ticks, as light that changes later is.
   virtual light::Sample illuminance(light::Probe& probe, const Pose& pose) const = 0;
-  virtual void prepare_light() const = 0;
+  virtual void expect_light(light::Probe& probe, const Pose& pose) const = 0;
   virtual double ambient_temperature() const = 0;  // K
   /// What is warmer or colder than the air, and where, as of now.
   virtual const std::vector<rays::WarmShape>& warm_shapes() const = 0;
@@ -115,15 +128,18 @@ class Wiring {
   virtual ~Wiring() = default;
   virtual std::string name() const = 0;   // of this instance: "bathroom1"
   virtual std::string model() const = 0;  // of the model it belongs to
-  virtual Vec3 gravity() const = 0;       // m/s^2
   virtual bool has_joint(const std::string& joint) const = 0;
+  virtual std::vector<std::string> joint_names() const = 0;
   virtual JointRef joint(const std::string& joint) = 0;
   virtual JointLimits limits(JointRef joint) const = 0;
-  virtual LinkRef link(const std::string& link) = 0;       // "" = the sensor's, or the first
-  virtual std::string child_of(JointRef joint) const = 0;  // name of the link it moves
-  virtual Vec3 anchor(JointRef joint) const = 0;           // m, in the model's frame
-  virtual double mass(LinkRef link) const = 0;             // kg
-  virtual LightRef light(const std::string& light) = 0;    // "" = the model's only one
+  virtual LinkRef link(const std::string& link) = 0;             // "" = the sensor's, or the first
+  virtual bool is_fixed(JointRef joint) const = 0;               // its links are one body
+  virtual std::string child_of(JointRef joint) const = 0;        // name of the link it moves
+  virtual Vec3 anchor(JointRef joint) const = 0;                 // m, in the model's frame
+  virtual double mass(LinkRef link) const = 0;                   // kg
+  virtual Vec3 center(LinkRef link) const = 0;                   // m, of its mass, in its own frame
+  virtual LightRef light(const std::string& light) = 0;          // "" = the model's only one
+  virtual std::vector<std::string> collision_names() const = 0;  // of the sensor's link
   virtual ContactRef collision(const std::string& collision) = 0;  // in the sensor's link
   /// The visuals of that name ("" = all, also as LINK/VISUAL) that a collision has its surface
   /// from; rays meet no others. Throws Error where a name has none.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include "light/lighting.h"
 
 /// Rooms of boxes and one-call measures that the tests of `light` share.
@@ -86,5 +88,23 @@ struct TwoRooms {
   Pose lit_sensor = facing(Vec3(0.05, 1.0, 2.0), Vec3::UnitX());
   Pose dark_sensor = facing(Vec3(8.05, 1.0, 2.0), -Vec3::UnitX());
 };
+
+/// A white room 4 x 4 x 2.6 m with a lamp below the ceiling and a sensor high on the wall x = 0.
+struct Room {
+  Room() {
+    add_room(scene, Vec3(0, 0, 0), Vec3(4, 4, 2.6), gray(0.7F));
+    scene.commit();
+    lamp = lighting.add(point_lamp(Vec3(2, 2, 2.2), 800.0), 1.0);
+  }
+  rays::Scene scene;
+  Lighting lighting{scene};
+  LampId lamp;
+  Pose sensor = facing(Vec3(0.05, 1.0, 2.0), Vec3::UnitX());
+};
+
+inline void expect_same_bits(const Sample& a, const Sample& b) {
+  EXPECT_EQ(a.illuminance, b.illuminance);
+  EXPECT_EQ(a.color, b.color);
+}
 
 }  // namespace angen::light::testing

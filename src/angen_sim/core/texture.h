@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/pose.h"
+
+namespace angen {
+
+/// Of an sRGB byte, 0..1.
+float linear(std::uint8_t srgb);
+
+/// A picture on a surface, in sRGB as its file has it.
+struct Texture {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<std::uint8_t> bytes;  // r g b, row after row from the top
+
+  /// Linear r g b, 0..1, at u to the right and v up from the lower left corner; it repeats beyond
+  /// 0..1. Between texels it is interpolated.
+  Eigen::Vector3f at(float u, float v) const;
+  /// The mean of all of it, linear.
+  Eigen::Vector3f mean() const;
+};
+
+}  // namespace angen
