@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -22,7 +23,7 @@ namespace angen::load {
 
 namespace {
 
-constexpr std::size_t kMaxAnswer = 256U << 20U;  // bytes: 5,000,000 triangles that share no corner
+constexpr std::size_t kMaxAnswer = 384U << 20U;  // bytes: 5,000,000 triangles that share no corner
 
 [[noreturn]] void not_started(const std::string& program, int error) {
   throw Error("cannot be read: " + program + " cannot be started (" + std::strerror(error) +
@@ -148,8 +149,10 @@ std::string mesh_program() {
       .string();
 }
 
-std::string convert_mesh(const std::string& program, const std::string& bytes,
-                         const std::string& extension, const Vec3& scale) {
+namespace {
+
+std::string answer_of(const std::string& program, const std::vector<std::string>& words,
+                      const std::string& bytes) {
   // A socket, as writing to a pipe that nobody reads would be a signal to this process.
   int sockets[2] = {-1, -1};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets) != 0) not_started(program, errno);
@@ -159,9 +162,7 @@ std::string convert_mesh(const std::string& program, const std::string& bytes,
   if (pipe2(ends, O_CLOEXEC) != 0) not_started(program, errno);
   const Descriptor from(ends[0]);
   Descriptor to(ends[1]);
-  Child child(start(program,
-                    {extension, hex_float(scale.x()), hex_float(scale.y()), hex_float(scale.z())},
-                    in.number(), to.number()));
+  Child child(start(program, words, in.number(), to.number()));
   in.close();
   to.close();
   std::string answer = exchange(socket, bytes, from.number());
@@ -178,34 +179,113 @@ std::string convert_mesh(const std::string& program, const std::string& bytes,
   throw Error("is damaged: reading it has crashed " + program);
 }
 
-TriangleMesh decode_mesh(const std::string& answer) {
-  std::uint64_t counts[2] = {0, 0};
-  constexpr std::size_t kHead = sizeof kMeshMagic + sizeof counts;
-  const bool headed =
-      answer.size() >= kHead && std::memcmp(answer.data(), kMeshMagic, sizeof kMeshMagic) == 0;
-  if (headed) std::memcpy(counts, answer.data() + sizeof kMeshMagic, sizeof counts);
-  constexpr std::size_t kVertex = sizeof(Eigen::Vector3f);
-  TriangleMesh mesh;
-  constexpr std::size_t kTriangle = sizeof mesh.triangles[0];
-  if (!headed || counts[0] > kMaxAnswer / kVertex || counts[1] > kMaxTriangles ||
-      answer.size() != kHead + counts[0] * kVertex + counts[1] * kTriangle) {
+/// Takes values from the front of an answer.
+class Reader {
+ public:
+  explicit Reader(const std::string& bytes) : bytes_(bytes) {}
+
+  template <class T>
+  void take(T* to, std::size_t count) {
+    if (count > (bytes_.size() - at_) / sizeof(T)) not_whole();
+    if (count > 0) std::memcpy(static_cast<void*>(to), bytes_.data() + at_, count * sizeof(T));
+    at_ += count * sizeof(T);
+  }
+  template <class T>
+  void take(std::vector<T>& to, std::uint64_t count) {
+    if (count > (bytes_.size() - at_) / sizeof(T)) not_whole();
+    to.resize(count);
+    take(to.data(), count);
+  }
+  void magic(const char (&wanted)[8]) {
+    char found[8] = {};
+    take(found, 8);
+    if (std::memcmp(found, wanted, 8) != 0) not_whole();
+  }
+  void end() const {
+    if (at_ != bytes_.size()) not_whole();
+  }
+  [[noreturn]] static void not_whole() {
     throw Error("cannot be read: angen_mesh gives no whole answer");
   }
-  if (counts[1] == 0) throw Error("holds no triangle");
-  mesh.vertices.resize(counts[0]);
-  mesh.triangles.resize(counts[1]);
-  const char* at = answer.data() + kHead;
-  std::memcpy(static_cast<void*>(mesh.vertices.data()), at, counts[0] * kVertex);
-  std::memcpy(mesh.triangles.data(), at + counts[0] * kVertex, counts[1] * kTriangle);
-  for (const Eigen::Vector3f& vertex : mesh.vertices) {
+
+ private:
+  const std::string& bytes_;
+  std::size_t at_ = 0;
+};
+
+void read_parts(Reader& reader, std::uint64_t count, std::size_t triangles, MeshLook& look) {
+  for (std::uint64_t i = 0; i < count; ++i) {
+    MeshPart part;
+    std::uint32_t numbers[2] = {0, 0};
+    reader.take(numbers, 2);
+    reader.take(part.color.data(), 4);
+    if (numbers[1] > kMaxTextureName) Reader::not_whole();
+    part.first = numbers[0];
+    part.texture.resize(numbers[1]);
+    reader.take(part.texture.data(), numbers[1]);
+    const std::uint32_t least = look.parts.empty() ? 0 : look.parts.back().first;
+    if (part.first < least || part.first > triangles || !part.color.allFinite()) {
+      Reader::not_whole();
+    }
+    look.parts.push_back(std::move(part));
+  }
+}
+
+}  // namespace
+
+std::string convert_mesh(const std::string& program, const MeshRequest& request) {
+  const Vec3& scale = request.scale;
+  std::vector<std::string> words = {request.extension,    hex_float(scale.x()),
+                                    hex_float(scale.y()), hex_float(scale.z()),
+                                    request.submesh,      request.center ? "1" : "0"};
+  if (!request.materials_name.empty()) {
+    words.push_back(std::to_string(request.materials.size()));
+    words.push_back(request.materials_name);
+  }
+  return answer_of(program, words, request.bytes + request.materials);
+}
+
+std::string convert_texture(const std::string& program, const std::string& bytes) {
+  return answer_of(program, {"texture"}, bytes);
+}
+
+Mesh decode_mesh(const std::string& answer) {
+  Reader reader(answer);
+  std::uint64_t counts[4] = {0, 0, 0, 0};
+  reader.magic(kMeshMagic);
+  reader.take(counts, 4);
+  Mesh mesh;
+  TriangleMesh& made = mesh.triangles;
+  if (counts[1] > kMaxTriangles || (counts[2] != 0 && counts[2] != counts[1])) Reader::not_whole();
+  reader.take(made.vertices, counts[0]);
+  reader.take(made.triangles, counts[1]);
+  reader.take(mesh.look.corners, counts[2]);
+  read_parts(reader, counts[3], made.triangles.size(), mesh.look);
+  reader.end();
+  if (made.triangles.empty()) throw Error("holds no triangle");
+  for (const Eigen::Vector3f& vertex : made.vertices) {
     if (!vertex.allFinite()) throw Error("has a vertex that is not finite");
   }
-  for (const auto& triangle : mesh.triangles) {
+  for (const auto& triangle : made.triangles) {
     for (const std::uint32_t corner : triangle) {
       if (corner >= counts[0]) throw Error("has a triangle with a corner that is not there");
     }
   }
   return mesh;
+}
+
+Texture decode_texture(const std::string& answer) {
+  Reader reader(answer);
+  std::uint64_t size[2] = {0, 0};
+  reader.magic(kTextureMagic);
+  reader.take(size, 2);
+  if (std::min(size[0], size[1]) < 1 || std::max(size[0], size[1]) > kMaxTextureSide) {
+    Reader::not_whole();
+  }
+  Texture texture{static_cast<std::uint32_t>(size[0]), static_cast<std::uint32_t>(size[1]), {}};
+  reader.take(texture.bytes, 3 * size[0] * size[1]);
+  reader.end();
+  return texture;
 }
 
 }  // namespace angen::load

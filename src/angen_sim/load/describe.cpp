@@ -6,6 +6,7 @@
 #include "load/light.h"
 #include "load/material.h"
 #include "load/sdf.h"
+#include "load/surface.h"
 #include "load/values.h"
 #include "load/xml.h"
 
@@ -57,8 +58,8 @@ void read_surface(const Element& element, desc::Collision& collision) {
 
 // `part` once for each shape of its geometry: several are called NAME_0, NAME_1, …
 template <class Part>
-void add_shapes(const Element& element, const Pose& pose, Part part, Session& session,
-                std::vector<Part>& to) {
+std::vector<PlacedShape> add_shapes(const Element& element, const Pose& pose, Part part,
+                                    Session& session, std::vector<Part>& to) {
   const std::vector<PlacedShape> shapes = shapes_of(*element.child("geometry"), pose, session);
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     part.name = name_of(element) + (shapes.size() == 1 ? "" : "_" + std::to_string(i));
@@ -66,6 +67,7 @@ void add_shapes(const Element& element, const Pose& pose, Part part, Session& se
     part.pose = shapes[i].pose;
     to.push_back(part);
   }
+  return shapes;
 }
 
 void add_collisions(const Element& element, const Pose& pose, Session& session, desc::Link& link) {
@@ -98,7 +100,45 @@ void add_visuals(const Element& element, const Pose& pose, Session& session, des
   desc::Visual visual;
   visual.material = material_of(element, session);
   visual.temperature = temperature_of(element);
-  add_shapes(element, pose, visual, session, link.visuals);
+  const std::vector<PlacedShape> shapes = add_shapes(element, pose, visual, session, link.visuals);
+  if (element.child("material") != nullptr) return;
+  paint(shapes.back(), element.source, session, link.visuals.back().material);
+}
+
+// Where a <camera> of several is on its sensor.
+Pose pose_of(const Element& camera) {
+  Pose pose;
+  const Element* given = camera.child("pose");
+  if (given == nullptr) return pose;
+  const std::vector<double> v = numbers_of(*given, 6);
+  pose.position = {v[0], v[1], v[2]};
+  pose.rotation = from_rpy(v[3], v[4], v[5]);
+  return pose;
+}
+
+// A multicamera is as many cameras, each with its topics below its name. As in Gazebo, only the
+// right one of a pair has a baseline.
+std::vector<desc::Sensor> sensors_of(const Element& element, const Pose& pose, Session& session) {
+  const desc::Sensor all = sensor_of(element, pose, session);
+  if (all.type != "multicamera") return {all};
+  std::vector<desc::Sensor> sensors;
+  for (const Element& camera : element.children) {
+    if (camera.name != "camera") continue;
+    desc::Sensor one = all;
+    const std::string name = name_of(camera);
+    one.name = all.name + "_" + name;
+    one.type = "camera";
+    one.pose = pose * pose_of(camera);
+    remove_children(one.element, "camera");
+    one.element.children.push_back(camera);
+    const std::string above = child_text(all.plugin_element, "cameraName");
+    set_child(one.plugin_element, "cameraName", above + (above.empty() ? "" : "/") + name);
+    if (name.find("right") == std::string::npos) {
+      remove_children(one.plugin_element, "hackBaseline");
+    }
+    sensors.push_back(std::move(one));
+  }
+  return sensors;
 }
 
 desc::Link link_of(const Element& element, const std::string& scope, const Context& context) {
@@ -109,6 +149,9 @@ desc::Link link_of(const Element& element, const std::string& scope, const Conte
   link.inertial = inertial_of(element, context.never_moves, context.session);
   link.gravity = child_flag(element, "gravity", true);
   link.kinematic = child_flag(element, "kinematic", false);
+  if (element.child("self_collide") != nullptr) {
+    link.self_collide = child_flag(element, "self_collide", false);
+  }
   const auto place = [&](const Element& part) {
     return context.frames.part_pose(part, link.name, scope);
   };
@@ -118,7 +161,9 @@ desc::Link link_of(const Element& element, const std::string& scope, const Conte
     } else if (part.name == "visual") {
       add_visuals(part, place(part), context.session, link);
     } else if (part.name == "sensor") {
-      link.sensors.push_back(sensor_of(part, place(part), context.session));
+      for (desc::Sensor& sensor : sensors_of(part, place(part), context.session)) {
+        link.sensors.push_back(std::move(sensor));
+      }
     } else if (part.name == "light") {
       link.lights.push_back(light_of(part, place(part), context.session));
     }

@@ -15,6 +15,8 @@ std::vector<desc::Model> describe_models(const std::vector<Element>& models, Ses
 /// The <inertial> of a link; the unit mass and moment where there is none. An impossible one throws
 /// Error, or is a warning and replaced where the link `never_moves`.
 desc::Inertial inertial_of(const Element& link, bool never_moves, Session& session);
+/// Whether a link that moves may have it.
+bool is_possible(const desc::Inertial& inertial);
 
 /// A checked <sensor>; `pose` is where it stands in its link.
 desc::Sensor sensor_of(const Element& sensor, const Pose& pose, Session& session);
@@ -32,6 +34,9 @@ void merge_hinges(desc::Model& model, Session& session);
 
 /// An <actor> as a model that the person plug-in drives. Throws Error.
 desc::Model describe_actor(const Element& actor, Session& session);
+
+/// The <physics> that a <world> is stepped by, null where it has none.
+const Element* chosen_physics(const Element& world);
 
 /// Physics, gravity and scene out of a checked <world>.
 void read_settings(const Element& world, desc::World& to, Session& session);

@@ -5,6 +5,7 @@
 #include "load/check.h"
 #include "load/cost.h"
 #include "load/describe.h"
+#include "load/gazebo_model.h"
 #include "load/ignored.h"
 #include "load/tolerance.h"
 #include "load/xml.h"
@@ -112,6 +113,8 @@ std::vector<desc::Model> describe_entries(std::vector<Entry>& entries, Session& 
     model.name = name_of(element);
     model.source = entry.original.source;
     model.tolerant = marked_strict(entry.original) == false;
+    hold_measured_joints(model);
+    if (model.tolerant) add_bumper_defaults(model);
     model.xml = print_xml(entry.original);
     note_ignored(element, session);
     if (holds_include(entry.original)) model.expanded_xml = print_xml(element);

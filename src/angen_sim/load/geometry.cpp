@@ -5,6 +5,7 @@
 #include "core/limits.h"
 #include "core/text.h"
 #include "load/search.h"
+#include "load/surface.h"
 #include "load/values.h"
 #include "load/xml.h"
 
@@ -35,11 +36,9 @@ Shape plane(const Element& element, Pose& pose) {
   return shape;
 }
 
-Shape mesh(const Element& element, Session& session) {
-  Shape shape;
-  if (const Element* part = element.child("submesh")) {
-    throw Error(part->source, "<submesh> is not supported; write that part to a file of its own");
-  }
+PlacedShape mesh(const Element& element, const Pose& pose, Session& session) {
+  PlacedShape placed{{}, pose};
+  Shape& shape = placed.shape;
   const Element& uri = *element.child("uri");
   shape.mesh_scale = vector_of(element, "scale", Vec3::Ones());
   if (shape.mesh_scale.cwiseAbs().minCoeff() < 1e-12) {
@@ -49,12 +48,26 @@ Shape mesh(const Element& element, Session& session) {
     shape.mesh_file = need_uri(uri.text, "mesh", uri.source, session);
   } catch (const Error& error) {
     forgive_missing(element, error, session);  // nothing stands in its place
-    return shape;
+    return placed;
   }
   session.sources.will_be_read(shape.mesh_file);
-  shape.mesh = read_mesh(shape.mesh_file, shape.mesh_scale, uri.source);
+  MeshSource source{shape.mesh_file, shape.mesh_scale};
+  if (const Element* part = element.child("submesh")) {
+    source.submesh = child_text(*part, "name");
+    source.center = child_flag(*part, "center", false);
+    if (source.submesh.empty()) throw Error(part->source, "<submesh> has no <name>; give it one");
+  }
+  if (const std::string materials = materials_of(source.path); !materials.empty()) {
+    source.materials = find_beside(materials, "materials", source.path, uri.source, session);
+    if (!source.materials.empty()) session.sources.will_be_read(source.materials);
+  }
+  const ReadMesh file = read_mesh(source, uri.source);
+  shape.mesh = file.triangles;
   shape.type = Shape::Type::kMesh;
-  return shape;
+  placed.look = file.look;
+  placed.file = source.path;
+  if (!source.submesh.empty()) shape.mesh_file.clear();  // a viewer would show all of it
+  return placed;
 }
 
 Shape heightmap(const Element& element, Pose& pose, Session& session) {
@@ -74,7 +87,6 @@ Shape shape_of(const Element& geometry, Pose& pose, Session& session) {
   const Element& element = geometry.children.at(0);
   Shape shape;
   if (element.name == "plane") return plane(element, pose);
-  if (element.name == "mesh") return mesh(element, session);
   if (element.name == "heightmap") return heightmap(element, pose, session);
   if (element.name == "box") {
     shape.type = Shape::Type::kBox;
@@ -113,6 +125,8 @@ std::vector<PlacedShape> shapes_of(const Element& geometry, const Pose& pose, Se
   std::vector<PlacedShape> placed;
   if (element.name == "image") {
     placed = image_boxes(element, pose, session);
+  } else if (element.name == "mesh") {
+    placed.push_back(mesh(element, pose, session));
   } else {
     placed.push_back({{}, pose});
     placed[0].shape = shape_of(geometry, placed[0].pose, session);

@@ -84,11 +84,9 @@ desc::Inertial read_inertial(const Element& link, bool never_moves, Session& ses
     const auto value = [&](const char* name, double fallback) {
       return child_number(*inertia, name, fallback);
     };
-    const double xy = value("ixy", 0.0);
-    const double xz = value("ixz", 0.0);
-    const double yz = value("iyz", 0.0);
-    inertial.moment << value("ixx", 1.0), xy, xz, xy, value("iyy", 1.0), yz, xz, yz,
-        value("izz", 1.0);
+    const double xx = value("ixx", 1.0), yy = value("iyy", 1.0), zz = value("izz", 1.0);
+    const double xy = value("ixy", 0.0), xz = value("ixz", 0.0), yz = value("iyz", 0.0);
+    inertial.moment << xx, xy, xz, xy, yy, yz, xz, yz, zz;
     if (inertial.mass > 0.0) at = inertia->source;
   }
   const std::string wrong = why_impossible(inertial);
@@ -104,6 +102,8 @@ desc::Inertial read_inertial(const Element& link, bool never_moves, Session& ses
 }
 
 }  // namespace
+
+bool is_possible(const desc::Inertial& inertial) { return why_impossible(inertial).empty(); }
 
 desc::Inertial inertial_of(const Element& link, bool never_moves, Session& session) {
   if (!never_moves) return read_inertial(link, never_moves, session);

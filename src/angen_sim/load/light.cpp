@@ -113,6 +113,7 @@ desc::Light light_of(const Element& element, const Pose& pose, Session& session)
   read_color(element, light);
   light.intensity = child_number(element, "intensity", light.intensity);
   light.cast_shadows = child_flag(element, "cast_shadows", light.cast_shadows);
+  if (const Element* level = element.child("angen:level")) light.level = number_of(*level);
   if (const Element* attenuation = element.child("attenuation")) {
     light.range = child_number(*attenuation, "range", light.range);
   }

@@ -141,7 +141,7 @@ bool is_sensor(const std::string& what) {
     const auto wanted = [](const Element& e) { return e.name == "sensor"; };
     return wanted(root) || (root.name == "sdf" && lone_child(root, wanted) != nullptr);
   } catch (const Error&) {
-    return false;  // whoever reads it as a model will say what is wrong
+    return false;  // reading it as a model says what is wrong
   }
 }
 

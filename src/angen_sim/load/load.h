@@ -78,7 +78,7 @@ desc::Sensor sensor(const std::string& what, const std::string& name, const Pose
 bool is_light(const std::string& what);
 
 /// A <light> element as a light of the world's own, with `pose` before its own; `name` replaces its
-/// own unless empty.
+/// own unless empty. It is a lamp.
 desc::Light light(const std::string& what, const std::string& name, const Pose& pose);
 
 /// A sensor that was attached to a link at run time.
@@ -87,18 +87,40 @@ struct AttachedSensor {
   desc::Sensor sensor;
 };
 
+/// A light as it is now.
+struct LightState {
+  const desc::Light* light = nullptr;
+  std::string link{};  // of a model, that it is in
+  Element lamp{};      // parameters of its own lamp as children, where they are to be written
+  std::string sdf{};   // that it was spawned from; "" for one that the world's text has
+};
+
 /// What has changed since a model was described.
 struct ModelState {
   const desc::Model* model = nullptr;
   Pose pose;                                                                 // in the world
   std::vector<std::pair<std::string, std::vector<double>>> joint_positions;  // rad or m, by name
   std::vector<AttachedSensor> attached{};
-  std::vector<Element> plugins{};  // of devices, with the parameters that they have now
+  std::vector<Element> plugins{};     // of devices, with the parameters that they have now
+  std::vector<LightState> lights{};   // whose lamps have other parameters than in the text
+  const desc::Model* read = nullptr;  // as its text has it, where that differs
 };
 
-/// The world as SDF 1.9 that loads again: its own settings, every live model where it is now,
-/// sensors that were attached to links (their model is then written out instead of included),
-/// plug-ins with the parameters that they have now, and a <state> with poses and joint positions.
+/// Of a world, what may have changed.
+struct WorldState {
+  desc::Physics physics;
+  Vec3 gravity;
+  std::vector<LightState> lights;  // all of the world's own
+};
+
+/// The world as SDF 1.9 that loads again: its settings as `now` has them, every live model where it
+/// is now, sensors that were attached to links, inertials, gravity, lights and joints that were
+/// changed (their model is then written out instead of included), plug-ins and lamps with the
+/// parameters that they have now, the world's own lights, and a <state> with poses and joint
+/// positions.
+std::string save(const desc::World& world, const std::vector<ModelState>& models,
+                 const WorldState& now);
+/// The same with the settings that the world was read with.
 std::string save(const desc::World& world, const std::vector<ModelState>& models);
 
 }  // namespace angen::load

@@ -23,6 +23,17 @@ const Element* light_in(const Element& root) {
   return lone ? &root.children[0] : nullptr;
 }
 
+Element read_light(const std::string& what, const std::string& name, Session& session) {
+  const Element root = parse_xml(what, kLightText);
+  const Element* found = light_in(root);
+  if (found == nullptr) throw Error(root.source, "a <light> is wanted here");
+  Element element = *found;
+  straighten_numbers(element, session);
+  upgrade(element, kLightVersion, session);
+  if (!name.empty()) set_attribute(element, "name", name);
+  return element;
+}
+
 }  // namespace
 
 bool is_light(const std::string& what) {
@@ -30,25 +41,27 @@ bool is_light(const std::string& what) {
   try {
     return light_in(parse_xml(what, kLightText)) != nullptr;
   } catch (const Error&) {
-    return false;  // whoever reads it as a model will say what is wrong
+    return false;  // reading it as a model says what is wrong
   }
 }
 
 desc::Light light(const std::string& what, const std::string& name, const Pose& pose) {
   if (!name.empty()) check_name(name, "the light", {});
   if (const std::string problem = pose_problem(pose); !problem.empty()) throw Error(problem);
-  const Element root = parse_xml(what, kLightText);
-  const Element* found = light_in(root);
-  if (found == nullptr) throw Error(root.source, "a <light> is wanted here");
-  Element element = *found;
   const SearchPaths nowhere;
   Session session{nowhere};
-  straighten_numbers(element, session);
-  upgrade(element, kLightVersion, session);
-  if (!name.empty()) set_attribute(element, "name", name);
+  Element element = read_light(what, name, session);
   check_name(name_of(element), "<light>", element.source);
   check_part(element, session);
-  return light_of(element, pose * child_pose(element), session);
+  desc::Light light = light_of(element, pose * child_pose(element), session);
+  if (!light.level) light.level = 100.0;
+  return light;
+}
+
+Element light_element(const std::string& what, const std::string& name) {
+  const SearchPaths nowhere;
+  Session session{nowhere};
+  return read_light(what, name, session);
 }
 
 }  // namespace angen::load

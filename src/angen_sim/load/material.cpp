@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "load/surface.h"
 #include "load/values.h"
 
 namespace angen::load {
@@ -79,11 +80,14 @@ desc::Material material_of(const Element& visual, Session& session) {
   if (const Element* given = visual.child("material")) {
     const Element* script = given->child("script");
     const Element* name = script == nullptr ? nullptr : script->child("name");
-    if (const Element* diffuse = given->child("diffuse")) {
+    const bool scripted = script != nullptr && paint_by_script(*script, session, material);
+    if (!material.textures.empty()) {
+      // SDF's colors would only shade it.
+    } else if (const Element* diffuse = given->child("diffuse")) {
       material.diffuse = color_of(*diffuse);
     } else if (const Element* ambient = given->child("ambient")) {
       material.diffuse = color_of(*ambient);
-    } else if (name != nullptr) {
+    } else if (name != nullptr && !scripted) {
       const auto found = scripts().find(name->text);
       if (found != scripts().end()) {
         material.diffuse = found->second;

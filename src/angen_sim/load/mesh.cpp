@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <map>
@@ -27,59 +28,124 @@ std::string scale_text(const Vec3& scale) {
   return number_text(scale.x()) + "|" + number_text(scale.y()) + "|" + number_text(scale.z());
 }
 
-TriangleMesh import(const std::string& path, const Vec3& scale, const Source& at) {
-  const std::string extension = extension_of(path);
-  if (extension != "dae" && extension != "stl" && extension != "obj") {
-    throw Error(at, "mesh " + path + " is of an unknown kind; known are .dae, .stl and .obj");
+std::string first_line_of(const std::string& bytes, const std::string& word) {
+  for (std::size_t at = 0; at < bytes.size();) {
+    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
+    if (bytes.compare(at, word.size() + 1, word + " ") == 0) {
+      return trimmed(bytes.substr(at + word.size(), end - at - word.size()));
+    }
+    at = end + 1;
   }
+  return "";
+}
+
+std::string read_small(const std::string& path, const std::string& what, const Source& at) {
   std::error_code failed;
   if (fs::file_size(path, failed) > kMaxFileBytes || failed) {
-    throw Error(at, "mesh " + path + " cannot be read or is larger than 64 MB");
+    throw Error(at, what + " " + path + " cannot be read or is larger than 64 MB");
   }
-  const std::string bytes = read_file(path);
+  return read_file(path);
+}
+
+Mesh import(const MeshSource& source, const Source& at) {
+  MeshRequest request{extension_of(source.path), source.scale, source.submesh, source.center};
+  if (request.extension != "dae" && request.extension != "stl" && request.extension != "obj") {
+    throw Error(at,
+                "mesh " + source.path + " is of an unknown kind; known are .dae, .stl and .obj");
+  }
+  request.bytes = read_small(source.path, "mesh", at);
+  if (!source.materials.empty()) {
+    request.materials_name = fs::path(source.materials).filename().string();
+    request.materials = read_small(source.materials, "materials", at);
+  }
+  const auto mark = [](const std::string& bytes) {
+    return std::to_string(bytes.size()) + "|" + std::to_string(hash_bytes(bytes));
+  };
   try {
     const std::string program = mesh_program();
-    const std::string key = extension + "|" + scale_text(scale) + "|" +
-                            std::to_string(bytes.size()) + "|" + std::to_string(hash_bytes(bytes));
+    const std::string key = request.extension + "|" + scale_text(source.scale) + "|" +
+                            mark(request.bytes) + "|" + mark(request.materials) + "|" +
+                            (request.center ? "centered " : "") + request.submesh;
     if (const std::optional<std::string> kept = recall_mesh(key)) return decode_mesh(*kept);
-    const std::string answer = convert_mesh(program, bytes, extension, scale);
-    TriangleMesh mesh = decode_mesh(answer);
+    const std::string answer = convert_mesh(program, request);
+    Mesh mesh = decode_mesh(answer);
     keep_mesh(key, answer);
     return mesh;
   } catch (const Error& problem) {
-    throw Error(at, "mesh " + path + " " + problem.what());
+    throw Error(at, "mesh " + source.path + " " + problem.what());
   }
 }
 
-/// The meshes that somebody uses, by file and scale.
-struct Kept {
-  std::mutex mutex;
-  std::map<std::string, std::weak_ptr<const TriangleMesh>> meshes;
+Texture import_texture(const std::string& path) {
+  const std::string bytes = read_small(path, "texture", {});
+  const std::string key =
+      "texture|" + std::to_string(bytes.size()) + "|" + std::to_string(hash_bytes(bytes));
+  try {
+    if (const std::optional<std::string> kept = recall_mesh(key)) return decode_texture(*kept);
+    const std::string answer = convert_texture(mesh_program(), bytes);
+    Texture texture = decode_texture(answer);
+    keep_mesh(key, answer);
+    return texture;
+  } catch (const Error& problem) {
+    throw Error("texture " + path + " " + problem.what());
+  }
+}
+
+std::string changed_at(const std::string& path) {
+  std::error_code failed;
+  return std::to_string(fs::last_write_time(path, failed).time_since_epoch().count());
+}
+
+/// What somebody uses, by file and what was made of it.
+template <class T>
+class Kept {
+ public:
+  template <class Make>
+  std::shared_ptr<const T> get(const std::string& key, const Make& make) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      for (auto it = all_.begin(); it != all_.end();) {
+        it = it->second.expired() ? all_.erase(it) : std::next(it);
+      }
+      const auto found = all_.find(key);
+      if (found != all_.end()) {
+        if (auto kept = found->second.lock()) return kept;
+      }
+    }
+    auto made = std::make_shared<const T>(make());
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (auto meanwhile = all_[key].lock()) return meanwhile;
+    all_[key] = made;
+    return made;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::weak_ptr<const T>> all_;
 };
 
 }  // namespace
 
-std::shared_ptr<const TriangleMesh> read_mesh(const std::string& path, const Vec3& scale,
-                                              const Source& at) {
-  static Kept kept;
+std::string materials_of(const std::string& path) {
   std::error_code failed;
-  const auto changed = fs::last_write_time(path, failed).time_since_epoch().count();
-  const std::string key = path + "|" + std::to_string(changed) + "|" + scale_text(scale);
-  {
-    const std::lock_guard<std::mutex> lock(kept.mutex);
-    for (auto it = kept.meshes.begin(); it != kept.meshes.end();) {
-      it = it->second.expired() ? kept.meshes.erase(it) : std::next(it);
-    }
-    const auto found = kept.meshes.find(key);
-    if (found != kept.meshes.end()) {
-      if (auto mesh = found->second.lock()) return mesh;
-    }
+  if (extension_of(path) != "obj" || fs::file_size(path, failed) > kMaxFileBytes || failed) {
+    return "";
   }
-  auto mesh = std::make_shared<const TriangleMesh>(import(path, scale, at));
-  const std::lock_guard<std::mutex> lock(kept.mutex);
-  if (auto meanwhile = kept.meshes[key].lock()) return meanwhile;
-  kept.meshes[key] = mesh;
-  return mesh;
+  return first_line_of(read_file(path), "mtllib");
+}
+
+ReadMesh read_mesh(const MeshSource& source, const Source& at) {
+  static Kept<Mesh> kept;
+  const std::string key = source.path + "|" + changed_at(source.path) + "|" + source.materials +
+                          "|" + changed_at(source.materials) + "|" + scale_text(source.scale) +
+                          (source.center ? "|centered|" : "|") + source.submesh;
+  const std::shared_ptr<const Mesh> mesh = kept.get(key, [&] { return import(source, at); });
+  return {{mesh, &mesh->triangles}, {mesh, &mesh->look}};
+}
+
+std::shared_ptr<const Texture> read_texture(const std::string& path) {
+  static Kept<Texture> kept;
+  return kept.get(path + "|" + changed_at(path), [&] { return import_texture(path); });
 }
 
 }  // namespace angen::load

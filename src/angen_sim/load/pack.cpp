@@ -7,6 +7,8 @@
 #include <cereal/types/vector.hpp>
 #include <sstream>
 
+#include "core/mesh_look.h"
+#include "core/texture.h"
 #include "load/bounded_input.h"
 
 // The bindings name every member of a struct: one that is added does not compile before it is
@@ -85,9 +87,29 @@ void serialize(A& a, angen::Shape& v) {
 }
 
 template <class A>
+void serialize(A& a, angen::Texture& v) {
+  auto& [width, height, bytes] = v;
+  a(width, height);
+  serialize_plain(a, bytes);
+}
+
+template <class A>
+void serialize(A& a, angen::MeshPart& v) {
+  auto& [first, color, texture] = v;
+  a(first, color, texture);
+}
+
+template <class A>
+void serialize(A& a, angen::MeshLook& v) {
+  auto& [parts, corners] = v;
+  a(parts);
+  serialize_plain(a, corners);
+}
+
+template <class A>
 void serialize(A& a, angen::desc::Material& v) {
-  auto& [diffuse, emissive] = v;
-  a(diffuse, emissive);
+  auto& [diffuse, emissive, look, textures] = v;
+  a(diffuse, emissive, look, textures);
 }
 
 template <class A>
@@ -117,9 +139,9 @@ void serialize(A& a, angen::desc::Inertial& v) {
 template <class A>
 void serialize(A& a, angen::desc::Light& v) {
   auto& [name, type, pose, diffuse, intensity, range, direction, inner_angle, outer_angle, width,
-         height, length, radius, half_angle, photometry, cast_shadows, source] = v;
+         height, length, radius, half_angle, photometry, cast_shadows, level, source] = v;
   a(name, type, pose, diffuse, intensity, range, direction, inner_angle, outer_angle, width, height,
-    length, radius, half_angle, photometry, cast_shadows, source);
+    length, radius, half_angle, photometry, cast_shadows, level, source);
 }
 
 template <class A>
@@ -130,10 +152,10 @@ void serialize(A& a, angen::desc::Sensor& v) {
 
 template <class A>
 void serialize(A& a, angen::desc::Link& v) {
-  auto& [name, pose, inertial, gravity, kinematic, upright, collisions, visuals, sensors, lights,
-         source] = v;
-  a(name, pose, inertial, gravity, kinematic, upright, collisions, visuals, sensors, lights,
-    source);
+  auto& [name, pose, inertial, gravity, kinematic, upright, self_collide, collisions, visuals,
+         sensors, lights, source] = v;
+  a(name, pose, inertial, gravity, kinematic, upright, self_collide, collisions, visuals, sensors,
+    lights, source);
 }
 
 template <class A>

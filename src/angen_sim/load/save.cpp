@@ -3,6 +3,7 @@
 #include "core/text.h"
 #include "load/describe.h"
 #include "load/load.h"
+#include "load/rewrite.h"
 #include "load/values.h"
 #include "load/xml.h"
 
@@ -10,27 +11,8 @@ namespace angen::load {
 
 namespace {
 
-Element made(const std::string& name, const std::string& text = "") {
-  Element element;
-  element.name = name;
-  element.text = text;
-  return element;
-}
-
-// The link of a written-out model; "child::link" stands in the nested model `child`.
-Element* find_link(Element& model, const std::string& name) {
-  const std::size_t at = name.find("::");
-  for (Element& child : model.children) {
-    if (at == std::string::npos && child.name == "link" && name_of(child) == name) return &child;
-    if (at != std::string::npos && child.name == "model" && name_of(child) == name.substr(0, at)) {
-      return find_link(child, name.substr(at + 2));
-    }
-  }
-  return nullptr;
-}
-
 void attach(Element& model, const AttachedSensor& attached) {
-  Element* link = find_link(model, attached.link);
+  Element* link = find_part(model, "link", attached.link);
   if (link == nullptr) {
     throw Error("sensor '" + attached.sensor.name + "' is attached to link '" + attached.link +
                 "', which model '" + name_of(model) + "' does not have");
@@ -76,14 +58,19 @@ void put_plugin(Element& model, Element plugin, bool person) {
 
 Element written(const ModelState& state) {
   const desc::Model& model = *state.model;
-  const bool written_out = !state.attached.empty() && !model.expanded_xml.empty();
+  const bool changed = !state.attached.empty() || !state.lights.empty() || state.read != nullptr;
+  const bool written_out = changed && !model.expanded_xml.empty();
   Element element = parse_xml(written_out ? model.expanded_xml : model.xml, model.name);
   if (element.name == "include") {
     set_child(element, "name", model.name);
   } else {
     set_attribute(element, "name", model.name);
   }
+  if (state.read != nullptr) write_changes(*state.read, model, element);
   for (const AttachedSensor& attached : state.attached) attach(element, attached);
+  for (const LightState& light : state.lights) {
+    if (Element* link = find_part(element, "link", light.link)) write_lamp(light, *link);
+  }
   for (const Element& plugin : state.plugins) put_plugin(element, plugin, is_person(model));
   // An actor's own pose is where its trajectory's coordinates begin; <state> says where it is.
   if (is_person(model)) return element;
@@ -93,11 +80,12 @@ Element written(const ModelState& state) {
 
 // A joint that is pushed a little into its stop is saved at the stop.
 Element joint_state(const desc::Joint& joint, const std::vector<double>& positions) {
-  Element element = made("joint");
+  Element element = element_of("joint");
   set_attribute(element, "name", joint.name);
   for (std::size_t i = 0; i < std::min(positions.size(), joint.axes.size()); ++i) {
     const desc::JointAxis& axis = joint.axes[i];
-    Element angle = made("angle", number_text(std::clamp(positions[i], axis.lower, axis.upper)));
+    Element angle =
+        element_of("angle", number_text(std::clamp(positions[i], axis.lower, axis.upper)));
     set_attribute(angle, "axis", std::to_string(i));
     element.children.push_back(std::move(angle));
   }
@@ -105,9 +93,9 @@ Element joint_state(const desc::Joint& joint, const std::vector<double>& positio
 }
 
 Element model_state(const ModelState& state) {
-  Element element = made("model");
+  Element element = element_of("model");
   set_attribute(element, "name", state.model->name);
-  element.children.push_back(made("pose", pose_text(state.pose)));
+  element.children.push_back(element_of("pose", pose_text(state.pose)));
   for (const auto& [name, positions] : state.joint_positions) {
     for (const desc::Joint& joint : state.model->joints) {
       if (joint.name != name || joint.axes.empty()) continue;
@@ -120,15 +108,24 @@ Element model_state(const ModelState& state) {
 }  // namespace
 
 std::string save(const desc::World& world, const std::vector<ModelState>& models) {
+  WorldState read{world.physics, world.gravity, {}};
+  for (const desc::Light& light : world.lights) read.lights.push_back({&light});
+  return save(world, models, read);
+}
+
+std::string save(const desc::World& world, const std::vector<ModelState>& models,
+                 const WorldState& now) {
   Element saved = parse_xml(world.xml, world.name);
-  Element states = made("state");
+  write_settings(world, now, saved);
+  write_lights(world, now.lights, saved);
+  Element states = element_of("state");
   set_attribute(states, "world_name", world.name);
   for (const ModelState& state : models) {
     saved.children.push_back(written(state));
     if (!state.model->is_static) states.children.push_back(model_state(state));
   }
   if (!states.children.empty()) saved.children.push_back(std::move(states));
-  Element root = made("sdf");
+  Element root = element_of("sdf");
   set_attribute(root, "version", "1.9");
   root.children.push_back(std::move(saved));
   return "<?xml version=\"1.0\"?>\n" + print_xml(root);

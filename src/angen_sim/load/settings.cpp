@@ -7,17 +7,6 @@ namespace angen::load {
 
 namespace {
 
-const Element* chosen_physics(const Element& world) {
-  const Element* chosen = nullptr;
-  for (const Element& child : world.children) {
-    if (child.name != "physics") continue;
-    const std::string* wanted = child.attribute("default");
-    const bool is_default = wanted != nullptr && (*wanted == "true" || *wanted == "1");
-    if (chosen == nullptr || is_default) chosen = &child;
-  }
-  return chosen;
-}
-
 void read_physics(const Element& element, desc::Physics& physics, Session& session) {
   const std::string* type = element.attribute("type");
   if (type != nullptr && *type != "ode" && *type != "ignored") {
@@ -51,6 +40,17 @@ void read_physics(const Element& element, desc::Physics& physics, Session& sessi
 }
 
 }  // namespace
+
+const Element* chosen_physics(const Element& world) {
+  const Element* chosen = nullptr;
+  for (const Element& child : world.children) {
+    if (child.name != "physics") continue;
+    const std::string* wanted = child.attribute("default");
+    const bool is_default = wanted != nullptr && (*wanted == "true" || *wanted == "1");
+    if (chosen == nullptr || is_default) chosen = &child;
+  }
+  return chosen;
+}
 
 void read_settings(const Element& world, desc::World& to, Session& session) {
   if (const Element* physics = chosen_physics(world)) {

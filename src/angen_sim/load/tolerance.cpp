@@ -18,7 +18,7 @@ bool is_own(const std::string& filename) {
   if (filename.find('/') != std::string::npos) return true;  // a path of this machine
   const fs::path library = filename;
   if (library.extension() == ".py") return true;  // registered by a Python program
-  if (library.string().rfind("libgazebo_ros_", 0) == 0) return false;
+  if (made_for_gazebo(library.string())) return false;
   fs::path catalog = library;
   catalog.replace_extension(".json");
   const std::vector<fs::path> folders = plugin_path();
@@ -33,11 +33,17 @@ bool is_own(const std::string& filename) {
 std::optional<bool> marked_strict(const Element& element) {
   const std::string* text = element.attribute(kStrict);
   if (text == nullptr) return std::nullopt;
+  if (*text == kGuessed) return false;
   if (*text != "true" && *text != "false") {
     throw Error(element.source,
                 std::string(kStrict) + " is '" + printable(*text) + "'; give true or false");
   }
   return *text == "true";
+}
+
+bool marked_guessed(const Element& element) {
+  const std::string* text = element.attribute(kStrict);
+  return text != nullptr && *text == kGuessed;
 }
 
 bool holds_own_plugin(const Element& element) {

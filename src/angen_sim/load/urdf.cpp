@@ -8,6 +8,7 @@
 
 #include "core/text.h"
 #include "load/describe.h"
+#include "load/gazebo_model.h"
 #include "load/sdf.h"
 #include "load/values.h"
 #include "load/xml.h"
@@ -185,6 +186,99 @@ void mend_plugins(const Element& robot, Element& root) {
   }
 }
 
+Element text_element(const std::string& name, const std::string& text, const Source& source) {
+  return {name, text, {}, {}, source};
+}
+
+// The joints of a <transmission>, with their hardware interfaces, which may stand in its actuators.
+std::vector<std::pair<std::string, std::string>> driven_by(const Element& transmission) {
+  std::string of_actuator;
+  for (const Element& child : transmission.children) {
+    if (child.name == "actuator") of_actuator = child_text(child, "hardwareInterface");
+  }
+  std::vector<std::pair<std::string, std::string>> driven;
+  for (const Element& joint : transmission.children) {
+    if (joint.name != "joint" || name_of(joint).empty()) continue;
+    const std::string own = child_text(joint, "hardwareInterface");
+    driven.emplace_back(name_of(joint), own.empty() ? of_actuator : own);
+  }
+  return driven;
+}
+
+// libsdformat drops transmissions: gazebo_ros_control's <plugin> gets them.
+void keep_transmissions(const Element& robot, Element& model) {
+  for (Element& plugin : model.children) {
+    const std::string* file = plugin.attribute("filename");
+    if (plugin.name != "plugin" || file == nullptr || *file != "libgazebo_ros_control.so") continue;
+    for (const Element& transmission : robot.children) {
+      if (transmission.name != "transmission") continue;
+      for (const auto& [joint, interface] : driven_by(transmission)) {
+        Element kept = text_element("transmission", "", transmission.source);
+        kept.children = {text_element("joint", joint, transmission.source),
+                         text_element("hardwareInterface", interface, transmission.source)};
+        plugin.children.push_back(std::move(kept));
+      }
+    }
+  }
+}
+
+// libsdformat would make one link of those that a force-torque sensor measures between.
+std::string with_measured_joints(const std::string& text, const Element& robot) {
+  std::string kept;
+  for (const Element& extension : robot.children) {
+    const Element* plugin = extension.name == "gazebo" ? extension.child("plugin") : nullptr;
+    const std::string* file = plugin == nullptr ? nullptr : plugin->attribute("filename");
+    if (file == nullptr || *file != kFtSensor) continue;
+    const std::string name = measured_joint(*plugin, name_of(robot));
+    for (const Element& joint : robot.children) {
+      const std::string* type = joint.name == "joint" ? joint.attribute("type") : nullptr;
+      if (type == nullptr || *type != "fixed" || name_of(joint) != name) continue;
+      Element preserve = text_element("gazebo", "", joint.source);
+      preserve.attributes = {{"reference", name}};
+      preserve.children = {text_element("preserveFixedJoint", "true", joint.source)};
+      kept += print_xml(preserve);
+    }
+  }
+  const std::size_t end = text.rfind("</robot");
+  return kept.empty() || end == std::string::npos ? text
+                                                  : text.substr(0, end) + kept + text.substr(end);
+}
+
+// It has a plug-in that makes it follow, or a transmission.
+bool is_led(const std::string& joint, const Element& robot, const Element& model) {
+  const auto follows = [&](const Element& plugin) {
+    return plugin.name == "plugin" && child_text(plugin, "mimicJoint") == joint;
+  };
+  const auto drives = [&](const Element& transmission) {
+    if (transmission.name != "transmission") return false;
+    const auto driven = driven_by(transmission);
+    return std::any_of(driven.begin(), driven.end(),
+                       [&](const auto& each) { return each.first == joint; });
+  };
+  return std::any_of(model.children.begin(), model.children.end(), follows) ||
+         std::any_of(robot.children.begin(), robot.children.end(), drives);
+}
+
+// libsdformat drops <mimic>: the plug-in for it stands in.
+void keep_mimics(const Element& robot, Element& model) {
+  for (const Element& joint : robot.children) {
+    const Element* mimic = joint.name == "joint" ? joint.child("mimic") : nullptr;
+    const std::string* leader = mimic == nullptr ? nullptr : mimic->attribute("joint");
+    if (leader == nullptr || is_led(name_of(joint), robot, model)) continue;
+    Element plugin = text_element("plugin", "", mimic->source);
+    plugin.attributes = {{"name", name_of(joint) + "_mimic"},
+                         {"filename", "libroboticsgroup_gazebo_mimic_joint_plugin.so"}};
+    plugin.children = {text_element("joint", *leader, mimic->source),
+                       text_element("mimicJoint", name_of(joint), mimic->source)};
+    for (const char* key : {"multiplier", "offset"}) {
+      if (const std::string* value = mimic->attribute(key)) {
+        plugin.children.push_back(text_element(key, *value, mimic->source));
+      }
+    }
+    model.children.push_back(std::move(plugin));
+  }
+}
+
 // What the conversion writes, and what <gazebo> elements add.
 std::set<std::string> names_in(const Element& robot) {
   std::set<std::string> names = {"model",
@@ -270,7 +364,7 @@ Element convert_urdf(const std::string& text, const Element& robot) {
   const Hush hush;
   const sdf::SDFPtr document = empty_document(names_in(robot));
   sdf::Errors errors;
-  if (!sdf::readString(text, document, errors) || !errors.empty()) {
+  if (!sdf::readString(with_measured_joints(text, robot), document, errors) || !errors.empty()) {
     const std::string why = errors.empty() ? hush.messages() : errors.front().Message();
     throw Error(robot.source, "this URDF cannot be converted to SDF: " + why.substr(0, 300));
   }
@@ -280,6 +374,10 @@ Element convert_urdf(const std::string& text, const Element& robot) {
     if (child.name == "joint") keep_safety(child, root);
   }
   mend_plugins(robot, root);
+  if (Element* model = find_child(root, "model")) {
+    keep_transmissions(robot, *model);
+    keep_mimics(robot, *model);
+  }
   return root;
 }
 

@@ -26,18 +26,16 @@ namespace {
 
 // Models and settings of a <world>, includes written out.
 struct Parts {
-  Element own;       // the world without models, as its file has it
-  Element settings;  // the same with included lights written out
+  Element settings;  // the world without models, included lights written out
   std::vector<Entry> entries;
   std::vector<Element> states;
 };
 
 Parts split(const Element& world, Session& session) {
   Parts parts;
-  parts.own.name = world.name;
-  parts.own.source = world.source;
-  parts.own.attributes = world.attributes;
-  parts.settings = parts.own;
+  parts.settings.name = world.name;
+  parts.settings.source = world.source;
+  parts.settings.attributes = world.attributes;
   for (const Element& child : world.children) {
     if (child.name == "state") {
       parts.states.push_back(child);
@@ -51,7 +49,6 @@ Parts split(const Element& world, Session& session) {
       continue;
     }
     if (child.name != "model" && child.name != "actor" && child.name != "include") {
-      parts.own.children.push_back(child);
       parts.settings.children.push_back(child);
       continue;
     }
@@ -63,7 +60,6 @@ Parts split(const Element& world, Session& session) {
       continue;
     }
     if (entry.expanded.name == "light") {
-      parts.own.children.push_back(child);
       parts.settings.children.push_back(entry.expanded);
     } else {
       parts.entries.push_back(std::move(entry));
@@ -84,12 +80,12 @@ bool is_tolerant(const Element& given, const Parts& parts, const SearchPaths& pa
 Parts split_and_decide(const Element& given, Session& session) {
   const bool strict = session.paths.strictness == Strictness::kStrict;
   session.tolerant = !marked_strict(given).value_or(strict);
-  session.guessed = !marked_strict(given) && session.paths.strictness == Strictness::kAuto;
+  const bool guesses = !marked_strict(given) && session.paths.strictness == Strictness::kAuto;
+  session.guessed = guesses || marked_guessed(given);
   Parts parts = split(given, session);
   session.decide(is_tolerant(given, parts, session.paths));
   if (!session.tolerant) return parts;
-  set_attribute(parts.own, kStrict, "false");
-  set_attribute(parts.settings, kStrict, "false");
+  set_attribute(parts.settings, kStrict, session.guessed ? kGuessed : "false");
   return parts;
 }
 
@@ -164,7 +160,7 @@ desc::World describe_world(const Element& sdf, Session& session) {
   world.tolerant = session.tolerant;
   session.tolerant = session.tolerant || holds_tolerant_model(parts);
   world.name = name_of(given);
-  world.xml = print_xml(parts.own);
+  world.xml = print_xml(parts.settings);
   read_settings(parts.settings, world, session);
   for (const Element& child : parts.settings.children) {
     if (child.name == "plugin") world.plugins.push_back(plugin_of(child));

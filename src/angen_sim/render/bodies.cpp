@@ -1,46 +1,51 @@
 #include "render/bodies.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
 #include "rays/query.h"
 #include "render/tessellate.h"
+#include "render/wrap.h"
 
 namespace angen::render {
 
 namespace {
 
-Eigen::AlignedBox3d bounds_of(const Ground& ground) {
-  const Eigen::AlignedBox3d& own = ground.tree->bounds();
-  const Vec3 center = ground.rotation * own.center() + ground.position;
-  const Vec3 half = ground.rotation.cwiseAbs() * own.sizes() / 2;
+constexpr float kSeenFrom = 0.5F;  // opacity; glass and the like are not seen
+
+Eigen::AlignedBox3d bounds_of(const PlacedHeightmap& heightmap) {
+  const Eigen::AlignedBox3d& own = heightmap.tree->bounds();
+  const Vec3 center = heightmap.rotation * own.center() + heightmap.position;
+  const Vec3 half = heightmap.rotation.cwiseAbs() * own.sizes() / 2;
   return {center - half, center + half};
 }
 
 void bound(const RTCBoundsFunctionArguments* args) {
-  *args->bounds_o = rays::padded(bounds_of(*static_cast<const Ground*>(args->geometryUserPtr)));
+  *args->bounds_o =
+      rays::padded(bounds_of(*static_cast<const PlacedHeightmap*>(args->geometryUserPtr)));
 }
 
-bool meet(const Ground& ground, RTCRayN* rays, unsigned count, unsigned i, double& range,
-          std::uint32_t& triangle) {
+bool meet(const PlacedHeightmap& heightmap, RTCRayN* rays, unsigned count, unsigned i,
+          double& range, std::uint32_t& triangle) {
   const Vec3 origin(RTCRayN_org_x(rays, count, i), RTCRayN_org_y(rays, count, i),
                     RTCRayN_org_z(rays, count, i));
   const Vec3 direction(RTCRayN_dir_x(rays, count, i), RTCRayN_dir_y(rays, count, i),
                        RTCRayN_dir_z(rays, count, i));
-  const Eigen::Matrix3d back = ground.rotation.transpose();
-  return ground.tree->meet(back * (origin - ground.position), back * direction,
-                           RTCRayN_tnear(rays, count, i), RTCRayN_tfar(rays, count, i), range,
-                           triangle);
+  const Eigen::Matrix3d back = heightmap.rotation.transpose();
+  return heightmap.tree->meet(back * (origin - heightmap.position), back * direction,
+                              RTCRayN_tnear(rays, count, i), RTCRayN_tfar(rays, count, i), range,
+                              triangle);
 }
 
 void intersect(const RTCIntersectFunctionNArguments* args) {
-  const auto& ground = *static_cast<const Ground*>(args->geometryUserPtr);
+  const auto& heightmap = *static_cast<const PlacedHeightmap*>(args->geometryUserPtr);
   RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
   RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, args->N);
   for (unsigned i = 0; i < args->N; ++i) {
     double range = 0.0;
     std::uint32_t triangle = 0;
-    if (args->valid[i] == 0 || !meet(ground, rays, args->N, i, range, triangle)) continue;
+    if (args->valid[i] == 0 || !meet(heightmap, rays, args->N, i, range, triangle)) continue;
     RTCRayN_tfar(rays, args->N, i) = static_cast<float>(range);
     RTCHitN_primID(hits, args->N, i) = triangle;
     RTCHitN_geomID(hits, args->N, i) = args->geomID;
@@ -49,11 +54,11 @@ void intersect(const RTCIntersectFunctionNArguments* args) {
 }
 
 void occlude(const RTCOccludedFunctionNArguments* args) {
-  const auto& ground = *static_cast<const Ground*>(args->geometryUserPtr);
+  const auto& heightmap = *static_cast<const PlacedHeightmap*>(args->geometryUserPtr);
   for (unsigned i = 0; i < args->N; ++i) {
     double range = 0.0;
     std::uint32_t triangle = 0;
-    if (args->valid[i] == 0 || !meet(ground, args->ray, args->N, i, range, triangle)) continue;
+    if (args->valid[i] == 0 || !meet(heightmap, args->ray, args->N, i, range, triangle)) continue;
     RTCRayN_tfar(args->ray, args->N, i) = -std::numeric_limits<float>::infinity();
   }
 }
@@ -67,7 +72,7 @@ Patch::Patch(const std::vector<std::pair<const Body*, Pose>>& bodies)
   }
   rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
   attach_triangles();
-  attach_grounds();
+  attach_heightmaps();
   rtcCommitScene(scene_.get());
 }
 
@@ -84,12 +89,12 @@ void Patch::attach_triangles() {
   rtcAttachGeometryByID(scene_.get(), geometry.get(), 0);
 }
 
-void Patch::attach_grounds() {
-  for (std::size_t i = 0; i < grounds_.size(); ++i) {
+void Patch::attach_heightmaps() {
+  for (std::size_t i = 0; i < heightmaps_.size(); ++i) {
     const rays::Embree<RTCGeometry> geometry(
         rtcNewGeometry(rays::device(), RTC_GEOMETRY_TYPE_USER));
     rtcSetGeometryUserPrimitiveCount(geometry.get(), 1);
-    rtcSetGeometryUserData(geometry.get(), &grounds_[i]);
+    rtcSetGeometryUserData(geometry.get(), &heightmaps_[i]);
     rtcSetGeometryBoundsFunction(geometry.get(), bound, nullptr);
     rtcSetGeometryIntersectFunction(geometry.get(), intersect);
     rtcSetGeometryOccludedFunction(geometry.get(), occlude);
@@ -100,40 +105,71 @@ void Patch::attach_grounds() {
 
 Facet Patch::facet(std::uint32_t geometry, std::uint32_t triangle) const {
   if (geometry == 0) return facets_[triangle];
-  const Ground& ground = grounds_[geometry - 1];
-  return {(ground.rotation * ground.tree->normal(triangle)).cast<float>(), ground.finish};
+  const PlacedHeightmap& heightmap = heightmaps_[geometry - 1];
+  return {(heightmap.rotation * heightmap.tree->normal(triangle)).cast<float>(), heightmap.finish,
+          0};
 }
 
-void Patch::append_ground(const Surface& surface, const Pose& at) {
+void Patch::append_heightmap(const Surface& surface, const Pose& at) {
   auto tree = rays::HeightTree::of(surface.shape.heights);
   if (!tree) return;
-  grounds_.push_back({std::move(tree), at.rotation.normalized().toRotationMatrix(), at.position,
-                      static_cast<std::uint32_t>(finishes_.size())});
-  finishes_.push_back({surface.color, surface.emissive});
+  heightmaps_.push_back({std::move(tree), at.rotation.normalized().toRotationMatrix(), at.position,
+                         static_cast<std::uint32_t>(finishes_.size())});
+  finishes_.push_back({surface.color, surface.emissive});  // a texture's mean color
 }
 
 void Patch::append(const Surface& surface, const Pose& pose) {
   const Pose at = pose * surface.pose;
   if (surface.shape.type == Shape::Type::kHeightmap) {
-    append_ground(surface, at);
+    append_heightmap(surface, at);
     return;
   }
   const TriangleMesh mesh = tessellate(surface.shape);
   const Eigen::Matrix3d rotation = at.rotation.normalized().toRotationMatrix();
-  const auto first = static_cast<std::uint32_t>(vertices_.size());
-  const auto finish = static_cast<std::uint32_t>(finishes_.size());
-  finishes_.push_back({surface.color, surface.emissive});
   for (const Eigen::Vector3f& vertex : mesh.vertices) {
     vertices_.push_back((rotation * vertex.cast<double>() + at.position).cast<float>());
   }
-  for (const auto& t : mesh.triangles) {
+  const std::size_t parts = surface.look ? surface.look->parts.size() : 1;
+  for (std::size_t part = 0; part < parts; ++part) append_part(surface, mesh, part);
+}
+
+// Its vertices are the last ones.
+void Patch::append_part(const Surface& surface, const TriangleMesh& mesh, std::size_t part) {
+  Finish made{surface.color, surface.emissive};
+  std::size_t begin = 0, end = mesh.triangles.size();
+  if (surface.look) {
+    const std::vector<MeshPart>& parts = surface.look->parts;
+    begin = std::min<std::size_t>(parts[part].first, end);
+    if (part + 1 < parts.size()) end = std::min<std::size_t>(parts[part + 1].first, end);
+    if (parts[part].color.w() < kSeenFrom) return;
+    made.color = parts[part].color.head<3>();
+  }
+  const bool has_corners = !surface.look || !surface.look->corners.empty();
+  if (part < surface.textures.size() && has_corners) made.texture = surface.textures[part];
+  const auto first = static_cast<std::uint32_t>(vertices_.size() - mesh.vertices.size());
+  const auto finish = static_cast<std::uint32_t>(finishes_.size());
+  finishes_.push_back(made);
+  for (std::size_t i = begin; i < end; ++i) {
+    const auto& t = mesh.triangles[i];
     const Eigen::Vector3f& a = vertices_[first + t[0]];
     const Eigen::Vector3f normal = (vertices_[first + t[1]] - a).cross(vertices_[first + t[2]] - a);
     const float length = normal.norm();
     if (!(length > 0.0F) || !std::isfinite(length)) continue;  // nothing to see of a sliver
     triangles_.push_back({first + t[0], first + t[1], first + t[2]});
-    facets_.push_back({normal / length, finish});
+    facets_.push_back({normal / length, finish, static_cast<std::uint32_t>(corners_.size())});
+    if (!made.texture) continue;
+    corners_.push_back(surface.look ? surface.look->corners[i]
+                                    : wrapped(surface.shape, mesh.vertices[t[0]],
+                                              mesh.vertices[t[1]], mesh.vertices[t[2]]));
   }
+}
+
+Eigen::Vector3f Patch::color(const Facet& facet, float u, float v) const {
+  const Finish& finish = finishes_[facet.finish];
+  if (!finish.texture) return finish.color;
+  const std::array<float, 6>& at = corners_[facet.corners];
+  const float w = 1.0F - u - v;
+  return finish.texture->at(w * at[0] + u * at[2] + v * at[4], w * at[1] + u * at[3] + v * at[5]);
 }
 
 Stand::Stand() : seen_(rtcNewScene(rays::device())), opaque_(rtcNewScene(rays::device())) {

@@ -3,6 +3,8 @@
 #include <memory>
 #include <vector>
 
+#include "core/mesh_look.h"
+#include "core/texture.h"
 #include "rays/device.h"
 #include "rays/height_tree.h"
 #include "render/scene.h"
@@ -13,15 +15,17 @@ namespace angen::render {
 struct Facet {
   Eigen::Vector3f normal;
   std::uint32_t finish = 0;
+  std::uint32_t corners = 0;  // where its picture lies, of one with a texture
 };
 
 struct Finish {
   Eigen::Vector3f color;
   Eigen::Vector3f emissive;
+  std::shared_ptr<const Texture> texture{};  // in place of the color
 };
 
 /// A heightmap in its patch.
-struct Ground {
+struct PlacedHeightmap {
   std::shared_ptr<const rays::HeightTree> tree;
   Eigen::Matrix3d rotation;
   Vec3 position;
@@ -37,19 +41,23 @@ class Patch {
   /// Of what a ray met: geometry 0 holds the triangles, each further one is a heightmap.
   Facet facet(std::uint32_t geometry, std::uint32_t triangle) const;
   const Finish& finish(const Facet& facet) const { return finishes_[facet.finish]; }
+  /// The color at u v of the triangle, as Embree counts them.
+  Eigen::Vector3f color(const Facet& facet, float u, float v) const;
   RTCScene scene() const { return scene_.get(); }
 
  private:
   void append(const Surface& surface, const Pose& pose);
-  void append_ground(const Surface& surface, const Pose& at);
+  void append_part(const Surface& surface, const TriangleMesh& mesh, std::size_t part);
+  void append_heightmap(const Surface& surface, const Pose& at);
   void attach_triangles();
-  void attach_grounds();
+  void attach_heightmaps();
 
   std::vector<Eigen::Vector3f> vertices_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<Facet> facets_;
-  std::vector<Ground> grounds_;
+  std::vector<PlacedHeightmap> heightmaps_;
   std::vector<Finish> finishes_;
+  std::vector<std::array<float, 6>> corners_;  // u v of those of triangles with textures
   rays::Embree<RTCScene> scene_;
 };
 

@@ -3,7 +3,7 @@
 #include <map>
 #include <tuple>
 
-#include "light/lighting.h"
+#include "light/lamp.h"
 #include "rays/device.h"
 
 namespace angen::render {

@@ -1,6 +1,7 @@
 #include "render/scene.h"
 
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "core/slots.h"
@@ -27,6 +28,23 @@ class Eye {
     ahead_ = rotation.col(0);
     right_ = -rotation.col(1) / camera.focal();
     down_ = -rotation.col(2) / camera.focal();
+    for (int x = 0; x < camera.width + kTile; ++x) {
+      columns_.push_back(ahead_ + (x - camera.center_x()) * right_);
+    }
+  }
+
+  /// What is the same in all tiles.
+  void begin(RTCRayHit16& rays) const {
+    for (int i = 0; i < kLanes; ++i) {
+      rays.ray.org_x[i] = origin_.x();
+      rays.ray.org_y[i] = origin_.y();
+      rays.ray.org_z[i] = origin_.z();
+      rays.ray.tnear[i] = static_cast<float>(camera_.near);
+      rays.ray.time[i] = 0.0F;
+      rays.ray.mask[i] = UINT32_MAX;
+      rays.ray.id[i] = 0;
+      rays.ray.flags[i] = 0;
+    }
   }
 
   void aim(int column, int row, int* valid, RTCRayHit16& rays) const {
@@ -34,30 +52,30 @@ class Eye {
       const int x = column + i % kTile;
       const int y = row + i / kTile;
       valid[i] = x < camera_.width && y < camera_.height ? -1 : 0;
-      const Eigen::Vector3f direction =
-          (ahead_ + (x - camera_.center_x()) * right_ + (y - camera_.center_y()) * down_)
-              .cast<float>();
-      rays.ray.org_x[i] = origin_.x();
-      rays.ray.org_y[i] = origin_.y();
-      rays.ray.org_z[i] = origin_.z();
+      const Eigen::Vector3f direction = toward(x, y).cast<float>();
       rays.ray.dir_x[i] = direction.x();
       rays.ray.dir_y[i] = direction.y();
       rays.ray.dir_z[i] = direction.z();
-      rays.ray.tnear[i] = static_cast<float>(camera_.near);
       rays.ray.tfar[i] = static_cast<float>(camera_.far);
-      rays.ray.time[i] = 0.0F;
-      rays.ray.mask[i] = UINT32_MAX;
-      rays.ray.id[i] = 0;
-      rays.ray.flags[i] = 0;
       rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
   }
 
  private:
+  Vec3 toward(int column, int row) const {
+    double y = row - camera_.center_y();
+    if (camera_.distortion.none()) return columns_[static_cast<std::size_t>(column)] + y * down_;
+    double x = column - camera_.center_x();
+    const double focal = camera_.focal();
+    camera_.distortion.undistort(x / focal, y / focal, x, y);
+    return ahead_ + x * focal * right_ + y * focal * down_;
+  }
+
   const PinholeCamera& camera_;
   Eigen::Vector3f origin_;
   Vec3 ahead_, right_, down_;
+  std::vector<Vec3> columns_;  // the directions at the height of the axis
 };
 
 bool met(const RTCRayHit16& rays, int i) { return rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID; }
@@ -66,12 +84,34 @@ Eigen::Vector3f direction_of(const RTCRay16& ray, int i) {
   return {ray.dir_x[i], ray.dir_y[i], ray.dir_z[i]};
 }
 
+bool equal(const PinholeCamera& a, const PinholeCamera& b) {
+  const auto numbers = [](const PinholeCamera& camera) {
+    const Distortion& d = camera.distortion;
+    return std::make_tuple(camera.width, camera.height, camera.horizontal_angle, camera.near,
+                           camera.far, d.k1, d.k2, d.p1, d.p2, d.k3);
+  };
+  return numbers(a) == numbers(b);
+}
+
+/// What the last picture in color met: cameras that have both ask for the depths next.
+struct LastPicture {
+  PinholeCamera camera;
+  Pose pose;
+  std::vector<float> depths;  // empty: none, or something has changed since
+};
+
+std::vector<float> no_depths(const PinholeCamera& camera) {
+  return std::vector<float>(static_cast<std::size_t>(camera.width) * camera.height,
+                            std::numeric_limits<float>::quiet_NaN());
+}
+
 /// Calls visit(column, row, valid, rays) for each tile, traced.
 template <class Visit>
 void trace(const PinholeCamera& camera, const Pose& pose, RTCScene scene, Visit&& visit) {
   const Eye eye(camera, pose);
   alignas(64) int valid[kLanes];
   alignas(64) RTCRayHit16 rays;
+  eye.begin(rays);
   for (int row = 0; row < camera.height; row += kTile) {
     for (int column = 0; column < camera.width; column += kTile) {
       eye.aim(column, row, valid, rays);
@@ -107,6 +147,7 @@ void gather(const Stand& stand, const int* valid, const RTCRayHit16& rays,
     if (tile.normal[i].dot(direction) > 0.0F) tile.normal[i] = -tile.normal[i];
     tile.through[i] = placed.shines_through;
     tile.finish[i] = &placed.patch->finish(facet);
+    tile.color[i] = placed.patch->color(facet, rays.hit.u[i], rays.hit.v[i]);
     tile.light[i] = ambient;
   }
 }
@@ -114,7 +155,7 @@ void gather(const Stand& stand, const int* valid, const RTCRayHit16& rays,
 void show(const Tile& tile, int i, std::uint8_t* pixel) {
   const Finish& finish = *tile.finish[i];
   for (int c = 0; c < 3; ++c) {
-    const float reflected = finish.color[c] * tile.light[i][c] / static_cast<float>(M_PI);
+    const float reflected = tile.color[i][c] * tile.light[i][c] / static_cast<float>(M_PI);
     pixel[c] = shown(reflected + kMiddleLuminance * finish.emissive[c]);
   }
 }
@@ -127,6 +168,7 @@ struct Scene::Impl {
   Reaches reaches;      // of lamps among the bodies that stand still
   bool new_set = true;  // bodies came or went
   bool moved = false;
+  LastPicture last;
 
   void rebuild() {
     stand.clear();
@@ -147,6 +189,7 @@ struct Scene::Impl {
 
   void prepare() {
     if (!new_set && !moved) return;
+    last.depths.clear();
     if (new_set) {
       rebuild();
     } else {
@@ -190,6 +233,8 @@ std::vector<std::uint8_t> Scene::colors(const PinholeCamera& camera, const Pose&
   std::vector<Eigen::AlignedBox3f> reaches;
   for (const light::Lit& lit : lamps) reaches.push_back(impl_->reaches.of(lit.lamp));
   Tile tile;
+  impl_->last = {camera, pose, no_depths(camera)};
+  std::vector<float>& depths = impl_->last.depths;
   trace(camera, pose, stand.seen(),
         [&](int column, int row, const int* valid, const RTCRayHit16& rays) {
           gather(stand, valid, rays, ambient, tile);
@@ -202,6 +247,7 @@ std::vector<std::uint8_t> Scene::colors(const PinholeCamera& camera, const Pose&
             const std::size_t at =
                 static_cast<std::size_t>(row + i / kTile) * camera.width + column + i % kTile;
             if (tile.valid[i] != 0) {
+              depths[at] = rays.ray.tfar[i];
               show(tile, i, &pixels[3 * at]);
             } else {
               for (int c = 0; c < 3; ++c) pixels[3 * at + c] = shown_as_is(ambience.background[c]);
@@ -213,8 +259,9 @@ std::vector<std::uint8_t> Scene::colors(const PinholeCamera& camera, const Pose&
 
 std::vector<float> Scene::depths(const PinholeCamera& camera, const Pose& pose) const {
   impl_->prepare();
-  std::vector<float> values(static_cast<std::size_t>(camera.width) * camera.height,
-                            std::numeric_limits<float>::quiet_NaN());
+  const LastPicture& last = impl_->last;
+  if (!last.depths.empty() && equal(last.camera, camera) && last.pose == pose) return last.depths;
+  std::vector<float> values = no_depths(camera);
   trace(camera, pose, impl_->stand.seen(),
         [&](int column, int row, const int* valid, const RTCRayHit16& rays) {
           for (int i = 0; i < kLanes; ++i) {

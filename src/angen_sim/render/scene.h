@@ -6,8 +6,15 @@
 
 #include "core/id.h"
 #include "core/shape.h"
-#include "light/lighting.h"
+#include "light/lamp.h"
 #include "render/pinhole_camera.h"
+
+namespace angen {
+
+struct MeshLook;
+struct Texture;
+
+}  // namespace angen
 
 /// What cameras see: color under the lamps' light, and depth.
 namespace angen::render {
@@ -19,6 +26,9 @@ struct Surface {
   Pose pose;                                           // in its body's frame
   Eigen::Vector3f color{0.7F, 0.7F, 0.7F};             // diffuse albedo, r g b, 0..1
   Eigen::Vector3f emissive = Eigen::Vector3f::Zero();  // 1: as bright as the middle of the range
+  std::shared_ptr<const MeshLook> look{};              // of a mesh's parts, in place of `color`
+  // Of the look's parts, or the one of the whole surface; they replace colors.
+  std::vector<std::shared_ptr<const Texture>> textures{};
 };
 
 struct Body {

@@ -18,6 +18,7 @@ struct alignas(64) Tile {
   Eigen::Vector3f light[kLanes];   // lx, r g b
   bool through[kLanes];            // lit from both sides
   const Finish* finish[kLanes];
+  Eigen::Vector3f color[kLanes];  // albedo
 };
 
 /// Adds what one lamp sends to each point.

@@ -147,7 +147,7 @@ TEST_F(HostileMesh, BytesAtRandomPlacesOfAMesh) {
     bad[at] = static_cast<char>(bad[at] ^ 0x15);
     const std::string file = folder_.write("bad.dae", bad);
     try {
-      read_mesh(file, Vec3::Ones(), {"w.world", 1});
+      read_mesh({file}, {"w.world", 1});
     } catch (const Error& error) {
       EXPECT_EQ(std::string(error.what()).find("w.world:1: mesh "), 0U) << error.what();
     }
@@ -165,8 +165,14 @@ TEST_F(HostileMesh, OpensNoFileThatItNames) {
       "<library_images><image id='i'><init_from>" + pipe +
           "</init_from></image>"
           "<image id='j'><init_from>file:///etc/passwd</init_from></image></library_images>");
-  EXPECT_EQ(read_mesh(folder_.write("m.obj", obj), Vec3::Ones(), {})->triangles.size(), 1U);
-  EXPECT_EQ(read_mesh(folder_.write("m.dae", dae), Vec3::Ones(), {})->triangles.size(), 1U);
+  EXPECT_EQ(read_mesh({folder_.write("m.obj", obj)}, {}).triangles->triangles.size(), 1U);
+  EXPECT_EQ(read_mesh({folder_.write("m.dae", dae)}, {}).triangles->triangles.size(), 1U);
+}
+
+MeshRequest request_of(const std::string& bytes, const std::string& extension) {
+  MeshRequest request{extension};
+  request.bytes = bytes;
+  return request;
 }
 
 /// Programs in the place of angen_mesh.
@@ -179,7 +185,7 @@ class Converter : public HostileMesh {
   }
   static std::string complaint_of(const std::string& program) {
     try {
-      decode_mesh(convert_mesh(program, "bytes", "stl", Vec3::Ones()));
+      decode_mesh(convert_mesh(program, request_of("bytes", "stl")));
     } catch (const Error& error) {
       return error.what();
     }
@@ -205,13 +211,32 @@ TEST_F(Converter, ThatEndsOrAnswersBadlyIsAnError) {
 
 TEST_F(Converter, AnAnswerWithCornersThatAreNotThereIsRefused) {
   const std::string answer =
-      convert_mesh(mesh_program(), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "obj", Vec3::Ones());
-  EXPECT_EQ(decode_mesh(answer).triangles.size(), 1U);
-  std::string bad = answer;
-  bad[bad.size() - 1] = '\x7f';
-  EXPECT_THROW(decode_mesh(bad), Error);
+      convert_mesh(mesh_program(), request_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "obj"));
+  EXPECT_EQ(decode_mesh(answer).triangles.triangles.size(), 1U);
+  const std::size_t corners = sizeof kMeshMagic + 4 * 8 + 3 * 12;
+  for (const std::size_t at : {std::size_t{15}, std::size_t{39}, corners + 11, corners + 15}) {
+    std::string bad = answer;
+    bad[at] = '\x7f';
+    EXPECT_THROW(decode_mesh(bad), Error) << at;
+  }
   EXPECT_THROW(decode_mesh(answer.substr(0, answer.size() - 1)), Error);
   EXPECT_THROW(decode_mesh(answer + "x"), Error);
+}
+
+TEST_F(Converter, PicturesThatAreDamagedOrTooLargeAreRefused) {
+  const auto complaint = [&](const std::string& bytes) -> std::string {
+    try {
+      decode_texture(convert_texture(mesh_program(), bytes));
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(complaint("").find("of an unknown kind"), std::string::npos);
+  EXPECT_NE(complaint("\xFF\xD8\xFF\xE0 and no more").find("is damaged"), std::string::npos);
+  std::string large("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x60\0\0\0\x60\0\x08\x02\0\0\0", 29);
+  EXPECT_NE(complaint(large + "\x11\x22\x33\x44"), "");
+  EXPECT_THROW(decode_texture("angtext1"), Error);
 }
 
 // The limit holds in angen_mesh itself: a small file that assimp would need gigabytes for.
@@ -225,7 +250,7 @@ TEST_F(Converter, MemoryIsLimited) {
   text.replace(text.find("0 1 2</p>"), 5, corners);
   text.insert(text.find("</visual_scene>"), node("n", kShape));
   try {
-    convert_mesh(mesh_program(), text, "dae", Vec3::Ones());
+    convert_mesh(mesh_program(), request_of(text, "dae"));
     ADD_FAILURE() << "converted";
   } catch (const Error& error) {
     EXPECT_STREQ(error.what(), kTooMuchMemory);

@@ -31,31 +31,34 @@ Eigen::Vector3f corner(const TriangleMesh& mesh, int index) {
 
 TEST(Mesh, ColladaZUpStaysAsItIs) {
   const Folder folder;
-  const auto mesh = read_mesh(folder.write("z.dae", collada("Z_UP", "1")), Vec3::Ones(), {});
+  const auto mesh =
+      read_mesh({folder.write("z.dae", collada("Z_UP", "1")), Vec3::Ones()}, {}).triangles;
   EXPECT_LT((corner(*mesh, 2) - Eigen::Vector3f(0, 2, 3)).norm(), 1e-5);
 }
 
 TEST(Mesh, ColladaYUpIsTurned) {
   const Folder folder;
-  const auto mesh = read_mesh(folder.write("y.dae", collada("Y_UP", "1")), Vec3::Ones(), {});
+  const auto mesh =
+      read_mesh({folder.write("y.dae", collada("Y_UP", "1")), Vec3::Ones()}, {}).triangles;
   EXPECT_LT((corner(*mesh, 2) - Eigen::Vector3f(0, -3, 2)).norm(), 1e-5);
 }
 
 TEST(Mesh, ColladaUnitIsApplied) {
   const Folder folder;
-  const auto mesh = read_mesh(folder.write("i.dae", collada("Z_UP", "0.01")), Vec3::Ones(), {});
+  const auto mesh =
+      read_mesh({folder.write("i.dae", collada("Z_UP", "0.01")), Vec3::Ones()}, {}).triangles;
   EXPECT_LT((corner(*mesh, 2) - Eigen::Vector3f(0, 0.02F, 0.03F)).norm(), 1e-6);
 }
 
 TEST(Mesh, StlIsScaled) {
   const Folder folder;
-  const auto mesh = read_mesh(folder.write("s.stl", kStl), {1.0, 2.0, 3.0}, {});
+  const auto mesh = read_mesh({folder.write("s.stl", kStl), {1.0, 2.0, 3.0}}, {}).triangles;
   EXPECT_LT((corner(*mesh, 2) - Eigen::Vector3f(0, 4, 9)).norm(), 1e-5);
 }
 
 TEST(Mesh, MirroringKeepsTheOutside) {
   const Folder folder;
-  const auto mesh = read_mesh(folder.write("s.stl", kStl), {-1.0, 1.0, 1.0}, {});
+  const auto mesh = read_mesh({folder.write("s.stl", kStl), {-1.0, 1.0, 1.0}}, {}).triangles;
   const auto normal =
       (corner(*mesh, 1) - corner(*mesh, 0)).cross(corner(*mesh, 2) - corner(*mesh, 0));
   EXPECT_GT(normal.z(), 0.0F);
@@ -64,9 +67,9 @@ TEST(Mesh, MirroringKeepsTheOutside) {
 TEST(Mesh, IsSharedWhileTheFileStays) {
   const Folder folder;
   const std::string file = folder.write("s.stl", kStl);
-  const auto first = read_mesh(file, Vec3::Ones(), {});
-  EXPECT_EQ(first, read_mesh(file, Vec3::Ones(), {}));
-  EXPECT_NE(first, read_mesh(file, {2.0, 2.0, 2.0}, {}));
+  const auto first = read_mesh({file, Vec3::Ones()}, {}).triangles;
+  EXPECT_EQ(first, read_mesh({file, Vec3::Ones()}, {}).triangles);
+  EXPECT_NE(first, read_mesh({file, {2.0, 2.0, 2.0}}, {}).triangles);
 }
 
 TEST(Mesh, BesideItsModelAndOnTheResourcePath) {
@@ -97,9 +100,9 @@ TEST(Mesh, BesideItsModelAndOnTheResourcePath) {
 
 TEST(Mesh, NoTrianglesOrUnknownKindIsAnError) {
   const Folder folder;
-  EXPECT_THROW(read_mesh(folder.write("x.blend", "x"), Vec3::Ones(), {}), Error);
-  EXPECT_THROW(read_mesh(folder.write("x.stl", ""), Vec3::Ones(), {}), Error);
-  EXPECT_THROW(read_mesh(folder.write("x.dae", "<COLLADA"), Vec3::Ones(), {}), Error);
+  EXPECT_THROW(read_mesh({folder.write("x.blend", "x"), Vec3::Ones()}, {}).triangles, Error);
+  EXPECT_THROW(read_mesh({folder.write("x.stl", ""), Vec3::Ones()}, {}).triangles, Error);
+  EXPECT_THROW(read_mesh({folder.write("x.dae", "<COLLADA"), Vec3::Ones()}, {}).triangles, Error);
 }
 
 }  // namespace

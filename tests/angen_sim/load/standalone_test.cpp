@@ -18,7 +18,7 @@ const std::string kPlate =
     "<sdf version='1.6'><model name='plate'><link name='l'><visual name='v'><geometry><mesh>"
     "<uri>plate.stl</uri></mesh></geometry></visual></link></model></sdf>";
 
-const std::string kWorld = R"(<sdf version='1.5'><world name='home' angen:strict='true'>
+const std::string kWorld = R"(<sdf version='1.5'><world name='home'>
   <gravity>0 0 -9.7</gravity>
   <include><uri>file://plate.sdf</uri><name>a</name><pose>1 2 0.1 0 0 0.3</pose></include>
   <model name='b'><pose relative_to='a'>0 0 1 0 0 0</pose><link name='l'/>

@@ -52,6 +52,24 @@ TEST(Tolerance, WhatAWorldSaysOfItselfHolds) {
   EXPECT_NE(error_of(wrong).find("give true or false"), std::string::npos);
 }
 
+TEST(Tolerance, AWorldThatWasGuessedToBeTolerantIsSoAgain) {
+  const std::string mesh =
+      "<model name='m'><link name='l'><visual name='v'><geometry><mesh><uri>model://nowhere/a.dae"
+      "</uri></mesh></geometry></visual></link></model>";
+  const std::string unknown = "<plugin name='p' filename='libnosuch.so'/>";
+  const desc::World guessed = read(in_world(unknown), with(Strictness::kAuto));
+  const desc::World given = read(in_world(unknown), with(Strictness::kTolerant));
+  for (const Strictness option : {Strictness::kAuto, Strictness::kStrict}) {
+    EXPECT_TRUE(read(save(guessed, {}), with(option)).tolerant);
+    EXPECT_TRUE(read(save(given, {}), with(option)).tolerant);
+  }
+  const auto with_mesh = [&](std::string saved) {
+    return saved.insert(saved.find("</world>"), mesh);
+  };
+  EXPECT_NE(error_of(with_mesh(save(guessed, {}))).find("nowhere/a.dae"), std::string::npos);
+  EXPECT_TRUE(warns(read(with_mesh(save(given, {}))).warnings, "nowhere/a.dae"));
+}
+
 TEST(Tolerance, AMissingModelOrMeshIsLeftOut) {
   const std::string text = in_world(
       "<include><uri>model://nowhere</uri></include><model name='m'><link name='l'>"
@@ -95,6 +113,14 @@ TEST(Tolerance, AStateOfWhatIsNotThereIsPassedOver) {
       "<model name='m'><pose>2 0 0 0 0 0</pose></model></state>");
   EXPECT_EQ(read(text, with(Strictness::kTolerant)).models[0].pose.position.x(), 2.0);
   EXPECT_NE(error_of(text).find("unknown model 'gone'"), std::string::npos);
+}
+
+TEST(Tolerance, AnyMomentOfInertiaThatIsNotANumberIsAnError) {
+  for (const std::string moment : {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}) {
+    const std::string error = error_of(
+        in_link("<inertial><inertia><" + moment + ">x</" + moment + "></inertia></inertial>"));
+    EXPECT_NE(error.find("<" + moment + ">"), std::string::npos) << error;
+  }
 }
 
 TEST(Tolerance, MinDepthOfASurfaceIsRead) {

@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "core/mesh_look.h"
+#include "core/texture.h"
+
 namespace angen::render {
 namespace {
 
@@ -85,6 +88,24 @@ TEST(Picture, ABoxCoversThePixelsOfThePinholeFormula) {
   }
 }
 
+TEST(Picture, DepthsAfterAPictureInColorAreThoseOfTheSceneNow) {
+  View view;
+  const BodyId wall = view.scene.add(body(box(1.0, 100.0, 100.0), at(3.5)));
+  const std::vector<float> alone = view.scene.depths(view.pinhole, view.camera);
+  view.color(0, 0, {}, kDim);
+  EXPECT_EQ(view.scene.depths(view.pinhole, view.camera), alone);
+  PinholeCamera narrow = view.pinhole;
+  narrow.far = 2.0;
+  EXPECT_TRUE(std::isnan(view.scene.depths(narrow, view.camera)[0]));
+  EXPECT_NEAR(view.scene.depths(view.pinhole, at(1.0))[0], 2.0, 1e-4);
+  view.color(0, 0, {}, kDim);
+  view.scene.move(wall, at(4.5));
+  EXPECT_NEAR(view.depth(0, 0), 4.0, 1e-4);
+  view.color(0, 0, {}, kDim);
+  view.scene.add(body(box(1.0, 100.0, 100.0), at(2.5)));
+  EXPECT_NEAR(view.depth(0, 0), 2.0, 1e-4);
+}
+
 TEST(Picture, DepthOfAWallIsAlongTheAxisNotTheRay) {
   View view;
   view.camera = {{1.0, 2.0, 3.0}, from_rpy(0.0, 0.0, M_PI_2)};
@@ -123,6 +144,68 @@ TEST(Picture, RoundShapesReachAsFarAsTheyShould) {
   view.scene.remove(cylinder);
   view.scene.add(body(round(Shape::Type::kCapsule, 0.3, 2.0), at(0.0)));
   EXPECT_NEAR(view.depth(160, 120), 3.7, 1e-3);
+}
+
+// Red and green above blue and white.
+std::shared_ptr<const Texture> four_colors() {
+  Texture texture{4, 4, {}};
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      const bool left = column < 2, top = row < 2;
+      for (const bool lit : {left == top, !left, !top}) texture.bytes.push_back(lit ? 255 : 0);
+    }
+  }
+  return std::make_shared<const Texture>(texture);
+}
+
+void expect_four_colors(const View& view) {
+  const int full = expected_byte(1.0, 2.5);
+  EXPECT_EQ(view.color(113, 73, {}, kDim), Eigen::Vector3i(full, 0, 0));
+  EXPECT_EQ(view.color(206, 73, {}, kDim), Eigen::Vector3i(0, full, 0));
+  EXPECT_EQ(view.color(113, 166, {}, kDim), Eigen::Vector3i(0, 0, full));
+  EXPECT_EQ(view.color(206, 166, {}, kDim), Eigen::Vector3i(full, full, full));
+}
+
+TEST(Picture, ATextureIsUprightOnASideOfABox) {
+  for (const double turn : {0.0, M_PI_2, M_PI, -M_PI_2}) {
+    View view;
+    Body crate = body(box(1.0, 1.0, 1.0), {{2.0, 0.0, 0.0}, from_rpy(0.0, 0.0, turn)});
+    crate.surfaces[0].textures = {four_colors()};
+    view.scene.add(crate);
+    expect_four_colors(view);
+  }
+}
+
+TEST(Picture, ATextureLiesOnAPlaneAsItsAxesDo) {
+  Shape shape;
+  shape.type = Shape::Type::kPlane;
+  shape.size = {1.0, 1.0, 0.0};
+  View view;
+  view.camera = {{0.0, 0.0, 1.5}, from_rpy(0.0, M_PI_2, M_PI_2)};  // looks down, y is up
+  Body floor = body(shape, at(0.0));
+  floor.surfaces[0].textures = {four_colors()};
+  view.scene.add(floor);
+  expect_four_colors(view);
+}
+
+TEST(Picture, PartsOfAMeshHaveTheirOwnColorAndTexture) {
+  auto mesh = std::make_shared<TriangleMesh>();
+  mesh->vertices = {{0, 1, -1}, {0, -1, -1}, {0, -1, 1}, {0, 1, 1}};
+  mesh->triangles = {{0, 2, 1}, {0, 3, 2}};
+  auto look = std::make_shared<MeshLook>();
+  look->parts = {{0, {0.25F, 0.5F, 1.0F, 1.0F}, ""}, {1, {1, 1, 1, 1}, "four.png"}};
+  look->corners = {{0, 0, 1, 1, 1, 0}, {0, 0, 0, 1, 1, 1}};
+  Body sheet = body(Shape{}, at(1.5));
+  sheet.surfaces[0].shape.type = Shape::Type::kMesh;
+  sheet.surfaces[0].shape.mesh = mesh;
+  sheet.surfaces[0].look = look;
+  sheet.surfaces[0].textures = {nullptr, four_colors()};
+  View view;
+  view.scene.add(sheet);
+  EXPECT_EQ(
+      view.color(200, 150, {}, kDim),
+      Eigen::Vector3i(expected_byte(0.25, 2.5), expected_byte(0.5, 2.5), expected_byte(1.0, 2.5)));
+  EXPECT_EQ(view.color(100, 60, {}, kDim), Eigen::Vector3i(expected_byte(1.0, 2.5), 0, 0));
 }
 
 TEST(Picture, LeftIsLeftAndUpIsUp) {
