@@ -28,7 +28,6 @@ class Builder {
   std::unique_ptr<ModelRecord> build() {
     record_ = std::make_unique<ModelRecord>();
     record_->name = model_.name;
-    record_->self_collide = model_.self_collide;
     for (std::size_t i = 0; i < model_.links.size(); ++i) index_.emplace(model_.links[i].name, i);
     check_links();
     group_links();
@@ -175,6 +174,7 @@ class Builder {
         if (!geom) continue;
         geom->serial = serial_++;
         geom->body = at.body;
+        geom->self_collides = link.self_collide.value_or(model_.self_collide);
         geom->in_body = at.in_body * collision.pose;
         at.body->geoms.push_back(geom.get());
         record_->geoms.push_back(std::move(geom));

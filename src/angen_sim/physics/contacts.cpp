@@ -6,22 +6,20 @@
 #include <utility>
 
 #include "core/time.h"
-#include "physics/boxes.h"
 #include "physics/reduce.h"
+#include "physics/touching.h"
 
 namespace angen::physics {
 
 namespace {
 
-constexpr std::size_t kMostFound = 64;  // requested of ODE
-constexpr double kSoftest = 1e-8;       // least CFM of a contact: keeps redundant points solvable
-constexpr double kBounceSpeed = 0.05;   // m/s, nothing bounces below it
-constexpr double kStickMu = 1e6;        // from here on nothing slides
+constexpr double kSoftest = 1e-8;      // least CFM of a contact: keeps redundant points solvable
+constexpr double kBounceSpeed = 0.05;  // m/s, nothing bounces below it
+constexpr double kStickMu = 1e6;       // from here on nothing slides
 constexpr std::size_t kManyJoints = 256;
 constexpr double kStopSteps = 2.0;   // what friction stops within so many steps does not slide
 constexpr double kLeastSlip = 1e-6;  // m/s
 constexpr double kLeastLoad = 1e-6;  // N
-constexpr double kApart = 1e-9;      // m, centers that are less apart coincide
 
 bool joined(const Body& a, const Body& b) {
   const Body& moving = a.dynamic() ? a : b;
@@ -65,68 +63,15 @@ void keep_direction(dContact& contact, const Geom& a, const Geom& b) {
   if (along.norm() > 1e-6) set_direction(contact, along.normalized());
 }
 
-// ODE's cylinders have no normal (NaN) where a center lies on an axis or two stand exactly side by
-// side: they are parted along the line between them, else the moving one upward.
-void mend_normals(const Geom& first, const Geom& second, dContactGeom* points, std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i) {
-    if (ode::vec(points[i].normal).allFinite()) continue;
-    Vec3 away =
-        ode::vec(dGeomGetPosition(first.ode.get())) - ode::vec(dGeomGetPosition(second.ode.get()));
-    if (away.norm() < kApart) away = Vec3(0.0, 0.0, first.body->dynamic() ? 1.0 : -1.0);
-    away.normalize();
-    for (int axis = 0; axis < 3; ++axis) points[i].normal[axis] = away[axis];
+/// Turned so that `geom`, one of the two, is the first.
+ContactPair seen_from(const Geom& geom, const Geom& first, const Geom& second,
+                      std::vector<ContactPoint> points) {
+  if (&first == &geom) return {first.name, second.name, std::move(points)};
+  for (ContactPoint& point : points) {
+    point.normal = -point.normal;
+    point.force = -point.force;
   }
-}
-
-/// The box in the world as one in the geom's own frame.
-Eigen::AlignedBox3d in_frame_of(const Geom& geom, const Aabb& box) {
-  const Pose to_own = (geom.body->at * geom.in_body).inverse();
-  const Vec3 half = to_own.rotation.toRotationMatrix().cwiseAbs() * (box.max - box.min) / 2;
-  const Vec3 center = to_own * Vec3((box.min + box.max) / 2);
-  return {center - half, center + half};
-}
-
-// None where ODE fails, at a degenerate triangle, say.
-std::size_t collide_geoms(dGeomID a, dGeomID b, dContactGeom* points) {
-  try {
-    return static_cast<std::size_t>(
-        dCollide(a, b, static_cast<int>(kMostFound), points, sizeof(dContactGeom)));
-  } catch (const ode::Failure&) {
-    return 0;
-  }
-}
-
-// A heightmap is ground: two of them do not touch.
-std::size_t collide_tiles(const Geom& first, const Geom& second, dContactGeom* points) {
-  if (first.tiles && second.tiles) return 0;
-  const Geom& ground = first.tiles ? first : second;
-  const Geom& other = first.tiles ? second : first;
-  std::array<dContactGeom, kMostFound> found;
-  std::size_t n = 0;
-  ground.tiles->each_in(in_frame_of(ground, other.box), [&](dTriMeshDataID mesh) {
-    dGeomTriMeshSetData(ground.tile.get(), mesh);
-    dGeomID a = first.tiles ? ground.tile.get() : first.ode.get();
-    dGeomID b = first.tiles ? second.ode.get() : ground.tile.get();
-    std::size_t count = collide_geoms(a, b, found.data());
-    mend_normals(first, second, found.data(), count);
-    count = reduce_points(found.data(), count);
-    if (n + count > kMostFound) n = reduce_points(points, n);
-    std::copy_n(found.begin(), count, points + n);
-    n += count;
-  });
-  return n;
-}
-
-std::size_t touching_points(const Geom& first, const Geom& second, dContactGeom* points) {
-  if (first.tiles || second.tiles) return collide_tiles(first, second, points);
-  dGeomID a = first.ode.get();
-  dGeomID b = second.ode.get();
-  if (dGeomGetClass(a) == dBoxClass && dGeomGetClass(b) == dBoxClass) {
-    return collide_boxes(a, b, points, kMostFound);
-  }
-  const std::size_t n = collide_geoms(a, b, points);
-  mend_normals(first, second, points, n);
-  return n;
+  return {second.name, first.name, std::move(points)};
 }
 
 }  // namespace
@@ -136,7 +81,7 @@ bool may_touch(const Geom& a, const Geom& b) {
   const Body& two = *b.body;
   if (&one == &two || (!one.dynamic() && !two.dynamic())) return false;
   if (one.model != two.model) return true;
-  return one.model->self_collide && !joined(one, two);
+  return a.self_collides && b.self_collides && !joined(one, two);
 }
 
 Contacts::Contacts(const desc::Physics& settings, const Vec3& gravity)
@@ -149,6 +94,7 @@ void Contacts::set(const desc::Physics& settings, const Vec3& gravity) {
   erp_ = settings.erp;
   cfm_ = std::max(settings.cfm, kSoftest);
   surface_layer_ = settings.contact_surface_layer;
+  fastest_ = settings.contact_max_correcting_vel;
 }
 
 void Contacts::use(dWorldID world) {
@@ -264,6 +210,7 @@ void Contacts::make_joint(const Pair& pair, std::size_t index) {
   s.soft_erp = erp_;
   s.soft_cfm = cfm_;
   set_friction(contact, pair);
+  double fastest = fastest_;
   const double bounce = std::min(a.restitution, b.restitution);
   if (bounce > 0.0) {
     s.mode |= dContactBounce;
@@ -276,11 +223,16 @@ void Contacts::make_joint(const Pair& pair, std::size_t index) {
     const double damping = a.damping.value_or(0.0) + b.damping.value_or(0.0);
     s.soft_erp = step_ / (step_ + damping * yield);
     s.soft_cfm = std::max(kSoftest, 1.0 / (step_ / yield + damping));
+    // In a step it gains this share of the speed of parting: a soft spring pushes as deep as it is.
+    const double share = step_ / s.soft_cfm * (inverse_mass(*a.body) + inverse_mass(*b.body));
+    fastest *= 1.0 + 1.0 / share;
   }
   if (a.min_depth || b.min_depth) {  // in place of the layer that ODE takes off all depths
     const double depth = std::max(a.min_depth.value_or(0.0), b.min_depth.value_or(0.0));
     contact.geom.depth += surface_layer_ - depth;
   }
+  const double deepest = surface_layer_ + fastest * step_ / s.soft_erp;
+  contact.geom.depth = std::min(contact.geom.depth, deepest);
   // ODE wants a moving body first, and the normal towards it.
   dBodyID one = a.body->ode.get();
   dBodyID two = b.body->ode.get();
@@ -314,6 +266,35 @@ void Contacts::finish() {
   } else {
     dJointGroupEmpty(group_.get());
   }
+}
+
+void Contacts::remember(std::int64_t tick) {
+  for (const Pair& pair : pairs_) {
+    for (auto [one, other] :
+         {std::pair(pair.first, pair.second), std::pair(pair.second, pair.first)}) {
+      if (!one->watched) continue;
+      one->recent[other->serial] = {tick,
+                                    seen_from(*one, *pair.first, *pair.second, points_of(pair))};
+    }
+  }
+}
+
+std::vector<ContactPair> Contacts::with_recent(Geom& geom, std::int64_t first,
+                                               std::vector<ContactPair> now) {
+  geom.watched = true;
+  const std::size_t current = now.size();
+  for (auto at = geom.recent.begin(); at != geom.recent.end();) {
+    if (at->second.tick < first) {
+      at = geom.recent.erase(at);
+      continue;
+    }
+    const ContactPair& pair = (at++)->second.pair;
+    const auto end = now.begin() + static_cast<std::ptrdiff_t>(current);
+    const bool touches = std::any_of(
+        now.begin(), end, [&](const ContactPair& each) { return each.second == pair.second; });
+    if (!touches) now.push_back(pair);
+  }
+  return now;
 }
 
 void Contacts::put_to_rest() {
@@ -360,15 +341,8 @@ std::vector<ContactPoint> Contacts::points_of(const Pair& pair) const {
 std::vector<ContactPair> Contacts::of(const Geom& geom) const {
   std::map<std::uint64_t, ContactPair> found;  // by the other's serial
   const auto add = [&](const Geom& first, const Geom& second, std::vector<ContactPoint> points) {
-    if (&first == &geom) {
-      found[second.serial] = {first.name, second.name, std::move(points)};
-      return;
-    }
-    for (ContactPoint& point : points) {
-      point.normal = -point.normal;
-      point.force = -point.force;
-    }
-    found[first.serial] = {second.name, first.name, std::move(points)};
+    found[&first == &geom ? second.serial : first.serial] =
+        seen_from(geom, first, second, std::move(points));
   };
   for (const Pair& pair : pairs_) {
     if (pair.first == &geom || pair.second == &geom)

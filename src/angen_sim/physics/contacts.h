@@ -10,7 +10,7 @@
 namespace angen::physics {
 
 /// True when two geoms are allowed to touch: not of one body, not both static, not joined, and of
-/// one model only if that collides with itself.
+/// one model only if both collide with their own.
 bool may_touch(const Geom& a, const Geom& b);
 
 /// What touches now: pairs of awake bodies, made anew in each step, and pairs that fell asleep.
@@ -43,6 +43,12 @@ class Contacts {
   void finish();
 
   const std::vector<Pair>& active() const { return pairs_; }
+
+  /// Notes for watched geoms what touches them in the step of this tick.
+  void remember(std::int64_t tick);
+  /// `now`, and what has touched the geom from tick `first` on; the geom is watched from now on.
+  static std::vector<ContactPair> with_recent(Geom& geom, std::int64_t first,
+                                              std::vector<ContactPair> now);
 
   /// Keeps those pairs of the last step whose bodies are all asleep now.
   void put_to_rest();
@@ -105,6 +111,7 @@ class Contacts {
   double erp_;
   double cfm_;
   double surface_layer_;  // m
+  double fastest_;        // m/s, at which what is too deep is parted
   ode::JointGroupHandle group_;
   std::size_t most_joints_ = 0;  // that group_ has held
   std::vector<Pair> pairs_;

@@ -54,7 +54,7 @@ struct World::Impl {
   Slots<LinkRecord, PhysicsLinkTag> links;
   Slots<Joint*, PhysicsJointTag> joints;
   std::unordered_map<std::string, const Geom*> geoms;  // by name
-  Slots<const Geom*, PhysicsCollisionTag> collisions;
+  Slots<Geom*, PhysicsCollisionTag> collisions;
   Grid grid;
   Contacts contacts;
   std::vector<Body*> awake;

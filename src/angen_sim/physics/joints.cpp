@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace angen::physics {
 
@@ -299,6 +300,7 @@ double ode_position(const Joint& joint) {
 }
 
 void update_joint(Joint& joint) {
+  joint.pushed = std::exchange(joint.pushes, 0.0);
   if (joint.first == nullptr || joint.type == Type::kBall) return;
   const Pose& at = joint.first->at;
   const Vec3 axis = world_axis(joint);
@@ -319,6 +321,23 @@ void update_joint(Joint& joint) {
   }
 }
 
+Wrench joint_wrench(const Joint& joint) {
+  if (joint.first == nullptr) return {};
+  const dJointFeedback& main = joint.main_feedback;
+  const dJointFeedback& motor = joint.motor_feedback;
+  Wrench on_first;  // ODE's torques are about its center
+  on_first.force = ode::vec(main.f1) + ode::vec(motor.f1);
+  on_first.torque = ode::vec(main.t1) + ode::vec(motor.t1);
+  if (joint.type != Type::kBall) {
+    const Vec3 along = (joint.spring_effort + joint.pushed) * world_axis(joint);
+    (joint.type == Type::kPrismatic ? on_first.force : on_first.torque) += along;
+  }
+  const Vec3 arm = -(joint.first->at.rotation * joint.anchor_in_first);
+  on_first.torque += arm.cross(on_first.force);
+  const double sign = joint.flipped ? 1.0 : -1.0;
+  return {sign * on_first.force, sign * on_first.torque};
+}
+
 double joint_velocity(const Joint& joint) {
   if (joint.first == nullptr || joint.type == Type::kBall) return 0.0;
   const Body& first = *joint.first;
@@ -331,7 +350,9 @@ double joint_velocity(const Joint& joint) {
 
 void push_joint(Joint& joint, double force) {
   const Bounds efforts = effort_bounds(joint, joint_velocity(joint));
-  push_freely(joint, std::clamp(force, efforts.low, efforts.high));
+  const double pushed = std::clamp(force, efforts.low, efforts.high);
+  joint.pushes += pushed;
+  push_freely(joint, pushed);
 }
 
 // At the position where the step starts: with the solver's semi-implicit steps that keeps the

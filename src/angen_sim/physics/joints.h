@@ -44,6 +44,9 @@ void apply_spring(Joint& joint, double h);
 /// Reads position and effort after a step.
 void update_joint(Joint& joint);
 
+/// What the child gave the parent in the last step.
+Wrench joint_wrench(const Joint& joint);
+
 /// Speed of the first axis, rad/s or m/s.
 double joint_velocity(const Joint& joint);
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,6 +62,13 @@ struct Geom {
   bool unbounded = false;
   std::uint64_t visited = 0;
   std::uint64_t contacts_revision = 0;  // grows when what touches it changes
+  bool self_collides = false;           // it touches others of its model that do so too
+  bool watched = false;                 // `recent` is kept
+  struct Recent {
+    std::int64_t tick = 0;
+    ContactPair pair;
+  };
+  std::map<std::uint64_t, Recent> recent;  // by the other's serial, with the tick when it touched
 };
 
 /// One degree of freedom of a joint.
@@ -101,6 +109,8 @@ struct Joint {
   double latch_at = 0.0;       // rad or m, as ODE measures it
   double inertia = 0.0;        // least that moves about or along the first axis, kg m^2 or kg
   double spring_effort = 0.0;  // in the last step, where no row of `motor` gave it
+  double pushes = 0.0;         // that are added for the next step
+  double pushed = 0.0;         // that were in the last one
   double raw_angle = 0.0;      // in [-pi, pi]
   int turns = 0;
   double position = 0.0;
@@ -171,7 +181,6 @@ struct LinkRecord {
 struct ModelRecord {
   std::string name;
   Pose pose;
-  bool self_collide = false;
   std::vector<LinkId> link_ids;
   std::vector<JointId> joint_ids;
   std::vector<LinkRecord> links;              // as in the description, until ids are given

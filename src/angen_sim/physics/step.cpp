@@ -90,6 +90,7 @@ void World::Impl::integrate(std::int64_t tick) {
   set_up_joints();
   if (!solve_step(world.get(), awake, h, seed, tick, dWorldStep, &trouble)) ++failed;
   contacts.finish();
+  contacts.remember(tick);
   if (trouble.broken) renew();
   if (trouble.never && trouble.unstable.empty()) {
     for (Body* body : awake) trouble.unstable.push_back({body, "its motion has no solution"});

@@ -61,7 +61,7 @@ void World::Impl::give_settings() {
   dWorldSetERP(w, kJointErp);
   dWorldSetCFM(w, std::max(settings.cfm, kSoftestJoint));
   dWorldSetQuickStepNumIterations(w, settings.iterations);
-  dWorldSetContactMaxCorrectingVel(w, settings.contact_max_correcting_vel);
+  dWorldSetContactMaxCorrectingVel(w, dInfinity);  // contacts limit it, by their stiffness
   dWorldSetContactSurfaceLayer(w, settings.contact_surface_layer);
 }
 
@@ -188,6 +188,8 @@ JointState World::joint(JointId id) const {
   return {joint.position, joint_velocity(joint), joint.effort};
 }
 
+Wrench World::wrench(JointId id) const { return joint_wrench(impl_->joint_at(id)); }
+
 void World::add_force(JointId id, double force) {
   Joint& joint = impl_->joint_at(id);
   if (!std::isfinite(force) || !has_axis(joint)) return;
@@ -268,6 +270,7 @@ void World::place(ModelId id, const Pose& pose) {
     throw Error("model \"" + model.name + "\" cannot be put there: " + problem);
   }
   w.leave(model);
+  for (const auto& geom : model.geoms) geom->recent.clear();
   w.settle(model, pose);
   w.note_placed(model);
 }
@@ -292,6 +295,11 @@ CollisionId World::collision(const std::string& name) const {
 std::vector<ContactPair> World::contacts(CollisionId collision) const {
   if (!collision.valid()) return {};
   return impl_->contacts.of(*impl_->collisions.at(collision));
+}
+
+std::vector<ContactPair> World::contacts_since(CollisionId collision, std::int64_t first) {
+  if (!collision.valid()) return {};
+  return Contacts::with_recent(*impl_->collisions.at(collision), first, contacts(collision));
 }
 
 std::uint64_t World::contacts_revision(CollisionId collision) const {

@@ -36,6 +36,12 @@ struct JointState {
       0.0;  // N m or N along the axis that joint and motor gave the child in the last step
 };
 
+/// What the child of a joint gives its parent through it, in the last step.
+struct Wrench {
+  Vec3 force = Vec3::Zero();   // N
+  Vec3 torque = Vec3::Zero();  // N m, about the joint's anchor
+};
+
 /// A link whose mechanism has been put to sleep for good, since it would have gone beyond the
 /// limits.
 struct Stopped {
@@ -63,6 +69,9 @@ class World {
   bool awake(LinkId link) const;   // false for static and sleeping ones
   void wake(LinkId link);
   JointState joint(JointId joint) const;
+  /// With what its motor and its spring give, and what was added by add_force(). Of a fixed joint,
+  /// whose links are one body, it is zero.
+  Wrench wrench(JointId joint) const;
 
   /// Force (prismatic, N) or torque (revolute, N m) for the next step only; wakes the child unless
   /// 0.
@@ -126,7 +135,10 @@ class World {
   CollisionId collision(const std::string& name) const;
   /// What touches this one, turned so that it is the first.
   std::vector<ContactPair> contacts(CollisionId collision) const;
-  /// Grows whenever that may have changed.
+  /// The same, and what touched it in any step from the one of tick `first` on, as it last did;
+  /// from the first call on.
+  std::vector<ContactPair> contacts_since(CollisionId collision, std::int64_t first);
+  /// Grows whenever contacts() may have changed.
   std::uint64_t contacts_revision(CollisionId collision) const;
 
   std::uint64_t failed_steps() const;  // steps that had to be redone by the other solver

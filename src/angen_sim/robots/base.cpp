@@ -1,7 +1,10 @@
 #include "robots/base.h"
 
 #include <cmath>
+#include <sstream>
 #include <utility>
+
+#include "core/text.h"
 
 namespace angen::robots {
 
@@ -56,11 +59,6 @@ Kind odometry_kind(std::string name, std::string doc, double rate) {
       .text("base_frame", "that it moves");
 }
 
-void Inertia::configure(LinkRef link, const Vec3& gravity) {
-  link_ = link;
-  gravity_ = gravity;
-}
-
 void Inertia::read(const View& view, Reading& reading) {
   const LinkView link = view.link(link_);
   const Pose pose = view.pose();
@@ -78,7 +76,7 @@ void Inertia::read(const View& view, Reading& reading) {
   const Quat to_own = pose.rotation.conjugate();
   reading.set("orientation", numbers(pose.rotation));
   reading.set("angular_velocity", numbers(to_own * link.angular_velocity));
-  reading.set("acceleration", numbers(to_own * (acceleration - gravity_)));
+  reading.set("acceleration", numbers(to_own * (acceleration - view.gravity())));
 }
 
 Kind inertia_kind(std::string name, std::string doc, double rate) {
@@ -90,6 +88,48 @@ Kind inertia_kind(std::string name, std::string doc, double rate) {
       .shown(2)
       .numbers("acceleration", "m/s^2", "along its x, y, z; at rest g upwards")
       .shown(2);
+}
+
+void InertialUnit::configure(Params& params, Wiring& wiring) {
+  const double stddev =
+      params.number("gaussianNoise", 0.0, "", "standard deviation of each number", kNotNegative);
+  add_noise(params, {"angular_velocity", "acceleration"}, stddev);
+  inertia_.configure(wiring.link(""));
+}
+
+void InertialUnit::add_noise(Params& params, std::initializer_list<const char*> fields,
+                             double stddev) {
+  Noise noise;
+  noise.stddev = stddev;
+  for (const char* field : fields) {
+    noise.field = field;
+    params.noise(noise);
+  }
+}
+
+Vec3 three_numbers(Params& params, const char* path, const std::string& unit, const char* doc) {
+  const std::string text = params.text(path, "0", doc + (" (" + unit + ", 1 or 3 numbers)"));
+  std::istringstream words(text);
+  std::vector<double> values;
+  for (std::string word; words >> word;) {
+    const std::optional<double> value = parse_finite(word);
+    if (!value || *value < 0.0) {
+      throw params.error(
+          path, "<" + std::string(path) + "> has \"" + word + "\", must be a finite number >= 0");
+    }
+    values.push_back(*value);
+  }
+  if (values.size() == 1) return Vec3::Constant(values[0]);
+  if (values.size() == 3) return {values[0], values[1], values[2]};
+  throw params.error(path, "<" + std::string(path) + "> has " + std::to_string(values.size()) +
+                               " numbers, must have 1 or 3");
+}
+
+Vec3 with_errors(const Vec3& value, const Vec3& stddev, Rng& rng) {
+  if (stddev.isZero(0.0)) return value;
+  Vec3 errors;
+  rng.gaussians(errors.data(), 3);
+  return value + stddev.cwiseProduct(errors);
 }
 
 }  // namespace angen::robots

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <initializer_list>
+#include <memory>
+#include <optional>
 #include <string>
 
 #include "plugin/plugin.h"
@@ -36,10 +39,14 @@ class Base {
 /// Adds those fields to a kind.
 Kind odometry_kind(std::string name, std::string doc, double rate);
 
-/// The true odometry of a drive.
+/// The true odometry of a drive, whose other parameters `read` reads.
+template <class Settings, Settings (*read_settings)(Params&)>
 class TrueOdometry : public Sensor {
  public:
-  void configure(Params& params, Wiring& wiring) override { base_.configure(params, wiring); }
+  void configure(Params& params, Wiring& wiring) override {
+    read_settings(params);
+    base_.configure(params, wiring);
+  }
   void read(const View& view, Hits, Rng&, Reading& reading) override {
     base_.read_true(view, reading);
   }
@@ -53,7 +60,7 @@ class TrueOdometry : public Sensor {
 class Inertia {
  public:
   /// `link` is its own.
-  void configure(LinkRef link, const Vec3& gravity);
+  void configure(LinkRef link) { link_ = link; }
   /// Orientation (world), and angular velocity and proper acceleration along its own axes.
   void read(const View& view, Reading& reading);
   /// Whether it felt no motion at the last sample.
@@ -62,13 +69,57 @@ class Inertia {
  private:
   LinkRef link_;
   bool rests_ = false;
-  Vec3 gravity_ = Vec3::Zero();
   Vec3 velocity_ = Vec3::Zero();  // m/s, at the last sample
   Nanoseconds time_ = -1;         // of it
 };
 
 /// Adds these fields to a kind.
 Kind inertia_kind(std::string name, std::string doc, double rate);
+
+/// A sensor with these readings; each kind reads its own parameters besides.
+class InertialUnit : public Sensor {
+ public:
+  void configure(Params& params, Wiring& wiring) override;
+  void read(const View& view, Hits, Rng&, Reading& reading) override {
+    inertia_.read(view, reading);
+  }
+  bool steady() const override { return inertia_.rests(); }
+
+ protected:
+  /// Noise of that standard deviation in those fields.
+  static void add_noise(Params& params, std::initializer_list<const char*> fields, double stddev);
+
+ private:
+  Inertia inertia_;
+};
+
+/// The plug-in of a sensor class with a static function describe(): its kind. It stands in a model,
+/// on the link that <bodyName> names.
+template <class Type>
+class BodySensorPlugin : public Plugin {
+ public:
+  const Kind& kind() const override {
+    static const Kind kind = Type::describe();
+    return kind;
+  }
+  std::optional<std::string> link_of(Params& params) const override {
+    return params.text("bodyName", "", "the link that it is fastened to; none: the first");
+  }
+  std::unique_ptr<Sensor> make_sensor() const override { return std::make_unique<Type>(); }
+};
+
+/// The same of one that belongs to the model as a whole.
+template <class Type>
+class ModelSensorPlugin : public BodySensorPlugin<Type> {
+ public:
+  std::optional<std::string> link_of(Params&) const override { return ""; }
+};
+
+/// Numbers of which there may be one for all three axes, as hector's plug-ins take them.
+Vec3 three_numbers(Params& params, const char* path, const std::string& unit, const char* doc);
+
+/// Adds normally distributed errors.
+Vec3 with_errors(const Vec3& value, const Vec3& stddev, Rng& rng);
 
 std::vector<double> numbers(const Vec3& v);
 std::vector<double> numbers(const Quat& q);  // x, y, z, w

@@ -10,10 +10,9 @@ namespace angen::robots {
 namespace {
 
 /// The parameters of the one <plugin>, from which three things are made.
-struct Settings {
-  double separation, radius, torque, acceleration;
-  std::string left, right;
-  bool by_wheels, publishes_joints;
+struct Settings : WheelSettings {
+  bool by_wheels = false;
+  bool publishes_joints = false;
 };
 
 Settings read_settings(Params& params) {
@@ -24,8 +23,8 @@ Settings read_settings(Params& params) {
   s.torque = params.number("wheelTorque", 5.0, "N m", "greatest torque of a wheel", kPositive);
   s.acceleration = params.number("wheelAcceleration", 0.0, "m/s^2",
                                  "acceleration at a wheel's rim; 0: at once", kNotNegative);
-  s.left = params.text("leftJoint", "left_joint", "joint of the left wheel");
-  s.right = params.text("rightJoint", "right_joint", "joint of the right wheel");
+  s.left = {params.text("leftJoint", "left_joint", "joint of the left wheel")};
+  s.right = {params.text("rightJoint", "right_joint", "joint of the right wheel")};
   s.by_wheels = params.choice("odometrySource", "world", {"world", "encoder"},
                               "odometry is the truth, or counted from the wheels") == "encoder";
   s.publishes_joints =
@@ -37,32 +36,15 @@ Settings read_settings(Params& params) {
   return s;
 }
 
+WheelSettings read_wheels(Params& params) { return read_settings(params); }
+
+Kind diff_drive_kind() {
+  return wheels_kind("diff_drive", "Two driven wheels, as Gazebo's robots have.");
+}
+
 }  // namespace
 
-/// Two driven wheels.
-class DiffDrive : public Wheels {
- public:
-  void configure(Params& params, Wiring& wiring) override {
-    const Settings s = read_settings(params);
-    set_up({s.separation, s.radius, s.torque, s.acceleration}, {wiring.joint(s.left)},
-           {wiring.joint(s.right)});
-  }
-};
-
-class DiffDrivePlugin : public Plugin {
- public:
-  const Kind& kind() const override {
-    static const Kind kind =
-        wheels_kind("diff_drive", "Two driven wheels, as Gazebo's robots have.");
-    return kind;
-  }
-  std::vector<Mount> mounts(const ModelInfo& model, Params& params) const override {
-    const Settings s = read_settings(params);
-    if (model.joint(s.left) == nullptr || model.joint(s.right) == nullptr) return {};
-    return {{model.name, ""}};
-  }
-  std::unique_ptr<Device> make_device() const override { return std::make_unique<DiffDrive>(); }
-};
+using DiffDrivePlugin = WheelsPlugin<read_wheels, diff_drive_kind>;
 
 /// Where its base is, as the world or its wheels have it.
 class DiffDriveOdometry : public Sensor {
@@ -73,8 +55,8 @@ class DiffDriveOdometry : public Sensor {
     by_wheels_ = s.by_wheels;
     separation_ = s.separation;
     radius_ = s.radius;
-    left_ = wiring.joint(s.left);
-    right_ = wiring.joint(s.right);
+    left_ = wiring.joint(s.left.front());
+    right_ = wiring.joint(s.right.front());
   }
 
   void read(const View& view, Hits, Rng&, Reading& reading) override {
@@ -140,7 +122,7 @@ class DiffDriveJoints : public JointStates {
  public:
   void configure(Params& params, Wiring& wiring) override {
     const Settings s = read_settings(params);
-    set_up({s.left, s.right}, wiring);
+    set_up({s.left.front(), s.right.front()}, wiring);
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include "core/text.h"
 #include "plugin/register.h"
+#include "robots/base.h"
 #include "robots/joint_states.h"
 
 namespace angen::robots {
@@ -9,6 +10,9 @@ namespace angen::robots {
 /// The joints that a comma-separated list names.
 class JointStatePublisher : public JointStates {
  public:
+  static Kind describe() {
+    return joint_states_kind("joint_states", "Positions of a robot's joints.");
+  }
   void configure(Params& params, Wiring& wiring) override {
     std::istringstream list(params.text("jointName", "", "names of joints, with commas between"));
     std::vector<std::string> names;
@@ -20,18 +24,6 @@ class JointStatePublisher : public JointStates {
   }
 };
 
-class JointStatePublisherPlugin : public Plugin {
- public:
-  const Kind& kind() const override {
-    static const Kind kind = joint_states_kind("joint_states", "Positions of a robot's joints.");
-    return kind;
-  }
-  std::optional<std::string> link_of(Params&) const override { return ""; }
-  std::unique_ptr<Sensor> make_sensor() const override {
-    return std::make_unique<JointStatePublisher>();
-  }
-};
-
 }  // namespace angen::robots
 
-ANGEN_REGISTER_PLUGIN(angen::robots::JointStatePublisherPlugin)
+ANGEN_REGISTER_PLUGIN(angen::robots::ModelSensorPlugin<angen::robots::JointStatePublisher>)

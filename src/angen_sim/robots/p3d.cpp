@@ -6,6 +6,16 @@ namespace angen::robots {
 /// Where a link truly is, and how it moves, in the world.
 class P3d : public Sensor {
  public:
+  static Kind describe() {
+    return Kind("p3d", "Where a link truly is in the world.")
+        .publishes_at(1000.0)
+        .on_demand()
+        .numbers("position", "m", "x y z")
+        .shown(2)
+        .numbers("orientation", "", "quaternion x y z w")
+        .numbers("velocity", "m/s", "x y z")
+        .numbers("angular_velocity", "rad/s", "about x, y, z");
+  }
   void configure(Params& params, Wiring& wiring) override {
     Noise noise;
     noise.stddev =
@@ -33,25 +43,6 @@ class P3d : public Sensor {
   bool rests_ = false;
 };
 
-class P3dPlugin : public Plugin {
- public:
-  const Kind& kind() const override {
-    static const Kind kind = Kind("p3d", "Where a link truly is in the world.")
-                                 .publishes_at(1000.0)
-                                 .on_demand()
-                                 .numbers("position", "m", "x y z")
-                                 .shown(2)
-                                 .numbers("orientation", "", "quaternion x y z w")
-                                 .numbers("velocity", "m/s", "x y z")
-                                 .numbers("angular_velocity", "rad/s", "about x, y, z");
-    return kind;
-  }
-  std::optional<std::string> link_of(Params& params) const override {
-    return params.text("bodyName", "", "the link");
-  }
-  std::unique_ptr<Sensor> make_sensor() const override { return std::make_unique<P3d>(); }
-};
-
 }  // namespace angen::robots
 
-ANGEN_REGISTER_PLUGIN(angen::robots::P3dPlugin)
+ANGEN_REGISTER_PLUGIN(angen::robots::BodySensorPlugin<angen::robots::P3d>)

@@ -90,28 +90,15 @@ class PlanarMovePlugin : public Plugin {
   std::unique_ptr<Device> make_device() const override { return std::make_unique<PlanarMove>(); }
 };
 
-class PlanarOdometry : public TrueOdometry {
+class PlanarOdometry : public TrueOdometry<Planar, read_planar> {
  public:
-  void configure(Params& params, Wiring& wiring) override {
-    read_planar(params);
-    TrueOdometry::configure(params, wiring);
-  }
-};
-
-class PlanarOdometryPlugin : public Plugin {
- public:
-  const Kind& kind() const override {
-    static const Kind kind =
-        odometry_kind("planar_odometry", "Odometry of a robot that moves in any direction.", 20.0);
-    return kind;
-  }
-  std::optional<std::string> link_of(Params&) const override { return ""; }
-  std::unique_ptr<Sensor> make_sensor() const override {
-    return std::make_unique<PlanarOdometry>();
+  static Kind describe() {
+    return odometry_kind("planar_odometry", "Odometry of a robot that moves in any direction.",
+                         20.0);
   }
 };
 
 }  // namespace angen::robots
 
 ANGEN_REGISTER_PLUGIN(angen::robots::PlanarMovePlugin)
-ANGEN_REGISTER_PLUGIN(angen::robots::PlanarOdometryPlugin)
+ANGEN_REGISTER_PLUGIN(angen::robots::ModelSensorPlugin<angen::robots::PlanarOdometry>)

@@ -5,11 +5,10 @@
 
 namespace angen::robots {
 
-void Wheels::set_up(const Geometry& geometry, std::vector<JointRef> left,
-                    std::vector<JointRef> right) {
-  geometry_ = geometry;
-  left_.joints = std::move(left);
-  right_.joints = std::move(right);
+void Wheels::set_up(WheelSettings settings, Wiring& wiring) {
+  settings_ = std::move(settings);
+  for (const std::string& name : settings_.left) left_.joints.push_back(wiring.joint(name));
+  for (const std::string& name : settings_.right) right_.joints.push_back(wiring.joint(name));
 }
 
 Verdict Wheels::command(const Command& command, const View&) {
@@ -24,8 +23,8 @@ Verdict Wheels::command(const Command& command, const View&) {
 
 void Wheels::update(const View& view, Outputs& outputs) {
   if (!ramping_) return;
-  const double step = geometry_.acceleration * to_seconds(view.step());
-  const double turn = w_ * geometry_.separation / 2.0;
+  const double step = settings_.acceleration * to_seconds(view.step());
+  const double turn = w_ * settings_.separation / 2.0;
   const bool left = lead(left_, v_ - turn, step, outputs);
   const bool right = lead(right_, v_ + turn, step, outputs);
   started_ = true;
@@ -39,7 +38,7 @@ bool Wheels::lead(Side& side, double wanted, double step, Outputs& outputs) cons
   if (next != side.speed || !started_) {
     side.speed = next;
     for (const JointRef joint : side.joints) {
-      outputs.motor(joint, next / geometry_.radius, geometry_.torque);
+      outputs.motor(joint, next / settings_.radius, settings_.torque);
     }
   }
   return next == wanted;
@@ -50,6 +49,13 @@ void Wheels::report(const View&, Reading& state) const {
   state.set("w", w_);
   state.set("left", left_.speed);
   state.set("right", right_.speed);
+}
+
+std::vector<Mount> mounts_on_wheels(const ModelInfo& model, const WheelSettings& settings) {
+  const auto has = [&](const std::string& joint) { return model.joint(joint) != nullptr; };
+  const bool any = std::any_of(settings.left.begin(), settings.left.end(), has) ||
+                   std::any_of(settings.right.begin(), settings.right.end(), has);
+  return any ? std::vector<Mount>{{model.name, ""}} : std::vector<Mount>{};
 }
 
 Kind wheels_kind(std::string name, std::string doc) {

@@ -1,10 +1,22 @@
 #pragma once
 
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "robots/base.h"
 
 namespace angen::robots {
+
+/// What a drive's <plugin> says of its wheels.
+struct WheelSettings {
+  double separation = 0.0;        // m
+  double radius = 0.0;            // m
+  double torque = 0.0;            // N m
+  double acceleration = 0.0;      // m/s^2 at the rim; 0 = at once
+  std::vector<std::string> left;  // joints
+  std::vector<std::string> right;
+};
 
 /// Driven wheels on both sides of a robot: speeds come in, wheel motors turn.
 class Wheels : public Device {
@@ -15,13 +27,7 @@ class Wheels : public Device {
   Nanoseconds idle_until(const View&) const override { return ramping_ ? 0 : kForever; }
 
  protected:
-  struct Geometry {
-    double separation = 0.0;    // m
-    double radius = 0.0;        // m
-    double torque = 0.0;        // N m
-    double acceleration = 0.0;  // m/s^2 at the rim; 0 = at once
-  };
-  void set_up(const Geometry& geometry, std::vector<JointRef> left, std::vector<JointRef> right);
+  void set_up(WheelSettings settings, Wiring& wiring);
 
  private:
   struct Side {
@@ -30,7 +36,7 @@ class Wheels : public Device {
   };
   bool lead(Side& side, double wanted, double step, Outputs& outputs) const;
 
-  Geometry geometry_;
+  WheelSettings settings_;
   Side left_;
   Side right_;
   bool ramping_ = true;  // some motor has not its speed yet
@@ -41,5 +47,32 @@ class Wheels : public Device {
 
 /// The kind of a device that is commanded by a speed and a turn.
 Kind wheels_kind(std::string name, std::string doc);
+
+/// Serves a model that has any of the wheels.
+std::vector<Mount> mounts_on_wheels(const ModelInfo& model, const WheelSettings& settings);
+
+/// A drive whose settings come from `read(params)`.
+template <WheelSettings (*read)(Params&)>
+class WheelsOf : public Wheels {
+ public:
+  void configure(Params& params, Wiring& wiring) override { set_up(read(params), wiring); }
+};
+
+/// Its plug-in; `describe()` is its kind.
+template <WheelSettings (*read)(Params&), Kind (*describe)()>
+class WheelsPlugin : public Plugin {
+ public:
+  const Kind& kind() const override {
+    static const Kind kind = describe();
+    return kind;
+  }
+  std::vector<Mount> mounts(const ModelInfo& model, Params& params) const override {
+    return mounts_on_wheels(model, read(params));
+  }
+  std::string needs() const override { return "the joints of its wheels"; }
+  std::unique_ptr<Device> make_device() const override {
+    return std::make_unique<WheelsOf<read>>();
+  }
+};
 
 }  // namespace angen::robots

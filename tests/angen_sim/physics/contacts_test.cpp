@@ -134,5 +134,43 @@ TEST(Contacts, RevisionOfACollisionGrowsWithItsContacts) {
   EXPECT_EQ(changes(), Changes(true, false));
 }
 
+TEST(Contacts, WhatTouchedLatelyIsRememberedForAWhile) {
+  TestWorld world;
+  world.add(floor_model());
+  desc::Model ball = box_model("ball", 1.0, {0.1, 0.1, 0.1}, {0, 0, 0.05});
+  const LinkId link = world.only_link(world.add(ball));
+  const CollisionId collision = world.collision("ball::link::collision");
+  EXPECT_TRUE(world.contacts_since(collision, 0).empty());
+  world.run(0.1);
+  world.set_velocity(link, {0.0, 0.0, 3.0}, Vec3::Zero());
+  world.run(0.1);  // ticks 100 to 199; it is in the air
+  EXPECT_TRUE(world.contacts(collision).empty());
+  const std::vector<ContactPair> lately = world.contacts_since(collision, 50);
+  ASSERT_EQ(lately.size(), 1U);
+  EXPECT_EQ(lately[0].first, "ball::link::collision");
+  EXPECT_EQ(lately[0].second, "floor::link::collision");
+  EXPECT_TRUE(world.contacts_since(collision, 150).empty());
+}
+
+TEST(Contacts, LinksOfAModelTouchWhereBothCollideWithTheirOwn) {
+  for (const auto& [lower, upper] : {std::pair(true, true), {true, false}, {false, false}}) {
+    TestWorld world;
+    desc::Model pair = model_of(
+        "pair", {box_link("lower", 1.0, {0.2, 0.2, 0.2}),
+                 box_link("upper", 1.0, {0.2, 0.2, 0.2}, {{0, 0, 0.3}, Quat::Identity()})});
+    pair.links[0].self_collide = lower;
+    pair.links[1].self_collide = upper;
+    pair.joints = {joint_of(desc::Joint::Type::kFixed, "world", "lower")};
+    const ModelId id = world.add(pair);
+    world.run(0.5);
+    const double height = world.link(world.links(id)[1]).pose.position.z();
+    if (lower && upper) {
+      EXPECT_NEAR(height, 0.2, 0.002);
+    } else {
+      EXPECT_LT(height, 0.0);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace angen::physics::testing

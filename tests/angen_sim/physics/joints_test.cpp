@@ -614,5 +614,39 @@ TEST(JointSafety, WhatIsBeyondIsBroughtBackByItsBrake) {
   EXPECT_NEAR(world.joint(world.joints(id)[0]).position, 1.0, 0.001);
 }
 
+// A load of 2 kg, held 0.3 m in front of the joint.
+TEST(Joints, AWrenchIsWhatTheChildGivesItsParent) {
+  TestWorld world;
+  desc::Model arm = model_of(
+      "arm", {ghost_link("base", 1.0, {0.1, 0.1, 0.1}),
+              ghost_link("load", 2.0, {0.1, 0.1, 0.1}, {{0.3, 0.0, 0.0}, Quat::Identity()})});
+  arm.joints = {joint_of(Type::kFixed, "world", "base"),
+                joint_of(Type::kRevolute, "base", "load", Vec3::UnitY())};
+  arm.joints[1].axes[0].lower = arm.joints[1].axes[0].upper = 0.0;
+  const JointId joint = world.joints(world.add(arm)).at(1);
+  world.run(0.4);
+  const auto expect_load = [&] {
+    const Wrench wrench = world.wrench(joint);
+    EXPECT_LT((wrench.force - Vec3(0.0, 0.0, -2.0 * 9.81)).norm(), 0.02) << wrench.force;
+    EXPECT_LT((wrench.torque - Vec3(0.0, 0.3 * 2.0 * 9.81, 0.0)).norm(), 0.02) << wrench.torque;
+  };
+  expect_load();
+  world.run(2.0);  // asleep
+  EXPECT_EQ(world.awake_count(), 0U);
+  expect_load();
+}
+
+TEST(Joints, AWrenchHoldsWhatIsAppliedToTheJoint) {
+  TestWorld world({}, Vec3::Zero());
+  desc::Model arm = model_of("arm", {ghost_link("bob", 1.0, {0.1, 0.1, 0.1})});
+  arm.joints = {joint_of(Type::kRevolute, "world", "bob", Vec3::UnitZ())};
+  const JointId joint = world.joints(world.add(arm)).at(0);
+  world.add_force(joint, 0.5);
+  world.run(0.001);
+  EXPECT_NEAR(world.wrench(joint).torque.z(), -0.5, 1e-9);
+  world.run(0.001);
+  EXPECT_NEAR(world.wrench(joint).torque.z(), 0.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace angen::physics::testing

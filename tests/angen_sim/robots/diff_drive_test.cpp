@@ -96,6 +96,17 @@ TEST(DiffDrive, AnUnknownParameterIsAnErrorOrAWarning) {
   EXPECT_EQ(hall.snapshot->structure->devices.size(), 1U);
 }
 
+TEST(DiffDrive, OfAParameterThatIsGivenTwiceTheFirstHoldsInGazebosModels) {
+  const std::string text = robot(drive("<updateRate>20</updateRate>"));
+  EXPECT_THROW(Hall{text}, Error);
+  Hall hall(text, true);
+  EXPECT_TRUE(hall.warns("<updateRate> is given twice; the first holds"));
+  hall.run(0.1);
+  EXPECT_EQ(hall.reading("odometry").stamp % (kSecond / 50), 0);
+  EXPECT_EQ(hall.snapshot->structure->sensors[hall.sensor("odometry")].schedule.publish,
+            kSecond / 50);
+}
+
 TEST(DiffDrive, WarningsOfARejectedSpawnAreNotTheNextOnes) {
   Hall hall(robot(drive()), true);
   const std::string text = "<sdf version='1.6'>" + robot(drive("<colour>red</colour>")) + "</sdf>";

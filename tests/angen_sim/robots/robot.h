@@ -41,6 +41,42 @@ inline std::string plugin(const std::string& library, const std::string& more,
          "</plugin>";
 }
 
+/// A box that stands loose; `more` belongs to its link.
+inline std::string box(const std::string& name, double mass, const std::string& pose,
+                       const std::string& size, const std::string& more = "") {
+  const std::string moment = std::to_string(mass / 100.0);
+  return "<link name='" + name + "'><pose>" + pose + "</pose><inertial><mass>" +
+         std::to_string(mass) + "</mass><inertia><ixx>" + moment + "</ixx><iyy>" + moment +
+         "</iyy><izz>" + moment + "</izz></inertia></inertial><collision name='c'><geometry><box>" +
+         "<size>" + size + "</size></box></geometry></collision>" + more + "</link>";
+}
+
+/// A joint to `child` about or along y, at its origin.
+inline std::string joint(const std::string& child, const std::string& parent,
+                         const std::string& type, double lower = -3.0, double upper = 3.0) {
+  return "<joint name='" + child + "_joint' type='" + type + "'><parent>" + parent +
+         "</parent><child>" + child + "</child><axis><xyz>0 1 0</xyz><limit><lower>" +
+         std::to_string(lower) + "</lower><upper>" + std::to_string(upper) +
+         "</upper></limit></axis></joint>";
+}
+
+/// Two arms of 1 kg, 0.2 m behind their joints about y, in the air; `more` belongs to their model.
+inline std::string arms(const std::string& more, const std::string& limits = "") {
+  std::string text =
+      "<model name='bot'><link name='body'><pose>0 0 1 0 0 0</pose></link>"
+      "<joint name='base' type='fixed'><parent>world</parent><child>body</child>"
+      "</joint>";
+  for (const char* name : {"left", "right"}) {
+    const std::string y = std::string(name) == "left" ? "0.3" : "-0.3";
+    text += "<link name='" + std::string(name) + "'><pose>0 " + y +
+            " 1 0 0 0</pose><inertial><pose>0.2 0 0 0 0 0</pose><mass>1</mass><inertia><ixx>0.001"
+            "</ixx><iyy>0.001</iyy><izz>0.001</izz></inertia></inertial></link><joint name='" +
+            name + "_joint' type='revolute'><parent>body</parent><child>" + name +
+            "</child><axis><xyz>0 1 0</xyz>" + limits + "</axis></joint>";
+  }
+  return text + more + "</model>";
+}
+
 /// `models` on a floor.
 class Hall {
  public:
@@ -62,8 +98,9 @@ class Hall {
   void run(double seconds) {
     for (int i = 0; i < std::lround(1000 * seconds); ++i) snapshot = simulation.tick();
   }
-  void command(const std::string& kind, const std::vector<double>& values) {
-    simulation.post(sim::ToDevice{kind, "bot", {"", values, "", 0.0}});
+  void command(const std::string& kind, const std::vector<double>& values,
+               const std::string& name = "bot", const std::string& text = "") {
+    simulation.post(sim::ToDevice{kind, name, {text, values, "", 0.0}});
   }
   std::size_t sensor(const std::string& kind) const {
     const auto& sensors = snapshot->structure->sensors;
@@ -76,11 +113,18 @@ class Hall {
   void request(const std::string& kind) {
     simulation.request(kind, snapshot->structure->sensors[sensor(kind)].name, true);
   }
-  Pose pose() const {  // of the robot's body
+  Pose pose(const std::string& link = "bot::body") const {
     for (std::size_t i = 0; i < snapshot->structure->links.size(); ++i) {
-      if (snapshot->structure->links[i].name == "bot::body") return snapshot->link_poses[i];
+      if (snapshot->structure->links[i].name == link) return snapshot->link_poses[i];
     }
-    throw Error("no robot");
+    throw Error("no link " + link);
+  }
+  Reading state(const std::string& device) const {
+    const auto& devices = snapshot->structure->devices;
+    for (std::size_t i = 0; i < devices.size(); ++i) {
+      if (devices[i].name == device) return *snapshot->devices[i];
+    }
+    throw Error("no device " + device);
   }
   bool warns(const std::string& words) const {
     return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& each) {

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstddef>
+
+#include "physics/model.h"
+
+namespace angen::physics {
+
+/// Most points that are searched for between two geoms.
+constexpr std::size_t kMostFound = 64;
+
+/// Where two geoms touch: writes up to kMostFound `points`, and returns how many.
+std::size_t touching_points(const Geom& first, const Geom& second, dContactGeom* points);
+
+}  // namespace angen::physics

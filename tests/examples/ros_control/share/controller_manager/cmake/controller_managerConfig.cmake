@@ -1,0 +1,2 @@
+set(controller_manager_FOUND TRUE)
+set(controller_manager_INCLUDE_DIRS ${CMAKE_CURRENT_LIST_DIR}/../../../include)

@@ -1,0 +1,95 @@
+"""The package gazebo_ros_control in the node, which CTest builds with tests/examples/ros_control.
+
+That stands in for ros_control, which Debian 12 does not have: its controller manager leads all
+joints of examples/arm to a position.
+"""
+from __future__ import annotations
+
+import os
+import subprocess
+import threading
+from pathlib import Path
+from typing import Iterator
+
+import pytest
+import rospy
+from angen_msgs.srv import Delete, Spawn
+from gazebo_msgs.srv import GetJointProperties
+from harness import Angen, Master, end, until
+from std_msgs.msg import Float64
+from std_srvs.srv import Empty
+
+ROOT = Path(__file__).resolve().parents[2]
+PACKAGE = ROOT / 'src/gazebo_ros_control'
+LIBRARIES = ROOT / 'build/tests/examples/gazebo_ros_control/devel/lib'
+WORLD = """<sdf version="1.6"><world name="default">
+  <include><uri>model://ground_plane</uri></include></world></sdf>"""
+ARM = (ROOT / 'examples/arm/arm.urdf').read_text()
+
+
+@pytest.fixture(scope='module')
+def arm(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFactory
+        ) -> Iterator[Angen]:
+    """A node that finds the package, and the arm in it."""
+    library = LIBRARIES / 'libgazebo_ros_control_ros.so'
+    assert library.exists(), 'ctest builds it: ./angen test ctest'
+    folder = tmp_path_factory.mktemp('arm')
+    world = folder / 'arm.world'
+    world.write_text(WORLD)
+    log = folder / 'log'
+    before = dict(master.environment)
+    master.environment['ANGEN_PLUGIN_PATH'] = str(LIBRARIES)
+    process = master.node(world, log)
+    master.environment = before
+    angen = Angen(master, process, log)
+    done = angen.call('/angen/spawn', Spawn, name='arm', xml=ARM)
+    assert done.success, done.message
+    yield angen
+    end(process)
+
+
+def reached(arm: Angen, joint: str, position: float) -> bool:
+    found = arm.call('/gazebo/get_joint_properties', GetJointProperties, joint_name=joint)
+    return bool(abs(found.position[0] - position) < 0.02)
+
+
+def test_controllers_lead_the_joints(arm: Angen) -> None:
+    arm.send('/arm/controller_manager/reach', Float64(0.4))
+    for joint in ('turn', 'shoulder', 'elbow'):
+        until(lambda: reached(arm, joint, 0.4), f'{joint} is there', 20.0)
+
+
+def test_the_topics_are_theirs(arm: Angen) -> None:
+    assert '/arm/joint_states' not in arm.master.topics()
+    _, subscribed, _ = arm.master.api.getSystemState('/test')[2]
+    assert not [topic for topic, _ in subscribed if topic.endswith('_controller/command')]
+    assert 'clone ros-controls' not in arm.log()
+
+
+def test_a_service_that_waits_for_an_update_does_not_keep_the_model(arm: Angen) -> None:
+    arm.call('/gazebo/pause_physics', Empty)
+    switch = rospy.ServiceProxy('/arm/controller_manager/switch', Empty)
+    waiting = threading.Thread(target=lambda: switch(), daemon=True)
+    waiting.start()
+    waiting.join(0.5)
+    assert waiting.is_alive(), 'it waits'
+    assert arm.call('/angen/delete', Delete, name='arm').success
+    waiting.join(10.0)
+    assert not waiting.is_alive()
+    until(lambda: '/arm/controller_manager/switch' not in
+          [name for name, _ in arm.master.api.getSystemState('/test')[2][2]], 'it has gone')
+    arm.call('/gazebo/unpause_physics', Empty)
+    assert arm.call('/angen/spawn', Spawn, name='arm', xml=ARM).success
+    arm.send('/arm/controller_manager/reach', Float64(-0.3))
+    until(lambda: reached(arm, 'turn', -0.3), 'another of its name', 20.0)
+
+
+def test_without_ros_control_the_package_builds_nothing(tmp_path: Path) -> None:
+    said = subprocess.run(
+        ['cmake', '-S', str(PACKAGE), '-B', str(tmp_path), '-DPYTHON_EXECUTABLE=/usr/bin/python3',
+         '-DCMAKE_DISABLE_FIND_PACKAGE_controller_manager=ON'],
+        env=dict(os.environ, PATH='/usr/bin:' + os.environ['PATH']), capture_output=True, text=True,
+        timeout=120, check=True).stdout
+    assert 'nothing to build without ros_control' in said
+    subprocess.run(['cmake', '--build', str(tmp_path)], check=True, timeout=120)
+    assert not list(tmp_path.rglob('*.so'))
