@@ -9,15 +9,12 @@
 #include <utility>
 
 #include "ros/text.h"
-#include "ros/topics.h"
-#include "ros/wire.h"
 
 namespace angen::node {
 namespace {
 
 constexpr std::uint32_t kCommandQueue =
     1000;  // commands are never dropped for another of the same moment
-constexpr std::uint32_t kDriveQueue = 10;
 
 std::vector<std::string> names_of(const sim::Structure& structure, const std::string& kind) {
   std::vector<std::string> names;
@@ -25,42 +22,6 @@ std::vector<std::string> names_of(const sim::Structure& structure, const std::st
     if (device.kind == kind) names.push_back(device.name);
   }
   return names;
-}
-
-/// A topic of velocities, and the drive that takes them.
-struct Steering {
-  std::string topic;
-  std::string kind;
-  std::string name;
-  bool sideways = false;  // it takes three numbers
-};
-
-// Gazebo's kinds of drives, by the <plugin> that each was made of.
-std::vector<Steering> foreign_drives(const sim::Structure& structure) {
-  static const std::set<std::string> kinds = {"diff_drive", "skid_steer_drive", "planar_move"};
-  std::vector<Steering> found;
-  for (const sim::DeviceEntry& device : structure.devices) {
-    if (kinds.count(device.kind) == 0) continue;
-    for (const desc::Plugin& plugin : structure.models[device.model]->plugins) {
-      if (plugin.filename != device.library) continue;
-      const Element* given = plugin.element.child("commandTopic");
-      const std::string topic = given == nullptr ? "cmd_vel" : given->text;
-      found.push_back({graph_name(below_namespace(plugin.element, topic)), device.kind, device.name,
-                       device.plugin->kind().value_units.size() == 3});
-    }
-  }
-  return found;
-}
-
-std::vector<Steering> all_drives(const sim::Structure& structure,
-                                 const std::vector<Robot>& robots) {
-  std::vector<Steering> all = foreign_drives(structure);
-  for (const Robot& robot : robots) {
-    for (const std::string& topic : robot.command_topics) {
-      all.push_back({topic, "drive", robot.name, false});
-    }
-  }
-  return all;
 }
 
 }  // namespace
@@ -97,8 +58,8 @@ void Commands::subscribe(const std::shared_ptr<const Plugin>& plugin) {
   const boost::function<void(const std_msgs::String::ConstPtr&)> received =
       [this, plugin](const std_msgs::String::ConstPtr& text) { receive(*plugin, text->data); };
   try {
-    kinds_[kind.name] =
-        node_.subscribe<std_msgs::String>(kind.command_topic, kCommandQueue, received);
+    kinds_[kind.name] = handle_for_one(node_).subscribe<std_msgs::String>(kind.command_topic,
+                                                                          kCommandQueue, received);
   } catch (const ros::Exception& error) {
     ROS_WARN("no commands to a %s on %s: %s", kind.name.c_str(), kind.command_topic.c_str(),
              error.what());
@@ -120,27 +81,24 @@ void Commands::on_kinds(const sim::Structure& structure) {
 
 void Commands::on_structure(const sim::Structure& structure, const std::vector<Robot>& robots) {
   on_kinds(structure);
-  decltype(drives_) kept;
-  for (const Steering& drive : all_drives(structure, robots)) {
-    const std::pair<std::string, std::string> key{drive.topic, drive.kind + "/" + drive.name};
-    if (const auto old = drives_.find(key); old != drives_.end()) {
+  decltype(own_) kept;
+  for (const CommandTopic& each : command_topics(structure, robots)) {
+    const std::pair<std::string, std::string> key{each.topic, each.kind + "/" + each.name};
+    if (const auto old = own_.find(key); old != own_.end()) {
       kept.insert(*old);
       continue;
     }
-    const boost::function<void(const geometry_msgs::Twist::ConstPtr&)> received =
-        [this, drive](const geometry_msgs::Twist::ConstPtr& twist) {
-          std::vector<double> values = {twist->linear.x, twist->angular.z};
-          if (drive.sideways) values.insert(values.begin() + 1, twist->linear.y);
-          inbox_.post(sim::ToDevice{drive.kind, drive.name, {"", std::move(values), "", 0.0}});
-        };
     try {
-      kept[key] = node_.subscribe<geometry_msgs::Twist>(drive.topic, kDriveQueue, received);
+      ros::NodeHandle handle = handle_for_one(node_);
+      kept[key] = subscribe_to(handle, each, [this, each](Command command) {
+        inbox_.post(sim::ToDevice{each.kind, each.name, std::move(command)});
+      });
     } catch (const ros::Exception& error) {
-      ROS_WARN("%s takes no commands on %s: %s", drive.name.c_str(), drive.topic.c_str(),
+      ROS_WARN("%s takes no commands on %s: %s", each.name.c_str(), each.topic.c_str(),
                error.what());
     }
   }
-  drives_ = std::move(kept);
+  own_ = std::move(kept);
 }
 
 }  // namespace angen::node

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <angen_msgs/Command.h>
-#include <geometry_msgs/Twist.h>
 #include <ros/node_handle.h>
 #include <std_msgs/String.h>
 
@@ -10,19 +9,20 @@
 #include <string>
 #include <vector>
 
+#include "ros/command_topics.h"
 #include "ros/frames.h"
 #include "ros/inbox.h"
 
 namespace angen::node {
 
-/// Command topics: one subscription serves all devices of a kind, a drive has its own cmd_vel. And
-/// the topic by which programs add to the event log.
+/// Command topics: one subscription serves all devices of a kind, what a robot carries has its own.
+/// And the topic by which programs add to the event log.
 class Commands {
  public:
   /// Kinds of `plugins` have their topic also where the world has none of them.
   Commands(ros::NodeHandle& node, Inbox& inbox, std::vector<std::shared_ptr<const Plugin>> plugins);
 
-  /// Subscribes to the command topics of the kinds and drives that exist now, and to no others.
+  /// Subscribes to the command topics of the kinds and robots that exist now, and to no others.
   void on_structure(const sim::Structure& structure, const std::vector<Robot>& robots);
 
  private:
@@ -33,10 +33,10 @@ class Commands {
   ros::NodeHandle& node_;
   Inbox& inbox_;
   std::vector<std::shared_ptr<const Plugin>> always_;
-  ros::Subscriber any_;                                                    // /angen/command
-  ros::Subscriber notes_;                                                  // /angen/events/add
-  std::map<std::string, ros::Subscriber> kinds_;                           // by kind
-  std::map<std::pair<std::string, std::string>, ros::Subscriber> drives_;  // by topic and robot
+  ros::Subscriber any_;                                                 // /angen/command
+  ros::Subscriber notes_;                                               // /angen/events/add
+  std::map<std::string, ros::Subscriber> kinds_;                        // by kind
+  std::map<std::pair<std::string, std::string>, ros::Subscriber> own_;  // by topic and device
 };
 
 }  // namespace angen::node

@@ -1,16 +1,14 @@
 #include "ros/frames.h"
 
 #include <cmath>
-#include <map>
-#include <numeric>
 #include <set>
+#include <unordered_set>
+#include <utility>
 
 #include "ros/wire.h"
 
 namespace angen::node {
 namespace {
-
-constexpr char kWorld[] = "world";
 
 // REP 103: images are seen along z, with x to the right.
 const Quat kOptical = from_rpy(-M_PI_2, 0.0, -M_PI_2);
@@ -20,53 +18,8 @@ bool is_odometry(const std::string& kind) {
 }
 
 bool is_camera(const sim::SensorEntry& sensor) {
-  return sensor.kind == "camera" || sensor.kind == "depth";
+  return sensor.kind == "camera" || sensor.kind == "depth" || sensor.kind == "depth_camera";
 }
-
-std::string link_frame(const sim::Structure& structure, std::uint32_t link) {
-  const sim::LinkEntry& entry = structure.links[link];
-  const desc::Model& model = *structure.models[entry.model];
-  return model.name + "/" + model.links[entry.link].name;
-}
-
-// Links that fixed joints hold together, by the smallest index of each group; 0 is the world.
-class Clusters {
- public:
-  explicit Clusters(const sim::Structure& structure) : parent_(structure.links.size() + 1) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-    std::map<std::pair<std::uint32_t, std::string>, std::uint32_t> by_name;
-    for (std::uint32_t i = 0; i < structure.links.size(); ++i) {
-      const sim::LinkEntry& entry = structure.links[i];
-      by_name[{entry.model, structure.models[entry.model]->links[entry.link].name}] = i + 1;
-      if (!entry.moves) join(i + 1, 0);
-    }
-    for (std::uint32_t m = 0; m < structure.models.size(); ++m) {
-      for (const desc::Joint& joint : structure.models[m]->joints) {
-        if (joint.type != desc::Joint::Type::kFixed) continue;
-        const auto child = by_name.find({m, joint.child});
-        const auto parent = by_name.find({m, joint.parent});
-        if (child == by_name.end()) continue;
-        if (parent == by_name.end() && joint.parent != kWorld) continue;
-        join(child->second, joint.parent == kWorld ? 0 : parent->second);
-      }
-    }
-  }
-
-  bool in_world(std::uint32_t link) { return root(link + 1) == 0; }
-  std::uint32_t first(std::uint32_t link) { return root(link + 1) - 1; }
-
- private:
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-  std::vector<std::uint32_t> parent_;
-};
 
 std::string value_of(const std::vector<const Element*>& elements, const std::string& key,
                      const std::string& fallback) {
@@ -79,12 +32,17 @@ std::string value_of(const std::vector<const Element*>& elements, const std::str
 // The frame of what a sensor of a robot made for Gazebo publishes, which others know: nobody here
 // says where it is. None for other sensors.
 std::optional<std::string> foreign_frame(const sim::SensorEntry& sensor, const desc::Model& model) {
-  static const std::set<std::string> states = {"joint_states", "wheel_states"};
+  static const std::set<std::string> states = {"joint_states", "wheel_states", "controlled_joints"};
+  static const std::set<std::string> hectors = {"gps", "hector_imu", "sonar"};
   static const std::set<std::string> bodies = {"imu", "imu_sensor"};
   if (states.count(sensor.kind) != 0) return "";
   if (is_odometry(sensor.kind))
     return value_of({&sensor.desc->plugin_element}, "odometryFrame", "odom");
-  if (sensor.kind == "p3d") return sensor.frame.empty() ? kWorld : sensor.frame;
+  if (sensor.kind == "p3d") return sensor.frame.empty() ? kWorldFrame : sensor.frame;
+  if (hectors.count(sensor.kind) != 0) {
+    return value_of({&sensor.desc->plugin_element}, "frameId",
+                    value_of({&sensor.desc->plugin_element}, "bodyName", sensor.name));
+  }
   if (bodies.count(sensor.kind) != 0 && sensor.frame.empty()) {
     return value_of({&sensor.desc->plugin_element}, "bodyName", sensor.name);
   }
@@ -94,123 +52,14 @@ std::optional<std::string> foreign_frame(const sim::SensorEntry& sensor, const d
   return sensor.frame;
 }
 
-class Builder {
- public:
-  Builder(const sim::Snapshot& snapshot, const std::vector<Robot>& robots, bool odometry_in_world)
-      : snapshot_(snapshot),
-        structure_(*snapshot.structure),
-        odometry_in_world_(odometry_in_world),
-        clusters_(structure_) {
-    frames_.resize(structure_.links.size());
-    for (const Robot& robot : robots) robot_of_[robot.model] = &robot;
-    for (std::uint32_t i = 0; i < frames_.size(); ++i) frames_[i] = link_frame(structure_, i);
-    for (const Robot& robot : robots) frames_[robot.base] = robot.base_frame;
+// Where a model has several drives, its frames are those of the last.
+const Robot* owner_in(const std::vector<Robot>& robots, std::uint32_t model) {
+  const Robot* owner = nullptr;
+  for (const Robot& robot : robots) {
+    if (robot.model == model) owner = &robot;
   }
-
-  FrameTree build() {
-    tree_.moved_by.assign(structure_.links.size(), -1);
-    std::map<std::uint32_t, std::int32_t> carrier;  // cluster's frame link -> index in moving
-    for (std::uint32_t i = 0; i < structure_.links.size(); ++i) add_link(i, carrier);
-    add_odometry();
-    add_sensors();
-    return std::move(tree_);
-  }
-
- private:
-  const Robot* robot(std::uint32_t link) const {
-    const auto found = robot_of_.find(structure_.links[link].model);
-    return found == robot_of_.end() ? nullptr : found->second;
-  }
-
-  // The link whose frame stands for the whole cluster: a robot's base, else the first.
-  std::uint32_t head(std::uint32_t link) {
-    const std::uint32_t first = clusters_.first(link);
-    const Robot* owner = robot(link);
-    return owner != nullptr && clusters_.first(owner->base) == first ? owner->base : first;
-  }
-
-  const Pose& in_model(std::uint32_t link) const {
-    const sim::LinkEntry& entry = structure_.links[link];
-    return structure_.models[entry.model]->links[entry.link].pose;
-  }
-
-  void add_link(std::uint32_t link, std::map<std::uint32_t, std::int32_t>& carrier) {
-    used_.insert(frames_[link]);
-    if (clusters_.in_world(link)) {
-      tree_.fixed.push_back({kWorld, frames_[link], snapshot_.link_poses[link]});
-      return;
-    }
-    const std::uint32_t top = head(link);
-    const Robot* owner = robot(link);
-    const bool is_base = owner != nullptr && owner->base == top;
-    if (!is_base && carrier.count(top) == 0) {
-      MovingFrame moving{kWorld, frames_[top], top, {}};
-      if (owner != nullptr) {
-        moving.parent = owner->base_frame;
-        moving.parent_link = owner->base;
-      }
-      carrier[top] = static_cast<std::int32_t>(tree_.moving.size());
-      tree_.moving.push_back(std::move(moving));
-    }
-    if (!is_base) tree_.moved_by[link] = carrier[top];
-    if (link == top) return;
-    tree_.fixed.push_back({frames_[top], frames_[link], in_model(top).inverse() * in_model(link)});
-  }
-
-  // Odometry starts at 0 where its robot was put; a true one says where in the world it is.
-  void add_odometry() {
-    if (!odometry_in_world_) return;
-    std::set<std::string> added;
-    for (const sim::SensorEntry& sensor : structure_.sensors) {
-      if (!is_odometry(sensor.kind)) continue;
-      const std::vector<const Element*> plugin = {&sensor.desc->plugin_element};
-      const std::string frame = value_of(plugin, "odometryFrame", "odom");
-      const bool by_wheels = value_of(plugin, "odometrySource", "world") == "encoder";
-      if (!added.insert(frame).second) continue;
-      tree_.fixed.push_back(
-          {kWorld, frame, by_wheels ? structure_.models[sensor.model]->pose : Pose{}});
-    }
-    for (const auto& [model, owner] : robot_of_) {
-      tree_.fixed.push_back(
-          {kWorld, owner->odom_frame, structure_.models[model]->pose * in_model(owner->base)});
-    }
-  }
-
-  void add_sensors() {
-    for (const sim::SensorEntry& sensor : structure_.sensors) {
-      if (const auto foreign = foreign_frame(sensor, *structure_.models[sensor.model])) {
-        tree_.sensors.push_back(*foreign);
-        continue;
-      }
-      std::string frame = sensor.frame;
-      if (frame.empty()) frame = sensor.name + (is_camera(sensor) ? "_optical_frame" : "");
-      const Robot* owner = robot(sensor.link);
-      if (owner != nullptr && !owner->first && !sensor.frame.empty()) {
-        frame = owner->name + "/" + frame;
-      }
-      if (frame == frames_[sensor.link]) {  // an SDF that names its link's frame means it
-        tree_.sensors.push_back(frame);
-        continue;
-      }
-      if (!used_.insert(frame).second) {
-        frame = sensor.kind + "_" + sensor.name;
-        used_.insert(frame);
-      }
-      const Pose in_sensor = is_camera(sensor) ? Pose{Vec3::Zero(), kOptical} : Pose{};
-      tree_.fixed.push_back({frames_[sensor.link], frame, sensor.pose * in_sensor});
-      tree_.sensors.push_back(frame);
-    }
-  }
-
-  const sim::Snapshot& snapshot_;
-  const sim::Structure& structure_;
-  bool odometry_in_world_;
-  Clusters clusters_;
-  std::map<std::uint32_t, const Robot*> robot_of_;
-  std::vector<std::string> frames_;
-  std::set<std::string> used_;
-  FrameTree tree_;
-};
+  return owner;
+}
 
 }  // namespace
 
@@ -266,9 +115,116 @@ std::vector<Robot> find_robots(const sim::Structure& structure,
   return robots;
 }
 
-FrameTree make_frames(const sim::Snapshot& snapshot, const std::vector<Robot>& robots,
-                      bool odometry_in_world) {
-  return Builder(snapshot, robots, odometry_in_world).build();
+std::shared_ptr<const FrameTree> FrameMaker::make(const sim::Snapshot& snapshot,
+                                                  const std::vector<Robot>& robots,
+                                                  const Changes& changes) {
+  const sim::Structure& structure = *snapshot.structure;
+  auto tree = std::make_shared<FrameTree>();
+  keep_models(structure, robots, changes);
+  add_links(snapshot, *tree);
+  add_odometry(structure, robots, *tree);
+  add_sensors(structure, robots, *tree);
+  return tree;
+}
+
+void FrameMaker::drop(const std::shared_ptr<const ModelFrames>& model) {
+  if (model == nullptr) return;
+  for (const std::string& frame : model->links) {
+    if (--link_frames_[frame] == 0) link_frames_.erase(frame);
+  }
+}
+
+void FrameMaker::keep_models(const sim::Structure& structure, const std::vector<Robot>& robots,
+                             const Changes& changes) {
+  std::vector<std::shared_ptr<const ModelFrames>> old = std::exchange(models_, {});
+  models_.resize(structure.models.size());
+  for (std::uint32_t i = 0; i < models_.size(); ++i) {
+    const std::uint32_t before = changes.models.before[i];
+    if (before != Numbers::kNone) models_[i] = std::move(old[before]);
+    const Robot* robot = owner_in(robots, i);
+    const std::string base_frame = robot == nullptr ? "" : robot->base_frame;
+    const std::uint32_t base = robot == nullptr ? 0 : structure.links[robot->base].link;
+    if (models_[i] && models_[i]->base_frame == base_frame && models_[i]->base == base) continue;
+    drop(models_[i]);
+    models_[i] =
+        std::make_shared<const ModelFrames>(frames_of(*structure.models[i], base_frame, base));
+    for (const std::string& frame : models_[i]->links) ++link_frames_[frame];
+  }
+  for (const auto& model : old) drop(model);
+}
+
+void FrameMaker::add_links(const sim::Snapshot& snapshot, FrameTree& tree) const {
+  std::uint32_t first = 0;  // of the model, in Structure::links
+  for (const auto& model : models_) {
+    const std::size_t fixed = tree.fixed.size();
+    tree.fixed.insert(tree.fixed.end(), model->fixed.begin(), model->fixed.end());
+    for (const ModelFrames::Standing& standing : model->standing) {
+      tree.fixed[fixed + standing.fixed].pose = snapshot.link_poses[first + standing.link];
+    }
+    const auto moving = static_cast<std::int32_t>(tree.moving.size());
+    for (const MovingFrame& frame : model->moving) {
+      tree.moving.push_back(frame);
+      tree.moving.back().link += first;
+      if (frame.parent_link) *tree.moving.back().parent_link += first;
+    }
+    for (const std::int32_t by : model->moved_by)
+      tree.moved_by.push_back(by < 0 ? by : moving + by);
+    first += static_cast<std::uint32_t>(model->links.size());
+  }
+}
+
+// Odometry starts at 0 where its robot was put; a true one says where in the world it is.
+void FrameMaker::add_odometry(const sim::Structure& structure, const std::vector<Robot>& robots,
+                              FrameTree& tree) const {
+  if (!odometry_in_world_) return;
+  std::set<std::string> added;
+  for (const sim::SensorEntry& sensor : structure.sensors) {
+    if (!is_odometry(sensor.kind)) continue;
+    const std::vector<const Element*> plugin = {&sensor.desc->plugin_element};
+    const std::string frame = value_of(plugin, "odometryFrame", "odom");
+    const bool by_wheels = value_of(plugin, "odometrySource", "world") == "encoder";
+    if (!added.insert(frame).second) continue;
+    tree.fixed.push_back(
+        {kWorldFrame, frame, by_wheels ? structure.models[sensor.model]->pose : Pose{}});
+  }
+  for (const Robot& robot : robots) {
+    if (owner_in(robots, robot.model) != &robot) continue;
+    const sim::LinkEntry& base = structure.links[robot.base];
+    const desc::Model& model = *structure.models[robot.model];
+    tree.fixed.push_back({kWorldFrame, robot.odom_frame, model.pose * model.links[base.link].pose});
+  }
+}
+
+void FrameMaker::add_sensors(const sim::Structure& structure, const std::vector<Robot>& robots,
+                             FrameTree& tree) const {
+  std::unordered_set<std::string> used;  // besides those of links
+  const auto take = [&](const std::string& frame) {
+    return link_frames_.count(frame) == 0 && used.insert(frame).second;
+  };
+  for (const sim::SensorEntry& sensor : structure.sensors) {
+    if (const auto foreign = foreign_frame(sensor, *structure.models[sensor.model])) {
+      tree.sensors.push_back(*foreign);
+      continue;
+    }
+    const sim::LinkEntry& link = structure.links[sensor.link];
+    std::string frame = sensor.frame;
+    if (frame.empty()) frame = sensor.name + (is_camera(sensor) ? "_optical_frame" : "");
+    const Robot* owner = owner_in(robots, link.model);
+    if (owner != nullptr && !owner->first && !sensor.frame.empty()) {
+      frame = owner->name + "/" + frame;
+    }
+    if (frame == frame_of(link)) {  // an SDF that names its link's frame means it
+      tree.sensors.push_back(frame);
+      continue;
+    }
+    if (!take(frame)) {
+      frame = sensor.kind + "_" + sensor.name;
+      take(frame);
+    }
+    const Pose in_sensor = is_camera(sensor) ? Pose{Vec3::Zero(), kOptical} : Pose{};
+    tree.fixed.push_back({frame_of(link), frame, sensor.pose * in_sensor});
+    tree.sensors.push_back(std::move(frame));
+  }
 }
 
 }  // namespace angen::node

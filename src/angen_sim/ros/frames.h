@@ -1,10 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
+#include "ros/changes.h"
+#include "ros/model_frames.h"
 #include "sim/snapshot.h"
 
 /// The tree of coordinate frames, worked out once for each structure.
@@ -35,19 +39,6 @@ std::vector<std::string> robot_topics(const Robot& robot, const std::string& req
 /// The robot that model number `model` is, or null.
 const Robot* robot_in(const std::vector<Robot>& robots, std::uint32_t model);
 
-struct FixedFrame {
-  std::string parent;
-  std::string child;
-  Pose pose;  // of the child in the parent
-};
-
-struct MovingFrame {
-  std::string parent;
-  std::string child;
-  std::uint32_t link = 0;                    // Structure::links
-  std::optional<std::uint32_t> parent_link;  // none: the world
-};
-
 struct FrameTree {
   std::vector<FixedFrame> fixed;
   std::vector<MovingFrame> moving;
@@ -55,10 +46,32 @@ struct FrameTree {
   std::vector<std::int32_t> moved_by;  // for each link the index in `moving` that carries it, or -1
 };
 
-/// `world` is the root. Links that fixed joints hold together hang on the first of them; a robot's
-/// hang on its base, whose own place under its odometry frame is its odometry's business, not this
-/// tree's. Odometry frames stand in the world, unless a localization places them.
-FrameTree make_frames(const sim::Snapshot& snapshot, const std::vector<Robot>& robots,
-                      bool odometry_in_world = true);
+/// Makes the tree of each structure; the frames of models that stay are those of the tree before.
+/// `world` is the root. Odometry frames stand in the world, unless a localization places them.
+class FrameMaker {
+ public:
+  explicit FrameMaker(bool odometry_in_world = true) : odometry_in_world_(odometry_in_world) {}
+
+  /// `changes`: since the structure of the last call.
+  std::shared_ptr<const FrameTree> make(const sim::Snapshot& snapshot,
+                                        const std::vector<Robot>& robots, const Changes& changes);
+
+ private:
+  void keep_models(const sim::Structure& structure, const std::vector<Robot>& robots,
+                   const Changes& changes);
+  void drop(const std::shared_ptr<const ModelFrames>& model);
+  void add_links(const sim::Snapshot& snapshot, FrameTree& tree) const;
+  void add_odometry(const sim::Structure& structure, const std::vector<Robot>& robots,
+                    FrameTree& tree) const;
+  void add_sensors(const sim::Structure& structure, const std::vector<Robot>& robots,
+                   FrameTree& tree) const;
+  const std::string& frame_of(const sim::LinkEntry& link) const {
+    return models_[link.model]->links[link.link];
+  }
+
+  bool odometry_in_world_;
+  std::vector<std::shared_ptr<const ModelFrames>> models_;  // as Structure::models
+  std::unordered_map<std::string, int> link_frames_;        // how many links have one
+};
 
 }  // namespace angen::node

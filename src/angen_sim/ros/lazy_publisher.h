@@ -14,6 +14,10 @@
 
 namespace angen::node {
 
+/// To advertise or subscribe a topic that may go: a handle keeps some 300 bytes of each topic that
+/// it was ever used for, as long as it lives.
+inline ros::NodeHandle handle_for_one(const ros::NodeHandle& node) { return node; }
+
 /// Messages that publishers of all kinds have sent since the start; each counts once, however many
 /// listen.
 class Traffic {
@@ -45,7 +49,7 @@ class LazyPublisher {
         [listeners](const ros::SingleSubscriberPublisher& subscriber) {
           if (!is_this_node(subscriber)) --listeners->count;
         });
-    made.publisher_ = node.advertise(options);
+    made.publisher_ = handle_for_one(node).advertise(options);
     return made;
   }
 
@@ -88,7 +92,8 @@ class LatchedLazyPublisher {
     ros::AdvertiseOptions options;
     options.init<Message>(topic, queue);
     options.latch = true;
-    latch_ = node.advertise(options);  // says in connection headers what this topic is
+    latch_ =
+        handle_for_one(node).advertise(options);  // says in connection headers what this topic is
     const std::shared_ptr<State> state = state_;
     options.init<Message>(
         topic, queue,
@@ -104,7 +109,7 @@ class LatchedLazyPublisher {
           --state->listeners;
         });
     options.latch = false;
-    publisher_ = node.advertise(options);
+    publisher_ = handle_for_one(node).advertise(options);
   }
 
   /// From now on the message is what `make` returns; it may be called by any thread until the next

@@ -41,7 +41,7 @@ std::vector<angen_msgs::Entity> entities(const sim::Snapshot& snapshot,
     angen_msgs::Entity entity;
     entity.name = name;
     entity.kind = its_kind;
-    entity.model = structure.models[model]->name;
+    if (model != UINT32_MAX) entity.model = structure.models[model]->name;
     entity.pose = to_ros(pose);
     all.push_back(std::move(entity));
     return &all.back();
@@ -54,7 +54,10 @@ std::vector<angen_msgs::Entity> entities(const sim::Snapshot& snapshot,
     add(structure.models[m]->name, "model", m, place(m));
   }
   for (const sim::DeviceEntry& device : structure.devices) {
-    angen_msgs::Entity* entity = add(device.name, device.kind, device.model, place(device.model));
+    const bool of_light = device.light != UINT32_MAX;
+    angen_msgs::Entity* entity =
+        add(device.name, device.kind, device.model,
+            of_light ? structure.lights[device.light].light.pose : place(device.model));
     if (entity == nullptr || device.kind == "drive") continue;
     entity->topic = topic_of(device.kind, device.name);
     entity->type = ros_kind(device.kind, device.library).formats.front().type;

@@ -1,3 +1,4 @@
+#include <malloc.h>
 #include <ros/console.h>
 #include <ros/init.h>
 #include <ros/master.h>
@@ -43,10 +44,17 @@ constexpr char kUsage[] =
 
 constexpr std::uint64_t kDefaultSeed = 1;
 constexpr double kLongestTime = 9e9;  // s, so that it fits into nanoseconds
+constexpr int kKept = 128 << 10;      // bytes, malloc's own limits at the start
 
 std::atomic<bool> stop{false};
 
 void on_signal(int) { stop = true; }
+
+/// malloc raises these limits with what is freed, up to 64 MB that stay with the process.
+void give_back_memory() {
+  mallopt(M_MMAP_THRESHOLD, kKept);
+  mallopt(M_TRIM_THRESHOLD, kKept);
+}
 
 void end_on_signals() {
   struct sigaction action = {};
@@ -273,6 +281,7 @@ int run(std::string path, std::unique_ptr<Simulation> simulation) {
 int main(int argc, char** argv) {
   std::setlocale(LC_NUMERIC, "C");
   std::setlocale(LC_CTYPE, "C.UTF-8");  // log4cxx writes other letters as ? otherwise
+  give_back_memory();
   try {
     const std::vector<std::string> raw(argv + 1, argv + argc);
     if (!raw.empty() && (raw[0] == "--help" || raw[0] == "-h")) {

@@ -58,12 +58,12 @@ std::string marker_group(const sim::Structure& structure, std::uint32_t link) {
 DrawnModel draw_model(const sim::Structure& structure, std::uint32_t first_link,
                       std::int32_t& next_id) {
   DrawnModel drawn;
-  drawn.model = structure.models[structure.links[first_link].model];
-  for (std::uint32_t l = 0; l < drawn.model->links.size(); ++l) {
+  const desc::Model& model = *structure.models[structure.links[first_link].model];
+  for (std::uint32_t l = 0; l < model.links.size(); ++l) {
     const std::string group = marker_group(structure, first_link + l);
     const float alpha = strongest_alpha(group);
     std::vector<Drawing> drawings;
-    for (const desc::Visual& visual : drawn.model->links[l].visuals) {
+    for (const desc::Visual& visual : model.links[l].visuals) {
       for (Drawing& drawing : draw(visual)) {
         drawing.marker.header.frame_id = "world";
         drawing.marker.ns = group;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,7 +15,6 @@ std::string marker_group(const sim::Structure& structure, std::uint32_t link);
 
 /// Markers of one model, with the groups and ids that they keep until the model is deleted.
 struct DrawnModel {
-  std::shared_ptr<const desc::Model> model;
   std::vector<std::vector<Drawing>> links;  // as desc::Model::links
 };
 

@@ -1,7 +1,6 @@
 #include "ros/markers.h"
 
 #include <chrono>
-#include <set>
 #include <utility>
 
 #include "ros/convert.h"
@@ -13,40 +12,42 @@ constexpr std::chrono::milliseconds kMarkerPeriod(66);
 
 }  // namespace
 
-Markers::Markers(ros::NodeHandle& node)
-    : publisher_(LazyPublisher::of<visualization_msgs::MarkerArray>(node, "/angen/markers", 100)) {}
+Markers::Markers(ros::NodeHandle& node, Readings& readings)
+    : publisher_(LazyPublisher::of<visualization_msgs::MarkerArray>(node, "/angen/markers", 100)),
+      overlays_(next_id_, readings) {}
+
+void Markers::draw_models(const sim::Structure& structure, const Changes& changes) {
+  std::vector<DrawnModel> old = std::exchange(models_, {});
+  models_.resize(structure.models.size());
+  links_.clear();
+  for (std::uint32_t m = 0; m < models_.size(); ++m) {
+    const std::uint32_t before = changes.models.before[m];
+    const auto first = static_cast<std::uint32_t>(links_.size());
+    models_[m] =
+        before != Numbers::kNone ? std::move(old[before]) : draw_model(structure, first, next_id_);
+    for (const std::vector<Drawing>& link : models_[m].links) {
+      links_.push_back(&link);
+      if (before == Numbers::kNone) mark(static_cast<std::uint32_t>(links_.size() - 1));
+    }
+  }
+  for (const DrawnModel& gone : old) {  // those that stay have been moved out
+    for (const std::vector<Drawing>& link : gone.links) {
+      for (const Drawing& drawing : link) gone_.markers.push_back(drawing.marker);
+    }
+  }
+}
 
 void Markers::on_structure(const sim::Snapshot& snapshot) {
   const sim::Structure& structure = *snapshot.structure;
-  std::map<const desc::Model*, DrawnModel> old = std::exchange(models_, {});
-  std::set<const std::vector<Drawing>*> pending;  // moved, and not published yet
-  for (const std::uint32_t link : changed_) pending.insert(links_[link]);
-  links_.assign(structure.links.size(), nullptr);
+  const Changes changes = changes_between(structure_.get(), structure);
+  const std::vector<std::uint32_t> pending = std::exchange(changed_, {});
   marked_.assign(structure.links.size(), false);
-  changed_.clear();
-  for (std::uint32_t i = 0; i < structure.links.size(); ++i) {
-    const sim::LinkEntry& entry = structure.links[i];
-    const desc::Model* model = structure.models[entry.model].get();
-    if (models_.count(model) == 0) {
-      const auto before = old.find(model);
-      const bool known = before != old.end();
-      models_[model] =
-          known ? std::move(before->second) : draw_model(structure, i - entry.link, next_id_);
-      if (known) old.erase(before);
-      for (std::uint32_t l = 0; !known && l < models_[model].links.size(); ++l) {
-        mark(i - entry.link + l);
-      }
-    }
-    links_[i] = &models_[model].links[entry.link];
-    if (pending.count(links_[i]) > 0) mark(i);
+  for (const std::uint32_t link : pending) {
+    if (changes.links.after[link] != Numbers::kNone) mark(changes.links.after[link]);
   }
-  for (const auto& [model, drawn] : old) {
-    for (const auto& drawings : drawn.links) {
-      for (const Drawing& drawing : drawings) gone_.markers.push_back(drawing.marker);
-    }
-  }
-  overlays_.on_structure(snapshot, next_id_, gone_);
-  structure_ = snapshot.structure;  // the models of the one before were known by their addresses
+  draw_models(structure, changes);
+  overlays_.on_structure(structure, changes, gone_);
+  structure_ = snapshot.structure;
 }
 
 void Markers::mark(std::uint32_t link) {

@@ -2,10 +2,10 @@
 
 #include <visualization_msgs/MarkerArray.h>
 
-#include <map>
 #include <memory>
 #include <vector>
 
+#include "ros/changes.h"
 #include "ros/lazy_publisher.h"
 #include "ros/marker_plan.h"
 #include "ros/overlays.h"
@@ -18,7 +18,7 @@ namespace angen::node {
 /// times a second of wall time. Nothing is built or updated without a subscriber.
 class Markers {
  public:
-  explicit Markers(ros::NodeHandle& node);
+  Markers(ros::NodeHandle& node, Readings& readings);
 
   void publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point now);
 
@@ -26,6 +26,7 @@ class Markers {
   using Array = visualization_msgs::MarkerArray;
 
   void on_structure(const sim::Snapshot& snapshot);
+  void draw_models(const sim::Structure& structure, const Changes& changes);
   void mark(std::uint32_t link);
   void put_link(const sim::Snapshot& snapshot, std::uint32_t link, Array& array) const;
   Array collect(const sim::Snapshot& snapshot, bool all);
@@ -33,7 +34,7 @@ class Markers {
   LazyPublisher publisher_;
   std::shared_ptr<const sim::Structure> structure_;  // that all this is about
   std::int32_t next_id_ = 0;
-  std::map<const desc::Model*, DrawnModel> models_;
+  std::vector<DrawnModel> models_;                  // as Structure::models
   std::vector<const std::vector<Drawing>*> links_;  // as Structure::links
   Overlays overlays_;
   Array gone_;                          // to be published as deleted

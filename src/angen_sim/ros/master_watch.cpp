@@ -17,7 +17,7 @@ constexpr char kService[] = "/angen/list";  // one that each node has
 enum class Answer { kNone, kError, kGood };
 
 // Without a retry: ros::master waits for ever otherwise.
-Answer ask(const char* method, const std::string& about, XmlRpc::XmlRpcValue& payload) {
+Answer call_master(const char* method, const std::string& about, XmlRpc::XmlRpcValue& payload) {
   XmlRpc::XmlRpcValue request, response;
   request[0] = ros::this_node::getName();
   if (!about.empty()) request[1] = about;
@@ -27,7 +27,7 @@ Answer ask(const char* method, const std::string& about, XmlRpc::XmlRpcValue& pa
 
 std::optional<int> pid_of_master() {
   XmlRpc::XmlRpcValue pid;
-  const bool good = ask("getPid", "", pid) == Answer::kGood;
+  const bool good = call_master("getPid", "", pid) == Answer::kGood;
   return good && pid.getType() == XmlRpc::XmlRpcValue::TypeInt ? std::optional<int>(pid)
                                                                : std::nullopt;
 }
@@ -52,7 +52,7 @@ void MasterWatch::watch() {
   while (!wake_.wait_for(lock, kMasterPeriod, [this] { return ended_; })) {
     const std::optional<int> pid = pid_of_master();
     XmlRpc::XmlRpcValue provider;
-    const Answer service = ask("lookupService", kService, provider);
+    const Answer service = call_master("lookupService", kService, provider);
     if (pid && !first) first = pid;
     if ((pid && pid != first) || service == Answer::kError) {
       lost_ = true;

@@ -8,7 +8,7 @@
 #include <chrono>
 #include <optional>
 
-#include "ros/frames.h"
+#include "ros/changes.h"
 #include "ros/master_watch.h"
 
 namespace angen::node {
@@ -51,7 +51,6 @@ Node::Node(sim::Simulation& simulation, const Settings& settings)
       replay_(settings.replay),
       hurry_(settings.hurry),
       paused_after_(settings.paused_after),
-      odometry_in_world_(settings.odometry_in_world),
       inbox_(simulation),
       rate_(settings.rate),
       pacer_(settings.rate),
@@ -59,12 +58,14 @@ Node::Node(sim::Simulation& simulation, const Settings& settings)
       stats_(handle_),
       events_(handle_),
       cost_(handle_, simulation),
-      summary_(handle_),
+      summary_(handle_, readings_),
+      frames_(settings.odometry_in_world),
       transforms_(handle_),
-      markers_(handle_),
-      publishers_(handle_, simulation, settings.topics),
+      markers_(handle_, readings_),
+      publishers_(handle_, simulation, settings.topics, readings_),
       joints_(handle_),
       commands_(handle_, inbox_, settings.plugins),
+      controls_(simulation),
       states_(handle_, inbox_, settings.states_rate),
       performance_(handle_, simulation),
       services_(inbox_, events_, settings.models, settings.topics, rate_) {}
@@ -113,7 +114,8 @@ std::shared_ptr<const sim::Snapshot> Node::simulate() {
     if (replay_->done()) go_live();
     return snapshot;
   }
-  return fast_ && pacer_.rate() == 0.0 ? simulation_.leap(until) : simulation_.tick();
+  return fast_ && pacer_.rate() == 0.0 && controls_.empty() ? simulation_.leap(until)
+                                                            : simulation_.tick();
 }
 
 void Node::go_live() {
@@ -126,19 +128,23 @@ void Node::go_live() {
   if (paused_after_) simulation_.post(sim::Pause{true});
 }
 
+void Node::follow_structure(const sim::Snapshot& snapshot) {
+  const Changes changes = changes_between(structure_.get(), *snapshot.structure);
+  structure_ = snapshot.structure;
+  const std::vector<Robot> robots = find_robots(*structure_, simulation_.world().plugins);
+  const std::shared_ptr<const FrameTree> frames = frames_.make(snapshot, robots, changes);
+  transforms_.on_structure(snapshot, frames, robots, changes);
+  publishers_.on_structure(snapshot, *frames, robots, changes);
+  joints_.on_structure(snapshot, robots);
+  commands_.on_structure(*structure_, robots);
+  controls_.on_structure(*structure_, changes);
+}
+
 void Node::publish(const sim::Snapshot& snapshot) {
   cost_.start();
   const Pacer::Clock::time_point now = Pacer::Clock::now();
   clock_.publish(snapshot, now);
-  if (snapshot.structure->revision != revision_) {
-    revision_ = snapshot.structure->revision;
-    const std::vector<Robot> robots = find_robots(*snapshot.structure, simulation_.world().plugins);
-    const FrameTree frames = make_frames(snapshot, robots, odometry_in_world_);
-    transforms_.on_structure(snapshot, frames, robots);
-    publishers_.on_structure(snapshot, frames, robots);
-    joints_.on_structure(snapshot, robots);
-    commands_.on_structure(*snapshot.structure, robots);
-  }
+  if (snapshot.structure != structure_) follow_structure(snapshot);
   publishers_.publish(snapshot);
   joints_.publish(snapshot);
   states_.publish(snapshot, now);
@@ -149,6 +155,7 @@ void Node::publish(const sim::Snapshot& snapshot) {
   summary_.publish(snapshot, now);
   stats_.publish(snapshot, now);
   cost_.publish(snapshot, now);
+  if (!replaying()) controls_.update(snapshot);
 }
 
 void Node::pace(const sim::Snapshot& snapshot, const std::atomic<bool>& stop) {

@@ -8,13 +8,16 @@
 #include "record/replay.h"
 #include "ros/commands.h"
 #include "ros/cost.h"
+#include "ros/frames.h"
 #include "ros/gazebo/performance.h"
 #include "ros/gazebo/states.h"
 #include "ros/inbox.h"
+#include "ros/joint_control.h"
 #include "ros/joints.h"
 #include "ros/markers.h"
 #include "ros/pacer.h"
 #include "ros/publishers.h"
+#include "ros/readings.h"
 #include "ros/services.h"
 #include "ros/status_topics.h"
 #include "ros/summary_topic.h"
@@ -51,9 +54,11 @@ class Node {
  private:
   std::shared_ptr<const sim::Snapshot> advance();
   void publish(const sim::Snapshot& snapshot);
+  void follow_structure(const sim::Snapshot& snapshot);
   /// Sleeps where time is ahead of its schedule by a batch of ticks.
   void pace(const sim::Snapshot& snapshot, const std::atomic<bool>& stop);
-  /// Advertises /angen/ready, the last topic: whoever sees it finds all others and every service.
+  /// Advertises /angen/ready, the last topic: once it is there, so are all others and every
+  /// service.
   void announce();
 
   std::shared_ptr<const sim::Snapshot> simulate();
@@ -66,22 +71,24 @@ class Node {
   record::Replay* replay_;
   bool hurry_;
   bool paused_after_;
-  bool odometry_in_world_;
   ros::NodeHandle handle_;
   Inbox inbox_;
   std::atomic<double> rate_;  // as Settings::rate, but a service may set it
   Pacer pacer_;
-  std::uint64_t revision_ = UINT64_MAX;
+  std::shared_ptr<const sim::Structure> structure_;  // that was published last
   ClockTopic clock_;
   Stats stats_;
   Events events_;
   CostTopic cost_;
+  Readings readings_;
   SummaryTopic summary_;
+  FrameMaker frames_;
   Transforms transforms_;
   Markers markers_;
   Publishers publishers_;
   JointStates joints_;
   Commands commands_;
+  JointControls controls_;
   gazebo::StateTopics states_;
   gazebo::Performance performance_;
   Services services_;

@@ -97,6 +97,11 @@ Pose described_pose(const sim::Structure& structure, std::uint32_t link) {
   return model.pose * model.links[entry.link].pose;
 }
 
+Pose described_pose(const sim::Structure& structure, const sim::LightEntry& light) {
+  if (light.link == UINT32_MAX) return light.light.pose;
+  return described_pose(structure, light.link) * light.light.pose;
+}
+
 bool apart(const std::vector<double>& a, const std::vector<double>& b) {
   if (a.size() != b.size()) return true;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -107,33 +112,44 @@ bool apart(const std::vector<double>& a, const std::vector<double>& b) {
 
 }  // namespace
 
+Overlays::Overlay& Overlays::put(Named& all, const std::string& name, Overlay overlay) {
+  const auto [at, is_new] = all.emplace(name, std::move(overlay));
+  if (is_new) at->second.marker.id = next_id_++;
+  return at->second;
+}
+
 void Overlays::add_lamp(const sim::Structure& structure, std::uint32_t light) {
   const sim::LightEntry& entry = structure.lights[light];
   if (entry.light.type == desc::Light::Type::kDirectional) return;
   Overlay overlay;
-  if (entry.model != UINT32_MAX) overlay.subject = structure.models[entry.model];
+  overlay.of = Of::kLight;
   overlay.index = light;
   overlay.link = entry.link;
   overlay.offset = entry.light.pose;
-  Pose pose = entry.light.pose;
-  if (entry.link != UINT32_MAX) pose = described_pose(structure, entry.link) * pose;
+  const Pose pose = described_pose(structure, entry);
   overlay.storey = storey_suffix(structure, entry.model, pose.position.z());
-  const bool still = entry.link == UINT32_MAX || !structure.links[entry.link].moves;
-  const Room* room = still ? room_around(rooms_, pose.position) : nullptr;
-  if (room != nullptr) {
-    Overlay lit = overlay;
-    lit.subject = nullptr;  // its room may be another
-    lit.link = UINT32_MAX;
-    lit.offset = {pose.position, room->pose.rotation};
-    glows_.emplace(entry.name, std::move(lit));
-  }
-  lamps_.emplace(entry.name, std::move(overlay));
+  put(lamps_, entry.name, std::move(overlay));
+}
+
+void Overlays::add_glow(const sim::Structure& structure, std::uint32_t light) {
+  const sim::LightEntry& entry = structure.lights[light];
+  if (entry.light.type == desc::Light::Type::kDirectional) return;
+  if (entry.link != UINT32_MAX && structure.links[entry.link].moves) return;
+  const Vec3 place = described_pose(structure, entry).position;
+  const Room* room = room_around(rooms_, place);
+  if (room == nullptr) return;
+  Overlay overlay;
+  overlay.of = Of::kLight;
+  overlay.index = light;
+  overlay.offset = {place, room->pose.rotation};
+  overlay.storey = storey_suffix(structure, entry.model, place.z());
+  put(glows_, entry.name, std::move(overlay));
 }
 
 void Overlays::add_sensor(const sim::Structure& structure, std::uint32_t sensor) {
   const sim::SensorEntry& entry = structure.sensors[sensor];
   Overlay overlay;
-  overlay.subject = entry.desc;
+  overlay.of = Of::kSensor;
   overlay.index = sensor;
   overlay.link = entry.link;
   overlay.offset = entry.pose;
@@ -141,9 +157,9 @@ void Overlays::add_sensor(const sim::Structure& structure, std::uint32_t sensor)
                                  (described_pose(structure, entry.link) * entry.pose).position.z());
   const RosKind& kind = ros_kind(entry.kind, entry.desc->plugin);
   if (kind.rays) {
-    beams_.emplace(entry.kind + "/" + entry.name, std::move(overlay));
+    put(beams_, entry.kind + "/" + entry.name, std::move(overlay));
   } else if (kind.caption && !entry.on_demand()) {
-    captions_.emplace(entry.kind + "/" + entry.name, std::move(overlay));
+    put(captions_, entry.kind + "/" + entry.name, std::move(overlay));
   }
 }
 
@@ -154,24 +170,25 @@ void Overlays::add_device(const sim::Structure& structure, std::uint32_t device)
       std::any_of(fields.begin(), fields.end(), [](const Field& field) { return field.alarm; });
   if (!has_alarm || !ros_kind(entry.kind, entry.library).caption) return;
   Overlay overlay;
-  overlay.subject = structure.models[entry.model];
+  overlay.of = Of::kDevice;
   overlay.index = device;
-  overlay.of_device = true;
   overlay.link = first_link(structure, entry.model);
   overlay.offset.position = kOverModel;
   overlay.storey =
       storey_suffix(structure, entry.model, structure.models[entry.model]->pose.position.z());
-  captions_.emplace(entry.kind + "/" + entry.name, std::move(overlay));
+  put(captions_, entry.kind + "/" + entry.name, std::move(overlay));
 }
 
 void Overlays::add_label(const sim::Structure& structure, std::uint32_t device) {
   const sim::DeviceEntry& entry = structure.devices[device];
   const bool travels = entry.kind == "drive" || entry.kind == "person";
   if (!travels && entry.kind != "lamp" && entry.kind != "door") return;
+  if (entry.light != UINT32_MAX) return;  // a sun needs none
   const desc::Model& model = *structure.models[entry.model];
   const Vec3 place = place_of_label(model);
   Overlay overlay;
-  overlay.subject = structure.models[entry.model];
+  overlay.of = Of::kDevice;
+  overlay.index = device;
   overlay.storey = storey_suffix(structure, entry.model, model.pose.position.z());
   overlay.offset.position = model.pose * place;
   if (travels) {
@@ -180,7 +197,7 @@ void Overlays::add_label(const sim::Structure& structure, std::uint32_t device) 
   }
   const std::string group = entry.kind == "door" ? "door labels" : "labels";
   const std::string text = travels ? entry.name : entry.kind + " " + entry.name;
-  Overlay& kept = labels_.emplace(entry.kind + "/" + entry.name, std::move(overlay)).first->second;
+  Overlay& kept = put(labels_, entry.kind + "/" + entry.name, std::move(overlay));
   show(kept,
        text_marker(text, travels ? kMoverTextHeight : kDeviceTextHeight,
                    color(1.0F, 0.9F, 0.7F, 1.0F)),
@@ -192,57 +209,70 @@ void Overlays::add_room_labels() {
     Overlay overlay;
     overlay.storey = room.storey;
     overlay.offset.position = room.pose * Vec3(0.0, -room.size.y() / 4, kRoomTextAt);
-    Overlay& kept = labels_.emplace("room/" + room.building + "/" + room.name, std::move(overlay))
-                        .first->second;
+    Overlay& kept = put(room_labels_, room.building + "/" + room.name, std::move(overlay));
     show(kept, text_marker(room.name, kRoomTextHeight, color(1.0F, 1.0F, 1.0F, 1.0F)),
          "labels" + room.storey);
   }
 }
 
-void Overlays::keep_drawn(Overlay& old, Overlay& now) {
-  now.marker = old.marker;
-  now.pose = old.pose;
-  now.drawn = old.drawn;
-  now.level = old.level;
-  now.last = std::move(old.last);
-  now.stamp = old.stamp;
-  now.ranges = std::move(old.ranges);
-  now.fired = old.fired;
-}
-
-void Overlays::keep_markers(Named& old, Named& now, std::int32_t& next_id, Array& gone) {
-  for (auto& [name, overlay] : now) {
-    const auto before = old.find(name);
-    if (before == old.end()) {
-      overlay.marker.id = next_id++;
-    } else if (overlay.subject != nullptr && overlay.subject == before->second.subject) {
-      keep_drawn(before->second, overlay);
-    } else if (overlay.marker.ns.empty()) {
-      overlay.marker = before->second.marker;
-    } else {
-      overlay.marker.id = before->second.marker.id;
-    }
+bool Overlays::find_other_rooms(const sim::Structure& structure) {
+  std::vector<std::shared_ptr<const desc::Model>> buildings;
+  for (const auto& model : structure.models) {
+    if (is_building(*model)) buildings.push_back(model);
   }
-  for (const auto& [name, overlay] : old) {
-    if (overlay.marker.ns.empty()) continue;
-    const auto after = now.find(name);
-    if (after == now.end() || after->second.storey != overlay.storey)
-      gone.markers.push_back(overlay.marker);
-  }
-}
-
-void Overlays::on_structure(const sim::Snapshot& snapshot, std::int32_t& next_id, Array& gone) {
-  const sim::Structure& structure = *snapshot.structure;
-  Named old[] = {std::exchange(lamps_, {}), std::exchange(glows_, {}), std::exchange(beams_, {}),
-                 std::exchange(captions_, {}), std::exchange(labels_, {})};
+  if (buildings == buildings_) return false;
+  buildings_ = std::move(buildings);
   rooms_ = find_rooms(structure);
-  for (std::uint32_t i = 0; i < structure.lights.size(); ++i) add_lamp(structure, i);
-  for (std::uint32_t i = 0; i < structure.sensors.size(); ++i) add_sensor(structure, i);
-  for (std::uint32_t i = 0; i < structure.devices.size(); ++i) add_device(structure, i);
-  for (std::uint32_t i = 0; i < structure.devices.size(); ++i) add_label(structure, i);
-  add_room_labels();
-  Named* const now[] = {&lamps_, &glows_, &beams_, &captions_, &labels_};
-  for (std::size_t i = 0; i < std::size(now); ++i) keep_markers(old[i], *now[i], next_id, gone);
+  return true;
+}
+
+void Overlays::drop(Named& all, Array& gone) {
+  for (auto& [name, overlay] : all) {
+    if (!overlay.marker.ns.empty()) gone.markers.push_back(std::move(overlay.marker));
+  }
+  all.clear();
+}
+
+void Overlays::keep(Named& all, const Changes& changes, Array& gone) {
+  for (auto at = all.begin(); at != all.end();) {
+    Overlay& overlay = at->second;
+    const Numbers& numbers = overlay.of == Of::kLight    ? changes.lights
+                             : overlay.of == Of::kSensor ? changes.sensors
+                                                         : changes.devices;
+    overlay.index = numbers.after[overlay.index];
+    if (overlay.index == Numbers::kNone) {
+      if (!overlay.marker.ns.empty()) gone.markers.push_back(std::move(overlay.marker));
+      at = all.erase(at);
+      continue;
+    }
+    if (overlay.link != UINT32_MAX) overlay.link = changes.links.after[overlay.link];
+    ++at;
+  }
+}
+
+void Overlays::on_structure(const sim::Structure& structure, const Changes& changes, Array& gone) {
+  const bool other_rooms = find_other_rooms(structure);
+  if (other_rooms) {
+    drop(room_labels_, gone);
+    drop(glows_, gone);
+    add_room_labels();
+  }
+  for (Named* all : {&lamps_, &glows_, &beams_, &captions_, &labels_}) keep(*all, changes, gone);
+  const auto is_new = [](const Numbers& numbers, std::uint32_t i) {
+    return numbers.before[i] == Numbers::kNone;
+  };
+  for (std::uint32_t i = 0; i < structure.lights.size(); ++i) {
+    if (is_new(changes.lights, i)) add_lamp(structure, i);
+    if (other_rooms || is_new(changes.lights, i)) add_glow(structure, i);
+  }
+  for (std::uint32_t i = 0; i < structure.sensors.size(); ++i) {
+    if (is_new(changes.sensors, i)) add_sensor(structure, i);
+  }
+  for (std::uint32_t i = 0; i < structure.devices.size(); ++i) {
+    if (!is_new(changes.devices, i)) continue;
+    add_device(structure, i);
+    add_label(structure, i);
+  }
 }
 
 void Overlays::show(Overlay& overlay, visualization_msgs::Marker marker, const std::string& group) {
@@ -272,6 +302,7 @@ void Overlays::append(const sim::Snapshot& snapshot, bool all, Array& array) {
   for (auto& [name, beams] : beams_) update(beams, redraw(snapshot, beams));
   for (auto& [name, caption] : captions_) update(caption, rewrite(snapshot, caption), kOverSensor);
   for (auto& [name, label] : labels_) update(label, false);
+  for (auto& [name, label] : room_labels_) update(label, false);
   for (visualization_msgs::Marker& marker : stale_) {
     marker.action = visualization_msgs::Marker::DELETE;
     array.markers.push_back(std::move(marker));
@@ -303,8 +334,9 @@ bool Overlays::glow(const sim::Snapshot& snapshot, Overlay& lamp) {
 
 bool Overlays::is_new(const sim::Snapshot& snapshot, Overlay& overlay) {
   const std::uint32_t index = overlay.index;
-  const auto& last = overlay.of_device ? snapshot.devices[index] : snapshot.sensors[index].reading;
-  const bool lazy = !overlay.of_device && snapshot.sensors[index].lazy != nullptr;
+  const bool is_device = overlay.of == Of::kDevice;
+  const auto& last = is_device ? snapshot.devices[index] : snapshot.sensors[index].reading;
+  const bool lazy = !is_device && snapshot.sensors[index].lazy != nullptr;
   const Nanoseconds stamp = lazy ? snapshot.stamp(index) : 0;
   if (last == overlay.last && stamp == overlay.stamp) return false;
   overlay.last = last;
@@ -316,7 +348,7 @@ bool Overlays::redraw(const sim::Snapshot& snapshot, Overlay& beams) {
   const sim::SensorEntry& entry = snapshot.structure->sensors[beams.index];
   const RayStyle& style = *rays_of(entry);
   if (!is_new(snapshot, beams) && beams.drawn) return false;
-  const std::shared_ptr<const Reading> reading = snapshot.reading(beams.index);
+  const std::shared_ptr<const Reading> reading = readings_.of(snapshot, beams.index);
   std::vector<double> ranges;
   bool fired = false;
   if (reading != nullptr) {
@@ -334,12 +366,13 @@ bool Overlays::redraw(const sim::Snapshot& snapshot, Overlay& beams) {
 
 bool Overlays::rewrite(const sim::Snapshot& snapshot, Overlay& caption) {
   const std::uint32_t index = caption.index;
+  const bool is_device = caption.of == Of::kDevice;
   if (!is_new(snapshot, caption) && caption.drawn) return false;
   const std::shared_ptr<const Reading> reading =
-      caption.of_device ? snapshot.devices[index] : snapshot.reading(index);
+      is_device ? snapshot.devices[index] : readings_.of(snapshot, index);
   const sim::Structure& structure = *snapshot.structure;
   const std::shared_ptr<const Plugin>& plugin =
-      caption.of_device ? structure.devices[index].plugin : structure.sensors[index].plugin;
+      is_device ? structure.devices[index].plugin : structure.sensors[index].plugin;
   visualization_msgs::Marker marker = draw_caption(plugin->kind(), reading.get());
   if (marker.text == caption.marker.text && marker.color == caption.marker.color) return false;
   show(caption, std::move(marker), "readings" + caption.storey);

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "ros/changes.h"
 #include "ros/marker_shapes.h"
+#include "ros/readings.h"
 #include "ros/rooms.h"
 #include "sim/snapshot.h"
 
@@ -19,23 +21,27 @@ class Overlays {
  public:
   using Array = visualization_msgs::MarkerArray;
 
-  /// Makes overlays of what exists now; what no longer exists is added to `gone`, to be deleted.
-  void on_structure(const sim::Snapshot& snapshot, std::int32_t& next_id, Array& gone);
+  /// `next_id` is that of the next marker.
+  Overlays(std::int32_t& next_id, Readings& readings) : next_id_(next_id), readings_(readings) {}
+
+  /// Makes overlays of what is new since the structure of the last call; what no longer exists is
+  /// added to `gone`, to be deleted.
+  void on_structure(const sim::Structure& structure, const Changes& changes, Array& gone);
 
   /// Appends what differs from when it was appended last; with `all` everything.
   void append(const sim::Snapshot& snapshot, bool all, Array& array);
 
  private:
+  enum class Of { kNothing, kLight, kSensor, kDevice };
   struct Overlay {
-    visualization_msgs::Marker marker;    // as appended last; without a namespace: not shown
-    std::string storey;                   // " 0", or empty; see storey_suffix
-    std::shared_ptr<const void> subject;  // the description of what it shows; none: the world's
-    std::uint32_t index = 0;              // in Structure::lights, ::sensors or ::devices
-    bool of_device = false;
+    visualization_msgs::Marker marker;  // as appended last; without a namespace: not shown
+    std::string storey;                 // " 0", or empty; see storey_suffix
+    std::uint32_t index = UINT32_MAX;   // in Structure::lights, ::sensors or ::devices
+    Of of = Of::kNothing;
     std::uint32_t link = UINT32_MAX;  // in Structure::links; none: it is still
     Pose offset;
     Pose pose;                            // as appended last
-    bool drawn = false;                   // since the structure changed
+    bool drawn = false;                   // it was appended
     double level = -1.0;                  // of a lamp, as appended last
     std::shared_ptr<const Reading> last;  // compared last
     Nanoseconds stamp = 0;                // of what was made in its place then
@@ -44,16 +50,18 @@ class Overlays {
   };
   using Named = std::map<std::string, Overlay>;
 
+  Overlay& put(Named& all, const std::string& name, Overlay overlay);
   void add_lamp(const sim::Structure& structure, std::uint32_t light);
+  void add_glow(const sim::Structure& structure, std::uint32_t light);
   void add_sensor(const sim::Structure& structure, std::uint32_t sensor);
   void add_device(const sim::Structure& structure, std::uint32_t device);
   void add_label(const sim::Structure& structure, std::uint32_t device);
   void add_room_labels();
-  /// Gives overlays that existed before their markers back, and those of the same subject all that
-  /// was appended last; others get an id, or are `gone`.
-  static void keep_markers(Named& old, Named& now, std::int32_t& next_id, Array& gone);
-  /// What was appended last stays so. Where an overlay is, and in which structure, is `now`.
-  static void keep_drawn(Overlay& old, Overlay& now);
+  /// Whether buildings came or went; then rooms are those of now.
+  bool find_other_rooms(const sim::Structure& structure);
+  /// What stays gets the numbers of now, what has gone is added to `gone`.
+  static void keep(Named& all, const Changes& changes, Array& gone);
+  static void drop(Named& all, Array& gone);
   /// What an overlay shows from now on; in another namespace than before, or nowhere if that is
   /// empty, what it showed is deleted.
   void show(Overlay& overlay, visualization_msgs::Marker marker, const std::string& group);
@@ -65,12 +73,16 @@ class Overlays {
   bool redraw(const sim::Snapshot& snapshot, Overlay& beams);
   bool rewrite(const sim::Snapshot& snapshot, Overlay& caption);
 
-  std::vector<Room> rooms_;
+  std::int32_t& next_id_;
+  Readings& readings_;
+  std::vector<std::shared_ptr<const desc::Model>> buildings_;
+  std::vector<Room> rooms_;  // of these
   Named lamps_;
   Named beams_;
   Named captions_;
   Named glows_;
   Named labels_;
+  Named room_labels_;
   std::vector<visualization_msgs::Marker> stale_;  // to be deleted
 };
 

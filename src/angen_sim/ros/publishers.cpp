@@ -4,7 +4,10 @@
 #include <ros/exceptions.h>
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
+#include "ros/joint_control.h"
 #include "ros/wire.h"
 
 namespace angen::node {
@@ -12,77 +15,118 @@ namespace {
 
 constexpr Nanoseconds kOdometryPeriod = kSecond / 10;  // of a robot that stands still
 
+// What of a robot decides where its sensors publish.
+std::string space_of(const Robot* robot) {
+  return robot == nullptr ? "" : robot->name + (robot->first ? " first" : "");
+}
+
 }  // namespace
 
 void Publishers::attach(Source& source, const std::string& type, const Format::Open& open,
-                        const std::string& topic, Channels& kept) {
-  const Key key{topic, type};
-  std::shared_ptr<Channel> channel;
-  if (const auto old = channels_.find(key); old != channels_.end()) channel = old->second;
-  if (const auto twin = kept.find(key); twin != kept.end()) channel = twin->second;
+                        const std::string& topic) {
+  std::shared_ptr<Channel>& channel = channels_[{topic, type}];
   if (channel == nullptr) {
     try {
       channel = open(node_, topic);
     } catch (const ros::Exception& error) {
+      channels_.erase({topic, type});
       ROS_WARN("%s is not published: %s", source.label->name.c_str(), error.what());
       return;
     }
   }
-  kept[key] = channel;
-  source.channels.push_back(std::move(channel));
+  source.channels.push_back(channel);
 }
 
 Publishers::Source Publishers::sensor_source(const sim::SensorEntry& entry,
-                                             const std::string& frame, const Robot* robot,
-                                             Channels& kept) {
-  Source source{std::make_shared<const Label>(Label{entry.name, frame}), {}};
+                                             const std::string& frame, const Robot* robot) {
+  Source source{std::make_shared<const Label>(Label{entry.name, frame}), {}, space_of(robot)};
+  if (entry.kind == "controlled_joints" && has_joint_control(entry.desc->plugin)) {
+    return source;  // a controller publishes them
+  }
   for (const Format& format : ros_kind(entry.kind, entry.desc->plugin).formats) {
     if (goes_with_its_kind(topics_, format, robot)) {
-      attach(source, format.array_type, format.array, kind_topic(entry.kind), kept);
+      attach(source, format.array_type, format.array, kind_topic(entry.kind));
       continue;
     }
     for (const std::string& topic : sensor_topics(entry, format, robot)) {
-      attach(source, format.type, format.open, topic, kept);
+      attach(source, format.type, format.open, topic);
     }
   }
   return source;
 }
 
-void Publishers::on_structure(const sim::Snapshot& snapshot, const FrameTree& frames,
-                              const std::vector<Robot>& robots) {
-  const sim::Structure& structure = *snapshot.structure;
-  Channels kept;
-  std::vector<Source> sensors;
-  for (std::size_t i = 0; i < structure.sensors.size(); ++i) {
+std::vector<Publishers::Source> Publishers::sensor_sources(const sim::Structure& structure,
+                                                           const FrameTree& frames,
+                                                           const std::vector<Robot>& robots,
+                                                           const Numbers& numbers) {
+  std::vector<Source> sources;
+  sources.reserve(structure.sensors.size());
+  for (std::uint32_t i = 0; i < structure.sensors.size(); ++i) {
     const sim::SensorEntry& entry = structure.sensors[i];
-    sensors.push_back(sensor_source(entry, frames.sensors[i], robot_in(robots, entry.model), kept));
-  }
-  std::vector<Source> devices;
-  for (const sim::DeviceEntry& entry : structure.devices) {
-    Source source{std::make_shared<const Label>(Label{entry.name, "world"}), {}};
-    const Format& format = ros_kind(entry.kind, entry.library).formats.front();
-    if (entry.kind != "drive") {
-      attach(source, format.type, format.latched, topic_of(entry.kind, entry.name), kept);
+    const std::string& frame = frames.sensors[i];
+    const Robot* robot = robot_in(robots, entry.model);
+    const std::uint32_t before = numbers.before[i];
+    if (before == Numbers::kNone || sensors_[before].robot != space_of(robot)) {
+      sources.push_back(sensor_source(entry, frame, robot));
+      continue;
     }
-    devices.push_back(std::move(source));
+    sources.push_back(std::move(sensors_[before]));
+    std::shared_ptr<const Label>& label = sources.back().label;
+    if (label->frame != frame) label = std::make_shared<const Label>(Label{entry.name, frame});
+  }
+  return sources;
+}
+
+Publishers::Source Publishers::device_source(const sim::DeviceEntry& entry) {
+  Source source{std::make_shared<const Label>(Label{entry.name, kWorldFrame}), {}, ""};
+  const Format& format = ros_kind(entry.kind, entry.library).formats.front();
+  if (entry.kind != "drive") {
+    attach(source, format.type, format.latched, topic_of(entry.kind, entry.name));
+  }
+  return source;
+}
+
+std::vector<Publishers::Source> Publishers::device_sources(const sim::Structure& structure,
+                                                           const std::vector<Robot>& robots,
+                                                           const Numbers& numbers) {
+  std::vector<Source> sources;
+  sources.reserve(structure.devices.size());
+  for (std::uint32_t i = 0; i < structure.devices.size(); ++i) {
+    const sim::DeviceEntry& entry = structure.devices[i];
+    const std::uint32_t before = numbers.before[i];
+    const bool stays = before != Numbers::kNone && entry.kind != "drive";
+    sources.push_back(stays ? std::move(devices_[before]) : device_source(entry));
   }
   const Format& odometry = ros_kind("drive").formats.front();
   robots_.clear();
   for (const Robot& robot : robots) {
-    Source& source = devices[robot.device];
+    Source& source = sources[robot.device];
     source.label = std::make_shared<const Label>(Label{robot.base_frame, robot.odom_frame});
     for (const std::string& topic : robot.odometry_topics) {
-      attach(source, odometry.type, odometry.open, topic, kept);
+      attach(source, odometry.type, odometry.open, topic);
     }
     robots_.push_back(robot.device);
   }
-  channels_ = std::move(kept);  // channels that are not kept are shut down here
+  return sources;
+}
+
+void Publishers::shut_down_unused() {
+  for (auto at = channels_.begin(); at != channels_.end();) {
+    at = at->second.use_count() <= 1 ? channels_.erase(at) : std::next(at);
+  }
+}
+
+void Publishers::on_structure(const sim::Snapshot& snapshot, const FrameTree& frames,
+                              const std::vector<Robot>& robots, const Changes& changes) {
+  const sim::Structure& structure = *snapshot.structure;
   batched_.clear();
+  // What has gone keeps its channels until all others have theirs: one of the same topic stays.
+  sensors_ = sensor_sources(structure, frames, robots, changes.sensors);
+  devices_ = device_sources(structure, robots, changes.devices);
+  shut_down_unused();
   for (const auto& [key, channel] : channels_) {
     if (channel->batches()) batched_.push_back(channel);
   }
-  sensors_ = std::move(sensors);
-  devices_ = std::move(devices);
   list_on_demand(structure);
   for (std::uint32_t i = 0; i < devices_.size(); ++i) {
     if (structure.devices[i].kind != "drive") publish_state(snapshot, i);
@@ -120,7 +164,7 @@ void Publishers::publish(const sim::Snapshot& snapshot) {
     std::shared_ptr<const Reading> reading;
     for (const auto& channel : source.channels) {
       if (!channel->has_subscribers()) continue;
-      if (!reading) reading = snapshot.reading(i);
+      if (!reading) reading = readings_.of(snapshot, i);
       channel->publish({reading, snapshot.stamp(i), source.label});
     }
   }

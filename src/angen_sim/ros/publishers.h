@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ros/frames.h"
+#include "ros/readings.h"
 #include "ros/ros_kind.h"
 #include "ros/topics.h"
 #include "sim/simulation.h"
@@ -17,13 +18,13 @@ namespace angen::node {
 /// The topics of all sensors and devices, kept equal to what exists.
 class Publishers {
  public:
-  Publishers(ros::NodeHandle& node, sim::Simulation& simulation, Topics topics)
-      : node_(node), simulation_(simulation), topics_(topics) {}
+  Publishers(ros::NodeHandle& node, sim::Simulation& simulation, Topics topics, Readings& readings)
+      : node_(node), simulation_(simulation), topics_(topics), readings_(readings) {}
 
-  /// Advertises and shuts down as `structure` differs from the last one. `frames` and `robots` are
-  /// those of the same structure.
+  /// Advertises and shuts down by `changes` since the last structure. `frames` and `robots` are
+  /// those of the snapshot's.
   void on_structure(const sim::Snapshot& snapshot, const FrameTree& frames,
-                    const std::vector<Robot>& robots);
+                    const std::vector<Robot>& robots, const Changes& changes);
 
   /// Sends what is new in this tick.
   void publish(const sim::Snapshot& snapshot);
@@ -32,6 +33,7 @@ class Publishers {
   struct Source {
     std::shared_ptr<const Label> label;
     std::vector<std::shared_ptr<Channel>> channels;
+    std::string robot;  // below whose name its topics are; see space_of()
   };
   using Key = std::pair<std::string, std::string>;  // topic, type
   using Channels = std::map<Key, std::shared_ptr<Channel>>;
@@ -43,9 +45,14 @@ class Publishers {
   };
 
   void attach(Source& source, const std::string& type, const Format::Open& open,
-              const std::string& topic, Channels& kept);
-  Source sensor_source(const sim::SensorEntry& entry, const std::string& frame, const Robot* robot,
-                       Channels& kept);
+              const std::string& topic);
+  Source sensor_source(const sim::SensorEntry& entry, const std::string& frame, const Robot* robot);
+  Source device_source(const sim::DeviceEntry& entry);
+  std::vector<Source> sensor_sources(const sim::Structure& structure, const FrameTree& frames,
+                                     const std::vector<Robot>& robots, const Numbers& numbers);
+  std::vector<Source> device_sources(const sim::Structure& structure,
+                                     const std::vector<Robot>& robots, const Numbers& numbers);
+  void shut_down_unused();
   void list_on_demand(const sim::Structure& structure);
   void request(const sim::Structure& structure);
   void publish_state(const sim::Snapshot& snapshot, std::uint32_t device);
@@ -54,6 +61,7 @@ class Publishers {
   ros::NodeHandle& node_;
   sim::Simulation& simulation_;
   Topics topics_;
+  Readings& readings_;
   Channels channels_;
   std::vector<std::shared_ptr<Channel>> batched_;  // those that flush
   std::vector<Source> sensors_;                    // as Structure::sensors

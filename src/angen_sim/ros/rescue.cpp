@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "core/diagnostics.h"
+#include "core/write_all.h"
 #include "record/world_file.h"
 
 namespace angen::node {
@@ -28,16 +29,6 @@ void make_folder(const std::string& folder) {
   }
 }
 
-bool write_all(int file, const std::string& text) {
-  for (std::size_t done = 0; done < text.size();) {
-    const ssize_t count = write(file, text.data() + done, text.size() - done);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return false;
-    done += static_cast<std::size_t>(count);
-  }
-  return fsync(file) == 0;
-}
-
 }  // namespace
 
 std::string default_rescue_path() {
@@ -53,7 +44,7 @@ void rescue(sim::Simulation& simulation, const std::string& path) {
   unlink(fresh.c_str());
   const int file = open(fresh.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (file < 0) fail(path);
-  const bool written = write_all(file, text);
+  const bool written = write_all(file, text) && fsync(file) == 0;
   const bool closed = close(file) == 0;
   if (written && closed && rename(fresh.c_str(), path.c_str()) == 0) return;
   const int problem = errno;

@@ -66,18 +66,6 @@ void fill_any(const Reading& reading, const Label& label, angen_msgs::Reading& m
   }
 }
 
-/// libX_ros.so beside libX.so, where there is one.
-void load_ros_library(const std::string& library) {
-  const std::size_t suffix = library.rfind(".so");
-  if (suffix == std::string::npos) return;
-  const std::string file = find_library(library.substr(0, suffix) + "_ros.so");
-  if (file.empty()) return;
-  if (dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE) == nullptr) {
-    ROS_WARN("%s does not load, so its kinds have no message of their own: %s", file.c_str(),
-             dlerror());
-  }
-}
-
 /// Transforms for readings, on /tf.
 class TransformChannel : public Channel {
  public:
@@ -131,6 +119,18 @@ RosKindRegistration::RosKindRegistration(const std::vector<std::string>& kinds,
   for (const std::string& name : kinds) registry().kinds.emplace(name, kind);
 }
 
+void load_ros_library(const std::string& library) {
+  // Held while it loads: no other thread takes a kind for one without a message meanwhile.
+  const std::lock_guard<std::mutex> lock(registry().loading);
+  const std::size_t suffix = library.rfind(".so");
+  if (suffix == std::string::npos || !registry().tried.insert(library).second) return;
+  const std::string file = find_library(library.substr(0, suffix) + "_ros.so");
+  if (file.empty()) return;
+  if (dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE) == nullptr) {
+    ROS_WARN("%s does not load, so what it brings is missing: %s", file.c_str(), dlerror());
+  }
+}
+
 const RosKind& ros_kind(const std::string& kind, const std::string& library) {
   static const RosKind generic =
       RosKindBuilder()
@@ -138,9 +138,7 @@ const RosKind& ros_kind(const std::string& kind, const std::string& library) {
           .caption()
           .done();
   if (const RosKind* found = find(kind)) return *found;
-  // Held while it loads: no other thread takes the kind for one without a message meanwhile.
-  const std::lock_guard<std::mutex> lock(registry().loading);
-  if (!library.empty() && registry().tried.insert(library).second) load_ros_library(library);
+  load_ros_library(library);
   const RosKind* found = find(kind);
   return found != nullptr ? *found : generic;
 }

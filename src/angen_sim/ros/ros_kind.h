@@ -21,15 +21,17 @@ struct Format {
 
   std::string type;  // angen_msgs/PirMsg
   /// Of a kind with several messages: the end of the topic, and the parameter that changes it.
-  std::string leaf;
+  std::string leaf;  // empty: it is not published where the parameter is not given
   std::string leaf_parameter;
-  bool leaf_alone = false;  // it is the topic, below <robotNamespace>; not the end of one
-  std::string topic;        // of all sensors: /tf
-  std::string off_switch;   // a parameter that is false where it is not published
-  Open open;                // a message for each reading; throws what roscpp throws
-  Open latched;             // the same for states, the last of them latched
-  std::string array_type;   // angen_msgs/PirArray, or empty: there is none
-  Open array;               // one message for all readings between two flushes
+  std::string other_leaf;       // in place of `leaf` where this parameter is given
+  std::string other_leaf_with;  // empty: never
+  bool leaf_alone = false;      // it is the topic, below <robotNamespace>; not the end of one
+  std::string topic;            // of all sensors: /tf
+  std::string off_switch;       // a parameter that is false where it is not published
+  Open open;                    // a message for each reading; throws what roscpp throws
+  Open latched;                 // the same for states, the last of them latched
+  std::string array_type;       // angen_msgs/PirArray, or empty: there is none
+  Open array;                   // one message for all readings between two flushes
   /// Fills in a message of that type: for tests, and for what is no topic.
   std::function<void(const Reading&, const Label&, void* message)> fill;
 };
@@ -71,6 +73,13 @@ class RosKindBuilder {
                                 std::string parameter = "topicName") {
     message<Message>(fill, std::move(fallback), std::move(parameter));
     kind_.formats.back().leaf_alone = true;
+    return *this;
+  }
+
+  /// The last message's topic ends otherwise where the parameter is given.
+  RosKindBuilder& with(std::string parameter, std::string leaf) {
+    kind_.formats.back().other_leaf_with = std::move(parameter);
+    kind_.formats.back().other_leaf = std::move(leaf);
     return *this;
   }
 
@@ -120,9 +129,13 @@ struct RosKindRegistration {
   [[maybe_unused]] static const angen::node::RosKindRegistration \
       angen_ros_kind_registration_##Number(__VA_ARGS__)
 
+/// Loads libX_ros.so for the plug-in library libX.so, where there is one on the plug-in path. Once
+/// for each; any thread.
+void load_ros_library(const std::string& library);
+
 /// What is registered for a kind; angen_msgs/Reading for one that nobody registered. `library` is
-/// the plug-in's, as its SDF names it: libX_ros.so beside it is loaded where there is one. Any
-/// thread; what it returns lives as long as the process.
+/// the plug-in's, as its SDF names it: libX_ros.so is loaded where there is one. Any thread; what
+/// it returns lives as long as the process.
 const RosKind& ros_kind(const std::string& kind, const std::string& library = "");
 
 }  // namespace angen::node

@@ -26,8 +26,9 @@ angen_msgs::SummaryEntry entry_of(const Kind& kind, const std::string& name, con
 
 }  // namespace
 
-SummaryTopic::SummaryTopic(ros::NodeHandle& node)
-    : publisher_(LazyPublisher::of<angen_msgs::Summary>(node, "/angen/summary", 10)) {}
+SummaryTopic::SummaryTopic(ros::NodeHandle& node, Readings& readings)
+    : readings_(readings),
+      publisher_(LazyPublisher::of<angen_msgs::Summary>(node, "/angen/summary", 10)) {}
 
 void SummaryTopic::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {
   if (!publisher_.has_subscribers() || now < next_) return;
@@ -44,13 +45,13 @@ void SummaryTopic::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_poi
     stamps_[index] = stamp;
     return is_new || message.complete;
   };
-  for (std::size_t i = 0; i < structure.sensors.size(); ++i) {
+  for (std::uint32_t i = 0; i < structure.sensors.size(); ++i) {
     const sim::SensorEntry& sensor = structure.sensors[i];
     const bool any = snapshot.sensors[i].reading != nullptr;
     const Nanoseconds stamp = any ? snapshot.stamp(i) : -1;
     if (!changed(i, stamp)) continue;
     message.entries.push_back(
-        entry_of(sensor.plugin->kind(), sensor.name, snapshot.reading(i).get(), stamp));
+        entry_of(sensor.plugin->kind(), sensor.name, readings_.of(snapshot, i).get(), stamp));
     if (!sensor.on_demand()) {
       message.entries.back().period = to_seconds(sensor.schedule.publish);
     }

@@ -6,6 +6,7 @@
 
 #include "ros/lazy_publisher.h"
 #include "ros/pacer.h"
+#include "ros/readings.h"
 #include "sim/snapshot.h"
 
 namespace angen::node {
@@ -14,11 +15,12 @@ namespace angen::node {
 /// gets all, then what changes, at most 4 times a second of wall time.
 class SummaryTopic {
  public:
-  explicit SummaryTopic(ros::NodeHandle& node);
+  SummaryTopic(ros::NodeHandle& node, Readings& readings);
 
   void publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point now);
 
  private:
+  Readings& readings_;
   LazyPublisher publisher_;
   std::shared_ptr<const sim::Structure> structure_;
   std::vector<Nanoseconds> stamps_;  // as published last: sensors, then devices; -1 for none

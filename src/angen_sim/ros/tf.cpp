@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -26,15 +25,23 @@ void add(tf2_msgs::TFMessage& message, Nanoseconds time, const std::string& pare
   message.transforms.push_back(std::move(transform));
 }
 
-/// Whether `now` has a frame that differs from `before`. tf listeners keep frames that are gone.
+/// Whether `now` has a frame that differs from `before`, where frames that stay keep their order.
+/// tf listeners keep frames that are gone.
 bool has_new_frames(const std::vector<FixedFrame>& before, const std::vector<FixedFrame>& now) {
-  std::unordered_map<std::string, const FixedFrame*> known;
-  for (const FixedFrame& frame : before) known[frame.child] = &frame;
-  return std::any_of(now.begin(), now.end(), [&](const FixedFrame& frame) {
-    const auto found = known.find(frame.child);
-    return found == known.end() || found->second->parent != frame.parent ||
-           !(found->second->pose == frame.pose);
-  });
+  auto at = before.begin();
+  for (const FixedFrame& frame : now) {
+    at = std::find(at, before.end(), frame);
+    if (at == before.end()) return true;
+    ++at;
+  }
+  return false;
+}
+
+bool same_frames(const std::vector<Robot>& a, const std::vector<Robot>& b) {
+  return std::equal(
+      a.begin(), a.end(), b.begin(), b.end(), [](const Robot& one, const Robot& other) {
+        return one.odom_frame == other.odom_frame && one.base_frame == other.base_frame;
+      });
 }
 
 }  // namespace
@@ -43,44 +50,54 @@ Transforms::Transforms(ros::NodeHandle& node)
     : fixed_(node, "/tf_static", 10),
       moving_(LazyPublisher::of<tf2_msgs::TFMessage>(node, "/tf", 100)) {}
 
-void Transforms::on_structure(const sim::Snapshot& snapshot, const FrameTree& frames,
-                              const std::vector<Robot>& robots) {
-  const std::vector<FixedFrame> before = std::exchange(frames_.fixed, {});
-  frames_ = frames;
-  robots_ = robots;
-  moved_.clear();
-  marked_.assign(frames_.moving.size(), false);
-  const bool is_news = has_new_frames(before, frames_.fixed);
+void Transforms::on_structure(const sim::Snapshot& snapshot,
+                              std::shared_ptr<const FrameTree> frames,
+                              const std::vector<Robot>& robots, const Changes& changes) {
+  const std::shared_ptr<const FrameTree> before = std::exchange(frames_, std::move(frames));
+  const std::vector<std::uint32_t> moved = std::exchange(moved_, {});
+  marked_.assign(frames_->moving.size(), false);
+  for (const std::uint32_t frame : moved) {
+    const std::uint32_t link = changes.links.after[before->moving[frame].link];
+    if (link != Numbers::kNone) mark(frames_->moved_by[link]);
+  }
+  for (std::size_t i = 0; i < frames_->moving.size(); ++i) {
+    const bool is_new = changes.links.before[frames_->moving[i].link] == Numbers::kNone;
+    if (is_new) mark(static_cast<std::int32_t>(i));
+  }
+  const bool is_news = !before || has_new_frames(before->fixed, frames_->fixed);
   fixed_.set(
-      [fixed = std::make_shared<const std::vector<FixedFrame>>(frames_.fixed),
-       time = snapshot.time] {
+      [made = frames_, time = snapshot.time] {
         tf2_msgs::TFMessage message;
-        for (const FixedFrame& frame : *fixed) {
+        message.transforms.reserve(made->fixed.size());
+        for (const FixedFrame& frame : made->fixed) {
           add(message, time, frame.parent, frame.child, frame.pose);
         }
         return message;
       },
       is_news);
   new_structure_ = true;
+  new_robots_ = new_robots_ || !same_frames(robots_, robots);
+  robots_ = robots;
+}
+
+void Transforms::mark(std::int32_t frame) {
+  if (frame < 0 || marked_[frame]) return;
+  marked_[frame] = true;
+  moved_.push_back(static_cast<std::uint32_t>(frame));
 }
 
 void Transforms::publish(const sim::Snapshot& snapshot) {
-  for (const std::uint32_t link : snapshot.moved_links) {
-    const std::int32_t frame = frames_.moved_by[link];
-    if (frame < 0 || marked_[frame]) continue;
-    marked_[frame] = true;
-    moved_.push_back(static_cast<std::uint32_t>(frame));
-  }
+  for (const std::uint32_t link : snapshot.moved_links) mark(frames_->moved_by[link]);
   const std::uint64_t joined = moving_.subscriptions();
   const bool newcomer = joined != joined_;
   const Nanoseconds slot = snapshot.time / kTransformPeriod;
   if (slot == slot_ && !new_structure_ && !(newcomer && snapshot.paused)) return;
   const Nanoseconds second = snapshot.time / kSecond;
-  const bool all = newcomer || new_structure_ || second != second_;
+  const bool all = newcomer || new_robots_ || second != second_;
   joined_ = joined;
   slot_ = slot;
   second_ = second;
-  new_structure_ = false;
+  new_structure_ = new_robots_ = false;
   if (moving_.has_subscribers()) {
     const tf2_msgs::TFMessage message = collect(snapshot, all, newcomer);
     if (!message.transforms.empty()) moving_.publish([&]() -> const auto& { return message; });
@@ -101,9 +118,9 @@ tf2_msgs::TFMessage Transforms::collect(const sim::Snapshot& snapshot, bool all,
     add(message, snapshot.time, frame.parent, frame.child, pose);
   };
   if (all) {
-    for (const MovingFrame& frame : frames_.moving) add_moving(frame);
+    for (const MovingFrame& frame : frames_->moving) add_moving(frame);
   } else {
-    for (const std::uint32_t frame : moved_) add_moving(frames_.moving[frame]);
+    for (const std::uint32_t frame : moved_) add_moving(frames_->moving[frame]);
   }
   for (const Robot& robot : robots_) {
     if (snapshot.devices[robot.device] == nullptr || !is_due(robot.base_frame)) continue;

@@ -7,6 +7,7 @@ namespace angen::node {
 namespace {
 
 std::string text_of(const sim::SensorEntry& sensor, const std::string& parameter) {
+  if (parameter.empty()) return "";
   const Element* found = sensor.desc ? sensor.desc->plugin_element.child(parameter) : nullptr;
   return found == nullptr ? "" : found->text;
 }
@@ -32,12 +33,15 @@ std::vector<std::string> sensor_topics(const sim::SensorEntry& sensor, const For
   if (format.leaf_alone) {
     const std::string leaf = text_of(sensor, format.leaf_parameter);
     requested = leaf.empty() ? format.leaf : leaf;
-  } else if (!format.leaf.empty()) {  // one of several, as Gazebo's camera plug-ins name them
+  } else if (!format.leaf_parameter.empty()) {  // of several, as Gazebo's cameras name them
     const std::string base = text_of(sensor, "cameraName");
-    const std::string leaf = text_of(sensor, format.leaf_parameter);
-    requested = (base.empty() ? default_topic(sensor.kind, sensor.name) : base) + "/" +
-                (leaf.empty() ? format.leaf : leaf);
-    if (!leaf.empty() && leaf[0] == '/') requested = leaf;
+    std::string leaf = text_of(sensor, format.leaf_parameter);
+    const bool other = !text_of(sensor, format.other_leaf_with).empty();
+    if (leaf.empty()) leaf = other ? format.other_leaf : format.leaf;
+    if (leaf.empty()) return {};
+    requested = leaf[0] == '/'
+                    ? leaf
+                    : (base.empty() ? default_topic(sensor.kind, sensor.name) : base) + "/" + leaf;
   }
   if (sensor.desc) requested = below_namespace(sensor.desc->plugin_element, requested);
   if (robot != nullptr && !requested.empty()) return robot_topics(*robot, requested);

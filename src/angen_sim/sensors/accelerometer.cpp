@@ -36,7 +36,6 @@ class Accelerometer : public Sensor {
                                     kPositive);
     params.noise("acceleration", "m/s^2", "of each axis");
     link_ = wiring.link(params.text("link", "", "the link that it is fastened to"));
-    gravity_ = wiring.gravity();
   }
 
   void read(const View& view, Hits, Rng&, Reading& reading) override {
@@ -47,14 +46,14 @@ class Accelerometer : public Sensor {
     const double dt = to_seconds(sample_period_);  // while samples are left out it rests
     Vec3 acceleration = Vec3::Zero();
     if (sampled_ && link.awake) acceleration = (velocity - velocity_) / dt;
-    follow(acceleration, dt, view.time(), reading);
+    follow(acceleration, dt, view, reading);
     sampled_ = true;
     velocity_ = velocity;
-    const Vec3 felt = pose.rotation.conjugate() * (acceleration - gravity_);
-    const Vec3 up = pose.rotation.conjugate() * -gravity_.normalized();
+    const Vec3 felt = pose.rotation.conjugate() * (acceleration - view.gravity());
+    const Vec3 up = pose.rotation.conjugate() * -view.gravity().normalized();
     if (!moving_) note_tilt(std::acos(std::clamp(up.z(), -1.0, 1.0)), reading);
     // What falls or is jerked feels nothing like the vertical: its tilt stays.
-    const double g = gravity_.norm();
+    const double g = view.gravity().norm();
     if (moving_ && std::abs(felt.norm() - g) < kGentle * g) note_tilt(angle_to(felt), reading);
     reading.set("acceleration", std::vector<double>{felt.x(), felt.y(), felt.z()});
     reading.set("tilt", tilt_);
@@ -73,7 +72,8 @@ class Accelerometer : public Sensor {
   }
 
   // Integrates the vertical acceleration from rest to rest, as long as a movement lasts.
-  void follow(const Vec3& acceleration, double dt, Nanoseconds now, Reading& reading) {
+  void follow(const Vec3& acceleration, double dt, const View& view, Reading& reading) {
+    const Nanoseconds now = view.time();
     if (acceleration.norm() > activity_) {
       active_at_ = now;
       if (!moving_) {
@@ -83,7 +83,7 @@ class Accelerometer : public Sensor {
       }
     }
     if (!moving_) return;
-    const double up = -acceleration.dot(gravity_.normalized());
+    const double up = -acceleration.dot(view.gravity().normalized());
     rise_ += (speed_ + 0.5 * up * dt) * dt;
     speed_ += up * dt;
     if (now - active_at_ < quiet_) return;
@@ -114,7 +114,6 @@ class Accelerometer : public Sensor {
   }
 
   LinkRef link_;
-  Vec3 gravity_ = Vec3::Zero();
   Nanoseconds sample_period_ = kSecond / 100;
   Nanoseconds quiet_ = 0;
   double activity_ = 0.0;        // m/s^2

@@ -8,11 +8,44 @@ namespace {
 
 constexpr Range kPixels{1.0, 4096.0};
 constexpr Range kAngle{1e-3, 3.1};
+constexpr Range kCoefficient{-100.0, 100.0};
+
+render::Distortion read_distortion(Params& params) {
+  render::Distortion lens;
+  const auto coefficient = [&](const char* path, const char* doc) {
+    return params.number(path, 0.0, "", doc, kCoefficient);
+  };
+  lens.k1 = coefficient("distortionK1", "radial distortion of the lens");
+  lens.k2 = coefficient("distortionK2", "radial, of the fourth power");
+  lens.k3 = coefficient("distortionK3", "radial, of the sixth power");
+  lens.p1 = coefficient("distortionT1", "tangential distortion");
+  lens.p2 = coefficient("distortionT2", "tangential distortion");
+  if (params.flag("autoDistortion", false, "distortion is what <camera><distortion> says")) {
+    const std::string block = "camera/distortion/";
+    lens = {};
+    lens.k1 = coefficient((block + "k1").c_str(), "with autoDistortion true: as distortionK1");
+    lens.k2 = coefficient((block + "k2").c_str(), "with autoDistortion true: as distortionK2");
+    lens.k3 = coefficient((block + "k3").c_str(), "with autoDistortion true: as distortionK3");
+    lens.p1 = coefficient((block + "p1").c_str(), "with autoDistortion true: as distortionT1");
+    lens.p2 = coefficient((block + "p2").c_str(), "with autoDistortion true: as distortionT2");
+  }
+  return lens;
+}
+
+// What Gazebo's plug-ins take, and what the image itself says here.
+void read_unused(Params& params) {
+  for (const char* path : {"Cx", "Cy", "CxPrime", "focalLength"}) {
+    params.number(path, 0.0, "px", "not used: it follows from the image and its angle");
+  }
+  params.flag("borderCrop", true, "not used: an image has no border");
+  params.text("triggerTopicName", "image_trigger", "not used: it is not triggered");
+}
 
 }  // namespace
 
-render::PinholeCamera read_camera(Params& params) {
-  render::PinholeCamera camera;
+Lens read_lens(Params& params) {
+  Lens lens;
+  render::PinholeCamera& camera = lens.camera;
   camera.horizontal_angle = params.number("camera/horizontal_fov", camera.horizontal_angle, "rad",
                                           "full angle from left to right", kAngle);
   camera.width = params.integer("camera/image/width", camera.width, "", "pixels", kPixels);
@@ -23,7 +56,10 @@ render::PinholeCamera read_camera(Params& params) {
   if (camera.near > camera.far)
     throw params.error("camera/clip", "<camera/clip>: near is above far");
   params.text("cameraName", "", "topics stand below it, instead of /angen/KIND/NAME");
-  return camera;
+  camera.distortion = read_distortion(params);
+  lens.baseline = params.number("hackBaseline", 0.0, "m", "to the left camera of a stereo pair");
+  read_unused(params);
+  return lens;
 }
 
 Kind camera_kind(Kind kind, std::string image, std::string image_doc) {
@@ -36,15 +72,21 @@ Kind camera_kind(Kind kind, std::string image, std::string image_doc) {
       .shown()
       .number("focal", "px", "focal length")
       .number("center_x", "px", "of the optical axis in the image")
-      .number("center_y", "px", "of the optical axis in the image");
+      .number("center_y", "px", "of the optical axis in the image")
+      .numbers("distortion", "", "k1 k2 p1 p2 k3 of the lens")
+      .number("baseline", "m", "to the left camera of a stereo pair");
 }
 
-void set_camera_info(const render::PinholeCamera& camera, Reading& reading) {
+void set_camera_info(const Lens& lens, Reading& reading) {
+  const render::PinholeCamera& camera = lens.camera;
+  const render::Distortion& d = camera.distortion;
   reading.set("width", camera.width);
   reading.set("height", camera.height);
   reading.set("focal", camera.focal());
   reading.set("center_x", camera.center_x());
   reading.set("center_y", camera.center_y());
+  reading.set("distortion", std::vector<double>{d.k1, d.k2, d.p1, d.p2, d.k3});
+  reading.set("baseline", lens.baseline);
 }
 
 }  // namespace angen::sensors

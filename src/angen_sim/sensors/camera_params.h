@@ -7,14 +7,21 @@
 
 namespace angen::sensors {
 
-/// Reads <camera>, and the topics that Gazebo's camera plug-ins name (`ros` uses those).
-render::PinholeCamera read_camera(Params& params);
+/// What Gazebo's camera plug-ins have: a lens, and what a message says of it.
+struct Lens {
+  render::PinholeCamera camera;
+  double baseline = 0.0;  // m, to the left camera of a stereo pair
+};
+
+/// Reads <camera>, the lens's distortion, and the topics that Gazebo's camera plug-ins name (`ros`
+/// uses those).
+Lens read_lens(Params& params);
 
 /// A kind of camera: its rate, and the fields that set_camera_info() sets, after `image`.
 Kind camera_kind(Kind kind, std::string image, std::string image_doc);
 
-/// What sensor_msgs/CameraInfo is made of: width, height, focal, center_x, center_y (pixels).
-void set_camera_info(const render::PinholeCamera& camera, Reading& reading);
+/// What sensor_msgs/CameraInfo is made of.
+void set_camera_info(const Lens& lens, Reading& reading);
 
 /// An image of the camera's size out of its values.
 template <class T>

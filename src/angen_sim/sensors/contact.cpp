@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <optional>
+#include <string>
 
 #include "plugin/register.h"
 #include "sensors/watched.h"
@@ -17,15 +18,16 @@ struct Lists {
   std::vector<std::string> collision1, collision2;
   std::vector<double> counts, positions, normals, depths, forces;
 
-  void add(const ContactPair& pair) {
+  /// `to_frame` is where the world is in the frame of the message.
+  void add(const ContactPair& pair, const Pose& to_frame) {
     collision1.push_back(pair.first);
     collision2.push_back(pair.second);
     counts.push_back(static_cast<double>(pair.points.size()));
     for (const ContactPoint& point : pair.points) {
-      append(positions, point.position);
-      append(normals, point.normal);
+      append(positions, to_frame * point.position);
+      append(normals, to_frame.rotation * point.normal);
       depths.push_back(point.depth);
-      append(forces, point.force);
+      append(forces, to_frame.rotation * point.force);
     }
   }
 };
@@ -39,7 +41,8 @@ bool has(const std::vector<ContactPair>& pairs, const std::string& first,
 
 }  // namespace
 
-/// Everything that touches some collisions of its link, also what lies still.
+/// Everything that touches some collisions of its link, also what lies still, and what touched them
+/// since its last reading.
 class Contact : public Sensor {
  public:
   Nanoseconds sample_period() const override { return debounce_ > 0 ? sample_period_ : 0; }
@@ -52,13 +55,18 @@ class Contact : public Sensor {
                                              "how often it samples, given a debounce", {1e-3, 1e6});
     sample_period_ = from_seconds(1.0 / sample_rate);
     params.text("bumperTopicName", "/angen/contact/NAME", "where it publishes");
+    if (debounce_ == 0) window_ = params.update_period();
+    read_frame(params, wiring);
     collisions_ = read_watched(params, wiring, "a contact sensor");
   }
 
   void read(const View& view, Hits, Rng&, Reading& reading) override {
     std::vector<ContactPair> pairs;
+    lasting_ = true;
     for (const ContactRef collision : collisions_) {
-      for (ContactPair& pair : view.contacts(collision)) {
+      std::vector<ContactPair> found = view.contacts_within(collision, window_);
+      if (found.size() != view.contacts(collision).size()) lasting_ = false;
+      for (ContactPair& pair : found) {
         // Two watched collisions that touch each other see the same pair from both sides.
         if (!has(pairs, pair.second, pair.first)) pairs.push_back(std::move(pair));
       }
@@ -69,8 +77,9 @@ class Contact : public Sensor {
       reading.event = touched ? "pressed" : "released";
       if (touched) reading.event_detail = "by " + pairs.front().second;
     }
+    const Pose to_frame = frame_link_ ? view.link(*frame_link_).pose.inverse() : Pose{};
     Lists lists;
-    for (const ContactPair& pair : pairs) lists.add(pair);
+    for (const ContactPair& pair : pairs) lists.add(pair, to_frame);
     reading.set("pressed", *pressed_);
     reading.set("collision1", std::move(lists.collision1));
     reading.set("collision2", std::move(lists.collision2));
@@ -79,12 +88,25 @@ class Contact : public Sensor {
     reading.set("normals", std::move(lists.normals));
     reading.set("depths", std::move(lists.depths));
     reading.set("forces", std::move(lists.forces));
+    reading.set("frame", frame_);
   }
 
-  /// Not while it waits for the end of a debounce.
-  bool steady() const override { return !changed_at_; }
+  /// Not while it waits for the end of a debounce, or has contacts that have ended.
+  bool steady() const override { return !changed_at_ && lasting_; }
 
  private:
+  // The frame that points and forces are in, where it is a link of the model.
+  void read_frame(Params& params, Wiring& wiring) {
+    const std::string name = params.text("frameName", "", "link that points and forces are in");
+    if (name.empty()) return;
+    try {
+      frame_link_ = wiring.link(name);
+      frame_ = name;
+    } catch (const Error&) {
+      // It is a frame of others, as "world" or one of a link that was lumped.
+    }
+  }
+
   // True when a change that began a debounce ago or earlier has lasted until now.
   bool settled(bool touched, Nanoseconds now) {
     if (!pressed_) pressed_ = touched;
@@ -101,6 +123,10 @@ class Contact : public Sensor {
 
   std::vector<ContactRef> collisions_;
   Nanoseconds debounce_ = 0;
+  Nanoseconds window_ = 0;             // contacts that ended before are not reported
+  bool lasting_ = true;                // all that it reported last touched then
+  std::string frame_ = "world";        // that points and forces are in
+  std::optional<LinkRef> frame_link_;  // none: it is the world
   Nanoseconds sample_period_ = kSecond / 100;
   std::optional<bool> pressed_;            // none before the first reading
   std::optional<Nanoseconds> changed_at_;  // since when it has been otherwise
@@ -118,9 +144,10 @@ ANGEN_REGISTER_SENSOR(
         .texts("collision2", "and what touches it")
         .shown()
         .numbers("counts", "", "and how many points it has")
-        .numbers("positions", "m", "x y z of each point, in the world")
+        .numbers("positions", "m", "x y z of each point, in `frame`")
         .numbers("normals", "", "x y z at each point, towards collision1")
         .numbers("depths", "m", "of each point")
-        .numbers("forces", "N", "x y z at each point, on collision1"))
+        .numbers("forces", "N", "x y z at each point, on collision1")
+        .text("frame", "the link that they are in, or world"))
 
 }  // namespace angen::sensors

@@ -97,7 +97,6 @@ class LoadCells : public Sensor, public NoisySensor {
         params.number("sample_rate", 10.0, "Hz", "how often it samples", {1e-3, 1e6});
     sample_period_ = from_seconds(1.0 / sample_rate);
     collisions_ = read_watched(params, wiring, "a set of load cells");
-    gravity_ = wiring.gravity().norm();
     sum_ = Sum(tare, x, y, least);
   }
 
@@ -134,7 +133,7 @@ class LoadCells : public Sensor, public NoisySensor {
       }
     }
     if (force <= 0.0) return {};
-    return {std::min(force / gravity_, capacity_), found.x / force, found.y / force};
+    return {std::min(force / view.gravity().norm(), capacity_), found.x / force, found.y / force};
   }
 
   // What is put down swings for a moment: a change counts once two samples agree.
@@ -153,7 +152,6 @@ class LoadCells : public Sensor, public NoisySensor {
 
   std::vector<ContactRef> collisions_;
   std::vector<Cell> cells_;
-  double gravity_ = 9.81;  // m/s^2, where it was calibrated
   Sum sum_{0.0, 0.0, 0.0, 0.05};
   double stddev_ = 0.0;    // kg
   double step_ = 0.0;      // kg

@@ -8,7 +8,8 @@ namespace angen::sensors {
 
 /// Losses of the multi-wall model of COST 231 (final report, chapter 4), dB.
 struct PathLoss {
-  double light_wall = 3.4;  // up to about 10 cm, and all that is no wall: doors, furniture, people
+  double light_wall =
+      3.4;  // up to about 10 cm, and all that is not a wall: doors, furniture, people
   double heavy_wall = 6.9;  // thicker
   double floor = 18.3;
   double floor_exponent = 0.46;  // further floors add less

@@ -1,9 +1,7 @@
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include "sensors/proximity.h"
 
-#include "plugin/register.h"
-#include "sensors/fan.h"
+#include <algorithm>
+#include <limits>
 
 namespace angen::sensors {
 
@@ -21,56 +19,50 @@ Fan default_fan() {
 
 }  // namespace
 
-/// The diray_set to the nearest thing in a narrow cone, as an ultrasonic or infrared ranger
-/// measures it.
-class Proximity : public Sensor {
- public:
-  void configure(Params& params, Wiring&) override {
-    fan_ = read_fan(params, default_fan());
-    directions_ = fan_.directions();
-    // One range, one error: the least of many noisy rays would always be too short.
-    fan_.declare_noise("range", params);
-    infrared_ = params.choice("radiation", "ultrasound", {"ultrasound", "infrared"},
-                              "what its message says that it sends out") == "infrared";
-  }
+void Proximity::read_rays(Params& params) {
+  fan_ = read_fan(params, default_fan());
+  directions_ = fan_.directions();
+  // One range, one error: the least of many noisy rays would always be too short.
+  const double noise = params.number("gaussianNoise", 0.0, "m",
+                                     "standard deviation, in place of the rays'", kNotNegative);
+  if (noise > 0.0) fan_.noise_stddev = noise;
+  fan_.declare_noise("range", params);
+  field_of_view_ = fan_.max_yaw - fan_.min_yaw;
+}
 
-  int ray_set(const View&) override { return 0; }
-  void aim(const View& view, RayBatch& rays) override { fan_.aim(view.pose(), directions_, rays); }
+void Proximity::configure(Params& params, Wiring&) {
+  read_rays(params);
+  infrared_ = params.choice("radiation", "ultrasound", {"ultrasound", "infrared"},
+                            "what its message says that it sends out") == "infrared";
+  field_of_view_ =
+      params.number("fov", field_of_view_, "rad",
+                    "what its message says; the cone is as wide as its rays", {0.0, 7.0});
+}
 
-  void read(const View&, Hits hits, Rng&, Reading& reading) override {
-    const auto nearest = std::min_element(
-        hits.begin(), hits.end(), [](const auto& a, const auto& b) { return a.range < b.range; });
-    const bool meets = nearest != hits.end() && nearest->hit();
-    reading.set("range", meets ? nearest->range : std::numeric_limits<double>::infinity());
-    reading.set("near", meets);
-    reading.set("ranges", fan_.measure(hits));
-    reading.set("field_of_view", fan_.max_yaw - fan_.min_yaw);
-    reading.set("min_range", fan_.min);
-    reading.set("max_range", fan_.max);
-    reading.set("infrared", infrared_);
-  }
+void Proximity::read(const View&, Hits hits, Rng&, Reading& reading) {
+  const auto nearest = std::min_element(
+      hits.begin(), hits.end(), [](const auto& a, const auto& b) { return a.range < b.range; });
+  const bool meets = nearest != hits.end() && nearest->hit();
+  reading.set("range", meets ? nearest->range : std::numeric_limits<double>::infinity());
+  reading.set("near", meets);
+  reading.set("ranges", fan_.measure(hits));
+  reading.set("field_of_view", field_of_view_);
+  reading.set("min_range", fan_.min);
+  reading.set("max_range", fan_.max);
+  reading.set("infrared", infrared_);
+}
 
-  bool steady() const override { return true; }
-
- private:
-  Fan fan_;
-  bool infrared_ = false;
-  std::vector<Vec3> directions_;
-};
-
-ANGEN_REGISTER_SENSOR(
-    Proximity, Kind("proximity", "The distance to the nearest thing in a narrow cone.")
-                   .model("proximity")
-                   .example("spawn proximity d1 --pose \"1 1 0.5 0 0 1.57\" --set ray/range/max=2")
-                   .rays("0.1 0.5 0.9 0.45")
-                   .number("range", "m", "to the nearest thing, infinite where nothing is in reach")
-                   .shown(3)
-                   .flag("near", "whether anything is in reach")
-                   .alarm("near", "nothing near")
-                   .numbers("ranges", "m", "of each ray, without noise, at most max_range")
-                   .number("field_of_view", "rad", "full angle of the cone")
-                   .number("min_range", "m", "nearer things are not measured")
-                   .number("max_range", "m", "farther things are not measured")
-                   .flag("infrared", "it is infrared rather than ultrasonic"))
+Kind proximity_kind(Kind kind) {
+  return kind.rays("0.1 0.5 0.9 0.45")
+      .number("range", "m", "to the nearest thing, infinite where nothing is in reach")
+      .shown(3)
+      .flag("near", "whether anything is in reach")
+      .alarm("near", "nothing near")
+      .numbers("ranges", "m", "of each ray, without noise, at most max_range")
+      .number("field_of_view", "rad", "full angle of the cone")
+      .number("min_range", "m", "nearer things are not measured")
+      .number("max_range", "m", "farther things are not measured")
+      .flag("infrared", "it is infrared rather than ultrasonic");
+}
 
 }  // namespace angen::sensors

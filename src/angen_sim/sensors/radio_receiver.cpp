@@ -19,10 +19,11 @@ class RadioReceiver : public Sensor {
   void configure(Params& params, Wiring&) override {
     sensitivity_ = params.number("sensitivity", -90.0, "dBm", "weaker signals are not received");
     gain_ = params.number("gain", 0.0, "dBi", "of its antenna");
-    losses_.light_wall = params.number("light_wall_loss", losses_.light_wall, "dB",
-                                       "of a wall up to 12.5 cm, and of all that is no wall or "
-                                       "floor: doors, furniture, people",
-                                       kNotNegative);
+    losses_.light_wall =
+        params.number("light_wall_loss", losses_.light_wall, "dB",
+                      "of a wall up to 12.5 cm, and of all that is not a wall or a "
+                      "floor: doors, furniture, people",
+                      kNotNegative);
     losses_.heavy_wall = params.number("heavy_wall_loss", losses_.heavy_wall, "dB",
                                        "of a thicker wall", kNotNegative);
     losses_.floor =

@@ -1,7 +1,6 @@
 #include "sim/building.h"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 #include "core/nearest.h"
@@ -12,9 +11,11 @@ namespace angen::sim {
 namespace {
 
 Error taken(const Source& source, const std::string& what, const std::string& name,
-            const std::string& by) {
-  return Error(source, what + " '" + name + "' exists already, in model '" + by +
-                           "'; names of a kind must differ");
+            const LiveModel& by) {
+  const std::string where =
+      by.is_light ? "as a light of the world" : "in model '" + by.desc->name + "'";
+  return Error(source,
+               what + " '" + name + "' exists already, " + where + "; names of a kind must differ");
 }
 
 template <class Instance>
@@ -30,7 +31,7 @@ Building::Building(const desc::World& world, std::uint64_t seed, std::shared_ptr
       gravity_(world.gravity),
       seed_(seed),
       catalog_(std::move(catalog)) {
-  for (const desc::Light& light : world.lights) lights_.push_back({light, {}});
+  for (const desc::Light& light : world.lights) lights_.push_back(world_light(light, ""));
   make_engines();
   for (const desc::Plugin& plugin : world_.plugins) {
     try {
@@ -43,6 +44,7 @@ Building::Building(const desc::World& world, std::uint64_t seed, std::shared_ptr
     }
   }
   for (const desc::Model& model : world_.models) build(model, nullptr, 0);
+  for (WorldLight& own : lights_) make_lamp(*own.live, 0);
 }
 
 void Building::make_engines() {
@@ -51,7 +53,7 @@ void Building::make_engines() {
   owners_.clear();
   placed_.clear();
   pushes_.clear();
-  for (WorldLight& own : lights_) own.lamp = engines_->add_light(own.light, own.light.pose);
+  for (WorldLight& own : lights_) put_light(own);
 }
 
 void Building::note_change() {
@@ -110,7 +112,7 @@ std::vector<Building::Target> Building::devices_named(const std::string& kind,
   const bool all = name == "all" && !kind.empty();
   std::vector<LiveModel*> models;
   if (all) {
-    for (const auto& live : models_) models.push_back(live.get());
+    models = with_devices();
   } else if (const auto at = with_device_.find(name); at != with_device_.end()) {
     models = at->second;
   }
@@ -126,7 +128,7 @@ std::vector<Building::Target> Building::devices_named(const std::string& kind,
 
 std::vector<std::string> Building::device_names(const std::string& kind) const {
   std::vector<std::string> names;
-  for (const auto& live : models_) {
+  for (const LiveModel* live : with_devices()) {
     for (const DeviceInstance& device : live->devices) {
       if (kind.empty()) names.push_back(key_of(device));
       if (device.kind == kind) names.push_back(device.name);
@@ -159,7 +161,7 @@ std::vector<std::string> Building::model_names() const {
 void Building::check_sensor_name(const SensorInstance& sensor) const {
   const auto other = sensors_.find(key_of(sensor));
   if (other == sensors_.end()) return;
-  throw taken(sensor.desc->source, sensor.kind, sensor.name, other->second->desc->name);
+  throw taken(sensor.desc->source, sensor.kind, sensor.name, *other->second);
 }
 
 void Building::check_names(const LiveModel& live) const {
@@ -170,13 +172,13 @@ void Building::check_names(const LiveModel& live) const {
   for (const DeviceInstance& device : live.devices) {
     const auto other = devices_.find(key_of(device));
     if (other == devices_.end()) continue;
-    throw taken(live.desc->source, device.kind, device.name, other->second->desc->name);
+    throw taken(live.desc->source, device.kind, device.name, *other->second);
   }
   for (const SensorInstance& sensor : live.sensors) check_sensor_name(sensor);
 }
 
 void Building::add_names(LiveModel& live) {
-  by_name_[live.desc->name] = &live;
+  if (!live.is_light) by_name_[live.desc->name] = &live;
   for (const DeviceInstance& device : live.devices) {
     devices_[key_of(device)] = &live;
     std::vector<LiveModel*>& with = with_device_[device.name];
@@ -186,7 +188,7 @@ void Building::add_names(LiveModel& live) {
 }
 
 void Building::remove_names(const LiveModel& live) {
-  by_name_.erase(live.desc->name);
+  if (!live.is_light) by_name_.erase(live.desc->name);
   for (const DeviceInstance& device : live.devices) {
     devices_.erase(key_of(device));
     std::vector<LiveModel*>& with = with_device_[device.name];
@@ -209,14 +211,14 @@ void Building::build(desc::Model model, const std::vector<SensorInstance>* attac
                      Nanoseconds now) {
   auto live = std::make_unique<LiveModel>();
   model.tolerant = model.tolerant || world_.tolerant;
-  live->desc = std::make_shared<const desc::Model>(std::move(model));
-  make_instances(*live, plugins_, gravity_, *catalog_, warnings_);
+  live->desc = live->read = std::make_shared<const desc::Model>(std::move(model));
+  make_instances(*live, plugins_, *catalog_, warnings_);
   for (std::size_t i = 0; attached != nullptr && i < attached->size(); ++i) {
     const SensorInstance& old = (*attached)[i];
-    live->sensors.push_back(
-        make_sensor(*live, old.link, old.desc, old.name, gravity_, *catalog_, warnings_));
+    live->sensors.push_back(make_sensor(*live, old.link, old.desc, old.name, *catalog_, warnings_));
     live->sensors.back().attached = true;
   }
+  drop_taken_lamps(*live);
   check_names(*live);
   live->parts = engines_->add(*live->desc);
   for (SensorInstance& sensor : live->sensors) start(sensor, now);
@@ -260,9 +262,9 @@ void Building::attach(const desc::Sensor& sensor, const std::string& link, Nanos
                 printable(link.substr(split + 2)) + "'; known are " + join_names(names));
   }
   if (sensor.plugin.empty()) throw Error(sensor.source, "the sensor has no <plugin>");
-  SensorInstance instance = make_sensor(*live, static_cast<std::uint32_t>(at - names.begin()),
-                                        std::make_shared<const desc::Sensor>(sensor), sensor.name,
-                                        gravity_, *catalog_, warnings_);
+  SensorInstance instance =
+      make_sensor(*live, static_cast<std::uint32_t>(at - names.begin()),
+                  std::make_shared<const desc::Sensor>(sensor), sensor.name, *catalog_, warnings_);
   check_sensor_name(instance);
   instance.attached = true;
   start(instance, now);
@@ -318,97 +320,15 @@ void Building::reset(Nanoseconds now) {
       if (sensor.attached) attached.push_back(std::move(sensor));
     }
     build(*live->desc, &attached, now);
+    if (live->read != live->desc) models_.back()->read = live->read;
+  }
+  for (WorldLight& own : lights_) {
+    own.live->devices.clear();
+    make_lamp(*own.live, now);
   }
   warnings_.clear();
 }
 
-/// The plug-ins of the world's libraries and of all devices, one a kind.
-std::vector<std::shared_ptr<const Plugin>> Building::device_plugins() {
-  std::map<std::string, std::shared_ptr<const Plugin>> kinds;
-  for (const desc::Plugin& plugin : plugins_) {
-    for (const auto& each : catalog_->library(plugin.filename)) {
-      kinds.emplace(each->kind().name, each);
-    }
-  }
-  for (const auto& live : models_) {
-    for (const DeviceInstance& device : live->devices) kinds.emplace(device.kind, device.plugin);
-  }
-  std::vector<std::shared_ptr<const Plugin>> all;
-  for (auto& [name, plugin] : kinds) all.push_back(std::move(plugin));
-  return all;
-}
-
-std::shared_ptr<const Structure> Building::structure() {
-  auto all = std::make_shared<Structure>();
-  all->revision = revision_;
-  all->physics = physics_;
-  all->gravity = gravity_;
-  all->device_plugins = device_plugins();
-  for (const WorldLight& world_light : lights_) {
-    LightEntry entry;
-    entry.name = world_light.light.name;
-    entry.light = world_light.light;
-    all->lights.push_back(std::move(entry));
-  }
-  for (const auto& live : models_) {
-    const auto m = static_cast<std::uint32_t>(all->models.size());
-    const desc::Model& model = *live->desc;
-    all->models.push_back(live->desc);
-    live->first_link = static_cast<std::uint32_t>(all->links.size());
-    live->first_joint = static_cast<std::uint32_t>(all->joints.size());
-    live->first_device = static_cast<std::uint32_t>(all->devices.size());
-    live->first_sensor = static_cast<std::uint32_t>(all->sensors.size());
-    live->first_light = static_cast<std::uint32_t>(all->lights.size());
-    for (std::uint32_t i = 0; i < model.links.size(); ++i) {
-      all->links.push_back({model.name + "::" + model.links[i].name, m, i, !model.is_static});
-      for (const desc::Light& light : model.links[i].lights) {
-        all->lights.push_back({model.name + "::" + light.name, m, live->first_link + i, light});
-      }
-    }
-    for (std::uint32_t i = 0; i < model.joints.size(); ++i) {
-      all->joints.push_back({model.name + "::" + model.joints[i].name, m, i});
-    }
-    for (const DeviceInstance& device : live->devices) {
-      all->devices.push_back({device, m});
-    }
-    for (const SensorInstance& s : live->sensors) {
-      all->sensors.push_back({s, m, live->first_link + s.link});
-    }
-  }
-  return all;
-}
-
 std::vector<std::string> Building::take_warnings() { return std::exchange(warnings_, {}); }
-
-std::vector<SavedPlugin> Building::saved_plugins(Nanoseconds now, Nanoseconds step) {
-  std::vector<SavedPlugin> saved;
-  for (const auto& live : models_) {
-    // Devices may share a plug-in's element: then it has the parameters of all.
-    struct Shared {
-      Element element;
-      SavedParams params;
-      bool changed = false;
-    };
-    std::map<std::string, Shared> elements;
-    for (DeviceInstance& device : live->devices) {
-      SavedParams params = device.started_with;
-      if (device.error.empty()) {
-        device.catch_up(now, step);
-        params = {};
-        device.device->save(params);
-      }
-      Shared& shared = elements[*device.element.attribute("filename")];
-      if (shared.element.name.empty()) shared.element = device.element;
-      shared.params.add(params);
-      shared.changed = shared.changed || !(params == device.started_with);
-    }
-    for (auto& [file, shared] : elements) {
-      if (!shared.changed) continue;
-      shared.params.write_to(shared.element);
-      saved.push_back({live->desc->name, std::move(shared.element)});
-    }
-  }
-  return saved;
-}
 
 }  // namespace angen::sim

@@ -87,13 +87,17 @@ class Building {
 
   /// Devices and sensors are configured with it when they are made, also by reset().
   void set_physics(const desc::Physics& physics, const Vec3& gravity);
+  const Vec3& gravity() const { return gravity_; }  // m/s^2
 
   /// As Structure::lights names it, its pose in the world. These throw Error for names that are
   /// unknown, or taken.
   desc::Light light(const std::string& name) const;
   void set_light(const std::string& name, desc::Light light);
-  void add_light(const desc::Light& light);
+  void add_light(const desc::Light& light, const std::string& sdf, Nanoseconds now);
   void erase_light(const std::string& name);
+
+  /// All that may have devices: the models, and then the world's lights.
+  std::vector<LiveModel*> with_devices() const;
 
   /// Grows with every change of what exists.
   std::uint64_t revision() const { return revision_; }
@@ -105,6 +109,12 @@ class Building {
   /// The plug-ins of devices that differ from how they started, as of `now`.
   std::vector<SavedPlugin> saved_plugins(Nanoseconds now, Nanoseconds step);
 
+  /// The world's lights that were spawned, and all whose own lamps differ from how they started.
+  std::vector<SavedLight> saved_lights() const;
+
+  /// The models that differ from how they were read.
+  std::vector<ChangedModel> changed_models() const;
+
   /// Warnings of the last add or of construction.
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// The same, taken out.
@@ -112,10 +122,16 @@ class Building {
 
  private:
   struct WorldLight {
-    desc::Light light;
-    Parts::Lamp lamp;
+    std::unique_ptr<LiveModel> live;  // stands for it, with its lamp
+    std::string sdf;                  // that it was spawned from, "" for one of the world's text
+
+    const desc::Light& light() const { return live->desc->links[0].lights[0]; }
   };
 
+  WorldLight world_light(const desc::Light& light, const std::string& sdf) const;
+  void put_light(WorldLight& own);
+  void make_lamp(LiveModel& light, Nanoseconds now);
+  void drop_taken_lamps(LiveModel& live);
   void build(desc::Model model, const std::vector<SensorInstance>* attached, Nanoseconds now);
   void start(SensorInstance& sensor, Nanoseconds now) const;
   std::vector<std::shared_ptr<const Plugin>> device_plugins();
@@ -127,10 +143,9 @@ class Building {
   void add_names(LiveModel& live);
   void remove_names(const LiveModel& live);
 
-  /// A light of the world's own, or of a model's link.
   struct FoundLight {
+    LiveModel* live = nullptr;   // of the world's own, or a model
     std::size_t own = SIZE_MAX;  // in lights_
-    LiveModel* model = nullptr;
     std::uint32_t link = 0;
     std::size_t in_link = 0;
     std::size_t lamp = 0;  // in its parts

@@ -4,18 +4,11 @@
 
 #include "core/nearest.h"
 #include "core/text.h"
+#include "desc/own_lamp.h"
 #include "sim/building.h"
+#include "sim/device_maker.h"
 
 namespace angen::sim {
-
-namespace {
-
-// A black one is dark whatever its level is.
-bool shines(const desc::Light& light) {
-  return light.intensity > 0.0 && light.diffuse.maxCoeff() > 0.0F;
-}
-
-}  // namespace
 
 void Building::note_placed(LiveModel& live) {
   if (std::find(placed_.begin(), placed_.end(), &live) == placed_.end()) placed_.push_back(&live);
@@ -43,13 +36,14 @@ Building::FoundLight Building::find_light(const std::string& name) const {
   FoundLight found;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < lights_.size(); ++i) {
+    found.live = lights_[i].live.get();
     found.own = i;
-    if (lights_[i].light.name == name) return found;
-    names.push_back(lights_[i].light.name);
+    if (lights_[i].light().name == name) return found;
+    names.push_back(lights_[i].light().name);
   }
   found.own = SIZE_MAX;
   for (const auto& live : models_) {
-    found.model = live.get();
+    found.live = live.get();
     found.lamp = 0;
     for (found.link = 0; found.link < live->desc->links.size(); ++found.link) {
       const std::vector<desc::Light>& lights = live->desc->links[found.link].lights;
@@ -64,66 +58,101 @@ Building::FoundLight Building::find_light(const std::string& name) const {
 
 desc::Light Building::light(const std::string& name) const {
   const FoundLight found = find_light(name);
-  if (found.model == nullptr) return lights_[found.own].light;
-  const physics::LinkId link = found.model->parts.links[found.link];
-  desc::Light light = found.model->desc->links[found.link].lights[found.in_link];
-  light.pose = engines_->physics.link(link).pose * light.pose;
+  desc::Light light = found.live->desc->links[found.link].lights[found.in_link];
+  if (!found.live->is_light) {
+    light.pose = engines_->physics.link(found.live->parts.links[found.link]).pose * light.pose;
+  }
   return light;
 }
 
 void Building::set_light(const std::string& name, desc::Light light) {
   const FoundLight found = find_light(name);
-  Parts::Lamp& lamp =
-      found.model == nullptr ? lights_[found.own].lamp : found.model->parts.lamps[found.lamp];
-  const desc::Light& old = found.model == nullptr
-                               ? lights_[found.own].light
-                               : found.model->desc->links[found.link].lights[found.in_link];
+  LiveModel& live = *found.live;
+  Parts::Lamp& lamp = live.parts.lamps[found.lamp];
+  desc::Model described = *live.desc;
+  desc::Light& old = described.links[found.link].lights[found.in_link];
+  const bool stays = desc::shines(old) && desc::shines(light);
   Parts::Lamp made = engines_->add_light(light, light.pose);
-  if (shines(old) && shines(light)) {  // what a device has set stays, of the new brightness
+  if (stays) {  // what a device has set, of the new brightness
     made.level = lamp.level;
     engines_->light.set_level(made.id, engines_->light.level(lamp.id));
   }
   engines_->light.remove(lamp.id);
   made.link = lamp.link;
-  if (found.model == nullptr) {
-    lights_[found.own].light = std::move(light);
-  } else {
-    const Pose link = engines_->physics.link(found.model->parts.links[found.link]).pose;
+  if (!live.is_light) {
+    const Pose link = engines_->physics.link(live.parts.links[found.link]).pose;
     light.pose = made.offset = link.inverse() * light.pose;
-    desc::Model described = *found.model->desc;
-    described.links[found.link].lights[found.in_link] = std::move(light);
-    found.model->desc = std::make_shared<const desc::Model>(std::move(described));
   }
+  old = std::move(light);
+  live.desc = std::make_shared<const desc::Model>(std::move(described));
   lamp = made;
+  for (DeviceInstance& device : live.devices) {
+    if (device.own_light != static_cast<int>(found.lamp)) continue;
+    remake_own_lamp(live, device, stays, *catalog_, warnings_);
+  }
   engines_->note_change();
   note_change();
 }
 
-std::vector<double> Building::light_levels() const {
-  std::vector<double> levels(lights_.size(), 1.0);
-  for (const auto& live : models_) {
-    for (const Parts::Lamp& lamp : live->parts.lamps) levels.push_back(lamp.level);
-  }
-  return levels;
+Building::WorldLight Building::world_light(const desc::Light& light, const std::string& sdf) const {
+  desc::Model model;
+  model.name = light.name;
+  model.is_static = true;
+  model.tolerant = world_.tolerant;
+  model.source = light.source;
+  model.links.emplace_back();
+  model.links[0].lights = {light};
+  auto live = std::make_unique<LiveModel>();
+  live->desc = live->read = std::make_shared<const desc::Model>(std::move(model));
+  live->is_light = true;
+  return {std::move(live), sdf};
 }
 
-void Building::add_light(const desc::Light& light) {
+void Building::put_light(WorldLight& own) {
+  own.live->parts.lamps = {engines_->add_light(own.light(), own.light().pose)};
+}
+
+void Building::make_lamp(LiveModel& light, Nanoseconds now) {
+  make_devices(light, {}, *catalog_, warnings_);
+  drop_taken_lamps(light);
+  for (DeviceInstance& device : light.devices) device.updated = now - world_.physics.step;
+  add_names(light);
+}
+
+// A light whose lamp would have the name of another shines, and is not switched.
+void Building::drop_taken_lamps(LiveModel& live) {
+  const auto is_taken = [&](const DeviceInstance& device) {
+    if (device.own_light < 0 || devices_.count(device.kind + "/" + device.name) == 0) return false;
+    const std::string text = "light '" + device.name + "' cannot be switched: there is a " +
+                             device.kind + " of that name; give it another name";
+    warnings_.push_back(
+        Diagnostic{Diagnostic::Severity::kWarning, device.element.source, text}.text());
+    return true;
+  };
+  live.devices.erase(std::remove_if(live.devices.begin(), live.devices.end(), is_taken),
+                     live.devices.end());
+}
+
+void Building::add_light(const desc::Light& light, const std::string& sdf, Nanoseconds now) {
   for (const WorldLight& own : lights_) {
-    if (own.light.name != light.name) continue;
+    if (own.light().name != light.name) continue;
     throw Error(light.source, "light '" + light.name + "' exists already; choose another name");
   }
-  lights_.push_back({light, engines_->add_light(light, light.pose)});
+  lights_.push_back(world_light(light, sdf));
+  put_light(lights_.back());
+  make_lamp(*lights_.back().live, now);
   engines_->note_change();
   note_change();
 }
 
 void Building::erase_light(const std::string& name) {
   const FoundLight found = find_light(name);
-  if (found.model != nullptr) {
-    throw Error("light '" + printable(name) + "' is a part of model '" + found.model->desc->name +
+  if (!found.live->is_light) {
+    throw Error("light '" + printable(name) + "' is a part of model '" + found.live->desc->name +
                 "'; delete that");
   }
-  engines_->light.remove(lights_[found.own].lamp.id);
+  engines_->light.remove(found.live->parts.lamps[0].id);
+  remove_names(*found.live);
   lights_.erase(lights_.begin() + static_cast<std::ptrdiff_t>(found.own));
   engines_->note_change();
   note_change();

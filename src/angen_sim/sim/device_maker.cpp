@@ -5,6 +5,8 @@
 #include <set>
 
 #include "core/names.h"
+#include "core/plugin_path.h"
+#include "desc/own_lamp.h"
 #include "sim/wiring.h"
 #include "sim/with_source.h"
 
@@ -15,7 +17,7 @@ namespace {
 // Whether the model has a plug-in of that library; of several that Gazebo's robots name, each is
 // one of its own.
 bool has_own(const desc::Model& model, const desc::Plugin& plugin, std::size_t from = 0) {
-  const bool any_number = plugin.filename.rfind("libgazebo_ros_", 0) == 0;
+  const bool any_number = made_for_gazebo(plugin.filename);
   return std::any_of(model.plugins.begin() + static_cast<std::ptrdiff_t>(from), model.plugins.end(),
                      [&](const desc::Plugin& other) {
                        return other.filename == plugin.filename &&
@@ -32,11 +34,9 @@ bool names(const Element& element, const std::string& text) {
 /// Makes the devices of a model, and the sensors that its plug-ins are.
 class DeviceMaker {
  public:
-  DeviceMaker(LiveModel& live, const Vec3& gravity, Catalog& catalog,
-              std::vector<std::string>& warnings)
+  DeviceMaker(LiveModel& live, Catalog& catalog, std::vector<std::string>& warnings)
       : live_(live),
         model_(*live.desc),
-        gravity_(gravity),
         catalog_(catalog),
         warnings_(warnings),
         info_(info_of(*live.desc)) {}
@@ -57,6 +57,41 @@ class DeviceMaker {
     for (const desc::Plugin& described : world_plugins) {
       if (!has_own(model_, described)) make_of(described, false);
     }
+  }
+
+  void make_own_lamps() {
+    int index = -1;
+    for (const desc::Link& link : model_.links) {
+      for (const desc::Light& light : link.lights) {
+        ++index;
+        if (lit_.count(index) != 0 || !(light.level || model_.tolerant)) continue;
+        try {
+          DeviceInstance lamp = own_lamp(light, index, nullptr);
+          check_alone(light.source, lamp);
+          live_.devices.push_back(std::move(lamp));
+        } catch (const Error& error) {
+          for (const Diagnostic& each : error.diagnostics()) warn_ignored(each);
+        }
+      }
+    }
+  }
+
+  /// As `before` is set, where it is given.
+  DeviceInstance own_lamp(const desc::Light& light, int index, const DeviceInstance* before) {
+    const std::string name = live_.is_light ? light.name : model_.name + "_" + light.name;
+    desc::Plugin described = desc::own_lamp(light, name, light.level.value_or(100.0));
+    if (before != nullptr && before->error.empty()) {
+      SavedParams params;
+      before->device->save(params);
+      params.write_to(described.element);
+    }
+    for (const auto& plugin : library(described)) {
+      if (plugin->kind().name != described.name) continue;
+      DeviceInstance lamp = make(described, plugin, {name, ""});
+      lamp.own_light = index;
+      return lamp;
+    }
+    throw Error(light.source, described.filename + " holds no " + described.name);
   }
 
   // A door that nobody has given its plug-in would swing freely, and no command would reach it; the
@@ -106,11 +141,7 @@ class DeviceMaker {
       if (own && make_sensor_of(described, *plugin)) served = true;
       for (const Mount& mount : mounts_of(described, *plugin, own)) {
         DeviceInstance device = make(described, plugin, mount);
-        for (const DeviceInstance& other : live_.devices) {
-          if (other.kind != device.kind || other.name != device.name) continue;
-          throw Error(described.source, "model '" + model_.name + "' has a second " + device.kind +
-                                            " '" + device.name + "'; names of a kind must differ");
-        }
+        check_alone(described.source, device);
         live_.devices.push_back(std::move(device));
         served = true;
       }
@@ -118,9 +149,18 @@ class DeviceMaker {
     return served;
   }
 
+  void check_alone(const Source& source, const DeviceInstance& device) const {
+    for (const DeviceInstance& other : live_.devices) {
+      if (other.kind != device.kind || other.name != device.name) continue;
+      throw Error(source, "model '" + model_.name + "' has a second " + device.kind + " '" +
+                              device.name + "'; names of a kind must differ");
+    }
+  }
+
   // A sensor that stands as a plug-in of the model.
   bool make_sensor_of(const desc::Plugin& described, const Plugin& plugin) {
     Params params(described.element);
+    if (model_.tolerant) params.take_first();
     const std::optional<std::string> link = plugin.link_of(params);
     if (!link) return false;
     desc::Sensor sensor;
@@ -132,8 +172,7 @@ class DeviceMaker {
     const std::string name = model_.name + "_" + sensor.name;
     const std::uint32_t index = with_source(described.source, [&] { return link_index(*link); });
     auto shared = std::make_shared<const desc::Sensor>(std::move(sensor));
-    live_.sensors.push_back(
-        make_sensor(live_, index, shared, name, gravity_, catalog_, warnings_, &plugin));
+    live_.sensors.push_back(make_sensor(live_, index, shared, name, catalog_, warnings_, &plugin));
     return true;
   }
 
@@ -157,6 +196,7 @@ class DeviceMaker {
                                bool own) const {
     return with_source(described.source, [&] {
       Params params(described.element);
+      if (model_.tolerant) params.take_first();
       std::vector<Mount> mounts = plugin.mounts(info_, params);
       const bool takes_joints =
           std::any_of(params.docs().begin(), params.docs().end(),
@@ -181,10 +221,11 @@ class DeviceMaker {
       instance.device = plugin->make_device_on(mount);
       instance.scratch.kind = instance.kind;
       Params params(described.element);
+      if (model_.tolerant) params.take_first();
       instance.name = params.text("device_name", mount.name, "the name that commands use");
       const std::string problem = name_problem(instance.name);
       if (!problem.empty()) throw params.error("device_name", problem);
-      ModelWiring wiring(model_, instance.name, gravity_);
+      ModelWiring wiring(model_, instance.name);
       instance.device->configure(params, wiring);
       if (model_.tolerant) {
         for (const Diagnostic& each : params.unread()) warn_ignored(each);
@@ -195,6 +236,7 @@ class DeviceMaker {
       instance.element = described.element;
       instance.device->save(instance.started_with);
       driven_.insert(wiring.joints().begin(), wiring.joints().end());
+      lit_.insert(wiring.lights().begin(), wiring.lights().end());
       return instance;
     });
   }
@@ -229,20 +271,37 @@ class DeviceMaker {
 
   LiveModel& live_;
   const desc::Model& model_;
-  const Vec3& gravity_;
   Catalog& catalog_;
   std::vector<std::string>& warnings_;
   ModelInfo info_;
   std::set<std::string> driven_;  // joints that a device has
+  std::set<int> lit_;             // lights that one has, by LightRef
 };
 
 }  // namespace
 
-void make_devices(LiveModel& live, const std::vector<desc::Plugin>& world_plugins,
-                  const Vec3& gravity, Catalog& catalog, std::vector<std::string>& warnings) {
-  DeviceMaker maker(live, gravity, catalog, warnings);
+void make_devices(LiveModel& live, const std::vector<desc::Plugin>& world_plugins, Catalog& catalog,
+                  std::vector<std::string>& warnings) {
+  DeviceMaker maker(live, catalog, warnings);
   maker.make_all(world_plugins);
   maker.warn_of_idle_joints();
+  maker.make_own_lamps();
+}
+
+void remake_own_lamp(LiveModel& live, DeviceInstance& lamp, bool keep_level, Catalog& catalog,
+                     std::vector<std::string>& warnings) {
+  std::vector<const desc::Light*> lights;
+  for (const desc::Link& link : live.desc->links) {
+    for (const desc::Light& light : link.lights) lights.push_back(&light);
+  }
+  DeviceMaker maker(live, catalog, warnings);
+  DeviceInstance made = maker.own_lamp(*lights.at(static_cast<std::size_t>(lamp.own_light)),
+                                       lamp.own_light, keep_level ? &lamp : nullptr);
+  lamp.device = std::move(made.device);
+  lamp.element = std::move(made.element);
+  lamp.error.clear();
+  lamp.idle_until = 0;
+  lamp.to_report = true;
 }
 
 }  // namespace angen::sim

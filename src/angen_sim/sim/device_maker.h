@@ -8,8 +8,14 @@
 namespace angen::sim {
 
 /// Makes what the plug-ins of the model and of the world make of it: devices, and sensors that a
-/// model's own plug-in is. Throws Error for one that is wrong, unless the model is tolerant.
-void make_devices(LiveModel& live, const std::vector<desc::Plugin>& world_plugins,
-                  const Vec3& gravity, Catalog& catalog, std::vector<std::string>& warnings);
+/// model's own plug-in is, and lamps of lights that none of them has, where the model is tolerant
+/// or the light has a level. Throws Error for one that is wrong, unless the model is tolerant.
+void make_devices(LiveModel& live, const std::vector<desc::Plugin>& world_plugins, Catalog& catalog,
+                  std::vector<std::string>& warnings);
+
+/// The lamp of a light without a plug-in, for that light as `live` describes it now: at the level
+/// that it has, or at that of the start.
+void remake_own_lamp(LiveModel& live, DeviceInstance& lamp, bool keep_level, Catalog& catalog,
+                     std::vector<std::string>& warnings);
 
 }  // namespace angen::sim

@@ -22,10 +22,10 @@ void DeviceSystem::list(Building& building) {
   outdated_ = false;
   entries_.clear();
   to_report_.clear();
-  for (auto& live : building.models()) {
+  for (LiveModel* live : building.with_devices()) {
     for (DeviceInstance& device : live->devices) {
       if (device.to_report) to_report_.push_back(static_cast<std::uint32_t>(entries_.size()));
-      entries_.push_back({live.get(), &device});
+      entries_.push_back({live, &device});
     }
   }
   active_.clear();

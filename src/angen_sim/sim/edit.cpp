@@ -246,7 +246,7 @@ class Apply {
     building_.set_light(edit.light, light);
   }
 
-  void operator()(const AddLight& edit) { building_.add_light(edit.light); }
+  void operator()(const AddLight& edit) { building_.add_light(edit.light, edit.sdf, now_); }
   void operator()(const DeleteLight& edit) { building_.erase_light(edit.light); }
 
  private:

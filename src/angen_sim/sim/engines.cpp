@@ -5,6 +5,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "desc/own_lamp.h"
 #include "light/photometry.h"
 #include "sim/joined.h"
 #include "sim/like_visual.h"
@@ -13,10 +14,6 @@ namespace angen::sim {
 
 namespace {
 
-// SDF gives lights no photometric unit: intensity 1 at full diffuse stands for
-// a common lamp, or for overcast daylight.
-constexpr double kPointFlux = 800.0;             // lm
-constexpr double kDirectionalIlluminance = 1e3;  // lx
 constexpr float kNight = 0.1F;  // of SDF's ambient: what a dark world gives a camera all the same
 
 Eigen::Vector3f with_luminance_one(const Eigen::Vector3f& color) {
@@ -52,7 +49,8 @@ render::Body visible(const desc::Link& link, const Pose& pose, bool moves) {
     if (material.diffuse.w() < 0.5F) continue;
     body.surfaces.push_back({visual.shape, visual.pose, material.diffuse.head<3>(),
                              body.holds_lamp ? Eigen::Vector3f(0.0F, 0.0F, 0.0F)
-                                             : Eigen::Vector3f(material.emissive.head<3>())});
+                                             : Eigen::Vector3f(material.emissive.head<3>()),
+                             material.look, material.textures});
   }
   return body;
 }
@@ -133,13 +131,10 @@ Parts::Lamp Engines::add_light(const desc::Light& described, const Pose& pose) {
   lamp.inner_angle = described.inner_angle;
   lamp.outer_angle = described.outer_angle;
   lamp.cast_shadows = described.cast_shadows;
-  const double given = described.intensity * described.diffuse.maxCoeff();
-  const double brightness = given > 0.0 ? given : 1.0;  // a black light is one at level 0
-  lamp.luminous_flux = brightness * kPointFlux;
+  lamp.luminous_flux = desc::brightness(described);
   if (described.type == desc::Light::Type::kSpot) lamp.type = light::Lamp::Type::kSpot;
   if (described.type == desc::Light::Type::kDirectional) {
     lamp.type = light::Lamp::Type::kDirectional;
-    lamp.luminous_flux = brightness * kDirectionalIlluminance;
   }
   if (described.type == desc::Light::Type::kRectangle) {
     lamp.type = light::Lamp::Type::kRectangle;
@@ -156,7 +151,7 @@ Parts::Lamp Engines::add_light(const desc::Light& described, const Pose& pose) {
   lamp.photometry = described.photometry;
   if (lamp.photometry) lamp.photometric_flux = light::flux(*lamp.photometry);
   Parts::Lamp part;
-  part.level = given > 0.0 ? 1.0 : 0.0;
+  part.level = desc::shines(described) ? 1.0 : 0.0;
   part.id = light.add(lamp, part.level);
   part.nominal_flux = lamp.luminous_flux;
   return part;
@@ -190,6 +185,7 @@ void Engines::note_rest(Nanoseconds now) {
 }
 
 void Engines::advance_light(Nanoseconds now) {
+  light.begin_tick();
   if (!light_busy()) return;
   light_followed_ = movers.now() + 1;
   rays.commit();

@@ -139,8 +139,8 @@ ModelInfo info_of(const desc::Model& model) {
 
 SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
                            std::shared_ptr<const desc::Sensor> shared, const std::string& name,
-                           const Vec3& gravity, Catalog& catalog,
-                           std::vector<std::string>& warnings, const Plugin* wanted) {
+                           Catalog& catalog, std::vector<std::string>& warnings,
+                           const Plugin* wanted) {
   const desc::Sensor& described = *shared;
   return with_source(described.source, [&] {
     SensorInstance instance;
@@ -160,6 +160,7 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
     instance.pose = described.pose;
     instance.latest.kind = instance.clean.kind = instance.kind;
     Params params(described.plugin_element, &described.element, instance.plugin->kind().rate);
+    if (live.desc->tolerant) params.take_first();
     instance.schedule.publish = params.update_period();
     instance.topic = params.text("topicName", "", "topic, instead of /angen/KIND/NAME");
     if (instance.topic.empty()) {
@@ -169,12 +170,10 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
     if (!instance.plugin->kind().ray_color.empty()) {
       read_ray_color(params, instance.plugin->kind());
     }
-    ModelWiring wiring(*live.desc, name, gravity, live.desc->links[link].name);
+    ModelWiring wiring(*live.desc, name, live.desc->links[link].name);
     instance.sensor->configure(params, wiring);
-    if (wanted != nullptr) {
-      wanted->link_of(params);
-      instance.pose = instance.pose * offset_in(params);
-    }
+    instance.plugin->link_of(params);
+    if (wanted != nullptr) instance.pose = instance.pose * offset_in(params);
     if (live.desc->tolerant) {
       for (const Diagnostic& each : params.unread()) warnings.push_back(each.text() + " (ignored)");
     } else {
@@ -191,8 +190,8 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
 }
 
 void make_instances(LiveModel& live, const std::vector<desc::Plugin>& world_plugins,
-                    const Vec3& gravity, Catalog& catalog, std::vector<std::string>& warnings) {
-  make_devices(live, world_plugins, gravity, catalog, warnings);
+                    Catalog& catalog, std::vector<std::string>& warnings) {
+  make_devices(live, world_plugins, catalog, warnings);
   const desc::Model& model = *live.desc;
   const bool alone = sensor_count(model) == 1;
   for (std::uint32_t i = 0; i < model.links.size(); ++i) {
@@ -207,7 +206,7 @@ void make_instances(LiveModel& live, const std::vector<desc::Plugin>& world_plug
       const std::string name = alone ? model.name : model.name + "_" + described.name;
       try {
         live.sensors.push_back(
-            make_sensor(live, i, {live.desc, &described}, name, gravity, catalog, warnings));
+            make_sensor(live, i, {live.desc, &described}, name, catalog, warnings));
       } catch (const Error& error) {
         if (!model.tolerant) throw;
         for (const Diagnostic& each : error.diagnostics()) {

@@ -18,6 +18,7 @@ namespace angen::sim {
 struct DeviceInstance : DeviceInfo {
   std::unique_ptr<Device> device;
   Element element;           // its <plugin>
+  int own_light = -1;        // in Parts::lamps: the light that is this lamp by itself
   SavedParams started_with;  // what it would have saved then
   Reading scratch;           // what it reports is written here, then compared
   std::shared_ptr<const Reading> last;
@@ -118,6 +119,7 @@ struct SensorInstance : SensorInfo {
 /// A model in the world, with its devices and sensors.
 struct LiveModel {
   std::shared_ptr<const desc::Model> desc;
+  std::shared_ptr<const desc::Model> read;  // as its text has it; what is set changes only `desc`
   Parts parts;
   std::vector<DeviceInstance> devices;
   std::vector<SensorInstance> sensors;
@@ -127,6 +129,7 @@ struct LiveModel {
   std::uint32_t first_device = 0;
   std::uint32_t first_sensor = 0;
   std::uint32_t first_light = 0;
+  bool is_light = false;  // it stands for a light of the world's own, and for nothing else
 };
 
 ModelInfo info_of(const desc::Model& model);  // `taken` is left out
@@ -135,13 +138,13 @@ ModelInfo info_of(const desc::Model& model);  // `taken` is left out
 /// plug-in or parameter that is wrong; sensors without a plug-in, and joints that one of Angen's
 /// own would drive, are added to `warnings`.
 void make_instances(LiveModel& live, const std::vector<desc::Plugin>& world_plugins,
-                    const Vec3& gravity, Catalog& catalog, std::vector<std::string>& warnings);
+                    Catalog& catalog, std::vector<std::string>& warnings);
 
 /// A sensor of `live`, on its link number `link`; shares its description. `wanted`: of a model's
 /// own plug-in, the one of its library.
 SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
                            std::shared_ptr<const desc::Sensor> shared, const std::string& name,
-                           const Vec3& gravity, Catalog& catalog,
-                           std::vector<std::string>& warnings, const Plugin* wanted = nullptr);
+                           Catalog& catalog, std::vector<std::string>& warnings,
+                           const Plugin* wanted = nullptr);
 
 }  // namespace angen::sim

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,10 +16,25 @@ struct SavedPlugin {
   Element plugin;
 };
 
+/// A model with inertials, joints or lights that were changed.
+struct ChangedModel {
+  std::uint32_t model = 0;                  // in Structure::models
+  std::shared_ptr<const desc::Model> read;  // as it was loaded
+};
+
+/// A light that the world's text does not have, or whose own lamp differs from how it started.
+struct SavedLight {
+  std::uint32_t light = 0;  // in Structure::lights
+  std::string sdf;          // that it was spawned from
+  Element lamp;             // its parameters as children
+};
+
 /// What a world's file can say of one moment.
 struct SavedState {
   std::shared_ptr<const Snapshot> snapshot;
   std::vector<SavedPlugin> plugins;  // of devices that differ from how they started
+  std::vector<ChangedModel> changed;
+  std::vector<SavedLight> lights;
 };
 
 }  // namespace angen::sim

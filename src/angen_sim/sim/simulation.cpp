@@ -52,7 +52,10 @@ struct Simulation::Impl {
     }
   }
 
-  SavedState saved() { return {latest, building.saved_plugins(next.time, next.step)}; }
+  SavedState saved() {
+    return {latest, building.saved_plugins(next.time, next.step), building.changed_models(),
+            building.saved_lights()};
+  }
 
   void leap(Nanoseconds until) {
     std::int64_t tick = until / next.step - 1;
@@ -148,7 +151,7 @@ struct Simulation::Impl {
   Cost take_cost() {
     Cost cost = std::exchange(meter.rest, {});
     cost.structure = next.structure;
-    for (auto& live : building.models()) {
+    for (LiveModel* live : building.with_devices()) {
       for (DeviceInstance& device : live->devices) {
         cost.each_device.push_back(std::exchange(device.cost, 0));
         cost.devices += cost.each_device.back();
@@ -177,8 +180,10 @@ struct Simulation::Impl {
       for (std::size_t i = 0; i < live->desc->joints.size(); ++i) next.joint_positions.push_back(0);
       for (std::uint32_t i = 0; i < live->desc->links.size(); ++i) write_link(*live, i);
       write_joints(*live);
-      for (const DeviceInstance& device : live->devices) next.devices.push_back(device.last);
       for (const SensorInstance& sensor : live->sensors) next.sensors.push_back(sensor.published);
+    }
+    for (const LiveModel* live : building.with_devices()) {
+      for (const DeviceInstance& device : live->devices) next.devices.push_back(device.last);
     }
     write_lights();
     for (const std::string& warning : building.take_warnings()) {

@@ -43,7 +43,8 @@ struct DeviceInfo {
 };
 
 struct DeviceEntry : DeviceInfo {
-  std::uint32_t model = 0;
+  std::uint32_t model = 0;           // UINT32_MAX: of a light of the world's own
+  std::uint32_t light = UINT32_MAX;  // that light, in Structure::lights
 };
 
 /// What is fixed of a sensor as long as it exists.

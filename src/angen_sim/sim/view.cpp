@@ -24,6 +24,12 @@ JointView InstanceView::joint(JointRef joint) const {
   return {state.position, state.velocity, state.effort};
 }
 
+JointWrench InstanceView::wrench(JointRef joint) const {
+  queried_.other = true;
+  const physics::Wrench wrench = engines_.physics.wrench(live_.parts.joints.at(at(joint)));
+  return {wrench.force, wrench.torque};
+}
+
 LinkView InstanceView::link(LinkRef link) const {
   queried_.other = true;
   const physics::LinkId id = live_.parts.links.at(at(link));
@@ -34,6 +40,13 @@ LinkView InstanceView::link(LinkRef link) const {
 std::vector<ContactPair> InstanceView::contacts(ContactRef collision) const {
   queried_.contacts = true;
   return engines_.physics.contacts(sensor_->touching.at(at(collision)));
+}
+
+std::vector<ContactPair> InstanceView::contacts_within(ContactRef collision,
+                                                       Nanoseconds period) const {
+  queried_.contacts = true;
+  const std::int64_t first = (clock_.time - period) / clock_.step;  // that ended after then
+  return engines_.physics.contacts_since(sensor_->touching.at(at(collision)), first);
 }
 
 std::vector<DeviceView> InstanceView::devices(const std::string& field,
@@ -59,6 +72,8 @@ void InstanceView::cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hi
 light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) const {
   queried_.other = queried_.other || queried_.light;  // only one place's light is watched
   queried_.light = true;
+  // Whether somebody subscribes to a sensor must not change what others read.
+  probe.ahead = sensor_ == nullptr || !sensor_->on_demand();
   if (engines_.light.dark() && engines_.light.knows(probe))
     return engines_.light.measure(probe, pose);
   engines_.rays.commit();
@@ -78,7 +93,10 @@ light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) c
   return sample;
 }
 
-void InstanceView::prepare_light() const { engines_.light.prepare(); }
+void InstanceView::expect_light(light::Probe& probe, const Pose& pose) const {
+  engines_.rays.commit();
+  engines_.light.expect(probe, pose);
+}
 
 const std::vector<rays::WarmShape>& InstanceView::warm_shapes() const {
   queried_.other = queried_.heat = true;

@@ -26,16 +26,23 @@ class InstanceView : public View {
 
   Nanoseconds time() const override { return clock_.time; }
   Nanoseconds step() const override { return clock_.step; }
+  /// A change activates everything, so that it counts for no query.
+  Vec3 gravity() const override { return building_.gravity(); }
   Pose pose() const override;
   JointView joint(JointRef joint) const override;
+  JointWrench wrench(JointRef joint) const override;
   LinkView link(LinkRef link) const override;
   std::vector<ContactPair> contacts(ContactRef collision) const override;
+  std::vector<ContactPair> contacts_within(ContactRef collision, Nanoseconds period) const override;
   using View::devices;
   std::vector<DeviceView> devices(const std::string& field,
                                   const Eigen::AlignedBox3d& within) const override;
   void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override;
+  Eigen::Vector3f reflectance(std::uint32_t shape) const override {
+    return engines_.rays.reflectance(shape);
+  }
   light::Sample illuminance(light::Probe& probe, const Pose& pose) const override;
-  void prepare_light() const override;
+  void expect_light(light::Probe& probe, const Pose& pose) const override;
   double ambient_temperature() const override { return engines_.ambient_temperature; }
   const std::vector<rays::WarmShape>& warm_shapes() const override;
   std::uint64_t scene_revision() const override;

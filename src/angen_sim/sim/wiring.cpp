@@ -1,5 +1,6 @@
 #include "sim/wiring.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -59,16 +60,14 @@ double inertia(const desc::Model& model, const desc::Joint& joint) {
 
 }  // namespace
 
-ModelWiring::ModelWiring(const desc::Model& model, std::string name, const Vec3& gravity,
-                         std::string sensor_link)
-    : model_(model),
-      name_(std::move(name)),
-      gravity_(gravity),
-      sensor_link_(std::move(sensor_link)) {}
+ModelWiring::ModelWiring(const desc::Model& model, std::string name, std::string sensor_link)
+    : model_(model), name_(std::move(name)), sensor_link_(std::move(sensor_link)) {}
 
 bool ModelWiring::has_joint(const std::string& joint) const {
   return index_of(model_.joints, joint) >= 0;
 }
+
+std::vector<std::string> ModelWiring::joint_names() const { return names_of(model_.joints); }
 
 JointRef ModelWiring::joint(const std::string& joint) {
   const int index = index_of(model_.joints, joint);
@@ -92,6 +91,10 @@ LinkRef ModelWiring::link(const std::string& link) {
   return {index};
 }
 
+bool ModelWiring::is_fixed(JointRef joint) const {
+  return angen::sim::is_fixed(model_.joints.at(static_cast<std::size_t>(joint.index)));
+}
+
 std::string ModelWiring::child_of(JointRef joint) const {
   return model_.joints.at(static_cast<std::size_t>(joint.index)).child;
 }
@@ -107,16 +110,26 @@ double ModelWiring::mass(LinkRef link) const {
   return mass;
 }
 
+Vec3 ModelWiring::center(LinkRef link) const {
+  return model_.links.at(static_cast<std::size_t>(link.index)).inertial.pose.position;
+}
+
 LightRef ModelWiring::light(const std::string& light) {
   std::vector<std::string> names;
   for (const desc::Link& link : model_.links) {
     for (const desc::Light& l : link.lights) names.push_back(l.name);
   }
-  if (light.empty() && names.size() == 1) return {0};
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i] == light) return {static_cast<int>(i)};
-  }
-  unknown(model_.name, "light", light, names);
+  const int index =
+      light.empty() && names.size() == 1
+          ? 0
+          : static_cast<int>(std::find(names.begin(), names.end(), light) - names.begin());
+  if (index == static_cast<int>(names.size())) unknown(model_.name, "light", light, names);
+  lights_.insert(index);
+  return {index};
+}
+
+std::vector<std::string> ModelWiring::collision_names() const {
+  return names_of(model_.links.at(index_of(model_.links, sensor_link_)).collisions);
 }
 
 ContactRef ModelWiring::collision(const std::string& collision) {

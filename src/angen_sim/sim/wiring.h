@@ -12,33 +12,36 @@ namespace angen::sim {
 /// Answers a plug-in's names from the description of its model; refs are indices into it.
 class ModelWiring : public Wiring {
  public:
-  ModelWiring(const desc::Model& model, std::string name, const Vec3& gravity,
-              std::string sensor_link = "");
+  ModelWiring(const desc::Model& model, std::string name, std::string sensor_link = "");
 
   std::string name() const override { return name_; }
   std::string model() const override { return model_.name; }
-  Vec3 gravity() const override { return gravity_; }
   bool has_joint(const std::string& joint) const override;
+  std::vector<std::string> joint_names() const override;
   JointRef joint(const std::string& joint) override;
   JointLimits limits(JointRef joint) const override;
   LinkRef link(const std::string& link) override;
+  bool is_fixed(JointRef joint) const override;
   std::string child_of(JointRef joint) const override;
   Vec3 anchor(JointRef joint) const override;
   double mass(LinkRef link) const override;
+  Vec3 center(LinkRef link) const override;
   LightRef light(const std::string& light) override;
+  std::vector<std::string> collision_names() const override;
   ContactRef collision(const std::string& collision) override;
   std::vector<SurfaceRef> surfaces(const std::string& visual) override;
 
   const std::set<std::string>& joints() const { return joints_; }  // those asked for
+  const std::set<int>& lights() const { return lights_; }          // by LightRef
   /// Full names of the collisions asked for, by ContactRef.
   const std::vector<std::string>& collisions() const { return collisions_; }
 
  private:
   const desc::Model& model_;
   std::string name_;
-  Vec3 gravity_;
   std::string sensor_link_;
   std::set<std::string> joints_;
+  std::set<int> lights_;
   std::vector<std::string> collisions_;
 };
 

@@ -67,7 +67,10 @@ struct World {
     entry.frame = frame;
     structure->sensors.push_back(entry);
   }
-  FrameTree tree() const { return make_frames(snapshot, find_robots(*structure, {})); }
+  FrameTree tree() const {
+    const Changes changes = changes_between(nullptr, *structure);
+    return *FrameMaker().make(snapshot, find_robots(*structure, {}), changes);
+  }
 };
 
 std::map<std::string, std::string> parents(const FrameTree& tree) {
@@ -153,6 +156,58 @@ TEST(Frames, SensorsHangOnTheirLinks) {
   EXPECT_EQ(tree.sensors, (std::vector<std::string>{"p1", "eye", "pir_eye"}));
   EXPECT_EQ(parents(tree)["eye"], "fixed door/leaf");
   EXPECT_EQ(parents(tree)["pir_eye"], "fixed door/base");
+}
+
+/// The world of some models, which are shared with other worlds.
+World world_of(const std::vector<std::shared_ptr<const desc::Model>>& models) {
+  World world;
+  world.snapshot.structure = world.structure;
+  for (const auto& model : models) {
+    world.add(*model, model->links.size() == 3 && model->name != "door" ? "drive" : "");
+    world.structure->models.back() = model;
+    world.add_sensor("eye" + std::to_string(world.structure->sensors.size() % 2),
+                     static_cast<std::uint32_t>(world.structure->links.size() - 1));
+    world.structure->sensors.back().model = world.structure->links.back().model;
+    world.structure->sensors.back().desc = {model, &model->links.front().sensors.front()};
+  }
+  return world;
+}
+
+std::string text_of(const FrameTree& tree) {
+  std::string text;
+  for (const FixedFrame& frame : tree.fixed) {
+    text +=
+        frame.parent + " > " + frame.child + " " + std::to_string(frame.pose.position.x()) + ";";
+  }
+  for (const MovingFrame& frame : tree.moving) {
+    text += frame.parent + " > " + frame.child + " " + std::to_string(frame.link) + " " +
+            std::to_string(frame.parent_link.value_or(99)) + ";";
+  }
+  for (const std::string& frame : tree.sensors) text += frame + ";";
+  for (const std::int32_t by : tree.moved_by) text += std::to_string(by) + ";";
+  return text;
+}
+
+TEST(Frames, OfModelsThatStayAreThoseOfATreeMadeAnew) {
+  std::vector<std::shared_ptr<const desc::Model>> all;
+  for (desc::Model model : {door(), robot("first"), robot("second"), door(), robot("third")}) {
+    if (model.name == "door") model.name += std::to_string(all.size());
+    model.links.front().sensors.resize(1);
+    all.push_back(std::make_shared<const desc::Model>(model));
+  }
+  using Kept = std::vector<std::size_t>;
+  FrameMaker maker;
+  std::shared_ptr<const sim::Structure> before;
+  for (const Kept& kept : {Kept{0, 1, 2, 3, 4}, Kept{0, 2, 3, 4}, Kept{0, 2, 4}, Kept{0, 2, 4, 1},
+                           Kept{4, 1}, Kept{}, Kept{3, 1}, Kept{3, 1, 0}, Kept{1, 0}}) {
+    std::vector<std::shared_ptr<const desc::Model>> models;
+    for (const std::size_t i : kept) models.push_back(all[i]);
+    const World world = world_of(models);
+    const Changes changes = changes_between(before.get(), *world.structure);
+    const auto robots = find_robots(*world.structure, {});
+    EXPECT_EQ(text_of(*maker.make(world.snapshot, robots, changes)), text_of(world.tree()));
+    before = world.structure;
+  }
 }
 
 }  // namespace

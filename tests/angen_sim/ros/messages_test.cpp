@@ -144,6 +144,7 @@ TEST(Messages, Elevator) {
   state.set("mode", Choice{2, "DOWN"});
   state.set("floor", -1);
   state.set("target_floor", 1);
+  state.set("floors", 3);
   state.set("door_mode", Choice{4, "BLOCKED"});
   state.set("door_position", 0.3);
   angen_msgs::ElevatorState message;
@@ -151,6 +152,7 @@ TEST(Messages, Elevator) {
   EXPECT_EQ(message.mode, angen_msgs::ElevatorState::DOWN);
   EXPECT_EQ(message.floor, -1);
   EXPECT_EQ(message.target_floor, 1);
+  EXPECT_EQ(message.floors, 3);
   EXPECT_EQ(message.door_mode, angen_msgs::ElevatorState::DOOR_BLOCKED);
   EXPECT_EQ(message.door_position, 0.3);
 }

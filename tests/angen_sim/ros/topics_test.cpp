@@ -60,8 +60,9 @@ sim::SensorEntry sensor(const std::string& kind,
 TEST(Topics, ASensorByItselfPublishesUnderItsKindAndName) {
   EXPECT_EQ(sensor_topics(sensor("lidar"), format_of("lidar"), nullptr), Names{"/angen/lidar/it"});
   const std::vector<Format>& formats = formats_of("depth");
-  ASSERT_EQ(formats.size(), 3U);
+  ASSERT_EQ(formats.size(), 5U);
   EXPECT_EQ(sensor_topics(sensor("depth"), formats[2], nullptr), Names{"/angen/depth/it/points"});
+  EXPECT_TRUE(sensor_topics(sensor("depth"), formats[3], nullptr).empty()) << "it has no colors";
 }
 
 TEST(Topics, ARobotsTopicsStandBelowItsNameAndTheFirstOnesAlsoAlone) {
@@ -71,6 +72,19 @@ TEST(Topics, ARobotsTopicsStandBelowItsNameAndTheFirstOnesAlsoAlone) {
   EXPECT_EQ(sensor_topics(scan, format_of("lidar"), &robot), Names{"/r2/scan"});
   robot.first = true;
   EXPECT_EQ(sensor_topics(scan, format_of("lidar"), &robot), (Names{"/r2/scan", "/scan"}));
+}
+
+TEST(Topics, AKinectHasGazebosTopicsWhereItHasColors) {
+  const sim::SensorEntry kinect = sensor(
+      "depth_camera",
+      {{"cameraName", "cam"}, {"imageTopicName", "rgb/image_raw"}, {"robotNamespace", "/bot"}});
+  Names topics;
+  for (const Format& format : formats_of("depth_camera")) {
+    topics.push_back(sensor_topics(kinect, format, nullptr).at(0));
+  }
+  EXPECT_EQ(topics,
+            (Names{"/bot/cam/depth/image_raw", "/bot/cam/depth/camera_info", "/bot/cam/points",
+                   "/bot/cam/rgb/image_raw", "/bot/cam/ir/camera_info"}));
 }
 
 TEST(Topics, CamerasTakeGazebosTopicNames) {

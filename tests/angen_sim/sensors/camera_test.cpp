@@ -96,5 +96,79 @@ TEST(Camera, ImagesOfEqualPixelsAreEqualReadings) {
   EXPECT_FALSE(first.same_values(bench.sample()));
 }
 
+TEST(Camera, AGrayOneHasTheLumaOfItsColors) {
+  Element sensor = lens("2");
+  sensor.children[0].children[1].children.push_back(element("format", "L8"));
+  Bench bench(kCamera, plugin_element({}), sensor);
+  bench.world.colors_at = [](const render::PinholeCamera&, const Pose&) {
+    return std::vector<std::uint8_t>{255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255};
+  };
+  const auto image = bench.sample().get<ByteImage>("image");
+  EXPECT_EQ(image.channels, 1U);
+  ASSERT_NE(image.values, nullptr);
+  EXPECT_EQ(*image.values, (std::vector<std::uint8_t>{76, 150, 29, 255}));
+}
+
+TEST(Camera, ItsLensIsThatOfThePlugin) {
+  Bench bench(kCamera,
+              plugin_element({{"distortionK1", "-0.2"},
+                              {"distortionT2", "0.01"},
+                              {"hackBaseline", "0.07"},
+                              {"CxPrime", "320.5"}}),
+              lens("2"));
+  bench.world.colors_at = [](const render::PinholeCamera& seen, const Pose&) {
+    EXPECT_EQ(seen.distortion.k1, -0.2);
+    return std::vector<std::uint8_t>(12);
+  };
+  const Reading reading = bench.sample();
+  EXPECT_EQ(reading.get<std::vector<double>>("distortion"),
+            (std::vector<double>{-0.2, 0.0, 0.0, 0.01, 0.0}));
+  EXPECT_EQ(reading.get<double>("baseline"), 0.07);
+}
+
+TEST(Camera, WhatALensBendsIsBentBack) {
+  render::Distortion lens;
+  lens.k1 = -0.25;
+  lens.k2 = 0.05;
+  lens.p1 = 0.002;
+  lens.p2 = -0.001;
+  for (const auto& [x, y] : {std::pair(0.0, 0.0), {0.3, -0.2}, {-0.5, 0.4}}) {
+    double shown_x = 0.0, shown_y = 0.0, back_x = 0.0, back_y = 0.0;
+    lens.distort(x, y, shown_x, shown_y);
+    lens.undistort(shown_x, shown_y, back_x, back_y);
+    EXPECT_NEAR(back_x, x, 1e-6);
+    EXPECT_NEAR(back_y, y, 1e-6);
+  }
+}
+
+// With an imageTopicName it is Gazebo's, with its limits and a color image.
+TEST(Camera, ADepthCameraOfGazebosSeesFromItsCutoffOn) {
+  const auto depths_of = [](const std::string& library,
+                            std::vector<std::pair<std::string, std::string>> parameters) {
+    Bench bench(library, plugin_element(parameters), lens("2"));
+    bench.world.depths_at = [](const render::PinholeCamera&, const Pose&) {
+      return std::vector<float>{0.3F, 1.0F, 4.9F, 6.0F};
+    };
+    bench.world.colors_at = [](const render::PinholeCamera&, const Pose&) {
+      return std::vector<std::uint8_t>(12, 7);
+    };
+    const Reading reading = bench.sample();
+    EXPECT_EQ(reading.find("image") != nullptr, parameters.size() > 1);
+    std::string seen;
+    const auto depth = reading.get<FloatImage>("depth");
+    for (const float value : *depth.values) seen += std::isnan(value) ? "-" : "x";
+    return seen;
+  };
+  const std::pair<std::string, std::string> camera{"cameraName", "c"};
+  const std::pair<std::string, std::string> color{"imageTopicName", "rgb/image_raw"};
+  const char* const kOther = "libgazebo_ros_depth_camera.so";
+  EXPECT_EQ(depths_of(kDepth, {camera}), "xxxx");
+  EXPECT_EQ(depths_of(kDepth, {camera, color}), "-xx-");
+  EXPECT_EQ(depths_of(kOther, {camera, color}), "-xxx");
+  EXPECT_EQ(
+      depths_of(kDepth, {camera, color, {"pointCloudCutoff", "0.2"}, {"pointCloudCutoffMax", "2"}}),
+      "xx--");
+}
+
 }  // namespace
 }  // namespace angen

@@ -107,7 +107,7 @@ TEST(Contact, ADebouncedOneTellsOnlyWhatLasts) {
   EXPECT_EQ(bench.sample(kSamplePeriod).event, "released");
 }
 
-TEST(Contact, WithoutADebounceItLooksOnlyWhenItPublishes) {
+TEST(Contact, WithoutADebounceItSamplesOnlyWhenItPublishes) {
   const Bench bench(kContact, plugin_element({{"sample_rate", "500"}}), watching({kSeat}), chair());
   EXPECT_EQ(bench.sensor().sample_period(), 0);
 }
@@ -135,6 +135,35 @@ TEST(Contact, RefusesNoCollisionAndUnknownOnesAtTheirPlace) {
   EXPECT_EQ(test::complaint_of(kContact, plugin_element({}), sensor, chair()),
             "a.world:40: no collision chair::link::leg; known are chair::link::seat, "
             "chair::link::back");
+}
+
+TEST(Contact, NamesWhatTouchedSinceItsLastReading) {
+  Bench bench(kContact, plugin_element({}), watching({kSeat}), chair());
+  bench.world.touched[kSeat] = {{kSeat, "cat::body::box", {point(0.1, -20.0)}}};
+  const Reading reading = bench.sample();
+  EXPECT_EQ(reading.get<Names>("collision2"), Names{"cat::body::box"});
+  EXPECT_FALSE(bench.sensor().steady()) << "the next reading is another";
+  bench.world.touched.clear();
+  EXPECT_TRUE(bench.sample().get<Names>("collision2").empty());
+  EXPECT_TRUE(bench.sensor().steady());
+}
+
+TEST(Contact, PointsAreInTheFrameOfALinkThatItNames) {
+  FakeWorld world = chair();
+  world.links = {{"base", {}}};
+  world.links[0].second.state.pose = {{1.0, 0.0, 0.0}, from_rpy(0.0, 0.0, M_PI_2)};
+  world.touching[kSeat] = {{kSeat, "cat::body::box", {point(0.1, -20.0)}}};
+  Bench bench(kContact, plugin_element({{"frameName", "base"}}), watching({kSeat}), world);
+  Reading reading = bench.sample();
+  const Numbers at = reading.get<Numbers>("positions");
+  EXPECT_NEAR(at[0], 0.0, 1e-12);
+  EXPECT_NEAR(at[1], 0.9, 1e-12);
+  EXPECT_NEAR(at[2], 0.5, 1e-12);
+  EXPECT_EQ(reading.get<std::string>("frame"), "base");
+  Bench other(kContact, plugin_element({{"frameName", "map"}}), watching({kSeat}), world);
+  reading = other.sample();
+  EXPECT_EQ(reading.get<Numbers>("positions")[0], 0.1);
+  EXPECT_EQ(reading.get<std::string>("frame"), "world");
 }
 
 }  // namespace

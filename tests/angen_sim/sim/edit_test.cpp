@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "angen_sim/sim/room.h"
+#include "angen_sim/sim/household.h"
 
 namespace angen::sim {
 namespace {
@@ -210,6 +211,62 @@ TEST_F(Edits, AnotherGravityActsAndIsInTheStructure) {
   EXPECT_EQ(world_->snapshot()->structure->gravity.z(), 1.5);
   EXPECT_EQ(world_->snapshot()->structure->physics.iterations, 77);
   EXPECT_EQ(world_->snapshot()->structure->physics.step, world_->snapshot()->step);
+}
+
+// An elevator, a sensor that stands still, and a crate of 5 kg on load cells.
+std::unique_ptr<Simulation> world_of_weights() {
+  const std::string felt = custom("felt", "accelerometer", "");
+  const std::string crate =
+      "<model name='crate'><pose>5 0 0.11 0 0 0</pose><link name='l'><inertial><mass>5</mass>"
+      "<inertia><ixx>0.03</ixx><iyy>0.03</iyy><izz>0.03</izz></inertia></inertial><collision "
+      "name='c'><geometry><box><size>0.2 0.2 0.2</size></box></geometry></collision><sensor "
+      "name='s' type='contact'><contact><collision>c</collision></contact><plugin name='p' "
+      "filename='libload_cells.so'/></sensor></link></model>";
+  const std::string models =
+      body("floor", "<box><size>2 2 0.2</size></box>", "5 0 -0.1 0 0 0", true) + crate +
+      body("post", "<box><size>0.2 0.2 0.2</size></box>", "3 3 1 0 0 1", true, felt) +
+      "<include><uri>model://elevator</uri></include>";
+  load::SearchPaths paths;
+  paths.models = {ANGEN_WORLDS_DIR "/models"};
+  return std::make_unique<Simulation>(
+      load::world_from_text("<sdf version='1.6'><world name='w'>" + models + "</world></sdf>",
+                            "test", paths),
+      0, std::make_shared<Catalog>());
+}
+
+TEST(EditsOfGravity, DevicesAndSensorsFeelANewOneAtOnce) {
+  const std::unique_ptr<Simulation> world = world_of_weights();
+  const auto run = [&](double seconds) {
+    for (int i = 0; i < std::lround(1000 * seconds); ++i) world->tick();
+    return world->snapshot();
+  };
+  const auto reading = [&](const std::string& name) {
+    const auto snapshot = world->snapshot();
+    const auto& sensors = snapshot->structure->sensors;
+    for (std::size_t i = 0; i < sensors.size(); ++i) {
+      if (sensors[i].name == name) return *snapshot->reading(i);
+    }
+    throw Error("no sensor " + name);
+  };
+  run(3.0);  // the sensor has long been steady
+  EXPECT_NEAR(reading("post").get<std::vector<double>>("acceleration")[2], 9.81, 1e-6);
+  EXPECT_NEAR(reading("crate").get<double>("weight"), 5.0, 0.01);
+  world->post(Edit(SetPhysics{world->snapshot()->structure->physics, {0.0, 0.0, -3.7}}));
+  run(2.0);
+  EXPECT_NEAR(reading("post").get<std::vector<double>>("acceleration")[2], 3.7, 1e-6);
+  EXPECT_NEAR(reading("crate").get<double>("weight"), 5.0, 0.01) << "a mass stays what it is";
+  world->post(ToDevice{"elevator", "elevator", {"Floor1", {}, "", 0.0}});
+  const auto structure = world->snapshot()->structure;
+  const auto lift =
+      std::find_if(structure->joints.begin(), structure->joints.end(),
+                   [](const JointEntry& joint) { return joint.name == "elevator::lift"; });
+  ASSERT_NE(lift, structure->joints.end());
+  double highest = 0.0;
+  for (int i = 0; i < 15000; ++i) {
+    const auto snapshot = world->tick();
+    highest = std::max(highest, snapshot->joint_positions[lift - structure->joints.begin()]);
+  }
+  EXPECT_NEAR(highest, 4.0, 0.002) << "carried by what it weighs now";
 }
 
 TEST_F(Edits, LightsComeChangeAndGo) {

@@ -17,11 +17,17 @@ class Forgetful : public View {
   explicit Forgetful(const View& view) : view_(view) {}
   Nanoseconds time() const override { return view_.time(); }
   Nanoseconds step() const override { return view_.step(); }
+  Vec3 gravity() const override { return view_.gravity(); }
   Pose pose() const override { return view_.pose(); }
   JointView joint(JointRef joint) const override { return view_.joint(joint); }
+  JointWrench wrench(JointRef joint) const override { return view_.wrench(joint); }
   LinkView link(LinkRef link) const override { return view_.link(link); }
   std::vector<ContactPair> contacts(ContactRef collision) const override {
     return view_.contacts(collision);
+  }
+  std::vector<ContactPair> contacts_within(ContactRef collision,
+                                           Nanoseconds period) const override {
+    return view_.contacts_within(collision, period);
   }
   std::vector<DeviceView> devices(const std::string& field,
                                   const Eigen::AlignedBox3d& within) const override {
@@ -30,11 +36,16 @@ class Forgetful : public View {
   void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override {
     view_.cast(rays, hits);
   }
+  Eigen::Vector3f reflectance(std::uint32_t shape) const override {
+    return view_.reflectance(shape);
+  }
   light::Sample illuminance(light::Probe&, const Pose& pose) const override {
     light::Probe fresh;
     return view_.illuminance(fresh, pose);
   }
-  void prepare_light() const override { view_.prepare_light(); }
+  void expect_light(light::Probe& probe, const Pose& pose) const override {
+    view_.expect_light(probe, pose);
+  }
   double ambient_temperature() const override { return view_.ambient_temperature(); }
   const std::vector<rays::WarmShape>& warm_shapes() const override { return view_.warm_shapes(); }
   std::uint64_t scene_revision() const override { return view_.scene_revision(); }

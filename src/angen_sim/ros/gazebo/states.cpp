@@ -1,9 +1,7 @@
 #include "ros/gazebo/states.h"
 
 #include <gazebo_msgs/LinkState.h>
-#include <gazebo_msgs/LinkStates.h>
 #include <gazebo_msgs/ModelState.h>
-#include <gazebo_msgs/ModelStates.h>
 #include <ros/console.h>
 
 #include <algorithm>
@@ -21,38 +19,27 @@ namespace {
 constexpr std::chrono::milliseconds kStandingPeriod(100);  // while time stands still
 constexpr std::uint32_t kStatesQueue = 10;
 
-template <class Message>
-void add(const std::string& name, const sim::Motion& motion, Message& message) {
-  message.name.push_back(name);
-  message.pose.push_back(to_ros(motion.pose));
-  message.twist.push_back(twist_of(motion));
-}
-
-gazebo_msgs::LinkStates link_states(const sim::Simulation& simulation,
-                                    const sim::Snapshot& snapshot) {
-  gazebo_msgs::LinkStates message;
-  const std::vector<sim::LinkEntry>& links = snapshot.structure->links;
-  for (std::uint32_t i = 0; i < links.size(); ++i) {
-    add(links[i].name, simulation.motion(i), message);
-  }
-  return message;
-}
-
 // A model goes with its first link.
-gazebo_msgs::ModelStates model_states(const sim::Simulation& simulation,
-                                      const sim::Snapshot& snapshot) {
-  gazebo_msgs::ModelStates message;
-  const std::vector<sim::LinkEntry>& links = snapshot.structure->links;
-  for (std::uint32_t i = 0; i < links.size(); ++i) {
-    if (links[i].link != 0) continue;
-    const desc::Model& model = *snapshot.structure->models[links[i].model];
-    sim::Motion motion = simulation.motion(i);
-    const Vec3 link = motion.pose.position;
-    motion.pose = motion.pose * model.links.front().pose.inverse();
-    motion.linear += motion.angular.cross(motion.pose.position - link);
-    add(model.name, motion, message);
-  }
-  return message;
+sim::Motion model_motion(const sim::Structure& structure, const sim::LinkEntry& first,
+                         sim::Motion motion) {
+  const desc::Model& model = *structure.models[first.model];
+  const Vec3 link = motion.pose.position;
+  motion.pose = motion.pose * model.links.front().pose.inverse();
+  motion.linear += motion.angular.cross(motion.pose.position - link);
+  return motion;
+}
+
+template <class Message>
+void set_state(const sim::Motion& motion, std::size_t at, Message& message) {
+  message.pose[at] = to_ros(motion.pose);
+  message.twist[at] = twist_of(motion);
+}
+
+template <class Message>
+void resize(std::size_t size, Message& message) {
+  message.name.resize(size);
+  message.pose.resize(size);
+  message.twist.resize(size);
 }
 
 }  // namespace
@@ -88,14 +75,49 @@ void StateTopics::receive(const Message& message) {
   }
 }
 
+void StateTopics::follow(const sim::Snapshot& snapshot) {
+  structure_ = snapshot.structure;
+  resize(structure_->links.size(), link_states_);
+  resize(structure_->models.size(), model_states_);
+  for (std::uint32_t i = 0; i < structure_->links.size(); ++i) {
+    link_states_.name[i] = structure_->links[i].name;
+    fill(i);
+  }
+  for (std::size_t i = 0; i < structure_->models.size(); ++i) {
+    model_states_.name[i] = structure_->models[i]->name;
+  }
+}
+
+void StateTopics::fill(std::uint32_t link) {
+  const sim::LinkEntry& entry = structure_->links[link];
+  const sim::Motion motion = inbox_.simulation().motion(link);
+  set_state(motion, link, link_states_);
+  if (entry.link != 0) return;
+  set_state(model_motion(*structure_, entry, motion), entry.model, model_states_);
+}
+
+void StateTopics::update(const sim::Snapshot& snapshot) {
+  if (snapshot.structure != structure_) {
+    follow(snapshot);
+    return;
+  }
+  for (std::uint32_t i = 0; i < structure_->links.size(); ++i) {
+    const bool stands = link_states_.pose[i] == to_ros(snapshot.link_poses[i]);
+    if (structure_->links[i].moves || !stands) fill(i);
+  }
+}
+
 void StateTopics::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {
   if (!models_.has_subscribers() && !links_.has_subscribers()) return;
   const Nanoseconds slot = snapshot.time / period_;
-  if (slot == slot_ && now - sent_ < kStandingPeriod) return;
+  const bool stands = snapshot.time == sent_time_ && now - sent_ >= kStandingPeriod;
+  if (slot == slot_ && !stands) return;
   slot_ = slot;
   sent_ = now;
-  models_.publish([&] { return model_states(inbox_.simulation(), snapshot); });
-  links_.publish([&] { return link_states(inbox_.simulation(), snapshot); });
+  sent_time_ = snapshot.time;
+  update(snapshot);
+  models_.publish([&]() -> const auto& { return model_states_; });
+  links_.publish([&]() -> const auto& { return link_states_; });
 }
 
 }  // namespace angen::node::gazebo

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <gazebo_msgs/LinkStates.h>
+#include <gazebo_msgs/ModelStates.h>
 #include <geometry_msgs/Twist.h>
 #include <ros/node_handle.h>
+
+#include <memory>
 
 #include "ros/inbox.h"
 #include "ros/lazy_publisher.h"
@@ -25,12 +29,21 @@ class StateTopics {
  private:
   template <class Message>
   void receive(const Message& message);
+  /// Both messages anew.
+  void follow(const sim::Snapshot& snapshot);
+  /// What can move or was put elsewhere; everything of another structure.
+  void update(const sim::Snapshot& snapshot);
+  void fill(std::uint32_t link);
 
   Inbox& inbox_;
   LazyPublisher models_;
   LazyPublisher links_;
   Nanoseconds period_;
   Nanoseconds slot_ = -1;
+  Nanoseconds sent_time_ = -1;
+  std::shared_ptr<const sim::Structure> structure_;  // of the messages
+  gazebo_msgs::ModelStates model_states_;
+  gazebo_msgs::LinkStates link_states_;
   Pacer::Clock::time_point sent_{};
   ros::Subscriber set_model_;
   ros::Subscriber set_link_;

@@ -9,9 +9,10 @@
 namespace angen::node {
 namespace {
 
-/// In the world frame, whatever the label says; torques are about its origin.
+/// In the frame that the reading is in, whatever the label says; torques are about its origin.
 void fill(const Reading& reading, const Label&, gazebo_msgs::ContactsState& message) {
-  message.header.frame_id = "world";
+  const auto frame = reading.get<std::string>("frame");
+  message.header.frame_id = frame.empty() ? "world" : frame;
   const auto first = reading.get<std::vector<std::string>>("collision1");
   const auto second = reading.get<std::vector<std::string>>("collision2");
   const auto counts = reading.get<std::vector<double>>("counts");

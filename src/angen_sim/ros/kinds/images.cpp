@@ -2,7 +2,9 @@
 
 #include <sensor_msgs/image_encodings.h>
 
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace angen::node {
 namespace {
@@ -18,11 +20,35 @@ void copy(const ImageArray<T>& image, const char* encoding, sensor_msgs::Image& 
   std::memcpy(message.data.data(), image.values->data(), message.data.size());
 }
 
+ImageArray<std::uint16_t> in_millimeters(const FloatImage& depth) {
+  constexpr float kMost = std::numeric_limits<std::uint16_t>::max();
+  std::vector<std::uint16_t> whole;
+  whole.reserve(depth.values->size());
+  for (const float meters : *depth.values) {
+    const float millimeters = std::round(1000.0F * meters);
+    const bool fits = millimeters >= 0.0F && millimeters <= kMost;
+    whole.push_back(fits ? static_cast<std::uint16_t>(millimeters) : std::uint16_t{0});
+  }
+  return {depth.height, depth.width, 1,
+          std::make_shared<const std::vector<std::uint16_t>>(std::move(whole))};
+}
+
 }  // namespace
 
 void fill_image(const Reading& reading, const Label&, sensor_msgs::Image& message) {
-  copy(reading.get<ByteImage>("image"), sensor_msgs::image_encodings::RGB8.c_str(), message);
-  copy(reading.get<FloatImage>("depth"), sensor_msgs::image_encodings::TYPE_32FC1.c_str(), message);
+  namespace encodings = sensor_msgs::image_encodings;
+  const auto image = reading.get<ByteImage>("image");
+  copy(image, (image.channels == 1 ? encodings::MONO8 : encodings::RGB8).c_str(), message);
+}
+
+void fill_depth(const Reading& reading, const Label&, sensor_msgs::Image& message) {
+  namespace encodings = sensor_msgs::image_encodings;
+  const auto depth = reading.get<FloatImage>("depth");
+  if (!reading.get<bool>("in_millimeters")) {
+    copy(depth, encodings::TYPE_32FC1.c_str(), message);
+  } else if (depth.values) {
+    copy(in_millimeters(depth), encodings::TYPE_16UC1.c_str(), message);
+  }
 }
 
 void fill_camera_info(const Reading& reading, const Label&, sensor_msgs::CameraInfo& message) {
@@ -32,10 +58,12 @@ void fill_camera_info(const Reading& reading, const Label&, sensor_msgs::CameraI
   message.width = static_cast<std::uint32_t>(reading.get<std::int64_t>("width"));
   message.height = static_cast<std::uint32_t>(reading.get<std::int64_t>("height"));
   message.distortion_model = "plumb_bob";
-  message.D.assign(5, 0.0);
+  message.D = reading.get<std::vector<double>>("distortion");
+  message.D.resize(5, 0.0);
+  const double shift = -focal * reading.get<double>("baseline");
   message.K = {focal, 0.0, center_x, 0.0, focal, center_y, 0.0, 0.0, 1.0};
   message.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-  message.P = {focal, 0.0, center_x, 0.0, 0.0, focal, center_y, 0.0, 0.0, 0.0, 1.0, 0.0};
+  message.P = {focal, 0.0, center_x, shift, 0.0, focal, center_y, 0.0, 0.0, 0.0, 1.0, 0.0};
 }
 
 }  // namespace angen::node

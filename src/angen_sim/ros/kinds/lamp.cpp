@@ -10,6 +10,7 @@ void fill(const Reading& state, const Label& label, angen_msgs::LampState& messa
   message.on = state.get<bool>("on");
   message.level = state.get<double>("level");
   message.luminous_flux = state.get<double>("luminous_flux");
+  message.illuminance = state.get<double>("illuminance");
 }
 
 ANGEN_REGISTER_ROS_KIND({"lamp"}, RosKindBuilder().message<angen_msgs::LampState>(&fill));

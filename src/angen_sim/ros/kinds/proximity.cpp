@@ -21,6 +21,9 @@ void fill(const Reading& reading, const Label&, sensor_msgs::Range& message) {
 
 ANGEN_REGISTER_ROS_KIND({"proximity"}, RosKindBuilder().message<sensor_msgs::Range>(&fill).rays(
                                            "proximity cones", color(0.9F, 0.5F, 0.1F, 0.8F)));
+ANGEN_REGISTER_ROS_KIND({"sonar"}, RosKindBuilder()
+                                       .named_message<sensor_msgs::Range>(&fill, "sonar")
+                                       .rays("proximity cones", color(0.9F, 0.5F, 0.1F, 0.8F)));
 
 }  // namespace
 }  // namespace angen::node

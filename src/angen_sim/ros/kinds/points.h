@@ -1,0 +1,52 @@
+#pragma once
+
+#include <sensor_msgs/PointCloud2.h>
+
+#include <cstdint>
+#include <cstring>
+#include <initializer_list>
+#include <utility>
+
+namespace angen::node {
+
+/// Points of a message, one after the other.
+class PointWriter {
+ public:
+  struct Field {
+    const char* name;
+    std::uint32_t offset;  // bytes
+    std::uint8_t type = sensor_msgs::PointField::FLOAT32;
+  };
+
+  /// Describes the fields of a message and makes room for its points.
+  PointWriter(sensor_msgs::PointCloud2& message, std::initializer_list<Field> fields,
+              std::uint32_t bytes, std::uint32_t height, std::uint32_t width)
+      : message_(message) {
+    for (const Field& field : fields) {
+      sensor_msgs::PointField made;
+      made.name = field.name;
+      made.offset = field.offset;
+      made.datatype = field.type;
+      made.count = 1;
+      message.fields.push_back(std::move(made));
+    }
+    message.height = height;
+    message.width = width;
+    message.point_step = bytes;
+    message.row_step = bytes * width;
+    message.data.resize(static_cast<std::size_t>(message.row_step) * height);
+  }
+
+  /// Of the present point.
+  template <class T>
+  void set(std::uint32_t offset, T value) {
+    std::memcpy(&message_.data.at(at_ + offset), &value, sizeof value);
+  }
+  void next() { at_ += message_.point_step; }
+
+ private:
+  sensor_msgs::PointCloud2& message_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace angen::node

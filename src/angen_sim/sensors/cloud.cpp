@@ -1,0 +1,77 @@
+#include "sensors/cloud.h"
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace angen::sensors {
+
+namespace {
+
+constexpr double kWhite = 100.0;  // the intensity of a white wall, as Velodynes are calibrated
+
+Fan default_fan() {
+  Fan fan;
+  fan.columns = 360;
+  fan.rows = 16;
+  fan.min_yaw = -M_PI;
+  fan.max_yaw = M_PI - 2.0 * M_PI / 360.0;
+  fan.max_pitch = 15.0 * M_PI / 180.0;
+  fan.min_pitch = -fan.max_pitch;
+  fan.min = 0.1;
+  fan.max = 100.0;
+  return fan;
+}
+
+}  // namespace
+
+void Cloud::read_rays(Params& params) {
+  fan_ = read_fan(params, default_fan());
+  const double more = params.number(
+      "gaussianNoise", 0.0, "m", "standard deviation of a range, beside the rays'", kNotNegative);
+  fan_.noise_stddev = std::hypot(fan_.noise_stddev, more);
+  fan_.declare_noise("ranges", params);
+  directions_ = fan_.directions();
+}
+
+void Cloud::read(const View& view, Hits hits, Rng&, Reading& reading) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  std::vector<double> ranges, intensities;
+  ranges.reserve(hits.size());
+  intensities.reserve(hits.size());
+  std::map<std::uint32_t, double> known;  // by shape
+  for (const rays::Hit& hit : hits) {
+    double intensity = 0.0;
+    if (hit.hit()) {
+      const auto [at, is_new] = known.emplace(hit.shape, 0.0);
+      if (is_new) at->second = kWhite * view.reflectance(hit.shape).mean();
+      intensity = at->second;
+    }
+    const bool seen = hit.hit() && intensity >= least_intensity_;
+    ranges.push_back(seen ? hit.range : kNone);
+    intensities.push_back(seen ? intensity : 0.0);
+  }
+  reading.set("ranges", std::move(ranges));
+  reading.set("intensities", std::move(intensities));
+  reading.set("columns", fan_.columns);
+  reading.set("rows", fan_.rows);
+  reading.set("angles",
+              std::vector<double>{fan_.min_yaw, fan_.max_yaw, fan_.min_pitch, fan_.max_pitch});
+  reading.set("organized", organized_);
+}
+
+Kind cloud_kind(Kind kind) {
+  return kind.publishes_at(10.0)
+      .on_demand()
+      .numbers("ranges", "m", "of each ray, row after row from below, infinite without a hit")
+      .numbers("intensities", "", "of each ray, 100 times the albedo of what it hit")
+      .integer("columns", "", "rays side by side")
+      .shown()
+      .integer("rows", "", "of rays")
+      .shown()
+      .numbers("angles", "rad", "of the rightmost, leftmost, lowest and highest rays")
+      .flag("organized", "its message has a place for each ray");
+}
+
+}  // namespace angen::sensors
