@@ -14,8 +14,10 @@ namespace angen::test {
 struct FakeJoint {
   JointView state;
   JointLimits limits{-1e16, 1e16};
+  bool fixed = false;
   std::string child = "child";
   Vec3 anchor = Vec3::Zero();
+  JointWrench wrench;
   double force = 0.0;  // what the device requested in this tick
   double motor_velocity = 0.0;
   double motor_force = 0.0;
@@ -25,6 +27,7 @@ struct FakeJoint {
 struct FakeLink {
   LinkView state;
   double mass = 1.0;
+  Vec3 center = Vec3::Zero();
   Vec3 drive_velocity = Vec3::Zero();
   double drive_yaw_rate = 0.0;
   double drive_force = 0.0;
@@ -65,6 +68,8 @@ class FakeWorld : public View, public Wiring, public Outputs {
   std::uint64_t revision = 0;
   std::uint64_t surface = 0;
   std::map<std::string, std::vector<ContactPair>> touching;           // by collision name
+  std::map<std::string, std::vector<ContactPair>> touched;            // lately, and not now
+  Eigen::Vector3f albedo = Eigen::Vector3f::Constant(0.5F);           // of all shapes
   std::function<light::Sample(light::Probe&, const Pose&)> light_at;  // dark where not given
   std::function<std::vector<std::uint8_t>(const render::PinholeCamera&, const Pose&)> colors_at;
   std::function<std::vector<float>(const render::PinholeCamera&, const Pose&)> depths_at;
@@ -96,11 +101,19 @@ class FakeWorld : public View, public Wiring, public Outputs {
   Nanoseconds step() const override { return dt; }
   Pose pose() const override { return at; }
   JointView joint(JointRef ref) const override { return joints.at(ref.index).second.state; }
+  JointWrench wrench(JointRef ref) const override { return joints.at(ref.index).second.wrench; }
   LinkView link(LinkRef ref) const override { return links.at(ref.index).second.state; }
   std::vector<ContactPair> contacts(ContactRef ref) const override {
     const auto found = touching.find(collisions.at(ref.index));
     return found == touching.end() ? std::vector<ContactPair>{} : found->second;
   }
+  std::vector<ContactPair> contacts_within(ContactRef ref, Nanoseconds) const override {
+    std::vector<ContactPair> all = contacts(ref);
+    const auto found = touched.find(collisions.at(ref.index));
+    if (found != touched.end()) all.insert(all.end(), found->second.begin(), found->second.end());
+    return all;
+  }
+  Eigen::Vector3f reflectance(std::uint32_t) const override { return albedo; }
   using View::devices;
   std::vector<DeviceView> devices(const std::string& field,
                                   const Eigen::AlignedBox3d& within) const override {
@@ -117,7 +130,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
   light::Sample illuminance(light::Probe& probe, const Pose& pose) const override {
     return light_at ? light_at(probe, pose) : light::Sample{};
   }
-  void prepare_light() const override {}
+  void expect_light(light::Probe&, const Pose&) const override {}
 
   double ambient_temperature() const override { return ambient; }
   const std::vector<rays::WarmShape>& warm_shapes() const override { return warm; }
@@ -144,16 +157,24 @@ class FakeWorld : public View, public Wiring, public Outputs {
     }
     return false;
   }
+  Names joint_names() const override {
+    Names names;
+    for (const auto& [name, value] : joints) names.push_back(name);
+    return names;
+  }
   JointRef joint(const std::string& joint) override { return {index(joints, joint)}; }
   JointLimits limits(JointRef ref) const override { return joints.at(ref.index).second.limits; }
   LinkRef link(const std::string& link) override { return {index(links, link)}; }
+  bool is_fixed(JointRef ref) const override { return joints.at(ref.index).second.fixed; }
   std::string child_of(JointRef ref) const override { return joints.at(ref.index).second.child; }
   Vec3 anchor(JointRef ref) const override { return joints.at(ref.index).second.anchor; }
   double mass(LinkRef ref) const override { return links.at(ref.index).second.mass; }
+  Vec3 center(LinkRef ref) const override { return links.at(ref.index).second.center; }
   LightRef light(const std::string& light) override {
     if (light.empty() && lights.size() == 1) return {0};
     return {index(lights, light)};
   }
+  Names collision_names() const override { return collisions; }
   ContactRef collision(const std::string& collision) override {
     for (std::size_t i = 0; i < collisions.size(); ++i) {
       if (collisions[i] == collision) return {static_cast<int>(i)};

@@ -1,8 +1,13 @@
 # angen_add_plugin(NAME sources...): a plug-in library libNAME.so for Angen, in the caller's own package.
 # Comes with find_package(angen_sim); see docs/plugins.md.
 find_package(Eigen3 REQUIRED NO_MODULE)
-find_program(ANGEN_DESCRIBE angen_describe HINTS ${angen_sim_DIR}/../../../lib/angen_sim REQUIRED)
-find_library(ANGEN_ROS_LIBRARY angen_ros HINTS ${angen_sim_DIR}/../../../lib REQUIRED)
+if(TARGET angen_ros)  # in one workspace with Angen, which is not built yet
+  set(ANGEN_DESCRIBE angen_describe)
+  set(ANGEN_ROS_LIBRARY angen_ros)
+else()
+  find_program(ANGEN_DESCRIBE angen_describe HINTS ${angen_sim_DIR}/../../../lib/angen_sim REQUIRED)
+  find_library(ANGEN_ROS_LIBRARY angen_ros HINTS ${angen_sim_DIR}/../../../lib REQUIRED)
+endif()
 
 function(angen_add_library name)
   add_library(${name} MODULE ${ARGN})

@@ -72,7 +72,6 @@ void Cup::configure(Params& params, Wiring& wiring) {
   params.text("device_name", "", "the name commands use, instead of the model's");
   body_ = wiring.link(params.text("link", "body", "the link that is the cup, origin at its foot"));
   mass_ = wiring.mass(body_);
-  gravity_ = wiring.gravity();
 }
 
 double Cup::capacity() const { return kMilliliters * held_volume(radius_, height_, 0.0); }
@@ -137,9 +136,9 @@ void Cup::update(const View& view, Outputs& outputs) {
     outputs.event("poured", volume_text(poured_) + " in all");
   }
   if (grasp_) {
-    carry(body, to_seconds(view.step()), outputs);
+    carry(view, body, outputs);
   } else if (body.awake || changed_) {
-    weigh(body, outputs);
+    weigh(view, outputs);
   }
   changed_ = false;
 }
@@ -171,7 +170,8 @@ void Cup::spill(double tilt, Outputs& outputs) {
 
 // The hand's grip is a damped spring to the place and turn where it wants the cup; it carries the
 // weight of cup and drink.
-void Cup::carry(const LinkView& body, double dt, Outputs& outputs) {
+void Cup::carry(const View& view, const LinkView& body, Outputs& outputs) {
+  const double dt = to_seconds(view.step());
   Grasp& grasp = *grasp_;
   // It goes up before it tilts, and stands upright before it goes down.
   const bool high = lift_.position() >= std::min(grasp.height, kFreeToTilt);
@@ -180,7 +180,7 @@ void Cup::carry(const LinkView& body, double dt, Outputs& outputs) {
   if (grasp.releases && lift_.at(0.0) && turn_.at(0.0)) {
     grasp_.reset();
     changed_ = true;
-    return weigh(body, outputs);
+    return weigh(view, outputs);
   }
   const bool still = lift_.at(grasp.height) && turn_.at(grasp.tilt);
   if (still && !body.awake) return;  // what sleeps in a hand is held
@@ -191,7 +191,7 @@ void Cup::carry(const LinkView& body, double dt, Outputs& outputs) {
   const Vec3 velocity = body.linear_velocity + body.angular_velocity.cross(arm);
   const Vec3 lag = wanted * middle - body.pose * middle;
   const Vec3 rise = lift_.velocity() * Vec3::UnitZ();
-  Vec3 force = mass_ * (kStiffness * lag + kDamping * (rise - velocity) - gravity_);
+  Vec3 force = mass_ * (kStiffness * lag + kDamping * (rise - velocity) - view.gravity());
   force *= std::min(1.0, hand_force_ / std::max(force.norm(), 1e-9));
   const Eigen::AngleAxisd turn((wanted.rotation * body.pose.rotation.conjugate()).normalized());
   const double angle = std::remainder(turn.angle(), 2.0 * M_PI);
@@ -202,12 +202,12 @@ void Cup::carry(const LinkView& body, double dt, Outputs& outputs) {
 }
 
 // Its drink presses on the bottom, half its depth over it.
-void Cup::weigh(const LinkView& body, Outputs& outputs) const {
+void Cup::weigh(const View& view, Outputs& outputs) const {
   const double depth = content_ / kMilliliters / (M_PI * radius_ * radius_);
   const Vec3 middle(0.0, 0.0, floor_ + 0.5 * depth);
   // A push of nothing still has what it stands on feel that the drink is gone.
-  const Vec3 weight = std::max(kDensity * content_, 1e-9) * gravity_;
-  outputs.push(body_, weight, Vec3::Zero(), body.pose * middle);
+  const Vec3 weight = std::max(kDensity * content_, 1e-9) * view.gravity();
+  outputs.push(body_, weight, Vec3::Zero(), view.link(body_).pose * middle);
 }
 
 void Cup::report(const View& view, Reading& state) const {

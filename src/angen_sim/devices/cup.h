@@ -36,11 +36,10 @@ class Cup : public Device {
   Verdict fill(double volume, const View& view);
   void cool(Nanoseconds now, double air);
   void spill(double tilt, Outputs& outputs);
-  void carry(const LinkView& body, double dt, Outputs& outputs);
-  void weigh(const LinkView& body, Outputs& outputs) const;
+  void carry(const View& view, const LinkView& body, Outputs& outputs);
+  void weigh(const View& view, Outputs& outputs) const;
 
   LinkRef body_;
-  Vec3 gravity_ = Vec3::Zero();
   double mass_ = 0.0;              // kg, empty
   double radius_ = 0.0;            // m, inside
   double height_ = 0.0;            // m, inside

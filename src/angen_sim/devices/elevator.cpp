@@ -95,7 +95,6 @@ void Elevator::wire(Params& params, Wiring& wiring) {
                                      " m, the joint " + lift_name_ + " ends at " +
                                      std::to_string(limits_.upper) + " m");
   }
-  gravity_ = -wiring.gravity().z();
   own_mass_ = wiring.mass(wiring.link(wiring.child_of(lift_)));
   // A leaf stands open at whichever of its limits is further from 0.
   const auto add = [&wiring](const std::string& name, std::vector<Doorway::Leaf>& leaves) {
@@ -210,7 +209,7 @@ void Elevator::move(const View& view, Outputs& outputs) {
   const double command =
       servo_.update(target_ * floor_height_, lift.position, lift.velocity, to_seconds(view.step()));
   if (!servo_.arrived()) {
-    outputs.force(lift_, plain_ ? command : mass_ * (gravity_ + command));
+    outputs.force(lift_, plain_ ? command : mass_ * (command - view.gravity().z()));
     return;
   }
   outputs.motor(lift_, 0.0, brake_force_);
@@ -220,9 +219,10 @@ void Elevator::move(const View& view, Outputs& outputs) {
 }
 
 // The brake carries cabin and load, so its force gives the load.
-double Elevator::weigh(const JointView& lift) const {
-  if (phase_ == Phase::kMoving || gravity_ <= 0.0) return mass_;
-  const double felt = std::clamp(lift.effort / gravity_, own_mass_, own_mass_ + kGreatestLoad);
+double Elevator::weigh(const JointView& lift, const View& view) const {
+  const double gravity = -view.gravity().z();
+  if (phase_ == Phase::kMoving || gravity <= 0.0) return mass_;
+  const double felt = std::clamp(lift.effort / gravity, own_mass_, own_mass_ + kGreatestLoad);
   return mass_ + kWeighShare * (felt - mass_);
 }
 
@@ -232,7 +232,7 @@ Nanoseconds Elevator::idle_until(const View& view) const {
   const bool told = lift.position == shown_.lift.position &&
                     lift.velocity == shown_.lift.velocity &&
                     doorway_.position(view) == shown_.door_position && mode() == shown_mode_ &&
-                    doorway_.mode() == shown_door_ && weigh(lift) == mass_;
+                    doorway_.mode() == shown_door_ && weigh(lift, view) == mass_;
   return told ? kForever : refresh_.next(view.time());
 }
 
@@ -250,7 +250,7 @@ Elevator::Mode Elevator::mode() const {
 
 void Elevator::show(const View& view, Outputs& outputs) {
   bool renew = refresh_.due(view.time(), view.step());
-  if (renew) mass_ = weigh(view.joint(lift_));
+  if (renew) mass_ = weigh(view.joint(lift_), view);
   const Mode now = mode();
   if (now != shown_mode_) {
     outputs.event(kModeEvents[static_cast<int>(now)], "floor " + std::to_string(target_));
@@ -279,6 +279,7 @@ void Elevator::report(const View& view, Reading& state) const {
   state.set("target", target_ * floor_height_);
   state.set("floor", floor_at(lift.position));
   state.set("target_floor", target_);
+  state.set("floors", floors_);
   state.set("door_mode", choice_of(shown_door_, kDoorModes));
   state.set("door_position", shown_.door_position);
 }
@@ -299,6 +300,7 @@ const Kind& ElevatorPlugin::kind() const {
                                .number("target", "m", "where it goes")
                                .integer("floor", "", "where it stands within 5 mm, otherwise -1")
                                .integer("target_floor", "", "where it goes")
+                               .integer("floors", "", "how many it serves")
                                .choice("door_mode", {std::begin(kDoorModes), std::end(kDoorModes)},
                                        "BLOCKED: an obstacle stands between the leaves")
                                .number("door_position", "m", "travel of a door's leaf, 0 shut");

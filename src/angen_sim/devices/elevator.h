@@ -40,7 +40,7 @@ class Elevator : public Device {
   void stand(const View& view, Outputs& outputs);
   void serve_next_stop(const View& view, Outputs& outputs);
   void move(const View& view, Outputs& outputs);
-  double weigh(const JointView& lift) const;
+  double weigh(const JointView& lift, const View& view) const;
   int floor_at(double position) const;  // -1 between floors
   void stay_at(int floor, const View& view);
   Mode mode() const;
@@ -57,7 +57,6 @@ class Elevator : public Device {
   Refresh refresh_;
   double floor_height_ = kStoreyHeight;
   int floors_ = 2;
-  double gravity_ = 0.0;      // m/s^2, downward
   double own_mass_ = 0.0;     // kg, cabin with its doors
   double mass_ = 0.0;         // kg, with what is aboard
   double brake_force_ = 0.0;  // N

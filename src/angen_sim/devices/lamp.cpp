@@ -14,12 +14,16 @@ constexpr double kEfficacy = 80.0;  // lm/W, of a household's LED lamp
 
 void Lamp::configure(Params& params, Wiring& wiring) {
   full_flux_ = params.number("luminous_flux", 800.0, "lm", "luminous flux at 100 %", kPositive);
+  illuminance_ =
+      params.number("illuminance", 0.0, "lx",
+                    "of a directional light, in place of its flux, at 100 %", kNotNegative);
+  if (illuminance_ > 0.0) full_flux_ = 0.0;
   level_ = params.number("level", 0.0, "%", "level at the start", {0.0, 100.0});
   full_power_ = params.number("power", full_flux_ / kEfficacy, "W",
                               "electric power at 100 %; 80 lm/W unless given", kNotNegative);
   params.choice("topicName", kTopic, {kTopic}, "where commands come from: one topic for all");
   params.text("device_name", "", "the name commands use, instead of the model's and its floor");
-  light_ = wiring.light("");
+  light_ = wiring.light(params.text("light", "", "its <light>; none: the model's only one"));
 }
 
 Verdict Lamp::command(const Command& command, const View&) {
@@ -33,7 +37,7 @@ void Lamp::update(const View&, Outputs& outputs) {
   const bool was_on = lit_ > 0.0;
   const bool is_on = level_ > 0.0;
   lit_ = level_;
-  outputs.light(light_, level_ / 100.0, full_flux_);
+  outputs.light(light_, level_ / 100.0, full_flux_ + illuminance_);
   if (first) return;
   outputs.event(was_on == is_on ? "dimmed" : is_on ? "on" : "off", "");
 }
@@ -43,6 +47,7 @@ void Lamp::report(const View&, Reading& state) const {
   state.set("level", level_);
   state.set("luminous_flux", full_flux_ * level_ / 100.0);
   state.set("power", full_power_ * level_ / 100.0);
+  if (illuminance_ > 0.0) state.set("illuminance", illuminance_ * level_ / 100.0);
 }
 
 const Kind& LampPlugin::kind() const {
@@ -59,7 +64,8 @@ const Kind& LampPlugin::kind() const {
                                .shown()
                                .number("luminous_flux", "lm", "that it emits")
                                .shown()
-                               .number("power", "W", "electric power");
+                               .number("power", "W", "electric power")
+                               .number("illuminance", "lx", "of a directional light, facing it");
   return kind;
 }
 

@@ -19,10 +19,11 @@ class Lamp : public Device {
 
  private:
   LightRef light_;
-  double full_flux_ = 0.0;   // lm at 100 %
-  double full_power_ = 0.0;  // W at 100 %
-  double level_ = 0.0;       // percent
-  double lit_ = -1.0;        // percent that the world was given last
+  double full_flux_ = 0.0;    // lm at 100 %
+  double illuminance_ = 0.0;  // lx at 100 %, of a directional light
+  double full_power_ = 0.0;   // W at 100 %
+  double level_ = 0.0;        // percent
+  double lit_ = -1.0;         // percent that the world was given last
 };
 
 class LampPlugin : public Plugin {

@@ -64,7 +64,7 @@ class Plant : public Device {
 
   void update(const View& view, Outputs& outputs) override {
     if (!prepared_ && view.time() >= prepare_at(view)) {
-      view.prepare_light();
+      view.expect_light(probe_, leaves(view));
       prepared_ = true;
     }
     const bool due = due_.due(view.time(), view.step());
@@ -93,6 +93,10 @@ class Plant : public Device {
   Nanoseconds prepare_at(const View& view) const {
     return (lit_at_ > 0 ? lit_at_ : due_.next(view.time())) - kAhead;
   }
+  Pose leaves(const View& view) const {
+    return {view.pose() * Vec3(0.0, 0.0, leaf_height_),
+            Quat::FromTwoVectors(Vec3::UnitX(), Vec3::UnitZ())};
+  }
   double per_ml() const { return 100.0 / (1000.0 * soil_); }  // % of moisture
 
   // R. G. Allen et al., Crop evapotranspiration, FAO Irrigation and Drainage Paper 56 (1998): the
@@ -101,13 +105,12 @@ class Plant : public Device {
     const Nanoseconds before = dried_at_ < 0 ? view.time() : dried_at_;
     dried_at_ = view.time();
     if (before == dried_at_) return;  // at the start lamps have not been switched yet
-    const Vec3 leaves = view.pose() * Vec3(0.0, 0.0, leaf_height_);
-    const AirHere here = air_at(view, leaves);
+    const Pose up = leaves(view);
+    const AirHere here = air_at(view, up.position);
     const double temperature =
         std::isnan(here.temperature) ? view.ambient_temperature() - kKelvin : here.temperature;
     const double humidity = std::isnan(here.humidity) ? 50.0 : here.humidity;
     if (view.time() >= lit_at_) {
-      const Pose up{leaves, Quat::FromTwoVectors(Vec3::UnitX(), Vec3::UnitZ())};
       light_ = view.illuminance(probe_, up).illuminance;
       lit_at_ = lit_.next(view.time());
       prepared_ = false;

@@ -58,8 +58,10 @@ Eigen::VectorXd joint_positions(const World& world) {
   return all;
 }
 
-// Where a model's first link is; its pose in the file where it has none.
-Pose place_of(const sim::Snapshot& snapshot, std::uint32_t model) {
+// Where its model's first link is, that model's pose in the file where it has none, or its light.
+Pose place_of(const sim::Snapshot& snapshot, const sim::DeviceEntry& device) {
+  if (device.light != UINT32_MAX) return snapshot.structure->lights[device.light].light.pose;
+  const std::uint32_t model = device.model;
   const std::vector<sim::LinkEntry>& links = snapshot.structure->links;
   const auto first = std::find_if(links.begin(), links.end(),
                                   [model](const auto& link) { return link.model == model; });
@@ -71,11 +73,12 @@ std::vector<pyb::tuple> entities(const World& world, const std::string& kind) {
   const sim::Snapshot& now = world.now();
   std::vector<pyb::tuple> all;
   const auto add = [&](const auto& entry, const Pose& pose) {
-    all.push_back(pyb::make_tuple(entry.kind, entry.name, now.structure->models[entry.model]->name,
-                                  to_row(pose)));
+    const std::string model =
+        entry.model == UINT32_MAX ? "" : now.structure->models[entry.model]->name;
+    all.push_back(pyb::make_tuple(entry.kind, entry.name, model, to_row(pose)));
   };
   for (const sim::DeviceEntry& device : now.structure->devices) {
-    if (kind.empty() || device.kind == kind) add(device, place_of(now, device.model));
+    if (kind.empty() || device.kind == kind) add(device, place_of(now, device));
   }
   for (const sim::SensorEntry& sensor : now.structure->sensors) {
     if (kind.empty() || sensor.kind == kind) add(sensor, now.link_poses[sensor.link] * sensor.pose);

@@ -82,12 +82,17 @@ void World::begin() {
 }
 
 void World::note(const std::vector<Diagnostic>& found, std::vector<std::string>& to) {
-  for (const Diagnostic& each : found) to.push_back(each.text());
+  for (const Diagnostic& each : found) note(each.text(), to);
+}
+
+/// Once: a model may be spawned any number of times.
+void World::note(std::string text, std::vector<std::string>& to) {
+  if (std::find(to.begin(), to.end(), text) == to.end()) to.push_back(std::move(text));
 }
 
 void World::note_warnings(const sim::Snapshot& snapshot) {
   for (const sim::Event& event : snapshot.events) {
-    if (event.event == "warning") warnings_.push_back(event.detail);
+    if (event.event == "warning") note(event.detail, warnings_);
   }
 }
 

@@ -65,6 +65,7 @@ class World {
   void begin();
   Nanoseconds leap_limit(Nanoseconds until) const;
   static void note(const std::vector<Diagnostic>& found, std::vector<std::string>& to);
+  static void note(std::string text, std::vector<std::string>& to);
   void note_warnings(const sim::Snapshot& snapshot);
   void drain(sim::Action action);
   /// Error where a plug-in has thrown since; the world has gone on without it.

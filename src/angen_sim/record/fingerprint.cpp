@@ -57,11 +57,6 @@ class Mixer {
       std::visit([this](const auto& v) { add(v); }, value);
     }
   }
-  void add(const sim::Event& event) {
-    add(event.stamp);
-    for (const std::string* s : {&event.source, &event.kind, &event.event, &event.detail}) add(*s);
-  }
-
   std::uint64_t hash() const { return hash_; }
 
  private:
@@ -69,38 +64,6 @@ class Mixer {
 };
 
 }  // namespace
-
-void Fingerprint::add(const sim::Snapshot& snapshot) {
-  Mixer mixer(hash_);
-  mixer.add(snapshot.tick);
-  mixer.add(snapshot.time);
-  mixer.add(snapshot.paused);
-  if (snapshot.structure != structure_) {
-    structure_ = snapshot.structure;
-    for (std::size_t i = 0; i < snapshot.link_poses.size(); ++i) mixer.add(snapshot.link_poses[i]);
-    for (std::size_t i = 0; i < snapshot.joint_positions.size(); ++i) {
-      mixer.add(snapshot.joint_positions[i]);
-    }
-  }
-  // A joint's position follows from its links' poses, so these say all that moved.
-  for (const std::uint32_t i : snapshot.moved_links) {
-    mixer.add(i);
-    mixer.add(snapshot.link_poses[i]);
-  }
-  if (snapshot.light_levels != light_levels_) {
-    light_levels_ = snapshot.light_levels;
-    mixer.add(*light_levels_);
-  }
-  for (const std::uint32_t i : snapshot.new_readings) {
-    mixer.add(i);
-    // What stands for readings follows from the one before, the seed and the time.
-    const std::shared_ptr<const Reading>& reading = snapshot.sensors[i].reading;
-    if (reading->stamp == snapshot.time) mixer.add(*reading);
-  }
-  for (const std::uint32_t i : snapshot.new_states) mixer.add(*snapshot.devices[i]);
-  mixer.add(snapshot.events);
-  hash_ = mixer.hash();
-}
 
 void RunFingerprint::add(const sim::Snapshot& snapshot) {
   Mixer mixer(hash_);
@@ -117,6 +80,7 @@ void RunFingerprint::add(const sim::Snapshot& snapshot) {
       add(snapshot.joint_positions[i]);
     }
   }
+  // A joint's position follows from its links' poses, so these say all that moved.
   for (const std::uint32_t i : snapshot.moved_links) add(i, snapshot.link_poses[i]);
   if (snapshot.light_levels != light_levels_) {
     if (light_levels_ == nullptr || *snapshot.light_levels != *light_levels_) {
@@ -133,6 +97,24 @@ void RunFingerprint::add(const sim::Snapshot& snapshot) {
     add(event.stamp, event.source, event.kind, event.event);
     if (event.event != "warning" && event.event != "rejected") add(event.detail);
   }
+  hash_ = mixer.hash();
+}
+
+void Fingerprint::add(const sim::Snapshot& snapshot) {
+  run_.add(snapshot);
+  Mixer mixer(hash_);
+  mixer.add(run_.value());
+  mixer.add(snapshot.tick);
+  mixer.add(snapshot.time);
+  mixer.add(snapshot.paused);
+  for (const std::uint32_t i : snapshot.new_readings) {
+    mixer.add(i);
+    // What stands for readings follows from the one before, the seed and the time.
+    const std::shared_ptr<const Reading>& reading = snapshot.sensors[i].reading;
+    const bool on_demand = snapshot.structure->sensors[i].on_demand();
+    if (reading->stamp == snapshot.time && on_demand) mixer.add(*reading);
+  }
+  for (const sim::Event& event : snapshot.events) mixer.add(event.detail);
   hash_ = mixer.hash();
 }
 

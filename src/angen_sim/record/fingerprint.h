@@ -12,13 +12,12 @@ namespace angen::record {
 /// 16 hexadecimal digits.
 std::string fingerprint_text(std::uint64_t hash);
 
-/// One number for a whole run: equal for runs whose snapshots are equal, bit for bit.
-class Fingerprint {
+/// One number for a whole run, equal for a run that leaps and one that takes each tick, with any
+/// subscribers and in any folder: it adds only ticks in which something changed, leaves out sensors
+/// that sample on demand, and the texts of warnings and rejections, which name files.
+class RunFingerprint {
  public:
-  /// Adds all that a snapshot holds: time, poses, joints, lights, what was read and what
-  /// happened.
   void add(const sim::Snapshot& snapshot);
-
   std::uint64_t value() const { return hash_; }
   std::string text() const { return fingerprint_text(hash_); }
 
@@ -28,18 +27,17 @@ class Fingerprint {
   std::shared_ptr<const std::vector<double>> light_levels_;
 };
 
-/// The same, but equal for a run that leaps and one that takes each tick, whoever listens and on
-/// whichever computer the files lie: it adds only ticks in which something changed, leaves out
-/// sensors that sample on demand, and the texts of warnings and rejections, which name files.
-class RunFingerprint {
+/// The same with all that a snapshot holds: equal for runs whose snapshots are equal, bit for bit.
+class Fingerprint {
  public:
   void add(const sim::Snapshot& snapshot);
+
+  std::uint64_t value() const { return hash_; }
   std::string text() const { return fingerprint_text(hash_); }
 
  private:
+  RunFingerprint run_;
   std::uint64_t hash_ = 0xcbf29ce484222325ULL;
-  std::shared_ptr<const sim::Structure> structure_;
-  std::shared_ptr<const std::vector<double>> light_levels_;
 };
 
 }  // namespace angen::record

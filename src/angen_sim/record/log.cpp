@@ -35,7 +35,7 @@ std::vector<LogFile> files_in(const LineReader& line) {
 }
 
 struct ActionWriter {
-  const std::vector<LogFile>& files;
+  const SpawnText& spawned;
   LineWriter& line;
 
   bool operator()(const sim::ToDevice& a) const {
@@ -47,8 +47,8 @@ struct ActionWriter {
   bool operator()(const sim::Spawn& a) const {
     line.text("do", "spawn").text("name", a.model.name);
     line.numbers("pose", numbers_of(a.model.pose));
-    write_files(files, line);
-    line.text("sdf", load::world_around(a.model));
+    write_files(spawned.files, line);
+    line.text("sdf", spawned.sdf);
     return true;
   }
   bool operator()(const sim::Attach& a) const {
@@ -123,7 +123,8 @@ decltype(LogEntry::what) what_in(const LineReader& line) {
     return action(
         sim::Note{line.text("source"), line.text("kind"), line.text("event"), line.text("detail")});
   }
-  if (what == "request") return Demand{line.text("kind"), line.text("name"), line.flag("wanted")};
+  if (what == "request")
+    return ReadingRequest{line.text("kind"), line.text("name"), line.flag("wanted")};
   if (what == "fingerprint") return Check{line.text("hash")};
   if (std::optional<sim::Edit> edit = edit_in(what, line)) return action(std::move(*edit));
   line.fail("'" + what + "' is not something that a log does");
@@ -186,8 +187,8 @@ void write_header(const LogHeader& header, LineWriter& line) {
   line.text("sdf", header.sdf);
 }
 
-bool write_action(const sim::Action& action, const std::vector<LogFile>& files, LineWriter& line) {
-  return std::visit(ActionWriter{files, line}, action);
+bool write_action(const sim::Action& action, const SpawnText& spawned, LineWriter& line) {
+  return std::visit(ActionWriter{spawned, line}, action);
 }
 
 Log read_log(const std::string& path) {

@@ -45,7 +45,7 @@ struct AttachText {
   std::string sdf;
 };
 /// Somebody wants readings of a sensor that samples on demand, or no longer.
-struct Demand {
+struct ReadingRequest {
   std::string kind;
   std::string name;
   bool wanted = true;
@@ -58,7 +58,7 @@ struct LogEntry {
   int line = 0;
   std::int64_t tick = 0;
   std::uint64_t batch = 0;  // actions of one number were carried out together, before one tick
-  std::variant<sim::Action, SpawnText, AttachText, Demand, Check> what;
+  std::variant<sim::Action, SpawnText, AttachText, ReadingRequest, Check> what;
 
   bool is_action() const { return what.index() <= 2; }
 };
@@ -78,7 +78,8 @@ std::string this_host();
 Log read_log(const std::string& path);
 
 void write_header(const LogHeader& header, LineWriter& line);
-/// An action as a line has it; false for one that changes nothing and has no line.
-bool write_action(const sim::Action& action, const std::vector<LogFile>& files, LineWriter& line);
+/// An action as a line has it; false for one that changes nothing and has no line. `spawned`: the
+/// text and files of one that spawns a model.
+bool write_action(const sim::Action& action, const SpawnText& spawned, LineWriter& line);
 
 }  // namespace angen::record

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/random.h"
+#include "core/write_all.h"
 #include "load/xml.h"
 
 namespace angen::record {
@@ -68,14 +69,15 @@ Recorder::~Recorder() {
 void Recorder::action(const sim::Action& action, Nanoseconds time) {
   if (!error_.empty()) return;
   write_requests();
-  std::vector<LogFile> files;
+  SpawnText text;
   if (const auto* spawn = std::get_if<sim::Spawn>(&action)) {
-    files = hashed(load::world_around(spawn->model));
+    text.sdf = load::world_around(spawn->model);
+    text.files = hashed(text.sdf);
   }
   LineWriter line;
   line.whole("tick", static_cast<std::uint64_t>(time / simulation_.snapshot()->step));
   line.whole("batch", batch_);
-  if (!write_action(action, files, line)) return;
+  if (!write_action(action, text, line)) return;
   batch_used_ = true;
   write(line);
 }
@@ -96,12 +98,12 @@ Nanoseconds Recorder::leap_limit(const sim::Snapshot& snapshot) const {
 }
 
 void Recorder::write_requests() {
-  std::vector<Demand> requests;
+  std::vector<ReadingRequest> requests;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     requests.swap(requests_);
   }
-  for (const Demand& request : requests) {
+  for (const ReadingRequest& request : requests) {
     LineWriter line;
     line.whole("tick", static_cast<std::uint64_t>(tick_)).text("do", "request");
     line.text("kind", request.kind).text("name", request.name).flag("wanted", request.wanted);
@@ -120,18 +122,13 @@ void Recorder::write_fingerprint() {
 void Recorder::write(LineWriter& line) {
   if (!error_.empty()) return;
   const std::string text = line.done(sum_);
-  for (std::size_t done = 0; done < text.size();) {
-    const ssize_t count = ::write(file_, text.data() + done, text.size() - done);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) {
-      error_ = path_ + ": cannot be written any more: " + std::strerror(errno) +
-               "; what was recorded before can be replayed";
-      if (ftruncate(file_, static_cast<off_t>(written_)) != 0) error_ += ", but for its last line";
-      return;
-    }
-    done += static_cast<std::size_t>(count);
+  if (write_all(file_, text)) {
+    written_ += text.size();
+    return;
   }
-  written_ += text.size();
+  error_ = path_ + ": cannot be written any more: " + std::strerror(errno) +
+           "; what was recorded before can be replayed";
+  if (ftruncate(file_, static_cast<off_t>(written_)) != 0) error_ += ", but for its last line";
 }
 
 std::vector<LogFile> Recorder::hashed(const std::string& sdf) {

@@ -65,7 +65,7 @@ class Recorder {
   };
   std::map<std::string, Hashed> hashes_;  // by path
   std::mutex mutex_;                      // of requests_
-  std::vector<Demand> requests_;
+  std::vector<ReadingRequest> requests_;
 };
 
 /// Where a world's or spawned model's text says that files are; "" where it cannot be read.

@@ -55,12 +55,13 @@ void Replay::stop_at(Nanoseconds time) {
 
 std::shared_ptr<const sim::Snapshot> Replay::advance(Nanoseconds until) {
   const std::shared_ptr<const sim::Snapshot> here = simulation_->snapshot();
-  while (settings_.requests && !at_end() && std::holds_alternative<Demand>(next().what)) {
+  while (settings_.requests && !at_end() && std::holds_alternative<ReadingRequest>(next().what)) {
     if (next().tick > here->tick) break;
-    const auto& demand = std::get<Demand>(log_.entries[at_++].what);
-    simulation_->request(demand.kind, demand.name, demand.wanted);
+    const auto& request = std::get<ReadingRequest>(log_.entries[at_++].what);
+    simulation_->request(request.kind, request.name, request.wanted);
   }
-  while (!settings_.requests && !at_end() && std::holds_alternative<Demand>(next().what)) ++at_;
+  while (!settings_.requests && !at_end() && std::holds_alternative<ReadingRequest>(next().what))
+    ++at_;
   if (at_end()) {
     compare(*here);
     return here;

@@ -8,11 +8,37 @@
 
 namespace angen::record {
 
+namespace {
+
+// The world's own; those of models are added to their states.
+std::vector<load::LightState> lights_of(const sim::SavedState& state,
+                                        std::vector<load::ModelState>& models) {
+  const sim::Structure& all = *state.snapshot->structure;
+  std::vector<load::LightState> own;
+  for (const sim::LightEntry& entry : all.lights) {
+    if (entry.model == UINT32_MAX) own.push_back({&entry.light});
+  }
+  for (const sim::SavedLight& saved : state.lights) {
+    const sim::LightEntry& entry = all.lights[saved.light];
+    if (entry.model == UINT32_MAX) {
+      own[saved.light].lamp = saved.lamp;
+      own[saved.light].sdf = saved.sdf;
+      continue;
+    }
+    const sim::LinkEntry& link = all.links[entry.link];
+    const std::string& name = all.models[entry.model]->links[link.link].name;
+    models[entry.model].lights.push_back({&entry.light, name, saved.lamp});
+  }
+  return own;
+}
+
+}  // namespace
+
 std::string world_file(const desc::World& settings, const sim::SavedState& state) {
   const sim::Snapshot& snapshot = *state.snapshot;
   const sim::Structure& all = *snapshot.structure;
   std::vector<load::ModelState> states;
-  for (const auto& model : all.models) states.push_back({model.get(), model->pose, {}, {}, {}});
+  for (const auto& model : all.models) states.push_back({model.get(), model->pose, {}});
   for (std::size_t i = 0; i < all.links.size(); ++i) {
     const sim::LinkEntry& link = all.links[i];
     if (link.link != 0 || !link.moves) continue;
@@ -37,7 +63,10 @@ std::string world_file(const desc::World& settings, const sim::SavedState& state
     const auto model = by_name.find(saved.model);
     if (model != by_name.end()) model->second->plugins.push_back(saved.plugin);
   }
-  return load::save(settings, states);
+  for (const sim::ChangedModel& changed : state.changed) {
+    states[changed.model].read = changed.read.get();
+  }
+  return load::save(settings, states, {all.physics, all.gravity, lights_of(state, states)});
 }
 
 }  // namespace angen::record

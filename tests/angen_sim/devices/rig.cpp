@@ -146,6 +146,11 @@ JointView Rig::joint(JointRef joint) const {
   return {state.position, state.velocity, state.effort};
 }
 
+JointWrench Rig::wrench(JointRef joint) const {
+  const physics::Wrench wrench = bench_.world.wrench(id_of(joint));
+  return {wrench.force, wrench.torque};
+}
+
 LinkView Rig::link(LinkRef link) const {
   const physics::LinkState state = bench_.world.link(id_of(link));
   return {state.pose, state.linear_velocity, state.angular_velocity,
@@ -153,6 +158,12 @@ LinkView Rig::link(LinkRef link) const {
 }
 
 bool Rig::has_joint(const std::string& joint) const { return joint_index(joint) >= 0; }
+
+std::vector<std::string> Rig::joint_names() const {
+  std::vector<std::string> names;
+  for (const desc::Joint& joint : model_.joints) names.push_back(joint.name);
+  return names;
+}
 
 JointRef Rig::joint(const std::string& joint) {
   if (!has_joint(joint)) throw Error("no joint " + joint);
@@ -176,6 +187,10 @@ JointLimits Rig::limits(JointRef joint) const {
 
 LinkRef Rig::link(const std::string& link) { return {link_index(link)}; }
 
+bool Rig::is_fixed(JointRef joint) const {
+  return model_.joints.at(static_cast<std::size_t>(joint.index)).type == desc::Joint::Type::kFixed;
+}
+
 std::string Rig::child_of(JointRef joint) const {
   return model_.joints.at(static_cast<std::size_t>(joint.index)).child;
 }
@@ -186,6 +201,10 @@ Vec3 Rig::anchor(JointRef joint) const {
 
 double Rig::mass(LinkRef link) const {
   return model_.links.at(static_cast<std::size_t>(link.index)).inertial.mass;
+}
+
+Vec3 Rig::center(LinkRef link) const {
+  return model_.links.at(static_cast<std::size_t>(link.index)).inertial.pose.position;
 }
 
 LightRef Rig::light(const std::string&) { throw Error("no lights on this bench"); }

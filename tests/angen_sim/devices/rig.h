@@ -90,14 +90,17 @@ class Rig : public View, public Wiring, public Outputs {
   Nanoseconds step() const override { return bench_.step(); }
   Pose pose() const override { return model_.pose; }
   JointView joint(JointRef joint) const override;
+  JointWrench wrench(JointRef joint) const override;
   LinkView link(LinkRef link) const override;
   std::vector<ContactPair> contacts(ContactRef) const override { return {}; }
+  std::vector<ContactPair> contacts_within(ContactRef, Nanoseconds) const override { return {}; }
   std::vector<DeviceView> devices(const std::string&, const Eigen::AlignedBox3d&) const override {
     return {};
   }
   void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override;
+  Eigen::Vector3f reflectance(std::uint32_t) const override { return Eigen::Vector3f::Zero(); }
   light::Sample illuminance(light::Probe&, const Pose&) const override { return {}; }
-  void prepare_light() const override {}
+  void expect_light(light::Probe&, const Pose&) const override {}
   double ambient_temperature() const override { return 295.15; }
   const std::vector<rays::WarmShape>& warm_shapes() const override { return warm_; }
   std::uint64_t scene_revision() const override { return 0; }
@@ -113,13 +116,17 @@ class Rig : public View, public Wiring, public Outputs {
   std::string model() const override { return model_.name; }
   Vec3 gravity() const override { return bench_.gravity(); }
   bool has_joint(const std::string& joint) const override;
+  std::vector<std::string> joint_names() const override;
   JointRef joint(const std::string& joint) override;
   JointLimits limits(JointRef joint) const override;
   LinkRef link(const std::string& link) override;
+  bool is_fixed(JointRef joint) const override;
   std::string child_of(JointRef joint) const override;
   Vec3 anchor(JointRef joint) const override;
   double mass(LinkRef link) const override;
+  Vec3 center(LinkRef link) const override;
   LightRef light(const std::string& light) override;
+  std::vector<std::string> collision_names() const override { return {}; }
   ContactRef collision(const std::string& collision) override;
   std::vector<SurfaceRef> surfaces(const std::string&) override { return {}; }
 

@@ -111,8 +111,9 @@ TEST(Replay, DoesNotDependOnWhoListens) {
   const std::uint64_t readings = (*session).snapshot()->counts.readings;
   session.end();
   const Log log = read_log(folder.log());
-  EXPECT_EQ(std::count_if(log.entries.begin(), log.entries.end(),
-                          [](const LogEntry& e) { return std::holds_alternative<Demand>(e.what); }),
+  EXPECT_EQ(std::count_if(
+                log.entries.begin(), log.entries.end(),
+                [](const LogEntry& e) { return std::holds_alternative<ReadingRequest>(e.what); }),
             2);
   Replay same = replayed(folder.log());
   EXPECT_EQ(same.mismatch(), "");

@@ -173,6 +173,92 @@ TEST(WorldFile, KeepsWhereAnElevatorGoes) {
   EXPECT_EQ(state_of(*after, "elevator").get<std::int64_t>("floor"), 0);
 }
 
+// A world without a plug-in of Angen's, so that each light is a lamp.
+TEST(WorldFile, KeepsLightsAsTheyAreNow) {
+  const auto read = [](const std::string& text) {
+    load::SearchPaths paths{{kModels}, {}};
+    paths.strictness = load::Strictness::kAuto;
+    return std::make_unique<sim::Simulation>(load::world_from_text(text, "lights", paths), 1,
+                                             std::make_shared<Catalog>());
+  };
+  const auto before = read(
+      "<sdf version='1.6'><world name='w'><include><uri>model://sun</uri></include>"
+      "<light name='gone' type='point'/><light name='same' type='spot'><spot><inner_angle>1"
+      "</inner_angle><outer_angle>2</outer_angle><falloff>1</falloff></spot></light>"
+      "<model name='car'><static>true</static><link name='l'><light name='left' type='point'/>"
+      "</link></model></world></sdf>");
+  const auto edit = [&](sim::Edit edit) {
+    auto done = before->post(std::move(edit));
+    before->tick();
+    EXPECT_TRUE(done.get().ok);
+  };
+  const Pose up{{1.0, 2.0, 3.0}, Quat::Identity()};
+  const std::string spawned = "<light name='any' type='spot'><pose>0 0 1 0 0 0</pose></light>";
+  edit(sim::SetLight{"sun", {0.5F, 0.25F, 0.5F}, false, {0.0, 0.6, -0.8}, up});
+  edit(sim::AddLight{load::light(spawned, "new", up), spawned});
+  edit(sim::DeleteLight{"gone"});
+  command(*before, "lamp", "sun", "Dim 40");
+  command(*before, "lamp", "car_left", "Off");
+  run(*before, 0.1);
+  const auto after = read(saved(*before));
+  after->tick();
+  const auto& was = before->snapshot()->structure->lights;
+  const auto& is = after->snapshot()->structure->lights;
+  ASSERT_EQ(is.size(), 4U);
+  for (std::size_t i = 0; i < is.size(); ++i) {
+    EXPECT_EQ(is[i].name, was[i].name);
+    EXPECT_EQ(is[i].light.type, was[i].light.type) << is[i].name;
+    EXPECT_EQ(is[i].light.diffuse, was[i].light.diffuse) << is[i].name;
+    EXPECT_EQ(is[i].light.cast_shadows, was[i].light.cast_shadows) << is[i].name;
+    EXPECT_TRUE(is[i].light.pose.position.isApprox(was[i].light.pose.position)) << is[i].name;
+    EXPECT_TRUE(is[i].light.direction.isApprox(was[i].light.direction)) << is[i].name;
+  }
+  EXPECT_EQ(*after->snapshot()->light_levels, *before->snapshot()->light_levels);
+  EXPECT_EQ(*after->snapshot()->light_levels, (std::vector<double>{0.4, 1.0, 1.0, 0.0}));
+  EXPECT_EQ(saved(*read(saved(*before))), saved(*before));
+  auto reset = before->post(sim::Reset{true});
+  run(*before, 0.1);
+  EXPECT_EQ(saved(*before).find("<angen:level>"), saved(*before).rfind("<angen:level>"))
+      << "only the spawned one says that it is a lamp";
+}
+
+// As Gazebo's services set them.
+TEST(WorldFile, KeepsWhatEditsHaveChanged) {
+  const auto before = loaded(home());
+  desc::Physics physics = before->snapshot()->structure->physics;
+  physics.iterations = 33;
+  const auto edit = [&](sim::Edit edit) {
+    auto done = before->post(std::move(edit));
+    before->tick();
+    const sim::Outcome outcome = done.get();
+    EXPECT_TRUE(outcome.ok) << outcome.message;
+  };
+  edit(sim::SetPhysics{physics, {0.0, 0.0, -1.625}});
+  desc::Inertial inertial;
+  inertial.mass = 4.5;
+  inertial.moment = 2.0 * Eigen::Matrix3d::Identity();
+  edit(sim::SetLinkProperties{"brick::link", inertial, false});
+  sim::SetJointProperties hinge;
+  hinge.joint = "hall_door::hinge";
+  hinge.damping = {0.625};
+  edit(hinge);
+  auto reset = before->post(sim::Reset{true});  // changes none of it
+  run(*before, 0.1);
+  const auto after = loaded(saved(*before));
+  const sim::Structure& now = *after->snapshot()->structure;
+  EXPECT_EQ(now.gravity, Vec3(0.0, 0.0, -1.625));
+  EXPECT_EQ(now.physics.iterations, 33);
+  for (const auto& model : now.models) {
+    if (model->name == "brick") {
+      EXPECT_EQ(model->links[0].inertial.mass, 4.5);
+      EXPECT_FALSE(model->links[0].gravity);
+    }
+    if (model->name == "hall_door") {
+      EXPECT_EQ(model->joints[1].axes[0].damping, 0.625);
+    }
+  }
+}
+
 TEST(WorldFile, IsTheSameFromAnyThread) {
   const auto simulation = loaded(home());
   run(*simulation, 5.0);
