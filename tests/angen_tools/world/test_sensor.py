@@ -19,7 +19,8 @@ def build(kind: str, *settings: str, lone: bool = False) -> etree._Element:
     return sensor.build(kind, 's1', sdf.parse_settings(list(settings)), lone)
 
 
-JOINTED = {'wheel_states', 'odometry', 'joint_states'}  # of a robot's joints, which these have not
+# Of a robot's joints, which these have not.
+JOINTED = {'wheel_states', 'odometry', 'joint_states', 'ft_sensor'}
 KINDS = {name: kind for name, kind in catalog.kinds('sensor').items() if name not in JOINTED}
 FREE = [name for name, kind in KINDS.items() if not sensor.needs_link(kind)]
 

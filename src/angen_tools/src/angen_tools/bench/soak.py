@@ -2,13 +2,13 @@
 from __future__ import annotations
 
 import gc
+import itertools
 import tempfile
 import time
 from contextlib import ExitStack
 from dataclasses import asdict, astuple, dataclass, fields
 from pathlib import Path
-from statistics import median
-from typing import Any, Protocol, Sequence
+from typing import Any, Iterator, Protocol, Sequence
 
 from angen_tools.common import files
 from angen_tools.common.catalog import Plugin, angen_module, kinds
@@ -21,18 +21,25 @@ from angen_tools.live.spawn import call_spawn
 from angen_tools.world import sdf, sensor
 from angen_tools.world.apartment import write_apartment
 
-WARM_UP = 0.2  # share of the cycles
+ROUND = 50  # cycles; lamps are lit and doors open in the first half, a sample is taken at the end
+WARM_UP = 2  # times that all things come with lamps lit, and dark, before the first sample
+REST = 5.0  # simulated s, within which the light of lamps that were switched is found
+LIMIT = 300.0  # s of wall time for it
 FLAT = 2.0  # MB that memory may grow by after it
-EACH = 50  # cycles between two samples, and between two rounds of commands
-START = 1.0  # s of wall time before the first sample, in which connections close
+MASTER = 2  # connections to the master that roscpp may add: it keeps as many as it used at once
 QUIET = 20.0  # s of wall time within which connections of the last cycle close
 SEED = 1
 ANCHOR = '''<model name="anchor"><static>true</static><link name="link"><collision name="box">
-<geometry><box><size>0.1 0.1 0.1</size></box></geometry></collision></link></model>'''
+<geometry><box><size>0.1 0.1 0.1</size></box></geometry></collision></link>
+<link name="left"/><joint name="left_joint" type="revolute"><parent>link</parent><child>left</child>
+<axis><xyz>0 0 1</xyz></axis></joint>
+<link name="right"/><joint name="right_joint" type="revolute"><parent>link</parent>
+<child>right</child><axis><xyz>0 0 1</xyz></axis></joint></model>'''
 ROBOT = 'turtlebot'
 FAR = (60.0, 0.0, 0.05, 0.0, 0.0, 0.0)  # from the flat, where what is spawned stands
 # Parameters without which there is none.
-NEEDS = {'accelerometer': [('link', 'link')], 'reed': [('magnet_link', 'link')]}
+NEEDS = {'accelerometer': [('link', 'link')], 'reed': [('magnet_link', 'link')],
+         'joint_states': [('jointName', 'left_joint')], 'ft_sensor': [('jointName', 'left_joint')]}
 ON_ANCHOR = (0.0, 0.0, 0.1, 0.0, 0.0, 0.0)
 
 
@@ -58,7 +65,8 @@ class Home(Protocol):
 
     def spawn(self, thing: Thing, name: str) -> None: ...
     def delete(self, name: str) -> None: ...
-    def command(self, turn: int) -> None: ...
+    def command(self, lit: bool) -> None: ...
+    def rest(self, seconds: float) -> None: ...
     def sample(self, cycle: int) -> Sample: ...
     def registered(self) -> set[str]: ...
 
@@ -80,14 +88,14 @@ def _attached(kind: str, plugin: Plugin) -> Thing:
     return Thing(kind, sdf.text(element), 'anchor::link')
 
 
-def doors_and_lamps(turn: int) -> list[tuple[str, str]]:
-    """Commands by kind: all doors and lamps, the other way each turn."""
-    return [('door', 'Close' if turn % 2 else 'Open'), ('lamp', 'Off' if turn % 2 else 'On')]
+def doors_and_lamps(lit: bool) -> list[tuple[str, str]]:
+    """Commands by kind, to all doors and lamps."""
+    return [('door', 'Open' if lit else 'Close'), ('lamp', 'On' if lit else 'Off')]
 
 
-def speed(turn: int) -> tuple[float, float]:
-    """m/s and rad/s of the robot."""
-    return (0.2, 0.5) if turn % 2 else (-0.1, 0.3)
+def speed(lit: bool) -> tuple[float, float]:
+    """m/s and rad/s of the robot, which goes one way and then the other."""
+    return (0.2, 0.5) if lit else (-0.1, 0.3)
 
 
 def process_sample(process: Any, cycle: int) -> Sample:
@@ -113,10 +121,13 @@ class Core:
         self._world.delete(name)
         self._world.events()
 
-    def command(self, turn: int) -> None:
-        for kind, verb in doors_and_lamps(turn):
+    def command(self, lit: bool) -> None:
+        for kind, verb in doors_and_lamps(lit):
             self._world.command(kind, 'all', verb)
-        self._world.command('drive', ROBOT, values=list(speed(turn)))
+        self._world.command('drive', ROBOT, values=list(speed(lit)))
+
+    def rest(self, seconds: float) -> None:
+        self._world.run(seconds)
 
     def sample(self, cycle: int) -> Sample:
         gc.collect()
@@ -162,14 +173,18 @@ class Node:
         from angen_msgs.srv import Delete
         self._client.call('/angen/delete', Delete, name=name)
 
-    def command(self, turn: int) -> None:
+    def command(self, lit: bool) -> None:
         from geometry_msgs.msg import Twist, Vector3
 
         from angen_msgs.msg import Command
-        for kind, verb in doors_and_lamps(turn):
+        for kind, verb in doors_and_lamps(lit):
             self._commands.publish(Command(f'{kind}/all', verb))
-        ahead, turning = speed(turn)
+        ahead, turning = speed(lit)
         self._drive.publish(Twist(Vector3(x=ahead), Vector3(z=turning)))
+
+    def rest(self, seconds: float) -> None:
+        end = self._client.fence() + seconds
+        wait(lambda: self._client.fence() >= end, 'the simulation has not advanced', LIMIT)
 
     def sample(self, cycle: int) -> Sample:
         return process_sample(self._process, cycle)
@@ -179,22 +194,34 @@ class Node:
 
 
 def soak(home: Home, cycles: int, progress: Progress) -> tuple[list[Sample], list[str]]:
-    """The samples of so many cycles, and what is wrong with them."""
+    """A sample after each round of so many cycles, and what is wrong with them."""
     all_things = things()
-    for thing in all_things:  # the first of each loads its library
+    warm = [_warm(home, all_things, lit) for _ in range(WARM_UP) for lit in (True, False)]
+    registered = home.registered()
+    turns = itertools.cycle(all_things)
+    samples = []
+    for cycle in range(ROUND, cycles + 1, ROUND):
+        samples.append(_round(home, turns, cycle))
+        progress.update(cycle / cycles, f'cycle {cycle}, {samples[-1].rss_mb:.1f} MB')
+    return samples, [*grown(samples), *_left(home, warm, registered, cycles)]
+
+
+def _warm(home: Home, all_things: Sequence[Thing], lit: bool) -> Sample:
+    """The sample after one cycle of each."""
+    home.command(lit)
+    home.rest(REST)
+    for thing in all_things:
         _cycle(home, thing)
-    time.sleep(START)
-    start, registered = home.sample(0), home.registered()
-    samples = [start]
-    for cycle in range(1, cycles + 1):
-        _cycle(home, all_things[cycle % len(all_things)])
-        if cycle % EACH == 0:
-            home.command(cycle // EACH)
-            samples.append(home.sample(cycle))
-            progress.update(cycle / cycles, f'cycle {cycle}, {samples[-1].rss_mb:.1f} MB')
-    if samples[-1].cycle < cycles:
-        samples.append(home.sample(cycles))
-    return samples, [*grown(samples), *_left(home, start, registered, cycles)]
+    return home.sample(0)
+
+
+def _round(home: Home, turns: Iterator[Thing], cycle: int) -> Sample:
+    """The sample after `ROUND` cycles, which is `cycle`."""
+    for lit in (True, False):
+        home.command(lit)
+        for thing in itertools.islice(turns, ROUND // 2):
+            _cycle(home, thing)
+    return home.sample(cycle)
 
 
 def _cycle(home: Home, thing: Thing) -> None:
@@ -207,20 +234,25 @@ def _cycle(home: Home, thing: Thing) -> None:
 
 
 def grown(samples: Sequence[Sample]) -> list[str]:
-    """What is wrong with memory, by the medians of the first and last tenth after the warm-up."""
-    steady = [s.rss_mb for s in samples if s.cycle >= WARM_UP * samples[-1].cycle]
-    tenth = max(1, len(steady) // 10)
-    before, after = median(steady[:tenth]), median(steady[-tenth:])
+    """What is wrong with memory, by the least in the first and last quarter: what stays is in it,
+    what was in use for a moment is not.
+    """
+    memory = [sample.rss_mb for sample in samples]
+    quarter = max(1, len(memory) // 4)
+    before, after = min(memory[:quarter]), min(memory[-quarter:])
     if after - before <= FLAT:
         return []
     return [f'memory has grown from {before:.1f} to {after:.1f} MB, by more than {FLAT:g} MB']
 
 
-def _left(home: Home, start: Sample, registered: set[str], cycles: int) -> list[str]:
+def _left(home: Home, warm: Sequence[Sample], registered: set[str], cycles: int) -> list[str]:
     """What has not gone, once all is quiet."""
+    descriptors = max(sample.descriptors for sample in warm) + MASTER
+    threads = max(sample.threads for sample in warm)
+
     def settled() -> bool:
         now = home.sample(cycles)
-        return (now.descriptors <= start.descriptors and now.threads <= start.threads
+        return (now.descriptors <= descriptors and now.threads <= threads
                 and home.registered() == registered)
 
     try:
@@ -228,8 +260,8 @@ def _left(home: Home, start: Sample, registered: set[str], cycles: int) -> list[
     except Failure:
         now = home.sample(cycles)
         found = [f'{name} were {before} and are {after}' for name, before, after in (
-            ('descriptors', start.descriptors, now.descriptors),
-            ('threads', start.threads, now.threads)) if after > before]
+            ('descriptors', descriptors, now.descriptors),
+            ('threads', threads, now.threads)) if after > before]
         other = sorted(registered ^ home.registered())
         return [*found, *([f'registrations differ: {", ".join(other[:5])}'] if other else [])]
     return []

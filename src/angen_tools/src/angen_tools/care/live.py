@@ -6,7 +6,7 @@ from collections import deque
 from typing import Any, Callable
 
 from angen_tools.care.engine import Change, Engine
-from angen_tools.care.messages import Outlet
+from angen_tools.care.messages import WarningPublisher
 from angen_tools.care.rules import Rules
 from angen_tools.care.signals import Event
 from angen_tools.care.sources import check_sources
@@ -87,8 +87,8 @@ class Live:
         check_sources(self._rules, summaries, {entity.name for entity in entities})
         self._start = found[0].header.stamp.to_sec()
         self.engine = Engine(self._rules, summaries, summaries, self._start)
-        self._outlet = Outlet(self._client, self._rules, summaries, entities)
-        self._outlet.publish(self.engine, [])
+        self._publisher = WarningPublisher(self._client, self._rules, summaries, entities)
+        self._publisher.publish(self.engine, [])
         for mail in kept:
             self._take(*mail)
 
@@ -116,4 +116,4 @@ class Live:
         for change in changes:
             self._tell(change)
         if changes:
-            self._outlet.publish(self.engine, changes)
+            self._publisher.publish(self.engine, changes)

@@ -17,7 +17,7 @@ RADIUS, THICK, POLE, LETTERS = 0.6, 0.06, 3.0, 0.2  # m
 LINE = 18  # letters
 
 
-class Outlet:
+class WarningPublisher:
     """Publishes what becomes of warnings."""
 
     def __init__(self, client: Client, rules: Rules, existing: Collection[str],

@@ -8,26 +8,80 @@ from typing import Any
 from angen_tools.common.failure import Failure
 from angen_tools.maps.gridmap import GridMap, floors, load_world, make_map
 
+WORLD = 'world'  # the frame
+
 
 def publish_maps(path: str) -> None:
-    """A node that latches /floorN/map for each floor of a world's file, and /map for floor 0.
+    """A node that serves the maps of a world's file; see MapServer.
 
     It ends at once where nothing stands in the world, otherwise when ROS ends. Failure where the
     world does not load.
     """
     maps = survey(path)
     import rospy
-    from nav_msgs.msg import OccupancyGrid
     rospy.init_node('map_publisher')
-    publishers = []
-    for grid in maps:
-        for topic in [f'/floor{grid.floor}/map'] + ['/map'] * (grid.floor == 0):
-            publishers.append(rospy.Publisher(topic, OccupancyGrid, queue_size=1, latch=True))
-            publishers[-1].publish(occupancy_grid(grid))
     if not maps:
         rospy.loginfo('nothing stands in %s, so there is no map', path)
         return
+    MapServer(maps, rospy.get_param('~frame_id', WORLD))
     rospy.spin()
+
+
+class MapServer:
+    """Latches /floorN/map of each floor, and does as map_server does for one of them.
+
+    That one, floor 0 at first, is /map, /map_metadata and the answer of /static_map;
+    /change_map chooses another one. In a frame other than the world's it lies at z = 0, and a
+    transform puts that frame on its floor.
+    """
+
+    def __init__(self, maps: list[GridMap], frame: str) -> None:
+        import rospy
+        from nav_msgs.msg import MapMetaData, OccupancyGrid
+        from nav_msgs.srv import GetMap, LoadMap
+        self._maps = {f'floor{grid.floor}': grid for grid in maps}
+        self._frame = frame
+        latched = {'queue_size': 1, 'latch': True}
+        self._floors = {name: rospy.Publisher(f'/{name}/map', OccupancyGrid, **latched)
+                        for name in self._maps}
+        for name, grid in self._maps.items():
+            self._floors[name].publish(occupancy_grid(grid))
+        self._map = rospy.Publisher('/map', OccupancyGrid, **latched)
+        self._metadata = rospy.Publisher('/map_metadata', MapMetaData, **latched)
+        self._broadcaster: Any = None
+        self._choose('floor0' if 'floor0' in self._maps else next(iter(self._maps)))
+        rospy.Service('/static_map', GetMap, lambda _: self._current)
+        rospy.Service('/change_map', LoadMap, self._change)
+
+    def _choose(self, name: str) -> None:
+        """Makes a floor's map the one."""
+        grid = self._maps[name]
+        if self._frame != WORLD:
+            self._place_frame(grid.height)
+        self._current = occupancy_grid(grid, self._frame)
+        self._map.publish(self._current)
+        self._metadata.publish(self._current.info)
+
+    def _place_frame(self, height: float) -> None:
+        from geometry_msgs.msg import TransformStamped
+        from tf2_ros import StaticTransformBroadcaster
+        self._broadcaster = self._broadcaster or StaticTransformBroadcaster()
+        transform = TransformStamped(child_frame_id=self._frame)
+        transform.header.frame_id = WORLD
+        transform.transform.translation.z = height
+        transform.transform.rotation.w = 1.0
+        self._broadcaster.sendTransform(transform)
+
+    def _change(self, request: Any) -> Any:
+        """Of LoadMap; its map_url is the name of a floor."""
+        import rospy
+        from nav_msgs.srv import LoadMapResponse
+        if request.map_url not in self._maps:
+            rospy.logwarn("there is no map '%.80s'; there are: %s", request.map_url,
+                          ', '.join(self._maps))
+            return LoadMapResponse(result=LoadMapResponse.RESULT_MAP_DOES_NOT_EXIST)
+        self._choose(request.map_url)
+        return LoadMapResponse(map=self._current, result=LoadMapResponse.RESULT_SUCCESS)
 
 
 def survey(path: str) -> list[GridMap]:
@@ -60,15 +114,15 @@ def _survey(path: str, unused: Connection, out: Connection) -> None:
         pass  # the reader is gone
 
 
-def occupancy_grid(grid: GridMap) -> Any:
-    """The map as nav_msgs/OccupancyGrid in the frame world, at its floor's height."""
+def occupancy_grid(grid: GridMap, frame: str = WORLD) -> Any:
+    """The map as nav_msgs/OccupancyGrid; in the frame world at its floor's height."""
     from nav_msgs.msg import OccupancyGrid
     message = OccupancyGrid()
-    message.header.frame_id = 'world'
+    message.header.frame_id = frame
     message.info.resolution = grid.resolution
     message.info.height, message.info.width = grid.cells.shape
     message.info.origin.position.x, message.info.origin.position.y = grid.origin
-    message.info.origin.position.z = grid.height
+    message.info.origin.position.z = grid.height if frame == WORLD else 0.0
     message.info.origin.orientation.w = 1.0
     message.data = grid.cells.ravel().tolist()
     return message

@@ -1,0 +1,86 @@
+"""Devices that come and go, with a simulator that is a dictionary."""
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+import rospy
+from angen_tools.live import devices
+from angen_tools.live.devices import Devices
+
+
+class Simulator:
+    """Answers /angen/list, and counts who subscribes to what."""
+
+    def __init__(self) -> None:
+        self.entities: list[Any] = []
+        self.topics: dict[str, Any] = {}
+        self.ends = False
+
+    def proxy(self, name: str, _: type) -> Any:
+        assert name == '/angen/list'
+        self.wait_for_service = lambda: None
+        return self
+
+    def __call__(self, kind: str) -> Any:
+        if self.ends:
+            raise rospy.ServiceException('it ends')
+        return SimpleNamespace(entities=[e for e in self.entities if e.kind == kind])
+
+    def subscribe(self, topic: str, kind: type, handle: Any, *given: Any) -> Any:
+        self.topics[topic] = lambda message: handle(*given, message)
+        return SimpleNamespace(unregister=lambda: self.topics.pop(topic))
+
+    def add(self, kind: str, name: str, x: float = 0.0) -> None:
+        pose = SimpleNamespace(position=SimpleNamespace(x=x, y=0.0, z=0.0))
+        self.entities.append(SimpleNamespace(kind=kind, name=name, topic=f'/{name}', pose=pose))
+
+
+@pytest.fixture
+def simulator(monkeypatch: pytest.MonkeyPatch) -> Simulator:
+    simulator = Simulator()
+    monkeypatch.setattr(devices.rospy, 'ServiceProxy', simulator.proxy)
+    simulator.add('door', 'a')
+    simulator.add('lamp', 'l')
+    return simulator
+
+
+def followed(simulator: Simulator) -> Devices[Any]:
+    return Devices({'door': dict}, lambda entity: {'name': entity.name}, dict.update,
+                   simulator.subscribe, lambda thing, entity: thing.update(
+                       x=entity.pose.position.x))
+
+
+def test_states_reach_the_thing_of_their_device(simulator: Simulator) -> None:
+    doors = followed(simulator)
+    assert list(doors.of('door')) == ['a'] and doors.of('lamp') == {}
+    simulator.topics['/a']({'mode': 3})
+    assert doors.of('door')['a'] == {'name': 'a', 'mode': 3}
+
+
+def test_what_comes_goes_and_moves_is_followed(simulator: Simulator) -> None:
+    doors = followed(simulator)
+    simulator.add('door', 'b')
+    assert not doors.changed
+    simulator.topics['/angen/events'](SimpleNamespace(event='opened'))
+    assert not doors.changed
+    simulator.topics['/angen/events'](SimpleNamespace(event='spawned'))
+    assert doors.changed
+    kept = doors.of('door')['a']
+    doors.survey()
+    assert not doors.changed and list(doors.of('door')) == ['a', 'b']
+    assert doors.of('door')['a'] is kept
+    del simulator.entities[0]
+    simulator.add('door', 'b', 2.0)
+    del simulator.entities[1]
+    doors.survey()
+    assert list(doors.of('door')) == ['b'] and doors.of('door')['b']['x'] == 2.0
+    assert '/a' not in simulator.topics
+
+
+def test_a_simulator_that_ends_is_asked_again(simulator: Simulator) -> None:
+    doors = followed(simulator)
+    simulator.ends = True
+    doors.survey()
+    assert doors.changed and list(doors.of('door')) == ['a']
