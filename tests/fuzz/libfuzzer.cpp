@@ -7,7 +7,7 @@
 // libFuzzer's entry points; ANGEN_FUZZ_TARGET names the target.
 namespace {
 
-const angen::fuzz::Target& chosen() {
+const angen::fuzz::Target& named() {
   const char* name = std::getenv("ANGEN_FUZZ_TARGET");
   for (const angen::fuzz::Target& target : angen::fuzz::targets()) {
     if (name != nullptr && target.name == name) return target;
@@ -19,10 +19,20 @@ const angen::fuzz::Target& chosen() {
   std::exit(2);
 }
 
+const angen::fuzz::Target& chosen() {
+  static const angen::fuzz::Target& target = named();
+  return target;
+}
+
 }  // namespace
 
+/// What a target loads once takes no input's time.
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  chosen().run("");
+  return 0;
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const angen::fuzz::Target& target = chosen();
-  target.run({reinterpret_cast<const char*>(data), size});
+  chosen().run({reinterpret_cast<const char*>(data), size});
   return 0;
 }

@@ -96,3 +96,28 @@ def test_a_debounced_one_tells_when_it_has_come_to_lie(world):
     w.delete('ball')
     w.run(0.2)
     assert [event for _, event in events_of(w)] == ['released']
+
+
+ROBOT = '''<model name="bot"><pose>0 0 0.16 0 0 0</pose><link name="link"><inertial><mass>3</mass>
+  <inertia><ixx>0.05</ixx><iyy>0.05</iyy><izz>0.05</izz></inertia></inertial>
+  <collision name="c"><geometry><box><size>0.3 0.3 0.3</size></box></geometry></collision>
+  <sensor name="bumper" type="contact"><update_rate>10</update_rate>
+  <contact><collision>c</collision></contact>
+  <plugin name="bumper" filename="libgazebo_ros_bumper.so"/></sensor></link></model>'''
+PUSHER = '<actor name="ann"><pose>-1 0 0 0 0 0</pose></actor>'
+
+
+def test_the_bumper_of_a_robot_that_is_pushed_names_the_person_all_the_way(world):
+    w = world(ROBOT + PUSHER)
+    place = w.links.index('bot::link')
+    w.run(0.1)
+    w.command('person', 'ann', 'PushTo 1.5 0')
+    named = []
+    while w.time < 4:
+        x = w.link_poses[place][0]
+        w.run(0.1)
+        if w.link_poses[place][0] > x + 0.02:  # it was on the way
+            found = w.sensor('contact', 'bot')['collision2']
+            named.append(any(name.startswith('ann::') for name in found))
+    assert len(named) >= 14
+    assert sum(named) >= len(named) - 1, named

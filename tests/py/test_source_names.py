@@ -58,3 +58,11 @@ def test_the_second_name_of_the_luminosity_sensors_library() -> None:
       </world></sdf>''')
     world.run(1.5)
     assert world.sensor('luminosity', 'lux')['illuminance'] == 0.0
+
+
+def test_a_warning_of_a_model_that_comes_again_is_kept_once(world: angen.World) -> None:
+    text = '<model name="m"><link name="l"><pose>0 \u22121 0 0 0 0</pose></link></model>'
+    for name in ('a', 'b'):
+        world.spawn(text, name)
+        world.delete(name)
+    assert len(world.warnings) == 1

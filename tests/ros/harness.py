@@ -117,7 +117,8 @@ class Master:
                 if name in published}
 
     def node(self, world: Path, log: Path, **params: object) -> subprocess.Popen[str]:
-        """Start the node and wait until it serves."""
+        """Start the node, with no parameter that an earlier one had, and wait until it serves."""
+        self.api.deleteParam("/test", "/angen")
         arguments = [f"_{key}:={value}" for key, value in params.items()]
         with log.open("w") as out:
             process = subprocess.Popen([str(node_binary()), str(world), *arguments],

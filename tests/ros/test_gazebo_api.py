@@ -7,6 +7,8 @@ import time
 from typing import Any, Iterator
 
 import pytest
+from angen_msgs.msg import LampState
+from angen_msgs.srv import List, SendCommand
 from dynamic_reconfigure.msg import Config, ConfigDescription
 from gazebo_msgs.msg import LinkState, LinkStates, ModelState, ModelStates, ODEJointProperties
 from gazebo_msgs.msg import PerformanceMetrics
@@ -356,6 +358,18 @@ def test_lights_come_change_and_go(gazebo: Gazebo) -> None:
     assert gone.status_message == "DeleteLight: bulb successfully deleted"
     kept = gazebo.ask("delete_light", light_name="kitchen_lamp0::bulb")
     assert not kept.success and "is a part of model" in kept.status_message
+
+
+def test_a_spawned_light_is_a_lamp(gazebo: Gazebo, angen: Angen) -> None:
+    gazebo.spawn("bulb", LAMP, at(1, 0, 0))
+    assert angen.call("/angen/command", SendCommand, target="bulb", text="Dim 30").success
+    gazebo.step(50)
+    state = angen.wait("/angen/lamp/bulb", LampState)
+    assert (state.level, state.luminous_flux) == (30.0, 240.0)  # 800 lm at its brightest color
+    bulb, = (e for e in angen.call("/angen/list", List, kind="lamp").entities if e.name == "bulb")
+    assert (bulb.topic, bulb.model, bulb.pose.position.z) == ("/angen/lamp/bulb", "", 2.0)
+    gazebo.call("delete_light", light_name="bulb")
+    assert not angen.call("/angen/command", SendCommand, target="bulb", text="On").success
 
 
 def test_topics_have_the_rate_that_was_set(gazebo: Gazebo) -> None:

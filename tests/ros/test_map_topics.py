@@ -10,7 +10,9 @@ import psutil
 import pytest
 from angen_tools.maps.gridmap import load_world, make_map
 from harness import Angen, Master, end, until
-from nav_msgs.msg import OccupancyGrid
+from nav_msgs.msg import MapMetaData, OccupancyGrid
+from nav_msgs.srv import GetMap, LoadMap, LoadMapResponse
+from tf2_msgs.msg import TFMessage
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / 'src/angen_tools/scripts/map_publisher'
@@ -54,6 +56,57 @@ def test_each_floor_has_its_map(angen: Angen, two_floors: Path) -> None:
             assert (cells == grid.cells).all() and set(message.data) == {-1, 0, 100}
         assert '/floor2/map' not in angen.master.topics()
     finally:
+        process.stderr.close()
+        assert end(process) == 0
+
+
+def cells(message: OccupancyGrid) -> tuple[str, MapMetaData, tuple[int, ...]]:
+    """A map without its header's number, which each publisher counts for itself."""
+    return message.header.frame_id, message.info, tuple(message.data)
+
+
+def params(master: Master, **values: str) -> None:
+    for name, value in values.items():
+        master.api.setParam('/test', f'/map_publisher/{name}', value)
+
+
+def test_it_serves_one_floor_as_map_server_does(angen: Angen, two_floors: Path) -> None:
+    process = start(angen.master, two_floors)
+    try:
+        angen.wait('/floor1/map', OccupancyGrid)
+        first = cells(angen.call('/static_map', GetMap).map)
+        lower, upper = (cells(angen.wait(f'/floor{n}/map', OccupancyGrid)) for n in (0, 1))
+        assert first == cells(angen.wait('/map', OccupancyGrid)) == lower != upper
+        assert angen.wait('/map_metadata', MapMetaData) == first[1]
+        refused = angen.call('/change_map', LoadMap, map_url='floor7')
+        assert refused.result == LoadMapResponse.RESULT_MAP_DOES_NOT_EXIST
+        assert cells(angen.call('/static_map', GetMap).map) == lower
+        changed = angen.call('/change_map', LoadMap, map_url='floor1')
+        assert changed.result == LoadMapResponse.RESULT_SUCCESS
+        assert cells(changed.map) == upper == cells(angen.call('/static_map', GetMap).map)
+        angen.wait('/map', OccupancyGrid, lambda m: cells(m) == upper)
+    finally:
+        process.stderr.close()
+        assert end(process) == 0
+
+
+def test_in_a_frame_of_its_own_the_map_is_level_with_its_floor(angen: Angen, two_floors: Path
+                                                               ) -> None:
+    params(angen.master, frame_id='map')
+    process = start(angen.master, two_floors)
+    try:
+        for floor in (0, 1):
+            angen.call('/change_map', LoadMap, map_url=f'floor{floor}')
+            grid = angen.wait('/map', OccupancyGrid)
+            assert (grid.header.frame_id, grid.info.origin.position.z) == ('map', 0)
+            shown = angen.wait('/tf_static', TFMessage, lambda m: any(
+                t.child_frame_id == 'map' for t in m.transforms))
+            placed, = (t for t in shown.transforms if t.child_frame_id == 'map')
+            assert placed.header.frame_id == 'world'
+            assert placed.transform.translation.z == 4 * floor
+            assert angen.wait(f'/floor{floor}/map', OccupancyGrid).header.frame_id == 'world'
+    finally:
+        angen.master.api.deleteParam('/test', '/map_publisher/frame_id')
         process.stderr.close()
         assert end(process) == 0
 

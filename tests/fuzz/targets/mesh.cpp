@@ -12,7 +12,7 @@ void mesh(const std::string& input) {
   const MemoryFile& file = *files[given.choice % 3];
   file.write(given.rest);
   answered([&] {
-    const auto mesh = load::read_mesh(file.path(), Vec3::Ones(), {});
+    const auto mesh = load::read_mesh({file.path(), Vec3::Ones()}, {}).triangles;
     for (const auto& triangle : mesh->triangles) {
       for (const std::uint32_t corner : triangle) {
         require(corner < mesh->vertices.size(), "a triangle has corners that exist");

@@ -37,7 +37,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def resource_folders() -> list[Path]:
-    """Where a world that is no path is searched: the last is our own."""
+    """Where a world that is not a path is searched: the last is our own."""
     given = os.environ.get('GAZEBO_RESOURCE_PATH', '').split(':')
     return [Path(folder) for folder in given if folder] + [Path(RosPack().get_path('gazebo_ros'))]
 

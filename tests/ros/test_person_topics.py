@@ -1,0 +1,58 @@
+"""A person who is sent somewhere by topic, and by the command line."""
+from __future__ import annotations
+
+from math import hypot
+from typing import Iterator
+
+import pytest
+from angen_msgs.msg import Command, Event, PersonState
+from harness import WORLD, Angen, Cli, Inbox, Master, end
+
+BOB = '''<actor name="bob"><script><loop>true</loop><auto_start>true</auto_start>
+<trajectory id="0" type="walk">
+<waypoint><time>0</time><pose>-4 0 0 0 0 0</pose></waypoint>
+<waypoint><time>1000</time><pose>-4 0 0 0 0 0</pose></waypoint>
+</trajectory></script></actor>'''
+
+
+@pytest.fixture(scope="module")
+def angen(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFactory
+          ) -> Iterator[Angen]:
+    """The small world with a person in it who stands."""
+    folder = tmp_path_factory.mktemp("node")
+    world = folder / "bob.world"
+    world.write_text(WORLD.replace("</world>", BOB + "</world>"))
+    process = master.node(world, folder / "log", rate=4)
+    yield Angen(master, process, folder / "log")
+    end(process)
+
+
+def arrives(person: Inbox, x: float, y: float) -> None:
+    def there(state: PersonState) -> bool:
+        place = state.pose.position
+        return state.mode == PersonState.STANDING and hypot(place.x - x, place.y - y) < 0.1
+    person.wait(there, f"it stands at {x} {y}")
+
+
+def test_a_person_goes_where_a_topic_sends_it(angen: Angen) -> None:
+    with Inbox("/angen/person/bob", PersonState) as person:
+        angen.send("/angen/command", Command(target="bob", text="GoTo -4.5 3"))
+        person.wait(lambda m: m.mode == PersonState.WALKING and m.speed > 0.5, "it walks")
+        arrives(person, -4.5, 3)
+
+
+def test_a_person_goes_where_the_command_line_sends_it(cli: Cli) -> None:
+    with Inbox("/angen/person/bob", PersonState) as person:
+        cli.does("set", "person", "bob", "goto", "-4", "-1")
+        arrives(person, -4, -1)
+
+
+def test_a_place_with_one_number_is_rejected_and_the_person_stays(angen: Angen) -> None:
+    with Inbox("/angen/events", Event) as events, \
+            Inbox("/angen/person/bob", PersonState) as person:
+        before = person.wait(lambda m: True, "the latched state").pose.position
+        angen.send("/angen/command", Command(target="bob", text="GoTo 3"))
+        rejected = events.wait(lambda e: e.event == "rejected", "an event")
+        assert "GoTo <x> <y>" in rejected.detail
+        after = person.messages[-1].pose.position
+        assert hypot(after.x - before.x, after.y - before.y) < 0.01
