@@ -23,6 +23,11 @@ struct Element {
     }
     return nullptr;
   }
+  /// The text of a child, or `fallback` when there is none.
+  std::string child_text(const std::string& child_name, const std::string& fallback = "") const {
+    const Element* found = child(child_name);
+    return found == nullptr ? fallback : found->text;
+  }
   const std::string* attribute(const std::string& key) const {
     for (const auto& [k, v] : attributes) {
       if (k == key) return &v;

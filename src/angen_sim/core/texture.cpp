@@ -1,5 +1,6 @@
 #include "core/texture.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -41,6 +42,12 @@ struct Between {
 float linear(std::uint8_t srgb) {
   static const std::array<float, 256> values = make_linear();
   return values[srgb];
+}
+
+std::uint8_t srgb(double linear_value) {
+  const double v = std::clamp(linear_value, 0.0, 1.0);
+  const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
+  return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
 }
 
 Eigen::Vector3f Texture::at(float u, float v) const {

@@ -7,8 +7,10 @@
 
 namespace angen {
 
-/// Of an sRGB byte, 0..1.
+/// Of an sRGB byte, 0..1 (IEC 61966-2-1).
 float linear(std::uint8_t srgb);
+/// The sRGB byte of a linear value; values outside 0..1 are clamped.
+std::uint8_t srgb(double linear_value);
 
 /// A picture on a surface, in sRGB as its file has it.
 struct Texture {

@@ -18,7 +18,7 @@ constexpr std::int64_t kKeptRays = 500000, kKeptDeliveryRays = 200000;
 constexpr Nanoseconds kRest = kSecond / 10;  // changes are taken up when there was none for so long
 constexpr Nanoseconds kLongestWait = kSecond;
 
-/// Whether the light between surfaces is not known yet, if only as it was.
+/// Whether a lamp has no whole solution yet, not even an old one.
 bool is_new(const std::shared_ptr<const Solution>& solution) {
   return solution == nullptr || solution->outlined;
 }
@@ -211,7 +211,8 @@ void Lighting::advance(Nanoseconds now) {
   busy_ = work_ || field_->updating() || waiting_ || !deliveries_.empty() || next();
 }
 
-/// Lamps that are lit for the first time shine on what they shine on, until more is known.
+/// Gives lamps that are lit for the first time a rough solution at once: direct light and one
+/// reflection.
 void Lighting::outline_new(std::int64_t& left) {
   lamps_.each([&](LampId id, Entry& entry) {
     if (left <= 0 || !(entry.level > 0.0) || entry.solution) return;

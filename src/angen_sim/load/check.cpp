@@ -186,8 +186,8 @@ void check_joint(Element& joint, const std::set<std::string>& known, Session& se
   }
   check_joint_end(joint, "parent", known);
   check_joint_end(joint, "child", known);
-  if (child_text(joint, "parent") == child_text(joint, "child")) {
-    throw Error(joint.source, tag_of(joint) + " joins '" + child_text(joint, "child") +
+  if (joint.child_text("parent") == joint.child_text("child")) {
+    throw Error(joint.source, tag_of(joint) + " joins '" + joint.child_text("child") +
                                   "' to itself; name two links");
   }
   check_axes(joint, session);

@@ -74,7 +74,7 @@ void Frames::add_parts(const Element& model, const std::string& scope) {
     std::string base = given.empty() ? "__model__" : given;
     std::string attached;
     if (child.name == "joint") {
-      attached = child_text(child, "child");
+      attached = child.child_text("child");
       if (given.empty()) base = attached;
     } else if (child.name == "frame") {
       attached = text_attribute(child, "attached_to");

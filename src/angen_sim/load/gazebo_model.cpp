@@ -13,7 +13,7 @@ void add_default(Element& plugin, const std::string& name, const std::string& va
 }  // namespace
 
 std::string measured_joint(const Element& plugin, const std::string& model) {
-  const std::string name = child_text(plugin, "jointName");
+  const std::string name = plugin.child_text("jointName");
   const std::string prefix = model + "::";
   return name.rfind(prefix, 0) == 0 ? name.substr(prefix.size()) : name;
 }

@@ -53,7 +53,7 @@ PlacedShape mesh(const Element& element, const Pose& pose, Session& session) {
   session.sources.will_be_read(shape.mesh_file);
   MeshSource source{shape.mesh_file, shape.mesh_scale};
   if (const Element* part = element.child("submesh")) {
-    source.submesh = child_text(*part, "name");
+    source.submesh = part->child_text("name");
     source.center = child_flag(*part, "center", false);
     if (source.submesh.empty()) throw Error(part->source, "<submesh> has no <name>; give it one");
   }

@@ -129,8 +129,8 @@ desc::Joint joint_of(const Element& element, const std::string& scope, Frames& f
   joint.source = element.source;
   const std::string& type = *element.attribute("type");
   joint.type = type_of(type);
-  joint.parent = frames.link_of(child_text(element, "parent"), scope, element);
-  joint.child = frames.link_of(child_text(element, "child"), scope, element);
+  joint.parent = frames.link_of(element.child_text("parent"), scope, element);
+  joint.child = frames.link_of(element.child_text("child"), scope, element);
   joint.anchor = frames.pose(joint.name).position;
   if (joint.type == desc::Joint::Type::kFixed || joint.type == desc::Joint::Type::kBall) {
     return joint;

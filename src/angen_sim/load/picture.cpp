@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "load/collada.h"
 #include "load/converter.h"
@@ -82,11 +81,6 @@ Texture jpeg_picture(const std::string& bytes) {
   return made;
 }
 
-std::uint8_t encoded(double v) {
-  const double value = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
-}
-
 // Each pixel is the mean of the light of those that it stands for.
 Texture shrunk(const Texture& from, std::uint32_t width, std::uint32_t height) {
   Texture made{width, height, {}};
@@ -107,7 +101,7 @@ Texture shrunk(const Texture& from, std::uint32_t width, std::uint32_t height) {
         }
       }
       for (const double each : sum)
-        made.bytes.push_back(encoded(each / static_cast<double>(count)));
+        made.bytes.push_back(srgb(each / static_cast<double>(count)));
     }
   }
   return made;

@@ -14,7 +14,7 @@ bool truthy(const std::string& text) {
 
 // Until 1.4 an axis was given in the model's frame, in 1.5 and 1.6 where it said so.
 void upgrade_axis(Element& axis, int version) {
-  const bool in_model = version < 105 || truthy(child_text(axis, "use_parent_model_frame"));
+  const bool in_model = version < 105 || truthy(axis.child_text("use_parent_model_frame"));
   remove_children(axis, "use_parent_model_frame");
   Element* xyz = find_child(axis, "xyz");
   if (xyz != nullptr && in_model) set_attribute(*xyz, "expressed_in", "__model__");

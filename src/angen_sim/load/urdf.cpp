@@ -147,14 +147,14 @@ std::optional<Pose> lumped_pose(const Element& robot, std::string link, const st
 // libsdformat names the link that a plug-in's body is lumped into, but gets the offset to it wrong
 // where that takes several joints.
 void mend_offset(const Element& given, const Element& robot, Element& made) {
-  const std::string body = child_text(given, "bodyName");
-  const std::string into = child_text(made, "bodyName");
+  const std::string body = given.child_text("bodyName");
+  const std::string into = made.child_text("bodyName");
   if (body.empty() || body == into) return;
   const std::optional<Pose> lumped = lumped_pose(robot, body, into);
   if (!lumped) return;
   Element offset;
-  offset.attributes = {{"xyz", child_text(given, "xyzOffset")},
-                       {"rpy", child_text(given, "rpyOffset")}};
+  offset.attributes = {{"xyz", given.child_text("xyzOffset")},
+                       {"rpy", given.child_text("rpyOffset")}};
   const std::string text = pose_text(*lumped * pose_in(&offset));
   const std::vector<double> v = numbers_in(text).values;
   const auto three = [&](std::size_t from) {
@@ -194,12 +194,12 @@ Element text_element(const std::string& name, const std::string& text, const Sou
 std::vector<std::pair<std::string, std::string>> driven_by(const Element& transmission) {
   std::string of_actuator;
   for (const Element& child : transmission.children) {
-    if (child.name == "actuator") of_actuator = child_text(child, "hardwareInterface");
+    if (child.name == "actuator") of_actuator = child.child_text("hardwareInterface");
   }
   std::vector<std::pair<std::string, std::string>> driven;
   for (const Element& joint : transmission.children) {
     if (joint.name != "joint" || name_of(joint).empty()) continue;
-    const std::string own = child_text(joint, "hardwareInterface");
+    const std::string own = joint.child_text("hardwareInterface");
     driven.emplace_back(name_of(joint), own.empty() ? of_actuator : own);
   }
   return driven;
@@ -247,7 +247,7 @@ std::string with_measured_joints(const std::string& text, const Element& robot) 
 // It has a plug-in that makes it follow, or a transmission.
 bool is_led(const std::string& joint, const Element& robot, const Element& model) {
   const auto follows = [&](const Element& plugin) {
-    return plugin.name == "plugin" && child_text(plugin, "mimicJoint") == joint;
+    return plugin.name == "plugin" && plugin.child_text("mimicJoint") == joint;
   };
   const auto drives = [&](const Element& transmission) {
     if (transmission.name != "transmission") return false;

@@ -251,12 +251,6 @@ Element* find_child(Element& element, const std::string& name) {
   return nullptr;
 }
 
-std::string child_text(const Element& element, const std::string& name,
-                       const std::string& fallback) {
-  const Element* child = element.child(name);
-  return child == nullptr ? fallback : child->text;
-}
-
 void set_child(Element& element, const std::string& name, const std::string& text) {
   Element* child = find_child(element, name);
   if (child == nullptr) {

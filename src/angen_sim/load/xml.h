@@ -24,9 +24,6 @@ std::string print_xml(const Element& element, int indent = 0, std::vector<Source
 std::size_t count_elements(const Element& element);
 
 Element* find_child(Element& element, const std::string& name);
-/// The text of a child, or `fallback` when there is none.
-std::string child_text(const Element& element, const std::string& name,
-                       const std::string& fallback = "");
 /// Sets a child's text, adding the child in front when there is none.
 void set_child(Element& element, const std::string& name, const std::string& text);
 void set_attribute(Element& element, const std::string& name, const std::string& value);

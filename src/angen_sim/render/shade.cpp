@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/texture.h"
 #include "light/beam.h"
 
 namespace angen::render {
@@ -18,9 +19,7 @@ constexpr int kCodes = 1 << 14;
 std::array<std::uint8_t, kCodes + 1> make_codes() {
   std::array<std::uint8_t, kCodes + 1> codes{};
   for (int i = 0; i <= kCodes; ++i) {
-    const double v = static_cast<double>(i) / kCodes;
-    const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
-    codes[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::lround(255.0 * encoded));
+    codes[static_cast<std::size_t>(i)] = srgb(static_cast<double>(i) / kCodes);
   }
   return codes;
 }

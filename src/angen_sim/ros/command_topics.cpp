@@ -76,11 +76,6 @@ const std::map<std::string, Taker>& takers() {
   return all;
 }
 
-std::string text_in(const Element& plugin, const std::string& name) {
-  const Element* child = plugin.child(name);
-  return child == nullptr ? "" : child->text;
-}
-
 bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
@@ -88,7 +83,7 @@ bool ends_with(const std::string& text, const std::string& end) {
 // Several plug-ins of one library differ by the body that their devices are named after.
 bool made_by(const desc::Plugin& plugin, const sim::DeviceEntry& device) {
   if (plugin.filename != device.library) return false;
-  const std::string body = text_in(plugin.element, "bodyName");
+  const std::string body = plugin.element.child_text("bodyName");
   return device.kind != "force" || body.empty() ||
          ends_with(device.name, "_" + body.substr(body.rfind(':') + 1));
 }
@@ -97,7 +92,7 @@ void add_by_parameter(const sim::Structure& structure, const sim::DeviceEntry& d
                       const Taker& taker, std::vector<CommandTopic>& to) {
   for (const desc::Plugin& plugin : structure.models[device.model]->plugins) {
     if (!made_by(plugin, device)) continue;
-    std::string topic = text_in(plugin.element, taker.parameter);
+    std::string topic = plugin.element.child_text(taker.parameter);
     if (topic.empty()) topic = taker.fallback;
     if (topic.empty()) continue;
     to.push_back({graph_name(below_namespace(plugin.element, topic)), device.kind, device.name,

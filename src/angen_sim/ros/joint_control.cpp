@@ -36,11 +36,6 @@ MakeJointControl maker_of(const std::string& library) {
   return found == makers().all.end() ? MakeJointControl() : found->second;
 }
 
-std::string word_of(const Element& element, const std::string& name) {
-  const Element* child = element.child(name);
-  return child == nullptr ? "" : child->text;
-}
-
 // The plug-in that controllers come with; null: none does.
 const desc::Plugin* plugin_of(const desc::Model& model) {
   const auto found =
@@ -109,11 +104,11 @@ std::string control_space(const Element& plugin, const std::string& model) {
 std::vector<ControlledJoint> driven_joints(const Element& plugin) {
   std::vector<ControlledJoint> joints;
   for (const Element& transmission : plugin.children) {
-    const std::string name = word_of(transmission, "joint");
+    const std::string name = transmission.child_text("joint");
     const bool again = std::any_of(joints.begin(), joints.end(),
                                    [&](const ControlledJoint& each) { return each.name == name; });
     if (transmission.name != "transmission" || again) continue;
-    const std::string words = word_of(transmission, "hardwareInterface");
+    const std::string words = transmission.child_text("hardwareInterface");
     joints.emplace_back();
     joints.back().name = name;
     joints.back().interface = words.find("Effort") != std::string::npos     ? "effort"

@@ -16,11 +16,6 @@
 namespace angen::node {
 namespace {
 
-std::string child_text(const Element& element, const char* name) {
-  const Element* child = element.child(name);
-  return child == nullptr ? "" : child->text;
-}
-
 /// Empty where the library does not load or holds no sensor: the world says so when it is built.
 std::string kind_of(const std::string& library, Catalog& catalog) {
   try {
@@ -65,8 +60,8 @@ void check_topics(const std::vector<NewSensor>& sensors, Catalog& catalog, Topic
     entry.kind = kind_of(described.plugin, catalog);
     if (entry.kind.empty()) continue;
     entry.name = sensor.name;
-    entry.topic = child_text(described.plugin_element, "topicName");
-    if (entry.topic.empty()) entry.topic = child_text(described.plugin_element, "bumperTopicName");
+    entry.topic = described.plugin_element.child_text("topicName");
+    if (entry.topic.empty()) entry.topic = described.plugin_element.child_text("bumperTopicName");
     entry.desc = std::shared_ptr<const desc::Sensor>(std::shared_ptr<void>(), &described);
     for (const Format& format : ros_kind(entry.kind, described.plugin).formats) {
       if (goes_with_its_kind(topics, format, nullptr)) continue;

@@ -7,9 +7,7 @@ namespace angen::node {
 namespace {
 
 std::string text_of(const sim::SensorEntry& sensor, const std::string& parameter) {
-  if (parameter.empty()) return "";
-  const Element* found = sensor.desc ? sensor.desc->plugin_element.child(parameter) : nullptr;
-  return found == nullptr ? "" : found->text;
+  return sensor.desc ? sensor.desc->plugin_element.child_text(parameter) : "";
 }
 
 bool is_off(const sim::SensorEntry& sensor, const std::string& parameter) {

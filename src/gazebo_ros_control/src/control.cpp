@@ -17,14 +17,9 @@
 namespace angen::node {
 namespace {
 
-std::string text_below(const Element& plugin, const std::string& name) {
-  const Element* child = plugin.child(name);
-  return child == nullptr ? "" : child->text;
-}
-
 // <controlPeriod>, s; 0: each tick.
 Nanoseconds period_of(const Element& plugin) {
-  const std::optional<double> period = parse_finite(text_below(plugin, "controlPeriod"));
+  const std::optional<double> period = parse_finite(plugin.child_text("controlPeriod"));
   return period && *period > 0.0 ? from_seconds(*period) : 0;
 }
 
@@ -41,7 +36,7 @@ class RosControl : public JointControl {
              const std::vector<ControlledJoint>& joints)
       : period_(period_of(plugin)), hardware_(joints), node_(space) {
     node_.setCallbackQueue(&queue_);
-    const std::string stop = text_below(plugin, "eStopTopic");
+    const std::string stop = plugin.child_text("eStopTopic");
     if (!stop.empty()) stop_ = node_.subscribe(stop, 1, &RosControl::on_stop, this);
     manager_ = std::make_unique<controller_manager::ControllerManager>(&hardware_, node_);
     thread_ = std::thread([this] { serve(); });

@@ -22,7 +22,7 @@ desc::Model bumper(const std::string& parameters, bool tolerant) {
 }
 
 std::string said(const desc::Model& model, const std::string& parameter) {
-  return child_text(model.links.at(0).sensors.at(0).plugin_element, parameter, "none");
+  return model.links.at(0).sensors.at(0).plugin_element.child_text(parameter, "none");
 }
 
 TEST(GazeboModel, ABumperThatSaysNothingHasGazebosTopicAndFrame) {

@@ -23,7 +23,7 @@ const Element* find_light(const Element& element, const std::string& name) {
 }
 
 double number_in(const Element& attenuation, const char* name, double fallback) {
-  return parse_finite(load::child_text(attenuation, name)).value_or(fallback);
+  return parse_finite(attenuation.child_text(name)).value_or(fallback);
 }
 
 void check_finite(const gazebo_msgs::SetLightProperties::Request& request) {

@@ -31,6 +31,7 @@ RECORDED = (f'/angen/(?!contact/{BUMPER})'
             '(pir|switch|luminosity|contact|door|elevator|lamp|events|stats|markers).*'
             '|/gazebo/.*_controller|/clock|/tf|/tf_static')
 BAG_LIMIT = 30.0  # s
+BAG_QUIET = 0.5  # s without a message after which all have arrived
 NO_SPACE = 'Disabling recording'  # in what rosbag prints then
 LEFT, FEW = '32M', 64_000_000  # on the disk: with less rosbag stops; with less it is why it did
 SENSORS = ('pir', 'switch', 'luminosity', 'contact')
@@ -140,6 +141,7 @@ class Bag:
 
     def __init__(self, sandbox: Sandbox, path: Path, robot: str) -> None:
         self._path, self._log = path, sandbox.folder / 'rosbag.log'
+        self._sandbox = sandbox
         pattern = f'{RECORDED}|/{robot}/(odom|cmd_vel|scan|joint_states)'
         path.unlink(missing_ok=True)
         self._process = sandbox.start(
@@ -161,10 +163,19 @@ class Bag:
     def close(self) -> None:
         """Ends the recording; the file is whole then. Failure where it is not."""
         self.check()
+        self._receive_the_rest()
         self._process.send_signal(signal.SIGINT)
         wait(lambda: self._process.poll() is not None, 'rosbag has not ended', BAG_LIMIT)
         if not self._path.exists() or NO_SPACE in self._said():
             self._complain()
+
+    def _receive_the_rest(self) -> None:
+        """Returns when nothing has arrived for a while: the node is paused, and what a slow machine
+        has still on its way belongs to the run."""
+        before = -1
+        while before != (received := self._sandbox.received_by('record')):
+            before = received
+            time.sleep(BAG_QUIET)
 
     def _said(self) -> str:
         return self._log.read_text(errors='replace')
