@@ -5,6 +5,8 @@
 #include <rapidjson/stringbuffer.h>
 #include <rapidjson/writer.h>
 
+#include <charconv>
+
 #include "core/random.h"
 #include "record/fingerprint.h"
 
@@ -14,7 +16,7 @@ namespace {
 
 // The values of a command may be infinite or NaN; texts may hold any bytes.
 constexpr unsigned kWriteFlags = rapidjson::kWriteNanAndInfFlag;
-constexpr unsigned kParseFlags = rapidjson::kParseFullPrecisionFlag |
+constexpr unsigned kParseFlags = rapidjson::kParseNumbersAsStringsFlag |
                                  rapidjson::kParseNanAndInfFlag | rapidjson::kParseIterativeFlag;
 constexpr std::size_t kSumEnd = 26;  // bytes of what ends_with() gives
 
@@ -83,22 +85,59 @@ std::string LineWriter::done(std::uint64_t& sum) {
   return line + ends_with(sum) + "\n";
 }
 
+namespace {
+
+/// Converts numbers itself: RapidJSON reads outside of a table for one with hundreds of zeros.
+class Document : public rapidjson::Document {
+ public:
+  /// Empty where all of the line is JSON.
+  rapidjson::ParseResult read(const std::string& line) {
+    rapidjson::MemoryStream stream(line.data(), line.size());
+    rapidjson::Reader reader;
+    rapidjson::ParseResult result;
+    const auto fill = [&](rapidjson::Document&) {
+      result = reader.Parse<kParseFlags>(stream, *this);
+      return !result.IsError();
+    };
+    Populate(fill);
+    return result;
+  }
+
+  /// The reader calls this in place of the base's, which would make it a text.
+  bool RawNumber(const char* text, rapidjson::SizeType length, bool /*copy*/) {
+    const char* const end = text + length;
+    std::uint64_t whole = 0;
+    if (const auto done = std::from_chars(text, end, whole);
+        done.ec == std::errc() && done.ptr == end) {
+      return Uint64(whole);
+    }
+    double number = 0.0;
+    const auto done = std::from_chars(text, end, number);
+    return done.ec == std::errc() && done.ptr == end && Double(number);
+  }
+};
+
+std::string reason(const rapidjson::ParseResult& wrong) {
+  if (wrong.Code() == rapidjson::kParseErrorTermination) return "A number that no double can hold.";
+  return rapidjson::GetParseError_En(wrong.Code());
+}
+
+}  // namespace
+
 struct LineReader::Impl {
   const std::string& line;
   Source at;
   std::uint64_t byte;
-  rapidjson::Document json{};
+  Document json{};
 };
 
 LineReader::LineReader(const std::string& line, const Source& at, std::uint64_t byte)
     : impl_(new Impl{line, at, byte}) {
-  rapidjson::Document& json = impl_->json;
-  json.Parse<kParseFlags>(line.data(), line.size());
-  if (json.HasParseError()) {
-    throw Error(at, "is damaged at byte " + std::to_string(byte + json.GetErrorOffset()) +
-                        " of the file: " + rapidjson::GetParseError_En(json.GetParseError()));
+  if (const rapidjson::ParseResult result = impl_->json.read(line); result.IsError()) {
+    throw Error(at, "is damaged at byte " + std::to_string(byte + result.Offset()) +
+                        " of the file: " + reason(result));
   }
-  if (!json.IsObject()) fail("not a JSON object");
+  if (!impl_->json.IsObject()) fail("not a JSON object");
 }
 
 LineReader::~LineReader() = default;
