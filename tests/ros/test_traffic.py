@@ -100,12 +100,39 @@ def test_what_falls_due_in_one_tick_goes_in_one_message(house_of_kinds: House) -
     assert stamps[1] - stamps[0] == pytest.approx(0.1)
 
 
+def test_devices_of_a_kind_share_a_topic_too(house_of_kinds: House) -> None:
+    """A newcomer gets the states of all, whenever they came; then what changes."""
+    cli, master = house_of_kinds.cli, house_of_kinds.master
+    assert master.topics()['/angen/door'] == 'angen_msgs/DoorStateArray'
+    assert not [topic for topic in master.topics() if topic.startswith('/angen/door/')]
+    cli.does('spawn', 'model', 'model://ceiling_lamp', 'late', '--pose', '1 1 2')
+    lamps, = house_of_kinds.echo('/angen/lamp', 1)
+    assert {'kitchen0', 'late0'} <= set(lamps['names'])
+    assert [lamp['name'] for lamp in lamps['readings']] == lamps['names']
+    echo = subprocess.Popen(['/usr/bin/rostopic', 'echo', '-n', '2', '/angen/lamp'],
+                            env=master.environment, text=True, stdout=subprocess.PIPE)
+    assert echo.stdout is not None
+    try:
+        while echo.stdout.readline() != '---\n':
+            pass
+        cli.does('set', 'lamp', 'late0', 'on')
+        change = yaml.safe_load(echo.communicate(timeout=60)[0].split('---')[0])
+        assert change['names'] == ['late0'] and change['readings'][0]['level'] > 0
+    finally:
+        end(echo)
+    cli.does('delete', 'late')
+    lamps, = house_of_kinds.echo('/angen/lamp', 1)
+    assert 'kitchen0' in lamps['names'] and 'late0' not in lamps['names']
+
+
 def test_lists_and_tables_know_shared_topics(house_of_kinds: House) -> None:
     cli = house_of_kinds.cli
     listed = {e['name']: e for e in json.loads(cli.does('list', '--kind', 'pir', '--json'))}
     assert set(listed) == {'eye', 'other_eye'}
     assert listed['eye']['topic'] == '/angen/pir'
     assert listed['eye']['type'] == 'angen_msgs/PirArray'
+    door, = json.loads(cli.does('list', '--kind', 'door', '--json'))
+    assert (door['topic'], door['type']) == ('/angen/door', 'angen_msgs/DoorStateArray')
     rows = {tuple(row.split()[:2]): row for row in cli.does('watch', '--once').splitlines()}
     assert ' m ' in rows['pir', 'eye'] and ' m ' in rows['pir', 'other_eye']
 

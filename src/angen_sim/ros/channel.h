@@ -2,7 +2,10 @@
 
 #include <ros/node_handle.h>
 
+#include <iterator>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -95,7 +98,21 @@ class LatchedChannel : public Channel {
   std::shared_ptr<const Reading> last_;
 };
 
-/// One message for all readings between two flushes: `Array` has names and readings.
+/// One message for some readings: `Array` has names and readings.
+template <class Array, class Message>
+Array collect(const std::vector<StampedReading>& readings, Nanoseconds now, Fill<Message> fill) {
+  Array array;
+  array.header.stamp = to_ros(now);
+  array.names.reserve(readings.size());
+  array.readings.reserve(readings.size());
+  for (const StampedReading& reading : readings) {
+    array.names.push_back(reading.label->name);
+    array.readings.push_back(to_message<Message>(reading, fill));
+  }
+  return array;
+}
+
+/// One message for all readings between two flushes.
 template <class Array, class Message>
 class BatchChannel : public Channel {
  public:
@@ -108,27 +125,84 @@ class BatchChannel : public Channel {
   }
   void flush(Nanoseconds now) override {
     if (pending_.empty()) return;
-    publisher_.publish([&] { return collect(now); });
+    publisher_.publish([&] { return collect<Array>(pending_, now, fill_); });
     pending_.clear();
   }
 
  private:
   static constexpr std::uint32_t kQueue = 20;
 
-  Array collect(Nanoseconds now) const {
-    Array array;
-    array.header.stamp = to_ros(now);
-    array.names.reserve(pending_.size());
-    array.readings.reserve(pending_.size());
-    for (const StampedReading& reading : pending_) {
-      array.names.push_back(reading.label->name);
-      array.readings.push_back(to_message<Message>(reading, fill_));
-    }
-    return array;
-  }
-
   LazyPublisher publisher_;
   Fill<Message> fill_;
+  std::vector<StampedReading> pending_;
+};
+
+/// The last states of devices. Any thread.
+class LastStates {
+ public:
+  /// False where it is the one before. It goes with the last owner of its label.
+  bool add(const StampedReading& state) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    State& last = states_[state.label->name];
+    const bool is_new = last.reading != state.reading || last.label.expired();
+    last = {state.reading, state.stamp, state.label};
+    return is_new;
+  }
+  void forget_gone() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (auto at = states_.begin(); at != states_.end();) {
+      at = at->second.label.expired() ? states_.erase(at) : std::next(at);
+    }
+  }
+  std::vector<StampedReading> all() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    std::vector<StampedReading> found;
+    found.reserve(states_.size());
+    for (const auto& [name, state] : states_) {
+      if (auto label = state.label.lock()) found.push_back({state.reading, state.stamp, label});
+    }
+    return found;
+  }
+
+ private:
+  struct State {
+    std::shared_ptr<const Reading> reading;
+    Nanoseconds stamp = 0;
+    std::weak_ptr<const Label> label;
+  };
+
+  mutable std::mutex mutex_;
+  std::map<std::string, State> states_;  // by name
+};
+
+/// One message for all states that changed between two flushes; a newcomer gets the last of each
+/// device that is there.
+template <class Array, class Message>
+class LatchedBatchChannel : public Channel {
+ public:
+  LatchedBatchChannel(ros::NodeHandle& node, const std::string& topic, Fill<Message> fill)
+      : publisher_(node, topic, kQueue), fill_(fill) {}
+  bool has_subscribers() const override { return true; }
+  bool batches() const override { return true; }
+  void publish(const StampedReading& state) override {
+    if (last_->add(state)) pending_.push_back(state);
+  }
+  void flush(Nanoseconds now) override {
+    if (pending_.empty()) return;
+    last_->forget_gone();
+    publisher_.set(
+        [last = last_, now, fill = fill_] { return collect<Array>(last->all(), now, fill); },
+        false);
+    publisher_.publish([&] { return collect<Array>(pending_, now, fill_); });
+    pending_.clear();
+  }
+
+ private:
+  static constexpr std::uint32_t kQueue = 100;  // as of LatchedChannel
+
+  LatchedLazyPublisher<Array> publisher_;
+  Fill<Message> fill_;
+  std::shared_ptr<LastStates> last_ = std::make_shared<LastStates>();
   std::vector<StampedReading> pending_;
 };
 

@@ -117,12 +117,24 @@ class LatchedLazyPublisher {
   void set(Make make, bool is_news = true) {
     const std::lock_guard<std::mutex> lock(state_->mutex);
     state_->make = std::move(make);
-    if (state_->listeners == 0 || !is_news) return;
-    publisher_.publish(state_->make());
-    Traffic::count();
+    if (is_news) send(state_->make);
+  }
+
+  /// Present subscribers get what `make` returns, where newcomers get all.
+  template <class Part>
+  void publish(Part&& make) {
+    const std::lock_guard<std::mutex> lock(state_->mutex);
+    send(make);
   }
 
  private:
+  template <class Any>
+  void send(Any& make) const {
+    if (state_->listeners == 0) return;
+    publisher_.publish(make());
+    Traffic::count();
+  }
+
   struct State {
     std::mutex mutex;  // a newcomer never gets an older message after a newer one
     int listeners = 0;

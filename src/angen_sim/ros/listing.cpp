@@ -59,8 +59,10 @@ std::vector<angen_msgs::Entity> entities(const sim::Snapshot& snapshot,
         add(device.name, device.kind, device.model,
             of_light ? structure.lights[device.light].light.pose : place(device.model));
     if (entity == nullptr || device.kind == "drive") continue;
-    entity->topic = topic_of(device.kind, device.name);
-    entity->type = ros_kind(device.kind, device.library).formats.front().type;
+    const Format& format = ros_kind(device.kind, device.library).formats.front();
+    const bool together = goes_with_its_kind(topics, format, nullptr);
+    entity->topic = together ? kind_topic(device.kind) : topic_of(device.kind, device.name);
+    entity->type = together ? format.array_type : format.type;
   }
   const std::vector<Robot> robots = find_robots(structure, world_plugins);
   for (const Robot& robot : robots) {

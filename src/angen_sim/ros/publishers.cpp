@@ -80,7 +80,9 @@ std::vector<Publishers::Source> Publishers::sensor_sources(const sim::Structure&
 Publishers::Source Publishers::device_source(const sim::DeviceEntry& entry) {
   Source source{std::make_shared<const Label>(Label{entry.name, kWorldFrame}), {}, ""};
   const Format& format = ros_kind(entry.kind, entry.library).formats.front();
-  if (entry.kind != "drive") {
+  if (goes_with_its_kind(topics_, format, nullptr)) {
+    attach(source, format.array_type, format.latched_array, kind_topic(entry.kind));
+  } else if (entry.kind != "drive") {
     attach(source, format.type, format.latched, topic_of(entry.kind, entry.name));
   }
   return source;

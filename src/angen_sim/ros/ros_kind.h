@@ -32,6 +32,7 @@ struct Format {
   Open latched;                 // the same for states, the last of them latched
   std::string array_type;       // angen_msgs/PirArray, or empty: there is none
   Open array;                   // one message for all readings between two flushes
+  Open latched_array;           // the same for states; a newcomer gets the last of each device
   /// Fills in a message of that type: for tests, and for what is no topic.
   std::function<void(const Reading&, const Label&, void* message)> fill;
 };
@@ -92,6 +93,7 @@ class RosKindBuilder {
     message<Message>(fill);
     kind_.formats.back().array_type = ros::message_traits::datatype<Array>();
     kind_.formats.back().array = opener<BatchChannel<Array, Message>>(fill);
+    kind_.formats.back().latched_array = opener<LatchedBatchChannel<Array, Message>>(fill);
     return *this;
   }
 

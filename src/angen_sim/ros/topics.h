@@ -9,7 +9,7 @@
 
 namespace angen::node {
 
-/// Which topics sensors publish on.
+/// Which topics sensors and devices publish on.
 enum class Topics {
   kSensor,  // each has its own
   kKind,    // one carries all of a kind that has an array; robots' have their own all the same

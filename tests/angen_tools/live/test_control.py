@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from angen_msgs.msg import ElevatorState, Entity
+from angen_msgs.msg import ElevatorState, ElevatorStateArray, Entity
 from angen_tools.common.catalog import kind_of
 from angen_tools.common.verbs import parse
 from angen_tools.live import control
@@ -29,10 +29,16 @@ class Mail:
 
 
 @pytest.mark.parametrize('targets, later', [([1], False), ([0, 1], False), ([0, 0], True)])
+@pytest.mark.parametrize('together', [False, True])
 def test_an_elevator_that_goes_elsewhere_comes_later(
-        targets: list[int], later: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+        targets: list[int], later: bool, together: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(control, 'Mailbox', Mail)
-    monkeypatch.setattr(Mail, 'sent', [ElevatorState(target_floor=floor) for floor in targets])
+    states = [ElevatorState(name='lift', target_floor=floor) for floor in targets]
+    if together:  # with topics:=kind
+        other = ElevatorState(name='other', target_floor=1)
+        states = [ElevatorStateArray(names=['other', 'lift'], readings=[other, state])
+                  for state in states]
+    monkeypatch.setattr(Mail, 'sent', states)
     kind = kind_of('elevator')
     assert control.comes_later(object(), kind, parse(kind, ['1']), LIFT) is later
 

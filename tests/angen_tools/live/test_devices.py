@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 import rospy
+from angen_msgs.msg import DoorState, DoorStateArray
 from angen_tools.live import devices
 from angen_tools.live.devices import Devices
 
@@ -32,9 +33,11 @@ class Simulator:
         self.topics[topic] = lambda message: handle(*given, message)
         return SimpleNamespace(unregister=lambda: self.topics.pop(topic))
 
-    def add(self, kind: str, name: str, x: float = 0.0) -> None:
+    def add(self, kind: str, name: str, x: float = 0.0, topic: str = '',
+            message: str = 'DoorState') -> None:
         pose = SimpleNamespace(position=SimpleNamespace(x=x, y=0.0, z=0.0))
-        self.entities.append(SimpleNamespace(kind=kind, name=name, topic=f'/{name}', pose=pose))
+        self.entities.append(SimpleNamespace(kind=kind, name=name, topic=topic or f'/{name}',
+                                             type=f'angen_msgs/{message}', pose=pose))
 
 
 @pytest.fixture
@@ -47,15 +50,22 @@ def simulator(monkeypatch: pytest.MonkeyPatch) -> Simulator:
 
 
 def followed(simulator: Simulator) -> Devices[Any]:
-    return Devices({'door': dict}, lambda entity: {'name': entity.name}, dict.update,
+    return Devices(['door'], lambda entity: {'name': entity.name},
+                   lambda thing, state: thing.update(mode=state.mode),
                    simulator.subscribe, lambda thing, entity: thing.update(
                        x=entity.pose.position.x))
+
+
+def states(**modes: int) -> DoorStateArray:
+    """Of doors, as with topics:=kind."""
+    return DoorStateArray(names=list(modes), readings=[
+        DoorState(name=name, mode=mode) for name, mode in modes.items()])
 
 
 def test_states_reach_the_thing_of_their_device(simulator: Simulator) -> None:
     doors = followed(simulator)
     assert list(doors.of('door')) == ['a'] and doors.of('lamp') == {}
-    simulator.topics['/a']({'mode': 3})
+    simulator.topics['/a'](DoorState(name='a', mode=3))
     assert doors.of('door')['a'] == {'name': 'a', 'mode': 3}
 
 
@@ -84,3 +94,22 @@ def test_a_simulator_that_ends_is_asked_again(simulator: Simulator) -> None:
     simulator.ends = True
     doors.survey()
     assert doors.changed and list(doors.of('door')) == ['a']
+
+
+def test_devices_may_share_a_topic(simulator: Simulator) -> None:
+    del simulator.entities[0]
+    for name in 'ab':
+        simulator.add('door', name, topic='/doors', message='DoorStateArray')
+    doors = followed(simulator)
+    simulator.topics['/doors'](states(a=1, b=2))
+    assert [door['mode'] for door in doors.of('door').values()] == [1, 2]
+    simulator.topics['/doors'](states(b=3, c=4))  # before anybody has heard of c
+    simulator.add('door', 'c', topic='/doors', message='DoorStateArray')
+    doors.survey()
+    assert [door['mode'] for door in doors.of('door').values()] == [1, 3, 4]
+    simulator.entities = [e for e in simulator.entities if e.name != 'b']
+    doors.survey()
+    assert list(doors.of('door')) == ['a', 'c'] and '/doors' in simulator.topics
+    simulator.entities.clear()
+    doors.survey()
+    assert doors.of('door') == {} and '/doors' not in simulator.topics

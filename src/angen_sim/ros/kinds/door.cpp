@@ -1,4 +1,5 @@
 #include <angen_msgs/DoorState.h>
+#include <angen_msgs/DoorStateArray.h>
 
 #include "ros/kinds/states.h"
 #include "ros/ros_kind.h"
@@ -14,8 +15,9 @@ void fill(const Reading& state, const Label& label, angen_msgs::DoorState& messa
   message.target = state.get<double>("target");
 }
 
-ANGEN_REGISTER_ROS_KIND({"door", "window", "cabinet"},
-                        RosKindBuilder().message<angen_msgs::DoorState>(&fill));
+ANGEN_REGISTER_ROS_KIND(
+    {"door", "window", "cabinet"},
+    RosKindBuilder().message_with_array<angen_msgs::DoorState, angen_msgs::DoorStateArray>(&fill));
 
 }  // namespace
 }  // namespace angen::node

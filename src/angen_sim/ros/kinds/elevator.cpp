@@ -1,4 +1,5 @@
 #include <angen_msgs/ElevatorState.h>
+#include <angen_msgs/ElevatorStateArray.h>
 
 #include "ros/kinds/states.h"
 #include "ros/ros_kind.h"
@@ -19,7 +20,10 @@ void fill(const Reading& state, const Label& label, angen_msgs::ElevatorState& m
   message.door_position = state.get<double>("door_position");
 }
 
-ANGEN_REGISTER_ROS_KIND({"elevator"}, RosKindBuilder().message<angen_msgs::ElevatorState>(&fill));
+ANGEN_REGISTER_ROS_KIND(
+    {"elevator"},
+    RosKindBuilder().message_with_array<angen_msgs::ElevatorState, angen_msgs::ElevatorStateArray>(
+        &fill));
 
 }  // namespace
 }  // namespace angen::node

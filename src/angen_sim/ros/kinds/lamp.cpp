@@ -1,4 +1,5 @@
 #include <angen_msgs/LampState.h>
+#include <angen_msgs/LampStateArray.h>
 
 #include "ros/ros_kind.h"
 
@@ -13,7 +14,9 @@ void fill(const Reading& state, const Label& label, angen_msgs::LampState& messa
   message.illuminance = state.get<double>("illuminance");
 }
 
-ANGEN_REGISTER_ROS_KIND({"lamp"}, RosKindBuilder().message<angen_msgs::LampState>(&fill));
+ANGEN_REGISTER_ROS_KIND(
+    {"lamp"},
+    RosKindBuilder().message_with_array<angen_msgs::LampState, angen_msgs::LampStateArray>(&fill));
 
 }  // namespace
 }  // namespace angen::node

@@ -1,4 +1,5 @@
 #include <angen_msgs/PersonState.h>
+#include <angen_msgs/PersonStateArray.h>
 
 #include "ros/convert.h"
 #include "ros/kinds/states.h"
@@ -14,7 +15,10 @@ void fill(const Reading& state, const Label& label, angen_msgs::PersonState& mes
   message.speed = state.get<double>("speed");
 }
 
-ANGEN_REGISTER_ROS_KIND({"person"}, RosKindBuilder().message<angen_msgs::PersonState>(&fill));
+ANGEN_REGISTER_ROS_KIND(
+    {"person"},
+    RosKindBuilder().message_with_array<angen_msgs::PersonState, angen_msgs::PersonStateArray>(
+        &fill));
 
 }  // namespace
 }  // namespace angen::node

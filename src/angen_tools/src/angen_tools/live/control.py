@@ -8,6 +8,7 @@ from angen_tools.common.catalog import Plugin, kind_of
 from angen_tools.common.failure import Failure
 from angen_tools.common.verbs import Order, parse
 from angen_tools.live.client import CONNECT_LIMIT, Client, Mailbox
+from angen_tools.live.states import states_by_name
 from angen_tools.live.summary import Board
 
 STATE_LIMIT = 0.6  # s of wall time within which a state follows its command
@@ -71,5 +72,9 @@ def comes_later(client: Client, kind: Plugin, order: Order, device: Any) -> bool
         return False
     mail = Mailbox(client)
     mail.subscribe(device.topic, device.type)
-    return not mail.until(lambda _, state: getattr(state, target, order.number) == order.number,
-                          NEXT_LIMIT)
+
+    def goes_there(_: str, message: Any) -> bool:
+        state = states_by_name(message).get(device.name)
+        return state is not None and getattr(state, target, order.number) == order.number
+
+    return not mail.until(goes_there, NEXT_LIMIT)

@@ -68,8 +68,7 @@ class DoorOpener:
         self._buffer = tf2_ros.Buffer()
         self._listener = tf2_ros.TransformListener(self._buffer)
         self._commands = rospy.Publisher('/angen/command', Command, queue_size=10)
-        self._doors = Devices({'door': DoorState}, Doorway.of, Doorway.take,
-                              renew=Doorway.move)
+        self._doors = Devices(['door'], Doorway.of, Doorway.take, renew=Doorway.move)
         rospy.Subscriber('plan', Path, self._on_plan)
 
     def _on_plan(self, plan: Any) -> None:

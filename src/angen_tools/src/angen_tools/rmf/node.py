@@ -5,8 +5,7 @@ import queue
 from typing import Any, Callable, Iterable
 
 import rospy
-from angen_msgs.msg import Command, ElevatorState
-from angen_msgs.msg import DoorState as AngenDoorState
+from angen_msgs.msg import Command
 from rmf_door_msgs.msg import DoorRequest, DoorState
 from rmf_lift_msgs.msg import LiftRequest, LiftState
 
@@ -18,7 +17,6 @@ PERIOD = rospy.Duration(1.0)  # simulated, between two states of a door that doe
 TURN = 0.05  # s of wall time, for messages to come
 MOST_LINES = 100  # in the log
 KINDS = {'door': Door, 'elevator': Lift}
-STATES = {'door': AngenDoorState, 'elevator': ElevatorState}
 
 
 class Node:
@@ -36,7 +34,7 @@ class Node:
         self._lift_states = rospy.Publisher('lift_states', LiftState, queue_size=1000)
         rospy.loginfo('waiting for the simulator')
         self._devices: Devices[Any] = Devices(
-            STATES, lambda entity: KINDS[entity.kind](entity.name), self._on_state,
+            list(KINDS), lambda entity: KINDS[entity.kind](entity.name), self._on_state,
             self._subscribe)
         self._subscribe('door_requests', DoorRequest, self._on_door_request)
         self._subscribe('lift_requests', LiftRequest, self._on_lift_request)
