@@ -76,6 +76,21 @@ def test_the_one_pixel_view_is_the_mean_of_a_cameras_picture():
     np.testing.assert_allclose(seen, shown, rtol=0.05)
 
 
+def test_in_a_room_pictures_show_what_walls_reflect():
+    content = room() + CAMERA.replace('0 0 1 0', '0.2 1.2 1.1 0') \
+        + LAMP.replace('0 0.3 2.6', '1 2.5 2.2')
+    shown = []
+    for sensor in ('', lux('l', '0.2 1.2 1.1 0 0 0')):
+        w = world_of(content + sensor)
+        w.request('camera', 'eye')
+        w.run(0.2)
+        shown.append(luminances(w.sensor('camera', 'eye')['image']))
+    reading = w.sensor('luminosity', 'l')
+    seen = np.array([50.0 * c / (1.0 - c) for c in (reading['r'], reading['g'], reading['b'])])
+    np.testing.assert_allclose(seen, shown[1], rtol=0.05)
+    assert (shown[0] < 0.7 * seen).all()  # nothing is known of reflections without a light sensor
+
+
 def test_shutting_the_door_darkens_the_next_room(building):
     w = angen.World(building)
     w.command('lamp', 'kitchen0', 'On')

@@ -65,13 +65,6 @@ void number_places(Solution& solution) {
   }
 }
 
-std::uint32_t place_of_hash(const Solution& solution, std::uint64_t hash) {
-  const auto found = std::lower_bound(solution.by_hash.begin(), solution.by_hash.end(),
-                                      std::pair<std::uint64_t, std::uint32_t>(hash, 0));
-  const bool known = found != solution.by_hash.end() && found->first == hash;
-  return known ? found->second : kNoPatch;
-}
-
 }  // namespace
 
 Rgb Field::albedo(std::uint32_t shape) const {
@@ -324,51 +317,6 @@ Solution Field::outline(const Lamp& lamp, std::int64_t& rays) const {
   out.stamp = next_stamp();
   rays -= static_cast<std::int64_t>(first.size());
   return out;
-}
-
-std::uint32_t Field::place(const Solution& solution, std::uint32_t patch, bool stale) const {
-  const std::uint32_t number = patch - solution.first_patch;  // wraps around below the first
-  if (number < solution.places.size()) {
-    const std::uint32_t at = solution.places[number];
-    if (at != kNoPatch && solution.serials[at] == surfaces_[patch].serial) return at;
-  }
-  const bool made_since = surfaces_[patch].serial > solution.serials_before;
-  return stale && made_since ? place_of_hash(solution, surfaces_[patch].hash) : kNoPatch;
-}
-
-bool Field::reaches(const Solution& solution, std::uint32_t patch, bool stale) const {
-  return patch == kNoPatch || place(solution, patch, stale) != kNoPatch;
-}
-
-float Field::direct(const Solution& solution, std::uint32_t patch, bool stale) const {
-  const std::uint32_t at = place(solution, patch, stale);
-  return at == kNoPatch ? 0.0F : solution.direct[at];
-}
-
-Rgb Field::reflected(const Solution& solution, std::uint32_t patch, bool stale) {
-  if (patch == kNoPatch) return Rgb::Zero();
-  const std::uint32_t at = place(solution, patch, stale);
-  if (at != kNoPatch) return solution.reflected[at];
-  if (solution.patches.empty()) return Rgb::Zero();
-  // What of a stale one has to be found first is found with the next: who queries leaves no trace.
-  return stale && !charged(patch) ? Rgb(Rgb::Zero()) : beyond(solution, patch, stale);
-}
-
-/// One more bounce, from what the solution reaches.
-Rgb Field::beyond(const Solution& solution, std::uint32_t patch, bool stale) {
-  const std::uint64_t state = 2 * (in_flux() ? ~scene_.revision() : revision_) + (stale ? 1 : 0);
-  if (solution.beyond_state != state) solution.beyond.clear();
-  solution.beyond_state = state;
-  const auto [known, is_new] = solution.beyond.try_emplace(surfaces_[patch].hash, Rgb::Zero());
-  if (!is_new) return known->second;
-  Rgb sum = Rgb::Zero();
-  for (const Link& link : links(patch)) {
-    if (link.patch == kNoPatch) continue;
-    const std::uint32_t seen = place(solution, link.patch, stale);
-    if (seen == kNoPatch) continue;
-    sum += albedo_of(link.patch) * (solution.direct[seen] + solution.reflected[seen]);
-  }
-  return known->second = sum / static_cast<float>(kLinks);
 }
 
 }  // namespace angen::light

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "light/lamp.h"
+#include "light/reflected_light.h"
 #include "light/surfaces.h"
 
 namespace angen::light {
@@ -109,6 +110,11 @@ class Field {
   /// lx that a patch gets from others, also one that the lamp's light was not followed to, as far
   /// as that is known of a `stale` solution.
   Rgb reflected(const Solution& solution, std::uint32_t patch, bool stale);
+
+  /// Adds what a solution's patches get from others, lx times `factor`, by patch.
+  void add_reflected(const Solution& solution, const Rgb& factor, std::vector<Rgb>& light) const;
+  /// The patches that `light` (lx) lists, where it is more than 0.
+  std::vector<ReflectedLight::Piece> pieces(const std::vector<Rgb>& light) const;
 
  private:
   struct Link {

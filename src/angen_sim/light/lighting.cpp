@@ -92,6 +92,20 @@ std::vector<Lit> Lighting::lit() const {
   return all;
 }
 
+std::shared_ptr<const ReflectedLight> Lighting::reflected() const {
+  if (reflected_ && reflected_revision_ == lit_revision_) return reflected_;
+  std::vector<Rgb> light;
+  lamps_.each([&](LampId, const Entry& entry) {
+    if (!(entry.level > 0.0) || !entry.solution) return;
+    Rgb factor = Rgb::Zero();
+    factor.head<3>() = static_cast<float>(entry.level) * entry.lamp.color.array();
+    field_->add_reflected(*entry.solution, factor, light);
+  });
+  reflected_ = std::make_shared<const ReflectedLight>(field_->pieces(light));
+  reflected_revision_ = lit_revision_;
+  return reflected_;
+}
+
 /// Finds what the light of lamps depends on and has changed. Whether anything has.
 bool Lighting::follow() const {
   const std::vector<Field::Change> changes = field_->follow();

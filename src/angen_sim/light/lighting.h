@@ -20,6 +20,7 @@
 namespace angen::light {
 
 class Field;
+class ReflectedLight;
 struct Solution;
 struct Source;
 struct Unfinished;
@@ -55,6 +56,10 @@ class Lighting {
   /// no shape has moved, come or gone within the probe's reach, so that lamps are not looked for
   /// again whose light takes the same ways as then.
   Sample measure(Probe& probe, const Pose& pose, bool still = false) const;
+
+  /// What surfaces reflect onto each other, of all lamps that are lit, as far as it is known; see
+  /// measure().
+  std::shared_ptr<const ReflectedLight> reflected() const;
 
   /// Whether the place has been measured before.
   bool knows(const Probe& probe) const { return probe.lighting == id_; }
@@ -143,6 +148,8 @@ class Lighting {
   Nanoseconds last_change_ = 0;   // the same
   std::uint64_t id_;              // no two Lightings share one
   std::size_t lit_count_ = 0;
+  mutable std::shared_ptr<const ReflectedLight> reflected_;  // null until it is queried
+  mutable std::uint64_t reflected_revision_ = 0;             // the lit_revision_ that it is of
   std::uint64_t lit_revision_ = 0;
 };
 

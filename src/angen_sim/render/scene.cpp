@@ -1,6 +1,7 @@
 #include "render/scene.h"
 
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -232,12 +233,19 @@ std::vector<std::uint8_t> Scene::colors(const PinholeCamera& camera, const Pose&
   std::vector<std::uint8_t> pixels(3U * static_cast<std::size_t>(camera.width) * camera.height);
   std::vector<Eigen::AlignedBox3f> reaches;
   for (const light::Lit& lit : lamps) reaches.push_back(impl_->reaches.of(lit.lamp));
+  std::optional<light::ReflectedLookup> reflected;
+  if (ambience.reflected) {
+    reflected.emplace(*ambience.reflected, [&](const auto& from, const auto* to, int count) {
+      return seen_from(from, to, count, stand.opaque());
+    });
+  }
   Tile tile;
   impl_->last = {camera, pose, no_depths(camera)};
   std::vector<float>& depths = impl_->last.depths;
   trace(camera, pose, stand.seen(),
         [&](int column, int row, const int* valid, const RTCRayHit16& rays) {
           gather(stand, valid, rays, ambient, tile);
+          if (reflected) shine(*reflected, tile);
           const Eigen::AlignedBox3f seen = bounds_of(tile);
           for (std::size_t i = 0; i < lamps.size(); ++i) {
             if (reaches[i].intersects(seen)) shine(lamps[i], stand.opaque(), tile);

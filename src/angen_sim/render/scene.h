@@ -9,6 +9,12 @@
 #include "light/lamp.h"
 #include "render/pinhole_camera.h"
 
+namespace angen::light {
+
+class ReflectedLight;
+
+}  // namespace angen::light
+
 namespace angen {
 
 struct MeshLook;
@@ -42,6 +48,7 @@ struct Body {
 struct Ambience {
   Eigen::Vector3f ambient{0.4F, 0.4F, 0.4F};     // r g b, 0..1, as SDF's <scene> gives it
   Eigen::Vector3f background{0.7F, 0.7F, 0.7F};  // where nothing is, as displayed
+  std::shared_ptr<const light::ReflectedLight> reflected{};  // of the lamps; null: not known
 };
 
 /// Adding and moving cost next to nothing; hierarchies are built when the first picture is drawn.
@@ -59,7 +66,8 @@ class Scene {
 
   /// height x width x 3 values, sRGB, row after row from the top. A surface of albedo a under
   /// E lx has the luminance L = a E / pi; it is shown as L / (L + 10 cd/m^2), sRGB-encoded. E is
-  /// the lamps' direct light with hard shadows, and 2.5 lx times the ambient color.
+  /// the lamps' direct light with hard shadows, what surfaces reflect of it where that is known,
+  /// and 2.5 lx times the ambient color.
   std::vector<std::uint8_t> colors(const PinholeCamera& camera, const Pose& pose,
                                    const std::vector<light::Lit>& lamps,
                                    const Ambience& ambience) const;

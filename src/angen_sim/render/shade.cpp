@@ -13,6 +13,9 @@ namespace {
 constexpr float kLeast = 0.1F;    // lx; less is not worth a shadow ray
 constexpr float kLift = 1e-3F;    // m off the surface that a shadow ray starts
 constexpr float kFarAway = 1e4F;  // m, as far as anything stands before a directional lamp
+// Points of a tile so near and alike get the same reflected light, which varies over decimeters.
+constexpr float kSamePlace = 0.1F;  // m
+constexpr float kSameWay = 0.98F;   // cosine between normals
 constexpr int kCodes = 1 << 14;
 
 /// sRGB bytes of evenly spaced linear values.
@@ -53,7 +56,47 @@ struct Source {
   float nearest2;
 };
 
+void set_segment(const Eigen::Vector3f& from, const Eigen::Vector3f& way, int i, RTCRay16& rays) {
+  rays.org_x[i] = from.x();
+  rays.org_y[i] = from.y();
+  rays.org_z[i] = from.z();
+  rays.dir_x[i] = way.x();
+  rays.dir_y[i] = way.y();
+  rays.dir_z[i] = way.z();
+  rays.tnear[i] = 0.0F;
+  rays.tfar[i] = 1.0F;
+  rays.time[i] = 0.0F;
+  rays.mask[i] = UINT32_MAX;
+  rays.id[i] = 0;
+  rays.flags[i] = 0;
+}
+
+/// Those that meet something get a tfar below 0.
+void find_occluded(const int* wanted, RTCScene opaque, RTCRay16& rays) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded16(wanted, opaque, &context, &rays);
+}
+
 }  // namespace
+
+static_assert(light::ReflectedLookup::kMost == kLanes);
+
+std::uint32_t seen_from(const Eigen::Vector3f& from, const Eigen::Vector3f* to, int count,
+                        RTCScene opaque) {
+  alignas(64) int wanted[kLanes] = {};
+  alignas(64) RTCRay16 rays;
+  for (int i = 0; i < kLanes; ++i) {
+    wanted[i] = i < count ? -1 : 0;
+    set_segment(from, i < count ? Eigen::Vector3f(to[i] - from) : Eigen::Vector3f::Zero(), i, rays);
+  }
+  find_occluded(wanted, opaque, rays);
+  std::uint32_t seen = 0;
+  for (int i = 0; i < count; ++i) {
+    if (rays.tfar[i] >= 0.0F) seen |= 1U << i;
+  }
+  return seen;
+}
 
 void shine(const light::Lit& lit, RTCScene opaque, Tile& tile) {
   const Source source(lit);
@@ -72,30 +115,34 @@ void shine(const light::Lit& lit, RTCScene opaque, Tile& tile) {
     if (tile.through[i]) cosine = std::abs(cosine);
     illuminance[i] = facing * cosine;
     if (!(illuminance[i] > kLeast)) continue;
-    const Eigen::Vector3f origin = tile.point[i] + kLift * tile.normal[i];
     wanted[i] = -1;
     any = true;
-    rays.org_x[i] = origin.x();
-    rays.org_y[i] = origin.y();
-    rays.org_z[i] = origin.z();
-    rays.dir_x[i] = way.x();
-    rays.dir_y[i] = way.y();
-    rays.dir_z[i] = way.z();
-    rays.tnear[i] = 0.0F;
-    rays.tfar[i] = 1.0F;
-    rays.time[i] = 0.0F;
-    rays.mask[i] = UINT32_MAX;
-    rays.id[i] = 0;
-    rays.flags[i] = 0;
+    set_segment(tile.point[i] + kLift * tile.normal[i], way, i, rays);
   }
   if (!any) return;
-  if (lit.lamp.cast_shadows) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded16(wanted, opaque, &context, &rays);
-  }
+  if (lit.lamp.cast_shadows) find_occluded(wanted, opaque, rays);
   for (int i = 0; i < kLanes; ++i) {
     if (wanted[i] != 0 && rays.tfar[i] >= 0.0F) tile.light[i] += illuminance[i] * lit.lamp.color;
+  }
+}
+
+void shine(light::ReflectedLookup& reflected, Tile& tile) {
+  Eigen::Vector3f found[kLanes];
+  int of[kLanes];  // lanes that something was found for
+  int count = 0;
+  for (int i = 0; i < kLanes; ++i) {
+    if (tile.valid[i] == 0) continue;
+    const int* known = std::find_if(of, of + count, [&](int j) {
+      return tile.normal[i].dot(tile.normal[j]) > kSameWay &&
+             (tile.point[i] - tile.point[j]).squaredNorm() < kSamePlace * kSamePlace;
+    });
+    if (known == of + count) {
+      of[count++] = i;
+      found[i] = reflected.at(tile.point[i], tile.normal[i]);
+    } else {
+      found[i] = found[*known];
+    }
+    tile.light[i] += found[i];
   }
 }
 

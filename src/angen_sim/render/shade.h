@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "light/reflected_light.h"
 #include "render/bodies.h"
 
 namespace angen::render {
@@ -23,6 +24,12 @@ struct alignas(64) Tile {
 
 /// Adds what one lamp sends to each point.
 void shine(const light::Lit& lit, RTCScene opaque, Tile& tile);
+
+/// Adds what surfaces reflect to each point.
+void shine(light::ReflectedLookup& reflected, Tile& tile);
+/// Which points can be seen from another; see light::ReflectedLookup.
+std::uint32_t seen_from(const Eigen::Vector3f& from, const Eigen::Vector3f* to, int count,
+                        RTCScene opaque);
 
 /// sRGB bytes of a luminance in cd/m^2.
 std::uint8_t shown(float luminance);

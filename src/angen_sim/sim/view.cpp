@@ -127,7 +127,10 @@ std::vector<rays::Crossing> InstanceView::crossings(const Vec3& from, const Vec3
 std::vector<std::uint8_t> InstanceView::colors(const render::PinholeCamera& lens,
                                                const Pose& pose) const {
   queried_.other = true;
-  return engines_.visuals.colors(lens, pose, engines_.light.lit(), engines_.ambience);
+  render::Ambience ambience = engines_.ambience;
+  // Only for pictures, which depend on who subscribes, nothing is found: sensors read the same.
+  if (engines_.light.active()) ambience.reflected = engines_.light.reflected();
+  return engines_.visuals.colors(lens, pose, engines_.light.lit(), ambience);
 }
 
 std::vector<float> InstanceView::depths(const render::PinholeCamera& lens, const Pose& pose) const {

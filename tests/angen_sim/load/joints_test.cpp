@@ -125,5 +125,90 @@ TEST(Hinges, AboutTwoLinesStayTwoWithAWarning) {
   EXPECT_NE(w.warnings[0].message.find("neither can turn"), std::string::npos);
 }
 
+TEST(Joint, RevoluteWithLimitsAndDynamics) {
+  const desc::Joint j =
+      read_model(joint("revolute",
+                       "<pose>0 0 1 0 0 0</pose><axis><xyz>0 0 2</xyz><limit><lower>-1.57</lower>"
+                       "<upper>0.001</upper><effort>150</effort><velocity>3</velocity></limit>"
+                       "<dynamics><damping>2</damping><friction>0.5</friction></dynamics></axis>"))
+          .joints.at(0);
+  EXPECT_EQ(j.type, desc::Joint::Type::kRevolute);
+  EXPECT_EQ(j.parent, "a");
+  EXPECT_EQ(j.child, "b");
+  expect_near(j.anchor, {0.0, 0.0, 1.0});
+  expect_near(j.axes.at(0).xyz, {0.0, 0.0, 1.0});
+  EXPECT_DOUBLE_EQ(j.axes[0].lower, -1.57);
+  EXPECT_DOUBLE_EQ(j.axes[0].upper, 0.001);
+  EXPECT_DOUBLE_EQ(j.axes[0].effort, 150.0);
+  EXPECT_DOUBLE_EQ(j.axes[0].velocity, 3.0);
+  EXPECT_DOUBLE_EQ(j.axes[0].damping, 2.0);
+  EXPECT_DOUBLE_EQ(j.axes[0].friction, 0.5);
+}
+
+TEST(Joint, WithoutLimitsIsFree) {
+  const desc::JointAxis a =
+      read_model(joint("revolute", "<axis><xyz>0 0 1</xyz></axis>")).joints[0].axes.at(0);
+  EXPECT_DOUBLE_EQ(a.lower, -1e16);
+  EXPECT_DOUBLE_EQ(a.upper, 1e16);
+  EXPECT_LT(a.effort, 0.0);
+}
+
+TEST(Joint, InfiniteLimitsAreNone) {
+  const desc::JointAxis a =
+      read_model(joint("revolute",
+                       "<axis><xyz>0 0 1</xyz><limit><lower>-inf</lower><upper>inf"
+                       "</upper></limit></axis>"))
+          .joints[0]
+          .axes.at(0);
+  EXPECT_DOUBLE_EQ(a.lower, -1e16);
+  EXPECT_DOUBLE_EQ(a.upper, 1e16);
+}
+
+TEST(Joint, EveryType) {
+  const std::string axis = "<axis><xyz>1 0 0</xyz></axis>";
+  using Joint = desc::Joint::Type;
+  EXPECT_EQ(read_model(joint("fixed", ""), "1.8").joints[0].type, Joint::kFixed);
+  EXPECT_EQ(read_model(joint("ball", ""), "1.8").joints[0].type, Joint::kBall);
+  EXPECT_EQ(read_model(joint("prismatic", axis)).joints[0].type, Joint::kPrismatic);
+  EXPECT_EQ(read_model(joint("continuous", axis), "1.8").joints[0].type, Joint::kRevolute);
+  const desc::Joint universal =
+      read_model(joint("universal", axis + "<axis2><xyz>0 1 0</xyz></axis2>")).joints[0];
+  EXPECT_EQ(universal.type, Joint::kUniversal);
+  ASSERT_EQ(universal.axes.size(), 2U);
+  expect_near(universal.axes[1].xyz, {0.0, 1.0, 0.0});
+}
+
+TEST(Joint, ParentMayBeTheWorld) {
+  const desc::Model m = read_model(
+      "<link name='a'/><joint name='j' "
+      "type='fixed'><parent>world</parent><child>a</child></joint>");
+  EXPECT_EQ(m.joints.at(0).parent, "world");
+}
+
+TEST(Joint, ZeroAxisIsFixedWithOneWarning) {
+  const desc::World w = read(in_model("\n" + joint("revolute",
+                                                   "<axis><xyz>0 0 0</xyz><limit><lower>0</lower>"
+                                                   "<upper>0</upper></limit></axis>")));
+  EXPECT_EQ(w.models[0].joints[0].type, desc::Joint::Type::kFixed);
+  EXPECT_TRUE(w.models[0].joints[0].axes.empty());
+  ASSERT_EQ(w.warnings.size(), 1U);
+  EXPECT_EQ(w.warnings[0].source.line, 2);
+}
+
+const char* const kTurned =
+    "<link name='a'/><link name='b'><pose>0 0 0 0 0 1.5707963267948966</pose></link>"
+    "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>1 0 0</xyz>";
+
+Vec3 turned_axis(const std::string& more, const std::string& version) {
+  return read_model(kTurned + more + "</axis></joint>", version).joints[0].axes[0].xyz;
+}
+
+TEST(JointAxis, IsTheModelsUntil14) { expect_near(turned_axis("", "1.4"), {1.0, 0.0, 0.0}); }
+TEST(JointAxis, IsTheLinksFrom15) { expect_near(turned_axis("", "1.5"), {0.0, 1.0, 0.0}); }
+TEST(JointAxis, IsTheModelsWhereItSaysSo) {
+  expect_near(turned_axis("<use_parent_model_frame>1</use_parent_model_frame>", "1.6"),
+              {1.0, 0.0, 0.0});
+}
+
 }  // namespace
 }  // namespace angen::load

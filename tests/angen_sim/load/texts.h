@@ -88,4 +88,10 @@ inline void expect_near(const Pose& a, const Pose& b, double tolerance = 1e-9) {
   EXPECT_LT(a.rotation.angularDistance(b.rotation), 2e-8);
 }
 
+/// Two links and a joint between them.
+inline std::string joint(const std::string& type, const std::string& inside) {
+  return two_links() + "<joint name='j' type='" + type + "'><parent>a</parent><child>b</child>" +
+         inside + "</joint>";
+}
+
 }  // namespace angen::load

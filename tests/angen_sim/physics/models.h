@@ -161,4 +161,17 @@ inline Vec3 force_on(const World& world, const std::string& name) {
   return sum;
 }
 
+/// Time of the n-th sign change of the position, interpolated; in s, by steps of 1 ms.
+inline double crossing_time(TestWorld& world, JointId joint, int n) {
+  const double step = 1e-3;
+  double last = world.joint(joint).position;
+  for (int i = 1;; ++i) {
+    world.run(step);
+    const double now = world.joint(joint).position;
+    if ((now < 0) != (last < 0) && --n == 0) return (i - 1 + last / (last - now)) * step;
+    last = now;
+    if (i > 100000) return -1.0;
+  }
+}
+
 }  // namespace angen::physics::testing

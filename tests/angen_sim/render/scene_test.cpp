@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "core/mesh_look.h"
 #include "core/texture.h"
+#include "light/reflected_light.h"
 
 namespace angen::render {
 namespace {
@@ -234,6 +238,28 @@ TEST(Picture, ALampLightsByTheInverseSquareAndTheCosine) {
   EXPECT_NEAR(color.x(), expected_byte(0.6, lux), 1);
   EXPECT_NEAR(color.y(), expected_byte(0.3, lux), 1);
   EXPECT_NEAR(color.z(), expected_byte(0.1, lux), 1);
+}
+
+TEST(Picture, WhatSurfacesReflectIsAddedToWhatLampsGive) {
+  View view;
+  view.camera = {{0.0, 0.0, 2.0}, from_rpy(0.0, M_PI_2, 0.0)};
+  view.scene.add(body(box(50.0, 50.0, 1.0), at(0.0, 0.0, -0.5), {0.6F, 0.3F, 0.1F}));
+  Ambience ambience = kDim;
+  std::vector<light::ReflectedLight::Piece> pieces;
+  for (int x = -4; x <= 4; ++x) {
+    for (int y = -4; y <= 4; ++y) {
+      pieces.push_back({{0.4F * static_cast<float>(x), 0.4F * static_cast<float>(y), 0.0F},
+                        Eigen::Vector3f::UnitZ(),
+                        {30.0F, 20.0F, 10.0F}});
+    }
+  }
+  ambience.reflected = std::make_shared<const light::ReflectedLight>(pieces);
+  for (const auto& [column, row] : {std::pair{160, 120}, {37, 201}, {310, 5}}) {
+    const Eigen::Vector3i color = view.color(column, row, {}, ambience);
+    EXPECT_NEAR(color.x(), expected_byte(0.6, 32.5), 1);
+    EXPECT_NEAR(color.y(), expected_byte(0.3, 22.5), 1);
+    EXPECT_NEAR(color.z(), expected_byte(0.1, 12.5), 1);
+  }
 }
 
 TEST(Picture, ABoxThrowsAShadowWhereTheLampIsHidden) {

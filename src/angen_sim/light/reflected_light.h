@@ -1,0 +1,78 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <unordered_map>
+#include <vector>
+
+namespace angen::light {
+
+/// What surfaces reflect onto others, in pieces.
+class ReflectedLight {
+ public:
+  struct Piece {
+    Eigen::Vector3f position;  // m, world
+    Eigen::Vector3f normal;    // unit, to the side that is lit
+    Eigen::Vector3f light;     // lx, r g b
+  };
+
+  explicit ReflectedLight(const std::vector<Piece>& pieces);
+
+ private:
+  friend class ReflectedLookup;
+
+  struct Cell {
+    std::uint64_t key = 0;
+    std::uint32_t first = 0;  // of its pieces
+    std::uint32_t count = 0;
+  };
+  /// The pieces of a cubic lattice of that step, m, by cell.
+  struct Lattice {
+    Lattice(const std::vector<Piece>& from, float step);
+    /// One piece a cell and axis that normals are nearest to: the mean of theirs.
+    std::vector<Piece> merged() const;
+    template <class Visit>
+    void near(const Eigen::AlignedBox3f& box, Visit&& visit) const;
+
+    float step;
+    std::vector<Piece> pieces;
+    std::vector<Cell> cells;  // ascending
+  };
+
+  Lattice fine_;
+  Lattice coarse_;
+};
+
+/// An estimate of reflected light for any place. Remembers which pieces are near; one for each
+/// picture.
+class ReflectedLookup {
+ public:
+  static constexpr int kMost = 16;  // pieces that count at one place
+  /// Of `count` places of pieces, those that can be seen from a point: bit i for to[i].
+  using Visible = std::function<std::uint32_t(const Eigen::Vector3f& from,
+                                              const Eigen::Vector3f* to, int count)>;
+
+  ReflectedLookup(const ReflectedLight& light, Visible visible)
+      : light_(light), visible_(std::move(visible)) {}
+
+  /// lx, r g b, on a surface at `point` (m, world) with that unit normal: the mean of visible
+  /// pieces within 0.6 m that face the same way, nearer ones counting more. Where there are none,
+  /// as on a person in the middle of a room, that of pieces within 2.4 m that face the point.
+  Eigen::Vector3f at(const Eigen::Vector3f& point, const Eigen::Vector3f& normal);
+
+ private:
+  using Piece = ReflectedLight::Piece;
+  using Pieces = std::vector<Piece>;
+
+  const Pieces& alike(const Eigen::Vector3f& point, const Eigen::Vector3f& normal);
+  const Pieces& around(const Eigen::Vector3f& point);
+
+  const ReflectedLight& light_;
+  Visible visible_;
+  std::array<std::unordered_map<std::uint64_t, Pieces>, 7> alike_;  // by axis, and cell
+  std::unordered_map<std::uint64_t, Pieces> around_;                // by cell
+};
+
+}  // namespace angen::light

@@ -1,0 +1,101 @@
+// What surfaces reflect, estimated for any place, against what a sensor there measures.
+#include "light/reflected_light.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "rooms.h"
+
+namespace angen::light::testing {
+namespace {
+
+constexpr double kIntensity = 800.0 / (4.0 * M_PI);  // cd
+
+/// lx, of a room that has been measured in.
+template <class AnyRoom>
+double estimate(const AnyRoom& room, const Vec3& point, const Vec3& normal) {
+  const auto visible = [&](const Eigen::Vector3f& from, const Eigen::Vector3f* to, int count) {
+    std::uint32_t seen = 0;
+    for (int i = 0; i < count; ++i) {
+      const Vec3 way = (to[i] - from).cast<double>();
+      const rays::Ray ray{from.cast<double>(), way.normalized(), 0.0, way.norm()};
+      rays::Hit hit;
+      room.scene.cast(&ray, &hit, 1);
+      if (!hit.hit()) seen |= 1U << i;
+    }
+    return seen;
+  };
+  return ReflectedLookup(*room.lighting.reflected(), visible)
+      .at(point.cast<float>(), normal.cast<float>())
+      .x();
+}
+
+/// lx straight from the room's lamp.
+double direct(const Vec3& point, const Vec3& normal) {
+  const Vec3 way = Vec3(2, 2, 2.2) - point;
+  return kIntensity * std::max(0.0, way.dot(normal)) / std::pow(way.norm(), 3);
+}
+
+TEST(ReflectedLight, NothingWhereNothingIsKnown) {
+  const auto visible = [](const Eigen::Vector3f&, const Eigen::Vector3f*, int) { return ~0U; };
+  EXPECT_EQ(
+      ReflectedLookup(ReflectedLight({}), visible).at({1.0F, 2.0F, 3.0F}, Eigen::Vector3f::UnitZ()),
+      Eigen::Vector3f::Zero());
+}
+
+TEST(ReflectedLight, OnWallsItIsWhatASensorThereMeasures) {
+  const Room room;
+  double sum = 0.0, sum_of_errors = 0.0;
+  for (const double u : {0.5, 1.3, 2.0, 2.7, 3.5}) {
+    for (const double v : {0.3, 0.9, 1.5, 2.3}) {
+      for (const auto& [point, normal] : {std::pair<Vec3, Vec3>{{0.0, u, v}, Vec3::UnitX()},
+                                          {{u, 4.0, v}, -Vec3::UnitY()},
+                                          {{u, 1.6 * v, 0.0}, Vec3::UnitZ()},
+                                          {{u, 1.6 * v, 2.6}, -Vec3::UnitZ()}}) {
+        const double measured =
+            lux(room.lighting, facing(point + 0.002 * normal, normal)) - direct(point, normal);
+        const double found = estimate(room, point, normal);
+        EXPECT_NEAR(found, measured, 0.15 * measured) << point.transpose();
+        sum += measured;
+        sum_of_errors += std::abs(found - measured);
+      }
+    }
+  }
+  EXPECT_LT(sum_of_errors, 0.05 * sum);
+}
+
+TEST(ReflectedLight, InTheMiddleOfARoomItIsBetweenThatOfTheWalls) {
+  const Room room;
+  lux(room.lighting, room.sensor);
+  const double middle = estimate(room, {2.0, 2.0, 1.2}, Vec3::UnitX());
+  const double on_the_floor = estimate(room, {2.0, 2.0, 0.0}, Vec3::UnitZ());
+  EXPECT_GT(middle, 0.5 * on_the_floor);
+  EXPECT_LT(middle, 1.5 * on_the_floor);
+}
+
+TEST(ReflectedLight, AWallKeepsItOut) {
+  TwoRooms rooms;
+  const double lit = lux(rooms.lighting, rooms.lit_sensor);
+  ASSERT_GT(lit, 10.0);
+  for (const double x : {4.11, 4.6, 6.0}) {
+    EXPECT_LT(estimate(rooms, {x, 0.8, 0.0}, Vec3::UnitZ()), 0.02 * lit) << x;
+  }
+  EXPECT_LT(estimate(rooms, {4.1, 0.8, 1.3}, Vec3::UnitX()), 0.02 * lit);
+}
+
+TEST(ReflectedLight, DimmingIsLinear) {
+  Room room;
+  lux(room.lighting, room.sensor);
+  const double full = estimate(room, {2.0, 1.0, 0.0}, Vec3::UnitZ());
+  ASSERT_GT(full, 10.0);
+  room.lighting.set_level(room.lamp, 0.25);
+  EXPECT_FLOAT_EQ(estimate(room, {2.0, 1.0, 0.0}, Vec3::UnitZ()), 0.25 * full);
+  room.lighting.set_level(room.lamp, 0.0);
+  EXPECT_EQ(estimate(room, {2.0, 1.0, 0.0}, Vec3::UnitZ()), 0.0);
+}
+
+}  // namespace
+}  // namespace angen::light::testing
