@@ -4,7 +4,7 @@ from __future__ import annotations
 import matplotlib.pyplot as plt
 import numpy as np
 
-from plot_base import block, box, figure, world
+from plot_base import block, figure, world
 
 
 def stove() -> plt.Figure:
@@ -85,22 +85,6 @@ def appliance() -> plt.Figure:
     sound.set_ylabel('sound power level, dB')
     sound.set_xlabel('%')
     return drawn
-
-
-def coupled_levels(doors: list[dict]) -> list[float]:
-    """Levels in three rooms of 4 m x 2.9 m x 2.5 m in a row, by the equations of the page."""
-    surface = 2 * (4 * 2.9 + 2.9 * 2.5 + 4 * 2.5)
-    balance = np.diag([0.2 * surface] * 3)
-    for i, door in enumerate(doors):
-        gap, width, height = door['gap'], door['width'], door['height']
-        passed = (height * (gap + (width - gap) * 10 ** -2.2)
-                  + (10 - height * width) * 10 ** -3.8)
-        balance[[i, i + 1], [i, i + 1]] += passed
-        balance[[i, i + 1], [i + 1, i]] -= passed
-    power = 10 ** ((95 - 20 * np.log10(2)) / 10)
-    fields = np.linalg.solve(balance, [0.8 * power, 0, 0])
-    direct = np.array([2 * power / (4 * np.pi * 2.0 ** 2), 0, 0])
-    return list(10 * np.log10(4 * fields + direct + 10 ** 3))
 
 
 def cup() -> plt.Figure:
