@@ -36,6 +36,8 @@ ANCHOR = '''<model name="anchor"><static>true</static><link name="link"><collisi
 <link name="right"/><joint name="right_joint" type="revolute"><parent>link</parent>
 <child>right</child><axis><xyz>0 0 1</xyz></axis></joint></model>'''
 ROBOT = 'turtlebot'
+# Of the robot: 30 a second would take most of the time, and cameras come and go too.
+PICTURES = ('/camera/', f'/{ROBOT}/camera/')
 FAR = (60.0, 0.0, 0.05, 0.0, 0.0, 0.0)  # from the flat, where what is spawned stands
 # Parameters without which there is none.
 NEEDS = {'accelerometer': [('link', 'link')], 'reed': [('magnet_link', 'link')],
@@ -138,7 +140,7 @@ class Core:
 
 
 class Node:
-    """A node at rate 1 with a master of its own; this process subscribes to all its topics."""
+    """A node at rate 1 with a master of its own; this process subscribes to its topics."""
 
     def __init__(self, open_now: ExitStack, folder: Path, path: Path) -> None:
         import psutil
@@ -160,7 +162,8 @@ class Node:
 
     def _subscribe(self) -> None:
         import rospy
-        for topic in self._sandbox.topics('/.*') - self._subscribers.keys():
+        topics = {topic for topic in self._sandbox.topics('/.*') if not topic.startswith(PICTURES)}
+        for topic in topics - self._subscribers.keys():
             self._subscribers[topic] = rospy.Subscriber(topic, rospy.AnyMsg, lambda _: None)
 
     def spawn(self, thing: Thing, name: str) -> None:
