@@ -1,7 +1,8 @@
 #include "ros/node.h"
 
+#include <ros/callback_queue.h>
 #include <ros/console.h>
-#include <ros/spinner.h>
+#include <ros/init.h>
 #include <std_msgs/Bool.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 
 #include "ros/changes.h"
 #include "ros/master_watch.h"
+#include "ros/queue_threads.h"
 
 namespace angen::node {
 namespace {
@@ -24,14 +26,16 @@ constexpr Nanoseconds kLongestLeap = 10 * kSecond;  // so far may /clock jump
 class Serving {
  public:
   Serving(Inbox& inbox, Services& services)
-      : inbox_(inbox), services_(services), spinner_(kSubscriberThreads) {
-    spinner_.start();
+      : inbox_(inbox),
+        services_(services),
+        subscribers_(*ros::getGlobalCallbackQueue(), kSubscriberThreads) {
+    subscribers_.start();
     services_.start();
   }
   ~Serving() {
     inbox_.close();
     services_.stop();
-    spinner_.stop();
+    subscribers_.stop();
   }
   Serving(const Serving&) = delete;
   Serving& operator=(const Serving&) = delete;
@@ -39,7 +43,7 @@ class Serving {
  private:
   Inbox& inbox_;
   Services& services_;
-  ros::AsyncSpinner spinner_;
+  QueueThreads subscribers_;
 };
 
 }  // namespace

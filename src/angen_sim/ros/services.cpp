@@ -93,7 +93,7 @@ Services::Services(Inbox& inbox, const Events& events, const std::string& models
       events_(events),
       paths_(load::SearchPaths::from_environment(models)),
       topics_(topics),
-      spinner_(kServiceThreads, &queue_) {
+      threads_(queue_, kServiceThreads) {
   ros::NodeHandle node;
   node.setCallbackQueue(&queue_);
   const auto serve_empty = [&](const std::string& name, const sim::Action& action) {

@@ -8,7 +8,6 @@
 #include <angen_msgs/Step.h>
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
-#include <ros/spinner.h>
 #include <std_srvs/Empty.h>
 
 #include <atomic>
@@ -20,6 +19,7 @@
 #include "load/load.h"
 #include "ros/gazebo/api.h"
 #include "ros/inbox.h"
+#include "ros/queue_threads.h"
 #include "ros/status_topics.h"
 #include "ros/taken_topics.h"
 #include "ros/topics.h"
@@ -37,8 +37,8 @@ class Services {
            std::atomic<double>& rate);
 
   /// Serves until stop(), which waits for the calls that are being served.
-  void start() { spinner_.start(); }
-  void stop() { spinner_.stop(); }
+  void start() { threads_.start(); }
+  void stop() { threads_.stop(); }
 
  private:
   using Empty = std_srvs::Empty;
@@ -64,7 +64,7 @@ class Services {
   Catalog catalog_;                    // to know the kinds of new sensors by
   std::atomic<std::size_t> steps_{0};  // calls that wait
   ros::CallbackQueue queue_;
-  ros::AsyncSpinner spinner_;
+  QueueThreads threads_;
   std::vector<ros::ServiceServer> servers_;
   std::unique_ptr<gazebo::Api> gazebo_;
 };
