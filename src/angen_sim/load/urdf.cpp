@@ -36,7 +36,12 @@ void check_numbers(const Element& element) {
   static const std::map<std::string, std::size_t> rows = {
       {"xyz", 3}, {"rpy", 3}, {"size", 3}, {"scale", 3}, {"rgba", 4}};
   static const std::set<std::string> limits = {"lower", "upper", "effort", "velocity"};
-  if (element.name == "gazebo" || element.name == "transmission") return;
+  static const std::set<std::string> read = {
+      "link",        "inertial", "mass",    "inertia", "visual", "collision", "geometry",
+      "box",         "cylinder", "sphere",  "mesh",    "origin", "material",  "color",
+      "joint",       "parent",   "child",   "axis",    "limit",  "dynamics",  "safety_controller",
+      "calibration", "mimic",    "contact", "texture"};
+  if (read.count(element.name) == 0) return;  // other elements mean nothing, as <joint_properties>
   for (const auto& [key, value] : element.attributes) {
     if (texts.count(key) != 0) continue;
     const Numbers found = numbers_in(value);

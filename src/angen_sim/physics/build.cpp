@@ -20,6 +20,9 @@ using desc::Model;
 
 constexpr double kNoLimit = 1e15;
 
+// m/s. Robots made for Gazebo may be spawned deep in the floor, where Gazebo lifts them by 1 cm/s.
+constexpr double kPartForeign = 1.0;
+
 class Builder {
  public:
   Builder(const Model& model, ShapeFactory& shapes, std::uint64_t& serial)
@@ -176,6 +179,7 @@ class Builder {
         geom->body = at.body;
         geom->self_collides = link.self_collide.value_or(model_.self_collide);
         geom->in_body = at.in_body * collision.pose;
+        if (model_.tolerant && at.body->dynamic()) geom->fastest = kPartForeign;
         at.body->geoms.push_back(geom.get());
         record_->geoms.push_back(std::move(geom));
       }

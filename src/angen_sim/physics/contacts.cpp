@@ -20,6 +20,7 @@ constexpr std::size_t kManyJoints = 256;
 constexpr double kStopSteps = 2.0;   // what friction stops within so many steps does not slide
 constexpr double kLeastSlip = 1e-6;  // m/s
 constexpr double kLeastLoad = 1e-6;  // N
+constexpr double kPush = 50.0;  // m/s^2, at which a soft contact lifts what is deep in the floor
 
 bool joined(const Body& a, const Body& b) {
   const Body& moving = a.dynamic() ? a : b;
@@ -48,6 +49,12 @@ Vec3 velocity_at(const Body& body, const Vec3& point) {
 }
 
 double inverse_mass(const Body& body) { return body.dynamic() ? 1.0 / body.mechanism->mass : 0.0; }
+
+double parting_speed(const Geom& a, const Geom& b, const dContactGeom& at) {
+  const Vec3 position = ode::vec(at.pos);
+  const Vec3 velocity = velocity_at(*a.body, position) - velocity_at(*b.body, position);
+  return velocity.dot(ode::vec(at.normal));
+}
 
 void set_direction(dContact& contact, const Vec3& direction) {
   contact.surface.mode |= dContactFDir1;
@@ -211,6 +218,7 @@ void Contacts::make_joint(const Pair& pair, std::size_t index) {
   s.soft_cfm = cfm_;
   set_friction(contact, pair);
   double fastest = fastest_;
+  const double parts_at = std::min(a.fastest, b.fastest);
   const double bounce = std::min(a.restitution, b.restitution);
   if (bounce > 0.0) {
     s.mode |= dContactBounce;
@@ -226,6 +234,12 @@ void Contacts::make_joint(const Pair& pair, std::size_t index) {
     // In a step it gains this share of the speed of parting: a soft spring pushes as deep as it is.
     const double share = step_ / s.soft_cfm * (inverse_mass(*a.body) + inverse_mass(*b.body));
     fastest *= 1.0 + 1.0 / share;
+    if (std::isfinite(parts_at)) {
+      const bool parts = parting_speed(a, b, contact.geom) >= parts_at;
+      fastest = parts ? 0.0 : std::min(fastest, kPush * step_ * (1.0 + 1.0 / share));
+    }
+  } else {
+    fastest = std::min(fastest, parts_at);
   }
   if (a.min_depth || b.min_depth) {  // in place of the layer that ODE takes off all depths
     const double depth = std::max(a.min_depth.value_or(0.0), b.min_depth.value_or(0.0));

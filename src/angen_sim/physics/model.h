@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -51,6 +52,7 @@ struct Geom {
   std::optional<double> stiffness;
   std::optional<double> damping;
   std::optional<double> min_depth;
+  double fastest = std::numeric_limits<double>::infinity();  // m/s, at which contacts push it out
   std::shared_ptr<const MeshData> mesh;
   std::shared_ptr<HeightTiles> tiles;  // of a heightmap
   ode::GeomHandle ode;                 // of a heightmap: the box around it

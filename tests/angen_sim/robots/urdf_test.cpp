@@ -53,6 +53,31 @@ TEST(Urdf, GravityMayBeOffForALink) {
   EXPECT_NEAR(falls.height("body"), 2.0 - 0.5 * 9.8 * 0.25, 0.01);
 }
 
+TEST(Urdf, ElementsThatUrdfDoesNotHaveMayHoldAnything) {
+  const std::string joint =
+      "<joint name='j' type='continuous'><parent link='body'/><child link='arm'/>"
+      "<axis xyz='0 0 1'/><joint_properties friction='{unset}'/></joint>";
+  Urdf hall(link("body", kBall) + link("arm", kBall) + joint, 1.0);
+  EXPECT_NEAR(hall.height("arm"), 1.0, 0.01);
+  const std::string wrong =
+      "<joint name='j' type='continuous'><parent link='body'/>"
+      "<child link='arm'/><axis xyz='0 0 {unset}'/></joint>";
+  EXPECT_THROW(Urdf(link("body", kBall) + link("arm", kBall) + wrong, 1.0), Error);
+}
+
+// Robots are spawned at a height of 0 though their wheels are below their origin.
+TEST(Urdf, WhatIsSpawnedInTheFloorIsLiftedAndNotThrown) {
+  Urdf hall(link("body", kBall, 50.0) + reference("body", "<kp>10000000</kp><kd>1</kd>"), -0.03);
+  double highest = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    hall.run(0.001);
+    highest = std::max(highest, hall.height("body"));
+  }
+  EXPECT_GT(highest, 0.1) << "out of the floor";
+  EXPECT_LT(highest, 0.2) << "1 m/s, which lifts it by 5 cm at most";
+  EXPECT_NEAR(hall.height("body"), 0.1, 0.002);
+}
+
 TEST(Urdf, LinksThatSelfCollideTouch) {
   const std::string two =
       link("lower", kBox) + link("middle", "<box size='0.01 0.01 0.01'/>", 0.1) +
