@@ -10,6 +10,13 @@
 
 namespace angen::load {
 
+bool has_link(const Element& model) {
+  for (const Element& child : model.children) {
+    if (child.name == "link" || (child.name == "model" && has_link(child))) return true;
+  }
+  return false;
+}
+
 namespace {
 
 const std::set<std::string> kShapes = {"empty", "box",  "sphere",    "cylinder", "capsule",
@@ -206,13 +213,6 @@ void check_joint(Element& joint, const std::set<std::string>& known, Session& se
                                      number_text(lower) + ", upper " + number_text(upper));
     }
   }
-}
-
-bool has_link(const Element& model) {
-  for (const Element& child : model.children) {
-    if (child.name == "link" || (child.name == "model" && has_link(child))) return true;
-  }
-  return false;
 }
 
 void check_model_parts(Element& model, Session& session) {

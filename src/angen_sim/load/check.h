@@ -12,6 +12,9 @@ namespace angen::load {
 /// Names, numbers and flags of a world's settings and lights; models are left to check_model.
 void check_settings(Element& world, Session& session);
 
+/// Whether a model has a link, also in a nested model.
+bool has_link(const Element& model);
+
 /// Names, numbers, joints and geometries of an expanded model. A revolute joint with a zero axis is
 /// rewritten as fixed, with a warning.
 void check_model(Element& model, Session& session);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "core/limits.h"
 #include "core/text.h"
@@ -214,6 +215,42 @@ void check_rule(const Element& element, const Rule& rule, bool clamped) {
   }
 }
 
+// What has no thickness is as thin as Gazebo makes it, as a plate of 0.3 0.2 0 m.
+void thicken(const std::string& shape, Element& element, Session& session) {
+  static const std::set<std::string> shapes = {"box", "sphere", "cylinder", "capsule"};
+  if (!session.tolerant || shapes.count(shape) == 0) return;
+  constexpr double kThin = 1e-4;  // m
+  Numbers found = numbers_in(element.text);
+  std::vector<double>& values = found.values;
+  if (!found.bad.empty() || std::find(values.begin(), values.end(), 0.0) == values.end()) return;
+  std::replace(values.begin(), values.end(), 0.0, kThin);
+  session.forgive(
+      Error(element.source,
+            "<" + element.name + "> is 0; it must be greater than 0; it is taken as 0.1 mm"));
+  element.text.clear();
+  for (const double value : values) element.text += number_text(value) + " ";
+}
+
+// What was thrown far out of a world that somebody saved.
+void clamp_pose(Element& pose, Session& session) {
+  constexpr double kMost = limits::kPosition.most;
+  Numbers found = numbers_in(pose.text);
+  if (!session.tolerant || !found.bad.empty() || found.values.size() != 6) return;
+  std::string text;
+  bool far = false;
+  for (std::size_t i = 0; i < found.values.size(); ++i) {
+    const double value = found.values[i];
+    const bool beyond = i < 3 && std::isfinite(value) && std::abs(value) > kMost;
+    far = far || beyond;
+    text += number_text(beyond ? std::copysign(kMost, value) : value) + " ";
+  }
+  if (!far) return;
+  session.forgive(Error(pose.source, "<pose> is beyond " + number_text(kMost) +
+                                         " m, the farthest that anything can stand; it is taken " +
+                                         "as that"));
+  pose.text = text;
+}
+
 void clamp_to(const Bounds& bounds, Element& element, Session& session) {
   const double value = number_of(element);
   const double kept = value == 0.0 ? 0.0 : std::clamp(value, bounds.low, bounds.high);
@@ -246,6 +283,7 @@ void check_values(Element& element, Session& session) {
   for (Element& child : element.children) {
     if (child.name == "plugin" || child.name == "state" || child.name == "gui") continue;
     if (child.name == "pose") {
+      clamp_pose(child, session);
       pose_of(child);
     } else if (element.name == "limit" && (child.name == "lower" || child.name == "upper")) {
       check_limit(child);
@@ -253,6 +291,7 @@ void check_values(Element& element, Session& session) {
       const auto rule = rules().find({element.name, child.name});
       const auto bounds = solver_bounds().find({element.name, child.name});
       const bool clamped = bounds != solver_bounds().end();
+      if (rule != rules().end()) thicken(element.name, child, session);
       if (rule != rules().end()) check_rule(child, rule->second, clamped);
       if (clamped) clamp_to(bounds->second, child, session);
     }

@@ -61,7 +61,15 @@ PlacedShape mesh(const Element& element, const Pose& pose, Session& session) {
     source.materials = find_beside(materials, "materials", source.path, uri.source, session);
     if (!source.materials.empty()) session.sources.will_be_read(source.materials);
   }
-  const ReadMesh file = read_mesh(source, uri.source);
+  ReadMesh file;
+  try {
+    file = read_mesh(source, uri.source);
+  } catch (const Error& error) {
+    if (session.guessed) throw;
+    session.forgive(error);
+    shape.mesh_file.clear();
+    return placed;
+  }
   shape.mesh = file.triangles;
   shape.type = Shape::Type::kMesh;
   placed.look = file.look;
@@ -131,7 +139,15 @@ std::vector<PlacedShape> shapes_of(const Element& geometry, const Pose& pose, Se
     placed.push_back({{}, pose});
     placed[0].shape = shape_of(geometry, placed[0].pose, session);
   }
-  for (const PlacedShape& each : placed) check_size(each.shape, element);
+  for (PlacedShape& each : placed) {
+    try {
+      check_size(each.shape, element);
+    } catch (const Error& error) {
+      if (!each.shape.mesh || session.guessed) throw;
+      session.forgive(error);
+      each = {{}, each.pose};
+    }
+  }
   return placed;
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <set>
 
 #include "load/expand.h"
 #include "load/values.h"
@@ -29,6 +30,34 @@ void fill_pose(Element& pose, Session& session) {
                "<pose> holds 3 numbers and is taken as a position; write 6, x y z and "
                "roll pitch yaw");
   pose.text += " 0 0 0";
+}
+
+bool joins(const std::string& name) { return name.find("::") != std::string::npos; }
+
+std::string with_underscores(std::string name) {
+  for (std::size_t at; (at = name.find("::")) != std::string::npos;) name.replace(at, 2, "_");
+  return name;
+}
+
+// Until 1.7 a name could hold "::", as those of models that Gazebo once saved flat.
+void split_names(Element& element, std::set<std::string>& found, Session& session) {
+  static const std::set<std::string> named = {"link", "joint", "collision", "visual", "sensor"};
+  std::string name = named.count(element.name) != 0 ? name_of(element) : "";
+  if (joins(name)) {
+    set_attribute(element, "name", with_underscores(name));
+    session.forgive(Error(element.source, tag_of(element) + ": names hold no '::'; it is '" +
+                                              name_of(element) + "' here"));
+    found.insert(std::move(name));
+  }
+  for (Element& child : element.children) {
+    if (child.name != "plugin") split_names(child, found, session);
+  }
+}
+
+void name_anew(Element& element, const std::set<std::string>& found) {
+  const bool refers = element.name == "parent" || element.name == "child";
+  if (refers && found.count(element.text) != 0) element.text = with_underscores(element.text);
+  for (Element& child : element.children) name_anew(child, found);
 }
 
 void upgrade_element(Element& element, int version, Session& session) {
@@ -67,6 +96,11 @@ void upgrade_element(Element& element, int version, Session& session) {
 
 void upgrade(Element& sdf, int version, Session& session) {
   upgrade_element(sdf, version, session);
+  if (version < 108 && session.tolerant) {
+    std::set<std::string> found;
+    split_names(sdf, found, session);
+    if (!found.empty()) name_anew(sdf, found);
+  }
   set_attribute(sdf, "version", "1.9");
 }
 

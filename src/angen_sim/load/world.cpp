@@ -59,6 +59,10 @@ Parts split(const Element& world, Session& session) {
       forgive_missing(child, error, session);
       continue;
     }
+    if (entry.expanded.name == "model" && !session.guessed && !has_link(entry.expanded)) {
+      session.forgive(Error(child.source, tag_of(entry.expanded) + " has no <link>; give it one"));
+      continue;
+    }
     if (entry.expanded.name == "light") {
       parts.settings.children.push_back(entry.expanded);
     } else {
@@ -94,18 +98,25 @@ bool holds_tolerant_model(const Parts& parts) {
                      [](const Entry& entry) { return marked_strict(entry.original) == false; });
 }
 
-void check_entry_names(const std::vector<Entry>& entries) {
+// Of two models of one name the first stays, where that is forgiven.
+void check_entry_names(std::vector<Entry>& entries, Session& session) {
   std::map<std::string, Source> seen;
-  for (const Entry& entry : entries) {
+  std::vector<Entry> kept;
+  for (Entry& entry : entries) {
     const std::string name = name_of(entry.expanded);
     check_name(name, "<" + entry.expanded.name + ">", entry.original.source);
     const auto [there, fresh] = seen.insert({name, entry.original.source});
     if (!fresh) {
-      throw Error(entry.original.source, "a model named '" + name + "' stands already at line " +
-                                             std::to_string(there->second.line) +
-                                             "; give this one another <name>");
+      const Error twice(entry.original.source,
+                        "a model named '" + name + "' stands already at line " +
+                            std::to_string(there->second.line) + "; give this one another <name>");
+      if (session.guessed) throw Error(twice);
+      session.forgive(twice);
+      continue;
     }
+    kept.push_back(std::move(entry));
   }
+  entries = std::move(kept);
 }
 
 // Most models stand by their names and poses alone.
@@ -154,7 +165,7 @@ desc::World describe_world(const Element& sdf, Session& session) {
   const std::string problem = label_problem(name_of(given));
   if (!problem.empty()) throw Error(given.source, "<world>: " + problem);
   check_settings(parts.settings, session);
-  check_entry_names(parts.entries);
+  check_entry_names(parts.entries, session);
 
   desc::World world;
   world.tolerant = session.tolerant;
@@ -190,6 +201,7 @@ SearchPaths paths_beside(const std::string& path, bool allow_any) {
 
 desc::World read_world(const std::string& xml, const std::string& name, Session& session) {
   const Open open(session, name);
+  session.tolerant = session.paths.strictness != Strictness::kStrict;  // until it is read
   return describe_world(read_document(xml, name, session), session);
 }
 
@@ -205,6 +217,7 @@ std::string world_text(const std::string& path, bool allow_any) {
   const SearchPaths paths = paths_beside(path, allow_any);
   Session session{paths};
   const Open open(session, path);
+  session.tolerant = paths.strictness != Strictness::kStrict;
   const Element given = read_document(session.sources.read(path), path, session);
   Parts parts = split_and_decide(only_world(given), session);
   Element world = std::move(parts.settings);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <sstream>
 
@@ -27,6 +28,14 @@ std::string shown(const Range& range) {
 
 std::string with_unit(const std::string& text, const std::string& unit) {
   return unit.empty() ? text : text + " " + unit;
+}
+
+// Of a number that fits.
+std::optional<int> whole_part(const std::string& text) {
+  constexpr double kMost = std::numeric_limits<int>::max();
+  const std::optional<double> value = parse_finite(text);
+  if (!value || std::abs(*value) > kMost) return std::nullopt;
+  return static_cast<int>(*value);
 }
 
 void collect(const Element& parent, const std::string& path, std::vector<const Element*>& found) {
@@ -100,7 +109,14 @@ int Params::integer(const std::string& path, int fallback, const std::string& un
                     const std::string& doc, Range range) {
   const Element* given = take(path, "integer", std::to_string(fallback), unit, doc);
   if (given == nullptr) return fallback;
-  const std::optional<int> value = parse_integer(given->text);
+  std::optional<int> value = parse_integer(given->text);
+  if (!value && takes_first_) {  // as Gazebo reads it
+    value = whole_part(given->text);
+    if (value) {
+      warn(path, "<" + path + "> is \"" + given->text + "\", must be a whole number; " +
+                     std::to_string(*value) + " is taken");
+    }
+  }
   if (!value) {
     throw error(path, "<" + path + "> is \"" + given->text + "\", must be a whole number");
   }

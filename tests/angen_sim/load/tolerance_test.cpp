@@ -32,6 +32,91 @@ TEST(Tolerance, AnInertiaThatIsNotFiniteIsAnErrorOrAWarningWithItsLine) {
   EXPECT_TRUE(warns(world.warnings, "w.world:1: <ixx> is not finite"));
 }
 
+TEST(Tolerance, AShapeWithoutThicknessIsAnErrorOrThin) {
+  const std::string text = in_model(
+      "<static>true</static><link name='l'><collision name='c'><geometry><box><size>0.3 0.2 0"
+      "</size></box></geometry></collision></link>");
+  EXPECT_NE(error_of(text).find("<size> is 0; it must be greater than 0"), std::string::npos);
+  const desc::World world = read(text, with(Strictness::kTolerant));
+  EXPECT_EQ(world.models.at(0).links.at(0).collisions.at(0).shape.size, Vec3(0.3, 0.2, 1e-4));
+  EXPECT_TRUE(warns(world.warnings, "it is taken as 0.1 mm"));
+}
+
+TEST(Tolerance, ASizeThatIsNotANumberIsAnError) {
+  const std::string text = in_model(
+      "<link name='l'><collision name='c'><geometry><box><size>0.3 0 nan</size></box></geometry>"
+      "</collision></link>");
+  EXPECT_THROW(read(text, with(Strictness::kTolerant)), Error);
+}
+
+// As of a model whose only <include> is not there.
+TEST(Tolerance, AModelWithoutLinksIsLeftOut) {
+  const std::string text = in_world(
+      "<model name='a'><include><uri>model://nowhere</uri></include></model>"
+      "<model name='b'><link name='l'/></model>");
+  EXPECT_THROW(read(text, with(Strictness::kStrict)), Error);
+  EXPECT_THROW(read(text, with(Strictness::kAuto)), Error) << "its author may have misspelled";
+  const desc::World world = read(text, with(Strictness::kTolerant));
+  ASSERT_EQ(world.models.size(), 1U);
+  EXPECT_EQ(world.models[0].name, "b");
+  EXPECT_TRUE(warns(world.warnings, "<model name=\"a\"> has no <link>"));
+}
+
+TEST(Tolerance, WhatWasThrownOutOfAWorldStandsAtItsEnd) {
+  const std::string text = in_world(
+      "<model name='a'><static>1</static><pose>3 0 -7.5e+08 0 0 1</pose>"
+      "<link name='l'/></model>");
+  EXPECT_THROW(read(text, with(Strictness::kStrict)), Error);
+  const desc::World world = read(text, with(Strictness::kTolerant));
+  EXPECT_EQ(world.models.at(0).pose.position, Vec3(3.0, 0.0, -1e6));
+  EXPECT_NEAR(to_rpy(world.models.at(0).pose.rotation).z(), 1.0, 1e-9);
+}
+
+TEST(Tolerance, NamesOfOldFilesMayHoldColons) {
+  const std::string model =
+      "<model name='m'><link name='one::link'/><link name='two'/><joint name='j::k' "
+      "type='revolute'><parent>one::link</parent><child>two</child><axis><xyz>0 0 1</xyz></axis>"
+      "</joint></model>";
+  EXPECT_THROW(read(in_world(model), with(Strictness::kStrict)), Error);
+  const desc::World world = read(in_world(model), with(Strictness::kTolerant));
+  EXPECT_EQ(world.models.at(0).links.at(0).name, "one_link");
+  EXPECT_EQ(world.models.at(0).joints.at(0).parent, "one_link");
+  EXPECT_EQ(world.models.at(0).joints.at(0).name, "j_k");
+  EXPECT_TRUE(warns(world.warnings, "it is 'one_link' here"));
+}
+
+TEST(Tolerance, OfTwoModelsOfOneNameTheFirstStays) {
+  const std::string text = in_world(
+      "<model name='m'><link name='first'/></model><model name='m'><link name='second'/></model>");
+  EXPECT_THROW(read(text, with(Strictness::kStrict)), Error);
+  const desc::World world = read(text, with(Strictness::kTolerant));
+  ASSERT_EQ(world.models.size(), 1U);
+  EXPECT_EQ(world.models[0].links.at(0).name, "first");
+  EXPECT_TRUE(warns(world.warnings, "a model named 'm' stands already"));
+}
+
+TEST(Tolerance, AMeshThatCannotBeReadOrIsHugeIsLeftOut) {
+  const Folder folder;
+  const std::string broken = folder.write("broken.stl", "solid nothing");
+  const std::string stl =
+      folder.write("one.stl",
+                   "solid one\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                   "vertex 0 1 0\nendloop\nendfacet\nendsolid one\n");
+  const auto with_mesh = [](const std::string& file, const std::string& scale) {
+    return in_model("<link name='l'><visual name='v'><geometry><mesh><uri>" + file +
+                    "</uri><scale>" + scale + "</scale></mesh></geometry></visual></link>");
+  };
+  for (const std::string& text : {with_mesh(broken, "1 1 1"), with_mesh(stl, "1e6 1e6 1")}) {
+    SearchPaths paths = with(Strictness::kTolerant);
+    paths.allow_any = true;
+    const desc::World world = read(text, paths);
+    EXPECT_EQ(world.models.at(0).links.at(0).visuals.at(0).shape.type, Shape::Type::kEmpty);
+    EXPECT_FALSE(world.warnings.empty());
+    paths.strictness = Strictness::kStrict;
+    EXPECT_THROW(read(text, paths), Error);
+  }
+}
+
 TEST(Tolerance, AWorldWithoutOwnPluginsIsTolerant) {
   EXPECT_TRUE(read(in_world(""), with(Strictness::kAuto)).tolerant);
   const std::string gazebo = in_world(

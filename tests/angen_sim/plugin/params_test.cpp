@@ -61,6 +61,18 @@ TEST(Params, SaysTheRange) {
   EXPECT_EQ(complaint_about_number("0", kNotNegative), "");
 }
 
+TEST(Params, OfARobotMadeForGazeboTakesTheWholePart) {
+  Params params(plugin_element({{"n", "666.51"}, {"m", "1e12"}, {"w", "many"}}));
+  params.take_first();
+  EXPECT_EQ(params.integer("n", 0, "", ""), 666);
+  ASSERT_EQ(params.warnings().size(), 1U);
+  EXPECT_NE(params.warnings()[0].text().find("a whole number; 666 is taken"), std::string::npos);
+  for (const char* path : {"m", "w"}) {
+    EXPECT_NE(complaint([&] { params.integer(path, 0, "", ""); }).find("must be a whole number"),
+              std::string::npos);
+  }
+}
+
 TEST(Params, RefusesFractionsWordsAndUnknownChoices) {
   Params params(plugin_element({{"n", "1.5"}, {"f", "yes"}, {"c", "z"}}));
   EXPECT_EQ(complaint([&] { params.integer("n", 0, "", ""); }),
