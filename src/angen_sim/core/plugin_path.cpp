@@ -36,7 +36,8 @@ std::vector<std::string> entries_of(const char* variable) {
 }
 
 bool made_for_gazebo(const std::string& library) {
-  constexpr const char* kPrefixes[] = {"libgazebo_ros_", "libhector_gazebo_", "libroboticsgroup_"};
+  constexpr const char* kPrefixes[] = {"libgazebo_ros_", "libhector_gazebo_", "libroboticsgroup_",
+                                       "libridgeback_ros_", "librobotnik_"};
   return std::any_of(std::begin(kPrefixes), std::end(kPrefixes),
                      [&](const char* prefix) { return library.rfind(prefix, 0) == 0; });
 }

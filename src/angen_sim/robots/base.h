@@ -21,6 +21,8 @@ Topics read_topics(Params& params);
 class Base {
  public:
   void configure(Params& params, Wiring& wiring);
+  /// Of a robot whose parameters do not name its frames; read_true() has no link then.
+  void configure(Topics topics) { topics_ = std::move(topics); }
   const Topics& topics() const { return topics_; }
   /// The fields of a reading that odometry is made of, from the pose (world) of the base and its
   /// velocities.

@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <cmath>
-
 #include "plugin/register.h"
 #include "robots/joint_states.h"
 #include "robots/wheels.h"
@@ -53,53 +50,23 @@ class DiffDriveOdometry : public Sensor {
     const Settings s = read_settings(params);
     base_.configure(params, wiring);
     by_wheels_ = s.by_wheels;
-    separation_ = s.separation;
-    radius_ = s.radius;
-    left_ = wiring.joint(s.left.front());
-    right_ = wiring.joint(s.right.front());
+    wheels_.set_up(s, wiring);
   }
 
   void read(const View& view, Hits, Rng&, Reading& reading) override {
-    if (!by_wheels_) {
+    if (by_wheels_) {
+      wheels_.read(view, base_, std::nullopt, reading);
+    } else {
       base_.read_true(view, reading);
-      return;
     }
-    const JointView left = view.joint(left_);
-    const JointView right = view.joint(right_);
-    if (started_) count(left.position - left_at_, right.position - right_at_);
-    started_ = true;
-    left_at_ = left.position;
-    right_at_ = right.position;
-    const double v = (left.velocity + right.velocity) / 2.0 * radius_;
-    const double w = (right.velocity - left.velocity) * radius_ / separation_;
-    const Quat turned(Eigen::AngleAxisd(yaw_, Vec3::UnitZ()));
-    base_.read({at_, turned}, turned * Vec3(v, 0.0, 0.0), w, reading);
-    wheels_rest_ = left.velocity == 0.0 && right.velocity == 0.0;
   }
 
-  bool steady() const override { return by_wheels_ ? wheels_rest_ : base_.rests(); }
+  bool steady() const override { return by_wheels_ ? wheels_.rests() : base_.rests(); }
 
  private:
-  // Turned angles of the wheels since the last sample, each less than half a turn.
-  void count(double left, double right) {
-    left = std::remainder(left, 2.0 * M_PI) * radius_;
-    right = std::remainder(right, 2.0 * M_PI) * radius_;
-    const double turn = (right - left) / separation_;
-    const double middle = yaw_ + turn / 2.0;
-    at_ += (left + right) / 2.0 * Vec3(std::cos(middle), std::sin(middle), 0.0);
-    yaw_ = std::remainder(yaw_ + turn, 2.0 * M_PI);
-  }
-
   Base base_;
   bool by_wheels_ = false;
-  double separation_ = 0.0;  // m
-  double radius_ = 0.0;      // m
-  JointRef left_, right_;
-  bool started_ = false;
-  bool wheels_rest_ = false;
-  double left_at_ = 0.0, right_at_ = 0.0;  // rad
-  Vec3 at_ = Vec3::Zero();
-  double yaw_ = 0.0;
+  WheelOdometry wheels_;
 };
 
 class DiffDriveOdometryPlugin : public Plugin {

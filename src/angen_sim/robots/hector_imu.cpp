@@ -16,14 +16,17 @@ class HectorImu : public InertialUnit {
                                         "standard deviation of the acceleration");
     turn_error_ =
         three_numbers(params, "rateGaussianNoise", "rad/s", "standard deviation of the turning");
-    heading_error_ = params.number("headingGaussianNoise", 0.0, "rad",
+    heading_error_ = params.number("yawGaussianNoise", 0.0, "rad",
                                    "standard deviation of the heading", kNotNegative);
     params.text("frameId", "", "frame_id of its messages; none: bodyName");
     for (const char* path :
          {"accelDrift", "accelDriftFrequency", "accelOffset", "accelScaleError", "rateDrift",
-          "rateDriftFrequency", "rateOffset", "rateScaleError", "headingDrift",
-          "headingDriftFrequency", "headingOffset", "biasTopicName", "serviceName"}) {
+          "rateDriftFrequency", "rateOffset", "rateScaleError", "yawDrift", "yawDriftFrequency",
+          "yawOffset", "yawScaleError", "biasTopicName", "serviceName"}) {
       params.text(path, "", "not used: its errors are those of the noise");
+    }
+    for (const char* path : {"headingDrift", "headingGaussianNoise"}) {
+      params.text(path, "", "not used, as in hector's: it reads those of the yaw");
     }
   }
   void read(const View& view, Hits hits, Rng& rng, Reading& reading) override {

@@ -14,7 +14,13 @@ struct Planar {
 Planar read_planar(Params& params) {
   read_topics(params);
   params.number("odometryRate", 20.0, "Hz", "of the odometry", {0.0, 1e6});
-  return {params.number("cmdTimeout", -1.0, "s", "it stops this long after a command; -1: never")};
+  params.flag("publishOdometryTf", true, "the transform from odometry to base is published");
+  for (const char* path : {"yaw_velocity_p_gain", "x_velocity_p_gain", "y_velocity_p_gain"}) {
+    params.number(path, 0.0, "", "not used: it has its speed within some milliseconds");
+  }
+  const double timeout =
+      params.number("cmdTimeout", -1.0, "s", "it stops this long after a command; -1: never");
+  return {params.number("cmdVelTimeOut", timeout, "s", "the same, as force_based_move calls it")};
 }
 
 }  // namespace

@@ -84,7 +84,9 @@ class JointCommand : public Device {
       const double ahead = view.time() < slope_ends_ ? slope_ : 0.0;
       velocity = std::abs(left) < kThere && ahead == 0.0 ? 0.0 : ahead + left / kResponse;
     }
-    outputs.motor(joint_, velocity, kMost);
+    // Only what changes: until its first command another drive of the robot may lead the joint.
+    if (velocity != led_) outputs.motor(joint_, velocity, kMost);
+    led_ = velocity;
     rests_ = interface_ == Interface::kVelocity || velocity == 0.0;
   }
 
@@ -120,6 +122,7 @@ class JointCommand : public Device {
   std::optional<Nanoseconds> commanded_;
   double slope_ = 0.0;  // rad/s or m/s
   Nanoseconds slope_ends_ = 0;
+  std::optional<double> led_;  // rad/s or m/s, as its motor was told last
   bool rests_ = false;
 };
 

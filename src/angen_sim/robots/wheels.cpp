@@ -1,6 +1,7 @@
 #include "robots/wheels.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace angen::robots {
@@ -11,17 +12,23 @@ void Wheels::set_up(WheelSettings settings, Wiring& wiring) {
   for (const std::string& name : settings_.right) right_.joints.push_back(wiring.joint(name));
 }
 
-Verdict Wheels::command(const Command& command, const View&) {
+Verdict Wheels::command(const Command& command, const View& view) {
   std::vector<double> values = command.values;
   if (command.verb == "Stop") values = {0.0, 0.0};
-  return Verdict::accept([this, v = values[0], w = values[1]] {
+  return Verdict::accept([this, v = values[0], w = values[1], now = view.time()] {
     v_ = v;
     w_ = w;
     ramping_ = true;
+    if (settings_.timeout != kForever) stops_at_ = now + settings_.timeout;
   });
 }
 
 void Wheels::update(const View& view, Outputs& outputs) {
+  if (view.time() >= stops_at_) {
+    v_ = w_ = 0.0;
+    ramping_ = true;
+    stops_at_ = kForever;
+  }
   if (!ramping_) return;
   const double step = settings_.acceleration * to_seconds(view.step());
   const double turn = w_ * settings_.separation / 2.0;
@@ -49,6 +56,42 @@ void Wheels::report(const View&, Reading& state) const {
   state.set("w", w_);
   state.set("left", left_.speed);
   state.set("right", right_.speed);
+}
+
+void WheelOdometry::set_up(const WheelSettings& settings, Wiring& wiring) {
+  separation_ = settings.separation;
+  radius_ = settings.radius;
+  left_ = wiring.joint(settings.left.front());
+  right_ = wiring.joint(settings.right.front());
+}
+
+void WheelOdometry::read(const View& view, const Base& base,
+                         std::optional<std::pair<double, double>> gyro, Reading& reading) {
+  const JointView left = view.joint(left_);
+  const JointView right = view.joint(right_);
+  if (started_) {
+    count(left.position - left_at_, right.position - right_at_,
+          gyro ? std::make_optional(gyro->first - heading_) : std::nullopt);
+  }
+  started_ = true;
+  left_at_ = left.position;
+  right_at_ = right.position;
+  if (gyro) heading_ = gyro->first;
+  const double v = (left.velocity + right.velocity) / 2.0 * radius_;
+  const double w = (right.velocity - left.velocity) * radius_ / separation_;
+  const Quat turned(Eigen::AngleAxisd(yaw_, Vec3::UnitZ()));
+  base.read({at_, turned}, turned * Vec3(v, 0.0, 0.0), gyro ? gyro->second : w, reading);
+  rests_ = left.velocity == 0.0 && right.velocity == 0.0 && (!gyro || gyro->second == 0.0);
+}
+
+// Turned angles of the wheels since the last sample, each less than half a turn.
+void WheelOdometry::count(double left, double right, std::optional<double> turn) {
+  left = std::remainder(left, 2.0 * M_PI) * radius_;
+  right = std::remainder(right, 2.0 * M_PI) * radius_;
+  const double turned = std::remainder(turn.value_or((right - left) / separation_), 2.0 * M_PI);
+  const double middle = yaw_ + turned / 2.0;
+  at_ += (left + right) / 2.0 * Vec3(std::cos(middle), std::sin(middle), 0.0);
+  yaw_ = std::remainder(yaw_ + turned, 2.0 * M_PI);
 }
 
 std::vector<Mount> mounts_on_wheels(const ModelInfo& model, const WheelSettings& settings) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "robots/base.h"
@@ -10,11 +12,12 @@ namespace angen::robots {
 
 /// What a drive's <plugin> says of its wheels.
 struct WheelSettings {
-  double separation = 0.0;        // m
-  double radius = 0.0;            // m
-  double torque = 0.0;            // N m
-  double acceleration = 0.0;      // m/s^2 at the rim; 0 = at once
-  std::vector<std::string> left;  // joints
+  double separation = 0.0;         // m
+  double radius = 0.0;             // m
+  double torque = 0.0;             // N m
+  double acceleration = 0.0;       // m/s^2 at the rim; 0 = at once
+  Nanoseconds timeout = kForever;  // it stops this long after a command
+  std::vector<std::string> left;   // joints
   std::vector<std::string> right;
 };
 
@@ -24,7 +27,7 @@ class Wheels : public Device {
   Verdict command(const Command& command, const View& view) override;
   void update(const View& view, Outputs& outputs) override;
   void report(const View& view, Reading& state) const override;
-  Nanoseconds idle_until(const View&) const override { return ramping_ ? 0 : kForever; }
+  Nanoseconds idle_until(const View&) const override { return ramping_ ? 0 : stops_at_; }
 
  protected:
   void set_up(WheelSettings settings, Wiring& wiring);
@@ -43,6 +46,29 @@ class Wheels : public Device {
   bool started_ = false;
   double v_ = 0.0;  // m/s, wanted
   double w_ = 0.0;  // rad/s, wanted
+  Nanoseconds stops_at_ = kForever;
+};
+
+/// Where a robot is by the turning of its wheels, one on each side.
+class WheelOdometry {
+ public:
+  void set_up(const WheelSettings& settings, Wiring& wiring);
+  /// `gyro` (rad, rad/s), where there is one, has the heading in place of the wheels.
+  void read(const View& view, const Base& base, std::optional<std::pair<double, double>> gyro,
+            Reading& reading);
+  bool rests() const { return rests_; }
+
+ private:
+  void count(double left, double right, std::optional<double> turn);
+
+  double separation_ = 0.0;  // m
+  double radius_ = 0.0;      // m
+  JointRef left_, right_;
+  bool started_ = false;
+  bool rests_ = false;
+  double left_at_ = 0.0, right_at_ = 0.0, heading_ = 0.0;  // rad, at the last sample
+  Vec3 at_ = Vec3::Zero();
+  double yaw_ = 0.0;
 };
 
 /// The kind of a device that is commanded by a speed and a turn.

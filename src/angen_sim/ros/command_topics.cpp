@@ -66,6 +66,7 @@ const std::map<std::string, Taker>& takers() {
   static const std::map<std::string, Taker> all = {
       {"diff_drive", {"commandTopic", "cmd_vel", twists}},
       {"skid_steer_drive", {"commandTopic", "cmd_vel", twists}},
+      {"kobuki", {"none", "mobile_base/commands/velocity", twists}},
       {"planar_move",
        {"commandTopic", "cmd_vel", subscribe_as<geometry_msgs::Twist, of_flat_twist>}},
       {"force", {"topicName", "", subscribe_as<geometry_msgs::Wrench, of_wrench>}},

@@ -19,6 +19,20 @@ TEST(HectorImu, FeelsGravity) {
   EXPECT_NEAR(list(hall.reading("hector_imu"), "acceleration")[2], 9.8, 0.02);
 }
 
+TEST(HectorImu, ItsHeadingHasTheErrorOfTheYaw) {
+  Hall hall(
+      imu("<yawGaussianNoise>0.2</yawGaussianNoise><headingGaussianNoise>9"
+          "</headingGaussianNoise>"));
+  hall.request("hector_imu");
+  double sum = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    hall.run(0.001);
+    const std::vector<double> q = list(hall.reading("hector_imu"), "orientation");
+    sum += std::pow(2.0 * std::atan2(q[2], q[3]), 2);
+  }
+  EXPECT_NEAR(std::sqrt(sum / 1000.0), 0.2, 0.02);
+}
+
 TEST(HectorImu, HasTheErrorsOfItsParameters) {
   Hall hall(
       imu("<accelGaussianNoise>0.1 0.1 0.4</accelGaussianNoise><rateGaussianNoise>0.05"

@@ -67,6 +67,26 @@ TEST(RosControl, PositionsInASequenceAreAMotion) {
   EXPECT_NEAR(angle(hall), 0.4, 0.001) << "it stops with its commands";
 }
 
+// As robots have it whose drive needs no controllers: nobody commands these joints here.
+TEST(RosControl, AnotherDriveOfTheRobotLeadsItsWheels) {
+  std::string both = "<plugin name='c' filename='libgazebo_ros_control.so'>";
+  for (const char* joint : {"left_joint", "right_joint"}) {
+    both += "<transmission><joint>" + std::string(joint) +
+            "</joint><hardwareInterface>VelocityJointInterface</hardwareInterface></transmission>";
+  }
+  both += "</plugin>";
+  const std::string drive =
+      plugin("diff_drive",
+             "<wheelSeparation>0.3</wheelSeparation><wheelDiameter>0.1</wheelDiameter>", "d");
+  for (const std::string& plugins : {both + drive, drive + both}) {
+    Hall hall(robot(plugins), true);
+    hall.run(0.5);
+    hall.command("diff_drive", {0.3, 0.0});
+    hall.run(2.0);
+    EXPECT_NEAR(hall.pose().position.x(), 0.6, 0.03);
+  }
+}
+
 TEST(RosControl, WithoutTransmissionsItSaysWhatIsMissing) {
   Hall hall(arms("<plugin name='c' filename='libgazebo_ros_control.so'/>"), true);
   EXPECT_TRUE(hall.warns("needs the <transmission>s of a URDF"));

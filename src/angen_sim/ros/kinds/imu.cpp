@@ -24,6 +24,8 @@ void fill(const Reading& reading, const Label&, sensor_msgs::Imu& message) {
 ANGEN_REGISTER_ROS_KIND({"imu"}, RosKindBuilder().named_message<sensor_msgs::Imu>(&fill, "imu"));
 ANGEN_REGISTER_ROS_KIND({"imu_sensor"},
                         RosKindBuilder().named_message<sensor_msgs::Imu>(&fill, "imu_data"));
+ANGEN_REGISTER_ROS_KIND({"kobuki_imu"}, RosKindBuilder().named_message<sensor_msgs::Imu>(
+                                            &fill, "mobile_base/sensors/imu_data", "none"));
 ANGEN_REGISTER_ROS_KIND({"hector_imu"},
                         RosKindBuilder().named_message<sensor_msgs::Imu>(&fill, "imu"));
 

@@ -12,7 +12,7 @@ void fill(const Reading& reading, const Label&, sensor_msgs::JointState& message
   message.effort = reading.get<std::vector<double>>("efforts");
 }
 
-ANGEN_REGISTER_ROS_KIND({"joint_states", "wheel_states", "controlled_joints"},
+ANGEN_REGISTER_ROS_KIND({"joint_states", "wheel_states", "controlled_joints", "kobuki_wheels"},
                         RosKindBuilder().named_message<sensor_msgs::JointState>(&fill,
                                                                                 "joint_states",
                                                                                 "none"));

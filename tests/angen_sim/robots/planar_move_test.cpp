@@ -1,0 +1,28 @@
+#include <gtest/gtest.h>
+
+#include "robot.h"
+
+namespace angen::robots {
+namespace {
+
+// The names that others gave the same drive, and their word for the timeout.
+TEST(PlanarMove, ForceBasedMoveIsTheSame) {
+  for (const char* library : {"gazebo_ros_force_based_move", "hector_gazebo_ros_force_based_move",
+                              "ridgeback_ros_force_based_move", "robotnik_force_based_move"}) {
+    Hall hall(
+        "<model name='bot'>" + box("body", 5.0, "0 0 0.1 0 0 0", "0.4 0.4 0.2") +
+            "<plugin name='p' filename='lib" + library +
+            ".so'><cmdVelTimeOut>0.5</cmdVelTimeOut><x_velocity_p_gain>10000</x_velocity_p_gain>"
+            "<publishOdometryTf>0</publishOdometryTf></plugin></model>",
+        true);
+    EXPECT_TRUE(hall.warnings.empty()) << library;
+    hall.run(0.2);
+    hall.command("planar_move", {0.2, 0.1, 0.0});
+    hall.run(2.0);
+    EXPECT_NEAR(hall.pose().position.x(), 0.1, 0.01) << library;
+    EXPECT_NEAR(hall.pose().position.y(), 0.05, 0.01) << library;
+  }
+}
+
+}  // namespace
+}  // namespace angen::robots
