@@ -14,7 +14,8 @@ namespace {
 const Quat kOptical = from_rpy(-M_PI_2, 0.0, -M_PI_2);
 
 bool is_odometry(const std::string& kind) {
-  return kind == "odometry" || kind == "planar_odometry" || kind == "skid_steer_odometry";
+  return kind == "odometry" || kind == "planar_odometry" || kind == "skid_steer_odometry" ||
+         kind == "kobuki_odometry";
 }
 
 bool is_camera(const sim::SensorEntry& sensor) {
@@ -32,12 +33,14 @@ std::string value_of(const std::vector<const Element*>& elements, const std::str
 // The frame of what a sensor of a robot made for Gazebo publishes, which others know: nobody here
 // says where it is. None for other sensors.
 std::optional<std::string> foreign_frame(const sim::SensorEntry& sensor, const desc::Model& model) {
-  static const std::set<std::string> states = {"joint_states", "wheel_states", "controlled_joints"};
+  static const std::set<std::string> states = {"joint_states", "wheel_states", "controlled_joints",
+                                               "kobuki_wheels"};
   static const std::set<std::string> hectors = {"gps", "hector_imu", "sonar"};
   static const std::set<std::string> bodies = {"imu", "imu_sensor"};
   if (states.count(sensor.kind) != 0) return "";
   if (is_odometry(sensor.kind))
     return value_of({&sensor.desc->plugin_element}, "odometryFrame", "odom");
+  if (sensor.kind == "kobuki_imu") return "gyro_link";
   if (sensor.kind == "p3d") return sensor.frame.empty() ? kWorldFrame : sensor.frame;
   if (hectors.count(sensor.kind) != 0) {
     return value_of({&sensor.desc->plugin_element}, "frameId",
@@ -50,6 +53,23 @@ std::optional<std::string> foreign_frame(const sim::SensorEntry& sensor, const d
     return std::nullopt;
   }
   return sensor.frame;
+}
+
+// As tf has it: a frame that begins with / has no prefix, and no frame begins with / in the end.
+std::string resolved(const std::string& prefix, const std::string& frame) {
+  if (!frame.empty() && frame[0] == '/') return frame.substr(1);
+  return prefix.empty() || frame.empty() ? frame : prefix + "/" + frame;
+}
+
+// The namespace that the first plug-in of a robot names; none where it has no plug-in.
+std::optional<std::string> space_of(const desc::Model& model) {
+  std::vector<const Element*> plugins;
+  for (const desc::Plugin& plugin : model.plugins) plugins.push_back(&plugin.element);
+  for (const desc::Link& link : model.links) {
+    for (const desc::Sensor& sensor : link.sensors) plugins.push_back(&sensor.plugin_element);
+  }
+  if (plugins.empty()) return std::nullopt;
+  return value_of(plugins, "robotNamespace", "");
 }
 
 // Where a model has several drives, its frames are those of the last.
@@ -134,13 +154,23 @@ void FrameMaker::drop(const std::shared_ptr<const ModelFrames>& model) {
   }
 }
 
+// Our own robots have their name for a prefix, or none.
+std::string FrameMaker::prefix_of(const desc::Model& model) const {
+  const std::optional<std::string> space = space_of(model);
+  return model.tolerant && space && prefix_in_ ? resolved("", prefix_in_(*space)) : "";
+}
+
 void FrameMaker::keep_models(const sim::Structure& structure, const std::vector<Robot>& robots,
                              const Changes& changes) {
   std::vector<std::shared_ptr<const ModelFrames>> old = std::exchange(models_, {});
+  std::vector<std::string> prefixes = std::exchange(prefixes_, {});
   models_.resize(structure.models.size());
+  prefixes_.resize(models_.size());
   for (std::uint32_t i = 0; i < models_.size(); ++i) {
     const std::uint32_t before = changes.models.before[i];
     if (before != Numbers::kNone) models_[i] = std::move(old[before]);
+    prefixes_[i] =
+        before != Numbers::kNone ? std::move(prefixes[before]) : prefix_of(*structure.models[i]);
     const Robot* robot = owner_in(robots, i);
     const std::string base_frame = robot == nullptr ? "" : robot->base_frame;
     const std::uint32_t base = robot == nullptr ? 0 : structure.links[robot->base].link;
@@ -181,7 +211,8 @@ void FrameMaker::add_odometry(const sim::Structure& structure, const std::vector
   for (const sim::SensorEntry& sensor : structure.sensors) {
     if (!is_odometry(sensor.kind)) continue;
     const std::vector<const Element*> plugin = {&sensor.desc->plugin_element};
-    const std::string frame = value_of(plugin, "odometryFrame", "odom");
+    const std::string frame =
+        resolved(prefixes_[sensor.model], value_of(plugin, "odometryFrame", "odom"));
     const bool by_wheels = value_of(plugin, "odometrySource", "world") == "encoder";
     if (!added.insert(frame).second) continue;
     tree.fixed.push_back(
@@ -202,8 +233,14 @@ void FrameMaker::add_sensors(const sim::Structure& structure, const std::vector<
     return link_frames_.count(frame) == 0 && used.insert(frame).second;
   };
   for (const sim::SensorEntry& sensor : structure.sensors) {
+    tree.bases.emplace_back();
     if (const auto foreign = foreign_frame(sensor, *structure.models[sensor.model])) {
-      tree.sensors.push_back(*foreign);
+      const std::string& prefix = prefixes_[sensor.model];
+      tree.sensors.push_back(resolved(prefix, *foreign));
+      if (is_odometry(sensor.kind)) {
+        tree.bases.back() = resolved(
+            prefix, value_of({&sensor.desc->plugin_element}, "robotBaseFrame", "base_footprint"));
+      }
       continue;
     }
     const sim::LinkEntry& link = structure.links[sensor.link];

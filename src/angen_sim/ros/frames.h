@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,6 +44,7 @@ struct FrameTree {
   std::vector<FixedFrame> fixed;
   std::vector<MovingFrame> moving;
   std::vector<std::string> sensors;    // frame of each sensor, as Structure::sensors
+  std::vector<std::string> bases;      // what each of them moves that is an odometry, or empty
   std::vector<std::int32_t> moved_by;  // for each link the index in `moving` that carries it, or -1
 };
 
@@ -50,7 +52,11 @@ struct FrameTree {
 /// `world` is the root. Odometry frames stand in the world, unless a localization places them.
 class FrameMaker {
  public:
-  explicit FrameMaker(bool odometry_in_world = true) : odometry_in_world_(odometry_in_world) {}
+  /// The tf_prefix of robots made for Gazebo in a namespace.
+  using PrefixIn = std::function<std::string(const std::string& space)>;
+
+  explicit FrameMaker(bool odometry_in_world = true, PrefixIn prefix_in = nullptr)
+      : odometry_in_world_(odometry_in_world), prefix_in_(std::move(prefix_in)) {}
 
   /// `changes`: since the structure of the last call.
   std::shared_ptr<const FrameTree> make(const sim::Snapshot& snapshot,
@@ -69,8 +75,12 @@ class FrameMaker {
     return models_[link.model]->links[link.link];
   }
 
+  std::string prefix_of(const desc::Model& model) const;
+
   bool odometry_in_world_;
+  PrefixIn prefix_in_;
   std::vector<std::shared_ptr<const ModelFrames>> models_;  // as Structure::models
+  std::vector<std::string> prefixes_;                       // of each, when it came
   std::unordered_map<std::string, int> link_frames_;        // how many links have one
 };
 

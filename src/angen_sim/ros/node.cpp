@@ -3,6 +3,7 @@
 #include <ros/callback_queue.h>
 #include <ros/console.h>
 #include <ros/init.h>
+#include <ros/param.h>
 #include <std_msgs/Bool.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include "ros/changes.h"
 #include "ros/master_watch.h"
 #include "ros/queue_threads.h"
+#include "ros/wire.h"
 
 namespace angen::node {
 namespace {
@@ -21,6 +23,13 @@ constexpr std::chrono::milliseconds kPausedNap(20);
 constexpr std::chrono::milliseconds kLongestNap(100);  // Ctrl-C is seen that soon
 
 constexpr Nanoseconds kLongestLeap = 10 * kSecond;  // so far may /clock jump
+
+/// The parameter tf_prefix of a namespace or of one above it, as robot_state_publisher reads it.
+std::string tf_prefix_in(const std::string& space) {
+  std::string key, prefix;
+  if (ros::param::search(graph_name("/" + space), "tf_prefix", key)) ros::param::get(key, prefix);
+  return prefix;
+}
 
 /// Serves topics and services while it lives.
 class Serving {
@@ -63,7 +72,7 @@ Node::Node(sim::Simulation& simulation, const Settings& settings)
       events_(handle_),
       cost_(handle_, simulation),
       summary_(handle_, readings_),
-      frames_(settings.odometry_in_world),
+      frames_(settings.odometry_in_world, tf_prefix_in),
       transforms_(handle_),
       markers_(handle_, readings_),
       publishers_(handle_, simulation, settings.topics, readings_),

@@ -37,9 +37,9 @@ void Publishers::attach(Source& source, const std::string& type, const Format::O
   source.channels.push_back(channel);
 }
 
-Publishers::Source Publishers::sensor_source(const sim::SensorEntry& entry,
-                                             const std::string& frame, const Robot* robot) {
-  Source source{std::make_shared<const Label>(Label{entry.name, frame}), {}, space_of(robot)};
+Publishers::Source Publishers::sensor_source(const sim::SensorEntry& entry, const Label& label,
+                                             const Robot* robot) {
+  Source source{std::make_shared<const Label>(label), {}, space_of(robot)};
   if (entry.kind == "controlled_joints" && has_joint_control(entry.desc->plugin)) {
     return source;  // a controller publishes them
   }
@@ -64,15 +64,16 @@ std::vector<Publishers::Source> Publishers::sensor_sources(const sim::Structure&
   for (std::uint32_t i = 0; i < structure.sensors.size(); ++i) {
     const sim::SensorEntry& entry = structure.sensors[i];
     const std::string& frame = frames.sensors[i];
+    const std::string& name = frames.bases[i].empty() ? entry.name : frames.bases[i];
     const Robot* robot = robot_in(robots, entry.model);
     const std::uint32_t before = numbers.before[i];
     if (before == Numbers::kNone || sensors_[before].robot != space_of(robot)) {
-      sources.push_back(sensor_source(entry, frame, robot));
+      sources.push_back(sensor_source(entry, {name, frame}, robot));
       continue;
     }
     sources.push_back(std::move(sensors_[before]));
     std::shared_ptr<const Label>& label = sources.back().label;
-    if (label->frame != frame) label = std::make_shared<const Label>(Label{entry.name, frame});
+    if (label->frame != frame) label = std::make_shared<const Label>(Label{name, frame});
   }
   return sources;
 }

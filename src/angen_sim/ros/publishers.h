@@ -46,7 +46,7 @@ class Publishers {
 
   void attach(Source& source, const std::string& type, const Format::Open& open,
               const std::string& topic);
-  Source sensor_source(const sim::SensorEntry& entry, const std::string& frame, const Robot* robot);
+  Source sensor_source(const sim::SensorEntry& entry, const Label& label, const Robot* robot);
   Source device_source(const sim::DeviceEntry& entry);
   std::vector<Source> sensor_sources(const sim::Structure& structure, const FrameTree& frames,
                                      const std::vector<Robot>& robots, const Numbers& numbers);

@@ -210,5 +210,48 @@ TEST(Frames, OfModelsThatStayAreThoseOfATreeMadeAnew) {
   }
 }
 
+// A robot of others in a namespace: two sensors on its first link.
+World two_eyes(bool tolerant) {
+  World world;
+  desc::Model model = robot("bot");
+  model.tolerant = tolerant;
+  model.plugins.resize(1);
+  Element space;
+  space.name = "robotNamespace";
+  space.text = "/west";
+  model.plugins[0].element.children = {space};
+  world.add(model);
+  world.add_sensor("scanner", 0, "base_scan");
+  world.add_sensor("eye", 0, "/eye_link");
+  return world;
+}
+
+TEST(Frames, OfARobotMadeForGazeboHaveItsPrefix) {
+  std::string asked;
+  FrameMaker maker(true, [&](const std::string& space) {
+    asked = space;
+    return "/west";
+  });
+  const World world = two_eyes(true);
+  const auto tree = maker.make(world.snapshot, {}, changes_between(nullptr, *world.structure));
+  EXPECT_EQ(asked, "/west");
+  EXPECT_EQ(tree->sensors, (std::vector<std::string>{"west/base_scan", "eye_link"}));
+  const auto again =
+      maker.make(world.snapshot, {}, changes_between(world.structure.get(), *world.structure));
+  EXPECT_EQ(again->sensors, tree->sensors) << "it stays with a robot that stays";
+}
+
+TEST(Frames, NoneBeginsWithASlash) {
+  const World world = two_eyes(true);
+  EXPECT_EQ(world.tree().sensors, (std::vector<std::string>{"base_scan", "eye_link"}));
+}
+
+TEST(Frames, OfOurOwnModelsHaveNoPrefix) {
+  FrameMaker maker(true, [](const std::string&) { return "west"; });
+  const World world = two_eyes(false);
+  const auto tree = maker.make(world.snapshot, {}, changes_between(nullptr, *world.structure));
+  EXPECT_EQ(tree->sensors[0], "base_scan");
+}
+
 }  // namespace
 }  // namespace angen::node

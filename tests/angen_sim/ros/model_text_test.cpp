@@ -34,6 +34,16 @@ TEST(ModelText, PluginsWithoutANamespaceGetIt) {
   EXPECT_EQ(model_text(xml, "/").xml, xml);
 }
 
+// Its own is the model's name, not /: spawn_model gives / where it runs in no namespace.
+TEST(ModelText, ControllersGetTheNamespaceOfTheRoot) {
+  const std::string xml =
+      "<robot name='r'><gazebo><plugin name='a' filename='a.so'/><plugin name='c' "
+      "filename='libgazebo_ros_control.so'/></gazebo></robot>";
+  const std::string given = model_text(xml, "/").xml;
+  EXPECT_EQ(count(given, "<robotNamespace>/</robotNamespace>"), 1U) << given;
+  EXPECT_EQ(model_text(xml, "").xml, xml);
+}
+
 TEST(ModelText, AnIncludeIsTakenOutOfItsWorld) {
   const ModelText text = model_text(
       "<sdf version='1.4'><world name='default'><include><uri>model://table</uri>"

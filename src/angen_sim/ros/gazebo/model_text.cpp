@@ -27,9 +27,16 @@ bool take_out_of_world(Element& sdf) {
   return true;
 }
 
+// All others take none for "/", and keep their lines in the text.
+bool needs_namespace(const Element& plugin, const std::string& robot_namespace) {
+  if (plugin.child(kNamespace) != nullptr) return false;
+  const std::string* file = plugin.attribute("filename");
+  return robot_namespace != "/" || (file != nullptr && *file == "libgazebo_ros_control.so");
+}
+
 bool give_namespace(Element& element, const std::string& robot_namespace) {
   bool changed = false;
-  if (element.name == "plugin" && element.child(kNamespace) == nullptr) {
+  if (element.name == "plugin" && needs_namespace(element, robot_namespace)) {
     Element child;
     child.name = kNamespace;
     child.text = robot_namespace;
@@ -60,9 +67,7 @@ bool is_urdf(const std::string& xml) {
 ModelText model_text(const std::string& xml, const std::string& robot_namespace) {
   Element root = load::parse_xml(xml, kSpawned);
   bool changed = take_out_of_world(root);
-  if (!robot_namespace.empty() && robot_namespace != "/") {
-    changed = give_namespace(root, robot_namespace) || changed;
-  }
+  if (!robot_namespace.empty()) changed = give_namespace(root, robot_namespace) || changed;
   ModelText text;
   const Element* entity = entity_in(root);
   // A light's own pose is read with it.

@@ -27,9 +27,9 @@ Vector vector_in(const Reading& reading, const char* field) {
   return out;
 }
 
-void fill(const Reading& reading, const Label&, nav_msgs::Odometry& message) {
-  message.header.frame_id = reading.get<std::string>("frame");
-  message.child_frame_id = reading.get<std::string>("base_frame");
+/// The label's frame is the odometry's, its name the frame that it moves.
+void fill(const Reading& reading, const Label& label, nav_msgs::Odometry& message) {
+  message.child_frame_id = label.name;
   message.pose.pose.position = vector_in<geometry_msgs::Point>(reading, "position");
   message.pose.pose.orientation = quaternion_in(reading);
   message.twist.twist.linear.x = reading.get<double>("forward");
@@ -43,9 +43,9 @@ void fill(const Reading& reading, const Label&, nav_msgs::Odometry& message) {
   }
 }
 
-void fill_transform(const Reading& reading, const Label&, geometry_msgs::TransformStamped& made) {
-  made.header.frame_id = reading.get<std::string>("frame");
-  made.child_frame_id = reading.get<std::string>("base_frame");
+void fill_transform(const Reading& reading, const Label& label,
+                    geometry_msgs::TransformStamped& made) {
+  made.child_frame_id = label.name;
   made.transform.translation = vector_in<geometry_msgs::Vector3>(reading, "position");
   made.transform.rotation = quaternion_in(reading);
 }
@@ -58,10 +58,18 @@ void fill_truth(const Reading& reading, const Label&, nav_msgs::Odometry& messag
   message.twist.twist.angular = vector_in<geometry_msgs::Vector3>(reading, "angular_velocity");
 }
 
-ANGEN_REGISTER_ROS_KIND({"odometry", "planar_odometry"},
+ANGEN_REGISTER_ROS_KIND({"odometry"},
                         RosKindBuilder()
                             .named_message<nav_msgs::Odometry>(&fill, "odom", "odometryTopic")
                             .transform(&fill_transform, "publishOdomTF"));
+ANGEN_REGISTER_ROS_KIND({"planar_odometry"},
+                        RosKindBuilder()
+                            .named_message<nav_msgs::Odometry>(&fill, "odom", "odometryTopic")
+                            .transform(&fill_transform, "publishOdometryTf"));
+ANGEN_REGISTER_ROS_KIND({"kobuki_odometry"},
+                        RosKindBuilder()
+                            .named_message<nav_msgs::Odometry>(&fill, "odom", "none")
+                            .transform(&fill_transform, "publish_tf"));
 ANGEN_REGISTER_ROS_KIND({"skid_steer_odometry"},
                         RosKindBuilder()
                             .named_message<nav_msgs::Odometry>(&fill, "odom", "odometryTopic")
