@@ -7,7 +7,8 @@
 What stands between `<!-- table KIND parameters -->` (or commands, fields) and `<!-- end -->` comes
 from the catalog files beside the plug-in libraries, which the build makes of the plug-ins' own
 descriptions. `<!-- table pir parameters model pyroelectric -->` has the parameters that exist only
-with that value of another one.
+with that value of another one, `<!-- table odometry parameters beside diff_drive -->` those that
+diff_drive, of the same <plugin>, has not.
 """
 from __future__ import annotations
 
@@ -55,9 +56,11 @@ def code(text: str) -> str:
     return f'`{text}`' if text else ''
 
 
-def parameters(kind: Kind, variant: str | None) -> str:
+def parameters(kind: Kind, variant: str | None, beside: set[str]) -> str:
     rows = []
     for param in kind['params']:
+        if param['path'] in beside:
+            continue
         special = WITH.fullmatch(param['doc'])
         if (special and special.group(1)) != variant:
             continue
@@ -78,13 +81,13 @@ def limits(verb: dict[str, Any]) -> str:
     return (span + ' ' + unit(verb['unit'])).strip()
 
 
-def commands(kind: Kind, _: str | None) -> str:
+def commands(kind: Kind, _: str | None, __: set[str]) -> str:
     rows = [[code(verb['name'] + (f' {verb["argument"].upper()}' if verb['argument'] else '')),
              limits(verb), verb['doc']] for verb in kind['verbs']]
     return table(['command', 'range', ''], rows)
 
 
-def fields(kind: Kind, _: str | None) -> str:
+def fields(kind: Kind, _: str | None, __: set[str]) -> str:
     rows = []
     for field in kind['fields']:
         doc = field['doc']
@@ -103,7 +106,11 @@ def with_tables(page: str, catalog: dict[str, Kind]) -> str:
         if kind not in catalog or what not in makers:
             raise SystemExit(f'docs/tables.py: {begin.strip()}: no such kind or table; kinds are '
                              + ', '.join(sorted(catalog)) + '; tables ' + ', '.join(makers))
-        return begin + makers[what](catalog[kind], variant) + end
+        beside: set[str] = set()
+        if variant is not None and variant.startswith('beside '):
+            beside = {param['path'] for param in catalog[variant.split()[1]]['params']}
+            variant = None
+        return begin + makers[what](catalog[kind], variant, beside) + end
 
     return TABLE.sub(make, page)
 

@@ -25,7 +25,7 @@ def test_the_tables_are_those_of_the_catalog(page: Path) -> None:
 
 @pytest.mark.parametrize('kind', CATALOG)
 def test_each_kind_has_its_tables(kind: str) -> None:
-    assert f'<!-- table {kind} parameters -->' in TEXT
+    assert re.search(rf'<!-- table {kind} parameters( beside \w+)? -->', TEXT)
     assert f'<!-- table {kind} fields -->' in TEXT
     if CATALOG[kind]['verbs']:
         assert f'<!-- table {kind} commands -->' in TEXT
@@ -37,6 +37,16 @@ def test_each_parameter_is_in_a_table(kind: str) -> None:
                 if (match := re.fullmatch(r'with (\w+ \w+): .*', param['doc']))}
     for variant in variants:
         assert f'<!-- table {kind} parameters {variant} -->' in TEXT
+
+
+def test_a_table_beside_another_has_what_that_lacks() -> None:
+    param = {'type': 'number', 'default': '1', 'unit': 'm', 'doc': 'of it', 'choices': []}
+    catalog = {'drive': {'params': [{**param, 'path': 'wheel'}]},
+               'odometry': {'params': [{**param, 'path': 'wheel'}, {**param, 'path': 'rate'}]}}
+    marker = '<!-- table odometry parameters beside drive -->\n<!-- end -->'
+    made = tables.with_tables(marker, catalog)
+    assert '`rate`' in made
+    assert '`wheel`' not in made
 
 
 def test_a_wrong_marker_is_an_error() -> None:
