@@ -100,8 +100,7 @@ Texture shrunk(const Texture& from, std::uint32_t width, std::uint32_t height) {
             sum[k] += linear(from.bytes[3 * (r * from.width + c) + k]);
         }
       }
-      for (const double each : sum)
-        made.bytes.push_back(srgb(each / static_cast<double>(count)));
+      for (const double each : sum) made.bytes.push_back(srgb(each / static_cast<double>(count)));
     }
   }
   return made;
