@@ -20,7 +20,8 @@ def build(kind: str, *settings: str, lone: bool = False) -> etree._Element:
 
 
 # Of a robot's joints, which these have not.
-JOINTED = {'wheel_states', 'odometry', 'joint_states', 'ft_sensor'}
+JOINTED = {'wheel_states', 'odometry', 'joint_states', 'ft_sensor', 'kobuki_odometry',
+           'kobuki_wheels'}
 KINDS = {name: kind for name, kind in catalog.kinds('sensor').items() if name not in JOINTED}
 FREE = [name for name, kind in KINDS.items() if not sensor.needs_link(kind)]
 

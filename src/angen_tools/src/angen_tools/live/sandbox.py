@@ -96,16 +96,20 @@ class Sandbox:
         subscribed = self._api.getSystemState('/angen_bench')[2][1]
         return {topic for topic, nodes in subscribed if any(name in node for node in nodes)}
 
-    def received_by(self, name: str) -> int:
-        """Messages that nodes with this in their name have received so far."""
+    def received_by(self, name: str, pattern: str) -> int:
+        """Messages that C++ nodes with this in their name have received so far, on the topics whose
+        whole name matches a pattern.
+        """
         import xmlrpc.client
         nodes = {node for _, nodes in self._api.getSystemState('/angen_bench')[2][1]
                  for node in nodes if name in node}
         count = 0
         for node in nodes:
             api: Any = xmlrpc.client.ServerProxy(self._api.lookupNode('/angen_bench', node)[2])
-            for _, connections in api.getBusStats('/angen_bench')[2][1]:
-                count += sum(connection[2] for connection in connections)
+            # roscpp answers without code and text: what is published, what is subscribed
+            for topic, connections in api.getBusStats('/angen_bench')[1]:
+                if re.fullmatch(pattern, topic):
+                    count += sum(connection[2] for connection in connections)
         return count
 
     def registered_by(self, name: str) -> set[str]:

@@ -141,7 +141,7 @@ class Bag:
 
     def __init__(self, sandbox: Sandbox, path: Path, robot: str) -> None:
         self._path, self._log = path, sandbox.folder / 'rosbag.log'
-        self._sandbox = sandbox
+        self._sandbox, self._commands = sandbox, f'/{robot}/cmd_vel|/gazebo/.*_controller'
         pattern = f'{RECORDED}|/{robot}/(odom|cmd_vel|scan|joint_states)'
         path.unlink(missing_ok=True)
         self._process = sandbox.start(
@@ -170,10 +170,11 @@ class Bag:
             self._complain()
 
     def _receive_the_rest(self) -> None:
-        """Returns when nothing has arrived for a while: the node is paused, and what a slow machine
-        has still on its way belongs to the run."""
+        """Returns when no command has arrived for a while: none is sent any more, and what a slow
+        machine has still on its way belongs to the run.
+        """
         before = -1
-        while before != (received := self._sandbox.received_by('record')):
+        while before != (received := self._sandbox.received_by('record', self._commands)):
             before = received
             time.sleep(BAG_QUIET)
 
