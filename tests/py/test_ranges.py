@@ -12,6 +12,7 @@ from sdf_text import box
 
 RAYS = 1000  # of a lidar, all a message holds
 REACH = 12.0  # m
+HOUSING = 0.5  # m: nearer a camera sees nothing from behind
 
 
 @dataclass
@@ -74,13 +75,16 @@ def text(values: np.ndarray) -> str:
     return ' '.join(repr(float(v)) for v in values)
 
 
-def met(solids: list[Solid], origin: np.ndarray, ways: np.ndarray, least: float, most: float
-        ) -> np.ndarray:
-    """The nearest surface from `least` to `most` along each way; infinite where there is none."""
+def met(solids: list[Solid], origin: np.ndarray, ways: np.ndarray, least: float, most: float,
+        behind: float = 0.0) -> np.ndarray:
+    """The nearest surface from `least` to `most` along each way, from behind only from `behind` on;
+    infinite where there is none.
+    """
     found = np.full(len(ways), np.inf)
     for solid in solids:
-        for at in solid.crossings(origin, ways):
-            found = np.where((at >= least) & (at <= most) & (at < found), at, found)
+        enters, leaves = solid.crossings(origin, ways)
+        for at, first in (enters, least), (leaves, max(least, behind)):
+            found = np.where((at >= first) & (at <= most) & (at < found), at, found)
     return found
 
 
@@ -170,7 +174,7 @@ def depths(world: angen.World, name: str, solids: list[Solid], pose: np.ndarray
     rows, columns = np.indices(measured.shape[:2])
     ways = np.stack([np.ones(rows.shape), -(columns - reading['center_x']) / reading['focal'],
                      -(rows - reading['center_y']) / reading['focal']], axis=-1).reshape(-1, 3)
-    exact = met(solids, pose[:3], ways @ rotation(pose[3:]).T, 0.1, REACH)
+    exact = met(solids, pose[:3], ways @ rotation(pose[3:]).T, 0.1, REACH, HOUSING)
     return np.where(np.isnan(measured), np.inf, measured).ravel(), exact
 
 

@@ -12,6 +12,10 @@
 namespace angen::render {
 namespace {
 
+constexpr float kHousing = 0.5F;    // m, in depth: walls of a housing stand nearer
+constexpr float kPastWall = 1e-5F;  // m
+constexpr int kMostWalls = 8;
+
 struct Entry {
   Body body;
   std::uint32_t number = 0;  // in the stand, of a body that stands alone
@@ -40,7 +44,6 @@ class Eye {
       rays.ray.org_x[i] = origin_.x();
       rays.ray.org_y[i] = origin_.y();
       rays.ray.org_z[i] = origin_.z();
-      rays.ray.tnear[i] = static_cast<float>(camera_.near);
       rays.ray.time[i] = 0.0F;
       rays.ray.mask[i] = UINT32_MAX;
       rays.ray.id[i] = 0;
@@ -57,6 +60,7 @@ class Eye {
       rays.ray.dir_x[i] = direction.x();
       rays.ray.dir_y[i] = direction.y();
       rays.ray.dir_z[i] = direction.z();
+      rays.ray.tnear[i] = static_cast<float>(camera_.near);
       rays.ray.tfar[i] = static_cast<float>(camera_.far);
       rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
@@ -106,9 +110,39 @@ std::vector<float> no_depths(const PinholeCamera& camera) {
                             std::numeric_limits<float>::quiet_NaN());
 }
 
+Facet facet_of(const RTCRayHit16& rays, int i, const Placed& placed) {
+  return placed.patch->facet(rays.hit.geomID[i], rays.hit.primID[i]);
+}
+
+/// Has rays go on that met something near from behind: many cameras stand in their own housing,
+/// which is not seen where back faces are not drawn.
+void leave_housing(const Stand& stand, float far, const int* valid, RTCRayHit16& rays) {
+  alignas(64) int inside[kLanes];
+  for (int walls = 0; walls < kMostWalls; ++walls) {
+    bool any = false;
+    for (int i = 0; i < kLanes; ++i) {
+      inside[i] = 0;
+      if (valid[i] == 0 || !met(rays, i) || rays.ray.tfar[i] > kHousing) continue;
+      const Placed& placed = stand[rays.hit.instID[0][i]];
+      const Eigen::Vector3f normal = placed.rotation * facet_of(rays, i, placed).normal;
+      if (normal.dot(direction_of(rays.ray, i)) <= 0.0F) continue;
+      inside[i] = -1;
+      any = true;
+      rays.ray.tnear[i] = rays.ray.tfar[i] + kPastWall;
+      rays.ray.tfar[i] = far;
+      rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    if (!any) return;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect16(inside, stand.seen(), &context, &rays);
+  }
+}
+
 /// Calls visit(column, row, valid, rays) for each tile, traced.
 template <class Visit>
-void trace(const PinholeCamera& camera, const Pose& pose, RTCScene scene, Visit&& visit) {
+void trace(const PinholeCamera& camera, const Pose& pose, const Stand& stand, Visit&& visit) {
   const Eye eye(camera, pose);
   alignas(64) int valid[kLanes];
   alignas(64) RTCRayHit16 rays;
@@ -119,7 +153,8 @@ void trace(const PinholeCamera& camera, const Pose& pose, RTCScene scene, Visit&
       RTCIntersectContext context;
       rtcInitIntersectContext(&context);
       context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-      rtcIntersect16(valid, scene, &context, &rays);
+      rtcIntersect16(valid, stand.seen(), &context, &rays);
+      leave_housing(stand, static_cast<float>(camera.far), valid, rays);
       visit(column, row, valid, rays);
     }
   }
@@ -140,7 +175,7 @@ void gather(const Stand& stand, const int* valid, const RTCRayHit16& rays,
     tile.valid[i] = valid[i] != 0 && met(rays, i) ? -1 : 0;
     if (tile.valid[i] == 0) continue;
     const Placed& placed = stand[rays.hit.instID[0][i]];
-    const Facet facet = placed.patch->facet(rays.hit.geomID[i], rays.hit.primID[i]);
+    const Facet facet = facet_of(rays, i, placed);
     const Eigen::Vector3f direction = direction_of(rays.ray, i);
     const Eigen::Vector3f origin(rays.ray.org_x[i], rays.ray.org_y[i], rays.ray.org_z[i]);
     tile.point[i] = origin + rays.ray.tfar[i] * direction;
@@ -242,26 +277,25 @@ std::vector<std::uint8_t> Scene::colors(const PinholeCamera& camera, const Pose&
   Tile tile;
   impl_->last = {camera, pose, no_depths(camera)};
   std::vector<float>& depths = impl_->last.depths;
-  trace(camera, pose, stand.seen(),
-        [&](int column, int row, const int* valid, const RTCRayHit16& rays) {
-          gather(stand, valid, rays, ambient, tile);
-          if (reflected) shine(*reflected, tile);
-          const Eigen::AlignedBox3f seen = bounds_of(tile);
-          for (std::size_t i = 0; i < lamps.size(); ++i) {
-            if (reaches[i].intersects(seen)) shine(lamps[i], stand.opaque(), tile);
-          }
-          for (int i = 0; i < kLanes; ++i) {
-            if (valid[i] == 0) continue;
-            const std::size_t at =
-                static_cast<std::size_t>(row + i / kTile) * camera.width + column + i % kTile;
-            if (tile.valid[i] != 0) {
-              depths[at] = rays.ray.tfar[i];
-              show(tile, i, &pixels[3 * at]);
-            } else {
-              for (int c = 0; c < 3; ++c) pixels[3 * at + c] = shown_as_is(ambience.background[c]);
-            }
-          }
-        });
+  trace(camera, pose, stand, [&](int column, int row, const int* valid, const RTCRayHit16& rays) {
+    gather(stand, valid, rays, ambient, tile);
+    if (reflected) shine(*reflected, tile);
+    const Eigen::AlignedBox3f seen = bounds_of(tile);
+    for (std::size_t i = 0; i < lamps.size(); ++i) {
+      if (reaches[i].intersects(seen)) shine(lamps[i], stand.opaque(), tile);
+    }
+    for (int i = 0; i < kLanes; ++i) {
+      if (valid[i] == 0) continue;
+      const std::size_t at =
+          static_cast<std::size_t>(row + i / kTile) * camera.width + column + i % kTile;
+      if (tile.valid[i] != 0) {
+        depths[at] = rays.ray.tfar[i];
+        show(tile, i, &pixels[3 * at]);
+      } else {
+        for (int c = 0; c < 3; ++c) pixels[3 * at + c] = shown_as_is(ambience.background[c]);
+      }
+    }
+  });
   return pixels;
 }
 
@@ -270,7 +304,7 @@ std::vector<float> Scene::depths(const PinholeCamera& camera, const Pose& pose) 
   const LastPicture& last = impl_->last;
   if (!last.depths.empty() && equal(last.camera, camera) && last.pose == pose) return last.depths;
   std::vector<float> values = no_depths(camera);
-  trace(camera, pose, impl_->stand.seen(),
+  trace(camera, pose, impl_->stand,
         [&](int column, int row, const int* valid, const RTCRayHit16& rays) {
           for (int i = 0; i < kLanes; ++i) {
             if (valid[i] == 0 || !met(rays, i)) continue;

@@ -73,7 +73,7 @@ class Scene {
                                    const Ambience& ambience) const;
 
   /// height x width distances along the camera's axis in m; NaN where nothing is between near and
-  /// far.
+  /// far. Neither sees what a ray meets from behind within 0.5 m: a camera's own housing.
   std::vector<float> depths(const PinholeCamera& camera, const Pose& pose) const;
 
  private:

@@ -110,6 +110,24 @@ TEST(Picture, DepthsAfterAPictureInColorAreThoseOfTheSceneNow) {
   EXPECT_NEAR(view.depth(0, 0), 2.0, 1e-4);
 }
 
+TEST(Picture, ACameraInItsOwnHousingSeesWhatIsBeyond) {
+  View view;
+  view.scene.add(body(box(0.2, 0.3, 0.2), at(0.05)));
+  view.scene.add(body(round(Shape::Type::kCylinder, 0.3, 0.4), at(0.0)));
+  EXPECT_TRUE(std::isnan(view.depth(160, 120)));
+  view.scene.add(body(box(1.0, 9.0, 9.0), at(2.5)));
+  EXPECT_NEAR(view.depth(160, 120), 2.0, 1e-4);
+  EXPECT_NEAR(view.depth(3, 200), 2.0, 1e-4);
+  view.scene.add(body(box(0.1, 0.1, 0.1), at(0.45)));  // before the housing
+  EXPECT_NEAR(view.depth(160, 120), 0.4, 1e-4);
+}
+
+TEST(Picture, WallsOfARoomAreSeenFromInside) {
+  View view;
+  view.scene.add(body(box(4.0, 4.0, 4.0), at(0.0)));
+  EXPECT_NEAR(view.depth(160, 120), 2.0, 1e-4);
+}
+
 TEST(Picture, DepthOfAWallIsAlongTheAxisNotTheRay) {
   View view;
   view.camera = {{1.0, 2.0, 3.0}, from_rpy(0.0, 0.0, M_PI_2)};
