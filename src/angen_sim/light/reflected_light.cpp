@@ -168,22 +168,24 @@ const std::vector<Piece>& ReflectedLookup::alike(const Eigen::Vector3f& point,
   axis[nearest / 2] = nearest % 2 == 0 ? 1.0F : -1.0F;
   const bool along = axis.dot(normal) > kAlong;
   const Eigen::Vector3i cell = cell_of(point, kNear);
-  const auto [known, is_new] = alike_[along ? nearest : kSlanted].try_emplace(key_of(cell));
-  if (!is_new) return known->second;
+  const auto entry = alike_[along ? nearest : kSlanted].try_emplace(key_of(cell));
+  Pieces& found = entry.first->second;
+  if (!entry.second) return found;
   light_.fine_.near(box_of(cell, kNear, kNear), [&](const Piece& piece) {
-    if (!along || axis.dot(piece.normal) > 0.0F) known->second.push_back(piece);
+    if (!along || axis.dot(piece.normal) > 0.0F) found.push_back(piece);
   });
-  return known->second;
+  return found;
 }
 
 const std::vector<Piece>& ReflectedLookup::around(const Eigen::Vector3f& point) {
   const Eigen::Vector3i cell = cell_of(point, kMerged);
-  const auto [known, is_new] = around_.try_emplace(key_of(cell));
-  if (is_new) {
+  const auto entry = around_.try_emplace(key_of(cell));
+  Pieces& found = entry.first->second;
+  if (entry.second) {
     light_.coarse_.near(box_of(cell, kMerged, kFar),
-                        [&](const Piece& piece) { known->second.push_back(piece); });
+                        [&](const Piece& piece) { found.push_back(piece); });
   }
-  return known->second;
+  return found;
 }
 
 Eigen::Vector3f ReflectedLookup::at(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) {

@@ -267,6 +267,7 @@ std::vector<std::uint8_t> Scene::colors(const PinholeCamera& camera, const Pose&
   const Eigen::Vector3f ambient = kAmbientIlluminance * ambience.ambient;
   std::vector<std::uint8_t> pixels(3U * static_cast<std::size_t>(camera.width) * camera.height);
   std::vector<Eigen::AlignedBox3f> reaches;
+  reaches.reserve(lamps.size());
   for (const light::Lit& lit : lamps) reaches.push_back(impl_->reaches.of(lit.lamp));
   std::optional<light::ReflectedLookup> reflected;
   if (ambience.reflected) {
