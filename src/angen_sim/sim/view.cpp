@@ -128,7 +128,8 @@ std::vector<std::uint8_t> InstanceView::colors(const render::PinholeCamera& lens
                                                const Pose& pose) const {
   queried_.other = true;
   render::Ambience ambience = engines_.ambience;
-  // Only for pictures, which depend on who subscribes, nothing is found: sensors read the same.
+  // Pictures use only what is known already: whether somebody subscribes to a camera must not
+  // change what other sensors read.
   if (engines_.light.active()) ambience.reflected = engines_.light.reflected();
   return engines_.visuals.colors(lens, pose, engines_.light.lit(), ambience);
 }
