@@ -59,13 +59,15 @@ class Devices(Generic[Thing]):
             del self._things[gone]
         for stays, thing in self._things.items():
             self._renew(thing, found[stays])
-        for came in found.keys() - self._things.keys():
-            self._meet(came, self._make(found[came]))
+        for which, entity in found.items():  # in the world's order
+            if which not in self._things:
+                self._meet(which, self._make(entity))
         topics = {entity.topic: entity for entity in found.values()}
         for topic in self._subscribers.keys() - topics.keys():
             self._subscribers.pop(topic).unregister()
-        for topic in topics.keys() - self._subscribers.keys():
-            entity = topics[topic]
+        for topic, entity in topics.items():
+            if topic in self._subscribers:
+                continue
             self._subscribers[topic] = self._subscribe(
                 topic, roslib.message.get_message_class(entity.type), self._on_message,
                 entity.kind, topic)
