@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "plugin/register.h"
 #include "plugin/rooms.h"
@@ -12,6 +13,7 @@ namespace {
 
 constexpr double kWallGap = 0.5;     // m: faces of two rooms that near have a wall between them
 constexpr double kHysteresis = 3.0;  // dB below the threshold it is quiet again
+constexpr double kBeside = 3.0;      // m: origins of what is in a room are as near to its height
 
 /// Area (m^2) of the wall between two rooms that stand side by side; 0 where they do not.
 double shared_wall(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
@@ -27,6 +29,18 @@ double shared_wall(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
     if (area > 0.0) return area;
   }
   return 0.0;
+}
+
+/// Of what is as high as the rooms of a plan.
+Eigen::AlignedBox3d heights(const RoomPlan& plan) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::AlignedBox3d& room : plan.rooms) {
+    for (int corner = 0; corner < 8; ++corner) {
+      box.extend(plan.frame * room.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
+    }
+  }
+  return {Vec3(-HUGE_VAL, -HUGE_VAL, box.min().z() - kBeside),
+          Vec3(HUGE_VAL, HUGE_VAL, box.max().z() + kBeside)};
 }
 
 double surface(const Eigen::AlignedBox3d& room) {
@@ -58,7 +72,7 @@ class Microphone : public Sensor {
     const Vec3 here = view.pose().position;
     const Hearing hearing = listen(view, here);
     double sum = background_;
-    for (const DeviceView& source : view.devices("sound_power_level")) {
+    for (const DeviceView& source : view.devices("sound_power_level", hearing.within)) {
       sum += heard(source, here, hearing);
     }
     const double level = to_decibels(sum);
@@ -82,10 +96,11 @@ class Microphone : public Sensor {
     bool operator==(const Place& other) const { return plan == other.plan && room == other.room; }
   };
 
-  /// The rooms of the world, where the microphone is, and what it has of the sound in each room of
-  /// its plan.
+  /// The plan that the microphone is in, or all of the world outdoors; where it is in it, and what
+  /// it has of the sound in each room.
   struct Hearing {
     std::vector<RoomPlan> plans;
+    Eigen::AlignedBox3d within;  // m: it hears nothing from elsewhere
     Place here;
     std::vector<double> gains;  // none outdoors
 
@@ -100,15 +115,24 @@ class Microphone : public Sensor {
 
   Hearing listen(const View& view, const Vec3& here) const {
     Hearing hearing;
-    for (const DeviceView& climate : climates(view)) hearing.plans.push_back(room_plan(climate));
-    hearing.here = hearing.place_of(here);
-    if (hearing.here.room != RoomPlan::kOutside) {
-      hearing.gains = field(view, hearing.plans[hearing.here.plan]).gains(hearing.here.room);
+    for (const DeviceView& climate : climates(view)) {
+      RoomPlan plan = room_plan(climate);
+      const int room = plan.at(here);
+      if (room != RoomPlan::kOutside) {
+        hearing.within = heights(plan);
+        hearing.gains = field(view, plan, hearing.within).gains(room);
+        hearing.plans = {std::move(plan)};
+        hearing.here = {0, room};
+        return hearing;
+      }
+      hearing.plans.push_back(std::move(plan));
     }
+    hearing.within = {Vec3::Constant(-HUGE_VAL), Vec3::Constant(HUGE_VAL)};
     return hearing;
   }
 
-  SoundField field(const View& view, const RoomPlan& plan) const {
+  SoundField field(const View& view, const RoomPlan& plan,
+                   const Eigen::AlignedBox3d& within) const {
     std::vector<double> surfaces;
     for (const Eigen::AlignedBox3d& room : plan.rooms) surfaces.push_back(surface(room));
     SoundField field(surfaces, absorption_);
@@ -118,7 +142,7 @@ class Microphone : public Sensor {
         if (area > 0.0) field.pass(static_cast<int>(i), static_cast<int>(k), area * wall_);
       }
     }
-    for (const DeviceView& leaf : view.devices("gap")) {
+    for (const DeviceView& leaf : view.devices("gap", within)) {
       const RoomOpening opening = room_opening(leaf, plan);
       if (opening.first == opening.second) continue;
       const double open = opening.height * opening.gap;

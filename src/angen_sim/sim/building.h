@@ -53,8 +53,6 @@ class Building {
   /// the order of the models.
   std::vector<FoundDevice> find_devices(const std::string& field,
                                         const Eigen::AlignedBox3d& within) const;
-  /// Whether a device that find_devices() may find can move.
-  bool may_move(const std::string& field) const { return !devices_by_field(field).movable.empty(); }
   /// To be called when a device has other fields than before.
   void forget_fields() {
     by_field_.clear();
@@ -81,6 +79,12 @@ class Building {
   void note_placed(LiveModel& live);
   /// Those models, in the order in which they came into the world, taken out.
   std::vector<LiveModel*> take_placed();
+
+  /// Finds the models that are awake after tick number `tick`, each once. What queries them is not
+  /// up to date before the tick after they have fallen asleep.
+  const std::vector<LiveModel*>& note_awake(std::int64_t tick);
+  /// To be called when a model has moved.
+  void note_moved(LiveModel& live) const { note_moved(live, engines_->movers.now()); }
 
   /// Inertials, gravity of links and axes of joints from now on. Throws Error and changes nothing.
   void redescribe(LiveModel& live, desc::Model described);
@@ -140,6 +144,7 @@ class Building {
   void check_sensor_name(const SensorInstance& sensor) const;
   std::vector<std::string> names_to_delete() const;
   void note_change();
+  void note_moved(LiveModel& live, MoverIndex::Moment when) const;
   void add_names(LiveModel& live);
   void remove_names(const LiveModel& live);
 
@@ -166,6 +171,8 @@ class Building {
   std::vector<WorldLight> lights_;
   Pushes pushes_;
   std::vector<LiveModel*> placed_;
+  std::vector<physics::LinkId> awake_links_;
+  std::vector<LiveModel*> awake_;
   std::vector<Owner> owners_;          // by index of physics::LinkId
   std::vector<desc::Plugin> plugins_;  // the world's, but those that are ignored
   std::vector<std::string> warnings_;

@@ -14,6 +14,28 @@ void Building::note_placed(LiveModel& live) {
   if (std::find(placed_.begin(), placed_.end(), &live) == placed_.end()) placed_.push_back(&live);
 }
 
+const std::vector<LiveModel*>& Building::note_awake(std::int64_t tick) {
+  awake_links_.clear();
+  awake_.clear();
+  engines_->physics.list_awake(awake_links_);
+  for (const physics::LinkId link : awake_links_) {
+    LiveModel& live = *owner(link).model;
+    if (live.awake_at == tick) continue;
+    live.awake_at = tick;
+    awake_.push_back(&live);
+    note_moved(live, engines_->movers.now() + 1);
+  }
+  return awake_;
+}
+
+void Building::note_moved(LiveModel& live, MoverIndex::Moment when) const {
+  if (live.changed >= when) return;
+  live.changed = when;
+  for (const DeviceInstance& device : live.devices) {
+    if (device.last) engines_->states.note(*device.last, when);
+  }
+}
+
 std::vector<LiveModel*> Building::take_placed() { return std::exchange(placed_, {}); }
 
 void Building::redescribe(LiveModel& live, desc::Model described) {
@@ -29,6 +51,7 @@ void Building::set_physics(const desc::Physics& physics, const Vec3& gravity) {
   physics_.step = step;
   gravity_ = gravity;
   engines_->physics.set(physics_, gravity_);
+  for (const auto& live : models_) note_moved(*live);
   note_change();
 }
 

@@ -120,15 +120,8 @@ std::int64_t DeviceSystem::next_tick(Building& building, InstanceView::Clock clo
   return tick;
 }
 
-void DeviceSystem::note_awake(Building& building, std::int64_t tick) {
-  awake_.clear();
-  building.engines().physics.list_awake(awake_);
-  for (const physics::LinkId link : awake_) {
-    LiveModel& live = *building.owner(link).model;
-    if (live.awake_at == tick) continue;
-    live.awake_at = tick;
-    for (std::uint32_t i = 0; i < live.devices.size(); ++i) activate(live.first_device + i);
-  }
+void DeviceSystem::note_awake(const LiveModel& live) {
+  for (std::uint32_t i = 0; i < live.devices.size(); ++i) activate(live.first_device + i);
 }
 
 void DeviceSystem::report(Building& building, InstanceView::Clock clock, Snapshot& next) {

@@ -18,8 +18,8 @@ class DeviceSystem {
   /// Updates every device that is not idle, in the order in which they came into the world.
   void update(Building& building, InstanceView::Clock clock, std::vector<Event>& events);
 
-  /// After physics has made tick number `tick`: devices of awake models are not idle.
-  void note_awake(Building& building, std::int64_t tick);
+  /// The devices of a model that is awake are not idle.
+  void note_awake(const LiveModel& live);
 
   /// States that differ from the last ones go into `next`: those of devices that had an event at
   /// once, the others 50 times a second.
@@ -67,7 +67,6 @@ class DeviceSystem {
   std::priority_queue<Timer, std::vector<Timer>, std::greater<>> timers_;  // of the others
   std::vector<std::uint32_t> to_report_;                                   // of entries_, ascending
   std::vector<std::uint32_t> had_event_;  // those of them that had an event in this tick
-  std::vector<physics::LinkId> awake_;
   bool lights_changed_ = false;
 };
 

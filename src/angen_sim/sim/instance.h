@@ -69,11 +69,14 @@ struct Queried {
   bool other = false;
   StateChanges::Fields fields = 0;  // by which it queried devices
   bool heat = false;                // temperatures of surfaces
+  bool model = false;               // links and joints of its own model
 
-  bool any() const { return contacts || light || devices || other || heat; }
+  /// Whether it is more than its model that answers.
+  bool others() const { return contacts || light || devices || other || heat; }
+  bool any() const { return others() || model; }
   Queried operator|(const Queried& o) const {
-    return {contacts || o.contacts, light || o.light,  devices || o.devices,
-            other || o.other,       fields | o.fields, heat || o.heat};
+    return {contacts || o.contacts, light || o.light, devices || o.devices, other || o.other,
+            fields | o.fields,      heat || o.heat,   model || o.model};
   }
 };
 
@@ -91,8 +94,8 @@ struct SensorInstance : SensorInfo {
   std::unique_ptr<WatchedLight> light;             // null where light may come from anywhere
   MoverIndex::Moment seen = 0;                     // its last sample has all changes before
   SensorActivity activity;
-  Queried queried{false, false, false, true, 0, false};  // for its reading
-  bool link_moves = true;                                // false where its link is static
+  Queried queried{false, false, false, true, 0, false, false};  // for its reading
+  bool link_moves = true;                                       // false where its link is static
 
   std::unique_ptr<Sensor> sensor;
   NoisySensor* noisy = nullptr;                // `sensor`, where it applies its noise itself
@@ -123,8 +126,9 @@ struct LiveModel {
   Parts parts;
   std::vector<DeviceInstance> devices;
   std::vector<SensorInstance> sensors;
-  std::int64_t awake_at = 0;     // the last tick at whose end some of it was awake
-  std::uint32_t first_link = 0;  // index of its first link in Structure::links
+  std::int64_t awake_at = 0;       // the last tick at whose end some of it was awake
+  MoverIndex::Moment changed = 0;  // when it moved last; what is awake may in the next tick
+  std::uint32_t first_link = 0;    // index of its first link in Structure::links
   std::uint32_t first_joint = 0;
   std::uint32_t first_device = 0;
   std::uint32_t first_sensor = 0;

@@ -60,11 +60,13 @@ bool queries_unchanged(const Engines& engines, const LiveModel& live,
   const Queried& queried = sensor.queried;
   const bool moved = engines.changed() >= sensor.seen;  // anything
   if (queried.other && moved) return false;
+  const bool model_changed = live.changed >= sensor.seen;
+  if (queried.model && model_changed) return false;
   if (queried.heat && engines.surfaces.changed_since(sensor.seen)) return false;
   if (queried.devices && engines.states.changed_since(queried.fields, sensor.seen)) return false;
   if (queried.light && !light_unchanged(engines, sensor)) return false;
   if (queried.contacts && contacts_revision(engines, sensor) != sensor.contacts_seen) return false;
-  return !sensor.link_moves || !moved || pose_of(engines, live, sensor) == sensor.seen_from;
+  return !sensor.link_moves || !model_changed || pose_of(engines, live, sensor) == sensor.seen_from;
 }
 
 /// Whether the latest reading has nothing that the last published one has not.
@@ -190,13 +192,21 @@ void SensorSystem::list(Building& building, Nanoseconds now) {
   scheduler_.assign(schedules, now);
 }
 
-/// A sensor that only changes in its watch regions can activate is not visited until then.
+void SensorSystem::note_moved(const LiveModel& live) {
+  if (outdated_) return;
+  for (std::uint32_t i = 0; i < live.sensors.size(); ++i) {
+    if (scheduler_.is_idle(live.first_sensor + i)) scheduler_.activate(live.first_sensor + i);
+  }
+}
+
+/// A sensor that only changes in its watch regions, or of its model, can activate is not visited
+/// until then.
 void SensorSystem::make_idle(const Engines& engines, std::uint32_t index,
                              InstanceView::Clock clock) {
   SensorInstance& sensor = *entries_[index].sensor;
-  if (sensor.queried.any() || sensor.link_moves || !sensor.activity.skips()) return;
+  if (sensor.queried.others() || !sensor.activity.skips()) return;
   const auto known = [](const auto& scan) { return scan && scan->region.number() != kNobody; };
-  if (sensor.scans.empty() || !std::all_of(sensor.scans.begin(), sensor.scans.end(), known)) return;
+  if (!std::all_of(sensor.scans.begin(), sensor.scans.end(), known)) return;
   owners_.resize(std::max(owners_.size(), engines.movers.region_count()), kNobody);
   for (const auto& scan : sensor.scans) owners_[scan->region.number()] = index;
   scheduler_.make_idle(index);

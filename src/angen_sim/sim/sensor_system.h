@@ -29,6 +29,9 @@ class SensorSystem {
   /// next_tick() allowed to be skipped.
   void skip_to(InstanceView::Clock clock, std::int64_t tick, Snapshot& next);
 
+  /// The sensors of a model that has moved, or is awake, are visited at their next due times.
+  void note_moved(const LiveModel& live);
+
   /// To be called when sensors came, went, or started anew.
   void invalidate() { outdated_ = true; }
 

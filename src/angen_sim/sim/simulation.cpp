@@ -43,6 +43,9 @@ struct Simulation::Impl {
   void follow_placed() {
     for (LiveModel* live : building.take_placed()) {
       building.engines().note_change();
+      building.note_moved(*live);
+      if (!live->devices.empty()) building.forget_fields();
+      sensors.note_moved(*live);
       for (std::uint32_t i = 0; i < live->parts.links.size(); ++i) {
         building.engines().follow(live->parts, i);
         write_link(*live, i);
@@ -108,10 +111,14 @@ struct Simulation::Impl {
     if (was_awake || !engines.physics.moved().empty()) engines.note_change();
     ++next.tick;
     for (const physics::Stopped& stopped : engines.physics.stopped()) note(stopped);
-    devices.note_awake(building, next.tick);
+    for (const LiveModel* live : building.note_awake(next.tick)) {
+      devices.note_awake(*live);
+      sensors.note_moved(*live);
+    }
     next.time = next.tick * next.step;
     for (const physics::LinkId link : building.engines().physics.moved()) {
       const Building::Owner owner = building.owner(link);
+      building.note_moved(*owner.model);
       building.engines().follow(owner.model->parts, owner.link);
       write_link(*owner.model, owner.link);
       next.moved_links.push_back(owner.model->first_link + owner.link);

@@ -25,17 +25,21 @@ class StateChanges {
     return Fields{1} << numbers_.try_emplace(field, next).first->second;
   }
 
-  /// A device reports another state, with the same fields as before.
+  /// A device reports another state, with the same fields as before, or has moved.
   void note(const Reading& state, Moment now) {
-    changed_[kAny] = now;
+    changed_[kAny] = std::max(changed_[kAny], now);
     for (const auto& [name, value] : state.fields) {
       const auto known = numbers_.find(name);
-      if (known != numbers_.end()) changed_[known->second] = now;
+      if (known == numbers_.end()) continue;
+      changed_[known->second] = std::max(changed_[known->second], now);
     }
   }
 
   /// A device came, went, or has other fields than before.
-  void note_all(Moment now) { all_ = changed_[kAny] = now; }
+  void note_all(Moment now) {
+    all_ = now;
+    changed_[kAny] = std::max(changed_[kAny], now);
+  }
 
   bool changed_since(Fields fields, Moment since) const {
     if (changed_[kAny] < since) return false;

@@ -19,19 +19,19 @@ Pose InstanceView::pose() const {
 }
 
 JointView InstanceView::joint(JointRef joint) const {
-  queried_.other = true;
+  queried_.model = true;
   const physics::JointState state = engines_.physics.joint(live_.parts.joints.at(at(joint)));
   return {state.position, state.velocity, state.effort};
 }
 
 JointWrench InstanceView::wrench(JointRef joint) const {
-  queried_.other = true;
+  queried_.model = true;
   const physics::Wrench wrench = engines_.physics.wrench(live_.parts.joints.at(at(joint)));
   return {wrench.force, wrench.torque};
 }
 
 LinkView InstanceView::link(LinkRef link) const {
-  queried_.other = true;
+  queried_.model = true;
   const physics::LinkId id = live_.parts.links.at(at(link));
   const physics::LinkState state = engines_.physics.link(id);
   return {state.pose, state.linear_velocity, state.angular_velocity, engines_.physics.awake(id)};
@@ -52,7 +52,6 @@ std::vector<ContactPair> InstanceView::contacts_within(ContactRef collision,
 std::vector<DeviceView> InstanceView::devices(const std::string& field,
                                               const Eigen::AlignedBox3d& within) const {
   queried_.devices = true;
-  queried_.other = queried_.other || building_.may_move(field);
   queried_.fields |= engines_.states.bit_of(field);
   std::vector<DeviceView> found;
   const std::vector<Building::FoundDevice> all = building_.find_devices(field, within);

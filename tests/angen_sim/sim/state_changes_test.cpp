@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "angen_sim/sim/household.h"
 
@@ -100,6 +102,27 @@ TEST(StateChanges, ASensorSamplesAgainForDevicesThatItQueried) {
   };
   EXPECT_LE(samples(0), 3);
   EXPECT_GE(samples(1), 25);
+}
+
+TEST(StateChanges, ADeviceThatIsPutElsewhereIsFoundThere) {
+  const std::string text =
+      "<sdf version='1.6'><world name='w'><model name='phone'><static>true</static><pose>1 0 1 0 0 "
+      "0</pose><link name='l'/><plugin name='r' filename='libradio_transmitter.so'/></model>" +
+      body("it", "<box><size>0.05 0.05 0.05</size></box>", "0 0 1 0 0 0", true,
+           custom("radio", "radio_receiver", "")) +
+      "</world></sdf>";
+  Simulation simulation(load::world_from_text(text, "test", {}), 1, std::make_shared<Catalog>());
+  const auto strength = [&] {
+    return simulation.snapshot()->reading(0)->get<std::vector<double>>("rssi").at(0);
+  };
+  for (int i = 0; i < 3000; ++i) simulation.tick();
+  const double at_1 = strength();
+  SetModelState away;
+  away.model = "phone";
+  away.state.pose = Pose{{2.0, 0.0, 1.0}, Quat::Identity()};
+  simulation.post(away);
+  for (int i = 0; i < 1100; ++i) simulation.tick();
+  EXPECT_NEAR(strength(), at_1 - 20.0 * std::log10(2.0), 0.01);  // free space
 }
 
 }  // namespace
