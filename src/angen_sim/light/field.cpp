@@ -97,16 +97,16 @@ const std::vector<Field::Link>& Field::links(std::uint32_t patch) {
   if (!known.links.empty() && (known.charged || !in_flux() || known.scene == scene_.revision())) {
     return known.links;
   }
-  const std::array<rays::Ray, kLinks> rays = link_rays(surfaces_[patch]);
-  std::array<rays::Hit, kLinks> hits;
-  scene_.cast(rays.data(), hits.data(), kLinks, kStanding);
+  const std::vector<rays::Ray> rays = link_rays(surfaces_[patch]);
+  std::array<rays::Hit, 1024> hits;
+  scene_.cast(rays.data(), hits.data(), rays.size(), kStanding);
   PatchLinks& own = patch_links_[patch];
   own.scene = scene_.revision();
   own.reach.setEmpty();
   own.links.clear();
-  own.links.reserve(kLinks);
+  own.links.reserve(rays.size());
   if (!own.charged) uncharged_.push_back(patch);
-  for (std::size_t i = 0; i < kLinks; ++i) {
+  for (std::size_t i = 0; i < rays.size(); ++i) {
     own.links.push_back(link_of(rays[i], hits[i]));
     own.reach.extend(rays[i].origin);
     own.reach.extend(end_of(rays[i], hits[i].range));
@@ -165,12 +165,11 @@ std::int64_t Field::charge_making(std::uint32_t patch) {
 
 std::int64_t Field::charge(std::uint32_t patch) {
   if (patch == kNoPatch || charged(patch)) return 0;
-  links(patch);
+  const std::size_t count = links(patch).size();
   patch_links_[patch].charged = true;
   charged_.push_back(patch);
-  std::int64_t cost = kLinks;
-  for (std::size_t i = 0; i < kLinks; ++i)
-    cost += charge_making(patch_links_[patch].links[i].patch);
+  auto cost = static_cast<std::int64_t>(count);
+  for (std::size_t i = 0; i < count; ++i) cost += charge_making(patch_links_[patch].links[i].patch);
   return cost;
 }
 
@@ -187,7 +186,7 @@ void Field::follow_patch(Unfinished& work) {
     if (place < i) sum += work.leaving[place];
   }
   solution.direct.push_back(direct(work.lamp, patch));
-  solution.reflected.push_back(sum / static_cast<float>(kLinks));
+  solution.reflected.push_back(sum / static_cast<float>(seen.size()));
   work.leaving.push_back(albedo_of(patch) * (solution.direct[i] + solution.reflected[i]));
   if (work.leaving[i].maxCoeff() < kDark) return;
   const double reach = reach_of(work.lamp);
@@ -215,11 +214,16 @@ std::int64_t Field::prepare_balance(Unfinished& work, std::int64_t rays) {
   for (; i < end; ++i) {
     work.albedos.push_back(albedo_of(solution.patches[i]));
     work.leaving[i] = work.albedos[i] * (solution.direct[i] + solution.reflected[i]);
-    for (const Link& link : links(solution.patches[i])) {
+    const std::vector<Link>& seen = links(solution.patches[i]);
+    work.rows.push_back(work.seen.size());
+    for (const Link& link : seen) {
       work.seen.push_back(std::min(count, place_of(link.patch, work)));
     }
   }
-  if (i == count) work.leaving.push_back(Rgb::Zero());  // the dark
+  if (i == count) {
+    work.rows.push_back(work.seen.size());
+    work.leaving.push_back(Rgb::Zero());  // the dark
+  }
   return 1 + static_cast<std::int64_t>(i - first) * kBouncesToPrepare / kRowsPerRay;
 }
 
@@ -231,9 +235,10 @@ std::int64_t Field::balance(Unfinished& work, std::int64_t rays) {
   const std::size_t end = rows_from(first, solution.patches.size(), rays);
   for (std::size_t i = first; i < end; ++i) {
     Rgb sum = Rgb::Zero();
-    const std::uint32_t* row = &work.seen[i * kLinks];
-    for (std::size_t k = 0; k < kLinks; ++k) sum += work.leaving[row[k]];
-    sum /= static_cast<float>(kLinks);
+    for (std::size_t k = work.rows[i]; k < work.rows[i + 1]; ++k) {
+      sum += work.leaving[work.seen[k]];
+    }
+    sum /= static_cast<float>(work.rows[i + 1] - work.rows[i]);
     work.change = std::max(work.change, (sum - solution.reflected[i]).abs().maxCoeff());
     work.total += solution.direct[i] + sum.maxCoeff();
     solution.reflected[i] = sum;

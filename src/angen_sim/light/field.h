@@ -49,6 +49,7 @@ struct Unfinished {
   std::vector<std::uint32_t> places;  // by patch, in the solution's lists; kNoPatch for none
   std::vector<Rgb> leaving;           // lx, of those
   std::vector<std::uint32_t> seen;    // by patch, the places of those that it sees
+  std::vector<std::size_t> rows;      // where each patch's begin, and the last one's end
   std::vector<Rgb> albedos;           // of those that are ready to be balanced
   int bounces = 0;
   std::size_t balanced = 0;  // patches, in this bounce

@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kNear = 1e-3;         // m, as near as touches
 constexpr double kStill = 5e-5;        // m that a shape may move unnoticed: a ray's margin is more
-constexpr double kBeside = 0.02;       // m: how far from a surface what covers or divides it may be
 constexpr double kLargestPatch = 1.5;  // m across
 // Costs in rays, measured; they decide only how an update is cut into ticks.
 constexpr std::int64_t kCostToSkip = 1;     // a patch that sees no change
@@ -97,7 +96,7 @@ bool Field::outdated_in(const Box& box) const {
 
 /// What stands near a surface may cover or divide its patches.
 void Field::forget_near(const Box& box) {
-  const Box near(box.min() - Vec3::Constant(kBeside), box.max() + Vec3::Constant(kBeside));
+  const Box near(box.min() - Vec3::Constant(kFacing), box.max() + Vec3::Constant(kFacing));
   for (const Boxes* all : {&static_, &anchored_}) {
     for (const auto& [shape, place] : *all) {
       if (near.intersects(place)) surfaces_.forget_near(shape.index, near, releasing_);
@@ -161,8 +160,8 @@ std::int64_t Field::update_links(std::uint32_t patch) {
   }
   if (near.empty()) return kCostToSkip;
   std::int64_t cost = kCostToCompare * static_cast<std::int64_t>(near.size());
-  const std::array<rays::Ray, kLinks> rays = link_rays(surfaces_[patch]);
-  for (std::size_t i = 0; i < kLinks; ++i) {
+  const std::vector<rays::Ray> rays = link_rays(surfaces_[patch]);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
     const Link known = patch_links_[patch].links[i];
     const rays::Ray& again = rays[i];
     const auto passed = [&](const Box& box) { return passes(box, again, known.range + kNear); };

@@ -53,13 +53,14 @@ Rgb Field::beyond(const Solution& solution, std::uint32_t patch, bool stale) {
   const auto [known, is_new] = solution.beyond.try_emplace(surfaces_[patch].hash, Rgb::Zero());
   if (!is_new) return known->second;
   Rgb sum = Rgb::Zero();
-  for (const Link& link : links(patch)) {
+  const std::vector<Link>& seen_from = links(patch);
+  for (const Link& link : seen_from) {
     if (link.patch == kNoPatch) continue;
     const std::uint32_t seen = place(solution, link.patch, stale);
     if (seen == kNoPatch) continue;
     sum += albedo_of(link.patch) * (solution.direct[seen] + solution.reflected[seen]);
   }
-  return known->second = sum / static_cast<float>(kLinks);
+  return known->second = sum / static_cast<float>(seen_from.size());
 }
 
 void Field::add_reflected(const Solution& solution, const Rgb& factor,

@@ -1,6 +1,7 @@
 #include "light/field_rays.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -19,31 +20,35 @@ constexpr double kFarthest = 1e4;      // m
 
 /// Directions for one patch's links, about z, and which of its sites each starts from.
 struct Fan {
-  std::array<Vec3, kLinks> directions;
-  std::array<std::size_t, kLinks> sites;
+  std::vector<Vec3> directions;
+  std::vector<std::size_t> sites;
 };
 
-std::vector<Fan> make_fans() {
-  std::vector<Fan> fans(kFans);
-  for (std::size_t f = 0; f < kFans; ++f) {
-    Rng rng(0, hash_bytes("light links"), static_cast<std::int64_t>(f));
-    const double shift_u = rng.uniform(), shift_v = rng.uniform();
-    for (std::size_t i = 0; i < kLinks; ++i) {
-      const double u = (static_cast<double>(i) + 0.5) / kLinks + shift_u;
-      const double v = radical_inverse(static_cast<unsigned>(i)) + shift_v;
-      fans[f].directions[i] = cosine_direction(u - std::floor(u), v - std::floor(v));
-      fans[f].sites[i] = i;
-    }
-    for (std::size_t i = kLinks - 1; i > 0; --i) {
-      std::swap(fans[f].sites[i], fans[f].sites[rng.next() % (i + 1)]);
-    }
+Fan make_fan(std::size_t number, std::size_t links) {
+  Fan fan;
+  Rng rng(0, hash_bytes("light links"), static_cast<std::int64_t>(number));
+  const double shift_u = rng.uniform(), shift_v = rng.uniform();
+  for (std::size_t i = 0; i < links; ++i) {
+    const double u = (static_cast<double>(i) + 0.5) / static_cast<double>(links) + shift_u;
+    const double v = radical_inverse(static_cast<unsigned>(i)) + shift_v;
+    fan.directions.push_back(cosine_direction(u - std::floor(u), v - std::floor(v)));
+    fan.sites.push_back(i);
   }
+  for (std::size_t i = links - 1; i > 0; --i) {
+    std::swap(fan.sites[i], fan.sites[rng.next() % (i + 1)]);
+  }
+  return fan;
+}
+
+std::array<Fan, kFans> make_fans(std::size_t links) {
+  std::array<Fan, kFans> fans;
+  for (std::size_t f = 0; f < kFans; ++f) fans[f] = make_fan(f, links);
   return fans;
 }
 
-const std::vector<Fan>& fans() {
-  static const std::vector<Fan> all = make_fans();
-  return all;
+const Fan& fan_of(const Patch& patch) {
+  static const std::array<Fan, kFans> whole = make_fans(kLinks), fine = make_fans(kFineLinks);
+  return (patch.is_part() ? fine : whole)[patch.hash % kFans];
 }
 
 rays::Ray ray_from(const Vec3& origin, const Vec3& direction) {
@@ -57,16 +62,17 @@ rays::Ray ray_from(const Vec3& origin, const Vec3& direction) {
 }  // namespace
 
 /// Each patch turns its fan about the normal by an angle of its own.
-std::array<rays::Ray, kLinks> link_rays(const Patch& patch) {
-  const Fan& fan = fans()[patch.hash % kFans];
+std::vector<rays::Ray> link_rays(const Patch& patch) {
+  const Fan& fan = fan_of(patch);
   const double angle = 2.0 * M_PI * static_cast<double>(patch.hash >> 40) / (1 << 24);
   const double c = std::cos(angle), s = std::sin(angle);
-  std::array<rays::Ray, kLinks> rays;
-  for (std::size_t i = 0; i < kLinks; ++i) {
+  std::vector<rays::Ray> rays;
+  rays.reserve(fan.directions.size());
+  for (std::size_t i = 0; i < fan.directions.size(); ++i) {
     const Site& site = patch.sites[fan.sites[i] % patch.sites.size()];
     const Vec3& d = fan.directions[i];
     const Vec3 turned(c * d.x() - s * d.y(), s * d.x() + c * d.y(), d.z());
-    rays[i] = ray_from(site.position, (frame_about(site.normal) * turned).normalized());
+    rays.push_back(ray_from(site.position, (frame_about(site.normal) * turned).normalized()));
   }
   return rays;
 }

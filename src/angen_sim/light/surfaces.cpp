@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kCell = 0.4;       // m
 constexpr double kPlaneCell = 1.0;  // m: planes go on for ever
-constexpr int kFine = 4;            // parts of a cell's side where a wall stands across it
+constexpr int kFine = 4;            // parts of the side of a cell that is divided
 constexpr int kSitesPerSide = 4;    // of a cell
 constexpr int kFineSitesPerSide = 2;
 constexpr double kLift = 0.01;  // m: how far off a surface its sites must see each other
@@ -90,9 +90,12 @@ std::uint32_t Surfaces::make(const Key& key) {
   if (!fresh) return found->second;
   keys_[static_cast<std::uint32_t>(key[0])].push_back(key);
   const bool fine = key[5] == 1;
-  Patch patch{key, HashKey{}(key), sites(key, fine ? kFineSitesPerSide : kSitesPerSide),
+  bool covered = false;
+  Patch patch{key, HashKey{}(key), sites(key, fine ? kFineSitesPerSide : kSitesPerSide, covered),
               serials_ + 1};
-  if (!fine && (patch.sites.empty() || divided(patch.sites))) return found->second = kDivided;
+  if (!fine && (patch.sites.empty() || covered || parted(patch.sites) || faced(patch.sites))) {
+    return found->second = kDivided;
+  }
   if (patch.sites.empty()) return kNoPatch;
   ++serials_;
   if (free_.empty()) {
@@ -106,7 +109,8 @@ std::uint32_t Surfaces::make(const Key& key) {
   return found->second;
 }
 
-std::vector<Site> Surfaces::sites(const Key& key, int per_side) const {
+/// `covered`: whether something stands on a part of it.
+std::vector<Site> Surfaces::sites(const Key& key, int per_side, bool& covered) const {
   const Lattice cells = lattice(static_cast<std::uint32_t>(key[0]), key[1]);
   const double scale = key[5] == 1 ? 1.0 / kFine : 1.0;
   std::array<Site, kSitesPerSide * kSitesPerSide> found;
@@ -114,8 +118,14 @@ std::vector<Site> Surfaces::sites(const Key& key, int per_side) const {
   for (int i = 0; i < per_side * per_side; ++i) {
     const double u = (key[3] + (i % per_side + 0.5) / per_side) * scale;
     const double v = (key[4] + (i / per_side + 0.5) / per_side) * scale;
-    if (site(cells, key, cells.low.x() + u * cells.step.x(), cells.low.y() + v * cells.step.y(),
-             found[count])) {
+    Site& next = found[count];
+    if (!site(cells, key, cells.low.x() + u * cells.step.x(), cells.low.y() + v * cells.step.y(),
+              next)) {
+      continue;
+    }
+    if (scene_.covered(next.position + kOff * next.normal, static_cast<std::uint32_t>(key[0]))) {
+      covered = true;
+    } else {
       ++count;
     }
   }
@@ -150,11 +160,11 @@ bool Surfaces::site(const Lattice& cells, const Key& key, double u, double v, Si
   out.position = ray.origin + hit.range * ray.direction;
   out.normal = hit.normal.cast<double>().normalized();
   const Vec3 local = placement.pose.rotation.conjugate() * out.normal;
-  return dominant(local) == axis && !scene_.covered(out.position + kOff * out.normal, shape);
+  return dominant(local) == axis;
 }
 
 /// Whether the sites fall into groups that do not see each other, along the surface.
-bool Surfaces::divided(const std::vector<Site>& sites) const {
+bool Surfaces::parted(const std::vector<Site>& sites) const {
   std::vector<std::size_t> reached{0};
   std::vector<bool> seen(sites.size(), false);
   seen[0] = true;
@@ -177,6 +187,13 @@ bool Surfaces::divided(const std::vector<Site>& sites) const {
     }
   }
   return reached.size() != sites.size();
+}
+
+/// Whether something stands close before any of the sites: light differs much along such gaps.
+bool Surfaces::faced(const std::vector<Site>& sites) const {
+  return std::any_of(sites.begin(), sites.end(), [&](const Site& site) {
+    return scene_.blocked(site.position, site.position + kFacing * site.normal, kOff, kStanding);
+  });
 }
 
 template <class Meets>

@@ -10,6 +10,7 @@
 namespace angen::light {
 
 constexpr std::uint32_t kNoPatch = UINT32_MAX;
+constexpr double kFacing = 0.4;  // m: what stands so near before a surface divides its cells
 
 /// Static and anchored shapes: light is balanced between them.
 constexpr rays::Mobilities kStanding =
@@ -21,14 +22,16 @@ struct Site {
   Vec3 normal;
 };
 
-/// A piece of one shape's surface of about 0.4 m (0.1 m where a wall stands across it), seen from
-/// one side, lit as one.
+/// A piece of one shape's surface of about 0.4 m (0.1 m where something stands on a part of it or
+/// close before it), seen from one side, lit as one.
 struct Patch {
   std::array<std::int32_t, 6> key;  // shape, face, depth, u, v, level
   std::uint64_t hash = 0;
   std::vector<Site> sites;
   std::uint64_t serial = 0;  // no two patches have had the same
   bool alive = true;         // not forgotten since
+
+  bool is_part() const { return key[5] != 0; }  // of a divided cell
 };
 
 /// Patches, found when they are first hit. What a patch is depends on the shapes alone, not on
@@ -66,9 +69,10 @@ class Surfaces {
 
   Lattice lattice(std::uint32_t shape, int face) const;
   std::uint32_t make(const Key& key);
-  std::vector<Site> sites(const Key& key, int per_side) const;
+  std::vector<Site> sites(const Key& key, int per_side, bool& covered) const;
   bool site(const Lattice& lattice, const Key& key, double u, double v, Site& out) const;
-  bool divided(const std::vector<Site>& sites) const;
+  bool parted(const std::vector<Site>& sites) const;
+  bool faced(const std::vector<Site>& sites) const;
   template <class Meets>
   void forget_if(std::uint32_t shape, std::vector<std::uint32_t>& gone, Meets&& meets);
 
