@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kCell = 0.4;       // m
 constexpr double kPlaneCell = 1.0;  // m: planes go on for ever
-constexpr int kFine = 4;            // parts of the side of a cell that is divided
+constexpr double kPart = 0.1;       // m, a side of the parts of a cell that is divided
 constexpr int kSitesPerSide = 4;    // of a cell
 constexpr int kFineSitesPerSide = 2;
 constexpr double kLift = 0.01;  // m: how far off a surface its sites must see each other
@@ -20,6 +20,10 @@ constexpr std::uint32_t kDivided = kNoPatch - 1;
 bool rounded(Shape::Type type) {
   return type == Shape::Type::kSphere || type == Shape::Type::kCylinder ||
          type == Shape::Type::kCapsule;
+}
+
+double parts_of(double length, double part) {
+  return std::max(1.0, std::ceil(length / part - 1e-9));
 }
 
 int dominant(const Vec3& v) {
@@ -50,7 +54,8 @@ Surfaces::Lattice Surfaces::lattice(std::uint32_t shape, int face) const {
     const double size = box.max()[axis] - box.min()[axis];
     const bool endless = !std::isfinite(size);
     out.low[side] = endless ? 0.0 : box.min()[axis];
-    out.step[side] = endless ? kPlaneCell : size / std::max(1.0, std::ceil(size / kCell - 1e-9));
+    out.step[side] = endless ? kPlaneCell : size / parts_of(size, kCell);
+    out.parts[side] = parts_of(out.step[side], kPart);
   }
   return out;
 }
@@ -78,9 +83,10 @@ std::uint32_t Surfaces::at(std::uint32_t shape, const Vec3& point, const Vec3& n
   std::uint32_t patch = make(key);
   if (patch != kDivided) return patch;
   const Eigen::Array2d part =
-      ((cell - whole) * static_cast<double>(kFine)).floor().max(0.0).min(kFine - 1.0);
-  key[3] = key[3] * kFine + static_cast<int>(part.x());
-  key[4] = key[4] * kFine + static_cast<int>(part.y());
+      ((cell - whole) * cells.parts).floor().max(0.0).min(cells.parts - 1.0);
+  const Eigen::Array2d all = whole * cells.parts + part;
+  key[3] = static_cast<int>(all.x());
+  key[4] = static_cast<int>(all.y());
   key[5] = 1;
   return make(key);
 }
@@ -90,10 +96,11 @@ std::uint32_t Surfaces::make(const Key& key) {
   if (!fresh) return found->second;
   keys_[static_cast<std::uint32_t>(key[0])].push_back(key);
   const bool fine = key[5] == 1;
-  bool covered = false;
+  int covered = 0;
   Patch patch{key, HashKey{}(key), sites(key, fine ? kFineSitesPerSide : kSitesPerSide, covered),
               serials_ + 1};
-  if (!fine && (patch.sites.empty() || covered || parted(patch.sites) || faced(patch.sites))) {
+  if (!fine && (patch.sites.empty() || covered > kSitesPerSide || parted(patch.sites) ||
+                faced(patch.sites))) {
     return found->second = kDivided;
   }
   if (patch.sites.empty()) return kNoPatch;
@@ -109,22 +116,20 @@ std::uint32_t Surfaces::make(const Key& key) {
   return found->second;
 }
 
-/// `covered`: whether something stands on a part of it.
-std::vector<Site> Surfaces::sites(const Key& key, int per_side, bool& covered) const {
+/// Also counts those on which something stands.
+std::vector<Site> Surfaces::sites(const Key& key, int per_side, int& covered) const {
   const Lattice cells = lattice(static_cast<std::uint32_t>(key[0]), key[1]);
-  const double scale = key[5] == 1 ? 1.0 / kFine : 1.0;
+  const Eigen::Array2d step = key[5] == 1 ? Eigen::Array2d(cells.step / cells.parts) : cells.step;
   std::array<Site, kSitesPerSide * kSitesPerSide> found;
   std::size_t count = 0;
   for (int i = 0; i < per_side * per_side; ++i) {
-    const double u = (key[3] + (i % per_side + 0.5) / per_side) * scale;
-    const double v = (key[4] + (i / per_side + 0.5) / per_side) * scale;
+    const double u = key[3] + (i % per_side + 0.5) / per_side;
+    const double v = key[4] + (i / per_side + 0.5) / per_side;
     Site& next = found[count];
-    if (!site(cells, key, cells.low.x() + u * cells.step.x(), cells.low.y() + v * cells.step.y(),
-              next)) {
+    if (!site(cells, key, cells.low.x() + u * step.x(), cells.low.y() + v * step.y(), next))
       continue;
-    }
     if (scene_.covered(next.position + kOff * next.normal, static_cast<std::uint32_t>(key[0]))) {
-      covered = true;
+      ++covered;
     } else {
       ++count;
     }
@@ -237,11 +242,14 @@ void Surfaces::forget_near(std::uint32_t shape, const Eigen::AlignedBox3d& box,
     for (int side = 0; side < 2; ++side) {
       const int axis = (cells.axis + 1 + side) % 3;
       const int at = key[3 + side];
-      const int cell = key[5] == 0 ? at : static_cast<int>(std::floor(at / double{kFine}));
+      const double cell = key[5] == 0 ? at : std::floor(at / cells.parts[side]);
       const double low = cells.low[side] + cell * cells.step[side];
       if (local.min()[axis] > low + cells.step[side] || local.max()[axis] < low) return false;
     }
-    return true;
+    const rays::Placement& placement = cells.placement;
+    double low = placement.box.min()[cells.axis], high = placement.box.max()[cells.axis];
+    if (placement.type == Shape::Type::kBox) low = high = key[2] == 1 ? high : low;
+    return local.min()[cells.axis] <= high && local.max()[cells.axis] >= low;
   });
 }
 

@@ -64,12 +64,13 @@ class Surfaces {
     rays::Placement placement;
     int axis = 0;
     double sign = 1.0;
-    Eigen::Array2d low, step;
+    Eigen::Array2d low, step;  // m, of cells
+    Eigen::Array2d parts;      // of the sides of a cell that is divided
   };
 
   Lattice lattice(std::uint32_t shape, int face) const;
   std::uint32_t make(const Key& key);
-  std::vector<Site> sites(const Key& key, int per_side, bool& covered) const;
+  std::vector<Site> sites(const Key& key, int per_side, int& covered) const;
   bool site(const Lattice& lattice, const Key& key, double u, double v, Site& out) const;
   bool parted(const std::vector<Site>& sites) const;
   bool faced(const std::vector<Site>& sites) const;
