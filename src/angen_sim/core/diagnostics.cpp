@@ -18,7 +18,7 @@ namespace {
 // A message repeats what a user gave, whatever its length; where it is cut, its length follows.
 constexpr std::size_t kMaxMessageBytes = 3960;
 
-std::string cut(std::string message) {
+std::string cut(const std::string& message) {
   return message.size() <= kMaxMessageBytes ? message : printable(message, kMaxMessageBytes);
 }
 

@@ -341,6 +341,7 @@ std::vector<const ModelInfo::Joint*> LeafPlugin::leaves(const ModelInfo& model,
 std::vector<Mount> LeafPlugin::mounts(const ModelInfo& model, Params& params) const {
   const std::vector<const ModelInfo::Joint*> found = leaves(model, params);
   std::vector<Mount> mounts;
+  mounts.reserve(found.size());
   for (const ModelInfo::Joint* leaf : found) {
     mounts.push_back({name_of(*leaf, model, found.size() == 1), leaf->name});
   }
@@ -350,11 +351,11 @@ std::vector<Mount> LeafPlugin::mounts(const ModelInfo& model, Params& params) co
 // The model's only leaf is named after it, if it says what it is; others after their links.
 std::string LeafPlugin::name_of(const ModelInfo::Joint& leaf, const ModelInfo& model,
                                 bool only) const {
-  const std::string of_model = command_name(model.name, kind_.name, model.pose.position.z());
+  std::string of_model = command_name(model.name, kind_.name, model.pose.position.z());
   const bool is_own = leaf.name == leaf_.joint && leaf.parent == "base";
   if (only && (is_own || model.name.find(kind_.name) != std::string::npos)) return of_model;
   for (const std::string& part : {leaf.child, leaf.name}) {
-    const std::string name = leaf_name(part, kind_.name, leaf.height);
+    std::string name = leaf_name(part, kind_.name, leaf.height);
     if (!name.empty()) return name;
   }
   return only ? of_model : leaf.name;

@@ -23,6 +23,7 @@ constexpr double kOwn = 0.255;                   // m, up to the person's own su
 constexpr double kCell = 0.1;  // m
 constexpr int kHalf = 30;      // cells from the middle to the edge
 constexpr int kSide = 2 * kHalf + 1;
+constexpr std::size_t kCells = std::size_t{kSide} * kSide;
 constexpr double kWide = 0.33;    // m
 constexpr double kRoomy = 0.5;    // m: nearer to something costs more
 constexpr double kTight = 3.0;    // of cost a meter, per meter nearer than that
@@ -118,9 +119,9 @@ class Grid {
 
   Vec2 middle_;
   double body_;
-  std::array<double, kSide * kSide> gap_;   // m to the next point, at most kRoomy
-  std::array<double, kSide * kSide> cost_;  // of the way from the middle
-  std::array<int, kSide * kSide> from_;
+  std::array<double, kCells> gap_;   // m to the next point, at most kRoomy
+  std::array<double, kCells> cost_;  // of the way from the middle
+  std::array<int, kCells> from_;
 };
 
 }  // namespace

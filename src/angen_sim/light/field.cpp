@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "light/beam.h"
+#include "light/directions.h"
 #include "light/field_rays.h"
 
 namespace angen::light {

@@ -60,7 +60,7 @@ void read_surface(const Element& element, desc::Collision& collision) {
 template <class Part>
 std::vector<PlacedShape> add_shapes(const Element& element, const Pose& pose, Part part,
                                     Session& session, std::vector<Part>& to) {
-  const std::vector<PlacedShape> shapes = shapes_of(*element.child("geometry"), pose, session);
+  std::vector<PlacedShape> shapes = shapes_of(*element.child("geometry"), pose, session);
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     part.name = name_of(element) + (shapes.size() == 1 ? "" : "_" + std::to_string(i));
     part.shape = shapes[i].shape;

@@ -135,7 +135,7 @@ const Pose& Frames::pose(const std::string& name) {
 }
 
 Pose Frames::part_pose(const Element& part, const std::string& link, const std::string& scope) {
-  const Pose given = child_pose(part);
+  Pose given = child_pose(part);
   const std::string frame = relative_to(part);
   if (frame.empty()) return given;
   return pose(link).inverse() * (pose(key(frame, scope, part)) * given);

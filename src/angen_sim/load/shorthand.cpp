@@ -96,7 +96,7 @@ std::vector<Vec3> places_of(const Element& population) {
   const Element* distribution = population.child("distribution");
   const std::string type =
       distribution == nullptr ? "random" : distribution->child_text("type", "random");
-  if (type == "grid") return grid(*distribution);
+  if (distribution != nullptr && type == "grid") return grid(*distribution);
   static const std::map<std::string, int> lines = {
       {"linear-x", 0}, {"linear-y", 1}, {"linear-z", 2}};
   const auto line = lines.find(type);

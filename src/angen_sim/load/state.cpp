@@ -17,6 +17,7 @@ T& find_named(std::vector<T>& all, const Element& element, const std::string& wh
       std::find_if(all.begin(), all.end(), [&](const T& item) { return item.name == name; });
   if (found != all.end()) return *found;
   std::vector<std::string> known;
+  known.reserve(all.size());
   for (const T& item : all) known.push_back(item.name);
   throw Error(element.source, "<state> names an unknown " + element.name + " '" + name + "'" +
                                   where + "; known are " + join_names(known));

@@ -81,7 +81,7 @@ std::string find_beside(const std::string& name, const std::string& what, const 
     places = found ? std::vector<fs::path>{*found} : std::vector<fs::path>{};
   }
   for (const fs::path& place : places) {
-    const std::string path = place.lexically_normal().string();
+    std::string path = place.lexically_normal().string();
     if (!is_file(path, session)) continue;
     if (may_name(path, file, at, session)) return path;
     session.warn(at, what + " " + printable(path, 300) + " of " + file +

@@ -373,6 +373,7 @@ std::vector<ContactPair> Contacts::of(const Geom& geom) const {
     add_resting(resting_.at({at->second, at->first}));
   }
   std::vector<ContactPair> all;
+  all.reserve(found.size());
   for (auto& [serial, pair] : found) all.push_back(std::move(pair));
   return all;
 }

@@ -13,7 +13,7 @@ constexpr double kManyCells = 20000.0;
 
 bool cells_of(const Aabb& box, std::array<int, 6>& cells) {
   double count = 1.0;
-  for (int i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     const double first = std::floor(box.min[i] / kCell);
     const double last = std::floor(box.max[i] / kCell);
     if (!(first > -kMost && last < kMost)) return false;

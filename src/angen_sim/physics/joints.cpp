@@ -349,6 +349,7 @@ double joint_velocity(const Joint& joint) {
 }
 
 void push_joint(Joint& joint, double force) {
+  if (joint.first == nullptr) return;  // nothing that moves
   const Bounds efforts = effort_bounds(joint, joint_velocity(joint));
   const double pushed = std::clamp(force, efforts.low, efforts.high);
   joint.pushes += pushed;

@@ -80,7 +80,7 @@ std::shared_ptr<const MeshData> ShapeFactory::mesh_data(const desc::Collision& c
     it = it->second.expired() ? meshes_.erase(it) : std::next(it);
   }
   std::weak_ptr<const MeshData>& known = meshes_[mesh];
-  if (const auto shared = known.lock()) return shared;
+  if (auto shared = known.lock()) return shared;
   auto data = std::make_shared<MeshData>();
   data->mesh = mesh;
   data->data.reset(dGeomTriMeshDataCreate());

@@ -116,7 +116,7 @@ fs::path locate(const std::string& filename, bool any_path) {
   fs::path unsuitable;
   std::vector<std::string> searched;
   for (const fs::path& directory : plugin_path()) {
-    const fs::path candidate = directory / filename;
+    fs::path candidate = directory / filename;
     searched.push_back(directory.string());
     if (!fs::is_regular_file(candidate, ignored)) continue;
     if (registers_plugins(candidate)) return candidate;

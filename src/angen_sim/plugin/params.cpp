@@ -20,8 +20,8 @@ const std::set<std::string> kAlwaysKnown = {
 };
 
 std::string shown(const Range& range) {
-  const std::string low = range.min == kPositive.min ? "> 0" : ">= " + number_text(range.min);
-  const std::string high = "<= " + number_text(range.max);
+  std::string low = range.min == kPositive.min ? "> 0" : ">= " + number_text(range.min);
+  std::string high = "<= " + number_text(range.max);
   if (!std::isfinite(range.max)) return low;
   return std::isfinite(range.min) ? low + " and " + high : high;
 }

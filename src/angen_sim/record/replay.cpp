@@ -54,7 +54,7 @@ void Replay::stop_at(Nanoseconds time) {
 }
 
 std::shared_ptr<const sim::Snapshot> Replay::advance(Nanoseconds until) {
-  const std::shared_ptr<const sim::Snapshot> here = simulation_->snapshot();
+  std::shared_ptr<const sim::Snapshot> here = simulation_->snapshot();
   while (settings_.requests && !at_end() && std::holds_alternative<ReadingRequest>(next().what)) {
     if (next().tick > here->tick) break;
     const auto& request = std::get<ReadingRequest>(log_.entries[at_++].what);

@@ -149,7 +149,7 @@ void shine(light::ReflectedLookup& reflected, Tile& tile) {
 std::uint8_t shown(float luminance) {
   static const std::array<std::uint8_t, kCodes + 1> codes = make_codes();
   const float value = std::max(0.0F, luminance) / (std::max(0.0F, luminance) + kMiddleLuminance);
-  return codes[static_cast<std::size_t>(value * kCodes + 0.5F)];
+  return codes[static_cast<std::size_t>(std::lround(value * kCodes))];
 }
 
 std::uint8_t shown_as_is(float value) {

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "ros/lazy_publisher.h"
 #include "ros/text.h"
 
 namespace angen::node {

@@ -144,7 +144,7 @@ bool Services::step(StepCall& call) {
   return answered(response, [&] {
     // Counted before the step is queued: what came later may have taken effect later.
     response.commands = inbox_.posted();
-    const sim::Outcome outcome = take(call.getRequest().ticks, call.getConnectionHeader());
+    sim::Outcome outcome = take(call.getRequest().ticks, call.getConnectionHeader());
     response.taken = static_cast<std::uint32_t>(outcome.ticks);
     response.events = events_.count();
     response.sim_time = to_ros(inbox_.simulation().snapshot()->time);
@@ -206,7 +206,7 @@ bool Services::command(angen_msgs::SendCommand::Request& request,
   return answered(response, [&] {
     const sim::Action action = any_action(request.target, request.text);
     const auto* command = std::get_if<sim::ToDevice>(&action);
-    const sim::Outcome outcome = inbox_.call(action);
+    sim::Outcome outcome = inbox_.call(action);
     if (outcome.ok && command != nullptr) {
       response.state = state_of(*inbox_.simulation().snapshot(), command->name);
     }
@@ -229,7 +229,7 @@ bool Services::list(angen_msgs::List::Request& request, angen_msgs::List::Respon
 bool Services::save(angen_msgs::Save::Request&, angen_msgs::Save::Response& response) {
   return answered(response, [&] {
     const auto state = std::make_shared<sim::SavedState>();
-    const sim::Outcome outcome = inbox_.call(sim::Save{state});
+    sim::Outcome outcome = inbox_.call(sim::Save{state});
     if (outcome.ok) response.xml = record::world_file(inbox_.simulation().world(), *state);
     return outcome;
   });

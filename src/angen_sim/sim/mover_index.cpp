@@ -20,12 +20,13 @@ using Cells = std::array<int, 6>;  // first and last along x, y, z
 bool cells_of(const MoverIndex::Box& box, Cells& cells) {
   double count = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
+    const auto at = static_cast<std::size_t>(2 * axis);
     const double first = std::floor(box.min()[axis] / kCell);
     const double last = std::floor(box.max()[axis] / kCell);
     if (!(first > -kCellLimit && last < kCellLimit)) return false;
     count *= last - first + 1.0;
-    cells[2 * axis] = static_cast<int>(first);
-    cells[2 * axis + 1] = static_cast<int>(last);
+    cells[at] = static_cast<int>(first);
+    cells[at + 1] = static_cast<int>(last);
   }
   return count <= kManyCells;
 }

@@ -81,7 +81,7 @@ light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) c
   std::unique_ptr<WatchedLight>& watched = sensor_->light;
   const bool still =
       watched && watched->probe == &probe && !watched->region.changed_since(watched->sampled);
-  const light::Sample sample = engines_.light.measure(probe, pose, still);
+  light::Sample sample = engines_.light.measure(probe, pose, still);
   if (!probe.reach.diagonal().allFinite()) {
     watched = nullptr;
   } else if (!still || probe.reach.min() != watched->box.min() ||
