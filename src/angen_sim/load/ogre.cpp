@@ -113,7 +113,7 @@ std::string ogre_texture(const Element& script, const OgreMaterial& material, Se
     if (uri.name != "uri") continue;
     const auto folder = find_uri(uri.text, uri.source.file, session);
     if (!folder || !session.sources.is_folder(*folder)) continue;
-    const std::string path = (fs::path(*folder) / material.texture).lexically_normal().string();
+    std::string path = (fs::path(*folder) / material.texture).lexically_normal().string();
     std::error_code failed;
     if (!session.sources.exists(path) || !fs::is_regular_file(path, failed)) continue;
     if (session.allowed.holds(path, uri.source.file)) return path;

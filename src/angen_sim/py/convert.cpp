@@ -72,7 +72,7 @@ void from_dict(const pyb::dict& values, Reading& reading) {
 
 Pose to_pose(const std::vector<double>& xyzrpy) {
   if (xyzrpy.size() != 6) throw Error("a pose has six numbers: x y z roll pitch yaw (m, rad)");
-  const Pose pose{{xyzrpy[0], xyzrpy[1], xyzrpy[2]}, from_rpy(xyzrpy[3], xyzrpy[4], xyzrpy[5])};
+  Pose pose{{xyzrpy[0], xyzrpy[1], xyzrpy[2]}, from_rpy(xyzrpy[3], xyzrpy[4], xyzrpy[5])};
   if (!pose.finite()) throw Error("a pose has six finite numbers");
   return pose;
 }
