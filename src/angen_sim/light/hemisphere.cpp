@@ -37,6 +37,7 @@ const std::vector<float>& view_weights() {
       sum += all.back();
     }
     std::vector<float> shares;
+    shares.reserve(all.size());
     for (const double weight : all) shares.push_back(static_cast<float>(weight / sum));
     return shares;
   }();

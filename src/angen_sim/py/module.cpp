@@ -28,6 +28,7 @@ std::shared_ptr<Catalog> catalog(bool any_path) {
 template <class Entries>
 std::vector<std::string> names(const Entries& entries) {
   std::vector<std::string> all;
+  all.reserve(entries.size());
   for (const auto& entry : entries) all.push_back(entry.name);
   return all;
 }

@@ -10,7 +10,7 @@ namespace {
 class Held {
  public:
   explicit Held(pyb::object object) : object_(std::move(object)) {}
-  ~Held() {
+  ~Held() {  // NOLINT(bugprone-exception-escape): without the GIL there is no way on
     if (Py_IsInitialized() == 0) {  // the catalog outlives the interpreter; there is no GIL to get
       object_.release();
       return;
@@ -153,11 +153,16 @@ void bind_params(pyb::module_& module) {
       .def("text", &Params::text, pyb::arg("path"), pyb::arg("default"), pyb::arg("doc") = "");
 }
 
+template <class Ref>
+void bind_handle(pyb::module_& module, const char* name) {
+  const pyb::class_<Ref> bound(module, name);
+}
+
 void bind_wiring(pyb::module_& module) {
-  pyb::class_<JointRef>(module, "JointRef");
-  pyb::class_<LinkRef>(module, "LinkRef");
-  pyb::class_<LightRef>(module, "LightRef");
-  pyb::class_<SurfaceRef>(module, "SurfaceRef");
+  bind_handle<JointRef>(module, "JointRef");
+  bind_handle<LinkRef>(module, "LinkRef");
+  bind_handle<LightRef>(module, "LightRef");
+  bind_handle<SurfaceRef>(module, "SurfaceRef");
   pyb::class_<Wiring>(module, "Wiring", "Names of the model to handles; unknown names raise.")
       .def_property_readonly("name", &Wiring::name)
       .def_property_readonly("model", &Wiring::model)

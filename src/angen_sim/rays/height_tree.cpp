@@ -99,7 +99,7 @@ void HeightTree::add_level() {
   Level level{2 * fine.side, (fine.columns + 1) / 2, (fine.rows + 1) / 2, {}};
   for (std::uint32_t row = 0; row < level.rows; ++row) {
     for (std::uint32_t column = 0; column < level.columns; ++column) {
-      Range range = fine.blocks[std::size_t{2 * row} * fine.columns + 2 * column];
+      Range range = fine.blocks[std::size_t{2} * (std::size_t{row} * fine.columns + column)];
       for (std::uint32_t r = 2 * row; r < std::min(2 * row + 2, fine.rows); ++r) {
         for (std::uint32_t c = 2 * column; c < std::min(2 * column + 2, fine.columns); ++c) {
           const Range& part = fine.blocks[std::size_t{r} * fine.columns + c];

@@ -38,6 +38,7 @@ std::optional<std::uint32_t> index_of(const std::vector<T>& all, const std::stri
 template <class T>
 Error none_of(const Parted& parted, const char* what, const std::vector<T>& all) {
   std::vector<std::string> names;
+  names.reserve(all.size());
   for (const T& item : all) names.push_back(item.name);
   return Error("model '" + parted.model->desc->name + "' has no " + what + " '" +
                printable(parted.rest) + "'; " + did_you_mean(parted.rest, names));
