@@ -1,7 +1,10 @@
 #include "load/describe.h"
 
+#include <algorithm>
+
 #include "core/limits.h"
 #include "core/text.h"
+#include "load/check.h"
 #include "load/geometry.h"
 #include "load/light.h"
 #include "load/material.h"
@@ -19,6 +22,7 @@ struct Context {
   Frames& frames;    // of the outermost model
   bool never_moves;  // it is static
   Session& session;
+  bool held = false;  // it is static within one that moves
 };
 
 std::optional<double> optional_number(const Element* parent, const std::string& name) {
@@ -148,7 +152,7 @@ desc::Link link_of(const Element& element, const std::string& scope, const Conte
   link.pose = context.frames.pose(link.name);
   link.inertial = inertial_of(element, context.never_moves, context.session);
   link.gravity = child_flag(element, "gravity", true);
-  link.kinematic = child_flag(element, "kinematic", false);
+  link.kinematic = child_flag(element, "kinematic", false) || context.held;
   if (element.child("self_collide") != nullptr) {
     link.self_collide = child_flag(element, "self_collide", false);
   }
@@ -181,18 +185,31 @@ void add_parts(const Element& element, const std::string& scope, const Context& 
     } else if (part.name == "plugin") {
       to.plugins.push_back(plugin_of(part));
     } else if (part.name == "model") {
-      add_parts(part, scope + name_of(part) + "::", context, to);
+      Context inner = context;
+      inner.held = context.held || (!context.never_moves && child_flag(part, "static", false));
+      inner.never_moves = context.never_moves || inner.held;
+      add_parts(part, scope + name_of(part) + "::", inner, to);
     }
   }
 }
 
+// Also where every model in it that has links is static.
+bool is_static(const Element& model) {
+  if (child_flag(model, "static", false)) return true;
+  const auto& parts = model.children;
+  return has_link(model) && std::all_of(parts.begin(), parts.end(), [](const Element& part) {
+           return part.name != "link" &&
+                  (part.name != "model" || !has_link(part) || is_static(part));
+         });
+}
+
 desc::Model described_model(const Element& model, Session& session) {
   desc::Model to;
-  to.is_static = child_flag(model, "static", false);
+  to.is_static = is_static(model);
   to.allow_auto_disable = child_flag(model, "allow_auto_disable", true);
   to.self_collide = child_flag(model, "self_collide", false);
   Frames frames(model);
-  add_parts(model, "", {frames, to.is_static, session}, to);
+  add_parts(model, "", {frames, child_flag(model, "static", false), session}, to);
   merge_hinges(to, session);
   return to;
 }

@@ -321,5 +321,28 @@ TEST(Model, KeepsItsOwnWarnings) {
   EXPECT_EQ(m.warnings.size(), 1U);
 }
 
+desc::Model with_nested(const std::string& outer, const std::string& one, const std::string& two) {
+  const auto nested = [](const std::string& name, const std::string& inside) {
+    return "<model name='" + name + "'>" + inside + "<link name='l'/></model>";
+  };
+  return read(in_model(outer + nested("one", one) + nested("two", two))).models.at(0);
+}
+
+TEST(Static, IsAModelOfStaticModels) {
+  const std::string yes = "<static>true</static>", no = "<static>false</static>";
+  EXPECT_TRUE(with_nested(no, yes, yes).is_static);
+  EXPECT_TRUE(with_nested(yes, no, no).is_static);
+  EXPECT_TRUE(with_nested("", "<model name='deep'>" + yes + "<link name='d'/></model>" + yes, yes)
+                  .is_static);
+  EXPECT_FALSE(with_nested("", yes, "").is_static);
+  EXPECT_FALSE(with_nested("<link name='own'/>", yes, yes).is_static);
+}
+
+TEST(Static, IsAPartOfAModelThatMoves) {
+  const desc::Model model = with_nested("", "<static>true</static>", "");
+  EXPECT_TRUE(model.links.at(0).kinematic);
+  EXPECT_FALSE(model.links.at(1).kinematic);
+}
+
 }  // namespace
 }  // namespace angen::load
