@@ -135,4 +135,16 @@ void check_collada(const std::string& text) {
   count_all(*document.RootElement(), nodes);
 }
 
+void trim_colors(std::string& text) {
+  std::size_t to = 0;
+  for (std::size_t from = 0; from < text.size();) {
+    const std::size_t end = text.find('>', text.find("<color", from));
+    const std::size_t stop = end == std::string::npos ? text.size() : end + 1;
+    std::copy(text.data() + from, text.data() + stop, text.data() + to);
+    to += stop - from;
+    from = std::min(text.find_first_not_of(" \t\r\n", stop), text.size());
+  }
+  text.resize(to);
+}
+
 }  // namespace angen::load

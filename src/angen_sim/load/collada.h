@@ -14,4 +14,7 @@ struct Refused : std::runtime_error {
 /// count of what it cannot hold: assimp would expand them until memory ends.
 void check_collada(const std::string& text);
 
+/// Takes out the blanks that stand before the numbers of colors, where assimp accepts none.
+void trim_colors(std::string& text);
+
 }  // namespace angen::load

@@ -262,9 +262,12 @@ void center(Triangles& made) {
   throw Refused("has no submesh '" + wanted + "'; it has " + known);
 }
 
-Triangles triangles_of(const Request& request) {
+Triangles triangles_of(Request request) {
   if (request.bytes.empty()) throw Refused("cannot be read: the file is empty");
-  if (request.extension == "dae") angen::load::check_collada(request.bytes);
+  if (request.extension == "dae") {
+    angen::load::check_collada(request.bytes);
+    angen::load::trim_colors(request.bytes);
+  }
   Assimp::Importer importer, second;
   prepare(importer, request, 0);
   const aiScene& scene = scene_of(importer, request, aiProcess_JoinIdenticalVertices);

@@ -50,6 +50,27 @@ TEST(Mesh, ColladaUnitIsApplied) {
   EXPECT_LT((corner(*mesh, 2) - Eigen::Vector3f(0, 0.02F, 0.03F)).norm(), 1e-6);
 }
 
+TEST(Mesh, ColladaMayHaveBlanksBeforeAColor) {
+  const Folder folder;
+  std::string text = collada("Z_UP", "1");
+  const auto insert = [&text](const std::string& before, const std::string& what) {
+    text.insert(text.find(before), what);
+  };
+  insert("<library_geometries>",
+         "<library_effects><effect id='e'><profile_COMMON><technique sid='t'><lambert><diffuse>"
+         "<color sid='d'>\r\n \t0.25 0.5 0.75 1</color></diffuse></lambert></technique>"
+         "</profile_COMMON></effect></library_effects><library_materials><material id='m'>"
+         "<instance_effect url='#e'/></material></library_materials>");
+  insert(" count='1'><input", " material='M'");
+  text.replace(text.find("<instance_geometry url='#g'/>"), 29,
+               "<instance_geometry url='#g'><bind_material><technique_common>"
+               "<instance_material symbol='M' target='#m'/></technique_common></bind_material>"
+               "</instance_geometry>");
+  const ReadMesh mesh = read_mesh({folder.write("c.dae", text), Vec3::Ones()}, {});
+  EXPECT_LT((corner(*mesh.triangles, 2) - Eigen::Vector3f(0, 2, 3)).norm(), 1e-5);
+  EXPECT_EQ(mesh.look->parts.at(0).color, Eigen::Vector4f(0.25F, 0.5F, 0.75F, 1.0F));
+}
+
 TEST(Mesh, StlIsScaled) {
   const Folder folder;
   const auto mesh = read_mesh({folder.write("s.stl", kStl), {1.0, 2.0, 3.0}}, {}).triangles;
