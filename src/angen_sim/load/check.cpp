@@ -17,6 +17,13 @@ bool has_link(const Element& model) {
   return false;
 }
 
+std::string names_shared_by(const Element& child) {
+  static const std::set<std::string> shared = {"link", "joint", "frame", "model"};
+  static const std::set<std::string> own = {"collision", "visual", "sensor", "light", "actor"};
+  if (shared.count(child.name) != 0) return "frame";
+  return own.count(child.name) != 0 ? child.name : "";
+}
+
 namespace {
 
 const std::set<std::string> kShapes = {"empty", "box",  "sphere",    "cylinder", "capsule",
@@ -29,19 +36,10 @@ std::string listed(const std::set<std::string>& names) {
   return join_names({names.begin(), names.end()});
 }
 
-// The names that share one set: links, joints, frames and models of a model; else each kind its
-// own.
-std::string space_of(const Element& child) {
-  static const std::set<std::string> shared = {"link", "joint", "frame", "model"};
-  static const std::set<std::string> own = {"collision", "visual", "sensor", "light", "actor"};
-  if (shared.count(child.name) != 0) return "frame";
-  return own.count(child.name) != 0 ? child.name : "";
-}
-
 void check_children_names(const Element& parent) {
   std::map<std::pair<std::string, std::string>, Source> seen;
   for (const Element& child : parent.children) {
-    const std::string space = space_of(child);
+    const std::string space = names_shared_by(child);
     if (space.empty()) continue;
     const std::string name = name_of(child);
     check_name(name, "<" + child.name + ">", child.source);

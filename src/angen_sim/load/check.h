@@ -12,6 +12,10 @@ namespace angen::load {
 /// Names, numbers and flags of a world's settings and lights; models are left to check_model.
 void check_settings(Element& world, Session& session);
 
+/// Whose names must differ from those of `child` among its siblings: all with the same answer.
+/// Links, joints, frames and models share theirs; "" where any name will do.
+std::string names_shared_by(const Element& child);
+
 /// Whether a model has a link, also in a nested model.
 bool has_link(const Element& model);
 

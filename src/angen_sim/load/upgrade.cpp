@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <map>
 #include <set>
 
+#include "load/check.h"
 #include "load/expand.h"
 #include "load/values.h"
 #include "load/xml.h"
@@ -60,6 +62,42 @@ void name_anew(Element& element, const std::set<std::string>& found) {
   for (Element& child : element.children) name_anew(child, found);
 }
 
+using Name = std::pair<std::string, std::string>;  // what shares it, and the name
+
+std::string unused_name(const Element& child, std::set<Name>& used, std::map<Name, int>& tried) {
+  const std::string space = names_shared_by(child);
+  const std::string stem = name_of(child) + (child.name == "joint" ? "_joint" : "");
+  std::string name = stem;
+  while (!used.insert({space, name}).second) {
+    name = stem + "_" + std::to_string(++tried[{space, stem}]);
+  }
+  return name;
+}
+
+void rename_twins(Element& parent, Session& session) {
+  std::set<Name> used, seen;
+  std::map<Name, int> tried;
+  for (const Element& child : parent.children) {
+    used.insert({names_shared_by(child), name_of(child)});
+  }
+  for (Element& child : parent.children) {
+    const Name name{names_shared_by(child), name_of(child)};
+    if (name.first.empty() || name.second.empty() || seen.insert(name).second) continue;
+    const std::string given = tag_of(child);
+    set_attribute(child, "name", unused_name(child, used, tried));
+    session.forgive(Error(child.source, given + ": the name is given twice in " + tag_of(parent) +
+                                            "; it is '" + name_of(child) + "' here"));
+  }
+}
+
+// Until 1.7 parts of a model could have one name; what refers to it means the first.
+void part_twins(Element& element, Session& session) {
+  if (element.name == "model" || element.name == "link") rename_twins(element, session);
+  for (Element& child : element.children) {
+    if (child.name != "plugin") part_twins(child, session);
+  }
+}
+
 void upgrade_element(Element& element, int version, Session& session) {
   if (element.name == "plugin") return;
   if (element.name == "pose") fill_pose(element, session);
@@ -100,6 +138,7 @@ void upgrade(Element& sdf, int version, Session& session) {
     std::set<std::string> found;
     split_names(sdf, found, session);
     if (!found.empty()) name_anew(sdf, found);
+    if (version < 107) part_twins(sdf, session);
   }
   set_attribute(sdf, "version", "1.9");
 }

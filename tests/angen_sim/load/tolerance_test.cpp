@@ -85,6 +85,32 @@ TEST(Tolerance, NamesOfOldFilesMayHoldColons) {
   EXPECT_TRUE(warns(world.warnings, "it is 'one_link' here"));
 }
 
+TEST(Tolerance, PartsOfOldFilesMayHaveOneName) {
+  const std::string model =
+      "<model name='m'><link name='a'><collision name='c'><geometry><box><size>1 1 1</size></box>"
+      "</geometry></collision><collision name='c'><geometry><sphere><radius>1</radius></sphere>"
+      "</geometry></collision></link><link name='a'/><link name='a_1'/><joint name='a' "
+      "type='revolute'><parent>a</parent><child>a_1</child><axis><xyz>0 0 1</xyz></axis></joint>"
+      "</model>";
+  EXPECT_THROW(read(in_world(model), with(Strictness::kStrict)), Error);
+  const desc::World world = read(in_world(model), with(Strictness::kTolerant));
+  const desc::Model& made = world.models.at(0);
+  ASSERT_EQ(made.links.size(), 3U);
+  EXPECT_EQ(made.links[0].name, "a");
+  EXPECT_EQ(made.links[1].name, "a_2");
+  EXPECT_EQ(made.links[2].name, "a_1");
+  EXPECT_EQ(made.links[0].collisions.at(1).name, "c_1");
+  EXPECT_EQ(made.joints.at(0).name, "a_joint");
+  EXPECT_EQ(made.joints.at(0).parent, "a");
+  EXPECT_TRUE(warns(world.warnings, "it is 'a_2' here"));
+}
+
+TEST(Tolerance, PartsOfNewFilesMayNotHaveOneName) {
+  const std::string twins = "<link name='a'/><link name='a'/>";
+  EXPECT_NO_THROW(read(in_model(twins, "1.6"), with(Strictness::kTolerant)));
+  EXPECT_THROW(read(in_model(twins, "1.7"), with(Strictness::kTolerant)), Error);
+}
+
 TEST(Tolerance, OfTwoModelsOfOneNameTheFirstStays) {
   const std::string text = in_world(
       "<model name='m'><link name='first'/></model><model name='m'><link name='second'/></model>");
