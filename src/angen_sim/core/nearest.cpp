@@ -31,12 +31,14 @@ std::vector<std::string> nearest_names(const std::string& name, std::vector<std:
   constexpr std::size_t kLongest = 256;  // longer names are compared up to here
   const std::string wanted = name.substr(0, kLongest);
   std::vector<std::pair<std::size_t, std::string>> ranked;
+  ranked.reserve(known.size());
   for (std::string& each : known) {
     ranked.emplace_back(distance(wanted, each.substr(0, kLongest)), std::move(each));
   }
   std::sort(ranked.begin(), ranked.end());
   if (ranked.size() > count) ranked.resize(count);
   std::vector<std::string> nearest;
+  nearest.reserve(ranked.size());
   for (auto& [rank, each] : ranked) nearest.push_back(std::move(each));
   return nearest;
 }

@@ -42,7 +42,7 @@ std::string why_impossible(const desc::Inertial& inertial) {
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertial.moment,
                                                               Eigen::EigenvaluesOnly);
-  const Vec3 moments = solver.eigenvalues();
+  const Vec3& moments = solver.eigenvalues();
   const std::string all = number_text(moments[0]) + ", " + number_text(moments[1]) + ", " +
                           number_text(moments[2]) + " kg m^2";
   if (!(moments[0] > 0.0)) {

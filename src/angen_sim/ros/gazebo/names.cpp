@@ -16,6 +16,7 @@ constexpr const char* kScope = "::";
 template <class Entry>
 std::vector<std::string> names_in(const std::vector<Entry>& entries) {
   std::vector<std::string> names;
+  names.reserve(entries.size());
   for (const Entry& entry : entries) names.push_back(entry.name);
   return names;
 }
