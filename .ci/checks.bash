@@ -208,7 +208,7 @@ run_coverage() {
   cd "$root" || exit
   install dev
   prepare
-  locked build_tree "$tree" -DCMAKE_BUILD_TYPE=Coverage "-DCMAKE_CXX_FLAGS=--coverage -O1" -- all tests
+  locked build_tree "$tree" -DCMAKE_BUILD_TYPE=Coverage "-DCMAKE_CXX_FLAGS=--coverage -fprofile-update=atomic -O1" -- all tests
   find "$tree" -name '*.gcda' -delete
   set +u
   source "$tree/devel/setup.bash"

@@ -25,8 +25,9 @@ def rmf(angen: Angen, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path
     """The node on a world with a door; an elevator comes later. Its log."""
     log = tmp_path_factory.mktemp('rmf') / 'log'
     with log.open('w') as out:
-        process = subprocess.Popen(['/usr/bin/python3', str(SCRIPT)], env=angen.master.environment,
-                                   text=True, stdout=out, stderr=out)
+        process = subprocess.Popen(['/usr/bin/python3', '-u', str(SCRIPT)],
+                                   env=angen.master.environment, text=True, stdout=out,
+                                   stderr=out)
     try:
         until(lambda: 'serving' in log.read_text(), 'the node serves')
         pose = Pose()
