@@ -99,7 +99,7 @@ const std::vector<Field::Link>& Field::links(std::uint32_t patch) {
     return known.links;
   }
   const std::vector<rays::Ray> rays = link_rays(surfaces_[patch]);
-  std::array<rays::Hit, 1024> hits;
+  std::array<rays::Hit, kLinks> hits;
   scene_.cast(rays.data(), hits.data(), rays.size(), kStanding);
   PatchLinks& own = patch_links_[patch];
   own.scene = scene_.revision();

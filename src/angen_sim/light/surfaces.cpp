@@ -12,6 +12,7 @@ constexpr double kCell = 0.4;       // m
 constexpr double kPlaneCell = 1.0;  // m: planes go on for ever
 constexpr double kPart = 0.1;       // m, a side of the parts of a cell that is divided
 constexpr int kSitesPerSide = 4;    // of a cell
+constexpr std::size_t kSites = std::size_t{kSitesPerSide} * kSitesPerSide;
 constexpr int kFineSitesPerSide = 2;
 constexpr double kLift = 0.01;  // m: how far off a surface its sites must see each other
 constexpr double kOff = 1e-3;   // m: what is nearer than this covers a surface
@@ -120,7 +121,7 @@ std::uint32_t Surfaces::make(const Key& key) {
 std::vector<Site> Surfaces::sites(const Key& key, int per_side, int& covered) const {
   const Lattice cells = lattice(static_cast<std::uint32_t>(key[0]), key[1]);
   const Eigen::Array2d step = key[5] == 1 ? Eigen::Array2d(cells.step / cells.parts) : cells.step;
-  std::array<Site, kSitesPerSide * kSitesPerSide> found;
+  std::array<Site, kSites> found;
   std::size_t count = 0;
   for (int i = 0; i < per_side * per_side; ++i) {
     const double u = key[3] + (i % per_side + 0.5) / per_side;
@@ -180,7 +181,7 @@ bool Surfaces::parted(const std::vector<Site>& sites) const {
   // Neighbors are a third of the cell's side apart; twice that bridges a covered one.
   const double near2 = 0.3 * spacing2;
   for (std::size_t next = 0; next < reached.size(); ++next) {
-    const Site from = sites[reached[next]];
+    const Site& from = sites[reached[next]];
     for (std::size_t i = 0; i < sites.size(); ++i) {
       if (seen[i] || (sites[i].position - from.position).squaredNorm() > near2) continue;
       if (scene_.blocked(from.position + kLift * from.normal,

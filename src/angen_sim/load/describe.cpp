@@ -135,8 +135,9 @@ std::vector<desc::Sensor> sensors_of(const Element& element, const Pose& pose, S
     one.pose = pose * pose_of(camera);
     remove_children(one.element, "camera");
     one.element.children.push_back(camera);
-    const std::string above = all.plugin_element.child_text("cameraName");
-    set_child(one.plugin_element, "cameraName", above + (above.empty() ? "" : "/") + name);
+    std::string scoped = all.plugin_element.child_text("cameraName");
+    if (!scoped.empty()) scoped += "/";
+    set_child(one.plugin_element, "cameraName", scoped.append(name));
     if (name.find("right") == std::string::npos) {
       remove_children(one.plugin_element, "hackBaseline");
     }

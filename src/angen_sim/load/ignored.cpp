@@ -144,7 +144,9 @@ void walk(const Element& element, const std::string& parent, bool springs, Sessi
   const Used* used = found == nullptr ? &value : found;
   for (const auto& [name, value] : element.attributes) {
     if (name == "name" || name == kStrict || used->attributes.count(name) != 0) continue;
-    session.ignore(element.source, name + "=\"" + value + "\" of <" + element.name + ">");
+    std::string what = name;
+    what.append("=\"").append(value).append("\" of <").append(element.name).append(">");
+    session.ignore(element.source, what);
   }
   const std::string* type = element.attribute("type");
   if (element.name == "joint" && type != nullptr) springs = *type != "universal";

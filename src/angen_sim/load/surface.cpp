@@ -84,8 +84,10 @@ std::string find_beside(const std::string& name, const std::string& what, const 
     std::string path = place.lexically_normal().string();
     if (!is_file(path, session)) continue;
     if (may_name(path, file, at, session)) return path;
-    session.warn(at, what + " " + printable(path, 300) + " of " + file +
-                         " is not read: it lies outside of the folders that may be named");
+    std::string outside = what;
+    outside.append(" ").append(printable(path, 300)).append(" of ").append(file);
+    session.warn(at,
+                 outside.append(" is not read: it lies outside of the folders that may be named"));
     return "";
   }
   session.warn(at, what + " '" + printable(name, 300) + "' of " + file + " is not found");

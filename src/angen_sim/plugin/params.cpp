@@ -159,6 +159,9 @@ std::vector<std::vector<double>> Params::rows(const std::string& path, std::size
                                               const std::string& unit, const std::string& doc) {
   note(path, std::to_string(count) + " numbers, any number of times", "", unit, doc);
   std::vector<std::vector<double>> result;
+  const auto refused = [&](const Element& given, const std::string& what) {
+    return Error(given.source, "<" + path + "> has " + what);
+  };
   for (const Element* given : all(path)) {
     std::istringstream words(given->text);
     std::vector<double> row;
@@ -166,11 +169,11 @@ std::vector<std::vector<double>> Params::rows(const std::string& path, std::size
     while (words >> word) {
       const std::optional<double> value = parse_finite(word);
       if (!value) {
-        throw Error(given->source, "<" + path + "> has \"" + word + "\", must be a finite number");
+        throw refused(*given, word.insert(0, 1, '"').append("\", must be a finite number"));
       }
       const std::string problem = limit_problem(limit_of_unit(unit), *value);
       if (!problem.empty()) {
-        throw Error(given->source, "<" + path + "> has " + word + "; " + problem);
+        throw refused(*given, word.append("; ").append(problem));
       }
       row.push_back(*value);
     }

@@ -81,8 +81,9 @@ std::string summary(const Kind& kind, const Reading& reading) {
   for (const auto& [name, value] : reading.fields) {
     Field field;
     field.decimals = 2;
-    const std::string part = shown_value(field, value);
-    if (!part.empty()) append(name + "=" + part);
+    const std::string shown = shown_value(field, value);
+    std::string part = name;
+    if (!shown.empty()) append(part.append("=").append(shown));
   }
   return text;
 }

@@ -248,7 +248,7 @@ void FrameMaker::add_sensors(const sim::Structure& structure, const std::vector<
     if (frame.empty()) frame = sensor.name + (is_camera(sensor) ? "_optical_frame" : "");
     const Robot* owner = owner_in(robots, link.model);
     if (owner != nullptr && !owner->first && !sensor.frame.empty()) {
-      frame = owner->name + "/" + frame;
+      frame.insert(0, 1, '/').insert(0, owner->name);
     }
     if (frame == frame_of(link)) {  // an SDF that names its link's frame means it
       tree.sensors.push_back(frame);

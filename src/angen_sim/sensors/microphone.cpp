@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kWallGap = 0.5;     // m: faces of two rooms that near have a wall between them
 constexpr double kHysteresis = 3.0;  // dB below the threshold it is quiet again
-constexpr double kBeside = 3.0;      // m: origins of what is in a room are as near to its height
+constexpr double kBeside = 3.0;  // m: how far above or below a room may be where its things stand
 
 /// Area (m^2) of the wall between two rooms that stand side by side; 0 where they do not.
 double shared_wall(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
@@ -31,14 +31,11 @@ double shared_wall(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
   return 0.0;
 }
 
-/// Of what is as high as the rooms of a plan.
-Eigen::AlignedBox3d heights(const RoomPlan& plan) {
+/// The layer of the world, endless to the sides, in which the rooms of a plan are.
+Eigen::AlignedBox3d layer_of(const RoomPlan& plan) {
+  const Eigen::Isometry3d frame(Eigen::Translation3d(plan.frame.position) * plan.frame.rotation);
   Eigen::AlignedBox3d box;
-  for (const Eigen::AlignedBox3d& room : plan.rooms) {
-    for (int corner = 0; corner < 8; ++corner) {
-      box.extend(plan.frame * room.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
-    }
-  }
+  for (const Eigen::AlignedBox3d& room : plan.rooms) box.extend(room.transformed(frame));
   return {Vec3(-HUGE_VAL, -HUGE_VAL, box.min().z() - kBeside),
           Vec3(HUGE_VAL, HUGE_VAL, box.max().z() + kBeside)};
 }
@@ -119,7 +116,7 @@ class Microphone : public Sensor {
       RoomPlan plan = room_plan(climate);
       const int room = plan.at(here);
       if (room != RoomPlan::kOutside) {
-        hearing.within = heights(plan);
+        hearing.within = layer_of(plan);
         hearing.gains = field(view, plan, hearing.within).gains(room);
         hearing.plans = {std::move(plan)};
         hearing.here = {0, room};

@@ -80,8 +80,8 @@ class Building {
   /// Those models, in the order in which they came into the world, taken out.
   std::vector<LiveModel*> take_placed();
 
-  /// Finds the models that are awake after tick number `tick`, each once. What queries them is not
-  /// up to date before the tick after they have fallen asleep.
+  /// Finds the models that are awake after tick number `tick`, each once. They count as changed up
+  /// to the tick in which they fall asleep.
   const std::vector<LiveModel*>& note_awake(std::int64_t tick);
   /// To be called when a model has moved.
   void note_moved(LiveModel& live) const { note_moved(live, engines_->movers.now()); }

@@ -107,10 +107,11 @@ class DeviceMaker {
         const auto described = std::find_if(model_.joints.begin(), model_.joints.end(),
                                             [&](const auto& j) { return j.name == joint.name; });
         const std::string& kind = plugin->kind().name;
-        const std::string text = "no plug-in drives joint '" + joint.name + "' of model '" +
-                                 model_.name + "'; for " + kind + " add <plugin name=\"" + kind +
-                                 "\" filename=\"" + catalog_.library_of(*plugin) +
-                                 "\"/> to the model or the world";
+        std::string text = "no plug-in drives joint '";
+        text.append(joint.name).append("' of model '").append(model_.name);
+        text.append("'; for ").append(kind).append(" add <plugin name=\"").append(kind);
+        text.append("\" filename=\"").append(catalog_.library_of(*plugin));
+        text.append("\"/> to the model or the world");
         warn(Diagnostic{Diagnostic::Severity::kWarning, described->source, text}.text());
       }
     }
