@@ -162,6 +162,7 @@ struct Body {
   int idle_steps = 0;
   std::uint64_t collided = 0;    // the last step in which its pairs were tested
   std::uint32_t island = 0;      // scratch
+  bool iterated = false;         // in a large island: the last step was by dWorldQuickStep
   std::vector<PairKey> resting;  // contacts kept since it fell asleep
   std::vector<LinkId> links;
   std::vector<Geom*> geoms;

@@ -68,7 +68,26 @@ bool all_finite(const std::vector<Body*>& bodies) {
   });
 }
 
+void iterate(dWorldID world, double h, std::uint64_t seed, std::int64_t tick) {
+  dRandSetSeed(static_cast<unsigned long>(Rng(seed, hash_bytes("physics"), tick).next()));
+  dWorldQuickStep(world, h);
+}
+
 }  // namespace
+
+void step_by_size(dWorldID world, const std::vector<Body*>& awake, double h, std::uint64_t seed,
+                  std::int64_t tick) {
+  const auto enable = [&](bool iterated) {
+    for (const Body* body : awake) {
+      body->iterated == iterated ? dBodyEnable(body->ode.get()) : dBodyDisable(body->ode.get());
+    }
+  };
+  enable(false);
+  dWorldStep(world, h);
+  enable(true);
+  iterate(world, h, seed, tick);
+  for (const Body* body : awake) dBodyEnable(body->ode.get());
+}
 
 bool solve_step(dWorldID world, const std::vector<Body*>& awake, double h, std::uint64_t seed,
                 std::int64_t tick, const std::function<void(dWorldID, double)>& first_try,
@@ -93,8 +112,7 @@ bool solve_step(dWorldID world, const std::vector<Body*>& awake, double h, std::
     if (ode::take_lcp_failure() || !all_finite(awake)) {
       first = false;
       back(true);
-      dRandSetSeed(static_cast<unsigned long>(Rng(seed, hash_bytes("physics"), tick).next()));
-      dWorldQuickStep(world, h);
+      iterate(world, h, seed, tick);
       found.never = !all_finite(awake);
     }
   } catch (const ode::Failure&) {

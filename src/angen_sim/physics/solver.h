@@ -22,6 +22,11 @@ struct Trouble {
   bool broken = false;  // ODE failed within the step: its world cannot be stepped again
 };
 
+/// Integrates one step of h seconds: bodies of large islands (physics/islands.h) by
+/// dWorldQuickStep, the other awake ones by dWorldStep.
+void step_by_size(dWorldID world, const std::vector<Body*>& awake, double h, std::uint64_t seed,
+                  std::int64_t tick);
+
 /// Integrates one step of h seconds. When `first_try` (dWorldStep unless a test says otherwise)
 /// fails, the awake bodies are put back to where they started and the step is taken by
 /// dWorldQuickStep, whose shuffling is seeded with (seed, tick). Bodies must be all that are

@@ -4,6 +4,7 @@
 #include "physics/drive.h"
 #include "physics/impl.h"
 #include "physics/insertion.h"
+#include "physics/islands.h"
 #include "physics/joints.h"
 #include "physics/shapes.h"
 #include "physics/sleep.h"
@@ -88,7 +89,11 @@ void World::Impl::set_up_joints() {
 void World::Impl::integrate(std::int64_t tick) {
   add_lift();
   set_up_joints();
-  if (!solve_step(world.get(), awake, h, seed, tick, dWorldStep, &trouble)) ++failed;
+  const bool large = mark_large_islands(awake, contacts.active());
+  const auto first_try = [&](dWorldID ode_world, double step) {
+    large ? step_by_size(ode_world, awake, step, seed, tick) : void(dWorldStep(ode_world, step));
+  };
+  if (!solve_step(world.get(), awake, h, seed, tick, first_try, &trouble)) ++failed;
   contacts.finish();
   contacts.remember(tick);
   if (trouble.broken) renew();

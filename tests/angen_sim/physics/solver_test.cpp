@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <memory>
 
 namespace angen::physics {
@@ -67,6 +68,33 @@ TEST(Solver, TakesAStepAgainThatEndsNowhere) {
   }));
   EXPECT_TRUE(pile.velocity(0).allFinite());
   EXPECT_TRUE(pile.position(1).allFinite());
+}
+
+TEST(Solver, StepsEachBodyByTheSolverOfItsSize) {
+  const auto stepped = [](bool iterated) {
+    Pile pile;
+    Body apart;
+    apart.ode.reset(dBodyCreate(pile.world.get()));
+    dBodySetAngularVel(apart.ode.get(), 1, 2, 3);
+    pile.awake.push_back(&apart);
+    for (Body& body : pile.bodies) body.iterated = iterated;
+    apart.iterated = !iterated;
+    step_by_size(pile.world.get(), pile.awake, 1e-2, 3, 4);
+    for (const Body* body : pile.awake) EXPECT_TRUE(dBodyIsEnabled(body->ode.get()));
+    EXPECT_NEAR(ode::vec(dBodyGetLinearVel(apart.ode.get())).z(), -0.0981, 1e-9);
+    return std::array<Vec3, 2>{pile.velocity(0), pile.velocity(1)};
+  };
+  Pile iterated;
+  EXPECT_FALSE(solve_step(iterated.world.get(), iterated.awake, 1e-2, 3, 4, [](dWorldID, double) {
+    dMessage(d_ERR_LCP, "LCP internal error, s <= 0 (s=%.4e)", 0.0);
+  }));
+  Pile exact;
+  dWorldStep(exact.world.get(), 1e-2);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(stepped(true)[i], iterated.velocity(i));
+    EXPECT_EQ(stepped(false)[i], exact.velocity(i));
+    EXPECT_NE(iterated.velocity(i), exact.velocity(i));
+  }
 }
 
 TEST(Solver, OtherMessagesAreNoFailure) {

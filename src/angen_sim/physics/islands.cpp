@@ -1,0 +1,65 @@
+#include "physics/islands.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace angen::physics {
+
+namespace {
+
+// What they cost dWorldStep: rows of joints have no bounds, as friction has.
+constexpr std::size_t kCostOfContact = 3;
+constexpr std::size_t kCostOfJoint = 1;
+constexpr std::size_t kMostCost = 300;
+
+// A body that has been stopped is like a static one.
+bool joins(const Body& body) { return body.dynamic() && body.awake; }
+
+}  // namespace
+
+Islands::Islands(const std::vector<Body*>& awake, const std::vector<Contacts::Pair>& touching)
+    : parent_(awake.size()) {
+  std::iota(parent_.begin(), parent_.end(), 0U);
+  for (std::uint32_t i = 0; i < awake.size(); ++i) awake[i]->island = i;
+  for (const Body* body : awake) {
+    for (const Joint* joint : body->joints) join(joint->first, joint->second);
+  }
+  for (const Contacts::Pair& pair : touching) join(pair.first->body, pair.second->body);
+}
+
+void Islands::join(const Body* a, const Body* b) {
+  if (!joins(*a) || !joins(*b)) return;
+  const std::uint32_t x = root(a->island);
+  const std::uint32_t y = root(b->island);
+  parent_[std::max(x, y)] = std::min(x, y);
+}
+
+std::uint32_t Islands::root(std::uint32_t i) const {
+  while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+  return i;
+}
+
+bool mark_large_islands(const std::vector<Body*>& awake,
+                        const std::vector<Contacts::Pair>& touching) {
+  std::size_t sum = 0;
+  for (const Body* body : awake) sum += kCostOfJoint * body->joints.size();
+  for (const Contacts::Pair& pair : touching) sum += kCostOfContact * pair.count;
+  for (Body* body : awake) body->iterated = false;
+  if (sum <= kMostCost) return false;
+
+  const Islands islands(awake, touching);
+  std::vector<std::size_t> costs(awake.size(), 0);
+  for (const Body* body : awake) {
+    for (const Joint* joint : body->joints) {
+      if (joint->first == body) costs[islands.of(*body)] += kCostOfJoint;
+    }
+  }
+  for (const Contacts::Pair& pair : touching) {
+    const Body& body = joins(*pair.first->body) ? *pair.first->body : *pair.second->body;
+    costs[islands.of(body)] += kCostOfContact * pair.count;
+  }
+  for (Body* body : awake) body->iterated = costs[islands.of(*body)] > kMostCost;
+  return *std::max_element(costs.begin(), costs.end()) > kMostCost;
+}
+
+}  // namespace angen::physics

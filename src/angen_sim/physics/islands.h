@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "physics/contacts.h"
+#include "physics/model.h"
+
+namespace angen::physics {
+
+/// Groups of awake bodies that joints or contacts connect: what a solver takes at once, and what
+/// falls asleep at once. Numbers the bodies (`Body::island`).
+class Islands {
+ public:
+  Islands(const std::vector<Body*>& awake, const std::vector<Contacts::Pair>& touching);
+
+  /// The island's number, below the number of bodies.
+  std::uint32_t of(const Body& body) const { return root(body.island); }
+
+ private:
+  void join(const Body* a, const Body* b);
+  std::uint32_t root(std::uint32_t i) const;
+
+  mutable std::vector<std::uint32_t> parent_;
+};
+
+/// Finds the bodies of islands that have too many contacts and joints for dWorldStep, whose time
+/// grows with the cube of their number (`Body::iterated`). Returns whether there are any.
+bool mark_large_islands(const std::vector<Body*>& awake, const std::vector<Contacts::Pair>& touching);
+
+}  // namespace angen::physics
