@@ -26,6 +26,7 @@ class Islands {
 
 /// Finds the bodies of islands that have too many contacts and joints for dWorldStep, whose time
 /// grows with the cube of their number (`Body::iterated`). Returns whether there are any.
-bool mark_large_islands(const std::vector<Body*>& awake, const std::vector<Contacts::Pair>& touching);
+bool mark_large_islands(const std::vector<Body*>& awake,
+                        const std::vector<Contacts::Pair>& touching);
 
 }  // namespace angen::physics
