@@ -20,6 +20,7 @@ constexpr std::size_t kManyJoints = 256;
 constexpr double kStopSteps = 2.0;   // what friction stops within so many steps does not slide
 constexpr double kLeastSlip = 1e-6;  // m/s
 constexpr double kLeastLoad = 1e-6;  // N
+constexpr std::size_t kMostInStep = 20000;  // points
 constexpr double kPush = 50.0;  // m/s^2, at which a soft contact lifts what is deep in the floor
 
 bool joined(const Body& a, const Body& b) {
@@ -118,6 +119,8 @@ void Contacts::start() {
   found_.clear();
   points_.clear();
 }
+
+bool Contacts::full() const { return found_.size() >= kMostInStep; }
 
 bool Contacts::collide(Geom& a, Geom& b) {
   Geom& first = a.serial < b.serial ? a : b;

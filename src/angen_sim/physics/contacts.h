@@ -33,6 +33,10 @@ class Contacts {
   /// Where contact joints go; another world takes over between finish() and make_joints().
   void use(dWorldID world);
 
+  /// True when so many points touch that those of two moving bodies have to be left out: bodies
+  /// that were put in one place would take all memory and time.
+  bool full() const;
+
   /// Narrow phase; true when the geoms touch.
   bool collide(Geom& a, Geom& b);
 

@@ -62,6 +62,7 @@ struct World::Impl {
   std::vector<LinkId> placed;  // since the last step
   Trouble trouble;
   std::vector<Stopped> stopped;
+  bool crowded = false;
   std::vector<ContactPair> listed;
   bool list_is_old = false;
 

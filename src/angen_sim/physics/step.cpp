@@ -24,6 +24,7 @@ void World::Impl::take_step(std::int64_t tick) {
   moved.clear();
   moved.swap(placed);
   stopped.clear();
+  crowded = false;
   if (!awake.empty()) {
     collide();
     integrate(tick);
@@ -57,6 +58,10 @@ void World::Impl::collide_body(Body& body) {
   for (Geom* geom : body.geoms) {
     grid.query(*geom, [&](Geom& other) {
       if (!may_touch(*geom, other) || other.body->collided == steps) return;
+      if (contacts.full() && other.body->dynamic()) {
+        crowded = true;
+        return;
+      }
       // The idle time goes on: a body that is only leant on falls asleep with its neighbor.
       if (contacts.collide(*geom, other) && other.body->dynamic()) wake_up(*other.body, awake);
     });

@@ -279,6 +279,8 @@ void World::step(std::int64_t tick) { impl_->take_step(tick); }
 
 const std::vector<Stopped>& World::stopped() const { return impl_->stopped; }
 
+bool World::crowded() const { return impl_->crowded; }
+
 const std::vector<LinkId>& World::moved() const { return impl_->moved; }
 
 const std::vector<ContactPair>& World::contacts() const {

@@ -126,6 +126,10 @@ class World {
   /// until its model is placed again.
   const std::vector<Stopped>& stopped() const;
 
+  /// True when so much touched in the last step (20,000 points) that some contacts of two moving
+  /// bodies were left out.
+  bool crowded() const;
+
   /// Links whose pose changed in the last step (or place), in id order.
   const std::vector<LinkId>& moved() const;
 

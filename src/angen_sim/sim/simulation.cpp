@@ -107,15 +107,17 @@ struct Simulation::Impl {
   void move() {
     Engines& engines = building.engines();
     const bool was_awake = engines.physics.awake_count() > 0;
+    const bool was_crowded = engines.physics.crowded();
     engines.physics.step(next.tick);
     if (was_awake || !engines.physics.moved().empty()) engines.note_change();
     ++next.tick;
-    for (const physics::Stopped& stopped : engines.physics.stopped()) note(stopped);
     for (const LiveModel* live : building.note_awake(next.tick)) {
       devices.note_awake(*live);
       sensors.note_moved(*live);
     }
     next.time = next.tick * next.step;
+    for (const physics::Stopped& stopped : engines.physics.stopped()) note(stopped);
+    if (engines.physics.crowded() && !was_crowded) note_crowd();
     for (const physics::LinkId link : building.engines().physics.moved()) {
       const Building::Owner owner = building.owner(link);
       building.note_moved(*owner.model);
@@ -132,6 +134,12 @@ struct Simulation::Impl {
     next.events.push_back({next.time, model.name, "world", "stopped",
                            "link '" + model.links[owner.link].name + "' has been stopped: " +
                                stopped.why + "; reset the world or delete the model"});
+  }
+
+  void note_crowd() {
+    next.events.push_back({next.time, "world", "world", "crowded",
+                           "more touches than can be solved: bodies that overlap go through each "
+                           "other until they are apart"});
   }
 
   void observe() {

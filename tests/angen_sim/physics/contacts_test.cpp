@@ -172,5 +172,22 @@ TEST(Contacts, LinksOfAModelTouchWhereBothCollideWithTheirOwn) {
   }
 }
 
+// 300 in one place would have 180,000 points.
+TEST(Contacts, OfACrowdAreLeftOutButNotTheFloor) {
+  TestWorld world;
+  world.add(floor_model());
+  for (int i = 0; i < 300; ++i) {
+    world.add(box_model("box" + std::to_string(i), 1.0, {0.2, 0.2, 0.2}, {0, 0, 0.0999}));
+  }
+  world.run(1e-3);
+  EXPECT_TRUE(world.crowded());
+  const std::vector<ContactPair> pairs = world.contacts();
+  const auto on_floor = [](const ContactPair& pair) {
+    return pair.first == "floor::link::collision";
+  };
+  EXPECT_EQ(std::count_if(pairs.begin(), pairs.end(), on_floor), 300);
+  EXPECT_LT(pairs.size(), 6000U);
+}
+
 }  // namespace
 }  // namespace angen::physics::testing

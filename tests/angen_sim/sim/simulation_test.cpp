@@ -60,6 +60,24 @@ TEST(Simulation, ANoteBecomesAnEventOfThatTick) {
   EXPECT_TRUE(noted.get().ok);
 }
 
+TEST(Simulation, BodiesInOnePlaceAreToldOnce) {
+  std::string models;
+  for (int i = 0; i < 230; ++i) {
+    models += "<model name='m" + std::to_string(i) +
+              "'><link name='l'><collision name='c'><geometry><box><size>0.1 0.1 0.1</size></box>"
+              "</geometry></collision></link></model>";
+  }
+  Simulation simulation(
+      load::world_from_text("<sdf version='1.6'><world name='w'>" + models + "</world></sdf>",
+                            "test", {}),
+      0, std::make_shared<Catalog>());
+  const auto first = simulation.tick();
+  ASSERT_EQ(first->events.size(), 1U);
+  EXPECT_EQ(first->events[0].event, "crowded");
+  EXPECT_EQ(first->events[0].stamp, first->step);
+  EXPECT_TRUE(simulation.tick()->events.empty());
+}
+
 TEST(Simulation, CommandsFromManyThreadsAreEachAnsweredOnce) {
   const auto simulation = floor_only();
   std::vector<std::thread> threads;
