@@ -1,6 +1,9 @@
 #include "physics/shapes.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "core/diagnostics.h"
 
@@ -54,6 +57,20 @@ dGeomID make_ode(const Shape& shape, const Geom& geom) {
   }
 }
 
+Eigen::Matrix3Xd corners_of(const TriangleMesh& mesh) {
+  std::vector<std::array<float, 3>> corners;
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t corner : triangle) {
+      const Eigen::Vector3f& at = mesh.vertices[corner];
+      corners.push_back({at.x(), at.y(), at.z()});
+    }
+  }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  const auto count = static_cast<Eigen::Index>(corners.size());
+  return Eigen::Map<const Eigen::Matrix3Xf>(corners.front().data(), 3, count).cast<double>();
+}
+
 }  // namespace
 
 std::shared_ptr<const MeshData> ShapeFactory::mesh_data(const desc::Collision& collision,
@@ -83,6 +100,7 @@ std::shared_ptr<const MeshData> ShapeFactory::mesh_data(const desc::Collision& c
   if (auto shared = known.lock()) return shared;
   auto data = std::make_shared<MeshData>();
   data->mesh = mesh;
+  data->corners = corners_of(*mesh);
   data->data.reset(dGeomTriMeshDataCreate());
   dGeomTriMeshDataBuildSingle(data->data.get(), mesh->vertices.data(), sizeof(Eigen::Vector3f),
                               static_cast<int>(mesh->vertices.size()), mesh->triangles.data(),

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "physics/boxes.h"
+#include "physics/mesh_plane.h"
 #include "physics/reduce.h"
 
 namespace angen::physics {
@@ -64,10 +66,23 @@ std::size_t collide_tiles(const Geom& first, const Geom& second, dContactGeom* p
   return n;
 }
 
+std::size_t collide_with_plane(const Geom& first, const Geom& second, dContactGeom* points) {
+  if (second.is_plane) return collide_mesh_plane(first, second, points);
+  const std::size_t n = collide_mesh_plane(second, first, points);
+  for (std::size_t i = 0; i < n; ++i) {
+    std::swap(points[i].g1, points[i].g2);
+    for (int axis = 0; axis < 3; ++axis) points[i].normal[axis] *= -1.0;
+  }
+  return n;
+}
+
 }  // namespace
 
 std::size_t touching_points(const Geom& first, const Geom& second, dContactGeom* points) {
   if (first.tiles || second.tiles) return collide_tiles(first, second, points);
+  if ((first.mesh && second.is_plane) || (first.is_plane && second.mesh)) {
+    return collide_with_plane(first, second, points);
+  }
   dGeomID a = first.ode.get();
   dGeomID b = second.ode.get();
   if (dGeomGetClass(a) == dBoxClass && dGeomGetClass(b) == dBoxClass) {
