@@ -38,20 +38,18 @@ std::array<Extreme, kMostOnPlane> extremes_of(const Vec3& normal) {
 
 }  // namespace
 
-std::size_t collide_mesh_plane(const Geom& mesh, const Geom& plane, dContactGeom* points) {
-  dVector4 given;
-  dGeomPlaneGetParams(plane.ode.get(), given);
-  const Vec3 normal = ode::vec(given);
+std::size_t collide_mesh_plane(const Geom& mesh, const Vec3& normal, double offset,
+                               dContactGeom* points) {
   const Pose pose = mesh.body->at * mesh.in_body;
   const Vec3 own_normal = pose.rotation.inverse() * normal;
-  const double offset = normal.dot(pose.position) - given[3];
+  const double height = normal.dot(pose.position) - offset;
   const Eigen::Matrix3Xd& corners = mesh.mesh->corners;
   thread_local Eigen::RowVectorXd heights;
   heights.noalias() = own_normal.transpose() * corners;
 
   std::array<Extreme, kMostOnPlane> extremes = extremes_of(own_normal);
   for (Eigen::Index i = 0; i < corners.cols(); ++i) {
-    if (heights[i] + offset >= 0.0) continue;
+    if (heights[i] + height >= 0.0) continue;
     for (Extreme& extreme : extremes) extreme.meet(i, corners.col(i));
   }
   std::size_t found = 0;
@@ -66,9 +64,8 @@ std::size_t collide_mesh_plane(const Geom& mesh, const Geom& plane, dContactGeom
       point.pos[axis] = at[axis];
       point.normal[axis] = normal[axis];
     }
-    point.depth = -(heights[extreme.corner] + offset);
+    point.depth = -(heights[extreme.corner] + height);
     point.g1 = mesh.ode.get();
-    point.g2 = plane.ode.get();
     point.side1 = point.side2 = -1;
     seen[found++] = extreme.corner;
   }

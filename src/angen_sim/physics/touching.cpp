@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "physics/boxes.h"
-#include "physics/mesh_plane.h"
+#include "physics/flat_parts.h"
 #include "physics/reduce.h"
 
 namespace angen::physics {
@@ -36,13 +35,28 @@ Eigen::AlignedBox3d in_frame_of(const Geom& geom, const Aabb& box) {
 }
 
 // None where ODE fails, at a degenerate triangle, say.
-std::size_t collide_geoms(dGeomID a, dGeomID b, dContactGeom* points) {
+std::size_t collide_geoms(dGeomID a, dGeomID b, std::size_t most, dContactGeom* points) {
   try {
     return static_cast<std::size_t>(
-        dCollide(a, b, static_cast<int>(kMostFound), points, sizeof(dContactGeom)));
+        dCollide(a, b, static_cast<int>(most), points, sizeof(dContactGeom)));
   } catch (const ode::Failure&) {
     return 0;
   }
+}
+
+/// The same of a mesh or a heightmap's tile, `ground`, and another geom.
+std::size_t collide_ground(dGeomID ground, const Geom& other, bool ground_first,
+                           dContactGeom* points) {
+  dGeomID solid = other.ode.get();
+  const std::size_t n = ground_first ? collide_geoms(ground, solid, kMostFound, points)
+                                     : collide_geoms(solid, ground, kMostFound, points);
+  if (n == 0) return 0;
+  const auto on_plane = [&](const Vec3& normal, double offset, dContactGeom* found) {
+    if (other.mesh) return collide_mesh_plane(other, normal, offset, found);
+    const ode::GeomHandle plane(dCreatePlane(nullptr, normal.x(), normal.y(), normal.z(), offset));
+    return collide_geoms(solid, plane.get(), kMostOnPlane, found);
+  };
+  return mend_flat_parts(ground, solid, on_plane, ground_first, points, n, kMostFound);
 }
 
 // A heightmap is ground: two of them do not touch.
@@ -54,9 +68,8 @@ std::size_t collide_tiles(const Geom& first, const Geom& second, dContactGeom* p
   std::size_t n = 0;
   ground.tiles->each_in(in_frame_of(ground, other.box), [&](dTriMeshDataID mesh) {
     dGeomTriMeshSetData(ground.tile.get(), mesh);
-    dGeomID a = first.tiles ? ground.tile.get() : first.ode.get();
-    dGeomID b = first.tiles ? second.ode.get() : ground.tile.get();
-    std::size_t count = collide_geoms(a, b, found.data());
+    std::size_t count =
+        collide_ground(ground.tile.get(), other, first.tiles != nullptr, found.data());
     mend_normals(first, second, found.data(), count);
     count = reduce_points(found.data(), count);
     if (n + count > kMostFound) n = reduce_points(points, n);
@@ -67,10 +80,15 @@ std::size_t collide_tiles(const Geom& first, const Geom& second, dContactGeom* p
 }
 
 std::size_t collide_with_plane(const Geom& first, const Geom& second, dContactGeom* points) {
-  if (second.is_plane) return collide_mesh_plane(first, second, points);
-  const std::size_t n = collide_mesh_plane(second, first, points);
+  const Geom& plane = first.is_plane ? first : second;
+  dVector4 at;
+  dGeomPlaneGetParams(plane.ode.get(), at);
+  const std::size_t n =
+      collide_mesh_plane(first.is_plane ? second : first, ode::vec(at), at[3], points);
   for (std::size_t i = 0; i < n; ++i) {
-    std::swap(points[i].g1, points[i].g2);
+    points[i].g1 = first.ode.get();
+    points[i].g2 = second.ode.get();
+    if (!first.is_plane) continue;
     for (int axis = 0; axis < 3; ++axis) points[i].normal[axis] *= -1.0;
   }
   return n;
@@ -88,7 +106,14 @@ std::size_t touching_points(const Geom& first, const Geom& second, dContactGeom*
   if (dGeomGetClass(a) == dBoxClass && dGeomGetClass(b) == dBoxClass) {
     return collide_boxes(a, b, points, kMostFound);
   }
-  const std::size_t n = collide_geoms(a, b, points);
+  std::size_t n = 0;
+  if (first.mesh && !first.body->dynamic()) {
+    n = collide_ground(a, second, true, points);
+  } else if (second.mesh && !second.body->dynamic()) {
+    n = collide_ground(b, first, false, points);
+  } else {
+    n = collide_geoms(a, b, kMostFound, points);
+  }
   mend_normals(first, second, points, n);
   return n;
 }
