@@ -13,11 +13,12 @@ namespace {
 constexpr double kFace = 0.7;        // least cosine between a contact's normal and its triangle's
 constexpr double kOnePlane = 1e-7;   // 1 - cosine between the normals of one plane's triangles
 constexpr double kOneHeight = 1e-5;  // m, between those planes where the solid is
+constexpr double kDeeper = 1e-3;     // m
 constexpr double kBeside = 1e-4;     // m
 constexpr double kInside = 1e-6;     // m, that a point may be beyond a triangle's side
 
 struct Triangle {
-  int index;
+  int index = -1;
   std::array<Vec3, 3> corners;
   Vec3 normal;  // on the side of the solid
 
@@ -53,6 +54,14 @@ struct FlatPart {
     return std::any_of(triangles.begin(), triangles.end(),
                        [&](const Triangle& triangle) { return triangle.below(point); });
   }
+  /// m, that the solid may be below the part: what is much deeper than ODE found hangs below it.
+  double most_depth() const {
+    double deepest = 0.0;
+    for (const auto* points : {&on_faces, &on_edges}) {
+      for (const dContactGeom& point : *points) deepest = std::max(deepest, point.depth);
+    }
+    return 2.0 * deepest + kDeeper;
+  }
   /// Whether a contact's edge has triangles of the part on both of its sides.
   bool within(const dContactGeom& point) const {
     const Vec3& up = triangles.front().normal;
@@ -82,10 +91,11 @@ std::vector<dContactGeom> mended(const FlatPart& part, dGeomID mesh, dGeomID sol
   const Triangle& any = part.triangles.front();
   std::array<dContactGeom, kMostOnPlane> found;
   const std::size_t n = on_plane(any.normal, any.normal.dot(any.corners[0]), found.data());
+  const double most_depth = part.most_depth();
   std::vector<dContactGeom> out;
   for (std::size_t i = 0; i < n; ++i) {
     dContactGeom& point = found[i];
-    if (!part.below(ode::vec(point.pos))) continue;
+    if (point.depth > most_depth || !part.below(ode::vec(point.pos))) continue;
     point.g1 = mesh_first ? mesh : solid;
     point.g2 = mesh_first ? solid : mesh;
     point.side1 = point.side2 = -1;

@@ -99,6 +99,30 @@ TEST(FlatParts, EndAtTheirBorder) {
   }
 }
 
+// What is partly below a table has its lower corners far below the plane of its top.
+TEST(FlatParts, ATableIsMetAtItsEdge) {
+  auto top = std::make_shared<TriangleMesh>();
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 corner((i & 1) - 0.5, (i >> 1 & 1) - 0.5, 0.7 + 0.03 * (i >> 2));
+    top->vertices.push_back(corner.cast<float>());
+  }
+  top->triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  Shape shape;
+  shape.type = Shape::Type::kMesh;
+  shape.mesh = top;
+  for (const double y : {0.0, 0.45}) {
+    TestWorld world({}, Vec3::Zero());
+    world.add(ground(shape));
+    const LinkId link = world.only_link(
+        world.add(thing(box_shape({0.3, 0.3, 1.2}), {{-0.8, y, 0.6}, Quat::Identity()})));
+    world.set_velocity(link, {1.0, 0.0, 0.0}, Vec3::Zero());
+    world.run(0.3);
+    EXPECT_LT(world.link(link).pose.position.x(), -0.55) << y;
+    EXPECT_LT(std::abs(world.link(link).linear_velocity.z()), 0.5) << y;
+  }
+}
+
 // A wall that stands on the floor, of the same mesh: its edges stop what comes.
 TEST(FlatParts, WallsStop) {
   Shape shape = mesh_floor(0.1);
