@@ -33,7 +33,7 @@ check_mypy() { python3 -m mypy; }
 check_ctest() { # [WORDS]
   local program ran=0 failed=0 filter="*${1:-}*"
   if [[ ! ${1:-} ]]; then
-    timeout 900 ctest --test-dir "${tree:-build}" -j "$(jobs)" --output-on-failure --timeout 300
+    timeout $((900 * slowness)) ctest --test-dir "${tree:-build}" -j "$(jobs)" --output-on-failure --timeout $((300 * slowness))
     return
   fi
   for program in "${tree:-build}"/tests/*_test; do
@@ -48,7 +48,7 @@ check_ctest() { # [WORDS]
 check_pytest() { # [WORDS]
   local code=0
   # A file's tests share a ROS master and a node; files are independent. Most of them wait for wall time.
-  timeout 2400 env ${preloaded:+"LD_PRELOAD=$preloaded"} python3 -m pytest -q -n "$(nproc)" --dist loadfile ${1:+-k "$1"} "${pytest_arguments[@]}" || code=$?
+  timeout $((2400 * slowness)) env ${preloaded:+"LD_PRELOAD=$preloaded"} python3 -m pytest -q -n "$(nproc)" --dist loadfile ${1:+-k "$1"} "${pytest_arguments[@]}" || code=$?
   if ((code != 5)); then
     matched=1
   elif [[ ${1:-} ]]; then
@@ -58,6 +58,7 @@ check_pytest() { # [WORDS]
 }
 pytest_arguments=(tests)
 preloaded= # libraries, before Python's own
+slowness=1 # what a build of its own multiplies limits of time by
 
 run_test() { # [-k WORDS] [--asan | --tsan] [SUITE...]
   local words='' sanitizer='' chosen=() name
@@ -128,7 +129,7 @@ check_asan() { # [WORDS]
 
 # The C++ tests, and the node in the tests of tests/ros. Python itself is not instrumented.
 run_sanitized() { # asan|tsan WORDS [SUITE...]
-  local tree=build-$1 name chosen=("${@:3}") goals=(angen_run tests)
+  local tree=build-$1 name chosen=("${@:3}") goals=(angen_run tests) slowness=4
   ((${#chosen[@]})) || chosen=(ctest pytest)
   prepare test
   sanitizer_options
