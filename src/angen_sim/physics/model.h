@@ -38,7 +38,7 @@ struct Aabb {
 /// Triangles as ODE wants them; keeps the vertices alive that ODE points to.
 struct MeshData {
   std::shared_ptr<const TriangleMesh> mesh;
-  Eigen::Matrix3Xd corners;  // m, of its triangles, each once
+  Eigen::Matrix3Xd corners;  // m, of its triangles, each once; none where nothing of it moves
   ode::MeshHandle data;
 };
 

@@ -74,7 +74,7 @@ Eigen::Matrix3Xd corners_of(const TriangleMesh& mesh) {
 }  // namespace
 
 std::shared_ptr<const MeshData> ShapeFactory::mesh_data(const desc::Collision& collision,
-                                                        const std::string& name) {
+                                                        const std::string& name, bool dynamic) {
   const std::shared_ptr<const TriangleMesh>& mesh = collision.shape.mesh;
   if (!mesh || mesh->triangles.empty()) {
     throw Error(collision.source, "collision \"" + name + "\" has a mesh without triangles");
@@ -96,17 +96,19 @@ std::shared_ptr<const MeshData> ShapeFactory::mesh_data(const desc::Collision& c
   for (auto it = meshes_.begin(); it != meshes_.end();) {
     it = it->second.expired() ? meshes_.erase(it) : std::next(it);
   }
-  std::weak_ptr<const MeshData>& known = meshes_[mesh];
-  if (auto shared = known.lock()) return shared;
-  auto data = std::make_shared<MeshData>();
-  data->mesh = mesh;
-  data->corners = corners_of(*mesh);
-  data->data.reset(dGeomTriMeshDataCreate());
-  dGeomTriMeshDataBuildSingle(data->data.get(), mesh->vertices.data(), sizeof(Eigen::Vector3f),
-                              static_cast<int>(mesh->vertices.size()), mesh->triangles.data(),
-                              static_cast<int>(3 * mesh->triangles.size()),
-                              sizeof(mesh->triangles[0]));
-  known = data;
+  std::weak_ptr<MeshData>& known = meshes_[mesh];
+  std::shared_ptr<MeshData> data = known.lock();
+  if (!data) {
+    data = std::make_shared<MeshData>();
+    data->mesh = mesh;
+    data->data.reset(dGeomTriMeshDataCreate());
+    dGeomTriMeshDataBuildSingle(data->data.get(), mesh->vertices.data(), sizeof(Eigen::Vector3f),
+                                static_cast<int>(mesh->vertices.size()), mesh->triangles.data(),
+                                static_cast<int>(3 * mesh->triangles.size()),
+                                sizeof(mesh->triangles[0]));
+    known = data;
+  }
+  if (dynamic && data->corners.cols() == 0) data->corners = corners_of(*mesh);
   return data;
 }
 
@@ -127,7 +129,7 @@ std::unique_ptr<Geom> ShapeFactory::make(const desc::Collision& collision, const
   geom->damping = collision.damping;
   geom->min_depth = collision.min_depth;
   geom->is_plane = shape.type == ShapeType::kPlane;
-  if (shape.type == ShapeType::kMesh) geom->mesh = mesh_data(collision, name);
+  if (shape.type == ShapeType::kMesh) geom->mesh = mesh_data(collision, name, dynamic);
   if (shape.type == ShapeType::kHeightmap) {
     if (!shape.heights || shape.heights->heights.empty()) {
       throw Error(collision.source, "collision \"" + name + "\" has a heightmap without heights");

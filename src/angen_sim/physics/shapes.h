@@ -17,9 +17,9 @@ class ShapeFactory {
 
  private:
   std::shared_ptr<const MeshData> mesh_data(const desc::Collision& collision,
-                                            const std::string& name);
+                                            const std::string& name, bool dynamic);
 
-  std::map<std::shared_ptr<const TriangleMesh>, std::weak_ptr<const MeshData>,
+  std::map<std::shared_ptr<const TriangleMesh>, std::weak_ptr<MeshData>,
            std::owner_less<std::shared_ptr<const TriangleMesh>>>
       meshes_;
 };
