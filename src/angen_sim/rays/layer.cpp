@@ -89,8 +89,23 @@ Hit SceneQuery::hit() const {
 
 Layer::Layer(bool fixed)
     : fixed(fixed),
-      tree(bounds, fixed ? intersect<true> : intersect<false>,
-           fixed ? occluded<true> : occluded<false>) {}
+      tree_(bounds, fixed ? intersect<true> : intersect<false>,
+            fixed ? occluded<true> : occluded<false>) {}
+
+void Layer::commit() {
+  unbuilt_ = std::max(unbuilt_.load(), changed_);
+  changed_ = Changed::kNothing;
+}
+
+// Who asks for what stands needs no new hierarchy at each step of what moves.
+void Layer::prepare(Mobilities among) const {
+  const Changed matters = (among & only(Mobility::kMoving)) != 0 ? Changed::kMoved : Changed::kAny;
+  if (unbuilt_ < matters) return;
+  const std::lock_guard lock(building_);
+  if (unbuilt_ < matters) return;
+  tree_.build(bounded.data(), bounded.size());
+  unbuilt_ = Changed::kNothing;
+}
 
 void Layer::nearest(SceneQuery& q) const {
   for (const Solid& plane : planes) q.try_solid(plane, fixed);
@@ -98,7 +113,7 @@ void Layer::nearest(SceneQuery& q) const {
   RTCRayHit ray{};
   aim(ray.ray, q.origin, q.direction, q.min, q.best.range);
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(tree.scene.get(), &q.context, &ray);
+  rtcIntersect1(tree_.scene.get(), &q.context, &ray);
 }
 
 bool Layer::any(SceneQuery& q) const {
@@ -111,7 +126,7 @@ bool Layer::any(SceneQuery& q) const {
   if (bounded.empty()) return false;
   RTCRay ray{};
   aim(ray, q.origin, q.direction, q.min, q.best.range);
-  rtcOccluded1(tree.scene.get(), &q.context, &ray);
+  rtcOccluded1(tree_.scene.get(), &q.context, &ray);
   return q.solid != nullptr;
 }
 
@@ -125,7 +140,7 @@ bool Layer::covers(const Vec3& point, std::uint32_t except) const {
   cover.fixed = fixed;
   const Eigen::Vector3f at = point.cast<float>();
   RTCPointQuery query{at.x(), at.y(), at.z(), 0.0F, 1e-5F};  // m, what floats lose
-  rtcPointQuery(tree.scene.get(), &query, &cover.context, query_inside, &cover);
+  rtcPointQuery(tree_.scene.get(), &query, &cover.context, query_inside, &cover);
   return cover.found;
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <atomic>
+#include <mutex>
 #include <vector>
 
 #include "rays/device.h"
@@ -39,21 +42,23 @@ struct SceneQuery {
   Hit hit() const;
 };
 
+/// What has changed of a layer, the lesser first: places of moving shapes; anything else.
+enum class Changed { kNothing, kMoved, kAny };
+
 /// The shapes that stand, or those that can move: those with a box in a hierarchy, planes (which
 /// have none) beside it.
-struct Layer {
+class Layer {
+ public:
   explicit Layer(bool fixed);
 
   std::vector<Solid> bounded;
   std::vector<Solid> planes;
-  bool dirty = false;
   bool fixed;
-  Hierarchy tree;
 
-  void rebuild() {
-    if (dirty) tree.build(bounded.data(), bounded.size());
-    dirty = false;
-  }
+  void change(Changed changed) { changed_ = std::max(changed_, changed); }
+  bool changed() const { return changed_ != Changed::kNothing; }
+  /// The next query takes the changes into account.
+  void commit();
 
   std::vector<Solid>& list(Shape::Type type) {
     return type == Shape::Type::kPlane ? planes : bounded;
@@ -65,12 +70,22 @@ struct Layer {
     return (among & (fixed ? kStanding : kAll & ~kStanding)) != 0;
   }
 
-  /// Takes into account what lies nearer here than the best so far.
+  /// Rebuilds the hierarchy where queries among these would miss what has changed. Queries may come
+  /// from several threads.
+  void prepare(Mobilities among) const;
+  /// Takes into account what lies nearer here than the best so far. Requires prepare().
   void nearest(SceneQuery& q) const;
-  /// Whether the ray meets anything here.
+  /// Whether the ray meets anything here. Requires prepare().
   bool any(SceneQuery& q) const;
   /// Whether a static or anchored solid with a box, other than `except`, has the point inside.
+  /// Requires prepare().
   bool covers(const Vec3& point, std::uint32_t except) const;
+
+ private:
+  Changed changed_ = Changed::kNothing;                      // since the last commit()
+  mutable std::atomic<Changed> unbuilt_{Changed::kNothing};  // until then, since it was built
+  mutable std::mutex building_;
+  mutable Hierarchy tree_;
 };
 
 }  // namespace angen::rays

@@ -56,9 +56,15 @@ struct Scene::Impl {
   bool anchored_dirty = false;
   bool warm_dirty = false;
 
-  void touch(Mobility mobility) {
-    layer(mobility).dirty = true;
+  void touch(Mobility mobility, Changed changed = Changed::kAny) {
+    layer(mobility).change(changed);
     if (mobility == Mobility::kAnchored) anchored_dirty = true;
+  }
+
+  void prepare(Mobilities among) const {
+    for (const Layer* layer : {&fixed, &moving}) {
+      if (layer->holds(among)) layer->prepare(among);
+    }
   }
 
   Layer& layer(Mobility mobility) { return mobility == Mobility::kStatic ? fixed : moving; }
@@ -148,7 +154,8 @@ void Scene::move(ShapeId shape, const Pose& pose) {
   if (entry.type == Shape::Type::kEmpty) return;
   Layer& layer = impl_->layer(entry.mobility);
   layer.list(entry.type)[impl_->places[shape.index].at].place(pose);
-  impl_->touch(entry.mobility);
+  const bool moves = entry.mobility == Mobility::kMoving;
+  impl_->touch(entry.mobility, moves ? Changed::kMoved : Changed::kAny);
 }
 
 void Scene::set_anchored(ShapeId shape, bool anchored) {
@@ -182,16 +189,16 @@ void Scene::remove(ShapeId shape) {
 }
 
 void Scene::commit() {
-  const bool static_changed = impl_->fixed.dirty;
-  const bool moved = static_changed || impl_->moving.dirty;
+  const bool static_changed = impl_->fixed.changed();
+  const bool moved = static_changed || impl_->moving.changed();
   if (!moved && !impl_->warm_dirty) return;
   if (std::exchange(impl_->warm_dirty, false)) ++impl_->warm_revision;
   if (!moved) {
     impl_->bound_warm_shapes();
     return;
   }
-  impl_->fixed.rebuild();
-  impl_->moving.rebuild();
+  impl_->fixed.commit();
+  impl_->moving.commit();
   impl_->bound_warm_shapes();
   ++impl_->revision;
   if (static_changed) ++impl_->static_revision;
@@ -200,6 +207,7 @@ void Scene::commit() {
 
 void Scene::cast(const Ray* rays, Hit* hits, std::size_t count, Mobilities among) const {
   SceneQuery q;
+  impl_->prepare(among);
   for (std::size_t i = 0; i < count; ++i) {
     hits[i] = {};
     if (!q.prepare(rays[i], among)) continue;
@@ -239,6 +247,7 @@ bool Scene::blocked(const Vec3& from, const Vec3& to, double margin, Mobilities 
   SceneQuery q;
   const double length = (to - from).norm();
   const Vec3 direction = (to - from) / length;
+  impl_->prepare(among);
   return q.prepare(from, direction, margin, length - margin, among) && impl_->any(q, among);
 }
 
@@ -301,6 +310,7 @@ Hit Scene::cast_at(std::uint32_t shape_index, const Ray& ray) const {
 }
 
 bool Scene::covered(const Vec3& point, std::uint32_t except) const {
+  impl_->prepare(kAll & ~only(Mobility::kMoving));
   return impl_->fixed.covers(point, except) || impl_->moving.covers(point, except);
 }
 

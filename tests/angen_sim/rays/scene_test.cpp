@@ -375,8 +375,10 @@ TEST(Scene, BuildingStartsNoThread) {
   const std::ptrdiff_t before = threads_of_process();
   Scene scene;
   Rng rng(10, 1, 0);
+  add(scene, box(1, 99, 99));
   for (int i = 0; i < 20000; ++i) add(scene, random_shape(rng), random_pose(rng, 50.0));
   scene.commit();
+  EXPECT_TRUE(cast_one(scene, Vec3(-99, 0, 0), Vec3::UnitX()).hit());  // a cast builds
   EXPECT_EQ(threads_of_process(), before);
 }
 
