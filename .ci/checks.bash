@@ -127,7 +127,7 @@ check_asan() { # [WORDS]
   return $failed
 }
 
-# The C++ tests, and the node in the tests of tests/ros. Python itself is not instrumented.
+# The C++ tests, and the node and `import angen` in those of Python. Python itself is not instrumented.
 run_sanitized() { # asan|tsan WORDS [SUITE...]
   local tree=build-$1 name chosen=("${@:3}") goals=(angen_run tests) slowness=4
   ((${#chosen[@]})) || chosen=(ctest pytest)
@@ -136,13 +136,12 @@ run_sanitized() { # asan|tsan WORDS [SUITE...]
   sanitized_tree "$1" "${goals[@]}"
   # Each program finds the libraries of its own build by its RUNPATH, which LD_LIBRARY_PATH would overrule.
   unset LD_LIBRARY_PATH
-  export CMAKE_PREFIX_PATH=$root/$tree/devel:$CMAKE_PREFIX_PATH
+  export CMAKE_PREFIX_PATH=$root/$tree/devel:$CMAKE_PREFIX_PATH ANGEN_TEST_TREE=$tree
+  # Python loads what is instrumented where it has the sanitizer's library already.
+  export PYTHONPATH=$root/$tree/devel/lib/python3/dist-packages:$PYTHONPATH PYTHONMALLOC=malloc
+  preloaded=$(g++ -print-file-name="lib$1.so"):$(g++ -print-file-name=libstdc++.so)
   pytest_arguments=(tests/ros)
-  if [[ $1 == asan ]]; then # Python loads the instrumented module where it has the sanitizer already
-    export PYTHONPATH=$root/$tree/devel/lib/python3/dist-packages:$PYTHONPATH PYTHONMALLOC=malloc
-    pytest_arguments=(tests/py tests/ros)
-    preloaded=$(g++ -print-file-name=libasan.so):$(g++ -print-file-name=libstdc++.so)
-  fi
+  [[ $1 == tsan ]] || pytest_arguments+=(tests/py) # these have one thread
   for name in "${chosen[@]}"; do
     suite "$1 $name" "check_$name" "$2"
   done

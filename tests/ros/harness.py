@@ -18,7 +18,9 @@ from typing import Any, Callable
 
 import pytest
 
-SCRIPT = Path(__file__).resolve().parents[2] / "src/angen_tools/scripts/angen"
+ROOT = Path(__file__).resolve().parents[2]
+SCRIPT = ROOT / "src/angen_tools/scripts/angen"
+TREE = ROOT / os.environ.get("ANGEN_TEST_TREE", "build")  # a sanitizer's has another
 WORLD = """<?xml version="1.0"?>
 <sdf version="1.6">
   <world name="small">

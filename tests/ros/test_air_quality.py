@@ -7,15 +7,13 @@ from __future__ import annotations
 import os
 import re
 import subprocess
-from pathlib import Path
 from typing import Iterator
 
 import pytest
-from harness import Cli, Master, end, until
+from harness import ROOT, TREE, Cli, Master, end, until
 
-ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / 'tests/examples/air_quality'
-DEVEL = ROOT / 'build/tests/examples/air_quality/devel'
+DEVEL = TREE / 'tests/examples/air_quality/devel'
 WORLD = '''<sdf version="1.6"><world name="office">
 <model name="ground"><static>true</static><link name="link"><collision name="c">
 <geometry><plane><normal>0 0 1</normal></plane></geometry></collision></link></model>

@@ -15,13 +15,12 @@ import pytest
 import rospy
 from angen_msgs.srv import Delete, Spawn
 from gazebo_msgs.srv import GetJointProperties
-from harness import Angen, Master, end, until
+from harness import ROOT, TREE, Angen, Master, end, until
 from std_msgs.msg import Float64
 from std_srvs.srv import Empty
 
-ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / 'src/gazebo_ros_control'
-LIBRARIES = ROOT / 'build/tests/examples/gazebo_ros_control/devel/lib'
+LIBRARIES = TREE / 'tests/examples/gazebo_ros_control/devel/lib'
 WORLD = """<sdf version="1.6"><world name="default">
   <include><uri>model://ground_plane</uri></include></world></sdf>"""
 ARM = (ROOT / 'examples/arm/arm.urdf').read_text()

@@ -339,6 +339,7 @@ Eigen::AlignedBox3d Scene::static_bounds() const {
 
 std::vector<std::pair<ShapeId, Eigen::AlignedBox3d>> Scene::boxes(Mobility mobility) const {
   std::vector<std::pair<ShapeId, Eigen::AlignedBox3d>> all;
+  all.reserve(impl_->layer(mobility).bounded.size() + impl_->layer(mobility).planes.size());
   impl_->entries.each([&](ShapeId id, const Entry& entry) {
     if (entry.mobility != mobility || entry.type == Shape::Type::kEmpty) return;
     all.emplace_back(id, bounds(id));
