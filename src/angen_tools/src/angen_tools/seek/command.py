@@ -1,6 +1,7 @@
 """angen task seek: from the words of the command to the folder that it leaves."""
 from __future__ import annotations
 
+import gc
 import multiprocessing
 import os
 import signal
@@ -63,8 +64,8 @@ def seek_seeds(route_file: Path | None, world: Path | None, seeds: range, limit:
     jobs = [(world, route, home, seed, ambient, limit, out) for seed in seeds
             for ambient in (False, True)]
     found: list[Figures] = []
-    with multiprocessing.get_context('fork').Pool(os.cpu_count(), _begin, (os.getpid(),),
-                                                  maxtasksperchild=4) as pool, \
+    # Each lives until the pool ends: of those made later, a thread that ends would be the parent.
+    with multiprocessing.get_context('fork').Pool(os.cpu_count(), _begin, (os.getpid(),)) as pool, \
             Progress('seek', 0.0) as progress:
         for figures in pool.imap_unordered(_one, jobs):
             found.append(figures)
@@ -94,6 +95,7 @@ def _one(job: tuple[Path, Route, Home, int, bool, float, Path]) -> Figures:
         return run.search(world, route, home, seed, ambient, limit, scratch).figures
     finally:
         scratch.unlink(missing_ok=True)
+        gc.collect()  # the world hangs in a cycle
 
 
 def _begin(parent: int) -> None:
