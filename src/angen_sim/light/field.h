@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -135,10 +136,10 @@ class Field {
     std::uint64_t scene = 0;  // the revision that they were found in
   };
   using Box = Eigen::AlignedBox3d;
-  using Boxes = std::vector<std::pair<rays::ShapeId, Box>>;
+  using Known = std::optional<rays::Standing>;
 
-  void compare(Boxes& known, Boxes now, bool is_static, std::vector<Change>& changes);
-  void note(rays::ShapeId shape, const Box& box, bool is_static, std::vector<Change>& changes);
+  void compare(std::uint32_t shape, const Known& now, bool is_static, std::vector<Change>& changes);
+  void note(std::uint32_t shape, const Box& box, bool is_static, std::vector<Change>& changes);
   void forget_near(const Box& box);
   void drop_uncharged();
   bool in_flux() const { return updating_ || !outdated_.empty(); }
@@ -159,11 +160,8 @@ class Field {
   const rays::Scene& scene_;
   Surfaces surfaces_;
   std::vector<PatchLinks> patch_links_;  // by patch; empty until it is queried
-  Boxes static_;                         // as of the last follow()
-  Boxes anchored_;
-  bool begun_ = false;
-  std::uint64_t static_revision_ = 0;
-  std::uint64_t anchored_revision_ = 0;
+  std::vector<Known> known_;             // by shape, as of the last follow()
+  std::uint64_t followed_ = 0;           // the mark of the scene's changes then
   std::uint64_t revision_ = 0;
   std::uint64_t updates_ = 0;
   std::map<std::uint32_t, Box>

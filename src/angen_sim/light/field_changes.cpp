@@ -32,61 +32,53 @@ bool passes(const Eigen::AlignedBox3d& box, const rays::Ray& ray, double range) 
   return enter <= leave;
 }
 
-}  // namespace
-
-void Field::note(rays::ShapeId shape, const Box& box, bool is_static,
-                 std::vector<Change>& changes) {
-  changes.push_back({box, is_static});
-  outdated_[shape.index].extend(box);
+/// Whether that is the same shape, as good as where it was. A plane's box does not tell.
+bool stays(const std::optional<rays::Standing>& before, const std::optional<rays::Standing>& now) {
+  if (!before || !now) return !before && !now;
+  if (before->id != now->id || before->is_static != now->is_static) return false;
+  const Eigen::AlignedBox3d &a = before->box, &b = now->box;
+  return !b.diagonal().allFinite() || ((a.min() - b.min()).cwiseAbs().maxCoeff() < kStill &&
+                                       (a.max() - b.max()).cwiseAbs().maxCoeff() < kStill);
 }
 
-/// Both lists ascend by index.
-void Field::compare(Boxes& known, Boxes now, bool is_static, std::vector<Change>& changes) {
-  const auto ended = [](const auto& at, const Boxes& all) { return at == all.end(); };
-  auto a = known.begin(), b = now.begin();
-  while (!ended(a, known) || !ended(b, now)) {
-    const bool gone = ended(b, now) || (!ended(a, known) && a->first.index < b->first.index);
-    const bool came = !gone && (ended(a, known) || b->first.index < a->first.index);
-    if (gone) {
-      note(a->first, a->second, is_static, changes);
-      ++a;
-    } else if (came) {
-      note(b->first, b->second, is_static, changes);
-      ++b;
-    } else {
-      const Box before = a->second, after = b->second;
-      const bool stays = (before.min() - after.min()).cwiseAbs().maxCoeff() < kStill &&
-                         (before.max() - after.max()).cwiseAbs().maxCoeff() < kStill;
-      if (a->first == b->first && (stays || !after.diagonal().allFinite())) {
-        b->second = before;  // creeping adds up
-      } else {
-        note(b->first, before.merged(after), is_static, changes);
-      }
-      ++a;
-      ++b;
-    }
+}  // namespace
+
+void Field::note(std::uint32_t shape, const Box& box, bool is_static,
+                 std::vector<Change>& changes) {
+  changes.push_back({box, is_static});
+  outdated_[shape].extend(box);
+}
+
+/// Notes what has changed at an index among what is static, or among what is not.
+void Field::compare(std::uint32_t shape, const Known& now, bool is_static,
+                    std::vector<Change>& changes) {
+  const Known& before = known_[shape];
+  const bool was = before && before->is_static == is_static;
+  const bool is = now && now->is_static == is_static;
+  if (was && is) {
+    note(shape, before->box.merged(now->box), is_static, changes);
+  } else if (was) {
+    note(shape, before->box, is_static, changes);
+  } else if (is) {
+    note(shape, now->box, is_static, changes);
   }
-  known = std::move(now);
 }
 
 std::vector<Field::Change> Field::follow() {
-  std::vector<Change> changes;
-  if (!begun_) {  // nothing is known that could change
-    begun_ = true;
-    static_revision_ = scene_.static_revision();
-    anchored_revision_ = scene_.anchored_revision();
-    static_ = scene_.boxes(rays::Mobility::kStatic);
-    anchored_ = scene_.boxes(rays::Mobility::kAnchored);
+  const bool first = followed_ == 0;  // nothing is known that could change
+  std::vector<Change> statics, anchored;
+  for (const std::uint32_t shape : scene_.standing_changes(followed_)) {
+    if (known_.size() <= shape) known_.resize(shape + 1);
+    Known now = scene_.standing(shape);
+    if (stays(known_[shape], now)) continue;  // creeping adds up
+    if (!first) {
+      compare(shape, now, true, statics);
+      compare(shape, now, false, anchored);
+    }
+    known_[shape] = std::move(now);
   }
-  if (static_revision_ != scene_.static_revision()) {
-    static_revision_ = scene_.static_revision();
-    compare(static_, scene_.boxes(rays::Mobility::kStatic), true, changes);
-  }
-  if (anchored_revision_ != scene_.anchored_revision()) {
-    anchored_revision_ = scene_.anchored_revision();
-    compare(anchored_, scene_.boxes(rays::Mobility::kAnchored), false, changes);
-  }
-  return changes;
+  statics.insert(statics.end(), anchored.begin(), anchored.end());
+  return statics;
 }
 
 bool Field::outdated_in(const Box& box) const {
@@ -97,9 +89,10 @@ bool Field::outdated_in(const Box& box) const {
 /// What stands near a surface may cover or divide its patches.
 void Field::forget_near(const Box& box) {
   const Box near(box.min() - Vec3::Constant(kFacing), box.max() + Vec3::Constant(kFacing));
-  for (const Boxes* all : {&static_, &anchored_}) {
-    for (const auto& [shape, place] : *all) {
-      if (near.intersects(place)) surfaces_.forget_near(shape.index, near, releasing_);
+  for (const bool is_static : {true, false}) {
+    for (const Known& shape : known_) {
+      if (!shape || shape->is_static != is_static || !near.intersects(shape->box)) continue;
+      surfaces_.forget_near(shape->id.index, near, releasing_);
     }
   }
 }

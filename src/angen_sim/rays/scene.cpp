@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -14,14 +15,17 @@
 namespace angen::rays {
 namespace {
 
+constexpr std::size_t kMostChanges = 4096;
+
 struct Entry {
   Mobility mobility;
   Shape::Type type;
   Pose pose;
 };
 
-/// Where in its layer's lists a shape is.
+/// Where in its layer's lists a shape is, or was that has gone; nowhere if it is empty.
 struct Place {
+  ShapeId id;
   Layer* layer = nullptr;
   Shape::Type type = Shape::Type::kEmpty;
   std::uint32_t at = 0;
@@ -50,15 +54,22 @@ struct Scene::Impl {
   Layer moving{false};
   std::map<const TriangleMesh*, std::weak_ptr<const MeshTree>> meshes;
   std::uint64_t revision = 0;
-  std::uint64_t static_revision = 0;
-  std::uint64_t anchored_revision = 0;
   std::uint64_t warm_revision = 0;
-  bool anchored_dirty = false;
   bool warm_dirty = false;
+  std::vector<std::uint32_t> changes;  // of what stands, in their order: the latest kMostChanges
+  std::uint64_t forgotten = 1;         // the mark before which they are not known
 
-  void touch(Mobility mobility, Changed changed = Changed::kAny) {
+  void touch(std::uint32_t index, Mobility mobility, Changed changed = Changed::kAny) {
     layer(mobility).change(changed);
-    if (mobility == Mobility::kAnchored) anchored_dirty = true;
+    if (mobility != Mobility::kMoving) note_standing(index);
+  }
+
+  void note_standing(std::uint32_t index) {
+    if (changes.size() == 2 * kMostChanges) {
+      changes.erase(changes.begin(), changes.begin() + kMostChanges);
+      forgotten += kMostChanges;
+    }
+    changes.push_back(index);
   }
 
   void prepare(Mobilities among) const {
@@ -125,9 +136,9 @@ ShapeId Scene::add(const Shape& shape, const Pose& pose, Mobility mobility,
   solid.anchored = mobility == Mobility::kAnchored;
   Layer& layer = impl_->layer(mobility);
   std::vector<Solid>& list = layer.list(shape.type);
-  impl_->places[id.index] = {&layer, shape.type, static_cast<std::uint32_t>(list.size())};
+  impl_->places[id.index] = {id, &layer, shape.type, static_cast<std::uint32_t>(list.size())};
   list.push_back(std::move(solid));
-  impl_->touch(mobility);
+  impl_->touch(id.index, mobility);
   return id;
 }
 
@@ -155,7 +166,7 @@ void Scene::move(ShapeId shape, const Pose& pose) {
   Layer& layer = impl_->layer(entry.mobility);
   layer.list(entry.type)[impl_->places[shape.index].at].place(pose);
   const bool moves = entry.mobility == Mobility::kMoving;
-  impl_->touch(entry.mobility, moves ? Changed::kMoved : Changed::kAny);
+  impl_->touch(shape.index, entry.mobility, moves ? Changed::kMoved : Changed::kAny);
 }
 
 void Scene::set_anchored(ShapeId shape, bool anchored) {
@@ -165,7 +176,7 @@ void Scene::set_anchored(ShapeId shape, bool anchored) {
   entry.mobility = mobility;
   if (entry.type == Shape::Type::kEmpty) return;
   impl_->moving.list(entry.type)[impl_->places[shape.index].at].anchored = anchored;
-  impl_->touch(Mobility::kAnchored);
+  impl_->touch(shape.index, Mobility::kAnchored);
 }
 
 void Scene::remove(ShapeId shape) {
@@ -184,13 +195,12 @@ void Scene::remove(ShapeId shape) {
     impl_->places[list[at].slot].at = at;
   }
   list.pop_back();
-  impl_->touch(entry.mobility);
+  impl_->touch(shape.index, entry.mobility);
   if (entry.type == Shape::Type::kMesh) impl_->forget_unused_meshes();
 }
 
 void Scene::commit() {
-  const bool static_changed = impl_->fixed.changed();
-  const bool moved = static_changed || impl_->moving.changed();
+  const bool moved = impl_->fixed.changed() || impl_->moving.changed();
   if (!moved && !impl_->warm_dirty) return;
   if (std::exchange(impl_->warm_dirty, false)) ++impl_->warm_revision;
   if (!moved) {
@@ -201,8 +211,6 @@ void Scene::commit() {
   impl_->moving.commit();
   impl_->bound_warm_shapes();
   ++impl_->revision;
-  if (static_changed) ++impl_->static_revision;
-  if (std::exchange(impl_->anchored_dirty, false)) ++impl_->anchored_revision;
 }
 
 void Scene::cast(const Ray* rays, Hit* hits, std::size_t count, Mobilities among) const {
@@ -337,19 +345,31 @@ Eigen::AlignedBox3d Scene::static_bounds() const {
   return all;
 }
 
-std::vector<std::pair<ShapeId, Eigen::AlignedBox3d>> Scene::boxes(Mobility mobility) const {
-  std::vector<std::pair<ShapeId, Eigen::AlignedBox3d>> all;
-  all.reserve(impl_->layer(mobility).bounded.size() + impl_->layer(mobility).planes.size());
-  impl_->entries.each([&](ShapeId id, const Entry& entry) {
-    if (entry.mobility != mobility || entry.type == Shape::Type::kEmpty) return;
-    all.emplace_back(id, bounds(id));
-  });
-  return all;
+std::optional<Standing> Scene::standing(std::uint32_t index) const {
+  if (index >= impl_->places.size()) return std::nullopt;
+  const Place& place = impl_->places[index];
+  if (place.layer == nullptr || !impl_->entries.contains(place.id)) return std::nullopt;
+  const bool is_static = place.layer == &impl_->fixed;
+  if (!is_static && !impl_->solid(index).anchored) return std::nullopt;
+  return Standing{place.id, is_static, bounds(place.id)};
+}
+
+std::vector<std::uint32_t> Scene::standing_changes(std::uint64_t& mark) const {
+  const std::uint64_t known = std::exchange(mark, impl_->forgotten + impl_->changes.size());
+  std::vector<std::uint32_t> indices;
+  if (known < impl_->forgotten) {
+    indices.resize(impl_->places.size());
+    std::iota(indices.begin(), indices.end(), 0U);
+    return indices;
+  }
+  const auto first = static_cast<std::ptrdiff_t>(known - impl_->forgotten);
+  indices.assign(impl_->changes.begin() + first, impl_->changes.end());
+  std::sort(indices.begin(), indices.end());
+  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+  return indices;
 }
 
 std::uint64_t Scene::revision() const { return impl_->revision; }
-std::uint64_t Scene::static_revision() const { return impl_->static_revision; }
-std::uint64_t Scene::anchored_revision() const { return impl_->anchored_revision; }
 std::uint64_t Scene::warm_revision() const { return impl_->warm_revision; }
 
 }  // namespace angen::rays

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <utility>
+#include <optional>
 #include <vector>
 
 #include "core/id.h"
@@ -59,6 +59,13 @@ struct WarmShape {
   std::uint32_t shape = UINT32_MAX;  // index of its ShapeId, as in Hit
   double temperature = 0.0;          // K
   Eigen::AlignedBox3d box;           // m, world, around it
+};
+
+/// A static or anchored shape that casts may meet.
+struct Standing {
+  ShapeId id;
+  bool is_static = false;
+  Eigen::AlignedBox3d box;  // m, world; infinite for a plane
 };
 
 class Scene {
@@ -121,13 +128,14 @@ class Scene {
 
   /// Around all static shapes but planes, world frame.
   Eigen::AlignedBox3d static_bounds() const;
-  /// World boxes of the shapes of one mobility, by index.
-  std::vector<std::pair<ShapeId, Eigen::AlignedBox3d>> boxes(Mobility mobility) const;
+  /// What stands at an index of a ShapeId; none where nothing does.
+  std::optional<Standing> standing(std::uint32_t index) const;
+  /// Ascending indices of all that came, went or moved among what stands, or may have, since the
+  /// call that left `mark`; with a mark of 0 all there ever were. Leaves a new mark.
+  std::vector<std::uint32_t> standing_changes(std::uint64_t& mark) const;
 
   /// Counts commits that changed something: equal revisions mean equal answers.
   std::uint64_t revision() const;
-  std::uint64_t static_revision() const;
-  std::uint64_t anchored_revision() const;
 
  private:
   struct Impl;
