@@ -129,11 +129,11 @@ check_asan() { # [WORDS]
 
 # The C++ tests, and the node and `import angen` in those of Python. Python itself is not instrumented.
 run_sanitized() { # asan|tsan WORDS [SUITE...]
-  local tree=build-$1 name chosen=("${@:3}") goals=(angen_run tests) slowness=4
+  local tree=build-$1 name chosen=("${@:3}") slowness=4
   ((${#chosen[@]})) || chosen=(ctest pytest)
   prepare test
   sanitizer_options
-  sanitized_tree "$1" "${goals[@]}"
+  sanitized_tree "$1" all tests
   # Each program finds the libraries of its own build by its RUNPATH, which LD_LIBRARY_PATH would overrule.
   unset LD_LIBRARY_PATH
   export CMAKE_PREFIX_PATH=$root/$tree/devel:$CMAKE_PREFIX_PATH ANGEN_TEST_TREE=$tree

@@ -21,6 +21,9 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "src/angen_tools/scripts/angen"
 TREE = ROOT / os.environ.get("ANGEN_TEST_TREE", "build")  # a sanitizer's has another
+SANITIZED = TREE.name != "build"
+PATIENCE = 4.0 if SANITIZED else 1.0
+without_sanitizer = pytest.mark.skipif(SANITIZED, reason="the memory is the sanitizer's, too")
 WORLD = """<?xml version="1.0"?>
 <sdf version="1.6">
   <world name="small">
@@ -52,7 +55,9 @@ WORLD = """<?xml version="1.0"?>
 
 
 def until(condition: Callable[[], Any], what: str, timeout: float = 30.0) -> Any:
-    """Return the first true value of `condition`; fail after `timeout` wall seconds."""
+    """Return the first true value of `condition`; fail after `timeout` wall seconds, more with
+    a sanitizer."""
+    timeout *= PATIENCE
     end = time.monotonic() + timeout
     while time.monotonic() < end:
         value = condition()
@@ -82,7 +87,7 @@ def end(process: subprocess.Popen[str], timeout: float = 20.0) -> int:
     if process.poll() is None:
         process.send_signal(signal.SIGINT)
     try:
-        return process.wait(timeout)
+        return process.wait(PATIENCE * timeout)
     except subprocess.TimeoutExpired:
         process.kill()
         process.wait()
@@ -148,7 +153,7 @@ class Angen:
     def call(self, name: str, kind: type, /, **fields: Any) -> Any:
         """Call a service; blank fields keep their defaults."""
         import rospy
-        rospy.wait_for_service(name, timeout=20.0)
+        rospy.wait_for_service(name, timeout=20.0 * PATIENCE)
         return rospy.ServiceProxy(name, kind)(**fields)
 
     def send(self, topic: str, message: Any) -> None:
@@ -208,7 +213,7 @@ class Cli:
 
     def run(self, *words: str) -> subprocess.CompletedProcess[str]:
         return subprocess.run([*self.words, *words], env=self.environment, text=True,
-                              capture_output=True, stdin=subprocess.DEVNULL, timeout=120)
+                              capture_output=True, stdin=subprocess.DEVNULL, timeout=120 * PATIENCE)
 
     def does(self, *words: str) -> str:
         """What it says when it succeeds, without the newline."""

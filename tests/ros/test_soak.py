@@ -7,10 +7,13 @@ import subprocess
 import sys
 from pathlib import Path
 
+from harness import without_sanitizer
+
 SCRIPT = Path(__file__).resolve().parents[2] / 'src/angen_tools/scripts/angen'
 CYCLES = 1000
 
 
+@without_sanitizer
 def test_a_thousand_cycles_leave_nothing_behind(tmp_path: Path) -> None:
     done = subprocess.run([sys.executable, str(SCRIPT), 'bench', 'soak', '--cycles', str(CYCLES),
                            '-o', str(tmp_path)], env=dict(os.environ, TMPDIR=str(tmp_path)),

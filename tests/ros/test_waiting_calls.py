@@ -13,7 +13,7 @@ from urllib.parse import urlparse
 import pytest
 from angen_msgs.msg import Command, Event
 from angen_msgs.srv import Delete, List, SendCommand, Spawn, Step
-from harness import Angen, Inbox, until
+from harness import Angen, Inbox, until, without_sanitizer
 from std_srvs.srv import Empty
 
 MOST = 10_000_000  # ticks of a call
@@ -114,6 +114,7 @@ def test_long_texts_are_cut(angen: Angen) -> None:
     assert max(len(line) for line in angen.log().splitlines()) < 4000
 
 
+@without_sanitizer
 def test_a_slow_subscriber_of_events_holds_little(angen: Angen) -> None:
     status = f"/proc/{angen.process.pid}/status"
 
