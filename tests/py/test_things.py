@@ -75,6 +75,35 @@ def test_a_cup_says_why_it_does_not(world):
         w.command('cup', 'c', 'Tilt 1')
 
 
+def test_a_pour_is_told_once_when_it_begins_and_once_when_it_has_ended(world):
+    w = world(block('cup', 'c', '0 0 0 0 0 0'))
+    w.command('cup', 'c', 'Fill 250')
+    w.command('cup', 'c', 'Lift 0.3')
+    w.run(2)
+    w.events()
+    w.command('cup', 'c', 'Tilt 1.2')
+    w.run(4)
+    state = w.device('cup', 'c')
+    told = [(event, detail) for _, _, kind, event, detail in w.events() if kind == 'cup']
+    assert told == [('pours', ''), ('poured', f"{state['poured']:.1f} ml in all")]
+
+
+@pytest.mark.parametrize('height', [0.3, 0.5, 1.0, 2.0])
+def test_a_lift_that_goes_on_evenly_is_one_movement(world, height):
+    """Between its start and its end nothing is felt of it."""
+    w = world(block('cup', 'c', '0 0 0 0 0 0'))
+    w.run(1)
+    w.events()
+    for text, said, lifted in ((f'Lift {height}', 'lifted', True), ('Put', 'put_down', False)):
+        w.command('cup', 'c', text)
+        w.run(8)
+        told = [event for _, _, kind, event, _ in w.events() if kind == 'accelerometer']
+        assert told == ['moved', said]
+        reading = w.sensor('accelerometer', 'c')
+        assert reading['lifted'] == lifted and not reading['moving']
+        assert reading['height'] == pytest.approx(height if lifted else 0.0, abs=0.03)
+
+
 def test_an_accelerometer_tells_lifting_from_tilting(world):
     w = world(block('cup', 'c', '0 0 0 0 0 0'))
     w.run(1)

@@ -130,7 +130,9 @@ void Cup::update(const View& view, Outputs& outputs) {
   if (!temperature_ || due_.due(view.time(), view.step()) || changed_) {
     cool(view.time(), air(view));
   }
+  const double poured = poured_;
   spill(tilt_of(body.pose), outputs);
+  if (poured_ > poured) spilled_at_ = view.time();
   if (pours_ && view.time() - spilled_at_ >= kPourEnds) {
     pours_ = false;
     outputs.event("poured", volume_text(poured_) + " in all");

@@ -8,7 +8,9 @@ namespace angen::sensors {
 
 namespace {
 
-constexpr double kGentle = 0.3;  // of gravity
+constexpr double kGentle = 0.3;   // of gravity
+constexpr double kGlides = 0.05;  // m/s up or down: what goes on evenly is not at rest
+constexpr Nanoseconds kLongestGlide = 10 * kSecond;  // the integral of a longer one says nothing
 
 }  // namespace
 
@@ -86,7 +88,8 @@ class Accelerometer : public Sensor {
     const double up = -acceleration.dot(view.gravity().normalized());
     rise_ += (speed_ + 0.5 * up * dt) * dt;
     speed_ += up * dt;
-    if (now - active_at_ < quiet_) return;
+    const Nanoseconds even = now - active_at_;
+    if (even < quiet_ || (std::abs(speed_) > kGlides && even < kLongestGlide)) return;
     moving_ = false;
     height_ += rise_;
     const bool higher = rise_ > lift_threshold_;
