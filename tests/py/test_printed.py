@@ -40,6 +40,13 @@ def position(world: angen.World, joint: str) -> float:
     return float(world.joint_positions[world.joints.index(joint)])
 
 
+@pytest.mark.parametrize('number, named', [
+    ('1.\u00ad5', 'U\\+00AD'), ('2\u200b', 'U\\+200B'), ('\uff11', 'U\\+FF11')])
+def test_a_character_that_is_not_seen_is_named(world, number, named):
+    with pytest.raises(angen.Error, match=f'with the character {named}, which is not a number'):
+        world(hung('flap', 'lid', 'body', place=f'{number} 0 0'))
+
+
 def test_each_joint_is_a_door_named_after_its_link(doors):
     assert doors.devices('door') == ['entrance1', 'kitchen0']
 
@@ -101,6 +108,35 @@ def test_what_is_no_door_is_none(world):
     assert world(flap + wheel, DOORS).devices('door') == []
 
 
+def framed(model: str, joint: str, leaf: str) -> str:
+    """A model whose leaf hangs on a frame that stands fast."""
+    text = hung(model, joint, leaf).replace('<parent>world</parent>', '<parent>frame</parent>')
+    return text.replace('</model>', '''<link name="frame"/><joint name="stands" type="fixed">
+      <parent>world</parent><child>frame</child></joint></model>''')
+
+
+@pytest.mark.parametrize('model, joint, leaf, called', [
+    ('hall', 'cellar_door_joint', 'leaf', 'cellar0'), ('hall', 'j', 'pantry_door_block', 'pantry0'),
+    ('study_door1', 'j', 'leaf', 'study0')])
+def test_a_leaf_on_a_frame_is_a_door_where_a_name_says_so(world, model, joint, leaf, called):
+    w = world(framed(model, joint, leaf), DOORS)
+    assert w.devices('door') == [called]
+    w.command('door', called, 'Open')
+    w.run(6)
+    assert position(w, f'{model}::{joint}') == pytest.approx(-1.57, abs=0.004)
+
+
+def test_a_leaf_on_a_frame_that_nothing_drives_is_a_warning(world):
+    found = world(framed('study_door0', 'j', 'leaf')).warnings
+    assert len(found) == 1 and "no plug-in drives joint 'j' of model 'study_door0'" in found[0]
+
+
+def test_what_turns_on_a_stand_is_no_door(world):
+    """As the first joint of an arm does."""
+    w = world(framed('arm', 'waist', 'shoulder'), DOORS)
+    assert w.devices('door') == [] and w.warnings == []
+
+
 def test_a_joint_is_named_where_its_axis_does_not_tell(world):
     w = world(hung('flap', 'lid', 'body', axis='1 0 0', limits='0 1.2',
                    plugin=door_plugin('<joint>lid</joint>')))
@@ -141,6 +177,18 @@ def test_the_elevator_of_one_body_goes_up_and_down(elevator):
             4.0 * floor, abs=0.002)
 
 
+def test_an_elevator_without_doors_stands_open_everywhere(elevator):
+    """The way in is free: who waits for open doors would wait for good."""
+    elevator.run(0.1)
+    assert elevator.device('elevator', 'my_elevator')['door_mode'] == 'OPEN'
+    elevator.events()
+    elevator.command('elevator', 'my_elevator', 'Floor1')
+    elevator.run(10)
+    assert elevator.device('elevator', 'my_elevator')['mode'] == 'IDLE'
+    assert elevator.device('elevator', 'my_elevator')['door_mode'] == 'OPEN'
+    assert [event for _, _, _, event, _ in elevator.events()] == ['up', 'arrived', 'idle']
+
+
 def test_the_elevators_collision_is_smaller_than_its_visual(elevator):
     """A ray meets the collision, 2.5 m times 0.5 wide, not the visual, 2.5 m times 0.6."""
     elevator.spawn('model://proximity', 'eye', [1.352694 - 3, 1.202178, 0.5, 0, 0, 0])
@@ -151,6 +199,26 @@ def test_the_elevators_collision_is_smaller_than_its_visual(elevator):
 def test_an_error_says_what_an_elevator_needs(world):
     with pytest.raises(angen.Error, match='elevator needs a prismatic joint along z'):
         world(hung('lift', 'j', 'body', plugin='<plugin name="p" filename="libros_plugin.so"/>'))
+
+
+def rail(limits: str = '0 4', axis: str = '0 0 1', parameters: str = '') -> str:
+    """A cabin on a rail, m."""
+    lower, upper = limits.split()
+    return f'''<model name="e"><link name="cabin"/><joint name="rail" type="prismatic">
+      <parent>world</parent><child>cabin</child><axis><xyz>{axis}</xyz><limit>
+      <lower>{lower}</lower><upper>{upper}</upper></limit></axis></joint>
+      <plugin name="p" filename="libros_plugin.so">{parameters}</plugin></model>'''
+
+
+@pytest.mark.parametrize('model, message', [
+    (rail('4 8'), 'the joint rail begins at 4 m, floor 0 is at 0 m; give it a <lower> of 0'),
+    (rail('0 3'), 'the highest floor is at 4 m, the joint rail ends at 3 m'),
+    (rail(axis='0 0 -1'), 'elevator needs a prismatic joint along z, upwards'),
+    (rail(axis='1 0 0', parameters='<joint>rail</joint>'),
+     "the axis of joint 'rail' does not point up")])
+def test_a_rail_that_does_not_serve_the_floors_is_an_error(world, model, message):
+    with pytest.raises(angen.Error, match=message):
+        world(model)
 
 
 def test_of_two_that_slide_one_is_named(world):

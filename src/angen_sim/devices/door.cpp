@@ -36,6 +36,21 @@ const char* const kOwnJoints[] = {"hinge", "sash", "front"};
 
 bool limited(double lower, double upper) { return lower < upper && upper - lower < 2.0 * M_PI; }
 
+// A leaf of any name on a frame that is fixed to the world, where a name says what it is: an arm's
+// first joint may turn as a door does.
+bool is_framed(const ModelInfo::Joint& joint, const ModelInfo& model, const LeafKind& leaf) {
+  if (!leaf.any_joint || joint.type != "revolute" || !joint.on_world || !joint.vertical()) {
+    return false;
+  }
+  const bool is_own =
+      std::find(std::begin(kOwnJoints), std::end(kOwnJoints), joint.name) != std::end(kOwnJoints);
+  if (is_own || !limited(joint.lower, joint.upper)) return false;
+  for (const std::string& name : {joint.name, joint.child, model.name}) {
+    if (name.find(leaf.kind) != std::string::npos) return true;
+  }
+  return false;
+}
+
 std::string range_text(const JointLimits& limits) {
   std::ostringstream text;
   text << limits.lower << " to " << limits.upper;
@@ -306,8 +321,8 @@ std::string LeafPlugin::needs() const {
   std::string needed = std::string("a revolute joint ") + leaf_.joint + " with parent base";
   if (leaf_.any_joint) {
     needed +=
-        ", one about a vertical axis with limits whose parent is the world, or one that "
-        "<joint> names";
+        ", one about a vertical axis with limits whose parent is the world, or fixed to it where "
+        "a name says door, or one that <joint> names";
   }
   return needed;
 }
@@ -333,7 +348,8 @@ std::vector<const ModelInfo::Joint*> LeafPlugin::leaves(const ModelInfo& model,
       throw params.error(
           "joint", "joint '" + joint.name + "' is " + joint.type + "; that of a leaf is revolute");
     }
-    if ((is_named || is_leaf(joint)) && !joint.taken) found.push_back(&joint);
+    const bool is_found = is_leaf(joint) || is_framed(joint, model, leaf_);
+    if ((is_named || is_found) && !joint.taken) found.push_back(&joint);
   }
   return found;
 }

@@ -26,7 +26,7 @@ void Doorway::select(std::vector<Leaf> leaves, const View& view) {
   travel_ = 0.0;
   for (const Leaf& leaf : leaves_) travel_ = std::max(travel_, std::abs(leaf.open));
   moving_ = false;
-  opening_ = share(view) > 0.5;
+  opening_ = leaves_.empty() || share(view) > 0.5;  // without leaves nothing shuts it
   mode_ = opening_ ? Mode::kOpen : Mode::kClosed;
 }
 
@@ -43,7 +43,7 @@ void Doorway::open(const View& view) {
 }
 
 void Doorway::close(const View& view) {
-  if (mode_ != Mode::kClosed && !(moving_ && !opening_)) go(false, view);
+  if (!leaves_.empty() && mode_ != Mode::kClosed && !(moving_ && !opening_)) go(false, view);
 }
 
 void Doorway::go(bool opening, const View& view) {

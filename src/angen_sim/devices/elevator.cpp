@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/text.h"
 #include "plugin/register.h"
 
 namespace angen::devices {
@@ -31,6 +32,9 @@ constexpr PidGains kPlainGains{200.0, 200.0, 25.0, 1e4, -1e4, 1e4, -1e4};
 constexpr PidUnits kPlainUnits{"N/m", "N/(m s)", "N s/m", "N"};
 
 constexpr char kJointDoc[] = "that moves the cabin, where there are several";
+constexpr double kUpwards = 0.999;  // z of an axis that points up
+
+bool rises(const ModelInfo::Joint& joint) { return joint.axis.z() > kUpwards; }
 
 const char* const kModes[] = {"IDLE", "UP", "DOWN", "BLOCKED"};
 const char* const kModeEvents[] = {"idle", "up", "down", "blocked"};
@@ -91,9 +95,14 @@ void Elevator::wire(Params& params, Wiring& wiring) {
   limits_ = wiring.limits(lift_);
   const double highest = (floors_ - 1) * floor_height_;
   if (limits_.lower < limits_.upper && highest > limits_.upper + kLevelWithin) {
-    throw params.error("floors", "the highest floor is at " + std::to_string(highest) +
+    throw params.error("floors", "the highest floor is at " + number_text(highest) +
                                      " m, the joint " + lift_name_ + " ends at " +
-                                     std::to_string(limits_.upper) + " m");
+                                     number_text(limits_.upper) + " m");
+  }
+  if (limits_.lower < limits_.upper && limits_.lower > kLevelWithin) {
+    throw params.error("joint", "the joint " + lift_name_ + " begins at " +
+                                    number_text(limits_.lower) +
+                                    " m, floor 0 is at 0 m; give it a <lower> of 0");
   }
   own_mass_ = wiring.mass(wiring.link(wiring.child_of(lift_)));
   // A leaf stands open at whichever of its limits is further from 0.
@@ -174,7 +183,7 @@ void Elevator::update(const View& view, Outputs& outputs) {
       outputs.event("obstacle", "door");
       stops_.push_front(target_);
       phase_ = Phase::kStanding;
-    } else if (doorway_.mode() == Doorway::Mode::kClosed) {
+    } else if (!doorway_.moving()) {
       outputs.motor(lift_, 0.0, 0.0);
       const JointView lift = view.joint(lift_);
       servo_.start(lift.position, lift.velocity);
@@ -308,8 +317,8 @@ const Kind& ElevatorPlugin::kind() const {
 }
 
 std::string ElevatorPlugin::needs() const {
-  return "a prismatic joint along z with limits whose parent is the world or fixed to it, or one "
-         "that <joint> names";
+  return "a prismatic joint along z, upwards, with limits, whose parent is the world or fixed to "
+         "it, or one that <joint> names";
 }
 
 // `lift`, or whatever slides up the building.
@@ -322,10 +331,16 @@ std::vector<Mount> ElevatorPlugin::mounts(const ModelInfo& model, Params& params
       throw params.error(
           "joint", "joint '" + named + "' is " + lift->type + "; that of an elevator is prismatic");
     }
+    if (!rises(*lift)) {
+      throw params.error("joint", "the axis of joint '" + named +
+                                      "' does not point up, as that of an elevator does: 0 0 1");
+    }
   }
-  if (lift != nullptr && lift->type == "prismatic") return {{model.name, lift->name}};
+  if (lift != nullptr && lift->type == "prismatic" && rises(*lift)) {
+    return {{model.name, lift->name}};
+  }
   for (const ModelInfo::Joint& joint : model.joints) {
-    if (joint.taken || joint.type != "prismatic" || !joint.on_world || !joint.vertical()) continue;
+    if (joint.taken || joint.type != "prismatic" || !joint.on_world || !rises(joint)) continue;
     if (joint.upper - joint.lower < kUnlimited) return {{model.name, joint.name}};
   }
   return {};

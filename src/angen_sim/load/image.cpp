@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "core/text.h"
 #include "load/geometry.h"
 #include "load/png.h"
 #include "load/search.h"
@@ -10,7 +11,8 @@ namespace angen::load {
 namespace {
 
 constexpr std::size_t kMaxBoxes = 1000;
-constexpr double kThreshold = 200.0;  // SDF's default, of 255
+constexpr double kThreshold = 200.0;  // SDF's default, of kWhite
+constexpr double kWhite = 255.0;
 
 // Square cells of an image, from its top left; those at the right and the bottom may be cut.
 struct Cells {
@@ -41,7 +43,7 @@ Cells cells_of(const GrayImage& image, std::size_t side, double threshold) {
     for (std::size_t x = 0; x < image.width; ++x) {
       const std::size_t cell = y / side * cells.columns + x / side;
       ++pixels[cell];
-      if (image.values[y * image.width + x] * 255.0 <= threshold + 1e-9) ++dark[cell];
+      if (image.values[y * image.width + x] * kWhite <= threshold + 1e-9) ++dark[cell];
     }
   }
   for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -91,6 +93,10 @@ std::vector<PlacedShape> image_boxes(const Element& element, const Pose& pose, S
   session.sources.will_be_read(file);
   const GrayImage image = read_png(file, "image", 1, uri.source);
   const double threshold = child_number(element, "threshold", kThreshold);
+  if (!(threshold >= 0.0 && threshold <= kWhite)) {
+    throw Error(element.source, "<threshold> is " + number_text(threshold) +
+                                    "; it must be 0, black, to 255, white");
+  }
   const std::size_t side = granularity_of(element);
   const std::vector<Rectangle> rectangles = rectangles_of(cells_of(image, side, threshold));
   if (rectangles.empty()) {

@@ -63,6 +63,10 @@ const Broken kBroken[] = {
      "<sdf version='1.6'><world name='w'><model name='m'><link name='l'>\n<pose>0 0 x 0 0 0</pose>"
      "</link></model></world></sdf>",
      "w.world:2: ", "'x', which is not a number"},
+    {"soft_hyphen",
+     "<sdf version='1.6'><world name='w'><model name='m'><link name='l'>\n<pose>1.\u00AD5 0 0 0 0 0"
+     "</pose></link></model></world></sdf>",
+     "w.world:2: ", "with the character U+00AD, which is not a number"},
     {"short_pose",
      "<sdf version='1.6'><world name='w'><model name='m'><link name='l'>\n<pose>0 0 0 0</pose>"
      "</link></model></world></sdf>",

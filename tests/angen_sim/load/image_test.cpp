@@ -120,6 +120,8 @@ TEST(Image, WhatIsWrongIsSaid) {
   picture(folder, {"...", "..."});
   EXPECT_NE(error().find("as dark as the <threshold> 200"), std::string::npos) << error();
   picture(folder, {"#"});
+  EXPECT_NE(error("<threshold>300</threshold>").find("<threshold> is 300; it must be 0, black"),
+            std::string::npos);
   EXPECT_NE(error("<granularity>1.5</granularity>").find("whole number"), std::string::npos);
   EXPECT_NE(error("<scale>0</scale>").find("greater than 0"), std::string::npos);
   EXPECT_NE(error("<height>-1</height>").find("greater than 0"), std::string::npos);
