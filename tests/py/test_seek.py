@@ -94,7 +94,7 @@ def test_the_same_seed_gives_the_same_search(tmp_path: Path) -> None:
 def test_a_world_must_have_the_robot_and_a_floor(tmp_path: Path) -> None:
     plugin = '<plugin name="robots" filename="librobot_controller.so"/>'
     robot = '<include><uri>model://turtlebot</uri><name>turtlebot</name></include>'
-    for content, says in (('', 'has no robot turtlebot'),
+    for content, says in (('', 'has no robot turtlebot; include model://turtlebot'),
                           (robot + plugin, 'there is no floor')):
         (tmp_path / 'bare.world').write_text(
             f'<sdf version="1.6"><world name="w">{content}</world></sdf>')

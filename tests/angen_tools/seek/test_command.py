@@ -1,17 +1,22 @@
-"""angen task seek --seeds: its processes, with searches that take no time."""
+"""angen task seek: the processes of --seeds, with searches that take no time; its route."""
 from __future__ import annotations
 
 import signal
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, Iterator
 
 import pytest
-from angen_tools.robot.route_file import Route
+from angen_tools.patrol.command import default_route
+from angen_tools.robot.building import Entity
+from angen_tools.robot.route_file import Route, read_route
 from angen_tools.seek import command
 from angen_tools.seek.run import Figures
 
 LIMIT = 60  # s of wall time
+ROBOT = Entity('drive', 'turtlebot', 'turtlebot', (0, 0, 0, 0, 0, 0, 1))
+LIFT = Entity('elevator', 'elevator', 'elevator', (0, 0, 0, 0, 0, 0, 1))
 
 
 def search(world: Path, route: Route, home: str, seed: int, ambient: bool, *_: Any
@@ -20,8 +25,8 @@ def search(world: Path, route: Route, home: str, seed: int, ambient: bool, *_: A
                                            'hall0', 3.0, 0, 0.1))
 
 
-def survey(*_: Any) -> str:
-    return 'home'
+def survey(*_: Any) -> tuple[str, None]:
+    return 'home', None
 
 
 @pytest.fixture
@@ -49,3 +54,14 @@ def test_many_seeds_end_every_time(ends: None, tmp_path: Path, monkeypatch: pyte
         assert [row.split(',')[:2] for row in rows] == [
             [str(seed), ambient] for seed in range(1, 13) for ambient in ('True', 'False')]
     assert 'wrote' in capsys.readouterr().out
+
+
+def test_a_building_without_an_elevator_is_searched_without_one() -> None:
+    route = read_route(default_route())
+    assert command.served(route, [ROBOT, LIFT]) == route
+    assert command.served(route, [ROBOT]) == replace(route, elevator=None)
+
+
+def test_the_elevator_of_a_route_of_ones_own_has_to_be_there() -> None:
+    route = replace(read_route(default_route()), path=default_route().with_name('mine.yaml'))
+    assert command.served(route, [ROBOT]) == route

@@ -59,7 +59,7 @@ def make_scene(route: Route, path: str, entities: list[Entity],
     world, shut = load_world(path), load_world(path)
     body = outline(world, np.array([*start.robot.place, start.robot.flat.yaw]))
     survey = Survey(world, shut, entities, {start.floor} | {p.floor for p in route.waypoints})
-    beams = beam_angles(shut, survey.by_model, [e for e in entities if e.kind == 'switch'])
+    beams = beam_angles(shut, survey.by_joint, [e for e in entities if e.kind == 'switch'])
     scene = Scene(start, survey.maps, survey.landmarks, survey.doors, beams, body, world)
     planners = {number: Planner(grid, route.clearance) for number, grid in survey.maps.items()}
     return scene, Router(route, planners, survey.doors).actions((start.pose.x, start.pose.y),

@@ -104,12 +104,12 @@ class Sight:
 def beam_angles(world: Any, doors: dict[str, Door], switches: list[Entity]) -> dict[str, float]:
     """How far (rad) each switch's door has turned from shut when its beam comes free.
 
-    `doors` by model, all shut; they are opened for it. A switch belongs to the door of its room.
+    `doors` by joint, all shut; they are opened for it. A switch belongs to the door of its room.
     """
     caster = Caster(world)
     origins = np.array([s.place for s in switches]).reshape(-1, 3)
     ways = np.array([s.rotation[:, 0] for s in switches]).reshape(-1, 3)
-    joints = {door.name: world.joints.index(f'{model}::hinge') for model, door in doors.items()}
+    joints = {door.name: world.joints.index(joint) for joint, door in doors.items()}
     shut = caster.cast(origins, ways, BEAM)
     for name in joints:
         world.command('door', name, 'Open')

@@ -1,6 +1,7 @@
 """What a robot knows of a building before it starts: its floors' maps and doors, and itself."""
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,7 @@ from angen_tools.common.failure import Failure
 from angen_tools.common.geometry import rotation_of, yaw
 from angen_tools.maps.gridmap import STOREY, GridMap, floor_of, floors, make_map
 from angen_tools.maps.rays import Caster
-from angen_tools.robot.doors import find_door, find_hinge, find_top, link_poses
+from angen_tools.robot.doors import find_door, find_hinge, find_top, opened_alone, stand_of
 from angen_tools.robot.pilot import Pose
 from angen_tools.robot.planner import Door
 from angen_tools.robot.route_file import Route
@@ -66,19 +67,27 @@ class Survey:
             both = np.maximum(self.maps[floor].cells, self.shut[floor].cells)
             self.landmarks[floor] = replace(self.shut[floor], cells=both)
         self.doors: dict[int, list[Door]] = {floor: [] for floor in self.maps}
-        self.by_model: dict[str, Door] = {}
-        opened_poses, shut_poses = link_poses(world), link_poses(shut)
-        for entity in entities:
-            if entity.kind != 'door' or entity.floor not in self.maps \
-                    or entity.model not in shut_poses:
+        self.by_joint: dict[str, Door] = {}  # MODEL::JOINT
+        doors = [entity for entity in entities if entity.kind == 'door']
+        for entity in doors:
+            alone = sum(other.model == entity.model for other in doors) == 1
+            floor = entity.floor if alone else self._floor_by_name(entity)
+            if floor not in self.maps:
                 continue
-            hinge = find_hinge(shut_poses[entity.model], opened_poses[entity.model])
-            door = hinge and find_door(entity.name, hinge, self.shut[entity.floor],
-                                       self.maps[entity.floor])
+            before = stand_of(shut, entity.model)
+            after = (stand_of(world, entity.model) if alone
+                     else opened_alone(shut, entity.model, entity.name))
+            hinge = find_hinge(before.links, after.links)
+            door = hinge and find_door(entity.name, hinge, self.shut[floor], self.maps[floor])
             if door:
-                door = replace(door, top=find_top(Caster(shut), door, STOREY * entity.floor))
-                self.doors[entity.floor].append(door)
-                self.by_model[entity.model] = door
+                door = replace(door, top=find_top(Caster(shut), door, STOREY * floor))
+                self.doors[floor].append(door)
+                self.by_joint[after.turned(before)] = door
+
+    def _floor_by_name(self, door: Entity) -> int:
+        """Of one of a model's doors, which may be on several floors."""
+        digits = re.search('[0-9]+$', door.name)
+        return int(digits[0]) if digits and int(digits[0]) in self.maps else door.floor
 
 
 @dataclass(frozen=True)
@@ -98,7 +107,11 @@ class Start:
 def find_start(route: Route, entities: list[Entity], offset: tuple[float, float, float]) -> Start:
     """A route's robot, which believes that it starts `offset` beside the truth; Failure where the
     world lacks it, its lidar or its elevator."""
-    robot = _one(entities, 'drive', route.robot, f'the world has no robot {route.robot}')
+    robots = [entity.name for entity in entities if entity.kind == 'drive']
+    otherwise = (f"a route's robot can be {', '.join(robots)}" if robots else
+                 'include model://turtlebot in it under that name')
+    robot = _one(entities, 'drive', route.robot,
+                 f'the world has no robot {route.robot}; {otherwise}')
     laser = next((entity for entity in entities
                   if (entity.kind, entity.model) == ('lidar', robot.model)), None)
     if laser is None:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from angen_tools.common.geometry import yaw
-from angen_tools.maps.gridmap import OCCUPIED, GridMap, models_with
+from angen_tools.maps.gridmap import OCCUPIED, SETTLE, GridMap
 from angen_tools.robot.planner import Door, Point
 
 REACH = 2.0  # m: no leaf is wider
@@ -16,8 +16,19 @@ NEAR = 0.12  # m to either side of a leaf's line: its thickness, and cells
 GAP = 0.15  # m along a leaf where it ends
 HEIGHTS = np.arange(0.1, 3.5, 0.02)  # m above the floor where a leaf's top is searched
 ASIDE = 0.3  # m from a leaf, where rays across it start
+LOOK = 0.5  # s of simulated time between two looks at a door that turns
 
-Poses = dict[str, list[tuple[float, float, float]]]  # of a door model's links: x, y, yaw
+
+@dataclass(frozen=True)
+class Stand:
+    """How a model stands: its links (x, y in m, yaw), and its joints by name (rad or m)."""
+
+    links: list[tuple[float, float, float]]
+    joints: dict[str, float]
+
+    def turned(self, since: Stand) -> str:
+        """The joint that has moved farthest."""
+        return max(self.joints, key=lambda name: abs(self.joints[name] - since.joints[name]))
 
 
 @dataclass(frozen=True)
@@ -28,15 +39,31 @@ class Hinge:
     turn: float
 
 
-def link_poses(world: Any) -> Poses:
-    """The links of each door's model as they stand."""
-    doors = set(models_with(world, 'hinge'))
-    found: Poses = {}
-    for name, (x, y, _, qx, qy, qz, qw) in zip(world.links, world.link_poses):
-        model = name.split('::')[0]
-        if model in doors:
-            found.setdefault(model, []).append((x, y, yaw(qx, qy, qz, qw)))
-    return found
+def stand_of(world: Any, model: str) -> Stand:
+    """How a model of a world stands now."""
+    of = f'{model}::'
+    links = [(x, y, yaw(qx, qy, qz, qw))
+             for name, (x, y, _, qx, qy, qz, qw) in zip(world.links, world.link_poses)
+             if name.startswith(of)]
+    joints = {name: float(position) for name, position in zip(world.joints, world.joint_positions)
+              if name.startswith(of)}
+    return Stand(links, joints)
+
+
+def opened_alone(world: Any, model: str, door: str) -> Stand:
+    """How a model stands while one of its doors, which are shut, is open."""
+    _turn(world, door, 'Open', 'OPEN')
+    stand = stand_of(world, model)
+    _turn(world, door, 'Close', 'CLOSED')
+    return stand
+
+
+def _turn(world: Any, door: str, text: str, mode: str) -> None:
+    world.command('door', door, text)
+    for _ in range(int(SETTLE / LOOK)):
+        world.run(LOOK)
+        if world.device('door', door)['mode'] == mode:
+            break
 
 
 def find_hinge(shut: list[tuple[float, float, float]],

@@ -6,7 +6,7 @@ import multiprocessing
 import os
 import signal
 import sys
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 
 from angen_tools.common.files import make_folder
@@ -15,6 +15,7 @@ from angen_tools.common.progress import Progress
 from angen_tools.common.watchdog import end_with_parent
 from angen_tools.maps.gridmap import load_world
 from angen_tools.patrol.command import default_route, default_world
+from angen_tools.robot.building import Entity
 from angen_tools.robot.route_file import Route, read_route
 from angen_tools.seek import run
 from angen_tools.seek.figure import draw_search, draw_times
@@ -32,7 +33,7 @@ def seek(route_file: Path | None, world: Path | None, seed: int, ambient: bool, 
     """Searches once; 0, or 1 where nobody was found or the robot touched something."""
     route, world = _prepare(route_file, world, out)
     with Progress('seek', 0.1) as progress:
-        home = survey(world, route, out)
+        home, route = survey(world, route, out)
         progress.update(HOME_SHARE, 'the building is surveyed')
 
         def note(now: float, text: str) -> None:
@@ -60,7 +61,7 @@ def seek_seeds(route_file: Path | None, world: Path | None, seeds: range, limit:
     route, world = _prepare(route_file, world, out)
     # By processes that end: this one, which they are made from, has no world and no threads.
     with multiprocessing.get_context('fork').Pool(1, _begin, (os.getpid(),)) as pool:
-        home = pool.apply(survey, (world, route, out))
+        home, route = pool.apply(survey, (world, route, out))
     jobs = [(world, route, home, seed, ambient, limit, out) for seed in seeds
             for ambient in (False, True)]
     found: list[Figures] = []
@@ -115,12 +116,22 @@ def _prepare(route_file: Path | None, world: Path | None, out: Path) -> tuple[Ro
     return route, world
 
 
-def survey(world: Path, route: Route, out: Path) -> Home:
-    """What the robot knows of the building of a world's file."""
+def survey(world: Path, route: Route, out: Path) -> tuple[Home, Route]:
+    """What the robot knows of the building of a world's file, and its route there."""
     empty = out / 'survey.world'
     try:
         run.write_world(world, route, None, 0, 0.0, empty)
         entities = entities_of(load_world(str(empty)))
-        return make_home(route, empty, entities, (0.0, 0.0, 0.0))
+        route = served(route, entities)
+        return make_home(route, empty, entities, (0.0, 0.0, 0.0)), route
     finally:
         empty.unlink(missing_ok=True)
+
+
+def served(route: Route, entities: list[Entity]) -> Route:
+    """The shipped route is for a building with an elevator: without one the robot keeps to its
+    floor. What a route of one's own names has to be there."""
+    lifts = [entity.name for entity in entities if entity.kind == 'elevator']
+    if route.path != default_route() or route.elevator is None or route.elevator.name in lifts:
+        return route
+    return replace(route, elevator=None)
