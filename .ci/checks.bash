@@ -138,10 +138,13 @@ run_sanitized() { # asan|tsan WORDS [SUITE...]
   unset LD_LIBRARY_PATH
   export CMAKE_PREFIX_PATH=$root/$tree/devel:$CMAKE_PREFIX_PATH ANGEN_TEST_TREE=$tree
   # Python loads what is instrumented where it has the sanitizer's library already.
-  export PYTHONPATH=$root/$tree/devel/lib/python3/dist-packages:$PYTHONPATH PYTHONMALLOC=malloc
+  export PYTHONPATH=$root/$tree/devel/lib/python3/dist-packages:$PYTHONPATH
   preloaded=$(g++ -print-file-name="lib$1.so"):$(g++ -print-file-name=libstdc++.so)
   pytest_arguments=(tests/ros)
-  [[ $1 == tsan ]] || pytest_arguments+=(tests/py) # these have one thread
+  if [[ $1 == asan ]]; then # those of tests/py have one thread
+    export PYTHONMALLOC=malloc
+    pytest_arguments+=(tests/py)
+  fi
   for name in "${chosen[@]}"; do
     suite "$1 $name" "check_$name" "$2"
   done
