@@ -23,7 +23,8 @@ SCRIPT = ROOT / "src/angen_tools/scripts/angen"
 TREE = ROOT / os.environ.get("ANGEN_TEST_TREE", "build")  # a sanitizer's has another
 SANITIZED = TREE.name != "build"
 PATIENCE = 4.0 if SANITIZED else 1.0
-without_sanitizer = pytest.mark.skipif(SANITIZED, reason="the memory is the sanitizer's, too")
+without_sanitizer = pytest.mark.skipif(
+    SANITIZED, reason="it limits memory, or the time of another program that a sanitizer slows")
 WORLD = """<?xml version="1.0"?>
 <sdf version="1.6">
   <world name="small">

@@ -12,7 +12,7 @@ import time
 from pathlib import Path
 
 import pytest
-from harness import until
+from harness import until, without_sanitizer
 
 SCRIPT = Path(__file__).resolve().parents[2] / 'src/angen_tools/scripts/angen'
 WALLS = {'south': (3, -0.06, 6.24, 0.12), 'north': (3, 3.06, 6.24, 0.12),
@@ -109,6 +109,7 @@ def test_the_sensors_notice_it_after_they_could(run: tuple[Path, str]) -> None:
     assert float(rows['kitchen_pir0']['first_sight_s']) > opening
 
 
+@without_sanitizer
 def test_it_leaves_a_bag_and_a_figure_and_no_process(run: tuple[Path, str]) -> None:
     import rosbag
     with rosbag.Bag(str(run[0] / 'out/patrol.bag')) as bag:
@@ -183,6 +184,7 @@ def test_a_kill_while_it_starts_leaves_nothing(tmp_path: Path, seed: int) -> Non
     assert gone(tmp_path)
 
 
+@without_sanitizer
 def test_a_kill_while_it_drives_leaves_a_bag_that_can_be_read(tmp_path: Path) -> None:
     import rosbag
     patrol = start(tmp_path, 'out')

@@ -15,7 +15,7 @@ import pytest
 import rospy
 from angen_msgs.srv import Delete, Spawn
 from gazebo_msgs.srv import GetJointProperties
-from harness import ROOT, TREE, Angen, Master, end, until
+from harness import ROOT, TREE, Angen, Master, end, until, without_sanitizer
 from std_msgs.msg import Float64
 from std_srvs.srv import Empty
 
@@ -83,6 +83,7 @@ def test_a_service_that_waits_for_an_update_does_not_keep_the_model(arm: Angen) 
     until(lambda: reached(arm, 'turn', -0.3), 'another of its name', 20.0)
 
 
+@without_sanitizer
 def test_without_ros_control_the_package_builds_nothing(tmp_path: Path) -> None:
     said = subprocess.run(
         ['cmake', '-S', str(PACKAGE), '-B', str(tmp_path), '-DPYTHON_EXECUTABLE=/usr/bin/python3',
