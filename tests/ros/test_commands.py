@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 from angen_msgs.msg import Command, DoorState, Event, LampState
 from harness import Angen, Inbox, RawText, until
 from geometry_msgs.msg import Twist
@@ -37,6 +39,13 @@ def test_latecomers_get_the_latched_state(angen: Angen) -> None:
     assert angen.wait(DOOR, DoorState).name == "bathroom0"
 
 
+def rests(door: Inbox) -> bool:
+    """Whether it has published nothing for a second."""
+    count = len(door.messages)
+    time.sleep(1.0)
+    return len(door.messages) == count
+
+
 def test_what_is_rejected_changes_nothing_and_is_told(angen: Angen) -> None:
     wrong = {
         "/gazebo/Door_controller": ["Open", "Opn, bathroom0", "Set, bathroom0, soon",
@@ -46,6 +55,8 @@ def test_what_is_rejected_changes_nothing_and_is_told(angen: Angen) -> None:
     }
     with Inbox(DOOR, DoorState) as door, Inbox("/angen/events", Event) as events:
         before = door.wait(lambda m: True, "the latched state")
+        until(lambda: rests(door), "the door of a node that has just begun rests")
+        published = len(door.messages)
         rejections = 0
         for topic, texts in wrong.items():
             for text in texts:
@@ -53,7 +64,7 @@ def test_what_is_rejected_changes_nothing_and_is_told(angen: Angen) -> None:
                 rejections += 1
         until(lambda: sum(e.event == "rejected" for e in events.messages) >= rejections,
               "an event for each rejection")
-        # a node that has just begun publishes how its doors come to rest
+        assert len(door.messages) == published
         assert {(m.mode, m.target) for m in door.messages} == {(before.mode, before.target)}
     details = [e.detail for e in events.messages if e.event == "rejected"]
     assert any("cellar8" in d and "bathroom0" in d for d in details), details
