@@ -141,7 +141,7 @@ run_sanitized() { # asan|tsan WORDS [SUITE...]
   export PYTHONPATH=$root/$tree/devel/lib/python3/dist-packages:$PYTHONPATH
   preloaded=$(g++ -print-file-name="lib$1.so"):$(g++ -print-file-name=libstdc++.so)
   pytest_arguments=(tests/ros)
-  if [[ $1 == asan ]]; then # those of tests/py have one thread
+  if [[ $1 == asan ]]; then # ThreadSanitizer has nothing to find in tests/py: they have one thread
     export PYTHONMALLOC=malloc
     pytest_arguments+=(tests/py)
   fi

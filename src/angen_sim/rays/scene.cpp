@@ -56,7 +56,7 @@ struct Scene::Impl {
   std::uint64_t revision = 0;
   std::uint64_t warm_revision = 0;
   bool warm_dirty = false;
-  std::vector<std::uint32_t> changes;  // of what stands, in their order: the latest kMostChanges
+  std::vector<std::uint32_t> changes;  // of what stands: indices, the latest last
   std::uint64_t forgotten = 1;         // the mark before which they are not known
 
   void touch(std::uint32_t index, Mobility mobility, Changed changed = Changed::kAny) {

@@ -65,7 +65,7 @@ def seek_seeds(route_file: Path | None, world: Path | None, seeds: range, limit:
     jobs = [(world, route, home, seed, ambient, limit, out) for seed in seeds
             for ambient in (False, True)]
     found: list[Figures] = []
-    # Each lives until the pool ends: of those made later, a thread that ends would be the parent.
+    # No maxtasksperchild: a worker made later would be killed when the pool's thread ends.
     with multiprocessing.get_context('fork').Pool(os.cpu_count(), _begin, (os.getpid(),)) as pool, \
             Progress('seek', 0.0) as progress:
         for figures in pool.imap_unordered(_one, jobs):
@@ -96,7 +96,7 @@ def _one(job: tuple[Path, Route, Home, int, bool, float, Path]) -> Figures:
         return run.search(world, route, home, seed, ambient, limit, scratch).figures
     finally:
         scratch.unlink(missing_ok=True)
-        gc.collect()  # the world hangs in a cycle
+        gc.collect()  # the search's world is in a reference cycle
 
 
 def _begin(parent: int) -> None:
