@@ -63,7 +63,7 @@ Eigen::VectorXd joint_positions(const World& world) {
 Pose place_of(const sim::Snapshot& snapshot, const sim::DeviceEntry& device) {
   if (device.light != UINT32_MAX) return snapshot.structure->lights[device.light].light.pose;
   const std::uint32_t model = device.model;
-  const std::vector<sim::LinkEntry>& links = snapshot.structure->links;
+  const sim::SharedArray<sim::LinkEntry>& links = snapshot.structure->links;
   const auto first = std::find_if(links.begin(), links.end(),
                                   [model](const auto& link) { return link.model == model; });
   if (first == links.end()) return snapshot.structure->models[model]->pose;

@@ -15,7 +15,7 @@ namespace angen::py {
 namespace {
 
 template <class Entry>
-std::size_t index_of(const std::vector<Entry>& entries, const std::string& kind,
+std::size_t index_of(const sim::SharedArray<Entry>& entries, const std::string& kind,
                      const std::string& name) {
   std::vector<std::string> known;
   for (std::size_t i = 0; i < entries.size(); ++i) {

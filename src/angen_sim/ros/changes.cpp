@@ -39,8 +39,8 @@ struct Hash {
 Identity identity(const std::shared_ptr<const desc::Model>& model) { return {model.get(), 0}; }
 Identity identity(const sim::SensorEntry& sensor) { return {sensor.desc.get(), sensor.key}; }
 
-template <class Entry>
-Numbers by_identity(const std::vector<Entry>& before, const std::vector<Entry>& now) {
+template <class Entries>
+Numbers by_identity(const Entries& before, const Entries& now) {
   Numbers numbers = unrelated(before.size(), now.size());
   std::uint32_t same = 0;  // at the front, where most is
   const std::size_t shorter = std::min(before.size(), now.size());
@@ -60,7 +60,7 @@ Numbers by_identity(const std::vector<Entry>& before, const std::vector<Entry>& 
 
 /// The first entry of each model; entries of a model stand together.
 template <class Entry>
-std::vector<std::uint32_t> firsts(const std::vector<Entry>& entries, std::size_t models) {
+std::vector<std::uint32_t> firsts(const sim::SharedArray<Entry>& entries, std::size_t models) {
   std::vector<std::uint32_t> first(models, 0);
   for (std::size_t i = entries.size(); i-- > 0;) {
     if (entries[i].model < models) first[entries[i].model] = static_cast<std::uint32_t>(i);
@@ -70,8 +70,8 @@ std::vector<std::uint32_t> firsts(const std::vector<Entry>& entries, std::size_t
 
 /// What a model has does not change while its description stays.
 template <class Entry>
-Numbers by_model(const Numbers& models, const std::vector<Entry>& before,
-                 const std::vector<Entry>& now) {
+Numbers by_model(const Numbers& models, const sim::SharedArray<Entry>& before,
+                 const sim::SharedArray<Entry>& now) {
   Numbers numbers = unrelated(before.size(), now.size());
   const std::vector<std::uint32_t> first_before = firsts(before, models.after.size());
   const std::vector<std::uint32_t> first_now = firsts(now, models.before.size());
@@ -94,8 +94,8 @@ bool equal(const desc::Light& a, const desc::Light& b) {
 }
 
 /// Those of the world's own, which are before all others.
-void relate_own(Numbers& numbers, const std::vector<sim::LightEntry>& before,
-                const std::vector<sim::LightEntry>& now) {
+void relate_own(Numbers& numbers, const sim::SharedArray<sim::LightEntry>& before,
+                const sim::SharedArray<sim::LightEntry>& now) {
   const auto is_own = [](const sim::LightEntry& light) { return light.model == UINT32_MAX; };
   std::uint32_t at = 0;
   for (std::uint32_t i = 0; i < now.size() && is_own(now[i]); ++i) {

@@ -57,7 +57,7 @@ std::unique_ptr<JointControl> make_control(const desc::Model& model,
 }
 
 template <class Entry, class Condition>
-std::uint32_t index_where(const std::vector<Entry>& entries, const Condition& condition) {
+std::uint32_t index_where(const sim::SharedArray<Entry>& entries, const Condition& condition) {
   const auto found = std::find_if(entries.begin(), entries.end(), condition);
   return found == entries.end() ? kNowhere : static_cast<std::uint32_t>(found - entries.begin());
 }

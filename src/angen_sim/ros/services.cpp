@@ -59,7 +59,7 @@ Pose to_pose(const geometry_msgs::Pose& message) {
 
 /// The summary of a device, NAME or KIND/NAME; empty where there is no state of one alone.
 std::string state_of(const sim::Snapshot& snapshot, const std::string& target) {
-  const std::vector<sim::DeviceEntry>& devices = snapshot.structure->devices;
+  const sim::SharedArray<sim::DeviceEntry>& devices = snapshot.structure->devices;
   for (std::size_t i = 0; i < devices.size(); ++i) {
     const bool named =
         devices[i].name == target || devices[i].kind + "/" + devices[i].name == target;

@@ -56,9 +56,17 @@ void Building::make_engines() {
   for (WorldLight& own : lights_) put_light(own);
 }
 
-void Building::note_change() {
+/// What models before `first_model` have keeps its numbers.
+void Building::note_change(std::size_t first_model) {
   ++revision_;
+  renumbered_from_ = std::min(renumbered_from_, first_model);
   forget_fields();
+}
+
+std::size_t Building::number_of(const LiveModel& live) const {
+  const auto at = std::find_if(models_.begin(), models_.end(),
+                               [&](const auto& model) { return model.get() == &live; });
+  return static_cast<std::size_t>(at - models_.begin());
 }
 
 Pose Building::pose_of(const LiveModel& live) const {
@@ -230,7 +238,7 @@ void Building::build(desc::Model model, const std::vector<SensorInstance>* attac
   }
   add_names(*live);
   models_.push_back(std::move(live));
-  note_change();
+  note_change(models_.size() - 1);
 }
 
 void Building::add(desc::Model model, Nanoseconds now) {
@@ -270,7 +278,7 @@ void Building::attach(const desc::Sensor& sensor, const std::string& link, Nanos
   start(instance, now);
   sensors_[key_of(instance)] = live;
   live->sensors.push_back(std::move(instance));
-  note_change();
+  note_change(number_of(*live));
 }
 
 void Building::erase(const std::string& name) {
@@ -281,8 +289,9 @@ void Building::erase(const std::string& name) {
     pushes_.forget(**model);
     placed_.erase(std::remove(placed_.begin(), placed_.end(), model->get()), placed_.end());
     remove_names(**model);
+    const auto number = static_cast<std::size_t>(model - models_.begin());
     models_.erase(model);
-    note_change();
+    note_change(number);
     return;
   }
   for (auto& live : models_) {
@@ -294,7 +303,7 @@ void Building::erase(const std::string& name) {
       }
       sensors_.erase(key_of(*sensor));
       live->sensors.erase(sensor);
-      note_change();
+      note_change(number_of(*live));
       return;
     }
   }

@@ -105,8 +105,13 @@ class Building {
 
   /// Grows with every change of what exists.
   std::uint64_t revision() const { return revision_; }
-  /// A new Structure; also numbers every model's parts in it.
+  /// A new Structure; also numbers every model's parts in it. It shares what has kept its number
+  /// with the last one: the models before the first that was renumbered, and their parts.
   std::shared_ptr<const Structure> structure();
+  /// The first model whose number, or whose parts' numbers, structure() will change.
+  std::size_t renumbered_from() const { return renumbered_from_; }
+  /// The numbers in Structure at which that model's parts begin.
+  Numbering numbering(std::size_t model) const;
   /// Levels (0..1) in the order of Structure::lights.
   std::vector<double> light_levels() const;
 
@@ -139,11 +144,13 @@ class Building {
   void build(desc::Model model, const std::vector<SensorInstance>* attached, Nanoseconds now);
   void start(SensorInstance& sensor, Nanoseconds now) const;
   std::vector<std::shared_ptr<const Plugin>> device_plugins();
+  void append(LiveModel& live, Structure& all) const;
+  std::size_t number_of(const LiveModel& live) const;
   void make_engines();
   void check_names(const LiveModel& live) const;
   void check_sensor_name(const SensorInstance& sensor) const;
   std::vector<std::string> names_to_delete() const;
-  void note_change();
+  void note_change(std::size_t first_model);
   void note_moved(LiveModel& live, MoverIndex::Moment when) const;
   void add_names(LiveModel& live);
   void remove_names(const LiveModel& live);
@@ -177,6 +184,8 @@ class Building {
   std::vector<desc::Plugin> plugins_;  // the world's, but those that are ignored
   std::vector<std::string> warnings_;
   std::uint64_t revision_ = 0;
+  std::shared_ptr<const Structure> structure_;  // the last one
+  std::size_t renumbered_from_ = 0;
   struct DevicesByField {
     std::vector<FoundDevice>
         fixed;  // by height: a storey's are found without going through a tower

@@ -42,7 +42,7 @@ void Building::redescribe(LiveModel& live, desc::Model described) {
   engines_->physics.redescribe(live.parts.body, described);
   live.desc = std::make_shared<const desc::Model>(std::move(described));
   note_placed(live);
-  note_change();
+  note_change(number_of(live));
 }
 
 void Building::set_physics(const desc::Physics& physics, const Vec3& gravity) {
@@ -52,7 +52,7 @@ void Building::set_physics(const desc::Physics& physics, const Vec3& gravity) {
   gravity_ = gravity;
   engines_->physics.set(physics_, gravity_);
   for (const auto& live : models_) note_moved(*live);
-  note_change();
+  note_change(models_.size());
 }
 
 Building::FoundLight Building::find_light(const std::string& name) const {
@@ -114,7 +114,7 @@ void Building::set_light(const std::string& name, desc::Light light) {
     remake_own_lamp(live, device, stays, *catalog_, warnings_);
   }
   engines_->note_change();
-  note_change();
+  note_change(0);
 }
 
 Building::WorldLight Building::world_light(const desc::Light& light, const std::string& sdf) const {
@@ -165,7 +165,7 @@ void Building::add_light(const desc::Light& light, const std::string& sdf, Nanos
   put_light(lights_.back());
   make_lamp(*lights_.back().live, now);
   engines_->note_change();
-  note_change();
+  note_change(0);
 }
 
 void Building::erase_light(const std::string& name) {
@@ -178,7 +178,7 @@ void Building::erase_light(const std::string& name) {
   remove_names(*found.live);
   lights_.erase(lights_.begin() + static_cast<std::ptrdiff_t>(found.own));
   engines_->note_change();
-  note_change();
+  note_change(0);
 }
 
 }  // namespace angen::sim

@@ -22,43 +22,61 @@ std::vector<std::shared_ptr<const Plugin>> Building::device_plugins() {
   return all;
 }
 
+Numbering Building::numbering(std::size_t model) const {
+  if (model > 0) return numbering_after(*models_[model - 1]);
+  Numbering first;
+  first.light = static_cast<std::uint32_t>(lights_.size());
+  return first;
+}
+
+/// Puts the model behind those that are there, and numbers its parts.
+void Building::append(LiveModel& live, Structure& all) const {
+  const auto number = static_cast<std::uint32_t>(all.models.size());
+  const desc::Model& model = *live.desc;
+  all.models.push_back(live.desc);
+  live.first_link = static_cast<std::uint32_t>(all.links.size());
+  live.first_joint = static_cast<std::uint32_t>(all.joints.size());
+  live.first_device = static_cast<std::uint32_t>(all.devices.size());
+  live.first_sensor = static_cast<std::uint32_t>(all.sensors.size());
+  live.first_light = static_cast<std::uint32_t>(all.lights.size());
+  for (std::uint32_t i = 0; i < model.links.size(); ++i) {
+    all.links.push_back({model.name + "::" + model.links[i].name, number, i, !model.is_static});
+    for (const desc::Light& light : model.links[i].lights) {
+      all.lights.push_back({model.name + "::" + light.name, number, live.first_link + i, light});
+    }
+  }
+  for (std::uint32_t i = 0; i < model.joints.size(); ++i) {
+    all.joints.push_back({model.name + "::" + model.joints[i].name, number, i});
+  }
+  for (const DeviceInstance& device : live.devices) {
+    all.devices.push_back({device, number, UINT32_MAX});
+  }
+  for (const SensorInstance& sensor : live.sensors) {
+    all.sensors.push_back({sensor, number, live.first_link + sensor.link});
+  }
+}
+
 std::shared_ptr<const Structure> Building::structure() {
-  auto all = std::make_shared<Structure>();
+  const std::size_t from = structure_ ? renumbered_from_ : 0;
+  const Numbering kept = numbering(from);
+  auto all = from > 0 ? std::make_shared<Structure>(*structure_) : std::make_shared<Structure>();
   all->revision = revision_;
   all->physics = physics_;
   all->gravity = gravity_;
   all->device_plugins = device_plugins();
-  for (const WorldLight& own : lights_) {
-    LightEntry entry;
-    entry.name = own.light().name;
-    entry.light = own.light();
-    all->lights.push_back(std::move(entry));
-  }
-  for (const auto& live : models_) {
-    const auto m = static_cast<std::uint32_t>(all->models.size());
-    const desc::Model& model = *live->desc;
-    all->models.push_back(live->desc);
-    live->first_link = static_cast<std::uint32_t>(all->links.size());
-    live->first_joint = static_cast<std::uint32_t>(all->joints.size());
-    live->first_device = static_cast<std::uint32_t>(all->devices.size());
-    live->first_sensor = static_cast<std::uint32_t>(all->sensors.size());
-    live->first_light = static_cast<std::uint32_t>(all->lights.size());
-    for (std::uint32_t i = 0; i < model.links.size(); ++i) {
-      all->links.push_back({model.name + "::" + model.links[i].name, m, i, !model.is_static});
-      for (const desc::Light& light : model.links[i].lights) {
-        all->lights.push_back({model.name + "::" + light.name, m, live->first_link + i, light});
-      }
-    }
-    for (std::uint32_t i = 0; i < model.joints.size(); ++i) {
-      all->joints.push_back({model.name + "::" + model.joints[i].name, m, i});
-    }
-    for (const DeviceInstance& device : live->devices) {
-      all->devices.push_back({device, m, UINT32_MAX});
-    }
-    for (const SensorInstance& s : live->sensors) {
-      all->sensors.push_back({s, m, live->first_link + s.link});
+  if (from > 0) {
+    all->models.resize(from);
+    all->links.truncate(kept.link);
+    all->joints.truncate(kept.joint);
+    all->devices.truncate(kept.device);
+    all->sensors.truncate(kept.sensor);
+    all->lights.truncate(kept.light);
+  } else {
+    for (const WorldLight& own : lights_) {
+      all->lights.push_back({own.light().name, UINT32_MAX, UINT32_MAX, own.light()});
     }
   }
+  for (std::size_t i = from; i < models_.size(); ++i) append(*models_[i], *all);
   for (std::uint32_t i = 0; i < lights_.size(); ++i) {
     lights_[i].live->first_light = i;
     lights_[i].live->first_device = static_cast<std::uint32_t>(all->devices.size());
@@ -66,6 +84,8 @@ std::shared_ptr<const Structure> Building::structure() {
       all->devices.push_back({device, UINT32_MAX, i});
     }
   }
+  renumbered_from_ = models_.size();
+  structure_ = all;
   return all;
 }
 

@@ -114,6 +114,15 @@ std::shared_ptr<const LazyReading> SensorInstance::lazy_reading() const {
   return std::make_shared<CleanWithNoise>(clean, noise);
 }
 
+Numbering numbering_after(const LiveModel& live) {
+  const auto after = [](std::uint32_t first, const auto& all) {
+    return first + static_cast<std::uint32_t>(all.size());
+  };
+  return {after(live.first_link, live.desc->links), after(live.first_joint, live.desc->joints),
+          after(live.first_device, live.devices), after(live.first_sensor, live.sensors),
+          after(live.first_light, live.parts.lamps)};
+}
+
 ModelInfo info_of(const desc::Model& model) {
   ModelInfo info;
   info.name = model.name;

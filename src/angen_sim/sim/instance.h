@@ -136,6 +136,16 @@ struct LiveModel {
   bool is_light = false;  // it stands for a light of the world's own, and for nothing else
 };
 
+/// The numbers in Structure of what comes after the model.
+struct Numbering {
+  std::uint32_t link = 0;
+  std::uint32_t joint = 0;
+  std::uint32_t device = 0;
+  std::uint32_t sensor = 0;
+  std::uint32_t light = 0;
+};
+Numbering numbering_after(const LiveModel& live);
+
 ModelInfo info_of(const desc::Model& model);  // `taken` is left out
 
 /// What a model's plug-ins and the world's make of it, not yet in the world. Throws Error for a

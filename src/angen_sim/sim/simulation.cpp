@@ -179,31 +179,40 @@ struct Simulation::Impl {
     return cost;
   }
 
-  // When something came or went, every index is new: all parts are written again.
+  // When something came or went, what comes behind it has new numbers, and is written again.
   void restructure() {
     if (next.structure && next.structure->revision == building.revision()) return;
+    const std::size_t from = next.structure ? building.renumbered_from() : 0;
+    const Numbering kept = building.numbering(from);
     next.structure = building.structure();
     devices.invalidate();
     sensors.invalidate();
-    next.link_poses.clear();
-    next.joint_positions.clear();
-    next.devices.clear();
-    next.sensors.clear();
+    next.link_poses.truncate(kept.link);
+    next.joint_positions.truncate(kept.joint);
+    next.devices.truncate(kept.device);
+    next.sensors.truncate(kept.sensor);
     next.moved_links.clear();
-    for (auto& live : building.models()) {
-      for (std::size_t i = 0; i < live->desc->links.size(); ++i) next.link_poses.push_back({});
-      for (std::size_t i = 0; i < live->desc->joints.size(); ++i) next.joint_positions.push_back(0);
-      for (std::uint32_t i = 0; i < live->desc->links.size(); ++i) write_link(*live, i);
-      write_joints(*live);
-      for (const SensorInstance& sensor : live->sensors) next.sensors.push_back(sensor.published);
-    }
+    for (std::size_t i = from; i < building.models().size(); ++i) append(*building.models()[i]);
     for (const LiveModel* live : building.with_devices()) {
-      for (const DeviceInstance& device : live->devices) next.devices.push_back(device.last);
+      if (live->is_light) append_devices(*live);
     }
     write_lights();
     for (const std::string& warning : building.take_warnings()) {
       next.events.push_back({next.time, "world", "world", "warning", warning});
     }
+  }
+
+  void append(const LiveModel& live) {
+    for (std::size_t i = 0; i < live.desc->links.size(); ++i) next.link_poses.push_back({});
+    for (std::size_t i = 0; i < live.desc->joints.size(); ++i) next.joint_positions.push_back(0);
+    for (std::uint32_t i = 0; i < live.desc->links.size(); ++i) write_link(live, i);
+    write_joints(live);
+    for (const SensorInstance& sensor : live.sensors) next.sensors.push_back(sensor.published);
+    append_devices(live);
+  }
+
+  void append_devices(const LiveModel& live) {
+    for (const DeviceInstance& device : live.devices) next.devices.push_back(device.last);
   }
 
   void write_link(const LiveModel& live, std::uint32_t link) {
@@ -282,7 +291,9 @@ Cost Simulation::take_cost() { return impl_->take_cost(); }
 SavedState Simulation::saved() { return impl_->saved(); }
 
 Motion Simulation::motion(std::uint32_t link) const {
-  const LinkEntry& entry = impl_->next.structure->links.at(link);
+  const SharedArray<LinkEntry>& links = impl_->next.structure->links;
+  if (link >= links.size()) throw Error("there is no link " + std::to_string(link));
+  const LinkEntry& entry = links[link];
   return motion_of(impl_->building,
                    Entity{impl_->building.models().at(entry.model).get(), entry.link, {}, false});
 }

@@ -76,15 +76,16 @@ struct LightEntry {
   desc::Light light;
 };
 
-/// What exists. Replaced, never changed, when something is spawned or deleted.
+/// What exists. Replaced, never changed, when something is spawned or deleted; the next shares what
+/// kept its numbers.
 struct Structure {
   std::uint64_t revision = 0;
   std::vector<std::shared_ptr<const desc::Model>> models;
-  std::vector<LinkEntry> links;
-  std::vector<JointEntry> joints;
-  std::vector<DeviceEntry> devices;
-  std::vector<SensorEntry> sensors;
-  std::vector<LightEntry> lights;
+  SharedArray<LinkEntry> links;
+  SharedArray<JointEntry> joints;
+  SharedArray<DeviceEntry> devices;
+  SharedArray<SensorEntry> sensors;
+  SharedArray<LightEntry> lights;
   std::vector<std::shared_ptr<const Plugin>> device_plugins;  // of each kind there is or may be
   desc::Physics physics;                                      // as it is set now
   Vec3 gravity = Vec3::Zero();                                // m/s^2

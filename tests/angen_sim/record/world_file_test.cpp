@@ -157,7 +157,7 @@ TEST(WorldFile, KeepsWhereAnElevatorGoes) {
       "<sdf version='1.6'><world name='w'><include><uri>model://elevator</uri>"
       "<plugin name='p' filename='libros_plugin.so'><queue_size>2</queue_size></plugin>"
       "</include></world></sdf>");
-  const std::string name = before->snapshot()->structure->devices.at(0).name;
+  const std::string name = before->snapshot()->structure->devices[0].name;
   run(*before, 1.0);
   command(*before, "elevator", name, "Floor1");
   command(*before, "elevator", name, "Floor0");

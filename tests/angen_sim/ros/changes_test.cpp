@@ -94,7 +94,9 @@ TEST(Changes, WhatAModelHasIsNewWhereItIsDescribedAnew) {
   const sim::Structure before = world.structure();
   world.redescribe(1);
   sim::Structure now = world.structure();
-  now.sensors[1].desc = before.sensors[1].desc;  // a sensor's stays
+  sim::SensorEntry sensor = now.sensors[1];
+  sensor.desc = before.sensors[1].desc;  // a sensor's stays
+  now.sensors.set(1, sensor);
   const Changes changes = changes_between(&before, now);
   EXPECT_EQ(changes.models.before, (List{0, kNew, 2}));
   EXPECT_EQ(changes.sensors.before, (List{0, kNew, 2}));
@@ -104,10 +106,13 @@ TEST(Changes, WhatAModelHasIsNewWhereItIsDescribedAnew) {
 TEST(Changes, SensorsOfOneDescriptionAreDistinguished) {
   World world = three();
   sim::Structure before = world.structure();
-  before.sensors.push_back(before.sensors.back());
-  before.sensors.back().key = 7;
+  const sim::SensorEntry first = before.sensors.back();
+  sim::SensorEntry second = first;
+  second.key = 7;
+  before.sensors.push_back(second);
   sim::Structure now = before;
-  now.sensors.erase(now.sensors.begin() + 2);
+  now.sensors.truncate(2);
+  now.sensors.push_back(second);
   EXPECT_EQ(changes_between(&before, now).sensors.before, (List{0, 1, 3}));
 }
 

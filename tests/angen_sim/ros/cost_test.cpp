@@ -8,9 +8,10 @@ namespace {
 Spent spent() {
   auto structure = std::make_shared<sim::Structure>();
   structure->devices.push_back({{"door", "hall0", nullptr, ""}, 0});
-  structure->sensors.emplace_back();
-  structure->sensors.back().kind = "pir";
-  structure->sensors.back().name = "eye";
+  sim::SensorEntry pir;
+  pir.kind = "pir";
+  pir.name = "eye";
+  structure->sensors.push_back(pir);
   Spent all;
   all.ticks.simulated = 4 * kSecond;
   all.ticks.structure = structure;

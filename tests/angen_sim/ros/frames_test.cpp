@@ -59,9 +59,10 @@ struct World {
     structure->models.push_back(std::make_shared<const desc::Model>(model));
     snapshot.structure = structure;
   }
-  void add_sensor(const std::string& name, std::uint32_t on, const std::string& frame = "") {
+  void add_sensor(const std::string& name, std::uint32_t on, const std::string& frame = "",
+                  const std::string& kind = "pir") {
     sim::SensorEntry entry;
-    entry.kind = "pir";
+    entry.kind = kind;
     entry.name = name;
     entry.link = on;
     entry.frame = frame;
@@ -123,8 +124,7 @@ TEST(Frames, TheFirstRobotHasTheUsualNames) {
 TEST(Frames, ACamerasFrameLooksAlongItsZ) {
   World world;
   world.add(door());
-  world.add_sensor("eye", 0);
-  world.structure->sensors.back().kind = "camera";
+  world.add_sensor("eye", 0, "", "camera");
   const FrameTree tree = world.tree();
   EXPECT_EQ(tree.sensors.back(), "eye_optical_frame");
   const Quat& optical = tree.fixed.back().pose.rotation;
@@ -167,8 +167,10 @@ World world_of(const std::vector<std::shared_ptr<const desc::Model>>& models) {
     world.structure->models.back() = model;
     world.add_sensor("eye" + std::to_string(world.structure->sensors.size() % 2),
                      static_cast<std::uint32_t>(world.structure->links.size() - 1));
-    world.structure->sensors.back().model = world.structure->links.back().model;
-    world.structure->sensors.back().desc = {model, &model->links.front().sensors.front()};
+    sim::SensorEntry sensor = world.structure->sensors.back();
+    sensor.model = world.structure->links.back().model;
+    sensor.desc = {model, &model->links.front().sensors.front()};
+    world.structure->sensors.set(world.structure->sensors.size() - 1, sensor);
   }
   return world;
 }

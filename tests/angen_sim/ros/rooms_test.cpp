@@ -82,9 +82,9 @@ TEST(Groups, HaveTheStoreyOfTheirModelUnlessItTravels) {
   chair.pose.position.z() = 3.6;
   chair.links.push_back(box_link("link", Vec3::Zero(), Vec3::Ones()));
   sim::Structure structure = structure_of({chair, chair, chair, chair});
-  structure.devices = {{{"door", "kitchen1", nullptr, ""}, 1},
-                       {{"drive", "robot", nullptr, ""}, 2},
-                       {{"person", "person", nullptr, ""}, 3}};
+  structure.devices.push_back({{"door", "kitchen1", nullptr, ""}, 1});
+  structure.devices.push_back({{"drive", "robot", nullptr, ""}, 2});
+  structure.devices.push_back({{"person", "person", nullptr, ""}, 3});
   EXPECT_EQ(marker_group(structure, 0), "furniture 1");
   EXPECT_EQ(marker_group(structure, 1), "doors 1");
   EXPECT_EQ(marker_group(structure, 2), "robots");

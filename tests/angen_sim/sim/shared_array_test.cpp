@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
+#include <vector>
+
 namespace angen::sim {
 namespace {
 
@@ -44,6 +48,33 @@ TEST(SharedArray, GrowingDoesNotTouchACopy) {
     EXPECT_EQ(array[size], 7);
     EXPECT_EQ(copy[size - 1], size - 1);
   }
+}
+
+TEST(SharedArray, IsWalkedThrough) {
+  const SharedArray<int> array = counted(5000);
+  EXPECT_EQ(std::vector<int>(array.begin(), array.end()).back(), 4999);
+  EXPECT_EQ(std::find(array.begin(), array.end(), 70) - array.begin(), 70);
+  EXPECT_EQ(array.back(), 4999);
+}
+
+TEST(SharedArray, CanBeTruncated) {
+  for (const int size : {0, 1, 64, 65, 2047, 2048, 2049, 5000}) {
+    SharedArray<int> array = counted(5000);
+    const SharedArray<int> copy = array;
+    array.truncate(size);
+    ASSERT_EQ(array.size(), static_cast<std::size_t>(size));
+    for (int i = size; i < 5100; ++i) array.push_back(-i);
+    for (int i = 0; i < 5100; ++i) EXPECT_EQ(array[i], i < size ? i : -i);
+    for (int i = 0; i < 5000; ++i) EXPECT_EQ(copy[i], i);
+  }
+}
+
+TEST(SharedArray, LetsGoOfWhatIsTruncated) {
+  const auto value = std::make_shared<int>(1);
+  SharedArray<std::shared_ptr<int>> array;
+  for (int i = 0; i < 130; ++i) array.push_back(value);
+  array.truncate(65);
+  EXPECT_EQ(value.use_count(), 1 + 65);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kScope = "::";
 
 template <class Entry>
-std::vector<std::string> names_in(const std::vector<Entry>& entries) {
+std::vector<std::string> names_in(const sim::SharedArray<Entry>& entries) {
   std::vector<std::string> names;
   names.reserve(entries.size());
   for (const Entry& entry : entries) names.push_back(entry.name);
@@ -29,7 +29,7 @@ NotFound not_found(const std::string& text, const char* what, const std::string&
 
 // By its full name, else the first whose name without the model's is this.
 template <class Entry>
-std::optional<std::uint32_t> find_scoped(const std::vector<Entry>& entries,
+std::optional<std::uint32_t> find_scoped(const sim::SharedArray<Entry>& entries,
                                          const std::string& name) {
   std::optional<std::uint32_t> alone;
   for (std::uint32_t i = 0; i < entries.size(); ++i) {
