@@ -1,8 +1,8 @@
 #include "ros/frames.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
-#include <unordered_set>
 #include <utility>
 
 #include "ros/wire.h"
@@ -139,11 +139,16 @@ std::shared_ptr<const FrameTree> FrameMaker::make(const sim::Snapshot& snapshot,
                                                   const std::vector<Robot>& robots,
                                                   const Changes& changes) {
   const sim::Structure& structure = *snapshot.structure;
-  auto tree = std::make_shared<FrameTree>();
-  keep_models(structure, robots, changes);
-  add_links(snapshot, *tree);
+  auto tree = tree_ ? std::make_shared<FrameTree>(*tree_) : std::make_shared<FrameTree>();
+  const std::size_t kept = keep_models(structure, robots, changes);
+  add_links(snapshot, kept, *tree);
   add_odometry(structure, robots, *tree);
-  add_sensors(structure, robots, *tree);
+  const std::size_t first = keep_sensors(structure, kept, changes, *tree);
+  for (std::size_t i = first; i < structure.sensors.size(); ++i) {
+    const Robot* owner = owner_in(robots, structure.sensors[i].model);
+    add_sensor(structure, static_cast<std::uint32_t>(i), owner, *tree);
+  }
+  tree_ = tree;
   return tree;
 }
 
@@ -160,52 +165,76 @@ std::string FrameMaker::prefix_of(const desc::Model& model) const {
   return model.tolerant && space && prefix_in_ ? resolved("", prefix_in_(*space)) : "";
 }
 
-void FrameMaker::keep_models(const sim::Structure& structure, const std::vector<Robot>& robots,
-                             const Changes& changes) {
+std::size_t FrameMaker::keep_models(const sim::Structure& structure,
+                                    const std::vector<Robot>& robots, const Changes& changes) {
   std::vector<std::shared_ptr<const ModelFrames>> old = std::exchange(models_, {});
   std::vector<std::string> prefixes = std::exchange(prefixes_, {});
   models_.resize(structure.models.size());
   prefixes_.resize(models_.size());
+  std::size_t kept = models_.size();
   for (std::uint32_t i = 0; i < models_.size(); ++i) {
     const std::uint32_t before = changes.models.before[i];
     if (before != Numbers::kNone) models_[i] = std::move(old[before]);
     prefixes_[i] =
         before != Numbers::kNone ? std::move(prefixes[before]) : prefix_of(*structure.models[i]);
+    if (before != i) kept = std::min<std::size_t>(kept, i);
     const Robot* robot = owner_in(robots, i);
     const std::string base_frame = robot == nullptr ? "" : robot->base_frame;
     const std::uint32_t base = robot == nullptr ? 0 : structure.links[robot->base].link;
     if (models_[i] && models_[i]->base_frame == base_frame && models_[i]->base == base) continue;
+    kept = std::min<std::size_t>(kept, i);
     drop(models_[i]);
     models_[i] =
         std::make_shared<const ModelFrames>(frames_of(*structure.models[i], base_frame, base));
     for (const std::string& frame : models_[i]->links) ++link_frames_[frame];
   }
   for (const auto& model : old) drop(model);
+  return kept;
 }
 
-void FrameMaker::add_links(const sim::Snapshot& snapshot, FrameTree& tree) const {
+void FrameMaker::add_links(const sim::Snapshot& snapshot, std::size_t kept, FrameTree& tree) const {
   std::uint32_t first = 0;  // of the model, in Structure::links
-  for (const auto& model : models_) {
-    const std::size_t fixed = tree.fixed.size();
-    tree.fixed.insert(tree.fixed.end(), model->fixed.begin(), model->fixed.end());
-    for (const ModelFrames::Standing& standing : model->standing) {
-      tree.fixed[fixed + standing.fixed].pose = snapshot.link_poses[first + standing.link];
+  std::size_t fixed = 0, moving = 0;
+  const auto place = [&](const ModelFrames& model) {
+    for (const ModelFrames::Standing& standing : model.standing) {
+      const FixedFrame& frame = tree.fixed[fixed + standing.fixed];
+      const Pose& pose = snapshot.link_poses[first + standing.link];
+      if (frame.pose == pose) continue;
+      tree.fixed.set(fixed + standing.fixed, {frame.parent, frame.child, pose});
     }
-    const auto moving = static_cast<std::int32_t>(tree.moving.size());
-    for (const MovingFrame& frame : model->moving) {
-      tree.moving.push_back(frame);
-      tree.moving.back().link += first;
-      if (frame.parent_link) *tree.moving.back().parent_link += first;
+  };
+  const auto pass = [&](const ModelFrames& model) {
+    first += static_cast<std::uint32_t>(model.links.size());
+    fixed += model.fixed.size();
+    moving += model.moving.size();
+  };
+  for (std::size_t i = 0; i < kept; ++i) {
+    place(*models_[i]);
+    pass(*models_[i]);
+  }
+  tree.fixed.truncate(fixed);
+  tree.moving.truncate(moving);
+  tree.moved_by.truncate(first);
+  for (std::size_t i = kept; i < models_.size(); ++i) {
+    const ModelFrames& model = *models_[i];
+    for (const FixedFrame& frame : model.fixed) tree.fixed.push_back(frame);
+    for (MovingFrame frame : model.moving) {
+      frame.link += first;
+      if (frame.parent_link) *frame.parent_link += first;
+      tree.moving.push_back(std::move(frame));
     }
-    for (const std::int32_t by : model->moved_by)
-      tree.moved_by.push_back(by < 0 ? by : moving + by);
-    first += static_cast<std::uint32_t>(model->links.size());
+    for (const std::int32_t by : model.moved_by) {
+      tree.moved_by.push_back(by < 0 ? by : static_cast<std::int32_t>(moving) + by);
+    }
+    place(model);
+    pass(model);
   }
 }
 
 // Odometry starts at 0 where its robot was put; a true one says where in the world it is.
 void FrameMaker::add_odometry(const sim::Structure& structure, const std::vector<Robot>& robots,
                               FrameTree& tree) const {
+  tree.odometry.clear();
   if (!odometry_in_world_) return;
   std::set<std::string> added;
   for (const sim::SensorEntry& sensor : structure.sensors) {
@@ -215,53 +244,86 @@ void FrameMaker::add_odometry(const sim::Structure& structure, const std::vector
         resolved(prefixes_[sensor.model], value_of(plugin, "odometryFrame", "odom"));
     const bool by_wheels = value_of(plugin, "odometrySource", "world") == "encoder";
     if (!added.insert(frame).second) continue;
-    tree.fixed.push_back(
+    tree.odometry.push_back(
         {kWorldFrame, frame, by_wheels ? structure.models[sensor.model]->pose : Pose{}});
   }
   for (const Robot& robot : robots) {
     if (owner_in(robots, robot.model) != &robot) continue;
     const sim::LinkEntry& base = structure.links[robot.base];
     const desc::Model& model = *structure.models[robot.model];
-    tree.fixed.push_back({kWorldFrame, robot.odom_frame, model.pose * model.links[base.link].pose});
+    tree.odometry.push_back(
+        {kWorldFrame, robot.odom_frame, model.pose * model.links[base.link].pose});
   }
 }
 
-void FrameMaker::add_sensors(const sim::Structure& structure, const std::vector<Robot>& robots,
-                             FrameTree& tree) const {
-  std::unordered_set<std::string> used;  // besides those of links
-  const auto take = [&](const std::string& frame) {
-    return link_frames_.count(frame) == 0 && used.insert(frame).second;
+// The first sensors keep their frames, unless that of another link or sensor decides about one.
+std::size_t FrameMaker::keep_sensors(const sim::Structure& structure, std::size_t models,
+                                     const Changes& changes, FrameTree& tree) {
+  std::size_t kept = 0;
+  const auto stays = [&](std::size_t i) {
+    return changes.sensors.before[i] == i && structure.sensors[i].model < models;
   };
-  for (const sim::SensorEntry& sensor : structure.sensors) {
-    tree.bases.emplace_back();
-    if (const auto foreign = foreign_frame(sensor, *structure.models[sensor.model])) {
-      const std::string& prefix = prefixes_[sensor.model];
-      tree.sensors.push_back(resolved(prefix, *foreign));
-      if (is_odometry(sensor.kind)) {
-        tree.bases.back() = resolved(
-            prefix, value_of({&sensor.desc->plugin_element}, "robotBaseFrame", "base_footprint"));
-      }
-      continue;
-    }
-    const sim::LinkEntry& link = structure.links[sensor.link];
-    std::string frame = sensor.frame;
-    if (frame.empty()) frame = sensor.name + (is_camera(sensor) ? "_optical_frame" : "");
-    const Robot* owner = owner_in(robots, link.model);
-    if (owner != nullptr && !owner->first && !sensor.frame.empty()) {
-      frame.insert(0, 1, '/').insert(0, owner->name);
-    }
-    if (frame == frame_of(link)) {  // an SDF that names its link's frame means it
-      tree.sensors.push_back(frame);
-      continue;
-    }
-    if (!take(frame)) {
-      frame = sensor.kind + "_" + sensor.name;
-      take(frame);
-    }
-    const Pose in_sensor = is_camera(sensor) ? Pose{Vec3::Zero(), kOptical} : Pose{};
-    tree.fixed.push_back({frame_of(link), frame, sensor.pose * in_sensor});
-    tree.sensors.push_back(std::move(frame));
+  if (!other_names_) {
+    while (kept < structure.sensors.size() && stays(kept)) ++kept;
   }
+  const auto is_taken = [&](const std::string& frame) { return sensor_frames_.count(frame) != 0; };
+  for (std::size_t i = models; i < models_.size(); ++i) {
+    if (std::any_of(models_[i]->links.begin(), models_[i]->links.end(), is_taken)) kept = 0;
+  }
+  for (std::size_t i = kept; i < mounted_.size(); ++i) {
+    if (mounted_[i].takes_frame) sensor_frames_.erase(tree.sensors[i]);
+  }
+  tree.mounts.truncate(kept < mounted_.size() ? mounted_[kept].mount : tree.mounts.size());
+  tree.sensors.truncate(kept);
+  tree.bases.truncate(kept);
+  mounted_.resize(kept);
+  if (kept == 0) other_names_ = false;
+  return kept;
+}
+
+bool FrameMaker::take(const std::string& frame) {
+  return link_frames_.count(frame) == 0 && sensor_frames_.insert(frame).second;
+}
+
+void FrameMaker::add_sensor(const sim::Structure& structure, std::uint32_t number,
+                            const Robot* owner, FrameTree& tree) {
+  const sim::SensorEntry& sensor = structure.sensors[number];
+  const sim::LinkEntry& link = structure.links[sensor.link];
+  Mounted mounted{static_cast<std::uint32_t>(tree.mounts.size()), false};
+  std::string base;
+  if (const auto foreign = foreign_frame(sensor, *structure.models[sensor.model])) {
+    const std::string& prefix = prefixes_[sensor.model];
+    tree.sensors.push_back(resolved(prefix, *foreign));
+    if (is_odometry(sensor.kind)) {
+      base = resolved(prefix,
+                      value_of({&sensor.desc->plugin_element}, "robotBaseFrame", "base_footprint"));
+    }
+  } else {
+    const std::string frame = own_frame(sensor, owner, frame_of(link), mounted.takes_frame);
+    if (frame != frame_of(link)) {  // an SDF that names its link's frame means it
+      const Pose in_sensor = is_camera(sensor) ? Pose{Vec3::Zero(), kOptical} : Pose{};
+      tree.mounts.push_back({frame_of(link), frame, sensor.pose * in_sensor});
+    }
+    tree.sensors.push_back(frame);
+  }
+  tree.bases.push_back(std::move(base));
+  mounted_.push_back(mounted);
+}
+
+std::string FrameMaker::own_frame(const sim::SensorEntry& sensor, const Robot* owner,
+                                  const std::string& link_frame, bool& is_taken) {
+  std::string frame = sensor.frame;
+  if (frame.empty()) frame = sensor.name + (is_camera(sensor) ? "_optical_frame" : "");
+  if (owner != nullptr && !owner->first && !sensor.frame.empty()) {
+    frame.insert(0, 1, '/').insert(0, owner->name);
+  }
+  if (frame == link_frame) return frame;
+  is_taken = take(frame);
+  if (is_taken) return frame;
+  other_names_ = true;
+  frame = sensor.kind + "_" + sensor.name;
+  is_taken = take(frame);
+  return frame;
 }
 
 }  // namespace angen::node

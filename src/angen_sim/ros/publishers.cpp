@@ -55,27 +55,28 @@ Publishers::Source Publishers::sensor_source(const sim::SensorEntry& entry, cons
   return source;
 }
 
-std::vector<Publishers::Source> Publishers::sensor_sources(const sim::Structure& structure,
-                                                           const FrameTree& frames,
-                                                           const std::vector<Robot>& robots,
-                                                           const Numbers& numbers) {
-  std::vector<Source> sources;
-  sources.reserve(structure.sensors.size());
+void Publishers::follow_sensors(const sim::Structure& structure, const FrameTree& frames,
+                                const std::vector<Robot>& robots, const Numbers& numbers) {
+  std::size_t kept = 0;  // these stay where they are
+  while (kept < numbers.before.size() && numbers.before[kept] == kept) ++kept;
+  std::vector<Source> others(std::make_move_iterator(sensors_.begin() + kept),
+                             std::make_move_iterator(sensors_.end()));
+  std::vector<Source> gone;
+  sensors_.resize(structure.sensors.size());
   for (std::uint32_t i = 0; i < structure.sensors.size(); ++i) {
     const sim::SensorEntry& entry = structure.sensors[i];
     const std::string& frame = frames.sensors[i];
     const std::string& name = frames.bases[i].empty() ? entry.name : frames.bases[i];
     const Robot* robot = robot_in(robots, entry.model);
     const std::uint32_t before = numbers.before[i];
-    if (before == Numbers::kNone || sensors_[before].robot != space_of(robot)) {
-      sources.push_back(sensor_source(entry, {name, frame}, robot));
-      continue;
+    Source& source = sensors_[i];
+    if (i >= kept && before != Numbers::kNone) source = std::move(others[before - kept]);
+    if (before == Numbers::kNone || source.robot != space_of(robot)) {
+      gone.push_back(std::exchange(source, sensor_source(entry, {name, frame}, robot)));
+    } else if (source.label->frame != frame) {
+      source.label = std::make_shared<const Label>(Label{name, frame});
     }
-    sources.push_back(std::move(sensors_[before]));
-    std::shared_ptr<const Label>& label = sources.back().label;
-    if (label->frame != frame) label = std::make_shared<const Label>(Label{name, frame});
   }
-  return sources;
 }
 
 Publishers::Source Publishers::device_source(const sim::DeviceEntry& entry) {
@@ -124,7 +125,7 @@ void Publishers::on_structure(const sim::Snapshot& snapshot, const FrameTree& fr
   const sim::Structure& structure = *snapshot.structure;
   batched_.clear();
   // What has gone keeps its channels until all others have theirs: one of the same topic stays.
-  sensors_ = sensor_sources(structure, frames, robots, changes.sensors);
+  follow_sensors(structure, frames, robots, changes.sensors);
   devices_ = device_sources(structure, robots, changes.devices);
   shut_down_unused();
   for (const auto& [key, channel] : channels_) {

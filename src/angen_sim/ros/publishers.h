@@ -48,8 +48,8 @@ class Publishers {
               const std::string& topic);
   Source sensor_source(const sim::SensorEntry& entry, const Label& label, const Robot* robot);
   Source device_source(const sim::DeviceEntry& entry);
-  std::vector<Source> sensor_sources(const sim::Structure& structure, const FrameTree& frames,
-                                     const std::vector<Robot>& robots, const Numbers& numbers);
+  void follow_sensors(const sim::Structure& structure, const FrameTree& frames,
+                      const std::vector<Robot>& robots, const Numbers& numbers);
   std::vector<Source> device_sources(const sim::Structure& structure,
                                      const std::vector<Robot>& robots, const Numbers& numbers);
   void shut_down_unused();

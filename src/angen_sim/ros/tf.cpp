@@ -27,14 +27,35 @@ void add(tf2_msgs::TFMessage& message, Nanoseconds time, const std::string& pare
 
 /// Whether `now` has a frame that differs from `before`, where frames that stay keep their order.
 /// tf listeners keep frames that are gone.
-bool has_new_frames(const std::vector<FixedFrame>& before, const std::vector<FixedFrame>& now) {
+template <class Frames>
+bool has_new_frames(const Frames& before, const Frames& now) {
   auto at = before.begin();
   for (const FixedFrame& frame : now) {
-    at = std::find(at, before.end(), frame);
+    const auto same = [&](const FixedFrame& old) { return &old == &frame || old == frame; };
+    at = std::find_if(at, before.end(), same);
     if (at == before.end()) return true;
     ++at;
   }
   return false;
+}
+
+bool has_new_fixed(const FrameTree& before, const FrameTree& now) {
+  return has_new_frames(before.fixed, now.fixed) || has_new_frames(before.odometry, now.odometry) ||
+         has_new_frames(before.mounts, now.mounts);
+}
+
+tf2_msgs::TFMessage fixed_of(const FrameTree& tree, Nanoseconds time) {
+  tf2_msgs::TFMessage message;
+  message.transforms.reserve(tree.fixed_count());
+  const auto add_all = [&](const auto& frames) {
+    for (const FixedFrame& frame : frames) {
+      add(message, time, frame.parent, frame.child, frame.pose);
+    }
+  };
+  add_all(tree.fixed);
+  add_all(tree.odometry);
+  add_all(tree.mounts);
+  return message;
 }
 
 bool same_frames(const std::vector<Robot>& a, const std::vector<Robot>& b) {
@@ -64,17 +85,8 @@ void Transforms::on_structure(const sim::Snapshot& snapshot,
     const bool is_new = changes.links.before[frames_->moving[i].link] == Numbers::kNone;
     if (is_new) mark(static_cast<std::int32_t>(i));
   }
-  const bool is_news = !before || has_new_frames(before->fixed, frames_->fixed);
-  fixed_.set(
-      [made = frames_, time = snapshot.time] {
-        tf2_msgs::TFMessage message;
-        message.transforms.reserve(made->fixed.size());
-        for (const FixedFrame& frame : made->fixed) {
-          add(message, time, frame.parent, frame.child, frame.pose);
-        }
-        return message;
-      },
-      is_news);
+  fixed_.set([made = frames_, time = snapshot.time] { return fixed_of(*made, time); },
+             !before || has_new_fixed(*before, *frames_));
   new_structure_ = true;
   new_robots_ = new_robots_ || !same_frames(robots_, robots);
   robots_ = robots;

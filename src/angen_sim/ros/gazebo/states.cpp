@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "core/text.h"
 #include "ros/convert.h"
@@ -75,16 +76,24 @@ void StateTopics::receive(const Message& message) {
   }
 }
 
+// Models before the first that came or went keep their numbers.
 void StateTopics::follow(const sim::Snapshot& snapshot) {
-  structure_ = snapshot.structure;
-  resize(structure_->links.size(), link_states_);
-  resize(structure_->models.size(), model_states_);
-  for (std::uint32_t i = 0; i < structure_->links.size(); ++i) {
-    link_states_.name[i] = structure_->links[i].name;
-    fill(i);
+  const std::shared_ptr<const sim::Structure> before =
+      std::exchange(structure_, snapshot.structure);
+  const auto& models = structure_->models;
+  std::size_t kept = 0;
+  if (before != nullptr) {
+    const auto end =
+        std::mismatch(models.begin(), models.end(), before->models.begin(), before->models.end());
+    kept = static_cast<std::size_t>(end.first - models.begin());
   }
-  for (std::size_t i = 0; i < structure_->models.size(); ++i) {
-    model_states_.name[i] = structure_->models[i]->name;
+  resize(structure_->links.size(), link_states_);
+  resize(models.size(), model_states_);
+  for (std::size_t i = kept; i < models.size(); ++i) model_states_.name[i] = models[i]->name;
+  for (std::uint32_t i = 0; i < structure_->links.size(); ++i) {
+    const bool is_new = structure_->links[i].model >= kept;
+    if (is_new) link_states_.name[i] = structure_->links[i].name;
+    update(snapshot, i, is_new);
   }
 }
 
@@ -96,15 +105,18 @@ void StateTopics::fill(std::uint32_t link) {
   set_state(model_motion(*structure_, entry, motion), entry.model, model_states_);
 }
 
+void StateTopics::update(const sim::Snapshot& snapshot, std::uint32_t link, bool is_new) {
+  const bool stands = !structure_->links[link].moves &&
+                      link_states_.pose[link] == to_ros(snapshot.link_poses[link]);
+  if (is_new || !stands) fill(link);
+}
+
 void StateTopics::update(const sim::Snapshot& snapshot) {
   if (snapshot.structure != structure_) {
     follow(snapshot);
     return;
   }
-  for (std::uint32_t i = 0; i < structure_->links.size(); ++i) {
-    const bool stands = link_states_.pose[i] == to_ros(snapshot.link_poses[i]);
-    if (structure_->links[i].moves || !stands) fill(i);
-  }
+  for (std::uint32_t i = 0; i < structure_->links.size(); ++i) update(snapshot, i, false);
 }
 
 void StateTopics::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {

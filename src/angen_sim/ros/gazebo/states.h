@@ -29,10 +29,10 @@ class StateTopics {
  private:
   template <class Message>
   void receive(const Message& message);
-  /// Both messages anew.
   void follow(const sim::Snapshot& snapshot);
-  /// What can move or was put elsewhere; everything of another structure.
+  /// What can move, was put elsewhere or is new.
   void update(const sim::Snapshot& snapshot);
+  void update(const sim::Snapshot& snapshot, std::uint32_t link, bool is_new);
   void fill(std::uint32_t link);
 
   Inbox& inbox_;
