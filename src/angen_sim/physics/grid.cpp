@@ -55,6 +55,7 @@ void Grid::update(Geom& geom) {
 void Grid::erase(Geom& geom) {
   if (!geom.in_grid) return;
   geom.in_grid = false;
+  geom.shared_cells.clear();
   if (geom.unbounded) {
     take_out(unbounded_, &geom);
     return;
@@ -66,6 +67,18 @@ void Grid::erase(Geom& geom) {
         const auto cell = cells_.find(cell_key(x, y, z));
         take_out(cell->second, &geom);
         if (cell->second.empty()) cells_.erase(cell);
+      }
+    }
+  }
+}
+
+/// None of them goes while the geom is in it.
+void Grid::find_cells(Geom& geom) {
+  const auto& c = geom.cells;
+  for (int x = c[0]; x <= c[1]; ++x) {
+    for (int y = c[2]; y <= c[3]; ++y) {
+      for (int z = c[4]; z <= c[5]; ++z) {
+        geom.shared_cells.push_back(&cells_.at(cell_key(x, y, z)));
       }
     }
   }

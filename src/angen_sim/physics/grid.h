@@ -17,7 +17,7 @@ class Grid {
   void update(Geom& geom);
   void erase(Geom& geom);
 
-  /// Calls visit(Geom&) once for each other geom whose box overlaps that of `geom`.
+  /// Calls visit(Geom&) once for each other geom whose box overlaps that of `geom`, which is filed.
   template <class F>
   void query(Geom& geom, F&& visit) {
     ++query_;
@@ -34,15 +34,9 @@ class Grid {
       }
       return;
     }
-    const auto& c = geom.cells;
-    for (int x = c[0]; x <= c[1]; ++x) {
-      for (int y = c[2]; y <= c[3]; ++y) {
-        for (int z = c[4]; z <= c[5]; ++z) {
-          const auto cell = cells_.find(cell_key(x, y, z));
-          if (cell == cells_.end()) continue;
-          for (Geom* other : cell->second) check(other);
-        }
-      }
+    if (geom.shared_cells.empty()) find_cells(geom);
+    for (const std::vector<Geom*>* cell : geom.shared_cells) {
+      for (Geom* other : *cell) check(other);
     }
   }
 
@@ -50,6 +44,8 @@ class Grid {
   struct Spread {
     std::size_t operator()(std::uint64_t k) const { return k * 0x9e3779b97f4a7c15ULL >> 16; }
   };
+
+  void find_cells(Geom& geom);
 
   std::unordered_map<std::uint64_t, std::vector<Geom*>, Spread> cells_;
   std::vector<Geom*> unbounded_;

@@ -61,6 +61,7 @@ struct Geom {
   bool is_plane = false;
   Aabb box;
   std::array<int, 6> cells{};  // the grid's, first and last in x, y, z
+  std::vector<const std::vector<Geom*>*> shared_cells;  // what is in each of them, for queries
   bool in_grid = false;
   bool unbounded = false;
   std::uint64_t visited = 0;
