@@ -60,7 +60,7 @@ struct Geom {
   ode::GeomHandle tile;                // takes the mesh of one tile after the other
   bool is_plane = false;
   Aabb box;
-  std::array<int, 6> cells{};  // the grid's, first and last in x, y, z
+  std::array<int, 6> cells{};                           // the grid's, first and last in x, y, z
   std::vector<const std::vector<Geom*>*> shared_cells;  // what is in each of them, for queries
   bool in_grid = false;
   bool unbounded = false;
