@@ -229,9 +229,11 @@ void make_uris_absolute(Element& element, Session& session) {
     const Address address = split(child.text);
     const bool relative = !address.path.empty() && address.path[0] != '/';
     if (!relative || (!address.scheme.empty() && address.scheme != "file")) continue;
-    if (find_uri(child.text, "", session)) continue;
-    const auto found = find_uri(child.text, child.source.file, session);
-    if (found && session.allowed.holds(*found, child.source.file)) child.text = "file://" + *found;
+    const std::string folder = folder_of(child.source.file, session.sources);
+    if (folder.empty()) continue;
+    const auto beside = existing(fs::path(folder) / address.path, session.sources);
+    if (!beside || find_uri(child.text, "", session)) continue;
+    if (session.allowed.holds(*beside, child.source.file)) child.text = "file://" + *beside;
   }
 }
 
