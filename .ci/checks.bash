@@ -131,7 +131,8 @@ check_asan() { # [WORDS]
 run_sanitized() { # asan|tsan WORDS [SUITE...]
   local tree=build-$1 name chosen=("${@:3}") slowness=4
   ((${#chosen[@]})) || chosen=(ctest pytest)
-  prepare test
+  install test
+  prepare
   sanitizer_options
   sanitized_tree "$1" all tests
   # Each program finds the libraries of its own build by its RUNPATH, which LD_LIBRARY_PATH would overrule.
