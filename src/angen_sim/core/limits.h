@@ -30,6 +30,7 @@ constexpr double kLeastMomentRatio = 1e-12;  // of a link's smallest principal m
 constexpr Limit kSpeed{"m/s", 1e5};
 constexpr Limit kTurnRate{"rad/s", 1e5};
 constexpr Limit kAcceleration{"m/s^2", 1e6};
+constexpr Limit kGravity{"m/s^2", 1e4};
 constexpr Limit kForce{"N", 1e9};
 constexpr Limit kTorque{"N m", 1e9};
 constexpr Limit kTime{"s", 1e9, 1e-9};  // 31 years; nanoseconds fit into 64 bits

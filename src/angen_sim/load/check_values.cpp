@@ -131,7 +131,7 @@ const std::map<Key, Rule>& rules() {
       {{"scene", "ambient"}, kColor},
       {{"scene", "background"}, kColor},
       {{"scene", "shadows"}, kFlag},
-      {{"world", "gravity"}, {3, 3, Want::kAny, {"m/s^2", 1e4}}},
+      {{"world", "gravity"}, {3, 3, Want::kAny, limits::kGravity}},
       {{"atmosphere", "temperature"}, {1, 1, Want::kPositive, limits::kTemperature}},
       {{"link", "gravity"}, kFlag},
       {{"link", "kinematic"}, kFlag},

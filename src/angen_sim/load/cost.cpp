@@ -85,8 +85,9 @@ double file_cost(const Element& shape, Session& session) {
   // One that it may not name is refused later; others are shared between their uses.
   if (!file || !session.allowed.holds(*file, uri->source.file)) return 0.0;
   if (!session.charged.insert(*file).second) return 0.0;
-  if (shape.name == "heightmap") return kHeightSample * heights_in(*file);
   std::error_code failed;
+  if (!std::filesystem::is_regular_file(*file, failed)) return 0.0;
+  if (shape.name == "heightmap") return kHeightSample * heights_in(*file);
   const auto size = std::filesystem::file_size(*file, failed);
   return failed ? 0.0 : kMeshByte * static_cast<double>(size);
 }

@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::size_t kMaxDepth = 16;
 constexpr std::size_t kMaxExpanded = 400'000;
+constexpr std::size_t kMaxIncluded = 20'000;  // what a model may have, and what includes drop
 
 int version_of(const Element& sdf) {
   const std::string* text = sdf.attribute("version");
@@ -38,7 +39,29 @@ void count(const Element& document, Session& session) {
     throw Error(document.source, "more than " + std::to_string(kMaxExpanded) +
                                      " elements with all that is included; make the world smaller");
   }
+  if (session.include_start && session.elements - *session.include_start > kMaxIncluded) {
+    throw Error(document.source, "more than " + std::to_string(kMaxIncluded) +
+                                     " elements in one <include> with all that it includes; split "
+                                     "it into several models");
+  }
 }
+
+/// While the outermost include is read, its elements are counted.
+class CountInclude {
+ public:
+  explicit CountInclude(Session& session) : session_(session), outermost_(!session.include_start) {
+    if (outermost_) session_.include_start = session_.elements;
+  }
+  ~CountInclude() {
+    if (outermost_) session_.include_start.reset();
+  }
+  CountInclude(const CountInclude&) = delete;
+  CountInclude& operator=(const CountInclude&) = delete;
+
+ private:
+  Session& session_;
+  bool outermost_;
+};
 
 // The one <model>, <actor> or <light> of an included document.
 Element& included_root(Element& sdf) {
@@ -180,6 +203,7 @@ Element expand_include(const Element& include, Session& session) {
                 "includes stand more than " + std::to_string(kMaxDepth) + " deep in one another");
   }
   const Open open(session, real);
+  const CountInclude counted(session);
   Element sdf = read_document(session.sources.read(file), file, session);
   Element& root = included_root(sdf);
   if (root.name == "model") expand_model(root, session);

@@ -1,7 +1,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "core/limits.h"
+#include "core/inertia.h"
 #include "core/text.h"
 #include "load/describe.h"
 #include "load/values.h"
@@ -10,50 +10,6 @@
 namespace angen::load {
 
 namespace {
-
-// Ratios at which the solver keeps no digits.
-std::string ratio_problem(double mass, const Vec3& moments, const std::string& all) {
-  if (moments[0] < limits::kMoment.least || moments[0] < limits::kLeastMomentRatio * moments[2]) {
-    return "the principal moments of inertia are " + all + "; the least must be at least " +
-           number_text(limits::kMoment.least) + " kg m^2 and " +
-           number_text(limits::kLeastMomentRatio) + " of the greatest";
-  }
-  for (const double moment : {moments[0], moments[2]}) {
-    const double gyration = std::sqrt(moment / mass);
-    const std::string wrong = limit_problem(limits::kGyration, gyration, true);
-    if (wrong.empty()) continue;
-    return "a radius of gyration, sqrt(" + number_text(moment) + " kg m^2 / " + number_text(mass) +
-           " kg), is " + number_text(gyration) + " m; " + wrong;
-  }
-  return "";
-}
-
-// Moments of a body that exists: each positive, none above the sum of the others.
-std::string why_impossible(const desc::Inertial& inertial) {
-  if (!(inertial.mass > 0.0)) {
-    return "the mass is " + number_text(inertial.mass) + " kg; it must be greater than 0";
-  }
-  if (const std::string wrong = limit_problem(limits::kMass, inertial.mass, true); !wrong.empty()) {
-    return "the mass is " + number_text(inertial.mass) + " kg; " + wrong;
-  }
-  const double largest = inertial.moment.cwiseAbs().maxCoeff();
-  if (const std::string wrong = limit_problem(limits::kMoment, largest); !wrong.empty()) {
-    return "a moment of inertia is " + number_text(largest) + " kg m^2; " + wrong;
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertial.moment,
-                                                              Eigen::EigenvaluesOnly);
-  const Vec3& moments = solver.eigenvalues();
-  const std::string all = number_text(moments[0]) + ", " + number_text(moments[1]) + ", " +
-                          number_text(moments[2]) + " kg m^2";
-  if (!(moments[0] > 0.0)) {
-    return "the principal moments of inertia are " + all + "; all must be greater than 0";
-  }
-  if (moments[0] + moments[1] < moments[2] * (1.0 - 1e-6)) {
-    return "no body has the principal moments of inertia " + all +
-           ": the greatest must not exceed the sum of the others";
-  }
-  return ratio_problem(inertial.mass, moments, all);
-}
 
 // A body that exists, of nearly those moments: they are raised until each is above 0 and none
 // exceeds the sum of the others.
@@ -89,10 +45,10 @@ desc::Inertial read_inertial(const Element& link, bool never_moves, Session& ses
     inertial.moment << xx, xy, xz, xy, yy, yz, xz, yz, zz;
     if (inertial.mass > 0.0) at = inertia->source;
   }
-  const std::string wrong = why_impossible(inertial);
+  const std::string wrong = inertia_problem(inertial.mass, inertial.moment);
   if (wrong.empty()) return inertial;
   const std::string message = tag_of(link) + ": " + wrong;
-  if (!never_moves && session.tolerant && why_impossible(possible(inertial)).empty()) {
+  if (!never_moves && session.tolerant && is_possible(possible(inertial))) {
     session.warn(at, message + " (the nearest that a body can have is used)");
     return possible(inertial);
   }
@@ -103,7 +59,9 @@ desc::Inertial read_inertial(const Element& link, bool never_moves, Session& ses
 
 }  // namespace
 
-bool is_possible(const desc::Inertial& inertial) { return why_impossible(inertial).empty(); }
+bool is_possible(const desc::Inertial& inertial) {
+  return inertia_problem(inertial.mass, inertial.moment).empty();
+}
 
 desc::Inertial inertial_of(const Element& link, bool never_moves, Session& session) {
   if (!never_moves) return read_inertial(link, never_moves, session);

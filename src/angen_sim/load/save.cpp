@@ -128,6 +128,10 @@ std::string save(const desc::World& world, const std::vector<ModelState>& models
   Element root = element_of("sdf");
   set_attribute(root, "version", "1.9");
   root.children.push_back(std::move(saved));
+  // Other readers of XML want to know the prefix.
+  if (print_xml(root).find("angen:") != std::string::npos) {
+    set_attribute(root, "xmlns:angen", "urn:angen");
+  }
   return "<?xml version=\"1.0\"?>\n" + print_xml(root);
 }
 

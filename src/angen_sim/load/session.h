@@ -24,13 +24,14 @@ struct Session {
   std::set<std::string> ignored_places{};  // of `ignored`, as well
   std::set<std::string> converted{};       // URDF files: what nothing reads is libsdformat's doing
   std::size_t elements = 0;                // of all documents so far
-  double bytes = 0.0;                      // of memory that what was expanded will take, about
-  std::set<std::string> charged{};         // files of meshes that are counted in it
-  std::vector<std::string> open{};         // documents being read, outermost first
-  std::optional<Packages> packages{};      // once something was searched there
-  bool tolerant = false;                   // as far as it is known; see decide()
-  bool guessed = false;                    // by what a world holds: its author may have misspelled
-  std::vector<Error> forgiven{};           // what was wrong and did not stop the load
+  std::optional<std::size_t> include_start{};  // `elements` before the outermost include
+  double bytes = 0.0;                          // of memory that what was expanded will take, about
+  std::set<std::string> charged{};             // files of meshes that are counted in it
+  std::vector<std::string> open{};             // documents being read, outermost first
+  std::optional<Packages> packages{};          // once something was searched there
+  bool tolerant = false;                       // as far as it is known; see decide()
+  bool guessed = false;           // by what a world holds: its author may have misspelled
+  std::vector<Error> forgiven{};  // what was wrong and did not stop the load
 
   /// Once for each place: a file that is included ten times warns as often as if it were once.
   void warn(const Source& source, const std::string& message);

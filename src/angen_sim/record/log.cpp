@@ -2,6 +2,8 @@
 
 #include <gnu/libc-version.h>
 
+#include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <utility>
@@ -15,6 +17,17 @@ namespace angen::record {
 namespace {
 
 constexpr const char* kMark = "{\"angen_log\"";
+
+// Its first line may be long where it is something else.
+void check_begin(std::ifstream& stream, const std::string& path) {
+  std::string begin(std::strlen(kMark), ' ');
+  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  if (stream.gcount() > 0 && begin != kMark) {
+    throw Error({path, 1}, "is not a log of angen; it must begin with " + std::string(kMark));
+  }
+  stream.clear();
+  stream.seekg(0);
+}
 
 // Pairs of address and hash.
 void write_files(const std::vector<LogFile>& files, LineWriter& line) {
@@ -192,8 +205,11 @@ bool write_action(const sim::Action& action, const SpawnText& spawned, LineWrite
 }
 
 Log read_log(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
+  std::error_code failed;
+  const bool is_file = std::filesystem::is_regular_file(path, failed);  // others may not end
+  std::ifstream stream(is_file ? path : "", std::ios::binary);
   if (!stream) throw Error({path, 0}, "cannot be read; give a log that record:= wrote");
+  check_begin(stream, path);
   Log log{path, {}, {}, ""};
   std::uint64_t sum = 0;
   std::uint64_t byte = 0;
@@ -202,9 +218,6 @@ Log read_log(const std::string& path) {
   for (std::string line; std::getline(stream, line);) {
     byte = std::exchange(next_byte, next_byte + line.size() + 1);
     const Source at{path, ++number};
-    if (number == 1 && line.rfind(kMark, 0) != 0) {
-      throw Error(at, "is not a log of angen; it must begin with " + std::string(kMark));
-    }
     if (stream.eof()) {  // without its line break
       if (number == 1) throw Error(at, "ends within its first line; nothing can be replayed");
       log.truncated = Diagnostic{Diagnostic::Severity::kWarning, at,

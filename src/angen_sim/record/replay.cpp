@@ -29,10 +29,21 @@ bool is_near(const Pose& text, const Pose& exact) {
          ((one - other).norm() < kNear || (one + other).norm() < kNear);
 }
 
+// Logs come from others: the folder that one names is searched only where the world that it names
+// is here, which would have it searched as well.
+std::string models_beside_world(const LogHeader& header) {
+  std::error_code failed;
+  if (!fs::is_regular_file(header.world, failed)) return "";
+  return fs::path(header.models) == folder_of(header.world) / "models" ? header.models : "";
+}
+
 }  // namespace
 
 Replay::Replay(Log log, std::shared_ptr<Catalog> catalog, ReplaySettings settings)
-    : log_(std::move(log)), settings_(settings), paths_(paths_of(log_.header.models)) {
+    : log_(std::move(log)),
+      settings_(settings),
+      models_(models_beside_world(log_.header)),
+      paths_(paths_of(models_)) {
   const LogHeader& header = log_.header;
   const Located located = this->located(header.sdf, header.files, 1);
   desc::World world = load::world_from_text(located.sdf, log_.path, located.paths);

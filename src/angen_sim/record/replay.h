@@ -32,6 +32,8 @@ class Replay {
   void stop_at(Nanoseconds time);
 
   const Log& log() const { return log_; }
+  /// The folder of models beside the log's world, where that is here; else empty.
+  const std::string& models() const { return models_; }
   /// The simulation; from done() on it takes what others post.
   sim::Simulation& simulation();
   std::unique_ptr<sim::Simulation> take_simulation();
@@ -57,6 +59,7 @@ class Replay {
 
   Log log_;
   ReplaySettings settings_;
+  std::string models_;
   load::SearchPaths paths_;
   std::unique_ptr<sim::Simulation> simulation_;
   RunFingerprint fingerprint_;

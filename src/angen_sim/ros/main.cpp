@@ -118,6 +118,21 @@ double number_param(const std::string& name, double fallback, double least) {
   return value;
 }
 
+void check_rate(double rate, angen::Nanoseconds step) {
+  const std::string problem = angen::node::rate_problem(rate, step);
+  if (!problem.empty()) throw angen::Error("~rate is " + angen::number_text(rate) + "; " + problem);
+}
+
+/// The parameter, which may be left out; throws Error for one of another type.
+template <class Value>
+Value param_or(const std::string& name, Value fallback) {
+  if (ros::param::has(name) && !ros::param::get(name, fallback)) {
+    throw angen::Error(name + " must be " +
+                       (std::is_same_v<Value, bool> ? "true or false" : "a text"));
+  }
+  return fallback;
+}
+
 // The ~memory_limit that the command line gives, as far as it is known without ROS.
 void limit_memory_by(const std::vector<std::string>& words) {
   constexpr char kLimit[] = "_memory_limit:=";
@@ -159,7 +174,7 @@ std::optional<angen::Nanoseconds> until_param() {
 
 /// What ~replay names, up to ~until; null where it names nothing.
 std::unique_ptr<angen::record::Replay> make_replay(angen::node::Settings& settings) {
-  const auto path = ros::param::param<std::string>("~replay", "");
+  const auto path = param_or<std::string>("~replay", "");
   const std::optional<angen::Nanoseconds> until = until_param();
   if (path.empty()) {
     if (until) throw angen::Error("~until ends a replay; give its file as ~replay");
@@ -177,7 +192,7 @@ std::unique_ptr<angen::record::Replay> make_replay(angen::node::Settings& settin
 std::unique_ptr<angen::record::Recorder> make_recorder(const std::string& world,
                                                        const angen::node::Settings& settings,
                                                        Simulation& simulation) {
-  const auto file = ros::param::param<std::string>("~record", "");
+  const auto file = param_or<std::string>("~record", "");
   if (file.empty()) return nullptr;
   if (settings.replay == nullptr) {
     return std::make_unique<angen::record::Recorder>(file, angen::record::origin_of(world),
@@ -213,7 +228,7 @@ void set_strict_by_param() {
   if (ros::param::get("~strict", flag)) {
     set_strict(flag ? "true" : "false");
   } else {
-    set_strict(ros::param::param<std::string>("~strict", ""));
+    set_strict(param_or<std::string>("~strict", ""));
   }
 }
 
@@ -229,15 +244,15 @@ int save_and_end(Simulation& simulation, const std::string& path) {
 }
 
 int run(std::string path, std::unique_ptr<Simulation> simulation) {
-  if (ros::param::param("~allow_paths", false)) allow_all_paths();
+  if (param_or("~allow_paths", false)) allow_all_paths();
   set_strict_by_param();
-  const bool replays = !ros::param::param<std::string>("~replay", "").empty();
+  const bool replays = !param_or<std::string>("~replay", "").empty();
   if (!simulation && !replays && !ros::param::get("~world", path)) {
     throw angen::Error(std::string("no world: give one as argument or in ~world\n") + kUsage);
   }
   angen::load::set_memory_limit(number_param("~memory_limit", angen::load::memory_limit(), 1.0));
   angen::node::Settings settings;
-  settings.fast = ros::param::param("~fast", false);
+  settings.fast = param_or("~fast", false);
   settings.rate = number_param("~rate", settings.fast ? 0.0 : 1.0, 0.0);
   if (settings.fast && settings.rate > 0.0) {
     throw angen::Error("~fast goes as fast as it can, with ~rate 0 or none");
@@ -248,23 +263,23 @@ int run(std::string path, std::unique_ptr<Simulation> simulation) {
   settings.plugins = angen::Catalog().own();
   const std::unique_ptr<angen::record::Replay> replay = make_replay(settings);
   if (replay) path = replay->log().header.world;
-  const auto odom_parent = ros::param::param<std::string>("~odom_parent", "world");
+  const auto odom_parent = param_or<std::string>("~odom_parent", "world");
   if (odom_parent != "world" && odom_parent != "none") {
     throw angen::Error("~odom_parent is '" + odom_parent + "', must be world or none");
   }
   settings.odometry_in_world = odom_parent == "world";
   settings.replay = replay.get();
-  settings.models = replay ? replay->log().header.models : folder_of(path) + "/models";
-  settings.topics = angen::node::topics_named(ros::param::param<std::string>("~topics", "sensor"));
-  const auto rescue_path =
-      ros::param::param<std::string>("~rescue", angen::node::default_rescue_path());
+  settings.models = replay ? replay->models() : folder_of(path) + "/models";
+  settings.topics = angen::node::topics_named(param_or<std::string>("~topics", "sensor"));
+  const auto rescue_path = param_or<std::string>("~rescue", angen::node::default_rescue_path());
   const auto seed = static_cast<std::uint64_t>(number_param("~seed", kDefaultSeed, 0.0));
   const bool usable = simulation && simulation->seed() == seed;
   if (!replay && !usable) simulation = make(path, seed);
   Simulation& running = replay ? replay->simulation() : *simulation;
+  check_rate(settings.rate, running.snapshot()->step);
   const auto recorder = make_recorder(path, settings, running);
   settings.recorder = recorder.get();
-  settings.paused_after = ros::param::param("~paused", false);
+  settings.paused_after = param_or("~paused", false);
   if (settings.paused_after && !replay) running.post(angen::sim::Pause{true});
   if (!ros::param::has("/use_sim_time")) ros::param::set("/use_sim_time", true);
   angen::node::Node node(running, settings);

@@ -2,10 +2,21 @@
 
 #include <algorithm>
 #include <chrono>
+#include <string>
 
+#include "core/text.h"
 #include "core/time.h"
 
 namespace angen::node {
+
+/// What is wrong with a rate for steps of that length; empty where nothing is. Calls wait for the
+/// next tick.
+inline std::string rate_problem(double rate, Nanoseconds step) {
+  const double least = to_seconds(step);
+  if (rate <= 0.0 || rate >= least) return "";
+  return "a tick would take longer than a second, and calls wait for it; give at least " +
+         number_text(least) + ", or 0 for as fast as it goes";
+}
 
 /// Keeps simulated time beside the wall's on an absolute schedule, so that no error adds up. What
 /// the simulation cannot catch up within kMaxLag is given up.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/inertia.h"
 #include "core/limits.h"
 #include "core/text.h"
 #include "sim/building.h"
@@ -173,10 +174,10 @@ class Apply {
   void operator()(const SetLinkProperties& edit) {
     const Entity entity = find_link(building_, edit.link);
     const desc::Inertial& inertial = edit.inertial;
-    check("mass", limits::kMass, inertial.mass, true);
-    const std::string problem = pose_problem(inertial.pose);
-    if (!problem.empty()) throw Error(problem);
-    for (int i = 0; i < 9; ++i) check("moment", limits::kMoment, inertial.moment.data()[i]);
+    for (const std::string& problem :
+         {pose_problem(inertial.pose), inertia_problem(inertial.mass, inertial.moment)}) {
+      if (!problem.empty()) throw Error(problem);
+    }
     desc::Model model = *entity.model->desc;
     model.links[entity.link].inertial = inertial;
     model.links[entity.link].gravity = edit.gravity;
@@ -204,6 +205,10 @@ class Apply {
     if (edit.motor_force) check("motor's force", limits::kNoLimit, *edit.motor_force);
     for (desc::JointAxis& axis : axes) {
       if (axis.damping < 0.0) throw Error("the damping is negative");
+      if (axis.lower > limits::kPosition.most || axis.upper < -limits::kPosition.most) {
+        throw Error("the stops " + number_text(axis.lower) + " and " + number_text(axis.upper) +
+                    " leave no position within " + number_text(limits::kPosition.most));
+      }
       axis.initial_position = std::clamp(axis.initial_position, axis.lower, axis.upper);
     }
     const bool described = !(edit.damping.empty() && edit.upper.empty() && edit.lower.empty());
@@ -214,7 +219,7 @@ class Apply {
   }
 
   void operator()(const SetPhysics& edit) {
-    check("gravity", limits::kAcceleration, edit.gravity);
+    check("gravity", limits::kGravity, edit.gravity);
     const desc::Physics& physics = edit.physics;
     if (physics.iterations < 1 || physics.iterations > kMostIterations) {
       throw Error("the number of iterations is " + std::to_string(physics.iterations) +

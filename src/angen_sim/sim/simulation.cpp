@@ -27,7 +27,6 @@ struct Simulation::Impl {
 
   void drain() {
     const CommandQueue::Effects effects = commands.drain(building, clock(), next.events);
-    for (const std::shared_ptr<SavedState>& into : effects.saves) *into = saved();
     if (effects.reset) sensors.invalidate();
     if (effects.commanded) devices.activate_all();
     if (effects.reset_time) {
@@ -37,6 +36,7 @@ struct Simulation::Impl {
     }
     restructure();
     follow_placed();
+    for (const std::shared_ptr<SavedState>& into : effects.saves) *into = saved();
   }
 
   // Sensors sample it in the next tick; snapshots show it also while time stands still.
@@ -55,8 +55,9 @@ struct Simulation::Impl {
     }
   }
 
+  // As of now: its numbers are those of the present structure.
   SavedState saved() {
-    return {latest, building.saved_plugins(next.time, next.step), building.changed_models(),
+    return {std::make_shared<const Snapshot>(next), building.saved_plugins(next.time, next.step), building.changed_models(),
             building.saved_lights()};
   }
 

@@ -105,6 +105,10 @@ TEST(MissingFile, FolderOrPipeIsNotRead) {
   const std::string mesh =
       "<visual name='v'><geometry><mesh><uri>model://pipe.world</uri></mesh></geometry></visual>";
   EXPECT_NE(error_of(in_link(mesh), folder.paths()).find("is not a file"), std::string::npos);
+  const std::string ground =
+      "<collision name='c'><geometry><heightmap><uri>model://pipe.world</uri>"
+      "<size>1 1 1</size></heightmap></geometry></collision>";
+  EXPECT_NE(error_of(in_link(ground), folder.paths()).find("is not a file"), std::string::npos);
 }
 
 TEST(MissingFile, IsNamed) { EXPECT_THROW(world("/nonexistent/x.world"), Error); }

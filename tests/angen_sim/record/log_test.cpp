@@ -1,9 +1,11 @@
 #include "record/log.h"
 
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <array>
 #include <csignal>
+#include <filesystem>
 
 #include "angen_sim/record/logged.h"
 #include "core/random.h"
@@ -111,6 +113,18 @@ TEST(Log, IsReadUpToAnIncompleteLastLine) {
   const Replay replay = replayed(folder.log());
   EXPECT_EQ(replay.mismatch(), "");
   EXPECT_EQ(replay.compared(), 3U);
+}
+
+TEST(Log, IsAFileThatBeginsAsOne) {
+  const Folder folder;
+  const std::string pipe = folder.log() + ".fifo";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);  // whoever opened it would wait for a writer
+  const std::string nulls = folder.log() + ".nulls";
+  write_all(nulls, "");
+  std::filesystem::resize_file(nulls, 4'000'000'000);  // one line, without a break
+  for (const std::string& path : {pipe, nulls, std::string("/dev/zero"), std::string("/")}) {
+    EXPECT_THROW(read_log(path), Error) << path;
+  }
 }
 
 TEST(Log, IsNotOverwritten) {

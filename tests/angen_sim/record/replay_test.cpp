@@ -1,5 +1,8 @@
 #include "record/replay.h"
 
+#include <filesystem>
+#include <fstream>
+
 #include "angen_sim/record/logged.h"
 
 namespace angen::record {
@@ -169,6 +172,26 @@ TEST(Replay, StopsAtATimeAndGoesOnLive) {
   replay.simulation().tick();
   EXPECT_TRUE(taken.get().ok);
   EXPECT_EQ(replay.compared(), 2U);
+}
+
+TEST(Replay, SearchesOnlyTheModelsBesideAWorldThatIsHere) {
+  const Folder folder;
+  Session session(folder);
+  session.run(1.0);
+  session.end();
+  Log log = read_log(folder.log());
+  const auto models = [&] { return Replay(log, std::make_shared<Catalog>()).models(); };
+  const std::string world = folder.log() + ".world";
+  const std::string beside = std::filesystem::path(world).parent_path() / "models";
+  for (const std::string& other : {std::string("/"), beside}) {
+    log.header.world = world;
+    log.header.models = other;
+    EXPECT_EQ(models(), "") << "there is no such world";
+  }
+  std::ofstream(world) << "a world";
+  EXPECT_EQ(models(), beside);
+  log.header.models = "/";
+  EXPECT_EQ(models(), "");
 }
 
 TEST(Replay, NeedsTheMeshesAsTheyWere) {

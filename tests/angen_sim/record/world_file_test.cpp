@@ -173,6 +173,47 @@ TEST(WorldFile, KeepsWhereAnElevatorGoes) {
   EXPECT_EQ(state_of(*after, "elevator").get<std::int64_t>("floor"), 0);
 }
 
+// What comes, goes and is changed in the tick of a save has other numbers than before.
+TEST(WorldFile, IsOfTheMomentAfterAllThatIsCarriedOutWithIt) {
+  const auto world = loaded(
+      "<sdf version='1.6'><world name='w'><model name='a'><link name='l'/></model><model name='b'>"
+      "<link name='l'/></model><light name='old' type='point'/></world></sdf>");
+  world->tick();
+  desc::Light light;
+  light.name = "late";
+  sim::SetLinkProperties heavy;
+  heavy.link = "b::l";
+  heavy.inertial.mass = 3.0;
+  const auto state = std::make_shared<sim::SavedState>();
+  world->post(sim::Delete{"a"});
+  world->post(sim::Edit(heavy));
+  world->post(sim::Edit(sim::AddLight{light, "<light name='late' type='point'/>"}));
+  auto done = world->post(sim::Save{state});
+  world->tick();
+  ASSERT_TRUE(done.get().ok);
+  const std::string text = world_file(world->world(), *state);
+  EXPECT_EQ(text.find("<model name=\"a\""), std::string::npos);
+  EXPECT_NE(text.find("<mass>3</mass>"), std::string::npos);
+  EXPECT_NE(text.find("\"late\""), std::string::npos);
+  EXPECT_EQ(loaded(text)->snapshot()->structure->models.size(), 1U);
+}
+
+TEST(WorldFile, DeclaresThePrefixOfWhatItSays) {
+  const auto text_of = [](load::Strictness strictness) {
+    load::SearchPaths paths;
+    paths.strictness = strictness;
+    sim::Simulation simulation(
+        load::world_from_text("<sdf version='1.6'><world name='w'/></sdf>", "w", paths), 1,
+        std::make_shared<Catalog>());
+    return saved(simulation);
+  };
+  const std::string guessed = text_of(load::Strictness::kAuto);
+  EXPECT_NE(guessed.find("angen:strict"), std::string::npos);
+  EXPECT_NE(guessed.find("xmlns:angen="), std::string::npos);
+  EXPECT_EQ(text_of(load::Strictness::kStrict).find("xmlns"), std::string::npos);
+  EXPECT_TRUE(load::world_from_text(guessed, "again", {}).warnings.empty());
+}
+
 // A world without a plug-in of Angen's, so that each light is a lamp.
 TEST(WorldFile, KeepsLightsAsTheyAreNow) {
   const auto read = [](const std::string& text) {

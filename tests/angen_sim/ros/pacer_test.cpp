@@ -21,6 +21,11 @@ TEST(Pacer, TwiceTheRateHalvesTheWait) {
   EXPECT_EQ(pacer.ahead(20 * kMs, kStart), milliseconds(10));
 }
 
+TEST(Pacer, ARateAtWhichCallsWouldWaitForeverIsNone) {
+  for (const double rate : {0.0, 1e-3, 1.0, 1e6}) EXPECT_EQ(rate_problem(rate, kMs), "") << rate;
+  for (const double rate : {5e-324, 1e-300, 9e-4}) EXPECT_NE(rate_problem(rate, kMs), "") << rate;
+}
+
 TEST(Pacer, RateZeroNeverWaits) {
   Pacer pacer(0.0);
   pacer.ahead(0, kStart);

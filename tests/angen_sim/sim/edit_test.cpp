@@ -297,8 +297,13 @@ TEST_F(Edits, WhatCannotBeDoneSaysWhyAndChangesNothing) {
   massless.inertial.mass = 0.0;
   SetLinkProperties flat{"free::body", {}, true};
   flat.inertial.moment.setZero();
+  SetLinkProperties impossible{"free::body", {}, true};
+  impossible.inertial.moment.diagonal() << 100.0, 0.6, 0.6;
   const desc::Physics physics = world_->snapshot()->structure->physics;
   const std::vector<std::pair<Edit, std::string>> wrong = {
+      {impossible, "no body has the principal moments"},
+      {SetPhysics{physics, {0, 0, -1e6}}, "at least -10000 m/s^2"},
+      {SetJointProperties{"slide::along", {}, {1e15}, {1e14}, {}, 0.0}, "no position within"},
       {SetModelState{"nobody", {}}, "no model named 'nobody'"},
       {SetModelState{"free::body", {}}, "not a model"},
       {SetModelState{"free", still({}, "nowhere")}, "nowhere"},

@@ -128,6 +128,14 @@ def test_completion_completes_in_bash(line: str, words: list[str]) -> None:
     assert completed(line) == words
 
 
+@pytest.mark.parametrize('words', [('check',), ('replay',), ('set', 'door'), ('spawn', 'pir')])
+def test_words_that_are_not_utf_8_are_told(words: tuple[str, ...]) -> None:
+    done = angen(*words, '\udcff\udcfe')
+    assert done.returncode == 2
+    assert "'\\udcff\\udcfe' is not text in UTF-8" in done.stderr
+    assert 'Traceback' not in done.stderr
+
+
 def test_completion_of_addresses_on_the_model_path() -> None:
     assert '//chair' in completed('angen spawn model model://cha')  # bash has taken model: itself
 

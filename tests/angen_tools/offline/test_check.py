@@ -1,6 +1,7 @@
 """angen check."""
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -24,6 +25,14 @@ def test_check_of_a_right_world() -> None:
     done = angen('check', str(ROOT / 'worlds/empty.world'))
     assert (done.returncode, done.stderr) == (0, '')
     assert done.stdout.endswith('nothing is wrong; 1 model, 0 devices, 0 sensors\n')
+
+
+def test_check_of_a_pipe_does_not_wait_for_a_writer(tmp_path: Path) -> None:
+    pipe = tmp_path / 'pipe.world'
+    os.mkfifo(pipe)
+    done = angen('check', str(pipe))
+    assert done.returncode == 1
+    assert str(pipe) in done.stderr
 
 
 def test_check_of_a_broken_world_names_file_and_line(tmp_path: Path) -> None:

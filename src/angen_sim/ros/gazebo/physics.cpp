@@ -20,6 +20,10 @@ double rate_of(double update_rate, double step) {
   if (!problem.empty()) {
     throw Error("max_update_rate is " + number_text(update_rate) + "; " + problem);
   }
+  if (update_rate > 0.0 && update_rate < 1.0) {
+    throw Error("max_update_rate is " + number_text(update_rate) +
+                " Hz; calls wait for the next tick: give at least 1, or 0 for as fast as it goes");
+  }
   return std::max(0.0, update_rate * step);
 }
 

@@ -59,6 +59,9 @@ def run(arguments: Sequence[str]) -> int:
     if '_ARGCOMPLETE' in os.environ:
         import argcomplete
         argcomplete.autocomplete(parser)
+    for word in arguments:
+        if _has_other_bytes(word):
+            parser.error(f'{ascii(word)} is not text in UTF-8')
     try:
         args = parser.parse_args(straightened(arguments))
         if getattr(args, 'allow_paths', False):  # also for what this process starts
@@ -77,6 +80,11 @@ def run(arguments: Sequence[str]) -> int:
         what = f'{error.filename}: cannot be written' if error.filename else 'cannot write'
         print(f'angen: {what}: {error.strerror}', file=sys.stderr)
         return 1
+
+
+def _has_other_bytes(word: str) -> bool:
+    """Whether bytes of a command line could not be decoded: files of such names are not served."""
+    return any('\ud800' <= letter <= '\udfff' for letter in word)
 
 
 def stop(number: int, _: Any) -> NoReturn:

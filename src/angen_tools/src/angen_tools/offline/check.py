@@ -39,6 +39,8 @@ def holds_world(path: str) -> bool:
     """Whether a file is to be read as a world: also one that is missing, or is not XML."""
     if path.startswith('model://') or Path(path).is_dir():
         return False
+    if not Path(path).is_file():
+        return True
     try:
         root = etree.parse(path, etree.XMLParser(resolve_entities=False)).getroot()
     except (OSError, etree.XMLSyntaxError):

@@ -48,6 +48,8 @@ def parse_settings(items: list[str]) -> list[tuple[str, str]]:
 
 def read(path: Path) -> etree._Element:
     """The root element of an XML file; Failure with file and line where it is none."""
+    if not path.is_file():
+        raise Failure(f'{path}: is not a file that can be read')
     try:
         return etree.parse(str(path), etree.XMLParser(remove_blank_text=True,
                                                       resolve_entities=False)).getroot()
