@@ -155,6 +155,7 @@ CommandQueue::Effects CommandQueue::drain(Building& building, InstanceView::Cloc
   Effects effects;
   stop_withdrawn_steps(clock.time);
   const std::size_t before = events.size();
+  InstanceView::Clock now = clock;
   std::vector<Request> requests = take();
   if (!taken_over_.empty()) requests = only_replayed(std::move(requests));
   for (Request& request : requests) {
@@ -172,7 +173,8 @@ CommandQueue::Effects CommandQueue::drain(Building& building, InstanceView::Cloc
       answers_.emplace_back(std::move(request.answer), Outcome{});
       continue;
     }
-    Outcome outcome = execute(request.action, building, clock, events, effects);
+    Outcome outcome = execute(request.action, building, now, events, effects);
+    if (effects.reset_time) now.time = 0;  // for what comes behind the reset
     outcome.message = shortened(outcome.message, kLongestDetail);
     answers_.emplace_back(std::move(request.answer), std::move(outcome));
   }

@@ -61,7 +61,8 @@ const std::vector<std::uint32_t>& SensorScheduler::collect(Nanoseconds now) {
   while (!queue_.empty() && queue_.top().time <= now) {
     due_.push_back(queue_.top().group);
     queue_.pop();
-    queue_.push({groups_[due_.back()].schedule.next(now), due_.back()});
+    const Schedule& schedule = groups_[due_.back()].schedule;
+    queue_.push({schedule.next(std::max(now, schedule.start + 1)), due_.back()});
   }
   return due_;
 }

@@ -69,5 +69,15 @@ TEST(SensorScheduler, IdleSensorsAreListedApartUntilTheyAreActivated) {
   EXPECT_FALSE(scheduler.is_idle(3));
 }
 
+TEST(SensorScheduler, AStartAtATickIsDueOnce) {
+  SensorScheduler scheduler;
+  Schedule schedule;
+  schedule.start = 5'000'000;
+  scheduler.assign({schedule}, 4'000'000);
+  EXPECT_EQ(scheduler.collect(5'000'000).size(), 1U);
+  EXPECT_TRUE(scheduler.collect(6'000'000).empty());
+  EXPECT_EQ(scheduler.collect(5'000'000 + schedule.sample).size(), 1U);
+}
+
 }  // namespace
 }  // namespace angen::sim

@@ -189,6 +189,25 @@ TEST(Structure, IsAsOneMadeAnewAfterEachChange) {
   }
 }
 
+TEST(Structure, OfWhatIsSpawnedBehindAResetStartsAtTimeZero) {
+  Simulation simulation(load::world_from_text(text_of_household(), "test", {}), 0,
+                        std::make_shared<Catalog>());
+  for (int i = 0; i < 5; ++i) simulation.tick();
+  desc::Sensor sensor = *simulation.snapshot()->structure->sensors[0].desc;
+  sensor.name = "late";
+  simulation.post(Reset{true});
+  simulation.post(Attach{sensor, simulation.snapshot()->structure->links[0].name});
+  const std::shared_ptr<const Snapshot> now = simulation.tick();
+  ASSERT_EQ(now->tick, 1);
+  bool found = false;
+  for (const SensorEntry& entry : now->structure->sensors) {
+    found = found || entry.name == "late";
+    EXPECT_EQ(entry.schedule.start, 0) << entry.name;
+  }
+  EXPECT_TRUE(found);
+  while (simulation.tick()->tick < 10) continue;
+}
+
 TEST(Structure, SharesWhatIsBeforeAChange) {
   Simulation simulation(load::world_from_text(text_of_household(), "test", {}), 0,
                         std::make_shared<Catalog>());
