@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -164,8 +163,8 @@ class Field {
   std::uint64_t followed_ = 0;           // the mark of the scene's changes then
   std::uint64_t revision_ = 0;
   std::uint64_t updates_ = 0;
-  std::map<std::uint32_t, Box>
-      outdated_;  // by shape: where it has been since the last update began
+  std::vector<std::uint32_t> outdated_;  // shapes that were elsewhere since the last update began
+  std::vector<Box> been_;                // by shape: where those of `outdated_` have been
   bool updating_ = false;
   std::vector<Box> boxes_;                // that the update under way is about
   std::vector<std::uint32_t> releasing_;  // numbers that are free after it

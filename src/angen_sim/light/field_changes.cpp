@@ -46,7 +46,9 @@ bool stays(const std::optional<rays::Standing>& before, const std::optional<rays
 void Field::note(std::uint32_t shape, const Box& box, bool is_static,
                  std::vector<Change>& changes) {
   changes.push_back({box, is_static});
-  outdated_[shape].extend(box);
+  if (been_.size() <= shape) been_.resize(shape + 1);
+  if (been_[shape].isEmpty()) outdated_.push_back(shape);
+  been_[shape].extend(box);
 }
 
 /// Notes what has changed at an index among what is static, or among what is not.
@@ -83,7 +85,7 @@ std::vector<Field::Change> Field::follow() {
 
 bool Field::outdated_in(const Box& box) const {
   return std::any_of(outdated_.begin(), outdated_.end(),
-                     [&](const auto& change) { return box.intersects(change.second); });
+                     [&](std::uint32_t shape) { return box.intersects(been_[shape]); });
 }
 
 /// What stands near a surface may cover or divide its patches.
@@ -102,7 +104,9 @@ void Field::start_update() {
   updating_ = true;
   updated_ = 0;
   boxes_.clear();
-  for (const auto& [shape, box] : outdated_) {
+  std::sort(outdated_.begin(), outdated_.end());
+  for (const std::uint32_t shape : outdated_) {
+    const Box box = std::exchange(been_[shape], Box());
     boxes_.push_back({box.min() - Vec3::Constant(kNear), box.max() + Vec3::Constant(kNear)});
     surfaces_.forget(shape, releasing_);
     forget_near(box);
