@@ -200,7 +200,7 @@ std::unique_ptr<angen::record::Recorder> make_recorder(const std::string& world,
   }
   const angen::record::LogHeader& header = settings.replay->log().header;
   return std::make_unique<angen::record::Recorder>(
-      file, angen::record::Origin{header.world, header.sdf, header.models}, simulation);
+      file, angen::record::Origin{header.world, header.sdf, settings.models}, simulation);
 }
 
 // Everything that is loaded from now on may name files and libraries anywhere.

@@ -57,8 +57,8 @@ struct Simulation::Impl {
 
   // As of now: its numbers are those of the present structure.
   SavedState saved() {
-    return {std::make_shared<const Snapshot>(next), building.saved_plugins(next.time, next.step), building.changed_models(),
-            building.saved_lights()};
+    return {std::make_shared<const Snapshot>(next), building.saved_plugins(next.time, next.step),
+            building.changed_models(), building.saved_lights()};
   }
 
   void leap(Nanoseconds until) {
