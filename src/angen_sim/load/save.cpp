@@ -128,11 +128,12 @@ std::string save(const desc::World& world, const std::vector<ModelState>& models
   Element root = element_of("sdf");
   set_attribute(root, "version", "1.9");
   root.children.push_back(std::move(saved));
-  // Other readers of XML want to know the prefix.
-  if (print_xml(root).find("angen:") != std::string::npos) {
+  std::string text = print_xml(root);
+  if (text.find("angen:") != std::string::npos) {  // other readers of XML want to know the prefix
     set_attribute(root, "xmlns:angen", "urn:angen");
+    text = print_xml(root);
   }
-  return "<?xml version=\"1.0\"?>\n" + print_xml(root);
+  return "<?xml version=\"1.0\"?>\n" + text;
 }
 
 }  // namespace angen::load
