@@ -24,6 +24,19 @@ bool cells_of(const Aabb& box, std::array<int, 6>& cells) {
   return count <= kManyCells;
 }
 
+// Cheaper than to find its cells: most geoms stay where they are filed.
+bool still_in_cells(const Geom& geom) {
+  if (!geom.in_grid || geom.unbounded) return false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double from_first = geom.box.min[i] - kCell * geom.cells[2 * i];
+    const double from_last = geom.box.max[i] - kCell * geom.cells[2 * i + 1];
+    if (!(from_first >= 0.0 && from_first < kCell && from_last >= 0.0 && from_last < kCell)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 void take_out(std::vector<Geom*>& list, const Geom* geom) {
   const auto it = std::find(list.begin(), list.end(), geom);
   if (it == list.end()) return;
@@ -34,6 +47,7 @@ void take_out(std::vector<Geom*>& list, const Geom* geom) {
 }  // namespace
 
 void Grid::update(Geom& geom) {
+  if (still_in_cells(geom)) return;
   std::array<int, 6> cells{};
   const bool bounded = cells_of(geom.box, cells);
   if (geom.in_grid && geom.unbounded != bounded && (!bounded || cells == geom.cells)) return;

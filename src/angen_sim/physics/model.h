@@ -31,7 +31,8 @@ struct Aabb {
   Vec3 max = Vec3::Zero();
 
   bool overlaps(const Aabb& o) const {
-    return (min.array() <= o.max.array()).all() && (o.min.array() <= max.array()).all();
+    return min.x() <= o.max.x() && o.min.x() <= max.x() && min.y() <= o.max.y() &&
+           o.min.y() <= max.y() && min.z() <= o.max.z() && o.min.z() <= max.z();
   }
 };
 

@@ -170,11 +170,16 @@ const std::vector<JointId>& World::joints(ModelId model) const {
 LinkState World::link(LinkId id) const {
   const LinkRecord& link = impl_->links.at(id);
   LinkState state;
-  state.pose = link.body->at * link.in_body;
+  state.pose = pose(id);
   state.angular_velocity = link.body->spin();
   state.linear_velocity = link.body->velocity() + state.angular_velocity.cross(
                                                       state.pose.position - link.body->at.position);
   return state;
+}
+
+Pose World::pose(LinkId id) const {
+  const LinkRecord& link = impl_->links.at(id);
+  return link.body->at * link.in_body;
 }
 
 double World::mass(LinkId link) const { return impl_->links.at(link).mass; }

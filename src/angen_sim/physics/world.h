@@ -65,6 +65,7 @@ class World {
   const std::vector<JointId>& joints(ModelId model) const;
 
   LinkState link(LinkId link) const;
+  Pose pose(LinkId link) const;    // of the link's frame
   double mass(LinkId link) const;  // kg, 0 for static links
   bool awake(LinkId link) const;   // false for static and sleeping ones
   void wake(LinkId link);

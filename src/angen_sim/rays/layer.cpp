@@ -10,7 +10,7 @@ namespace {
 
 void bounds(const RTCBoundsFunctionArguments* args) {
   const auto* solids = static_cast<const Solid*>(args->geometryUserPtr);
-  *args->bounds_o = padded(bounds_of(solids[args->primID]));
+  *args->bounds_o = padded(solids[args->primID].box);
 }
 
 template <bool fixed>

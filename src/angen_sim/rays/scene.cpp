@@ -31,13 +31,14 @@ struct Place {
   std::uint32_t at = 0;
 };
 
-Solid make_solid(const Shape& shape, const Pose& pose) {
+Solid make_solid(const Shape& shape, std::shared_ptr<const TriangleTree> mesh, const Pose& pose) {
   Solid solid;
   const bool is_mesh = shape.type == Shape::Type::kHeightmap;
   solid.type = is_mesh ? Shape::Type::kMesh : shape.type;
   solid.half =
       shape.type == Shape::Type::kBox ? Vec3(shape.size / 2) : Vec3(0, 0, shape.length / 2);
   solid.radius = shape.radius;
+  solid.mesh = std::move(mesh);
   solid.place(pose);
   return solid;
 }
@@ -98,7 +99,7 @@ struct Scene::Impl {
     warm.clear();
     for (const auto& [id, shape] : warmed) {
       warm.push_back(shape);
-      warm.back().box = bounds_of(solid(id.index));
+      warm.back().box = solid(id.index).box;
     }
   }
 
@@ -123,9 +124,10 @@ Scene::~Scene() = default;
 
 ShapeId Scene::add(const Shape& shape, const Pose& pose, Mobility mobility,
                    const Eigen::Vector3f& reflectance) {
-  Solid solid = make_solid(shape, pose);
-  if (shape.type == Shape::Type::kMesh) solid.mesh = impl_->mesh_tree(shape.mesh);
-  if (shape.type == Shape::Type::kHeightmap) solid.mesh = HeightTree::of(shape.heights);
+  std::shared_ptr<const TriangleTree> mesh;
+  if (shape.type == Shape::Type::kMesh) mesh = impl_->mesh_tree(shape.mesh);
+  if (shape.type == Shape::Type::kHeightmap) mesh = HeightTree::of(shape.heights);
+  Solid solid = make_solid(shape, std::move(mesh), pose);
   const ShapeId id = impl_->entries.add({mobility, solid.type, pose});
   impl_->reflectances.resize(std::max<std::size_t>(impl_->reflectances.size(), id.index + 1));
   impl_->places.resize(impl_->reflectances.size());
@@ -248,7 +250,7 @@ Eigen::AlignedBox3d Scene::bounds(ShapeId shape) const {
     const Vec3 corner = Vec3::Constant(std::numeric_limits<double>::infinity());
     return {-corner, corner};
   }
-  return bounds_of(impl_->solid(shape.index));
+  return impl_->solid(shape.index).box;
 }
 
 bool Scene::blocked(const Vec3& from, const Vec3& to, double margin, Mobilities among) const {
@@ -341,7 +343,7 @@ Placement Scene::placement(std::uint32_t shape_index) const {
 
 Eigen::AlignedBox3d Scene::static_bounds() const {
   Eigen::AlignedBox3d all;
-  for (const Solid& solid : impl_->fixed.bounded) all.extend(bounds_of(solid));
+  for (const Solid& solid : impl_->fixed.bounded) all.extend(solid.box);
   return all;
 }
 

@@ -149,12 +149,27 @@ bool half_extent(const Solid& solid, Vec3& extent) {
   }
 }
 
+Eigen::AlignedBox3d bounds_of(const Solid& solid) {
+  if (!solid.position.allFinite() || !solid.rotation.allFinite()) return {};
+  if (solid.type == Shape::Type::kMesh) {
+    if (!solid.mesh || solid.mesh->bounds().isEmpty()) return {};
+    const Vec3 half = solid.mesh->bounds().sizes() / 2;
+    const Vec3 center = solid.position + solid.rotation * solid.mesh->bounds().center();
+    const Vec3 extent = solid.rotation.cwiseAbs() * half;
+    return {center - extent, center + extent};
+  }
+  Vec3 extent;
+  if (!half_extent(solid, extent) || !extent.allFinite()) return {};
+  return {solid.position - extent, solid.position + extent};
+}
+
 }  // namespace
 
 void Solid::place(const Pose& pose) {
   position = pose.position;
   rotation = pose.rotation.normalized().toRotationMatrix();
   aligned = rotation == Eigen::Matrix3d::Identity();
+  box = bounds_of(*this);
 }
 
 Eigen::AlignedBox3d own_box(const Solid& solid) {
@@ -166,7 +181,7 @@ Eigen::AlignedBox3d own_box(const Solid& solid) {
   }
   Solid upright = solid;
   upright.place({});
-  return bounds_of(upright);
+  return upright.box;
 }
 
 bool contains(const Solid& solid, const Vec3& point) {
@@ -185,20 +200,6 @@ bool contains(const Solid& solid, const Vec3& point) {
     default:
       return false;
   }
-}
-
-Eigen::AlignedBox3d bounds_of(const Solid& solid) {
-  if (!solid.position.allFinite() || !solid.rotation.allFinite()) return {};
-  if (solid.type == Shape::Type::kMesh) {
-    if (!solid.mesh || solid.mesh->bounds().isEmpty()) return {};
-    const Vec3 half = solid.mesh->bounds().sizes() / 2;
-    const Vec3 center = solid.position + solid.rotation * solid.mesh->bounds().center();
-    const Vec3 extent = solid.rotation.cwiseAbs() * half;
-    return {center - extent, center + extent};
-  }
-  Vec3 extent;
-  if (!half_extent(solid, extent) || !extent.allFinite()) return {};
-  return {solid.position - extent, solid.position + extent};
 }
 
 bool meet(const Solid& solid, const Vec3& origin, const Vec3& direction, double min, double max,

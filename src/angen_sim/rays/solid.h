@@ -20,7 +20,9 @@ struct Solid {
   bool aligned = true;  // rotation is exactly the identity
   bool anchored = false;
   std::shared_ptr<const TriangleTree> mesh;  // also of a heightmap, which is a mesh here
+  Eigen::AlignedBox3d box;  // m, world; empty when it cannot be met: bad sizes, bad pose; a plane
 
+  /// Requires all the rest of it.
   void place(const Pose& pose);
 };
 
@@ -36,9 +38,6 @@ Eigen::AlignedBox3d own_box(const Solid& solid);
 
 /// Whether a convex solid has the point inside; false for a mesh or a plane.
 bool contains(const Solid& solid, const Vec3& point);
-
-/// World box (m) around a solid; empty (min > max) when it cannot be met: bad sizes, bad pose.
-Eigen::AlignedBox3d bounds_of(const Solid& solid);
 
 /// Whether a ray meets the solid in [min, max]; all in double. Direction need not be unit: ranges
 /// are in its lengths. Where it does, the answer does not depend on max.

@@ -70,7 +70,7 @@ std::size_t Building::number_of(const LiveModel& live) const {
 }
 
 Pose Building::pose_of(const LiveModel& live) const {
-  const Pose first = engines_->physics.link(live.parts.links.at(0)).pose;
+  const Pose first = engines_->physics.pose(live.parts.links.at(0));
   return first * live.desc->links.front().pose.inverse();
 }
 

@@ -83,7 +83,7 @@ desc::Light Building::light(const std::string& name) const {
   const FoundLight found = find_light(name);
   desc::Light light = found.live->desc->links[found.link].lights[found.in_link];
   if (!found.live->is_light) {
-    light.pose = engines_->physics.link(found.live->parts.links[found.link]).pose * light.pose;
+    light.pose = engines_->physics.pose(found.live->parts.links[found.link]) * light.pose;
   }
   return light;
 }
@@ -103,7 +103,7 @@ void Building::set_light(const std::string& name, desc::Light light) {
   engines_->light.remove(lamp.id);
   made.link = lamp.link;
   if (!live.is_light) {
-    const Pose link = engines_->physics.link(live.parts.links[found.link]).pose;
+    const Pose link = engines_->physics.pose(live.parts.links[found.link]);
     light.pose = made.offset = link.inverse() * light.pose;
   }
   old = std::move(light);

@@ -45,7 +45,7 @@ void set_motion(Building& building, const LiveModel& live, const std::vector<std
                 const Motion& motion) {
   for (const std::uint32_t link : links) {
     const physics::LinkId id = live.parts.links[link];
-    const Vec3 arm = building.engines().physics.link(id).pose.position - motion.pose.position;
+    const Vec3 arm = building.engines().physics.pose(id).position - motion.pose.position;
     building.engines().physics.set_velocity(id, motion.linear + motion.angular.cross(arm),
                                             motion.angular);
   }

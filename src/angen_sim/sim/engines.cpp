@@ -75,7 +75,7 @@ Parts Engines::add(const desc::Model& model) {
   int first_visual = 0;
   for (std::uint32_t i = 0; i < model.links.size(); ++i) {
     const desc::Link& link = model.links[i];
-    const Pose pose = physics.link(parts.links[i]).pose;
+    const Pose pose = physics.pose(parts.links[i]);
     parts.first_shape.push_back(static_cast<std::uint32_t>(parts.shapes.size()));
     const bool held = model.is_static || anchored.count(link.name) != 0;
     const auto mobility = model.is_static ? rays::Mobility::kStatic : rays::Mobility::kAnchored;
@@ -193,7 +193,7 @@ void Engines::advance_light(Nanoseconds now) {
 }
 
 void Engines::follow(const Parts& parts, std::uint32_t link) {
-  const Pose pose = physics.link(parts.links[link]).pose;
+  const Pose pose = physics.pose(parts.links[link]);
   const Resting::Body body = parts.loose[link];
   visuals.move(parts.bodies[link], pose);
   if (body != Resting::kNone) {

@@ -51,7 +51,7 @@ void Pushes::apply(Engines& engines, Nanoseconds now, Nanoseconds step) {
     }
     const physics::LinkId link = parts.links.at(push.index);
     const desc::Link& described = push.model->desc->links[push.index];
-    const Vec3 center = engines.physics.link(link).pose * described.inertial.pose.position;
+    const Vec3 center = engines.physics.pose(link) * described.inertial.pose.position;
     engines.physics.wake(link);
     engines.physics.push(link, push.force, push.torque, center);
   }

@@ -25,7 +25,7 @@ bool publishes(const SensorInstance& sensor, InstanceView::Clock clock) {
 }
 
 Pose pose_of(const Engines& engines, const LiveModel& live, const SensorInstance& sensor) {
-  return engines.physics.link(live.parts.links[sensor.link]).pose * sensor.pose;
+  return engines.physics.pose(live.parts.links[sensor.link]) * sensor.pose;
 }
 
 /// Whether it is where it was at its last sample; otherwise its cached scans are dropped.

@@ -218,7 +218,7 @@ struct Simulation::Impl {
 
   void write_link(const LiveModel& live, std::uint32_t link) {
     next.link_poses.set(live.first_link + link,
-                        building.engines().physics.link(live.parts.links[link]).pose);
+                        building.engines().physics.pose(live.parts.links[link]));
     for (const std::uint32_t joint : live.parts.child_joints[link]) write_joint(live, joint);
   }
 

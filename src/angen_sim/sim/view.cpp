@@ -15,7 +15,7 @@ std::size_t at(Ref ref) {
 
 Pose InstanceView::pose() const {
   if (sensor_ == nullptr) return building_.pose_of(live_);
-  return engines_.physics.link(live_.parts.links.at(sensor_->link)).pose * sensor_->pose;
+  return engines_.physics.pose(live_.parts.links.at(sensor_->link)) * sensor_->pose;
 }
 
 JointView InstanceView::joint(JointRef joint) const {
