@@ -17,6 +17,7 @@ constexpr Nanoseconds kPerSolvingRay = 400, kPerDeliveryRay = 800;
 constexpr std::int64_t kKeptRays = 500000, kKeptDeliveryRays = 200000;
 constexpr Nanoseconds kRest = kSecond / 10;  // changes are taken up when there was none for so long
 constexpr Nanoseconds kLongestWait = kSecond;
+constexpr Nanoseconds kDarkFollow = kRest / 10;  // how often the dark looks for changes
 
 /// Whether a lamp has no whole solution yet, not even an old one.
 bool is_new(const std::shared_ptr<const Solution>& solution) {
@@ -208,7 +209,18 @@ void Lighting::pick() {
   work_moved_ = false;
 }
 
+/// In the dark nobody sees a change before the next lamp is lit; it waits to be taken up anyway.
+bool Lighting::may_wait(Nanoseconds now) const {
+  const bool idle = dark() && !work_ && !field_->updating() && deliveries_.empty();
+  return idle && now >= followed_ && now - followed_ < kDarkFollow;
+}
+
 void Lighting::advance(Nanoseconds now) {
+  if (may_wait(now)) {
+    busy_ = true;
+    return;
+  }
+  followed_ = now;
   follow();
   note(now);
   solving_.pass_to(now);

@@ -102,6 +102,7 @@ class Lighting {
 
   bool follow() const;
   void complete() const;
+  bool may_wait(Nanoseconds now) const;
   void note(Nanoseconds now);
   bool due(Nanoseconds now) const;
   void take_up();
@@ -142,11 +143,12 @@ class Lighting {
   bool active_ = false;
   bool paced_ = false;
   mutable bool busy_ = false;
-  mutable bool changed_ = false;  // something, since the last advance()
-  bool waiting_ = false;          // for changes to end
-  Nanoseconds first_change_ = 0;  // of those that wait
-  Nanoseconds last_change_ = 0;   // the same
-  std::uint64_t id_;              // no two Lightings share one
+  mutable bool changed_ = false;          // something, since the last advance()
+  bool waiting_ = false;                  // for changes to end
+  Nanoseconds followed_ = INT64_MIN / 2;  // when advance() last looked for changes
+  Nanoseconds first_change_ = 0;          // of those that wait
+  Nanoseconds last_change_ = 0;           // the same
+  std::uint64_t id_;                      // no two Lightings share one
   std::size_t lit_count_ = 0;
   mutable std::shared_ptr<const ReflectedLight> reflected_;  // null until it is queried
   mutable std::uint64_t reflected_revision_ = 0;             // the lit_revision_ that it is of

@@ -298,6 +298,32 @@ TEST(Lighting, ADoorThatMovesWhilePatchesAreFoundAnewEndsWhereItIsFoundAtOnce) {
   }
 }
 
+/// What moves there is looked at each 10 ms only, and at once when a lamp is lit.
+TEST(Lighting, ADoorThatMovedInTheDarkIsKnownWhenALampIsLit) {
+  TwoRooms rooms, fresh;
+  fresh.open();
+  const Sample open = measure(fresh.lighting, fresh.dark_sensor);
+  rooms.lighting.pace();
+  Probe probe;
+  Ticks ticks;
+  rooms.lighting.measure(probe, rooms.dark_sensor);
+  for (int lit_after = 1; lit_after < 300; lit_after += 23) {
+    SCOPED_TRACE(lit_after);
+    rooms.lighting.set_level(rooms.lamp_id, 0.0);
+    rooms.shut();
+    ticks.work_off(rooms.lighting);
+    rooms.open();
+    for (int i = 0; i < lit_after; ++i) {
+      ticks.advance(rooms.lighting);
+      EXPECT_EQ(rooms.lighting.measure(probe, rooms.dark_sensor).illuminance, 0.0);
+    }
+    rooms.lighting.set_level(rooms.lamp_id, 1.0);
+    ticks.advance(rooms.lighting);
+    ticks.work_off(rooms.lighting);
+    expect_same_bits(rooms.lighting.measure(probe, rooms.dark_sensor), open);
+  }
+}
+
 TEST(Lighting, AWallThatComesAndGoesLeavesNoTrace) {
   TwoRooms rooms;
   Probe lit, dark;

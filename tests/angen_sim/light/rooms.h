@@ -70,7 +70,7 @@ struct TwoRooms {
     door = add_box(scene, Vec3(4.05, 1.95, 1.005), Vec3(0.04, 0.89, 1.99), gray(0.5F),
                    rays::Mobility::kAnchored);
     scene.commit();
-    lighting.add(lamp, 1.0);
+    lamp_id = lighting.add(lamp, 1.0);
   }
   void open() {
     // Turned by a quarter about its hinge, into the dark room.
@@ -82,6 +82,7 @@ struct TwoRooms {
     scene.commit();
   }
   Lamp lamp = point_lamp(Vec3(2, 2, 2.2), 800.0);
+  LampId lamp_id;
   rays::Scene scene;
   Lighting lighting{scene};
   rays::ShapeId door;
