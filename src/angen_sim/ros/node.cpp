@@ -168,6 +168,8 @@ void Node::publish(const sim::Snapshot& snapshot) {
   summary_.publish(snapshot, now);
   stats_.publish(snapshot, now);
   cost_.publish(snapshot, now);
+  const std::string lag = lag_.update(snapshot.time, rate_, snapshot.paused, now);
+  if (!lag.empty()) ROS_WARN("%s", lag.c_str());
   if (!replaying()) controls_.update(snapshot);
 }
 

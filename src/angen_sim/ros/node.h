@@ -14,6 +14,7 @@
 #include "ros/inbox.h"
 #include "ros/joint_control.h"
 #include "ros/joints.h"
+#include "ros/lag_warning.h"
 #include "ros/markers.h"
 #include "ros/pacer.h"
 #include "ros/publishers.h"
@@ -75,6 +76,7 @@ class Node {
   Inbox inbox_;
   std::atomic<double> rate_;  // as Settings::rate, but a service may set it
   Pacer pacer_;
+  LagWarning lag_;
   std::shared_ptr<const sim::Structure> structure_;  // that was published last
   ClockTopic clock_;
   Stats stats_;
