@@ -96,6 +96,7 @@ std::optional<double> parse_finite(const std::string& text) {
 std::optional<int> parse_integer(const std::string& text) { return parse<int>(text); }
 
 std::string number_text(double value) {
+  if (std::isnan(value)) return "nan";  // whatever its sign
   char buffer[32];
   return {buffer, std::to_chars(buffer, buffer + sizeof(buffer), value).ptr};
 }

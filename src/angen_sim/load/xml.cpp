@@ -194,7 +194,7 @@ void print(const Element& element, int indent, std::string& out, std::vector<Sou
 
 Element parse_xml(const std::string& text, const std::string& file) {
   if (text.size() > kMaxFileBytes)
-    throw Error({file, 0}, "larger than 64 MB; split it into models");
+    throw Error({file, 0}, "larger than 64 MB, which no file may be");
   const std::size_t bad = allowed_prefix(text);
   if (bad < text.size()) {
     const bool is_utf8 = valid_utf8_prefix(text) > bad && text[bad] != '\0';
@@ -226,7 +226,7 @@ std::string read_file(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   const auto size = std::filesystem::file_size(path, failed);
   if (!stream || failed) throw Error({path, 0}, "cannot be read; give a file that exists");
-  if (size > kMaxFileBytes) throw Error({path, 0}, "larger than 64 MB; split it into models");
+  if (size > kMaxFileBytes) throw Error({path, 0}, "larger than 64 MB, which no file may be");
   std::ostringstream text;
   text << stream.rdbuf();
   return text.str();

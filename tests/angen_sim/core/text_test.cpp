@@ -75,6 +75,7 @@ TEST(NumberText, ReadsAsTheSameNumber) {
     EXPECT_EQ(parse_number(number_text(value)), value);
   }
   EXPECT_EQ(number_text(40.0), "40");
+  EXPECT_EQ(number_text(-std::nan("")), "nan");
 }
 
 }  // namespace

@@ -29,8 +29,9 @@ def replay(path: str, leap: bool) -> str:
     if run.mismatch:
         raise Failure(f'{run.mismatch} ({run.compared} before it were equal)')
     wall = time.monotonic() - began
-    return (f'{path}: {run.actions} actions in {run.time:g} s, all {run.compared} fingerprints '
-            f'are equal; took {wall:.1f} s')
+    found = (f'all {run.compared} fingerprints are equal' if run.compared
+             else 'without a fingerprint to compare')
+    return f'{path}: {run.actions} actions in {run.time:g} s, {found}; took {wall:.1f} s'
 
 
 def go_live(path: str, until: float) -> None:
