@@ -29,6 +29,7 @@ struct Place {
   Layer* layer = nullptr;
   Shape::Type type = Shape::Type::kEmpty;
   std::uint32_t at = 0;
+  std::uint64_t noted = 0;  // where in what has changed of what stands; 0 before
 };
 
 Solid make_solid(const Shape& shape, std::shared_ptr<const TriangleTree> mesh, const Pose& pose) {
@@ -59,6 +60,7 @@ struct Scene::Impl {
   bool warm_dirty = false;
   std::vector<std::uint32_t> changes;  // of what stands: indices, the latest last
   std::uint64_t forgotten = 1;         // the mark before which they are not known
+  mutable std::uint64_t read = 1;      // the latest mark that somebody has
 
   void touch(std::uint32_t index, Mobility mobility, Changed changed = Changed::kAny) {
     layer(mobility).change(changed);
@@ -66,10 +68,13 @@ struct Scene::Impl {
   }
 
   void note_standing(std::uint32_t index) {
+    std::uint64_t& noted = places[index].noted;
+    if (noted >= read) return;  // nobody has read that yet
     if (changes.size() == 2 * kMostChanges) {
       changes.erase(changes.begin(), changes.begin() + kMostChanges);
       forgotten += kMostChanges;
     }
+    noted = forgotten + changes.size();
     changes.push_back(index);
   }
 
@@ -358,6 +363,7 @@ std::optional<Standing> Scene::standing(std::uint32_t index) const {
 
 std::vector<std::uint32_t> Scene::standing_changes(std::uint64_t& mark) const {
   const std::uint64_t known = std::exchange(mark, impl_->forgotten + impl_->changes.size());
+  impl_->read = mark;
   std::vector<std::uint32_t> indices;
   if (known < impl_->forgotten) {
     indices.resize(impl_->places.size());
