@@ -99,18 +99,33 @@ def test_a_spawn_sends_what_it_adds_and_no_more(angen: Angen) -> None:
 
 
 def test_frames_are_sent_again_only_with_a_new_one(angen: Angen) -> None:
-    """All of them: a second listener in a process is given the last message."""
+    """All of them, within a second: a second listener in a process is given the last message."""
+    def children(message: TFMessage) -> set[str]:
+        return {t.child_frame_id for t in message.transforms}
+
     with Inbox("/tf_static", TFMessage) as inbox:
-        frames = {t.child_frame_id for t in until(lambda: inbox.messages, "frames")[-1].transforms}
-        for name in ("one", "two"):
+        frames = children(until(lambda: inbox.messages, "frames")[-1])
+        for name in ("one", "two", "three"):
             sent = len(inbox.messages)
             assert angen.call("/angen/spawn", Spawn, name=name, xml="model://pir").success
-            until(lambda: len(inbox.messages) > sent, "frames again")
+            assert name in children(until(lambda: inbox.messages[sent:], "its frame")[0])
             frames |= {name}
-            assert {t.child_frame_id for t in inbox.messages[sent].transforms} >= frames
+            until(lambda: children(inbox.messages[-1]) >= frames, "all of them")
+            assert len(inbox.messages) <= sent + 2  # its own, then all
             assert angen.call("/angen/delete", Delete, name=name).success
             frames -= {name}
-        assert len(inbox.messages) == sent + 1
+        sent = len(inbox.messages)
+        for i in range(20):
+            assert angen.call("/angen/spawn", Spawn, name=f"more_{i}", xml="model://pir").success
+        more = {f"more_{i}" for i in range(20)}
+        until(lambda: children(inbox.messages[-1]) >= frames | more, "all of many")
+        assert set().union(*map(children, inbox.messages[sent:])) >= more
+        whole = [m for m in inbox.messages[sent:] if children(m) >= frames]
+        first, last = inbox.messages[sent].transforms[0], whole[-1].transforms[0]
+        took = (last.header.stamp - first.header.stamp).to_sec()
+        assert len(whole) <= 2 + took
+        for name in more:
+            assert angen.call("/angen/delete", Delete, name=name).success
 
 
 def box(name: str, middle: str, size: str) -> str:

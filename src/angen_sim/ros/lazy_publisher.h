@@ -120,6 +120,12 @@ class LatchedLazyPublisher {
     if (is_news) send(state_->make);
   }
 
+  /// Present subscribers get the message again.
+  void repeat() {
+    const std::lock_guard<std::mutex> lock(state_->mutex);
+    if (state_->make) send(state_->make);
+  }
+
   /// Present subscribers get what `make` returns, where newcomers get all.
   template <class Part>
   void publish(Part&& make) {

@@ -14,6 +14,7 @@ namespace angen::node {
 namespace {
 
 constexpr Nanoseconds kTransformPeriod = kSecond / 50;
+constexpr Nanoseconds kWholePeriod = kSecond;  // of what is fixed
 
 void add(tf2_msgs::TFMessage& message, Nanoseconds time, const std::string& parent,
          const std::string& child, const Pose& pose) {
@@ -25,36 +26,41 @@ void add(tf2_msgs::TFMessage& message, Nanoseconds time, const std::string& pare
   message.transforms.push_back(std::move(transform));
 }
 
-/// Whether `now` has a frame that differs from `before`, where frames that stay keep their order.
-/// tf listeners keep frames that are gone.
-template <class Frames>
-bool has_new_frames(const Frames& before, const Frames& now) {
-  auto at = before.begin();
-  for (const FixedFrame& frame : now) {
-    const auto same = [&](const FixedFrame& old) { return &old == &frame || old == frame; };
-    at = std::find_if(at, before.end(), same);
-    if (at == before.end()) return true;
-    ++at;
-  }
-  return false;
+void add(tf2_msgs::TFMessage& message, Nanoseconds time, const FixedFrame& frame) {
+  add(message, time, frame.parent, frame.child, frame.pose);
 }
 
-bool has_new_fixed(const FrameTree& before, const FrameTree& now) {
-  return has_new_frames(before.fixed, now.fixed) || has_new_frames(before.odometry, now.odometry) ||
-         has_new_frames(before.mounts, now.mounts);
+/// Adds what `now` has and `before` has not, where frames that stay keep their order. tf listeners
+/// keep frames that are gone.
+template <class Frames>
+void add_new(tf2_msgs::TFMessage& message, Nanoseconds time, const Frames& before,
+             const Frames& now) {
+  auto next = before.begin();
+  for (const FixedFrame& frame : now) {
+    const auto same = [&](const FixedFrame& old) { return &old == &frame || old == frame; };
+    const auto found = std::find_if(next, before.end(), same);
+    if (found == before.end()) {
+      add(message, time, frame);
+    } else {
+      next = std::next(found);
+    }
+  }
+}
+
+tf2_msgs::TFMessage new_in(const FrameTree& before, const FrameTree& now, Nanoseconds time) {
+  tf2_msgs::TFMessage message;
+  add_new(message, time, before.fixed, now.fixed);
+  add_new(message, time, before.odometry, now.odometry);
+  add_new(message, time, before.mounts, now.mounts);
+  return message;
 }
 
 tf2_msgs::TFMessage fixed_of(const FrameTree& tree, Nanoseconds time) {
   tf2_msgs::TFMessage message;
   message.transforms.reserve(tree.fixed_count());
-  const auto add_all = [&](const auto& frames) {
-    for (const FixedFrame& frame : frames) {
-      add(message, time, frame.parent, frame.child, frame.pose);
-    }
-  };
-  add_all(tree.fixed);
-  add_all(tree.odometry);
-  add_all(tree.mounts);
+  for (const FixedFrame& frame : tree.fixed) add(message, time, frame);
+  for (const FixedFrame& frame : tree.odometry) add(message, time, frame);
+  for (const FixedFrame& frame : tree.mounts) add(message, time, frame);
   return message;
 }
 
@@ -85,11 +91,36 @@ void Transforms::on_structure(const sim::Snapshot& snapshot,
     const bool is_new = changes.links.before[frames_->moving[i].link] == Numbers::kNone;
     if (is_new) mark(static_cast<std::int32_t>(i));
   }
-  fixed_.set([made = frames_, time = snapshot.time] { return fixed_of(*made, time); },
-             !before || has_new_fixed(*before, *frames_));
+  fix(snapshot.time, before.get());
   new_structure_ = true;
   new_robots_ = new_robots_ || !same_frames(robots_, robots);
   robots_ = robots;
+}
+
+bool Transforms::whole_is_due(Nanoseconds now) const {
+  return now < whole_sent_ || now - whole_sent_ >= kWholePeriod;
+}
+
+void Transforms::fix(Nanoseconds now, const FrameTree* before) {
+  tf2_msgs::TFMessage news;
+  if (before != nullptr) news = new_in(*before, *frames_, now);
+  const bool is_news = before == nullptr || !news.transforms.empty();
+  const bool whole = is_news && whole_is_due(now);
+  fixed_.set([made = frames_, now] { return fixed_of(*made, now); }, whole);
+  if (whole) {
+    whole_sent_ = now;
+    whole_waits_ = false;
+  } else if (is_news) {
+    fixed_.publish([&]() -> const auto& { return news; });
+    whole_waits_ = true;
+  }
+}
+
+void Transforms::send_whole(Nanoseconds now) {
+  if (!whole_waits_ || !whole_is_due(now)) return;
+  whole_waits_ = false;
+  whole_sent_ = now;
+  fixed_.repeat();
 }
 
 void Transforms::mark(std::int32_t frame) {
@@ -104,6 +135,7 @@ void Transforms::publish(const sim::Snapshot& snapshot) {
   const bool newcomer = joined != joined_;
   const Nanoseconds slot = snapshot.time / kTransformPeriod;
   if (slot == slot_ && !new_structure_ && !(newcomer && snapshot.paused)) return;
+  send_whole(snapshot.time);
   const Nanoseconds second = snapshot.time / kSecond;
   const bool all = newcomer || new_robots_ || second != second_;
   joined_ = joined;

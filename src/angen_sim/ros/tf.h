@@ -13,10 +13,10 @@
 
 namespace angen::node {
 
-/// /tf_static once for each structure with new frames, /tf for what moves: when it has come or
-/// moved, at most 50 times a simulated second, and all of it once a second and for each newcomer.
-/// No transform goes out twice with one stamp, which tf2 warns of, but to a newcomer during a
-/// pause.
+/// /tf_static whole when there are new frames, but at most once a simulated second; until then what
+/// is new alone. /tf for what moves: when it has come or moved, at most 50 times a simulated
+/// second, and all of it once a second and for each newcomer. No transform goes out twice with one
+/// stamp, which tf2 warns of, but to a newcomer during a pause.
 class Transforms {
  public:
   explicit Transforms(ros::NodeHandle& node);
@@ -26,11 +26,16 @@ class Transforms {
   void publish(const sim::Snapshot& snapshot);
 
  private:
+  void fix(Nanoseconds now, const FrameTree* before);
+  bool whole_is_due(Nanoseconds now) const;
+  void send_whole(Nanoseconds now);
   void mark(std::int32_t frame);
   /// What has not been sent with this snapshot's stamp; `again`: that, too.
   tf2_msgs::TFMessage collect(const sim::Snapshot& snapshot, bool all, bool again);
 
   LatchedLazyPublisher<tf2_msgs::TFMessage> fixed_;
+  Nanoseconds whole_sent_ = -kSecond;  // of fixed_
+  bool whole_waits_ = false;
   LazyPublisher moving_;
   std::shared_ptr<const FrameTree> frames_;
   std::vector<Robot> robots_;
