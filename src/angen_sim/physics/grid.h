@@ -23,9 +23,9 @@ class Grid {
     ++query_;
     geom.visited = query_;
     const auto check = [&](Geom* other) {
-      if (other->visited == query_) return;
+      if (!geom.box.overlaps(other->box) || other->visited == query_) return;
       other->visited = query_;
-      if (geom.box.overlaps(other->box)) visit(*other);
+      visit(*other);
     };
     for (Geom* other : unbounded_) check(other);
     if (geom.unbounded) {

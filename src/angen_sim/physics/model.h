@@ -43,7 +43,9 @@ struct MeshData {
   ode::MeshHandle data;
 };
 
-struct Geom {
+struct alignas(64) Geom {
+  Aabb box;  // first, with `visited`: the grid looks at these of many
+  std::uint64_t visited = 0;
   std::string name;  // model::link::collision
   CollisionId id;
   std::uint64_t serial = 0;
@@ -60,12 +62,10 @@ struct Geom {
   ode::GeomHandle ode;                 // of a heightmap: the box around it
   ode::GeomHandle tile;                // takes the mesh of one tile after the other
   bool is_plane = false;
-  Aabb box;
   std::array<int, 6> cells{};                           // the grid's, first and last in x, y, z
   std::vector<const std::vector<Geom*>*> shared_cells;  // what is in each of them, for queries
   bool in_grid = false;
   bool unbounded = false;
-  std::uint64_t visited = 0;
   std::uint64_t contacts_revision = 0;  // grows when what touches it changes
   bool self_collides = false;           // it touches others of its model that do so too
   bool watched = false;                 // `recent` is kept
