@@ -1,6 +1,7 @@
 """A heightmap as large as may be: what it costs, and that things stand on it and are seen on it."""
 from __future__ import annotations
 
+import os
 import struct
 import subprocess
 import sys
@@ -17,6 +18,7 @@ SIDE = 2049     # pixels, the most
 HIGH = 4.0      # m, of white
 SIZE = 200.0    # m
 MEMORY = 500.0  # MB, of the whole process
+SANITIZED = 'ANGEN_TEST_TREE' in os.environ  # it keeps what was freed, and shadows of all
 
 GROUND = '''<model name="ground"><static>true</static><link name="link">
   <collision name="c"><geometry>FORM</geometry></collision>
@@ -81,7 +83,7 @@ def test_the_largest_takes_little(largest: Path) -> None:
                           capture_output=True, timeout=300)
     seconds, megabytes, height = map(float, done.stdout.split())
     print(f'{seconds:.2f} s of CPU, {megabytes:.0f} MB')
-    assert megabytes < MEMORY
+    assert SANITIZED or megabytes < MEMORY
     assert height == pytest.approx(HIGH / 2 + 0.5, abs=0.01)
 
 
