@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any, Iterator
 
 import pytest
-from harness import WORLD, Cli, Master, end, node_binary, until
+from harness import PATIENCE, WORLD, Cli, Master, end, node_binary, until
 
 SECONDS = float(os.environ.get("ANGEN_REPLAY_SECONDS", "60"))
 RATE = 10.0
@@ -45,10 +45,13 @@ def session(master: Master, folder: Path, seconds: float, kill: bool = False, **
     done = []
     try:
         if kill:
-            until(lambda: lines(log)[-1].get("tick", 0) > seconds * 500, "half of it", 300.0)
+            half = seconds * 500  # ticks
+            until(lambda: log.exists() and any(line.get("tick", 0) > half for line in lines(log)),
+                  "half of it", 300.0)
             node.kill()
         else:
-            done = [client.communicate(timeout=60 + 3 * seconds)[0] for client in clients]
+            limit = PATIENCE * (60 + 3 * seconds)
+            done = [client.communicate(timeout=limit)[0] for client in clients]
             node.send_signal(signal.SIGINT)
             assert node.wait(20) == 0
     finally:
