@@ -3,6 +3,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
+#include <chrono>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,7 +15,7 @@ namespace angen::node {
 namespace {
 
 constexpr Nanoseconds kTransformPeriod = kSecond / 50;
-constexpr Nanoseconds kWholePeriod = kSecond;  // of what is fixed
+constexpr std::chrono::seconds kWholePeriod(1);  // of what is fixed; of wall time, as in a pause
 
 void add(tf2_msgs::TFMessage& message, Nanoseconds time, const std::string& parent,
          const std::string& child, const Pose& pose) {
@@ -97,18 +98,16 @@ void Transforms::on_structure(const sim::Snapshot& snapshot,
   robots_ = robots;
 }
 
-bool Transforms::whole_is_due(Nanoseconds now) const {
-  return now < whole_sent_ || now - whole_sent_ >= kWholePeriod;
-}
+bool Transforms::whole_is_due() const { return Pacer::Clock::now() - whole_sent_ >= kWholePeriod; }
 
 void Transforms::fix(Nanoseconds now, const FrameTree* before) {
   tf2_msgs::TFMessage news;
   if (before != nullptr) news = new_in(*before, *frames_, now);
   const bool is_news = before == nullptr || !news.transforms.empty();
-  const bool whole = is_news && whole_is_due(now);
+  const bool whole = is_news && whole_is_due();
   fixed_.set([made = frames_, now] { return fixed_of(*made, now); }, whole);
   if (whole) {
-    whole_sent_ = now;
+    whole_sent_ = Pacer::Clock::now();
     whole_waits_ = false;
   } else if (is_news) {
     fixed_.publish([&]() -> const auto& { return news; });
@@ -116,10 +115,10 @@ void Transforms::fix(Nanoseconds now, const FrameTree* before) {
   }
 }
 
-void Transforms::send_whole(Nanoseconds now) {
-  if (!whole_waits_ || !whole_is_due(now)) return;
+void Transforms::send_whole() {
+  if (!whole_waits_ || !whole_is_due()) return;
   whole_waits_ = false;
-  whole_sent_ = now;
+  whole_sent_ = Pacer::Clock::now();
   fixed_.repeat();
 }
 
@@ -130,12 +129,12 @@ void Transforms::mark(std::int32_t frame) {
 }
 
 void Transforms::publish(const sim::Snapshot& snapshot) {
+  send_whole();
   for (const std::uint32_t link : snapshot.moved_links) mark(frames_->moved_by[link]);
   const std::uint64_t joined = moving_.subscriptions();
   const bool newcomer = joined != joined_;
   const Nanoseconds slot = snapshot.time / kTransformPeriod;
   if (slot == slot_ && !new_structure_ && !(newcomer && snapshot.paused)) return;
-  send_whole(snapshot.time);
   const Nanoseconds second = snapshot.time / kSecond;
   const bool all = newcomer || new_robots_ || second != second_;
   joined_ = joined;

@@ -9,12 +9,13 @@
 
 #include "ros/frames.h"
 #include "ros/lazy_publisher.h"
+#include "ros/pacer.h"
 #include "sim/snapshot.h"
 
 namespace angen::node {
 
-/// /tf_static whole when there are new frames, but at most once a simulated second; until then what
-/// is new alone. /tf for what moves: when it has come or moved, at most 50 times a simulated
+/// /tf_static whole when there are new frames, but at most once a second of wall time; until then
+/// what is new alone. /tf for what moves: when it has come or moved, at most 50 times a simulated
 /// second, and all of it once a second and for each newcomer. No transform goes out twice with one
 /// stamp, which tf2 warns of, but to a newcomer during a pause.
 class Transforms {
@@ -27,14 +28,14 @@ class Transforms {
 
  private:
   void fix(Nanoseconds now, const FrameTree* before);
-  bool whole_is_due(Nanoseconds now) const;
-  void send_whole(Nanoseconds now);
+  bool whole_is_due() const;
+  void send_whole();
   void mark(std::int32_t frame);
   /// What has not been sent with this snapshot's stamp; `again`: that, too.
   tf2_msgs::TFMessage collect(const sim::Snapshot& snapshot, bool all, bool again);
 
   LatchedLazyPublisher<tf2_msgs::TFMessage> fixed_;
-  Nanoseconds whole_sent_ = -kSecond;  // of fixed_
+  Pacer::Clock::time_point whole_sent_{};  // of fixed_
   bool whole_waits_ = false;
   LazyPublisher moving_;
   std::shared_ptr<const FrameTree> frames_;
