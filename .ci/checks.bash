@@ -60,12 +60,13 @@ pytest_arguments=(tests)
 preloaded= # libraries, before Python's own
 slowness=1 # what a build of its own multiplies limits of time by
 
-run_test() { # [-k WORDS] [--asan | --tsan] [SUITE...]
-  local words='' sanitizer='' chosen=() name
+run_test() { # [-k WORDS] [--asan | --tsan | --bare] [SUITE...]
+  local words='' sanitizer='' bare='' chosen=() name
   while (($#)); do
     case $1 in
       -k) (($# > 1)) || die "-k needs words of a test's name" && words=$2 && shift ;;
       --asan | --tsan) sanitizer=${1#--} ;;
+      --bare) bare=1 ;;
       *)
         [[ " $suites " == *" $1 "* ]] || die "no suite is named $1; there are: $suites"
         chosen+=("$1")
@@ -74,6 +75,7 @@ run_test() { # [-k WORDS] [--asan | --tsan] [SUITE...]
     shift
   done
   cd "$root" || exit
+  [[ ! $bare ]] || { run_bare "$words" "${chosen[@]}"; return; }
   [[ ! $sanitizer ]] || { run_sanitized "$sanitizer" "$words" "${chosen[@]}"; return; }
   if ((${#chosen[@]} == 0)); then
     if [[ $words ]]; then chosen=(ctest pytest); else read -ra chosen <<<"$suites"; fi
@@ -85,6 +87,19 @@ run_test() { # [-k WORDS] [--asan | --tsan] [SUITE...]
   [[ ! $words ]] || ((matched)) || die "no test has \"$words\" in its name"
   report
 }
+
+# --- a bare machine
+
+# The commands of the README that every newcomer runs, on a bare Debian 12; Ctrl-C ends the building when it runs.
+run_bare() { # WORDS [SUITE...]
+  local sudo=()
+  ((EUID == 0)) || sudo=(sudo)
+  install dev
+  "${sudo[@]}" .ci/bare "$run_until_ready" "./angen test ${1:+-k ${1@Q}} ${*:2}"
+}
+run_until_ready='set -m; ./angen run > >(tee /tmp/log) 2>&1 & running=$!
+  until grep -qs " models, " /tmp/log; do kill -0 $running || exit 1; sleep 1; done
+  kill -INT $running; wait $running; [[ $? == 130 ]]'
 
 # --- builds of their own
 
