@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from generate import elevator
+from generate.sdf import Color
 from generate.shapes import (Mesh, box, lathe, leaf, rounded_box, tube, write_collada, write_stl)
 
 OAK, STEEL, WHITE = (0.65, 0.47, 0.28), (0.75, 0.75, 0.78), (0.96, 0.96, 0.96)
@@ -50,7 +51,7 @@ def chair() -> list[Mesh]:
     return parts
 
 
-def sofa(width: float, seats: int, cloth, dark) -> list[Mesh]:
+def sofa(width: float, seats: int, cloth: Color, dark: Color) -> list[Mesh]:
     """Returns a sofa `width` m wide with round cushions."""
     half, arm = width / 2, 0.18
     parts = [

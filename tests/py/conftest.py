@@ -1,4 +1,8 @@
 """Worlds for the tests of `import angen`; none of them needs ROS."""
+from __future__ import annotations
+
+from typing import Callable
+
 import pytest
 
 import angen
@@ -12,7 +16,7 @@ def building() -> str:
 
 
 @pytest.fixture
-def world():
+def world() -> Callable[..., angen.World]:
     """Makes a world from the text of its models."""
     def make(content: str, plugins: str = '', seed: int = 0) -> angen.World:
         return angen.World.from_text(sdf_world(content, plugins), seed=seed)

@@ -109,7 +109,7 @@ class Master:
             [sys.executable, "/usr/bin/rosmaster", "--core", "-p", str(port)],
             env=self.environment, text=True,
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        self.api = xmlrpc.client.ServerProxy(self.uri)
+        self.api: Any = xmlrpc.client.ServerProxy(self.uri)
         until(self._answers, "the master answers")
 
     def _answers(self) -> bool:
@@ -176,6 +176,7 @@ class Angen:
 
 class RawText(str):
     """A text that goes out as bytes of its own, whatever their encoding."""
+    raw: bytes
 
     def __new__(cls, raw: bytes) -> RawText:
         made = super().__new__(cls, repr(raw))

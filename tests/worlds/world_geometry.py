@@ -115,7 +115,7 @@ def _moved(model: Model, positions: dict[str, float]) -> dict[str, np.ndarray]:
     def total(link: str) -> np.ndarray:
         parent = next((j.findtext("parent") for j in joints if j.findtext("child") == link), None)
         own = moves.get(link, np.eye(4))
-        return own if parent in (None, "world") else total(parent) @ own
+        return own if parent is None or parent == "world" else total(parent) @ own
 
     return {link: total(link) @ pose for link, pose in model.links.items()}
 

@@ -3,6 +3,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
+
+from lxml import etree
 
 from . import openers, plan
 from .sdf import (Part, Vector, add, add_fixed, add_joint, add_link, add_plugin, add_pose, new_model,
@@ -14,7 +17,7 @@ SUNK = 0.05     # walls start inside the floor slab, so that no hair of light pa
 
 
 def _wall_box(wall: plan.Wall, name: str, start: float, end: float, bottom: float, top: float,
-              **options) -> Part:
+              **options: Any) -> Part:
     """Returns a box through the wall, and `stands_out` beyond both faces (m)."""
     half = plan.WALL / 2 + options.pop("stands_out", 0.0)
     if wall.axis == "x":
@@ -161,10 +164,10 @@ def _leaf(room: str) -> list[Part]:
 
 
 def _handle(side: float) -> list[Part]:
-    steel = {"material": (0.75, 0.75, 0.78)}
+    steel = (0.75, 0.75, 0.78)
     return [
-        Part("rose", (0.04, 0.04, 0.16), (0.0, side * 0.02, 0.0), mass=0.15, **steel),
-        Part("lever", (0.13, 0.02, 0.02), (-0.045, side * 0.045, 0.02), mass=0.15, **steel),
+        Part("rose", (0.04, 0.04, 0.16), (0.0, side * 0.02, 0.0), material=steel, mass=0.15),
+        Part("lever", (0.13, 0.02, 0.02), (-0.045, side * 0.045, 0.02), material=steel, mass=0.15),
     ]
 
 
@@ -198,7 +201,7 @@ def write_door(models: Path, room: str) -> None:
                 "Served by libdoor_world_plugin.so.")
 
 
-def add_ground(parent) -> None:
+def add_ground(parent: etree._Element) -> None:
     """Appends the ground as an inline model, level with the building's underside."""
     model = add(parent, "model", name="ground_plane")
     add(model, "static", "true")

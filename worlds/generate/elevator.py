@@ -3,8 +3,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from lxml import etree
+
 from . import plan
-from .sdf import (Part, add, add_fixed, add_joint, add_link, add_plugin, new_model, spanned,
+from .sdf import (Part, Vector, add, add_fixed, add_joint, add_link, add_plugin, new_model, spanned,
                   write_model)
 
 STEEL = (0.7, 0.72, 0.75)
@@ -19,7 +21,7 @@ def cabin_collisions() -> list[Part]:
     """Returns the cabin's boxes, about 84 kg: back open, front open between the two returns."""
     inner, back, face = HALF - 0.03, -HALF, 0.785
 
-    def box(name: str, low, high, mass: float) -> Part:
+    def box(name: str, low: Vector, high: Vector, mass: float) -> Part:
         return spanned(name, low, high, mass=mass, show=False)
 
     return [
@@ -41,7 +43,8 @@ def _panel(sign: int, x0: float, x1: float) -> list[Part]:
                     material=STEEL, mass=8.0)]
 
 
-def _add_slider(model, name: str, parent: str, sign: int, parts: list[Part], height: float) -> None:
+def _add_slider(model: etree._Element, name: str, parent: str, sign: int, parts: list[Part],
+                height: float) -> None:
     add_link(model, f"{name}_panel", parts, at=(0, 0, height))
     add_joint(model, name, "prismatic", parent, f"{name}_panel", (0, sign, 0),
               limits={"lower": 0, "upper": STROKE, "effort": 100, "velocity": 1},

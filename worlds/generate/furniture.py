@@ -195,7 +195,7 @@ def _sofa(title: str, width: float, mesh: str) -> Piece:
     return Piece(title, parts, mesh=mesh)
 
 
-def _simple(title: str, low, high, color: Color, *looks: Part) -> Piece:
+def _simple(title: str, low: Vector, high: Vector, color: Color, *looks: Part) -> Piece:
     return Piece(title, (spanned("body", low, high, material=color), *looks))
 
 

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from math import cos, pi, sin
 from pathlib import Path
 
+from lxml import etree
+
 from . import plan
 from .catalog import REED_GAP, STEEL, add_reed
 from .furniture import CERAMIC, CREAM, OAK
@@ -181,12 +183,13 @@ def _reed_housing(width: float, thick: float, height: float) -> Part:
                    (x + 0.02, y + REED_GAP + 0.008, z + 0.006), mass=0.01, collide=False)
 
 
-def _add_reed(base, leaf: str, width: float, thick: float, height: float) -> None:
+def _add_reed(base: etree._Element, leaf: str, width: float, thick: float, height: float) -> None:
     x, y, z = _magnet(width, thick, height)
     add_reed(base, (x, round(y + REED_GAP, 6), z), leaf, (x, y, z))
 
 
-def _add_hinge(model, name: str, child: str, flap: bool, low: float, effort: float) -> None:
+def _add_hinge(model: etree._Element, name: str, child: str, flap: bool, low: float, effort: float
+               ) -> None:
     add_joint(model, name, "revolute", "base", child, (-1, 0, 0) if flap else (0, 0, 1),
               limits={"lower": low, "upper": 0.001, "effort": effort, "velocity": 3},
               dynamics={"damping": 0.05, "friction": 0.05})

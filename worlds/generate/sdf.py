@@ -4,6 +4,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from lxml import etree
@@ -43,11 +44,11 @@ class Inertia:
     tensor: np.ndarray = field(default_factory=lambda: np.zeros((3, 3)))
 
 
-def spanned(name: str, low: Vector, high: Vector, **options) -> Part:
+def spanned(name: str, low: Vector, high: Vector, **options: Any) -> Part:
     """Returns the box part whose opposite corners are `low` and `high` (m)."""
     size = tuple(round(b - a, 6) for a, b in zip(low, high))
-    at = tuple(round((a + b) / 2, 6) for a, b in zip(low, high))
-    return Part(name, size, at, **options)
+    x, y, z = (round((a + b) / 2, 6) for a, b in zip(low, high))
+    return Part(name, size, (x, y, z), **options)
 
 
 def rotation(rpy: Sequence[float]) -> np.ndarray:
@@ -76,7 +77,7 @@ def combine(parts: Iterable[Part]) -> Inertia:
     mass = sum(p.mass for p in solid)
     if mass <= 0:
         raise ValueError("a moving link needs a mass: give one of its parts a mass above 0")
-    center = sum(p.mass * np.array(p.at) for p in solid) / mass
+    center = sum((p.mass * np.array(p.at) for p in solid), start=np.zeros(3)) / mass
     tensor = np.zeros((3, 3))
     for part in solid:
         turn, arm = rotation(part.rpy), np.array(part.at) - center

@@ -45,7 +45,8 @@ def _grid_faces(rows: int, columns: int, wrap: bool) -> np.ndarray:
 
 def box(low: Sequence[float], high: Sequence[float], color: Color) -> Mesh:
     """Returns an axis-aligned box with a corner point per face, so that edges look sharp."""
-    points, faces = [], []
+    points: list[np.ndarray] = []
+    faces: list[tuple[int, int, int]] = []
     for axis in range(3):
         u, v = (axis + 1) % 3, (axis + 2) % 3
         for side in (0, 1):
@@ -64,8 +65,8 @@ def box(low: Sequence[float], high: Sequence[float], color: Color) -> Mesh:
 def rounded_box(low: Sequence[float], high: Sequence[float], radius: float, color: Color,
                 steps: int = 3) -> Mesh:
     """Returns a box with edges of `radius`: a sphere cut in eight and pulled apart."""
-    low, high = np.asarray(low, float), np.asarray(high, float)
-    middle, reach = (low + high) / 2, (high - low) / 2 - radius
+    least, most = np.asarray(low, float), np.asarray(high, float)
+    middle, reach = (least + most) / 2, (most - least) / 2 - radius
     quarter = np.linspace(0, np.pi / 2, steps + 1)
     rows = []
     for hemisphere in (-1, 1):
@@ -94,11 +95,11 @@ def lathe(profile: Sequence[tuple[float, float]], color: Color, sides: int = 24)
 
 def tube(path: Sequence[Sequence[float]], radius: float, color: Color, sides: int = 8) -> Mesh:
     """Returns a round bar along a path of points (m), open at its ends."""
-    path = np.asarray(path, float)
+    bends = np.asarray(path, float)
     angles = np.linspace(0, 2 * np.pi, sides, endpoint=False)
     points = []
-    for i, point in enumerate(path):
-        along = path[min(i + 1, len(path) - 1)] - path[max(i - 1, 0)]
+    for i, point in enumerate(bends):
+        along = bends[min(i + 1, len(bends) - 1)] - bends[max(i - 1, 0)]
         along /= np.linalg.norm(along)
         other = np.eye(3)[np.argmin(np.abs(along))]
         u = np.cross(along, other)

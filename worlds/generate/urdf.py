@@ -37,7 +37,7 @@ def add_link(robot: etree._Element, name: str, parts: Sequence[Part]) -> None:
     link = add(robot, "link", name=name)
     inertia = combine(parts)
     inertial = add(link, "inertial")
-    _add_origin(inertial, inertia.center)
+    _add_origin(inertial, inertia.center.tolist())
     add(inertial, "mass", value=num(inertia.mass))
     tensor = inertia.tensor
     add(inertial, "inertia", ixx=num(tensor[0, 0]), ixy=num(tensor[0, 1]), ixz=num(tensor[0, 2]),

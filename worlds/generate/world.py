@@ -82,8 +82,8 @@ def fronts_of(piece: str, name: str, pose: Pose) -> list[tuple[str, str, Pose]]:
     """Returns model, name and pose of each front of a piece of furniture."""
     floor = int(pose[2] // plan.STOREY)
     room = name.split("_")[0]
-    return [(model, f"{room}_{own}_cabinet{floor}", openers.front_pose(pose, place))
-            for model, own, *place in plan.FRONTS.get(piece, ())]
+    return [(model, f"{room}_{own}_cabinet{floor}", openers.front_pose(pose, (x, y, z)))
+            for model, own, x, y, z in plan.FRONTS.get(piece, ())]
 
 
 def add_openers(world: etree._Element, floor: int) -> None:
@@ -160,18 +160,15 @@ def walk() -> list[tuple[float, float, float, float]]:
     """Returns the person's waypoints (t in s, x, y, yaw), turning on the spot at corners."""
     points, t = [], 0.0
     corners = plan.WALK
-    heading = None
-    for (x0, y0), (x1, y1) in zip(corners, corners[1:]):
-        wanted = atan2(y1 - y0, x1 - x0)
-        if heading is None:
-            heading = wanted
-        else:
-            heading += (wanted - heading + pi) % (2 * pi) - pi
+    (x0, y0), (x1, y1) = corners[:2]
+    first = heading = atan2(y1 - y0, x1 - x0)
+    for i, ((x0, y0), (x1, y1)) in enumerate(zip(corners, corners[1:])):
+        if i > 0:
+            heading += (atan2(y1 - y0, x1 - x0) - heading + pi) % (2 * pi) - pi
             t += plan.TURN_TIME
         points.append((t, x0, y0, heading))
         t += hypot(x1 - x0, y1 - y0) / plan.WALK_SPEED
         points.append((t, x1, y1, heading))
-    first = points[0][3]
     turned = heading + (first - heading + pi) % (2 * pi) - pi
     points.append((t + plan.TURN_TIME, *corners[-1], turned))
     return points
