@@ -232,7 +232,7 @@ run_coverage() {
   set +u
   source "$tree/devel/setup.bash"
   set -u
-  pytest_arguments=(tests --cov=angen_tools "--cov-report=html:$tree/python" --cov-report=term)
+  pytest_arguments=(tests --cov=angen_tools --cov=angen_apps --cov=angen_bench "--cov-report=html:$tree/python" --cov-report=term)
   suite ctest check_ctest
   suite pytest check_pytest
   suite gcovr gcovr --root . --object-directory "$tree" --filter src/angen_sim/ --exclude-unreachable-branches \

@@ -1,4 +1,7 @@
-"""The order of the modules: no import cycle, also not through imports inside of functions."""
+"""The order of packages and modules: no import cycle, also not through imports inside of functions.
+
+angen_apps and angen_bench stand above angen_tools, which finds their commands by name.
+"""
 from __future__ import annotations
 
 import ast
@@ -7,13 +10,16 @@ from pathlib import Path
 
 import pytest
 
-SOURCES = Path(__file__).resolve().parents[2] / 'src/angen_tools/src/angen_tools'
-TESTS = Path(__file__).resolve().parent
+ROOT = Path(__file__).resolve().parents[2]
+SOURCES = {'angen_tools': ROOT / 'src/angen_tools/src', 'angen_apps': ROOT / 'src/angen_apps/src',
+           'angen_bench': ROOT / 'bench'}
+TESTS = {'angen_tools': ROOT / 'tests/angen_tools', 'angen_apps': ROOT / 'tests/angen_apps'}
+FINDS_COMMANDS = 'angen_tools.cli.applications'  # the module that may name other packages
 Graph = dict[str, set[str]]
 
 
 def imports(source: str, modules: set[str]) -> set[str]:
-    """The modules of angen_tools that a module imports, anywhere in it."""
+    """The modules, of these, that a module imports anywhere in it."""
     found: set[str] = set()
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.ImportFrom):
@@ -23,25 +29,30 @@ def imports(source: str, modules: set[str]) -> set[str]:
                       for alias in node.names}
         elif isinstance(node, ast.Import):
             found |= {alias.name for alias in node.names}
-    return {name.removeprefix('angen_tools.') for name in found if name in modules}
+    return found & modules
 
 
-def module_graph(folder: Path) -> Graph:
-    """What each module imports, as `world.sdf`."""
-    names = {path: '.'.join(path.relative_to(folder).with_suffix('').parts)
-             for path in folder.rglob('*.py') if path.name != '__init__.py'}
-    modules = {f'angen_tools.{name}' for name in names.values()}
-    return {name: imports(path.read_text(encoding='utf-8'), modules)
-            for path, name in names.items()}
+def files(sources: dict[str, Path]) -> dict[str, Path]:
+    """The file of each module, by a name as `angen_tools.world.sdf`."""
+    return {'.'.join(path.relative_to(folder).with_suffix('').parts): path
+            for package, folder in sources.items() for path in (folder / package).rglob('*.py')
+            if path.name != '__init__.py'}
 
 
-def package_graph(modules: Graph) -> Graph:
-    """What each sub-package imports of others."""
+def module_graph(sources: dict[str, Path]) -> Graph:
+    """What each module imports."""
+    found = files(sources)
+    return {name: imports(path.read_text(encoding='utf-8'), set(found))
+            for name, path in found.items()}
+
+
+def reduced(modules: Graph, depth: int) -> Graph:
+    """What each package imports of others; a package is the first `depth` words of a name."""
     graph: Graph = {}
     for name, imported in modules.items():
-        package = name.split('.')[0]
-        graph.setdefault(package, set()).update(
-            other.split('.')[0] for other in imported if other.split('.')[0] != package)
+        package = '.'.join(name.split('.')[:depth])
+        others = {'.'.join(other.split('.')[:depth]) for other in imported}
+        graph.setdefault(package, set()).update(others - {package})
     return graph
 
 
@@ -61,23 +72,51 @@ def test_no_module_imports_itself_through_others() -> None:
 
 
 def test_no_subpackage_imports_itself_through_others() -> None:
-    graph = package_graph(module_graph(SOURCES))
-    assert graph['common'] == set()
-    assert 'cli' not in set().union(*graph.values())
+    graph = reduced(module_graph(SOURCES), 2)
+    assert graph['angen_tools.common'] == set()
     assert cycle(graph) == []
 
 
+def test_only_commands_import_the_command_line() -> None:
+    users = {name for name, imported in module_graph(SOURCES).items()
+             if any(other.startswith('angen_tools.cli.') for other in imported)}
+    assert {name.rpartition('.')[0] for name in users if name != 'angen_bench.commands'} \
+        == {'angen_tools.cli', 'angen_apps.cli'}
+
+
+def test_each_package_imports_only_those_below_it() -> None:
+    assert reduced(module_graph(SOURCES), 1) == {
+        'angen_tools': set(), 'angen_apps': {'angen_tools'}, 'angen_bench': {'angen_tools'}}
+
+
+@pytest.mark.parametrize('package', ['angen_apps', 'angen_bench'])
+def test_angen_tools_names_packages_above_it_once(package: str) -> None:
+    naming = {name for name, path in files({'angen_tools': SOURCES['angen_tools']}).items()
+              if f'{package}.' in path.read_text(encoding='utf-8')}
+    assert naming == {FINDS_COMMANDS}
+
+
 def test_a_cycle_is_found_also_inside_of_functions(tmp_path: Path) -> None:
-    for name, text in {'a/x.py': 'from angen_tools.b import y',
-                       'b/y.py': 'def f():\n    from angen_tools.a.x import g'}.items():
-        (tmp_path / name).parent.mkdir()
+    for name, text in {'p/a/x.py': 'from p.b import y',
+                       'p/b/y.py': 'def f():\n    from p.a.x import g'}.items():
+        (tmp_path / name).parent.mkdir(parents=True)
         (tmp_path / name).write_text(text)
-    graph = module_graph(tmp_path)
-    assert graph == {'a.x': {'b.y'}, 'b.y': {'a.x'}}
-    assert cycle(graph) and cycle(package_graph(graph))
+    graph = module_graph({'p': tmp_path})
+    assert graph == {'p.a.x': {'p.b.y'}, 'p.b.y': {'p.a.x'}}
+    assert cycle(graph) and cycle(reduced(graph, 2))
 
 
-@pytest.mark.parametrize('test', sorted(TESTS.rglob('*/test_*.py')), ids=lambda path: path.stem)
+@pytest.mark.parametrize('test', sorted(
+    path for tests in TESTS.values() for path in tests.rglob('*/test_*.py')),
+    ids=lambda path: path.stem)
 def test_each_test_file_is_named_after_a_module(test: Path) -> None:
-    source = SOURCES / test.parent.name / f'{test.stem.removeprefix("test_")}.py'
+    package = test.parent.parent.name
+    source = SOURCES[package] / package / test.parent.name / \
+        f'{test.stem.removeprefix("test_")}.py'
     assert source.exists() or test.stem == 'test_docs', f'{test} tests no module of that name'
+
+
+@pytest.mark.parametrize('test', sorted((ROOT / 'tests/bench').glob('test_*.py')),
+                         ids=lambda path: path.stem)
+def test_each_test_of_the_benches_is_named_after_a_module(test: Path) -> None:
+    assert (ROOT / f'bench/angen_bench/{test.stem.removeprefix("test_")}.py').exists()

@@ -26,7 +26,7 @@ LEFT_OUT = re.compile('|'.join((
     r'\./angen (shell|demo|build|test|fuzz|coverage|tidy|docs)( [^"]*)?$',  # what CI does anyhow
     r'(\./)?angen (drive|watch$|care$|replay .*--until)',  # hands, no end
     r'(\./)?angen (bench|task|situations$)',  # minutes
-    r'rostopic pub -r', r'roslaunch', r'rosrun (image_view|angen_tools)',  # no end
+    r'rostopic pub -r', r'roslaunch', r'rosrun (image_view|angen_apps|angen_tools)',  # no end
     r'sudo', r'apt-get', r'docker', r'cd ~/catkin_ws',  # root, network
     r'cmake --build build', r'python3 (bench/physics|worlds/make_|-m pytest|docs/tables)',
     r'\./angen shell -c "python3 (-m pytest|examples)',  # minutes, or they write into the checkout

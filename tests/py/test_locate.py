@@ -1,7 +1,7 @@
 """Locating a walking person and a driving robot in the building, by its sensors alone."""
 import math
 
-from angen_tools.locate.offline import run
+from angen_apps.locate.offline import run
 
 # s: from then on the robot drives so (m/s, rad/s): to and fro in the hall, in sight of its gate
 ROUTE = ((0.0, -0.3, 0.0), (5.0, 0.3, 0.0), (10.0, 0.0, 0.5236), (16.0, 0.0, 0.0))

@@ -8,14 +8,14 @@ from pathlib import Path
 import numpy as np
 import psutil
 import pytest
-from angen_tools.maps.gridmap import load_world, make_map
+from angen_apps.maps.gridmap import load_world, make_map
 from harness import Angen, Master, end, until
 from nav_msgs.msg import MapMetaData, OccupancyGrid
 from nav_msgs.srv import GetMap, LoadMap, LoadMapResponse
 from tf2_msgs.msg import TFMessage
 
 ROOT = Path(__file__).resolve().parents[2]
-SCRIPT = ROOT / 'src/angen_tools/scripts/map_publisher'
+SCRIPT = ROOT / 'src/angen_apps/scripts/map_publisher'
 
 
 def storey(floor: int, length: float) -> str:

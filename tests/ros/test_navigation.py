@@ -19,7 +19,7 @@ from nav_msgs.msg import OccupancyGrid, Path as Plan
 from tf2_msgs.msg import TFMessage
 
 ROOT = Path(__file__).resolve().parents[2]
-SCRIPTS = ROOT / 'src/angen_tools/scripts'
+SCRIPTS = ROOT / 'src/angen_apps/scripts'
 HOUSE = WORLD.replace('<pose>5 5 0.01', '<pose>1.6 -0.45 0.01').replace(
     '</world>', ''.join(f'''<model name="{name}"><static>true</static><pose>{pose}</pose>
     <link name="link"><collision name="c"><geometry><box><size>{size}</size></box></geometry>
@@ -111,7 +111,7 @@ def test_the_launch_file_has_what_the_stack_reads() -> None:
     roslaunch.xmlloader.XmlLoader().load(str(ROOT / 'launch/navigation.launch'), config,
                                          argv=['gui:=false', 'x:=2.5'])
     assert {(node.package, node.name) for node in config.nodes} == {
-        ('amcl', 'amcl'), ('move_base', 'move_base'), ('angen_tools', 'door_opener')}
+        ('amcl', 'amcl'), ('move_base', 'move_base'), ('angen_apps', 'door_opener')}
     values = {name: param.value for name, param in config.params.items()}
     assert values['/amcl/initial_pose_x'] == 2.5 and values['/amcl/use_map_topic'] is True
     for costmap, frame in (('global_costmap', 'map'), ('local_costmap', 'odom')):

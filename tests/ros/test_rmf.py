@@ -16,7 +16,7 @@ from rmf_lift_msgs.msg import LiftRequest, LiftState
 from std_msgs.msg import String
 from std_srvs.srv import Empty
 
-SCRIPT = Path(__file__).resolve().parents[2] / 'src/angen_tools/scripts/rmf'
+SCRIPT = Path(__file__).resolve().parents[2] / 'src/angen_apps/scripts/rmf'
 AGV, END = LiftRequest.REQUEST_AGV_MODE, LiftRequest.REQUEST_END_SESSION
 
 

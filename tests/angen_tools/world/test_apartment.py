@@ -7,7 +7,7 @@ import angen
 import numpy as np
 import pytest
 
-from angen_tools.bench import sensors as bench
+from angen_bench import sensors as bench
 from angen_tools.cli import main as cli
 from angen_tools.world import apartment as world_maker
 from angen_tools.world import placing

@@ -68,12 +68,6 @@ def moment(text: str) -> float:
     return number
 
 
-def span(text: str) -> float:
-    """A duration with its unit, as 24h, in s."""
-    from angen_tools.care.clock import duration as read
-    return read(text)
-
-
 def rate(text: str) -> float:
     """Simulated seconds per second, 0 or more."""
     number = _number(text)

@@ -8,7 +8,7 @@ import signal
 import sys
 from typing import Any, NoReturn, Sequence
 
-from angen_tools.cli import bench, care, live, locate, offline, patrol, pid, situations, walktest
+from angen_tools.cli import applications, live, offline, pid
 from angen_tools.cli.parser import Parser, command
 from angen_tools.common.failure import Failure
 from angen_tools.common.typography import straightened
@@ -41,10 +41,9 @@ def make_parser() -> Parser:
     parser.add_argument('--version', action=PrintVersion, nargs=0, help='prints the version')
     commands = parser.add_subparsers(metavar='COMMAND', required=True)
     for add in (live.add_spawn, live.add_delete, live.add_list, offline.add_plugins, live.add_set,
-                live.add_save, live.add_watch, live.add_top, offline.add_checks, offline.add_map,
-                live.add_drive, offline.add_run, patrol.add_task, offline.add_world,
-                bench.add_bench, walktest.add_walktest, situations.add_situations,
-                care.add_care, locate.add_locate, pid.add_pid, offline.add_replay):
+                live.add_save, live.add_watch, live.add_top, live.add_drive, offline.add_checks,
+                offline.add_run, offline.add_world, pid.add_pid, offline.add_replay,
+                applications.add_commands):
         add(commands)
     completion = command(commands, 'completion', run_completion,
                          'prints what makes a shell complete angen',

@@ -1,6 +1,4 @@
-"""The commands that need no running simulator: plugins, check, luxcheck, world, map, run,
-replay.
-"""
+"""The commands that need no running simulator: plugins, check, luxcheck, world, run, replay."""
 from __future__ import annotations
 
 import argparse
@@ -53,12 +51,6 @@ def run_world(args: argparse.Namespace) -> int:
         args.output, args.floors, {kind: getattr(args, kind) for kind in KINDS}, args.seed,
         args.elevator, args.mover, args.one_link)
     print(f'wrote {args.output}: {args.floors} floor{"s"[:args.floors > 1]}, {sensors} sensors')
-    return 0
-
-
-def run_map(args: argparse.Namespace) -> int:
-    from angen_tools.maps.files import save_map
-    print(save_map(args.world, args.floor, args.doors, args.output))
     return 0
 
 
@@ -122,22 +114,6 @@ def add_world(commands: Any) -> None:
                       help='of the places that are left to chance (1)')
     flat.add_argument('-o', '--output', metavar='FILE', type=Path, required=True)
     world.epilog = flat.format_help()
-
-
-def add_map(commands: Any) -> None:
-    """angen map."""
-    parser = command(commands, 'map', run_map,
-                     "writes a floor's map for map_server; needs no simulator",
-                     'map --floor 0 -o map', 'map --world my.world --floor 1 --doors open -o upper')
-    parser.add_argument('--floor', metavar='N', type=checked(at_least(0)), default=0,
-                        help='which floor, counted from 0 (0)')
-    parser.add_argument('--world', metavar='FILE', type=Path, help='of a world '
-                        '(worlds/angen.world)')
-    parser.add_argument('--doors', choices=['away', 'open', 'shut'], default='away',
-                        help='away: doorways are free; otherwise as the leaves stand (away)')
-    parser.add_argument('-o', '--output', metavar='NAME', type=Path, default=Path('map'),
-                        help='writes NAME.pgm and NAME.yaml (map)')
-    add_allow_paths(parser)
 
 
 def add_run(commands: Any) -> None:

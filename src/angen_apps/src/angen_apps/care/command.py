@@ -1,0 +1,63 @@
+"""angen care: warns about what goes on in a home, by rules over its sensors."""
+from __future__ import annotations
+
+import sys
+from contextlib import suppress
+from pathlib import Path
+
+from angen_apps.care.day import read_day
+from angen_apps.care.report import as_dict, line_of, table_of, warnings_of, write, write_events
+from angen_apps.care.rules import Rules
+from angen_apps.care.rules_file import read_rules
+from angen_tools.common.output import as_json, show
+
+SHIPPED = 'config/care.yaml'
+
+
+def care_live(path: Path | None, out: Path) -> int:
+    """Follows the running simulator until Ctrl-C, and writes what happened then."""
+    from angen_apps.care.live import Live
+    rules = _rules(path)
+    live = Live(rules, lambda change: print(line_of(change, rules.starts), flush=True))
+    print(f'angen: {len(rules.rules)} rules of {rules.path}; warnings are on /angen/warnings; '
+          'Ctrl-C ends', file=sys.stderr)
+    with suppress(KeyboardInterrupt):
+        while True:
+            live.follow()
+    write(live.engine, out)
+    print(f'\nangen: wrote {out}/warnings.csv and care.png', file=sys.stderr)
+    return 0
+
+
+def care_offline(path: Path | None, world: Path, seconds: float, day: Path | None, seed: int,
+                 out: Path, json: bool) -> int:
+    """Simulates a world for so long; prints its warnings and writes what happened."""
+    import time
+
+    from angen_apps.care.offline import Watched
+    rules = _rules(path)
+    orders = read_day(day, rules.starts) if day else []
+    began = time.monotonic()
+    watched = Watched(rules, world, seed)
+    watched.run(seconds, orders)
+    wall = time.monotonic() - began
+    write(watched.engine, out)
+    write_events(watched.events, watched.changes, out)
+    warnings = warnings_of(watched.engine)
+    if json:
+        print(as_json([as_dict(warning) for warning in warnings]))
+        return 0
+    if warnings:
+        show(table_of(warnings, rules.starts))
+    print(f'{len(warnings)} warnings of {len(rules.rules)} rules, {len(watched.events)} events '
+          f'in {watched.time:g} s, simulated in {wall:.1f} s; see {out}/care.png, warnings.csv, '
+          'events.csv')
+    return 0
+
+
+def _rules(path: Path | None) -> Rules:
+    """The rules of a file, or those that are shipped."""
+    if path is None:
+        import rospkg
+        path = Path(rospkg.RosPack().get_path('angen_apps')) / SHIPPED
+    return read_rules(path)

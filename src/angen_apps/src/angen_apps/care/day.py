@@ -1,0 +1,51 @@
+"""What happens on a simulated day: commands to devices at times of day, from a CSV file."""
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass
+from pathlib import Path
+
+from angen_apps.care.clock import DAY, time_of_day
+from angen_tools.common.failure import Failure
+
+COLUMNS = ['time', 'target', 'command']
+
+
+@dataclass(frozen=True)
+class Order:
+    """A command to the device `kind`/`name` at a time, s of simulated time."""
+
+    time: float
+    kind: str
+    name: str
+    text: str
+    where: str  # file:line
+
+
+def read_day(path: Path, starts: float) -> list[Order]:
+    """The commands of a file in the order of their times, the first after the start of the day."""
+    orders = []
+    try:
+        with path.open(newline='', encoding='utf-8') as file:
+            lines = csv.reader(file, skipinitialspace=True)
+            if next(lines, None) != COLUMNS:
+                raise Failure(f'{path}:1: the first line must be {",".join(COLUMNS)}')
+            for line in lines:
+                if line and not line[0].startswith('#'):
+                    orders.append(_order(line, starts, f'{path}:{lines.line_num}'))
+    except (OSError, UnicodeDecodeError) as error:
+        raise Failure(f'{path}: cannot be read: {getattr(error, "strerror", error)}') from None
+    return sorted(orders, key=lambda order: order.time)
+
+
+def _order(line: list[str], starts: float, where: str) -> Order:
+    if len(line) != len(COLUMNS):
+        raise Failure(f'{where}: has {len(line)} values, must have {",".join(COLUMNS)}')
+    kind, slash, name = line[1].partition('/')
+    if not (kind and slash and name):
+        raise Failure(f"{where}: '{line[1]}' is not KIND/NAME, as door/kitchen0")
+    try:
+        time = (time_of_day(line[0]) - starts) % DAY
+    except ValueError as error:
+        raise Failure(f'{where}: {error}') from None
+    return Order(time, kind, name, line[2], where)

@@ -1,0 +1,83 @@
+"""Care rules over a simulated time without ROS: as fast as possible, by the same engine."""
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Iterator, Sequence
+
+from angen_apps.care.day import Order
+from angen_apps.care.engine import Change, Engine
+from angen_apps.care.rules import Rules
+from angen_apps.care.signals import Event
+from angen_apps.care.sources import check_sources
+from angen_tools.common.catalog import angen_module
+from angen_tools.common.failure import Failure
+from angen_tools.common.progress import Progress
+
+SLICE = 60.0  # simulated s between two progress reports
+FIRST = 1.1   # s after which each sensor has published
+
+
+class Watched:
+    """A world in this process, the engine that follows it, and all that happened."""
+
+    def __init__(self, rules: Rules, world: Path, seed: int) -> None:
+        angen = angen_module()
+        self.error = angen.Error
+        try:
+            self._world = angen.World(str(world), seed=seed)
+        except angen.Error as error:
+            raise Failure(str(error)) from None
+        existing = set(_existing(self._world))
+        names = {key.split('/', 1)[1] for key in existing}
+        check_sources(rules, existing, names | set(self._world.models))
+        self.rules = rules
+        self.events: list[Event] = []
+        self.changes: list[Change] = []
+        self._run(FIRST)
+        summaries = {key: self._world.summary(*key.split('/', 1)) for key in existing}
+        self.engine = Engine(rules, existing, summaries)
+        self._follow()
+
+    @property
+    def time(self) -> float:
+        return float(self._world.time)
+
+    def run(self, seconds: float, orders: Sequence[Order]) -> None:
+        """Simulates up to a time, with commands at theirs."""
+        waiting = [order for order in orders if order.time < seconds]
+        with Progress('care') as progress:
+            while self.time < seconds - 1e-6:
+                while waiting and waiting[0].time <= self.time:
+                    self._command(waiting.pop(0))
+                end = min([seconds, self.time + SLICE, *(order.time for order in waiting[:1])])
+                self._run(end - self.time)
+                self._follow()
+                progress.update(self.time / seconds)
+
+    def _run(self, seconds: float) -> None:
+        """Simulates so long; at least a tick."""
+        before = self._world.tick
+        self._world.run(seconds)
+        if self._world.tick == before:
+            self._world.step()
+
+    def _command(self, order: Order) -> None:
+        try:
+            self._world.command(order.kind, order.name, order.text)
+        except self.error as error:
+            raise Failure(f'{order.where}: {error}') from None
+
+    def _follow(self) -> None:
+        """Gives the engine what has happened."""
+        for time, source, kind, event, detail in self._world.events():
+            self.events.append(Event(time, source, kind, event, detail))
+            self.changes += self.engine.observe(self.events[-1])
+        self.changes += self.engine.advance(self.time)
+
+
+def _existing(world: Any) -> Iterator[str]:
+    """KIND/NAME of each sensor and device."""
+    from angen_tools.common.catalog import kinds
+    for role, named in (('sensor', world.sensors), ('device', world.devices)):
+        for kind in kinds(role):
+            yield from (f'{kind}/{name}' for name in named(kind))

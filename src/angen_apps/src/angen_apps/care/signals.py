@@ -1,0 +1,81 @@
+"""The state of signals: events in; whether each is true, and since when, out."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Collection, Mapping
+
+from angen_apps.care.rules import Signal
+from angen_apps.care.sources import chosen
+from angen_apps.care.states import STATES
+
+
+@dataclass(frozen=True)
+class Event:
+    """One of angen_msgs/Event; time in s of simulated time."""
+
+    time: float
+    source: str
+    kind: str
+    event: str
+    detail: str = ''
+
+    @property
+    def key(self) -> str:
+        return f'{self.kind}/{self.source}'
+
+
+class LiveSignal:
+    """A signal, and since when it has been true or false."""
+
+    def __init__(self, signal: Signal, existing: Collection[str], summaries: Mapping[str, str],
+                 now: float) -> None:
+        """`summaries`: what each KIND/NAME shows, as on /angen/summary."""
+        self.signal = signal
+        self._of = chosen(signal.of, existing)
+        self._elsewhere = chosen(signal.elsewhere, existing) - self._of
+        self._held = {part for source in self._of
+                      for part in self._shown(source, summaries.get(source, ''))}
+        self.on = bool(self._held)
+        self.since = now
+        self.periods: list[tuple[float, float]] = []  # in which it was true, s; those that ended
+
+    def _shown(self, source: str, summary: str) -> set[tuple[str, str]]:
+        kind = source.split('/')[0]
+        if kind == 'rfid':
+            tags = summary.split('  ')[0].split()  # after them come distances
+            return {(source, tag) for tag in tags if tag != 'none' and self._means(tag)}
+        state = STATES[kind][self.signal.state]
+        return {(source, '')} if state.matches(summary) else set()
+
+    def _means(self, tag: str) -> bool:
+        return self.signal.tag in ('', tag)
+
+    def observe(self, event: Event) -> bool:
+        """Takes an event; whether the signal is now what it was not."""
+        if event.key in self._of:
+            self._observe_own(event)
+        elif event.key in self._elsewhere:
+            if event.event in STATES[event.kind][self.signal.state].begins:
+                self._held.clear()
+        elif event.kind == 'world' and event.event == 'deleted':
+            self._held = {part for part in self._held if part[0].split('/')[1] != event.source}
+        on = bool(self._held)
+        if on == self.on:
+            return False
+        if not on:
+            self.periods.append((self.since, event.time))
+        self.on, self.since = on, event.time
+        return True
+
+    def all_periods(self, now: float) -> list[tuple[float, float]]:
+        """The periods in which it was true, up to now."""
+        return [*self.periods, (self.since, now)] if self.on else list(self.periods)
+
+    def _observe_own(self, event: Event) -> None:
+        state = STATES[event.kind][self.signal.state]
+        tags = event.detail.split(', ') if event.kind == 'rfid' else ['']
+        parts = {(event.key, tag) for tag in tags if event.kind != 'rfid' or self._means(tag)}
+        if event.event in state.begins:
+            self._held |= parts
+        elif event.event in state.ends and not self._elsewhere:
+            self._held -= parts

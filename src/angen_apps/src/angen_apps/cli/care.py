@@ -1,0 +1,46 @@
+"""angen care on the command line."""
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from angen_apps.care.clock import DAY, duration
+from angen_tools.cli.arguments import at_least, checked
+from angen_tools.cli.parser import add_allow_paths, add_json, add_out, command
+from angen_tools.common.files import check_folder
+
+
+def run_care(args: argparse.Namespace) -> int:
+    from angen_apps.care.command import care_live, care_offline
+    check_folder(args.out)
+    if args.world is None:
+        for option, given in (('for', args.span), ('day', args.day), ('json', args.json)):
+            if given:
+                args.parser.error(f'--{option} needs --world')
+        return care_live(args.rules, args.out)
+    return care_offline(args.rules, args.world, args.span or DAY, args.day, args.seed, args.out,
+                        args.json)
+
+
+def add_care(commands: Any) -> None:
+    """angen care."""
+    care = command(commands, 'care', run_care,
+                   'warns by rules over the sensors of a home, in the running simulator; with '
+                   '--world it simulates a time of its own, without ROS', 'care',
+                   'care my_rules.yaml -o my_run',
+                   'care --world worlds/care/wrong.world --day worlds/care/wrong.csv --for 24h')
+    care.set_defaults(parser=care)
+    care.add_argument('rules', metavar='RULES', nargs='?', type=Path,
+                      help='a YAML file (config/care.yaml of angen_apps)')
+    care.add_argument('--world', metavar='WORLD', type=Path,
+                      help='simulates this world as fast as possible')
+    care.add_argument('--for', metavar='TIME', dest='span', type=checked(duration),
+                      help='how much time to simulate, as 90min (24h)')
+    care.add_argument('--day', metavar='FILE', type=Path,
+                      help='commands to devices: a CSV file with time,target,command')
+    care.add_argument('--seed', metavar='S', type=checked(at_least(0)), default=1,
+                      help='of all noise (1)')
+    add_allow_paths(care)
+    add_json(care)
+    add_out(care, 'care.png, warnings.csv and, with --world, events.csv')

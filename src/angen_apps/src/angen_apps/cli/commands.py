@@ -1,0 +1,13 @@
+"""The commands of angen_apps, which the angen command finds here."""
+from __future__ import annotations
+
+from typing import Any
+
+from angen_apps.cli import care, locate, maps, patrol, situations, walktest
+
+
+def add_commands(commands: Any) -> None:
+    """Adds each command to the parser of angen."""
+    for add in (maps.add_map, patrol.add_task, walktest.add_walktest, situations.add_situations,
+                care.add_care, locate.add_locate):
+        add(commands)

@@ -1,0 +1,65 @@
+"""angen locate on the command line."""
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from angen_tools.cli.arguments import at_least, checked, duration
+from angen_tools.cli.parser import add_allow_paths, add_json, add_out, command
+from angen_tools.common.files import check_folder
+from angen_tools.common.output import show
+
+
+def run_locate(args: argparse.Namespace) -> int:
+    if args.world is not None or args.span is not None:
+        check_folder(args.out)
+    if args.world is not None:
+        if args.span is None:
+            args.parser.error('--world needs --for SECONDS')
+        from angen_apps.locate.offline import run
+        rows, site, answers = run(str(args.world), args.span or 0.0, args.seed)
+    elif args.span is not None:
+        from angen_apps.locate.live import locate_for
+        from angen_tools.common.progress import Progress
+        with Progress('locate') as progress:
+            rows, site, answers = locate_for(
+                args.span, lambda done: progress.update(done / args.span))
+    else:
+        from angen_apps.locate.live import watch
+        watch()
+        return 0
+    _print(args, rows, site, answers)
+    return 0
+
+
+def _print(args: argparse.Namespace, rows: Any, site: Any, answers: Any) -> None:
+    from angen_apps.locate import score
+    from angen_apps.locate.live import answers_table
+    from angen_tools.common.output import table
+    show(answers_table(answers, args.json))
+    if args.json or not rows:
+        return
+    score.write_csv(args.out / 'locate.csv', rows)
+    score.draw(args.out / 'locate.png', rows, site)
+    show('')
+    show(table(score.HEAD, score.table_rows(rows), right=score.HEAD[1:]))
+    show(f'see {args.out}/locate.csv, locate.png')
+
+
+def add_locate(commands: Any) -> None:
+    """angen locate."""
+    locate = command(commands, 'locate', run_locate,
+                     'says who is where, by RFID, PIRs, doors and mats',
+                     'locate', 'locate --for 60', 'locate --world worlds/angen.world --for 300')
+    locate.set_defaults(parser=locate)
+    locate.add_argument('--for', metavar='SECONDS', dest='span', type=checked(duration),
+                        help='for so many simulated seconds, then compares with the truth; '
+                        'otherwise shows a live table')
+    locate.add_argument('--world', metavar='FILE', type=Path,
+                        help='in a world of its own, without a running simulator')
+    locate.add_argument('--seed', metavar='S', type=checked(at_least(0)), default=1,
+                        help='of all noise, with --world (1)')
+    add_allow_paths(locate)
+    add_json(locate)
+    add_out(locate, 'locate.csv and locate.png')

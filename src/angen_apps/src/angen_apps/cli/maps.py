@@ -1,0 +1,31 @@
+"""angen map on the command line."""
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from angen_tools.cli.arguments import at_least, checked
+from angen_tools.cli.parser import add_allow_paths, command
+
+
+def run_map(args: argparse.Namespace) -> int:
+    from angen_apps.maps.files import save_map
+    print(save_map(args.world, args.floor, args.doors, args.output))
+    return 0
+
+
+def add_map(commands: Any) -> None:
+    """angen map."""
+    parser = command(commands, 'map', run_map,
+                     "writes a floor's map for map_server; needs no simulator",
+                     'map --floor 0 -o map', 'map --world my.world --floor 1 --doors open -o upper')
+    parser.add_argument('--floor', metavar='N', type=checked(at_least(0)), default=0,
+                        help='which floor, counted from 0 (0)')
+    parser.add_argument('--world', metavar='FILE', type=Path, help='of a world '
+                        '(worlds/angen.world)')
+    parser.add_argument('--doors', choices=['away', 'open', 'shut'], default='away',
+                        help='away: doorways are free; otherwise as the leaves stand (away)')
+    parser.add_argument('-o', '--output', metavar='NAME', type=Path, default=Path('map'),
+                        help='writes NAME.pgm and NAME.yaml (map)')
+    add_allow_paths(parser)

@@ -1,0 +1,26 @@
+"""angen situations on the command line."""
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from angen_tools.cli.parser import add_json, command
+
+
+def run_situations(args: argparse.Namespace) -> int:
+    from angen_apps.situations.command import run
+    return 0 if run(args.only, args.json, args.page) else 1
+
+
+def add_situations(commands: Any) -> None:
+    """angen situations."""
+    battery = command(commands, 'situations', run_situations,
+                      'plays everyday situations before a PIR and compares what it reports with '
+                      'what physics and data sheets expect; needs no simulator',
+                      'situations', 'situations --only postures')
+    battery.add_argument('--only', metavar='WORDS', default='',
+                         help='those with these words in their group or scene')
+    battery.add_argument('--page', metavar='FILE', type=Path,
+                         help='also writes the table into this page, between its marks')
+    add_json(battery)

@@ -1,0 +1,191 @@
+"""angen locate: who is where in the running simulator, by its public topics."""
+from __future__ import annotations
+
+import re
+import sys
+import time
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any, Callable
+
+from angen_apps.locate.belief import STEP, Answer, Belief, Evidence
+from angen_apps.locate.score import Row, compare
+from angen_apps.locate.site import Site, Thing, make_site
+from angen_tools.common.failure import Failure
+from angen_tools.common.geometry import yaw_of
+from angen_tools.common.output import as_json, number, table
+from angen_tools.live.client import CONNECT_LIMIT, Client, Mailbox
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+KINDS = ('pir', 'rfid', 'pressure', 'door')
+HEAD = ('TAG', 'ROOM', 'CHANCE', 'X', 'Y', 'Z')
+REFRESH = 0.5    # s of wall time between two pictures
+START_LIMIT = 30.0  # s of wall time for the first state of climates: a world may just begin
+SILENCE = 30.0   # s of wall time without a message after which the simulator is taken for ended
+INDEXED = re.compile(r'(.+)\[\d+\]$')
+
+
+class Locator:
+    """Listens to what locates, and keeps a belief; time goes by the messages' stamps."""
+
+    def __init__(self, client: Client) -> None:
+        self.client = client
+        entities = client.entities()
+        self.site = self._site(entities)
+        if not self.site.of_kind('rfid'):
+            raise Failure('there is no RFID reader in a room: nobody can be told from another')
+        self.belief = Belief(self.site)
+        self.time = 0.0
+        self._evidence = Evidence()
+        self._stepped = -1.0
+        self._doors: dict[str, bool] = {}
+        self._pressed: dict[str, bool] = {}
+        self._what = {entity.topic: (entity.kind, entity.name) for entity in entities
+                      if entity.kind in KINDS}
+        self._mail = Mailbox(client)
+        for entity in entities:
+            if entity.kind in KINDS:
+                self._mail.subscribe(entity.topic, entity.type)
+
+    def receive(self, limit: float) -> bool:
+        """Takes the messages of up to `limit` s of wall time; false where none came."""
+        mail = self._mail.get(limit)
+        came = mail is not None
+        while mail is not None:
+            self._take(*mail)
+            mail = self._mail.get(0.0)
+        return came
+
+    def _take(self, topic: str, message: Any) -> None:
+        kind, name = self._what[topic]
+        evidence = self._evidence
+        if kind == 'pir':
+            evidence.motion[name] = evidence.motion.get(name, False) or message.motion
+        elif kind == 'rfid':
+            evidence.reads.setdefault(name, {}).update(zip(message.ids, message.distances))
+        elif kind == 'pressure':
+            self._pressed[name] = message.pressed
+        else:
+            self._doors[name] = message.mode != message.CLOSED
+            return  # latched: its stamp may be long past
+        self._advance(message.header.stamp.to_sec())
+
+    def _advance(self, now: float) -> None:
+        if self._stepped < 0.0 or now < self._stepped - 1.0:  # the first, or the clock was set back
+            self._stepped = now
+        self.time = max(now, self._stepped)
+        if now < self._stepped + STEP:
+            return
+        self._evidence.open = dict(self._doors)
+        self._evidence.pressed = dict(self._pressed)
+        self.belief.step(self._evidence, now - self._stepped)
+        self._evidence = Evidence()
+        self._stepped = now
+
+    def truth(self, carriers: dict[str, str]) -> dict[str, tuple[float, float, float]]:
+        """x y z of the model of each tag, as /angen/list says; only to be compared with."""
+        at = {entity.name: entity.pose.position for entity in self.client.entities('tag')}
+        return {tag: (at[name].x, at[name].y, at[name].z)
+                for tag, name in carriers.items() if name in at}
+
+    def carriers(self) -> dict[str, str]:
+        """The name of the tag device of each id."""
+        mail, found = Mailbox(self.client), {}
+        tags = self.client.entities('tag')
+
+        def take(topic: str, message: Any) -> bool:
+            texts = dict(zip(message.text_names, message.texts))
+            found[texts['id']] = message.name
+            return len(found) == len(tags)
+
+        for entity in tags:
+            mail.subscribe(entity.topic, entity.type)
+        if tags:
+            mail.until(take, CONNECT_LIMIT)
+        return found
+
+    def _site(self, entities: list[Any]) -> Site:
+        things = [Thing(entity.kind, entity.name, _xyz(entity), yaw_of(entity.pose.orientation))
+                  for entity in entities if entity.kind in (*KINDS, 'elevator')]
+        origins = {entity.topic: entity for entity in entities if entity.kind == 'climate'}
+        if not origins:
+            raise Failure('the world has no climate, which says what rooms there are')
+        mail, states = Mailbox(self.client), {}
+
+        def take(topic: str, message: Any) -> bool:
+            states[topic] = _lists(message)
+            return len(states) == len(origins)
+
+        for topic, entity in origins.items():
+            mail.subscribe(topic, entity.type)
+        if not mail.until(take, START_LIMIT):
+            raise Failure('a climate has not said what rooms there are; is the simulation paused?')
+        return make_site([(_xyz(entity), states[topic]) for topic, entity in origins.items()],
+                         things)
+
+
+def _xyz(entity: Any) -> tuple[float, float, float]:
+    at = entity.pose.position
+    return (at.x, at.y, at.z)
+
+
+def _lists(message: Any) -> dict[str, list[Any]]:
+    """The lists of an angen_msgs/Reading, which names their values NAME[0], NAME[1], …"""
+    lists: dict[str, list[Any]] = {}
+    for names, values in ((message.names, message.values), (message.text_names, message.texts)):
+        for name, value in zip(names, values):
+            match = INDEXED.match(name)
+            if match:
+                lists.setdefault(match.group(1), []).append(value)
+    return lists
+
+
+def _cells(answer: Answer) -> list[str]:
+    at = [number(v, 1) for v in answer.at] if answer.room else ['', '', '']
+    return [answer.tag, answer.room or 'unknown', number(answer.chance), *at]
+
+
+def locate_for(seconds: float, report: Callable[[float], None]
+               ) -> tuple[list[Row], Site, list[Answer]]:
+    """Locates for so many simulated seconds; answers beside the truth, about once a second."""
+    locator = Locator(Client())
+    carriers = locator.carriers()
+    rows: list[Row] = []
+    start, compared, heard = -1.0, -1.0, time.monotonic()
+    while start < 0.0 or locator.time < start + seconds:
+        if locator.receive(REFRESH):
+            heard = time.monotonic()
+        elif time.monotonic() > heard + SILENCE:
+            raise Failure('the sensors have fallen silent; is the simulation paused?')
+        if start < 0.0 < locator.time:
+            start = locator.time
+        if locator.time >= compared + 1.0:
+            compared = locator.time
+            rows += compare(compared, locator.belief.answers(), locator.truth(carriers),
+                            locator.site)
+            report(compared - start)
+    return rows, locator.site, locator.belief.answers()
+
+
+def answers_table(answers: list[Answer], json: bool) -> RenderableType:
+    """The answers as a table, or as JSON."""
+    if json:
+        return as_json([{'tag': a.tag, 'room': a.room or None, 'chance': round(a.chance, 3),
+                         'at': list(a.at) if a.room else None} for a in answers])
+    return table(HEAD, map(_cells, answers), right=('CHANCE', 'X', 'Y', 'Z'))
+
+
+def watch() -> None:
+    """Draws the table anew until q or Ctrl-C."""
+    from angen_tools.common.terminal import LiveTable
+    if not sys.stdin.isatty() or not sys.stdout.isatty():
+        raise Failure('a live table needs a terminal; use --for SECONDS for one table')
+    locator = Locator(Client())
+    with LiveTable() as screen, suppress(KeyboardInterrupt):
+        while not screen.closed():
+            answers = locator.belief.answers()
+            title = (f'{locator.time:.1f} s simulated, {len(answers)} tags read so far, '
+                     f'{sum(bool(a.room) for a in answers)} located')
+            screen.draw(title, HEAD, list(map(_cells, answers)), right=HEAD[2:])
+            locator.receive(REFRESH)

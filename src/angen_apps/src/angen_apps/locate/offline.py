@@ -1,0 +1,99 @@
+"""Locating in a world of this process: its sensors' readings, beside the truth."""
+from __future__ import annotations
+
+from typing import Any, Callable
+
+from lxml import etree
+
+from angen_apps.locate.belief import STEP, Answer, Belief, Evidence
+from angen_apps.locate.score import Row, compare
+from angen_apps.locate.site import Site, Thing, make_site
+from angen_apps.maps.gridmap import load_world
+from angen_tools.common.catalog import angen_module
+from angen_tools.common.failure import Failure
+from angen_tools.common.geometry import yaw
+from angen_tools.common.progress import Progress
+
+SAMPLE = 0.1  # s, at which PIRs and readers publish
+KINDS = ('pir', 'rfid', 'pressure', 'door', 'elevator')
+
+
+def site_of(world: Any) -> Site:
+    """The home that is a world: rooms by its climates, things where their models stand."""
+    world.run(SAMPLE)
+    things = [_thing(kind, name, pose) for kind, name, _, pose in world.entities()
+              if kind in KINDS]
+    origins = _origins(world)
+    climates = [(origins[name], world.device('climate', name))
+                for name in world.devices('climate') if name in origins]
+    site = make_site(climates, things)
+    if not site.rooms:
+        raise Failure('the world has no climate, which tells what rooms there are')
+    return site
+
+
+def _origins(world: Any) -> dict[str, list[float]]:
+    """x y z of each model."""
+    saved = etree.fromstring(world.save().encode()).find('world')
+    return {element.get('name') or element.findtext('name'):
+            [float(v) for v in element.findtext('pose', '0 0 0').split()[:3]]
+            for element in saved if element.tag in ('model', 'include')}
+
+
+def _thing(kind: str, name: str, pose: Any) -> Thing:
+    x, y, z = (float(v) for v in pose[:3])
+    return Thing(kind, name, (x, y, z), yaw(*pose[3:]))
+
+
+def run(path: str, seconds: float, seed: int, drive: Callable[[Any], None] | None = None
+        ) -> tuple[list[Row], Site, list[Answer]]:
+    """Locates in a world file for so many simulated seconds; `drive` is called ten times a second.
+
+    Failure where the world does not load, has no climate or no reader.
+    """
+    world = load_world(path) if seed == 1 else angen_module().World(path, seed=seed)
+    site = site_of(world)
+    if not site.of_kind('rfid'):
+        raise Failure('the world has no RFID reader in a room: nobody can be told from another')
+    belief, rows = Belief(site), []
+    carriers = _carriers(world)
+    with Progress('locate') as progress:
+        while world.time < seconds:
+            evidence = Evidence()
+            for _ in range(round(STEP / SAMPLE)):
+                if drive is not None:
+                    drive(world)
+                world.run(SAMPLE)
+                _take(world, evidence)
+            belief.step(evidence)
+            truth = {tag: _place(world, model) for tag, model in carriers.items()}
+            rows += compare(world.time, belief.answers(), truth, site)
+            progress.update(world.time / seconds)
+    return rows, site, belief.answers()
+
+
+def _take(world: Any, evidence: Evidence) -> None:
+    """Adds what sensors and doors say now, as their topics would."""
+    for name in world.sensors('pir'):
+        motion = bool(world.sensor('pir', name)['motion'])
+        evidence.motion[name] = evidence.motion.get(name, False) or motion
+    for name in world.sensors('rfid'):
+        reading = world.sensor('rfid', name)
+        evidence.reads.setdefault(name, {}).update(zip(reading['ids'], reading['distances']))
+    for name in world.sensors('pressure'):
+        pressed = bool(world.sensor('pressure', name)['pressed'])
+        evidence.pressed[name] = evidence.pressed.get(name, False) or pressed
+    for name in world.devices('door'):
+        evidence.open[name] = world.device('door', name)['mode'] != 'CLOSED'
+
+
+def _carriers(world: Any) -> dict[str, str]:
+    """The model that carries each tag; the truth, for comparison only."""
+    return {world.device('tag', name)['id']: model
+            for _, name, model, _ in world.entities('tag')}
+
+
+def _place(world: Any, model: str) -> tuple[float, float, float]:
+    index = next(i for i, link in enumerate(world.links) if link.startswith(f'{model}::'))
+    x, y, z = (float(v) for v in world.link_poses[index][:3])
+    return (x, y, z)

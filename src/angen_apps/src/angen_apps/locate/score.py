@@ -1,0 +1,111 @@
+"""How right the answers were: a table, a CSV file and a figure."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Iterable, Sequence
+
+import numpy as np
+
+from angen_apps.locate.belief import Answer
+from angen_apps.locate.site import Site
+from angen_tools.common import files
+from angen_tools.common.output import number
+
+HEAD = ('TAG', 'SECONDS', 'KNOWN', 'ROOM RIGHT', 'RIGHT WHERE KNOWN', 'MEDIAN', '90 %')
+COLUMNS = ('time', 'tag', 'room', 'chance', 'x', 'y', 'z', 'true_room', 'true_x', 'true_y',
+           'true_z', 'error')
+
+
+@dataclass(frozen=True)
+class Row:
+    """An answer at a time (s), and the truth; its room is '' outside of all rooms."""
+
+    time: float
+    answer: Answer
+    true_room: str
+    true_at: tuple[float, float, float]
+
+    @property
+    def error(self) -> float:
+        """Horizontal distance to the truth, m; not a number where it is unknown, or on another
+        floor."""
+        if not self.answer.room or abs(self.answer.at[2] - self.true_at[2]) > 2.0:
+            return math.nan
+        return math.dist(self.answer.at[:2], self.true_at[:2])
+
+    @property
+    def right(self) -> bool:
+        return self.answer.room == self.true_room
+
+
+def compare(time: float, answers: Iterable[Answer],
+            truth: dict[str, tuple[float, float, float]], site: Site) -> list[Row]:
+    """Answers beside the true places (m) of the tags' carriers."""
+    rows = []
+    for answer in answers:
+        if answer.tag not in truth:
+            continue
+        x, y, z = truth[answer.tag]
+        room = site.room_at((x, y, z + 0.5))
+        rows.append(Row(time, answer, '' if room is None else site.rooms[room].name, (x, y, z)))
+    return rows
+
+
+def table_rows(rows: Sequence[Row]) -> list[list[str]]:
+    """A line for each tag, as HEAD names its cells."""
+    lines = []
+    for tag in sorted({row.answer.tag for row in rows}):
+        own = [row for row in rows if row.answer.tag == tag]
+        known = [row for row in own if row.answer.room]
+        errors = [row.error for row in known if not math.isnan(row.error)]
+        lines.append([
+            tag, number(own[-1].time - own[0].time, 0), _share(len(known), len(own)),
+            _share(sum(row.right for row in own), len(own)),
+            _share(sum(row.right for row in known), len(known)),
+            *([f'{number(float(np.percentile(errors, p)), 1)} m' for p in (50, 90)] if errors
+              else ['-', '-'])])
+    return lines
+
+
+def _share(part: int, whole: int) -> str:
+    return f'{100.0 * part / whole:.0f} %' if whole else '-'
+
+
+def write_csv(path: Path, rows: Iterable[Row]) -> None:
+    """A line for each answer; lengths in m, time in s."""
+    def cells(row: Row) -> list[str]:
+        answer = row.answer
+        return [f'{row.time:.1f}', answer.tag, answer.room, f'{answer.chance:.3f}',
+                *(f'{v:.3f}' for v in answer.at), row.true_room,
+                *(f'{v:.3f}' for v in row.true_at), f'{row.error:.3f}']
+    files.write_csv(path, COLUMNS, map(cells, rows))
+
+
+def draw(path: Path, rows: Sequence[Row], site: Site) -> None:
+    """Rooms over time, the truth and what was taken for it, a part for each tag."""
+    import matplotlib
+    matplotlib.use('Agg')
+    import matplotlib.pyplot as plt
+    tags = sorted({row.answer.tag for row in rows})
+    seen = {row.true_room for row in rows} | {row.answer.room for row in rows}
+    names = ['unknown'] + [room.name for room in site.rooms if room.name in seen]
+    level = {name: i for i, name in enumerate(names)} | {'': 0}
+    figure, axes = plt.subplots(len(tags), 1, squeeze=False, sharex=True,
+                                figsize=(9, 1.2 + 0.22 * len(names) * len(tags)))
+    for axis, tag in zip(axes[:, 0], tags):
+        own = [row for row in rows if row.answer.tag == tag]
+        times = [row.time for row in own]
+        axis.step(times, [level[row.true_room] for row in own], where='post', color='0.7',
+                  linewidth=5, label='truth')
+        axis.step(times, [level[row.answer.room] for row in own], where='post',
+                  color='tab:blue', linewidth=1.3, label='located')
+        axis.set_yticks(range(len(names)), names, fontsize=8)
+        axis.set_title(tag, fontsize=10)
+        axis.grid(alpha=0.3)
+    axes[0, 0].legend(loc='upper right', fontsize=8)
+    axes[-1, 0].set_xlabel('s')
+    figure.tight_layout()
+    files.save_figure(figure, path, dpi=110)
+    plt.close(figure)

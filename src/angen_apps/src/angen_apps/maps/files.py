@@ -1,0 +1,24 @@
+"""angen map: a floor's map as the files of map_server."""
+from __future__ import annotations
+
+from pathlib import Path
+
+from angen_apps.maps.gridmap import load_world, make_map
+from angen_tools.common.failure import Failure
+from angen_tools.world.models import worlds_models
+
+
+def save_map(world: Path | None, floor: int, doors: str, stem: Path) -> str:
+    """Writes STEM.pgm and STEM.yaml; returns what was done. `world` is worlds/angen.world without.
+
+    Failure where the world does not load, has no such floor, or the files cannot be written.
+    """
+    path = world or worlds_models().parent / 'angen.world'
+    try:
+        made = make_map(load_world(str(path)), floor, doors)
+    except Failure as failure:
+        named = str(failure).startswith(str(path))
+        raise Failure(str(failure) if named else f'{path}: {failure}') from None
+    picture, text = made.save(stem)
+    rows, columns = made.cells.shape
+    return f'wrote {picture} and {text}: floor {floor}, {columns} x {rows} cells of 0.05 m'

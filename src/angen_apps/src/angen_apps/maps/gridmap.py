@@ -1,0 +1,260 @@
+"""Occupancy maps of a world's floors, measured by rays against its geometry."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Callable
+
+import numpy as np
+from scipy.ndimage import binary_propagation, distance_transform_edt
+
+from angen_tools.common.catalog import angen_module
+from angen_tools.common.failure import Failure
+from angen_tools.common.files import write_text, writing
+
+RESOLUTION = 0.05  # m; cells are centered on its multiples, where the faces of buildings lie
+STOREY = 4.0  # m
+LOW, HIGH = 0.02, 0.45  # m above the floor: what a robot of that height can meet
+LEVEL = 0.02  # m from one height of rays to the next
+FINE = 0.01  # m between rays: what is thinner both ways may be missed
+STEP_DOWN = 0.05  # m: ground that lies deeper is not a floor
+REACH = 60.0  # m: how far from the origin a building may stand
+SETTLE = 60.0  # s of simulated time for doors and elevators to get where they are sent
+ROOM, HEADROOM = 0.4, 1.0  # m: free floor without a circle of that radius and height is not a room
+
+FREE, OCCUPIED, UNKNOWN = 0, 100, -1  # as nav_msgs/OccupancyGrid has them
+GRAYS = {FREE: 254, OCCUPIED: 0, UNKNOWN: 205}  # as map_server has them
+
+
+def floor_of(z: float) -> int:
+    """The floor that something at height z (m) belongs to."""
+    return math.floor((z + 0.5) / STOREY)
+
+
+@dataclass
+class GridMap:
+    """A floor from above. cells (rows, columns) int8: FREE, OCCUPIED or UNKNOWN; row 0 lowest y.
+
+    `origin` is the world's x, y (m) of the outer corner of cell (0, 0).
+    """
+
+    cells: np.ndarray
+    origin: tuple[float, float]
+    resolution: float
+    floor: int
+
+    def cell(self, x: float, y: float) -> tuple[int, int]:
+        """(row, column) of a point (m); may lie outside the map."""
+        return (int(np.floor((y - self.origin[1]) / self.resolution)),
+                int(np.floor((x - self.origin[0]) / self.resolution)))
+
+    def point(self, row: int, column: int) -> tuple[float, float]:
+        """x, y (m) of a cell's middle."""
+        return (self.origin[0] + (column + 0.5) * self.resolution,
+                self.origin[1] + (row + 0.5) * self.resolution)
+
+    @property
+    def height(self) -> float:
+        """z of the floor, m."""
+        return self.floor * STOREY
+
+    def shades(self) -> np.ndarray:
+        """The map as map_server's picture, (rows, columns) uint8, the highest y first."""
+        picture = np.full(self.cells.shape, GRAYS[UNKNOWN], np.uint8)
+        for value, gray in GRAYS.items():
+            picture[self.cells == value] = gray
+        return picture[::-1]
+
+    def save(self, stem: Path) -> list[Path]:
+        """Writes STEM.pgm and STEM.yaml as map_server reads them; returns their paths."""
+        picture, text = stem.with_name(stem.name + '.pgm'), stem.with_name(stem.name + '.yaml')
+        rows, columns = self.cells.shape
+        if not stem.absolute().parent.is_dir():
+            raise Failure(f'{stem}: cannot be written; give a name in a folder that exists')
+        with writing(picture, binary=True) as file:
+            file.write(b'P5\n%d %d\n255\n' % (columns, rows) + self.shades().tobytes())
+        write_text(text, f'image: {picture.name}\nresolution: {self.resolution}\n'
+                   f'origin: [{self.origin[0]:.3f}, {self.origin[1]:.3f}, 0.0]\n'
+                   'negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n')
+        return [picture, text]
+
+
+def _is_log(path: str) -> bool:
+    try:
+        with Path(path).open('rb') as file:
+            return file.read(12) == b'{"angen_log"'
+    except OSError:
+        return False
+
+
+def load_world(path: str) -> Any:
+    """The angen.World of a file, or of the beginning of a log; Failure where it does not load."""
+    angen = angen_module()
+    try:
+        return angen.Replay(path).world() if _is_log(path) else angen.World(path)
+    except angen.Error as error:
+        raise Failure(str(error)) from None
+
+
+def make_map(world: Any, floor: int, doors: str = 'away', high: float = HIGH) -> GridMap:
+    """The map of a floor: what stands between LOW and `high` (m) above it. Changes the world.
+
+    Robots and people are left out; elevators stand at that floor with open doors, as far as they
+    serve it. Doors are left out (`doors='away'`), or stand `'open'` or `'shut'`. FREE is floor
+    that is connected to a place to stand; the insides of walls and furniture, and ground that
+    is not a floor, are UNKNOWN. Failure where the world has no such floor; it names those it has.
+    """
+    _prepare(world, floor, doors)
+    surveyor = _Surveyor(world, high)
+    bounds = surveyor.bounds(floor)
+    if bounds is None:
+        known = ', '.join(str(known) for known in floors(world))
+        raise Failure(f'there is no floor {floor}; ' +
+                      (f'known are {known}' if known else 'nothing stands on any'))
+    west, south, columns, rows = bounds
+    x = (west + np.arange(columns)) * RESOLUTION
+    y = (south + np.arange(rows)) * RESOLUTION
+    occupied = surveyor.surfaces(x, y, floor)
+    ground, room = surveyor.ground(x, y, floor)
+    ground &= ~occupied
+    cells = np.full((rows, columns), UNKNOWN, np.int8)
+    cells[reached(_shrunk(ground & room, ROOM), ground)] = FREE
+    cells[occupied] = OCCUPIED
+    return GridMap(cells, (x[0] - RESOLUTION / 2, y[0] - RESOLUTION / 2), RESOLUTION, floor)
+
+
+def floors(world: Any) -> list[int]:
+    """The floors 0, 1, … on which something stands, up to the first on which nothing does."""
+    surveyor = _Surveyor(world)
+    found: list[int] = []
+    while surveyor.bounds(len(found)) is not None:
+        found.append(len(found))
+    return found
+
+
+def models_with(world: Any, joint: str) -> list[str]:
+    """The models that have a joint of this name; `hinge` makes a door, a wheel a robot."""
+    ends = '::' + joint
+    return [name.removesuffix(ends) for name in world.joints if name.endswith(ends)]
+
+
+def _prepare(world: Any, floor: int, doors: str) -> None:
+    """Takes out what is in no map, and has doors and elevators stand as the map shows them."""
+    leave_out = world.devices('person') + models_with(world, 'left_wheel_joint')
+    if doors == 'away':
+        leave_out += models_with(world, 'hinge')
+    for name in leave_out:
+        world.delete(name)
+    # Leaves of a model that is more than a door are not in the way either.
+    text, mode = ('Close', 'CLOSED') if doors == 'shut' else ('Open', 'OPEN')
+    _send(world, 'door', text, lambda s: s['mode'] == mode)
+    _send(world, 'elevator', f'Floor{floor}',
+          lambda s: s['floor'] == floor and s['mode'] == 'IDLE' and s['door_mode'] == 'OPEN')
+
+
+def _send(world: Any, kind: str, text: str, done: Callable[[dict[str, Any]], bool]) -> None:
+    names = []
+    for name in world.devices(kind):
+        try:
+            world.command(kind, name, text)
+            names.append(name)
+        except angen_module().Error:
+            continue  # an elevator that does not serve this floor stays where it is
+    for _ in range(int(SETTLE / 0.5)):
+        world.run(0.5)
+        if all(done(world.device(kind, name)) for name in names):
+            break
+
+
+def reached(seeds: np.ndarray, within: np.ndarray) -> np.ndarray:
+    """Which of the mask `within` is connected to `seeds` by cells' edges (rows, columns)."""
+    return binary_propagation(seeds & within, mask=within)
+
+
+def _shrunk(mask: np.ndarray, radius: float) -> np.ndarray:
+    """Where a circle of that radius (m) lies wholly in the mask, beyond whose edge is nothing."""
+    steps = int(radius / RESOLUTION)
+    return distance_transform_edt(np.pad(mask, 1))[1:-1, 1:-1] > steps
+
+
+class _Surveyor:
+    """Rays over whole floors of a world."""
+
+    def __init__(self, world: Any, high: float = HIGH) -> None:
+        from angen_apps.maps.rays import Caster
+        self._caster = Caster(world)
+        self._high, self._levels = high, np.arange(LOW, high, LEVEL)
+
+    def bounds(self, floor: int) -> tuple[int, int, int, int] | None:
+        """West and south in cells, columns and rows of all that stands on a floor, with a margin.
+
+        None where rays from afar meet nothing.
+        """
+        across = np.arange(-REACH, REACH, RESOLUTION) + FINE
+        met = []
+        for axis in (0, 1):
+            for sign in (1, -1):
+                origins = np.zeros((len(across), len(self._levels), 3))
+                origins[..., axis] = -sign * REACH
+                origins[..., 1 - axis] = across[:, None]
+                origins[..., 2] = floor * STOREY + self._levels
+                origins = origins.reshape(-1, 3)
+                ranges = self._cast(origins, axis, sign, 2 * REACH)
+                origins[:, axis] += sign * ranges
+                met.append(origins[ranges < 2 * REACH, :2])
+        points = np.rint(np.concatenate(met) / RESOLUTION).astype(int)
+        if not len(points):
+            return None
+        (west, south), (east, north) = points.min(axis=0), points.max(axis=0)
+        margin = 2
+        return (west - margin, south - margin, east - west + 1 + 2 * margin,
+                north - south + 1 + 2 * margin)
+
+    def surfaces(self, x: np.ndarray, y: np.ndarray, floor: int) -> np.ndarray:
+        """Which cells (rows, columns) around y, x (m) hold a surface at the heights of the map."""
+        found = np.zeros((len(y), len(x)), bool)
+        aside = np.arange(-2, 3) * FINE
+        heights = floor * STOREY + self._levels
+        for axis, along, across in ((0, x, y), (1, y, x)):
+            lines = np.array([(a, z) for a in (across[:, None] + aside).ravel() for z in heights])
+            starts = np.zeros((len(lines), 3))
+            starts[:, axis] = along[0] - RESOLUTION / 2
+            starts[:, 1 - axis], starts[:, 2] = lines.T
+            for points in self._march(starts, axis, along[-1] + RESOLUTION / 2):
+                rows = np.rint((points[:, 1] - y[0]) / RESOLUTION).astype(int)
+                columns = np.rint((points[:, 0] - x[0]) / RESOLUTION).astype(int)
+                found[rows, columns] = True
+        from_above = self._vertical(x, y, floor * STOREY + self._high, -1, self._high - LOW)
+        return found | (from_above < self._high - LOW)
+
+    def ground(self, x: np.ndarray, y: np.ndarray, floor: int) -> tuple[np.ndarray, np.ndarray]:
+        """Which cells have floor beneath, small gaps apart, and which also HEADROOM above."""
+        reach, aside = LOW + STEP_DOWN, 0.4 * RESOLUTION
+        start = floor * STOREY + LOW
+        ground = np.zeros((len(y), len(x)), bool)
+        for dx, dy in ((0, 0), (1, 1), (-1, 1), (1, -1), (-1, -1)):
+            ground |= self._vertical(x + dx * aside, y + dy * aside, start, -1, reach) < reach
+        return ground, ground & (self._vertical(x, y, start, 1, HEADROOM) >= HEADROOM)
+
+    def _march(self, starts: np.ndarray, axis: int, end: float) -> Any:
+        """Every point (n, 3) that rays along +axis meet up to `end`, a surface after the other."""
+        past = 1e-4  # m: beyond a surface, to meet the next
+        while len(starts):
+            reach = end - starts[:, axis]
+            ranges = self._cast(starts, axis, 1, reach)
+            starts = starts[ranges < reach]
+            starts[:, axis] += ranges[ranges < reach]
+            yield starts
+            starts = starts + past * np.eye(3)[axis]
+            starts = starts[starts[:, axis] < end]
+
+    def _vertical(self, x: np.ndarray, y: np.ndarray, start: float, sign: int, reach: float
+                  ) -> np.ndarray:
+        """Ranges (rows, columns) up (1) or down (-1) from z = `start`, m."""
+        origins = np.stack([*np.meshgrid(x, y), np.full((len(y), len(x)), start)], axis=2)
+        return self._cast(origins.reshape(-1, 3), 2, sign, reach).reshape(len(y), len(x))
+
+    def _cast(self, origins: np.ndarray, axis: int, sign: int, reach: Any) -> np.ndarray:
+        ways = np.broadcast_to(sign * np.eye(3)[axis], origins.shape)
+        return self._caster.cast(origins, ways, reach)

@@ -1,0 +1,66 @@
+"""What a patrol knows before it starts: its own copy of the world, maps, doors, the whole route."""
+from __future__ import annotations
+
+import random
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from angen_apps.maps.gridmap import GridMap, load_world
+from angen_apps.patrol.sight import beam_angles, outline
+from angen_apps.robot.building import (Entity, Start, Survey, find_start, move_robot,
+                                       remove_actors)
+from angen_apps.robot.planner import Door, Planner
+from angen_apps.robot.route import Action, Router
+from angen_apps.robot.route_file import Route
+from angen_tools.common.files import write_text
+from angen_tools.world import sdf
+
+START_PLACE, START_YAW = 0.1, 0.1  # m, rad: how far a start may lie from the world's own
+
+
+def start_offset(seed: int) -> tuple[float, float, float]:
+    """How far from its place in the world the robot is put at the start: x, y (m), yaw (rad)."""
+    chance = random.Random(seed)
+    return (chance.uniform(-START_PLACE, START_PLACE), chance.uniform(-START_PLACE, START_PLACE),
+            chance.uniform(-START_YAW, START_YAW))
+
+
+def write_world(world: Path, robot: str, seed: int, to: Path) -> None:
+    """Writes the world without its actors, the robot moved from its place by the seed."""
+    root = sdf.read(world)
+    remove_actors(root)
+    move_robot(root, robot, start_offset(seed), world)
+    write_text(to, sdf.text(root))
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What the robot knows of the building before it starts, and what the report needs."""
+
+    start: Start
+    maps: dict[int, GridMap]  # of floors, with doors open
+    landmarks: dict[int, GridMap]  # what a laser may meet: leaves stand open and shut
+    doors: dict[int, list[Door]]
+    beams: dict[str, float]  # of a switch: rad of its door from shut at which its beam is free
+    body: np.ndarray  # (n, 3) points of the robot's surface, m
+    world: Any  # angen.World without robots, for rays
+
+
+def make_scene(route: Route, path: str, entities: list[Entity],
+               offset: tuple[float, float, float]) -> tuple[Scene, list[Action]]:
+    """The scene and all actions; Failure names a waypoint that cannot be reached.
+
+    The robot believes that it starts at its place in the original world, `offset` beside the truth.
+    """
+    start = find_start(route, entities, offset)
+    world, shut = load_world(path), load_world(path)
+    body = outline(world, np.array([*start.robot.place, start.robot.flat.yaw]))
+    survey = Survey(world, shut, entities, {start.floor} | {p.floor for p in route.waypoints})
+    beams = beam_angles(shut, survey.by_joint, [e for e in entities if e.kind == 'switch'])
+    scene = Scene(start, survey.maps, survey.landmarks, survey.doors, beams, body, world)
+    planners = {number: Planner(grid, route.clearance) for number, grid in survey.maps.items()}
+    return scene, Router(route, planners, survey.doors).actions((start.pose.x, start.pose.y),
+                                                                start.floor)

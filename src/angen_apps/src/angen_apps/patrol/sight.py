@@ -1,0 +1,125 @@
+"""When a sensor could first notice the robot, by geometry: rays, and no sensor's reading."""
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from angen_apps.maps.gridmap import models_with
+from angen_apps.maps.rays import Caster
+from angen_apps.robot.building import Entity
+from angen_apps.robot.planner import Door
+from angen_apps.robot.views import View, room_of
+
+AROUND = 1.0  # m from a robot's axis, from where its outline is sampled
+SIDES, HEIGHTS = 16, np.arange(0.03, 1.5, 0.06)  # rays that find a robot's outline; m
+BEAM = 0.5  # m
+CHUNK = 50  # positions at a time
+TICKS, SAMPLES = 5, 120  # ticks between two samples of the beams of opening doors, and how many
+CHANGED = 0.05  # m by which a cut beam is shorter
+
+
+def hidden(origin: np.ndarray, points: np.ndarray, door: Door, turned: np.ndarray) -> np.ndarray:
+    """Which points (n, 3) a leaf hides from origin; `turned` (n,): rad from shut."""
+    angle = door.shut + turned
+    leaf = door.width * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    line = points[:, :2] - origin[:2]
+    start = np.array(door.hinge) - origin[:2]
+    across = line[:, 0] * leaf[:, 1] - line[:, 1] * leaf[:, 0]
+    across = np.where(np.abs(across) < 1e-9, np.nan, across)
+    along_line = (start[0] * leaf[:, 1] - start[1] * leaf[:, 0]) / across
+    along_leaf = (start[0] * line[:, 1] - start[1] * line[:, 0]) / across
+    meets = (along_line > 0) & (along_line < 1) & (along_leaf > 0) & (along_leaf < 1)
+    return meets & (origin[2] + along_line * (points[:, 2] - origin[2]) < door.top)
+
+
+def outline(world: Any, start: np.ndarray) -> np.ndarray:
+    """Points (n, 3) of the surface of the robot that stands at `start` (x, y, z, yaw; m), in its
+    own frame. Takes all robots out of the world."""
+    caster = Caster(world)
+    turns = np.arange(SIDES) * 2 * math.pi / SIDES
+    ways = np.repeat(np.stack([np.cos(turns), np.sin(turns), 0 * turns], axis=1), len(HEIGHTS),
+                     axis=0)
+    origins = start[:3] - AROUND * ways + np.outer(np.tile(HEIGHTS, SIDES), [0, 0, 1])
+    before = caster.cast(origins, ways, AROUND)
+    for name in models_with(world, 'left_wheel_joint'):
+        world.delete(name)
+    met = before < caster.cast(origins, ways, AROUND) - 1e-6
+    points = (origins + before[:, None] * ways)[met] - start[:3]
+    c, s = math.cos(start[3]), math.sin(start[3])
+    return points @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+
+
+class Sight:
+    """Lines of sight in a world, out of which it takes the doors; leaves stand as was recorded.
+
+    `body` (n, 3): points of the robot's surface. `angles` has, for each door, (n, 2) times (s) and
+    radians from shut. The world must be without robots.
+    """
+
+    def __init__(self, world: Any, body: np.ndarray, doors: list[Door],
+                 angles: dict[str, np.ndarray]) -> None:
+        self._caster = Caster(world)
+        self._body, self._doors, self._angles = body, doors, angles
+        for name in models_with(world, 'hinge'):
+            world.delete(name)
+
+    def _bodies(self, track: np.ndarray) -> np.ndarray:
+        """(rows, points, 3): the robot's surface along a track with rows t, x, y, z, yaw."""
+        c, s = np.cos(track[:, 4])[:, None], np.sin(track[:, 4])[:, None]
+        x, y, z = self._body.T
+        return track[:, None, 1:4] + np.stack([c * x - s * y, s * x + c * y,
+                                               np.broadcast_to(z, (len(track), len(z)))], axis=2)
+
+    def first(self, view: View, track: np.ndarray) -> float | None:
+        """When a sensor first has a free line to a point of the robot; None where it never has."""
+        for start in range(0, len(track), CHUNK):
+            rows = track[start:start + CHUNK]
+            bodies = self._bodies(rows)
+            times = np.repeat(rows[:, 0], bodies.shape[1])
+            points = bodies.reshape(-1, 3)
+            inside = view.holds(points)
+            seen = times[inside][self._free(view.position, points[inside], times[inside])]
+            if len(seen):
+                return float(seen.min())
+        return None
+
+    def _free(self, origin: np.ndarray, points: np.ndarray, times: np.ndarray) -> np.ndarray:
+        if len(points) == 0:
+            return np.zeros(0, bool)
+        lines = points - origin
+        far = np.linalg.norm(lines, axis=1)
+        ranges = self._caster.cast(np.broadcast_to(origin, points.shape), lines / far[:, None],
+                                   far)
+        free = ranges >= far - 1e-6
+        for door in self._doors:
+            history = self._angles[door.name]
+            which = np.searchsorted(history[:, 0], times, side='right') - 1
+            turned = history[np.maximum(which, 0), 1]
+            free &= ~hidden(origin, points, door, turned)
+        return free
+
+
+def beam_angles(world: Any, doors: dict[str, Door], switches: list[Entity]) -> dict[str, float]:
+    """How far (rad) each switch's door has turned from shut when its beam comes free.
+
+    `doors` by joint, all shut; they are opened for it. A switch belongs to the door of its room.
+    """
+    caster = Caster(world)
+    origins = np.array([s.place for s in switches]).reshape(-1, 3)
+    ways = np.array([s.rotation[:, 0] for s in switches]).reshape(-1, 3)
+    joints = {door.name: world.joints.index(joint) for joint, door in doors.items()}
+    shut = caster.cast(origins, ways, BEAM)
+    for name in joints:
+        world.command('door', name, 'Open')
+    found: dict[str, float] = {}
+    for _ in range(SAMPLES):
+        world.step(TICKS)
+        longer = caster.cast(origins, ways, BEAM) > shut + CHANGED
+        positions = world.joint_positions
+        for switch, free in zip(switches, longer):
+            room = room_of(switch.name)
+            if free and room in joints:
+                found.setdefault(switch.name, abs(float(positions[joints[room]])))
+    return found

@@ -1,0 +1,157 @@
+"""What a robot knows of a building before it starts: its floors' maps and doors, and itself."""
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from lxml import etree
+
+from angen_apps.maps.gridmap import STOREY, GridMap, floor_of, floors, make_map
+from angen_apps.maps.rays import Caster
+from angen_apps.robot.doors import find_door, find_hinge, find_top, opened_alone, stand_of
+from angen_apps.robot.pilot import Pose
+from angen_apps.robot.planner import Door
+from angen_apps.robot.route_file import Route
+from angen_tools.common.failure import Failure
+from angen_tools.common.geometry import rotation_of, yaw
+
+
+@dataclass(frozen=True)
+class Entity:
+    """A device or a sensor: of a sensor its own pose, of a device that of its model."""
+
+    kind: str
+    name: str
+    model: str
+    pose: tuple[float, ...]  # x y z (m) qx qy qz qw, in the world
+    topic: str = ''
+
+    @property
+    def place(self) -> np.ndarray:
+        """x, y, z, m."""
+        return np.array(self.pose[:3])
+
+    @property
+    def rotation(self) -> np.ndarray:
+        """The 3 x 3 matrix from its frame to the world."""
+        return rotation_of(*self.pose[3:])
+
+    @property
+    def floor(self) -> int:
+        return floor_of(self.pose[2])
+
+    @property
+    def flat(self) -> Pose:
+        """From above."""
+        return Pose(self.pose[0], self.pose[1], yaw(*self.pose[3:]))
+
+
+class Survey:
+    """A world's geometry: its floors' maps with doors open and shut, and its doors.
+
+    `world` and `shut` are two worlds of the same file; it changes both.
+    """
+
+    def __init__(self, world: Any, shut: Any, entities: list[Entity], wanted: set[int] | None
+                 ) -> None:
+        self.maps: dict[int, GridMap] = {}
+        self.landmarks: dict[int, GridMap] = {}
+        self.shut: dict[int, GridMap] = {}
+        known = set(floors(world))
+        for floor in sorted(known if wanted is None else wanted & known):
+            self.maps[floor] = make_map(world, floor, 'open')
+            self.shut[floor] = make_map(shut, floor, 'shut')
+            both = np.maximum(self.maps[floor].cells, self.shut[floor].cells)
+            self.landmarks[floor] = replace(self.shut[floor], cells=both)
+        self.doors: dict[int, list[Door]] = {floor: [] for floor in self.maps}
+        self.by_joint: dict[str, Door] = {}  # MODEL::JOINT
+        doors = [entity for entity in entities if entity.kind == 'door']
+        for entity in doors:
+            alone = sum(other.model == entity.model for other in doors) == 1
+            floor = entity.floor if alone else self._floor_by_name(entity)
+            if floor not in self.maps:
+                continue
+            before = stand_of(shut, entity.model)
+            after = (stand_of(world, entity.model) if alone
+                     else opened_alone(shut, entity.model, entity.name))
+            hinge = find_hinge(before.links, after.links)
+            door = hinge and find_door(entity.name, hinge, self.shut[floor], self.maps[floor])
+            if door:
+                door = replace(door, top=find_top(Caster(shut), door, STOREY * floor))
+                self.doors[floor].append(door)
+                self.by_joint[after.turned(before)] = door
+
+    def _floor_by_name(self, door: Entity) -> int:
+        """Of one of a model's doors, which may be on several floors."""
+        digits = re.search('[0-9]+$', door.name)
+        return int(digits[0]) if digits and int(digits[0]) in self.maps else door.floor
+
+
+@dataclass(frozen=True)
+class Start:
+    """A robot at its start."""
+
+    robot: Entity
+    laser: Entity
+    pose: Pose  # as it estimates
+    mount: Pose  # the laser on the robot
+
+    @property
+    def floor(self) -> int:
+        return self.robot.floor
+
+
+def find_start(route: Route, entities: list[Entity], offset: tuple[float, float, float]) -> Start:
+    """A route's robot, which believes that it starts `offset` beside the truth; Failure where the
+    world lacks it, its lidar or its elevator."""
+    robots = [entity.name for entity in entities if entity.kind == 'drive']
+    otherwise = (f"a route's robot can be {', '.join(robots)}" if robots else
+                 'include model://turtlebot in it under that name')
+    robot = _one(entities, 'drive', route.robot,
+                 f'the world has no robot {route.robot}; {otherwise}')
+    laser = next((entity for entity in entities
+                  if (entity.kind, entity.model) == ('lidar', robot.model)), None)
+    if laser is None:
+        raise Failure(f'the robot {route.robot} has no lidar, by which it finds its way')
+    if route.elevator:
+        _one(entities, 'elevator', route.elevator.name,
+             f'{route.path}: the world has no elevator {route.elevator.name}')
+    truth = robot.flat
+    believed = Pose(truth.x - offset[0], truth.y - offset[1], truth.yaw - offset[2])
+    return Start(robot, laser, believed, truth.inverse().then(laser.flat))
+
+
+def _one(entities: list[Entity], kind: str, name: str, otherwise: str) -> Entity:
+    found = next((e for e in entities if (e.kind, e.name) == (kind, name)), None)
+    if found is None:
+        raise Failure(otherwise)
+    return found
+
+
+def move_robot(root: etree._Element, robot: str, offset: tuple[float, float, float], world: Path
+               ) -> None:
+    """Moves a robot in a world's SDF: x, y (m), yaw (rad); Failure where there is none."""
+    robots = [element for element in root.iter('include', 'model')
+              if robot == (element.findtext('name') or element.get('name', '')).strip()]
+    if not robots:
+        raise Failure(f'{world}: has no robot {robot}')
+    for element in robots:
+        pose = element.find('pose')
+        if pose is None:
+            pose = etree.SubElement(element, 'pose')
+            pose.text = '0 0 0 0 0 0'
+        values = [float(word) for word in pose.text.split()]
+        for i, by in zip((0, 1, 5), offset):
+            values[i] += by
+        pose.text = ' '.join(f'{value:.9g}' for value in values)
+
+
+def remove_actors(root: etree._Element) -> list[str]:
+    """Takes the people out of a world's SDF; their names."""
+    actors = root.findall('.//actor')
+    for actor in actors:
+        actor.getparent().remove(actor)
+    return [actor.get('name', '') for actor in actors]

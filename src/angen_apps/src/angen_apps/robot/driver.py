@@ -1,0 +1,148 @@
+"""Does a route's actions: the robot drives cycle by cycle, has doors turned, and rides."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Callable
+
+import numpy as np
+
+from angen_apps.maps.gridmap import STOREY, GridMap
+from angen_apps.robot.interface import CYCLE, Robot, collisions
+from angen_apps.robot.localizer import Localizer, returns_of
+from angen_apps.robot.pilot import Pilot, Pose
+from angen_apps.robot.route import Action, Drive, Ride, Turn
+from angen_apps.robot.route_file import Route
+from angen_tools.common.failure import Failure
+
+DEVICE_LIMIT = 60.0  # s of simulated time that a door or elevator may take
+DRIVE_SLACK = 30.0  # s beyond thrice the time that a drive should take
+SETTLE = 5  # scans until a robot that stands at its start knows where
+
+
+@dataclass
+class Track:
+    """Where the robot was, and where it estimated to be; a row a cycle, times in s."""
+
+    rows: list[tuple[float, ...]] = field(default_factory=list)  # t, x, y, z, yaw: in truth
+    believed: list[tuple[float, float]] = field(default_factory=list)  # x, y
+    odometry: list[tuple[float, float]] = field(default_factory=list)  # x, y, by wheels alone
+    levels: list[tuple[int, float]] = field(default_factory=list)  # floor, m beside its level
+
+
+class Stuck(Failure):
+    """A drive, a door or an elevator takes too long."""
+
+
+class Driver:
+    """Drives one robot. `landmarks`: of each floor, what a laser may meet; `mount`: the laser on
+    the robot. `watch` is called after each cycle. `may_go` says before each cycle of a drive
+    whether the robot may drive on; while it may not, it stands. `give_up` says whether to end a
+    drive before its end."""
+
+    def __init__(self, robot: Robot, route: Route, landmarks: dict[int, GridMap], mount: Pose,
+                 watch: Callable[[], None], may_go: Callable[[], bool] = lambda: True,
+                 give_up: Callable[[], bool] = lambda: False) -> None:
+        self._robot, self._route, self._landmarks = robot, route, landmarks
+        self._mount, self._watch = mount, watch
+        self._may_go, self._give_up = may_go, give_up
+        self.text = ''
+        self.floor = 0
+        self.left: list[tuple[float, float]] = []  # of the line that it drives
+        self.track = Track()
+
+    @property
+    def pose(self) -> Pose:
+        """The robot's estimate of where it is."""
+        return self._localizer.pose
+
+    def begin(self, start: Pose, floor: int) -> None:
+        """Finds out where it stands: about `start`."""
+        odometry = self._robot.odometry()
+        self._origin = start.then(odometry.inverse())
+        self._localizer = Localizer(self._landmarks[floor], start, odometry)
+        self.floor = floor
+        for _ in range(SETTLE):
+            self.cycle()
+            self._localizer.see(self._returns())
+
+    def _returns(self) -> np.ndarray:
+        return returns_of(self._robot.scan(), self._mount)
+
+    def cycle(self, v: float = 0.0, w: float = 0.0) -> Pose:
+        """Commands the wheels for a cycle; the estimated pose after it."""
+        self._robot.cycle(v, w)
+        odometry = self._robot.odometry()
+        pose = self._localizer.move(odometry)
+        if v or w:  # while it stands, doors turn, which are not on the map
+            pose = self._localizer.see(self._returns())
+        wheels = self._origin.then(odometry)
+        self.track.rows.append((self._robot.now, *self._robot.truth()))
+        self.track.believed.append((pose.x, pose.y))
+        self.track.odometry.append((wheels.x, wheels.y))
+        self._watch()
+        return pose
+
+    def do(self, action: Action) -> bool:
+        """Does it; whether to its end. Failure where that does not happen."""
+        if isinstance(action, Drive):
+            return self._drive(action)
+        if isinstance(action, Turn):
+            self._turn(action)
+        else:
+            self._ride(action)
+        return True
+
+    def _drive(self, drive: Drive) -> bool:
+        length = sum(math.dist(a, b) for a, b in zip(drive.points, drive.points[1:]))
+        limit = self._robot.now + DRIVE_SLACK + 3 * length / self._route.speed
+        pilot = Pilot(drive.points, self._route.speed, self._route.turn, self._route.acceleration)
+        self.text = f'to {drive.name}' if drive.name else 'driving'
+        pose = self.cycle()
+        arrived = True
+        while True:
+            self.left = pilot.left
+            arrived = arrived and not self._give_up()
+            command = (pilot.steer(pose, CYCLE) if arrived and self._may_go()
+                       else pilot.stop(CYCLE))
+            if command is None:
+                if pilot.arrived or not arrived:
+                    return arrived
+                command = 0.0, 0.0
+            pose = self.cycle(*command)
+            if self._robot.now > limit:
+                raise self._stuck(drive)
+
+    def _stuck(self, drive: Drive) -> Stuck:
+        touched = collisions(self._robot.events)
+        x, y = drive.points[-1]
+        return Stuck(f'the robot is stuck at {self.pose.x:.2f}, {self.pose.y:.2f} on floor '
+                     f'{drive.floor}, on its way to {x:.2f}, {y:.2f}'
+                     + (f'; it was touched {touched[-1][1]}' if touched else ''))
+
+    def _turn(self, turn: Turn) -> None:
+        wanted = 'OPEN' if turn.open else 'CLOSED'
+        self._command('door', turn.door, 'Open' if turn.open else 'Close',
+                      lambda: self._robot.door(turn.door).mode == wanted)
+
+    def _ride(self, ride: Ride) -> None:
+        if self._route.elevator is None:
+            raise Failure(f'{self._route.path}: names no elevator')
+        name = self._route.elevator.name
+        level = STOREY * ride.floor
+        self._command('elevator', name, f'Floor{ride.floor}',
+                      lambda: self._robot.lift(name).stands_open(ride.floor, level))
+        self.track.levels.append((ride.floor, self._robot.lift(name).position - level))
+        if ride.aboard:
+            self._localizer.enter(self._landmarks[ride.floor])
+            self.floor = ride.floor
+
+    def _command(self, kind: str, name: str, text: str, done: Callable[[], bool]) -> None:
+        self.text = f'{text}, {name}'
+        if not done():
+            self._robot.command(kind, name, text)
+        limit = self._robot.now + DEVICE_LIMIT
+        while not done():
+            self.cycle()
+            if self._robot.now > limit:
+                raise Stuck(f'{kind} {name} has not done {text} within {DEVICE_LIMIT:g} s')

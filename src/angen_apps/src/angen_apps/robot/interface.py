@@ -1,0 +1,90 @@
+"""What a robot's program gets from a simulator and gives to it, through ROS or in this process."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from angen_apps.robot.pilot import Pose
+
+BUMPER = 'patrol_bumper'  # the sensor on the robot that detects all that it touches
+CYCLE = 0.1  # s from one command to the next
+BASE = 'base_footprint'  # the robot's link that carries its body
+ROLLS = ('wheel', 'tread', 'caster')  # a collision with this in its name may touch the floor
+
+
+@dataclass(frozen=True)
+class Event:
+    """As angen_msgs/Event has it; time in s."""
+
+    time: float
+    source: str
+    kind: str
+    event: str
+    detail: str
+
+
+@dataclass(frozen=True)
+class DoorState:
+    """The fields of angen_msgs/DoorState that a robot needs."""
+
+    mode: str
+
+
+@dataclass(frozen=True)
+class LiftState:
+    """The fields of angen_msgs/ElevatorState that a robot needs; position in m."""
+
+    mode: str
+    door_mode: str
+    target_floor: int
+    position: float
+
+    def stands_open(self, floor: int, level: float) -> bool:
+        """Whether it stands at a floor, whose z is `level` (m), with its doors open."""
+        return (self.mode == 'IDLE' and self.target_floor == floor and self.door_mode == 'OPEN'
+                and abs(self.position - level) < 0.1)
+
+
+class Robot(Protocol):
+    """A robot in a building. Commands take effect at the start of the next cycle."""
+
+    @property
+    def now(self) -> float:
+        """Simulated time, s."""
+
+    @property
+    def events(self) -> list[Event]:
+        """All that happened, in order."""
+
+    def cycle(self, v: float, w: float) -> None:
+        """Commands the wheels (m/s, rad/s) and lets CYCLE pass."""
+
+    def command(self, kind: str, name: str, text: str) -> None:
+        """Commands a door or an elevator."""
+
+    def door(self, name: str) -> DoorState: ...
+
+    def lift(self, name: str) -> LiftState: ...
+
+    def odometry(self) -> Pose:
+        """By the wheels, since the start."""
+
+    def scan(self) -> Any:
+        """The latest scan; has the fields of sensor_msgs/LaserScan."""
+
+    def truth(self) -> tuple[float, float, float, float]:
+        """x, y, z (m), yaw (rad), to record and judge a run; no program may steer by it."""
+
+
+def bumper(collisions: list[str]) -> str:
+    """SDF of a sensor that samples each step the contacts of what may touch nothing."""
+    parts = ''.join(f'<collision>{name}</collision>' for name in collisions
+                    if not any(part in name for part in ROLLS))
+    return (f'<sensor name="{BUMPER}" type="contact"><update_rate>1000</update_rate><contact>'
+            f'{parts}</contact><plugin name="bumper" filename="libgazebo_ros_bumper.so"/></sensor>')
+
+
+def collisions(events: list[Event]) -> list[tuple[float, str]]:
+    """When the robot touched what it must not (s), and what."""
+    return [(e.time, e.detail) for e in events
+            if (e.source, e.kind, e.event) == (BUMPER, 'contact', 'pressed')]

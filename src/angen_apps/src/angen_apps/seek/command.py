@@ -1,0 +1,137 @@
+"""angen task seek: from the words of the command to the folder that it leaves."""
+from __future__ import annotations
+
+import gc
+import multiprocessing
+import os
+import signal
+import sys
+from dataclasses import asdict, replace
+from pathlib import Path
+
+from angen_apps.maps.gridmap import load_world
+from angen_apps.patrol.command import default_route, default_world
+from angen_apps.robot.building import Entity
+from angen_apps.robot.route_file import Route, read_route
+from angen_apps.seek import run
+from angen_apps.seek.figure import draw_search, draw_times
+from angen_apps.seek.home import Home, make_home
+from angen_apps.seek.report import (compare, summary, table_of, verdict, write_figures,
+                                    write_outcome)
+from angen_apps.seek.run import Figures
+from angen_apps.seek.simulation import entities_of
+from angen_tools.common.files import make_folder
+from angen_tools.common.output import as_json, show
+from angen_tools.common.progress import Progress
+from angen_tools.common.watchdog import end_with_parent
+
+HOME_SHARE = 0.05  # of the progress: the survey
+
+
+def seek(route_file: Path | None, world: Path | None, seed: int, ambient: bool, limit: float,
+         out: Path, json: bool) -> int:
+    """Searches once; 0, or 1 where nobody was found or the robot touched something."""
+    route, world = _prepare(route_file, world, out)
+    with Progress('seek', 0.1) as progress:
+        home, route = survey(world, route, out)
+        progress.update(HOME_SHARE, 'the building is surveyed')
+
+        def note(now: float, text: str) -> None:
+            progress.note(f'{now:6.1f} s  {text}')
+            progress.update(max(HOME_SHARE, now / limit), text)
+
+        outcome = run.search(world, route, home, seed, ambient, limit, out / 'seek.world', note)
+    write_outcome(outcome, home, out)
+    draw_search(home, outcome, out / 'search.png')
+    if json:
+        print(as_json(asdict(outcome.figures)))
+    else:
+        print(summary(outcome, home))
+        print(f'wrote {out}/search.csv, track.csv, person.csv, goals.csv, events.csv, search.png, '
+              'seek.world')
+    if outcome.found is None:
+        print(f'angen: nobody was found within {outcome.figures.time_s:.0f} s', file=sys.stderr)
+    return verdict(outcome.figures)
+
+
+def seek_seeds(route_file: Path | None, world: Path | None, seeds: range, limit: float, out: Path,
+               json: bool) -> int:
+    """Searches with each seed, with and without ambient sensors, on all cores; a table and a
+    figure. 0, or 1 where one did not find anybody or touched something."""
+    route, world = _prepare(route_file, world, out)
+    # By processes that end: this one, which they are made from, has no world and no threads.
+    with multiprocessing.get_context('fork').Pool(1, _begin, (os.getpid(),)) as pool:
+        home, route = pool.apply(survey, (world, route, out))
+    jobs = [(world, route, home, seed, ambient, limit, out) for seed in seeds
+            for ambient in (False, True)]
+    found: list[Figures] = []
+    # No maxtasksperchild: a worker made later would be killed when the pool's thread ends.
+    with multiprocessing.get_context('fork').Pool(os.cpu_count(), _begin, (os.getpid(),)) as pool, \
+            Progress('seek', 0.0) as progress:
+        for figures in pool.imap_unordered(_one, jobs):
+            found.append(figures)
+            found.sort(key=lambda f: (f.seed, not f.ambient))
+            write_figures(found, out / 'seek.csv')
+            progress.update(len(found) / len(jobs), _line(figures))
+    draw_times(found, limit, out / 'seek.png')
+    if json:
+        print(as_json([asdict(figures) for figures in found]))
+    else:
+        show(table_of(found))
+        print(compare(found, limit))
+        print(f'wrote {out}/seek.csv, seek.png')
+    return max(verdict(figures) for figures in found)
+
+
+def _line(figures: Figures) -> str:
+    how = 'with ambient sensors' if figures.ambient else 'without'
+    return (f'seed {figures.seed} {how}: {figures.time_s:.0f} s, '
+            + (f'{figures.room}' if figures.found else 'nobody found'))
+
+
+def _one(job: tuple[Path, Route, Home, int, bool, float, Path]) -> Figures:
+    world, route, home, seed, ambient, limit, out = job
+    scratch = out / f'seed_{seed}_{"with" if ambient else "without"}.world'
+    try:
+        return run.search(world, route, home, seed, ambient, limit, scratch).figures
+    finally:
+        scratch.unlink(missing_ok=True)
+        gc.collect()  # the search's world is in a reference cycle
+
+
+def _begin(parent: int) -> None:
+    """Ctrl-C ends the parent, which ends these."""
+    end_with_parent(parent)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+
+def _prepare(route_file: Path | None, world: Path | None, out: Path) -> tuple[Route, Path]:
+    """The route's file and the world, once everything can be found and written."""
+    route = read_route(route_file or default_route())
+    world = (world or default_world()).absolute()
+    make_folder(out)
+    paths = [str(world.parent / 'models'), os.environ.get('ANGEN_MODEL_PATH', '')]
+    os.environ['ANGEN_MODEL_PATH'] = ':'.join(path for path in paths if path)
+    return route, world
+
+
+def survey(world: Path, route: Route, out: Path) -> tuple[Home, Route]:
+    """What the robot knows of the building of a world's file, and its route there."""
+    empty = out / 'survey.world'
+    try:
+        run.write_world(world, route, None, 0, 0.0, empty)
+        entities = entities_of(load_world(str(empty)))
+        route = served(route, entities)
+        return make_home(route, empty, entities, (0.0, 0.0, 0.0)), route
+    finally:
+        empty.unlink(missing_ok=True)
+
+
+def served(route: Route, entities: list[Entity]) -> Route:
+    """The shipped route is for a building with an elevator: without one the robot keeps to its
+    floor. What a route of one's own names has to be there."""
+    lifts = [entity.name for entity in entities if entity.kind == 'elevator']
+    if route.path != default_route() or route.elevator is None or route.elevator.name in lifts:
+        return route
+    return replace(route, elevator=None)

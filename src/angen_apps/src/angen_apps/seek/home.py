@@ -1,0 +1,299 @@
+"""What a search knows of the building: rooms, cells, who can be seen from where, the sensors."""
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.ndimage import distance_transform_edt, label
+
+from angen_apps.maps.gridmap import FREE, STOREY, GridMap, floor_of, load_world, make_map
+from angen_apps.maps.rays import Caster
+from angen_apps.robot.building import Entity, Start, Survey, find_start
+from angen_apps.robot.planner import Door, Planner, distances
+from angen_apps.robot.route_file import Route
+from angen_apps.robot.views import sensor_element, view_of
+from angen_tools.common.failure import Failure
+from angen_tools.world import sdf
+
+CELL = 0.5  # m
+BODY = 0.3  # m: what a person keeps from everything
+TALL = 1.8  # m: what a person can meet
+ROOM = 1.0  # m2 of a room, at least
+SLIT = 0.1  # m: rooms are not connected through narrower gaps
+PERSON_HEIGHTS = (0.4, 1.0, 1.5)  # m: a person is in view where one of these is
+LASER = 0.44  # m
+SEES = 4.0  # m: how far a look from a viewpoint counts
+APART = 1.0  # m between viewpoints
+DOORWAY = 1.3  # m around the middle of a shut leaf
+
+
+@dataclass(frozen=True)
+class Pir:
+    """Which cells a PIR sees with doors shut, and which only through open doors."""
+
+    name: str
+    sees: np.ndarray  # (n,) bool
+    through_doors: np.ndarray
+    memory: float  # s: a PIR that nods compares with what it saw so long ago
+
+
+@dataclass(frozen=True)
+class Home:
+    """A building in cells of CELL; all arrays (n, ...) are by cell."""
+
+    entities: list[Entity]
+    start: Start
+    maps: dict[int, GridMap]
+    landmarks: dict[int, GridMap]
+    doors: dict[int, list[Door]]
+    walkable: dict[int, GridMap]  # as a person needs it
+    floor: np.ndarray
+    at: np.ndarray  # (n, 2) m
+    room: np.ndarray  # index in `rooms`
+    rooms: list[str]
+    edges: np.ndarray  # (m, 2) cells beside each other, each pair once
+    edge_door: list[str]  # the door between them, or nothing
+    pirs: list[Pir]
+    viewpoints: np.ndarray  # (k,) cells
+    views: np.ndarray  # (k, n) bool: what a viewpoint sees
+    by_lift: np.ndarray  # (n,) bool
+
+    def cell_at(self, x: float, y: float, floor: int) -> int:
+        """The nearest cell."""
+        away = np.hypot(self.at[:, 0] - x, self.at[:, 1] - y) + 1e6 * (self.floor != floor)
+        return int(away.argmin())
+
+    def point(self, cell: int) -> tuple[float, float]:
+        """x, y of a cell, m."""
+        return float(self.at[cell][0]), float(self.at[cell][1])
+
+    def room_at(self, x: float, y: float, floor: int) -> str:
+        return self.rooms[self.room[self.cell_at(x, y, floor)]]
+
+    def room_sums(self, cells: np.ndarray) -> dict[str, float]:
+        """The sum of a value by cell, by room."""
+        sums = np.bincount(self.room, cells, minlength=len(self.rooms))
+        return {name: float(value) for name, value in zip(self.rooms, sums)}
+
+    def around(self, x: float, y: float, floor: int, radius: float) -> np.ndarray:
+        """Which cells lie within `radius` (m) of a place."""
+        away = np.hypot(self.at[:, 0] - x, self.at[:, 1] - y)
+        return (self.floor == floor) & (away <= radius)
+
+    @staticmethod
+    def door_middle(door: Door) -> tuple[float, float]:
+        """The middle of a shut leaf."""
+        tip = door.tip(door.shut)
+        return (door.hinge[0] + tip[0]) / 2, (door.hinge[1] + tip[1]) / 2
+
+    def all_doors(self) -> list[tuple[int, Door]]:
+        """Floor and door, of each."""
+        return [(floor, door) for floor, doors in self.doors.items() for door in doors]
+
+
+def make_home(route: Route, path: Path, entities: list[Entity],
+              offset: tuple[float, float, float]) -> Home:
+    """Surveys the building of a world's file, which has nobody in it but the robot."""
+    start = find_start(route, entities, offset)
+    world, shut = load_world(str(path)), load_world(str(path))
+    survey = Survey(world, shut, entities, None)
+    walkable = {floor: make_map(world, floor, 'open', TALL) for floor in survey.maps}
+    named = room_labels(survey, floor_links(world))
+    cells = _Cells(walkable, named, survey.doors)
+    if not len(cells.at):
+        raise Failure('there is no floor on which a person could walk')
+    free = _Sight(world, shut)
+    targets = np.array([[[x, y, STOREY * floor + h] for h in PERSON_HEIGHTS]
+                        for (x, y), floor in zip(cells.at, cells.floor)])
+    described = sdf.read(path)
+    pirs = [free.pir(entity, described, targets) for entity in entities if entity.kind == 'pir']
+    planners = {floor: Planner(grid, route.clearance) for floor, grid in survey.maps.items()}
+    viewpoints = find_viewpoints(cells.at, cells.floor, planners, survey.doors, route)
+    views = np.array([free.around(cells.at, cells.floor, k) for k in viewpoints])
+    by_lift = np.zeros(len(cells.at), bool)
+    if route.elevator:
+        for place in (route.elevator.cabin, route.elevator.landing):
+            by_lift |= np.hypot(*(cells.at - place).T) < 1.3
+    return Home(entities, start, survey.maps, survey.landmarks,
+                survey.doors, walkable, cells.floor, cells.at, cells.room, cells.names,
+                cells.edges, cells.edge_door, pirs, viewpoints, views, by_lift)
+
+
+def floor_links(world: Any) -> dict[int, list[tuple[str, float, float]]]:
+    """Name and place of each room by the building's links `floor_NAME`, by floor."""
+    found: dict[int, list[tuple[str, float, float]]] = {}
+    for name, pose in zip(world.links, np.asarray(world.link_poses)):
+        link = name.split('::')[-1]
+        if link.startswith('floor_'):
+            floor = floor_of(pose[2])
+            found.setdefault(floor, []).append((link.removeprefix('floor_'), pose[0], pose[1]))
+    return found
+
+
+@dataclass(frozen=True)
+class Rooms:
+    """Of a floor: the room's number of each square of the map (rows, columns), and names."""
+
+    grid: GridMap
+    labels: np.ndarray
+    names: list[str]
+
+    def at(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """The rooms' numbers at places (m); beyond the map as at its edge."""
+        rows = np.floor((y - self.grid.origin[1]) / self.grid.resolution).astype(int)
+        columns = np.floor((x - self.grid.origin[0]) / self.grid.resolution).astype(int)
+        height, width = self.labels.shape
+        return np.asarray(self.labels[np.clip(rows, 0, height - 1), np.clip(columns, 0, width - 1)])
+
+
+def room_labels(survey: Survey, links: dict[int, list[tuple[str, float, float]]]
+                ) -> dict[int, Rooms]:
+    """The rooms: what is connected while doors are shut. Named after the floor in them."""
+    found = {}
+    for floor, grid in survey.shut.items():
+        parts, count = label(distances(grid, SLIT) >= SLIT)
+        sizes = np.bincount(parts.ravel(), minlength=count + 1) * grid.resolution ** 2
+        kept = [i for i in range(1, count + 1) if sizes[i] >= ROOM]
+        numbers = np.zeros(count + 1, int)
+        numbers[kept] = np.arange(1, len(kept) + 1)
+        parts = numbers[parts]
+        near = distance_transform_edt(parts == 0, return_distances=False, return_indices=True)
+        parts = parts[tuple(near)]
+        names = [f'room {i}' for i in range(len(kept))]
+        for name, x, y in links.get(floor, []):
+            row, column = grid.cell(x, y)
+            if 0 <= row < parts.shape[0] and 0 <= column < parts.shape[1]:
+                number = parts[row, column] - 1
+                names[number] = name if names[number].startswith('room ') else names[number]
+        found[floor] = Rooms(grid, parts - 1, [f'{name}{floor}' for name in names])
+    return found
+
+
+def _largest(mask: np.ndarray) -> np.ndarray:
+    """The largest connected part of a mask: the rest is niches that nobody can reach."""
+    parts, count = label(mask, np.ones((3, 3)))
+    return np.asarray(parts == 1 + np.bincount(parts.ravel())[1:].argmax()) if count else mask
+
+
+class _Cells:
+    """Cuts the walkable floor into cells."""
+
+    def __init__(self, walkable: dict[int, GridMap], named: dict[int, Rooms],
+                 doors: dict[int, list[Door]]) -> None:
+        self.names = [name for rooms in named.values() for name in rooms.names]
+        at: list[tuple[float, float]] = []
+        floors: list[int] = []
+        room: list[int] = []
+        edges: list[list[int]] = []
+        first_room = 0
+        for floor, grid in walkable.items():
+            rows, columns = np.nonzero(_largest((distances(grid, BODY) >= BODY)
+                                                & (grid.cells == FREE)))
+            x, y = (grid.origin[0] + (columns + 0.5) * grid.resolution,
+                    grid.origin[1] + (rows + 0.5) * grid.resolution)
+            key = np.stack([np.floor(x / CELL), np.floor(y / CELL), named[floor].at(x, y)],
+                           axis=1).astype(int)
+            kept, which = np.unique(key, axis=0, return_inverse=True)
+            lattice = np.full(grid.cells.shape, -1)
+            lattice[rows, columns] = which.ravel() + len(at)
+            for i in range(len(kept)):
+                mine = which.ravel() == i
+                middle = np.array([x[mine].mean(), y[mine].mean()])
+                best = np.hypot(x[mine] - middle[0], y[mine] - middle[1]).argmin()
+                at.append((x[mine][best], y[mine][best]))
+                floors.append(floor)
+                room.append(first_room + kept[i][2])
+            for a, b in ((lattice[:, 1:], lattice[:, :-1]), (lattice[1:], lattice[:-1])):
+                both = (a >= 0) & (b >= 0) & (a != b)
+                edges += np.sort(np.stack([a[both], b[both]], axis=1), axis=1).tolist()
+            first_room += len(named[floor].names)
+        self.at, self.floor, self.room = np.array(at), np.array(floors), np.array(room)
+        self.edges = np.unique(np.array(edges, int).reshape(-1, 2), axis=0)
+        self.edge_door = [self._door(doors[int(self.floor[a])], a, b) for a, b in self.edges]
+
+    def _door(self, doors: list[Door], a: int, b: int) -> str:
+        """The door between two rooms at a pair of cells."""
+        if self.room[a] == self.room[b]:
+            return ''
+        middle = (self.at[a] + self.at[b]) / 2
+        near = [(float(np.hypot(*(middle - Home.door_middle(d)))), d.name) for d in doors]
+        best = min(near, default=(np.inf, ''))
+        return best[1] if best[0] < DOORWAY else ''
+
+
+class _Sight:
+    """Rays in the building with doors open, and with doors shut."""
+
+    def __init__(self, world: Any, shut: Any) -> None:
+        self._open, self._shut = Caster(world), Caster(shut)
+
+    @staticmethod
+    def _free(caster: Caster, origin: np.ndarray, points: np.ndarray, near: float = 0.0
+              ) -> np.ndarray:
+        lines = points - origin
+        far = np.maximum(np.linalg.norm(lines, axis=1), 1e-6)
+        ranges = caster.cast(np.broadcast_to(origin, points.shape), lines / far[:, None], far)
+        return np.asarray(ranges >= far - near - 1e-6)
+
+    def pir(self, entity: Entity, described: Any, targets: np.ndarray) -> Pir:
+        """The cells that a PIR sees; `targets` (n, heights, 3) points of a person in each."""
+        sensor = sensor_element(described, entity)
+        view = view_of(entity, sensor)
+        points = targets.reshape(-1, 3)
+        held = np.nonzero(view.holds(points))[0]
+        seen = [np.zeros(len(points), bool), np.zeros(len(points), bool)]
+        for mask, caster in zip(seen, (self._shut, self._open)):
+            mask[held] = self._free(caster, view.position, points[held])
+        shut, opened = (mask.reshape(targets.shape[:2]).any(axis=1) for mask in seen)
+        period = float(sensor.findtext('plugin/nod_period') or 0) if sensor is not None else 0.0
+        return Pir(entity.name, shut, opened & ~shut, period)
+
+    def around(self, at: np.ndarray, floor: np.ndarray, cell: int) -> np.ndarray:
+        """The cells in which a laser at a cell sees a person, with doors shut."""
+        z = STOREY * floor[cell] + LASER
+        found = (floor == floor[cell]) & (np.hypot(*(at - at[cell]).T) <= SEES)
+        rows = np.nonzero(found)[0]
+        points = np.column_stack([at[rows], np.full(len(rows), z)])
+        found[rows] = self._free(self._shut, np.array([*at[cell], z]), points, BODY)
+        return found
+
+
+def find_viewpoints(at: np.ndarray, floor: np.ndarray, planners: dict[int, Planner],
+                    doors: dict[int, list[Door]], route: Route) -> np.ndarray:
+    """Cells APART m from each other where the robot can stand and no leaf swings."""
+    found: list[int] = []
+    for i, (place, number) in enumerate(zip(at, floor)):
+        point = (float(place[0]), float(place[1]))
+        if number not in planners or not planners[number].stands(point):
+            continue
+        if any(door.room_for(point) < route.door_room for door in doors[number]):
+            continue
+        if route.elevator and np.hypot(*np.subtract(place, route.elevator.cabin)) < 1.2:
+            continue
+        if all(floor[k] != number or np.hypot(*(at[k] - place)) >= APART for k in found):
+            found.append(i)
+    return np.array(found, int)
+
+
+def doors_between(home: Home, room: int, shut: set[str]) -> np.ndarray:
+    """How many shut doors lie at least between a room and each room of its floor."""
+    beside: dict[int, set[tuple[int, str]]] = {}
+    for (a, b), door in zip(home.edges, home.edge_door):
+        one, other = int(home.room[a]), int(home.room[b])
+        if one != other:
+            beside.setdefault(one, set()).add((other, door))
+            beside.setdefault(other, set()).add((one, door))
+    count = np.full(len(home.rooms), 99)
+    count[room] = 0
+    waiting = deque([room])
+    while waiting:
+        here = waiting.popleft()
+        for there, door in beside.get(here, ()):
+            more = count[here] + (door in shut)
+            if more < count[there]:
+                count[there] = more
+                waiting.append(there)
+    return count

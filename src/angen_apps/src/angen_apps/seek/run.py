@@ -1,0 +1,128 @@
+"""One search from its seed to its figures."""
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Callable
+
+import numpy as np
+from lxml import etree
+
+from angen_apps.maps.gridmap import floor_of
+from angen_apps.patrol.scene import start_offset
+from angen_apps.robot.building import find_start, move_robot, remove_actors
+from angen_apps.robot.driver import Track
+from angen_apps.robot.interface import Event, collisions
+from angen_apps.robot.route_file import Route
+from angen_apps.seek.home import Home
+from angen_apps.seek.resident import Resident, add_actor, plan_walk
+from angen_apps.seek.search import LEAD, Found, Search
+from angen_apps.seek.simulation import Simulation
+from angen_tools.common.files import write_text
+from angen_tools.world import sdf
+
+NOBODY = ''  # the room of somebody who is not there
+
+
+@dataclass(frozen=True)
+class Figures:
+    """A search in numbers; m, s. Without a find `time_s` is when it ended."""
+
+    seed: int
+    ambient: bool
+    found: bool
+    time_s: float
+    room: str  # as reported
+    x_m: float
+    y_m: float
+    error_m: float  # of the reported place
+    true_room: str
+    distance_m: float
+    collisions: int
+    wall_s: float
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A search: its figures, and what its report is made of."""
+
+    figures: Figures
+    found: Found | None
+    track: Track
+    person: list[tuple[float, ...]]  # t, x, y, z: in truth
+    goals: list[tuple[float, int]]
+    events: list[Event]
+    beliefs: list[tuple[float, np.ndarray]]  # s, of each cell; every BELIEF s
+    began: float  # s: when the search began
+
+
+BELIEF = 1.0  # s between two beliefs that are kept
+
+
+def write_world(world: Path, route: Route, home: Home | None, seed: int, limit: float, to: Path
+                ) -> str:
+    """Writes the world of a search; the name of the person in it, or nothing.
+
+    The first person of the world walks by the seed; without `home` nobody is there, and the robot
+    stands at its place.
+    """
+    root: etree._Element = sdf.read(world)
+    people = remove_actors(root)
+    if home is not None:
+        move_robot(root, route.robot, start_offset(seed), world)
+        if people:
+            add_actor(root, people[0], plan_walk(home, route, seed, LEAD + limit))
+    write_text(to, sdf.text(root))
+    return people[0] if people and home is not None else NOBODY
+
+
+def search(world: Path, route: Route, home: Home, seed: int, ambient: bool, limit: float,
+           scratch: Path, note: Callable[[float, str], None] = lambda now, text: None) -> Outcome:
+    """Runs one search; `scratch`: the file for its world; `note` is called with the time (s) and
+    what the robot does next."""
+    began = time.monotonic()
+    name = write_world(world, route, home, seed, limit, scratch)
+    simulation = Simulation(scratch, seed, route.robot)
+    start = find_start(route, simulation.entities, start_offset(seed))
+    home = replace(home, start=start)
+    seeker = Search(home, route, simulation, ambient, note)
+    person: list[tuple[float, ...]] = []
+    beliefs: list[tuple[float, np.ndarray]] = []
+    resident = (Resident(simulation, home, route, name, plan_walk(home, route, seed, LEAD + limit),
+                         seed) if name else None)
+
+    def others() -> None:
+        if resident is not None:
+            resident.act()
+            person.append((simulation.now, *simulation.place(f'{name}::body')[:3]))
+        if simulation.now >= len(beliefs) * BELIEF:
+            beliefs.append((simulation.now, seeker.belief.cells.astype(np.float32)))
+
+    simulation.others = others
+    found = seeker.run(limit)
+    end = simulation.place(f'{name}::body') if name else None
+    figures = judge(home, seed, ambient, found, end, seeker.driver.track, simulation,
+                    seeker.began, time.monotonic() - began)
+    return Outcome(figures, found, seeker.driver.track, person, seeker.goals, simulation.events,
+                   beliefs, seeker.began)
+
+
+def judge(home: Home, seed: int, ambient: bool, found: Found | None,
+          truth: tuple[float, float, float, float] | None, track: Track, simulation: Simulation,
+          since: float, wall: float) -> Figures:
+    """The figures of a search; the truth is used only here."""
+    line = np.array(track.rows)[:, 1:3]
+    distance = float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum())
+    error, true_room = math.nan, NOBODY
+    if truth is not None:
+        floor = floor_of(truth[2])
+        true_room = home.room_at(truth[0], truth[1], floor)
+        if found is not None:
+            error = (math.dist((found.x, found.y), truth[:2]) if floor == found.floor
+                     else math.inf)
+    return Figures(seed, ambient, found is not None,
+                   found.time if found else simulation.now - since, found.room if found else '',
+                   found.x if found else math.nan, found.y if found else math.nan, error,
+                   true_room, distance, len(collisions(simulation.events)), wall)

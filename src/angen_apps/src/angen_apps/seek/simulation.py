@@ -1,0 +1,119 @@
+"""The building, the robot and the person of one search, in this process (`import angen`).
+
+The robot gets what subscribers of the topics get: events, states of doors and elevator, odometry,
+scans, depth images. What is true of robot and person is for the person's own eyes and the judge.
+"""
+from __future__ import annotations
+
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, Callable
+
+import numpy as np
+
+from angen_apps.robot.building import Entity, Start
+from angen_apps.robot.interface import (BASE, BUMPER, CYCLE, DoorState, Event, LiftState, bumper)
+from angen_apps.robot.pilot import Pose
+from angen_tools.common.catalog import angen_module
+from angen_tools.common.failure import Failure
+from angen_tools.common.geometry import yaw
+from angen_tools.world.models import collisions
+from angen_tools.world.sdf import read
+
+
+def entities_of(world: Any) -> list[Entity]:
+    """All devices and sensors of an angen.World."""
+    return [Entity(kind, name, model, tuple(float(value) for value in pose))
+            for kind, name, model, pose in world.entities()]
+
+
+class Simulation:
+    """One world with its robot; see robot.interface.Robot. `others` acts before each cycle."""
+
+    def __init__(self, path: Path, seed: int, robot: str) -> None:
+        self._angen = angen_module()
+        try:
+            self.world = self._angen.World(str(path), seed)
+        except self._angen.Error as error:
+            raise Failure(str(error)) from None
+        self._name = robot
+        self.events: list[Event] = []
+        self.others: Callable[[], None] = lambda: None
+        self.sent: list[tuple[float, str, str]] = []  # s, kind, name of the robot's commands
+        self.entities = entities_of(self.world)
+        names = collisions(read(path), f'{robot}::{BASE}')
+        if not names:
+            raise Failure(f'the robot {robot} has no link {BASE} with collisions')
+        self.world.spawn(bumper(names), BUMPER, on=f'{robot}::{BASE}')
+        self._links = {name: i for i, name in enumerate(self.world.links)}
+
+    def start(self, start: Start) -> None:
+        """Switches the robot's lidar on."""
+        self._lidar = start.laser.name
+        self._depth = next((e.name for e in self.entities
+                            if (e.kind, e.model) == ('depth', start.robot.model)), '')
+        self.world.request('lidar', self._lidar)
+        self.wait()
+        self.wait()
+
+    def wait(self) -> None:
+        """Lets CYCLE pass; the robot does nothing."""
+        self.others()
+        self.world.run(CYCLE)
+        self.events += [Event(*event) for event in self.world.events()]
+
+    @property
+    def now(self) -> float:
+        return float(self.world.time)
+
+    def cycle(self, v: float, w: float) -> None:
+        self.world.command('drive', self._name, values=[v, w])
+        self.wait()
+
+    def command(self, kind: str, name: str, text: str) -> None:
+        self.sent.append((self.now, kind, name))
+        self.order(kind, name, text)
+
+    def order(self, kind: str, name: str, text: str) -> None:
+        """Commands a device for somebody else than the robot."""
+        try:
+            self.world.command(kind, name, text)
+        except self._angen.Error as error:
+            raise Failure(str(error)) from None
+
+    def door(self, name: str) -> DoorState:
+        return DoorState(self.world.device('door', name)['mode'])
+
+    def lift(self, name: str) -> LiftState:
+        state = self.world.device('elevator', name)
+        return LiftState(state['mode'], state['door_mode'], state['target_floor'],
+                         state['position'])
+
+    def odometry(self) -> Pose:
+        state = self.world.device('drive', self._name)
+        return Pose(state['x'], state['y'], state['yaw'])
+
+    def scan(self) -> Any:
+        return SimpleNamespace(**self.world.sensor('lidar', self._lidar))
+
+    def depth(self) -> Any | None:
+        """The latest depth image, as angen has it; None before the first, and without a camera."""
+        if not self._depth:
+            return None
+        try:
+            return SimpleNamespace(**self.world.sensor('depth', self._depth))
+        except self._angen.Error:
+            return None
+
+    def want_depth(self, wanted: bool) -> None:
+        """Switches the depth camera on or off."""
+        if self._depth:
+            self.world.request('depth', self._depth, wanted)
+
+    def truth(self) -> tuple[float, float, float, float]:
+        return self.place(f'{self._name}::{BASE}')
+
+    def place(self, link: str) -> tuple[float, float, float, float]:
+        """Where a link is in truth: x, y, z (m), yaw (rad)."""
+        row = np.asarray(self.world.link_poses)[self._links[link]]
+        return float(row[0]), float(row[1]), float(row[2]), yaw(*row[3:])

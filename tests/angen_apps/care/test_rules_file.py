@@ -1,0 +1,104 @@
+"""The rules file: what it means, and what is said of a wrong one."""
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+from angen_apps.care.membership import Trapezoid
+from angen_apps.care.rules import Rules
+from angen_apps.care.rules_file import read_rules
+from angen_apps.care.sources import check_sources
+from angen_tools.common.failure import Failure
+
+ROOT = Path(__file__).resolve().parents[3]
+RIGHT = '''starts: 6:00
+signals:
+  moves: {of: [pir/a_*, pir/b], is: motion}
+  away: {of: pir/b, is: motion, until_elsewhere: pir/*}
+rules:
+  - name: quiet
+    reason: nobody moves
+    at: sofa
+    when:
+      - moves
+      - {not: away, for: [1 h, 90 min]}
+      - {is: moves, began: 22:00 to 6:00}
+      - {time: [21:30, 22:30, 5:30, 6:30]}
+'''
+
+
+def rules_of(folder: Path, text: str) -> Rules:
+    file = folder / 'my.yaml'
+    file.write_text(text)
+    return read_rules(file)
+
+
+def test_a_file_says_what_it_means(tmp_path: Path) -> None:
+    rules = rules_of(tmp_path, RIGHT)
+    assert rules.starts == 6 * 3600
+    assert rules.signals['moves'].of == ('pir/a_*', 'pir/b')
+    assert rules.signals['away'].elsewhere == ('pir/*',)
+    rule, = rules.rules
+    assert (rule.name, rule.at, rule.threshold, rule.product) == ('quiet', 'sofa', 0.5, False)
+    plain, lasting, began, time = rule.when
+    assert (plain.signal, plain.negated, plain.lasting) == ('moves', False, None)
+    assert lasting.negated and lasting.lasting == Trapezoid(3600, 5400, math.inf, math.inf)
+    hour = 3600.0
+    assert began.began == Trapezoid(22 * hour, 22 * hour, 30 * hour, 30 * hour, 24 * hour)
+    assert time.time == Trapezoid(21.5 * hour, 22.5 * hour, 29.5 * hour, 30.5 * hour, 24 * hour)
+
+
+@pytest.mark.parametrize('old, new, line, part', [
+    ('starts: 6:00', 'starts: 6 am', 1, "'6 am' is not a time of day; write it as 22:30"),
+    ('starts:', 'start:', 1, "'start' is not known in a rules file; did you mean starts"),
+    ('is: motion}\n  away', 'is: moving}\n  away', 3,
+     "kind pir has no state 'moving'; did you mean motion?"),
+    ('pir/b, is', 'pri/b, is', 4, "no states of kind 'pri'; did you mean pir"),
+    ('pir/b]', 'pir]', 3, "'pir' is not KIND/NAME, as pir/kitchen_pir0_a"),
+    ('of: pir/b, ', '', 4, "signal 'away' has no of"),
+    ('is: motion, until', 'is: motion, tag: anna, until', 4, 'only rfid/NAME reads a tag'),
+    ('    reason: nobody moves\n', '', 6, 'a rule has no reason'),
+    ('name: quiet', 'name: all', 6, "cannot be called 'all'"),
+    ('- moves', '- move', 10, "there is no signal 'move'; did you mean moves"),
+    ('not: away', 'no: away', 11, "'no' is not known in a condition; did you mean not"),
+    ('[1 h, 90 min]', '[90 min, 1 h]', 11, 'the durations of for must rise'),
+    ('[1 h, 90 min]', '[1 h]', 11, 'for has 1 corners, must have 2 or 4'),
+    ('[1 h, 90 min]', '1 hour', 11, "'1 hour' is not a duration; write it as 90 s"),
+    ('22:00 to 6:00', '22:00', 12, "began is '22:00'; write it as 22:00 to 6:00"),
+    ('[21:30, 22:30, 5:30, 6:30]', '[21:30, 22:30, 5:30, 22:00]', 13, 'more than once'),
+    ('{time: [', '{is: moves, time: [', 13, "one of 'is', 'not' and 'time'"),
+    ('    at: sofa\n', '    threshold: 2\n', 8, 'threshold is 2, must be 0.01 to 1'),
+    ('    at: sofa\n', '    and: mean\n', 8, "and is 'mean'; did you mean"),
+    ('rules:', 'rules: [', 6, 'is not YAML'),
+])
+def test_a_wrong_file_is_told_by_line(old: str, new: str, line: int, part: str, tmp_path: Path
+                                      ) -> None:
+    assert RIGHT.count(old) == 1
+    with pytest.raises(Failure) as caught:
+        rules_of(tmp_path, RIGHT.replace(old, new))
+    assert str(caught.value).startswith(f'{tmp_path}/my.yaml:{line}: ')
+    assert part in str(caught.value)
+
+
+def test_a_rule_has_one_name(tmp_path: Path) -> None:
+    twice = RIGHT + RIGHT[RIGHT.index('  - name'):]
+    with pytest.raises(Failure, match="my.yaml:14: rule 'quiet' is there twice; .* in line 6"):
+        rules_of(tmp_path, twice)
+
+
+def test_what_does_not_exist_is_told(tmp_path: Path) -> None:
+    rules = rules_of(tmp_path, RIGHT)
+    check_sources(rules, {'pir/a_1', 'pir/b'}, {'sofa'})
+    with pytest.raises(Failure, match=r"my.yaml:3: signal 'moves': the world has no pir/a_\*; "
+                                      'did you mean pir/ab or pir/b'):
+        check_sources(rules, {'pir/ab', 'pir/b', 'door/x'}, {'sofa'})
+    with pytest.raises(Failure, match="my.yaml:6: rule 'quiet': nothing is named 'sofa'; did you "
+                                      'mean sofa0'):
+        check_sources(rules, {'pir/a_1', 'pir/b'}, {'sofa0'})
+
+
+def test_the_shipped_rules_are_right() -> None:
+    rules = read_rules(ROOT / 'src/angen_apps/config/care.yaml')
+    assert len(rules.rules) == 6

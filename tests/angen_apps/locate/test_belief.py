@@ -1,0 +1,122 @@
+from math import exp, isnan, pi
+
+import numpy as np
+import pytest
+
+from angen_apps.locate.belief import Belief, Evidence, Model
+from angen_apps.locate.site import Site, Thing, make_site
+
+# three rooms of 4 x 4 m in a row, doors between them, a PIR in each, a reader in the first
+ROOMS = [0, 0, 0, 4, 4, 3, 4.1, 0, 0, 8, 4, 3, 8.1, 0, 0, 12, 4, 3]
+
+
+def home(*more: Thing) -> Site:
+    things = [Thing('pir', f'{name}_pir0_a', (x, 0.1, 2.3), 1.57)
+              for name, x in (('hall', 2), ('study', 6), ('den', 10))]
+    things += [Thing('door', 'study0', (4.05, 1.0, 0), 1.5708),
+               Thing('door', 'den0', (8.05, 1.0, 0), 1.5708),
+               Thing('rfid', 'gate', (0.1, 2.0, 2.0), 0.0)]
+    return make_site([((0.0, 0.0, 0.0), {'rooms': ROOMS})], [*things, *more])
+
+
+def read(tag: str, distance: float = 2.0) -> Evidence:
+    return Evidence(reads={'gate': {tag: distance}})
+
+
+def silent(**more) -> Evidence:
+    return Evidence(reads={'gate': {}}, **more)
+
+
+def test_rooms_are_called_after_their_sensors_and_joined_by_doors():
+    site = home()
+    assert [room.name for room in site.rooms] == ['hall0', 'study0', 'den0']
+    assert site.ways == [(0, 1, 'study0'), (1, 2, 'den0')]
+
+
+def test_named_rooms_keep_their_names():
+    site = make_site([((0, 0, 4), {'rooms': ROOMS[:6], 'names': ['attic']})], [])
+    assert site.rooms[0].name == 'attic1' and site.room_at((1, 1, 5)) == 0
+
+
+def test_rooms_without_doors_are_open_to_what_they_touch():
+    site = make_site([((0, 0, 0), {'rooms': ROOMS})], [])
+    assert {(a, b) for a, b, _ in site.ways} == {(0, 1), (1, 0), (1, 2), (2, 1)}
+
+
+def test_without_evidence_a_belief_spreads_as_its_rates_say():
+    site = make_site([((0, 0, 0), {'rooms': ROOMS[:12]})], [])
+    belief = Belief(site, Model(leaves=0.15))
+    belief.chances['a'] = np.array([1.0, 0.0])
+    for _ in range(40):
+        belief.step(Evidence(), 0.05)
+    # in steps of 0.05 s a share of 1 - exp(-0.15 * 0.05) moves each way
+    stays = 2 * exp(-0.15 * 0.05) - 1
+    assert belief.chances['a'][0] == pytest.approx(0.5 * (1 + stays ** 40), rel=1e-9)
+
+
+def test_a_tag_that_is_read_is_in_the_readers_room_and_at_its_distance():
+    belief = Belief(home())
+    for _ in range(3):
+        belief.step(read('a'))
+    answer, = belief.answers()
+    assert (answer.tag, answer.room) == ('a', 'hall0') and answer.chance > 0.9
+    # the middle of a half circle: 2 r / pi before the reader
+    radius = (2.0 ** 2 - 1.0) ** 0.5
+    assert answer.at[0] - 0.1 == pytest.approx(2 * radius / pi, abs=0.15)
+    assert answer.at[1] == pytest.approx(2.0, abs=0.1)
+
+
+def test_who_was_never_read_is_not_named_and_who_is_lost_is_unknown():
+    belief = Belief(home())
+    belief.step(silent(motion={'hall_pir0_a': True}))
+    assert belief.answers() == []
+    belief.step(read('a'))
+    for _ in range(600):
+        belief.step(Evidence())
+    answer, = belief.answers()
+    assert answer.room == '' and isnan(answer.at[0])
+
+
+def test_motion_leads_a_tag_through_open_doors():
+    belief = Belief(home())
+    for _ in range(4):
+        belief.step(read('a'))
+    for room in ('study', 'den'):
+        for _ in range(12):
+            belief.step(silent(motion={f'{name}_pir0_a': name == room
+                                       for name in ('hall', 'study', 'den')}))
+        assert belief.answers()[0].room == f'{room}0'
+
+
+def test_a_shut_door_holds_a_tag():
+    def after(is_open: bool) -> float:
+        belief = Belief(home())
+        for _ in range(4):
+            belief.step(read('a'))
+        for _ in range(4):
+            belief.step(silent(open={'study0': is_open},
+                               motion={'hall_pir0_a': False, 'study_pir0_a': True,
+                                       'den_pir0_a': False}))
+        return belief.chances['a'][1]
+
+    assert after(True) > 0.6 > 0.4 > after(False)
+
+
+def test_what_another_explains_is_no_evidence():
+    lone, accompanied = Belief(home()), Belief(home())
+    for _ in range(4):
+        lone.step(read('a'))
+        accompanied.step(read('a'))
+    accompanied.chances['b'] = np.array([0.001, 0.998, 0.001])
+    for belief in (lone, accompanied):
+        belief.step(silent(motion={'hall_pir0_a': False, 'study_pir0_a': True}))
+    assert accompanied.chances['a'][1] < 0.7 * lone.chances['a'][1]
+
+
+def test_a_mat_says_in_which_room_somebody_is():
+    site = home(Thing('pressure', 'mat', (6.0, 2.0, 0.0), 0.0))
+    belief = Belief(site)
+    belief.step(read('a'))
+    for _ in range(3):
+        belief.step(silent(pressed={'mat': True}))
+    assert belief.answers()[0].room == 'study0'

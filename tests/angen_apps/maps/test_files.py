@@ -1,0 +1,73 @@
+"""map_server's files."""
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+
+from angen_apps.maps.gridmap import FREE, OCCUPIED, UNKNOWN, GridMap, load_world, make_map
+from angen_tools.cli import main as cli
+
+ROOT = Path(__file__).resolve().parents[3]
+PLUGINS = '''<plugin name="doors" filename="libdoor_world_plugin.so"/>
+<plugin name="robots" filename="librobot_controller.so"/>'''
+
+
+def solid(name: str, pose: str, size: str) -> str:
+    return f'''<model name="{name}"><static>true</static><pose>{pose}</pose><link name="link">
+  <collision name="c"><geometry><box><size>{size}</size></box></geometry></collision>
+  </link></model>'''
+
+
+def sdf(*models: str) -> str:
+    """A slab of 4 x 4 m at z = 0, with models on it."""
+    return (f'<sdf version="1.6"><world name="w">{PLUGINS}'
+            f'{solid("slab", "0 0 -0.1 0 0 0", "4 4 0.2")}{"".join(models)}</world></sdf>')
+
+
+def read_as_map_server(path: Path) -> GridMap:
+    """What map_server publishes for a yaml file (its rules: wiki.ros.org/map_server)."""
+    written = yaml.safe_load(path.read_text())
+    assert written['negate'] == 0
+    kind, size, depth, shades = (path.parent / written['image']).read_bytes().split(b'\n', 3)
+    assert (kind, depth) == (b'P5', b'255')
+    columns, rows = map(int, size.split())
+    dark = (255 - np.frombuffer(shades, np.uint8).reshape(rows, columns)[::-1]) / 255
+    cells = np.where(dark > written['occupied_thresh'], OCCUPIED,
+                     np.where(dark < written['free_thresh'], FREE, UNKNOWN))
+    assert written['origin'][2] == 0
+    return GridMap(cells, tuple(written['origin'][:2]), written['resolution'], 0)
+
+
+def test_the_files_say_what_the_map_says(tmp_path: Path, capsys: pytest.CaptureFixture[str]
+                                         ) -> None:
+    world = tmp_path / 'w.world'
+    world.write_text(sdf(solid('upper', '0 0 3.9 0 0 0', '4 4 0.2'),
+                         solid('box', '1 -0.5 4.5 0 0 0', '0.5 2 1'),
+                         solid('wall', '-2 0 4.5 0 0 0', '0.1 4 1')))
+    stem = tmp_path / 'up.1'
+    assert cli.run(['map', '--world', str(world), '--floor', '1', '-o', str(stem)]) == 0
+    grid = make_map(load_world(str(world)), 1)
+    assert capsys.readouterr().out == (
+        f'wrote {stem}.pgm and {stem}.yaml: floor 1, '
+        f'{grid.cells.shape[1]} x {grid.cells.shape[0]} cells of 0.05 m\n')
+    read = read_as_map_server(tmp_path / 'up.1.yaml')
+    assert (read.cells == grid.cells).all() and set(read.cells.flat) == {FREE, OCCUPIED, UNKNOWN}
+    assert read.resolution == grid.resolution
+    assert read.origin == pytest.approx(grid.origin, abs=1e-6)
+
+
+@pytest.mark.parametrize('words, part', [
+    (['--floor', '2'], 'worlds/angen.world: there is no floor 2; known are 0, 1'),
+    (['--world', f'{ROOT}/worlds/empty.world'], 'empty.world: there is no floor 0; nothing stands'),
+    (['--world', 'none.world'], 'none.world'),
+    (['-o', 'no/such/folder/map'], 'no/such/folder/map: cannot be written')])
+def test_what_is_wrong_is_one_line(words: list[str], part: str, tmp_path: Path,
+                                   monkeypatch: pytest.MonkeyPatch,
+                                   capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert cli.run(['map', *words]) == 1
+    line, = capsys.readouterr().err.splitlines()
+    assert line.startswith('angen: ') and part in line and not list(tmp_path.iterdir())

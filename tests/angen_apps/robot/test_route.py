@@ -1,0 +1,77 @@
+"""From waypoints to actions."""
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from angen_apps.maps.gridmap import FREE, OCCUPIED, GridMap
+from angen_apps.robot.planner import Door, Planner
+from angen_apps.robot.route import Drive, Ride, Router, Turn
+from angen_apps.robot.route_file import read_route
+from angen_tools.common.failure import Failure
+
+POINTS = ('waypoints:\n- {name: a, floor: 0, at: [0.5, 0.5]}\n'
+          '- {name: b, floor: 0, at: [3.5, 0.5]}\n')
+
+
+def two_rooms(floor: int = 0) -> GridMap:
+    """4 m x 2 m, with walls all round and one at x = 2 that has a doorway from y = 0.5 to 1.5."""
+    cells = np.full((40, 80), FREE, np.int8)
+    cells[[0, -1]] = cells[:, [0, -1]] = OCCUPIED
+    cells[:10, 40] = cells[30:, 40] = OCCUPIED
+    return GridMap(cells, (0.0, 0.0), 0.05, floor)
+
+
+# shut across the doorway; opens into the right room
+DOOR = Door('d', (2.0, 0.5), math.pi / 2, 0.0, 1.0)
+
+
+def route_of(folder: Path, text: str):
+    file = folder / 'my.yaml'
+    file.write_text(text)
+    return read_route(file)
+
+
+def test_a_route_through_a_door_opens_and_shuts_it(tmp_path: Path) -> None:
+    route = route_of(tmp_path, POINTS + 'clearance: 0.2\n')
+    router = Router(route, {0: Planner(two_rooms(), 0.2)}, {0: [DOOR]})
+    actions = router.actions((0.5, 1.0), 0)
+    assert [type(action) for action in actions] == [Drive, Drive, Turn, Drive, Turn, Drive]
+    assert [a.open for a in actions if isinstance(a, Turn)] == [True, False]
+    assert [a.name for a in actions if isinstance(a, Drive)] == ['a', '', '', 'b']
+    ends = [a.points for a in actions if isinstance(a, Drive)]
+    assert all(first[-1] == then[0] for first, then in zip(ends, ends[1:]))
+
+
+def test_another_floor_is_reached_by_the_elevator(tmp_path: Path) -> None:
+    route = route_of(tmp_path, 'waypoints:\n- {name: up, floor: 1, at: [1.0, 1.5]}\n'
+                     'elevator: {name: e, cabin: [0.5, 0.5], landing: [1.0, 1.0]}\n')
+    router = Router(route, {floor: Planner(two_rooms(floor), 0.2) for floor in (0, 1)}, {})
+    actions = router.actions((1.0, 1.5), 0)
+    assert [type(action) for action in actions] == [Drive, Ride, Drive, Ride, Drive]
+    assert [a for a in actions if isinstance(a, Ride)] == [Ride(0, False), Ride(1, True)]
+
+
+@pytest.mark.parametrize('point, part', [
+    ('{name: far, floor: 0, at: [9, 9]}', 'cannot stand at 9, 9'),
+    ('{name: far, floor: 0, at: [2.0, 0.1]}', 'cannot stand'),
+    ('{name: far, floor: 3, at: [1, 1]}', 'no floor 3; known are 0'),
+    ('{name: far, floor: 0, at: [1.8, 1.0]}', 'within the swing of door d'),
+])
+def test_what_cannot_be_reached_is_named(tmp_path: Path, point: str, part: str) -> None:
+    route = route_of(tmp_path, POINTS + f'- {point}\nclearance: 0.2\n')
+    router = Router(route, {0: Planner(two_rooms(), 0.2)}, {0: [DOOR]})
+    with pytest.raises(Failure) as caught:
+        router.actions((0.5, 1.0), 0)
+    assert str(caught.value).startswith(f'{tmp_path}/my.yaml:4: waypoint far: ')
+    assert part in str(caught.value)
+
+
+def test_a_floor_without_an_elevator_cannot_be_reached(tmp_path: Path) -> None:
+    route = route_of(tmp_path, 'waypoints:\n- {name: up, floor: 1, at: [1.0, 1.5]}\n')
+    router = Router(route, {floor: Planner(two_rooms(floor), 0.2) for floor in (0, 1)}, {})
+    with pytest.raises(Failure, match='waypoint up: is on floor 1, and the route names no elev'):
+        router.actions((1.0, 1.5), 0)

@@ -1,0 +1,108 @@
+"""What angen bench soak says of samples."""
+from __future__ import annotations
+
+from typing import Sequence
+
+import pytest
+
+from angen_bench import soak
+from angen_bench.soak import MASTER, ROUND, Sample, Thing, grown, things
+from angen_tools.common.progress import Progress
+
+WARM = 2 * soak.WARM_UP  # samples before the first that counts
+
+
+class Fake:
+    """A home that has what `memory` and `descriptors` say, by the number of the sample."""
+
+    def __init__(self, memory: Sequence[float], descriptors: Sequence[int] = (20,)) -> None:
+        self._memory, self._descriptors = list(memory), list(descriptors)
+        self._next = 0
+        self.lit = False
+        self.there: list[str] = []
+        self.seen: set[tuple[Thing, bool]] = set()
+
+    def spawn(self, thing: Thing, name: str) -> None:
+        self.there.append(name)
+        self.seen.add((thing, self.lit))
+
+    def delete(self, name: str) -> None:
+        self.there.remove(name)
+
+    def command(self, lit: bool) -> None:
+        self.lit = lit
+
+    def rest(self, seconds: float) -> None:
+        pass
+
+    def sample(self, cycle: int) -> Sample:
+        at = self._next
+        self._next += 1
+        return Sample(cycle, self._memory[min(at, len(self._memory) - 1)],
+                      self._descriptors[min(at, len(self._descriptors) - 1)], 5)
+
+    def registered(self) -> set[str]:
+        return {'publishes /x', *self.there}
+
+
+@pytest.fixture(autouse=True)
+def brief(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(soak, 'QUIET', 0.1)
+
+
+def run(home: Fake, cycles: int) -> tuple[list[Sample], list[str]]:
+    with Progress('soak', 0.1) as progress:
+        return soak.soak(home, cycles, progress)
+
+
+def samples(memory: Sequence[float]) -> list[Sample]:
+    return [Sample(10 * i, mb, 20, 5) for i, mb in enumerate(memory)]
+
+
+def test_memory_may_grow_while_it_warms_up() -> None:
+    found, wrong = run(Fake([40.0 + min(i, WARM) for i in range(100)]), 1000)
+    assert [sample.cycle for sample in found] == list(range(ROUND, 1001, ROUND))
+    assert wrong == []
+
+
+def test_everything_comes_while_lamps_are_lit_before_the_first_sample() -> None:
+    home = Fake([40.0])
+    run(home, ROUND)
+    assert {thing for thing, lit in home.seen if lit} == set(things())
+
+
+def test_descriptors_that_stay_are_reported() -> None:
+    assert run(Fake([40.0], [20, 25, 25 + MASTER]), 100)[1] == []
+    assert run(Fake([40.0], [20] * WARM + [21 + MASTER]), 100)[1] == [
+        f'descriptors were {20 + MASTER} and are {21 + MASTER}']
+
+
+def test_registrations_that_stay_are_reported() -> None:
+    class Keeping(Fake):
+        def delete(self, name: str) -> None:
+            if self._next < WARM or name != 'soak_door':
+                super().delete(name)
+
+    assert run(Keeping([40.0]), 100)[1] == ['registrations differ: soak_door']
+
+
+def test_memory_may_vary() -> None:
+    assert grown(samples([60.0 + 10 * (i % 2) for i in range(100)])) == []
+
+
+def test_memory_that_grows_on_is_reported() -> None:
+    said, = grown(samples([60.0 + 0.05 * i for i in range(100)]))
+    assert said.startswith('memory has grown from 60.0 to 63.8') and 'by more than 2 MB' in said
+
+
+def test_every_kind_of_sensor_is_spawned() -> None:
+    from angen_tools.common.catalog import kinds
+    assert set(kinds('sensor')) <= {thing.kind for thing in things()}
+    assert {'lamp', 'door', 'elevator'} <= {thing.kind for thing in things()}
+
+
+def test_the_models_of_the_catalog_exist() -> None:
+    from angen_tools.world import models
+    missing = [thing.what for thing in things()
+               if thing.what.startswith('model://') and not models.find(thing.what)]
+    assert missing == []
