@@ -134,8 +134,8 @@ sanitizer_options() {
 # Unit tests of what reads files, under AddressSanitizer and UndefinedBehaviorSanitizer; part of each ./angen test.
 check_asan() { # [WORDS]
   local program failed=0
-  (sanitizer_options && sanitized_tree asan core_test load_test) || return
-  for program in core load; do
+  (sanitizer_options && sanitized_tree asan core_test document_test assets_test import_test sdf_test) || return
+  for program in core document assets import sdf; do
     (sanitizer_options && "build-asan/tests/${program}_test" --gtest_brief=1 --gtest_filter="*${1:-}*") || failed=1
     [[ ! $(sanitizer_options && "build-asan/tests/${program}_test" --gtest_list_tests --gtest_filter="*${1:-}*") ]] || matched=1
   done

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "load/load.h"
+#include "sdf/load.h"
 #include "sim/simulation.h"
 
 /// Worlds that the benchmarks of `sim` run.

@@ -6,7 +6,7 @@ from pathlib import Path
 import angen
 import pytest
 
-WORLD = Path(__file__).resolve().parents[1] / 'angen_sim/load/snippets/two_floors.world'
+WORLD = Path(__file__).resolve().parents[1] / 'angen_sim/sdf/snippets/two_floors.world'
 ROOMS = ('bathroom', 'bedroom', 'entrance', 'kitchen', 'livingroom', 'workroom')
 
 

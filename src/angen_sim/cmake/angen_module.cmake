@@ -1,16 +1,24 @@
-# angen_module(NAME sources... [USES modules...] [LINK libraries...] [PRECOMPILE headers of others...])
-# One folder, one shared library angen_NAME. It sees its own headers and those of the modules it uses, and no
-# others: each module's headers are reached through a link of its own, so a wrong include does not build.
+# angen_module(NAME [SOURCES files...] [HEADERS_ONLY] [USES modules...] [LINK libraries...]
+#              [PRECOMPILE headers of others... | PRECOMPILED_BY module])
+# One folder, one shared library angen_NAME of its sources: all but those with a main(), which are called main.cpp or
+# *_main.cpp, unless SOURCES names some. It sees its own headers and those of the modules it uses, and no others: each
+# module's headers are reached through a link of its own, so a wrong include does not build.
 function(angen_module name)
-  cmake_parse_arguments(arg "" "" "USES;LINK;PRECOMPILE" ${ARGN})
+  cmake_parse_arguments(PARSE_ARGV 1 arg "HEADERS_ONLY" "PRECOMPILED_BY" "SOURCES;USES;LINK;PRECOMPILE")
+  if(NOT arg_SOURCES AND NOT arg_HEADERS_ONLY)
+    file(GLOB arg_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+    list(FILTER arg_SOURCES EXCLUDE REGEX "/(.*_)?main\\.cpp$")
+  endif()
   set(view ${CMAKE_BINARY_DIR}/angen_headers/${name})
   file(MAKE_DIRECTORY ${view})
   file(CREATE_LINK ${ANGEN_SIM_DIR}/${name} ${view}/${name} SYMBOLIC)
-  if(arg_UNPARSED_ARGUMENTS)
-    add_library(angen_${name} SHARED ${arg_UNPARSED_ARGUMENTS})
+  if(arg_SOURCES)
+    add_library(angen_${name} SHARED ${arg_SOURCES})
     set(scope PUBLIC)
     if(name STREQUAL "core" OR arg_PRECOMPILE)
       angen_compile_options(angen_${name} PRECOMPILE ${arg_PRECOMPILE})
+    elseif(arg_PRECOMPILED_BY)
+      angen_compile_options(angen_${name} angen_${arg_PRECOMPILED_BY})
     else()
       angen_compile_options(angen_${name} angen_core)
     endif()

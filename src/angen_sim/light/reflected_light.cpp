@@ -12,8 +12,8 @@ namespace {
 
 using Piece = ReflectedLight::Piece;
 
-constexpr float kNear = 0.6F, kFar = 2.4F;  // m
-constexpr float kMerged = 1.2F;             // m, of cells whose pieces are one from farther away
+constexpr float kNearPoint = 0.6F, kFar = 2.4F;  // m
+constexpr float kMerged = 1.2F;  // m, of cells whose pieces are one from farther away
 // What lies off the plane of a surface is another surface, at a third of the distance already.
 constexpr float kOffPlane = 3.0F;
 constexpr float kLeastWeight = 1e-3F;
@@ -158,7 +158,7 @@ void ReflectedLight::Lattice::near(const Eigen::AlignedBox3f& box, Visit&& visit
 }
 
 ReflectedLight::ReflectedLight(const std::vector<Piece>& pieces)
-    : fine_(pieces, kNear), coarse_(Lattice(pieces, kMerged).merged(), kFar) {}
+    : fine_(pieces, kNearPoint), coarse_(Lattice(pieces, kMerged).merged(), kFar) {}
 
 /// Those that may face the same way, near the point's cell.
 const std::vector<Piece>& ReflectedLookup::alike(const Eigen::Vector3f& point,
@@ -167,11 +167,11 @@ const std::vector<Piece>& ReflectedLookup::alike(const Eigen::Vector3f& point,
   Eigen::Vector3f axis = Eigen::Vector3f::Zero();
   axis[nearest / 2] = nearest % 2 == 0 ? 1.0F : -1.0F;
   const bool along = axis.dot(normal) > kAlong;
-  const Eigen::Vector3i cell = cell_of(point, kNear);
+  const Eigen::Vector3i cell = cell_of(point, kNearPoint);
   const auto entry = alike_[along ? nearest : kSlanted].try_emplace(key_of(cell));
   Pieces& found = entry.first->second;
   if (!entry.second) return found;
-  light_.fine_.near(box_of(cell, kNear, kNear), [&](const Piece& piece) {
+  light_.fine_.near(box_of(cell, kNearPoint, kNearPoint), [&](const Piece& piece) {
     if (!along || axis.dot(piece.normal) > 0.0F) found.push_back(piece);
   });
   return found;
@@ -198,7 +198,7 @@ Eigen::Vector3f ReflectedLookup::at(const Eigen::Vector3f& point, const Eigen::V
     const Eigen::Vector3f way = point - piece.position;
     const float off = way.dot(normal);
     const float squared = way.squaredNorm() + (kOffPlane * kOffPlane - 1.0F) * off * off;
-    same.add(piece, facing * facing * falloff(squared, kNear));
+    same.add(piece, facing * facing * falloff(squared, kNearPoint));
   }
   if (same.mean(from, visible_, mean)) return mean;
   Heaviest any;

@@ -14,8 +14,8 @@ constexpr double kPart = 0.1;       // m, a side of the parts of a cell that is 
 constexpr int kSitesPerSide = 4;    // of a cell
 constexpr std::size_t kSites = std::size_t{kSitesPerSide} * kSitesPerSide;
 constexpr int kFineSitesPerSide = 2;
-constexpr double kLift = 0.01;  // m: how far off a surface its sites must see each other
-constexpr double kOff = 1e-3;   // m: what is nearer than this covers a surface
+constexpr double kSiteLift = 0.01;  // m: how far off a surface its sites must see each other
+constexpr double kOff = 1e-3;       // m: what is nearer than this covers a surface
 constexpr std::uint32_t kDivided = kNoPatch - 1;
 
 bool rounded(Shape::Type type) {
@@ -184,8 +184,8 @@ bool Surfaces::parted(const std::vector<Site>& sites) const {
     const Site& from = sites[reached[next]];
     for (std::size_t i = 0; i < sites.size(); ++i) {
       if (seen[i] || (sites[i].position - from.position).squaredNorm() > near2) continue;
-      if (scene_.blocked(from.position + kLift * from.normal,
-                         sites[i].position + kLift * sites[i].normal, 1e-4, kStanding)) {
+      if (scene_.blocked(from.position + kSiteLift * from.normal,
+                         sites[i].position + kSiteLift * sites[i].normal, 1e-4, kStanding)) {
         continue;
       }
       seen[i] = true;

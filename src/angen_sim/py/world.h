@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "load/load.h"
 #include "py/convert.h"
 #include "record/fingerprint.h"
 #include "record/recorder.h"
 #include "record/replay.h"
 #include "record/world_file.h"
+#include "sdf/load.h"
 #include "sim/simulation.h"
 
 namespace angen::py {

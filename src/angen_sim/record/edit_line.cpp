@@ -3,7 +3,7 @@
 #include <functional>
 #include <map>
 
-#include "load/load.h"
+#include "sdf/load.h"
 
 namespace angen::record {
 

@@ -8,9 +8,9 @@
 #include <limits>
 #include <utility>
 
-#include "load/load.h"
-#include "load/xml.h"
+#include "document/xml.h"
 #include "record/edit_line.h"
+#include "sdf/load.h"
 
 namespace angen::record {
 

@@ -10,7 +10,7 @@
 
 #include "core/random.h"
 #include "core/write_all.h"
-#include "load/xml.h"
+#include "document/xml.h"
 
 namespace angen::record {
 

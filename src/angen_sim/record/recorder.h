@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "load/load.h"
 #include "record/fingerprint.h"
 #include "record/log.h"
+#include "sdf/load.h"
 #include "sim/simulation.h"
 
 namespace angen::record {

@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "load/load.h"
 #include "record/fingerprint.h"
 #include "record/log.h"
+#include "sdf/load.h"
 #include "sim/simulation.h"
 
 namespace angen::record {

@@ -4,7 +4,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "load/load.h"
+#include "sdf/load.h"
 
 namespace angen::record {
 

@@ -5,6 +5,7 @@
 #include <geometry_msgs/Transform.h>
 #include <geometry_msgs/Vector3.h>
 #include <ros/time.h>
+#include <std_msgs/ColorRGBA.h>
 
 #include "core/pose.h"
 #include "core/time.h"
@@ -52,6 +53,15 @@ inline geometry_msgs::Transform to_transform(const Pose& pose) {
   geometry_msgs::Transform out;
   out.translation = to_vector(pose.position);
   out.rotation = to_ros(pose.rotation);
+  return out;
+}
+
+inline std_msgs::ColorRGBA color(float r, float g, float b, float a) {
+  std_msgs::ColorRGBA out;
+  out.r = r;
+  out.g = g;
+  out.b = b;
+  out.a = a;
   return out;
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/frames.h"
+#include "ros/robots.h"
 #include "ros/ros_kind.h"
 #include "sim/snapshot.h"
 

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <gazebo/joint_control.h>
 #include <hardware_interface/joint_command_interface.h>
 #include <hardware_interface/joint_state_interface.h>
 #include <hardware_interface/robot_hw.h>
-#include <ros/joint_control.h>
 
 #include <vector>
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "load/load.h"
+#include "sdf/load.h"
 #include "sim/simulation.h"
 
 /// A robot as others write them, in a simulation.

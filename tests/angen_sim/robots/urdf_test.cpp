@@ -1,4 +1,4 @@
-#include "load/urdf.h"
+#include "import/urdf.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <thread>
 
-#include "load/load.h"
+#include "sdf/load.h"
 
 namespace angen::node {
 namespace {

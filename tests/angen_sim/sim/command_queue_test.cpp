@@ -5,7 +5,7 @@
 #include <chrono>
 #include <optional>
 
-#include "load/load.h"
+#include "sdf/load.h"
 
 namespace angen::sim {
 namespace {

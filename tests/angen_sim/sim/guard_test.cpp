@@ -6,7 +6,7 @@
 #include <new>
 #include <stdexcept>
 
-#include "load/load.h"
+#include "sdf/load.h"
 #include "sim/simulation.h"
 
 namespace angen::sim {

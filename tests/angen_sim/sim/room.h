@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "load/load.h"
+#include "sdf/load.h"
 #include "sim/simulation.h"
 
 /// A room of sensors and movers, and the comparison of two runs in it.

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "angen_sim/sim/household.h"
-#include "load/load.h"
+#include "sdf/load.h"
 #include "sim/simulation.h"
 
 namespace angen::sim {

@@ -10,7 +10,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[3]
 SCRIPT = ROOT / 'src/angen_tools/scripts/angen'
-SNIPPETS = ROOT / 'tests/angen_sim/load/snippets'
+SNIPPETS = ROOT / 'tests/angen_sim/sdf/snippets'
 MODEL = '''<sdf version="1.6"><model name="ground_plane"><static>true</static>
 <link name="l"><sensor name="s" type="ray"><plugin name="p" filename="libpir_controller.so"/>
 </sensor></link></model></sdf>'''

@@ -1,10 +1,10 @@
 #include <cereal/types/map.hpp>
 #include <cereal/types/string.hpp>
 
+#include "assets/bounded_input.h"
+#include "document/sources.h"
 #include "fuzz/targets.h"
-#include "load/bounded_input.h"
-#include "load/pack.h"
-#include "load/sources.h"
+#include "sdf/pack.h"
 
 namespace angen::fuzz {
 namespace {

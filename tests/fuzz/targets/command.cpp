@@ -4,8 +4,8 @@
 
 #include "core/text.h"
 #include "fuzz/targets.h"
+#include "node/text.h"
 #include "plugin/library.h"
-#include "ros/text.h"
 
 namespace angen::fuzz {
 namespace {

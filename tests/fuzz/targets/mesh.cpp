@@ -1,5 +1,7 @@
+#include "assets/mesh.h"
+
 #include "fuzz/targets.h"
-#include "load/geometry.h"
+#include "sdf/geometry.h"
 
 namespace angen::fuzz {
 

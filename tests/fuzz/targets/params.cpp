@@ -1,8 +1,8 @@
 #include "plugin/params.h"
 
 #include "angen_sim/fakes.h"
+#include "document/xml.h"
 #include "fuzz/targets.h"
-#include "load/xml.h"
 #include "plugin/library.h"
 
 namespace angen::fuzz {

@@ -1,4 +1,4 @@
-#include "load/png.h"
+#include "assets/png.h"
 
 #include <zlib.h>
 

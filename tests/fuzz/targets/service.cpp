@@ -7,8 +7,8 @@
 
 #include "core/names.h"
 #include "fuzz/targets.h"
-#include "load/load.h"
-#include "ros/text.h"
+#include "node/text.h"
+#include "sdf/load.h"
 
 namespace angen::fuzz {
 namespace {

@@ -1,5 +1,5 @@
 #include "fuzz/targets.h"
-#include "load/load.h"
+#include "sdf/load.h"
 
 namespace angen::fuzz {
 

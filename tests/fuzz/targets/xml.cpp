@@ -1,4 +1,4 @@
-#include "load/xml.h"
+#include "document/xml.h"
 
 #include "fuzz/targets.h"
 

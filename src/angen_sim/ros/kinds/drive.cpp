@@ -16,9 +16,9 @@ void fill(const Reading& state, const Label& label, nav_msgs::Odometry& message)
   message.twist.twist.linear.x = state.get<double>("v");
   message.twist.twist.angular.z = state.get<double>("w");
   // Variances of what wheels cannot measure (z, roll, pitch) are large, of the rest small.
-  constexpr std::array<double, 6> kVariances{1e-4, 1e-4, 1e6, 1e6, 1e6, 1e-3};
-  for (std::size_t i = 0; i < kVariances.size(); ++i) {
-    message.pose.covariance[i * 7] = message.twist.covariance[i * 7] = kVariances[i];
+  constexpr std::array<double, 6> kDriveVariances{1e-4, 1e-4, 1e6, 1e6, 1e6, 1e-3};
+  for (std::size_t i = 0; i < kDriveVariances.size(); ++i) {
+    message.pose.covariance[i * 7] = message.twist.covariance[i * 7] = kDriveVariances[i];
   }
 }
 

@@ -1,7 +1,7 @@
 #include <angen_msgs/PirArray.h>
 #include <angen_msgs/PirMsg.h>
 
-#include "ros/marker_shapes.h"
+#include "ros/convert.h"
 #include "ros/ros_kind.h"
 
 namespace angen::node {

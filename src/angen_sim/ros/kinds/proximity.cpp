@@ -1,6 +1,6 @@
 #include <sensor_msgs/Range.h>
 
-#include "ros/marker_shapes.h"
+#include "ros/convert.h"
 #include "ros/ros_kind.h"
 
 namespace angen::node {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "ros/marker_shapes.h"
+#include "ros/convert.h"
 #include "ros/ros_kind.h"
 
 namespace angen::node {

@@ -1,0 +1,136 @@
+#include "assets/ies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "core/diagnostics.h"
+#include "core/text.h"
+#include "document/values.h"
+
+namespace angen::load {
+
+namespace {
+
+constexpr double kDegree = M_PI / 180.0;
+constexpr std::size_t kMostAngles = 2000;
+constexpr std::size_t kMostNumbers = 200'000;
+constexpr double kMostCandela = 1e9;
+
+/// The numbers after the line of TILT, one by one, each with the line that it stands in.
+class IesNumbers {
+ public:
+  IesNumbers(const std::string& text, const std::string& file) : in_(text), file_(file) {}
+
+  /// Reads up to TILT=NONE.
+  void skip_head() {
+    std::string text;
+    while (next_line(text)) {
+      if (text.rfind("TILT=", 0) != 0) continue;
+      if (text == "TILT=NONE") return;
+      fail("'" + printable(text) + "' is not modeled; write TILT=NONE");
+    }
+    fail("there is no line TILT=NONE; this is not a file of IES LM-63");
+  }
+
+  double next(const std::string& what) {
+    std::string word;
+    while (!(words_ >> word)) {
+      std::string text;
+      if (!next_line(text)) fail("the file ends where " + what + " should be");
+      std::replace(text.begin(), text.end(), ',', ' ');
+      words_ = std::istringstream(text);
+    }
+    if (++count_ > kMostNumbers) fail("there are more than 200000 numbers");
+    const Numbers numbers = numbers_in(word);
+    if (numbers.values.size() != 1 || !numbers.bad.empty() || !std::isfinite(numbers.values[0])) {
+      fail("'" + printable(word, 40) + "' is not a number; " + what + " should be here");
+    }
+    return numbers.values[0];
+  }
+
+  std::size_t next_count(const std::string& what) {
+    const double value = next(what);
+    if (!(value >= 1.0 && value <= kMostAngles && value == std::floor(value))) {
+      fail(what + " is not a whole number from 1 to 2000");
+    }
+    return static_cast<std::size_t>(value);
+  }
+
+  std::vector<double> next_angles(std::size_t count, const std::string& what) {
+    std::vector<double> angles;
+    for (std::size_t i = 0; i < count; ++i) {
+      angles.push_back(next(what));
+      if (i > 0 && !(angles[i] > angles[i - 1])) fail(what + " do not ascend");
+    }
+    return angles;
+  }
+
+  [[noreturn]] void fail(const std::string& message) const {
+    throw Error({file_, std::max(line_, 1)}, message);
+  }
+
+ private:
+  bool next_line(std::string& text) {
+    if (!std::getline(in_, text)) return false;
+    ++line_;
+    const std::size_t end = text.find_last_not_of(" \t\r");
+    text.erase(end == std::string::npos ? 0 : end + 1);
+    return true;
+  }
+
+  std::istringstream in_, words_;
+  std::string file_;
+  int line_ = 0;
+  std::size_t count_ = 0;
+};
+
+bool one_of(double value, const std::vector<double>& known) {
+  return std::find(known.begin(), known.end(), value) != known.end();
+}
+
+}  // namespace
+
+Photometry photometry_of(const std::string& text, const std::string& file) {
+  IesNumbers in(text, file);
+  in.skip_head();
+  in.next("the number of lamps");
+  in.next("the lumens of a lamp");
+  const double multiplier = in.next("the multiplier of candela");
+  if (!(multiplier > 0.0 && multiplier < kMostCandela)) in.fail("the multiplier is not above 0");
+  const std::size_t rows = in.next_count("the number of vertical angles");
+  const std::size_t planes = in.next_count("the number of horizontal angles");
+  if (in.next("the photometric type") != 1.0) {
+    in.fail("only photometric type 1 (C) is read; convert the file to type C");
+  }
+  if (!one_of(in.next("the unit of length"), {1.0, 2.0})) in.fail("the unit is not 1 or 2");
+  for (const char* what : {"the width", "the length", "the height", "the ballast factor",
+                           "the ballast-lamp factor", "the input watts"}) {
+    in.next(what);
+  }
+  Photometry out;
+  out.vertical = in.next_angles(rows, "the vertical angles");
+  if (!one_of(out.vertical.front(), {0.0, 90.0}) || !one_of(out.vertical.back(), {90.0, 180.0})) {
+    in.fail("the vertical angles do not go from 0 or 90 to 90 or 180 degrees");
+  }
+  out.horizontal = in.next_angles(planes, "the horizontal angles");
+  if (out.horizontal.front() != 0.0 || !one_of(out.horizontal.back(), {0.0, 90.0, 180.0, 360.0})) {
+    in.fail("the horizontal angles do not go from 0 to 0, 90, 180 or 360 degrees");
+  }
+  if (rows < 2) in.fail("there is only one vertical angle; give at least two");
+  for (std::size_t i = 0; i < rows * planes; ++i) {
+    const double candela = multiplier * in.next("an intensity");
+    if (!(candela >= 0.0 && candela <= kMostCandela))
+      in.fail("an intensity is below 0 or too large");
+    out.candela.push_back(candela);
+  }
+  if (*std::max_element(out.candela.begin(), out.candela.end()) <= 0.0) {
+    in.fail("all intensities are 0");
+  }
+  for (double& angle : out.vertical) angle *= kDegree;
+  for (double& angle : out.horizontal) angle *= kDegree;
+  return out;
+}
+
+}  // namespace angen::load

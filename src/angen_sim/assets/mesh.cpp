@@ -1,0 +1,188 @@
+#include "assets/mesh.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <optional>
+
+#include "assets/cache_file.h"
+#include "assets/converter.h"
+#include "core/random.h"
+#include "core/text.h"
+#include "document/xml.h"
+
+namespace angen::load {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Without its dot.
+std::string extension_of(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension.empty() ? extension : extension.substr(1);
+}
+
+std::string scale_text(const Vec3& scale) {
+  return number_text(scale.x()) + "|" + number_text(scale.y()) + "|" + number_text(scale.z());
+}
+
+std::string first_line_of(const std::string& bytes, const std::string& word) {
+  for (std::size_t at = 0; at < bytes.size();) {
+    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
+    if (bytes.compare(at, word.size() + 1, word + " ") == 0) {
+      return trimmed(bytes.substr(at + word.size(), end - at - word.size()));
+    }
+    at = end + 1;
+  }
+  return "";
+}
+
+std::string read_small(const std::string& path, const std::string& what, const Source& at) {
+  std::error_code failed;
+  if (fs::file_size(path, failed) > kMaxFileBytes || failed) {
+    throw Error(at, what + " " + path + " cannot be read or is larger than 64 MB");
+  }
+  return read_file(path);
+}
+
+// What angen_mesh once answered to the same request.
+struct KeptAnswer {
+  std::string head;  // what the file's bytes begin with
+  std::string file;  // empty where there is no cache
+};
+
+KeptAnswer kept_answer(const std::string& key) {
+  const std::string library = library_state(reinterpret_cast<const void*>(&read_mesh));
+  const std::string program = file_state(mesh_program());
+  if (library.empty() || program.empty()) return {};
+  const std::string head = library + "\n" + program + "\n" + key + "\n";
+  return {head, cache_file(head, ".mesh")};
+}
+
+std::optional<std::string> recall(const std::string& key) {
+  try {
+    const KeptAnswer kept = kept_answer(key);
+    if (kept.file.empty()) return std::nullopt;
+    const std::optional<std::string> bytes = read_cache_file(kept.file);
+    if (!bytes || bytes->compare(0, kept.head.size(), kept.head) != 0) return std::nullopt;
+    return bytes->substr(kept.head.size());
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+void keep(const std::string& key, const std::string& answer) {
+  try {
+    const KeptAnswer kept = kept_answer(key);
+    if (!kept.file.empty()) write_cache_file(kept.file, kept.head + answer);
+  } catch (const std::exception&) {
+    return;  // it will be converted again
+  }
+}
+
+Mesh import(const MeshSource& source, const Source& at) {
+  MeshRequest request{extension_of(source.path), source.scale, source.submesh, source.center};
+  if (request.extension != "dae" && request.extension != "stl" && request.extension != "obj") {
+    throw Error(at,
+                "mesh " + source.path + " is of an unknown kind; known are .dae, .stl and .obj");
+  }
+  request.bytes = read_small(source.path, "mesh", at);
+  if (!source.materials.empty()) {
+    request.materials_name = fs::path(source.materials).filename().string();
+    request.materials = read_small(source.materials, "materials", at);
+  }
+  const auto mark = [](const std::string& bytes) {
+    return std::to_string(bytes.size()) + "|" + std::to_string(hash_bytes(bytes));
+  };
+  try {
+    const std::string program = mesh_program();
+    const std::string key = request.extension + "|" + scale_text(source.scale) + "|" +
+                            mark(request.bytes) + "|" + mark(request.materials) + "|" +
+                            (request.center ? "centered " : "") + request.submesh;
+    if (const std::optional<std::string> kept = recall(key)) return decode_mesh(*kept);
+    const std::string answer = convert_mesh(program, request);
+    Mesh mesh = decode_mesh(answer);
+    keep(key, answer);
+    return mesh;
+  } catch (const Error& problem) {
+    throw Error(at, "mesh " + source.path + " " + problem.what());
+  }
+}
+
+Texture import_texture(const std::string& path) {
+  const std::string bytes = read_small(path, "texture", {});
+  const std::string key =
+      "texture|" + std::to_string(bytes.size()) + "|" + std::to_string(hash_bytes(bytes));
+  try {
+    if (const std::optional<std::string> kept = recall(key)) return decode_texture(*kept);
+    const std::string answer = convert_texture(mesh_program(), bytes);
+    Texture texture = decode_texture(answer);
+    keep(key, answer);
+    return texture;
+  } catch (const Error& problem) {
+    throw Error("texture " + path + " " + problem.what());
+  }
+}
+
+std::string changed_at(const std::string& path) {
+  std::error_code failed;
+  return std::to_string(fs::last_write_time(path, failed).time_since_epoch().count());
+}
+
+/// What somebody uses, by file and what was made of it.
+template <class T>
+class Kept {
+ public:
+  template <class Make>
+  std::shared_ptr<const T> get(const std::string& key, const Make& make) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      for (auto it = all_.begin(); it != all_.end();) {
+        it = it->second.expired() ? all_.erase(it) : std::next(it);
+      }
+      const auto found = all_.find(key);
+      if (found != all_.end()) {
+        if (auto kept = found->second.lock()) return kept;
+      }
+    }
+    auto made = std::make_shared<const T>(make());
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (auto meanwhile = all_[key].lock()) return meanwhile;
+    all_[key] = made;
+    return made;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::weak_ptr<const T>> all_;
+};
+
+}  // namespace
+
+std::string materials_of(const std::string& path) {
+  std::error_code failed;
+  if (extension_of(path) != "obj" || fs::file_size(path, failed) > kMaxFileBytes || failed) {
+    return "";
+  }
+  return first_line_of(read_file(path), "mtllib");
+}
+
+ReadMesh read_mesh(const MeshSource& source, const Source& at) {
+  static Kept<Mesh> kept;
+  const std::string key = source.path + "|" + changed_at(source.path) + "|" + source.materials +
+                          "|" + changed_at(source.materials) + "|" + scale_text(source.scale) +
+                          (source.center ? "|centered|" : "|") + source.submesh;
+  const std::shared_ptr<const Mesh> mesh = kept.get(key, [&] { return import(source, at); });
+  return {{mesh, &mesh->triangles}, {mesh, &mesh->look}};
+}
+
+std::shared_ptr<const Texture> read_texture(const std::string& path) {
+  static Kept<Texture> kept;
+  return kept.get(path + "|" + changed_at(path), [&] { return import_texture(path); });
+}
+
+}  // namespace angen::load

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/diagnostics.h"
+#include "core/mesh_look.h"
+#include "core/shape.h"
+#include "core/texture.h"
+
+namespace angen::load {
+
+/// A mesh's file, and what of it is wanted.
+struct MeshSource {
+  std::string path;
+  Vec3 scale = Vec3::Ones();
+  std::string submesh{};    // "" for all
+  bool center = false;      // its box's middle becomes the origin
+  std::string materials{};  // the file with an OBJ's materials, "" for none
+};
+struct ReadMesh {
+  std::shared_ptr<const TriangleMesh> triangles;
+  std::shared_ptr<const MeshLook> look;
+};
+
+/// A COLLADA, STL or OBJ file as triangles in meters, z up, times the scale. Kept and shared while
+/// somebody uses it and the file does not change. Throws Error at `at`.
+ReadMesh read_mesh(const MeshSource& source, const Source& at);
+/// The name of an OBJ's file of materials, "" where it names none.
+std::string materials_of(const std::string& path);
+
+/// A PNG or JPEG file. Kept and shared as meshes are. Throws Error.
+std::shared_ptr<const Texture> read_texture(const std::string& path);
+
+}  // namespace angen::load

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/element.h"
+#include "document/allowed.h"
+#include "document/packages.h"
+#include "document/search_paths.h"
+#include "document/sources.h"
+
+namespace angen::load {
+
+/// What one load carries along: where to search, what it saw there, what to say, how much was read.
+struct Session {
+  const SearchPaths& paths;
+  AllowedFiles allowed{paths};
+  Sources sources{};
+  std::vector<Diagnostic> warnings{};
+  std::vector<Diagnostic> ignored{};       // what nothing reads
+  std::set<std::string> warned_places{};   // of `warnings`, with their text
+  std::set<std::string> ignored_places{};  // of `ignored`, as well
+  std::set<std::string> converted{};       // URDF files: what nothing reads is libsdformat's doing
+  std::size_t elements = 0;                // of all documents so far
+  std::optional<std::size_t> include_start{};  // `elements` before the outermost include
+  double bytes = 0.0;                          // of memory that what was expanded will take, about
+  std::set<std::string> charged{};             // files of meshes that are counted in it
+  std::vector<std::string> open{};             // documents being read, outermost first
+  std::optional<Packages> packages{};          // once something was searched there
+  bool tolerant = false;                       // as far as it is known; see decide()
+  bool guessed = false;           // by what a world holds: its author may have misspelled
+  std::vector<Error> forgiven{};  // what was wrong and did not stop the load
+
+  /// Once for each place: a file that is included ten times warns as often as if it were once.
+  void warn(const Source& source, const std::string& message);
+  void ignore(const Source& source, const std::string& what);
+  /// Where tolerant, a warning in place of the error: the part is left out. Throws it otherwise.
+  void forgive(const Error& error);
+  /// What a document is, once that is known; a strict one throws what was forgiven until then.
+  void decide(bool is_tolerant);
+};
+
+inline std::string place_of(const Source& source, const std::string& text) {
+  return source.file + ":" + std::to_string(source.line) + ":" + text;
+}
+
+/// Keeps a document on the list of open ones while it is read.
+class Open {
+ public:
+  Open(Session& session, const std::string& file) : session_(session) {
+    session_.open.push_back(file);
+  }
+  ~Open() { session_.open.pop_back(); }
+  Open(const Open&) = delete;
+  Open& operator=(const Open&) = delete;
+
+ private:
+  Session& session_;
+};
+
+}  // namespace angen::load

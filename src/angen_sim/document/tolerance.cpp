@@ -1,0 +1,54 @@
+#include "document/tolerance.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/plugin_path.h"
+#include "core/text.h"
+#include "document/values.h"
+
+namespace angen::load {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_own(const std::string& filename) {
+  if (filename.find('/') != std::string::npos) return true;  // a path of this machine
+  const fs::path library = filename;
+  if (library.extension() == ".py") return true;  // registered by a Python program
+  if (made_for_gazebo(library.string())) return false;
+  fs::path catalog = library;
+  catalog.replace_extension(".json");
+  const std::vector<fs::path> folders = plugin_path();
+  return std::any_of(folders.begin(), folders.end(), [&](const fs::path& folder) {
+    std::error_code failed;
+    return fs::exists(folder / library, failed) && fs::exists(folder / catalog, failed);
+  });
+}
+
+}  // namespace
+
+std::optional<bool> marked_strict(const Element& element) {
+  const std::string* text = element.attribute(kStrict);
+  if (text == nullptr) return std::nullopt;
+  if (*text == kGuessed) return false;
+  if (*text != "true" && *text != "false") {
+    throw Error(element.source,
+                std::string(kStrict) + " is '" + printable(*text) + "'; give true or false");
+  }
+  return *text == "true";
+}
+
+bool marked_guessed(const Element& element) {
+  const std::string* text = element.attribute(kStrict);
+  return text != nullptr && *text == kGuessed;
+}
+
+bool holds_own_plugin(const Element& element) {
+  const std::string* file = element.attribute("filename");
+  if (element.name == "plugin") return file != nullptr && is_own(*file);
+  return std::any_of(element.children.begin(), element.children.end(), holds_own_plugin);
+}
+
+}  // namespace angen::load

@@ -1,0 +1,160 @@
+#include "document/values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <optional>
+#include <sstream>
+
+#include "core/limits.h"
+#include "core/text.h"
+#include "document/xml.h"
+
+namespace angen::load {
+
+Numbers numbers_in(const std::string& text) {
+  Numbers found;
+  const char* blanks = " \t\r\n\f\v";
+  for (std::size_t at = text.find_first_not_of(blanks); at != std::string::npos;) {
+    const std::size_t end = text.find_first_of(blanks, at);
+    const std::string word = text.substr(at, end == std::string::npos ? end : end - at);
+    const std::optional<double> value = parse_number(word);
+    if (!value) {
+      found.bad = word;
+      return found;
+    }
+    found.values.push_back(*value);
+    at = end == std::string::npos ? end : text.find_first_not_of(blanks, end);
+  }
+  return found;
+}
+
+namespace {
+
+// The first character of a text that ASCII lacks, as "U+00AD": what a PDF gives may be invisible.
+std::string odd_character(const std::string& text) {
+  const auto not_ascii = [](char c) { return static_cast<unsigned char>(c) >= 0x80; };
+  const auto at = std::find_if(text.begin(), text.end(), not_ascii);
+  if (at == text.end() || !valid_utf8(text)) return "";
+  const auto first = static_cast<unsigned char>(*at);
+  const int tails = first >= 0xF0 ? 3 : first >= 0xE0 ? 2 : 1;
+  unsigned code = first & (0x3FU >> tails);
+  for (int i = 1; i <= tails; ++i) code = code << 6U | (static_cast<unsigned char>(at[i]) & 0x3FU);
+  std::ostringstream name;
+  name << "U+" << std::uppercase << std::hex << std::setw(4) << std::setfill('0') << code;
+  return name.str();
+}
+
+}  // namespace
+
+std::vector<double> numbers_of(const Element& element, std::size_t count) {
+  const Numbers found = numbers_in(element.text);
+  const std::string want = count == 1 ? "one number" : std::to_string(count) + " numbers";
+  if (!found.bad.empty()) {
+    const std::string odd = odd_character(found.bad);
+    throw Error(element.source, "<" + element.name + "> holds '" + printable(found.bad) + "'" +
+                                    (odd.empty() ? "" : " with the character " + odd) +
+                                    ", which is not a number; give " + want);
+  }
+  if (found.values.size() != count) {
+    throw Error(element.source, "<" + element.name + "> holds " +
+                                    std::to_string(found.values.size()) + " numbers; give " + want);
+  }
+  for (const double value : found.values) {
+    if (!std::isfinite(value)) {
+      throw Error(element.source, "<" + element.name + "> is not finite; give " + want);
+    }
+  }
+  return found.values;
+}
+
+double number_of(const Element& element) { return numbers_of(element, 1)[0]; }
+
+bool flag_of(const Element& element) {
+  const std::string& t = element.text;
+  if (t == "true" || t == "1" || t == "True" || t == "TRUE") return true;
+  if (t == "false" || t == "0" || t == "False" || t == "FALSE") return false;
+  throw Error(element.source,
+              "<" + element.name + "> holds '" + printable(t) + "'; give true or false");
+}
+
+namespace {
+
+// Angles in radians.
+void check_pose(const Pose& pose, const std::vector<double>& angles, const Element& element) {
+  std::string problem = pose_problem(pose);
+  for (const double angle : angles) {
+    const std::string wrong = limit_problem(limits::kAngle, angle);
+    if (problem.empty() && !wrong.empty()) {
+      problem = "an angle is " + number_text(angle) + " rad; " + wrong;
+    }
+  }
+  if (!problem.empty()) throw Error(element.source, "<" + element.name + ">: " + problem);
+}
+
+}  // namespace
+
+Pose pose_of(const Element& element) {
+  if (element.text.empty()) return {};
+  const std::string* format = element.attribute("rotation_format");
+  Pose pose;
+  if (format != nullptr && *format == "quat_xyzw") {
+    const std::vector<double> v = numbers_of(element, 7);
+    pose.rotation = Quat(v[6], v[3], v[4], v[5]);
+    if (!(pose.rotation.norm() >= 1e-6 && pose.rotation.norm() <= 1e6)) {
+      throw Error(element.source,
+                  "<pose> holds a quaternion of length 0 or infinite; give a unit quaternion");
+    }
+    pose.rotation.normalize();
+    pose.position = {v[0], v[1], v[2]};
+    check_pose(pose, {}, element);
+    return pose;
+  }
+  const std::vector<double> v = numbers_of(element, 6);
+  const std::string* degrees = element.attribute("degrees");
+  const double unit =
+      degrees != nullptr && (*degrees == "true" || *degrees == "1") ? M_PI / 180.0 : 1.0;
+  pose.position = {v[0], v[1], v[2]};
+  pose.rotation = from_rpy(v[3] * unit, v[4] * unit, v[5] * unit);
+  check_pose(pose, {v[3] * unit, v[4] * unit, v[5] * unit}, element);
+  return pose;
+}
+
+double child_number(const Element& element, const std::string& name, double fallback) {
+  const Element* child = element.child(name);
+  return child == nullptr ? fallback : number_of(*child);
+}
+
+bool child_flag(const Element& element, const std::string& name, bool fallback) {
+  const Element* child = element.child(name);
+  return child == nullptr ? fallback : flag_of(*child);
+}
+
+Pose child_pose(const Element& element) {
+  const Element* child = element.child("pose");
+  return child == nullptr ? Pose{} : pose_of(*child);
+}
+
+namespace {
+
+// To a picometer and a picoradian: what two saves one after the other agree on.
+double rounded(double value) {
+  constexpr double kSteps = 1e12;
+  if (std::abs(value) > 1e3) return value;
+  const double kept = std::round(value * kSteps) / kSteps;
+  return kept == 0.0 ? 0.0 : kept;
+}
+
+}  // namespace
+
+std::string pose_text(const Pose& pose) {
+  const Vec3 rpy = to_rpy(pose.rotation);
+  std::string text;
+  for (const double v :
+       {pose.position.x(), pose.position.y(), pose.position.z(), rpy.x(), rpy.y(), rpy.z()}) {
+    text += (text.empty() ? "" : " ") + number_text(rounded(v));
+  }
+  return text;
+}
+
+}  // namespace angen::load

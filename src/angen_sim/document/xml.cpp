@@ -1,0 +1,293 @@
+#include "document/xml.h"
+
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "core/text.h"
+#include "core/typography.h"
+
+namespace angen::load {
+
+namespace {
+
+// How many bytes from the start are characters that XML 1.0 allows.
+std::size_t allowed_prefix(const std::string& text) {
+  std::size_t end = valid_utf8_prefix(text);
+  for (const char* noncharacter : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"}) {  // U+FFFE, U+FFFF
+    end = std::min(end, text.find(noncharacter));
+  }
+  const auto bad = std::find_if(text.begin(), text.begin() + static_cast<long>(end), [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r';
+  });
+  return static_cast<std::size_t>(bad - text.begin());
+}
+
+// tinyxml2 makes any bytes of a reference such as &#xD800; or &#1;.
+std::string checked(const char* text, const Source& at) {
+  if (allowed_prefix(text) == std::char_traits<char>::length(text)) return text;
+  throw Error(at, "a reference to a character that XML does not allow; leave it out");
+}
+
+Element convert(const tinyxml2::XMLElement& from, const std::string& file, std::size_t& count) {
+  if (++count > kMaxElements) {
+    throw Error({file, from.GetLineNum()}, "more than " + std::to_string(kMaxElements) +
+                                               " elements; split the file into models");
+  }
+  Element to;
+  to.name = from.Name();
+  to.source = {file, from.GetLineNum()};
+  for (auto* a = from.FirstAttribute(); a != nullptr; a = a->Next()) {
+    to.attributes.emplace_back(a->Name(), checked(a->Value(), to.source));
+  }
+  std::string text;
+  for (auto* node = from.FirstChild(); node != nullptr; node = node->NextSibling()) {
+    if (auto* child = node->ToElement()) {
+      to.children.push_back(convert(*child, file, count));
+    } else if (auto* piece = node->ToText()) {
+      text += checked(piece->Value(), to.source);
+    }
+  }
+  to.text = trimmed(text);
+  return to;
+}
+
+// tinyxml2's own message repeats the line; what its error means is of more use.
+std::string reason(const tinyxml2::XMLDocument& document) {
+  switch (document.ErrorID()) {
+    case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
+      return "the file is empty; it needs an <sdf> element";
+    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
+      return "the element opened here is not closed; close each <x> with </x>";
+    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
+      return "this is not well-formed XML: an attribute is malformed or given twice, or the file "
+             "is "
+             "cut off; write each attribute once, as name=\"value\"";
+    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
+      return "elements stand more than 100 deep in one another";
+    default: {
+      const std::string name = document.ErrorName();
+      return "this is not well-formed XML (" + name.substr(name.find("XML_") == 0 ? 4 : 0) +
+             "); is the file cut off?";
+    }
+  }
+}
+
+int line_at(const std::string& text, std::size_t offset) {
+  return 1 +
+         static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(offset), '\n'));
+}
+
+// After what begins at `at`, if it is a comment, CDATA or a declaration; `at` otherwise.
+std::size_t after_aside(const std::string& text, std::size_t at) {
+  static const std::pair<const char*, const char*> asides[] = {
+      {"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}};
+  for (const auto& [begin, end] : asides) {
+    if (text.compare(at, std::char_traits<char>::length(begin), begin) != 0) continue;
+    const std::size_t found = text.find(end, at);
+    return found == std::string::npos ? text.size() : found + 1;
+  }
+  return at;
+}
+
+// The first typographic character where XML has none: in a tag, outside of its straight quotes. A
+// value that runs on into the next tag ends in a curly quote.
+std::optional<TypographicChar> typographic_in_markup(const std::string& text) {
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
+    const std::size_t after = after_aside(text, at);
+    if (after > at) {
+      at = after;
+      continue;
+    }
+    char quote = '\0';
+    std::size_t quoted = 0;
+    for (++at; at < text.size(); ++at) {
+      const char c = text[at];
+      if (quote != '\0' && c == '<') return find_typographic(text, quoted);
+      if (quote == '\0' && (c == '>' || c == '<')) break;
+      if (c == quote) {
+        quote = '\0';
+      } else if (quote == '\0' && (c == '"' || c == '\'')) {
+        quote = c;
+        quoted = at;
+      } else if (quote == '\0') {
+        const std::optional<TypographicChar> found = find_typographic(text.substr(at, 4));
+        if (found && found->at == 0)
+          return TypographicChar{at, found->size, found->name, found->plain};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+// Why text that is not XML is not: a typographic character, if there is one.
+Error syntax_error(const std::string& text, const std::string& file,
+                   const tinyxml2::XMLDocument& document) {
+  const std::optional<TypographicChar> found = typographic_in_markup(text);
+  if (!found) return Error({file, std::max(1, document.ErrorLineNum())}, reason(document));
+  std::string right = "write -, and <!-- and --> around a comment";
+  if (found->plain == '"' || found->plain == '\'') {
+    right = "write name=\"value\" with straight quotes";
+  }
+  if (found->plain == ' ') right = "write a plain blank";
+  return Error(
+      {file, line_at(text, found->at)},
+      "the typographic character " + found->name + " in a tag, which XML does not allow; " + right);
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      // A line break inside a value must not shift the table of lines.
+      case '\n':
+        out += "&#10;";
+        break;
+      case '\r':
+        out += "&#13;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+void print(const Element& element, int indent, std::string& out, std::vector<Source>* lines) {
+  const std::string margin(static_cast<std::size_t>(indent) * 2, ' ');
+  const auto end_line = [&] {
+    out += '\n';
+    if (lines != nullptr) lines->push_back(element.source);
+  };
+  out += margin + "<" + element.name;
+  for (const auto& [key, value] : element.attributes) {
+    out += " " + key + "=\"" + escaped(value) + "\"";
+  }
+  if (element.children.empty()) {
+    out += element.text.empty() ? "/>" : ">" + escaped(element.text) + "</" + element.name + ">";
+    end_line();
+    return;
+  }
+  out += ">" + escaped(element.text);
+  end_line();
+  for (const Element& child : element.children) print(child, indent + 1, out, lines);
+  out += margin + "</" + element.name + ">";
+  end_line();
+}
+
+}  // namespace
+
+Element parse_xml(const std::string& text, const std::string& file) {
+  if (text.size() > kMaxFileBytes)
+    throw Error({file, 0}, "larger than 64 MB, which no file may be");
+  const std::size_t bad = allowed_prefix(text);
+  if (bad < text.size()) {
+    const bool is_utf8 = valid_utf8_prefix(text) > bad && text[bad] != '\0';
+    throw Error({file, line_at(text, bad)},
+                is_utf8 ? "a control character, which XML does not allow; leave it out"
+                        : "a byte that is not UTF-8; save the file as UTF-8");
+  }
+  tinyxml2::XMLDocument document;
+  document.Parse(text.data(), text.size());
+  if (document.Error()) throw syntax_error(text, file, document);
+  const tinyxml2::XMLElement* root = document.RootElement();
+  if (root == nullptr) throw Error({file, 1}, "no element in it; it needs an <sdf> element");
+  if (root->NextSiblingElement() != nullptr) {
+    throw Error({file, root->NextSiblingElement()->GetLineNum()},
+                "a second root element; put all into one <sdf>");
+  }
+  std::size_t count = 0;
+  return convert(*root, file, count);
+}
+
+std::string read_file(const std::string& path) {
+  std::error_code failed;
+  if (std::filesystem::is_directory(path, failed)) {
+    throw Error({path, 0}, "is a folder; give an SDF file");
+  }
+  if (std::filesystem::exists(path, failed) && !std::filesystem::is_regular_file(path, failed)) {
+    throw Error({path, 0}, "is not a regular file; give an SDF file");
+  }
+  std::ifstream stream(path, std::ios::binary);
+  const auto size = std::filesystem::file_size(path, failed);
+  if (!stream || failed) throw Error({path, 0}, "cannot be read; give a file that exists");
+  if (size > kMaxFileBytes) throw Error({path, 0}, "larger than 64 MB, which no file may be");
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+std::string print_xml(const Element& element, int indent, std::vector<Source>* lines) {
+  std::string out;
+  print(element, indent, out, lines);
+  return out;
+}
+
+std::size_t count_elements(const Element& element) {
+  std::size_t count = 1;
+  for (const Element& child : element.children) count += count_elements(child);
+  return count;
+}
+
+Element* find_child(Element& element, const std::string& name) {
+  for (Element& child : element.children) {
+    if (child.name == name) return &child;
+  }
+  return nullptr;
+}
+
+void set_child(Element& element, const std::string& name, const std::string& text) {
+  Element* child = find_child(element, name);
+  if (child == nullptr) {
+    Element fresh;
+    fresh.name = name;
+    fresh.source = element.source;
+    child = &*element.children.insert(element.children.begin(), std::move(fresh));
+  }
+  child->text = text;
+  child->attributes.clear();
+}
+
+void set_attribute(Element& element, const std::string& name, const std::string& value) {
+  for (auto& [key, old] : element.attributes) {
+    if (key == name) {
+      old = value;
+      return;
+    }
+  }
+  element.attributes.emplace_back(name, value);
+}
+
+void remove_children(Element& element, const std::string& name) {
+  auto& all = element.children;
+  all.erase(
+      std::remove_if(all.begin(), all.end(), [&](const Element& e) { return e.name == name; }),
+      all.end());
+}
+
+std::string name_of(const Element& element) {
+  const std::string* name = element.attribute("name");
+  return name == nullptr ? "" : *name;
+}
+
+std::string tag_of(const Element& element) {
+  const std::string name = printable(name_of(element));
+  return name.empty() ? "<" + element.name + ">" : "<" + element.name + " name=\"" + name + "\">";
+}
+
+}  // namespace angen::load

@@ -1,0 +1,109 @@
+#include "gazebo/joints.h"
+
+#include <gazebo_msgs/ApplyJointEffort.h>
+#include <gazebo_msgs/GetJointProperties.h>
+#include <gazebo_msgs/JointRequest.h>
+#include <gazebo_msgs/SetJointProperties.h>
+
+#include <cmath>
+
+#include "gazebo/names.h"
+#include "gazebo/push_time.h"
+
+namespace angen::node::gazebo {
+
+namespace {
+
+using Answer = gazebo_msgs::GetJointProperties::Response;
+
+constexpr const char* kNoJoint = "joint not found";
+constexpr double kUnlimited = 1e15;  // rad; SDF writes 1e16
+
+std::uint8_t type_of(const desc::Joint& joint) {
+  switch (joint.type) {
+    case desc::Joint::Type::kFixed:
+      return Answer::FIXED;
+    case desc::Joint::Type::kPrismatic:
+      return Answer::PRISMATIC;
+    case desc::Joint::Type::kBall:
+      return Answer::BALL;
+    case desc::Joint::Type::kUniversal:
+      return Answer::UNIVERSAL;
+    case desc::Joint::Type::kRevolute:
+      break;
+  }
+  const bool limited = !joint.axes.empty() &&
+                       (joint.axes[0].lower > -kUnlimited || joint.axes[0].upper < kUnlimited);
+  return limited ? Answer::REVOLUTE : Answer::CONTINUOUS;
+}
+
+std::string get(Inbox& inbox, const std::string& name, Answer& response) {
+  const auto structure = structure_of(inbox);
+  const sim::JointEntry& entry = structure->joints[joint_named(*structure, name, kNoJoint)];
+  const desc::Joint& joint = structure->models[entry.model]->joints[entry.joint];
+  response.type = type_of(joint);
+  for (const desc::JointAxis& axis : joint.axes) response.damping.push_back(axis.damping);
+  if (joint.axes.empty()) return "GetJointProperties: got properties";
+  const sim::Observed seen = observe(inbox, {{}, {entry.name}});
+  response.position = {seen.joints[0].position};
+  response.rate = {seen.joints[0].velocity};
+  return "GetJointProperties: got properties";
+}
+
+// What has no meaning for this solver must be a number all the same.
+void check_unused(const gazebo_msgs::ODEJointProperties& properties) {
+  for (const auto* values : {&properties.erp, &properties.cfm, &properties.stop_erp,
+                             &properties.stop_cfm, &properties.fudge_factor, &properties.vel}) {
+    for (const double value : *values) {
+      if (!std::isfinite(value)) throw Error("a property is not finite");
+    }
+  }
+}
+
+std::string set(Inbox& inbox, const gazebo_msgs::SetJointProperties::Request& request) {
+  const auto structure = structure_of(inbox);
+  const gazebo_msgs::ODEJointProperties& properties = request.ode_joint_config;
+  sim::SetJointProperties to;
+  to.joint = structure->joints[joint_named(*structure, request.joint_name, kNoJoint)].name;
+  check_unused(properties);
+  to.damping = properties.damping;
+  to.upper = properties.hiStop;
+  to.lower = properties.loStop;
+  if (!properties.fmax.empty()) {
+    to.motor_force = properties.fmax[0];
+    to.motor_velocity = properties.vel.empty() ? 0.0 : properties.vel[0];
+  }
+  edit(inbox, to);
+  return "SetJointProperties: properties set";
+}
+
+std::string apply_effort(Inbox& inbox, const gazebo_msgs::ApplyJointEffort::Request& request) {
+  const auto structure = structure_of(inbox);
+  const std::uint32_t joint = joint_named(*structure, request.joint_name, kNoJoint);
+  edit(inbox, sim::PushJoint{structure->joints[joint].name, request.effort,
+                             push_time(request.start_time, request.duration)});
+  return "ApplyJointEffort: effort set";
+}
+
+}  // namespace
+
+void serve_joints(Server& server, Inbox& inbox) {
+  using namespace gazebo_msgs;
+  server.serve<GetJointProperties>("get_joint_properties", "GetJointProperties",
+                                   [&](const auto& request, auto& response) {
+                                     return get(inbox, request.joint_name, response);
+                                   });
+  server.serve<SetJointProperties>("set_joint_properties", "SetJointProperties",
+                                   [&](const auto& request, auto&) { return set(inbox, request); });
+  server.serve<ApplyJointEffort>(
+      "apply_joint_effort", "ApplyJointEffort",
+      [&](const auto& request, auto&) { return apply_effort(inbox, request); });
+  server.serve_silently<JointRequest>(
+      "clear_joint_forces", "ClearJointForces", [&](const auto& request) {
+        const auto structure = structure_of(inbox);
+        const auto joint = joint_named(*structure, request.joint_name, kNoJoint);
+        edit(inbox, sim::ClearPushes{structure->joints[joint].name});
+      });
+}
+
+}  // namespace angen::node::gazebo

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <gazebo_msgs/ModelState.h>
+
+#include "gazebo/server.h"
+#include "ros/inbox.h"
+
+namespace angen::node::gazebo {
+
+/// Throws where it names what does not exist.
+sim::Edit edit_of(const sim::Structure& structure, const gazebo_msgs::ModelState& state);
+
+/// get_model_state, get_model_properties, get_world_properties, set_model_state,
+/// set_model_configuration, delete_model.
+void serve_models(Server& server, Inbox& inbox);
+
+}  // namespace angen::node::gazebo

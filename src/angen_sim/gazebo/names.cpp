@@ -1,0 +1,149 @@
+#include "gazebo/names.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/nearest.h"
+#include "core/text.h"
+#include "gazebo/server.h"
+
+namespace angen::node::gazebo {
+
+namespace {
+
+constexpr const char* kScope = "::";
+
+template <class Entry>
+std::vector<std::string> names_in(const sim::SharedArray<Entry>& entries) {
+  std::vector<std::string> names;
+  names.reserve(entries.size());
+  for (const Entry& entry : entries) names.push_back(entry.name);
+  return names;
+}
+
+NotFound not_found(const std::string& text, const char* what, const std::string& name,
+                   const std::vector<std::string>& known) {
+  return {text, "no " + std::string(what) + " named '" + printable(name) + "'; " +
+                    did_you_mean(name, known)};
+}
+
+// By its full name, else the first whose name without the model's is this.
+template <class Entry>
+std::optional<std::uint32_t> find_scoped(const sim::SharedArray<Entry>& entries,
+                                         const std::string& name) {
+  std::optional<std::uint32_t> alone;
+  for (std::uint32_t i = 0; i < entries.size(); ++i) {
+    const std::string& full = entries[i].name;
+    if (full == name) return i;
+    const std::size_t split = full.find(kScope);
+    if (!alone && split != std::string::npos && full.substr(split + 2) == name) alone = i;
+  }
+  return name.empty() ? std::nullopt : alone;
+}
+
+// model::link::collision, or a collision's name alone.
+std::optional<std::string> collision_named(const sim::Structure& structure,
+                                           const std::string& name) {
+  for (const sim::LinkEntry& link : structure.links) {
+    for (const desc::Collision& collision :
+         structure.models[link.model]->links[link.link].collisions) {
+      const std::string full = link.name + kScope + collision.name;
+      if (full == name || collision.name == name) return full;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::uint32_t> find_light(const sim::Structure& structure, const std::string& name) {
+  if (const auto found = find_scoped(structure.lights, name)) return found;
+  for (std::uint32_t i = 0; i < structure.lights.size(); ++i) {
+    const sim::LightEntry& light = structure.lights[i];
+    if (light.link == UINT32_MAX) continue;
+    if (structure.links[light.link].name + kScope + light.light.name == name) return i;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::uint32_t model_named(const sim::Structure& structure, const std::string& name,
+                          const std::string& missing) {
+  for (std::uint32_t i = 0; i < structure.models.size(); ++i) {
+    if (structure.models[i]->name == name) return i;
+  }
+  std::vector<std::string> known;
+  for (const auto& model : structure.models) known.push_back(model->name);
+  throw not_found(missing, "model", name, known);
+}
+
+std::uint32_t link_named(const sim::Structure& structure, const std::string& name,
+                         const std::string& missing) {
+  if (const auto found = find_scoped(structure.links, name)) return *found;
+  throw not_found(missing, "link", name, names_in(structure.links));
+}
+
+std::uint32_t joint_named(const sim::Structure& structure, const std::string& name,
+                          const std::string& missing) {
+  if (const auto found = find_scoped(structure.joints, name)) return *found;
+  throw not_found(missing, "joint", name, names_in(structure.joints));
+}
+
+bool has_light(const sim::Structure& structure, const std::string& name) {
+  return std::any_of(structure.lights.begin(), structure.lights.end(),
+                     [&](const sim::LightEntry& light) { return light.name == name; });
+}
+
+std::uint32_t light_named(const sim::Structure& structure, const std::string& name) {
+  if (const auto found = find_light(structure, name)) return *found;
+  throw not_found("Requested light " + printable(name) + " not found!", "light", name,
+                  names_in(structure.lights));
+}
+
+std::string frame_named(const sim::Structure& structure, const std::string& name,
+                        const std::string& missing) {
+  for (const auto& model : structure.models) {
+    if (model->name == name) return name;
+  }
+  if (const auto link = find_scoped(structure.links, name)) return structure.links[*link].name;
+  if (const auto collision = collision_named(structure, name)) return *collision;
+  if (name.empty() || name == "world" || name == "map" || name == "/map") return "";
+  std::vector<std::string> known = names_in(structure.links);
+  for (const auto& model : structure.models) known.push_back(model->name);
+  throw not_found(missing, "frame", name, known);
+}
+
+Pose pose_of(const geometry_msgs::Pose& message) {
+  Pose pose;
+  pose.position = vector_of(message.position);
+  const geometry_msgs::Quaternion& q = message.orientation;
+  pose.rotation = Quat(q.w, q.x, q.y, q.z);
+  if (!pose.finite()) throw Error("the pose holds a number that is not finite");
+  const bool empty = pose.rotation.coeffs().isZero(0.0);
+  pose.rotation.coeffs() =
+      empty ? Quat::Identity().coeffs() : pose.rotation.coeffs().stableNormalized();
+  return pose;
+}
+
+std::shared_ptr<const sim::Structure> structure_of(Inbox& inbox) {
+  return inbox.simulation().snapshot()->structure;
+}
+
+void edit(Inbox& inbox, sim::Edit edit) {
+  const sim::Outcome outcome = inbox.call(std::move(edit));
+  if (!outcome.ok) throw Error(outcome.message);
+}
+
+sim::Observed observe(Inbox& inbox, sim::Observation what) {
+  const auto observed = std::make_shared<sim::Observed>();
+  const sim::Outcome outcome = inbox.call(sim::Observe{std::move(what), observed});
+  if (!outcome.ok) throw Error(outcome.message);
+  return *observed;
+}
+
+sim::Motion relative(const sim::Motion& motion, const sim::Motion& frame) {
+  const Quat back = frame.pose.rotation.conjugate();
+  return {frame.pose.inverse() * motion.pose, back * (motion.linear - frame.linear),
+          back * (motion.angular - frame.angular)};
+}
+
+}  // namespace angen::node::gazebo

@@ -1,0 +1,153 @@
+#include "import/upgrade.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "document/values.h"
+#include "document/xml.h"
+
+namespace angen::load {
+
+namespace {
+
+bool truthy(const std::string& text) {
+  return text == "true" || text == "1" || text == "True" || text == "TRUE";
+}
+
+// Until 1.4 an axis was given in the model's frame, in 1.5 and 1.6 where it said so.
+void upgrade_axis(Element& axis, int version) {
+  const bool in_model = version < 105 || truthy(axis.child_text("use_parent_model_frame"));
+  remove_children(axis, "use_parent_model_frame");
+  Element* xyz = find_child(axis, "xyz");
+  if (xyz != nullptr && in_model) set_attribute(*xyz, "expressed_in", "__model__");
+}
+
+// A position alone, as older files have it.
+void fill_pose(Element& pose, Session& session) {
+  if (pose.attribute("rotation_format") != nullptr) return;
+  const Numbers found = numbers_in(pose.text);
+  if (!found.bad.empty() || found.values.size() != 3) return;
+  session.warn(pose.source,
+               "<pose> holds 3 numbers and is taken as a position; write 6, x y z and "
+               "roll pitch yaw");
+  pose.text += " 0 0 0";
+}
+
+bool joins(const std::string& name) { return name.find("::") != std::string::npos; }
+
+std::string with_underscores(std::string name) {
+  for (std::size_t at; (at = name.find("::")) != std::string::npos;) name.replace(at, 2, "_");
+  return name;
+}
+
+// Until 1.7 a name could hold "::", as those of models that Gazebo once saved flat.
+void split_names(Element& element, std::set<std::string>& found, Session& session) {
+  static const std::set<std::string> named = {"link", "joint", "collision", "visual", "sensor"};
+  std::string name = named.count(element.name) != 0 ? name_of(element) : "";
+  if (joins(name)) {
+    set_attribute(element, "name", with_underscores(name));
+    session.forgive(Error(element.source, tag_of(element) + ": names hold no '::'; it is '" +
+                                              name_of(element) + "' here"));
+    found.insert(std::move(name));
+  }
+  for (Element& child : element.children) {
+    if (child.name != "plugin") split_names(child, found, session);
+  }
+}
+
+void name_anew(Element& element, const std::set<std::string>& found) {
+  const bool refers = element.name == "parent" || element.name == "child";
+  if (refers && found.count(element.text) != 0) element.text = with_underscores(element.text);
+  for (Element& child : element.children) name_anew(child, found);
+}
+
+using Name = std::pair<std::string, std::string>;  // what shares it, and the name
+
+std::string unused_name(const Element& child, std::set<Name>& used, std::map<Name, int>& tried) {
+  const std::string space = names_shared_by(child);
+  const std::string stem = name_of(child) + (child.name == "joint" ? "_joint" : "");
+  std::string name = stem;
+  while (!used.insert({space, name}).second) {
+    name = stem + "_" + std::to_string(++tried[{space, stem}]);
+  }
+  return name;
+}
+
+void rename_twins(Element& parent, Session& session) {
+  std::set<Name> used, seen;
+  std::map<Name, int> tried;
+  for (const Element& child : parent.children) {
+    used.insert({names_shared_by(child), name_of(child)});
+  }
+  for (Element& child : parent.children) {
+    const Name name{names_shared_by(child), name_of(child)};
+    if (name.first.empty() || name.second.empty() || seen.insert(name).second) continue;
+    const std::string given = tag_of(child);
+    set_attribute(child, "name", unused_name(child, used, tried));
+    session.forgive(Error(child.source, given + ": the name is given twice in " + tag_of(parent) +
+                                            "; it is '" + name_of(child) + "' here"));
+  }
+}
+
+// Until 1.7 parts of a model could have one name; what refers to it means the first.
+void part_twins(Element& element, Session& session) {
+  if (element.name == "model" || element.name == "link") rename_twins(element, session);
+  for (Element& child : element.children) {
+    if (child.name != "plugin") part_twins(child, session);
+  }
+}
+
+void upgrade_element(Element& element, int version, Session& session) {
+  if (element.name == "plugin") return;
+  if (element.name == "pose") fill_pose(element, session);
+  if (element.name == "joint" && version < 107) {
+    for (Element& child : element.children) {
+      if (child.name == "axis" || child.name == "axis2") upgrade_axis(child, version);
+    }
+  }
+  if (element.name == "pose") {
+    for (auto& [key, value] : element.attributes) {
+      if (key == "frame" && version < 107) key = "relative_to";
+    }
+    auto& all = element.attributes;
+    all.erase(
+        std::remove_if(all.begin(), all.end(),
+                       [](const auto& a) { return a.first == "relative_to" && a.second.empty(); }),
+        all.end());
+  }
+  if (element.name == "world" && version < 106) {
+    if (Element* physics = find_child(element, "physics")) {
+      const Element* gravity = physics->child("gravity");
+      if (gravity != nullptr && element.child("gravity") == nullptr) {
+        const Element moved = *gravity;
+        remove_children(*physics, "gravity");
+        remove_children(*physics, "magnetic_field");
+        element.children.push_back(moved);
+      }
+    }
+  }
+  for (Element& child : element.children) upgrade_element(child, version, session);
+}
+
+}  // namespace
+
+void upgrade(Element& sdf, int version, Session& session) {
+  upgrade_element(sdf, version, session);
+  if (version < 108 && session.tolerant) {
+    std::set<std::string> found;
+    split_names(sdf, found, session);
+    if (!found.empty()) name_anew(sdf, found);
+    if (version < 107) part_twins(sdf, session);
+  }
+  set_attribute(sdf, "version", "1.9");
+}
+
+std::string names_shared_by(const Element& child) {
+  static const std::set<std::string> shared = {"link", "joint", "frame", "model"};
+  static const std::set<std::string> own = {"collision", "visual", "sensor", "light", "actor"};
+  if (shared.count(child.name) != 0) return "frame";
+  return own.count(child.name) != 0 ? child.name : "";
+}
+
+}  // namespace angen::load

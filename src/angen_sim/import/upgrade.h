@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "document/session.h"
+
+namespace angen::load {
+
+/// Rewrites a tree of an older version (104..108) as SDF 1.9.
+void upgrade(Element& sdf, int version, Session& session);
+
+/// Whose names must differ from those of `child` among its siblings: all with the same answer.
+/// Links, joints, frames and models share theirs; "" where any name will do.
+std::string names_shared_by(const Element& child);
+
+}  // namespace angen::load

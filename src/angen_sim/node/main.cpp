@@ -1,0 +1,335 @@
+#include <malloc.h>
+#include <ros/console.h>
+#include <ros/init.h>
+#include <ros/master.h>
+#include <ros/param.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <atomic>
+#include <clocale>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/diagnostics.h"
+#include "core/text.h"
+#include "node/node.h"
+#include "node/rescue.h"
+#include "plugin/library.h"
+#include "record/recorder.h"
+#include "record/replay.h"
+#include "sdf/load.h"
+#include "sim/simulation.h"
+
+namespace {
+
+using angen::sim::Simulation;
+
+constexpr char kUsage[] =
+    "usage: angen_node [WORLD] [_rate:=1] [_paused:=false] [_seed:=1] [_clock_rate:=100]\n"
+    "                  [_fast:=false] [_topics:=sensor|kind] [_record:=FILE]\n"
+    "                  [_replay:=FILE [_until:=SECONDS]] [_allow_paths:=false] [_rescue:=FILE]\n"
+    "                  [_memory_limit:=4096] [_states_rate:=30] [_strict:=true|false]\n"
+    "                  [_odom_parent:=world|none]\n"
+    "       angen_node --check WORLD    only loads; exit code 1 when it cannot\n"
+    "WORLD may also stand in the parameter ~world. Where the ROS master is started anew, the node\n"
+    "saves the world in FILE and ends with exit code 75.\n";
+
+constexpr std::uint64_t kDefaultSeed = 1;
+constexpr double kLongestTime = 9e9;  // s, so that it fits into nanoseconds
+constexpr int kKept = 128 << 10;      // bytes, malloc's own limits at the start
+
+std::atomic<bool> stop{false};
+
+void on_signal(int) { stop = true; }
+
+/// malloc raises these limits with what is freed, up to 64 MB that stay with the process.
+void give_back_memory() {
+  mallopt(M_MMAP_THRESHOLD, kKept);
+  mallopt(M_TRIM_THRESHOLD, kKept);
+}
+
+void end_on_signals() {
+  struct sigaction action = {};
+  action.sa_handler = on_signal;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+std::string folder_of(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string::npos ? "." : path.substr(0, slash);
+}
+
+/// Throws Error for what does not load; warnings go to stderr.
+angen::desc::World read(const std::string& path) {
+  if (path.empty()) throw angen::Error("'': not a path; give the file of a world");
+  angen::desc::World world = angen::load::world(path);
+  for (const angen::Diagnostic& warning : world.warnings) {
+    std::fprintf(stderr, "%s\n", warning.text().c_str());
+  }
+  return world;
+}
+
+/// Throws Error for what does not load; what is ignored of the rest is counted on stderr.
+std::unique_ptr<Simulation> make(const std::string& path, std::uint64_t seed) {
+  angen::desc::World world = read(path);
+  const std::size_t ignored = world.ignored.size();
+  auto simulation =
+      std::make_unique<Simulation>(std::move(world), seed, std::make_shared<angen::Catalog>());
+  for (const angen::sim::Event& event : simulation->snapshot()->events) {  // of how it was built
+    if (event.event == "warning") std::fprintf(stderr, "%s\n", event.detail.c_str());
+  }
+  if (ignored > 0) {
+    std::fprintf(stderr, "%zu %s ignored, angen check lists %s\n", ignored,
+                 ignored == 1 ? "element is" : "elements are", ignored == 1 ? "it" : "them");
+  }
+  return simulation;
+}
+
+std::string summary(const std::string& path, const Simulation& simulation) {
+  const angen::sim::Structure& structure = *simulation.snapshot()->structure;
+  return path + ": " + std::to_string(structure.models.size()) + " models, " +
+         std::to_string(structure.devices.size()) + " devices, " +
+         std::to_string(structure.sensors.size()) + " sensors";
+}
+
+int check(const std::string& path) {
+  std::printf("%s\n", summary(path, *make(path, kDefaultSeed)).c_str());
+  return EXIT_SUCCESS;
+}
+
+double number_param(const std::string& name, double fallback, double least) {
+  double value = fallback;
+  if (ros::param::has(name) && !ros::param::get(name, value)) {
+    throw angen::Error(name + " must be a number");
+  }
+  if (!(value >= least) || !std::isfinite(value)) {
+    throw angen::Error(name + " is " + std::to_string(value) + ", must be at least " +
+                       std::to_string(least));
+  }
+  return value;
+}
+
+void check_rate(double rate, angen::Nanoseconds step) {
+  const std::string problem = angen::node::rate_problem(rate, step);
+  if (!problem.empty()) throw angen::Error("~rate is " + angen::number_text(rate) + "; " + problem);
+}
+
+/// The parameter, which may be left out; throws Error for one of another type.
+template <class Value>
+Value param_or(const std::string& name, Value fallback) {
+  if (ros::param::has(name) && !ros::param::get(name, fallback)) {
+    throw angen::Error(name + " must be " +
+                       (std::is_same_v<Value, bool> ? "true or false" : "a text"));
+  }
+  return fallback;
+}
+
+// The ~memory_limit that the command line gives, as far as it is known without ROS.
+void limit_memory_by(const std::vector<std::string>& words) {
+  constexpr char kLimit[] = "_memory_limit:=";
+  for (const std::string& word : words) {
+    if (word.rfind(kLimit, 0) != 0) continue;
+    const std::optional<double> given = angen::parse_finite(word.substr(sizeof kLimit - 1));
+    if (given) angen::load::set_memory_limit(*given);
+  }
+}
+
+// The ~seed that the command line gives, as far as it is known without ROS.
+std::uint64_t seed_in(const std::vector<std::string>& words) {
+  constexpr char kSeed[] = "_seed:=";
+  for (const std::string& word : words) {
+    if (word.rfind(kSeed, 0) != 0) continue;
+    const std::optional<double> given = angen::parse_finite(word.substr(sizeof kSeed - 1));
+    if (given && *given >= 0.0) return static_cast<std::uint64_t>(*given);
+  }
+  return kDefaultSeed;
+}
+
+/// ~until, a time in s; a launch file gives an empty text for none.
+std::optional<angen::Nanoseconds> until_param() {
+  std::string text;
+  double seconds = 0.0;
+  if (ros::param::get("~until", text)) {
+    if (text.empty()) return std::nullopt;
+    seconds = angen::parse_finite(text).value_or(-1.0);
+  } else if (ros::param::has("~until")) {
+    seconds = number_param("~until", 0.0, 0.0);
+  } else {
+    return std::nullopt;
+  }
+  if (seconds < 0.0 || seconds > kLongestTime) {
+    throw angen::Error("~until must be a time in s, such as 12.5");
+  }
+  return angen::from_seconds(seconds);
+}
+
+/// What ~replay names, up to ~until; null where it names nothing.
+std::unique_ptr<angen::record::Replay> make_replay(angen::node::Settings& settings) {
+  const auto path = param_or<std::string>("~replay", "");
+  const std::optional<angen::Nanoseconds> until = until_param();
+  if (path.empty()) {
+    if (until) throw angen::Error("~until ends a replay; give its file as ~replay");
+    return nullptr;
+  }
+  settings.hurry = until.has_value();
+  auto replay = std::make_unique<angen::record::Replay>(
+      angen::record::read_log(path), std::make_shared<angen::Catalog>(),
+      angen::record::ReplaySettings{settings.fast || settings.hurry, false});
+  if (until) replay->stop_at(*until);
+  return replay;
+}
+
+/// Null where ~record names nothing.
+std::unique_ptr<angen::record::Recorder> make_recorder(const std::string& world,
+                                                       const angen::node::Settings& settings,
+                                                       Simulation& simulation) {
+  const auto file = param_or<std::string>("~record", "");
+  if (file.empty()) return nullptr;
+  if (settings.replay == nullptr) {
+    return std::make_unique<angen::record::Recorder>(file, angen::record::origin_of(world),
+                                                     simulation);
+  }
+  const angen::record::LogHeader& header = settings.replay->log().header;
+  return std::make_unique<angen::record::Recorder>(
+      file, angen::record::Origin{header.world, header.sdf, settings.models}, simulation);
+}
+
+// Everything that is loaded from now on may name files and libraries anywhere.
+void allow_all_paths() { setenv("ANGEN_ALLOW_PATHS", "true", 1); }
+
+// What Angen does not know in any world or model is an error, or a warning.
+void set_strict(const std::string& word) {
+  if (word.empty()) return;
+  if (word != "true" && word != "false") {
+    throw angen::Error("~strict is '" + word + "', must be true or false");
+  }
+  setenv("ANGEN_STRICT", word.c_str(), 1);
+}
+
+void set_strict_by(const std::vector<std::string>& words) {
+  constexpr char kStrict[] = "_strict:=";
+  for (const std::string& word : words) {
+    if (word.rfind(kStrict, 0) == 0) set_strict(word.substr(sizeof kStrict - 1));
+  }
+}
+
+// A launch file gives true or false, or an empty text for neither.
+void set_strict_by_param() {
+  bool flag = false;
+  if (ros::param::get("~strict", flag)) {
+    set_strict(flag ? "true" : "false");
+  } else {
+    set_strict(param_or<std::string>("~strict", ""));
+  }
+}
+
+int save_and_end(Simulation& simulation, const std::string& path) {
+  angen::node::rescue(simulation, path);
+  std::fprintf(stderr,
+               "angen_node: the ROS master at %s was started anew and does not know this node; the "
+               "world as of %.3f s is saved in %s: start a node anew with it\n",
+               ros::master::getURI().c_str(), angen::to_seconds(simulation.snapshot()->time),
+               path.c_str());
+  ros::shutdown();
+  return angen::node::kRescued;
+}
+
+int run(std::string path, std::unique_ptr<Simulation> simulation) {
+  if (param_or("~allow_paths", false)) allow_all_paths();
+  set_strict_by_param();
+  const bool replays = !param_or<std::string>("~replay", "").empty();
+  if (!simulation && !replays && !ros::param::get("~world", path)) {
+    throw angen::Error(std::string("no world: give one as argument or in ~world\n") + kUsage);
+  }
+  angen::load::set_memory_limit(number_param("~memory_limit", angen::load::memory_limit(), 1.0));
+  angen::node::Settings settings;
+  settings.fast = param_or("~fast", false);
+  settings.rate = number_param("~rate", settings.fast ? 0.0 : 1.0, 0.0);
+  if (settings.fast && settings.rate > 0.0) {
+    throw angen::Error("~fast goes as fast as it can, with ~rate 0 or none");
+  }
+  settings.clock_rate =
+      number_param("~clock_rate", number_param("~pub_clock_frequency", 100.0, 0.01), 0.01);
+  settings.states_rate = number_param("~states_rate", 30.0, 0.01);
+  settings.plugins = angen::Catalog().own();
+  const std::unique_ptr<angen::record::Replay> replay = make_replay(settings);
+  if (replay) path = replay->log().header.world;
+  const auto odom_parent = param_or<std::string>("~odom_parent", "world");
+  if (odom_parent != "world" && odom_parent != "none") {
+    throw angen::Error("~odom_parent is '" + odom_parent + "', must be world or none");
+  }
+  settings.odometry_in_world = odom_parent == "world";
+  settings.replay = replay.get();
+  settings.models = replay ? replay->models() : folder_of(path) + "/models";
+  settings.topics = angen::node::topics_named(param_or<std::string>("~topics", "sensor"));
+  const auto rescue_path = param_or<std::string>("~rescue", angen::node::default_rescue_path());
+  const auto seed = static_cast<std::uint64_t>(number_param("~seed", kDefaultSeed, 0.0));
+  const bool usable = simulation && simulation->seed() == seed;
+  if (!replay && !usable) simulation = make(path, seed);
+  Simulation& running = replay ? replay->simulation() : *simulation;
+  check_rate(settings.rate, running.snapshot()->step);
+  const auto recorder = make_recorder(path, settings, running);
+  settings.recorder = recorder.get();
+  settings.paused_after = param_or("~paused", false);
+  if (settings.paused_after && !replay) running.post(angen::sim::Pause{true});
+  if (!ros::param::has("/use_sim_time")) ros::param::set("/use_sim_time", true);
+  angen::node::Node node(running, settings);
+  ROS_INFO("%s; seed %lu", summary(path, running).c_str(),
+           static_cast<unsigned long>(running.seed()));
+  const angen::node::Node::End end = node.run(stop);
+  if (end == angen::node::Node::End::kMasterLost) return save_and_end(running, rescue_path);
+  ros::shutdown();
+  return EXIT_SUCCESS;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::setlocale(LC_NUMERIC, "C");
+  std::setlocale(LC_CTYPE, "C.UTF-8");  // log4cxx writes other letters as ? otherwise
+  give_back_memory();
+  try {
+    const std::vector<std::string> raw(argv + 1, argv + argc);
+    if (!raw.empty() && (raw[0] == "--help" || raw[0] == "-h")) {
+      std::fputs(kUsage, stdout);
+      return EXIT_SUCCESS;
+    }
+    if (!raw.empty() && raw[0] == "--check") {
+      if (raw.size() == 2) return check(raw[1]);
+      std::fputs(kUsage, stderr);
+      return 2;
+    }
+    std::vector<std::string> paths;
+    for (const std::string& word : raw) {
+      if (word.find(":=") == std::string::npos) paths.push_back(word);
+    }
+    if (paths.size() > 1) {
+      std::fputs(kUsage, stderr);
+      return 2;
+    }
+    const std::string path = paths.empty() ? "" : paths[0];
+    // Before ROS, which waits for a master: errors in the world need none.
+    std::unique_ptr<Simulation> simulation;
+    if (std::count(raw.begin(), raw.end(), "_allow_paths:=true") != 0) allow_all_paths();
+    limit_memory_by(raw);
+    set_strict_by(raw);
+    if (!paths.empty()) simulation = make(path, seed_in(raw));
+    ros::init(argc, argv, "angen", ros::init_options::NoSigintHandler);
+    end_on_signals();
+    return run(path, std::move(simulation));
+  } catch (const angen::Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "angen_node: %s\n", problem.what());
+  }
+  return EXIT_FAILURE;
+}

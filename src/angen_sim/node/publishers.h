@@ -1,0 +1,74 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ros/readings.h"
+#include "ros/ros_kind.h"
+#include "ros/topics.h"
+#include "sim/simulation.h"
+#include "tf/frames.h"
+
+namespace angen::node {
+
+/// The topics of all sensors and devices, kept equal to what exists.
+class Publishers {
+ public:
+  Publishers(ros::NodeHandle& node, sim::Simulation& simulation, Topics topics, Readings& readings)
+      : node_(node), simulation_(simulation), topics_(topics), readings_(readings) {}
+
+  /// Advertises and shuts down by `changes` since the last structure. `frames` and `robots` are
+  /// those of the snapshot's.
+  void on_structure(const sim::Snapshot& snapshot, const FrameTree& frames,
+                    const std::vector<Robot>& robots, const Changes& changes);
+
+  /// Sends what is new in this tick.
+  void publish(const sim::Snapshot& snapshot);
+
+ private:
+  struct Source {
+    std::shared_ptr<const Label> label;
+    std::vector<std::shared_ptr<Channel>> channels;
+    std::string robot;  // below whose name its topics are; see space_of()
+  };
+  using Key = std::pair<std::string, std::string>;  // topic, type
+  using Channels = std::map<Key, std::shared_ptr<Channel>>;
+
+  // A sensor that samples on demand only.
+  struct OnDemand {
+    std::uint32_t sensor = 0;  // in Structure::sensors
+    bool requested = false;
+  };
+
+  void attach(Source& source, const std::string& type, const Format::Open& open,
+              const std::string& topic);
+  Source sensor_source(const sim::SensorEntry& entry, const Label& label, const Robot* robot);
+  Source device_source(const sim::DeviceEntry& entry);
+  void follow_sensors(const sim::Structure& structure, const FrameTree& frames,
+                      const std::vector<Robot>& robots, const Numbers& numbers);
+  std::vector<Source> device_sources(const sim::Structure& structure,
+                                     const std::vector<Robot>& robots, const Numbers& numbers);
+  void shut_down_unused();
+  void list_on_demand(const sim::Structure& structure);
+  void request(const sim::Structure& structure);
+  void publish_state(const sim::Snapshot& snapshot, std::uint32_t device);
+  void repeat_odometry(const sim::Snapshot& snapshot);
+
+  ros::NodeHandle& node_;
+  sim::Simulation& simulation_;
+  Topics topics_;
+  Readings& readings_;
+  Channels channels_;
+  std::vector<std::shared_ptr<Channel>> batched_;  // those that flush
+  std::vector<Source> sensors_;                    // as Structure::sensors
+  std::vector<Source> devices_;                    // as Structure::devices
+  std::vector<OnDemand> on_demand_;
+  std::vector<std::uint32_t> robots_;  // indices of drives
+  Nanoseconds odometry_slot_ = 0;
+};
+
+}  // namespace angen::node

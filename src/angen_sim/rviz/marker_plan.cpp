@@ -1,0 +1,80 @@
+#include "rviz/marker_plan.h"
+
+#include <algorithm>
+
+#include "rviz/rooms.h"
+
+namespace angen::node {
+namespace {
+
+constexpr float kWallAlpha = 0.3F;  // rooms are seen through walls
+
+bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+
+bool is_ground(const desc::Link& link) {
+  return std::any_of(link.visuals.begin(), link.visuals.end(), [](const desc::Visual& visual) {
+    return visual.shape.type == Shape::Type::kPlane;
+  });
+}
+
+// What a model carries says nothing of what it is.
+bool is_carried(const std::string& kind) {
+  return kind == "tag" || kind == "battery" || kind == "climate";
+}
+
+std::string device_group(const std::string& kind) {
+  if (kind == "person") return "people";
+  return kind == "drive" ? "robots" : kind + "s";
+}
+
+float strongest_alpha(const std::string& group) {
+  return group.rfind("walls", 0) == 0 ? kWallAlpha : 1.0F;
+}
+
+}  // namespace
+
+std::string marker_group(const sim::Structure& structure, std::uint32_t link) {
+  const sim::LinkEntry& entry = structure.links[link];
+  const desc::Model& model = *structure.models[entry.model];
+  const desc::Link& described = model.links[entry.link];
+  if (is_ground(described)) return "ground";
+  const double height = model.pose.position.z();
+  const std::string storey = storey_suffix(structure, entry.model, height);
+  for (const sim::DeviceEntry& device : structure.devices) {
+    if (device.model == entry.model && !is_carried(device.kind)) {
+      return device_group(device.kind) + storey;
+    }
+  }
+  if (is_building(model)) {
+    if (has(described.name, "ceiling")) return "ceilings" + storey;
+    if (has(described.name, "floor")) return "floors" + storey;
+    const std::string side = outer_side(model, described);
+    return (side.empty() ? "walls" : "walls " + side) + storey;
+  }
+  const bool senses = model.is_static && !described.sensors.empty();
+  return (senses ? "sensors" : "furniture") + storey;
+}
+
+DrawnModel draw_model(const sim::Structure& structure, std::uint32_t first_link,
+                      std::int32_t& next_id) {
+  DrawnModel drawn;
+  const desc::Model& model = *structure.models[structure.links[first_link].model];
+  for (std::uint32_t l = 0; l < model.links.size(); ++l) {
+    const std::string group = marker_group(structure, first_link + l);
+    const float alpha = strongest_alpha(group);
+    std::vector<Drawing> drawings;
+    for (const desc::Visual& visual : model.links[l].visuals) {
+      for (Drawing& drawing : draw(visual)) {
+        drawing.marker.header.frame_id = "world";
+        drawing.marker.ns = group;
+        drawing.marker.id = next_id++;
+        drawing.marker.color.a = std::min(drawing.marker.color.a, alpha);
+        drawings.push_back(std::move(drawing));
+      }
+    }
+    drawn.links.push_back(std::move(drawings));
+  }
+  return drawn;
+}
+
+}  // namespace angen::node

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <visualization_msgs/Marker.h>
+
+#include <string>
+#include <vector>
+
+#include "core/pose.h"
+#include "desc/world.h"
+
+/// Descriptions as rviz's markers, with neither id nor place.
+namespace angen::node {
+
+/// A marker and where it stands on its link.
+struct Drawing {
+  visualization_msgs::Marker marker;
+  Pose offset;
+};
+
+/// What shows a visual: one marker, three for a capsule, none for an empty shape.
+std::vector<Drawing> draw(const desc::Visual& visual);
+
+/// A sphere where a light is, lit or dark. Level 0..1.
+visualization_msgs::Marker draw(const desc::Light& light, double level);
+
+/// Lines from the sensor's origin in its own frame, `ranges` long (m); shorter lists are filled up
+/// with the sensor's greatest range. Horizontal angles run fastest, as in the scans of Gazebo's ray
+/// sensors.
+visualization_msgs::Marker draw_rays(const desc::Sensor& sensor, const std::vector<double>& ranges);
+
+/// A file's name as a file:// address.
+std::string file_address(const std::string& path);
+
+}  // namespace angen::node

@@ -1,0 +1,97 @@
+#include "rviz/markers.h"
+
+#include <chrono>
+#include <utility>
+
+#include "ros/convert.h"
+
+namespace angen::node {
+namespace {
+
+constexpr std::chrono::milliseconds kMarkerPeriod(66);
+
+}  // namespace
+
+Markers::Markers(ros::NodeHandle& node, Readings& readings)
+    : publisher_(LazyPublisher::of<visualization_msgs::MarkerArray>(node, "/angen/markers", 100)),
+      overlays_(next_id_, readings) {}
+
+void Markers::draw_models(const sim::Structure& structure, const Changes& changes) {
+  std::vector<DrawnModel> old = std::exchange(models_, {});
+  models_.resize(structure.models.size());
+  links_.clear();
+  for (std::uint32_t m = 0; m < models_.size(); ++m) {
+    const std::uint32_t before = changes.models.before[m];
+    const auto first = static_cast<std::uint32_t>(links_.size());
+    models_[m] =
+        before != Numbers::kNone ? std::move(old[before]) : draw_model(structure, first, next_id_);
+    for (const std::vector<Drawing>& link : models_[m].links) {
+      links_.push_back(&link);
+      if (before == Numbers::kNone) mark(static_cast<std::uint32_t>(links_.size() - 1));
+    }
+  }
+  for (const DrawnModel& gone : old) {  // those that stay have been moved out
+    for (const std::vector<Drawing>& link : gone.links) {
+      for (const Drawing& drawing : link) gone_.markers.push_back(drawing.marker);
+    }
+  }
+}
+
+void Markers::on_structure(const sim::Snapshot& snapshot) {
+  const sim::Structure& structure = *snapshot.structure;
+  const Changes changes = changes_between(structure_.get(), structure);
+  const std::vector<std::uint32_t> pending = std::exchange(changed_, {});
+  marked_.assign(structure.links.size(), false);
+  for (const std::uint32_t link : pending) {
+    if (changes.links.after[link] != Numbers::kNone) mark(changes.links.after[link]);
+  }
+  draw_models(structure, changes);
+  overlays_.on_structure(structure, changes, gone_);
+  structure_ = snapshot.structure;
+}
+
+void Markers::mark(std::uint32_t link) {
+  if (marked_[link]) return;
+  marked_[link] = true;
+  changed_.push_back(link);
+}
+
+void Markers::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {
+  if (!publisher_.has_subscribers()) return;
+  if (snapshot.structure != structure_) on_structure(snapshot);
+  for (const std::uint32_t link : snapshot.moved_links) mark(link);
+  if (now < next_send_) return;
+  next_send_ = now + kMarkerPeriod;
+  const std::uint64_t joined = publisher_.subscriptions();
+  const Array array = collect(snapshot, joined != joined_);
+  joined_ = joined;
+  if (array.markers.empty()) return;
+  publisher_.publish([&]() -> const Array& { return array; });
+}
+
+Markers::Array Markers::collect(const sim::Snapshot& snapshot, bool all) {
+  Array array;
+  for (visualization_msgs::Marker& marker : gone_.markers) {
+    marker.action = visualization_msgs::Marker::DELETE;
+    array.markers.push_back(std::move(marker));
+  }
+  gone_.markers.clear();
+  if (all) {
+    for (std::uint32_t i = 0; i < links_.size(); ++i) put_link(snapshot, i, array);
+  } else {
+    for (const std::uint32_t link : changed_) put_link(snapshot, link, array);
+  }
+  for (const std::uint32_t link : changed_) marked_[link] = false;
+  changed_.clear();
+  overlays_.append(snapshot, all, array);
+  return array;
+}
+
+void Markers::put_link(const sim::Snapshot& snapshot, std::uint32_t link, Array& array) const {
+  for (const Drawing& drawing : *links_[link]) {
+    array.markers.push_back(drawing.marker);
+    array.markers.back().pose = to_ros(snapshot.link_poses[link] * drawing.offset);
+  }
+}
+
+}  // namespace angen::node

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include <memory>
+#include <vector>
+
+#include "ros/changes.h"
+#include "ros/lazy_publisher.h"
+#include "ros/pacer.h"
+#include "rviz/marker_plan.h"
+#include "rviz/overlays.h"
+#include "sim/snapshot.h"
+
+namespace angen::node {
+
+/// /angen/markers: all of the world for each newcomer, after that only what has changed, at most 15
+/// times a second of wall time. Nothing is built or updated without a subscriber.
+class Markers {
+ public:
+  Markers(ros::NodeHandle& node, Readings& readings);
+
+  void publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point now);
+
+ private:
+  using Array = visualization_msgs::MarkerArray;
+
+  void on_structure(const sim::Snapshot& snapshot);
+  void draw_models(const sim::Structure& structure, const Changes& changes);
+  void mark(std::uint32_t link);
+  void put_link(const sim::Snapshot& snapshot, std::uint32_t link, Array& array) const;
+  Array collect(const sim::Snapshot& snapshot, bool all);
+
+  LazyPublisher publisher_;
+  std::shared_ptr<const sim::Structure> structure_;  // that all this is about
+  std::int32_t next_id_ = 0;
+  std::vector<DrawnModel> models_;                  // as Structure::models
+  std::vector<const std::vector<Drawing>*> links_;  // as Structure::links
+  Overlays overlays_;
+  Array gone_;                          // to be published as deleted
+  std::vector<std::uint32_t> changed_;  // links, each once
+  std::vector<bool> marked_;            // as Structure::links
+  std::uint64_t joined_ = 0;
+  Pacer::Clock::time_point next_send_{};
+};
+
+}  // namespace angen::node

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ros/changes.h"
+#include "ros/readings.h"
+#include "rviz/marker_shapes.h"
+#include "rviz/rooms.h"
+#include "sim/snapshot.h"
+
+namespace angen::node {
+
+/// Markers that show a value or a name: a ball for each lamp and its light in its room, rays for
+/// each ray sensor, a caption for others, and labels of rooms, lamps and doors.
+class Overlays {
+ public:
+  using Array = visualization_msgs::MarkerArray;
+
+  /// `next_id` is that of the next marker.
+  Overlays(std::int32_t& next_id, Readings& readings) : next_id_(next_id), readings_(readings) {}
+
+  /// Makes overlays of what is new since the structure of the last call; what no longer exists is
+  /// added to `gone`, to be deleted.
+  void on_structure(const sim::Structure& structure, const Changes& changes, Array& gone);
+
+  /// Appends what differs from when it was appended last; with `all` everything.
+  void append(const sim::Snapshot& snapshot, bool all, Array& array);
+
+ private:
+  enum class Of { kNothing, kLight, kSensor, kDevice };
+  struct Overlay {
+    visualization_msgs::Marker marker;  // as appended last; without a namespace: not shown
+    std::string storey;                 // " 0", or empty; see storey_suffix
+    std::uint32_t index = UINT32_MAX;   // in Structure::lights, ::sensors or ::devices
+    Of of = Of::kNothing;
+    std::uint32_t link = UINT32_MAX;  // in Structure::links; none: it is still
+    Pose offset;
+    Pose pose;                            // as appended last
+    bool drawn = false;                   // it was appended
+    double level = -1.0;                  // of a lamp, as appended last
+    std::shared_ptr<const Reading> last;  // compared last
+    Nanoseconds stamp = 0;                // of what was made in its place then
+    std::vector<double> ranges;           // m, as appended last
+    bool fired = false;
+  };
+  using Named = std::map<std::string, Overlay>;
+
+  Overlay& put(Named& all, const std::string& name, Overlay overlay);
+  void add_lamp(const sim::Structure& structure, std::uint32_t light);
+  void add_glow(const sim::Structure& structure, std::uint32_t light);
+  void add_sensor(const sim::Structure& structure, std::uint32_t sensor);
+  void add_device(const sim::Structure& structure, std::uint32_t device);
+  void add_label(const sim::Structure& structure, std::uint32_t device);
+  void add_room_labels();
+  /// Whether buildings came or went; then rooms are those of now.
+  bool find_other_rooms(const sim::Structure& structure);
+  /// What stays gets the numbers of now, what has gone is added to `gone`.
+  static void keep(Named& all, const Changes& changes, Array& gone);
+  static void drop(Named& all, Array& gone);
+  /// What an overlay shows from now on; in another namespace than before, or nowhere if that is
+  /// empty, what it showed is deleted.
+  void show(Overlay& overlay, visualization_msgs::Marker marker, const std::string& group);
+  /// Whether the reading or state that it shows has changed since the last call.
+  static bool is_new(const sim::Snapshot& snapshot, Overlay& overlay);
+  // Each returns whether the marker has changed.
+  bool relight(const sim::Snapshot& snapshot, Overlay& lamp);
+  bool glow(const sim::Snapshot& snapshot, Overlay& lamp);
+  bool redraw(const sim::Snapshot& snapshot, Overlay& beams);
+  bool rewrite(const sim::Snapshot& snapshot, Overlay& caption);
+
+  std::int32_t& next_id_;
+  Readings& readings_;
+  std::vector<std::shared_ptr<const desc::Model>> buildings_;
+  std::vector<Room> rooms_;  // of these
+  Named lamps_;
+  Named beams_;
+  Named captions_;
+  Named glows_;
+  Named labels_;
+  Named room_labels_;
+  std::vector<visualization_msgs::Marker> stale_;  // to be deleted
+};
+
+}  // namespace angen::node

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "desc/world.h"
+#include "document/sources.h"
+#include "sdf/load.h"
+
+namespace angen::load {
+
+/// The described world of one file as an earlier load left it in $XDG_CACHE_HOME/angen, or in
+/// ~/.cache/angen; none where ANGEN_NO_CACHE is set. Nothing that is wrong with the cache is an
+/// error: then it holds no world.
+class Cache {
+ public:
+  /// Of the world file `world` when models are searched in `paths`.
+  Cache(const std::string& world, const SearchPaths& paths);
+
+  /// The world, if loading it anew would give the same: the program and all that was read are as
+  /// they were. Nothing else is ever returned, whatever happened to the file.
+  std::optional<desc::World> recall() const;
+
+  /// Leaves a world that was read from `sources` for the next recall().
+  void keep(const desc::World& world, const Sources& sources) const;
+
+  /// The file that holds it; empty where there is no cache.
+  const std::string& file() const { return file_; }
+
+ private:
+  std::string key_;  // what decides where a load searches, and which program does
+  std::string file_;
+};
+
+}  // namespace angen::load

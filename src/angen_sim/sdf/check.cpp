@@ -1,0 +1,253 @@
+#include "sdf/check.h"
+
+#include <map>
+#include <set>
+
+#include "core/names.h"
+#include "core/text.h"
+#include "document/values.h"
+#include "document/xml.h"
+#include "import/upgrade.h"
+
+namespace angen::load {
+
+bool has_link(const Element& model) {
+  for (const Element& child : model.children) {
+    if (child.name == "link" || (child.name == "model" && has_link(child))) return true;
+  }
+  return false;
+}
+
+namespace {
+
+const std::set<std::string> kShapes = {"empty", "box",  "sphere",    "cylinder", "capsule",
+                                       "plane", "mesh", "heightmap", "image"};
+const std::set<std::string> kJoints = {"fixed",     "revolute", "continuous",
+                                       "prismatic", "ball",     "universal"};
+const std::set<std::string> kLights = {"point", "spot", "directional"};
+
+std::string listed(const std::set<std::string>& names) {
+  return join_names({names.begin(), names.end()});
+}
+
+void check_children_names(const Element& parent) {
+  std::map<std::pair<std::string, std::string>, Source> seen;
+  for (const Element& child : parent.children) {
+    const std::string space = names_shared_by(child);
+    if (space.empty()) continue;
+    const std::string name = name_of(child);
+    check_name(name, "<" + child.name + ">", child.source);
+    const auto [there, fresh] = seen.insert({{space, name}, child.source});
+    if (!fresh) {
+      throw Error(child.source, "the name '" + name + "' is given twice in " + tag_of(parent) +
+                                    ", first at line " + std::to_string(there->second.line) +
+                                    "; give <" + child.name + "> another name");
+    }
+  }
+}
+
+void check_geometry(const Element& part) {
+  const Element* geometry = part.child("geometry");
+  if (geometry == nullptr) {
+    throw Error(part.source, tag_of(part) + " has no <geometry>; give it one, such as <box>");
+  }
+  if (geometry->children.size() > 1) {
+    throw Error(geometry->children[1].source, "a second shape in one <geometry>; keep one");
+  }
+  if (geometry->children.empty()) {
+    throw Error(geometry->source, "<geometry> holds no shape; known shapes are " + listed(kShapes));
+  }
+  const Element& shape = geometry->children[0];
+  if (kShapes.count(shape.name) == 0) {
+    throw Error(shape.source,
+                "unknown shape <" + shape.name + ">; known shapes are " + listed(kShapes));
+  }
+  static const std::map<std::string, std::vector<std::string>> needs = {
+      {"box", {"size"}},
+      {"sphere", {"radius"}},
+      {"cylinder", {"radius", "length"}},
+      {"mesh", {"uri"}},
+      {"capsule", {"radius", "length"}},
+      {"heightmap", {"uri", "size"}},
+      {"image", {"uri"}}};
+  const auto need = needs.find(shape.name);
+  if (need == needs.end()) return;
+  for (const std::string& key : need->second) {
+    if (shape.child(key) == nullptr) {
+      throw Error(shape.source, "<" + shape.name + "> has no <" + key + ">; give it one");
+    }
+  }
+}
+
+void check_plugin(const Element& plugin) {
+  const std::string* file = plugin.attribute("filename");
+  if (file == nullptr || file->empty()) {
+    throw Error(plugin.source, "<plugin> has no filename; write filename=\"libNAME.so\"");
+  }
+  const std::string problem = label_problem(name_of(plugin));
+  if (!problem.empty()) throw Error(plugin.source, "<plugin>: " + problem);
+}
+
+void check_light(const Element& light) {
+  const std::string* type = light.attribute("type");
+  if (type != nullptr && kLights.count(*type) == 0) {
+    throw Error(light.source,
+                "unknown light type '" + printable(*type) + "'; known are " + listed(kLights));
+  }
+}
+
+void check_sensor(const Element& sensor) {
+  const std::string* type = sensor.attribute("type");
+  if (type == nullptr || type->empty()) {
+    throw Error(sensor.source, tag_of(sensor) + " has no type; write type=\"ray\"");
+  }
+}
+
+void check_link(const Element& link) {
+  check_children_names(link);
+  for (const Element& child : link.children) {
+    if (child.name == "collision" || child.name == "visual") check_geometry(child);
+    if (child.name == "light") check_light(child);
+    if (child.name != "sensor") continue;
+    check_sensor(child);
+    for (const Element& part : child.children) {
+      if (part.name == "plugin") check_plugin(part);
+    }
+  }
+}
+
+// Links, frames and nested models, the latter with their own after "::".
+void collect_frames(const Element& model, const std::string& prefix, std::set<std::string>& names) {
+  for (const Element& child : model.children) {
+    if (child.name == "link" || child.name == "frame" || child.name == "joint" ||
+        child.name == "model") {
+      names.insert(prefix + name_of(child));
+    }
+    if (child.name == "model") collect_frames(child, prefix + name_of(child) + "::", names);
+  }
+}
+
+void check_joint_end(const Element& joint, const std::string& end,
+                     const std::set<std::string>& known) {
+  const Element* element = joint.child(end);
+  if (element == nullptr || element->text.empty()) {
+    throw Error(joint.source, tag_of(joint) + " has no <" + end + ">; name a link");
+  }
+  const std::string& name = element->text;
+  if ((end == "parent" && name == "world") || known.count(name) != 0 || name == "__model__") return;
+  throw Error(element->source, tag_of(joint) + " names an unknown link '" + printable(name) +
+                                   "'; known are " + join_names({known.begin(), known.end()}));
+}
+
+bool zero_axis(const Element& axis) {
+  const Element* xyz = axis.child("xyz");
+  if (xyz == nullptr) return false;
+  for (const double v : numbers_of(*xyz, 3)) {
+    if (v != 0.0) return false;
+  }
+  return true;
+}
+
+void check_axes(Element& joint, Session& session) {
+  const std::string type = *joint.attribute("type");
+  const bool turns = type == "revolute" || type == "continuous";
+  for (const char* name : {"axis", "axis2"}) {
+    const Element* axis = joint.child(name);
+    const bool needed = std::string(name) == "axis"
+                            ? turns || type == "prismatic" || type == "universal"
+                            : type == "universal";
+    if (axis == nullptr && needed) {
+      throw Error(joint.source, tag_of(joint) + " is " + type + " and has no <" + name +
+                                    ">; write <" + name + "><xyz>0 0 1</xyz></" + name + ">");
+    }
+    if (axis == nullptr || !zero_axis(*axis)) continue;
+    if (turns) {
+      session.warn(axis->source, tag_of(joint) +
+                                     " turns about an axis of length 0 and is taken as "
+                                     "fixed; write type=\"fixed\"");
+      set_attribute(joint, "type", "fixed");
+      remove_children(joint, "axis");
+    } else if (needed) {
+      throw Error(axis->source, "the <" + std::string(name) + "> of " + tag_of(joint) +
+                                    " has length 0; give it a direction such as 0 0 1");
+    }
+    return;
+  }
+}
+
+void check_joint(Element& joint, const std::set<std::string>& known, Session& session) {
+  const std::string* type = joint.attribute("type");
+  if (type == nullptr || kJoints.count(*type) == 0) {
+    throw Error(joint.source, type == nullptr
+                                  ? tag_of(joint) + " has no type; known are " + listed(kJoints)
+                                  : "unknown joint type '" + printable(*type) + "'; known are " +
+                                        listed(kJoints));
+  }
+  check_joint_end(joint, "parent", known);
+  check_joint_end(joint, "child", known);
+  if (joint.child_text("parent") == joint.child_text("child")) {
+    throw Error(joint.source, tag_of(joint) + " joins '" + joint.child_text("child") +
+                                  "' to itself; name two links");
+  }
+  check_axes(joint, session);
+  for (const char* name : {"axis", "axis2"}) {
+    const Element* axis = joint.child(name);
+    const Element* limit = axis == nullptr ? nullptr : axis->child("limit");
+    if (limit == nullptr || limit->child("lower") == nullptr || limit->child("upper") == nullptr) {
+      continue;
+    }
+    const double lower = numbers_in(limit->child("lower")->text).values.at(0);
+    const double upper = numbers_in(limit->child("upper")->text).values.at(0);
+    if (lower > upper) {
+      throw Error(limit->source, "the limits of " + tag_of(joint) +
+                                     " are the wrong way round: "
+                                     "lower " +
+                                     number_text(lower) + ", upper " + number_text(upper));
+    }
+  }
+}
+
+void check_model_parts(Element& model, Session& session) {
+  static const std::set<std::string> idle = {"gripper", "projector", "battery"};
+  if (!has_link(model)) throw Error(model.source, tag_of(model) + " has no <link>; give it one");
+  check_children_names(model);
+  std::set<std::string> known;
+  collect_frames(model, "", known);
+  for (Element& child : model.children) {
+    if (child.name == "link") check_link(child);
+    if (child.name == "joint") check_joint(child, known, session);
+    if (child.name == "plugin") check_plugin(child);
+    if (child.name == "model") check_model_parts(child, session);
+    if (idle.count(child.name) != 0) {
+      session.warn(child.source, "<" + child.name + "> has no effect");
+    }
+  }
+}
+
+}  // namespace
+
+void check_settings(Element& world, Session& session) {
+  check_children_names(world);
+  for (const Element& child : world.children) {
+    if (child.name == "light") check_light(child);
+    if (child.name == "plugin") check_plugin(child);
+  }
+  check_values(world, session);
+}
+
+void check_model(Element& model, Session& session) {
+  check_name(name_of(model), "<model>", model.source);
+  check_values(model, session);
+  check_model_parts(model, session);
+}
+
+void check_part(Element& element, Session& session) {
+  if (element.name == "sensor") check_sensor(element);
+  if (element.name == "light") check_light(element);
+  for (const Element& part : element.children) {
+    if (part.name == "plugin") check_plugin(part);
+  }
+  check_values(element, session);
+}
+
+}  // namespace angen::load

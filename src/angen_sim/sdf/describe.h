@@ -1,0 +1,45 @@
+#pragma once
+
+#include "desc/world.h"
+#include "sdf/expand.h"
+#include "sdf/frames.h"
+
+/// Checked trees to descriptions.
+namespace angen::load {
+
+/// Expanded, checked <model> elements with different names, in their order. The pose is left to the
+/// caller, and so are the texts for `save`. Nested models become links, joints and plug-ins named
+/// `child::name`.
+std::vector<desc::Model> describe_models(const std::vector<Element>& models, Session& session);
+
+/// The <inertial> of a link; the unit mass and moment where there is none. An impossible one throws
+/// Error, or is a warning and replaced where the link `never_moves`.
+desc::Inertial inertial_of(const Element& link, bool never_moves, Session& session);
+/// Whether a link that moves may have it.
+bool is_possible(const desc::Inertial& inertial);
+
+/// A checked <sensor>; `pose` is where it stands in its link.
+desc::Sensor sensor_of(const Element& sensor, const Pose& pose, Session& session);
+
+desc::Plugin plugin_of(const Element& plugin);
+
+/// A checked <joint>: `scope` is put before its names; `frames` are the outermost model's.
+desc::Joint joint_of(const Element& element, const std::string& scope, Frames& frames);
+
+/// Makes one of several hinges that join the same two links about one line, with a warning.
+void merge_hinges(desc::Model& model, Session& session);
+
+/// An <actor> as a model that the person plug-in drives. Throws Error.
+desc::Model describe_actor(const Element& actor, Session& session);
+
+/// The <physics> that a <world> is stepped by, null where it has none.
+const Element* chosen_physics(const Element& world);
+
+/// Physics, gravity and scene out of a checked <world>.
+void read_settings(const Element& world, desc::World& to, Session& session);
+
+/// Applies the world's <state>: poses and joint positions. Throws Error for unknown names, unless
+/// the session is tolerant.
+void apply_state(const Element& state, desc::World& world, Session& session);
+
+}  // namespace angen::load

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "desc/world.h"
+#include "sdf/expand.h"
+
+namespace angen::load {
+
+/// A <model>, <actor> or <include> as it stands in a file, and what it stands for.
+struct Entry {
+  Element original;
+  Element expanded;
+};
+
+Entry expand_entry(const Element& element, Session& session);
+
+/// Each entry's model, with its name, plug-ins and texts for `save`; the pose only of actors. One
+/// that includes the same file as another in the same way is read once. Names must differ. Throws
+/// Error.
+std::vector<desc::Model> describe_entries(std::vector<Entry>& entries, Session& session);
+
+}  // namespace angen::load

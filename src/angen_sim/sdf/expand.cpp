@@ -1,0 +1,236 @@
+#include "sdf/expand.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "core/names.h"
+#include "core/text.h"
+#include "core/typography.h"
+#include "document/search.h"
+#include "document/values.h"
+#include "document/xml.h"
+#include "import/upgrade.h"
+#include "import/urdf.h"
+
+namespace angen::load {
+
+namespace {
+
+constexpr std::size_t kMaxDepth = 16;
+constexpr std::size_t kMaxExpanded = 400'000;
+constexpr std::size_t kMaxIncluded = 20'000;  // what a model may have, and what includes drop
+
+int version_of(const Element& sdf) {
+  const std::string* text = sdf.attribute("version");
+  if (text == nullptr) {
+    throw Error(sdf.source, "<sdf> has no version; write <sdf version=\"1.6\">");
+  }
+  const int version = version_number(*text);
+  if (version < 104 || version > 109) {
+    throw Error(sdf.source, "SDF version '" + *text + "' is not read; versions 1.4 to 1.9 are");
+  }
+  return version;
+}
+
+void count(const Element& document, Session& session) {
+  session.elements += count_elements(document);
+  if (session.elements > kMaxExpanded) {
+    throw Error(document.source, "more than " + std::to_string(kMaxExpanded) +
+                                     " elements with all that is included; make the world smaller");
+  }
+  if (session.include_start && session.elements - *session.include_start > kMaxIncluded) {
+    throw Error(document.source, "more than " + std::to_string(kMaxIncluded) +
+                                     " elements in one <include> with all that it includes; split "
+                                     "it into several models");
+  }
+}
+
+/// While the outermost include is read, its elements are counted.
+class CountInclude {
+ public:
+  explicit CountInclude(Session& session) : session_(session), outermost_(!session.include_start) {
+    if (outermost_) session_.include_start = session_.elements;
+  }
+  ~CountInclude() {
+    if (outermost_) session_.include_start.reset();
+  }
+  CountInclude(const CountInclude&) = delete;
+  CountInclude& operator=(const CountInclude&) = delete;
+
+ private:
+  Session& session_;
+  bool outermost_;
+};
+
+// The one <model>, <actor> or <light> of an included document.
+Element& included_root(Element& sdf) {
+  Element* found = nullptr;
+  for (Element& child : sdf.children) {
+    if (child.name != "model" && child.name != "actor" && child.name != "light") continue;
+    if (found != nullptr) {
+      throw Error(child.source, "a second " + tag_of(child) + " in an included file; keep one");
+    }
+    found = &child;
+  }
+  if (found == nullptr) {
+    throw Error(sdf.source,
+                "an included file holds a <model>, an <actor> or a <light>; this has "
+                "none");
+  }
+  return *found;
+}
+
+void check_given_once(const Element& include) {
+  static const std::set<std::string> once = {"uri", "name", "pose", "static"};
+  std::map<std::string, Source> seen;
+  for (const Element& child : include.children) {
+    if (once.count(child.name) == 0) continue;
+    const auto [first, fresh] = seen.insert({child.name, child.source});
+    if (fresh) continue;
+    throw Error(child.source, "a second <" + child.name + "> in one <include>, first at line " +
+                                  std::to_string(first->second.line) + "; keep one");
+  }
+}
+
+void apply_include(const Element& include, Element& to, Session& session) {
+  check_given_once(include);
+  std::vector<Element> plugins;
+  for (const Element& child : include.children) {
+    if (child.name == "uri") continue;
+    if (child.name == "name") {
+      check_name(child.text, "<include>", child.source);
+      set_attribute(to, "name", child.text);
+    } else if (child.name == "pose") {
+      remove_children(to, "pose");
+      to.children.insert(to.children.begin(), child);
+    } else if (child.name == "static") {
+      remove_children(to, "static");
+      to.children.insert(to.children.begin(), child);
+    } else if (child.name == "plugin") {
+      plugins.push_back(child);
+    } else if (child.name == "placement_frame") {
+      throw Error(child.source, "<placement_frame> is not supported; give the model's own <pose>");
+    } else {
+      session.warn(child.source, "an <include> has no <" + child.name +
+                                     ">: it has no effect; it "
+                                     "takes uri, name, pose, static and plugin");
+    }
+  }
+  to.children.insert(to.children.end(), plugins.begin(), plugins.end());
+}
+
+// What SDF's merge="true" takes over; the rest, such as <static>, is the outer model's own.
+void merge_parts(Element& included, std::vector<Element>& into) {
+  static const std::set<std::string> parts = {"link", "joint", "frame", "model", "plugin"};
+  if (const Element* pose = included.child("pose")) {
+    throw Error(pose->source,
+                "a <pose> of a model that is included with merge is not supported; "
+                "give it to the outer model");
+  }
+  for (Element& child : included.children) {
+    if (parts.count(child.name) != 0) into.push_back(std::move(child));
+  }
+}
+
+}  // namespace
+
+bool is_merge(const Element& include) {
+  const std::string* merge = include.attribute("merge");
+  return merge != nullptr && *merge != "false" && *merge != "0";
+}
+
+bool straighten_numbers(Element& element, Session& session) {
+  bool changed = false;
+  const auto straighten = [&](std::string& text, const std::string& what) {
+    const std::optional<std::string> plain = plain_numbers(text);
+    if (!plain) return;
+    const std::string name = find_typographic(text)->name;
+    session.warn(element.source, what + " holds the typographic character " + name +
+                                     "; it is read as '" + *plain + "'; write that");
+    text = *plain;
+    changed = true;
+  };
+  for (auto& [key, value] : element.attributes) {
+    if (key != "name") straighten(value, "<" + element.name + " " + key + ">");
+  }
+  if (element.name != "name") straighten(element.text, "<" + element.name + ">");
+  for (Element& child : element.children) {
+    changed = straighten_numbers(child, session) || changed;
+  }
+  return changed;
+}
+
+Element read_document(const std::string& text, const std::string& file, Session& session) {
+  Element root = parse_xml(text, file);
+  const bool changed = straighten_numbers(root, session);
+  if (root.name == "robot") session.converted.insert(file);
+  if (root.name == "robot") root = convert_urdf(changed ? print_xml(root) : text, root);
+  if (root.name != "sdf") {
+    throw Error(root.source, "the file begins with <" + root.name +
+                                 ">; it must begin with <sdf> or "
+                                 "<robot>");
+  }
+  upgrade(root, version_of(root), session);
+  make_uris_absolute(root, session);
+  count(root, session);
+  return root;
+}
+
+Element expand_include(const Element& include, Session& session) {
+  const Element* uri = include.child("uri");
+  if (uri == nullptr) {
+    throw Error(include.source, "<include> has no <uri>; write <uri>model://NAME</uri>");
+  }
+  const std::string found = need_uri(uri->text, "model", uri->source, session);
+  const std::string file = model_file(found, uri->source, session);
+  std::error_code failed;
+  std::string real = std::filesystem::canonical(file, failed).string();
+  if (failed) real = file;
+  if (std::find(session.open.begin(), session.open.end(), real) != session.open.end()) {
+    throw Error(uri->source, "a cycle of includes: '" + uri->text +
+                                 "' includes itself, by way of " + join_names(session.open));
+  }
+  if (session.open.size() >= kMaxDepth) {
+    throw Error(uri->source,
+                "includes stand more than " + std::to_string(kMaxDepth) + " deep in one another");
+  }
+  const Open open(session, real);
+  const CountInclude counted(session);
+  Element sdf = read_document(session.sources.read(file), file, session);
+  Element& root = included_root(sdf);
+  if (root.name == "model") expand_model(root, session);
+  apply_include(include, root, session);
+  return std::move(root);
+}
+
+void expand_model(Element& model, Session& session) {
+  std::vector<Element> expanded;
+  for (Element& child : model.children) {
+    if (child.name == "include") {
+      Element included;
+      try {
+        included = expand_include(child, session);
+      } catch (const Error& error) {
+        forgive_missing(child, error, session);
+        continue;
+      }
+      if (included.name != "model") {
+        throw Error(child.source, "an <include> in a <model> stands for a <model>; this is <" +
+                                      included.name + ">");
+      }
+      if (is_merge(child)) {
+        merge_parts(included, expanded);
+      } else {
+        expanded.push_back(std::move(included));
+      }
+      continue;
+    }
+    if (child.name == "model") expand_model(child, session);
+    expanded.push_back(std::move(child));
+  }
+  model.children = std::move(expanded);
+}
+
+}  // namespace angen::load

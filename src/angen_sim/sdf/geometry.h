@@ -1,0 +1,24 @@
+#pragma once
+
+#include "core/mesh_look.h"
+#include "core/shape.h"
+#include "core/texture.h"
+#include "sdf/expand.h"
+
+namespace angen::load {
+
+struct PlacedShape {
+  Shape shape;
+  Pose pose;
+  std::shared_ptr<const MeshLook> look{};  // of a mesh
+  std::string file{};                      // that it was read from
+};
+
+/// The shapes of a checked <geometry> that stands at `pose`: boxes of an <image>, else one.
+std::vector<PlacedShape> shapes_of(const Element& geometry, const Pose& pose, Session& session);
+
+/// The dark parts of a picture as boxes: its middle at the origin, its top towards +y, from z = 0
+/// up. Few: neighbors are one box.
+std::vector<PlacedShape> image_boxes(const Element& image, const Pose& pose, Session& session);
+
+}  // namespace angen::load

@@ -1,0 +1,76 @@
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "core/inertia.h"
+#include "core/text.h"
+#include "document/values.h"
+#include "document/xml.h"
+#include "sdf/describe.h"
+
+namespace angen::load {
+
+namespace {
+
+// A body that exists, of nearly those moments: they are raised until each is above 0 and none
+// exceeds the sum of the others.
+desc::Inertial possible(desc::Inertial inertial) {
+  constexpr double kLeastGyration = 1e-3;  // m
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertial.moment);
+  const double least = inertial.mass * kLeastGyration * kLeastGyration;
+  Vec3 moments = solver.eigenvalues().cwiseMax(least);  // ascending
+  const double missing = std::max(0.0, moments[2] - moments[0] - moments[1]);
+  moments[0] += missing / 2.0;
+  moments[1] += missing / 2.0;
+  const Eigen::Matrix3d& axes = solver.eigenvectors();
+  inertial.moment = axes * moments.asDiagonal() * axes.transpose();
+  return inertial;
+}
+
+desc::Inertial read_inertial(const Element& link, bool never_moves, Session& session) {
+  desc::Inertial inertial;
+  const Element* element = link.child("inertial");
+  if (element == nullptr) return inertial;
+  Source at = element->source;
+  if (const Element* mass = element->child("mass")) {
+    inertial.mass = number_of(*mass);
+    at = mass->source;
+  }
+  inertial.pose = child_pose(*element);
+  if (const Element* inertia = element->child("inertia")) {
+    const auto value = [&](const char* name, double fallback) {
+      return child_number(*inertia, name, fallback);
+    };
+    const double xx = value("ixx", 1.0), yy = value("iyy", 1.0), zz = value("izz", 1.0);
+    const double xy = value("ixy", 0.0), xz = value("ixz", 0.0), yz = value("iyz", 0.0);
+    inertial.moment << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+    if (inertial.mass > 0.0) at = inertia->source;
+  }
+  const std::string wrong = inertia_problem(inertial.mass, inertial.moment);
+  if (wrong.empty()) return inertial;
+  const std::string message = tag_of(link) + ": " + wrong;
+  if (!never_moves && session.tolerant && is_possible(possible(inertial))) {
+    session.warn(at, message + " (the nearest that a body can have is used)");
+    return possible(inertial);
+  }
+  if (!never_moves) throw Error(at, message);
+  session.warn(at, message + " (the model is static, so it is not used)");
+  return {};
+}
+
+}  // namespace
+
+bool is_possible(const desc::Inertial& inertial) {
+  return inertia_problem(inertial.mass, inertial.moment).empty();
+}
+
+desc::Inertial inertial_of(const Element& link, bool never_moves, Session& session) {
+  if (!never_moves) return read_inertial(link, never_moves, session);
+  try {
+    return read_inertial(link, never_moves, session);
+  } catch (const Error& error) {
+    session.forgive(error);  // numbers that are none, of what never moves
+    return {};
+  }
+}
+
+}  // namespace angen::load

@@ -1,0 +1,68 @@
+#include "core/limits.h"
+#include "core/names.h"
+#include "document/session.h"
+#include "document/values.h"
+#include "document/xml.h"
+#include "import/upgrade.h"
+#include "sdf/check.h"
+#include "sdf/expand.h"
+#include "sdf/light.h"
+#include "sdf/load.h"
+
+namespace angen::load {
+
+namespace {
+
+constexpr const char* kLightText = "(text)";
+constexpr int kLightVersion = 106;  // of an element without <sdf> around it
+
+// Null where the text holds something else.
+const Element* light_in(const Element& root) {
+  if (root.name == "light") return &root;
+  const bool lone =
+      root.name == "sdf" && root.children.size() == 1 && root.children[0].name == "light";
+  return lone ? &root.children[0] : nullptr;
+}
+
+Element read_light(const std::string& what, const std::string& name, Session& session) {
+  const Element root = parse_xml(what, kLightText);
+  const Element* found = light_in(root);
+  if (found == nullptr) throw Error(root.source, "a <light> is wanted here");
+  Element element = *found;
+  straighten_numbers(element, session);
+  upgrade(element, kLightVersion, session);
+  if (!name.empty()) set_attribute(element, "name", name);
+  return element;
+}
+
+}  // namespace
+
+bool is_light(const std::string& what) {
+  if (what.find("<light") == std::string::npos) return false;
+  try {
+    return light_in(parse_xml(what, kLightText)) != nullptr;
+  } catch (const Error&) {
+    return false;  // reading it as a model says what is wrong
+  }
+}
+
+desc::Light light(const std::string& what, const std::string& name, const Pose& pose) {
+  if (!name.empty()) check_name(name, "the light", {});
+  if (const std::string problem = pose_problem(pose); !problem.empty()) throw Error(problem);
+  const SearchPaths nowhere;
+  Session session{nowhere};
+  Element element = read_light(what, name, session);
+  check_name(name_of(element), "<light>", element.source);
+  check_part(element, session);
+  desc::Light light = light_of(element, pose * child_pose(element), session);
+  if (!light.level) light.level = 100.0;
+  return light;
+}
+
+Element light_element(const std::string& what, const std::string& name) {
+  const SearchPaths nowhere;
+  Session session{nowhere};
+  return read_light(what, name, session);
+}
+
+}  // namespace angen::load

@@ -1,0 +1,107 @@
+#include "sdf/material.h"
+
+#include <algorithm>
+#include <map>
+
+#include "document/values.h"
+#include "sdf/surface.h"
+
+namespace angen::load {
+
+namespace {
+
+// Diffuse colors by the names that Gazebo's own material script defines.
+const std::map<std::string, Eigen::Vector4f>& scripts() {
+  using Color = Eigen::Vector4f;
+  static const std::map<std::string, Color> table = {
+      {"Gazebo/Black", {0.0F, 0.0F, 0.0F, 1.0F}},
+      {"Gazebo/FlatBlack", {0.1F, 0.1F, 0.1F, 1.0F}},
+      {"Gazebo/DarkGrey", {0.18F, 0.18F, 0.18F, 1.0F}},
+      {"Gazebo/DarkGray", {0.18F, 0.18F, 0.18F, 1.0F}},
+      {"Gazebo/Grey", {0.7F, 0.7F, 0.7F, 1.0F}},
+      {"Gazebo/Gray", {0.7F, 0.7F, 0.7F, 1.0F}},
+      {"Gazebo/LightGrey", {0.85F, 0.85F, 0.85F, 1.0F}},
+      {"Gazebo/White", {1.0F, 1.0F, 1.0F, 1.0F}},
+      {"Gazebo/Residential", {0.95F, 0.93F, 0.88F, 1.0F}},
+      {"Gazebo/Red", {1.0F, 0.0F, 0.0F, 1.0F}},
+      {"Gazebo/RedBright", {0.87F, 0.26F, 0.07F, 1.0F}},
+      {"Gazebo/RedTransparent", {1.0F, 0.0F, 0.0F, 0.5F}},
+      {"Gazebo/Green", {0.0F, 1.0F, 0.0F, 1.0F}},
+      {"Gazebo/GreenTransparent", {0.0F, 1.0F, 0.0F, 0.5F}},
+      {"Gazebo/DarkGreen", {0.0F, 0.35F, 0.0F, 1.0F}},
+      {"Gazebo/Blue", {0.0F, 0.0F, 1.0F, 1.0F}},
+      {"Gazebo/BlueTransparent", {0.0F, 0.0F, 1.0F, 0.5F}},
+      {"Gazebo/BlueLaser", {0.0F, 0.0F, 1.0F, 0.4F}},
+      {"Gazebo/SkyBlue", {0.13F, 0.44F, 0.70F, 1.0F}},
+      {"Gazebo/Yellow", {1.0F, 1.0F, 0.0F, 1.0F}},
+      {"Gazebo/YellowTransparent", {1.0F, 1.0F, 0.0F, 0.5F}},
+      {"Gazebo/DarkYellow", {0.7F, 0.7F, 0.0F, 1.0F}},
+      {"Gazebo/Purple", {1.0F, 0.0F, 1.0F, 1.0F}},
+      {"Gazebo/DarkMagenta", {0.5F, 0.0F, 0.5F, 1.0F}},
+      {"Gazebo/Turquoise", {0.0F, 1.0F, 1.0F, 1.0F}},
+      {"Gazebo/Orange", {1.0F, 0.51F, 0.06F, 1.0F}},
+      {"Gazebo/DarkOrange", {0.67F, 0.32F, 0.0F, 1.0F}},
+      {"Gazebo/OrangeTransparent", {1.0F, 0.44F, 0.0F, 0.4F}},
+      {"Gazebo/Indigo", {0.33F, 0.0F, 0.5F, 1.0F}},
+      {"Gazebo/Brown", {0.45F, 0.28F, 0.15F, 1.0F}},
+      {"Gazebo/Gold", {0.8F, 0.65F, 0.2F, 1.0F}},
+      {"Gazebo/Chrome", {0.75F, 0.75F, 0.78F, 1.0F}},
+      {"Gazebo/Aluminum", {0.78F, 0.79F, 0.8F, 1.0F}},
+      {"Gazebo/Wood", {0.65F, 0.46F, 0.28F, 1.0F}},
+      {"Gazebo/WoodFloor", {0.60F, 0.42F, 0.25F, 1.0F}},
+      {"Gazebo/WoodPallet", {0.70F, 0.55F, 0.36F, 1.0F}},
+      {"Gazebo/WoodTile", {0.58F, 0.40F, 0.24F, 1.0F}},
+      {"Gazebo/CeilingTiled", {0.9F, 0.9F, 0.88F, 1.0F}},
+      {"Gazebo/PaintedWall", {0.85F, 0.82F, 0.74F, 1.0F}},
+      {"Gazebo/Bricks", {0.55F, 0.27F, 0.2F, 1.0F}},
+      {"Gazebo/Road", {0.3F, 0.3F, 0.3F, 1.0F}},
+      {"Gazebo/Pedestrian", {0.6F, 0.6F, 0.58F, 1.0F}},
+      {"Gazebo/Grass", {0.25F, 0.45F, 0.18F, 1.0F}},
+      {"Gazebo/Carpet", {0.5F, 0.42F, 0.42F, 1.0F}},
+      {"Gazebo/Glass", {0.8F, 0.9F, 0.95F, 0.3F}},
+  };
+  return table;
+}
+
+}  // namespace
+
+Eigen::Vector4f color_of(const Element& element) {
+  const std::size_t count = numbers_in(element.text).values.size();
+  const std::vector<double> v = numbers_of(element, count == 3 ? 3 : 4);
+  Eigen::Vector4f color(0.0F, 0.0F, 0.0F, 1.0F);
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    color[static_cast<Eigen::Index>(i)] = static_cast<float>(std::clamp(v[i], 0.0, 1.0));
+  }
+  return color;
+}
+
+desc::Material material_of(const Element& visual, Session& session) {
+  desc::Material material;
+  if (const Element* given = visual.child("material")) {
+    const Element* script = given->child("script");
+    const Element* name = script == nullptr ? nullptr : script->child("name");
+    const bool scripted = script != nullptr && paint_by_script(*script, session, material);
+    if (!material.textures.empty()) {
+      // SDF's colors would only shade it.
+    } else if (const Element* diffuse = given->child("diffuse")) {
+      material.diffuse = color_of(*diffuse);
+    } else if (const Element* ambient = given->child("ambient")) {
+      material.diffuse = color_of(*ambient);
+    } else if (name != nullptr && !scripted) {
+      const auto found = scripts().find(name->text);
+      if (found != scripts().end()) {
+        material.diffuse = found->second;
+      } else {
+        session.warn(name->source, "unknown material '" + name->text +
+                                       "', shown gray; give <diffuse> or a name such as "
+                                       "Gazebo/White, Gazebo/Wood");
+      }
+    }
+    if (const Element* emissive = given->child("emissive")) material.emissive = color_of(*emissive);
+  }
+  const double transparency = child_number(visual, "transparency", 0.0);
+  material.diffuse.w() *= static_cast<float>(1.0 - std::min(1.0, transparency));
+  return material;
+}
+
+}  // namespace angen::load

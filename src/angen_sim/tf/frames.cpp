@@ -1,0 +1,267 @@
+#include "tf/frames.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace angen::node {
+namespace {
+
+// REP 103: images are seen along z, with x to the right.
+const Quat kOptical = from_rpy(-M_PI_2, 0.0, -M_PI_2);
+
+bool is_odometry(const std::string& kind) {
+  return kind == "odometry" || kind == "planar_odometry" || kind == "skid_steer_odometry" ||
+         kind == "kobuki_odometry";
+}
+
+bool is_camera(const sim::SensorEntry& sensor) {
+  return sensor.kind == "camera" || sensor.kind == "depth" || sensor.kind == "depth_camera";
+}
+
+// The frame of what a sensor of a robot made for Gazebo publishes, which others know: nobody here
+// says where it is. None for other sensors.
+std::optional<std::string> foreign_frame(const sim::SensorEntry& sensor, const desc::Model& model) {
+  static const std::set<std::string> states = {"joint_states", "wheel_states", "controlled_joints",
+                                               "kobuki_wheels"};
+  static const std::set<std::string> hectors = {"gps", "hector_imu", "sonar"};
+  static const std::set<std::string> bodies = {"imu", "imu_sensor"};
+  if (states.count(sensor.kind) != 0) return "";
+  if (is_odometry(sensor.kind))
+    return value_of({&sensor.desc->plugin_element}, "odometryFrame", "odom");
+  if (sensor.kind == "kobuki_imu") return "gyro_link";
+  if (sensor.kind == "p3d") return sensor.frame.empty() ? kWorldFrame : sensor.frame;
+  if (hectors.count(sensor.kind) != 0) {
+    return value_of({&sensor.desc->plugin_element}, "frameId",
+                    value_of({&sensor.desc->plugin_element}, "bodyName", sensor.name));
+  }
+  if (bodies.count(sensor.kind) != 0 && sensor.frame.empty()) {
+    return value_of({&sensor.desc->plugin_element}, "bodyName", sensor.name);
+  }
+  if (sensor.frame.empty() || (!model.tolerant && bodies.count(sensor.kind) == 0)) {
+    return std::nullopt;
+  }
+  return sensor.frame;
+}
+
+// As tf has it: a frame that begins with / has no prefix, and no frame begins with / in the end.
+std::string resolved(const std::string& prefix, const std::string& frame) {
+  if (!frame.empty() && frame[0] == '/') return frame.substr(1);
+  return prefix.empty() || frame.empty() ? frame : prefix + "/" + frame;
+}
+
+// The namespace that the first plug-in of a robot names; none where it has no plug-in.
+std::optional<std::string> space_of(const desc::Model& model) {
+  std::vector<const Element*> plugins;
+  for (const desc::Plugin& plugin : model.plugins) plugins.push_back(&plugin.element);
+  for (const desc::Link& link : model.links) {
+    for (const desc::Sensor& sensor : link.sensors) plugins.push_back(&sensor.plugin_element);
+  }
+  if (plugins.empty()) return std::nullopt;
+  return value_of(plugins, "robotNamespace", "");
+}
+
+// Where a model has several drives, its frames are those of the last.
+const Robot* owner_in(const std::vector<Robot>& robots, std::uint32_t model) {
+  const Robot* owner = nullptr;
+  for (const Robot& robot : robots) {
+    if (robot.model == model) owner = &robot;
+  }
+  return owner;
+}
+
+}  // namespace
+
+std::shared_ptr<const FrameTree> FrameMaker::make(const sim::Snapshot& snapshot,
+                                                  const std::vector<Robot>& robots,
+                                                  const Changes& changes) {
+  const sim::Structure& structure = *snapshot.structure;
+  auto tree = tree_ ? std::make_shared<FrameTree>(*tree_) : std::make_shared<FrameTree>();
+  const std::size_t kept = keep_models(structure, robots, changes);
+  add_links(snapshot, kept, *tree);
+  add_odometry(structure, robots, *tree);
+  const std::size_t first = keep_sensors(structure, kept, changes, *tree);
+  for (std::size_t i = first; i < structure.sensors.size(); ++i) {
+    const Robot* owner = owner_in(robots, structure.sensors[i].model);
+    add_sensor(structure, static_cast<std::uint32_t>(i), owner, *tree);
+  }
+  tree_ = tree;
+  return tree;
+}
+
+void FrameMaker::drop(const std::shared_ptr<const ModelFrames>& model) {
+  if (model == nullptr) return;
+  for (const std::string& frame : model->links) {
+    if (--link_frames_[frame] == 0) link_frames_.erase(frame);
+  }
+}
+
+// Our own robots have their name for a prefix, or none.
+std::string FrameMaker::prefix_of(const desc::Model& model) const {
+  const std::optional<std::string> space = space_of(model);
+  return model.tolerant && space && prefix_in_ ? resolved("", prefix_in_(*space)) : "";
+}
+
+std::size_t FrameMaker::keep_models(const sim::Structure& structure,
+                                    const std::vector<Robot>& robots, const Changes& changes) {
+  std::vector<std::shared_ptr<const ModelFrames>> old = std::exchange(models_, {});
+  std::vector<std::string> prefixes = std::exchange(prefixes_, {});
+  models_.resize(structure.models.size());
+  prefixes_.resize(models_.size());
+  std::size_t kept = models_.size();
+  for (std::uint32_t i = 0; i < models_.size(); ++i) {
+    const std::uint32_t before = changes.models.before[i];
+    if (before != Numbers::kNone) models_[i] = std::move(old[before]);
+    prefixes_[i] =
+        before != Numbers::kNone ? std::move(prefixes[before]) : prefix_of(*structure.models[i]);
+    if (before != i) kept = std::min<std::size_t>(kept, i);
+    const Robot* robot = owner_in(robots, i);
+    const std::string base_frame = robot == nullptr ? "" : robot->base_frame;
+    const std::uint32_t base = robot == nullptr ? 0 : structure.links[robot->base].link;
+    if (models_[i] && models_[i]->base_frame == base_frame && models_[i]->base == base) continue;
+    kept = std::min<std::size_t>(kept, i);
+    drop(models_[i]);
+    models_[i] =
+        std::make_shared<const ModelFrames>(frames_of(*structure.models[i], base_frame, base));
+    for (const std::string& frame : models_[i]->links) ++link_frames_[frame];
+  }
+  for (const auto& model : old) drop(model);
+  return kept;
+}
+
+void FrameMaker::add_links(const sim::Snapshot& snapshot, std::size_t kept, FrameTree& tree) const {
+  std::uint32_t first = 0;  // of the model, in Structure::links
+  std::size_t fixed = 0, moving = 0;
+  const auto place = [&](const ModelFrames& model) {
+    for (const ModelFrames::Standing& standing : model.standing) {
+      const FixedFrame& frame = tree.fixed[fixed + standing.fixed];
+      const Pose& pose = snapshot.link_poses[first + standing.link];
+      if (frame.pose == pose) continue;
+      tree.fixed.set(fixed + standing.fixed, {frame.parent, frame.child, pose});
+    }
+  };
+  const auto pass = [&](const ModelFrames& model) {
+    first += static_cast<std::uint32_t>(model.links.size());
+    fixed += model.fixed.size();
+    moving += model.moving.size();
+  };
+  for (std::size_t i = 0; i < kept; ++i) {
+    place(*models_[i]);
+    pass(*models_[i]);
+  }
+  tree.fixed.truncate(fixed);
+  tree.moving.truncate(moving);
+  tree.moved_by.truncate(first);
+  for (std::size_t i = kept; i < models_.size(); ++i) {
+    const ModelFrames& model = *models_[i];
+    for (const FixedFrame& frame : model.fixed) tree.fixed.push_back(frame);
+    for (MovingFrame frame : model.moving) {
+      frame.link += first;
+      if (frame.parent_link) *frame.parent_link += first;
+      tree.moving.push_back(std::move(frame));
+    }
+    for (const std::int32_t by : model.moved_by) {
+      tree.moved_by.push_back(by < 0 ? by : static_cast<std::int32_t>(moving) + by);
+    }
+    place(model);
+    pass(model);
+  }
+}
+
+// Odometry starts at 0 where its robot was put; a true one says where in the world it is.
+void FrameMaker::add_odometry(const sim::Structure& structure, const std::vector<Robot>& robots,
+                              FrameTree& tree) const {
+  tree.odometry.clear();
+  if (!odometry_in_world_) return;
+  std::set<std::string> added;
+  for (const sim::SensorEntry& sensor : structure.sensors) {
+    if (!is_odometry(sensor.kind)) continue;
+    const std::vector<const Element*> plugin = {&sensor.desc->plugin_element};
+    const std::string frame =
+        resolved(prefixes_[sensor.model], value_of(plugin, "odometryFrame", "odom"));
+    const bool by_wheels = value_of(plugin, "odometrySource", "world") == "encoder";
+    if (!added.insert(frame).second) continue;
+    tree.odometry.push_back(
+        {kWorldFrame, frame, by_wheels ? structure.models[sensor.model]->pose : Pose{}});
+  }
+  for (const Robot& robot : robots) {
+    if (owner_in(robots, robot.model) != &robot) continue;
+    const sim::LinkEntry& base = structure.links[robot.base];
+    const desc::Model& model = *structure.models[robot.model];
+    tree.odometry.push_back(
+        {kWorldFrame, robot.odom_frame, model.pose * model.links[base.link].pose});
+  }
+}
+
+// The first sensors keep their frames, unless that of another link or sensor decides about one.
+std::size_t FrameMaker::keep_sensors(const sim::Structure& structure, std::size_t models,
+                                     const Changes& changes, FrameTree& tree) {
+  std::size_t kept = 0;
+  const auto stays = [&](std::size_t i) {
+    return changes.sensors.before[i] == i && structure.sensors[i].model < models;
+  };
+  if (!other_names_) {
+    while (kept < structure.sensors.size() && stays(kept)) ++kept;
+  }
+  const auto is_taken = [&](const std::string& frame) { return sensor_frames_.count(frame) != 0; };
+  for (std::size_t i = models; i < models_.size(); ++i) {
+    if (std::any_of(models_[i]->links.begin(), models_[i]->links.end(), is_taken)) kept = 0;
+  }
+  for (std::size_t i = kept; i < mounted_.size(); ++i) {
+    if (mounted_[i].takes_frame) sensor_frames_.erase(tree.sensors[i]);
+  }
+  tree.mounts.truncate(kept < mounted_.size() ? mounted_[kept].mount : tree.mounts.size());
+  tree.sensors.truncate(kept);
+  tree.bases.truncate(kept);
+  mounted_.resize(kept);
+  if (kept == 0) other_names_ = false;
+  return kept;
+}
+
+bool FrameMaker::take(const std::string& frame) {
+  return link_frames_.count(frame) == 0 && sensor_frames_.insert(frame).second;
+}
+
+void FrameMaker::add_sensor(const sim::Structure& structure, std::uint32_t number,
+                            const Robot* owner, FrameTree& tree) {
+  const sim::SensorEntry& sensor = structure.sensors[number];
+  const sim::LinkEntry& link = structure.links[sensor.link];
+  Mounted mounted{static_cast<std::uint32_t>(tree.mounts.size()), false};
+  std::string base;
+  if (const auto foreign = foreign_frame(sensor, *structure.models[sensor.model])) {
+    const std::string& prefix = prefixes_[sensor.model];
+    tree.sensors.push_back(resolved(prefix, *foreign));
+    if (is_odometry(sensor.kind)) {
+      base = resolved(prefix,
+                      value_of({&sensor.desc->plugin_element}, "robotBaseFrame", "base_footprint"));
+    }
+  } else {
+    const std::string frame = own_frame(sensor, owner, frame_of(link), mounted.takes_frame);
+    if (frame != frame_of(link)) {  // an SDF that names its link's frame means it
+      const Pose in_sensor = is_camera(sensor) ? Pose{Vec3::Zero(), kOptical} : Pose{};
+      tree.mounts.push_back({frame_of(link), frame, sensor.pose * in_sensor});
+    }
+    tree.sensors.push_back(frame);
+  }
+  tree.bases.push_back(std::move(base));
+  mounted_.push_back(mounted);
+}
+
+std::string FrameMaker::own_frame(const sim::SensorEntry& sensor, const Robot* owner,
+                                  const std::string& link_frame, bool& is_taken) {
+  std::string frame = sensor.frame;
+  if (frame.empty()) frame = sensor.name + (is_camera(sensor) ? "_optical_frame" : "");
+  if (owner != nullptr && !owner->first && !sensor.frame.empty()) {
+    frame.insert(0, 1, '/').insert(0, owner->name);
+  }
+  if (frame == link_frame) return frame;
+  is_taken = take(frame);
+  if (is_taken) return frame;
+  other_names_ = true;
+  frame = sensor.kind + "_" + sensor.name;
+  is_taken = take(frame);
+  return frame;
+}
+
+}  // namespace angen::node

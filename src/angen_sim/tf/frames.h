@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "ros/changes.h"
+#include "ros/robots.h"
+#include "sim/snapshot.h"
+#include "tf/model_frames.h"
+
+/// The tree of coordinate frames, worked out once for each structure.
+namespace angen::node {
+
+struct FrameTree {
+  sim::SharedArray<FixedFrame> fixed;  // of links
+  std::vector<FixedFrame> odometry;
+  sim::SharedArray<FixedFrame> mounts;  // of sensors, on their links
+  sim::SharedArray<MovingFrame> moving;
+  sim::SharedArray<std::string> sensors;  // frame of each sensor, as Structure::sensors
+  sim::SharedArray<std::string> bases;    // what each of them moves that is an odometry, or empty
+  sim::SharedArray<std::int32_t>
+      moved_by;  // for each link the index in `moving` that carries it, or -1
+
+  std::size_t fixed_count() const { return fixed.size() + odometry.size() + mounts.size(); }
+};
+
+/// Makes the tree of each structure, which shares what kept its number with the tree before.
+/// `world` is the root. Odometry frames stand in the world, unless a localization places them.
+class FrameMaker {
+ public:
+  /// The tf_prefix of robots made for Gazebo in a namespace.
+  using PrefixIn = std::function<std::string(const std::string& space)>;
+
+  explicit FrameMaker(bool odometry_in_world = true, PrefixIn prefix_in = nullptr)
+      : odometry_in_world_(odometry_in_world), prefix_in_(std::move(prefix_in)) {}
+
+  /// `changes`: since the structure of the last call.
+  std::shared_ptr<const FrameTree> make(const sim::Snapshot& snapshot,
+                                        const std::vector<Robot>& robots, const Changes& changes);
+
+ private:
+  /// How a sensor's frame came about.
+  struct Mounted {
+    std::uint32_t mount = 0;   // how many of FrameTree::mounts came before it
+    bool takes_frame = false;  // no other sensor has that frame
+  };
+
+  /// Returns how many of the first models have their frames as before.
+  std::size_t keep_models(const sim::Structure& structure, const std::vector<Robot>& robots,
+                          const Changes& changes);
+  void drop(const std::shared_ptr<const ModelFrames>& model);
+  void add_links(const sim::Snapshot& snapshot, std::size_t kept, FrameTree& tree) const;
+  void add_odometry(const sim::Structure& structure, const std::vector<Robot>& robots,
+                    FrameTree& tree) const;
+  std::size_t keep_sensors(const sim::Structure& structure, std::size_t models,
+                           const Changes& changes, FrameTree& tree);
+  void add_sensor(const sim::Structure& structure, std::uint32_t number, const Robot* owner,
+                  FrameTree& tree);
+  std::string own_frame(const sim::SensorEntry& sensor, const Robot* owner,
+                        const std::string& link_frame, bool& is_taken);
+  bool take(const std::string& frame);
+  const std::string& frame_of(const sim::LinkEntry& link) const {
+    return models_[link.model]->links[link.link];
+  }
+
+  std::string prefix_of(const desc::Model& model) const;
+
+  bool odometry_in_world_;
+  PrefixIn prefix_in_;
+  std::shared_ptr<const FrameTree> tree_;                   // the last one
+  std::vector<std::shared_ptr<const ModelFrames>> models_;  // as Structure::models
+  std::vector<std::string> prefixes_;                       // of each, when it came
+  std::unordered_map<std::string, int> link_frames_;        // how many links have one
+  std::vector<Mounted> mounted_;                            // as Structure::sensors
+  std::unordered_set<std::string> sensor_frames_;           // besides those of links
+  bool other_names_ = false;  // a sensor's frame has another name than it would have alone
+};
+
+}  // namespace angen::node

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "ros/lazy_publisher.h"
+#include "tf/frames.h"
+
+namespace angen::node {
+
+/// Where each robot's joints stand (rad or m), 50 times a simulated second while it has
+/// subscribers: what robot_state_publisher wants.
+class JointStates {
+ public:
+  explicit JointStates(ros::NodeHandle& node) : node_(node) {}
+
+  void on_structure(const sim::Snapshot& snapshot, const std::vector<Robot>& robots);
+  void publish(const sim::Snapshot& snapshot);
+
+ private:
+  struct Source {
+    std::vector<std::uint32_t> joints;  // in Structure::joints
+    std::vector<std::string> names;     // without the model's
+    std::vector<LazyPublisher> publishers;
+  };
+
+  ros::NodeHandle& node_;
+  std::map<std::string, LazyPublisher> publishers_;  // by topic
+  std::vector<Source> sources_;
+  Nanoseconds slot_ = -1;
+};
+
+}  // namespace angen::node

@@ -1,0 +1,49 @@
+#include "angen_sim/sdf/texts.h"
+
+namespace angen::load {
+namespace {
+
+// Cut anywhere, a world is an error and never more than that.
+TEST(Xml, TruncationIsAlwaysAnError) {
+  const std::string text = in_world(
+      "<physics type='ode'><max_step_size>0.001</max_step_size></physics>"
+      "<light name='sun' type='directional'><direction>0 0 -1</direction></light>"
+      "<model name='m'><link name='a'>" +
+      box() +
+      "</link><link name='b'/><joint name='j' type='revolute'><parent>a</parent><child>b</child>"
+      "<axis><xyz>0 0 1</xyz></axis></joint><plugin name='p' filename='libp.so'><q>1</q></plugin>"
+      "</model>");
+  read(text);
+  for (std::size_t length = 0; length < text.size(); length += 50) {
+    EXPECT_THROW(read(text.substr(0, length)), Error) << length;
+  }
+}
+
+TEST(Xml, ElementsAreBounded) {
+  std::string many;
+  for (int i = 0; i < 100'001; ++i) many += "<x/>";
+  EXPECT_NE(error_of(in_world(many)).find("more than 100000 elements"), std::string::npos);
+}
+
+TEST(Xml, DepthIsBounded) {
+  std::string deep;
+  for (int i = 0; i < 5000; ++i) deep += "<model name='m'>";
+  EXPECT_NE(error_of("<sdf version='1.6'>" + deep).find("w.world:1: "), std::string::npos);
+}
+
+// tinyxml2 reads them; no other program would read the world that is saved.
+TEST(Xml, CharactersThatXmlDoesNotAllowAreErrors) {
+  for (const std::string reference : {"&#1;", "&#x1F;", "&#xD800;", "&#xFFFF;", "&#x1FFFFF;"}) {
+    for (const std::string& text : {"<a b='" + reference + "'/>", "<a>\n" + reference + "</a>"}) {
+      EXPECT_NE(error_of(in_world("<gui>" + text + "</gui>")).find("w.world:1: a reference to a"),
+                std::string::npos)
+          << text;
+    }
+  }
+  EXPECT_NE(error_of(in_world("\n<gui>\x01</gui>")).find("w.world:2: a control character"),
+            std::string::npos);
+  read(in_world("<gui>&#9;&#xE9;\t&#x1F600;</gui>"));
+}
+
+}  // namespace
+}  // namespace angen::load

@@ -1,0 +1,45 @@
+#include "node/lag_warning.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace angen::node {
+namespace {
+
+/// Wall seconds at which it spoke, while simulated time passed at that factor.
+std::vector<int> spoken(double factor, double rate, int seconds, bool paused = false) {
+  LagWarning warning;
+  std::vector<int> said;
+  const Pacer::Clock::time_point start{std::chrono::hours(1)};
+  for (int i = 0; i <= seconds; ++i) {
+    const auto time = static_cast<Nanoseconds>(factor * i * kSecond);
+    if (!warning.update(time, rate, paused, start + std::chrono::seconds(i)).empty()) {
+      said.push_back(i);
+    }
+  }
+  return said;
+}
+
+TEST(LagWarning, SpeaksAfterTenSecondsAndThenOnceAMinute) {
+  EXPECT_EQ(spoken(0.06, 1.0, 150), (std::vector<int>{10, 70, 130}));
+  EXPECT_EQ(spoken(2.0, 10.0, 50), (std::vector<int>{10}));
+}
+
+TEST(LagWarning, IsSilentWhereTimeHardlyLagsOrStandsOrHasNoRate) {
+  EXPECT_TRUE(spoken(0.6, 1.0, 100).empty());
+  EXPECT_TRUE(spoken(0.0, 1.0, 100, true).empty());
+  EXPECT_TRUE(spoken(0.01, 0.0, 100).empty());
+}
+
+TEST(LagWarning, StartsAnewAfterAReset) {
+  LagWarning warning;
+  const Pacer::Clock::time_point start{};
+  warning.update(100 * kSecond, 1.0, false, start);
+  EXPECT_EQ(warning.update(0, 1.0, false, start + std::chrono::seconds(11)), "");
+  const std::string said = warning.update(kSecond, 1.0, false, start + std::chrono::seconds(22));
+  EXPECT_NE(said.find("at 0.091 of real time, 1 was asked for"), std::string::npos) << said;
+}
+
+}  // namespace
+}  // namespace angen::node
