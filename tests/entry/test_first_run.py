@@ -148,7 +148,7 @@ def test_progress_counts_sources_and_other_commands(machine: Path) -> None:
     result = prepare(machine)
     assert [line for line in result.stderr.splitlines() if '%' in line] == [
         'angen: installing 0 %', 'angen: installing 50 %', 'angen: installing 100 %',
-        'angen: building 1 %', 'angen: building 34 %', 'angen: building 67 %',
+        'angen: building 0 %', 'angen: building 34 %', 'angen: building 67 %',
         'angen: building 100 %']
 
 
