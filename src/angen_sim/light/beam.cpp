@@ -53,7 +53,8 @@ double cone_intensity(const Lamp& lamp, double cosine) {
 
 double photometric_intensity(const Lamp& lamp, const Vec3& away, double cosine) {
   const Axes axes = axes_of(lamp);
-  const double about = std::atan2(away.dot(axes.across), away.dot(axes.along));
+  // LM-63 counts type C counterclockwise as seen from above a luminaire that shines down.
+  const double about = std::atan2(-away.dot(axes.across), away.dot(axes.along));
   return intensity(*lamp.photometry, std::acos(std::clamp(cosine, -1.0, 1.0)), about) *
          lamp.luminous_flux / lamp.photometric_flux;
 }

@@ -54,5 +54,27 @@ TEST(Photometry, ALampSpreadsItsFluxAsItsLuminaireDoes) {
   EXPECT_EQ(lux(lighting, facing(Vec3(0, 0, 4), -Vec3::UnitZ())), 0.0);
 }
 
+TEST(Photometry, PlanesAreCountedCounterclockwiseAsSeenFromAbove) {
+  Photometry planes{{0.0, M_PI / 2}, {0.0, M_PI / 2, M_PI, 1.5 * M_PI, 2.0 * M_PI}, {}};
+  for (const double candela : {200.0, 100.0, 50.0, 25.0, 200.0}) {
+    planes.candela.insert(planes.candela.end(), {candela, candela});
+  }
+  Lamp lamp = point_lamp(Vec3(0, 0, 2), flux(planes));
+  lamp.photometry = std::make_shared<const Photometry>(planes);
+  lamp.photometric_flux = flux(planes);
+  rays::Scene scene;
+  scene.commit();
+  Lighting lighting(scene);
+  lighting.add(lamp, 1.0);
+  const double falloff = std::pow(std::cos(M_PI / 4), 3) / 4;  // on the floor, 45 degrees aside
+  const auto candela = [&](double x, double y) {
+    return lux(lighting, facing(Vec3(x, y, 0), Vec3::UnitZ())) / falloff;
+  };
+  EXPECT_NEAR(candela(2, 0), 200.0, 0.1);
+  EXPECT_NEAR(candela(0, 2), 100.0, 0.1);
+  EXPECT_NEAR(candela(-2, 0), 50.0, 0.1);
+  EXPECT_NEAR(candela(0, -2), 25.0, 0.1);
+}
+
 }  // namespace
 }  // namespace angen::light::testing
