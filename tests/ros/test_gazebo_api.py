@@ -391,6 +391,24 @@ def test_performance_is_measured(gazebo: Gazebo, angen: Angen) -> None:
     assert pirs[0].sim_update_rate == pytest.approx(10.0, abs=2.0) and pirs[0].fps == -1.0
 
 
+@pytest.mark.parametrize("kind, library, fps", [
+    ("camera", "libgazebo_ros_camera.so", 0.0),
+    ("depth", "libgazebo_ros_openni_kinect.so", 0.0),
+    ("depth", "libgazebo_ros_depth_camera.so", 0.0),
+    ("gpu_ray", "libgazebo_ros_gpu_laser.so", -1.0)])
+def test_sensors_with_images_have_frames_per_second(gazebo: Gazebo, angen: Angen, kind: str,
+                                                    library: str, fps: float) -> None:
+    """All of these sample on demand: without a subscriber a camera makes 0 frames."""
+    gazebo.spawn("lens", f"""<sdf version="1.6"><model name="lens"><link name="body">
+      <sensor name="lens" type="{kind}"><plugin name="lens" filename="{library}"/></sensor>
+      </link></model></sdf>""")
+    gazebo.unpause()
+    metrics = angen.wait("/gazebo/performance_metrics", PerformanceMetrics,
+                         lambda m: any(s.name == "lens::body::lens" for s in m.sensors))
+    gazebo.call("delete_model", model_name="lens")
+    assert [s.fps for s in metrics.sensors if s.name == "lens::body::lens"] == [fps]
+
+
 def test_a_reset_brings_back_what_moved_and_ends_what_pushes(gazebo: Gazebo, angen: Angen) -> None:
     from std_srvs.srv import Empty
     gazebo.call("apply_body_wrench", body_name="crate::body", duration=Duration(-1),

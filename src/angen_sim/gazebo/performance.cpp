@@ -20,6 +20,11 @@ double published(const sim::SensorEntry& sensor, const sim::Simulation& simulati
   return static_cast<double>(sensor.schedule.publications(to) - sensor.schedule.publications(from));
 }
 
+bool makes_images(const Kind& kind) {
+  return std::any_of(kind.fields.begin(), kind.fields.end(),
+                     [](const Field& field) { return field.type == Field::Type::kImage; });
+}
+
 }  // namespace
 
 Performance::Performance(ros::NodeHandle& node, const sim::Simulation& simulation)
@@ -44,8 +49,7 @@ void Performance::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_poin
       metric.name = snapshot.structure->links[sensor.link].name + "::" + sensor.name;
       metric.sim_update_rate = simulated > 0.0 ? count / simulated : 0.0;
       metric.real_update_rate = count / wall;
-      const bool pictures = sensor.kind == "camera" || sensor.kind == "depth";
-      metric.fps = pictures ? metric.real_update_rate : -1.0;
+      metric.fps = makes_images(sensor.plugin->kind()) ? metric.real_update_rate : -1.0;
       message.sensors.push_back(std::move(metric));
     }
     return message;
