@@ -1,14 +1,11 @@
 #!/usr/bin/env python3
-"""Writes the tables of parameters, commands and fields into the pages of docs/.
+"""Writes docs/reference/: a page for each kind with its parameters, commands and fields.
 
-    python3 docs/tables.py            writes them, names the pages that changed
+    python3 docs/tables.py            writes the pages, names those that changed
     python3 docs/tables.py --check    writes nothing, ends with 1 where a page differs
 
-What stands between `<!-- table KIND parameters -->` (or commands, fields) and `<!-- end -->` comes
-from the catalog files beside the plug-in libraries, which the build makes of the plug-ins' own
-descriptions. `<!-- table pir parameters model pyroelectric -->` has the parameters that exist only
-with that value of another one, `<!-- table odometry parameters beside diff_drive -->` those that
-diff_drive, of the same <plugin>, has not.
+The text comes from the catalog files beside the plug-in libraries, which the build makes of the
+plug-ins' own descriptions.
 """
 from __future__ import annotations
 
@@ -20,9 +17,10 @@ from pathlib import Path
 from typing import Any
 
 DOCS = Path(__file__).resolve().parent
+REFERENCE = DOCS / 'reference'
 CATALOG = DOCS.parent / 'devel/lib'
-TABLE = re.compile(r'(<!-- table (\w+) (\w+)(?: (\w+ \w+))? -->\n).*?(<!-- end -->)', re.DOTALL)
-WITH = re.compile(r'with (\w+ \w+): (.*)')
+WITH = re.compile(r'with (\w+ \w+): (.*)')  # a parameter that exists only with a value of another
+NOTE = '<!-- docs/tables.py writes this file. Its text is in the C++ source of the kind. -->\n\n'
 
 Kind = dict[str, Any]
 
@@ -39,6 +37,11 @@ def unit(text: str) -> str:
     return text.replace('^2', '²').replace('^3', '³').replace('degC', '°C')
 
 
+def plain(text: str) -> str:
+    """With <elements> as text: Markdown takes them as HTML."""
+    return text.replace('<', '&lt;')
+
+
 def number(text: str) -> str:
     """At most five digits, as 3.1241 for 3.12413936106985."""
     try:
@@ -47,30 +50,37 @@ def number(text: str) -> str:
         return text
 
 
-def table(head: list[str], rows: list[list[str]]) -> str:
+def table(heading: str, head: list[str], rows: list[list[str]]) -> str:
+    """A section; nothing where it has no rows."""
     lines = [head, ['---'] * len(head), *rows]
-    return ''.join('| ' + ' | '.join(cells) + ' |\n' for cells in lines)
+    text = ''.join('| ' + ' | '.join(cells) + ' |\n' for cells in lines)
+    return f'\n## {heading}\n\n{text}' if rows else ''
 
 
 def code(text: str) -> str:
     return f'`{text}`' if text else ''
 
 
-def parameters(kind: Kind, variant: str | None, beside: set[str]) -> str:
-    rows = []
+def parameter(param: dict[str, Any]) -> list[str]:
+    special = WITH.fullmatch(param['doc'])
+    doc = special.group(2) if special else param['doc']
+    if param['choices']:
+        doc += ': ' + ', '.join(code(choice) for choice in param['choices'])
+    elif 'any number of times' in param['type']:
+        doc += ' (' + param['type'] + ')'
+    return [code(param['path']), number(param['default']), unit(param['unit']), plain(doc)]
+
+
+def parameters(kind: Kind, beside: set[str]) -> str:
+    """A table of those in every variant, and one of those that exist only in a variant."""
+    variants: dict[str, list[list[str]]] = {'': []}
     for param in kind['params']:
-        if param['path'] in beside:
-            continue
-        special = WITH.fullmatch(param['doc'])
-        if (special and special.group(1)) != variant:
-            continue
-        name, doc = param['path'], special.group(2) if special else param['doc']
-        if param['choices']:
-            doc += ': ' + ', '.join(code(choice) for choice in param['choices'])
-        elif 'any number of times' in param['type']:
-            doc += ' (' + param['type'] + ')'
-        rows.append([code(name), number(param['default']), unit(param['unit']), doc])
-    return table(['parameter', 'default', 'unit', ''], rows)
+        if param['path'] not in beside:
+            special = WITH.fullmatch(param['doc'])
+            variants.setdefault(special.group(1) if special else '', []).append(parameter(param))
+    return ''.join(table(f'Parameters with {code(name)}' if name else 'Parameters',
+                         ['parameter', 'default', 'unit', ''], rows)
+                   for name, rows in variants.items())
 
 
 def limits(verb: dict[str, Any]) -> str:
@@ -81,54 +91,93 @@ def limits(verb: dict[str, Any]) -> str:
     return (span + ' ' + unit(verb['unit'])).strip()
 
 
-def commands(kind: Kind, _: str | None, __: set[str]) -> str:
-    rows = [[code(verb['name'] + (f' {verb["argument"].upper()}' if verb['argument'] else '')),
-             limits(verb), verb['doc']] for verb in kind['verbs']]
-    return table(['command', 'range', ''], rows)
+def commands(kind: Kind) -> str:
+    return table('Commands', ['command', 'range', ''], [
+        [code(verb['name'] + (f' {verb["argument"].upper()}' if verb['argument'] else '')),
+         limits(verb), plain(verb['doc'])] for verb in kind['verbs']])
 
 
-def fields(kind: Kind, _: str | None, __: set[str]) -> str:
+def fields(kind: Kind) -> str:
     rows = []
     for field in kind['fields']:
         doc = field['doc']
         if field['type'] == 'choice':
             doc = ', '.join(code(word) for word in field['words']) + (f'; {doc}' if doc else '')
-        rows.append([code(field['name']), field['type'], unit(field['unit']), doc])
-    return table(['field', 'type', 'unit', ''], rows)
+        rows.append([code(field['name']), field['type'], unit(field['unit']), plain(doc)])
+    return table('Fields of its state' if kind['role'] == 'device' else 'Fields of its reading',
+                 ['field', 'type', 'unit', ''], rows)
 
 
-def with_tables(page: str, catalog: dict[str, Kind]) -> str:
-    """The page with its tables as the catalog has them."""
-    makers = {'parameters': parameters, 'commands': commands, 'fields': fields}
+def host(kind: Kind, catalog: dict[str, Kind]) -> Kind | None:
+    """Of a sensor in the library of a device: the device, whose <plugin> element makes both."""
+    if kind['role'] == 'device':
+        return None
+    hosts = [other for other in catalog.values()
+             if other['library'] == kind['library'] and other['role'] == 'device']
+    return hosts[0] if hosts else None
 
-    def make(match: re.Match[str]) -> str:
-        begin, kind, what, variant, end = match.groups()
-        if kind not in catalog or what not in makers:
-            raise SystemExit(f'docs/tables.py: {begin.strip()}: no such kind or table; kinds are '
-                             + ', '.join(sorted(catalog)) + '; tables ' + ', '.join(makers))
-        beside: set[str] = set()
-        if variant is not None and variant.startswith('beside '):
-            beside = {param['path'] for param in catalog[variant.split()[1]]['params']}
-            variant = None
-        return begin + makers[what](catalog[kind], variant, beside) + end
 
-    return TABLE.sub(make, page)
+def page(kind: Kind, catalog: dict[str, Kind], described_in: str) -> str:
+    name, shared = kind['kind'], host(kind, catalog)
+    text = f'# {name}\n\n{NOTE}{plain(kind["doc"])} Library: `{kind["library"]}`.'
+    text += f' Described in [{described_in}](../{described_in}).\n' if described_in else '\n'
+    beside = set()
+    if shared:
+        beside = {param['path'] for param in shared['params']}
+        text += (f'\nIt shares its `<plugin>` element with [{shared["kind"]}]({shared["kind"]}.md),'
+                 ' whose parameters it has too.\n')
+    if any('/' in param['path'] for param in kind['params']):
+        text += ('\nA parameter with a path, such as `a/b`, is an element `<a><b>` of `<sensor>`;'
+                 ' the others are elements of `<plugin>`.\n')
+    return text + parameters(kind, beside) + commands(kind) + fields(kind)
+
+
+def index(catalog: dict[str, Kind]) -> str:
+    text = ('# Reference: parameters, commands and fields of each kind\n\n' + NOTE
+            + '```\n./angen plugins\n```\n\nprints the same in a terminal.\n')
+    for role in ('device', 'sensor'):
+        text += f'\n## {role.capitalize()}s\n\n' + ''.join(
+            f'- [{name}]({name}.md): {plain(kind["doc"])}\n'
+            for name, kind in sorted(catalog.items()) if kind['role'] == role)
+    return text
+
+
+def described_in() -> dict[str, str]:
+    """The first page that links to a kind's reference; its own page before a list of many."""
+    found: dict[str, str] = {}
+    pages = [page for page in DOCS.rglob('*.md') if page.parent != REFERENCE]
+    for path in sorted(pages, key=lambda page: (page.parent == DOCS, page)):
+        for kind in re.findall(r'\((?:\.\./)?reference/(\w+)\.md', path.read_text()):
+            found.setdefault(kind, path.relative_to(DOCS).as_posix())
+    return found
+
+
+def pages(catalog: dict[str, Kind]) -> dict[Path, str]:
+    """All files of docs/reference/ with their text."""
+    where = described_in()
+    made = {REFERENCE / f'{name}.md': page(kind, catalog, where.get(name, ''))
+            for name, kind in catalog.items()}
+    return {REFERENCE / 'README.md': index(catalog), **made}
+
+
+def written() -> set[Path]:
+    return {path for path in REFERENCE.glob('*.md') if NOTE in path.read_text()}
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description='Writes the tables of docs/ from the catalog.')
+    parser = argparse.ArgumentParser(description='Writes docs/reference/ from the catalog.')
     parser.add_argument('--check', action='store_true', help='only name the pages that differ')
     check = parser.parse_args().check
-    catalog, changed = read_catalog(), []
-    for page in sorted(DOCS.rglob('*.md')):
-        text = page.read_text()
-        made = with_tables(text, catalog)
-        if made != text:
-            changed.append(page)
-            if not check:
-                page.write_text(made)
-    for page in changed:
-        print(page.relative_to(DOCS.parent))
+    made = pages(read_catalog())
+    changed = [path for path in {*made, *written()}
+               if not path.exists() or path.read_text() != made.get(path)]
+    for path in sorted(changed):
+        print(path.relative_to(DOCS.parent))
+        if not check and path in made:
+            REFERENCE.mkdir(exist_ok=True)
+            path.write_text(made[path])
+        elif not check:
+            path.unlink()
     return int(check and bool(changed))
 
 

@@ -5,8 +5,9 @@ import re
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = [*sorted((ROOT / 'docs').rglob('*.md')), ROOT / 'README.md', ROOT / 'CONTRIBUTING.md',
-         ROOT / 'worlds/README.md']
+REFERENCE = ROOT / 'docs/reference'  # written by docs/tables.py
+PAGES = [*sorted(page for page in (ROOT / 'docs').rglob('*.md') if page.parent != REFERENCE),
+         ROOT / 'README.md', ROOT / 'CONTRIBUTING.md', ROOT / 'worlds/README.md']
 
 
 def blocks(page: Path, language: str = '') -> list[str]:

@@ -39,7 +39,8 @@ def steps(page: Path) -> list[tuple[str, str]]:
     made = [('', '')]
     for block in blocks(page):
         made.append((made[-1][0], ''))
-        for line in (re.sub(r'\s+# .*', '', line) for line in block.splitlines()):
+        for line in (re.sub(r'\s+# .*', '', line)
+                     for line in block.replace('\\\n', ' ').splitlines()):
             start = START.match(line)
             if start:
                 made.append((start.group(1).strip(), ''))

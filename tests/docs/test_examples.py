@@ -37,7 +37,8 @@ def commands(page: Path) -> list[str]:
 
     Without --fast, ./angen run is roslaunch and takes its arguments.
     """
-    lines = re.findall(rf'^\s*(?:\./)?angen ((?:{WORDS}) .*)$', page.read_text(), re.MULTILINE)
+    text = page.read_text().replace('\\\n', ' ')
+    lines = re.findall(rf'^\s*(?:\./)?angen ((?:{WORDS}) .*)$', text, re.MULTILINE)
     return [line for line in lines if not re.search(r'[$<…|]|NAME|\.\.\.', line)
             and not re.match('run (?!--fast)', line)]
 

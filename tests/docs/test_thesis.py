@@ -45,7 +45,9 @@ def test_each_has_a_row(heading: str, numbers: list[str]) -> None:
 def test_each_row_has_a_command_and_a_page(row: list[str]) -> None:
     assert len(row) == 4
     assert re.fullmatch(r'`[^`]+`', row[2])
-    assert re.fullmatch(r'(\[[^]]+\]\([^)]+\)(, (?=\[))?)+', row[3])
+    assert re.fullmatch(r'(\[[^]]+\](, (?=\[))?)+', row[3])
+    for name in re.findall(r'\[([^]]+)\]', row[1] + row[3]):
+        assert f'\n[{name}]: ' in PAGE
 
 
 @pytest.fixture(scope='module')
