@@ -15,7 +15,7 @@ std::string Diagnostic::text() const {
 
 namespace {
 
-// A message repeats what a user gave, whatever its length; where it is cut, its length follows.
+// A message quotes input of any length. A quote that is cut ends with its full length.
 constexpr std::size_t kMaxMessageBytes = 3960;
 
 std::string cut(const std::string& message) {

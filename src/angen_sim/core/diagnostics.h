@@ -6,7 +6,7 @@
 
 namespace angen {
 
-/// Where in a user's file something stands; line 0 is "the file as a whole".
+/// A place in a user's file; line 0 means the whole file.
 struct Source {
   std::string file;
   int line = 0;
@@ -21,7 +21,7 @@ struct Diagnostic {
   std::string text() const;  // "file:line: message", or only the message without a file
 };
 
-/// One or more errors in what a user gave. what() has one line for each.
+/// One or more errors in a user's input. what() has one line for each.
 class Error : public std::runtime_error {
  public:
   explicit Error(std::string message);

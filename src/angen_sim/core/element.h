@@ -9,7 +9,7 @@
 
 namespace angen {
 
-/// A piece of XML as plain values: what a plug-in's parameters are read from.
+/// An XML element as plain values. Plug-ins read their parameters from it.
 struct Element {
   std::string name;
   std::string text;  // trimmed

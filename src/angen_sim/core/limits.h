@@ -6,14 +6,14 @@
 
 namespace angen {
 
-/// What a number may be: at most `most` in magnitude and, where it must not be 0, at least `least`.
+/// Bounds of a number: at most `most` in magnitude and, if it must not be 0, at least `least`.
 struct Limit {
   const char* unit;
   double most;
   double least = 1e-12;
 };
 
-/// The limits of all that comes from outside (files, spawns, commands, Python) and of what moves.
+/// Limits of all input (files, spawns, commands, Python) and of moving bodies.
 /// Within them every square, product and quotient of the solver and every float of the ray caster
 /// stays finite; beyond them their libraries abort the process. Docs: docs/models.md.
 namespace limits {

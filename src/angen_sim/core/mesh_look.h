@@ -16,7 +16,7 @@ struct MeshPart {
   std::string texture;                            // the file that its material names, "" for none
 };
 
-/// What the file of a mesh says of its surface.
+/// The surface that a mesh file describes.
 struct MeshLook {
   std::vector<MeshPart> parts;                // in the order of the triangles
   std::vector<std::array<float, 6>> corners;  // u v of each triangle's corners; empty: no texture

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Where the library that this code is in lies, and all others of Angen.
+// The folder of this library, which holds all libraries of Angen.
 fs::path own_folder() {
   static const char here = 0;
   Dl_info info;

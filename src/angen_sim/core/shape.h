@@ -28,7 +28,7 @@ struct Shape {
   std::shared_ptr<const TriangleMesh> mesh;   // shared between copies
   std::shared_ptr<const HeightGrid> heights;  // of a heightmap, shared between copies
   std::string mesh_file;                      // absolute path a viewer can load
-  Vec3 mesh_scale = Vec3::Ones();             // what mesh_file must be scaled by to equal `mesh`
+  Vec3 mesh_scale = Vec3::Ones();             // scales mesh_file to `mesh`
 };
 
 }  // namespace angen

@@ -6,7 +6,7 @@
 
 namespace angen {
 
-/// How many bytes from the start are whole UTF-8 characters: text.size() where all of it is valid.
+/// The number of leading bytes that are whole UTF-8 characters: text.size() if all are valid.
 std::size_t valid_utf8_prefix(const std::string& text);
 bool valid_utf8(const std::string& text);
 
@@ -23,7 +23,7 @@ std::string printable(const std::string& text, std::size_t limit = 80);
 /// The whole text as a number in the C locale, which may be infinite or NaN; a leading + is
 /// allowed.
 std::optional<double> parse_number(const std::string& text);
-/// The same, but nothing where it is infinite or NaN.
+/// The same, but none for infinity and NaN.
 std::optional<double> parse_finite(const std::string& text);
 std::optional<int> parse_integer(const std::string& text);
 

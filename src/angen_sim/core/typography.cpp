@@ -31,7 +31,7 @@ constexpr std::array<Typographic, 31> kTypographic = {{
     {"\u3000", "U+3000", ' '},
 }};
 
-/// Where the last character of a text that is not empty begins: UTF-8's other bytes are 10xxxxxx.
+/// The start of the last character of a non-empty text: continuation bytes of UTF-8 are 10xxxxxx.
 std::size_t last_character(const std::string& text) {
   std::size_t at = text.size() - 1;
   while (at > 0 && (static_cast<unsigned char>(text[at]) & 0xC0) == 0x80) --at;

@@ -12,7 +12,7 @@ struct TypographicChar {
   std::size_t at = 0;    // byte
   std::size_t size = 0;  // bytes
   std::string name;      // "− (U+2212)"
-  char plain = ' ';      // what ASCII has in its place
+  char plain = ' ';      // its ASCII replacement
 };
 
 /// The first one at or after the byte `from`.

@@ -15,7 +15,7 @@ Eigen::Matrix3d rotation(dGeomID geom) {
 
 }  // namespace
 
-// In the frame of `a`, where its axes are exact and what is parallel stays so to the last bit.
+// In the frame of `a`, in which its axes are exact and parallel ones stay parallel to the last bit.
 std::size_t collide_boxes(dGeomID a, dGeomID b, dContactGeom* points, std::size_t most) {
   const Eigen::Matrix3d frame = rotation(a);
   const Vec3 origin = ode::vec(dGeomGetPosition(a));

@@ -334,7 +334,7 @@ void configure(dWorldID world, ModelRecord& record, const Pose& pose) {
     mechanism->stopped = false;
     for (Body* body : mechanism->bodies) body->upright_at = body->at.rotation;
     insert(world, *mechanism);
-    // What ODE keeps is the quaternion normalized once more.
+    // ODE normalizes the quaternion once more.
     for (Body* body : mechanism->bodies) {
       body->at.rotation = ode::quat(dBodyGetQuaternion(body->ode.get()));
     }

@@ -17,11 +17,13 @@ constexpr double kSoftest = 1e-8;      // least CFM of a contact: keeps redundan
 constexpr double kBounceSpeed = 0.05;  // m/s, nothing bounces below it
 constexpr double kStickMu = 1e6;       // from here on nothing slides
 constexpr std::size_t kManyJoints = 256;
-constexpr double kStopSteps = 2.0;   // what friction stops within so many steps does not slide
-constexpr double kLeastSlip = 1e-6;  // m/s
-constexpr double kLeastLoad = 1e-6;  // N
+constexpr double kStopSteps =
+    2.0;  // contacts that friction stops within this many steps do not slide
+constexpr double kLeastSlip = 1e-6;         // m/s
+constexpr double kLeastLoad = 1e-6;         // N
 constexpr std::size_t kMostInStep = 20000;  // points
-constexpr double kPush = 50.0;  // m/s^2, at which a soft contact lifts what is deep in the floor
+constexpr double kPush =
+    50.0;  // m/s^2, at which a soft contact lifts a body that is deep in the floor
 
 bool joined(const Body& a, const Body& b) {
   const Body& moving = a.dynamic() ? a : b;
@@ -166,10 +168,11 @@ void Contacts::set_friction(dContact& contact, const Pair& pair) const {
 }
 
 // ODE bounds the friction along two directions, each by itself: a pyramid. Coulomb's cone follows
-// from the choice of the first. What slides has friction against its slip and none across. What
-// does not, or may stop within a step, has the first direction along the force that would make it
-// slip: against the friction of the last step, and along the slip that is left. That force is one
-// for all points between two mechanisms, as what the points hold against each other is no load.
+// from the choice of the first. A sliding contact has friction against its slip and none across.
+// One that does not slide, or may stop within a step, has the first direction along the force that
+// would make it slip: against the friction of the last step, and along the slip that is left. That
+// force is one for all points between two mechanisms, as what the points hold against each other is
+// no load.
 void Contacts::align(dContact& contact, const Pair& pair) const {
   const Body& a = *pair.first->body;
   const Body& b = *pair.second->body;
@@ -275,7 +278,7 @@ void Contacts::read_forces(const Pair& pair) {
 void Contacts::finish() {
   points_.resize(found_.size());
   for (const Pair& pair : pairs_) read_forces(pair);
-  // A group goes through all the memory that it ever took, each time that it is emptied.
+  // Emptying a group visits all memory that it ever had.
   most_joints_ = std::max(most_joints_, found_.size());
   if (most_joints_ > kManyJoints && found_.size() < most_joints_ / 4) {
     group_ = ode::JointGroupHandle(dJointGroupCreate(0));

@@ -13,7 +13,7 @@ namespace angen::physics {
 /// one model only if both collide with their own.
 bool may_touch(const Geom& a, const Geom& b);
 
-/// What touches now: pairs of awake bodies, made anew in each step, and pairs that fell asleep.
+/// Contacts: pairs of awake bodies, which each step computes again, and pairs that fell asleep.
 class Contacts {
  public:
   struct Pair {
@@ -30,10 +30,10 @@ class Contacts {
   /// Forgets the pairs of the last step.
   void start();
 
-  /// Where contact joints go; another world takes over between finish() and make_joints().
+  /// Sets the world of contact joints; it may change between finish() and make_joints().
   void use(dWorldID world);
 
-  /// True when so many points touch that those of two moving bodies have to be left out: bodies
+  /// True if there are too many contact points and those of two moving bodies are skipped: bodies
   /// that were put in one place would take all memory and time.
   bool full() const;
 
@@ -48,16 +48,16 @@ class Contacts {
 
   const std::vector<Pair>& active() const { return pairs_; }
 
-  /// Notes for watched geoms what touches them in the step of this tick.
+  /// Records the contacts of watched geoms in the step of this tick.
   void remember(std::int64_t tick);
-  /// `now`, and what has touched the geom from tick `first` on; the geom is watched from now on.
+  /// `now`, and the contacts of the geom since tick `first`. Watches the geom from now on.
   static std::vector<ContactPair> with_recent(Geom& geom, std::int64_t first,
                                               std::vector<ContactPair> now);
 
   /// Keeps those pairs of the last step whose bodies are all asleep now.
   void put_to_rest();
 
-  /// Drops what a body kept while it slept.
+  /// Drops the contacts that a body kept while it slept.
   void forget(Body& body);
 
   /// Drops every pair of a model, and calls wake(Body&) for the sleeping bodies that it touched.
@@ -85,7 +85,7 @@ class Contacts {
   std::vector<ContactPair> of(const Geom& geom) const;
 
  private:
-  /// What the contacts between two mechanisms, or one and the static world, gave in the last step.
+  /// Forces between two mechanisms, or one and the static world, in the last step.
   struct Load {
     Vec3 friction = Vec3::Zero();  // N, on the first mechanism
     double pressed = 0.0;          // N
@@ -115,7 +115,7 @@ class Contacts {
   double erp_;
   double cfm_;
   double surface_layer_;  // m
-  double fastest_;        // m/s, at which what is too deep is parted
+  double fastest_;        // m/s, at which deep contacts separate
   ode::JointGroupHandle group_;
   std::size_t most_joints_ = 0;  // that group_ has held
   std::vector<Pair> pairs_;

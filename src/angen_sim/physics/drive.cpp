@@ -6,7 +6,7 @@ namespace angen::physics {
 
 namespace {
 
-// Shares of the force along and across what is wanted of it, and along each axis where that is less
+// Shares of the force along and across the desired force, and along each axis if that is less
 // than kEasy: their squares add up to just under 1.
 constexpr double kAlong = 0.99;
 constexpr double kAcross = 0.14;
@@ -51,8 +51,8 @@ bool set_drive(dWorldID world, Body& body, const Vec3& velocity, double yaw_rate
   return true;
 }
 
-// The force wanted is what held the load in the last step, and what takes the speed that is missing
-// to its goal in this one.
+// The desired force is the one that held the load in the last step, plus the one that brings the
+// speed to its goal in this step.
 void aim_drive(const Body& body, double h) {
   const Drive& drive = *body.drive;
   const Vec3 wanted =

@@ -54,7 +54,7 @@ struct FlatPart {
     return std::any_of(triangles.begin(), triangles.end(),
                        [&](const Triangle& triangle) { return triangle.below(point); });
   }
-  /// m, that the solid may be below the part: what is much deeper than ODE found hangs below it.
+  /// m, that the solid may be below the part: a point much deeper than ODE's hangs below it.
   double most_depth() const {
     double deepest = 0.0;
     for (const auto* points : {&on_faces, &on_edges}) {
@@ -85,7 +85,7 @@ bool triangle_of(dGeomID mesh, int index, Triangle& out) {
   return true;
 }
 
-/// What takes the place of the part's contacts.
+/// The contacts that replace the part's.
 std::vector<dContactGeom> mended(const FlatPart& part, dGeomID mesh, dGeomID solid,
                                  const OnPlane& on_plane, bool mesh_first) {
   const Triangle& any = part.triangles.front();

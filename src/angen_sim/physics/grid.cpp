@@ -8,7 +8,7 @@ namespace angen::physics {
 namespace {
 
 constexpr double kCell = 2.0;      // m
-constexpr double kMost = 1 << 19;  // cells from the origin; what lies beyond is unbounded
+constexpr double kMost = 1 << 19;  // cells from the origin; geoms beyond are unbounded
 constexpr double kManyCells = 20000.0;
 
 bool cells_of(const Aabb& box, std::array<int, 6>& cells) {
@@ -86,7 +86,7 @@ void Grid::erase(Geom& geom) {
   }
 }
 
-/// None of them goes while the geom is in it.
+/// None of them is removed while the geom is in it.
 void Grid::find_cells(Geom& geom) {
   const auto& c = geom.cells;
   for (int x = c[0]; x <= c[1]; ++x) {

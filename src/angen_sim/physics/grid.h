@@ -10,10 +10,10 @@
 namespace angen::physics {
 
 /// Which geoms may touch: cubes of 2 m, and a list of those too large for them (planes). A query
-/// costs what is near, whatever the size of the world. Answers come in no particular order.
+/// costs as much as there are near geoms, whatever the size of the world. Results are unordered.
 class Grid {
  public:
-  /// Files a geom by its box, anew when it has moved.
+  /// Inserts a geom by its box, again after it has moved.
   void update(Geom& geom);
   void erase(Geom& geom);
 

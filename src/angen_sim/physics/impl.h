@@ -14,7 +14,7 @@
 
 namespace angen::physics {
 
-/// What World is made of. Members are destroyed from the last to the first: the ODE world goes
+/// The parts of World. Members are destroyed from the last to the first: the ODE world is destroyed
 /// last.
 struct World::Impl {
   Impl(const desc::Physics& settings, const Vec3& gravity, std::uint64_t seed);
@@ -32,7 +32,7 @@ struct World::Impl {
   /// A world of ODE's with nothing in it, and the settings.
   void make_ode_world();
   void give_settings();
-  /// Gives ODE a mechanism anew, at rest, its bodies where they stand.
+  /// Inserts a mechanism into ODE again, at rest, its bodies at their poses.
   void reinsert(Mechanism& mechanism);
   /// Before and after a model's bodies are put elsewhere.
   void leave(ModelRecord& model);

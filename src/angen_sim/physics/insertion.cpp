@@ -36,8 +36,8 @@ void create_body(dWorldID world, Body& body) {
 
 }  // namespace
 
-// Joints are attached where all of them are at 0, and only then the bodies put where they stand:
-// however often it is done, no rounding adds up.
+// Joints are attached at position 0, and only then are the bodies moved to their poses:
+// rounding errors do not add up however often this is done.
 void insert(dWorldID world, Mechanism& mechanism) {
   const Pose& model = mechanism.bodies.front()->model->pose;
   for (Body* body : mechanism.bodies) {

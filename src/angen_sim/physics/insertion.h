@@ -4,8 +4,8 @@
 
 namespace angen::physics {
 
-/// Gives a mechanism's bodies to ODE, where they stand and at rest, with its joints and motors. A
-/// step of ODE goes through all the bodies that it has, so it has those that are awake.
+/// Inserts a mechanism's bodies into ODE at their poses and at rest, with joints and motors. A
+/// step of ODE visits all bodies that it has, so it has only those that are awake.
 void insert(dWorldID world, Mechanism& mechanism);
 
 /// Takes a mechanism out of ODE again; its bodies stay where they are, at rest.

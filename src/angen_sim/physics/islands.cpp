@@ -7,7 +7,7 @@ namespace angen::physics {
 
 namespace {
 
-// What they cost dWorldStep: rows of joints have no bounds, as friction has.
+// Their cost in dWorldStep: rows of joints have no bounds, unlike those of friction.
 constexpr std::size_t kCostOfContact = 3;
 constexpr std::size_t kCostOfJoint = 1;
 constexpr std::size_t kMostCost = 300;

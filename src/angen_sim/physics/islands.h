@@ -8,7 +8,7 @@
 
 namespace angen::physics {
 
-/// Groups of awake bodies that joints or contacts connect: what a solver takes at once, and what
+/// Groups of awake bodies that joints or contacts connect: a solver takes a group at once, and it
 /// falls asleep at once. Numbers the bodies (`Body::island`).
 class Islands {
  public:

@@ -44,7 +44,7 @@ void set_motor_param(const Joint& joint, int parameter, double value) {
 void set_range(const Joint& joint, double lower, double upper, int group) {
   set_param(joint, dParamLoStop + group, lower);
   set_param(joint, dParamHiStop + group, upper);
-  // Once more: a stop beyond the other one's old value may have been refused.
+  // Once more: ODE may have rejected a stop beyond the other one's old value.
   set_param(joint, dParamLoStop + group, lower);
 }
 
@@ -68,7 +68,7 @@ ode::JointHandle make_main(dWorldID world, Type type) {
   }
 }
 
-// What turns about the axis, or moves along it, with the least that hangs on it.
+// The side of the joint that has the smaller inertia about, or mass along, its axis.
 double least_inertia(const Joint& joint, const Vec3& axis) {
   const auto of_body = [&](const Body& body, bool pivots) {
     if (joint.type == Type::kPrismatic) return body.mass;
@@ -357,7 +357,7 @@ void push_joint(Joint& joint, double force) {
 }
 
 // At the position where the step starts: with the solver's semi-implicit steps that keeps the
-// energy, up to half a radian a step. What is stiffer is taken with the damper, implicitly: stable,
+// energy, up to half a radian a step. A stiffer spring is implicit, with the damper: stable,
 // but it loses energy.
 void apply_spring(Joint& joint, double h) {
   const Axis& axis = joint.axes[0];

@@ -10,10 +10,10 @@ void measure_joint(Joint& joint);
 /// Makes ODE's objects for a joint whose dynamic bodies ODE has.
 void create_joint(dWorldID world, Joint& joint);
 
-/// Gives ODE anchor, axes and zero position; its bodies must stand where all joints are at 0.
+/// Gives ODE anchor, axes and zero position; the bodies' poses must be those of all joints at 0.
 void anchor_joint(const Joint& joint, const Pose& model);
 
-/// Reads the angle anew after its bodies were put somewhere, near `initial` for joints that turn
+/// Reads the angle again after its bodies were moved, near `initial` for joints that turn
 /// on.
 void reset_joint(Joint& joint);
 
@@ -26,7 +26,7 @@ struct Bounds {
 /// m/s.
 Bounds velocity_bounds(const Joint& joint);
 
-/// The same of what is added as a force at that speed, N m or N.
+/// The same for a force that is added at that speed, N m or N.
 Bounds effort_bounds(const Joint& joint, double velocity);
 
 /// Sets motor, or dry friction where there is none, of a joint that ODE has.
@@ -35,7 +35,7 @@ void apply_motor(const Joint& joint);
 /// Sets stops and motor of a latched joint that ODE has, or gives it its own again.
 void apply_latch(const Joint& joint);
 
-/// Where ODE measures the joint to be, rad in [-pi, pi] or m.
+/// The position that ODE measures, rad in [-pi, pi] or m.
 double ode_position(const Joint& joint);
 
 /// Applies the spring of the first axis for a step of h seconds.
@@ -44,7 +44,7 @@ void apply_spring(Joint& joint, double h);
 /// Reads position and effort after a step.
 void update_joint(Joint& joint);
 
-/// What the child gave the parent in the last step.
+/// Force and torque of the child on the parent in the last step.
 Wrench joint_wrench(const Joint& joint);
 
 /// Speed of the first axis, rad/s or m/s.
@@ -54,7 +54,8 @@ double joint_velocity(const Joint& joint);
 /// bodies.
 void push_joint(Joint& joint, double force);
 
-/// What `by` more along or about the axis (rad or m) displaces the first body by, in the world.
+/// The displacement of the first body in the world by a motion `by` along or about the axis (rad,
+/// m).
 Pose joint_step(const Joint& joint, double by);
 
 /// After its bodies were put somewhere: the position is the one near `position`, whole turns

@@ -15,7 +15,7 @@
 #include "physics/ode.h"
 #include "physics/world.h"
 
-/// What a model becomes: bodies (links fixed to each other), their geoms, and the joints between
+/// A model in physics: bodies (links fixed to each other), their geoms, and the joints between
 /// them.
 namespace angen::physics {
 
@@ -63,10 +63,10 @@ struct alignas(64) Geom {
   ode::GeomHandle tile;                // takes the mesh of one tile after the other
   bool is_plane = false;
   std::array<int, 6> cells{};                           // the grid's, first and last in x, y, z
-  std::vector<const std::vector<Geom*>*> shared_cells;  // what is in each of them, for queries
+  std::vector<const std::vector<Geom*>*> shared_cells;  // the geoms in each of them, for queries
   bool in_grid = false;
   bool unbounded = false;
-  std::uint64_t contacts_revision = 0;  // grows when what touches it changes
+  std::uint64_t contacts_revision = 0;  // grows when its contacts change
   bool self_collides = false;           // it touches others of its model that do so too
   bool watched = false;                 // `recent` is kept
   struct Recent {
@@ -86,7 +86,7 @@ struct Axis {
   double damping = 0.0;
   double friction = 0.0;
   double stiffness = 0.0;  // of its spring
-  double slack_at = 0.0;   // where the spring is slack
+  double slack_at = 0.0;   // its rest position
   double initial = 0.0;
   std::optional<desc::JointSafety> safety;
 };

@@ -1,4 +1,4 @@
-// What changes a model that is in the world, besides steps: its place, motion, joints, masses.
+// Changes of a model in the world besides steps: its place, motion, joints, masses.
 #include <algorithm>
 #include <map>
 
@@ -38,7 +38,7 @@ void check_place(const ModelRecord& model, const Pose& at) {
   throw Error("model \"" + model.name + "\" cannot be put there: " + problem);
 }
 
-/// Where a model's bodies would stand, and how they would move, with its joints elsewhere.
+/// Poses and velocities of a model's bodies with its joints at other positions.
 class Arrangement {
  public:
   Arrangement(const ModelRecord& model, const std::vector<std::optional<double>>& positions)
@@ -86,7 +86,7 @@ class Arrangement {
     if (placed_.emplace(&body, placed).second) order_.push_back(&body);
   }
 
-  // Whether the joint has a goal, and the body that hangs on it now stands there.
+  // Whether the joint has a goal, and its child is at that pose.
   bool follow(Body& parent, Joint& joint) {
     if (joint.second != &parent || placed_.count(joint.first) != 0) return false;
     const Placed of_parent = placed_.at(&parent);
@@ -116,7 +116,7 @@ void World::Impl::reinsert(Mechanism& mechanism) {
   take_out(mechanism);
   mechanism.stopped = false;
   insert(world.get(), mechanism);
-  // What ODE keeps is the quaternion normalized once more.
+  // ODE normalizes the quaternion once more.
   for (Body* body : mechanism.bodies) {
     body->at.rotation = ode::quat(dBodyGetQuaternion(body->ode.get()));
   }
@@ -209,7 +209,7 @@ void World::arrange(ModelId id, const std::vector<std::optional<double>>& positi
 
 namespace {
 
-// What another center of mass changes: links, shapes and joints stay where they are.
+// Applies another center of mass: links, shapes and joints stay at their poses.
 void take_masses(ModelRecord& model, ModelRecord& from) {
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     Body& body = *model.bodies[i];

@@ -24,7 +24,7 @@ class ShapeFactory {
       meshes_;
 };
 
-/// Puts a geom where its body stands, and finds its box there.
+/// Moves a geom to its body's pose, and computes its box.
 void follow_body(Geom& geom);
 
 }  // namespace angen::physics

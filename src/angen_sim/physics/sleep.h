@@ -8,7 +8,7 @@ namespace angen::physics {
 /// Wakes the mechanism of a dynamic body, whose idle times go on. ODE does not have it yet.
 void wake_up(Body& body, std::vector<Body*>& awake);
 
-/// Puts a mechanism to sleep where it stood before the step, for good: nothing wakes it.
+/// Puts a mechanism to sleep for good at its poses before the step: nothing wakes it.
 void stop(Mechanism& mechanism, std::vector<Body*>& awake);
 
 /// Puts whole islands to sleep (bodies that touch or are jointed) when each of their bodies has

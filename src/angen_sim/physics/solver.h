@@ -15,7 +15,7 @@ struct Unstable {
   std::string why;
 };
 
-/// What a step could not do.
+/// The errors of a step.
 struct Trouble {
   std::vector<Unstable> unstable;
   bool never = false;   // no solver found a motion: all bodies are as before the step

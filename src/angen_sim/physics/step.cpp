@@ -38,7 +38,7 @@ void World::Impl::take_step(std::int64_t tick) {
 }
 
 // Whatever an awake body touches is awake too, and has its own pairs tested:
-// `awake` grows while it is gone through.
+// `awake` grows during the loop.
 void World::Impl::collide() {
   contacts.start();
   for (Body* body : awake) {
@@ -62,7 +62,7 @@ void World::Impl::collide_body(Body& body) {
         crowded = true;
         return;
       }
-      // The idle time goes on: a body that is only leant on falls asleep with its neighbor.
+      // The idle time keeps counting: a body that is only leant on falls asleep with its neighbor.
       if (contacts.collide(*geom, other) && other.body->dynamic()) wake_up(*other.body, awake);
     });
   }
@@ -79,7 +79,7 @@ void World::Impl::add_lift() {
   }
 }
 
-// What depends on where bodies and joints are: springs, bounds of speeds, directions of drives.
+// Updates that depend on poses and joint positions: springs, speed bounds, directions of drives.
 void World::Impl::set_up_joints() {
   for (Body* body : awake) {
     if (body->drive) aim_drive(*body, h);
@@ -113,7 +113,7 @@ void World::Impl::integrate(std::int64_t tick) {
 }
 
 // After a failure within a step ODE's world holds half-done work, which its destructor would step
-// on: it is given up, and what is awake goes into a new one as it was.
+// on: it is abandoned, and the awake mechanisms are inserted into a new one as they were.
 void World::Impl::renew() {
   struct Motion {
     Vec3 velocity, spin;

@@ -21,8 +21,8 @@ namespace {
 constexpr double kSoftestJoint = 1e-9;
 
 // Bodies move straight on in a step, and so part at a joint about which they turn. All of that is
-// taken back in the next step. What is taken back later, of a velocity that has turned meanwhile,
-// is taken from the energy: with 0.2 a double pendulum loses some percent a minute.
+// corrected in the next step. A later correction, of a velocity that has turned meanwhile,
+// costs energy: with 0.2 a double pendulum loses some percent a minute.
 constexpr double kJointErp = 1.0;
 
 double bounded(double value, const Limit& limit) {

@@ -36,13 +36,13 @@ struct JointState {
       0.0;  // N m or N along the axis that joint and motor gave the child in the last step
 };
 
-/// What the child of a joint gives its parent through it, in the last step.
+/// Force and torque of a joint's child on its parent in the last step.
 struct Wrench {
   Vec3 force = Vec3::Zero();   // N
   Vec3 torque = Vec3::Zero();  // N m, about the joint's anchor
 };
 
-/// A link whose mechanism has been put to sleep for good, since it would have gone beyond the
+/// A link whose mechanism was put to sleep for good because it would have left the
 /// limits.
 struct Stopped {
   LinkId link;
@@ -70,7 +70,7 @@ class World {
   bool awake(LinkId link) const;   // false for static and sleeping ones
   void wake(LinkId link);
   JointState joint(JointId joint) const;
-  /// With what its motor and its spring give, and what was added by add_force(). Of a fixed joint,
+  /// With the forces of its motor, its spring and add_force(). Of a fixed joint,
   /// whose links are one body, it is zero.
   Wrench wrench(JointId joint) const;
 
@@ -101,8 +101,8 @@ class World {
   /// so that its frame is at `pose`. Motors stay as they are. Throws Error for a pose not finite.
   void place(ModelId model, const Pose& pose);
 
-  /// Moves a whole model by a displacement in the world, static ones too, its joints as they stand;
-  /// it is at rest then. Throws Error for a place beyond the limits.
+  /// Moves a whole model, also a static one, by a displacement in the world; joints keep their
+  /// positions; it is at rest then. Throws Error for a place beyond the limits.
   void move(ModelId model, const Pose& by);
   /// The same of a link and what is joined to it. Throws Error where a joint holds it to something
   /// static.
@@ -110,7 +110,7 @@ class World {
   /// Of a link's origin, and of what is fixed to it; wakes it.
   void set_velocity(LinkId link, const Vec3& linear, const Vec3& angular);
   /// Puts joints where they have a position, within their limits (rad or m, as ids from joints());
-  /// what hangs on them goes along and then moves as what it hangs on. Throws Error for a joint
+  /// child links move along, and have the velocity of their parent then. Throws Error for a joint
   /// without exactly one axis, or in a loop.
   void arrange(ModelId model, const std::vector<std::optional<double>>& positions);
   /// Inertials, gravity of links and axes of joints are as described from now on; all else must be
@@ -119,36 +119,36 @@ class World {
   /// Gravity and the solver's settings from now on; the step stays. Wakes everything.
   void set(const desc::Physics& settings, const Vec3& gravity);
 
-  /// Collides and integrates one step of settings.step. `tick` keys what randomness the solver
-  /// needs.
+  /// Collides and integrates one step of settings.step. `tick` keys the random numbers that the
+  /// solver needs.
   void step(std::int64_t tick);
 
-  /// What the last step stopped: it stays where it was before the step, and is like a static body
-  /// until its model is placed again.
+  /// Links that the last step stopped: they stay at their poses before the step, like static
+  /// bodies, until their model is placed again.
   const std::vector<Stopped>& stopped() const;
 
-  /// True when so much touched in the last step (20,000 points) that some contacts of two moving
+  /// True if there were too many contacts in the last step (20,000 points), and some of two moving
   /// bodies were left out.
   bool crowded() const;
 
   /// Links whose pose changed in the last step (or place), in id order.
   const std::vector<LinkId>& moved() const;
 
-  /// What touches now, sorted by names' ids; sleeping bodies keep their last contacts and forces.
+  /// All contacts, sorted by names' ids; sleeping bodies keep their last contacts and forces.
   const std::vector<ContactPair>& contacts() const;
   /// By its name, model::link::collision; not valid for one that has no shape or does not exist.
   CollisionId collision(const std::string& name) const;
-  /// What touches this one, turned so that it is the first.
+  /// The contacts of this collision, turned so that it is the first.
   std::vector<ContactPair> contacts(CollisionId collision) const;
-  /// The same, and what touched it in any step from the one of tick `first` on, as it last did;
-  /// from the first call on.
+  /// The same, and its last contact with each collision that touched it since tick `first`,
+  /// counted from the first call on.
   std::vector<ContactPair> contacts_since(CollisionId collision, std::int64_t first);
   /// Grows whenever contacts() may have changed.
   std::uint64_t contacts_revision(CollisionId collision) const;
 
   std::uint64_t failed_steps() const;  // steps that had to be redone by the other solver
   std::size_t awake_count() const;
-  /// Adds the links of all that is awake.
+  /// Adds the links of all awake bodies.
   void list_awake(std::vector<LinkId>& links) const;
 
  private:
