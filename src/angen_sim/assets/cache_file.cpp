@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uintmax_t kMostBytes = 128U << 20U;  // in the folder
+constexpr std::uintmax_t kMaxBytes = 128U << 20U;  // in the folder
 
 std::string variable(const char* name) {
   const char* value = std::getenv(name);
@@ -58,7 +58,7 @@ void make_room(const fs::path& folder) {
   std::uintmax_t total = 0;
   for (const File& file : files) {
     total += file.size;
-    if (total > kMostBytes) fs::remove(file.path);
+    if (total > kMaxBytes) fs::remove(file.path);
   }
 }
 

@@ -14,9 +14,9 @@ namespace angen::load {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr std::size_t kMostAngles = 2000;
-constexpr std::size_t kMostNumbers = 200'000;
-constexpr double kMostCandela = 1e9;
+constexpr std::size_t kMaxAngles = 2000;
+constexpr std::size_t kMaxNumbers = 200'000;
+constexpr double kMaxCandela = 1e9;
 
 /// The numbers after the line of TILT, one by one, each with the line that it stands in.
 class IesNumbers {
@@ -42,7 +42,7 @@ class IesNumbers {
       std::replace(text.begin(), text.end(), ',', ' ');
       words_ = std::istringstream(text);
     }
-    if (++count_ > kMostNumbers) fail("there are more than 200000 numbers");
+    if (++count_ > kMaxNumbers) fail("there are more than 200000 numbers");
     const Numbers numbers = numbers_in(word);
     if (numbers.values.size() != 1 || !numbers.bad.empty() || !std::isfinite(numbers.values[0])) {
       fail("'" + printable(word, 40) + "' is not a number; " + what + " should be here");
@@ -52,7 +52,7 @@ class IesNumbers {
 
   std::size_t next_count(const std::string& what) {
     const double value = next(what);
-    if (!(value >= 1.0 && value <= kMostAngles && value == std::floor(value))) {
+    if (!(value >= 1.0 && value <= kMaxAngles && value == std::floor(value))) {
       fail(what + " is not a whole number from 1 to 2000");
     }
     return static_cast<std::size_t>(value);
@@ -98,7 +98,7 @@ Photometry photometry_of(const std::string& text, const std::string& file) {
   in.next("the number of lamps");
   in.next("the lumens of a lamp");
   const double multiplier = in.next("the multiplier of candela");
-  if (!(multiplier > 0.0 && multiplier < kMostCandela)) in.fail("the multiplier is not above 0");
+  if (!(multiplier > 0.0 && multiplier < kMaxCandela)) in.fail("the multiplier is not above 0");
   const std::size_t rows = in.next_count("the number of vertical angles");
   const std::size_t planes = in.next_count("the number of horizontal angles");
   if (in.next("the photometric type") != 1.0) {
@@ -121,7 +121,7 @@ Photometry photometry_of(const std::string& text, const std::string& file) {
   if (rows < 2) in.fail("there is only one vertical angle; give at least two");
   for (std::size_t i = 0; i < rows * planes; ++i) {
     const double candela = multiplier * in.next("an intensity");
-    if (!(candela >= 0.0 && candela <= kMostCandela))
+    if (!(candela >= 0.0 && candela <= kMaxCandela))
       in.fail("an intensity is below 0 or too large");
     out.candela.push_back(candela);
   }

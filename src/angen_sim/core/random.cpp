@@ -7,7 +7,7 @@ namespace angen {
 
 namespace {
 
-constexpr double kMost = 1.0 - 0x1.0p-53;  // less than 1, so that no radius is infinite
+constexpr double kMax = 1.0 - 0x1.0p-53;  // less than 1, so that no radius is infinite
 
 }  // namespace
 
@@ -33,7 +33,7 @@ void Rng::gaussians(double* numbers, std::size_t count) {
   const std::size_t outermost = next() % pairs;
   for (std::size_t pair = 0; pair < pairs; ++pair) {
     const double share = pair == outermost ? 1.0 : uniform();
-    const double radius = std::sqrt(-2.0 * std::log(1.0 - std::min(share * greatest, kMost)));
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - std::min(share * greatest, kMax)));
     const double angle = 2.0 * M_PI * uniform();
     numbers[2 * pair] = radius * std::cos(angle);
     if (2 * pair + 1 < count) numbers[2 * pair + 1] = radius * std::sin(angle);

@@ -68,9 +68,9 @@ std::string trimmed(const std::string& text) {
 
 std::string shortened(const std::string& text, std::size_t limit) {
   if (text.size() <= limit) return text;
-  constexpr std::size_t kMostTails = 3;  // bytes of a character after its first
+  constexpr std::size_t kMaxTails = 3;  // bytes of a character after its first
   std::size_t end = limit;
-  while (end > 0 && limit - end < kMostTails && is_tail(text[end])) --end;
+  while (end > 0 && limit - end < kMaxTails && is_tail(text[end])) --end;
   return text.substr(0, is_tail(text[end]) ? limit : end) + length_of(text);
 }
 

@@ -177,12 +177,12 @@ std::string need_uri(const std::string& uri, const std::string& what, const Sour
                       "' is not found; searched: " + searched_places(uri, at.file, session));
 }
 
-void forgive_missing(const Element& element, const Error& error, Session& session) {
+void warn_or_throw_missing(const Element& element, const Error& error, Session& session) {
   const Element* uri = element.child("uri");
   const bool named = uri != nullptr && !split(uri->text).path.empty();
   if (!named || session.guessed || find_uri(uri->text, uri->source.file, session))
     throw Error(error);
-  session.forgive(error);
+  session.warn_or_throw(error);
 }
 
 int version_number(const std::string& text) {

@@ -17,15 +17,15 @@ void Session::ignore(const Source& source, const std::string& what) {
   ignored.push_back({Diagnostic::Severity::kWarning, source, what});
 }
 
-void Session::forgive(const Error& error) {
+void Session::warn_or_throw(const Error& error) {
   if (!tolerant) throw Error(error);
-  forgiven.push_back(error);
+  tolerated.push_back(error);
   for (const Diagnostic& each : error.diagnostics()) warn(each.source, each.message);
 }
 
 void Session::decide(bool is_tolerant) {
   tolerant = is_tolerant;
-  if (!tolerant && !forgiven.empty()) throw Error(forgiven.front());
+  if (!tolerant && !tolerated.empty()) throw Error(tolerated.front());
 }
 
 }  // namespace angen::load

@@ -26,19 +26,19 @@ struct Session {
   std::size_t elements = 0;                // of all documents so far
   std::optional<std::size_t> include_start{};  // `elements` before the outermost include
   double bytes = 0.0;                          // of memory that what was expanded will take, about
-  std::set<std::string> charged{};             // files of meshes that are counted in it
+  std::set<std::string> counted_files{};       // files of meshes that are counted in it
   std::vector<std::string> open{};             // documents being read, outermost first
   std::optional<Packages> packages{};          // once something was searched there
   bool tolerant = false;                       // as far as it is known; see decide()
-  bool guessed = false;           // by what a world holds: its author may have misspelled
-  std::vector<Error> forgiven{};  // what was wrong and did not stop the load
+  bool guessed = false;            // by what a world holds: its author may have misspelled
+  std::vector<Error> tolerated{};  // errors that did not stop the load
 
   /// Once for each place: a file that is included ten times warns as often as if it were once.
   void warn(const Source& source, const std::string& message);
   void ignore(const Source& source, const std::string& what);
-  /// Where tolerant, a warning in place of the error: the part is left out. Throws it otherwise.
-  void forgive(const Error& error);
-  /// What a document is, once that is known; a strict one throws what was forgiven until then.
+  /// Where tolerant, adds a warning in place of the error. Throws the error otherwise.
+  void warn_or_throw(const Error& error);
+  /// What a document is, once that is known; a strict one throws the first that was tolerated.
   void decide(bool is_tolerant);
 };
 

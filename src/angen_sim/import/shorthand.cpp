@@ -13,7 +13,7 @@ namespace angen::load {
 
 namespace {
 
-constexpr int kMostClones = 10'000;
+constexpr int kMaxClones = 10'000;
 constexpr double kRoadHeight = 0.01;  // m
 
 Element part(const std::string& name, const std::string& text, const Source& source,
@@ -25,10 +25,9 @@ int count_of(const Element& parent, const std::string& name, int fallback) {
   const Element* child = parent.child(name);
   if (child == nullptr) return fallback;
   const double value = number_of(*child);
-  if (value < 1.0 || value > kMostClones || value != std::floor(value)) {
+  if (value < 1.0 || value > kMaxClones || value != std::floor(value)) {
     throw Error(child->source, "<" + name + "> is " + number_text(value) +
-                                   "; give a whole number from 1 to " +
-                                   std::to_string(kMostClones));
+                                   "; give a whole number from 1 to " + std::to_string(kMaxClones));
   }
   return static_cast<int>(value);
 }
@@ -77,8 +76,8 @@ Vec3 evenly(int index) {
 std::vector<Vec3> grid(const Element& distribution) {
   const int rows = count_of(distribution, "rows", 1);
   const int columns = count_of(distribution, "cols", 1);
-  if (rows * columns > kMostClones) {
-    throw Error(distribution.source, "a grid of more than " + std::to_string(kMostClones) +
+  if (rows * columns > kMaxClones) {
+    throw Error(distribution.source, "a grid of more than " + std::to_string(kMaxClones) +
                                          " models; give fewer <rows> or <cols>");
   }
   const Vec3 step = vector_in(&distribution, "step", Vec3(0.5, 0.5, 0.0));

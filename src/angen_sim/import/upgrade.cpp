@@ -47,8 +47,8 @@ void split_names(Element& element, std::set<std::string>& found, Session& sessio
   std::string name = named.count(element.name) != 0 ? name_of(element) : "";
   if (joins(name)) {
     set_attribute(element, "name", with_underscores(name));
-    session.forgive(Error(element.source, tag_of(element) + ": names hold no '::'; it is '" +
-                                              name_of(element) + "' here"));
+    session.warn_or_throw(Error(element.source, tag_of(element) + ": names hold no '::'; it is '" +
+                                                    name_of(element) + "' here"));
     found.insert(std::move(name));
   }
   for (Element& child : element.children) {
@@ -85,16 +85,17 @@ void rename_twins(Element& parent, Session& session) {
     if (name.first.empty() || name.second.empty() || seen.insert(name).second) continue;
     const std::string given = tag_of(child);
     set_attribute(child, "name", unused_name(child, used, tried));
-    session.forgive(Error(child.source, given + ": the name is given twice in " + tag_of(parent) +
-                                            "; it is '" + name_of(child) + "' here"));
+    session.warn_or_throw(Error(child.source, given + ": the name is given twice in " +
+                                                  tag_of(parent) + "; it is '" + name_of(child) +
+                                                  "' here"));
   }
 }
 
 // Until 1.7 parts of a model could have one name; what refers to it means the first.
-void part_twins(Element& element, Session& session) {
+void rename_duplicates(Element& element, Session& session) {
   if (element.name == "model" || element.name == "link") rename_twins(element, session);
   for (Element& child : element.children) {
-    if (child.name != "plugin") part_twins(child, session);
+    if (child.name != "plugin") rename_duplicates(child, session);
   }
 }
 
@@ -138,7 +139,7 @@ void upgrade(Element& sdf, int version, Session& session) {
     std::set<std::string> found;
     split_names(sdf, found, session);
     if (!found.empty()) name_anew(sdf, found);
-    if (version < 107) part_twins(sdf, session);
+    if (version < 107) rename_duplicates(sdf, session);
   }
   set_attribute(sdf, "version", "1.9");
 }

@@ -150,7 +150,7 @@ std::optional<Pose> lumped_pose(const Element& robot, std::string link, const st
 
 // libsdformat names the link that a plug-in's body is lumped into, but gets the offset to it wrong
 // where that takes several joints.
-void mend_offset(const Element& given, const Element& robot, Element& made) {
+void fix_offset(const Element& given, const Element& robot, Element& made) {
   const std::string body = given.child_text("bodyName");
   const std::string into = made.child_text("bodyName");
   if (body.empty() || body == into) return;
@@ -174,7 +174,7 @@ void give_source(Element& element, const Source& source) {
 }
 
 // The plug-ins of a robot keep their lines, and sit where they should.
-void mend_plugins(const Element& robot, Element& root) {
+void fix_plugins(const Element& robot, Element& root) {
   Element* model = find_child(root, "model");
   if (model == nullptr) return;
   for (const Element& extension : robot.children) {
@@ -184,7 +184,7 @@ void mend_plugins(const Element& robot, Element& root) {
         if (given.name != "plugin" || made.name != "plugin") continue;
         if (given.attributes != made.attributes && name_of(given) != name_of(made)) continue;
         give_source(made, given.source);
-        mend_offset(given, robot, made);
+        fix_offset(given, robot, made);
       }
     }
   }
@@ -249,7 +249,7 @@ std::string with_measured_joints(const std::string& text, const Element& robot) 
 }
 
 // It has a plug-in that makes it follow, or a transmission.
-bool is_led(const std::string& joint, const Element& robot, const Element& model) {
+bool has_driver(const std::string& joint, const Element& robot, const Element& model) {
   const auto follows = [&](const Element& plugin) {
     return plugin.name == "plugin" && plugin.child_text("mimicJoint") == joint;
   };
@@ -268,7 +268,7 @@ void keep_mimics(const Element& robot, Element& model) {
   for (const Element& joint : robot.children) {
     const Element* mimic = joint.name == "joint" ? joint.child("mimic") : nullptr;
     const std::string* leader = mimic == nullptr ? nullptr : mimic->attribute("joint");
-    if (leader == nullptr || is_led(name_of(joint), robot, model)) continue;
+    if (leader == nullptr || has_driver(name_of(joint), robot, model)) continue;
     Element plugin = text_element("plugin", "", mimic->source);
     plugin.attributes = {{"name", name_of(joint) + "_mimic"},
                          {"filename", "libroboticsgroup_gazebo_mimic_joint_plugin.so"}};
@@ -377,7 +377,7 @@ Element convert_urdf(const std::string& text, const Element& robot) {
   for (const Element& child : robot.children) {
     if (child.name == "joint") keep_safety(child, root);
   }
-  mend_plugins(robot, root);
+  fix_plugins(robot, root);
   if (Element* model = find_child(root, "model")) {
     keep_transmissions(robot, *model);
     keep_mimics(robot, *model);

@@ -19,7 +19,7 @@ constexpr double kReach = 15.0;  // m that the reflected light of an 800 lm lamp
 constexpr float kDark = 1e-3F;   // lx: what throws back less is not followed farther
 constexpr double kBeyondSites = 0.5;  // m
 constexpr double kSettled = 1e-4;     // of the mean: a change that ends the bounces
-constexpr int kMostBounces = 200;
+constexpr int kMaxBounces = 200;
 // Costs of the parts of a solution, measured; they decide only how it is cut into ticks.
 constexpr std::int64_t kSumsPerRay = 500;
 constexpr std::int64_t kRowsPerRay = kSumsPerRay / kLinks;  // patches that are balanced
@@ -93,9 +93,9 @@ const std::vector<Field::Link>& Field::links(std::uint32_t patch) {
                 "all lists were copied as it grows");
   if (patch_links_.size() <= patch)
     patch_links_.resize(std::max<std::size_t>(patch + 1, surfaces_.size()));
-  // What nobody was charged for leaves no trace: while shapes change it is found anew.
+  // What nobody was counted for leaves no trace: while shapes change it is found anew.
   const PatchLinks& known = patch_links_[patch];
-  if (!known.links.empty() && (known.charged || !in_flux() || known.scene == scene_.revision())) {
+  if (!known.links.empty() && (known.counted || !in_flux() || known.scene == scene_.revision())) {
     return known.links;
   }
   const std::vector<rays::Ray> rays = link_rays(surfaces_[patch]);
@@ -106,7 +106,7 @@ const std::vector<Field::Link>& Field::links(std::uint32_t patch) {
   own.reach.setEmpty();
   own.links.clear();
   own.links.reserve(rays.size());
-  if (!own.charged) uncharged_.push_back(patch);
+  if (!own.counted) uncounted_.push_back(patch);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     own.links.push_back(link_of(rays[i], hits[i]));
     own.reach.extend(rays[i].origin);
@@ -138,7 +138,7 @@ std::int64_t Field::start(Unfinished& work, std::int64_t rays) {
     scene_.cast(first, hits.data(), count, kStanding);
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t patch = link_of(first[i], hits[i]).patch;
-      cost += 1 + charge_making(patch);
+      cost += 1 + cost_of_making(patch);
       reach_patch(patch, work);
     }
     work.cast += count;
@@ -151,26 +151,27 @@ std::int64_t Field::spread(Unfinished& work, std::int64_t rays) {
   std::int64_t cost = 0;
   for (; work.followed < work.solution.patches.size() && cost < rays; ++work.followed) {
     const std::uint32_t patch = work.solution.patches[work.followed];
-    cost += charge(patch) + static_cast<std::int64_t>(surfaces_[patch].sites.size());
+    cost += cost_of(patch) + static_cast<std::int64_t>(surfaces_[patch].sites.size());
     follow_patch(work);
   }
   return cost;
 }
 
-std::int64_t Field::charge_making(std::uint32_t patch) {
+std::int64_t Field::cost_of_making(std::uint32_t patch) {
   if (patch == kNoPatch) return 0;
   if (patch_links_.size() <= patch)
     patch_links_.resize(std::max<std::size_t>(patch + 1, surfaces_.size()));
   return std::exchange(patch_links_[patch].made, true) ? 0 : kCostToMake;
 }
 
-std::int64_t Field::charge(std::uint32_t patch) {
-  if (patch == kNoPatch || charged(patch)) return 0;
+std::int64_t Field::cost_of(std::uint32_t patch) {
+  if (patch == kNoPatch || counted(patch)) return 0;
   const std::size_t count = links(patch).size();
-  patch_links_[patch].charged = true;
-  charged_.push_back(patch);
+  patch_links_[patch].counted = true;
+  counted_.push_back(patch);
   auto cost = static_cast<std::int64_t>(count);
-  for (std::size_t i = 0; i < count; ++i) cost += charge_making(patch_links_[patch].links[i].patch);
+  for (std::size_t i = 0; i < count; ++i)
+    cost += cost_of_making(patch_links_[patch].links[i].patch);
   return cost;
 }
 
@@ -265,7 +266,7 @@ bool Field::advance(Unfinished& work, std::int64_t& rays) {
   while (work.albedos.size() < patches.size()) {
     if (!take(prepare_balance(work, rays))) return false;
   }
-  while (!patches.empty() && work.bounces < kMostBounces) {
+  while (!patches.empty() && work.bounces < kMaxBounces) {
     const bool within = take(balance(work, rays));
     if (work.balanced < patches.size()) return false;
     ++work.bounces;

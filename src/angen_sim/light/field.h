@@ -32,8 +32,8 @@ struct Solution {
   std::uint64_t serials_before = 0;  // patches of higher ones were made after it was begun
   bool outlined = false;             // no more than the bounds, of what the lamp itself shines on
   // Light that other patches reflect, once queried: lx, by hash, and the state that it holds for.
-  mutable std::unordered_map<std::uint64_t, Rgb> beyond;
-  mutable std::uint64_t beyond_state = 0;
+  mutable std::unordered_map<std::uint64_t, Rgb> indirect_cache;
+  mutable std::uint64_t indirect_state = 0;
 };
 
 /// A partly computed solution; see Field::advance.
@@ -83,10 +83,10 @@ class Field {
 
   std::uint32_t patch_at(std::uint32_t shape, const Vec3& point, const Vec3& normal);
   /// Has links and patches that it needs made, and says what that costs in rays: nothing where a
-  /// solution or another call has been charged for them, whichever query made them.
-  std::int64_t charge(std::uint32_t patch);
-  bool charged(std::uint32_t patch) const {
-    return patch < patch_links_.size() && patch_links_[patch].charged;
+  /// solution or another call has been counted for them, whichever query made them.
+  std::int64_t cost_of(std::uint32_t patch);
+  bool counted(std::uint32_t patch) const {
+    return patch < patch_links_.size() && patch_links_[patch].counted;
   }
   std::uint64_t serial(std::uint32_t patch) const { return surfaces_[patch].serial; }
   bool alive(std::uint32_t patch) const { return surfaces_[patch].alive; }
@@ -130,8 +130,8 @@ class Field {
 
     std::vector<Link> links;
     Eigen::AlignedBox3d reach;
-    bool charged = false;     // see charge()
-    bool made = false;        // the making of its patch has been charged
+    bool counted = false;     // see cost_of()
+    bool made = false;        // the making of its patch has been counted
     std::uint64_t scene = 0;  // the revision that they were found in
   };
   using Box = Eigen::AlignedBox3d;
@@ -140,11 +140,11 @@ class Field {
   void compare(std::uint32_t shape, const Known& now, bool is_static, std::vector<Change>& changes);
   void note(std::uint32_t shape, const Box& box, bool is_static, std::vector<Change>& changes);
   void forget_near(const Box& box);
-  void drop_uncharged();
+  void drop_uncounted();
   bool in_flux() const { return updating_ || !outdated_.empty(); }
   std::uint32_t place(const Solution& solution, std::uint32_t patch, bool stale) const;
-  Rgb beyond(const Solution& solution, std::uint32_t patch, bool stale);
-  std::int64_t charge_making(std::uint32_t patch);
+  Rgb cached_indirect(const Solution& solution, std::uint32_t patch, bool stale);
+  std::int64_t cost_of_making(std::uint32_t patch);
   const std::vector<Link>& links(std::uint32_t patch);
   Link link_of(const rays::Ray& ray, const rays::Hit& hit);
   std::int64_t update_links(std::uint32_t patch);
@@ -168,9 +168,9 @@ class Field {
   bool updating_ = false;
   std::vector<Box> boxes_;                // that the update under way is about
   std::vector<std::uint32_t> releasing_;  // numbers that are free after it
-  std::size_t updated_ = 0;               // of `charged_`
-  std::vector<std::uint32_t> charged_;    // patches, in the order in which they were
-  std::vector<std::uint32_t> uncharged_;  // that have links all the same
+  std::size_t updated_ = 0;               // of `counted_`
+  std::vector<std::uint32_t> counted_;    // patches, in the order in which they were
+  std::vector<std::uint32_t> uncounted_;  // that have links all the same
 };
 
 }  // namespace angen::light

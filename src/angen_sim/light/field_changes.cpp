@@ -115,31 +115,31 @@ void Field::start_update() {
     if (patch < patch_links_.size()) patch_links_[patch] = {};
   }
   outdated_.clear();
-  drop_uncharged();
+  drop_uncounted();
 }
 
-void Field::drop_uncharged() {
-  for (const std::uint32_t patch : uncharged_) {
-    if (!charged(patch)) patch_links_[patch].links.clear();
+void Field::drop_uncounted() {
+  for (const std::uint32_t patch : uncounted_) {
+    if (!counted(patch)) patch_links_[patch].links.clear();
   }
-  uncharged_.clear();
+  uncounted_.clear();
 }
 
 std::int64_t Field::update(std::int64_t rays) {
   std::int64_t cost = 0;
-  for (; updated_ < charged_.size() && cost < rays; ++updated_) {
-    cost += update_links(charged_[updated_]);
+  for (; updated_ < counted_.size() && cost < rays; ++updated_) {
+    cost += update_links(counted_[updated_]);
   }
-  if (updated_ < charged_.size()) return cost;
+  if (updated_ < counted_.size()) return cost;
   updating_ = false;
-  drop_uncharged();
+  drop_uncounted();
   ++revision_;
   ++updates_;
   for (const std::uint32_t patch : releasing_) {
     if (patch < patch_links_.size()) patch_links_[patch] = {};
   }
-  const auto gone = [&](std::uint32_t patch) { return !charged(patch); };
-  charged_.erase(std::remove_if(charged_.begin(), charged_.end(), gone), charged_.end());
+  const auto gone = [&](std::uint32_t patch) { return !counted(patch); };
+  counted_.erase(std::remove_if(counted_.begin(), counted_.end(), gone), counted_.end());
   surfaces_.release(releasing_);
   releasing_.clear();
   return cost;
@@ -147,7 +147,7 @@ std::int64_t Field::update(std::int64_t rays) {
 
 /// Returns the cost in rays.
 std::int64_t Field::update_links(std::uint32_t patch) {
-  if (!patch_links_[patch].charged) return 0;
+  if (!patch_links_[patch].counted) return 0;
   std::vector<Box> near;
   for (const Box& box : boxes_) {
     // A link ends on a patch that may go on beyond it.
@@ -170,7 +170,7 @@ std::int64_t Field::update_links(std::uint32_t patch) {
     scene_.cast(&again, &hit, 1, kStanding);
     const Link link = link_of(again, hit);
     patch_links_[patch].links[i] = link;
-    cost += charge_making(link.patch);
+    cost += cost_of_making(link.patch);
     patch_links_[patch].reach.extend(end_of(again, hit.range));
   }
   return cost;

@@ -42,15 +42,16 @@ Rgb Field::reflected(const Solution& solution, std::uint32_t patch, bool stale) 
   if (at != kNoPatch) return solution.reflected[at];
   if (solution.patches.empty()) return Rgb::Zero();
   // What of a stale one has to be found first is found with the next: who queries leaves no trace.
-  return stale && !charged(patch) ? Rgb(Rgb::Zero()) : beyond(solution, patch, stale);
+  return stale && !counted(patch) ? Rgb(Rgb::Zero()) : cached_indirect(solution, patch, stale);
 }
 
 /// One more bounce, from what the solution reaches.
-Rgb Field::beyond(const Solution& solution, std::uint32_t patch, bool stale) {
+Rgb Field::cached_indirect(const Solution& solution, std::uint32_t patch, bool stale) {
   const std::uint64_t state = 2 * (in_flux() ? ~scene_.revision() : revision_) + (stale ? 1 : 0);
-  if (solution.beyond_state != state) solution.beyond.clear();
-  solution.beyond_state = state;
-  const auto [known, is_new] = solution.beyond.try_emplace(surfaces_[patch].hash, Rgb::Zero());
+  if (solution.indirect_state != state) solution.indirect_cache.clear();
+  solution.indirect_state = state;
+  const auto [known, is_new] =
+      solution.indirect_cache.try_emplace(surfaces_[patch].hash, Rgb::Zero());
   if (!is_new) return known->second;
   Rgb sum = Rgb::Zero();
   const std::vector<Link>& seen_from = links(patch);

@@ -12,9 +12,9 @@
 namespace angen::light {
 namespace {
 
-constexpr std::size_t kMostWays = 1024;  // from all points of movers, about
-constexpr double kGrazing = 0.15;        // cosine: areas seen at less are not trusted
-constexpr std::size_t kStride = 797;     // odd: every direction is taken once
+constexpr std::size_t kMaxWays = 1024;  // from all points of movers, about
+constexpr double kGrazing = 0.15;       // cosine: areas seen at less are not trusted
+constexpr std::size_t kStride = 797;    // odd: every direction is taken once
 constexpr std::uint32_t kNoMover = UINT32_MAX;
 constexpr double kGatherMargin = 1e-4;  // m, a surface does not meet its own rays
 constexpr rays::Mobilities kMovable = rays::kAll & ~rays::only(rays::Mobility::kStatic);
@@ -154,7 +154,7 @@ void Gather::find_around() {
   around_.clear();
   const auto free = static_cast<std::size_t>(std::count_if(
       movers_.begin(), movers_.end(), [](const Mover& mover) { return !mover.anchored; }));
-  ways_ = free <= kMostWays / 4 ? 4 : free <= kMostWays / 2 ? 2 : 1;
+  ways_ = free <= kMaxWays / 4 ? 4 : free <= kMaxWays / 2 ? 2 : 1;
   unsigned count = 0;
   for (Mover& mover : movers_) {
     if (mover.anchored) continue;
@@ -211,7 +211,7 @@ std::size_t Gather::lacking(const Source& source) {
 }
 
 bool Gather::lacks(std::uint32_t patch, const Source& source) const {
-  return !field_.reaches(source.solution, patch, false) && !field_.charged(patch);
+  return !field_.reaches(source.solution, patch, false) && !field_.counted(patch);
 }
 
 bool Gather::prepare(const Source& source, std::int64_t& rays) {
@@ -220,7 +220,7 @@ bool Gather::prepare(const Source& source, std::int64_t& rays) {
   for (const std::uint32_t patch : patches_) {
     if (!lacks(patch, source)) continue;
     if (rays <= 0) return false;
-    rays -= field_.charge(patch);
+    rays -= field_.cost_of(patch);
   }
   return true;
 }

@@ -34,7 +34,7 @@ class Gather {
   /// Nothing has moved in the box since they were found.
   void hold_movers(const Eigen::AlignedBox3d& within);
 
-  /// How many surfaces' patches see what prepare() has not been charged for.
+  /// How many surfaces' patches see what prepare() has not been counted for.
   std::size_t lacking(const Source& source);
   /// Finds what they see, for the cost of about `rays` rays, which it takes off. True when that is
   /// all.

@@ -12,7 +12,7 @@ namespace {
 // Half of the color range: about what a white wall returns at 200 lx.
 constexpr float kMiddleLuminance = 50.0F;     // cd/m^2
 constexpr std::int64_t kDeliveryRays = 5000;  // some 1 ms
-constexpr std::size_t kMostReceivers = 256;   // before those are dropped that are gone
+constexpr std::size_t kMaxReceivers = 256;    // before those are dropped that are gone
 // Costs in rays, measured; they decide only what a tick does.
 constexpr std::size_t kCostToSee = 8000;     // what stands around a place
 constexpr std::size_t kCostOfMovers = 2000;  // what moves before it
@@ -20,7 +20,7 @@ constexpr std::size_t kCostOfLamp = 1500;
 constexpr std::size_t kCostOfFarLamp = 100;
 constexpr std::size_t kCostOfPatch = 500;  // with the patches that it sees
 
-/// Of what a lamp sends to a place, once the place's patches are charged.
+/// Of what a lamp sends to a place, once the place's patches are counted.
 std::size_t cost_of(const Gather& gather, const Source& source, bool with_movers) {
   if (!gather.may_see(source.solution.bounds)) return kCostOfFarLamp;
   return kCostOfLamp + (with_movers ? kCostOfMovers : 0);
@@ -47,7 +47,7 @@ Receiver& Lighting::receiver(Probe& probe, const Pose& pose) const {
     probe.receiver = std::make_shared<Receiver>(pose);
     probe.lighting = id_;
     probe.reach = Eigen::AlignedBox3d(pose.position);
-    if (receivers_.size() >= kMostReceivers) {
+    if (receivers_.size() >= kMaxReceivers) {
       const auto expired = [](const std::weak_ptr<Receiver>& each) { return each.expired(); };
       receivers_.erase(std::remove_if(receivers_.begin(), receivers_.end(), expired),
                        receivers_.end());
@@ -189,7 +189,7 @@ void Lighting::deliver() {
   while (left > 0 && !deliveries_.empty() && !field_->updating()) {
     const Delivery delivery = deliveries_.front();
     if (const std::shared_ptr<Receiver> receiver = delivery.receiver.lock()) {
-      if (!std::exchange(receiver->charged, true)) left -= kCostToSee;
+      if (!std::exchange(receiver->counted, true)) left -= kCostToSee;
       see(*receiver);
       if (delivery.lamp && !deliver(*receiver, *delivery.lamp, left)) break;
     }

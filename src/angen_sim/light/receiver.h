@@ -44,7 +44,7 @@ struct Receiver {
   Pose pose;
   bool ahead = false;    // see Probe
   bool begun = false;    // its light has been queried, or will be
-  bool charged = false;  // for its gather, by Lighting::advance
+  bool counted = false;  // for its gather, by Lighting::advance
   std::unique_ptr<Gather> gather;
   std::vector<Known> known;  // by the lamp's index
 };

@@ -16,7 +16,7 @@ constexpr float kNearPoint = 0.6F, kFar = 2.4F;  // m
 constexpr float kMerged = 1.2F;  // m, of cells whose pieces are one from farther away
 // What lies off the plane of a surface is another surface, at a third of the distance already.
 constexpr float kOffPlane = 3.0F;
-constexpr float kLeastWeight = 1e-3F;
+constexpr float kMinWeight = 1e-3F;
 constexpr float kLift = 0.02F;   // m off the surfaces that pieces are looked for
 constexpr float kAlong = 0.99F;  // cosine to an axis that counts as along it
 constexpr int kSlanted = 6;
@@ -58,7 +58,7 @@ bool is_before(const Piece& a, const Piece& b) {
 class Heaviest {
  public:
   void add(const Piece& piece, float weight) {
-    if (!(weight > kLeastWeight) || (full() && weight <= all_[kMost - 1].second)) return;
+    if (!(weight > kMinWeight) || (full() && weight <= all_[kMax - 1].second)) return;
     int at = full() ? count_ - 1 : count_++;
     for (; at > 0 && all_[at - 1].second < weight; --at) all_[at] = all_[at - 1];
     all_[at] = {&piece, weight};
@@ -68,7 +68,7 @@ class Heaviest {
   bool mean(const Eigen::Vector3f& from, const ReflectedLookup::Visible& visible,
             Eigen::Vector3f& out) const {
     if (count_ == 0) return false;
-    std::array<Eigen::Vector3f, kMost> places;
+    std::array<Eigen::Vector3f, kMax> places;
     for (int i = 0; i < count_; ++i) {
       places[i] = all_[i].first->position + kLift * all_[i].first->normal;
     }
@@ -85,10 +85,10 @@ class Heaviest {
   }
 
  private:
-  static constexpr int kMost = ReflectedLookup::kMost;
-  bool full() const { return count_ == kMost; }
+  static constexpr int kMax = ReflectedLookup::kMax;
+  bool full() const { return count_ == kMax; }
 
-  std::array<std::pair<const Piece*, float>, kMost> all_{};
+  std::array<std::pair<const Piece*, float>, kMax> all_{};
   int count_ = 0;
 };
 

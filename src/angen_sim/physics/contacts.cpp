@@ -19,9 +19,9 @@ constexpr double kStickMu = 1e6;       // from here on nothing slides
 constexpr std::size_t kManyJoints = 256;
 constexpr double kStopSteps =
     2.0;  // contacts that friction stops within this many steps do not slide
-constexpr double kLeastSlip = 1e-6;         // m/s
-constexpr double kLeastLoad = 1e-6;         // N
-constexpr std::size_t kMostInStep = 20000;  // points
+constexpr double kMinSlip = 1e-6;          // m/s
+constexpr double kMinLoad = 1e-6;          // N
+constexpr std::size_t kMaxInStep = 20000;  // points
 constexpr double kPush =
     50.0;  // m/s^2, at which a soft contact lifts a body that is deep in the floor
 
@@ -122,12 +122,12 @@ void Contacts::start() {
   points_.clear();
 }
 
-bool Contacts::full() const { return found_.size() >= kMostInStep; }
+bool Contacts::full() const { return found_.size() >= kMaxInStep; }
 
 bool Contacts::collide(Geom& a, Geom& b) {
   Geom& first = a.serial < b.serial ? a : b;
   Geom& second = a.serial < b.serial ? b : a;
-  std::array<dContactGeom, kMostFound> found;
+  std::array<dContactGeom, kMaxFound> found;
   const std::size_t n = touching_points(first, second, found.data());
   if (n == 0) return false;
   std::size_t kept = reduce_points(found.data(), n);
@@ -188,14 +188,14 @@ void Contacts::align(dContact& contact, const Pair& pair) const {
   } else {
     const Load& last = found->second;
     const double stopped = kStopSteps * contact.surface.mu * last.pressed * step_ * inverse;
-    if (slip.norm() > std::max(stopped, kLeastSlip)) {  // m/s
+    if (slip.norm() > std::max(stopped, kMinSlip)) {  // m/s
       contact.surface.mode |= dContactMu2;
       contact.surface.mu2 = 0.0;
       return set_direction(contact, slip.normalized());
     }
     load -= (a.dynamic() ? 1.0 : -1.0) * across(normal, last.friction);
   }
-  if (load.norm() > kLeastLoad) set_direction(contact, load.normalized());
+  if (load.norm() > kMinLoad) set_direction(contact, load.normalized());
 }
 
 void Contacts::sum_loads() {

@@ -72,7 +72,7 @@ void aim_drive(const Body& body, double h) {
   dJointSetAMotorParam(drive.angular.get(), dParamFMax1, kArm * drive.max_force);
 }
 
-void straighten(Body& body) {
+void set_upright(Body& body) {
   dBodyID ode = body.ode.get();
   const Quat turned = ode::quat(dBodyGetQuaternion(ode)) * body.upright_at.conjugate();
   const double half_yaw = std::atan2(turned.z(), turned.w());

@@ -15,6 +15,6 @@ bool set_drive(dWorldID world, Body& body, const Vec3& velocity, double yaw_rate
 void aim_drive(const Body& body, double h);
 
 /// Takes the tilt that rounding left out of an upright body, after a step.
-void straighten(Body& body);
+void set_upright(Body& body);
 
 }  // namespace angen::physics

@@ -89,7 +89,7 @@ bool triangle_of(dGeomID mesh, int index, Triangle& out) {
 std::vector<dContactGeom> mended(const FlatPart& part, dGeomID mesh, dGeomID solid,
                                  const OnPlane& on_plane, bool mesh_first) {
   const Triangle& any = part.triangles.front();
-  std::array<dContactGeom, kMostOnPlane> found;
+  std::array<dContactGeom, kMaxOnPlane> found;
   const std::size_t n = on_plane(any.normal, any.normal.dot(any.corners[0]), found.data());
   const double most_depth = part.most_depth();
   std::vector<dContactGeom> out;
@@ -112,8 +112,8 @@ std::vector<dContactGeom> mended(const FlatPart& part, dGeomID mesh, dGeomID sol
 
 }  // namespace
 
-std::size_t mend_flat_parts(dGeomID mesh, dGeomID solid, const OnPlane& on_plane, bool mesh_first,
-                            dContactGeom* points, std::size_t n, std::size_t most) {
+std::size_t fix_flat_parts(dGeomID mesh, dGeomID solid, const OnPlane& on_plane, bool mesh_first,
+                           dContactGeom* points, std::size_t n, std::size_t most) {
   dReal box[6];
   dGeomGetAABB(solid, box);
   const Vec3 center = Vec3(box[0] + box[1], box[2] + box[3], box[4] + box[5]) / 2.0;

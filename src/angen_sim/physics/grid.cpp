@@ -7,8 +7,8 @@ namespace angen::physics {
 
 namespace {
 
-constexpr double kCell = 2.0;      // m
-constexpr double kMost = 1 << 19;  // cells from the origin; geoms beyond are unbounded
+constexpr double kCell = 2.0;     // m
+constexpr double kMax = 1 << 19;  // cells from the origin; geoms beyond are unbounded
 constexpr double kManyCells = 20000.0;
 
 bool cells_of(const Aabb& box, std::array<int, 6>& cells) {
@@ -16,7 +16,7 @@ bool cells_of(const Aabb& box, std::array<int, 6>& cells) {
   for (std::size_t i = 0; i < 3; ++i) {
     const double first = std::floor(box.min[i] / kCell);
     const double last = std::floor(box.max[i] / kCell);
-    if (!(first > -kMost && last < kMost)) return false;
+    if (!(first > -kMax && last < kMax)) return false;
     count *= last - first + 1.0;
     cells[2 * i] = static_cast<int>(first);
     cells[2 * i + 1] = static_cast<int>(last);

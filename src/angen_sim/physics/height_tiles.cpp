@@ -6,8 +6,8 @@
 namespace angen::physics {
 namespace {
 
-constexpr std::uint32_t kCells = 16;      // along a side of a tile
-constexpr std::size_t kMostTiles = 4096;  // that are kept, of some 50 kB each
+constexpr std::uint32_t kCells = 16;     // along a side of a tile
+constexpr std::size_t kMaxTiles = 4096;  // that are kept, of some 50 kB each
 
 std::uint32_t tiles_along(std::uint32_t count) { return (count - 2) / kCells + 1; }
 
@@ -46,7 +46,7 @@ dTriMeshDataID HeightTiles::tile(std::uint32_t column, std::uint32_t row,
                                  const Eigen::AlignedBox3d& box) {
   auto known = tiles_.find({column, row});
   if (known == tiles_.end()) {
-    if (tiles_.size() >= kMostTiles) tiles_.clear();
+    if (tiles_.size() >= kMaxTiles) tiles_.clear();
     known = tiles_.emplace(std::make_pair(column, row), make(column, row)).first;
   }
   Mesh& mesh = known->second;

@@ -10,7 +10,7 @@ namespace {
 // Their cost in dWorldStep: rows of joints have no bounds, unlike those of friction.
 constexpr std::size_t kCostOfContact = 3;
 constexpr std::size_t kCostOfJoint = 1;
-constexpr std::size_t kMostCost = 300;
+constexpr std::size_t kMaxCost = 300;
 
 // A body that has been stopped is like a static one.
 bool joins(const Body& body) { return body.dynamic() && body.awake; }
@@ -45,7 +45,7 @@ bool mark_large_islands(const std::vector<Body*>& awake,
   for (const Body* body : awake) sum += kCostOfJoint * body->joints.size();
   for (const Contacts::Pair& pair : touching) sum += kCostOfContact * pair.count;
   for (Body* body : awake) body->iterated = false;
-  if (sum <= kMostCost) return false;
+  if (sum <= kMaxCost) return false;
 
   const Islands islands(awake, touching);
   std::vector<std::size_t> costs(awake.size(), 0);
@@ -58,8 +58,8 @@ bool mark_large_islands(const std::vector<Body*>& awake,
     const Body& body = joins(*pair.first->body) ? *pair.first->body : *pair.second->body;
     costs[islands.of(body)] += kCostOfContact * pair.count;
   }
-  for (Body* body : awake) body->iterated = costs[islands.of(*body)] > kMostCost;
-  return *std::max_element(costs.begin(), costs.end()) > kMostCost;
+  for (Body* body : awake) body->iterated = costs[islands.of(*body)] > kMaxCost;
+  return *std::max_element(costs.begin(), costs.end()) > kMaxCost;
 }
 
 }  // namespace angen::physics

@@ -9,7 +9,7 @@ namespace angen::physics {
 
 namespace {
 
-constexpr std::size_t kDirections = kMostOnPlane - 1;
+constexpr std::size_t kDirections = kMaxOnPlane - 1;
 
 struct Extreme {
   Vec3 direction;  // in the mesh's frame
@@ -24,10 +24,10 @@ struct Extreme {
   }
 };
 
-std::array<Extreme, kMostOnPlane> extremes_of(const Vec3& normal) {
+std::array<Extreme, kMaxOnPlane> extremes_of(const Vec3& normal) {
   const Vec3 right = normal.unitOrthogonal();
   const Vec3 ahead = normal.cross(right);
-  std::array<Extreme, kMostOnPlane> out;
+  std::array<Extreme, kMaxOnPlane> out;
   out[0].direction = -normal;
   for (std::size_t i = 0; i < kDirections; ++i) {
     const double angle = 2.0 * M_PI * static_cast<double>(i) / kDirections;
@@ -47,13 +47,13 @@ std::size_t collide_mesh_plane(const Geom& mesh, const Vec3& normal, double offs
   thread_local Eigen::RowVectorXd heights;
   heights.noalias() = own_normal.transpose() * corners;
 
-  std::array<Extreme, kMostOnPlane> extremes = extremes_of(own_normal);
+  std::array<Extreme, kMaxOnPlane> extremes = extremes_of(own_normal);
   for (Eigen::Index i = 0; i < corners.cols(); ++i) {
     if (heights[i] + height >= 0.0) continue;
     for (Extreme& extreme : extremes) extreme.meet(i, corners.col(i));
   }
   std::size_t found = 0;
-  std::array<Eigen::Index, kMostOnPlane> seen{};
+  std::array<Eigen::Index, kMaxOnPlane> seen{};
   for (const Extreme& extreme : extremes) {
     const auto end = seen.begin() + static_cast<std::ptrdiff_t>(found);
     if (extreme.corner < 0 || std::find(seen.begin(), end, extreme.corner) != end) continue;

@@ -7,7 +7,7 @@
 namespace angen::physics {
 
 /// Most points that collide_mesh_plane() finds.
-constexpr std::size_t kMostOnPlane = 9;
+constexpr std::size_t kMaxOnPlane = 9;
 
 /// Where a mesh is below a plane (normal · x = offset): the deepest vertex, and the outermost ones
 /// in eight directions, the normals towards the mesh. ODE takes the first that it comes upon, and

@@ -43,11 +43,11 @@ std::size_t reduce_upright(dContactGeom* points, std::size_t n) {
 
 std::size_t reduce_points(dContactGeom* points, std::size_t n) {
   n = remove_doubles(points, n, same);
-  if (n <= kMostPoints) return n;
+  if (n <= kMaxPoints) return n;
   std::iter_swap(points, std::max_element(points, points + n, [](const auto& a, const auto& b) {
                    return a.depth < b.depth;
                  }));
-  for (std::size_t kept = 1; kept < kMostPoints; ++kept) {
+  for (std::size_t kept = 1; kept < kMaxPoints; ++kept) {
     std::size_t best = kept;
     double best_distance = -1.0;
     for (std::size_t i = kept; i < n; ++i) {
@@ -62,7 +62,7 @@ std::size_t reduce_points(dContactGeom* points, std::size_t n) {
     }
     std::swap(points[kept], points[best]);
   }
-  return kMostPoints;
+  return kMaxPoints;
 }
 
 }  // namespace angen::physics

@@ -138,7 +138,7 @@ void World::Impl::renew() {
 
 void World::Impl::read_bodies() {
   for (Body* body : awake) {
-    if (body->upright) straighten(*body);
+    if (body->upright) set_upright(*body);
     const Pose at{ode::vec(dBodyGetPosition(body->ode.get())),
                   ode::quat(dBodyGetQuaternion(body->ode.get()))};
     if (at == body->at) continue;

@@ -15,7 +15,7 @@ constexpr double kApart = 1e-9;  // m, centers that are less apart coincide
 
 // ODE's cylinders have no normal (NaN) where a center lies on an axis or two stand exactly side by
 // side: they are parted along the line between them, else the moving one upward.
-void mend_normals(const Geom& first, const Geom& second, dContactGeom* points, std::size_t n) {
+void fix_normals(const Geom& first, const Geom& second, dContactGeom* points, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     if (ode::vec(points[i].normal).allFinite()) continue;
     Vec3 away =
@@ -48,15 +48,15 @@ std::size_t collide_geoms(dGeomID a, dGeomID b, std::size_t most, dContactGeom* 
 std::size_t collide_ground(dGeomID ground, const Geom& other, bool ground_first,
                            dContactGeom* points) {
   dGeomID solid = other.ode.get();
-  const std::size_t n = ground_first ? collide_geoms(ground, solid, kMostFound, points)
-                                     : collide_geoms(solid, ground, kMostFound, points);
+  const std::size_t n = ground_first ? collide_geoms(ground, solid, kMaxFound, points)
+                                     : collide_geoms(solid, ground, kMaxFound, points);
   if (n == 0) return 0;
   const auto on_plane = [&](const Vec3& normal, double offset, dContactGeom* found) {
     if (other.mesh) return collide_mesh_plane(other, normal, offset, found);
     const ode::GeomHandle plane(dCreatePlane(nullptr, normal.x(), normal.y(), normal.z(), offset));
-    return collide_geoms(solid, plane.get(), kMostOnPlane, found);
+    return collide_geoms(solid, plane.get(), kMaxOnPlane, found);
   };
-  return mend_flat_parts(ground, solid, on_plane, ground_first, points, n, kMostFound);
+  return fix_flat_parts(ground, solid, on_plane, ground_first, points, n, kMaxFound);
 }
 
 // A heightmap is ground: two of them do not touch.
@@ -64,15 +64,15 @@ std::size_t collide_tiles(const Geom& first, const Geom& second, dContactGeom* p
   if (first.tiles && second.tiles) return 0;
   const Geom& ground = first.tiles ? first : second;
   const Geom& other = first.tiles ? second : first;
-  std::array<dContactGeom, kMostFound> found;
+  std::array<dContactGeom, kMaxFound> found;
   std::size_t n = 0;
   ground.tiles->each_in(in_frame_of(ground, other.box), [&](dTriMeshDataID mesh) {
     dGeomTriMeshSetData(ground.tile.get(), mesh);
     std::size_t count =
         collide_ground(ground.tile.get(), other, first.tiles != nullptr, found.data());
-    mend_normals(first, second, found.data(), count);
+    fix_normals(first, second, found.data(), count);
     count = reduce_points(found.data(), count);
-    if (n + count > kMostFound) n = reduce_points(points, n);
+    if (n + count > kMaxFound) n = reduce_points(points, n);
     std::copy_n(found.begin(), count, points + n);
     n += count;
   });
@@ -104,7 +104,7 @@ std::size_t touching_points(const Geom& first, const Geom& second, dContactGeom*
   dGeomID a = first.ode.get();
   dGeomID b = second.ode.get();
   if (dGeomGetClass(a) == dBoxClass && dGeomGetClass(b) == dBoxClass) {
-    return collide_boxes(a, b, points, kMostFound);
+    return collide_boxes(a, b, points, kMaxFound);
   }
   std::size_t n = 0;
   if (first.mesh && !first.body->dynamic()) {
@@ -112,9 +112,9 @@ std::size_t touching_points(const Geom& first, const Geom& second, dContactGeom*
   } else if (second.mesh && !second.body->dynamic()) {
     n = collide_ground(b, first, false, points);
   } else {
-    n = collide_geoms(a, b, kMostFound, points);
+    n = collide_geoms(a, b, kMaxFound, points);
   }
-  mend_normals(first, second, points, n);
+  fix_normals(first, second, points, n);
   return n;
 }
 

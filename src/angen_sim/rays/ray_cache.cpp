@@ -12,12 +12,12 @@ namespace angen::rays {
 namespace {
 
 constexpr int kLanes = 4;
-constexpr double kMargin = 1e-6;           // m, more than a hit's place may be off by rounding
-constexpr float kLeastDirection = 1e-12F;  // less counts as this: keeps 0 * inf out of slab tests
+constexpr double kMargin = 1e-6;         // m, more than a hit's place may be off by rounding
+constexpr float kMinDirection = 1e-12F;  // less counts as this: keeps 0 * inf out of slab tests
 
 float inverse(double direction) {
   const auto d = static_cast<float>(direction);
-  return 1.0F / (std::abs(d) < kLeastDirection ? std::copysign(kLeastDirection, d) : d);
+  return 1.0F / (std::abs(d) < kMinDirection ? std::copysign(kMinDirection, d) : d);
 }
 
 bool usable(const Ray& ray) {

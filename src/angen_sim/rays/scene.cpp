@@ -15,7 +15,7 @@
 namespace angen::rays {
 namespace {
 
-constexpr std::size_t kMostChanges = 4096;
+constexpr std::size_t kMaxChanges = 4096;
 
 struct Entry {
   Mobility mobility;
@@ -70,9 +70,9 @@ struct Scene::Impl {
   void note_standing(std::uint32_t index) {
     std::uint64_t& noted = places[index].noted;
     if (noted >= read) return;  // nobody has read that yet
-    if (changes.size() == 2 * kMostChanges) {
-      changes.erase(changes.begin(), changes.begin() + kMostChanges);
-      forgotten += kMostChanges;
+    if (changes.size() == 2 * kMaxChanges) {
+      changes.erase(changes.begin(), changes.begin() + kMaxChanges);
+      forgotten += kMaxChanges;
     }
     noted = forgotten + changes.size();
     changes.push_back(index);

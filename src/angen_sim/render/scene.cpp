@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kHousing = 0.5F;    // m, in depth: walls of a housing stand nearer
 constexpr float kPastWall = 1e-5F;  // m
-constexpr int kMostWalls = 8;
+constexpr int kMaxWalls = 8;
 
 struct Entry {
   Body body;
@@ -118,7 +118,7 @@ Facet facet_of(const RTCRayHit16& rays, int i, const Placed& placed) {
 /// which is not seen where back faces are not drawn.
 void leave_housing(const Stand& stand, float far, const int* valid, RTCRayHit16& rays) {
   alignas(64) int inside[kLanes];
-  for (int walls = 0; walls < kMostWalls; ++walls) {
+  for (int walls = 0; walls < kMaxWalls; ++walls) {
     bool any = false;
     for (int i = 0; i < kLanes; ++i) {
       inside[i] = 0;

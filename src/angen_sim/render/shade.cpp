@@ -10,7 +10,7 @@
 namespace angen::render {
 namespace {
 
-constexpr float kLeast = 0.1F;    // lx; less is not worth a shadow ray
+constexpr float kMin = 0.1F;      // lx; less is not worth a shadow ray
 constexpr float kLift = 1e-3F;    // m off the surface that a shadow ray starts
 constexpr float kFarAway = 1e4F;  // m, as far as anything stands before a directional lamp
 // Points of a tile so near and alike get the same reflected light, which varies over decimeters.
@@ -80,7 +80,7 @@ void find_occluded(const int* wanted, RTCScene opaque, RTCRay16& rays) {
 
 }  // namespace
 
-static_assert(light::ReflectedLookup::kMost == kLanes);
+static_assert(light::ReflectedLookup::kMax == kLanes);
 
 std::uint32_t seen_from(const Eigen::Vector3f& from, const Eigen::Vector3f* to, int count,
                         RTCScene opaque) {
@@ -114,7 +114,7 @@ void shine(const light::Lit& lit, RTCScene opaque, Tile& tile) {
     float cosine = tile.normal[i].dot(way) / distance;
     if (tile.through[i]) cosine = std::abs(cosine);
     illuminance[i] = facing * cosine;
-    if (!(illuminance[i] > kLeast)) continue;
+    if (!(illuminance[i] > kMin)) continue;
     wanted[i] = -1;
     any = true;
     set_segment(tile.point[i] + kLift * tile.normal[i], way, i, rays);

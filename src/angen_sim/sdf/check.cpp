@@ -199,10 +199,8 @@ void check_joint(Element& joint, const std::set<std::string>& known, Session& se
     const double lower = numbers_in(limit->child("lower")->text).values.at(0);
     const double upper = numbers_in(limit->child("upper")->text).values.at(0);
     if (lower > upper) {
-      throw Error(limit->source, "the limits of " + tag_of(joint) +
-                                     " are the wrong way round: "
-                                     "lower " +
-                                     number_text(lower) + ", upper " + number_text(upper));
+      throw Error(limit->source, "the limits of " + tag_of(joint) + ": lower exceeds upper, " +
+                                     number_text(lower) + " > " + number_text(upper));
     }
   }
 }

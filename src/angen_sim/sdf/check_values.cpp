@@ -217,7 +217,7 @@ void check_rule(const Element& element, const Rule& rule, bool clamped) {
 }
 
 // What has no thickness is as thin as Gazebo makes it, as a plate of 0.3 0.2 0 m.
-void thicken(const std::string& shape, Element& element, Session& session) {
+void set_minimum_thickness(const std::string& shape, Element& element, Session& session) {
   static const std::set<std::string> shapes = {"box", "sphere", "cylinder", "capsule"};
   if (!session.tolerant || shapes.count(shape) == 0) return;
   constexpr double kThin = 1e-4;  // m
@@ -225,7 +225,7 @@ void thicken(const std::string& shape, Element& element, Session& session) {
   std::vector<double>& values = found.values;
   if (!found.bad.empty() || std::find(values.begin(), values.end(), 0.0) == values.end()) return;
   std::replace(values.begin(), values.end(), 0.0, kThin);
-  session.forgive(
+  session.warn_or_throw(
       Error(element.source,
             "<" + element.name + "> is 0; it must be greater than 0; it is taken as 0.1 mm"));
   element.text.clear();
@@ -234,21 +234,21 @@ void thicken(const std::string& shape, Element& element, Session& session) {
 
 // What was thrown far out of a world that somebody saved.
 void clamp_pose(Element& pose, Session& session) {
-  constexpr double kMost = limits::kPosition.most;
+  constexpr double kMax = limits::kPosition.most;
   Numbers found = numbers_in(pose.text);
   if (!session.tolerant || !found.bad.empty() || found.values.size() != 6) return;
   std::string text;
   bool far = false;
   for (std::size_t i = 0; i < found.values.size(); ++i) {
     const double value = found.values[i];
-    const bool beyond = i < 3 && std::isfinite(value) && std::abs(value) > kMost;
+    const bool beyond = i < 3 && std::isfinite(value) && std::abs(value) > kMax;
     far = far || beyond;
-    text += number_text(beyond ? std::copysign(kMost, value) : value) + " ";
+    text += number_text(beyond ? std::copysign(kMax, value) : value) + " ";
   }
   if (!far) return;
-  session.forgive(Error(pose.source, "<pose> is beyond " + number_text(kMost) +
-                                         " m, the farthest that anything can stand; it is taken " +
-                                         "as that"));
+  session.warn_or_throw(
+      Error(pose.source, "<pose> is beyond " + number_text(kMax) +
+                             " m, the farthest that anything can stand; it is taken " + "as that"));
   pose.text = text;
 }
 
@@ -292,7 +292,7 @@ void check_values(Element& element, Session& session) {
       const auto rule = rules().find({element.name, child.name});
       const auto bounds = solver_bounds().find({element.name, child.name});
       const bool clamped = bounds != solver_bounds().end();
-      if (rule != rules().end()) thicken(element.name, child, session);
+      if (rule != rules().end()) set_minimum_thickness(element.name, child, session);
       if (rule != rules().end()) check_rule(child, rule->second, clamped);
       if (clamped) clamp_to(bounds->second, child, session);
     }

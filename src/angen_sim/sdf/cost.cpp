@@ -84,7 +84,7 @@ double file_cost(const Element& shape, Session& session) {
   const std::optional<std::string> file = find_uri(uri->text, uri->source.file, session);
   // One that it may not name is refused later; others are shared between their uses.
   if (!file || !session.allowed.holds(*file, uri->source.file)) return 0.0;
-  if (!session.charged.insert(*file).second) return 0.0;
+  if (!session.counted_files.insert(*file).second) return 0.0;
   std::error_code failed;
   if (!std::filesystem::is_regular_file(*file, failed)) return 0.0;
   if (shape.name == "heightmap") return kHeightSample * heights_in(*file);
@@ -117,7 +117,7 @@ void set_memory_limit(double megabytes) {
   limit() = megabytes;
 }
 
-void charge(const Element& expanded, Session& session) {
+void check_memory(const Element& expanded, Session& session) {
   const double bytes = bytes_of(expanded, session);
   session.bytes += bytes;
   const double most = memory_limit();

@@ -8,6 +8,6 @@ namespace angen::load {
 /// Adds what an expanded <model>, <actor> or <light> takes in memory to the session's sum: its
 /// elements, links, sensors with their rays and pixels, and triangles of meshes and heightmaps by
 /// the sizes of their files. Throws Error at it where the sum passes memory_limit().
-void charge(const Element& expanded, Session& session);
+void check_memory(const Element& expanded, Session& session);
 
 }  // namespace angen::load

@@ -50,7 +50,7 @@ void check_entry(Entry& entry, Session& session) {
     throw Error(entry.original.source, "more than " + std::to_string(kMaxModelElements) +
                                            " elements in one model; split it into several");
   }
-  charge(element, session);
+  check_memory(element, session);
   if (element.name == "model") check_model(element, session);
 }
 

@@ -141,9 +141,9 @@ bool is_merge(const Element& include) {
   return merge != nullptr && *merge != "false" && *merge != "0";
 }
 
-bool straighten_numbers(Element& element, Session& session) {
+bool replace_typographic_characters(Element& element, Session& session) {
   bool changed = false;
-  const auto straighten = [&](std::string& text, const std::string& what) {
+  const auto replace = [&](std::string& text, const std::string& what) {
     const std::optional<std::string> plain = plain_numbers(text);
     if (!plain) return;
     const std::string name = find_typographic(text)->name;
@@ -153,18 +153,18 @@ bool straighten_numbers(Element& element, Session& session) {
     changed = true;
   };
   for (auto& [key, value] : element.attributes) {
-    if (key != "name") straighten(value, "<" + element.name + " " + key + ">");
+    if (key != "name") replace(value, "<" + element.name + " " + key + ">");
   }
-  if (element.name != "name") straighten(element.text, "<" + element.name + ">");
+  if (element.name != "name") replace(element.text, "<" + element.name + ">");
   for (Element& child : element.children) {
-    changed = straighten_numbers(child, session) || changed;
+    changed = replace_typographic_characters(child, session) || changed;
   }
   return changed;
 }
 
 Element read_document(const std::string& text, const std::string& file, Session& session) {
   Element root = parse_xml(text, file);
-  const bool changed = straighten_numbers(root, session);
+  const bool changed = replace_typographic_characters(root, session);
   if (root.name == "robot") session.converted.insert(file);
   if (root.name == "robot") root = convert_urdf(changed ? print_xml(root) : text, root);
   if (root.name != "sdf") {
@@ -213,7 +213,7 @@ void expand_model(Element& model, Session& session) {
       try {
         included = expand_include(child, session);
       } catch (const Error& error) {
-        forgive_missing(child, error, session);
+        warn_or_throw_missing(child, error, session);
         continue;
       }
       if (included.name != "model") {

@@ -19,7 +19,7 @@ Element expand_include(const Element& include, Session& session);
 
 /// Replaces typographic characters (a minus sign of a PDF) in texts and attributes that are numbers
 /// otherwise, with a warning each; true where there were any.
-bool straighten_numbers(Element& element, Session& session);
+bool replace_typographic_characters(Element& element, Session& session);
 
 /// Whether an <include> in a <model> stands for the parts of the model and not for a nested one.
 bool is_merge(const Element& include);

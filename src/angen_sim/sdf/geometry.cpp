@@ -49,7 +49,7 @@ PlacedShape mesh(const Element& element, const Pose& pose, Session& session) {
   try {
     shape.mesh_file = need_uri(uri.text, "mesh", uri.source, session);
   } catch (const Error& error) {
-    forgive_missing(element, error, session);  // nothing stands in its place
+    warn_or_throw_missing(element, error, session);  // nothing stands in its place
     return placed;
   }
   session.sources.will_be_read(shape.mesh_file);
@@ -68,7 +68,7 @@ PlacedShape mesh(const Element& element, const Pose& pose, Session& session) {
     file = read_mesh(source, uri.source);
   } catch (const Error& error) {
     if (session.guessed) throw;
-    session.forgive(error);
+    session.warn_or_throw(error);
     shape.mesh_file.clear();
     return placed;
   }
@@ -146,7 +146,7 @@ std::vector<PlacedShape> shapes_of(const Element& geometry, const Pose& pose, Se
       check_size(each.shape, element);
     } catch (const Error& error) {
       if (!each.shape.mesh || session.guessed) throw;
-      session.forgive(error);
+      session.warn_or_throw(error);
       each = {{}, each.pose};
     }
   }

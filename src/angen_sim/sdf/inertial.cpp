@@ -14,9 +14,9 @@ namespace {
 // A body that exists, of nearly those moments: they are raised until each is above 0 and none
 // exceeds the sum of the others.
 desc::Inertial possible(desc::Inertial inertial) {
-  constexpr double kLeastGyration = 1e-3;  // m
+  constexpr double kMinGyration = 1e-3;  // m
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertial.moment);
-  const double least = inertial.mass * kLeastGyration * kLeastGyration;
+  const double least = inertial.mass * kMinGyration * kMinGyration;
   Vec3 moments = solver.eigenvalues().cwiseMax(least);  // ascending
   const double missing = std::max(0.0, moments[2] - moments[0] - moments[1]);
   moments[0] += missing / 2.0;
@@ -68,7 +68,7 @@ desc::Inertial inertial_of(const Element& link, bool never_moves, Session& sessi
   try {
     return read_inertial(link, never_moves, session);
   } catch (const Error& error) {
-    session.forgive(error);  // numbers that are none, of what never moves
+    session.warn_or_throw(error);  // numbers that are none, of what never moves
     return {};
   }
 }

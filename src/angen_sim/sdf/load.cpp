@@ -49,8 +49,7 @@ Element model_from_text(const std::string& text, Session& session) {
     const Element sdf = read_document(text, kText, session);
     const Element* child = lone_child(sdf, stands_for_model);
     if (child == nullptr) {
-      throw Error(sdf.source,
-                  "a model is wanted here: <sdf> with one <model>, <include> or <actor>");
+      throw Error(sdf.source, "expected <sdf> with one <model>, <include> or <actor>");
     }
     return *child;
   }
@@ -59,7 +58,7 @@ Element model_from_text(const std::string& text, Session& session) {
                                  "> is not a model; give <sdf>, <model>, <include>, "
                                  "<actor> or <robot>");
   }
-  straighten_numbers(root, session);
+  replace_typographic_characters(root, session);
   upgrade(root, kLoneVersion, session);
   make_uris_absolute(root, session);
   return root;
@@ -152,15 +151,15 @@ desc::Sensor sensor(const std::string& what, const std::string& name, const Pose
   Element root = parse_xml(what, kText);
   if (root.name == "sdf") {
     const Element* child = lone_child(root, [](const Element& e) { return e.name == "sensor"; });
-    if (child == nullptr) throw Error(root.source, "a <sensor> is wanted here; this holds none");
+    if (child == nullptr) throw Error(root.source, "expected <sensor>; <sdf> has none");
     root = Element(*child);
   }
   if (root.name != "sensor") {
-    throw Error(root.source, "a <sensor> is wanted here; this is <" + root.name + ">");
+    throw Error(root.source, "expected <sensor>; this is <" + root.name + ">");
   }
   const SearchPaths nowhere;
   Session session{nowhere};
-  straighten_numbers(root, session);
+  replace_typographic_characters(root, session);
   upgrade(root, kLoneVersion, session);
   root.attributes.erase(std::remove_if(root.attributes.begin(), root.attributes.end(),
                                        [](const auto& a) { return a.first == "version"; }),

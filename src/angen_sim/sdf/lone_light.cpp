@@ -27,9 +27,9 @@ const Element* light_in(const Element& root) {
 Element read_light(const std::string& what, const std::string& name, Session& session) {
   const Element root = parse_xml(what, kLightText);
   const Element* found = light_in(root);
-  if (found == nullptr) throw Error(root.source, "a <light> is wanted here");
+  if (found == nullptr) throw Error(root.source, "expected <light>; this is <" + root.name + ">");
   Element element = *found;
-  straighten_numbers(element, session);
+  replace_typographic_characters(element, session);
   upgrade(element, kLightVersion, session);
   if (!name.empty()) set_attribute(element, "name", name);
   return element;

@@ -139,7 +139,7 @@ void check_piece(const Element& world, Session& session) {
     if (error.Code() == sdf::ErrorCode::ELEMENT_INCORRECT_TYPE) {
       session.warn(at, one_line(error.Message()));
     } else {
-      session.forgive(Error(at, one_line(error.Message())));
+      session.warn_or_throw(Error(at, one_line(error.Message())));
     }
   }
 }

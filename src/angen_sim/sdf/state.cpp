@@ -67,7 +67,7 @@ void apply_state(const Element& state, desc::World& world, Session& session) {
     try {
       apply_model(element, world);
     } catch (const Error& error) {
-      session.forgive(error);
+      session.warn_or_throw(error);
     }
   }
 }

@@ -17,7 +17,7 @@ std::shared_ptr<const Texture> texture_in(const std::string& path, const Source&
   session.sources.will_be_read(path);
   try {
     std::shared_ptr<const Texture> texture = read_texture(path);
-    if (session.charged.insert(path).second) {
+    if (session.counted_files.insert(path).second) {
       session.bytes += static_cast<double>(texture->bytes.size());
     }
     return texture;

@@ -56,11 +56,12 @@ Parts split(const Element& world, Session& session) {
     try {
       entry = expand_entry(child, session);
     } catch (const Error& error) {
-      forgive_missing(child, error, session);
+      warn_or_throw_missing(child, error, session);
       continue;
     }
     if (entry.expanded.name == "model" && !session.guessed && !has_link(entry.expanded)) {
-      session.forgive(Error(child.source, tag_of(entry.expanded) + " has no <link>; give it one"));
+      session.warn_or_throw(
+          Error(child.source, tag_of(entry.expanded) + " has no <link>; give it one"));
       continue;
     }
     if (entry.expanded.name == "light") {
@@ -98,7 +99,7 @@ bool holds_tolerant_model(const Parts& parts) {
                      [](const Entry& entry) { return marked_strict(entry.original) == false; });
 }
 
-// Of two models of one name the first stays, where that is forgiven.
+// If tolerant, keeps the first of two models of one name.
 void check_entry_names(std::vector<Entry>& entries, Session& session) {
   std::map<std::string, Source> seen;
   std::vector<Entry> kept;
@@ -111,7 +112,7 @@ void check_entry_names(std::vector<Entry>& entries, Session& session) {
                         "a model named '" + name + "' stands already at line " +
                             std::to_string(there->second.line) + "; give this one another <name>");
       if (session.guessed) throw Error(twice);
-      session.forgive(twice);
+      session.warn_or_throw(twice);
       continue;
     }
     kept.push_back(std::move(entry));
@@ -236,7 +237,7 @@ desc::World world(const std::string& path, bool allow_any) {
   if (std::optional<desc::World> kept = cache.recall()) return *std::move(kept);
   Session session{paths};
   desc::World world = read_world(session.sources.read(path), path, session);
-  if (session.forgiven.empty()) cache.keep(world, session.sources);
+  if (session.tolerated.empty()) cache.keep(world, session.sources);
   return world;
 }
 

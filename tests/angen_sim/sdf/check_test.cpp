@@ -138,7 +138,7 @@ const Broken kBroken[] = {
      "<sdf version='1.6'><world name='w'><model name='m'><link name='a'/><link name='b'/>"
      "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz>\n"
      "<limit><lower>1</lower><upper>-1</upper></limit></axis></joint></model></world></sdf>",
-     "w.world:2: ", "wrong way round"},
+     "w.world:2: ", "lower exceeds upper"},
     {"pose_relative_to_nothing",
      "<sdf version='1.7'><world name='w'><model name='m'>\n<link name='a'>"
      "<pose relative_to='zz'>0 0 0 0 0 0</pose></link></model></world></sdf>",
