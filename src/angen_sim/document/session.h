@@ -3,6 +3,8 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "core/element.h"
@@ -15,6 +17,10 @@ namespace angen::load {
 
 /// What one load carries along: where to search, what it saw there, what to say, how much was read.
 struct Session {
+  /// How an element was read: as `sdf/reader.h` knows it, by others too, to no effect, or to none
+  /// but a warning.
+  enum class Mark { kRead, kOpen, kUnused, kWarned };
+
   const SearchPaths& paths;
   AllowedFiles allowed{paths};
   Sources sources{};
@@ -32,6 +38,8 @@ struct Session {
   bool tolerant = false;                       // as far as it is known; see decide()
   bool guessed = false;            // by what a world holds: its author may have misspelled
   std::vector<Error> tolerated{};  // errors that did not stop the load
+  std::unordered_map<const Element*, Mark> read{};
+  std::set<std::pair<const Element*, std::string>> read_attributes{};
 
   /// Once for each place: a file that is included ten times warns as often as if it were once.
   void warn(const Source& source, const std::string& message);

@@ -1,11 +1,13 @@
 #include <cmath>
 
+#include "core/limits.h"
 #include "core/names.h"
 #include "core/text.h"
 #include "document/values.h"
 #include "document/xml.h"
 #include "sdf/check.h"
 #include "sdf/describe.h"
+#include "sdf/reader.h"
 
 namespace angen::load {
 
@@ -33,18 +35,21 @@ struct Waypoint {
 };
 
 // The rows of all trajectories, in the order of the file, which must be that of time.
-std::vector<Waypoint> waypoints_of(const Element& script, const Pose& place) {
+std::vector<Waypoint> waypoints_of(const Element& script, const Pose& place, Session& session) {
   std::vector<Waypoint> all;
   for (const Element& trajectory : script.children) {
     if (trajectory.name != "trajectory") continue;
+    const Reader path(trajectory, session);
+    path.attribute("id");
     for (const Element& element : trajectory.children) {
       if (element.name != "waypoint") continue;
-      const Element* time = element.child("time");
+      const Reader waypoint(element, session);
+      const Element* time = waypoint.child("time");
       const Element* pose = element.child("pose");
       if (time == nullptr || pose == nullptr) {
         throw Error(element.source, "<waypoint> needs a <time> and a <pose>");
       }
-      const double t = number_of(*time);
+      const double t = waypoint.number("time", 0.0, Range::not_negative(limits::kTime));
       if (!all.empty() && t <= all.back().time) {
         throw Error(time->source, "the waypoint's time " + number_text(t) +
                                       " is not after the one before, " +
@@ -129,10 +134,12 @@ desc::Link body(const Source& source) {
 
 }  // namespace
 
-desc::Model describe_actor(const Element& actor, Session& session) {
-  check_name(name_of(actor), "<actor>", actor.source);
-  Element checked = actor;
-  check_values(checked, session);
+desc::Model describe_actor(const Element& given, Session& session) {
+  check_name(name_of(given), "<actor>", given.source);
+  Element actor = given;
+  check_poses(actor, session);
+  const Reader reader(actor, session);
+  reader.note({"plugin"});
   const Element* pose = actor.child("pose");
   if (pose != nullptr && pose->attribute("relative_to") != nullptr) {
     throw Error(pose->source, "an actor's pose is given in the world; leave relative_to out");
@@ -157,16 +164,18 @@ desc::Model describe_actor(const Element& actor, Session& session) {
       others.push_back(child);
     }
   }
-  if (const Element* script = actor.child("script")) {
-    const std::vector<Waypoint> waypoints = waypoints_of(*script, model.pose);
+  if (const Reader script = reader.block("script")) {
+    const std::vector<Waypoint> waypoints = waypoints_of(script.element(), model.pose, session);
     for (const Waypoint& w : waypoints) {
       plugin.children.push_back(leaf("waypoint", row(w), w.source));
     }
+    script.flag("loop", false);
+    script.number("delay_start", Range::not_negative(limits::kTime));
     for (const char* name : {"loop", "delay_start"}) {
-      if (const Element* given = script->child(name)) plugin.children.push_back(*given);
+      if (const Element* value = script.child(name)) plugin.children.push_back(*value);
     }
-    if (!child_flag(*script, "auto_start", true)) {
-      session.warn(script->child("auto_start")->source,
+    if (!script.flag("auto_start", true)) {
+      session.warn(script.child("auto_start")->source,
                    "<auto_start> false has no effect; send the person Stop and Go instead");
     }
     if (!waypoints.empty()) model.pose = waypoints.front().pose;
@@ -186,6 +195,7 @@ desc::Model describe_actor(const Element& actor, Session& session) {
   for (desc::Visual& each : model.links[0].visuals) each.temperature = temperature;
   model.plugins = {plugin_of(plugin)};
   for (const Element& other : others) model.plugins.push_back(plugin_of(other));
+  note_ignored(actor, session);
   return model;
 }
 

@@ -1,8 +1,10 @@
 #include "sdf/check.h"
 
+#include <cmath>
 #include <map>
 #include <set>
 
+#include "core/limits.h"
 #include "core/names.h"
 #include "core/text.h"
 #include "document/values.h"
@@ -20,8 +22,6 @@ bool has_link(const Element& model) {
 
 namespace {
 
-const std::set<std::string> kShapes = {"empty", "box",  "sphere",    "cylinder", "capsule",
-                                       "plane", "mesh", "heightmap", "image"};
 const std::set<std::string> kJoints = {"fixed",     "revolute", "continuous",
                                        "prismatic", "ball",     "universal"};
 const std::set<std::string> kLights = {"point", "spot", "directional"};
@@ -42,39 +42,6 @@ void check_children_names(const Element& parent) {
       throw Error(child.source, "the name '" + name + "' is given twice in " + tag_of(parent) +
                                     ", first at line " + std::to_string(there->second.line) +
                                     "; give <" + child.name + "> another name");
-    }
-  }
-}
-
-void check_geometry(const Element& part) {
-  const Element* geometry = part.child("geometry");
-  if (geometry == nullptr) {
-    throw Error(part.source, tag_of(part) + " has no <geometry>; give it one, such as <box>");
-  }
-  if (geometry->children.size() > 1) {
-    throw Error(geometry->children[1].source, "a second shape in one <geometry>; keep one");
-  }
-  if (geometry->children.empty()) {
-    throw Error(geometry->source, "<geometry> holds no shape; known shapes are " + listed(kShapes));
-  }
-  const Element& shape = geometry->children[0];
-  if (kShapes.count(shape.name) == 0) {
-    throw Error(shape.source,
-                "unknown shape <" + shape.name + ">; known shapes are " + listed(kShapes));
-  }
-  static const std::map<std::string, std::vector<std::string>> needs = {
-      {"box", {"size"}},
-      {"sphere", {"radius"}},
-      {"cylinder", {"radius", "length"}},
-      {"mesh", {"uri"}},
-      {"capsule", {"radius", "length"}},
-      {"heightmap", {"uri", "size"}},
-      {"image", {"uri"}}};
-  const auto need = needs.find(shape.name);
-  if (need == needs.end()) return;
-  for (const std::string& key : need->second) {
-    if (shape.child(key) == nullptr) {
-      throw Error(shape.source, "<" + shape.name + "> has no <" + key + ">; give it one");
     }
   }
 }
@@ -106,7 +73,6 @@ void check_sensor(const Element& sensor) {
 void check_link(const Element& link) {
   check_children_names(link);
   for (const Element& child : link.children) {
-    if (child.name == "collision" || child.name == "visual") check_geometry(child);
     if (child.name == "light") check_light(child);
     if (child.name != "sensor") continue;
     check_sensor(child);
@@ -190,23 +156,9 @@ void check_joint(Element& joint, const std::set<std::string>& known, Session& se
                                   "' to itself; name two links");
   }
   check_axes(joint, session);
-  for (const char* name : {"axis", "axis2"}) {
-    const Element* axis = joint.child(name);
-    const Element* limit = axis == nullptr ? nullptr : axis->child("limit");
-    if (limit == nullptr || limit->child("lower") == nullptr || limit->child("upper") == nullptr) {
-      continue;
-    }
-    const double lower = numbers_in(limit->child("lower")->text).values.at(0);
-    const double upper = numbers_in(limit->child("upper")->text).values.at(0);
-    if (lower > upper) {
-      throw Error(limit->source, "the limits of " + tag_of(joint) + ": lower exceeds upper, " +
-                                     number_text(lower) + " > " + number_text(upper));
-    }
-  }
 }
 
 void check_model_parts(Element& model, Session& session) {
-  static const std::set<std::string> idle = {"gripper", "projector", "battery"};
   if (!has_link(model)) throw Error(model.source, tag_of(model) + " has no <link>; give it one");
   check_children_names(model);
   std::set<std::string> known;
@@ -216,13 +168,41 @@ void check_model_parts(Element& model, Session& session) {
     if (child.name == "joint") check_joint(child, known, session);
     if (child.name == "plugin") check_plugin(child);
     if (child.name == "model") check_model_parts(child, session);
-    if (idle.count(child.name) != 0) {
-      session.warn(child.source, "<" + child.name + "> has no effect");
-    }
   }
 }
 
+// What was thrown far out of a world that somebody saved.
+void clamp_pose(Element& pose, Session& session) {
+  constexpr double kMax = limits::kPosition.most;
+  Numbers found = numbers_in(pose.text);
+  if (!session.tolerant || !found.bad.empty() || found.values.size() != 6) return;
+  std::string text;
+  bool far = false;
+  for (std::size_t i = 0; i < found.values.size(); ++i) {
+    const double value = found.values[i];
+    const bool beyond = i < 3 && std::isfinite(value) && std::abs(value) > kMax;
+    far = far || beyond;
+    text += number_text(beyond ? std::copysign(kMax, value) : value) + " ";
+  }
+  if (!far) return;
+  session.warn_or_throw(
+      Error(pose.source, "<pose> is beyond " + number_text(kMax) +
+                             " m, the farthest that anything can stand; it is taken " + "as that"));
+  pose.text = text;
+}
+
 }  // namespace
+
+void check_poses(Element& element, Session& session) {
+  for (Element& child : element.children) {
+    if (child.name == "plugin" || child.name == "state" || child.name == "gui") continue;
+    if (child.name == "pose") {
+      clamp_pose(child, session);
+      pose_of(child);
+    }
+    check_poses(child, session);
+  }
+}
 
 void check_settings(Element& world, Session& session) {
   check_children_names(world);
@@ -230,12 +210,12 @@ void check_settings(Element& world, Session& session) {
     if (child.name == "light") check_light(child);
     if (child.name == "plugin") check_plugin(child);
   }
-  check_values(world, session);
+  check_poses(world, session);
 }
 
 void check_model(Element& model, Session& session) {
   check_name(name_of(model), "<model>", model.source);
-  check_values(model, session);
+  check_poses(model, session);
   check_model_parts(model, session);
 }
 
@@ -245,7 +225,7 @@ void check_part(Element& element, Session& session) {
   for (const Element& part : element.children) {
     if (part.name == "plugin") check_plugin(part);
   }
-  check_values(element, session);
+  check_poses(element, session);
 }
 
 }  // namespace angen::load

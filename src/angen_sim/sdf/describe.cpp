@@ -10,6 +10,7 @@
 #include "sdf/geometry.h"
 #include "sdf/light.h"
 #include "sdf/material.h"
+#include "sdf/reader.h"
 #include "sdf/schema.h"
 #include "sdf/surface.h"
 
@@ -25,48 +26,30 @@ struct Context {
   bool held = false;  // it is static within one that moves
 };
 
-std::optional<double> optional_number(const Element* parent, const std::string& name) {
-  const Element* child = parent == nullptr ? nullptr : parent->child(name);
-  if (child == nullptr) return std::nullopt;
-  return number_of(*child);
-}
-
-const Element* walk(const Element& from, std::initializer_list<const char*> path) {
-  const Element* at = &from;
-  for (const char* name : path) {
-    at = at == nullptr ? nullptr : at->child(name);
-  }
-  return at;
-}
-
-void read_surface(const Element& element, desc::Collision& collision) {
-  if (const Element* ode = walk(element, {"surface", "friction", "ode"})) {
-    desc::Friction& friction = collision.friction;
-    friction.mu = child_number(*ode, "mu", friction.mu);
-    friction.mu2 = child_number(*ode, "mu2", friction.mu2);
-    friction.slip1 = child_number(*ode, "slip1", friction.slip1);
-    friction.slip2 = child_number(*ode, "slip2", friction.slip2);
-    if (const Element* direction = ode->child("fdir1")) {
-      const std::vector<double> v = numbers_of(*direction, 3);
-      friction.direction1 = Vec3(v[0], v[1], v[2]).normalized();
-    }
-  }
-  if (const Element* bounce = walk(element, {"surface", "bounce"})) {
-    collision.restitution = child_number(*bounce, "restitution_coefficient", 0.0);
-  }
-  const Element* contact = walk(element, {"surface", "contact", "ode"});
-  collision.stiffness = optional_number(contact, "kp");
-  collision.damping = optional_number(contact, "kd");
-  collision.min_depth = optional_number(contact, "min_depth");
+void read_surface(const Reader& surface, desc::Collision& collision) {
+  const Reader ode = surface.block("friction").block("ode");
+  desc::Friction& friction = collision.friction;
+  friction.mu = ode.number("mu", friction.mu, Range::not_negative(kFinite));
+  friction.mu2 = ode.number("mu2", friction.mu2, Range::not_negative(kFinite));
+  friction.slip1 = ode.number("slip1", friction.slip1, Range::solver(0.0, 1e9));
+  friction.slip2 = ode.number("slip2", friction.slip2, Range::solver(0.0, 1e9));
+  const std::vector<double> v = ode.numbers("fdir1", 3, Range::any(limits::kDirection));
+  if (!v.empty()) friction.direction1 = Vec3(v[0], v[1], v[2]).normalized();
+  collision.restitution =
+      surface.block("bounce").number("restitution_coefficient", 0.0, Range::solver(0.0, 1.0));
+  const Reader contact = surface.block("contact").block("ode");
+  collision.stiffness = contact.number("kp", Range::solver(1e-6, 1e16, Range::Sign::kPositive));
+  collision.damping = contact.number("kd", Range::solver(0.0, 1e16));
+  collision.min_depth = contact.number("min_depth", Range::solver(0.0, 1.0));
 }
 
 // `part` once for each shape of its geometry: several are called NAME_0, NAME_1, …
 template <class Part>
-std::vector<PlacedShape> add_shapes(const Element& element, const Pose& pose, Part part,
+std::vector<PlacedShape> add_shapes(const Reader& element, const Pose& pose, Part part,
                                     Session& session, std::vector<Part>& to) {
-  std::vector<PlacedShape> shapes = shapes_of(*element.child("geometry"), pose, session);
+  std::vector<PlacedShape> shapes = shapes_of(element, pose, session);
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    part.name = name_of(element) + (shapes.size() == 1 ? "" : "_" + std::to_string(i));
+    part.name = name_of(element.element()) + (shapes.size() == 1 ? "" : "_" + std::to_string(i));
     part.shape = shapes[i].shape;
     part.pose = shapes[i].pose;
     to.push_back(part);
@@ -76,9 +59,10 @@ std::vector<PlacedShape> add_shapes(const Element& element, const Pose& pose, Pa
 
 void add_collisions(const Element& element, const Pose& pose, Session& session, desc::Link& link) {
   desc::Collision collision;
+  const Reader reader(element, session);
   collision.source = element.source;
-  read_surface(element, collision);
-  add_shapes(element, pose, collision, session, link.collisions);
+  read_surface(reader.block("surface"), collision);
+  add_shapes(reader, pose, collision, session, link.collisions);
 }
 
 // As gz-sim's Thermal system has it: <plugin filename="gz-sim-thermal-system"><temperature>.
@@ -101,10 +85,12 @@ std::optional<double> temperature_of(const Element& visual) {
 }
 
 void add_visuals(const Element& element, const Pose& pose, Session& session, desc::Link& link) {
+  const Reader reader(element, session);
   desc::Visual visual;
-  visual.material = material_of(element, session);
+  visual.material = material_of(reader, session);
   visual.temperature = temperature_of(element);
-  const std::vector<PlacedShape> shapes = add_shapes(element, pose, visual, session, link.visuals);
+  reader.note({"plugin"});
+  const std::vector<PlacedShape> shapes = add_shapes(reader, pose, visual, session, link.visuals);
   if (element.child("material") != nullptr) return;
   paint(shapes.back(), element.source, session, link.visuals.back().material);
 }
@@ -147,15 +133,16 @@ std::vector<desc::Sensor> sensors_of(const Element& element, const Pose& pose, S
 }
 
 desc::Link link_of(const Element& element, const std::string& scope, const Context& context) {
+  const Reader reader(element, context.session);
   desc::Link link;
   link.name = scope + name_of(element);
   link.source = element.source;
   link.pose = context.frames.pose(link.name);
-  link.inertial = inertial_of(element, context.never_moves, context.session);
-  link.gravity = child_flag(element, "gravity", true);
-  link.kinematic = child_flag(element, "kinematic", false) || context.held;
-  if (element.child("self_collide") != nullptr) {
-    link.self_collide = child_flag(element, "self_collide", false);
+  link.inertial = inertial_of(reader, context.never_moves, context.session);
+  link.gravity = reader.flag("gravity", true);
+  link.kinematic = reader.flag("kinematic", false) || context.held;
+  if (reader.child("self_collide") != nullptr) {
+    link.self_collide = reader.flag("self_collide", false);
   }
   const auto place = [&](const Element& part) {
     return context.frames.part_pose(part, link.name, scope);
@@ -176,20 +163,31 @@ desc::Link link_of(const Element& element, const std::string& scope, const Conte
   return link;
 }
 
-void add_parts(const Element& element, const std::string& scope, const Context& context,
+void add_parts(const Reader& model, const std::string& scope, const Context& context,
                desc::Model& to) {
-  for (const Element& part : element.children) {
+  Session& session = context.session;
+  for (const char* read_by_frames : {"canonical_link", "placement_frame", "version"}) {
+    model.attribute(read_by_frames);
+  }
+  model.note({"plugin"});
+  for (const Element& part : model.element().children) {
     if (part.name == "link") {
       to.links.push_back(link_of(part, scope, context));
     } else if (part.name == "joint") {
-      to.joints.push_back(joint_of(part, scope, context.frames));
+      to.joints.push_back(joint_of(part, scope, context.frames, session));
+    } else if (part.name == "frame") {
+      Reader(part, session).attribute("attached_to");
     } else if (part.name == "plugin") {
       to.plugins.push_back(plugin_of(part));
     } else if (part.name == "model") {
+      const Reader reader(part, session);
       Context inner = context;
-      inner.held = context.held || (!context.never_moves && child_flag(part, "static", false));
+      inner.held = context.held || (reader.flag("static", false) && !context.never_moves);
       inner.never_moves = context.never_moves || inner.held;
-      add_parts(part, scope + name_of(part) + "::", inner, to);
+      add_parts(reader, scope + name_of(part) + "::", inner, to);
+    } else if (part.name == "gripper" || part.name == "projector" || part.name == "battery") {
+      session.warn(part.source, "<" + part.name + "> has no effect");
+      session.read[&part] = Session::Mark::kWarned;
     }
   }
 }
@@ -205,14 +203,45 @@ bool is_static(const Element& model) {
 }
 
 desc::Model described_model(const Element& model, Session& session) {
+  const Reader reader(model, session);
   desc::Model to;
   to.is_static = is_static(model);
-  to.allow_auto_disable = child_flag(model, "allow_auto_disable", true);
-  to.self_collide = child_flag(model, "self_collide", false);
+  to.allow_auto_disable = reader.flag("allow_auto_disable", true);
+  to.self_collide = reader.flag("self_collide", false);
   Frames frames(model);
-  add_parts(model, "", {frames, child_flag(model, "static", false), session}, to);
+  add_parts(reader, "", {frames, reader.flag("static", false), session}, to);
   merge_hinges(to, session);
+  note_ignored(model, session);
   return to;
+}
+
+// What Angen's own plug-ins read of SDF's blocks; those of others may read more.
+void note_blocks(const Reader& sensor, Session& session) {
+  sensor.leave_to_others();
+  sensor.unused().flag("always_on", false);
+  sensor.unused().child("enable_metrics");
+  for (const Element& child : sensor.element().children) {
+    if (child.name != "ray" && child.name != "camera" && child.name != "contact") continue;
+    const Reader block(child, session);
+    if (child.name == "contact") block.note({"collision"});
+    if (child.name == "ray") {
+      const Reader scan = block.block("scan");
+      for (const char* axis : {"horizontal", "vertical"}) {
+        scan.block(axis).note({"samples", "min_angle", "max_angle"});
+      }
+      block.block("range").note({"min", "max"});
+      block.block("noise").note({"type", "mean", "stddev"});
+    } else if (child.name == "camera") {
+      const Range positive = Range::positive();
+      block.number("horizontal_fov", positive);
+      const Reader image = block.block("image");
+      for (const char* side : {"width", "height"}) image.number(side, positive);
+      image.note({"format"});
+      const Reader clip = block.block("clip");
+      for (const char* plane : {"near", "far"}) clip.number(plane, positive);
+      block.block("distortion").note({"k1", "k2", "k3", "p1", "p2"});
+    }
+  }
 }
 
 }  // namespace
@@ -224,12 +253,14 @@ desc::Plugin plugin_of(const Element& element) {
 }
 
 desc::Sensor sensor_of(const Element& element, const Pose& pose, Session& session) {
+  const Reader reader(element, session);
   desc::Sensor sensor;
   sensor.name = name_of(element);
   sensor.type = *element.attribute("type");
   sensor.pose = pose;
-  sensor.update_rate = child_number(element, "update_rate", 0.0);
-  sensor.visualize = child_flag(element, "visualize", false);
+  sensor.update_rate = reader.number("update_rate", 0.0, Range::not_negative());
+  sensor.visualize = reader.flag("visualize", false);
+  note_blocks(reader, session);
   sensor.element = element;
   sensor.source = element.source;
   for (const Element& child : element.children) {
@@ -258,8 +289,8 @@ std::vector<desc::Model> describe_models(const std::vector<Element>& models, Ses
   world.attributes = {{"name", "default"}};
   world.children = models;
   for (Element& model : world.children) remove_children(model, "pose");
-  check_schema(world, session);
   for (const Element& model : models) described.push_back(described_model(model, session));
+  check_schema(world, session);
   return described;
 }
 

@@ -3,6 +3,7 @@
 #include "desc/world.h"
 #include "sdf/expand.h"
 #include "sdf/frames.h"
+#include "sdf/reader.h"
 
 /// Checked trees to descriptions.
 namespace angen::load {
@@ -14,7 +15,7 @@ std::vector<desc::Model> describe_models(const std::vector<Element>& models, Ses
 
 /// The <inertial> of a link; the unit mass and moment where there is none. An impossible one throws
 /// Error, or is a warning and replaced where the link `never_moves`.
-desc::Inertial inertial_of(const Element& link, bool never_moves, Session& session);
+desc::Inertial inertial_of(const Reader& link, bool never_moves, Session& session);
 /// Whether a link that moves may have it.
 bool is_possible(const desc::Inertial& inertial);
 
@@ -24,7 +25,8 @@ desc::Sensor sensor_of(const Element& sensor, const Pose& pose, Session& session
 desc::Plugin plugin_of(const Element& plugin);
 
 /// A checked <joint>: `scope` is put before its names; `frames` are the outermost model's.
-desc::Joint joint_of(const Element& element, const std::string& scope, Frames& frames);
+desc::Joint joint_of(const Element& element, const std::string& scope, Frames& frames,
+                     Session& session);
 
 /// Makes one of several hinges that join the same two links about one line, with a warning.
 void merge_hinges(desc::Model& model, Session& session);

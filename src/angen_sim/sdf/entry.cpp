@@ -8,7 +8,6 @@
 #include "sdf/check.h"
 #include "sdf/cost.h"
 #include "sdf/describe.h"
-#include "sdf/ignored.h"
 
 namespace angen::load {
 
@@ -116,7 +115,6 @@ std::vector<desc::Model> describe_entries(std::vector<Entry>& entries, Session& 
     hold_measured_joints(model);
     if (model.tolerant) add_bumper_defaults(model);
     model.xml = print_xml(entry.original);
-    note_ignored(element, session);
     if (holds_include(entry.original)) model.expanded_xml = print_xml(element);
     models.push_back(std::move(model));
   }

@@ -1,13 +1,13 @@
 #include "sdf/geometry.h"
 
 #include <algorithm>
+#include <map>
 
 #include "assets/heightmap.h"
 #include "assets/mesh.h"
 #include "core/limits.h"
 #include "core/text.h"
 #include "document/search.h"
-#include "document/values.h"
 #include "document/xml.h"
 #include "sdf/surface.h"
 
@@ -15,49 +15,45 @@ namespace angen::load {
 
 namespace {
 
-Vec3 vector_of(const Element& parent, const std::string& name, const Vec3& fallback) {
-  const Element* child = parent.child(name);
-  if (child == nullptr) return fallback;
-  const std::vector<double> v = numbers_of(*child, 3);
-  return {v[0], v[1], v[2]};
-}
+constexpr char kShapes[] = "box, capsule, cylinder, empty, heightmap, image, mesh, plane, sphere";
 
-Shape plane(const Element& element, Pose& pose) {
+Shape plane(const Reader& element, Pose& pose) {
   Shape shape;
   shape.type = Shape::Type::kPlane;
-  const Element* size = element.child("size");
-  const std::vector<double> v =
-      size == nullptr ? std::vector<double>{1.0, 1.0} : numbers_of(*size, 2);
-  shape.size = {v[0], v[1], 0.0};
-  const Vec3 normal = vector_of(element, "normal", Vec3::UnitZ());
+  const std::vector<double> v = element.numbers("size", 2, Range::positive(limits::kNoLimit));
+  shape.size = v.empty() ? Vec3(1.0, 1.0, 0.0) : Vec3(v[0], v[1], 0.0);
+  const Vec3 normal = element.direction("normal", Vec3::UnitZ());
   if (normal.norm() < 1e-9) {
-    throw Error(element.source, "the <normal> of this plane has length 0; give 0 0 1");
+    throw Error(element.element().source, "the <normal> of this plane has length 0; give 0 0 1");
   }
   pose.rotation =
       (pose.rotation * Quat::FromTwoVectors(Vec3::UnitZ(), normal.normalized())).normalized();
   return shape;
 }
 
-PlacedShape mesh(const Element& element, const Pose& pose, Session& session) {
+PlacedShape mesh(const Reader& element, const Pose& pose, Session& session) {
   PlacedShape placed{{}, pose};
   Shape& shape = placed.shape;
-  const Element& uri = *element.child("uri");
-  shape.mesh_scale = vector_of(element, "scale", Vec3::Ones());
+  const Element& uri = element.need("uri");
+  const Reader part = element.block("submesh");
+  MeshSource source;
+  source.submesh = part.text("name");
+  source.center = part.flag("center", false);
+  shape.mesh_scale = element.vector("scale", Vec3::Ones(), Range::any(limits::kScale));
   if (shape.mesh_scale.cwiseAbs().minCoeff() < 1e-12) {
     throw Error(element.child("scale")->source, "a scale of 0 leaves nothing; give 1 1 1");
   }
   try {
     shape.mesh_file = need_uri(uri.text, "mesh", uri.source, session);
   } catch (const Error& error) {
-    warn_or_throw_missing(element, error, session);  // nothing stands in its place
+    warn_or_throw_missing(element.element(), error, session);  // nothing stands in its place
     return placed;
   }
   session.sources.will_be_read(shape.mesh_file);
-  MeshSource source{shape.mesh_file, shape.mesh_scale};
-  if (const Element* part = element.child("submesh")) {
-    source.submesh = part->child_text("name");
-    source.center = child_flag(*part, "center", false);
-    if (source.submesh.empty()) throw Error(part->source, "<submesh> has no <name>; give it one");
+  source.path = shape.mesh_file;
+  source.scale = shape.mesh_scale;
+  if (part && source.submesh.empty()) {
+    throw Error(part.element().source, "<submesh> has no <name>; give it one");
   }
   if (const std::string materials = materials_of(source.path); !materials.empty()) {
     source.materials = find_beside(materials, "materials", source.path, uri.source, session);
@@ -80,37 +76,50 @@ PlacedShape mesh(const Element& element, const Pose& pose, Session& session) {
   return placed;
 }
 
-Shape heightmap(const Element& element, Pose& pose, Session& session) {
+Shape heightmap(const Reader& element, Pose& pose, Session& session) {
   Shape shape;
   shape.type = Shape::Type::kHeightmap;
-  const Element& uri = *element.child("uri");
+  const Element& uri = element.need("uri");
+  element.need("size");
+  const Vec3 size = element.vector("size", {}, Range::positive(limits::kLength));
+  const Vec3 at = element.vector("pos", Vec3::Zero(), Range::any(limits::kPosition));
   const std::string file = need_uri(uri.text, "heightmap", uri.source, session);
   session.sources.will_be_read(file);
-  shape.heights = read_heightmap(file, vector_of(element, "size", Vec3::Ones()), uri.source);
-  pose.position += pose.rotation * vector_of(element, "pos", Vec3::Zero());
+  shape.heights = read_heightmap(file, size, uri.source);
+  pose.position += pose.rotation * at;
   return shape;
+}
+
+double length_of(const Reader& element, const char* key) {
+  element.need(key);
+  return element.number(key, 0.0, Range::size());
 }
 
 // `pose` is turned or moved where SDF says more than Shape does (a plane's normal, a heightmap's
 // position).
-Shape shape_of(const Element& geometry, Pose& pose, Session& session) {
-  const Element& element = geometry.children.at(0);
+Shape shape_of(const Reader& element, Pose& pose, Session& session) {
+  static const std::map<std::string, Shape::Type> round = {{"sphere", Shape::Type::kSphere},
+                                                           {"cylinder", Shape::Type::kCylinder},
+                                                           {"capsule", Shape::Type::kCapsule}};
+  const std::string& name = element.element().name;
   Shape shape;
-  if (element.name == "plane") return plane(element, pose);
-  if (element.name == "heightmap") return heightmap(element, pose, session);
-  if (element.name == "box") {
+  if (name == "empty") return shape;
+  if (name == "plane") return plane(element, pose);
+  if (name == "heightmap") return heightmap(element, pose, session);
+  if (name == "box") {
+    element.need("size");
     shape.type = Shape::Type::kBox;
-    shape.size = vector_of(element, "size", Vec3::Ones());
+    shape.size = element.vector("size", {}, Range::size());
     return shape;
   }
-  if (element.name == "empty") return shape;
-  shape.radius = child_number(element, "radius", 0.0);
-  if (element.name == "sphere") {
-    shape.type = Shape::Type::kSphere;
-    return shape;
+  const auto type = round.find(name);
+  if (type == round.end()) {
+    throw Error(element.element().source,
+                "unknown shape <" + name + ">; known shapes are " + kShapes);
   }
-  shape.type = element.name == "capsule" ? Shape::Type::kCapsule : Shape::Type::kCylinder;
-  shape.length = child_number(element, "length", 0.0);
+  shape.type = type->second;
+  shape.radius = length_of(element, "radius");
+  if (shape.type != Shape::Type::kSphere) shape.length = length_of(element, "length");
   return shape;
 }
 
@@ -128,18 +137,35 @@ void check_size(const Shape& shape, const Element& element) {
               "<" + element.name + "> is " + number_text(largest) + " m large; " + problem);
 }
 
+const Element& shape_in(const Reader& part) {
+  const Element* geometry = part.child("geometry");
+  const Element& element = part.element();
+  if (geometry == nullptr) {
+    throw Error(element.source, tag_of(element) + " has no <geometry>; give it one, such as <box>");
+  }
+  if (geometry->children.size() > 1) {
+    throw Error(geometry->children[1].source, "a second shape in one <geometry>; keep one");
+  }
+  if (geometry->children.empty()) {
+    throw Error(geometry->source,
+                std::string("<geometry> holds no shape; known shapes are ") + kShapes);
+  }
+  return geometry->children[0];
+}
+
 }  // namespace
 
-std::vector<PlacedShape> shapes_of(const Element& geometry, const Pose& pose, Session& session) {
-  const Element& element = geometry.children.at(0);
+std::vector<PlacedShape> shapes_of(const Reader& part, const Pose& pose, Session& session) {
+  const Element& element = shape_in(part);
+  const Reader reader(element, session);
   std::vector<PlacedShape> placed;
   if (element.name == "image") {
-    placed = image_boxes(element, pose, session);
+    placed = image_boxes(reader, pose, session);
   } else if (element.name == "mesh") {
-    placed.push_back(mesh(element, pose, session));
+    placed.push_back(mesh(reader, pose, session));
   } else {
     placed.push_back({{}, pose});
-    placed[0].shape = shape_of(geometry, placed[0].pose, session);
+    placed[0].shape = shape_of(reader, placed[0].pose, session);
   }
   for (PlacedShape& each : placed) {
     try {

@@ -3,7 +3,7 @@
 #include "core/mesh_look.h"
 #include "core/shape.h"
 #include "core/texture.h"
-#include "sdf/expand.h"
+#include "sdf/reader.h"
 
 namespace angen::load {
 
@@ -14,11 +14,12 @@ struct PlacedShape {
   std::string file{};                      // that it was read from
 };
 
-/// The shapes of a checked <geometry> that stands at `pose`: boxes of an <image>, else one.
-std::vector<PlacedShape> shapes_of(const Element& geometry, const Pose& pose, Session& session);
+/// The shapes in the <geometry> of a <collision> or <visual> at `pose`: boxes of an <image>, else
+/// one.
+std::vector<PlacedShape> shapes_of(const Reader& part, const Pose& pose, Session& session);
 
 /// The dark parts of a picture as boxes: its middle at the origin, its top towards +y, from z = 0
 /// up. Few: neighbors are one box.
-std::vector<PlacedShape> image_boxes(const Element& image, const Pose& pose, Session& session);
+std::vector<PlacedShape> image_boxes(const Reader& image, const Pose& pose, Session& session);
 
 }  // namespace angen::load

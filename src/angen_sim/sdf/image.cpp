@@ -3,7 +3,6 @@
 #include "assets/png.h"
 #include "core/text.h"
 #include "document/search.h"
-#include "document/values.h"
 #include "sdf/geometry.h"
 
 namespace angen::load {
@@ -76,8 +75,8 @@ std::vector<Rectangle> rectangles_of(Cells cells) {
   return found;
 }
 
-std::size_t granularity_of(const Element& element) {
-  const double value = child_number(element, "granularity", 1.0);
+std::size_t granularity_of(const Reader& element) {
+  const double value = element.number("granularity", 1.0, Range::positive());
   if (value >= 1.0 && value <= 1000.0 && value == static_cast<double>(static_cast<int>(value))) {
     return static_cast<std::size_t>(value);
   }
@@ -87,17 +86,18 @@ std::size_t granularity_of(const Element& element) {
 
 }  // namespace
 
-std::vector<PlacedShape> image_boxes(const Element& element, const Pose& pose, Session& session) {
-  const Element& uri = *element.child("uri");
+std::vector<PlacedShape> image_boxes(const Reader& reader, const Pose& pose, Session& session) {
+  const Element& element = reader.element();
+  const Element& uri = reader.need("uri");
   const std::string file = need_uri(uri.text, "image", uri.source, session);
   session.sources.will_be_read(file);
   const GrayImage image = read_png(file, "image", 1, uri.source);
-  const double threshold = child_number(element, "threshold", kThreshold);
+  const double threshold = reader.number("threshold", kThreshold, Range::not_negative());
   if (!(threshold >= 0.0 && threshold <= kWhite)) {
     throw Error(element.source, "<threshold> is " + number_text(threshold) +
                                     "; it must be 0, black, to 255, white");
   }
-  const std::size_t side = granularity_of(element);
+  const std::size_t side = granularity_of(reader);
   const std::vector<Rectangle> rectangles = rectangles_of(cells_of(image, side, threshold));
   if (rectangles.empty()) {
     throw Error(element.source, "no part of " + file + " is as dark as the <threshold> " +
@@ -109,8 +109,8 @@ std::vector<PlacedShape> image_boxes(const Element& element, const Pose& pose, S
                                     " boxes, more than " + std::to_string(kMaxBoxes) +
                                     "; give a larger <granularity>, or a simpler image");
   }
-  const double scale = child_number(element, "scale", 1.0);
-  const double height = child_number(element, "height", 1.0);
+  const double scale = reader.number("scale", 1.0, Range::positive());
+  const double height = reader.number("height", 1.0, Range::positive());
   const auto along = [&](std::size_t cell, unsigned pixels) {  // m from the image's middle
     return scale * (std::min<double>(static_cast<double>(cell * side), pixels) - 0.5 * pixels);
   };

@@ -26,28 +26,28 @@ desc::Inertial possible(desc::Inertial inertial) {
   return inertial;
 }
 
-desc::Inertial read_inertial(const Element& link, bool never_moves, Session& session) {
+desc::Inertial read_inertial(const Reader& link, bool never_moves, Session& session) {
   desc::Inertial inertial;
-  const Element* element = link.child("inertial");
-  if (element == nullptr) return inertial;
-  Source at = element->source;
-  if (const Element* mass = element->child("mass")) {
-    inertial.mass = number_of(*mass);
+  const Reader element = link.block("inertial");
+  if (!element) return inertial;
+  Source at = element.element().source;
+  if (const Element* mass = element.child("mass")) {
+    inertial.mass = element.number("mass", 0.0, Range::any(kFinite));
     at = mass->source;
   }
-  inertial.pose = child_pose(*element);
-  if (const Element* inertia = element->child("inertia")) {
+  inertial.pose = child_pose(element.element());
+  if (const Reader inertia = element.block("inertia")) {
     const auto value = [&](const char* name, double fallback) {
-      return child_number(*inertia, name, fallback);
+      return inertia.number(name, fallback, Range::any(kFinite));
     };
     const double xx = value("ixx", 1.0), yy = value("iyy", 1.0), zz = value("izz", 1.0);
     const double xy = value("ixy", 0.0), xz = value("ixz", 0.0), yz = value("iyz", 0.0);
     inertial.moment << xx, xy, xz, xy, yy, yz, xz, yz, zz;
-    if (inertial.mass > 0.0) at = inertia->source;
+    if (inertial.mass > 0.0) at = inertia.element().source;
   }
   const std::string wrong = inertia_problem(inertial.mass, inertial.moment);
   if (wrong.empty()) return inertial;
-  const std::string message = tag_of(link) + ": " + wrong;
+  const std::string message = tag_of(link.element()) + ": " + wrong;
   if (!never_moves && session.tolerant && is_possible(possible(inertial))) {
     session.warn(at, message + " (the nearest that a body can have is used)");
     return possible(inertial);
@@ -63,7 +63,7 @@ bool is_possible(const desc::Inertial& inertial) {
   return inertia_problem(inertial.mass, inertial.moment).empty();
 }
 
-desc::Inertial inertial_of(const Element& link, bool never_moves, Session& session) {
+desc::Inertial inertial_of(const Reader& link, bool never_moves, Session& session) {
   if (!never_moves) return read_inertial(link, never_moves, session);
   try {
     return read_inertial(link, never_moves, session);

@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 
+#include "core/limits.h"
 #include "core/text.h"
 #include "document/values.h"
 #include "document/xml.h"
@@ -24,64 +25,83 @@ desc::Joint::Type type_of(const std::string& type) {
   return desc::Joint::Type::kFixed;
 }
 
-// A number of a limit, which may be infinite.
-double limit_of(const Element* limit, const std::string& name, double fallback) {
-  const Element* child = limit == nullptr ? nullptr : limit->child(name);
+// May be infinite, but no joint reaches beyond where positions end.
+double limit_of(const Reader& limit, const std::string& key, double fallback) {
+  const Element* child = limit.child(key);
   if (child == nullptr) return fallback;
   const Numbers found = numbers_in(child->text);
-  return found.values.size() == 1 ? found.values[0] : number_of(*child);
+  const bool number = found.bad.empty() && found.values.size() == 1 && !std::isnan(found.values[0]);
+  const double value = number ? found.values[0] : number_of(*child);
+  const double most = limits::kPosition.most;
+  if (key == "lower" ? value <= most : value >= -most) return value;
+  throw Error(child->source,
+              "<" + key + "> is " + number_text(value) + "; it must be at " +
+                  (key == "lower" ? "most " + number_text(most) : "least " + number_text(-most)));
 }
 
 // <angen:safety_controller>, as <axis> has it in SDF.
-std::optional<desc::JointSafety> safety_of(const Element& axis, double lower, double upper) {
-  const Element* given = axis.child(kSafety);
-  if (given == nullptr) return std::nullopt;
-  if (given->child("k_velocity") == nullptr) {
-    throw Error(given->source,
+std::optional<desc::JointSafety> safety_of(const Reader& given, double lower, double upper) {
+  if (!given) return std::nullopt;
+  const Source& at = given.element().source;
+  if (given.child("k_velocity") == nullptr) {
+    throw Error(at,
                 "<safety_controller> has no k_velocity; give it one, N m s/rad or "
                 "N s/m");
   }
   desc::JointSafety safety;
-  safety.soft_lower = child_number(*given, "soft_lower_limit", lower);
-  safety.soft_upper = child_number(*given, "soft_upper_limit", upper);
-  safety.k_position = child_number(*given, "k_position", 0.0);
-  safety.k_velocity = child_number(*given, "k_velocity", 0.0);
+  safety.soft_lower = given.number("soft_lower_limit", lower, Range::any(limits::kNoLimit));
+  safety.soft_upper = given.number("soft_upper_limit", upper, Range::any(limits::kNoLimit));
+  safety.k_position = given.number("k_position", 0.0, Range::not_negative());
+  safety.k_velocity = given.number("k_velocity", 0.0, Range::not_negative());
   if (safety.soft_lower > safety.soft_upper) {
-    throw Error(given->source, "<safety_controller> has its soft_lower_limit " +
-                                   number_text(safety.soft_lower) + " above its soft_upper_limit " +
-                                   number_text(safety.soft_upper) + "; exchange them");
+    throw Error(at, "<safety_controller> has its soft_lower_limit " +
+                        number_text(safety.soft_lower) + " above its soft_upper_limit " +
+                        number_text(safety.soft_upper) + "; exchange them");
   }
   return safety;
 }
 
-desc::JointAxis axis_of(const Element& element, bool free, const std::string& joint,
-                        const std::string& scope, Frames& frames) {
-  desc::JointAxis axis;
-  Vec3 xyz = Vec3::UnitZ();
-  const Element* given = element.child("xyz");
-  if (given != nullptr) {
-    const std::vector<double> v = numbers_of(*given, 3);
-    xyz = {v[0], v[1], v[2]};
+void read_limit(const Reader& limit, const Element& joint, bool free, desc::JointAxis& axis) {
+  const double lower = limit_of(limit, "lower", -kFree);
+  const double upper = limit_of(limit, "upper", kFree);
+  if (lower > upper) {
+    throw Error(limit.element().source, "the limits of " + tag_of(joint) +
+                                            ": lower exceeds upper, " + number_text(lower) + " > " +
+                                            number_text(upper));
   }
-  const std::string* frame = given == nullptr ? nullptr : given->attribute("expressed_in");
-  const Quat& turn = frame == nullptr || frame->empty() ? frames.pose(joint).rotation
-                                                        : frames.rotation(*frame, scope, element);
-  axis.xyz = (turn * xyz).normalized();
-  const Element* limit = element.child("limit");
   if (!free) {
-    axis.lower = std::max(-kFree, limit_of(limit, "lower", -kFree));
-    axis.upper = std::min(kFree, limit_of(limit, "upper", kFree));
+    axis.lower = std::max(-kFree, lower);
+    axis.upper = std::min(kFree, upper);
   }
-  axis.effort = std::max(-1.0, limit_of(limit, "effort", -1.0));
-  axis.velocity = std::max(-1.0, limit_of(limit, "velocity", -1.0));
-  if (const Element* dynamics = element.child("dynamics")) {
-    axis.damping = child_number(*dynamics, "damping", 0.0);
-    axis.friction = child_number(*dynamics, "friction", 0.0);
-    axis.spring_stiffness = child_number(*dynamics, "spring_stiffness", 0.0);
-    axis.spring_reference = child_number(*dynamics, "spring_reference", 0.0);
-  }
-  axis.initial_position = child_number(element, "initial_position", 0.0);
-  axis.safety = safety_of(element, axis.lower, axis.upper);
+  axis.effort = std::max(-1.0, limit.number("effort", -1.0, Range::any(kFinite)));
+  axis.velocity = std::max(-1.0, limit.number("velocity", -1.0, Range::any(kFinite)));
+}
+
+void read_dynamics(const Reader& dynamics, bool has_spring, desc::JointAxis& axis) {
+  axis.damping = dynamics.number("damping", 0.0, Range::solver(1e-9, 1e12));
+  axis.friction = dynamics.number("friction", 0.0, Range::solver(0.0, 1e12));
+  if (!has_spring) return;
+  axis.spring_stiffness = dynamics.number("spring_stiffness", 0.0, Range::not_negative());
+  axis.spring_reference = dynamics.number("spring_reference", 0.0, Range::any(limits::kNoLimit));
+}
+
+desc::JointAxis axis_of(const Reader& element, const Element& joint, const std::string& scope,
+                        Frames& frames, Session& session) {
+  const std::string& type = *joint.attribute("type");
+  const bool free = type == "continuous";
+  desc::JointAxis axis;
+  const Vec3 xyz = element.direction("xyz", Vec3::UnitZ());
+  const Element* given = element.child("xyz");
+  const std::string* frame =
+      given == nullptr ? nullptr : Reader(*given, session).attribute("expressed_in");
+  const Quat& turn = frame == nullptr || frame->empty()
+                         ? frames.pose(scope + name_of(joint)).rotation
+                         : frames.rotation(*frame, scope, element.element());
+  axis.xyz = (turn * xyz).normalized();
+  read_limit(element.block("limit"), joint, free, axis);
+  read_dynamics(element.block("dynamics"), type != "universal", axis);
+  axis.initial_position = element.number("initial_position", 0.0, Range::any(limits::kPosition));
+  axis.safety = safety_of(element.block(kSafety), axis.lower, axis.upper);
   const bool endless = free || (axis.lower <= -kFree && axis.upper >= kFree);
   if (axis.safety && endless) axis.safety->k_position = 0.0;
   return axis;
@@ -124,22 +144,22 @@ void merge_hinges(desc::Model& model, Session& session) {
   model.joints.resize(kept);
 }
 
-desc::Joint joint_of(const Element& element, const std::string& scope, Frames& frames) {
+desc::Joint joint_of(const Element& element, const std::string& scope, Frames& frames,
+                     Session& session) {
+  const Reader reader(element, session);
   desc::Joint joint;
   joint.name = scope + name_of(element);
   joint.source = element.source;
-  const std::string& type = *element.attribute("type");
-  joint.type = type_of(type);
-  joint.parent = frames.link_of(element.child_text("parent"), scope, element);
-  joint.child = frames.link_of(element.child_text("child"), scope, element);
+  joint.type = type_of(*reader.attribute("type"));
+  joint.parent = frames.link_of(reader.text("parent"), scope, element);
+  joint.child = frames.link_of(reader.text("child"), scope, element);
   joint.anchor = frames.pose(joint.name).position;
   if (joint.type == desc::Joint::Type::kFixed || joint.type == desc::Joint::Type::kBall) {
     return joint;
   }
-  const bool free = type == "continuous";
-  joint.axes.push_back(axis_of(*element.child("axis"), free, joint.name, scope, frames));
+  joint.axes.push_back(axis_of(reader.block("axis"), element, scope, frames, session));
   if (joint.type == desc::Joint::Type::kUniversal) {
-    joint.axes.push_back(axis_of(*element.child("axis2"), free, joint.name, scope, frames));
+    joint.axes.push_back(axis_of(reader.block("axis2"), element, scope, frames, session));
   }
   return joint;
 }

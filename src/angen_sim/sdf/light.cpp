@@ -7,9 +7,8 @@
 
 #include "assets/ies.h"
 #include "document/search.h"
-#include "document/values.h"
 #include "document/xml.h"
-#include "sdf/material.h"
+#include "sdf/reader.h"
 
 namespace angen::load {
 
@@ -34,13 +33,11 @@ Eigen::Vector3f black_body_color(double kelvin) {
   return (rgb / rgb.maxCoeff()).cast<float>();
 }
 
-void read_color(const Element& element, desc::Light& light) {
-  if (const Element* diffuse = element.child("diffuse")) {
-    light.diffuse = color_of(*diffuse).head<3>();
-  }
+void read_color(const Reader& element, desc::Light& light) {
+  if (const auto diffuse = element.color("diffuse")) light.diffuse = diffuse->head<3>();
   const Element* temperature = element.child("angen:color_temperature");
   if (temperature == nullptr) return;
-  const double kelvin = number_of(*temperature);
+  const double kelvin = element.number("angen:color_temperature", 0.0, Range::positive());
   if (!(kelvin >= 1667.0 && kelvin <= 25000.0)) {
     throw Error(temperature->source, "<angen:color_temperature> is not from 1667 to 25000 K");
   }
@@ -48,7 +45,7 @@ void read_color(const Element& element, desc::Light& light) {
 }
 
 /// Angen's own: SDF knows no lights with an area.
-void read_area(const Element& element, desc::Light& light) {
+void read_area(const Reader& element, desc::Light& light) {
   constexpr std::array<std::pair<const char*, std::size_t>, 4> kAreas{
       {{"angen:rectangle", 2}, {"angen:disc", 1}, {"angen:tube", 2}, {"angen:sphere", 1}}};
   const Element* first = nullptr;
@@ -59,7 +56,7 @@ void read_area(const Element& element, desc::Light& light) {
       throw Error(area->source, "this light has a <" + first->name + "> too; give one of them");
     }
     first = area;
-    const std::vector<double> v = numbers_of(*area, count);
+    const std::vector<double> v = element.numbers(name, count, Range::positive(limits::kLength));
     light.radius = v.back();
     if (area->name == "angen:sphere") continue;
     light.type = count == 1 ? Type::kDisc : Type::kTube;
@@ -73,10 +70,12 @@ void read_area(const Element& element, desc::Light& light) {
 }
 
 /// In which directions it shines how much.
-void read_distribution(const Element& element, desc::Light& light, Session& session) {
-  if (const Element* spot = element.child("spot")) {
-    light.inner_angle = child_number(*spot, "inner_angle", 0.0);
-    light.outer_angle = child_number(*spot, "outer_angle", 0.0);
+void read_distribution(const Reader& element, desc::Light& light, Session& session) {
+  if (const Reader spot = element.block("spot")) {
+    const Range angle = Range::not_negative(limits::kAngle);
+    light.inner_angle = spot.number("inner_angle", 0.0, angle);
+    light.outer_angle = spot.number("outer_angle", 0.0, angle);
+    spot.unused().number("falloff", Range::not_negative());
   }
   const bool plain = light.type == Type::kPoint || light.type == Type::kSpot;
   const Element* half = element.child("angen:half_angle");
@@ -87,15 +86,14 @@ void read_distribution(const Element& element, desc::Light& light, Session& sess
   }
   if (half != nullptr) {
     light.type = Type::kSpot;
-    light.half_angle = number_of(*half);
+    light.half_angle = element.number("angen:half_angle", 0.0, Range::positive(limits::kAngle));
     if (light.half_angle < 0.01 || light.half_angle > 1.55) {
       throw Error(half->source, "<angen:half_angle> is not from 0.01 to 1.55 rad");
     }
   }
   if (ies == nullptr) return;
-  const Element* uri = ies->child("uri");
-  if (uri == nullptr) throw Error(ies->source, "<angen:ies> has no <uri>; give it one");
-  const std::string file = need_uri(uri->text, "IES file", uri->source, session);
+  const Element& uri = Reader(*ies, session).need("uri");
+  const std::string file = need_uri(uri.text, "IES file", uri.source, session);
   light.photometry =
       std::make_shared<const Photometry>(photometry_of(session.sources.read(file), file));
 }
@@ -107,26 +105,30 @@ desc::Light light_of(const Element& element, const Pose& pose, Session& session)
   light.name = name_of(element);
   light.pose = pose;
   light.source = element.source;
-  const std::string* type = element.attribute("type");
+  const Reader reader(element, session);
+  const std::string* type = reader.attribute("type");
   if (type != nullptr && *type == "spot") light.type = Type::kSpot;
   if (type != nullptr && *type == "directional") light.type = Type::kDirectional;
-  read_color(element, light);
-  light.intensity = child_number(element, "intensity", light.intensity);
-  light.cast_shadows = child_flag(element, "cast_shadows", light.cast_shadows);
-  if (const Element* level = element.child("angen:level")) light.level = number_of(*level);
-  if (const Element* attenuation = element.child("attenuation")) {
-    light.range = child_number(*attenuation, "range", light.range);
+  read_color(reader, light);
+  light.intensity =
+      reader.number("intensity", light.intensity, Range::not_negative(limits::kIntensity));
+  light.cast_shadows = reader.flag("cast_shadows", light.cast_shadows);
+  light.level = reader.number("angen:level", Range::not_negative({"%", 100.0, 0.0}));
+  reader.unused().color("specular");
+  const Reader attenuation = reader.block("attenuation");
+  light.range = attenuation.number("range", light.range, Range::positive());
+  for (const char* factor : {"constant", "linear", "quadratic"}) {
+    attenuation.unused().number(factor, Range::not_negative());
   }
-  if (const Element* direction = element.child("direction")) {
-    const std::vector<double> v = numbers_of(*direction, 3);
-    const Vec3 given(v[0], v[1], v[2]);
+  if (const Element* direction = reader.child("direction")) {
+    const Vec3 given = reader.direction("direction", {});
     if (given.norm() < 1e-9) {
       throw Error(direction->source, "the <direction> of this light has length 0; give 0 0 -1");
     }
     light.direction = given.normalized();
   }
-  read_area(element, light);
-  read_distribution(element, light, session);
+  read_area(reader, light);
+  read_distribution(reader, light, session);
   return light;
 }
 

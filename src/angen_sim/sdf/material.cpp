@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 
-#include "document/values.h"
 #include "sdf/surface.h"
 
 namespace angen::load {
@@ -65,41 +64,31 @@ const std::map<std::string, Eigen::Vector4f>& scripts() {
 
 }  // namespace
 
-Eigen::Vector4f color_of(const Element& element) {
-  const std::size_t count = numbers_in(element.text).values.size();
-  const std::vector<double> v = numbers_of(element, count == 3 ? 3 : 4);
-  Eigen::Vector4f color(0.0F, 0.0F, 0.0F, 1.0F);
-  for (std::size_t i = 0; i < v.size(); ++i) {
-    color[static_cast<Eigen::Index>(i)] = static_cast<float>(std::clamp(v[i], 0.0, 1.0));
-  }
-  return color;
-}
-
-desc::Material material_of(const Element& visual, Session& session) {
+desc::Material material_of(const Reader& visual, Session& session) {
   desc::Material material;
-  if (const Element* given = visual.child("material")) {
-    const Element* script = given->child("script");
-    const Element* name = script == nullptr ? nullptr : script->child("name");
-    const bool scripted = script != nullptr && paint_by_script(*script, session, material);
-    if (!material.textures.empty()) {
-      // SDF's colors would only shade it.
-    } else if (const Element* diffuse = given->child("diffuse")) {
-      material.diffuse = color_of(*diffuse);
-    } else if (const Element* ambient = given->child("ambient")) {
-      material.diffuse = color_of(*ambient);
-    } else if (name != nullptr && !scripted) {
-      const auto found = scripts().find(name->text);
-      if (found != scripts().end()) {
-        material.diffuse = found->second;
-      } else {
-        session.warn(name->source, "unknown material '" + name->text +
-                                       "', shown gray; give <diffuse> or a name such as "
-                                       "Gazebo/White, Gazebo/Wood");
-      }
+  const Reader given = visual.block("material");
+  const std::optional<Eigen::Vector4f> diffuse = given.color("diffuse");
+  const std::optional<Eigen::Vector4f> ambient = given.color("ambient");
+  given.unused().color("specular");
+  const Reader script = given.block("script");
+  const Element* name = script.child("name");
+  const bool scripted = script && paint_by_script(script, session, material);
+  if (!material.textures.empty()) {
+    // SDF's colors would only shade it.
+  } else if (diffuse || ambient) {
+    material.diffuse = diffuse ? *diffuse : *ambient;
+  } else if (name != nullptr && !scripted) {
+    const auto found = scripts().find(name->text);
+    if (found != scripts().end()) {
+      material.diffuse = found->second;
+    } else {
+      session.warn(name->source, "unknown material '" + name->text +
+                                     "', shown gray; give <diffuse> or a name such as "
+                                     "Gazebo/White, Gazebo/Wood");
     }
-    if (const Element* emissive = given->child("emissive")) material.emissive = color_of(*emissive);
   }
-  const double transparency = child_number(visual, "transparency", 0.0);
+  if (const auto emissive = given.color("emissive")) material.emissive = *emissive;
+  const double transparency = visual.number("transparency", 0.0, Range::not_negative());
   material.diffuse.w() *= static_cast<float>(1.0 - std::min(1.0, transparency));
   return material;
 }

@@ -1,42 +1,40 @@
-#include "core/text.h"
-#include "document/values.h"
 #include "sdf/describe.h"
-#include "sdf/material.h"
+#include "sdf/reader.h"
 
 namespace angen::load {
 
 namespace {
 
-void read_physics(const Element& element, desc::Physics& physics, Session& session) {
+void read_physics(const Reader& element, desc::Physics& physics, Session& session) {
   const std::string* type = element.attribute("type");
+  element.attribute("default");
   if (type != nullptr && *type != "ode" && *type != "ignored") {
-    session.warn(element.source, "<physics type=\"" + *type +
-                                     "\">: ODE is used, the one engine here; write type=\"ode\"");
+    session.warn(
+        element.element().source,
+        "<physics type=\"" + *type + "\">: ODE is used, the one engine here; write type=\"ode\"");
   }
-  if (const Element* step = element.child("max_step_size")) {
-    const double seconds = number_of(*step);
-    if (seconds < 1e-9 || seconds > 1.0) {
-      throw Error(step->source, "<max_step_size> is " + number_text(seconds) +
-                                    " s; give 1e-9 to 1, such as 0.001");
-    }
-    physics.step = from_seconds(seconds);
+  const Range step = Range::positive({"s", 1.0, 1e-9});
+  if (const auto seconds = element.number("max_step_size", step)) {
+    physics.step = from_seconds(*seconds);
   }
-  physics.real_time_factor = child_number(element, "real_time_factor", physics.real_time_factor);
+  physics.real_time_factor =
+      element.number("real_time_factor", physics.real_time_factor, Range::not_negative({"", 1e6}));
   // SDF's way to say "as fast as possible".
-  if (child_number(element, "real_time_update_rate", 1000.0) == 0.0) physics.real_time_factor = 0.0;
-  const Element* ode = element.child("ode");
-  if (ode == nullptr) return;
-  if (const Element* solver = ode->child("solver")) {
-    physics.iterations = static_cast<int>(child_number(*solver, "iters", physics.iterations));
+  if (element.number("real_time_update_rate", Range::not_negative()) == 0.0) {
+    physics.real_time_factor = 0.0;
   }
-  if (const Element* constraints = ode->child("constraints")) {
-    physics.erp = child_number(*constraints, "erp", physics.erp);
-    physics.cfm = child_number(*constraints, "cfm", physics.cfm);
-    physics.contact_max_correcting_vel = child_number(*constraints, "contact_max_correcting_vel",
-                                                      physics.contact_max_correcting_vel);
-    physics.contact_surface_layer =
-        child_number(*constraints, "contact_surface_layer", physics.contact_surface_layer);
-  }
+  const Reader ode = element.block("ode");
+  const Range iterations = Range::solver(1.0, 1e4, Range::Sign::kPositive);
+  physics.iterations =
+      static_cast<int>(ode.block("solver").number("iters", physics.iterations, iterations));
+  const Reader constraints = ode.block("constraints");
+  physics.erp = constraints.number("erp", physics.erp, Range::solver(0.0, 1.0));
+  physics.cfm = constraints.number("cfm", physics.cfm, Range::solver(0.0, 1e6));
+  physics.contact_max_correcting_vel =
+      constraints.number("contact_max_correcting_vel", physics.contact_max_correcting_vel,
+                         Range::solver(0.0, limits::kSpeed.most));
+  physics.contact_surface_layer = constraints.number(
+      "contact_surface_layer", physics.contact_surface_layer, Range::solver(0.0, 1.0));
 }
 
 }  // namespace
@@ -52,24 +50,25 @@ const Element* chosen_physics(const Element& world) {
   return chosen;
 }
 
-void read_settings(const Element& world, desc::World& to, Session& session) {
-  if (const Element* physics = chosen_physics(world)) {
-    read_physics(*physics, to.physics, session);
+void read_settings(const Element& element, desc::World& to, Session& session) {
+  const Reader world(element, session);
+  if (const Element* physics = chosen_physics(element)) {
+    read_physics({*physics, session}, to.physics, session);
   }
-  if (const Element* gravity = world.child("gravity")) {
-    const std::vector<double> v = numbers_of(*gravity, 3);
-    to.gravity = {v[0], v[1], v[2]};
+  to.gravity = world.vector("gravity", to.gravity, Range::any(limits::kGravity));
+  const Reader atmosphere = world.block("atmosphere");
+  atmosphere.attribute("type");
+  to.ambient_temperature = atmosphere.number("temperature", to.ambient_temperature,
+                                             Range::positive(limits::kTemperature));
+  const Reader scene = world.block("scene");
+  if (const auto ambient = scene.color("ambient")) to.scene.ambient = *ambient;
+  if (const auto background = scene.color("background")) to.scene.background = *background;
+  to.scene.shadows = scene.flag("shadows", to.scene.shadows);
+  for (const Element& child : element.children) {
+    if (child.name == "frame") Reader(child, session).attribute("attached_to");
+    if (child.name == "plugin") to.plugins.push_back(plugin_of(child));
   }
-  if (const Element* atmosphere = world.child("atmosphere")) {
-    to.ambient_temperature = child_number(*atmosphere, "temperature", to.ambient_temperature);
-  }
-  if (const Element* scene = world.child("scene")) {
-    if (const Element* ambient = scene->child("ambient")) to.scene.ambient = color_of(*ambient);
-    if (const Element* background = scene->child("background")) {
-      to.scene.background = color_of(*background);
-    }
-    to.scene.shadows = child_flag(*scene, "shadows", to.scene.shadows);
-  }
+  world.note({"plugin"});
 }
 
 }  // namespace angen::load

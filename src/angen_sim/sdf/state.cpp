@@ -23,10 +23,11 @@ T& find_named(std::vector<T>& all, const Element& element, const std::string& wh
                                   where + "; known are " + join_names(known));
 }
 
-void apply_joint(const Element& element, desc::Joint& joint) {
+void apply_joint(const Element& element, desc::Joint& joint, Session& session) {
+  Reader(element, session);
   for (const Element& angle : element.children) {
     if (angle.name != "angle") continue;
-    const std::string* text = angle.attribute("axis");
+    const std::string* text = Reader(angle, session).attribute("axis");
     const std::size_t axis = text == nullptr || *text == "0" ? 0 : *text == "1" ? 1 : 2;
     if (axis >= joint.axes.size()) {
       throw Error(angle.source, tag_of(element) + " has " + std::to_string(joint.axes.size()) +
@@ -49,12 +50,13 @@ void apply_joint(const Element& element, desc::Joint& joint) {
   }
 }
 
-void apply_model(const Element& element, desc::World& world) {
+void apply_model(const Element& element, desc::World& world, Session& session) {
+  const Reader reader(element, session);
   desc::Model& model = find_named(world.models, element, "");
   if (const Element* pose = element.child("pose")) model.pose = pose_of(*pose);
   for (const Element& part : element.children) {
     if (part.name == "joint") {
-      apply_joint(part, find_named(model.joints, part, " of model '" + model.name + "'"));
+      apply_joint(part, find_named(model.joints, part, " of model '" + model.name + "'"), session);
     }
   }
 }
@@ -62,10 +64,11 @@ void apply_model(const Element& element, desc::World& world) {
 }  // namespace
 
 void apply_state(const Element& state, desc::World& world, Session& session) {
+  Reader(state, session).attribute("world_name");
   for (const Element& element : state.children) {
     if (element.name != "model") continue;
     try {
-      apply_model(element, world);
+      apply_model(element, world, session);
     } catch (const Error& error) {
       session.warn_or_throw(error);
     }

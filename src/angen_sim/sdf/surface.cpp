@@ -5,7 +5,6 @@
 #include "assets/mesh.h"
 #include "core/text.h"
 #include "document/search.h"
-#include "document/values.h"
 #include "import/ogre.h"
 
 namespace angen::load {
@@ -71,8 +70,10 @@ void paint(const PlacedShape& mesh, const Source& at, Session& session, desc::Ma
   if (any) material.diffuse.head<3>() = mean_color(*mesh.shape.mesh, material);
 }
 
-bool paint_by_script(const Element& script, Session& session, desc::Material& material) {
-  const Element* name = script.child("name");
+bool paint_by_script(const Reader& reader, Session& session, desc::Material& material) {
+  reader.note({"uri"});
+  const Element& script = reader.element();
+  const Element* name = reader.child("name");
   for (const Element& uri : script.children) {
     if (uri.name != "uri" || uri.text.empty() || name == nullptr) continue;
     const std::optional<OgreMaterial> found = ogre_material(uri, name->text, session);

@@ -13,6 +13,6 @@ void paint(const PlacedShape& mesh, const Source& at, Session& session, desc::Ma
 
 /// The texture that an Ogre material script gives a <script>'s name; false where it has no such
 /// material.
-bool paint_by_script(const Element& script, Session& session, desc::Material& material);
+bool paint_by_script(const Reader& script, Session& session, desc::Material& material);
 
 }  // namespace angen::load

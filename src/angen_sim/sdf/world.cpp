@@ -13,9 +13,9 @@
 #include "sdf/describe.h"
 #include "sdf/entry.h"
 #include "sdf/frames.h"
-#include "sdf/ignored.h"
 #include "sdf/light.h"
 #include "sdf/load.h"
+#include "sdf/reader.h"
 #include "sdf/schema.h"
 
 namespace angen::load {
@@ -174,9 +174,6 @@ desc::World describe_world(const Element& sdf, Session& session) {
   world.name = name_of(given);
   world.xml = print_xml(parts.settings);
   read_settings(parts.settings, world, session);
-  for (const Element& child : parts.settings.children) {
-    if (child.name == "plugin") world.plugins.push_back(plugin_of(child));
-  }
   world.models = describe_entries(parts.entries, session);
   check_schema(parts.settings, session);
   place_all(parts, world, session);
