@@ -9,8 +9,7 @@ from angen_apps.care.engine import Change, Engine
 from angen_apps.care.rules import Rules
 from angen_apps.care.signals import Event
 from angen_apps.care.sources import check_sources
-from angen_tools.common.catalog import angen_module
-from angen_tools.common.failure import Failure
+from angen_tools.common.catalog import kinds, simulator
 from angen_tools.common.progress import Progress
 
 SLICE = 60.0  # simulated s between two progress reports
@@ -21,12 +20,8 @@ class Watched:
     """A world in this process, the engine that follows it, and all that happened."""
 
     def __init__(self, rules: Rules, world: Path, seed: int) -> None:
-        angen = angen_module()
-        self.error = angen.Error
-        try:
+        with simulator() as angen:
             self._world = angen.World(str(world), seed=seed)
-        except angen.Error as error:
-            raise Failure(str(error)) from None
         existing = set(_existing(self._world))
         names = {key.split('/', 1)[1] for key in existing}
         check_sources(rules, existing, names | set(self._world.models))
@@ -62,10 +57,8 @@ class Watched:
             self._world.step()
 
     def _command(self, order: Order) -> None:
-        try:
+        with simulator(f'{order.where}: '):
             self._world.command(order.kind, order.name, order.text)
-        except self.error as error:
-            raise Failure(f'{order.where}: {error}') from None
 
     def _follow(self) -> None:
         """Gives the engine what has happened."""
@@ -77,7 +70,6 @@ class Watched:
 
 def _existing(world: Any) -> Iterator[str]:
     """KIND/NAME of each sensor and device."""
-    from angen_tools.common.catalog import kinds
     for role, named in (('sensor', world.sensors), ('device', world.devices)):
         for kind in kinds(role):
             yield from (f'{kind}/{name}' for name in named(kind))

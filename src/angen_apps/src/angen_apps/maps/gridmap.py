@@ -9,7 +9,7 @@ from typing import Any, Callable
 import numpy as np
 from scipy.ndimage import binary_propagation, distance_transform_edt
 
-from angen_tools.common.catalog import angen_module
+from angen_tools.common.catalog import angen_module, simulator
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_text, writing
 
@@ -88,13 +88,10 @@ def _is_log(path: str) -> bool:
         return False
 
 
-def load_world(path: str) -> Any:
+def load_world(path: str, seed: int = 0) -> Any:
     """The angen.World of a file, or of the beginning of a log; Failure where it does not load."""
-    angen = angen_module()
-    try:
-        return angen.Replay(path).world() if _is_log(path) else angen.World(path)
-    except angen.Error as error:
-        raise Failure(str(error)) from None
+    with simulator() as angen:
+        return angen.Replay(path).world() if _is_log(path) else angen.World(path, seed)
 
 
 def make_map(world: Any, floor: int, doors: str = 'away', high: float = HIGH) -> GridMap:

@@ -14,7 +14,7 @@ import numpy as np
 from angen_apps.robot.building import Entity, Start
 from angen_apps.robot.interface import (BASE, BUMPER, CYCLE, DoorState, Event, LiftState, bumper)
 from angen_apps.robot.pilot import Pose
-from angen_tools.common.catalog import angen_module
+from angen_tools.common.catalog import angen_module, simulator
 from angen_tools.common.failure import Failure
 from angen_tools.common.geometry import yaw
 from angen_tools.world.models import collisions
@@ -31,11 +31,8 @@ class Simulation:
     """One world with its robot; see robot.interface.Robot. `others` acts before each cycle."""
 
     def __init__(self, path: Path, seed: int, robot: str) -> None:
-        self._angen = angen_module()
-        try:
-            self.world = self._angen.World(str(path), seed)
-        except self._angen.Error as error:
-            raise Failure(str(error)) from None
+        with simulator() as angen:
+            self.world = angen.World(str(path), seed)
         self._name = robot
         self.events: list[Event] = []
         self.others: Callable[[], None] = lambda: None
@@ -76,10 +73,8 @@ class Simulation:
 
     def order(self, kind: str, name: str, text: str) -> None:
         """Commands a device for somebody else than the robot."""
-        try:
+        with simulator():
             self.world.command(kind, name, text)
-        except self._angen.Error as error:
-            raise Failure(str(error)) from None
 
     def door(self, name: str) -> DoorState:
         return DoorState(self.world.device('door', name)['mode'])
@@ -102,7 +97,7 @@ class Simulation:
             return None
         try:
             return SimpleNamespace(**self.world.sensor('depth', self._depth))
-        except self._angen.Error:
+        except angen_module().Error:
             return None
 
     def want_depth(self, wanted: bool) -> None:

@@ -9,9 +9,10 @@ import importlib.util
 import json
 import mmap
 import os
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, Iterator
 
 from angen_tools.common.failure import Failure
 from angen_tools.common.nearest import did_you_mean
@@ -32,6 +33,16 @@ def angen_module() -> Any:
         raise Failure(f'the angen module is not found ({error}); use ./angen, or source '
                       'devel/setup.bash') from None
     return angen
+
+
+@contextmanager
+def simulator(where: str = '') -> Iterator[Any]:
+    """The module angen; its errors become a Failure that begins with `where`."""
+    angen = angen_module()
+    try:
+        yield angen
+    except angen.Error as error:
+        raise Failure(f'{where}{error}') from None
 
 
 def directories() -> list[Path]:

@@ -6,8 +6,7 @@ import time
 from pathlib import Path
 from typing import Any, Callable
 
-from angen_tools.common.catalog import angen_module
-from angen_tools.common.failure import Failure
+from angen_tools.common.catalog import simulator
 from angen_tools.common.files import writing
 from angen_tools.common.progress import Progress
 
@@ -22,11 +21,8 @@ def run(path: str, seconds: float, seed: int, out: Path) -> str:
     angen_msgs/Event. Returns what was done; Failure where the world does not load, or the file
     cannot be written.
     """
-    angen = angen_module()
-    try:
+    with simulator() as angen:
         world = angen.World(path, seed=seed)
-    except angen.Error as error:
-        raise Failure(str(error)) from None
     log = out / 'events.csv'
     with writing(log, log=True) as file:
         writer = csv.writer(file, lineterminator='\n')

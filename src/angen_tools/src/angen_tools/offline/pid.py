@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from angen_tools.common.catalog import angen_module
-from angen_tools.common.failure import Failure
+from angen_tools.common.catalog import simulator
 from angen_tools.common.files import save_figure
 from angen_tools.common.output import as_json, number, table
 
@@ -120,13 +119,10 @@ def closed_form(plant: Plant, gains: tuple[float, float, float], t: np.ndarray) 
 
 def simulate(plant: Plant, parameters: str, span: float) -> tuple[np.ndarray, np.ndarray]:
     """Times and positions from the command on."""
-    angen = angen_module()
-    try:
+    with simulator() as angen:
         world = angen.World.from_text(
             f'<sdf version="1.9"><world name="pid"><physics type="ode"><max_step_size>{STEP}'
             f'</max_step_size></physics>{plant.model.format(parameters=parameters)}</world></sdf>')
-    except angen.Error as error:
-        raise Failure(str(error)) from None
     joint = world.joints.index(plant.joint)
     world.step(1)
     world.command(plant.kind, plant.device, plant.command)

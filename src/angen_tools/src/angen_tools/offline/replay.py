@@ -5,7 +5,7 @@ import os
 import sys
 import time
 
-from angen_tools.common.catalog import angen_module
+from angen_tools.common.catalog import simulator
 from angen_tools.common.failure import Failure
 from angen_tools.common.progress import Progress
 from angen_tools.world.models import worlds_models
@@ -15,15 +15,12 @@ SLICE = 1.0  # simulated s between two progress reports
 
 def replay(path: str, leap: bool) -> str:
     """What was compared, where all of it was equal; Failure where it was not, or cannot be read."""
-    angen = angen_module()
     began = time.monotonic()
-    try:
+    with simulator() as angen:
         run = angen.Replay(path, leap=leap)
         with Progress(path) as progress:
             while run.advance(SLICE) and not run.mismatch:
                 progress.update(run.time / max(run.end, SLICE))
-    except angen.Error as error:
-        raise Failure(str(error)) from None
     if run.truncated:
         print(f'warning: {run.truncated}', file=sys.stderr)
     if run.mismatch:
