@@ -134,12 +134,9 @@ def _short(number: float | None) -> str:
 
 def draw(path: Path, rows: Sequence[Row]) -> None:
     """Writes the figure: CPU at rate 1 and speed at rate 0 over count, of each simulator."""
-    import matplotlib
-    matplotlib.use('Agg')
-    from matplotlib import pyplot
     from matplotlib.ticker import MaxNLocator
-    figure, (load, speed) = pyplot.subplots(2, 1, sharex=True, figsize=(6.4, 6.0),
-                                            layout='constrained')
+    figure, (load, speed) = files.pyplot().subplots(2, 1, sharex=True, figsize=(6.4, 6.0),
+                                                    layout='constrained')
     simulators = [s for s in NAMES if any(row.simulator == s for row in rows)]
     for simulator, color in zip(simulators, ('C0', 'C3', 'C1')):
         own = [row for row in rows if row.simulator == simulator]
@@ -157,4 +154,3 @@ def draw(path: Path, rows: Sequence[Row]) -> None:
         axis.grid(alpha=0.3)
         axis.legend(fontsize='small')
     files.save_figure(figure, path, dpi=100)
-    pyplot.close(figure)

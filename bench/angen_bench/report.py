@@ -142,14 +142,12 @@ PANELS = {'server_cpu': 'server (the node)', 'client_cpu': 'client (rviz)',
 
 def draw(path: Path, rows: Sequence[Row]) -> None:
     """Writes the figure: CPU of server and client over count, with their lines."""
-    import matplotlib
-    matplotlib.use('Agg')
-    from matplotlib import pyplot
     from matplotlib.ticker import MaxNLocator
     desired = rows[0].mode == 'desired'
     panels = [panel for panel in PANELS if any(getattr(r, panel) is not None for r in rows)]
-    figure, axes = pyplot.subplots(len(panels), 1, sharex=True, squeeze=False,
-                                   figsize=(6.4, 1 + 2.2 * len(panels)), layout='constrained')
+    figure, axes = files.pyplot().subplots(
+        len(panels), 1, sharex=True, squeeze=False, figsize=(6.4, 1 + 2.2 * len(panels)),
+        layout='constrained')
     for axis, panel in zip(axes[:, 0], panels):
         _panel(axis, panel, rows, 'flat' if desired else 'sensor')
     axes[-1, 0].xaxis.set_major_locator(MaxNLocator(integer=True))
@@ -158,18 +156,15 @@ def draw(path: Path, rows: Sequence[Row]) -> None:
                      'deployed': 'Sensors spawned while it runs',
                      'desired': 'Flats with all the sensors that they should have'}[rows[0].mode])
     files.save_figure(figure, path, dpi=100)
-    pyplot.close(figure)
 
 
 def draw_together(path: Path, tables: Sequence[Sequence[Row]]) -> None:
     """Writes one figure of several tables: CPU of the server, a row a kind and a column a mode."""
-    import matplotlib
-    matplotlib.use('Agg')
-    from matplotlib import pyplot
     kinds = list(dict.fromkeys(rows[0].kind for rows in tables))
     modes = list(dict.fromkeys(rows[0].mode for rows in tables))
-    figure, axes = pyplot.subplots(len(kinds), len(modes), squeeze=False, layout='constrained',
-                                   figsize=(4.6 * len(modes), 2.2 * len(kinds)))
+    figure, axes = files.pyplot().subplots(
+        len(kinds), len(modes), squeeze=False, layout='constrained',
+        figsize=(4.6 * len(modes), 2.2 * len(kinds)))
     for rows in tables:
         axis = axes[kinds.index(rows[0].kind), modes.index(rows[0].mode)]
         for panel in ('server_cpu', 'deploy_server_cpu'):
@@ -177,7 +172,6 @@ def draw_together(path: Path, tables: Sequence[Sequence[Row]]) -> None:
                 _panel(axis, panel, rows, 'sensor')
         axis.set_title(f'{rows[0].kind} sensors, {rows[0].mode}', fontsize='medium')
     files.save_figure(figure, path, dpi=100)
-    pyplot.close(figure)
 
 
 def _panel(axis: Any, panel: str, rows: Sequence[Row], thing: str) -> None:

@@ -11,7 +11,7 @@ from angen_apps.care.clock import DAY, HOUR, MINUTE, show_time
 from angen_apps.care.engine import CareWarning, Engine
 from angen_apps.care.membership import Trapezoid
 from angen_apps.care.rules import Condition, Rule
-from angen_tools.common.files import save_figure
+from angen_tools.common.files import pyplot, save_figure
 
 INK, FAINT, GRID = '#22303c', '#7d8a94', '#dfe4e8'
 DEGREE, WARNED, SEEN = '#5b8db8', '#c8372d', '#e8a33d'  # SEEN: acknowledged
@@ -25,12 +25,9 @@ STEPS = (MINUTE, 5 * MINUTE, 10 * MINUTE, 30 * MINUTE, HOUR, 2 * HOUR, 3 * HOUR,
 
 def draw(engine: Engine, warnings: Sequence[CareWarning], path: Path) -> None:
     """Writes the picture of all that the engine has seen."""
-    import matplotlib
-    matplotlib.use('Agg')
-    from matplotlib import pyplot
     rules = engine.rules.rules
     heights = [1.12 + LANE * len(rule.when) for rule in rules]
-    figure, axes = pyplot.subplots(
+    figure, axes = pyplot().subplots(
         len(rules), 1, sharex=True, squeeze=False, figsize=(WIDTH, 1.1 + 0.86 * sum(heights)),
         height_ratios=heights, dpi=150)
     for ax, rule in zip(axes[:, 0], rules):
@@ -42,7 +39,6 @@ def draw(engine: Engine, warnings: Sequence[CareWarning], path: Path) -> None:
                   bbox_to_anchor=(0.995, 1.0), handlelength=1.6, columnspacing=1.4)
     figure.tight_layout(rect=(0, 0, 1, 1 - 0.15 / figure.get_figheight()), h_pad=0.5)
     save_figure(figure, path)
-    pyplot.close(figure)
 
 
 def _title(engine: Engine, count: int) -> str:

@@ -85,15 +85,12 @@ def write_csv(path: Path, rows: Iterable[Row]) -> None:
 
 def draw(path: Path, rows: Sequence[Row], site: Site) -> None:
     """Rooms over time, the truth and what was taken for it, a part for each tag."""
-    import matplotlib
-    matplotlib.use('Agg')
-    import matplotlib.pyplot as plt
     tags = sorted({row.answer.tag for row in rows})
     seen = {row.true_room for row in rows} | {row.answer.room for row in rows}
     names = ['unknown'] + [room.name for room in site.rooms if room.name in seen]
     level = {name: i for i, name in enumerate(names)} | {'': 0}
-    figure, axes = plt.subplots(len(tags), 1, squeeze=False, sharex=True,
-                                figsize=(9, 1.2 + 0.22 * len(names) * len(tags)))
+    figure, axes = files.pyplot().subplots(len(tags), 1, squeeze=False, sharex=True,
+                                           figsize=(9, 1.2 + 0.22 * len(names) * len(tags)))
     for axis, tag in zip(axes[:, 0], tags):
         own = [row for row in rows if row.answer.tag == tag]
         times = [row.time for row in own]
@@ -108,4 +105,3 @@ def draw(path: Path, rows: Sequence[Row], site: Site) -> None:
     axes[-1, 0].set_xlabel('s')
     figure.tight_layout()
     files.save_figure(figure, path, dpi=110)
-    plt.close(figure)

@@ -10,7 +10,7 @@ from angen_apps.maps.gridmap import FREE, OCCUPIED, STOREY
 from angen_apps.patrol.report import Row, Run, begun, moving
 from angen_apps.robot.building import Entity
 from angen_apps.robot.route_file import Route
-from angen_tools.common.files import save_figure
+from angen_tools.common.files import pyplot, save_figure
 
 TRACK, SWITCH, NEUTRAL, TEXT = '#1f6fb4', '#2a8c3c', '#505050', '#303030'
 # for the PIRs of a floor, neighbors far apart
@@ -23,10 +23,7 @@ INWARD = 0.42  # m from a sensor to its label
 
 def draw(run: Run, rows: list[Row], route: Route, floor: int, path: Path) -> None:
     """Writes the figure of one floor."""
-    import matplotlib
-    matplotlib.use('Agg')
-    from matplotlib import pyplot
-    figure, axes = pyplot.subplots(figsize=(10, 7.1), dpi=150)
+    figure, axes = pyplot().subplots(figsize=(10, 7.1), dpi=150)
     plan(axes, run, floor)
     track = np.array(run.track.rows)
     here = np.floor((track[:, 3] + 0.5) / STOREY) == floor
@@ -52,7 +49,6 @@ def draw(run: Run, rows: list[Row], route: Route, floor: int, path: Path) -> Non
                   columnspacing=1.5, handletextpad=0.5)
     figure.tight_layout(rect=(0, 0.06, 1, 1))
     save_figure(figure, path)
-    pyplot.close(figure)
 
 
 def legend() -> list[Any]:

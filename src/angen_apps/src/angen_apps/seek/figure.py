@@ -11,7 +11,7 @@ from angen_apps.maps.gridmap import OCCUPIED, STOREY
 from angen_apps.seek.home import CELL, Home
 from angen_apps.seek.report import pairs
 from angen_apps.seek.run import Figures, Outcome
-from angen_tools.common.files import save_figure
+from angen_tools.common.files import pyplot, save_figure
 
 WITH, WITHOUT, ROBOT, PERSON, PIR, INK = ('#0b7a75', '#c8553d', '#1f4e8c', '#d1495b', '#ef8a17',
                                           '#303030')
@@ -21,12 +21,11 @@ RECENT = 5.0  # s
 
 def draw_search(home: Home, outcome: Outcome, path: Path) -> None:
     """Draws, floor by floor at MOMENTS, the belief, the robot's way until then, and the person."""
-    pyplot = _pyplot()
     floors = sorted(home.maps)
     end = outcome.figures.time_s
     moments = outcome.began + np.linspace(0.0, end, MOMENTS)
     wide, high = _size(home, floors[0])
-    figure, axes = pyplot.subplots(len(floors), MOMENTS, squeeze=False, dpi=130, figsize=(
+    figure, axes = pyplot().subplots(len(floors), MOMENTS, squeeze=False, dpi=130, figsize=(
         3.3 * MOMENTS, 3.15 * high / wide * len(floors) + 0.75), constrained_layout=True)
     for column, moment in enumerate(moments):
         times = [t for t, _ in outcome.beliefs]
@@ -46,14 +45,6 @@ def draw_search(home: Home, outcome: Outcome, path: Path) -> None:
     figure.legend(handles=_legend(), loc='lower center', ncols=6, fontsize=8, frameon=False)
     figure.get_layout_engine().set(rect=(0, 0.06, 1, 0.94))
     save_figure(figure, path)
-    pyplot.close(figure)
-
-
-def _pyplot() -> Any:
-    import matplotlib
-    matplotlib.use('Agg')
-    from matplotlib import pyplot
-    return pyplot
 
 
 def _legend() -> list[Any]:
@@ -149,9 +140,8 @@ def _line(ax: Any, rows: np.ndarray, floor: int, color: str, style: str, width: 
 
 def draw_times(found: list[Figures], limit: float, path: Path) -> None:
     """Draws the share of searches that have found him by a time, and both times of each seed."""
-    pyplot = _pyplot()
-    figure, (left, right) = pyplot.subplots(1, 2, figsize=(11, 5.2), dpi=130,
-                                            constrained_layout=True, width_ratios=(1.15, 1))
+    figure, (left, right) = pyplot().subplots(1, 2, figsize=(11, 5.2), dpi=130,
+                                              constrained_layout=True, width_ratios=(1.15, 1))
     for ambient, color, name in ((True, WITH, 'with ambient sensors'),
                                  (False, WITHOUT, "with the robot's own sensors only")):
         _shares(left, [f for f in found if f.ambient is ambient], limit,
@@ -176,7 +166,6 @@ def draw_times(found: list[Figures], limit: float, path: Path) -> None:
     figure.suptitle('What a smart apartment is worth to a robot that looks for somebody',
                     fontsize=12)
     save_figure(figure, path)
-    pyplot.close(figure)
 
 
 def _shares(ax: Any, found: list[Figures], limit: float, end: float, color: str, name: str

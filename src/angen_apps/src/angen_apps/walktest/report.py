@@ -48,17 +48,13 @@ def write_csv(path: Path, results: Sequence[Result]) -> None:
 
 def draw(path: Path, title: str, results: Sequence[Result]) -> None:
     """Writes the figure: a plan for each test, the detector below, facing up."""
-    import matplotlib
-    matplotlib.use('Agg')
-    from matplotlib import pyplot
-    figure, axes = pyplot.subplots(1, len(results), squeeze=False, layout='constrained',
-                                   figsize=(1 + 5.2 * len(results), 5.4))
+    figure, axes = files.pyplot().subplots(1, len(results), squeeze=False, layout='constrained',
+                                           figsize=(1 + 5.2 * len(results), 5.4))
     for axis, result in zip(axes[0], results):
         _plan(axis, result)
     verdict = 'PASS' if all(result.passed for result in results) else 'FAIL'
     figure.suptitle(f'{title}: {verdict}')
     files.save_figure(figure, path, dpi=100)
-    pyplot.close(figure)
 
 
 def _plan(axis: Any, result: Result) -> None:

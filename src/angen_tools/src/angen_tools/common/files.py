@@ -135,7 +135,16 @@ def write_csv(path: Path, head: Iterable[Any], rows: Iterable[Iterable[Any]]) ->
         writer.writerows(rows)
 
 
+def pyplot() -> Any:
+    """matplotlib.pyplot, which needs no display."""
+    import matplotlib
+    matplotlib.use('Agg')
+    from matplotlib import pyplot as made
+    return made
+
+
 def save_figure(figure: Any, path: Path, **options: Any) -> None:
-    """Writes a figure of matplotlib as PNG; `options` as of its savefig."""
+    """Writes a figure of pyplot as PNG and closes it; `options` as of its savefig."""
     with writing(path, binary=True) as file:
         figure.savefig(file, format='png', **options)
+    pyplot().close(figure)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from angen_tools.common.catalog import simulator
-from angen_tools.common.files import save_figure
+from angen_tools.common.files import pyplot, save_figure
 from angen_tools.common.output import as_json, number, table
 
 if TYPE_CHECKING:
@@ -173,13 +173,10 @@ def _row(one: Answer) -> tuple[str, str, str, str]:
 
 def draw(path: Path, kind: str, found: list[Answer]) -> None:
     """Writes the figure: a panel for each plain controller, Angen's own over all."""
-    import matplotlib
-    matplotlib.use('Agg')
-    from matplotlib import pyplot
     plant = PLANTS[kind]
     *plain, own = found
-    figure, axes = pyplot.subplots(len(plain), 1, sharex=True, layout='constrained',
-                                   figsize=(7, 7))
+    figure, axes = pyplot().subplots(len(plain), 1, sharex=True, layout='constrained',
+                                     figsize=(7, 7))
     p, i, d = plant.gains
     for axis, one in zip(axes, plain):
         gains = ', '.join(f'{term} {gain:g}' for term, gain in zip('PID', (p, i, d))
@@ -197,4 +194,3 @@ def draw(path: Path, kind: str, found: list[Answer]) -> None:
                       f'{"kg m²" if plant.unit == "rad" else "kg"}', fontsize=10)
     axes[-1].set_xlabel('s')
     save_figure(figure, path, dpi=100)
-    pyplot.close(figure)
