@@ -13,7 +13,7 @@ def drive(world) -> None:
 
 
 def test_a_person_and_a_robot_are_located_by_sensors_alone(building):
-    rows, site, _ = run(building, 60.0, 1, drive)
+    rows, site, _ = run(building, 60.0, 0, drive)
     assert len(site.rooms) == 14 and len(site.ways) == 13
     for tag, least in (('person', 0.7), ('turtlebot', 0.8)):
         own = [row for row in rows if row.answer.tag == tag]

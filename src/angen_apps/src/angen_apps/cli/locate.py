@@ -58,8 +58,8 @@ def add_locate(commands: Any) -> None:
                         'otherwise shows a live table')
     locate.add_argument('--world', metavar='FILE', type=Path,
                         help='in a world of its own, without a running simulator')
-    locate.add_argument('--seed', metavar='S', type=checked(at_least(0)), default=1,
-                        help='of all noise, with --world (1)')
+    locate.add_argument('--seed', metavar='S', type=checked(at_least(0)), default=0,
+                        help='of all noise, with --world (0)')
     add_allow_paths(locate)
     add_json(locate)
     add_out(locate, 'locate.csv and locate.png')

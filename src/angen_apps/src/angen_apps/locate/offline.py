@@ -9,7 +9,6 @@ from angen_apps.locate.belief import STEP, Answer, Belief, Evidence
 from angen_apps.locate.score import Row, compare
 from angen_apps.locate.site import Site, Thing, make_site
 from angen_apps.maps.gridmap import load_world
-from angen_tools.common.catalog import angen_module
 from angen_tools.common.failure import Failure
 from angen_tools.common.geometry import yaw
 from angen_tools.common.progress import Progress
@@ -51,7 +50,7 @@ def run(path: str, seconds: float, seed: int, drive: Callable[[Any], None] | Non
 
     Failure where the world does not load, has no climate or no reader.
     """
-    world = load_world(path) if seed == 1 else angen_module().World(path, seed=seed)
+    world = load_world(path, seed)
     site = site_of(world)
     if not site.of_kind('rfid'):
         raise Failure('the world has no RFID reader in a room: nobody can be told from another')
