@@ -14,11 +14,12 @@ from angen_apps.patrol import scene
 from angen_apps.patrol.drive import Patrol, RosRobot
 from angen_apps.patrol.figure import draw
 from angen_apps.patrol.lockstep import Lockstep
-from angen_apps.patrol.report import (Run, make_rows, measure, plans, summary, table_of, verdict,
-                                      write_figures, write_tables)
+from angen_apps.patrol.report import (Figures, Run, make_rows, measure, plans, summary, table_of,
+                                      verdict, write_tables)
 from angen_apps.robot.building import Entity
 from angen_apps.robot.interface import BASE, BUMPER, CYCLE, bumper
 from angen_apps.robot.route_file import read_route
+from angen_apps.robot.tables import write_figures
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import make_folder
 from angen_tools.common.output import as_json, show
@@ -91,7 +92,7 @@ def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, 
     write_tables(run, rows, out)
     for floor, name in zip(sorted(place.maps), plans(run)):
         draw(run, rows, route, floor, out / name)
-    write_figures([found], out / 'summary.csv')
+    write_figures(Figures, [found], out / 'summary.csv')
     if json:
         print(as_json({**asdict(found), 'sensors': [asdict(row) for row in rows]}))
     else:

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import csv
 import math
-from dataclasses import astuple, dataclass, fields
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -203,15 +203,8 @@ def measure(run: Run, seed: int, wall: float) -> Figures:
         float(aside[track[:, 0] > 1.0].max()), float(wheels.max()), float(wheels[-1]))
 
 
-def write_figures(found: list[Figures], path: Path) -> None:
-    """Writes a line a run."""
-    write_csv(path, [field.name for field in fields(Figures)],
-              ([f'{value:.4f}' if isinstance(value, float) else value
-                for value in astuple(figures)] for figures in found))
-
-
 def read_figures(path: Path) -> list[Figures]:
-    """What write_figures wrote."""
+    """The figures of a file that write_figures has written."""
     with path.open() as file:
         return [Figures(**{field.name: (int if field.type == 'int' else float)(row[field.name])
                            for field in fields(Figures)}) for row in csv.DictReader(file)]

@@ -6,7 +6,8 @@ import sys
 from dataclasses import asdict
 from pathlib import Path
 
-from angen_apps.patrol.report import Figures, read_figures, verdict, write_figures
+from angen_apps.patrol.report import Figures, read_figures, verdict
+from angen_apps.robot.tables import write_figures
 from angen_tools.common.failure import Failure
 from angen_tools.common.output import as_json, show, table
 from angen_tools.common.progress import Steps
@@ -28,7 +29,7 @@ def patrols(words: list[str], seeds: range, out: Path, json: bool) -> int:
             steps.next(f'seed {seed}')
             with watchdog():
                 found.append(patrol(words, seed, out / f'seed_{seed}'))
-            write_figures(found, out / 'summary.csv')
+            write_figures(Figures, found, out / 'summary.csv')
     finally:
         steps.close()
         if found:

@@ -1,7 +1,9 @@
-"""What every task of a robot leaves: events.csv and track.csv."""
+"""What every task of a robot leaves: events.csv, track.csv and a table of figures."""
 from __future__ import annotations
 
+from dataclasses import astuple, fields
 from pathlib import Path
+from typing import Any, Sequence
 
 from angen_apps.robot.driver import Track
 from angen_apps.robot.interface import Event
@@ -21,3 +23,10 @@ def write_track(track: Track, out: Path) -> None:
                'wheels_x_m', 'wheels_y_m'),
               ([f'{value:.4f}' for value in (*row, *believed, *wheels)]
                for row, believed, wheels in zip(track.rows, track.believed, track.odometry)))
+
+
+def write_figures(kind: type[Any], found: Sequence[Any], path: Path) -> None:
+    """Writes a line for each run; `kind` is the dataclass of its figures."""
+    write_csv(path, [field.name for field in fields(kind)],
+              ([f'{value:.4f}' if isinstance(value, float) else value
+                for value in astuple(figures)] for figures in found))

@@ -13,11 +13,11 @@ from angen_apps.maps.gridmap import load_world
 from angen_apps.patrol.command import default_route, default_world
 from angen_apps.robot.building import Entity
 from angen_apps.robot.route_file import Route, read_route
+from angen_apps.robot.tables import write_figures
 from angen_apps.seek import run
 from angen_apps.seek.figure import draw_search, draw_times
 from angen_apps.seek.home import Home, make_home
-from angen_apps.seek.report import (compare, summary, table_of, verdict, write_figures,
-                                    write_outcome)
+from angen_apps.seek.report import compare, summary, table_of, verdict, write_outcome
 from angen_apps.seek.run import Figures
 from angen_apps.seek.simulation import entities_of
 from angen_tools.common.files import make_folder
@@ -71,7 +71,7 @@ def seek_seeds(route_file: Path | None, world: Path | None, seeds: range, limit:
         for figures in pool.imap_unordered(_one, jobs):
             found.append(figures)
             found.sort(key=lambda f: (f.seed, not f.ambient))
-            write_figures(found, out / 'seek.csv')
+            write_figures(Figures, found, out / 'seek.csv')
             progress.update(len(found) / len(jobs), _line(figures))
     draw_times(found, limit, out / 'seek.png')
     if json:

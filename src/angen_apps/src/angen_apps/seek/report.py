@@ -1,14 +1,12 @@
 """What a search leaves and prints: of one, and of many."""
 from __future__ import annotations
 
-import csv
 import math
-from dataclasses import astuple, fields
 from pathlib import Path
 from statistics import mean, median
-from typing import TYPE_CHECKING, Any, Callable
+from typing import TYPE_CHECKING
 
-from angen_apps.robot.tables import write_events, write_track
+from angen_apps.robot.tables import write_events, write_figures, write_track
 from angen_apps.seek.home import Home
 from angen_apps.seek.run import Figures, Outcome
 from angen_tools.common.files import write_csv
@@ -24,7 +22,7 @@ RIGHT = ('SEED', WITH, 'BESIDE cm', 'm', WITHOUT, 'BESIDE cm ', 'm ', 'COLLISION
 
 def write_outcome(outcome: Outcome, home: Home, out: Path) -> None:
     """Writes search.csv, events.csv, track.csv, person.csv and goals.csv into a folder."""
-    write_figures([outcome.figures], out / 'search.csv')
+    write_figures(Figures, [outcome.figures], out / 'search.csv')
     write_events(outcome.events, out)
     write_track(outcome.track, out)
     write_csv(out / 'person.csv', ('time_s', 'x_m', 'y_m', 'z_m'),
@@ -32,22 +30,6 @@ def write_outcome(outcome: Outcome, home: Home, out: Path) -> None:
     write_csv(out / 'goals.csv', ('time_s', 'room', 'x_m', 'y_m'),
               ([f'{t:.1f}', home.rooms[home.room[cell]], *(f'{v:.2f}' for v in home.point(cell))]
                for t, cell in outcome.goals))
-
-
-def write_figures(found: list[Figures], path: Path) -> None:
-    """Writes a line a search."""
-    write_csv(path, [field.name for field in fields(Figures)],
-              ([f'{value:.4f}' if isinstance(value, float) else value
-                for value in astuple(figures)] for figures in found))
-
-
-def read_figures(path: Path) -> list[Figures]:
-    """What write_figures wrote."""
-    kinds: dict[str, Callable[[str], Any]] = {'int': int, 'float': float, 'str': str,
-                                              'bool': 'True'.__eq__}
-    with path.open() as file:
-        return [Figures(**{field.name: kinds[str(field.type)](row[field.name])
-                           for field in fields(Figures)}) for row in csv.DictReader(file)]
 
 
 def summary(outcome: Outcome, home: Home) -> str:
