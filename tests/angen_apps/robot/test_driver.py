@@ -11,7 +11,7 @@ import pytest
 
 from angen_apps.maps.gridmap import FREE, GridMap
 from angen_apps.robot.driver import DEVICE_LIMIT, Driver, Stuck
-from angen_apps.robot.interface import (BUMPER, CYCLE, DoorState, Event, LiftState, bumper,
+from angen_apps.robot.interface import (BUMPER, CYCLE, DoorState, Event, LiftState, bumper_of,
                                         collisions)
 from angen_apps.robot.pilot import Pose
 from angen_apps.robot.route import Drive, Ride, Turn
@@ -110,7 +110,7 @@ def test_a_ride_takes_it_to_the_other_floor() -> None:
 
 
 def test_what_rolls_may_touch_the_floor_and_what_touches_is_counted() -> None:
-    assert bumper(['body', 'left_wheel', 'caster_front']).count('<collision>') == 1
+    assert bumper_of(['body', 'left_wheel', 'caster_front']).count('<collision>') == 1
     events = [Event(1.0, BUMPER, 'contact', 'pressed', 'by wall'),
               Event(2.0, BUMPER, 'contact', 'released', ''),
               Event(3.0, 'chair', 'contact', 'pressed', '')]

@@ -17,7 +17,7 @@ from angen_apps.patrol.lockstep import Lockstep
 from angen_apps.patrol.report import (Figures, Run, make_rows, measure, plans, summary, table_of,
                                       verdict, write_tables)
 from angen_apps.robot.building import Entity
-from angen_apps.robot.interface import BASE, BUMPER, CYCLE, bumper
+from angen_apps.robot.interface import BUMPER, CYCLE, bumper
 from angen_apps.robot.route_file import read_route
 from angen_apps.robot.tables import write_figures
 from angen_tools.common.failure import Failure
@@ -25,8 +25,7 @@ from angen_tools.common.files import make_folder
 from angen_tools.common.output import as_json, show
 from angen_tools.common.progress import Progress
 from angen_tools.live.sandbox import Sandbox, wait
-from angen_tools.world.models import collisions, worlds_models
-from angen_tools.world.sdf import read
+from angen_tools.world.models import worlds_models
 
 RECORDED = (f'/angen/(?!contact/{BUMPER})'
             '(pir|switch|luminosity|contact|door|elevator|lamp|events|stats|markers).*'
@@ -67,7 +66,7 @@ def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, 
         entities = [entity_of(message) for message in lockstep.entities()]
         place, actions = scene.make_scene(route, str(own_world), entities,
                                           scene.start_offset(seed))
-        put_bumper(lockstep, route.robot, own_world)
+        lockstep.spawn(BUMPER, *bumper(own_world, route.robot))
         clock = Clock(rate)
         robot = RosRobot(route, place, lockstep)
         robot.connect()
@@ -99,15 +98,6 @@ def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, 
         show(table_of(rows))
         print(summary(run, found, time.monotonic() - began, out))
     return verdict(found)
-
-
-def put_bumper(lockstep: Lockstep, robot: str, world: Path) -> None:
-    """Puts a sensor on the robot that samples each step the contacts of what may touch nothing."""
-    link = f'{robot}::{BASE}'
-    names = collisions(read(world), link)
-    if not names:
-        raise Failure(f'the robot {robot} has no link {BASE} with collisions')
-    lockstep.spawn(BUMPER, bumper(names), link)
 
 
 def entity_of(message: Any) -> Entity:

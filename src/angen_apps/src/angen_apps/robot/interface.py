@@ -2,9 +2,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Protocol
 
 from angen_apps.robot.pilot import Pose
+from angen_tools.common.failure import Failure
+from angen_tools.world.models import collisions as collisions_of
+from angen_tools.world.sdf import read
 
 BUMPER = 'patrol_bumper'  # the sensor on the robot that detects all that it touches
 CYCLE = 0.1  # s from one command to the next
@@ -76,8 +80,18 @@ class Robot(Protocol):
         """x, y, z (m), yaw (rad), to record and judge a run; no program may steer by it."""
 
 
-def bumper(collisions: list[str]) -> str:
-    """SDF of a sensor that samples each step the contacts of what may touch nothing."""
+def bumper(world: Path, robot: str) -> tuple[str, str]:
+    """SDF of a sensor that samples each step the contacts of what may touch nothing, and the
+    MODEL::LINK that carries it. Failure where the file of the world has no such robot."""
+    link = f'{robot}::{BASE}'
+    names = collisions_of(read(world), link)
+    if not names:
+        raise Failure(f'the robot {robot} has no link {BASE} with collisions')
+    return bumper_of(names), link
+
+
+def bumper_of(collisions: list[str]) -> str:
+    """SDF of the bumper of a robot with these collisions."""
     parts = ''.join(f'<collision>{name}</collision>' for name in collisions
                     if not any(part in name for part in ROLLS))
     return (f'<sensor name="{BUMPER}" type="contact"><update_rate>1000</update_rate><contact>'

@@ -12,13 +12,10 @@ from typing import Any, Callable
 import numpy as np
 
 from angen_apps.robot.building import Entity, Start
-from angen_apps.robot.interface import (BASE, BUMPER, CYCLE, DoorState, Event, LiftState, bumper)
+from angen_apps.robot.interface import BASE, BUMPER, CYCLE, DoorState, Event, LiftState, bumper
 from angen_apps.robot.pilot import Pose
 from angen_tools.common.catalog import angen_module, simulator
-from angen_tools.common.failure import Failure
 from angen_tools.common.geometry import yaw
-from angen_tools.world.models import collisions
-from angen_tools.world.sdf import read
 
 
 def entities_of(world: Any) -> list[Entity]:
@@ -38,10 +35,8 @@ class Simulation:
         self.others: Callable[[], None] = lambda: None
         self.sent: list[tuple[float, str, str]] = []  # s, kind, name of the robot's commands
         self.entities = entities_of(self.world)
-        names = collisions(read(path), f'{robot}::{BASE}')
-        if not names:
-            raise Failure(f'the robot {robot} has no link {BASE} with collisions')
-        self.world.spawn(bumper(names), BUMPER, on=f'{robot}::{BASE}')
+        xml, link = bumper(path, robot)
+        self.world.spawn(xml, BUMPER, on=link)
         self._links = {name: i for i, name in enumerate(self.world.links)}
 
     def start(self, start: Start) -> None:
