@@ -7,17 +7,15 @@ from pathlib import Path
 
 from angen_apps.care.day import read_day
 from angen_apps.care.report import as_dict, line_of, table_of, warnings_of, write, write_events
-from angen_apps.care.rules import Rules
 from angen_apps.care.rules_file import read_rules
+from angen_apps.shipped import shipped
 from angen_tools.common.output import as_json, show
-
-SHIPPED = 'config/care.yaml'
 
 
 def care_live(path: Path | None, out: Path) -> int:
     """Follows the running simulator until Ctrl-C, and writes what happened then."""
     from angen_apps.care.live import Live
-    rules = _rules(path)
+    rules = read_rules(path or shipped('care.yaml'))
     live = Live(rules, lambda change: print(line_of(change, rules.starts), flush=True))
     print(f'angen: {len(rules.rules)} rules of {rules.path}; warnings are on /angen/warnings; '
           'Ctrl-C ends', file=sys.stderr)
@@ -35,7 +33,7 @@ def care_offline(path: Path | None, world: Path, seconds: float, day: Path | Non
     import time
 
     from angen_apps.care.offline import Watched
-    rules = _rules(path)
+    rules = read_rules(path or shipped('care.yaml'))
     orders = read_day(day, rules.starts) if day else []
     began = time.monotonic()
     watched = Watched(rules, world, seed)
@@ -53,11 +51,3 @@ def care_offline(path: Path | None, world: Path, seconds: float, day: Path | Non
           f'in {watched.time:g} s, simulated in {wall:.1f} s; see {out}/care.png, warnings.csv, '
           'events.csv')
     return 0
-
-
-def _rules(path: Path | None) -> Rules:
-    """The rules of a file, or those that are shipped."""
-    if path is None:
-        import rospkg
-        path = Path(rospkg.RosPack().get_path('angen_apps')) / SHIPPED
-    return read_rules(path)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from angen_apps.maps.gridmap import load_world, make_map
 from angen_tools.common.failure import Failure
-from angen_tools.world.models import worlds_models
+from angen_tools.world.models import building
 
 
 def save_map(world: Path | None, floor: int, doors: str, stem: Path) -> str:
@@ -13,7 +13,7 @@ def save_map(world: Path | None, floor: int, doors: str, stem: Path) -> str:
 
     Failure where the world does not load, has no such floor, or the files cannot be written.
     """
-    path = world or worlds_models().parent / 'angen.world'
+    path = world or building()
     try:
         made = make_map(load_world(str(path)), floor, doors)
     except Failure as failure:

@@ -18,10 +18,9 @@ from angen_apps.patrol.report import (Figures, Run, make_rows, measure, plans, s
                                       verdict, write_tables)
 from angen_apps.robot.building import Entity
 from angen_apps.robot.interface import BUMPER, CYCLE, bumper
-from angen_apps.robot.route_file import read_route
+from angen_apps.robot.route_file import prepare
 from angen_apps.robot.tables import write_figures
 from angen_tools.common.failure import Failure
-from angen_tools.common.files import make_folder
 from angen_tools.common.output import as_json, show
 from angen_tools.common.progress import Progress
 from angen_tools.live.sandbox import Sandbox, wait
@@ -37,29 +36,14 @@ LEFT, FEW = '32M', 64_000_000  # on the disk: with less rosbag stops; with less 
 SENSORS = ('pir', 'switch', 'luminosity', 'contact')
 
 
-def default_route() -> Path:
-    """config/patrol.yaml of this package."""
-    import rospkg
-    return Path(rospkg.RosPack().get_path('angen_apps')) / 'config/patrol.yaml'
-
-
-def default_world() -> Path:
-    """worlds/angen.world of the package angen_sim."""
-    return worlds_models().parent / 'angen.world'
-
-
 def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, out: Path,
            json: bool) -> int:
     """Drives a route and writes the report; 0, or 1 where the robot touched something or the
     elevator was not level. Failure where the route cannot be driven."""
-    route = read_route(route_file or default_route())
-    world = (world or default_world()).absolute()
-    make_folder(out / 'logs')
+    route, world = prepare(route_file, world, out / 'logs')
     began = time.monotonic()
     own_world = out.absolute() / 'patrol.world'
     scene.write_world(world, route.robot, seed, own_world)
-    paths = [str(world.parent / 'models'), os.environ.get('ANGEN_MODEL_PATH', '')]
-    os.environ['ANGEN_MODEL_PATH'] = ':'.join(path for path in paths if path)
     with Sandbox((out / 'logs').absolute()) as sandbox:
         sandbox.node(own_world, 0.0, paused='true', seed=seed)
         lockstep = Lockstep(CYCLE)

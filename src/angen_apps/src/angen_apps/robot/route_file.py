@@ -1,13 +1,17 @@
 """A patrol's route, read from its YAML file: where to go, and how fast."""
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from angen_apps.robot.planner import Point
+from angen_apps.shipped import shipped
 from angen_tools.common.failure import Failure
+from angen_tools.common.files import make_folder
 from angen_tools.common.yaml_file import YamlFile, is_list, line_of
+from angen_tools.world.models import building
 
 
 @dataclass(frozen=True)
@@ -56,6 +60,22 @@ KEYS = ('robot', *NUMBERS, 'elevator', 'waypoints')
 def read_route(path: Path) -> Route:
     """The route of a file; Failure says file, line, what is wrong and what would be right."""
     return _Reader(path).route()
+
+
+def default_route() -> Path:
+    """The route of this package."""
+    return shipped('patrol.yaml')
+
+
+def prepare(route_file: Path | None, world: Path | None, out: Path) -> tuple[Route, Path]:
+    """The route and the world of a task, or the default ones. Makes the folder `out`, and lets the
+    world include the models beside it."""
+    route = read_route(route_file or default_route())
+    world = (world or building()).absolute()
+    make_folder(out)
+    paths = [str(world.parent / 'models'), os.environ.get('ANGEN_MODEL_PATH', '')]
+    os.environ['ANGEN_MODEL_PATH'] = ':'.join(path for path in paths if path)
+    return route, world
 
 
 class _Reader(YamlFile):

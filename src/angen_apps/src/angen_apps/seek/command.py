@@ -10,9 +10,8 @@ from dataclasses import asdict, replace
 from pathlib import Path
 
 from angen_apps.maps.gridmap import load_world
-from angen_apps.patrol.command import default_route, default_world
 from angen_apps.robot.building import Entity
-from angen_apps.robot.route_file import Route, read_route
+from angen_apps.robot.route_file import Route, default_route, prepare
 from angen_apps.robot.tables import write_figures
 from angen_apps.seek import run
 from angen_apps.seek.figure import draw_search, draw_times
@@ -20,7 +19,6 @@ from angen_apps.seek.home import Home, make_home
 from angen_apps.seek.report import compare, summary, table_of, verdict, write_outcome
 from angen_apps.seek.run import Figures
 from angen_apps.seek.simulation import entities_of
-from angen_tools.common.files import make_folder
 from angen_tools.common.output import as_json, show
 from angen_tools.common.progress import Progress
 from angen_tools.common.watchdog import end_with_parent
@@ -31,7 +29,7 @@ HOME_SHARE = 0.05  # of the progress: the survey
 def seek(route_file: Path | None, world: Path | None, seed: int, ambient: bool, limit: float,
          out: Path, json: bool) -> int:
     """Searches once; 0, or 1 where nobody was found or the robot touched something."""
-    route, world = _prepare(route_file, world, out)
+    route, world = prepare(route_file, world, out)
     with Progress('seek', 0.1) as progress:
         home, route = survey(world, route, out)
         progress.update(HOME_SHARE, 'the building is surveyed')
@@ -58,7 +56,7 @@ def seek_seeds(route_file: Path | None, world: Path | None, seeds: range, limit:
                json: bool) -> int:
     """Searches with each seed, with and without ambient sensors, on all cores; a table and a
     figure. 0, or 1 where one did not find anybody or touched something."""
-    route, world = _prepare(route_file, world, out)
+    route, world = prepare(route_file, world, out)
     # By processes that end: this one, which they are made from, has no world and no threads.
     with multiprocessing.get_context('fork').Pool(1, _begin, (os.getpid(),)) as pool:
         home, route = pool.apply(survey, (world, route, out))
@@ -104,16 +102,6 @@ def _begin(parent: int) -> None:
     end_with_parent(parent)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
-
-
-def _prepare(route_file: Path | None, world: Path | None, out: Path) -> tuple[Route, Path]:
-    """The route's file and the world, once everything can be found and written."""
-    route = read_route(route_file or default_route())
-    world = (world or default_world()).absolute()
-    make_folder(out)
-    paths = [str(world.parent / 'models'), os.environ.get('ANGEN_MODEL_PATH', '')]
-    os.environ['ANGEN_MODEL_PATH'] = ':'.join(path for path in paths if path)
-    return route, world
 
 
 def survey(world: Path, route: Route, out: Path) -> tuple[Home, Route]:

@@ -22,6 +22,11 @@ def worlds_models() -> Path:
                       'devel/setup.bash') from None
 
 
+def building() -> Path:
+    """The world that commands use unless another one is given."""
+    return worlds_models().parent / 'angen.world'
+
+
 def folders() -> list[Path]:
     """Where models are searched for."""
     return [*(Path(folder) for variable in ('ANGEN_MODEL_PATH', 'GAZEBO_MODEL_PATH')
