@@ -27,6 +27,11 @@ FREE, OCCUPIED, UNKNOWN = 0, 100, -1  # as nav_msgs/OccupancyGrid has them
 GRAYS = {FREE: 254, OCCUPIED: 0, UNKNOWN: 205}  # as map_server has them
 
 
+def on_floor(heights: np.ndarray, floor: int) -> np.ndarray:
+    """Which heights z (m) belong to a floor."""
+    return np.asarray(np.floor((heights + 0.5) / STOREY) == floor)
+
+
 def floor_of(z: float) -> int:
     """The floor that something at height z (m) belongs to."""
     return math.floor((z + 0.5) / STOREY)
@@ -58,6 +63,12 @@ class GridMap:
     def height(self) -> float:
         """z of the floor, m."""
         return self.floor * STOREY
+
+    @property
+    def extent(self) -> tuple[float, float, float, float]:
+        """West, east, south and north edge, m, as matplotlib's imshow takes them."""
+        (west, south), (rows, columns) = self.origin, self.cells.shape
+        return (west, west + columns * self.resolution, south, south + rows * self.resolution)
 
     def shades(self) -> np.ndarray:
         """The map as map_server's picture, (rows, columns) uint8, the highest y first."""

@@ -56,3 +56,10 @@ class Caster:
         while (ranges := _Probe.latest()) is None:
             self._world.step()
         return np.minimum(ranges, rows[:, 7])
+
+    def sees(self, origin: np.ndarray, points: np.ndarray, near: float = 0.0) -> np.ndarray:
+        """Which points (n, 3) nothing hides from `origin`, but what is nearer than `near` (m)."""
+        lines = points - origin
+        far = np.maximum(np.linalg.norm(lines, axis=1), 1e-6)
+        ranges = self.cast(np.broadcast_to(origin, points.shape), lines / far[:, None], far)
+        return np.asarray(ranges >= far - near - 1e-6)

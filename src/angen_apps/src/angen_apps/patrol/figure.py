@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from angen_apps.maps.gridmap import FREE, OCCUPIED, STOREY
+from angen_apps.maps.gridmap import FREE, OCCUPIED, on_floor
 from angen_apps.patrol.report import Row, Run, begun, moving
 from angen_apps.robot.building import Entity
 from angen_apps.robot.route_file import Route
@@ -26,7 +26,7 @@ def draw(run: Run, rows: list[Row], route: Route, floor: int, path: Path) -> Non
     figure, axes = pyplot().subplots(figsize=(10, 7.1), dpi=150)
     plan(axes, run, floor)
     track = np.array(run.track.rows)
-    here = np.floor((track[:, 3] + 0.5) / STOREY) == floor
+    here = on_floor(track[:, 3], floor)
     line = np.where(here[:, None], track[:, 1:3], np.nan)
     axes.plot(line[:, 0], line[:, 1], color=TRACK, linewidth=1.2, zorder=3)
     entities = {entity.name: entity for entity in run.sensors}
@@ -101,9 +101,8 @@ def plan(axes: Any, run: Run, floor: int) -> None:
         shade[grid.cells == value] = gray
     rows, columns = np.nonzero(grid.cells != -1)
     west, south = grid.origin
-    height, width = grid.cells.shape
-    axes.imshow(shade, origin='lower', cmap='gray', vmin=0, vmax=1, zorder=0, extent=(
-        west, west + width * grid.resolution, south, south + height * grid.resolution))
+    axes.imshow(shade, origin='lower', cmap='gray', vmin=0, vmax=1, zorder=0,
+                extent=grid.extent)
     margin = 4
     axes.set_xlim(west + (columns.min() - margin) * grid.resolution,
                   west + (columns.max() + margin) * grid.resolution)

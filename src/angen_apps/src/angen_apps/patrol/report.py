@@ -16,7 +16,7 @@ from angen_tools.world import sdf
 if TYPE_CHECKING:
     from rich.table import Table
 
-from angen_apps.maps.gridmap import STOREY
+from angen_apps.maps.gridmap import on_floor
 from angen_apps.patrol.scene import Scene
 from angen_apps.patrol.sight import Sight
 from angen_apps.robot import interface
@@ -89,7 +89,6 @@ def make_rows(run: Run, world: Path) -> list[Row]:
                   [door for doors in run.scene.doors.values() for door in doors],
                   {name: np.array(angles) for name, angles in run.angles.items()})
     track = np.array(run.track.rows)
-    floors = np.floor((track[:, 3] + 0.5) / STOREY)
     described, moved = sdf.read(world), moving(track)
     rows = []
     for entity in run.sensors:
@@ -102,7 +101,7 @@ def make_rows(run: Run, world: Path) -> list[Row]:
             first = next((t for t, _ in detected
                           if seen is not None and t >= seen - STATE_PERIOD), None)
         else:
-            here = track[floors == entity.floor]
+            here = track[on_floor(track[:, 3], entity.floor)]
             seen = sight.first(view_of(entity, sensor_element(described, entity)), here)
             first = first_detection(seen, detected, moved)
         rows.append(Row(room_of(entity.name), entity.name, entity.kind, seen, first))

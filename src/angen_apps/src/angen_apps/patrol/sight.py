@@ -88,11 +88,7 @@ class Sight:
     def _free(self, origin: np.ndarray, points: np.ndarray, times: np.ndarray) -> np.ndarray:
         if len(points) == 0:
             return np.zeros(0, bool)
-        lines = points - origin
-        far = np.linalg.norm(lines, axis=1)
-        ranges = self._caster.cast(np.broadcast_to(origin, points.shape), lines / far[:, None],
-                                   far)
-        free = ranges >= far - 1e-6
+        free = self._caster.sees(origin, points)
         for door in self._doors:
             history = self._angles[door.name]
             which = np.searchsorted(history[:, 0], times, side='right') - 1

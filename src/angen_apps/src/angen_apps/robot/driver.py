@@ -9,7 +9,7 @@ import numpy as np
 
 from angen_apps.maps.gridmap import STOREY, GridMap
 from angen_apps.robot.interface import CYCLE, Robot, collisions
-from angen_apps.robot.localizer import Localizer, returns_of
+from angen_apps.robot.localizer import EVERY, Localizer, returns_of
 from angen_apps.robot.pilot import Pilot, Pose
 from angen_apps.robot.route import Action, Drive, Ride, Turn
 from angen_apps.robot.route_file import Route
@@ -67,7 +67,7 @@ class Driver:
             self._localizer.see(self._returns())
 
     def _returns(self) -> np.ndarray:
-        return returns_of(self._robot.scan(), self._mount)
+        return returns_of(self._robot.scan(), self._mount, EVERY)[0]
 
     def cycle(self, v: float = 0.0, w: float = 0.0) -> Pose:
         """Commands the wheels for a cycle; the estimated pose after it."""

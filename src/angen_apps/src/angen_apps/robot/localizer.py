@@ -88,11 +88,11 @@ class Localizer:
         return self.pose
 
 
-def returns_of(scan: Any, mount: Pose) -> np.ndarray:
-    """Returns (n, 2) of a sensor_msgs/LaserScan in the robot's frame, m; `mount`: the laser there.
-    """
-    ranges = np.array(scan.ranges[::EVERY])
-    angles = scan.angle_min + EVERY * scan.angle_increment * np.arange(len(ranges)) + mount.yaw
+def returns_of(scan: Any, mount: Pose, every: int = 1) -> tuple[np.ndarray, np.ndarray]:
+    """Of a sensor_msgs/LaserScan each `every`th return (n, 2) in the robot's frame, m, and their
+    numbers in the scan; `mount`: the laser on the robot."""
+    ranges = np.asarray(scan.ranges[::every])
+    angles = scan.angle_min + every * scan.angle_increment * np.arange(len(ranges)) + mount.yaw
     met = np.isfinite(ranges) & (ranges >= scan.range_min) & (ranges <= scan.range_max)
-    return (ranges[:, None] * np.stack([np.cos(angles), np.sin(angles)], axis=1))[met] + [
-        mount.x, mount.y]
+    points = ranges[:, None] * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    return points[met] + [mount.x, mount.y], every * np.nonzero(met)[0]

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from angen_apps.robot.localizer import Field
+from angen_apps.robot.localizer import Field, returns_of
 from angen_apps.robot.pilot import Pose
 
 UNEXPLAINED = 0.15  # m: a return so far from all that the map has is of something else
@@ -42,15 +42,6 @@ class Arc:
         return self.x, self.y
 
 
-def points_of(scan: Any, mount: Pose) -> tuple[np.ndarray, np.ndarray]:
-    """Returns (n, 2) of a whole scan in the robot's frame (m), and their numbers in the scan."""
-    ranges = np.asarray(scan.ranges)
-    angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges)) + mount.yaw
-    met = np.isfinite(ranges) & (ranges >= scan.range_min) & (ranges <= scan.range_max)
-    points = ranges[:, None] * np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    return points[met] + [mount.x, mount.y], np.nonzero(met)[0]
-
-
 def to_world(points: np.ndarray, pose: Pose) -> np.ndarray:
     """Points (n, 2) of a frame in the world."""
     c, s = math.cos(pose.yaw), math.sin(pose.yaw)
@@ -64,7 +55,7 @@ def unexplained(points: np.ndarray, field: Field) -> np.ndarray:
 
 def find_arcs(scan: Any, mount: Pose, pose: Pose, field: Field) -> list[Arc]:
     """The round things of a person's size that stand where the map has nothing."""
-    points, numbers = points_of(scan, mount)
+    points, numbers = returns_of(scan, mount)
     if not len(points):
         return []
     world = to_world(points, pose)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from angen_apps.maps.gridmap import OCCUPIED, STOREY
+from angen_apps.maps.gridmap import OCCUPIED, on_floor
 from angen_apps.seek.home import CELL, Home
 from angen_apps.seek.report import pairs
 from angen_apps.seek.run import Figures, Outcome
@@ -87,13 +87,11 @@ def _plan(ax: Any, home: Home, floor: int, belief: np.ndarray) -> Any:
         row, column = grid.cell(x, y)
         if 0 <= row < squares.shape[0] and 0 <= column < squares.shape[1]:
             squares[row, column] = 100 * belief[cell]
-    extent = (west, west + grid.cells.shape[1] * grid.resolution, south,
-              south + grid.cells.shape[0] * grid.resolution)
-    shade = ax.imshow(squares, origin='lower', extent=extent, cmap=_from_white(),
+    shade = ax.imshow(squares, origin='lower', extent=grid.extent, cmap=_from_white(),
                       norm=PowerNorm(0.4, 0.0, 10.0))
     walls = np.full((*grid.cells.shape, 4), 0.0)
     walls[grid.cells == OCCUPIED] = (0.29, 0.29, 0.29, 1.0)
-    ax.imshow(walls, origin='lower', extent=extent)
+    ax.imshow(walls, origin='lower', extent=grid.extent)
     ax.set_xlim(west + (columns.min() - 3) * grid.resolution,
                 west + (columns.max() + 4) * grid.resolution)
     ax.set_ylim(south + (rows.min() - 3) * grid.resolution,
@@ -131,7 +129,7 @@ def _line(ax: Any, rows: np.ndarray, floor: int, color: str, style: str, width: 
           size: float) -> None:
     if not len(rows):
         return
-    here = np.floor((rows[:, 3] + 0.5) / STOREY) == floor
+    here = on_floor(rows[:, 3], floor)
     places = np.where(here[:, None], rows[:, 1:3], np.nan)
     ax.plot(places[:, 0], places[:, 1], style, color=color, lw=width)
     if here[-1]:

@@ -230,14 +230,6 @@ class _Sight:
     def __init__(self, world: Any, shut: Any) -> None:
         self._open, self._shut = Caster(world), Caster(shut)
 
-    @staticmethod
-    def _free(caster: Caster, origin: np.ndarray, points: np.ndarray, near: float = 0.0
-              ) -> np.ndarray:
-        lines = points - origin
-        far = np.maximum(np.linalg.norm(lines, axis=1), 1e-6)
-        ranges = caster.cast(np.broadcast_to(origin, points.shape), lines / far[:, None], far)
-        return np.asarray(ranges >= far - near - 1e-6)
-
     def pir(self, entity: Entity, described: Any, targets: np.ndarray) -> Pir:
         """The cells that a PIR sees; `targets` (n, heights, 3) points of a person in each."""
         sensor = sensor_element(described, entity)
@@ -246,7 +238,7 @@ class _Sight:
         held = np.nonzero(view.holds(points))[0]
         seen = [np.zeros(len(points), bool), np.zeros(len(points), bool)]
         for mask, caster in zip(seen, (self._shut, self._open)):
-            mask[held] = self._free(caster, view.position, points[held])
+            mask[held] = caster.sees(view.position, points[held])
         shut, opened = (mask.reshape(targets.shape[:2]).any(axis=1) for mask in seen)
         period = float(sensor.findtext('plugin/nod_period') or 0) if sensor is not None else 0.0
         return Pir(entity.name, shut, opened & ~shut, period)
@@ -257,7 +249,7 @@ class _Sight:
         found = (floor == floor[cell]) & (np.hypot(*(at - at[cell]).T) <= SEES)
         rows = np.nonzero(found)[0]
         points = np.column_stack([at[rows], np.full(len(rows), z)])
-        found[rows] = self._free(self._shut, np.array([*at[cell], z]), points, BODY)
+        found[rows] = self._shut.sees(np.array([*at[cell], z]), points, BODY)
         return found
 
 

@@ -10,15 +10,14 @@ import numpy as np
 from angen_apps.maps.gridmap import STOREY
 from angen_apps.robot.driver import Driver
 from angen_apps.robot.interface import CYCLE, Event
-from angen_apps.robot.localizer import Field
+from angen_apps.robot.localizer import Field, returns_of
 from angen_apps.robot.pilot import wrapped
 from angen_apps.robot.planner import Door, Planner, Point
 from angen_apps.robot.route import Action, Drive, Router, Turn
 from angen_apps.robot.route_file import Route, Waypoint
 from angen_apps.seek.ambient import Ambient, RobotNow
 from angen_apps.seek.belief import ARC, STEP, Belief
-from angen_apps.seek.detector import (Arc, Figure, find_arcs, find_figure, points_of, to_world,
-                                      unexplained)
+from angen_apps.seek.detector import Arc, Figure, find_arcs, find_figure, to_world, unexplained
 from angen_apps.seek.home import SEES, Home, doors_between
 from angen_apps.seek.simulation import Simulation
 from angen_tools.common.failure import Failure
@@ -119,7 +118,7 @@ class Search:
         """Arcs in the latest scan."""
         now, pose, floor = self._simulation.now, self._driver.pose, self._driver.floor
         scan, field = self._simulation.scan(), self._fields[floor]
-        points = to_world(points_of(scan, self._home.start.mount)[0], pose)
+        points = to_world(returns_of(scan, self._home.start.mount)[0], pose)
         self._foreign = points[unexplained(points, field)]
         arcs = [arc for arc in find_arcs(scan, self._home.start.mount, pose, field)
                 if not self._is_known(arc, floor, now)]
