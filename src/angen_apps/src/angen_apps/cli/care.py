@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from angen_apps.care.clock import DAY, duration
-from angen_tools.cli.arguments import at_least, checked
-from angen_tools.cli.parser import add_allow_paths, add_json, add_out, command
+from angen_tools.cli.arguments import checked
+from angen_tools.cli.parser import add_allow_paths, add_json, add_out, add_seed, command
 from angen_tools.common.files import check_folder
 
 
@@ -39,8 +39,7 @@ def add_care(commands: Any) -> None:
                       help='how much time to simulate, as 90min (24h)')
     care.add_argument('--day', metavar='FILE', type=Path,
                       help='commands to devices: a CSV file with time,target,command')
-    care.add_argument('--seed', metavar='S', type=checked(at_least(0)), default=1,
-                      help='of all noise (1)')
+    add_seed(care, 'of all noise')
     add_allow_paths(care)
     add_json(care)
     add_out(care, 'care.png, warnings.csv and, with --world, events.csv')

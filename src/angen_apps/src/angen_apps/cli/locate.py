@@ -5,8 +5,8 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from angen_tools.cli.arguments import at_least, checked, duration
-from angen_tools.cli.parser import add_allow_paths, add_json, add_out, command
+from angen_tools.cli.arguments import checked, duration
+from angen_tools.cli.parser import add_allow_paths, add_json, add_out, add_seed, command
 from angen_tools.common.files import check_folder
 from angen_tools.common.output import show
 
@@ -58,8 +58,7 @@ def add_locate(commands: Any) -> None:
                         'otherwise shows a live table')
     locate.add_argument('--world', metavar='FILE', type=Path,
                         help='in a world of its own, without a running simulator')
-    locate.add_argument('--seed', metavar='S', type=checked(at_least(0)), default=0,
-                        help='of all noise, with --world (0)')
+    add_seed(locate, 'of all noise, with --world', 0)
     add_allow_paths(locate)
     add_json(locate)
     add_out(locate, 'locate.csv and locate.png')

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from angen_tools.cli.arguments import at_least, checked, duration, rate
-from angen_tools.cli.parser import add_json, add_out, command
+from angen_tools.cli.parser import add_json, add_out, add_seed, command
 from angen_tools.common.files import check_folder
 
 
@@ -35,8 +35,7 @@ def add_task(commands: Any) -> None:
                         help='where to go and how fast (config/patrol.yaml of angen_apps)')
     patrol.add_argument('--world', metavar='FILE', type=Path, help='the building '
                         '(worlds/angen.world)')
-    patrol.add_argument('--seed', metavar='S', type=checked(at_least(0)), default=1,
-                        help='of start, noise and timing (1)')
+    add_seed(patrol, 'of start, noise and timing')
     patrol.add_argument('--seeds', metavar='N', type=checked(at_least(1)), default=1,
                         help='this many patrols, with this seed and the next ones, each in a '
                         'folder of its own, and a table of them (1)')
@@ -67,8 +66,7 @@ def add_seek(kinds: Any) -> None:
                       'for patrol; its waypoints do not matter (config/patrol.yaml of angen_apps)')
     seek.add_argument('--world', metavar='FILE', type=Path, help='the building; its first actor '
                       'is the person (worlds/angen.world)')
-    seek.add_argument('--seed', metavar='S', type=checked(at_least(0)), default=1,
-                      help='of start, noise, and the itinerary and habits of the person (1)')
+    add_seed(seek, 'of start, noise, and the itinerary and habits of the person')
     seek.add_argument('--seeds', metavar='N', type=checked(at_least(1)), default=1,
                       help='this many searches with, and as many without ambient sensors, on all '
                       'cores: a table and a figure (1)')

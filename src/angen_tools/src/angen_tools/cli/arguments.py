@@ -5,7 +5,12 @@ from __future__ import annotations
 
 import argparse
 import math
+import sys
 from typing import Any, Callable
+
+from angen_tools.common.verbs import number
+
+LONGEST = sys.float_info.max  # s
 
 
 def checked(check: Callable[[str], Any]) -> Callable[[str], Any]:
@@ -18,24 +23,16 @@ def checked(check: Callable[[str], Any]) -> Callable[[str], Any]:
     return run
 
 
-def _number(text: str) -> float:
-    """The number, or NaN."""
-    try:
-        return float(text)
-    except ValueError:
-        return math.nan
-
-
 def at_least(least: int) -> Callable[[str], int]:
     """A whole number that is not below `least`."""
     def whole(text: str) -> int:
         try:
-            number = int(text)
+            value = int(text)
         except ValueError:
-            number = least - 1
-        if number < least:
+            value = least - 1
+        if value < least:
             raise ValueError(f"'{text}' is not a whole number of at least {least}")
-        return number
+        return value
     return whole
 
 
@@ -44,44 +41,39 @@ def counts(text: str) -> list[int]:
     return [at_least(0)(word.strip()) for word in text.split(',')]
 
 
+def _within(text: str, low: float, high: float, otherwise: str) -> float:
+    value = number(text)
+    if not low <= value <= high:
+        raise ValueError(f"'{text}' is not a valid {otherwise}")
+    return value
+
+
 def window(text: str) -> float:
     """How long to measure: 1 to 3600 s."""
-    number = _number(text)
-    if not 1.0 <= number <= 3600.0:
-        raise ValueError(f"'{text}' is not a valid time; give 1 to 3600 s")
-    return number
+    return _within(text, 1.0, 3600.0, 'time; give 1 to 3600 s')
 
 
 def duration(text: str) -> float:
     """A length of time in s, more than 0."""
-    number = _number(text)
-    if not 0.0 < number < math.inf:
-        raise ValueError(f"'{text}' is not a valid time; give seconds, more than 0")
-    return number
+    return _within(text, math.ulp(0.0), LONGEST, 'time; give seconds, more than 0')
 
 
 def moment(text: str) -> float:
     """A time in s, 0 or more."""
-    number = _number(text)
-    if not 0.0 <= number < math.inf:
-        raise ValueError(f"'{text}' is not a valid time; give seconds, 0 or more")
-    return number
+    return _within(text, 0.0, LONGEST, 'time; give seconds, 0 or more')
 
 
 def rate(text: str) -> float:
     """Simulated seconds per second, 0 or more."""
-    number = _number(text)
-    if not 0.0 <= number <= 1000.0:
-        raise ValueError(f"'{text}' is not a valid rate; give 0 to 1000")
-    return number
+    return _within(text, 0.0, 1000.0, 'rate; give 0 to 1000')
 
 
 def degrees(text: str) -> float:
     """An angle in degrees as rad."""
-    number = _number(text)
-    if not math.isfinite(number):
+    value = number(text)
+    if not math.isfinite(value):
         raise ValueError(f"'{text}' is not an angle in degrees")
-    return math.radians(number)
+    return math.radians(value)
 
 
 def pose(text: str) -> Any:

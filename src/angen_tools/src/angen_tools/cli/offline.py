@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from angen_tools.cli.arguments import at_least, checked, duration, moment
-from angen_tools.cli.parser import add_allow_paths, add_json, add_out, command
+from angen_tools.cli.parser import add_allow_paths, add_json, add_out, add_seed, command
 from angen_tools.common.files import check_folder
 from angen_tools.common.output import show
 
@@ -110,8 +110,7 @@ def add_world(commands: Any) -> None:
     flat.add_argument('--one-link', action='store_true',
                       help='puts all sensors of a kind on one link, not each in its own model; '
                       'contact sensors stay on the furniture')
-    flat.add_argument('--seed', metavar='S', type=checked(at_least(0)), default=1,
-                      help='of the places that are left to chance (1)')
+    add_seed(flat, 'of the places that are left to chance')
     flat.add_argument('-o', '--output', metavar='FILE', type=Path, required=True)
     world.epilog = flat.format_help()
 
@@ -127,8 +126,7 @@ def add_run(commands: Any) -> None:
                      help='as fast as possible; the only way without ROS')
     run.add_argument('--for', metavar='SECONDS', dest='span', type=checked(duration),
                      required=True, help='how much time to simulate')
-    run.add_argument('--seed', metavar='S', type=checked(at_least(0)), default=1,
-                     help='of all noise (1)')
+    add_seed(run, 'of all noise')
     add_allow_paths(run)
     add_out(run, 'events.csv')
 

@@ -5,6 +5,7 @@ import argparse
 from pathlib import Path
 from typing import Any, Callable, NoReturn
 
+from angen_tools.cli.arguments import at_least, checked
 from angen_tools.common.nearest import did_you_mean
 
 Run = Callable[[argparse.Namespace], int]  # does what the words say; returns the exit code
@@ -38,6 +39,12 @@ def command(commands: Any, name: str, run: Run, summary: str, *examples: str, mo
 def add_json(parser: Parser) -> None:
     """The option of every command that prints a table."""
     parser.add_argument('--json', action='store_true', help='prints JSON instead of a table')
+
+
+def add_seed(parser: Parser, text: str, default: int = 1) -> None:
+    """The option of every command whose result depends on random numbers."""
+    parser.add_argument('--seed', metavar='S', type=checked(at_least(0)), default=default,
+                        help=f'{text} ({default})')
 
 
 def add_out(parser: Parser, what: str) -> None:

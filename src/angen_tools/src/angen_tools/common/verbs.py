@@ -27,7 +27,7 @@ def parse(kind: Plugin, words: Sequence[str]) -> Order:
     verb = next((v for v in kind['verbs'] if given and v['name'].lower() == given[0].lower()), None)
     if verb is not None:
         return _with_verb(kind, verb, given[1:])
-    numbers = [_number(word) for word in given]
+    numbers = [number(word) for word in given]
     if kind['values'] and len(given) == len(kind['values']) and all(map(math.isfinite, numbers)):
         return Order(' '.join(given), {})
     counted = _counted(kind, given)
@@ -35,7 +35,7 @@ def parse(kind: Plugin, words: Sequence[str]) -> Order:
         return counted
     with_number = [v for v in kind['verbs'] if v['argument']]
     if len(with_number) == 1 and len(given) == with_number[0].get('count', 1) and all(
-            math.isfinite(_number(word.removesuffix('%'))) for word in given):
+            math.isfinite(number(word.removesuffix('%'))) for word in given):
         return _with_verb(kind, with_number[0], given)
     raise ValueError(f"'{' '.join(words)}' is not a command of {article(kind['kind'])}, "
                      f'which takes {forms_in_words(kind)}')
@@ -62,12 +62,12 @@ def _with_verb(kind: Plugin, verb: dict[str, Any], rest: Sequence[str]) -> Order
         wanted = 'one number of' if count == 1 else f'{count} numbers,'
         raise ValueError(f'{verb["name"].lower()} takes {wanted} {verb["argument"]}; {takes}')
     words = [word.removesuffix(verb['unit']) if verb['unit'] == '%' else word for word in rest]
-    numbers = [_number(word) for word in words]
-    for given, word, number in zip(rest, words, numbers):
+    numbers = [number(word) for word in words]
+    for given, word, value in zip(rest, words, numbers):
         whole = word.isascii() and word.isdigit()
-        if not math.isfinite(number) or (verb['type'] == 'integer' and not whole):
+        if not math.isfinite(value) or (verb['type'] == 'integer' and not whole):
             raise ValueError(f"'{given}' is not a number of {verb['argument']}; {takes}")
-        if not _bound(verb['min'], -math.inf) <= number <= _bound(verb['max'], math.inf):
+        if not _bound(verb['min'], -math.inf) <= value <= _bound(verb['max'], math.inf):
             raise ValueError(f"'{given}' is out of range; {takes}")
     return Order(' '.join([verb['name'], *words]), verb, numbers[0])
 
@@ -76,7 +76,7 @@ def _bound(value: float | None, otherwise: float) -> float:
     return otherwise if value is None else value
 
 
-def _number(word: str) -> float:
+def number(word: str) -> float:
     """The number, or NaN."""
     try:
         return float(word)
