@@ -21,11 +21,12 @@ from angen_bench.report import combine
 from angen_bench.sensors import WARM_UP, Bench, Case, rate_of, robot_round
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_text
-from angen_tools.common.geometry import quaternion
 from angen_tools.common.output import as_json
 from angen_tools.common.progress import Steps
+from angen_tools.common.wait import wait
 from angen_tools.live.client import Client, Mailbox
-from angen_tools.live.sandbox import Sandbox, wait
+from angen_tools.live.sandbox import Sandbox
+from angen_tools.live.spawn import call_spawn
 from angen_tools.world import sdf
 from angen_tools.world.models import find
 from angen_tools.world.placing import Placement, generator
@@ -123,10 +124,7 @@ def _new_model() -> str:
 
 def _spawn_and_delete(meter: Meter, client: Client) -> tuple[float, float]:
     """ms from the call to the first message of the new topic, and to the event of the deletion."""
-    from geometry_msgs.msg import Point, Pose, Quaternion
-
-    from angen_msgs.srv import Delete, Spawn
-    pose = Pose(Point(*NEW.pose[:3]), Quaternion(*quaternion(*NEW.pose[3:])))
+    from angen_msgs.srv import Delete
     topic = topic_of(NEW)
     news = Mailbox(client)
     news.subscribe('/angen/events', 'angen_msgs/Event')
@@ -136,7 +134,7 @@ def _spawn_and_delete(meter: Meter, client: Client) -> tuple[float, float]:
     for trial in range(TRIALS):
         meter.first.pop(topic, None)
         ordered = time.monotonic()
-        client.call('/angen/spawn', Spawn, name=NEW.name, xml=f'model://{NEW.model}', pose=pose)
+        call_spawn(client, NEW.name, f'model://{NEW.model}', '', NEW.pose)
         wait(lambda: topic in meter.first, 'a spawned sensor has not published', NEWS_LIMIT)
         readings.append(1000 * (meter.first[topic] - ordered))
         ordered = time.monotonic()

@@ -15,6 +15,7 @@ from angen_tools.common.files import write_csv
 from angen_tools.common.output import as_json, show, table
 from angen_tools.common.progress import Steps
 from angen_tools.common.watchdog import watchdog
+from angen_tools.live.sandbox import built_program
 from angen_tools.world.apartment import write_apartment
 
 PROGRAMS = ('core_bench', 'motion_bench', 'rays_bench', 'physics_bench')
@@ -54,12 +55,11 @@ class Case:
 
 
 def program(name: str) -> Path:
-    """Where the built benchmark is; Failure says how to build it."""
-    for prefix in os.environ.get('CMAKE_PREFIX_PATH', '').split(':'):
-        path = Path(prefix) / 'lib' / 'angen_sim' / name
-        if prefix and path.is_file():
-            return path
-    raise Failure(f'{name} is not built; build the target "benches"')
+    """The built benchmark; Failure says how to build it."""
+    found = built_program(name)
+    if found is None:
+        raise Failure(f'{name} is not built; build the target "benches"')
+    return found
 
 
 def cases_of(report: str) -> list[Case]:

@@ -38,15 +38,13 @@ def default_chroot() -> Path:
 
 
 def script() -> Path:
-    """What makes the chroot; it is part of Angen's source."""
-    return worlds_models().resolve().parent.parent / 'bench/gazebo/make_chroot'
+    """The program that makes the chroot."""
+    return Path(__file__).resolve().parent.parent / 'gazebo/make_chroot'
 
 
 def prepare(root: Path) -> None:
     """Makes the chroot where it is missing; Failure says what stands in the way."""
     program = script()
-    if not program.exists():
-        raise Failure(f'{program} is missing; it makes the chroot that Gazebo runs in')
     with watchdog():
         made = subprocess.run([str(program), str(root)], stdout=subprocess.PIPE, text=True,
                               check=False)

@@ -23,8 +23,9 @@ from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_csv
 from angen_tools.common.output import as_json, show, table
 from angen_tools.common.progress import Steps
+from angen_tools.common.wait import wait
 from angen_tools.live.client import Client
-from angen_tools.live.sandbox import Sandbox, end, wait
+from angen_tools.live.sandbox import Sandbox, end
 from angen_tools.world.apartment import write_apartment
 from angen_tools.world.placing import generator
 

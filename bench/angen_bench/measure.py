@@ -6,11 +6,13 @@ import subprocess
 import threading
 import time
 from dataclasses import dataclass
+from statistics import median
 from typing import Any, Callable, Sequence
 
 from angen_tools.common.failure import Failure
-from angen_tools.common.geometry import quaternion
+from angen_tools.common.wait import wait
 from angen_tools.live.client import Client
+from angen_tools.live.spawn import call_spawn
 from angen_tools.world.placing import Placement
 
 SUBSCRIBED = 10  # topics that are subscribed to; more would measure the subscriber
@@ -166,25 +168,14 @@ def spread(sensors: Sequence[Placement], most: int) -> list[Placement]:
 
 def deploy(client: Client, meter: Meter, sensors: Sequence[Placement]) -> Deployed:
     """Spawns the sensors one after the other; those with a subscriber show how soon they read."""
-    from statistics import median
-
-    from geometry_msgs.msg import Point, Pose, Quaternion
-
-    from angen_msgs.srv import Spawn
-    watched = {topic_of(s): s for s in spread(sensors, SUBSCRIBED)}
+    watched = {topic_of(s) for s in spread(sensors, SUBSCRIBED)}
     subscribed: dict[str, float] = {}
     start, (server, viewer) = time.monotonic(), meter.processor()
     for sensor in sensors:
-        pose = Pose(Point(*sensor.pose[:3]), Quaternion(*quaternion(*sensor.pose[3:])))
         subscribed[topic_of(sensor)] = time.monotonic()
-        client.call('/angen/spawn', Spawn, name=sensor.name, xml=f'model://{sensor.model}',
-                    pose=pose)
+        call_spawn(client, sensor.name, f'model://{sensor.model}', '', sensor.pose)
     seconds, (server_end, viewer_end) = time.monotonic() - start, meter.processor()
-    end = time.monotonic() + STATS_LIMIT
-    while any(topic not in meter.first for topic in watched):
-        if time.monotonic() > end:
-            raise Failure(f'a spawned sensor has not published within {STATS_LIMIT:g} s')
-        time.sleep(0.01)
+    wait(lambda: watched <= meter.first.keys(), 'a spawned sensor has not published', STATS_LIMIT)
     waits = [1000 * (meter.first[topic] - subscribed[topic]) for topic in watched]
     return Deployed(seconds, load(server, server_end, seconds),
                     client_load(viewer, viewer_end, seconds), median(waits) if waits else None)

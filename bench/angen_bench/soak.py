@@ -15,8 +15,9 @@ from angen_tools.common.catalog import Plugin, angen_module, kinds
 from angen_tools.common.failure import Failure
 from angen_tools.common.output import as_json
 from angen_tools.common.progress import Progress
+from angen_tools.common.wait import wait
 from angen_tools.live.client import Client
-from angen_tools.live.sandbox import Sandbox, wait
+from angen_tools.live.sandbox import Sandbox
 from angen_tools.live.spawn import call_spawn
 from angen_tools.world import sdf, sensor
 from angen_tools.world.apartment import write_apartment

@@ -43,7 +43,7 @@ def ends() -> Iterator[None]:
 
 def test_many_seeds_end_every_time(ends: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
                                    capsys: pytest.CaptureFixture[str]) -> None:
-    monkeypatch.setattr(command, '_prepare', lambda *_: (None, tmp_path / 'a.world'))
+    monkeypatch.setattr(command, 'prepare', lambda *_: (None, tmp_path / 'a.world'))
     monkeypatch.setattr(command, 'survey', survey)
     monkeypatch.setattr(command.run, 'search', search)
     monkeypatch.setattr(command, 'draw_times', lambda *_: None)

@@ -94,10 +94,7 @@ class Live:
 
     def follow(self) -> None:
         """Takes what comes for a moment."""
-        mail = self._mail.get(LAG)
-        while mail is not None:
-            self._take(*mail)
-            mail = self._mail.get(0.0)
+        self._mail.drain(self._take, LAG)
         self._publish(self.engine.advance(self._clock.advance()))
         if self._clock.went_back:
             self._clock.went_back = False

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Mapping
+from typing import Any, Mapping
 
 import numpy as np
 
@@ -40,6 +40,13 @@ class Evidence:
     motion: dict[str, bool] = field(default_factory=dict)             # PIR: fired in this step
     open: dict[str, bool] = field(default_factory=dict)               # door: not shut
     pressed: dict[str, bool] = field(default_factory=dict)            # mat
+
+    def add_motion(self, pir: str, motion: bool) -> None:
+        self.motion[pir] = self.motion.get(pir, False) or motion
+
+    def add_reads(self, reader: str, reading: Any) -> None:
+        """Takes `ids` and `distances` of a reading or message."""
+        self.reads.setdefault(reader, {}).update(zip(reading.ids, reading.distances))
 
 
 @dataclass(frozen=True)

@@ -50,20 +50,14 @@ class Locator:
 
     def receive(self, limit: float) -> bool:
         """Takes the messages of up to `limit` s of wall time; false where none came."""
-        mail = self._mail.get(limit)
-        came = mail is not None
-        while mail is not None:
-            self._take(*mail)
-            mail = self._mail.get(0.0)
-        return came
+        return self._mail.drain(self._take, limit)
 
     def _take(self, topic: str, message: Any) -> None:
         kind, name = self._what[topic]
-        evidence = self._evidence
         if kind == 'pir':
-            evidence.motion[name] = evidence.motion.get(name, False) or message.motion
+            self._evidence.add_motion(name, message.motion)
         elif kind == 'rfid':
-            evidence.reads.setdefault(name, {}).update(zip(message.ids, message.distances))
+            self._evidence.add_reads(name, message)
         elif kind == 'pressure':
             self._pressed[name] = message.pressed
         else:

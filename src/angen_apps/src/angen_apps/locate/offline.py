@@ -1,6 +1,7 @@
 """Locating in a world of this process: its sensors' readings, beside the truth."""
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import Any, Callable
 
 from lxml import etree
@@ -74,11 +75,9 @@ def run(path: str, seconds: float, seed: int, drive: Callable[[Any], None] | Non
 def _take(world: Any, evidence: Evidence) -> None:
     """Adds what sensors and doors say now, as their topics would."""
     for name in world.sensors('pir'):
-        motion = bool(world.sensor('pir', name)['motion'])
-        evidence.motion[name] = evidence.motion.get(name, False) or motion
+        evidence.add_motion(name, bool(world.sensor('pir', name)['motion']))
     for name in world.sensors('rfid'):
-        reading = world.sensor('rfid', name)
-        evidence.reads.setdefault(name, {}).update(zip(reading['ids'], reading['distances']))
+        evidence.add_reads(name, SimpleNamespace(**world.sensor('rfid', name)))
     for name in world.sensors('pressure'):
         pressed = bool(world.sensor('pressure', name)['pressed'])
         evidence.pressed[name] = evidence.pressed.get(name, False) or pressed

@@ -23,7 +23,8 @@ from angen_apps.robot.tables import write_figures
 from angen_tools.common.failure import Failure
 from angen_tools.common.output import as_json, show
 from angen_tools.common.progress import Progress
-from angen_tools.live.sandbox import Sandbox, wait
+from angen_tools.common.wait import wait
+from angen_tools.live.sandbox import Sandbox
 from angen_tools.world.models import worlds_models
 
 RECORDED = (f'/angen/(?!contact/{BUMPER})'

@@ -59,18 +59,23 @@ def running_node(uri: str, name: str) -> str:
         return ''
 
 
+def master_command(port: int) -> list[str]:
+    """The command line of a master; Failure where it is not installed."""
+    program = shutil.which('rosmaster')
+    if not program:
+        raise Failure('rosmaster is not found; install ros-core')
+    return [sys.executable, program, '--core', '-p', str(port)]
+
+
 def start_master(uri: str) -> subprocess.Popen[bytes] | None:
     """Starts a master at that address; None where one runs. Failure where it cannot."""
     if answers(uri):
         return None
     address = urlsplit(uri)
     _check_local(uri, address.hostname or '')
-    program = shutil.which('rosmaster')
-    if not program:
-        raise Failure('rosmaster is not found; install ros-core')
     process = subprocess.Popen(
-        [sys.executable, program, '--core', '-p', str(address.port or PORT)],
-        stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, start_new_session=True)
+        master_command(address.port or PORT), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+        start_new_session=True)
     end = time.monotonic() + START_LIMIT
     while not answers(uri):
         if process.poll() is not None or time.monotonic() > end:

@@ -9,6 +9,7 @@ from typing import Any, Callable
 from urllib.parse import urlsplit
 
 from angen_tools.common.failure import Failure
+from angen_tools.common.wait import wait
 
 SERVICE_LIMIT = 60.0  # a large model takes seconds to parse; the node itself gives up after 10 s
 CONNECT_LIMIT = 5.0
@@ -73,11 +74,7 @@ class Client:
         import rospy
         self.join()
         made = rospy.Publisher(topic, kind, queue_size=10)
-        end = time.monotonic() + CONNECT_LIMIT
-        while made.get_num_connections() == 0:
-            if time.monotonic() > end:
-                raise Failure(f'{topic} has no subscriber')
-            time.sleep(0.005)
+        wait(lambda: made.get_num_connections() > 0, f'{topic} has no subscriber', CONNECT_LIMIT)
         return made
 
     def fence(self) -> float:
@@ -114,11 +111,8 @@ class Mailbox:
 
     def connected(self, topic: str, limit: float = CONNECT_LIMIT) -> None:
         """Returns when messages of that topic arrive from now on."""
-        end = time.monotonic() + limit
-        while self._subscribers[topic].get_num_connections() == 0:
-            if time.monotonic() > end:
-                raise Failure(f'{topic} is not published')
-            time.sleep(0.005)
+        wait(lambda: self._subscribers[topic].get_num_connections() > 0,
+             f'{topic} has no publisher', limit)
 
     def get(self, limit: float) -> tuple[str, Any] | None:
         """The next (topic, message); None when there is none within `limit`."""
@@ -126,6 +120,16 @@ class Mailbox:
             return self._queue.get(timeout=max(0.0, limit))
         except queue.Empty:
             return None
+
+    def drain(self, take: Callable[[str, Any], None], limit: float) -> bool:
+        """Hands `take` the messages that come within `limit` s, and those after the first that are
+        there already; false where none came."""
+        mail = self.get(limit)
+        came = mail is not None
+        while mail is not None:
+            take(*mail)
+            mail = self.get(0.0)
+        return came
 
     def until(self, done: Callable[[str, Any], bool], limit: float) -> bool:
         """Hands messages to `done` until it returns true; false when it has not within `limit`."""

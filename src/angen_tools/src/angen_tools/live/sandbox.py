@@ -8,36 +8,26 @@ import shutil
 import signal
 import socket
 import subprocess
-import sys
 import time
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
-from typing import Any, Callable, Iterator
+from typing import Any, Iterator
 
 from angen_tools.common.failure import Failure
+from angen_tools.common.wait import wait
 from angen_tools.common.watchdog import watchdog
+from angen_tools.entry.master import master_command
 
 START_LIMIT = 120.0  # s; hundreds of models take a while on a busy machine
 CLIENT_LIMIT = 40.0
 END_LIMIT = 10.0
 
 
-def wait(condition: Callable[[], bool], what: str, limit: float) -> None:
-    """Returns when the condition holds; Failure when it does not within `limit` s."""
-    end = time.monotonic() + limit
-    while not condition():
-        if time.monotonic() > end:
-            raise Failure(f'{what} within {limit:g} s')
-        time.sleep(0.02)
-
-
-def node_program() -> Path:
-    """The built node."""
-    for prefix in os.environ.get('CMAKE_PREFIX_PATH', '').split(':'):
-        path = Path(prefix) / 'lib/angen_sim/angen_node'
-        if prefix and path.exists():
-            return path
-    raise Failure('angen_node is not found; use ./angen, or source devel/setup.bash')
+def built_program(name: str) -> Path | None:
+    """A built program of angen_sim; None where it is not built."""
+    places = (Path(prefix) / 'lib/angen_sim' / name
+              for prefix in os.environ.get('CMAKE_PREFIX_PATH', '').split(':') if prefix)
+    return next((path for path in places if path.is_file()), None)
 
 
 class Sandbox:
@@ -59,10 +49,7 @@ class Sandbox:
         os.environ.pop('ROS_HOSTNAME', None)
         self.environment = dict(os.environ)
         self._api: Any = xmlrpc.client.ServerProxy(uri)
-        rosmaster = shutil.which('rosmaster')
-        if not rosmaster:
-            raise Failure('rosmaster is not found; install ros-core')
-        self.start([sys.executable, rosmaster, '--core', '-p', str(port)], 'master')
+        self.start(master_command(port), 'master')
         try:
             wait(self._answers, 'the ROS master has not answered', START_LIMIT)
         except BaseException:
@@ -81,27 +68,29 @@ class Sandbox:
         except OSError:
             return False
 
+    def _state(self) -> Any:
+        """Names, each with its nodes: of published topics, subscribed topics, and services."""
+        return self._api.getSystemState('/angen_bench')[2]
+
     def _names(self, which: int, name: str) -> list[str]:
         """Nodes that publish (0) or subscribe (1) a topic, or serve (2) a service."""
-        return next((nodes for topic, nodes in self._api.getSystemState('/angen_bench')[2][which]
+        return next((nodes for topic, nodes in self._state()[which]
                      if topic == name), [])
 
     def topics(self, pattern: str) -> set[str]:
         """The published topics whose whole name matches a pattern."""
-        published = self._api.getSystemState('/angen_bench')[2][0]
-        return {topic for topic, _ in published if re.fullmatch(pattern, topic)}
+        return {topic for topic, _ in self._state()[0] if re.fullmatch(pattern, topic)}
 
     def subscribed_by(self, name: str) -> set[str]:
         """The topics that nodes with this in their name subscribe."""
-        subscribed = self._api.getSystemState('/angen_bench')[2][1]
-        return {topic for topic, nodes in subscribed if any(name in node for node in nodes)}
+        return {topic for topic, nodes in self._state()[1] if any(name in node for node in nodes)}
 
     def received_by(self, name: str, pattern: str) -> int:
         """Messages that C++ nodes with this in their name have received so far, on the topics whose
         whole name matches a pattern.
         """
         import xmlrpc.client
-        nodes = {node for _, nodes in self._api.getSystemState('/angen_bench')[2][1]
+        nodes = {node for _, nodes in self._state()[1]
                  for node in nodes if name in node}
         count = 0
         for node in nodes:
@@ -116,9 +105,8 @@ class Sandbox:
         """Topics and services of the node with this name: `publishes /x`, `subscribes /x`,
         `serves /x`.
         """
-        state = self._api.getSystemState('/angen_bench')[2]
         return {f'{verb} {topic}' for verb, entries in zip(
-            ('publishes', 'subscribes', 'serves'), state) for topic, nodes in entries
+            ('publishes', 'subscribes', 'serves'), self._state()) for topic, nodes in entries
             if f'/{name}' in nodes}
 
     def start(self, words: list[str], log: str, **options: Any) -> subprocess.Popen[bytes]:
@@ -135,7 +123,10 @@ class Sandbox:
         wait(lambda: not self._names(0, '/angen/ready'), 'the last node has not gone', START_LIMIT)
         self.launched = time.monotonic()
         words = [f'_rate:={rate:g}', *(f'_{key}:={value}' for key, value in params.items())]
-        process = self.start([str(node_program()), str(world), *words], 'node')
+        node = built_program('angen_node')
+        if node is None:
+            raise Failure('angen_node is not found; use ./angen, or source devel/setup.bash')
+        process = self.start([str(node), str(world), *words], 'node')
 
         def serves() -> bool:
             if process.poll() is not None:

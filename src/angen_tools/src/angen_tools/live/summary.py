@@ -70,12 +70,7 @@ class Board:
 
     def receive(self, limit: float) -> bool:
         """Takes the messages of up to `limit` s of wall time; false where none came."""
-        mail = self._mail.get(limit)
-        came = mail is not None
-        while mail is not None:
-            self.take(*mail)
-            mail = self._mail.get(0.0)
-        return came
+        return self._mail.drain(self.take, limit)
 
     def take(self, topic: str, message: Any) -> None:
         """Takes a Summary or Stats message."""
