@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
+#include <sstream>
 
 #include "core/text.h"
 #include "document/values.h"
@@ -285,78 +287,15 @@ void keep_mimics(const Element& robot, Element& model) {
 
 // What the conversion writes, and what <gazebo> elements add.
 std::set<std::string> names_in(const Element& robot) {
-  std::set<std::string> names = {"model",
-                                 "link",
-                                 "joint",
-                                 "pose",
-                                 "frame",
-                                 "inertial",
-                                 "mass",
-                                 "inertia",
-                                 "ixx",
-                                 "ixy",
-                                 "ixz",
-                                 "iyy",
-                                 "iyz",
-                                 "izz",
-                                 "collision",
-                                 "visual",
-                                 "sensor",
-                                 "geometry",
-                                 "box",
-                                 "size",
-                                 "cylinder",
-                                 "radius",
-                                 "length",
-                                 "sphere",
-                                 "mesh",
-                                 "uri",
-                                 "scale",
-                                 "surface",
-                                 "contact",
-                                 "friction",
-                                 "bounce",
-                                 "ode",
-                                 "kp",
-                                 "kd",
-                                 "mu",
-                                 "mu2",
-                                 "fdir1",
-                                 "material",
-                                 "script",
-                                 "name",
-                                 "axis",
-                                 "axis2",
-                                 "xyz",
-                                 "limit",
-                                 "lower",
-                                 "upper",
-                                 "effort",
-                                 "velocity",
-                                 "dynamics",
-                                 "damping",
-                                 "spring_reference",
-                                 "spring_stiffness",
-                                 "parent",
-                                 "child",
-                                 "plugin",
-                                 "static",
-                                 "gravity",
-                                 "self_collide",
-                                 "max_vel",
-                                 "min_depth",
-                                 "diffuse",
-                                 "ambient",
-                                 "specular",
-                                 "emissive",
-                                 "use_parent_model_frame",
-                                 "physics",
-                                 "provide_feedback",
-                                 "implicit_spring_damper",
-                                 "cfm_damping",
-                                 "fudge_factor",
-                                 "torsional",
-                                 "coefficient"};
+  std::istringstream words(
+      "model link joint pose frame inertial mass inertia ixx ixy ixz iyy iyz izz collision visual "
+      "sensor geometry box size cylinder radius length sphere mesh uri scale surface contact "
+      "friction bounce ode kp kd mu mu2 fdir1 material script name axis axis2 xyz limit lower "
+      "upper effort velocity dynamics damping spring_reference spring_stiffness parent child "
+      "plugin static gravity self_collide max_vel min_depth diffuse ambient specular emissive "
+      "use_parent_model_frame physics provide_feedback implicit_spring_damper cfm_damping "
+      "fudge_factor torsional coefficient");
+  std::set<std::string> names(std::istream_iterator<std::string>(words), {});
   collect_names(robot, names);
   return names;
 }
