@@ -202,24 +202,15 @@ bool is_static(const Element& model) {
          });
 }
 
-desc::Model described_model(const Element& model, Session& session) {
-  const Reader reader(model, session);
-  desc::Model to;
-  to.is_static = is_static(model);
-  to.allow_auto_disable = reader.flag("allow_auto_disable", true);
-  to.self_collide = reader.flag("self_collide", false);
-  Frames frames(model);
-  add_parts(reader, "", {frames, reader.flag("static", false), session}, to);
-  merge_hinges(to, session);
-  note_ignored(model, session);
-  return to;
-}
-
-// What Angen's own plug-ins read of SDF's blocks; those of others may read more.
-void note_blocks(const Reader& sensor, Session& session) {
+// The values that Angen's own plug-ins read of SDF's blocks; those of others may read more.
+void check_blocks(const Reader& sensor, Session& session) {
   sensor.leave_to_others();
   sensor.unused().flag("always_on", false);
   sensor.unused().child("enable_metrics");
+  const auto check = [](const Reader& block, std::initializer_list<const char*> keys,
+                        const Range& range = {}) {
+    for (const char* key : keys) block.number(key, range);
+  };
   for (const Element& child : sensor.element().children) {
     if (child.name != "ray" && child.name != "camera" && child.name != "contact") continue;
     const Reader block(child, session);
@@ -227,19 +218,17 @@ void note_blocks(const Reader& sensor, Session& session) {
     if (child.name == "ray") {
       const Reader scan = block.block("scan");
       for (const char* axis : {"horizontal", "vertical"}) {
-        scan.block(axis).note({"samples", "min_angle", "max_angle"});
+        check(scan.block(axis), {"samples", "min_angle", "max_angle"});
       }
-      block.block("range").note({"min", "max"});
-      block.block("noise").note({"type", "mean", "stddev"});
+      check(block.block("range"), {"min", "max"});
+      block.block("noise").note({"type"});
+      check(block.block("noise"), {"mean", "stddev"});
     } else if (child.name == "camera") {
-      const Range positive = Range::positive();
-      block.number("horizontal_fov", positive);
-      const Reader image = block.block("image");
-      for (const char* side : {"width", "height"}) image.number(side, positive);
-      image.note({"format"});
-      const Reader clip = block.block("clip");
-      for (const char* plane : {"near", "far"}) clip.number(plane, positive);
-      block.block("distortion").note({"k1", "k2", "k3", "p1", "p2"});
+      check(block, {"horizontal_fov"}, Range::positive());
+      block.block("image").note({"format"});
+      check(block.block("image"), {"width", "height"}, Range::positive());
+      check(block.block("clip"), {"near", "far"}, Range::positive());
+      check(block.block("distortion"), {"k1", "k2", "k3", "p1", "p2"});
     }
   }
 }
@@ -260,7 +249,7 @@ desc::Sensor sensor_of(const Element& element, const Pose& pose, Session& sessio
   sensor.pose = pose;
   sensor.update_rate = reader.number("update_rate", 0.0, Range::not_negative());
   sensor.visualize = reader.flag("visualize", false);
-  note_blocks(reader, session);
+  check_blocks(reader, session);
   sensor.element = element;
   sensor.source = element.source;
   for (const Element& child : element.children) {
@@ -280,6 +269,19 @@ desc::Sensor sensor_of(const Element& element, const Pose& pose, Session& sessio
   return sensor;
 }
 
+desc::Model describe_model(const Element& model, Session& session) {
+  const Reader reader(model, session);
+  desc::Model to;
+  to.is_static = is_static(model);
+  to.allow_auto_disable = reader.flag("allow_auto_disable", true);
+  to.self_collide = reader.flag("self_collide", false);
+  Frames frames(model);
+  add_parts(reader, "", {frames, reader.flag("static", false), session}, to);
+  merge_hinges(to, session);
+  note_ignored(model, session);
+  return to;
+}
+
 std::vector<desc::Model> describe_models(const std::vector<Element>& models, Session& session) {
   std::vector<desc::Model> described;
   if (models.empty()) return described;
@@ -289,7 +291,7 @@ std::vector<desc::Model> describe_models(const std::vector<Element>& models, Ses
   world.attributes = {{"name", "default"}};
   world.children = models;
   for (Element& model : world.children) remove_children(model, "pose");
-  for (const Element& model : models) described.push_back(described_model(model, session));
+  for (const Element& model : models) described.push_back(describe_model(model, session));
   check_schema(world, session);
   return described;
 }

@@ -12,6 +12,8 @@ namespace angen::load {
 /// caller, and so are the texts for `save`. Nested models become links, joints and plug-ins named
 /// `child::name`.
 std::vector<desc::Model> describe_models(const std::vector<Element>& models, Session& session);
+/// One of them, without a check of its schema.
+desc::Model describe_model(const Element& model, Session& session);
 
 /// The <inertial> of a link; the unit mass and moment where there is none. An impossible one throws
 /// Error, or is a warning and replaced where the link `never_moves`.

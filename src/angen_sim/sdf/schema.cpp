@@ -14,11 +14,16 @@ namespace angen::load {
 
 namespace {
 
-// What libsdformat need not see: plug-ins (they check their own parameters), what `load` reads
-// itself, and what later versions dropped.
+// libsdformat need not see plug-ins, which check their own parameters, what a later version of SDF
+// dropped, and values that a Reader checks otherwise.
 bool hidden(const Element& element, const std::string& parent) {
-  static const std::set<std::string> names = {"plugin",   "state",   "gui",
-                                              "inertial", "include", "initial_position"};
+  static const std::set<std::string> names = {"plugin",
+                                              "state",
+                                              "gui",
+                                              "inertial",
+                                              "include",
+                                              "initial_position",
+                                              "restitution_coefficient"};
   return names.count(element.name) != 0 || (element.name == "script" && parent == "material") ||
          element.name.find(':') != std::string::npos;
 }

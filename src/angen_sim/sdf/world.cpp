@@ -175,8 +175,8 @@ desc::World describe_world(const Element& sdf, Session& session) {
   world.xml = print_xml(parts.settings);
   read_settings(parts.settings, world, session);
   world.models = describe_entries(parts.entries, session);
-  check_schema(parts.settings, session);
   place_all(parts, world, session);
+  check_schema(parts.settings, session);
   for (const Element& child : sdf.children) {
     if (child.name != "world") session.ignore(child.source, "<" + child.name + "> in <sdf>");
   }

@@ -152,6 +152,10 @@ const Broken kBroken[] = {
     {"unknown_light",
      "<sdf version='1.6'><world name='w'>\n<light name='l' type='laser'/></world></sdf>",
      "w.world:2: ", "unknown light type 'laser'"},
+    {"light_of_no_color",
+     "<sdf version='1.6'><world name='w'><light name='l' type='point'>\n<diffuse>x 1 1</diffuse>"
+     "</light></world></sdf>",
+     "w.world:2: ", "<diffuse> holds 'x', which is not a number"},
     {"include_without_uri", "<sdf version='1.6'><world name='w'>\n<include/></world></sdf>",
      "w.world:2: ", "no <uri>"},
     {"unknown_scheme",

@@ -69,6 +69,16 @@ TEST(Link, ReadsSurfaceInertialAndFlags) {
   EXPECT_DOUBLE_EQ(c.damping.value(), 10.0);
 }
 
+TEST(Collision, ANumberThatTheSolverCannotUseIsReplacedWithAWarning) {
+  const desc::World world = read(in_link(
+      "<collision name='c'><geometry><sphere><radius>1</radius></sphere></geometry><surface>"
+      "<bounce><restitution_coefficient>1.5</restitution_coefficient></bounce></surface>"
+      "</collision>"));
+  EXPECT_EQ(world.models[0].links[0].collisions[0].restitution, 1.0);
+  ASSERT_EQ(world.warnings.size(), 1U);
+  EXPECT_NE(world.warnings[0].text().find("it is taken as 1, the most"), std::string::npos);
+}
+
 TEST(Link, PoseRelativeToAnotherLink) {
   const desc::Model m = read_model(
       "<link name='a'><pose>0 0 1 0 0 1.5707963267948966</pose></link>"
