@@ -7,15 +7,13 @@
 #include "document/xml.h"
 #include "sdf/check.h"
 #include "sdf/describe.h"
+#include "sdf/person.h"
 #include "sdf/reader.h"
 
 namespace angen::load {
 
 namespace {
 
-constexpr double kHeight = 1.75;     // m
-constexpr double kRadius = 0.25;     // m: half a person's width
-constexpr double kMass = 70.0;       // kg
 constexpr double kSkin = 307.0;      // K: of a bare face and hands
 constexpr double kClothed = 299.0;   // K: of clothes, in a room
 constexpr double kBareShare = 0.12;  // of a clothed person's surface: head and hands
@@ -81,55 +79,9 @@ double given_temperature(const Element& plugin, const std::string& name, double 
               "<" + name + "> is " + number_text(kelvin) + " K; it must be greater than 0");
 }
 
-desc::Visual visual(const std::string& name, double z, Shape shape, const Eigen::Vector4f& color) {
-  desc::Visual v;
-  v.name = name;
-  v.pose.position.z() = z;
-  v.shape = std::move(shape);
-  v.material.diffuse = color;
-  return v;
-}
-
-Shape rounded(Shape::Type type, double radius, double length) {
-  Shape shape;
-  shape.type = type;
-  shape.radius = radius;
-  shape.length = length;
-  return shape;
-}
-
-desc::Link body(const Source& source) {
-  desc::Link link;
-  link.name = "body";
-  link.source = source;
-  link.upright = true;
-  link.inertial.mass = kMass;
-  link.inertial.pose.position.z() = 0.5 * kHeight;
-  // A solid cylinder of the person's size.
-  const double across = kMass * (3.0 * kRadius * kRadius + kHeight * kHeight) / 12.0;
-  const double upright = kMass * kRadius * kRadius / 2.0;
-  link.inertial.moment = Vec3(across, across, upright).asDiagonal();
-  desc::Collision collision;
-  collision.name = "collision";
-  collision.source = source;
-  collision.pose.position.z() = 0.5 * kHeight;
-  collision.shape = rounded(Shape::Type::kCapsule, kRadius, kHeight - 2.0 * kRadius);
-  collision.friction.mu = 0.0;  // the person's motor moves it, not its soles
-  collision.friction.mu2 = 0.0;
-  link.collisions = {collision};
-  const Eigen::Vector4f skin(0.85F, 0.65F, 0.53F, 1.0F);
-  const Eigen::Vector4f shirt(0.20F, 0.36F, 0.60F, 1.0F);
-  const Eigen::Vector4f trousers(0.22F, 0.22F, 0.26F, 1.0F);
-  link.visuals = {visual("legs", 0.43, rounded(Shape::Type::kCylinder, 0.16, 0.86), trousers),
-                  visual("torso", 1.12, rounded(Shape::Type::kCapsule, 0.22, 0.26), shirt),
-                  visual("head", 1.62, rounded(Shape::Type::kSphere, 0.13, 0.0), skin)};
-  Shape nose;
-  nose.type = Shape::Type::kBox;
-  nose.size = {0.06, 0.04, 0.04};
-  desc::Visual face = visual("face", 1.62, nose, skin);
-  face.pose.position.x() = 0.14;
-  link.visuals.push_back(face);
-  return link;
+void set_source(Element& element, const Source& source) {
+  element.source = source;
+  for (Element& child : element.children) set_source(child, source);
 }
 
 }  // namespace
@@ -144,19 +96,22 @@ desc::Model describe_actor(const Element& given, Session& session) {
   if (pose != nullptr && pose->attribute("relative_to") != nullptr) {
     throw Error(pose->source, "an actor's pose is given in the world; leave relative_to out");
   }
-  desc::Model model;
+  Element person = parse_xml(kPerson, "person.h");
+  set_source(person, actor.source);
+  Element plugin = *person.child("plugin");
+  remove_children(person, "plugin");
+  desc::Model model = describe_model(person, session);
   model.name = name_of(actor);
   model.source = actor.source;
   model.pose = child_pose(actor);
-  model.links = {body(actor.source)};
+  desc::Link& body = model.links.front();
+  body.upright = true;
 
-  Element plugin = leaf("plugin", "", actor.source);
-  plugin.attributes = {{"name", "person"}, {"filename", "libperson_controller.so"}};
   std::vector<Element> others;
   for (const Element& child : actor.children) {
     if (child.name != "plugin") continue;
     const std::string* file = child.attribute("filename");
-    if (file == nullptr || *file == "libperson_controller.so") {
+    if (file == nullptr || *file == *plugin.attribute("filename")) {
       // Of several, as where an <include> adds one, the last that gives a parameter holds.
       for (const Element& given : child.children) remove_children(plugin, given.name);
       plugin.children.insert(plugin.children.end(), child.children.begin(), child.children.end());
@@ -181,18 +136,18 @@ desc::Model describe_actor(const Element& given, Session& session) {
     if (!waypoints.empty()) model.pose = waypoints.front().pose;
   }
   model.pose.rotation = from_rpy(0.0, 0.0, yaw_of(model.pose.rotation));
-  const double mass = child_number(plugin, "mass", kMass);
+  const double mass = child_number(plugin, "mass", body.inertial.mass);
   if (!(mass > 0.0)) {
     throw Error(plugin.child("mass")->source,
                 "<mass> is " + number_text(mass) + " kg; it must be greater than 0");
   }
-  model.links[0].inertial.mass = mass;
-  model.links[0].inertial.moment *= mass / kMass;
+  body.inertial.moment *= mass / body.inertial.mass;
+  body.inertial.mass = mass;
   // Rays meet one capsule, which is like the first visual: its temperature is the whole body's.
   const double temperature =
       mean_temperature(given_temperature(plugin, "skin_temperature", kSkin),
                        given_temperature(plugin, "clothing_temperature", kClothed));
-  for (desc::Visual& each : model.links[0].visuals) each.temperature = temperature;
+  for (desc::Visual& each : body.visuals) each.temperature = temperature;
   model.plugins = {plugin_of(plugin)};
   for (const Element& other : others) model.plugins.push_back(plugin_of(other));
   note_ignored(actor, session);
