@@ -26,6 +26,7 @@ class BoundedInput : public cereal::InputArchive<BoundedInput, cereal::AllowEmpt
   void need(std::uint64_t bytes) const {
     if (bytes > left_.size()) throw cereal::Exception("the bytes end early");
   }
+  bool at_end() const { return left_.empty(); }
   void read(void* data, std::uint64_t size) {
     need(size);
     if (size > 0) std::memcpy(data, left_.data(), size);

@@ -12,9 +12,10 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <sstream>
+#include <utility>
 
 #include "core/diagnostics.h"
 #include "core/text.h"
@@ -134,12 +135,6 @@ std::string exchange(Descriptor& socket, const std::string& bytes, int pipe) {
   }
 }
 
-std::string hex_float(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%a", value);
-  return text;
-}
-
 }  // namespace
 
 std::string mesh_program() {
@@ -179,113 +174,84 @@ std::string answer_of(const std::string& program, const std::vector<std::string>
   throw Error("is damaged: reading it has crashed " + program);
 }
 
-/// Takes values from the front of an answer.
-class Reader {
- public:
-  explicit Reader(const std::string& bytes) : bytes_(bytes) {}
+[[noreturn]] void not_whole() { throw Error("cannot be read: angen_mesh gives no whole answer"); }
 
-  template <class T>
-  void take(T* to, std::size_t count) {
-    if (count > (bytes_.size() - at_) / sizeof(T)) not_whole();
-    if (count > 0) std::memcpy(static_cast<void*>(to), bytes_.data() + at_, count * sizeof(T));
-    at_ += count * sizeof(T);
+template <class T>
+T decoded(const std::string& answer) {
+  try {
+    T made;
+    BoundedInput archive(answer);
+    archive(made);
+    if (archive.at_end()) return made;
+  } catch (const cereal::Exception&) {
+    not_whole();
   }
-  template <class T>
-  void take(std::vector<T>& to, std::uint64_t count) {
-    if (count > (bytes_.size() - at_) / sizeof(T)) not_whole();
-    to.resize(count);
-    take(to.data(), count);
-  }
-  void magic(const char (&wanted)[8]) {
-    char found[8] = {};
-    take(found, 8);
-    if (std::memcmp(found, wanted, 8) != 0) not_whole();
-  }
-  void end() const {
-    if (at_ != bytes_.size()) not_whole();
-  }
-  [[noreturn]] static void not_whole() {
-    throw Error("cannot be read: angen_mesh gives no whole answer");
-  }
+  not_whole();
+}
 
- private:
-  const std::string& bytes_;
-  std::size_t at_ = 0;
-};
-
-void read_parts(Reader& reader, std::uint64_t count, std::size_t triangles, MeshLook& look) {
-  for (std::uint64_t i = 0; i < count; ++i) {
-    MeshPart part;
-    std::uint32_t numbers[2] = {0, 0};
-    reader.take(numbers, 2);
-    reader.take(part.color.data(), 4);
-    if (numbers[1] > kMaxTextureName) Reader::not_whole();
-    part.first = numbers[0];
-    part.texture.resize(numbers[1]);
-    reader.take(part.texture.data(), numbers[1]);
-    const std::uint32_t least = look.parts.empty() ? 0 : look.parts.back().first;
-    if (part.first < least || part.first > triangles || !part.color.allFinite()) {
-      Reader::not_whole();
-    }
-    look.parts.push_back(std::move(part));
-  }
+bool is_whole(const MeshLook& look, std::size_t triangles) {
+  if (!look.corners.empty() && look.corners.size() != triangles) return false;
+  std::uint32_t least = 0;
+  return std::all_of(look.parts.begin(), look.parts.end(), [&](const MeshPart& part) {
+    return part.first >= std::exchange(least, part.first) && part.first <= triangles &&
+           part.texture.size() <= kMaxTextureName && part.color.allFinite();
+  });
 }
 
 }  // namespace
 
 std::string convert_mesh(const std::string& program, const MeshRequest& request) {
-  const Vec3& scale = request.scale;
-  std::vector<std::string> words = {request.extension,    hex_float(scale.x()),
-                                    hex_float(scale.y()), hex_float(scale.z()),
-                                    request.submesh,      request.center ? "1" : "0"};
-  if (!request.materials_name.empty()) {
-    words.push_back(std::to_string(request.materials.size()));
-    words.push_back(request.materials_name);
-  }
-  return answer_of(program, words, request.bytes + request.materials);
+  std::ostringstream bytes(std::ios::binary);
+  cereal::BinaryOutputArchive archive(bytes);
+  archive(request);
+  return answer_of(program, {"mesh"}, bytes.str());
 }
 
 std::string convert_texture(const std::string& program, const std::string& bytes) {
   return answer_of(program, {"texture"}, bytes);
 }
 
+std::string convert_gray(const std::string& program, const std::string& bytes, unsigned least) {
+  return answer_of(program, {"gray", std::to_string(least)}, bytes);
+}
+
 Mesh decode_mesh(const std::string& answer) {
-  Reader reader(answer);
-  std::uint64_t counts[4] = {0, 0, 0, 0};
-  reader.magic(kMeshMagic);
-  reader.take(counts, 4);
-  Mesh mesh;
-  TriangleMesh& made = mesh.triangles;
-  if (counts[1] > kMaxTriangles || (counts[2] != 0 && counts[2] != counts[1])) Reader::not_whole();
-  reader.take(made.vertices, counts[0]);
-  reader.take(made.triangles, counts[1]);
-  reader.take(mesh.look.corners, counts[2]);
-  read_parts(reader, counts[3], made.triangles.size(), mesh.look);
-  reader.end();
+  Mesh mesh = decoded<Mesh>(answer);
+  const TriangleMesh& made = mesh.triangles;
+  if (made.triangles.size() > kMaxTriangles || !is_whole(mesh.look, made.triangles.size())) {
+    not_whole();
+  }
   if (made.triangles.empty()) throw Error("holds no triangle");
   for (const Eigen::Vector3f& vertex : made.vertices) {
     if (!vertex.allFinite()) throw Error("has a vertex that is not finite");
   }
   for (const auto& triangle : made.triangles) {
     for (const std::uint32_t corner : triangle) {
-      if (corner >= counts[0]) throw Error("has a triangle with a corner that is not there");
+      if (corner >= made.vertices.size()) {
+        throw Error("has a triangle with a corner that is not there");
+      }
     }
   }
   return mesh;
 }
 
 Texture decode_texture(const std::string& answer) {
-  Reader reader(answer);
-  std::uint64_t size[2] = {0, 0};
-  reader.magic(kTextureMagic);
-  reader.take(size, 2);
-  if (std::min(size[0], size[1]) < 1 || std::max(size[0], size[1]) > kMaxTextureSide) {
-    Reader::not_whole();
-  }
-  Texture texture{static_cast<std::uint32_t>(size[0]), static_cast<std::uint32_t>(size[1]), {}};
-  reader.take(texture.bytes, 3 * size[0] * size[1]);
-  reader.end();
+  Texture texture = decoded<Texture>(answer);
+  const auto [low, high] = std::minmax(texture.width, texture.height);
+  const std::size_t pixels = std::size_t{texture.width} * texture.height;
+  if (low < 1 || high > kMaxTextureSide || texture.bytes.size() != 3 * pixels) not_whole();
   return texture;
+}
+
+GrayImage decode_gray(const std::string& answer) {
+  GrayImage image = decoded<GrayImage>(answer);
+  const auto in_range = [](double value) { return value >= 0.0 && value <= 1.0; };
+  if (std::max(image.width, image.height) > kMaxPngSide ||
+      image.values.size() != std::size_t{image.width} * image.height ||
+      !std::all_of(image.values.begin(), image.values.end(), in_range)) {
+    not_whole();
+  }
+  return image;
 }
 
 }  // namespace angen::load

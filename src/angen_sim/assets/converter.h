@@ -3,12 +3,12 @@
 #include <cstdint>
 #include <string>
 
-#include "core/mesh_look.h"
-#include "core/shape.h"
-#include "core/texture.h"
+#include "assets/png.h"
+#include "assets/serialize.h"
 
-/// The program angen_mesh, which alone runs assimp and reads pictures for textures: how it is
-/// called and what it answers.
+/// The program angen_mesh, which alone runs assimp and reads pictures: how it is called and what it
+/// answers. Its input is a MeshRequest, or a picture's bytes; its answer a Mesh, a Texture or a
+/// GrayImage, as assets/serialize.h writes them, or with the exit code kMeshRefused the problem.
 namespace angen::load {
 
 constexpr std::size_t kMaxTriangles = 5'000'000;
@@ -16,13 +16,6 @@ constexpr std::uint64_t kMeshMemory = 1ULL << 30U;  // bytes of address space
 constexpr unsigned kMeshCpuSeconds = 20;
 constexpr int kMeshWallSeconds = 300;  // on a machine that is busy with other things
 
-/// Its answer: this, as uint64 the counts of vertices, triangles, triangles with texture
-/// coordinates and parts, three floats a vertex, three uint32 a triangle, six floats a triangle
-/// with texture coordinates, and of each part its first triangle and the length of its texture's
-/// name as uint32, four floats and the name. With the exit code kMeshRefused: why not.
-constexpr char kMeshMagic[8] = {'a', 'n', 'g', 'm', 'e', 's', 'h', '2'};
-/// The same of a picture: this, width and height as uint64, three bytes a pixel.
-constexpr char kTextureMagic[8] = {'a', 'n', 'g', 't', 'e', 'x', 't', '1'};
 constexpr std::uint32_t kMaxTextureSide = 512;
 constexpr std::size_t kMaxTextureName = 1000;  // bytes
 constexpr int kMeshRefused = 3;
@@ -34,7 +27,7 @@ constexpr char kTooMuchMemory[] =
 /// Where angen_mesh is: in angen_sim/ beside the library that this is in.
 std::string mesh_program();
 
-/// What is wanted of a mesh's file.
+/// A mesh's file, and how to convert it.
 struct MeshRequest {
   std::string extension;  // without the dot
   Vec3 scale = Vec3::Ones();
@@ -45,18 +38,45 @@ struct MeshRequest {
   std::string materials{};       // what that file holds
 };
 
-/// The answer of `program`. Throws Error, whose message is to be read after "mesh FILE".
-std::string convert_mesh(const std::string& program, const MeshRequest& request);
-/// The same of a picture; after "texture FILE".
-std::string convert_texture(const std::string& program, const std::string& bytes);
-
 struct Mesh {
   TriangleMesh triangles;
   MeshLook look;
 };
 
+/// Answers of `program`, which throw Error: for a mesh, its message is to be read after "mesh
+/// FILE".
+std::string convert_mesh(const std::string& program, const MeshRequest& request);
+/// The same of a picture; after "texture FILE".
+std::string convert_texture(const std::string& program, const std::string& bytes);
+/// The same of a PNG of at least `least` pixels a side.
+std::string convert_gray(const std::string& program, const std::string& bytes, unsigned least);
+
 /// What an answer holds; these throw Error where it is none.
 Mesh decode_mesh(const std::string& answer);
 Texture decode_texture(const std::string& answer);
+GrayImage decode_gray(const std::string& answer);
 
 }  // namespace angen::load
+
+namespace cereal {
+
+template <class A>
+void serialize(A& a, angen::load::MeshRequest& v) {
+  auto& [extension, scale, submesh, center, bytes, materials_name, materials] = v;
+  a(extension, scale, submesh, center, bytes, materials_name, materials);
+}
+
+template <class A>
+void serialize(A& a, angen::load::Mesh& v) {
+  auto& [triangles, look] = v;
+  a(triangles, look);
+}
+
+template <class A>
+void serialize(A& a, angen::load::GrayImage& v) {
+  auto& [width, height, values] = v;
+  a(width, height);
+  serialize_plain(a, values);
+}
+
+}  // namespace cereal

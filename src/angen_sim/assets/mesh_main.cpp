@@ -1,7 +1,6 @@
-// angen_mesh EXTENSION X Y Z SUBMESH CENTER [BYTES NAME] <FILES >TRIANGLES: the only program that
-// runs assimp, under limits of memory and CPU time, so that a damaged mesh ends it and not the
-// simulator. It opens no file: of those that a mesh names it gets NAME, with so many BYTES, after
-// the mesh. angen_mesh texture <PICTURE >PIXELS does the same for pictures.
+// angen_mesh mesh | texture | gray LEAST <INPUT >ANSWER, as assets/converter.h describes them: the
+// only program that runs assimp and reads pictures, under limits of memory and CPU time, so that a
+// damaged file ends it and not the simulator. It opens no file.
 #include <assimp/BaseImporter.h>
 #include <assimp/MemoryIOWrapper.h>
 #include <assimp/postprocess.h>
@@ -11,13 +10,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <csignal>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
+#include <iostream>
 #include <new>
 #include <set>
 #include <string>
@@ -29,8 +29,12 @@
 
 namespace {
 
+using angen::MeshPart;
+using angen::TriangleMesh;
 using angen::load::kMaxTextureName;
 using angen::load::kTooMuchMemory;
+using angen::load::Mesh;
+using angen::load::MeshRequest;
 using angen::load::Refused;
 
 void limit_this_process() {
@@ -56,21 +60,10 @@ std::string read_all(int file) {
   }
 }
 
-/// What came with the mesh, and how it is wanted.
-struct Request {
-  std::string extension;
-  aiVector3D scale;
-  std::string submesh;  // "" for all
-  bool center = false;
-  std::string bytes;
-  std::string materials_name;  // of an OBJ
-  std::string materials;
-};
-
 /// A mesh may name files; only its materials are there.
 class OneFile : public Assimp::IOSystem {
  public:
-  explicit OneFile(const Request& request) : request_(request) {}
+  explicit OneFile(const MeshRequest& request) : request_(request) {}
   bool Exists(const char* path) const override {
     const std::string name(path);
     const std::string& known = request_.materials_name;
@@ -87,20 +80,7 @@ class OneFile : public Assimp::IOSystem {
   void Close(Assimp::IOStream* stream) override { delete stream; }
 
  private:
-  const Request& request_;
-};
-
-struct Part {
-  std::uint32_t first = 0;
-  float color[4] = {0.7F, 0.7F, 0.7F, 1.0F};
-  std::string texture;
-};
-
-struct Triangles {
-  std::vector<aiVector3D> vertices;
-  std::vector<std::uint32_t> corners;
-  std::vector<float> uvs;  // of each corner; empty where nothing is textured
-  std::vector<Part> parts;
+  const MeshRequest& request_;
 };
 
 // assimp turns COLLADA to y up, whatever axis the file says; this turns it to z up.
@@ -109,8 +89,8 @@ aiMatrix4x4 to_z_up() {
   return aiMatrix4x4::RotationX(static_cast<ai_real>(M_PI / 2), turn);
 }
 
-Part part_of(const aiScene& scene, const aiMesh& mesh) {
-  Part part;
+MeshPart part_of(const aiScene& scene, const aiMesh& mesh) {
+  MeshPart part;
   const aiMaterial& material = *scene.mMaterials[mesh.mMaterialIndex];
   aiColor4D color;
   if (material.Get(AI_MATKEY_COLOR_DIFFUSE, color) == aiReturn_SUCCESS) {
@@ -138,7 +118,7 @@ bool is_textured(const aiScene& scene) {
 /// not joined: those of the first are joined by their places alone, whatever is painted on them.
 class Expander {
  public:
-  Expander(const aiScene& scene, const aiScene* unjoined, const std::string& submesh, Triangles& to)
+  Expander(const aiScene& scene, const aiScene* unjoined, const std::string& submesh, Mesh& to)
       : scene_(scene), unjoined_(unjoined), submesh_(submesh), to_(to) {}
 
   void add(const aiNode& node, const aiMatrix4x4& parent) {
@@ -160,36 +140,39 @@ class Expander {
 
   void add(unsigned number, const aiMatrix4x4& place) {
     const aiMesh& from = *scene_.mMeshes[number];
-    const auto first = static_cast<std::uint32_t>(to_.vertices.size());
-    to_.parts.push_back(part_of(scene_, from));
-    to_.parts.back().first = static_cast<std::uint32_t>(to_.corners.size() / 3);
+    TriangleMesh& to = to_.triangles;
+    const auto first = static_cast<std::uint32_t>(to.vertices.size());
+    to_.look.parts.push_back(part_of(scene_, from));
+    to_.look.parts.back().first = static_cast<std::uint32_t>(to.triangles.size());
     for (unsigned i = 0; i < from.mNumVertices; ++i) {
-      to_.vertices.push_back(place * from.mVertices[i]);
+      const aiVector3D at = place * from.mVertices[i];
+      to.vertices.emplace_back(at.x, at.y, at.z);
     }
     const bool mirrored = place.Determinant() < 0;
-    const unsigned order[3] = {0, mirrored ? 2U : 1U, mirrored ? 1U : 2U};
+    const std::array<unsigned, 3> order = {0, mirrored ? 2U : 1U, mirrored ? 1U : 2U};
     for (unsigned i = 0; i < from.mNumFaces; ++i) {
-      if (from.mFaces[i].mNumIndices != 3) continue;
-      for (const unsigned corner : order) {
-        to_.corners.push_back(first + from.mFaces[i].mIndices[corner]);
-        if (unjoined_ != nullptr) add_uv(*unjoined_->mMeshes[number], i, corner);
-      }
+      const aiFace& face = from.mFaces[i];
+      if (face.mNumIndices != 3) continue;
+      to.triangles.push_back({first + face.mIndices[order[0]], first + face.mIndices[order[1]],
+                              first + face.mIndices[order[2]]});
+      if (unjoined_ != nullptr) add_uv(*unjoined_->mMeshes[number], i, order);
     }
   }
 
-  void add_uv(const aiMesh& from, unsigned face, unsigned corner) {
-    aiVector3D uv;
-    if (from.HasTextureCoords(0)) {
-      uv = from.mTextureCoords[0][from.mFaces[face].mIndices[corner]];
+  void add_uv(const aiMesh& from, unsigned face, const std::array<unsigned, 3>& order) {
+    std::array<float, 6>& corners = to_.look.corners.emplace_back();
+    if (!from.HasTextureCoords(0)) return;
+    for (unsigned i = 0; i < 3; ++i) {
+      const aiVector3D& uv = from.mTextureCoords[0][from.mFaces[face].mIndices[order[i]]];
+      corners[2 * i] = uv.x;
+      corners[2 * i + 1] = uv.y;
     }
-    to_.uvs.push_back(uv.x);
-    to_.uvs.push_back(uv.y);
   }
 
   const aiScene& scene_;
   const aiScene* unjoined_;
   const std::string& submesh_;
-  Triangles& to_;
+  Mesh& to_;
   std::set<std::string> names_;
 };
 
@@ -204,7 +187,7 @@ std::size_t expanded_size(const aiScene& scene, const aiNode& node) {
   return size;
 }
 
-void prepare(Assimp::Importer& importer, const Request& request, unsigned kept) {
+void prepare(Assimp::Importer& importer, const MeshRequest& request, unsigned kept) {
   importer.SetIOHandler(new OneFile(request));  // which it owns
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
     Assimp::BaseImporter* other = importer.GetImporter(i);
@@ -221,7 +204,7 @@ void prepare(Assimp::Importer& importer, const Request& request, unsigned kept) 
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, static_cast<int>(removed & ~kept));
 }
 
-const aiScene& scene_of(Assimp::Importer& importer, const Request& request, unsigned steps) {
+const aiScene& scene_of(Assimp::Importer& importer, const MeshRequest& request, unsigned steps) {
   const aiScene* scene = importer.ReadFileFromMemory(
       request.bytes.data(), request.bytes.size(),
       aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_SortByPType | steps,
@@ -242,18 +225,16 @@ bool match(const aiScene& one, const aiScene& other) {
   return true;
 }
 
-// Its box's middle to the origin.
-void center(Triangles& made) {
-  if (made.vertices.empty()) return;
-  aiVector3D low = made.vertices[0], high = low;
-  for (const aiVector3D& vertex : made.vertices) {
-    for (unsigned i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], vertex[i]);
-      high[i] = std::max(high[i], vertex[i]);
-    }
+// Moves the middle of its box to the origin.
+void center(std::vector<Eigen::Vector3f>& vertices) {
+  if (vertices.empty()) return;
+  Eigen::Vector3f low = vertices[0], high = low;
+  for (const Eigen::Vector3f& vertex : vertices) {
+    low = low.cwiseMin(vertex);
+    high = high.cwiseMax(vertex);
   }
-  const aiVector3D middle = (low + high) * static_cast<ai_real>(0.5);
-  for (aiVector3D& vertex : made.vertices) vertex -= middle;
+  const Eigen::Vector3f middle = (low + high) * 0.5F;
+  for (Eigen::Vector3f& vertex : vertices) vertex -= middle;
 }
 
 [[noreturn]] void no_submesh(const std::string& wanted, const std::set<std::string>& names) {
@@ -262,7 +243,7 @@ void center(Triangles& made) {
   throw Refused("has no submesh '" + wanted + "'; it has " + known);
 }
 
-Triangles triangles_of(Request request) {
+Mesh mesh_of(MeshRequest request) {
   if (request.bytes.empty()) throw Refused("cannot be read: the file is empty");
   if (request.extension == "dae") {
     angen::load::check_collada(request.bytes);
@@ -281,90 +262,59 @@ Triangles triangles_of(Request request) {
     if (!match(scene, *unjoined)) unjoined = nullptr;
   }
   aiMatrix4x4 size;
-  aiMatrix4x4::Scaling(request.scale, size);
-  Triangles made;
+  const Eigen::Vector3f scale = request.scale.cast<ai_real>();
+  aiMatrix4x4::Scaling({scale.x(), scale.y(), scale.z()}, size);
+  Mesh made;
   Expander expander(scene, unjoined, request.submesh, made);
   expander.add(*scene.mRootNode, request.extension == "dae" ? size * to_z_up() : size);
-  if (made.parts.empty() && !request.submesh.empty()) {
+  if (made.look.parts.empty() && !request.submesh.empty()) {
     no_submesh(request.submesh, expander.names());
   }
-  if (request.center) center(made);
+  if (request.center) center(made.triangles.vertices);
   return made;
 }
 
-void write_or_end(const void* bytes, std::size_t size, std::size_t count) {
-  if (count == 0) return;  // fwrite takes no null, not even of an empty list
-  if (std::fwrite(bytes, size, count, stdout) != count) std::exit(EXIT_FAILURE);
+MeshRequest read_request(const std::string& input) {
+  MeshRequest request;
+  angen::load::BoundedInput archive(input);
+  archive(request);
+  return request;
 }
 
 template <class T>
-void write_all(const std::vector<T>& values) {
-  write_or_end(values.data(), sizeof(T), values.size());
+void write(const T& made) {
+  cereal::BinaryOutputArchive archive(std::cout);
+  archive(made);
 }
 
-void write(const Triangles& made) {
-  const std::uint64_t counts[4] = {made.vertices.size(), made.corners.size() / 3,
-                                   made.uvs.size() / 6, made.parts.size()};
-  write_or_end(angen::load::kMeshMagic, 1, sizeof angen::load::kMeshMagic);
-  write_or_end(counts, sizeof counts, 1);
-  write_all(made.vertices);
-  write_all(made.corners);
-  write_all(made.uvs);
-  for (const Part& part : made.parts) {
-    const std::uint32_t numbers[2] = {part.first, static_cast<std::uint32_t>(part.texture.size())};
-    write_or_end(numbers, sizeof numbers, 1);
-    write_or_end(part.color, sizeof part.color, 1);
-    write_or_end(part.texture.data(), 1, part.texture.size());
+bool answer(const std::string& kind, const char* least) {
+  const std::string input = read_all(STDIN_FILENO);
+  if (kind == "mesh") write(mesh_of(read_request(input)));
+  if (kind == "texture") write(angen::load::picture_of(input));
+  if (kind == "gray") {
+    write(angen::load::gray_picture_of(input, static_cast<unsigned>(std::atoi(least))));
   }
-}
-
-void write(const angen::Texture& made) {
-  const std::uint64_t counts[2] = {made.width, made.height};
-  write_or_end(angen::load::kTextureMagic, 1, sizeof angen::load::kTextureMagic);
-  write_or_end(counts, sizeof counts, 1);
-  write_all(made.bytes);
-}
-
-Request request_of(char** words, int count) {
-  const auto scale = [&](int i) { return static_cast<ai_real>(std::strtod(words[i], nullptr)); };
-  Request request{words[1],    {scale(2), scale(3), scale(4)},
-                  words[5],    words[6] == std::string("1"),
-                  read_all(0), "",
-                  ""};
-  if (count < 9) return request;
-  const std::size_t size =
-      std::min<std::size_t>(std::strtoull(words[7], nullptr, 10), request.bytes.size());
-  request.materials_name = words[8];
-  request.materials = request.bytes.substr(request.bytes.size() - size);
-  request.bytes.resize(request.bytes.size() - size);
-  return request;
+  return std::cout.flush().good();
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool texture = argc == 2 && argv[1] == std::string("texture");
-  if (!texture && argc != 7 && argc != 9) {
-    std::fputs(
-        "usage: angen_mesh EXTENSION X Y Z SUBMESH CENTER [BYTES NAME] <FILES >TRIANGLES\n"
-        "       angen_mesh texture <PICTURE >PIXELS\n",
-        stderr);
+  const std::string kind = argc > 1 ? argv[1] : "";
+  if (!((argc == 2 && (kind == "mesh" || kind == "texture")) || (argc == 3 && kind == "gray"))) {
+    std::cerr << "usage: angen_mesh mesh | texture | gray LEAST <INPUT >ANSWER\n";
     return 2;
   }
   limit_this_process();
+  std::ios::sync_with_stdio(false);
   std::string problem;
   try {
-    if (texture) {
-      write(angen::load::picture_of(read_all(STDIN_FILENO)));
-    } else {
-      write(triangles_of(request_of(argv, argc)));
-    }
-    return std::fflush(stdout) == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return answer(kind, argv[argc - 1]) ? EXIT_SUCCESS : EXIT_FAILURE;
   } catch (const std::bad_alloc&) {
     problem = angen::load::kTooMuchMemory;
   } catch (const std::exception& error) {
     problem = error.what();
   }
-  write_or_end(problem.data(), 1, problem.size());
+  std::cout << problem << std::flush;
   return angen::load::kMeshRefused;
 }

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <csetjmp>
+#include <cstring>
+#include <string_view>
 
 #include "assets/collada.h"
 #include "assets/converter.h"
@@ -15,10 +18,11 @@ namespace {
 
 constexpr std::uint32_t kMaxSide = 16'384;  // of a file; larger ones are refused
 
-void check_size(std::uint64_t width, std::uint64_t height) {
-  if (width == 0 || height == 0 || std::max(width, height) > kMaxSide) {
+void check_size(std::uint64_t width, std::uint64_t height, unsigned least, unsigned most) {
+  if (std::min(width, height) < least || std::max(width, height) > most) {
     throw Refused("is " + std::to_string(width) + " by " + std::to_string(height) +
-                  " pixels; give 1 to " + std::to_string(kMaxSide) + " a side");
+                  " pixels; give " + std::to_string(least) + " to " + std::to_string(most) +
+                  " a side");
   }
 }
 
@@ -28,7 +32,7 @@ Texture png_picture(const std::string& bytes) {
   if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) {
     throw Refused("is damaged: " + std::string(image.message));
   }
-  check_size(image.width, image.height);
+  check_size(image.width, image.height, 1, kMaxSide);
   image.format = PNG_FORMAT_RGBA;
   std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(image));
   if (png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr) == 0) {
@@ -67,7 +71,7 @@ Texture jpeg_picture(const std::string& bytes) {
   Jpeg jpeg;
   jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
   jpeg_read_header(&jpeg, TRUE);
-  check_size(jpeg.image_width, jpeg.image_height);
+  check_size(jpeg.image_width, jpeg.image_height, 1, kMaxSide);
   if (jpeg.num_components > 3) throw Refused("is a JPEG of four colors; save it as RGB");
   jpeg.out_color_space = JCS_RGB;
   jpeg_start_decompress(&jpeg);
@@ -106,7 +110,87 @@ Texture shrunk(const Texture& from, std::uint32_t width, std::uint32_t height) {
   return made;
 }
 
+// libpng reports errors by longjmp: no function between setjmp and the error may own anything.
+struct PngReader {
+  std::string_view left;
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+  std::string problem = "it is not a PNG";
+
+  explicit PngReader(const std::string& bytes) : left(bytes) {
+    png = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, &PngReader::fail, &PngReader::ignore);
+    if (png != nullptr) info = png_create_info_struct(png);
+  }
+  ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
+
+  static void fail(png_structp png, png_const_charp message) {
+    static_cast<PngReader*>(png_get_error_ptr(png))->problem = message;
+    png_longjmp(png, 1);
+  }
+  static void ignore(png_structp, png_const_charp) {}
+  static void read(png_structp png, png_bytep to, std::size_t count) {
+    std::string_view& left = static_cast<PngReader*>(png_get_io_ptr(png))->left;
+    if (count > left.size()) png_error(png, "Read Error");  // as libpng says it of a file
+    std::memcpy(to, left.data(), count);
+    left.remove_prefix(count);
+  }
+
+  // Palettes and fewer than 8 bits become 8 bits; transparency is dropped.
+  bool read_header() {
+    if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) return false;
+    png_set_read_fn(png, this, &PngReader::read);
+    // Texts and profiles change no sample, and libpng takes what memory their length claims.
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
+    png_read_info(png, info);
+    png_set_expand(png);
+    png_set_strip_alpha(png);
+    png_set_interlace_handling(png);
+    png_read_update_info(png, info);
+    return true;
+  }
+  bool read_rows(png_bytepp rows) {
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
+    png_read_image(png, rows);
+    png_read_end(png, nullptr);
+    return true;
+  }
+};
+
 }  // namespace
+
+GrayImage gray_picture_of(const std::string& bytes, unsigned least) {
+  PngReader reader(bytes);
+  if (!reader.read_header()) {
+    throw Refused("cannot be read: " + reader.problem + "; give a grayscale PNG of 8 or 16 bits");
+  }
+  GrayImage image;
+  image.width = png_get_image_width(reader.png, reader.info);
+  image.height = png_get_image_height(reader.png, reader.info);
+  check_size(image.width, image.height, least, kMaxPngSide);
+  const std::size_t stride = png_get_rowbytes(reader.png, reader.info);
+  std::vector<png_byte> pixels(stride * image.height);
+  std::vector<png_bytep> rows;
+  for (unsigned row = 0; row < image.height; ++row) rows.push_back(&pixels[row * stride]);
+  if (!reader.read_rows(rows.data())) {
+    throw Refused("is damaged: " + reader.problem);
+  }
+  // One sample a pixel, or three of a color image: then their mean.
+  const std::size_t samples = png_get_channels(reader.png, reader.info);
+  const bool wide = png_get_bit_depth(reader.png, reader.info) == 16;
+  image.values.reserve(std::size_t{image.width} * image.height);
+  for (const png_bytep row : rows) {
+    for (std::size_t column = 0; column < image.width; ++column) {
+      double sum = 0.0;
+      for (std::size_t i = column * samples; i < (column + 1) * samples; ++i) {
+        sum += wide ? (row[2 * i] * 256 + row[2 * i + 1]) / 65535.0 : row[i] / 255.0;
+      }
+      image.values.push_back(sum / static_cast<double>(samples));
+    }
+  }
+  return image;
+}
 
 Texture picture_of(const std::string& bytes) {
   const bool png = bytes.compare(0, 4, "\x89PNG") == 0;

@@ -7,19 +7,10 @@
 #include <cereal/types/vector.hpp>
 #include <sstream>
 
-#include "assets/bounded_input.h"
-#include "core/mesh_look.h"
-#include "core/texture.h"
+#include "assets/serialize.h"
 
-// The bindings name every member of a struct: one that is added does not compile before it is
-// packed, too.
+// As in assets/serialize.h.
 namespace cereal {
-
-template <class A, class Scalar, int rows, int columns>
-void serialize(A& a, Eigen::Matrix<Scalar, rows, columns>& v) {
-  static_assert(rows > 0 && columns > 0);
-  a(binary_data(v.data(), sizeof(Scalar) * rows * columns));
-}
 
 template <class A>
 void serialize(A& a, angen::Quat& v) {
@@ -50,21 +41,6 @@ void serialize(A& a, angen::Element& v) {
   a(name, text, attributes, children, source);
 }
 
-template <class A, class T>
-void serialize_plain(A& a, std::vector<T>& v) {
-  auto size = static_cast<std::uint64_t>(v.size());
-  a(make_size_tag(size));
-  v.resize(size);
-  a(binary_data(v.data(), size * sizeof(T)));
-}
-
-template <class A>
-void serialize(A& a, angen::TriangleMesh& v) {
-  auto& [vertices, triangles] = v;
-  serialize_plain(a, vertices);
-  serialize_plain(a, triangles);
-}
-
 template <class A>
 void serialize(A& a, angen::HeightGrid& v) {
   auto& [columns, rows, width, depth, heights] = v;
@@ -84,26 +60,6 @@ template <class A>
 void serialize(A& a, angen::Shape& v) {
   auto& [type, size, radius, length, mesh, heights, mesh_file, mesh_scale] = v;
   a(type, size, radius, length, mesh, heights, mesh_file, mesh_scale);
-}
-
-template <class A>
-void serialize(A& a, angen::Texture& v) {
-  auto& [width, height, bytes] = v;
-  a(width, height);
-  serialize_plain(a, bytes);
-}
-
-template <class A>
-void serialize(A& a, angen::MeshPart& v) {
-  auto& [first, color, texture] = v;
-  a(first, color, texture);
-}
-
-template <class A>
-void serialize(A& a, angen::MeshLook& v) {
-  auto& [parts, corners] = v;
-  a(parts);
-  serialize_plain(a, corners);
 }
 
 template <class A>

@@ -214,8 +214,9 @@ TEST_F(Converter, AnAnswerWithCornersThatAreNotThereIsRefused) {
   const std::string answer =
       convert_mesh(mesh_program(), request_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "obj"));
   EXPECT_EQ(decode_mesh(answer).triangles.triangles.size(), 1U);
-  const std::size_t corners = sizeof kMeshMagic + 4 * 8 + 3 * 12;
-  for (const std::size_t at : {std::size_t{15}, std::size_t{39}, corners + 11, corners + 15}) {
+  // Sizes begin the answer and the triangles; each is followed by its bytes.
+  const std::size_t triangles = 8 + 3 * 12;
+  for (const std::size_t at : {std::size_t{7}, triangles + 7, triangles + 11, triangles + 19}) {
     std::string bad = answer;
     bad[at] = '\x7f';
     EXPECT_THROW(decode_mesh(bad), Error) << at;
@@ -238,6 +239,7 @@ TEST_F(Converter, PicturesThatAreDamagedOrTooLargeAreRefused) {
   std::string large("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x60\0\0\0\x60\0\x08\x02\0\0\0", 29);
   EXPECT_NE(complaint(large + "\x11\x22\x33\x44"), "");
   EXPECT_THROW(decode_texture("angtext1"), Error);
+  EXPECT_THROW(decode_gray("anggray1"), Error);
 }
 
 // The limit holds in angen_mesh itself: a small file that assimp would need gigabytes for.
