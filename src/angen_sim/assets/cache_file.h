@@ -21,7 +21,7 @@ void write_cache_file(const std::string& file, const std::string& bytes);
 /// Path, size and time of a file, empty where it does not exist.
 std::string file_state(const std::string& path);
 
-/// The same of the library that holds `symbol`: another build may read the same files otherwise.
+/// file_state() of the library that has `symbol`: another build may read the same files otherwise.
 std::string library_state(const void* symbol);
 
 }  // namespace angen::load

@@ -16,7 +16,7 @@ using tinyxml2::XMLElement;
 constexpr std::size_t kMaxNodes = 100'000;  // with all instances
 constexpr int kMaxDepth = 500;
 
-[[noreturn]] void refuse(const XMLElement& at, const std::string& problem) {
+[[noreturn]] void reject(const XMLElement& at, const std::string& problem) {
   throw Refused("cannot be read: line " + std::to_string(at.GetLineNum()) + " of it: " + problem);
 }
 
@@ -37,7 +37,7 @@ class Nodes {
       char* end = nullptr;
       const long long number = std::strtoll(count, &end, 10);
       if (number < 0 || static_cast<std::size_t>(number) > bytes_) {
-        refuse(element, "<" + name + " count=\"" + std::string(count).substr(0, 40) +
+        reject(element, "<" + name + " count=\"" + std::string(count).substr(0, 40) +
                             "\"> is not the number of what it holds");
       }
     }
@@ -55,12 +55,12 @@ class Nodes {
     int depth = 0;
   };
 
-  // What `element`, a node or a scene, stands for. `above` nodes stand around it.
+  // The size of `element`, a node or a scene, with its instances; `above` nodes are around it.
   Size measure(const XMLElement& element, int above = 0) {
     const auto [known, fresh] = sizes_.insert({&element, {}});
     if (!fresh) {
       if (known->second.nodes != 0) return known->second;
-      refuse(element, "the node '" + value(element, "id") + "' instances itself");
+      reject(element, "the node '" + value(element, "id") + "' instances itself");
     }
     Size size{1, 1};
     const auto add = [&](const XMLElement& part) {
@@ -79,7 +79,7 @@ class Nodes {
       }
       if (size.depth > kMaxDepth) too_deep(*child);
       if (size.nodes > kMaxNodes) {
-        refuse(*child,
+        reject(*child,
                "its instances make more than " + std::to_string(kMaxNodes) + " nodes; simplify it");
       }
     }
@@ -88,7 +88,7 @@ class Nodes {
 
  private:
   [[noreturn]] static void too_deep(const XMLElement& at) {
-    refuse(at, "nodes stand more than " + std::to_string(kMaxDepth) + " deep in one another");
+    reject(at, "nodes are nested more than " + std::to_string(kMaxDepth) + " deep");
   }
 
   using Index = std::multimap<std::string, const XMLElement*>;
@@ -124,7 +124,7 @@ void check_collada(const std::string& text) {
   document.Parse(text.data(), text.size());
   if (document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) {
     throw Refused("cannot be read: line " + std::to_string(document.ErrorLineNum()) +
-                  " of it: elements stand more than 100 deep in one another");
+                  " of it: elements are nested more than 100 deep");
   }
   if (document.Error() || document.RootElement() == nullptr) {
     throw Refused("cannot be read: line " + std::to_string(document.ErrorLineNum()) +

@@ -28,7 +28,7 @@ constexpr std::size_t kMaxAnswer = 384U << 20U;  // bytes: 5,000,000 triangles t
 
 [[noreturn]] void not_started(const std::string& program, int error) {
   throw Error("cannot be read: " + program + " cannot be started (" + std::strerror(error) +
-              "); build it, or install Angen anew");
+              "); build it, or reinstall Angen");
 }
 
 /// A file descriptor that is closed at the end.
@@ -100,7 +100,7 @@ class Child {
   pid_t id_;
 };
 
-// Sends what the socket takes now; closes it when all is sent, or nobody reads any more.
+// Sends as much as the socket takes now; closes it when all is sent, or its reader has ended.
 void send_some(Descriptor& socket, const std::string& bytes, std::size_t& sent) {
   const ssize_t count =
       send(socket.number(), bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL | MSG_DONTWAIT);
@@ -148,7 +148,7 @@ namespace {
 
 std::string answer_of(const std::string& program, const std::vector<std::string>& words,
                       const std::string& bytes) {
-  // A socket, as writing to a pipe that nobody reads would be a signal to this process.
+  // A socket, because writing to a pipe without a reader would send a signal to this process.
   int sockets[2] = {-1, -1};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets) != 0) not_started(program, errno);
   Descriptor socket(sockets[0]);
@@ -165,7 +165,7 @@ std::string answer_of(const std::string& program, const std::vector<std::string>
   if (WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS) return answer;
   if (WIFEXITED(status) && WEXITSTATUS(status) == kMeshRefused) throw Error(printable(answer, 300));
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127) {
-    throw Error("cannot be read: " + program + " does not start; build it, or install Angen anew");
+    throw Error("cannot be read: " + program + " does not start; build it, or reinstall Angen");
   }
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
     throw Error("takes more than " + std::to_string(kMeshCpuSeconds) +

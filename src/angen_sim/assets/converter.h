@@ -24,7 +24,7 @@ constexpr char kTooManyTriangles[] = "has more than 5,000,000 triangles; simplif
 constexpr char kTooMuchMemory[] =
     "needs more than 1 GB of memory to read; it is damaged or too large";
 
-/// Where angen_mesh is: in angen_sim/ beside the library that this is in.
+/// The path of angen_mesh: in angen_sim/ beside this library.
 std::string mesh_program();
 
 /// A mesh's file, and how to convert it.
@@ -46,12 +46,12 @@ struct Mesh {
 /// Answers of `program`, which throw Error: for a mesh, its message is to be read after "mesh
 /// FILE".
 std::string convert_mesh(const std::string& program, const MeshRequest& request);
-/// The same of a picture; after "texture FILE".
+/// Its answer for a picture; the message is to be read after "texture FILE".
 std::string convert_texture(const std::string& program, const std::string& bytes);
-/// The same of a PNG of at least `least` pixels a side.
+/// Its answer for a PNG of at least `least` pixels a side.
 std::string convert_gray(const std::string& program, const std::string& bytes, unsigned least);
 
-/// What an answer holds; these throw Error where it is none.
+/// Decode an answer; throw Error if it is damaged.
 Mesh decode_mesh(const std::string& answer);
 Texture decode_texture(const std::string& answer);
 GrayImage decode_gray(const std::string& answer);

@@ -18,7 +18,7 @@ constexpr std::size_t kMaxAngles = 2000;
 constexpr std::size_t kMaxNumbers = 200'000;
 constexpr double kMaxCandela = 1e9;
 
-/// The numbers after the line of TILT, one by one, each with the line that it stands in.
+/// The numbers after the line of TILT, one by one, each with its line.
 class IesNumbers {
  public:
   IesNumbers(const std::string& text, const std::string& file) : in_(text), file_(file) {}

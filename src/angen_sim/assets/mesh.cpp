@@ -49,7 +49,7 @@ std::string read_small(const std::string& path, const std::string& what, const S
   return read_file(path);
 }
 
-// What angen_mesh once answered to the same request.
+// An earlier answer of angen_mesh to the same request.
 struct KeptAnswer {
   std::string head;  // what the file's bytes begin with
   std::string file;  // empty where there is no cache
@@ -133,7 +133,7 @@ std::string changed_at(const std::string& path) {
   return std::to_string(fs::last_write_time(path, failed).time_since_epoch().count());
 }
 
-/// What somebody uses, by file and what was made of it.
+/// Objects in use, by file and request.
 template <class T>
 class Kept {
  public:

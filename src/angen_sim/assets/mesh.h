@@ -10,7 +10,7 @@
 
 namespace angen::load {
 
-/// A mesh's file, and what of it is wanted.
+/// A mesh's file, and which part of it to read.
 struct MeshSource {
   std::string path;
   Vec3 scale = Vec3::Ones();
@@ -23,13 +23,13 @@ struct ReadMesh {
   std::shared_ptr<const MeshLook> look;
 };
 
-/// A COLLADA, STL or OBJ file as triangles in meters, z up, times the scale. Kept and shared while
-/// somebody uses it and the file does not change. Throws Error at `at`.
+/// A COLLADA, STL or OBJ file as triangles in meters, z up, times the scale. Shared while it is in
+/// use and the file does not change. Throws Error at `at`.
 ReadMesh read_mesh(const MeshSource& source, const Source& at);
 /// The name of an OBJ's file of materials, "" where it names none.
 std::string materials_of(const std::string& path);
 
-/// A PNG or JPEG file. Kept and shared as meshes are. Throws Error.
+/// A PNG or JPEG file. Shared as meshes are. Throws Error.
 std::shared_ptr<const Texture> read_texture(const std::string& path);
 
 }  // namespace angen::load

@@ -125,14 +125,14 @@ class Expander {
     const aiMatrix4x4 place = parent * node.mTransformation;
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
       const unsigned number = node.mMeshes[i];
-      if (is_wanted(node, *scene_.mMeshes[number])) add(number, place);
+      if (is_requested(node, *scene_.mMeshes[number])) add(number, place);
     }
     for (unsigned i = 0; i < node.mNumChildren; ++i) add(*node.mChildren[i], place);
   }
   const std::set<std::string>& names() const { return names_; }
 
  private:
-  bool is_wanted(const aiNode& node, const aiMesh& mesh) {
+  bool is_requested(const aiNode& node, const aiMesh& mesh) {
     if (submesh_.empty()) return true;
     names_.insert(node.mName.C_Str());
     return node.mName.C_Str() == submesh_ || mesh.mName.C_Str() == submesh_;
@@ -216,7 +216,7 @@ const aiScene& scene_of(Assimp::Importer& importer, const MeshRequest& request, 
   return *scene;
 }
 
-// Whether the faces of both are the same.
+// True if both have the same numbers of faces.
 bool match(const aiScene& one, const aiScene& other) {
   if (one.mNumMeshes != other.mNumMeshes) return false;
   for (unsigned i = 0; i < one.mNumMeshes; ++i) {
@@ -237,10 +237,10 @@ void center(std::vector<Eigen::Vector3f>& vertices) {
   for (Eigen::Vector3f& vertex : vertices) vertex -= middle;
 }
 
-[[noreturn]] void no_submesh(const std::string& wanted, const std::set<std::string>& names) {
+[[noreturn]] void no_submesh(const std::string& name, const std::set<std::string>& names) {
   std::string known;
-  for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
-  throw Refused("has no submesh '" + wanted + "'; it has " + known);
+  for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
+  throw Refused("has no submesh '" + name + "'; it has " + known);
 }
 
 Mesh mesh_of(MeshRequest request) {

@@ -16,7 +16,7 @@ namespace angen::load {
 
 namespace {
 
-constexpr std::uint32_t kMaxSide = 16'384;  // of a file; larger ones are refused
+constexpr std::uint32_t kMaxSide = 16'384;  // of a file; larger ones are rejected
 
 void check_size(std::uint64_t width, std::uint64_t height, unsigned least, unsigned most) {
   if (std::min(width, height) < least || std::max(width, height) > most) {
@@ -85,7 +85,7 @@ Texture jpeg_picture(const std::string& bytes) {
   return made;
 }
 
-// Each pixel is the mean of the light of those that it stands for.
+// Each pixel is the mean of the light of the pixels that it replaces.
 Texture shrunk(const Texture& from, std::uint32_t width, std::uint32_t height) {
   Texture made{width, height, {}};
   made.bytes.reserve(std::size_t{3} * width * height);

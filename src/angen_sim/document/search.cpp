@@ -53,7 +53,7 @@ std::string folder_of(const std::string& document, Sources& sources) {
   return fs::absolute(document).parent_path().string();
 }
 
-// The folders in which the address is tried, in order; a full path is tried as it stands.
+// The folders in which the address is searched, in order; a full path is not changed.
 std::vector<std::string> folders_for(const Address& address, const std::string& from,
                                      Session& session) {
   if (address.scheme == "model") return session.paths.models;
@@ -168,7 +168,7 @@ std::string need_uri(const std::string& uri, const std::string& what, const Sour
   }
   if (auto found = find_uri(uri, at.file, session)) {
     std::error_code failed;
-    // What no document holds the user has named.
+    // The user has named it, not a document.
     if (!at.file.empty()) check_allowed(*found, what + " '" + uri + "'", at, session);
     if (what == "model" || fs::is_regular_file(*found, failed)) return *found;
     throw Error(at, what + " '" + uri + "' is not a file (" + *found + "); name one");

@@ -15,7 +15,7 @@ namespace angen::load {
 std::optional<std::string> find_uri(const std::string& uri, const std::string& from,
                                     Session& session);
 
-/// Where find_uri searched, for a message.
+/// The places that find_uri searched, for a message.
 std::string searched_places(const std::string& uri, const std::string& from, Session& session);
 
 /// find_uri, or an Error at `at` that says what `what` ("mesh", "model") is missing and where it

@@ -5,13 +5,13 @@
 
 namespace angen::load {
 
-/// Whether what Angen does not know of a document, or finds wrong with a part that the rest can do
-/// without, is an error or a warning. kAuto: a world without any of Angen's plug-ins is tolerant, a
+/// Elements that Angen does not know, and errors in parts that the rest does not need, are errors
+/// (kStrict) or warnings (kTolerant). kAuto: a world without any of Angen's plug-ins is tolerant, a
 /// model strict.
 enum class Strictness { kStrict, kTolerant, kAuto };
 
-/// Where model:// and file:// are searched, first hit wins; what lies elsewhere no document may
-/// name.
+/// The folders in which model:// and file:// are searched, in order; documents may name no files
+/// elsewhere.
 struct SearchPaths {
   std::vector<std::string> models;
   std::vector<std::string> resources;

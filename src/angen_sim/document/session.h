@@ -15,17 +15,17 @@
 
 namespace angen::load {
 
-/// What one load carries along: where to search, what it saw there, what to say, how much was read.
+/// The state of one load: search paths, files that it read, warnings, and counts for limits.
 struct Session {
-  /// How an element was read: as `sdf/reader.h` knows it, by others too, to no effect, or to none
-  /// but a warning.
+  /// An element was read by a Reader, may be read by others too, has no effect, or has none and a
+  /// warning said so.
   enum class Mark { kRead, kOpen, kUnused, kWarned };
 
   const SearchPaths& paths;
   AllowedFiles allowed{paths};
   Sources sources{};
   std::vector<Diagnostic> warnings{};
-  std::vector<Diagnostic> ignored{};       // what nothing reads
+  std::vector<Diagnostic> ignored{};       // elements that nothing reads
   std::set<std::string> warned_places{};   // of `warnings`, with their text
   std::set<std::string> ignored_places{};  // of `ignored`, as well
   std::set<std::string> converted{};       // URDF files: what nothing reads is libsdformat's doing
@@ -46,7 +46,7 @@ struct Session {
   void ignore(const Source& source, const std::string& what);
   /// Where tolerant, adds a warning in place of the error. Throws the error otherwise.
   void warn_or_throw(const Error& error);
-  /// What a document is, once that is known; a strict one throws the first that was tolerated.
+  /// Sets whether the document is tolerant; a strict one throws the first error that was tolerated.
   void decide(bool is_tolerant);
 };
 

@@ -6,19 +6,19 @@
 
 namespace angen::load {
 
-/// What one load has searched in the file system, and what it found there: enough to know later
-/// whether it would find the same again.
+/// The paths that one load searched and the files that it read: enough to decide later whether
+/// another load would find the same.
 class Sources {
  public:
-  /// Whether anything stands at `path`.
+  /// True if a file or folder exists at `path`.
   bool exists(const std::string& path);
   bool is_folder(const std::string& path);
   /// read_file().
   std::string read(const std::string& path);
-  /// The contents of this file are about to be read by somebody else.
+  /// Notes that other code is about to read this file.
   void will_be_read(const std::string& path);
 
-  /// Whether all of it is still so; reads every file again.
+  /// True if nothing of it has changed; reads every file again.
   bool unchanged() const;
 
   template <class Archive>

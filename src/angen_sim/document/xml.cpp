@@ -14,7 +14,7 @@ namespace angen::load {
 
 namespace {
 
-// How many bytes from the start are characters that XML 1.0 allows.
+// Counts the bytes from the start that are characters that XML 1.0 allows.
 std::size_t allowed_prefix(const std::string& text) {
   std::size_t end = valid_utf8_prefix(text);
   for (const char* noncharacter : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"}) {  // U+FFFE, U+FFFF
@@ -67,7 +67,7 @@ std::string reason(const tinyxml2::XMLDocument& document) {
              "is "
              "cut off; write each attribute once, as name=\"value\"";
     case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
-      return "elements stand more than 100 deep in one another";
+      return "elements are nested more than 100 deep";
     default: {
       const std::string name = document.ErrorName();
       return "this is not well-formed XML (" + name.substr(name.find("XML_") == 0 ? 4 : 0) +

@@ -2,7 +2,7 @@
 
 #include "desc/world.h"
 
-/// What robots made for Gazebo leave unsaid.
+/// Defaults that robots made for Gazebo rely on.
 namespace angen::load {
 
 constexpr char kFtSensor[] = "libgazebo_ros_ft_sensor.so";

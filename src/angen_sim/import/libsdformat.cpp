@@ -14,7 +14,7 @@ std::mutex& console_mutex() {
   return mutex;
 }
 
-bool wanted(const sdf::ElementPtr& schema, const std::set<std::string>& names) {
+bool is_needed(const sdf::ElementPtr& schema, const std::set<std::string>& names) {
   const std::string required = schema->GetRequired();
   return required == "1" || required == "+" || names.count(schema->GetName()) != 0;
 }
@@ -36,7 +36,7 @@ sdf::ElementPtr pruned(const sdf::ElementPtr& schema, const std::set<std::string
   }
   for (std::size_t i = 0; i < schema->GetElementDescriptionCount(); ++i) {
     const sdf::ElementPtr child = schema->GetElementDescription(static_cast<unsigned>(i));
-    if (wanted(child, names)) kept->AddElementDescription(pruned(child, names));
+    if (is_needed(child, names)) kept->AddElementDescription(pruned(child, names));
   }
   return kept;
 }

@@ -7,7 +7,7 @@
 
 #include "core/element.h"
 
-/// How libsdformat is called: for its schema, and for URDF.
+/// Calls of libsdformat: for its schema, and for URDF.
 namespace angen::load {
 
 /// While one lives, nothing that libsdformat or urdfdom say reaches the console; it is kept

@@ -11,13 +11,13 @@ namespace angen::load {
 struct OgreMaterial {
   std::optional<Eigen::Vector4f> diffuse;
   std::string texture;  // name of the picture, "" for none
-  std::string file;     // that it stands in
+  std::string file;     // that defines it
 };
 
 /// The material called `name` in the script that `uri` names, or in one of that folder.
 std::optional<OgreMaterial> ogre_material(const Element& uri, const std::string& name,
                                           Session& session);
-/// The same in a script's text.
+/// The material called `name` in a script's text.
 std::optional<OgreMaterial> ogre_material(const std::string& text, const std::string& name);
 
 /// The picture's file: in a folder that the <script> names, or beside its material; "" with a

@@ -134,7 +134,7 @@ Pose pose_in(const Element* origin) {
   return pose;
 }
 
-// Where a link is in another one that fixed joints hold it to, some way up; none where it is not.
+// The pose of a link in one of its ancestors, if only joints of the tree lie between them.
 std::optional<Pose> lumped_pose(const Element& robot, std::string link, const std::string& into) {
   Pose pose;
   for (std::size_t i = 0; i <= robot.children.size() && link != into; ++i) {
@@ -265,7 +265,7 @@ bool has_driver(const std::string& joint, const Element& robot, const Element& m
          std::any_of(robot.children.begin(), robot.children.end(), drives);
 }
 
-// libsdformat drops <mimic>: the plug-in for it stands in.
+// libsdformat drops <mimic>: a plug-in replaces it.
 void keep_mimics(const Element& robot, Element& model) {
   for (const Element& joint : robot.children) {
     const Element* mimic = joint.name == "joint" ? joint.child("mimic") : nullptr;
@@ -285,7 +285,7 @@ void keep_mimics(const Element& robot, Element& model) {
   }
 }
 
-// What the conversion writes, and what <gazebo> elements add.
+// The elements that the conversion writes, and those of <gazebo> elements.
 std::set<std::string> names_in(const Element& robot) {
   std::istringstream words(
       "model link joint pose frame inertial mass inertia ixx ixy ixz iyy iyz izz collision visual "

@@ -6,7 +6,7 @@
 
 namespace angen::load {
 
-/// What holds a <safety_controller>'s numbers in an <axis>.
+/// The element of an <axis> that has the numbers of a <safety_controller>.
 constexpr char kSafety[] = "angen:safety_controller";
 
 /// A URDF <robot> as the <sdf> element libsdformat makes of it. Lines are those of the URDF's

@@ -67,7 +67,7 @@ std::string row(const Waypoint& w) {
   return text;
 }
 
-// What a surface of both temperatures radiates as.
+// The temperature at which a surface radiates as much as skin and clothes together.
 double mean_temperature(double skin, double clothed) {
   return std::pow(kBareShare * std::pow(skin, 4) + (1.0 - kBareShare) * std::pow(clothed, 4), 0.25);
 }
@@ -112,7 +112,7 @@ desc::Model describe_actor(const Element& given, Session& session) {
     if (child.name != "plugin") continue;
     const std::string* file = child.attribute("filename");
     if (file == nullptr || *file == *plugin.attribute("filename")) {
-      // Of several, as where an <include> adds one, the last that gives a parameter holds.
+      // If several give a parameter, as where an <include> adds a plug-in, the last one holds.
       for (const Element& given : child.children) remove_children(plugin, given.name);
       plugin.children.insert(plugin.children.end(), child.children.begin(), child.children.end());
     } else {

@@ -10,15 +10,15 @@
 namespace angen::load {
 
 /// The described world of one file as an earlier load left it in $XDG_CACHE_HOME/angen, or in
-/// ~/.cache/angen; none where ANGEN_NO_CACHE is set. Nothing that is wrong with the cache is an
-/// error: then it holds no world.
+/// ~/.cache/angen; none where ANGEN_NO_CACHE is set. A cache that
+/// cannot be read is not an error: it has no world.
 class Cache {
  public:
-  /// Of the world file `world` when models are searched in `paths`.
+  /// The cache of the world file `world` if models are searched in `paths`.
   Cache(const std::string& world, const SearchPaths& paths);
 
-  /// The world, if loading it anew would give the same: the program and all that was read are as
-  /// they were. Nothing else is ever returned, whatever happened to the file.
+  /// The world, if loading it again would give the same: the program and all files that were read
+  /// are unchanged. A damaged file returns none.
   std::optional<desc::World> recall() const;
 
   /// Leaves a world that was read from `sources` for the next recall().

@@ -171,7 +171,7 @@ void check_model_parts(Element& model, Session& session) {
   }
 }
 
-// What was thrown far out of a world that somebody saved.
+// A saved world may have bodies that were thrown far away.
 void clamp_pose(Element& pose, Session& session) {
   constexpr double kMax = limits::kPosition.most;
   Numbers found = numbers_in(pose.text);
@@ -185,9 +185,8 @@ void clamp_pose(Element& pose, Session& session) {
     text += number_text(beyond ? std::copysign(kMax, value) : value) + " ";
   }
   if (!far) return;
-  session.warn_or_throw(
-      Error(pose.source, "<pose> is beyond " + number_text(kMax) +
-                             " m, the farthest that anything can stand; it is taken " + "as that"));
+  session.warn_or_throw(Error(pose.source, "<pose> is beyond " + number_text(kMax) +
+                                               " m, the farthest position; it is taken as that"));
   pose.text = text;
 }
 

@@ -13,14 +13,14 @@ namespace angen::load {
 /// Names and poses of a world's settings and lights; models are left to check_model.
 void check_settings(Element& world, Session& session);
 
-/// Whether a model has a link, also in a nested model.
+/// True if a model has a link, also in a nested model.
 bool has_link(const Element& model);
 
 /// Names, poses and joints of an expanded model. A revolute joint with a zero axis is
 /// rewritten as fixed, with a warning.
 void check_model(Element& model, Session& session);
 
-/// The same for a single <sensor> or <light>.
+/// Names and poses of a single <sensor> or <light>.
 void check_part(Element& element, Session& session);
 
 /// Every <pose> below `element`, plug-ins left out. If tolerant, brings one that is beyond the

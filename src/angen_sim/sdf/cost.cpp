@@ -69,7 +69,7 @@ std::uint32_t big_endian(const unsigned char* bytes) {
          static_cast<std::uint32_t>(bytes[2]) << 8U | bytes[3];
 }
 
-// By a PNG's header; what is not a PNG, or too large a one, is refused when it is read.
+// By a PNG's header; another file, or a PNG that is too large, is rejected when it is read.
 double heights_in(const std::string& heightmap) {
   unsigned char head[24] = {};
   std::ifstream(heightmap, std::ios::binary).read(reinterpret_cast<char*>(head), sizeof head);
@@ -82,7 +82,7 @@ double file_cost(const Element& shape, Session& session) {
   const Element* uri = shape.child("uri");
   if (uri == nullptr) return 0.0;
   const std::optional<std::string> file = find_uri(uri->text, uri->source.file, session);
-  // One that it may not name is refused later; others are shared between their uses.
+  // One that it may not name is rejected later; others are shared between their uses.
   if (!file || !session.allowed.holds(*file, uri->source.file)) return 0.0;
   if (!session.counted_files.insert(*file).second) return 0.0;
   std::error_code failed;
@@ -125,7 +125,7 @@ void check_memory(const Element& expanded, Session& session) {
   throw Error(expanded.source,
               tag_of(expanded) + " would take about " + number_text(std::round(bytes / kMegabyte)) +
                   " MB of memory, " + number_text(std::round(session.bytes / kMegabyte)) +
-                  " MB with what stands before it; the limit is " + number_text(most) +
+                  " MB with the models before it; the limit is " + number_text(most) +
                   " MB. Make it smaller, or raise ANGEN_MEMORY_LIMIT (MB)");
 }
 

@@ -18,7 +18,7 @@ namespace angen::load {
 
 namespace {
 
-// What a model's parts are described with.
+// The context in which a model's parts are described.
 struct Context {
   Frames& frames;    // of the outermost model
   bool never_moves;  // it is static
@@ -95,7 +95,7 @@ void add_visuals(const Element& element, const Pose& pose, Session& session, des
   paint(shapes.back(), element.source, session, link.visuals.back().material);
 }
 
-// Where a <camera> of several is on its sensor.
+// The pose of one <camera> of several on its sensor.
 Pose pose_of(const Element& camera) {
   Pose pose;
   const Element* given = camera.child("pose");

@@ -12,16 +12,16 @@ namespace angen::load {
 /// caller, and so are the texts for `save`. Nested models become links, joints and plug-ins named
 /// `child::name`.
 std::vector<desc::Model> describe_models(const std::vector<Element>& models, Session& session);
-/// One of them, without a check of its schema.
+/// One such model, without a check of its schema.
 desc::Model describe_model(const Element& model, Session& session);
 
 /// The <inertial> of a link; the unit mass and moment where there is none. An impossible one throws
 /// Error, or is a warning and replaced where the link `never_moves`.
 desc::Inertial inertial_of(const Reader& link, bool never_moves, Session& session);
-/// Whether a link that moves may have it.
+/// True if a link that moves may have it.
 bool is_possible(const desc::Inertial& inertial);
 
-/// A checked <sensor>; `pose` is where it stands in its link.
+/// A checked <sensor>; `pose` is its pose in the link.
 desc::Sensor sensor_of(const Element& sensor, const Pose& pose, Session& session);
 
 desc::Plugin plugin_of(const Element& plugin);

@@ -26,8 +26,8 @@ bool holds_include(const Element& element) {
   return false;
 }
 
-// What decides a model's description: all but its name, pose and plug-ins, and where it was
-// written.
+// A model's description depends on all but its name, pose and plug-ins, and on the lines of its
+// elements.
 std::string key_of(const Element& model) {
   Element bare = model;
   bare.attributes.clear();

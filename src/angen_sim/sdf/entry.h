@@ -7,7 +7,7 @@
 
 namespace angen::load {
 
-/// A <model>, <actor> or <include> as it stands in a file, and what it stands for.
+/// A <model>, <actor> or <include> as a file has it, and with includes expanded.
 struct Entry {
   Element original;
   Element expanded;

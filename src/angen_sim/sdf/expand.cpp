@@ -121,7 +121,7 @@ void apply_include(const Element& include, Element& to, Session& session) {
   to.children.insert(to.children.end(), plugins.begin(), plugins.end());
 }
 
-// What SDF's merge="true" takes over; the rest, such as <static>, is the outer model's own.
+// merge="true" adds these parts; the rest, such as <static>, is the outer model's own.
 void merge_parts(Element& included, std::vector<Element>& into) {
   static const std::set<std::string> parts = {"link", "joint", "frame", "model", "plugin"};
   if (const Element* pose = included.child("pose")) {
@@ -194,7 +194,7 @@ Element expand_include(const Element& include, Session& session) {
   }
   if (session.open.size() >= kMaxDepth) {
     throw Error(uri->source,
-                "includes stand more than " + std::to_string(kMaxDepth) + " deep in one another");
+                "includes are nested more than " + std::to_string(kMaxDepth) + " deep");
   }
   const Open open(session, real);
   const CountInclude counted(session);
@@ -217,7 +217,7 @@ void expand_model(Element& model, Session& session) {
         continue;
       }
       if (included.name != "model") {
-        throw Error(child.source, "an <include> in a <model> stands for a <model>; this is <" +
+        throw Error(child.source, "an <include> in a <model> must name a <model>; this is <" +
                                       included.name + ">");
       }
       if (is_merge(child)) {

@@ -9,11 +9,11 @@
 /// Documents as trees of SDF 1.9 with their includes written out, each element knowing its file.
 namespace angen::load {
 
-/// The <sdf> element of a text, upgraded to SDF 1.9 (URDF converted). `file` stands for it in
-/// messages and, when it exists, is where relative addresses start.
+/// The <sdf> element of a text, upgraded to SDF 1.9 (URDF converted). Messages name `file`;
+/// if it exists, relative addresses start there.
 Element read_document(const std::string& text, const std::string& file, Session& session);
 
-/// What an <include> stands for: the included <model>, <actor> or <light> with the include's name,
+/// The <model>, <actor> or <light> that an <include> names, with the include's name,
 /// pose, static and plug-ins, and with the includes inside it written out.
 Element expand_include(const Element& include, Session& session);
 
@@ -21,11 +21,11 @@ Element expand_include(const Element& include, Session& session);
 /// otherwise, with a warning each; true where there were any.
 bool replace_typographic_characters(Element& element, Session& session);
 
-/// Whether an <include> in a <model> stands for the parts of the model and not for a nested one.
+/// True if an <include> in a <model> adds the parts of the model, not a nested model.
 bool is_merge(const Element& include);
 
-/// Replaces every <include> inside a <model> by the model it stands for, or by its parts where it
-/// says merge="true".
+/// Replaces every <include> inside a <model> by the model that it names, or by that model's parts
+/// if it has merge="true".
 void expand_model(Element& model, Session& session);
 
 }  // namespace angen::load

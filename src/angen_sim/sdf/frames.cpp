@@ -40,7 +40,7 @@ Frames::Frames(const Element& root) {
   add_parts(root, "");
 }
 
-// What is attached to nothing else is attached to its model's canonical link.
+// Frames without attached_to are attached to their model's canonical link.
 std::string Frames::canonical_link(const Element& model, const std::string& scope) const {
   const std::string given = text_attribute(model, "canonical_link");
   if (!given.empty()) return scope + given;

@@ -9,7 +9,7 @@
 
 namespace angen::load {
 
-/// The frames of a <model>, nested ones included, or of a <world>, and where they stand, by SDF
+/// The frames of a <model>, nested ones included, or of a <world>, and their poses, by SDF
 /// 1.9's rules: <pose relative_to>, <frame attached_to>, placement_frame, canonical_link. Each is
 /// worked out once, so a model costs what its size is.
 class Frames {
@@ -17,11 +17,11 @@ class Frames {
   /// `root` must outlive it. Names must have been checked.
   explicit Frames(const Element& root);
 
-  /// Of the link, joint, frame or model `name` ("a::b" in a nested model) in the root's frame.
+  /// The pose of the link, joint, frame or model `name` ("a::b" in a nested model) in the root's.
   /// Throws Error where it, or what it is relative to, does not exist or is relative to itself.
   const Pose& pose(const std::string& name);
 
-  /// Of a part of a link (or of the root, with link ""), in that link's frame. `scope` is the
+  /// The pose of a part of a link (or of the root, with link "") in that link. `scope` is the
   /// prefix of the model that the link is in, such as "a::".
   Pose part_pose(const Element& part, const std::string& link, const std::string& scope);
 

@@ -46,7 +46,7 @@ PlacedShape mesh(const Reader& element, const Pose& pose, Session& session) {
   try {
     shape.mesh_file = need_uri(uri.text, "mesh", uri.source, session);
   } catch (const Error& error) {
-    warn_or_throw_missing(element.element(), error, session);  // nothing stands in its place
+    warn_or_throw_missing(element.element(), error, session);  // it has no shape
     return placed;
   }
   session.sources.will_be_read(shape.mesh_file);
@@ -123,7 +123,7 @@ Shape shape_of(const Reader& element, Pose& pose, Session& session) {
   return shape;
 }
 
-// What a scale or a picture makes of a shape.
+// A scale or a picture may make a shape too large.
 void check_size(const Shape& shape, const Element& element) {
   double largest = shape.type == Shape::Type::kBox ? shape.size.maxCoeff() : 0.0;
   if (shape.mesh) {

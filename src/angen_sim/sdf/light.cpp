@@ -69,7 +69,7 @@ void read_area(const Reader& element, desc::Light& light) {
   }
 }
 
-/// In which directions it shines how much.
+/// The intensity by direction.
 void read_distribution(const Reader& element, desc::Light& light, Session& session) {
   if (const Reader spot = element.block("spot")) {
     const Range angle = Range::not_negative(limits::kAngle);

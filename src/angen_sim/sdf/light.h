@@ -5,7 +5,7 @@
 
 namespace angen::load {
 
-/// A checked <light>; `pose` is where it stands in its link or the world.
+/// A checked <light>; `pose` is its pose in its link or the world.
 desc::Light light_of(const Element& light, const Pose& pose, Session& session);
 
 /// A text that light() reads, as an element of a world of SDF 1.9.

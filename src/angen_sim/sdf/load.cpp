@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kText = "(text)";  // stands for a file where there is none
+constexpr const char* kText = "(text)";  // named in place of a file
 constexpr int kLoneVersion = 106;        // of an element without <sdf> around it
 
 bool is_text(const std::string& what) {
@@ -27,16 +27,16 @@ bool is_text(const std::string& what) {
   return first != std::string::npos && what[first] == '<';
 }
 
-bool stands_for_model(const Element& element) {
+bool is_model(const Element& element) {
   return element.name == "model" || element.name == "include" || element.name == "actor";
 }
 
-// The one element in an <sdf> that `wanted` accepts.
+// The one element in an <sdf> that `accepts` is true for.
 template <class F>
-const Element* lone_child(const Element& sdf, F wanted) {
+const Element* lone_child(const Element& sdf, F accepts) {
   const Element* found = nullptr;
   for (const Element& child : sdf.children) {
-    if (!wanted(child)) return nullptr;
+    if (!accepts(child)) return nullptr;
     if (found != nullptr) throw Error(child.source, "a second " + tag_of(child) + "; give one");
     found = &child;
   }
@@ -47,13 +47,13 @@ Element model_from_text(const std::string& text, Session& session) {
   Element root = parse_xml(text, kText);
   if (root.name == "sdf" || root.name == "robot") {
     const Element sdf = read_document(text, kText, session);
-    const Element* child = lone_child(sdf, stands_for_model);
+    const Element* child = lone_child(sdf, is_model);
     if (child == nullptr) {
       throw Error(sdf.source, "expected <sdf> with one <model>, <include> or <actor>");
     }
     return *child;
   }
-  if (!stands_for_model(root)) {
+  if (!is_model(root)) {
     throw Error(root.source, "<" + root.name +
                                  "> is not a model; give <sdf>, <model>, <include>, "
                                  "<actor> or <robot>");
@@ -93,9 +93,9 @@ Element holder_of(const Element& sensor) {
   return model;
 }
 
-bool is_tolerant(const Element& element, const SearchPaths& paths, bool wanted) {
+bool is_tolerant(const Element& element, const SearchPaths& paths, bool by_default) {
   if (const std::optional<bool> strict = marked_strict(element)) return !*strict;
-  if (paths.strictness == Strictness::kAuto) return wanted;
+  if (paths.strictness == Strictness::kAuto) return by_default;
   return paths.strictness == Strictness::kTolerant;
 }
 
@@ -138,8 +138,8 @@ bool is_sensor(const std::string& what) {
   if (!is_text(what)) return false;
   try {
     const Element root = parse_xml(what, kText);
-    const auto wanted = [](const Element& e) { return e.name == "sensor"; };
-    return wanted(root) || (root.name == "sdf" && lone_child(root, wanted) != nullptr);
+    const auto accepts = [](const Element& e) { return e.name == "sensor"; };
+    return accepts(root) || (root.name == "sdf" && lone_child(root, accepts) != nullptr);
   } catch (const Error&) {
     return false;  // reading it as a model says what is wrong
   }
@@ -168,7 +168,7 @@ desc::Sensor sensor(const std::string& what, const std::string& name, const Pose
   check_name(name_of(root), "<sensor>", root.source);
   check_part(root, session);
   set_child(root, "pose", pose_text(pose));
-  // What libsdformat would refuse in a saved world is refused here.
+  // Errors that libsdformat would find in a saved world are found here.
   describe_models({holder_of(root)}, session);
   return sensor_of(root, pose, session);
 }

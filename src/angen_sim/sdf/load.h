@@ -16,12 +16,12 @@ namespace angen::load {
 double memory_limit();
 void set_memory_limit(double megabytes);
 
-/// A whole world file; worlds/models beside it is searched too. What an earlier load of the same
-/// files gave is taken from the user's cache, unless ANGEN_NO_CACHE is set. `allow_any` as in
-/// SearchPaths.
+/// A whole world file; worlds/models beside it is searched too. The result of an earlier
+/// load of the same files comes from the user's cache, unless ANGEN_NO_CACHE is set. `allow_any` as
+/// in SearchPaths.
 desc::World world(const std::string& path, bool allow_any = false);
 
-/// A world from text; `name` stands for the file in messages.
+/// A world from text; messages name `name` as its file.
 desc::World world_from_text(const std::string& xml, const std::string& name,
                             const SearchPaths& paths);
 
@@ -41,7 +41,7 @@ std::string with_files(const std::string& xml, const std::vector<UsedFile>& file
 std::string world_around(const desc::Model& model);
 
 /// One model from a text (<sdf>, <model>, <include>, <actor>, or URDF <robot>), from a path, or
-/// from a model:// uri; `name` replaces its own unless empty, `pose` is where it stands in the
+/// from a model:// uri; `name` replaces its own unless empty, `pose` is its pose in the
 /// world (an actor's waypoints are relative to it). A lone element is read as SDF 1.6 or later.
 /// `tolerant`: so is the model, unless `strictness` or its own angen:strict says otherwise.
 desc::Model model(const std::string& what, const std::string& name, const Pose& pose,
@@ -74,7 +74,7 @@ struct LightState {
   std::string sdf{};   // that it was spawned from; "" for one that the world's text has
 };
 
-/// What has changed since a model was described.
+/// The changes of a model since it was described.
 struct ModelState {
   const desc::Model* model = nullptr;
   Pose pose;                                                                 // in the world
@@ -85,7 +85,7 @@ struct ModelState {
   const desc::Model* read = nullptr;  // as its text has it, where that differs
 };
 
-/// Of a world, what may have changed.
+/// The settings of a world that may have changed.
 struct WorldState {
   desc::Physics physics;
   Vec3 gravity;
@@ -99,7 +99,7 @@ struct WorldState {
 /// positions.
 std::string save(const desc::World& world, const std::vector<ModelState>& models,
                  const WorldState& now);
-/// The same with the settings that the world was read with.
+/// The world with the settings that it was read with.
 std::string save(const desc::World& world, const std::vector<ModelState>& models);
 
 }  // namespace angen::load

@@ -14,7 +14,7 @@
 
 namespace angen::load {
 
-/// What a number may be, besides finite.
+/// The range that a number must be in; it must also be finite.
 struct Range {
   enum class Sign { kAny, kPositive, kNotNegative };
 
@@ -34,7 +34,7 @@ struct Range {
   static constexpr Range solver(double low, double high, Sign sign = Sign::kNotNegative) {
     return {sign, limits::kOther, std::pair{low, high}};
   }
-  /// Of a shape.
+  /// The size of a shape.
   static constexpr Range size() { return {Sign::kPositive, limits::kLength, std::nullopt, true}; }
 };
 

@@ -17,7 +17,7 @@ std::string vector_text(const Vec3& v) {
   return number_text(v.x()) + " " + number_text(v.y()) + " " + number_text(v.z());
 }
 
-// What stands there with attributes, such as another frame, goes.
+// Attributes of the old child, such as another frame, are dropped.
 void replace_child(Element& element, Element child) {
   remove_children(element, child.name);
   element.children.push_back(std::move(child));

@@ -4,7 +4,7 @@
 
 #include "sdf/load.h"
 
-/// What has changed since a text was read, written into its elements.
+/// Writes changes since a text was read into its elements.
 namespace angen::load {
 
 Element element_of(const std::string& name, const std::string& text = "");
@@ -20,7 +20,7 @@ void write_changes(const desc::Model& read, const desc::Model& now, Element& mod
 /// Parameters of a light's own lamp, into that light of an element.
 void write_lamp(const LightState& light, Element& holder);
 
-/// The world's own lights as they are now: changed ones, without those that are gone, and with
+/// The world's own lights as they are now: changed ones, without those that were deleted, and with
 /// those that were spawned.
 void write_lights(const desc::World& read, const std::vector<LightState>& now, Element& world);
 

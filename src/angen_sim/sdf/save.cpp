@@ -40,7 +40,7 @@ void put_plugin(Element& model, Element plugin, bool person) {
     if (is_same_plugin(part, plugin)) own = &part;
   }
   if (person) {
-    // What an actor's <script> says comes from there again.
+    // An actor's <script> gives these again.
     for (const char* name : {"waypoint", "loop", "delay_start"}) {
       remove_children(plugin, name);
       if (own == nullptr) continue;

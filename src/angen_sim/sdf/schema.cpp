@@ -46,8 +46,8 @@ Element bare(const Element& element) {
   return copy;
 }
 
-// A model's parts go to libsdformat in pieces of so many elements, each of which takes some
-// kilobytes there.
+// libsdformat gets a model's parts in pieces of at most this many elements, each of which takes
+// some kilobytes there.
 constexpr std::size_t kPieceElements = 2'000;
 
 // `world` in pieces: its settings with the first, a large model in several.
@@ -115,8 +115,8 @@ Source named_in(const std::string& message, const Element& world) {
   return model->source;
 }
 
-// Why it gets a printed tree and not the file: its Element::LineNumber and FilePath are right for
-// what stands in a file, included files too, but missing for elements that it does not know (all of
+// It gets a printed tree and not the file: its Element::LineNumber and FilePath are right for
+// elements of a file, included files too, but missing for elements that it does not know (all of
 // a plug-in's parameters), for an include's pose and for defaults, and 0 for what an upgrade from
 // an older version moves. Messages with file and line need a tree of our own; see print_xml's
 // lines.

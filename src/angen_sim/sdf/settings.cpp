@@ -43,8 +43,8 @@ const Element* chosen_physics(const Element& world) {
   const Element* chosen = nullptr;
   for (const Element& child : world.children) {
     if (child.name != "physics") continue;
-    const std::string* wanted = child.attribute("default");
-    const bool is_default = wanted != nullptr && (*wanted == "true" || *wanted == "1");
+    const std::string* marked = child.attribute("default");
+    const bool is_default = marked != nullptr && (*marked == "true" || *marked == "1");
     if (chosen == nullptr || is_default) chosen = &child;
   }
   return chosen;

@@ -36,7 +36,7 @@ double area_of(const TriangleMesh& mesh, std::size_t first, std::size_t end) {
   return sum;
 }
 
-// Of all parts, by their areas.
+// The mean of all parts, weighted by their areas.
 Eigen::Vector3f mean_color(const TriangleMesh& mesh, const desc::Material& material) {
   const std::vector<MeshPart>& parts = material.look->parts;
   Vec3 sum = Vec3::Zero();

@@ -5,7 +5,7 @@
 #include "desc/world.h"
 #include "sdf/geometry.h"
 
-/// What is painted on visuals.
+/// The look of visuals.
 namespace angen::load {
 
 /// The look of a mesh's file, on a visual whose SDF has no material of its own.

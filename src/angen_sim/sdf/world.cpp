@@ -109,7 +109,7 @@ void check_entry_names(std::vector<Entry>& entries, Session& session) {
     const auto [there, fresh] = seen.insert({name, entry.original.source});
     if (!fresh) {
       const Error twice(entry.original.source,
-                        "a model named '" + name + "' stands already at line " +
+                        "a model named '" + name + "' exists already, at line " +
                             std::to_string(there->second.line) + "; give this one another <name>");
       if (session.guessed) throw Error(twice);
       session.warn_or_throw(twice);
@@ -120,12 +120,12 @@ void check_entry_names(std::vector<Entry>& entries, Session& session) {
   entries = std::move(kept);
 }
 
-// Most models stand by their names and poses alone.
+// Most models need only their names and poses.
 void place_all(const Parts& parts, desc::World& to, Session& session) {
   Element world = parts.settings;
   for (const Entry& entry : parts.entries) {
     if (entry.expanded.attribute("placement_frame") != nullptr) {
-      world.children.push_back(entry.expanded);  // stands by a frame of its own
+      world.children.push_back(entry.expanded);  // placed by a frame of its own
       continue;
     }
     Element model;

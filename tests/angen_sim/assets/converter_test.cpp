@@ -118,12 +118,12 @@ TEST_F(HostileMesh, NodesDeepInOneAnother) {
     nodes += node("n" + std::to_string(i), instance("n" + std::to_string(i - 1)));
   }
   expect_error(complaint("chain.dae", collada(nodes, node("n", instance("n20000")))),
-               "deep in one another");
+               "are nested more than");
   std::string nested;
   for (int i = 0; i < 20'000; ++i) nested += "<node>";
   nested += kShape;
   for (int i = 0; i < 20'000; ++i) nested += "</node>";
-  expect_error(complaint("deep.dae", collada("", nested)), "deep in one another");
+  expect_error(complaint("deep.dae", collada("", nested)), "are nested more than");
 }
 
 TEST_F(HostileMesh, ACountThatIsNotOne) {
@@ -197,7 +197,7 @@ class Converter : public HostileMesh {
 TEST_F(Converter, ThatCannotBeStartedIsNamed) {
   EXPECT_EQ(complaint_of("/nowhere/angen_mesh"),
             "cannot be read: /nowhere/angen_mesh cannot be started (No such file or directory); "
-            "build it, or install Angen anew");
+            "build it, or reinstall Angen");
 }
 
 TEST_F(Converter, ThatEndsOrAnswersBadlyIsAnError) {

@@ -118,7 +118,7 @@ TEST(Tolerance, OfTwoModelsOfOneNameTheFirstStays) {
   const desc::World world = read(text, with(Strictness::kTolerant));
   ASSERT_EQ(world.models.size(), 1U);
   EXPECT_EQ(world.models[0].links.at(0).name, "first");
-  EXPECT_TRUE(warns(world.warnings, "a model named 'm' stands already"));
+  EXPECT_TRUE(warns(world.warnings, "a model named 'm' exists already"));
 }
 
 TEST(Tolerance, AMeshThatCannotBeReadOrIsHugeIsLeftOut) {

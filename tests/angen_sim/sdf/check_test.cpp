@@ -34,7 +34,7 @@ const Broken kBroken[] = {
     {"twin_models",
      "<sdf version='1.6'><world name='w'>\n<model name='m'><link name='l'/></model>\n"
      "<model name='m'><link name='l'/></model></world></sdf>",
-     "w.world:3: ", "a model named 'm' stands already at line 2"},
+     "w.world:3: ", "a model named 'm' exists already, at line 2"},
     {"twin_links",
      "<sdf version='1.6'><world name='w'><model name='m'>\n<link name='l'/>\n<link name='l'/>"
      "</model></world></sdf>",
