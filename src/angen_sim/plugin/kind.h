@@ -73,7 +73,7 @@ class Kind {
   Kind& on_link(std::string sdf_type);
   Kind& example(std::string line);
   Kind& commanded_on(std::string topic);
-  /// Its field `ranges` has the lengths of rays, which rviz draws in this color.
+  /// rviz draws Sensor::rays in this color, as long as its field `ranges` says.
   Kind& rays(std::string color);
 
   Kind& verb(std::string name, std::string doc);

@@ -13,6 +13,7 @@
 #include "plugin/command.h"
 #include "plugin/kind.h"
 #include "plugin/params.h"
+#include "plugin/ray_geometry.h"
 #include "plugin/reading.h"
 #include "plugin/saved_params.h"
 #include "plugin/view.h"
@@ -58,6 +59,8 @@ class Sensor {
 
   virtual ~Sensor() = default;
   virtual void configure(Params& params, Wiring& wiring) = 0;
+  /// Called after configure(): its rays, where it has a grid of them; Kind::rays draws them.
+  virtual std::optional<RayGeometry> rays() const { return std::nullopt; }
   /// How often it samples, ns; 0 = as often as it publishes (<update_rate>, or its kind's rate).
   virtual Nanoseconds sample_period() const { return 0; }
   /// Called before each sample: which of its sets of rays it needs now. For a set that it had

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdlib>
 
 #include "ros/convert.h"
 
@@ -74,25 +73,6 @@ Marker draw_heights(const HeightGrid& grid) {
   }
   return marker;
 }
-
-double number_at(const Element* element, const char* name, double fallback) {
-  const Element* child = element != nullptr ? element->child(name) : nullptr;
-  return child != nullptr ? std::strtod(child->text.c_str(), nullptr) : fallback;
-}
-
-struct Angles {
-  int count = 1;
-  double min = 0.0;
-  double max = 0.0;
-
-  explicit Angles(const Element* scan)
-      : count(std::max(1, static_cast<int>(number_at(scan, "samples", 1)))),
-        min(number_at(scan, "min_angle", 0.0)),
-        max(number_at(scan, "max_angle", 0.0)) {}
-  double at(int i) const {
-    return count == 1 ? (min + max) / 2 : min + (max - min) * i / (count - 1);
-  }
-};
 
 }  // namespace
 
@@ -168,24 +148,16 @@ Marker draw(const desc::Light& light, double level) {
   return marker;
 }
 
-Marker draw_rays(const desc::Sensor& sensor, const std::vector<double>& ranges) {
+Marker draw_rays(const RayGeometry& rays, double tilt, const std::vector<double>& ranges) {
   Marker marker;
   marker.type = Marker::LINE_LIST;
   marker.scale.x = kRayWidth;
-  const Element* ray = sensor.element.child("ray");
-  const Element* scan = ray != nullptr ? ray->child("scan") : nullptr;
-  const Angles across(scan != nullptr ? scan->child("horizontal") : nullptr);
-  const Angles upward(scan != nullptr ? scan->child("vertical") : nullptr);
-  const double reach = number_at(ray != nullptr ? ray->child("range") : nullptr, "max", 1.0);
   std::size_t i = 0;
-  for (int v = 0; v < upward.count; ++v) {
-    for (int h = 0; h < across.count; ++h, ++i) {
-      const double range = i < ranges.size() && ranges[i] < reach ? ranges[i] : reach;
-      const Vec3 direction(std::cos(upward.at(v)) * std::cos(across.at(h)),
-                           std::cos(upward.at(v)) * std::sin(across.at(h)), std::sin(upward.at(v)));
-      marker.points.push_back(to_point(Vec3::Zero()));
-      marker.points.push_back(to_point(direction * range));
-    }
+  for (const Vec3& direction : rays.directions(tilt)) {
+    const double range = i < ranges.size() ? std::min(ranges[i], rays.max) : rays.max;
+    ++i;
+    marker.points.push_back(to_point(Vec3::Zero()));
+    marker.points.push_back(to_point(direction * range));
   }
   return marker;
 }

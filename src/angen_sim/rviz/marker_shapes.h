@@ -7,6 +7,7 @@
 
 #include "core/pose.h"
 #include "desc/world.h"
+#include "plugin/ray_geometry.h"
 
 /// Descriptions as rviz's markers, with neither id nor place.
 namespace angen::node {
@@ -23,10 +24,10 @@ std::vector<Drawing> draw(const desc::Visual& visual);
 /// A sphere where a light is, lit or dark. Level 0..1.
 visualization_msgs::Marker draw(const desc::Light& light, double level);
 
-/// Lines from the sensor's origin in its own frame, `ranges` long (m); shorter lists are filled up
-/// with the sensor's greatest range. Horizontal angles run fastest, as in the scans of Gazebo's ray
-/// sensors.
-visualization_msgs::Marker draw_rays(const desc::Sensor& sensor, const std::vector<double>& ranges);
+/// Lines from the sensor's origin in its own frame, `ranges` long (m); a ray without a range has
+/// the sensor's greatest.
+visualization_msgs::Marker draw_rays(const RayGeometry& rays, double tilt,
+                                     const std::vector<double>& ranges);
 
 /// A file's name as a file:// address.
 std::string file_address(const std::string& path);

@@ -28,7 +28,7 @@ constexpr double kOverDevice = 0.17;        // m, a label over the highest visua
 
 const std::optional<RayStyle>& rays_of(const sim::SensorEntry& sensor) {
   static const std::optional<RayStyle> none;
-  if (sensor.plugin->kind().ray_color.empty()) return none;
+  if (sensor.rays == nullptr || sensor.plugin->kind().ray_color.empty()) return none;
   return ros_kind(sensor.kind, sensor.desc->plugin).rays;
 }
 
@@ -156,7 +156,7 @@ void Overlays::add_sensor(const sim::Structure& structure, std::uint32_t sensor)
   overlay.storey = storey_suffix(structure, entry.model,
                                  (described_pose(structure, entry.link) * entry.pose).position.z());
   const RosKind& kind = ros_kind(entry.kind, entry.desc->plugin);
-  if (kind.rays) {
+  if (rays_of(entry)) {
     put(beams_, entry.kind + "/" + entry.name, std::move(overlay));
   } else if (kind.caption && !entry.on_demand()) {
     put(captions_, entry.kind + "/" + entry.name, std::move(overlay));
@@ -350,15 +350,19 @@ bool Overlays::redraw(const sim::Snapshot& snapshot, Overlay& beams) {
   if (!is_new(snapshot, beams) && beams.drawn) return false;
   const std::shared_ptr<const Reading> reading = readings_.of(snapshot, beams.index);
   std::vector<double> ranges;
+  double tilt = 0.0;
   bool fired = false;
   if (reading != nullptr) {
+    tilt = entry.rays->tilt(entry.schedule.samples_before(snapshot.stamp(beams.index)));
     ranges = reading->get<std::vector<double>>("ranges");
     fired = alarms(entry.plugin->kind(), *reading);
   }
-  if (beams.drawn && fired == beams.fired && !apart(ranges, beams.ranges)) return false;
+  const bool same = fired == beams.fired && tilt == beams.tilt && !apart(ranges, beams.ranges);
+  if (beams.drawn && same) return false;
   beams.fired = fired;
+  beams.tilt = tilt;
   beams.ranges = std::move(ranges);
-  visualization_msgs::Marker marker = draw_rays(*entry.desc, beams.ranges);
+  visualization_msgs::Marker marker = draw_rays(*entry.rays, tilt, beams.ranges);
   marker.color = fired ? style.alarm : color_of(entry);
   show(beams, std::move(marker), (fired ? "" : "idle ") + style.group + beams.storey);
   return true;

@@ -46,6 +46,7 @@ class Overlays {
     std::shared_ptr<const Reading> last;  // compared last
     Nanoseconds stamp = 0;                // of what was made in its place then
     std::vector<double> ranges;           // m, as appended last
+    double tilt = 0.0;                    // rad, as well
     bool fired = false;
   };
   using Named = std::map<std::string, Overlay>;

@@ -4,31 +4,18 @@
 
 #include "core/random.h"
 #include "plugin/params.h"
+#include "plugin/ray_geometry.h"
 #include "plugin/view.h"
 
 namespace angen::sensors {
 
-/// One scan: a range a ray in meters, the greatest range where nothing was met.
+/// One scan: a range for each ray in meters, the greatest range where nothing was hit.
 using Ranges = std::vector<double>;
 
 /// The rays of an SDF <ray> block and their noise.
-struct Fan {
-  int columns = 1;
-  int rows = 1;
-  double min_yaw = 0.0;  // rad, positive to the left
-  double max_yaw = 0.0;
-  double min_pitch = 0.0;  // rad, positive upwards
-  double max_pitch = 0.0;
-  double min = 0.0;  // m
-  double max = 0.0;
+struct Fan : RayGeometry {
   double noise_mean = 0.0;  // m, of a hit's range
   double noise_stddev = 0.0;
-
-  std::size_t size() const { return static_cast<std::size_t>(columns) * rows; }
-
-  /// Unit vectors in the sensor's frame (x forward, z up), row after row from below; the whole fan
-  /// turned upwards by `pitch` rad.
-  std::vector<Vec3> directions(double pitch = 0.0) const;
 
   /// `directions` as rays of the sensor at `pose` (world).
   void aim(const Pose& pose, const std::vector<Vec3>& directions, RayBatch& rays) const;
@@ -57,7 +44,10 @@ struct Fan {
   }
 };
 
-/// Reads <ray>; `fallback` stands for what it leaves out.
+/// Reads <scan> and <range> of <ray>; `fallback` stands for what it leaves out.
+RayGeometry read_rays(Params& params, const RayGeometry& fallback);
+
+/// The same with <noise>.
 Fan read_fan(Params& params, const Fan& fallback);
 
 /// The greatest |a[i] - b[i]| in meters.

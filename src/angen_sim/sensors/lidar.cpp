@@ -35,6 +35,7 @@ class Lidar : public Sensor {
     fan_.declare_noise("ranges", params);
   }
 
+  std::optional<RayGeometry> rays() const override { return fan_; }
   int ray_set(const View&) override { return 0; }
   void aim(const View& view, RayBatch& rays) override { fan_.aim(view.pose(), directions_, rays); }
 

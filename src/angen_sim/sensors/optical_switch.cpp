@@ -69,6 +69,7 @@ class OpticalSwitch : public Sensor, public NoisySensor {
     sample_period_ = from_seconds(1.0 / sample_rate);
   }
 
+  std::optional<RayGeometry> rays() const override { return beam_.fan; }
   int ray_set(const View&) override { return 0; }
   void aim(const View& view, RayBatch& rays) override {
     beam_.fan.aim(view.pose(), directions_, rays);

@@ -10,6 +10,7 @@ namespace angen::sensors {
 class Proximity : public Sensor {
  public:
   void configure(Params& params, Wiring& wiring) override;
+  std::optional<RayGeometry> rays() const override { return fan_; }
   int ray_set(const View&) override { return 0; }
   void aim(const View& view, RayBatch& rays) override { fan_.aim(view.pose(), directions_, rays); }
   void read(const View& view, Hits hits, Rng& rng, Reading& reading) override;

@@ -189,6 +189,9 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
       params.finish();
     }
     for (const Diagnostic& warning : params.warnings()) warnings.push_back(warning.text());
+    if (const std::optional<RayGeometry> rays = instance.sensor->rays()) {
+      instance.rays = std::make_shared<const RayGeometry>(*rays);
+    }
     instance.noise = params.all_noise();
     instance.collisions = wiring.collisions();
     instance.schedule.sample = instance.sensor->sample_period();

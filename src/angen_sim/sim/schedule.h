@@ -27,6 +27,9 @@ struct Schedule {
   /// The tick that a due time falls on.
   Nanoseconds tick_of(Nanoseconds due) const { return start + up(due - start, step); }
 
+  /// How many samples there were before the one at `time` (>= start).
+  std::int64_t samples_before(Nanoseconds time) const { return (time - start) / sample; }
+
   /// The tick of the last sample at or before `time`; before `start` when there was none.
   Nanoseconds last_sample(Nanoseconds time) const {
     if (time < start) return start - step;

@@ -57,8 +57,9 @@ struct SensorInfo {
   std::uint64_t key = 0;  // of its random numbers
   bool attached = false;  // by a command, to a link that existed
   std::shared_ptr<const desc::Sensor> desc;
-  std::shared_ptr<const Plugin> plugin;  // describes the kind, and keeps its library loaded
-  Schedule schedule;                     // of all its due times
+  std::shared_ptr<const RayGeometry> rays;  // null: it has no grid of rays
+  std::shared_ptr<const Plugin> plugin;     // describes the kind, and keeps its library loaded
+  Schedule schedule;                        // of all its due times
 
   /// Samples only while requested, see Simulation::request.
   bool on_demand() const { return plugin->kind().is_on_demand; }

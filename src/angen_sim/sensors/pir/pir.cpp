@@ -21,6 +21,7 @@ class Pir : public Sensor, public NoisySensor {
     }
     model_->configure(params, wiring);
   }
+  std::optional<RayGeometry> rays() const override { return model_->rays(); }
   Nanoseconds sample_period() const override { return model_->sample_period(); }
   int ray_set(const View& view) override { return model_->ray_set(view); }
   void aim(const View& view, RayBatch& rays) override { model_->aim(view, rays); }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "sensors/fan.h"
+
 namespace angen::sensors {
 
 namespace {
@@ -44,6 +46,17 @@ FresnelLens read_camera(Params& params) {
   return lens;
 }
 
+/// Rays that stand for the zones in rviz: unless <scan> says otherwise, a row across them.
+RayGeometry rays_across(const Window& window) {
+  RayGeometry rays;
+  rays.columns = 13;
+  rays.min_yaw = window.right;
+  rays.max_yaw = window.left;
+  rays.min_pitch = rays.max_pitch = 0.5 * (window.low + window.high);
+  rays.max = 20.0;
+  return rays;
+}
+
 BandPass::Corners read_corners(Params& params) {
   BandPass::Corners corners;
   corners.thermal_time = params.number("thermal_time_constant", corners.thermal_time, "s",
@@ -59,12 +72,12 @@ BandPass::Corners read_corners(Params& params) {
 
 void Pyroelectric::configure(Params& params, Wiring&) {
   FresnelLens lens = read_camera(params);
-  const double range = params.number("ray/range/max", 20.0, "m", "farther is not seen", kPositive);
+  rays_ = read_rays(params, rays_across(lens.window()));
   const double facet =
       params.number("facet_area", 3e-5, "m^2", "of the lens, for one zone pair", kPositive);
   const double passes = params.number("transmission", 0.4, "",
                                       "of lens and window, of all heat radiation", {1e-6, 1.0});
-  heat_ = Heat(std::move(lens), range, facet * passes);
+  heat_ = Heat(std::move(lens), rays_.max, facet * passes);
   const double rate =
       params.number("sample_rate", 100.0, "Hz", "how often it samples", {50.0, 1000.0});
   period_ = from_seconds(1.0 / rate);

@@ -12,6 +12,7 @@ namespace angen::sensors {
 class Pyroelectric : public Sensor {
  public:
   void configure(Params& params, Wiring& wiring) override;
+  std::optional<RayGeometry> rays() const override { return rays_; }
   Nanoseconds sample_period() const override { return period_; }
   void aim(const View& view, RayBatch& rays) override;
   void read(const View& view, Hits hits, Rng& rng, Reading& reading) override;
@@ -22,6 +23,7 @@ class Pyroelectric : public Sensor {
   bool false_alarm(Rng& rng) const;
 
   Heat heat_;
+  RayGeometry rays_;  // for rviz
   BandPass band_;
   Trigger::Times times_;
   Trigger trigger_;

@@ -64,14 +64,14 @@ void RangeDifference::configure(Params& params, Wiring&) {
   nod_.period = params.update_period();
   nod_.phases = amplitude > 0.0 ? count_phases(params, nod_period) : 1;
   times_ = read_times(params, {});
-  const auto tilted = [&](std::size_t k) {
-    const double turn = 2.0 * M_PI * static_cast<double>(k) / static_cast<double>(nod_.phases);
-    return fan_.directions(amplitude * std::sin(turn));
-  };
   for (std::size_t k = 0; k < nod_.phases; ++k) {
-    directions_.push_back(tilted(k));
+    const double turn = 2.0 * M_PI * static_cast<double>(k) / static_cast<double>(nod_.phases);
+    fan_.tilts.push_back(amplitude * std::sin(turn));
+  }
+  for (std::size_t k = 0; k < nod_.phases; ++k) {
+    directions_.push_back(fan_.directions(fan_.tilts[k]));
     if (nod_.phases == 1) break;
-    const std::vector<Vec3> next = tilted((k + 1) % nod_.phases);
+    const std::vector<Vec3> next = fan_.directions(fan_.tilts[(k + 1) % nod_.phases]);
     directions_.back().insert(directions_.back().end(), next.begin(), next.end());
   }
   // Two scans that are both within half the threshold do not differ by more than it.

@@ -13,6 +13,7 @@ namespace angen::sensors {
 class RangeDifference : public Sensor, public NoisySensor {
  public:
   void configure(Params& params, Wiring& wiring) override;
+  std::optional<RayGeometry> rays() const override { return fan_; }
   int ray_set(const View& view) override;
   void aim(const View& view, RayBatch& rays) override;
   void read(const View& view, Hits hits, Rng& rng, Reading& reading) override;

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/pose.h"
+
+namespace angen {
+
+/// The rays of a sensor in its own frame (x forward, z up): what draws or checks them reads this.
+struct RayGeometry {
+  int columns = 1;
+  int rows = 1;
+  double min_yaw = 0.0;  // rad, positive to the left
+  double max_yaw = 0.0;
+  double min_pitch = 0.0;  // rad, positive upwards
+  double max_pitch = 0.0;
+  double min = 0.0;           // m, nearer is not seen
+  double max = 0.0;           // m, length of a ray that hits nothing
+  std::vector<double> tilts;  // rad upwards, of all rays: of each sample in turn; empty: never
+
+  std::size_t size() const { return static_cast<std::size_t>(columns) * rows; }
+
+  /// Unit vectors, row after row from below, all of them tilted upwards by `tilt` rad.
+  std::vector<Vec3> directions(double tilt = 0.0) const;
+
+  /// Of the sample that `samples` others precede.
+  double tilt(std::int64_t samples) const {
+    if (tilts.empty() || samples < 0) return 0.0;
+    return tilts[static_cast<std::size_t>(samples) % tilts.size()];
+  }
+};
+
+}  // namespace angen
