@@ -1,6 +1,7 @@
 #include "gazebo/joint_control.h"
 
 #include <ros/console.h>
+#include <std_msgs/Float64.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,13 +10,14 @@
 #include <mutex>
 #include <utility>
 
-#include "ros/ros_kind.h"
+#include "ros/kinds/joint_states.h"
 #include "ros/wire.h"
 
 namespace angen::node {
 namespace {
 
-constexpr const char* kCommanded = "joint_command";
+constexpr const char* kCommanded = "joint_command";   // the kind of its devices
+constexpr const char* kStates = "controlled_joints";  // and of its sensor
 constexpr std::uint32_t kNowhere = UINT32_MAX;
 
 struct Makers {
@@ -78,6 +80,33 @@ void warn_without_control(const sim::Structure& structure, const Changes& change
         structure.models[device.model]->name.c_str());
   }
 }
+
+// The topics of ros_control's usual controllers, where these do not run.
+std::vector<std::string> controller_topics(const sim::Structure& structure,
+                                           const sim::DeviceEntry& device) {
+  if (has_joint_control(device.library)) return {};
+  const desc::Model& model = *structure.models[device.model];
+  for (const desc::Plugin& plugin : model.plugins) {
+    if (plugin.filename != device.library) continue;
+    const std::string space = control_space(plugin.element, model.name);
+    for (const ControlledJoint& joint : driven_joints(plugin.element)) {
+      if (device.name != model.name + "_" + joint.name) continue;
+      const std::string topic = joint.name + "_" + joint.interface + "_controller/command";
+      return {graph_name(space + "/" + topic)};
+    }
+  }
+  return {};
+}
+
+Command of_number(const std_msgs::Float64& number) { return command_of({number.data}); }
+
+bool is_published_by_controller(const sim::SensorEntry& states) {
+  return has_joint_control(states.desc->plugin);
+}
+
+ANGEN_REGISTER_ROS_KIND({kCommanded},
+                        RosKindBuilder().commanded_by(&of_number, &controller_topics));
+ANGEN_REGISTER_ROS_KIND({kStates}, joint_states().published_elsewhere(&is_published_by_controller));
 
 // From here on devices know nothing of what was commanded before.
 bool was_reset(const sim::Snapshot& snapshot) {

@@ -91,7 +91,7 @@ void Commands::on_structure(const sim::Structure& structure, const std::vector<R
     }
     try {
       ros::NodeHandle handle = handle_for_one(node_);
-      kept[key] = subscribe_to(handle, each, [this, each](Command command) {
+      kept[key] = each.subscribe(handle, each.topic, [this, each](Command command) {
         inbox_.post(sim::ToDevice{each.kind, each.name, std::move(command)});
       });
     } catch (const ros::Exception& error) {

@@ -58,25 +58,27 @@ std::vector<angen_msgs::Entity> entities(const sim::Snapshot& snapshot,
     angen_msgs::Entity* entity =
         add(device.name, device.kind, device.model,
             of_light ? structure.lights[device.light].light.pose : place(device.model));
-    if (entity == nullptr || device.kind == "drive") continue;
-    const Format& format = ros_kind(device.kind, device.library).formats.front();
+    const RosKind& its = ros_kind(device);
+    if (entity == nullptr || its.is_robot) continue;
+    const Format& format = its.formats.front();
     const bool together = goes_with_its_kind(topics, format, nullptr);
     entity->topic = together ? kind_topic(device.kind) : topic_of(device.kind, device.name);
     entity->type = together ? format.array_type : format.type;
   }
   const std::vector<Robot> robots = find_robots(structure, world_plugins);
   for (const Robot& robot : robots) {
+    const sim::DeviceEntry& device = structure.devices[robot.device];
     for (angen_msgs::Entity& entity : all) {
-      if (entity.kind != "drive" || entity.name != robot.name) continue;
+      if (entity.kind != device.kind || entity.name != robot.name) continue;
       entity.topic = robot.odometry_topics.front();
-      entity.type = ros_kind("drive").formats.front().type;
+      entity.type = ros_kind(device).formats.front().type;
     }
   }
   for (const sim::SensorEntry& sensor : structure.sensors) {
     angen_msgs::Entity* entity =
         add(sensor.name, sensor.kind, sensor.model, snapshot.link_poses[sensor.link] * sensor.pose);
     if (entity == nullptr) continue;
-    const Format& format = ros_kind(sensor.kind, sensor.desc->plugin).formats.front();
+    const Format& format = ros_kind(sensor).formats.front();
     const Robot* robot = robot_in(robots, sensor.model);
     const bool together = goes_with_its_kind(topics, format, robot);
     entity->topic = together ? kind_topic(sensor.kind)

@@ -7,7 +7,6 @@
 #include <iterator>
 #include <utility>
 
-#include "gazebo/joint_control.h"
 #include "ros/wire.h"
 
 namespace angen::node {
@@ -40,10 +39,9 @@ void Publishers::attach(Source& source, const std::string& type, const Format::O
 Publishers::Source Publishers::sensor_source(const sim::SensorEntry& entry, const Label& label,
                                              const Robot* robot) {
   Source source{std::make_shared<const Label>(label), {}, space_of(robot)};
-  if (entry.kind == "controlled_joints" && has_joint_control(entry.desc->plugin)) {
-    return source;  // a controller publishes them
-  }
-  for (const Format& format : ros_kind(entry.kind, entry.desc->plugin).formats) {
+  const RosKind& kind = ros_kind(entry);
+  if (kind.published_elsewhere && kind.published_elsewhere(entry)) return source;
+  for (const Format& format : kind.formats) {
     if (goes_with_its_kind(topics_, format, robot)) {
       attach(source, format.array_type, format.array, kind_topic(entry.kind));
       continue;
@@ -81,10 +79,11 @@ void Publishers::follow_sensors(const sim::Structure& structure, const FrameTree
 
 Publishers::Source Publishers::device_source(const sim::DeviceEntry& entry) {
   Source source{std::make_shared<const Label>(Label{entry.name, kWorldFrame}), {}, ""};
-  const Format& format = ros_kind(entry.kind, entry.library).formats.front();
+  const RosKind& kind = ros_kind(entry);
+  const Format& format = kind.formats.front();
   if (goes_with_its_kind(topics_, format, nullptr)) {
     attach(source, format.array_type, format.latched_array, kind_topic(entry.kind));
-  } else if (entry.kind != "drive") {
+  } else if (!kind.is_robot) {
     attach(source, format.type, format.latched, topic_of(entry.kind, entry.name));
   }
   return source;
@@ -93,23 +92,23 @@ Publishers::Source Publishers::device_source(const sim::DeviceEntry& entry) {
 std::vector<Publishers::Source> Publishers::device_sources(const sim::Structure& structure,
                                                            const std::vector<Robot>& robots,
                                                            const Numbers& numbers) {
+  robots_.clear();
+  for (const Robot& robot : robots) robots_.push_back(robot.device);
   std::vector<Source> sources;
   sources.reserve(structure.devices.size());
   for (std::uint32_t i = 0; i < structure.devices.size(); ++i) {
     const sim::DeviceEntry& entry = structure.devices[i];
     const std::uint32_t before = numbers.before[i];
-    const bool stays = before != Numbers::kNone && entry.kind != "drive";
+    const bool stays = before != Numbers::kNone && !is_robot(i);
     sources.push_back(stays ? std::move(devices_[before]) : device_source(entry));
   }
-  const Format& odometry = ros_kind("drive").formats.front();
-  robots_.clear();
   for (const Robot& robot : robots) {
+    const Format& odometry = ros_kind(structure.devices[robot.device]).formats.front();
     Source& source = sources[robot.device];
     source.label = std::make_shared<const Label>(Label{robot.base_frame, robot.odom_frame});
     for (const std::string& topic : robot.odometry_topics) {
       attach(source, odometry.type, odometry.open, topic);
     }
-    robots_.push_back(robot.device);
   }
   return sources;
 }
@@ -133,7 +132,7 @@ void Publishers::on_structure(const sim::Snapshot& snapshot, const FrameTree& fr
   }
   list_on_demand(structure);
   for (std::uint32_t i = 0; i < devices_.size(); ++i) {
-    if (structure.devices[i].kind != "drive") publish_state(snapshot, i);
+    if (!is_robot(i)) publish_state(snapshot, i);
   }
 }
 

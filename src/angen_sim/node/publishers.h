@@ -2,6 +2,7 @@
 
 #include <ros/node_handle.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <string>
@@ -57,6 +58,9 @@ class Publishers {
   void request(const sim::Structure& structure);
   void publish_state(const sim::Snapshot& snapshot, std::uint32_t device);
   void repeat_odometry(const sim::Snapshot& snapshot);
+  bool is_robot(std::uint32_t device) const {
+    return std::binary_search(robots_.begin(), robots_.end(), device);
+  }
 
   ros::NodeHandle& node_;
   sim::Simulation& simulation_;
@@ -67,7 +71,7 @@ class Publishers {
   std::vector<Source> sensors_;                    // as Structure::sensors
   std::vector<Source> devices_;                    // as Structure::devices
   std::vector<OnDemand> on_demand_;
-  std::vector<std::uint32_t> robots_;  // indices of drives
+  std::vector<std::uint32_t> robots_;  // their devices, ascending
   Nanoseconds odometry_slot_ = 0;
 };
 

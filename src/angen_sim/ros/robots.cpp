@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "ros/ros_kind.h"
 #include "ros/wire.h"
 
 namespace angen::node {
@@ -33,12 +34,12 @@ std::vector<Robot> find_robots(const sim::Structure& structure,
   std::vector<Robot> robots;
   for (std::uint32_t d = 0; d < structure.devices.size(); ++d) {
     const sim::DeviceEntry& device = structure.devices[d];
-    if (device.kind != "drive") continue;
+    if (!ros_kind(device).is_robot) continue;
     std::vector<const Element*> elements;
     for (const std::vector<desc::Plugin>* plugins :
          {&structure.models[device.model]->plugins, &world_plugins}) {
       for (const desc::Plugin& plugin : *plugins) {
-        if (plugin.filename == "librobot_controller.so") elements.push_back(&plugin.element);
+        if (plugin.filename == device.library) elements.push_back(&plugin.element);
       }
     }
     Robot robot;

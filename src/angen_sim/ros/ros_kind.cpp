@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "plugin/library.h"
+#include "ros/robots.h"
 
 namespace angen::node {
 namespace {
@@ -112,8 +113,22 @@ RosKindBuilder& RosKindBuilder::transform(Fill<geometry_msgs::TransformStamped> 
   return *this;
 }
 
+RosKindBuilder& RosKindBuilder::odometry() {
+  kind_.is_odometry = true;
+  return frame([](const sim::SensorEntry& sensor) {
+    return value_of({&sensor.desc->plugin_element}, "odometryFrame", "odom");
+  });
+}
+
+RosKind RosKindBuilder::done() {
+  if (kind_.formats.empty()) {
+    message_with_array<angen_msgs::Reading, angen_msgs::ReadingArray>(&fill_any).caption();
+  }
+  return std::move(kind_);
+}
+
 RosKindRegistration::RosKindRegistration(const std::vector<std::string>& kinds,
-                                         RosKindBuilder& builder) {
+                                         RosKindBuilder builder) {
   const RosKind kind = builder.done();
   const std::lock_guard<std::mutex> lock(registry().mutex);
   for (const std::string& name : kinds) registry().kinds.emplace(name, kind);
@@ -132,11 +147,7 @@ void load_ros_library(const std::string& library) {
 }
 
 const RosKind& ros_kind(const std::string& kind, const std::string& library) {
-  static const RosKind generic =
-      RosKindBuilder()
-          .message_with_array<angen_msgs::Reading, angen_msgs::ReadingArray>(&fill_any)
-          .caption()
-          .done();
+  static const RosKind generic = RosKindBuilder().done();
   if (const RosKind* found = find(kind)) return *found;
   load_ros_library(library);
   const RosKind* found = find(kind);

@@ -10,9 +10,11 @@
 #include <vector>
 
 #include "ros/channel.h"
+#include "ros/command_topic.h"
 
-/// What ROS knows of a kind of sensor or device: its messages, and how rviz shows it. Each kind has
-/// one file in ros/kinds/; a plug-in library libX.so brings its own in libX_ros.so beside it.
+/// What ROS knows of a kind of sensor or device: its messages, its frame, the messages that command
+/// it, and how rviz shows it. Each kind has one file in ros/kinds/; a plug-in library libX.so
+/// brings its own in libX_ros.so beside it. No other C++ of the node names a kind.
 namespace angen::node {
 
 /// The message that readings or states of one kind become.
@@ -43,13 +45,34 @@ struct RayStyle {
   std_msgs::ColorRGBA alarm;  // while an alarm of its kind is yes
 };
 
+/// How rviz shows the model of a device.
+struct ModelStyle {
+  std::string group;        // rviz namespace of its visuals; empty: KIND + "s"
+  std::string label;        // rviz namespace of a label with its name; empty: none
+  bool is_carried = false;  // what carries it is shown as it would be without it
+  bool travels = false;     // through the building; its label goes with it
+  bool is_on_floor = true;  // false: it changes storeys, its groups are of none
+};
+
 struct RosKind {
+  /// The frame of a sensor's messages.
+  using Frame = std::function<std::string(const sim::SensorEntry&)>;
+
   std::vector<Format> formats;   // the first is the one to name; at least one
   std::optional<RayStyle> rays;  // none: rviz shows no rays
   bool caption = false;          // rviz shows its summary over it
+  ModelStyle model;              // of a device
+  Frame frame;                   // null: one of its own, or <frameName>
+  bool is_camera = false;        // its frame is optical (REP 103)
+  bool is_odometry = false;      // it moves <robotBaseFrame> in its frame
+  bool is_robot = false;         // a drive with the frames and topics of a Robot
+  CommandTopicRule commands;     // of a device
+  /// Whether something else publishes a sensor's messages; null: never.
+  std::function<bool(const sim::SensorEntry&)> published_elsewhere;
 };
 
-/// Builds a RosKind: `message` for each message, then what rviz shows.
+/// Builds a RosKind: `message` for each message, then the rest. Without a message it publishes
+/// angen_msgs/Reading.
 class RosKindBuilder {
  public:
   template <class Message>
@@ -107,7 +130,68 @@ class RosKindBuilder {
     return *this;
   }
 
-  RosKind done() { return std::move(kind_); }
+  /// The frame of its messages, which robots made for Gazebo know: the node does not place it.
+  RosKindBuilder& frame(RosKind::Frame frame) {
+    kind_.frame = std::move(frame);
+    return *this;
+  }
+  RosKindBuilder& optical_frame() {
+    kind_.is_camera = true;
+    return *this;
+  }
+  /// Its frame is <odometryFrame>, in which <robotBaseFrame> moves.
+  RosKindBuilder& odometry();
+  RosKindBuilder& published_elsewhere(std::function<bool(const sim::SensorEntry&)> where) {
+    kind_.published_elsewhere = std::move(where);
+    return *this;
+  }
+
+  /// A drive that Angen's own robots have: its messages are odometry, in frames and on topics of
+  /// its Robot, and so are those that command it.
+  template <class Message>
+  RosKindBuilder& robot(Command (*make)(const Message&)) {
+    kind_.is_robot = true;
+    return commanded_by(make, nullptr);
+  }
+  /// Messages that command a device, on these topics.
+  template <class Message>
+  RosKindBuilder& commanded_by(Command (*make)(const Message&), CommandTopicRule::Topics topics) {
+    kind_.commands = {subscribe_as(make), std::move(topics)};
+    return *this;
+  }
+  /// The same on the topic that a parameter of its <plugin> names.
+  template <class Message>
+  RosKindBuilder& commanded_by(Command (*make)(const Message&), std::string parameter,
+                               std::string fallback) {
+    return commanded_by(make, topics_by_parameter(std::move(parameter), std::move(fallback)));
+  }
+
+  /// The rviz namespace of the visuals of its model, which is KIND + "s" otherwise.
+  RosKindBuilder& group(std::string name) {
+    kind_.model.group = std::move(name);
+    return *this;
+  }
+  /// rviz shows its name over its model.
+  RosKindBuilder& label(std::string group) {
+    kind_.model.label = std::move(group);
+    return *this;
+  }
+  /// It is a small part of what carries it, whose visuals it does not group.
+  RosKindBuilder& carried() {
+    kind_.model.is_carried = true;
+    return *this;
+  }
+  RosKindBuilder& changes_storeys() {
+    kind_.model.is_on_floor = false;
+    return *this;
+  }
+  /// Its model goes about in the building, and so does its label.
+  RosKindBuilder& travels() {
+    kind_.model.travels = true;
+    return label("labels").changes_storeys();
+  }
+
+  RosKind done();
 
  private:
   template <class Kind, class Message>
@@ -122,7 +206,7 @@ class RosKindBuilder {
 
 /// A static object of this type, in the library that knows the messages, registers kinds.
 struct RosKindRegistration {
-  RosKindRegistration(const std::vector<std::string>& kinds, RosKindBuilder& builder);
+  RosKindRegistration(const std::vector<std::string>& kinds, RosKindBuilder builder);
 };
 
 #define ANGEN_REGISTER_ROS_KIND(...) ANGEN_REGISTER_ROS_KIND_HOP(__COUNTER__, __VA_ARGS__)
@@ -139,5 +223,12 @@ void load_ros_library(const std::string& library);
 /// the plug-in's, as its SDF names it: libX_ros.so is loaded where there is one. Any thread; what
 /// it returns lives as long as the process.
 const RosKind& ros_kind(const std::string& kind, const std::string& library = "");
+
+inline const RosKind& ros_kind(const sim::SensorEntry& sensor) {
+  return ros_kind(sensor.kind, sensor.desc ? sensor.desc->plugin : "");
+}
+inline const RosKind& ros_kind(const sim::DeviceEntry& device) {
+  return ros_kind(device.kind, device.library);
+}
 
 }  // namespace angen::node

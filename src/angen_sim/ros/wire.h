@@ -4,6 +4,8 @@
 
 namespace angen::node {
 
+constexpr char kWorldFrame[] = "world";
+
 /// `text` as a ROS graph name: a byte that is not a letter, digit, `_` or `/` becomes `_xHH`, its
 /// value in hexadecimal, and so does a `_` that would read as the start of one. Different names of
 /// entities, which hold no `/`, stay different. A text that would start with neither a letter nor

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "ros/ros_kind.h"
 #include "rviz/rooms.h"
 
 namespace angen::node {
@@ -15,16 +16,6 @@ bool is_ground(const desc::Link& link) {
   return std::any_of(link.visuals.begin(), link.visuals.end(), [](const desc::Visual& visual) {
     return visual.shape.type == Shape::Type::kPlane;
   });
-}
-
-// What a model carries says nothing of what it is.
-bool is_carried(const std::string& kind) {
-  return kind == "tag" || kind == "battery" || kind == "climate";
-}
-
-std::string device_group(const std::string& kind) {
-  if (kind == "person") return "people";
-  return kind == "drive" ? "robots" : kind + "s";
 }
 
 float strongest_alpha(const std::string& group) {
@@ -41,9 +32,10 @@ std::string marker_group(const sim::Structure& structure, std::uint32_t link) {
   const double height = model.pose.position.z();
   const std::string storey = storey_suffix(structure, entry.model, height);
   for (const sim::DeviceEntry& device : structure.devices) {
-    if (device.model == entry.model && !is_carried(device.kind)) {
-      return device_group(device.kind) + storey;
-    }
+    if (device.model != entry.model) continue;
+    const ModelStyle& style = ros_kind(device).model;
+    if (style.is_carried) continue;
+    return (style.group.empty() ? device.kind + "s" : style.group) + storey;
   }
   if (is_building(model)) {
     if (has(described.name, "ceiling")) return "ceilings" + storey;

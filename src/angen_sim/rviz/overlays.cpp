@@ -29,7 +29,7 @@ constexpr double kOverDevice = 0.17;        // m, a label over the highest visua
 const std::optional<RayStyle>& rays_of(const sim::SensorEntry& sensor) {
   static const std::optional<RayStyle> none;
   if (sensor.rays == nullptr || sensor.plugin->kind().ray_color.empty()) return none;
-  return ros_kind(sensor.kind, sensor.desc->plugin).rays;
+  return ros_kind(sensor).rays;
 }
 
 // <color>, which was checked when the sensor was made.
@@ -155,7 +155,7 @@ void Overlays::add_sensor(const sim::Structure& structure, std::uint32_t sensor)
   overlay.offset = entry.pose;
   overlay.storey = storey_suffix(structure, entry.model,
                                  (described_pose(structure, entry.link) * entry.pose).position.z());
-  const RosKind& kind = ros_kind(entry.kind, entry.desc->plugin);
+  const RosKind& kind = ros_kind(entry);
   if (rays_of(entry)) {
     put(beams_, entry.kind + "/" + entry.name, std::move(overlay));
   } else if (kind.caption && !entry.on_demand()) {
@@ -168,7 +168,7 @@ void Overlays::add_device(const sim::Structure& structure, std::uint32_t device)
   const std::vector<Field>& fields = entry.plugin->kind().fields;
   const bool has_alarm =
       std::any_of(fields.begin(), fields.end(), [](const Field& field) { return field.alarm; });
-  if (!has_alarm || !ros_kind(entry.kind, entry.library).caption) return;
+  if (!has_alarm || !ros_kind(entry).caption) return;
   Overlay overlay;
   overlay.of = Of::kDevice;
   overlay.index = device;
@@ -181,8 +181,8 @@ void Overlays::add_device(const sim::Structure& structure, std::uint32_t device)
 
 void Overlays::add_label(const sim::Structure& structure, std::uint32_t device) {
   const sim::DeviceEntry& entry = structure.devices[device];
-  const bool travels = entry.kind == "drive" || entry.kind == "person";
-  if (!travels && entry.kind != "lamp" && entry.kind != "door") return;
+  const ModelStyle& style = ros_kind(entry).model;
+  if (style.label.empty()) return;
   if (entry.light != UINT32_MAX) return;  // a sun needs none
   const desc::Model& model = *structure.models[entry.model];
   const Vec3 place = place_of_label(model);
@@ -191,17 +191,16 @@ void Overlays::add_label(const sim::Structure& structure, std::uint32_t device) 
   overlay.index = device;
   overlay.storey = storey_suffix(structure, entry.model, model.pose.position.z());
   overlay.offset.position = model.pose * place;
-  if (travels) {
+  if (style.travels) {
     overlay.link = first_link(structure, entry.model);
     overlay.offset.position = model.links.front().pose.inverse() * place;
   }
-  const std::string group = entry.kind == "door" ? "door labels" : "labels";
-  const std::string text = travels ? entry.name : entry.kind + " " + entry.name;
+  const std::string text = style.travels ? entry.name : entry.kind + " " + entry.name;
   Overlay& kept = put(labels_, entry.kind + "/" + entry.name, std::move(overlay));
   show(kept,
-       text_marker(text, travels ? kMoverTextHeight : kDeviceTextHeight,
+       text_marker(text, style.travels ? kMoverTextHeight : kDeviceTextHeight,
                    color(1.0F, 0.9F, 0.7F, 1.0F)),
-       group + kept.storey);
+       style.label + kept.storey);
 }
 
 void Overlays::add_room_labels() {

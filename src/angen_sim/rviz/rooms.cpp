@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "devices/storeys.h"
+#include "ros/ros_kind.h"
 
 namespace angen::node {
 namespace {
@@ -71,8 +72,7 @@ bool is_building(const desc::Model& model) {
 
 std::string storey_suffix(const sim::Structure& structure, std::uint32_t model, double z) {
   for (const sim::DeviceEntry& device : structure.devices) {
-    if (device.model != model) continue;
-    if (device.kind == "person" || device.kind == "drive" || device.kind == "elevator") return "";
+    if (device.model == model && !ros_kind(device).model.is_on_floor) return "";
   }
   return " " + std::to_string(devices::floor_of(z));
 }

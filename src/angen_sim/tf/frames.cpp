@@ -5,43 +5,19 @@
 #include <set>
 #include <utility>
 
+#include "ros/wire.h"
+
 namespace angen::node {
 namespace {
 
 // REP 103: images are seen along z, with x to the right.
 const Quat kOptical = from_rpy(-M_PI_2, 0.0, -M_PI_2);
 
-bool is_odometry(const std::string& kind) {
-  return kind == "odometry" || kind == "planar_odometry" || kind == "skid_steer_odometry" ||
-         kind == "kobuki_odometry";
-}
-
-bool is_camera(const sim::SensorEntry& sensor) {
-  return sensor.kind == "camera" || sensor.kind == "depth" || sensor.kind == "depth_camera";
-}
-
-// The frame of what a sensor of a robot made for Gazebo publishes, which others know: nobody here
-// says where it is. None for other sensors.
-std::optional<std::string> foreign_frame(const sim::SensorEntry& sensor, const desc::Model& model) {
-  static const std::set<std::string> states = {"joint_states", "wheel_states", "controlled_joints",
-                                               "kobuki_wheels"};
-  static const std::set<std::string> hectors = {"gps", "hector_imu", "sonar"};
-  static const std::set<std::string> bodies = {"imu", "imu_sensor"};
-  if (states.count(sensor.kind) != 0) return "";
-  if (is_odometry(sensor.kind))
-    return value_of({&sensor.desc->plugin_element}, "odometryFrame", "odom");
-  if (sensor.kind == "kobuki_imu") return "gyro_link";
-  if (sensor.kind == "p3d") return sensor.frame.empty() ? kWorldFrame : sensor.frame;
-  if (hectors.count(sensor.kind) != 0) {
-    return value_of({&sensor.desc->plugin_element}, "frameId",
-                    value_of({&sensor.desc->plugin_element}, "bodyName", sensor.name));
-  }
-  if (bodies.count(sensor.kind) != 0 && sensor.frame.empty()) {
-    return value_of({&sensor.desc->plugin_element}, "bodyName", sensor.name);
-  }
-  if (sensor.frame.empty() || (!model.tolerant && bodies.count(sensor.kind) == 0)) {
-    return std::nullopt;
-  }
+// The frame that a robot made for Gazebo knows, whose place it publishes itself; none for others.
+std::optional<std::string> foreign_frame(const RosKind& kind, const sim::SensorEntry& sensor,
+                                         const desc::Model& model) {
+  if (kind.frame) return kind.frame(sensor);
+  if (sensor.frame.empty() || !model.tolerant) return std::nullopt;
   return sensor.frame;
 }
 
@@ -80,12 +56,12 @@ std::shared_ptr<const FrameTree> FrameMaker::make(const sim::Snapshot& snapshot,
   auto tree = tree_ ? std::make_shared<FrameTree>(*tree_) : std::make_shared<FrameTree>();
   const std::size_t kept = keep_models(structure, robots, changes);
   add_links(snapshot, kept, *tree);
-  add_odometry(structure, robots, *tree);
   const std::size_t first = keep_sensors(structure, kept, changes, *tree);
   for (std::size_t i = first; i < structure.sensors.size(); ++i) {
     const Robot* owner = owner_in(robots, structure.sensors[i].model);
     add_sensor(structure, static_cast<std::uint32_t>(i), owner, *tree);
   }
+  add_odometry(structure, robots, *tree);
   tree_ = tree;
   return tree;
 }
@@ -175,8 +151,9 @@ void FrameMaker::add_odometry(const sim::Structure& structure, const std::vector
   tree.odometry.clear();
   if (!odometry_in_world_) return;
   std::set<std::string> added;
-  for (const sim::SensorEntry& sensor : structure.sensors) {
-    if (!is_odometry(sensor.kind)) continue;
+  for (std::size_t i = 0; i < mounted_.size(); ++i) {
+    if (!mounted_[i].is_odometry) continue;
+    const sim::SensorEntry& sensor = structure.sensors[i];
     const std::vector<const Element*> plugin = {&sensor.desc->plugin_element};
     const std::string frame =
         resolved(prefixes_[sensor.model], value_of(plugin, "odometryFrame", "odom"));
@@ -227,19 +204,20 @@ void FrameMaker::add_sensor(const sim::Structure& structure, std::uint32_t numbe
                             const Robot* owner, FrameTree& tree) {
   const sim::SensorEntry& sensor = structure.sensors[number];
   const sim::LinkEntry& link = structure.links[sensor.link];
-  Mounted mounted{static_cast<std::uint32_t>(tree.mounts.size()), false};
+  const RosKind& kind = ros_kind(sensor);
+  Mounted mounted{static_cast<std::uint32_t>(tree.mounts.size()), false, kind.is_odometry};
   std::string base;
-  if (const auto foreign = foreign_frame(sensor, *structure.models[sensor.model])) {
+  if (const auto foreign = foreign_frame(kind, sensor, *structure.models[sensor.model])) {
     const std::string& prefix = prefixes_[sensor.model];
     tree.sensors.push_back(resolved(prefix, *foreign));
-    if (is_odometry(sensor.kind)) {
+    if (kind.is_odometry) {
       base = resolved(prefix,
                       value_of({&sensor.desc->plugin_element}, "robotBaseFrame", "base_footprint"));
     }
   } else {
-    const std::string frame = own_frame(sensor, owner, frame_of(link), mounted.takes_frame);
+    const std::string frame = own_frame(sensor, kind, owner, frame_of(link), mounted.takes_frame);
     if (frame != frame_of(link)) {  // an SDF that names its link's frame means it
-      const Pose in_sensor = is_camera(sensor) ? Pose{Vec3::Zero(), kOptical} : Pose{};
+      const Pose in_sensor = kind.is_camera ? Pose{Vec3::Zero(), kOptical} : Pose{};
       tree.mounts.push_back({frame_of(link), frame, sensor.pose * in_sensor});
     }
     tree.sensors.push_back(frame);
@@ -248,10 +226,11 @@ void FrameMaker::add_sensor(const sim::Structure& structure, std::uint32_t numbe
   mounted_.push_back(mounted);
 }
 
-std::string FrameMaker::own_frame(const sim::SensorEntry& sensor, const Robot* owner,
-                                  const std::string& link_frame, bool& is_taken) {
+std::string FrameMaker::own_frame(const sim::SensorEntry& sensor, const RosKind& kind,
+                                  const Robot* owner, const std::string& link_frame,
+                                  bool& is_taken) {
   std::string frame = sensor.frame;
-  if (frame.empty()) frame = sensor.name + (is_camera(sensor) ? "_optical_frame" : "");
+  if (frame.empty()) frame = sensor.name + (kind.is_camera ? "_optical_frame" : "");
   if (owner != nullptr && !owner->first && !sensor.frame.empty()) {
     frame.insert(0, 1, '/').insert(0, owner->name);
   }

@@ -11,6 +11,7 @@
 
 #include "ros/changes.h"
 #include "ros/robots.h"
+#include "ros/ros_kind.h"
 #include "sim/snapshot.h"
 #include "tf/model_frames.h"
 
@@ -49,6 +50,7 @@ class FrameMaker {
   struct Mounted {
     std::uint32_t mount = 0;   // how many of FrameTree::mounts came before it
     bool takes_frame = false;  // no other sensor has that frame
+    bool is_odometry = false;
   };
 
   /// Returns how many of the first models have their frames as before.
@@ -62,7 +64,7 @@ class FrameMaker {
                            const Changes& changes, FrameTree& tree);
   void add_sensor(const sim::Structure& structure, std::uint32_t number, const Robot* owner,
                   FrameTree& tree);
-  std::string own_frame(const sim::SensorEntry& sensor, const Robot* owner,
+  std::string own_frame(const sim::SensorEntry& sensor, const RosKind& kind, const Robot* owner,
                         const std::string& link_frame, bool& is_taken);
   bool take(const std::string& frame);
   const std::string& frame_of(const sim::LinkEntry& link) const {

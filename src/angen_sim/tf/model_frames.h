@@ -47,6 +47,4 @@ struct ModelFrames {
 /// `base_frame` is empty for what is not a robot.
 ModelFrames frames_of(const desc::Model& model, const std::string& base_frame, std::uint32_t base);
 
-constexpr char kWorldFrame[] = "world";
-
 }  // namespace angen::node

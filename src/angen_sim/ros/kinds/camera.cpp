@@ -11,7 +11,8 @@ ANGEN_REGISTER_ROS_KIND({"camera"},
                         RosKindBuilder()
                             .message<sensor_msgs::Image>(&fill_image, "image_raw", "imageTopicName")
                             .message<sensor_msgs::CameraInfo>(&fill_camera_info, "camera_info",
-                                                              "cameraInfoTopicName"));
+                                                              "cameraInfoTopicName")
+                            .optical_frame());
 
 }  // namespace
 }  // namespace angen::node

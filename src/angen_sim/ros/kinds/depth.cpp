@@ -77,7 +77,8 @@ ANGEN_REGISTER_ROS_KIND(
         .message<sensor_msgs::PointCloud2>(&fill_points, "points", "pointCloudTopicName")
         .message<sensor_msgs::Image>(&fill_image, "", kColor)
         .message<sensor_msgs::CameraInfo>(&fill_camera_info, "", "cameraInfoTopicName")
-        .with(kColor, "ir/camera_info"));
+        .with(kColor, "ir/camera_info")
+        .optical_frame());
 
 }  // namespace
 }  // namespace angen::node

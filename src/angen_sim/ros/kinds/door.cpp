@@ -16,7 +16,11 @@ void fill(const Reading& state, const Label& label, angen_msgs::DoorState& messa
 }
 
 ANGEN_REGISTER_ROS_KIND(
-    {"door", "window", "cabinet"},
+    {"door"}, RosKindBuilder()
+                  .message_with_array<angen_msgs::DoorState, angen_msgs::DoorStateArray>(&fill)
+                  .label("door labels"));
+ANGEN_REGISTER_ROS_KIND(
+    {"window", "cabinet"},
     RosKindBuilder().message_with_array<angen_msgs::DoorState, angen_msgs::DoorStateArray>(&fill));
 
 }  // namespace

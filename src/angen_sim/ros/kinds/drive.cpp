@@ -4,6 +4,7 @@
 
 #include "ros/convert.h"
 #include "ros/kinds/states.h"
+#include "ros/kinds/twist.h"
 #include "ros/ros_kind.h"
 
 namespace angen::node {
@@ -22,7 +23,9 @@ void fill(const Reading& state, const Label& label, nav_msgs::Odometry& message)
   }
 }
 
-ANGEN_REGISTER_ROS_KIND({"drive"}, RosKindBuilder().message<nav_msgs::Odometry>(&fill));
+ANGEN_REGISTER_ROS_KIND(
+    {"drive"},
+    RosKindBuilder().message<nav_msgs::Odometry>(&fill).robot(&of_twist).group("robots").travels());
 
 }  // namespace
 }  // namespace angen::node

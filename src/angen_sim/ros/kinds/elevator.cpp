@@ -22,8 +22,9 @@ void fill(const Reading& state, const Label& label, angen_msgs::ElevatorState& m
 
 ANGEN_REGISTER_ROS_KIND(
     {"elevator"},
-    RosKindBuilder().message_with_array<angen_msgs::ElevatorState, angen_msgs::ElevatorStateArray>(
-        &fill));
+    RosKindBuilder()
+        .message_with_array<angen_msgs::ElevatorState, angen_msgs::ElevatorStateArray>(&fill)
+        .changes_storeys());
 
 }  // namespace
 }  // namespace angen::node

@@ -2,7 +2,7 @@
 #include <sensor_msgs/NavSatFix.h>
 
 #include "ros/convert.h"
-#include "ros/ros_kind.h"
+#include "ros/kinds/frames.h"
 
 namespace angen::node {
 namespace {
@@ -28,7 +28,8 @@ void fill_velocity(const Reading& reading, const Label&, geometry_msgs::Vector3S
 ANGEN_REGISTER_ROS_KIND({"gps"}, RosKindBuilder()
                                      .named_message<sensor_msgs::NavSatFix>(&fill, "fix")
                                      .named_message<geometry_msgs::Vector3Stamped>(
-                                         &fill_velocity, "fix_velocity", "velocityTopicName"));
+                                         &fill_velocity, "fix_velocity", "velocityTopicName")
+                                     .frame(frame_by({"frameId", "bodyName"})));
 
 }  // namespace
 }  // namespace angen::node

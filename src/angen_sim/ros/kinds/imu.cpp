@@ -1,6 +1,6 @@
 #include <sensor_msgs/Imu.h>
 
-#include "ros/ros_kind.h"
+#include "ros/kinds/frames.h"
 
 namespace angen::node {
 namespace {
@@ -21,13 +21,25 @@ void fill(const Reading& reading, const Label&, sensor_msgs::Imu& message) {
   set("acceleration", message.linear_acceleration);
 }
 
-ANGEN_REGISTER_ROS_KIND({"imu"}, RosKindBuilder().named_message<sensor_msgs::Imu>(&fill, "imu"));
-ANGEN_REGISTER_ROS_KIND({"imu_sensor"},
-                        RosKindBuilder().named_message<sensor_msgs::Imu>(&fill, "imu_data"));
-ANGEN_REGISTER_ROS_KIND({"kobuki_imu"}, RosKindBuilder().named_message<sensor_msgs::Imu>(
-                                            &fill, "mobile_base/sensors/imu_data", "none"));
-ANGEN_REGISTER_ROS_KIND({"hector_imu"},
-                        RosKindBuilder().named_message<sensor_msgs::Imu>(&fill, "imu"));
+std::string frame_of_body(const sim::SensorEntry& sensor) {
+  return sensor.frame.empty() ? frame_by({"bodyName"})(sensor) : sensor.frame;
+}
+
+std::string gyro_frame(const sim::SensorEntry&) { return "gyro_link"; }
+
+ANGEN_REGISTER_ROS_KIND(
+    {"imu"}, RosKindBuilder().named_message<sensor_msgs::Imu>(&fill, "imu").frame(&frame_of_body));
+ANGEN_REGISTER_ROS_KIND(
+    {"imu_sensor"},
+    RosKindBuilder().named_message<sensor_msgs::Imu>(&fill, "imu_data").frame(&frame_of_body));
+ANGEN_REGISTER_ROS_KIND({"kobuki_imu"},
+                        RosKindBuilder()
+                            .named_message<sensor_msgs::Imu>(&fill, "mobile_base/sensors/imu_data",
+                                                             "none")
+                            .frame(&gyro_frame));
+ANGEN_REGISTER_ROS_KIND({"hector_imu"}, RosKindBuilder()
+                                            .named_message<sensor_msgs::Imu>(&fill, "imu")
+                                            .frame(frame_by({"frameId", "bodyName"})));
 
 }  // namespace
 }  // namespace angen::node

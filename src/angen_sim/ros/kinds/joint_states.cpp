@@ -1,6 +1,8 @@
+#include "ros/kinds/joint_states.h"
+
 #include <sensor_msgs/JointState.h>
 
-#include "ros/ros_kind.h"
+#include "ros/kinds/frames.h"
 
 namespace angen::node {
 namespace {
@@ -12,10 +14,14 @@ void fill(const Reading& reading, const Label&, sensor_msgs::JointState& message
   message.effort = reading.get<std::vector<double>>("efforts");
 }
 
-ANGEN_REGISTER_ROS_KIND({"joint_states", "wheel_states", "controlled_joints", "kobuki_wheels"},
-                        RosKindBuilder().named_message<sensor_msgs::JointState>(&fill,
-                                                                                "joint_states",
-                                                                                "none"));
-
 }  // namespace
+
+RosKindBuilder joint_states() {
+  return RosKindBuilder()
+      .named_message<sensor_msgs::JointState>(&fill, "joint_states", "none")
+      .frame(&no_frame);
+}
+
+ANGEN_REGISTER_ROS_KIND({"joint_states", "wheel_states", "kobuki_wheels"}, joint_states());
+
 }  // namespace angen::node

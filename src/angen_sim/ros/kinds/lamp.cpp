@@ -15,8 +15,9 @@ void fill(const Reading& state, const Label& label, angen_msgs::LampState& messa
 }
 
 ANGEN_REGISTER_ROS_KIND(
-    {"lamp"},
-    RosKindBuilder().message_with_array<angen_msgs::LampState, angen_msgs::LampStateArray>(&fill));
+    {"lamp"}, RosKindBuilder()
+                  .message_with_array<angen_msgs::LampState, angen_msgs::LampStateArray>(&fill)
+                  .label("labels"));
 
 }  // namespace
 }  // namespace angen::node

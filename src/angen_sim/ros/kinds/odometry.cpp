@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "ros/ros_kind.h"
+#include "ros/wire.h"
 
 namespace angen::node {
 namespace {
@@ -58,24 +59,33 @@ void fill_truth(const Reading& reading, const Label&, nav_msgs::Odometry& messag
   message.twist.twist.angular = vector_in<geometry_msgs::Vector3>(reading, "angular_velocity");
 }
 
+std::string frame_of_truth(const sim::SensorEntry& sensor) {
+  return sensor.frame.empty() ? kWorldFrame : sensor.frame;
+}
+
 ANGEN_REGISTER_ROS_KIND({"odometry"},
                         RosKindBuilder()
                             .named_message<nav_msgs::Odometry>(&fill, "odom", "odometryTopic")
-                            .transform(&fill_transform, "publishOdomTF"));
+                            .transform(&fill_transform, "publishOdomTF")
+                            .odometry());
 ANGEN_REGISTER_ROS_KIND({"planar_odometry"},
                         RosKindBuilder()
                             .named_message<nav_msgs::Odometry>(&fill, "odom", "odometryTopic")
-                            .transform(&fill_transform, "publishOdometryTf"));
+                            .transform(&fill_transform, "publishOdometryTf")
+                            .odometry());
 ANGEN_REGISTER_ROS_KIND({"kobuki_odometry"},
                         RosKindBuilder()
                             .named_message<nav_msgs::Odometry>(&fill, "odom", "none")
-                            .transform(&fill_transform, "publish_tf"));
+                            .transform(&fill_transform, "publish_tf")
+                            .odometry());
 ANGEN_REGISTER_ROS_KIND({"skid_steer_odometry"},
                         RosKindBuilder()
                             .named_message<nav_msgs::Odometry>(&fill, "odom", "odometryTopic")
-                            .transform(&fill_transform, "broadcastTF"));
-ANGEN_REGISTER_ROS_KIND({"p3d"},
-                        RosKindBuilder().named_message<nav_msgs::Odometry>(&fill_truth, "p3d"));
+                            .transform(&fill_transform, "broadcastTF")
+                            .odometry());
+ANGEN_REGISTER_ROS_KIND(
+    {"p3d"},
+    RosKindBuilder().named_message<nav_msgs::Odometry>(&fill_truth, "p3d").frame(&frame_of_truth));
 
 }  // namespace
 }  // namespace angen::node

@@ -17,8 +17,10 @@ void fill(const Reading& state, const Label& label, angen_msgs::PersonState& mes
 
 ANGEN_REGISTER_ROS_KIND(
     {"person"},
-    RosKindBuilder().message_with_array<angen_msgs::PersonState, angen_msgs::PersonStateArray>(
-        &fill));
+    RosKindBuilder()
+        .message_with_array<angen_msgs::PersonState, angen_msgs::PersonStateArray>(&fill)
+        .group("people")
+        .travels());
 
 }  // namespace
 }  // namespace angen::node

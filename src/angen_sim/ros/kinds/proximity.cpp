@@ -1,7 +1,7 @@
 #include <sensor_msgs/Range.h>
 
 #include "ros/convert.h"
-#include "ros/ros_kind.h"
+#include "ros/kinds/frames.h"
 
 namespace angen::node {
 namespace {
@@ -23,6 +23,7 @@ ANGEN_REGISTER_ROS_KIND({"proximity"}, RosKindBuilder().message<sensor_msgs::Ran
                                            "proximity cones", color(0.9F, 0.5F, 0.1F, 0.8F)));
 ANGEN_REGISTER_ROS_KIND({"sonar"}, RosKindBuilder()
                                        .named_message<sensor_msgs::Range>(&fill, "sonar")
+                                       .frame(frame_by({"frameId", "bodyName"}))
                                        .rays("proximity cones", color(0.9F, 0.5F, 0.1F, 0.8F)));
 
 }  // namespace

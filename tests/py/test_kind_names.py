@@ -1,0 +1,35 @@
+"""The C++ of the node names a kind in the kind's own files only: others read its registration."""
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+import angen
+
+SOURCES = Path(__file__).resolve().parents[2] / 'src/angen_sim'
+KINDS = {plugin['kind'] for plugin in angen.plugins()}
+ALLOWED = {('tf/joints.cpp', 'joint_states')}  # a topic of that name
+REGISTERS = 'ANGEN_REGISTER_ROS_KIND({'
+
+
+def sources(folder: str) -> list[Path]:
+    return [path for path in sorted((SOURCES / folder).glob('*'))
+            if path.suffix in ('.cpp', '.h') and REGISTERS not in path.read_text()]
+
+
+def named_in(path: Path) -> set[tuple[str, str]]:
+    name = str(path.relative_to(SOURCES))
+    return {(name, word) for word in re.findall(r'"(\w+)"', path.read_text()) if word in KINDS}
+
+
+@pytest.mark.parametrize('folder', ['ros', 'tf', 'rviz', 'gazebo', 'node'])
+def test_a_folder_of_the_node_names_no_kind(folder: str) -> None:
+    assert len(KINDS) > 50 and len(sources(folder)) > 3
+    found = set().union(*(named_in(path) for path in sources(folder)))
+    assert found <= ALLOWED
+
+
+def test_a_kinds_own_file_does_name_it() -> None:
+    assert ('ros/kinds/drive.cpp', 'drive') in named_in(SOURCES / 'ros/kinds/drive.cpp')
