@@ -1,3 +1,4 @@
+// libappliance.so
 #include <cmath>
 #include <limits>
 #include <optional>

@@ -1,3 +1,4 @@
+// librobot_battery.so
 #include <algorithm>
 #include <optional>
 

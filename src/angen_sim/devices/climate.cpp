@@ -1,3 +1,4 @@
+// libroom_climate.so
 #include <cmath>
 #include <optional>
 

@@ -1,3 +1,4 @@
+// libcup.so
 #include "devices/cup.h"
 
 #include <algorithm>

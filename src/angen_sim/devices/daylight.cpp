@@ -1,3 +1,4 @@
+// libdaylight_plugin.so
 #include <memory>
 #include <optional>
 #include <string>

@@ -1,3 +1,4 @@
+// libdoor_world_plugin.so
 #include "devices/door.h"
 
 #include <algorithm>

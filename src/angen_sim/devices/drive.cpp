@@ -1,3 +1,4 @@
+// librobot_controller.so
 #include "devices/drive.h"
 
 #include <algorithm>

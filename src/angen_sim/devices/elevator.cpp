@@ -1,3 +1,4 @@
+// libros_plugin.so
 #include "devices/elevator.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// libheater.so
 #include <optional>
 #include <string>
 #include <vector>

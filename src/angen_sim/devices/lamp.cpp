@@ -1,3 +1,4 @@
+// libros_plugin.so
 #include "devices/lamp.h"
 
 #include "devices/storeys.h"

@@ -10,7 +10,7 @@ namespace angen::devices {
 
 namespace {
 
-constexpr double kMaxLag = 0.3;       // m behind the path: further, and the path waits
+constexpr double kMaxPathLag = 0.3;   // m behind the path: further, and the path waits
 constexpr double kAhead = 0.35;       // s: it makes for where its path will be then
 constexpr double kTurnGain = 6.0;     // 1/s, from the wrong heading to a yaw rate
 constexpr double kMaxTurn = 3.0;      // rad/s
@@ -164,7 +164,8 @@ void Person::walk(const Path::Place& place, const View& view, bool renew, Output
   const double lag = std::hypot(place.x - at.x(), place.y - at.y());
   const double turn = std::remainder(goal.yaw - yaw_of(body.pose.rotation), 2.0 * M_PI);
   // Ahead of its place is no reason to wait, so it is the way to the goal that counts.
-  const bool waits = (to - at).norm() > kMaxLag + std::hypot(goal.x - place.x, goal.y - place.y);
+  const bool waits =
+      (to - at).norm() > kMaxPathLag + std::hypot(goal.x - place.x, goal.y - place.y);
   if (!waits) clock_ += view.step();
   note_progress(at, to, lag < (place.still() ? kThere : kNearPath), view.step());
 

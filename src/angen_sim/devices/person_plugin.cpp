@@ -1,3 +1,4 @@
+// libperson_controller.so
 #include <algorithm>
 #include <iterator>
 

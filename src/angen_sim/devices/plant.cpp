@@ -1,3 +1,4 @@
+// libplant.so
 #include <algorithm>
 #include <cmath>
 #include <sstream>

@@ -1,3 +1,4 @@
+// libstove.so
 #include <algorithm>
 #include <cmath>
 #include <iterator>

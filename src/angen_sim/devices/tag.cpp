@@ -1,3 +1,4 @@
+// librfid_tag.so
 #include "plugin/register.h"
 
 namespace angen::devices {

@@ -1,3 +1,4 @@
+// libradio_transmitter.so
 #include <optional>
 
 #include "plugin/register.h"

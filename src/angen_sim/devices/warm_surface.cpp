@@ -1,3 +1,4 @@
+// libwarm_surface.so
 #include <string>
 #include <utility>
 #include <vector>

@@ -1,3 +1,4 @@
+// libgazebo_ros_diff_drive.so
 #include "plugin/register.h"
 #include "robots/joint_states.h"
 #include "robots/wheels.h"

@@ -1,3 +1,4 @@
+// libgazebo_ros_force.so
 #include "plugin/register.h"
 #include "robots/names.h"
 

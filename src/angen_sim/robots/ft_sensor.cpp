@@ -1,3 +1,4 @@
+// libgazebo_ros_ft_sensor.so
 #include "plugin/register.h"
 #include "robots/names.h"
 

@@ -1,3 +1,4 @@
+// libhector_gazebo_ros_gps.so
 #include <cmath>
 
 #include "plugin/register.h"

@@ -1,3 +1,4 @@
+// libhector_gazebo_ros_imu.so
 #include "plugin/register.h"
 #include "robots/base.h"
 

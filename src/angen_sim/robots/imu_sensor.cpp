@@ -1,3 +1,4 @@
+// libgazebo_ros_imu_sensor.so
 #include "plugin/register.h"
 #include "robots/base.h"
 

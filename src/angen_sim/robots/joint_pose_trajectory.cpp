@@ -1,3 +1,4 @@
+// libgazebo_ros_joint_pose_trajectory.so
 #include <algorithm>
 #include <cmath>
 #include <limits>

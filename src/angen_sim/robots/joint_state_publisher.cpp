@@ -1,3 +1,4 @@
+// libgazebo_ros_joint_state_publisher.so
 #include <sstream>
 
 #include "core/text.h"

@@ -1,3 +1,4 @@
+// libgazebo_ros_kobuki.so
 #include "plugin/register.h"
 #include "robots/joint_states.h"
 #include "robots/wheels.h"

@@ -1,3 +1,5 @@
+// libroboticsgroup_gazebo_mimic_joint_plugin.so
+// libroboticsgroup_upatras_gazebo_mimic_joint_plugin.so
 #include <cmath>
 #include <limits>
 

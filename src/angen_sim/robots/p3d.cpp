@@ -1,3 +1,4 @@
+// libgazebo_ros_p3d.so
 #include "plugin/register.h"
 #include "robots/base.h"
 

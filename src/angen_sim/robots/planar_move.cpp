@@ -1,3 +1,6 @@
+// libgazebo_ros_planar_move.so libhector_gazebo_ros_force_based_move.so
+// libgazebo_ros_force_based_move.so libridgeback_ros_force_based_move.so
+// librobotnik_force_based_move.so
 #include "plugin/register.h"
 #include "robots/base.h"
 

@@ -1,3 +1,4 @@
+// libgazebo_ros_control.so
 #include <algorithm>
 #include <cmath>
 #include <limits>

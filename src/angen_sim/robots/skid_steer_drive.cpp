@@ -1,3 +1,4 @@
+// libgazebo_ros_skid_steer_drive.so
 #include "plugin/register.h"
 #include "robots/wheels.h"
 

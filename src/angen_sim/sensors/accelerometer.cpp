@@ -1,3 +1,4 @@
+// libaccelerometer.so
 #include <algorithm>
 #include <cmath>
 #include <optional>

@@ -1,3 +1,4 @@
+// libgazebo_ros_block_laser.so
 #include "plugin/register.h"
 #include "sensors/cloud.h"
 

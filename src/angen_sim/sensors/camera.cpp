@@ -1,3 +1,4 @@
+// libgazebo_ros_camera.so libgazebo_ros_multicamera.so
 #include "plugin/register.h"
 #include "sensors/camera_params.h"
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kWhite = 100.0;  // the intensity of a white wall, as Velodynes are calibrated
 
-Fan default_fan() {
+Fan cloud_fan() {
   Fan fan;
   fan.columns = 360;
   fan.rows = 16;
@@ -27,7 +27,7 @@ Fan default_fan() {
 }  // namespace
 
 void Cloud::read_rays(Params& params) {
-  fan_ = read_fan(params, default_fan());
+  fan_ = read_fan(params, cloud_fan());
   const double more = params.number(
       "gaussianNoise", 0.0, "m", "standard deviation of a range, beside the rays'", kNotNegative);
   fan_.noise_stddev = std::hypot(fan_.noise_stddev, more);

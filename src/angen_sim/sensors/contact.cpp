@@ -1,3 +1,4 @@
+// libgazebo_ros_bumper.so
 #include <algorithm>
 #include <optional>
 #include <string>

@@ -1,3 +1,4 @@
+// libgazebo_ros_depth_camera.so
 #include <limits>
 
 #include "plugin/register.h"

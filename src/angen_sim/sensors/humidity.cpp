@@ -1,3 +1,4 @@
+// libhumidity_sensor.so
 #include "plugin/register.h"
 #include "sensors/air.h"
 

@@ -1,3 +1,4 @@
+// libgazebo_ros_openni_kinect.so
 #include "plugin/register.h"
 #include "sensors/depth.h"
 

@@ -1,3 +1,4 @@
+// libgazebo_ros_laser.so libgazebo_ros_gpu_laser.so
 #include <algorithm>
 #include <cmath>
 #include <limits>

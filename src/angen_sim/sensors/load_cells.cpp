@@ -1,3 +1,4 @@
+// libload_cells.so
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,3 +1,4 @@
+// libluminosity_sensor_controller.so libluminosity_sensor_utils.so
 #include <algorithm>
 #include <cmath>
 #include <optional>

@@ -1,3 +1,4 @@
+// libmicrophone.so
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -1,3 +1,4 @@
+// liboptical_switch_controller.so
 #include <algorithm>
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// libpressure_mat.so
 #include <algorithm>
 #include <optional>
 #include <sstream>

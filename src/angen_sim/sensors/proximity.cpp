@@ -7,7 +7,7 @@ namespace angen::sensors {
 
 namespace {
 
-Fan default_fan() {
+Fan proximity_fan() {
   Fan fan;
   fan.columns = fan.rows = 5;
   fan.max_yaw = fan.max_pitch = 0.13;
@@ -20,7 +20,7 @@ Fan default_fan() {
 }  // namespace
 
 void Proximity::read_rays(Params& params) {
-  fan_ = read_fan(params, default_fan());
+  fan_ = read_fan(params, proximity_fan());
   directions_ = fan_.directions();
   // One range, one error: the least of many noisy rays would always be too short.
   const double noise = params.number("gaussianNoise", 0.0, "m",

@@ -1,3 +1,4 @@
+// libradio_receiver.so
 #include <cmath>
 #include <map>
 

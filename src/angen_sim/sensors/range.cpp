@@ -1,3 +1,4 @@
+// libgazebo_ros_range.so
 #include "plugin/register.h"
 #include "sensors/proximity.h"
 

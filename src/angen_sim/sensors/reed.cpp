@@ -1,3 +1,4 @@
+// libreed_contact.so
 #include <cmath>
 #include <optional>
 #include <sstream>

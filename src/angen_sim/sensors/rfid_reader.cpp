@@ -1,3 +1,4 @@
+// librfid_reader.so
 #include <cmath>
 #include <map>
 

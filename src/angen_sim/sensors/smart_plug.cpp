@@ -1,3 +1,4 @@
+// libsmart_plug.so
 #include <algorithm>
 
 #include "plugin/register.h"

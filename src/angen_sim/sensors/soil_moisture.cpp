@@ -1,3 +1,4 @@
+// libsoil_moisture.so
 #include <limits>
 
 #include "plugin/register.h"

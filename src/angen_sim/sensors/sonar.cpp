@@ -1,3 +1,4 @@
+// libhector_gazebo_ros_sonar.so
 #include <algorithm>
 
 #include "plugin/register.h"

@@ -1,3 +1,4 @@
+// libgazebo_ros_velodyne_laser.so libgazebo_ros_velodyne_gpu_laser.so
 #include <algorithm>
 
 #include "plugin/register.h"

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kTurn = 2.0 * M_PI;
 constexpr double kStefanBoltzmann = 5.670374419e-8;  // W/m^2 K^4, CODATA 2018
-constexpr double kNearest = 0.05;                    // m: the detector's own housing is not seen
+constexpr double kHousing = 0.05;                    // m: the detector's own housing is not seen
 constexpr double kCellWidth = 0.012;                 // rad: a third of a zone of a wide lens
 constexpr double kCellHeight = 0.024;
 constexpr int kFewest = 12;  // cells on a side
@@ -136,7 +136,7 @@ void Heat::scan(const Window& seen, const Pose& pose, RayBatch& rays) {
       const Vec3 direction(std::cos(elevation) * std::cos(azimuth),
                            std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
       const double solid_angle = width * height * std::cos(elevation);
-      rays.push_back({pose.position, (rotation * direction).normalized(), kNearest, range_});
+      rays.push_back({pose.position, (rotation * direction).normalized(), kHousing, range_});
       samples_.push_back({surfaces_.size() - 1, solid_angle * sensitivity * opening_});
     }
   }

@@ -1,3 +1,4 @@
+// libpir_controller.so
 #include <memory>
 
 #include "plugin/register.h"

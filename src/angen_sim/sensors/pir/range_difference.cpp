@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kMostDirections = 1'000'000;
 
-Fan default_fan() {
+Fan pir_fan() {
   Fan fan;
   fan.columns = 16;
   fan.min_yaw = -0.7854;
@@ -55,7 +55,7 @@ struct RangeDifference::Scans : LazyReading {
 };
 
 void RangeDifference::configure(Params& params, Wiring&) {
-  fan_ = read_fan(params, default_fan());
+  fan_ = read_fan(params, pir_fan());
   threshold_ =
       params.number("threshold", 0.1, "m", "a range that differs by more is motion", kPositive);
   const double amplitude =
