@@ -55,4 +55,4 @@ def test_fast_needs_no_rate(master: Master, tmp_path: Path) -> None:
         [str(node_binary()), str(world), '_fast:=true', '_rate:=2', '__name:=refused'],
         env=master.environment, text=True, capture_output=True, timeout=60)
     assert done.returncode == 1
-    assert done.stderr.splitlines()[-1] == '~fast goes as fast as it can, with ~rate 0 or none'
+    assert done.stderr.splitlines()[-1] == '~fast runs without a rate: leave ~rate out, or give 0'

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSilent = -std::numeric_limits<double>::infinity();  // dB
 
-/// What its level sets, and how power and sound follow it: both in powers of the level.
+/// Dependence of power and sound on the level: both in powers of it.
 struct Control {
   const char* name;
   double power_exponent;
@@ -24,13 +24,13 @@ constexpr Control kControls[] = {{"none", 0.0, 0.0}, {"speed", 3.0, 5.0}, {"volu
 
 }  // namespace
 
-/// A fan, a television, a stereo: on or off, with a speed or a volume, or with neither. What it
-/// takes from its socket, and what it sounds, follow from these.
+/// A fan, a television, a stereo: on or off, with a speed or a volume, or with neither. Its
+/// electric power and its sound power follow from these.
 class Appliance : public Device {
  public:
   void configure(Params& params, Wiring& wiring) override {
     const std::string control =
-        params.choice("control", "none", {"none", "speed", "volume"}, "what its level is");
+        params.choice("control", "none", {"none", "speed", "volume"}, "meaning of its level");
     for (const Control& known : kControls) {
       if (control == known.name) control_ = known;
     }
@@ -62,10 +62,10 @@ class Appliance : public Device {
     if (command.verb == "On" || command.verb == "Off") {
       return Verdict::accept([this, on = command.verb == "On"] { on_ = on; });
     }
-    const std::string wanted = command.verb == "Speed" ? "speed" : "volume";
-    if (wanted != control_.name) {
+    const std::string needed = command.verb == "Speed" ? "speed" : "volume";
+    if (needed != control_.name) {
       const std::string has = control_.name;
-      return Verdict::reject("this appliance has no " + wanted +
+      return Verdict::reject("this appliance has no " + needed +
                              (has == "none" ? "; it takes On and Off" : ", but a " + has));
     }
     return Verdict::accept([this, level = command.number] { level_ = level; });

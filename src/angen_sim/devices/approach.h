@@ -4,7 +4,7 @@
 
 namespace angen::devices {
 
-/// A value that goes to a limit exponentially, as the temperature of what is heated and loses heat.
+/// A value that approaches a limit exponentially, as the temperature of a heated body.
 struct Approach {
   double value = 0.0;
   double limit = 0.0;

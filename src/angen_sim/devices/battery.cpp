@@ -7,7 +7,7 @@
 
 namespace angen::devices {
 
-/// A robot's battery: it gives what the robot's electronics take, and the work of whatever else in
+/// A robot's battery: it supplies the robot's electronics, and the work of all motors in
 /// its model reports `work`.
 class Battery : public Device {
  public:
@@ -15,8 +15,8 @@ class Battery : public Device {
     voltage_ = params.number("voltage", 14.8, "V", "taken as constant", kPositive);
     capacity_ = params.number("capacity", 2.2, "A h", "when full", kPositive);
     idle_power_ = params.number("idle_power", 10.0, "W", "of the electronics", kNotNegative);
-    efficiency_ = params.number("efficiency", 0.6, "", "work of the wheels over what motors take",
-                                {1e-3, 1.0});
+    efficiency_ =
+        params.number("efficiency", 0.6, "", "work of the wheels over electric work", {1e-3, 1.0});
     const double level = params.number("level", 100.0, "%", "charge at the start", {0.0, 100.0});
     params.text("device_name", "", "the name commands use, instead of MODEL_battery");
     energy_ = full() * level / 100.0;
@@ -44,7 +44,7 @@ class Battery : public Device {
     empty_ = empty;
   }
 
-  // What it gives goes on while all else rests.
+  // It supplies power also while all devices are idle.
   Nanoseconds idle_until(const View& view) const override { return due_.next(view.time()); }
 
   void save(SavedParams& params) const override {
@@ -93,10 +93,10 @@ class BatteryPlugin : public Plugin {
             .verb("Charge", "percent", "%", {0.0, 100.0}, "charges or discharges it to this")
             .number("voltage", "V", "constant")
             .number("capacity", "A h", "when full")
-            .number("charge", "A h", "what is left")
-            .number("percentage", "1", "what is left, 0 to 1")
+            .number("charge", "A h", "that is left")
+            .number("percentage", "1", "of the charge that is left, 0 to 1")
             .shown_as_percent()
-            .number("drawn", "W", "what the robot takes now")
+            .number("drawn", "W", "by the robot now")
             .flag("empty", "whether nothing is left: the drive stops")
             .alarm("EMPTY", "");
     return kind;

@@ -8,9 +8,9 @@ namespace angen::devices {
 
 namespace {
 
-constexpr double kStopShort = 0.08;    // m before what is in the way
+constexpr double kStopShort = 0.08;    // m before an obstacle
 constexpr double kDeceleration = 1.0;  // m/s^2
-constexpr double kApproaches = 0.3;    // m/s: what comes slower stands still
+constexpr double kApproaches = 0.3;    // m/s: slower obstacles count as still
 constexpr double kSameWay = 0.995;     // cosine of a turn that leaves the free way as it was
 
 }  // namespace

@@ -12,13 +12,13 @@ namespace angen::devices {
 namespace {
 
 constexpr double kRate = 1.0;        // Hz: rooms take minutes
-constexpr double kWall = 0.05;       // m: what hangs in a wall is near the room
+constexpr double kWall = 0.05;       // m: a thing in a wall is near the room
 constexpr double kWidestLeaf = 3.0;  // m, from its hinge
 constexpr Range kCelsius{-60.0, 60.0};
 
 }  // namespace
 
-/// The air in the rooms of a model. Whatever reports a `power` heats the room that it stands in, by
+/// The air in the rooms of a model. A device that reports a `power` heats its room, by
 /// its `heat` where that is another;
 /// whatever reports a `gap` lets air through between the rooms on its two sides.
 class Climate : public Device {
@@ -39,7 +39,7 @@ class Climate : public Device {
                       kNotNegative) /
         3600.0;
     settings.heat_capacity = params.number(
-        "heat_capacity", 1.0, "", "of what is in a room, in that of its air", {1.0, 1000.0});
+        "heat_capacity", 1.0, "", "of a room's contents, in that of its air", {1.0, 1000.0});
     Air inside;
     inside.temperature = params.number("temperature", 20.0, "degC", "at the start", kCelsius);
     inside.moisture = moisture_of(
@@ -134,7 +134,7 @@ class Climate : public Device {
   }
 
  private:
-  // In which a model may stand that a room feels, a leaf's hinge beside it too.
+  // The region of models that affect a room, hinges of leaves beside it included.
   Eigen::AlignedBox3d surroundings(const Pose& pose) const {
     Eigen::AlignedBox3d around;
     for (const std::vector<double>& room : rooms_) {

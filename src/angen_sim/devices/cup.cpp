@@ -61,7 +61,7 @@ void Cup::configure(Params& params, Wiring& wiring) {
                              "to the air, by convection, radiation and vapor", kNotNegative);
   cup_heat_ = params.number("heat_capacity", 300.0, "J/K", "of the empty cup", kPositive);
   fill_temperature_ =
-      params.number("fill_temperature", 85.0, "degC", "of what is filled in", {0.0, 100.0});
+      params.number("fill_temperature", 85.0, "degC", "of a drink that is filled in", {0.0, 100.0});
   hand_force_ = params.number("hand_force", 30.0, "N", "greatest force of the hand", kPositive);
   content_ = params.number("content", 0.0, "ml", "at the start", {0.0, capacity()});
   const double start = params.number("temperature", fill_temperature_, "degC",
@@ -176,7 +176,7 @@ void Cup::spill(double tilt, Outputs& outputs) {
 void Cup::carry(const View& view, const LinkView& body, Outputs& outputs) {
   const double dt = to_seconds(view.step());
   Grasp& grasp = *grasp_;
-  // It goes up before it tilts, and stands upright before it goes down.
+  // It rises before it tilts, and is upright before it sinks.
   const bool high = lift_.position() >= std::min(grasp.height, kFreeToTilt);
   if (high || grasp.tilt == 0.0) turn_.advance(grasp.tilt, dt);
   if (!grasp.releases || turn_.at(0.0)) lift_.advance(grasp.height, dt);
@@ -186,7 +186,7 @@ void Cup::carry(const View& view, const LinkView& body, Outputs& outputs) {
     return weigh(view, outputs);
   }
   const bool still = lift_.at(grasp.height) && turn_.at(grasp.tilt);
-  if (still && !body.awake) return;  // what sleeps in a hand is held
+  if (still && !body.awake) return;  // a sleeping cup in a hand is held
   const Pose wanted{grasp.pose.position + lift_.position() * Vec3::UnitZ(),
                     grasp.pose.rotation * Quat(Eigen::AngleAxisd(turn_.position(), Vec3::UnitY()))};
   const Vec3 middle(0.0, 0.0, center_);
@@ -208,7 +208,7 @@ void Cup::carry(const View& view, const LinkView& body, Outputs& outputs) {
 void Cup::weigh(const View& view, Outputs& outputs) const {
   const double depth = content_ / kMilliliters / (M_PI * radius_ * radius_);
   const Vec3 middle(0.0, 0.0, floor_ + 0.5 * depth);
-  // A push of nothing still has what it stands on feel that the drink is gone.
+  // A push of 0 N removes the drink's weight from the support.
   const Vec3 weight = std::max(kDensity * content_, 1e-9) * view.gravity();
   outputs.push(body_, weight, Vec3::Zero(), view.link(body_).pose * middle);
 }

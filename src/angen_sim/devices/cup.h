@@ -11,7 +11,7 @@ namespace angen::devices {
 /// m^3 that an upright cylinder of this radius and height (m) still holds when it is tilted (rad).
 double held_volume(double radius, double height, double tilt);
 
-/// A cup with a drink in it: it cools, weighs on what it stands on, and runs out over the lip. A
+/// A cup with a drink in it: it cools, adds its weight, and runs out over the lip. A
 /// hand lifts and tilts it.
 class Cup : public Device {
  public:

@@ -22,7 +22,7 @@ class Daylight : public Device {
     const double share =
         params.number("sky_share", 0.5, "",
                       "illuminance on the pane outside over that on open ground: half of "
-                      "an even sky stands before an upright pane",
+                      "of a uniform sky on an upright pane",
                       {0.0, 1.0});
     outdoors_ = params.number("illuminance", 0.0, "lx", "outdoors on open ground, at the start",
                               {0.0, kBrightest});

@@ -37,7 +37,7 @@ const char* const kOwnJoints[] = {"hinge", "sash", "front"};
 
 bool limited(double lower, double upper) { return lower < upper && upper - lower < 2.0 * M_PI; }
 
-// A leaf of any name on a frame that is fixed to the world, where a name says what it is: an arm's
+// A leaf of any name on a frame that is fixed to the world, whose name says what it is: an arm's
 // first joint may turn as a door does.
 bool is_framed(const ModelInfo::Joint& joint, const ModelInfo& model, const LeafKind& leaf) {
   if (!leaf.any_joint || joint.type != "revolute" || !joint.on_world || !joint.vertical()) {
@@ -75,8 +75,7 @@ void Door::configure(Params& params, Wiring& wiring) {
                           "of the opening that air flows through; 0 = none does", kNotNegative);
   const double edge_force =
       params.number("edge_force_max", 150.0, "N", "greatest force at the far edge", kPositive);
-  brake_torque_ =
-      params.number("brake_torque", 20.0, "N m", "brake of a door that stands open", kNotNegative);
+  brake_torque_ = params.number("brake_torque", 20.0, "N m", "brake of an open door", kNotNegative);
   latch_torque_ = params.number("latch_torque", std::numeric_limits<double>::infinity(), "N m",
                                 "that breaks the latch of a shut door open; inf: nothing does, "
                                 "0: it has no latch",
@@ -125,8 +124,8 @@ void Door::wire(Params& params, Wiring& wiring) {
   const bool opens_up = limits_.upper - shut > shut - limits_.lower;
   const double far = opens_up ? limits_.upper : limits_.lower;
   const bool usual = limits_.lower >= limits_.upper || limits_.lower <= kOpen;
-  open_position_ = params.number("open_position", usual ? kOpen : far, "rad", "where Open goes");
-  closed_position_ = params.number("closed_position", shut, "rad", "where Close goes");
+  open_position_ = params.number("open_position", usual ? kOpen : far, "rad", "target of Open");
+  closed_position_ = params.number("closed_position", shut, "rad", "target of Close");
   for (const auto& [key, angle] : {std::pair<const char*, double>{"open_position", open_position_},
                                    {"closed_position", closed_position_}}) {
     if (limits_.lower < limits_.upper && (angle < limits_.lower || angle > limits_.upper)) {
@@ -140,7 +139,7 @@ void Door::wire(Params& params, Wiring& wiring) {
 // One number is for each leaf of the model, a joint's name before it makes it that leaf's.
 void Door::read_target(Params& params) {
   for (const std::string& text : params.texts("target", "rad",
-                                              "where it goes at the start; with several leaves "
+                                              "target at the start; with several leaves "
                                               "JOINT RADIANS; otherwise it stays where it is")) {
     const std::size_t blank = text.rfind(' ');
     const std::string joint = blank == std::string::npos ? "" : trimmed(text.substr(0, blank));
@@ -301,17 +300,17 @@ LeafPlugin::LeafPlugin(const LeafKind& leaf)
     : leaf_(leaf), kind_(leaf.kind, std::string("A ") + leaf.kind + ".") {
   kind_.example(leaf.example)
       .commanded_on(leaf.topic)
-      .verb("Open", "goes to its open_position")
-      .verb("Close", "goes to its closed_position")
+      .verb("Open", "moves to its open_position")
+      .verb("Close", "moves to its closed_position")
       .verb("Unlatch", "turns its handle: for 3 s its latch does not hold")
-      .verb("Set", "radians", "rad", {}, "goes to this angle of its hinge")
+      .verb("Set", "radians", "rad", {}, "moves to this angle of its hinge")
       .choice("mode", {std::begin(kModeNames), std::end(kModeNames)},
               "AJAR: at rest between shut and open; BLOCKED: commanded, but something holds it")
       .shown()
       .number("position", "rad", "of its hinge, 0 shut, negative open")
       .shown(2)
       .number("velocity", "rad/s", "of its hinge")
-      .number("target", "rad", "where it goes")
+      .number("target", "rad", "target angle")
       .number("gap", "m", "free width of the opening")
       .number("width", "m", "of the leaf")
       .number("height", "m", "of the opening");

@@ -12,7 +12,7 @@
 
 namespace angen::devices {
 
-/// What a door, a window or a cabinet's front is called, and the joint that its leaf turns on.
+/// The name of a door, window or cabinet front, and the joint that its leaf turns on.
 struct LeafKind {
   const char* kind;
   const char* joint;  // revolute; its parent is the link `base`
@@ -70,7 +70,7 @@ class Door : public Device {
   bool latched_ = false;
   bool unlatches_ = false;              // its handle was turned since the last update
   Nanoseconds handle_until_ = 0;        // the time until which its handle is turned
-  std::optional<double> first_target_;  // rad, where it goes at the start
+  std::optional<double> first_target_;  // rad, at the start
   double target_ = 0.0;
   Mode mode_ = Mode::kClosed;
   JointView shown_;

@@ -8,13 +8,13 @@
 namespace angen::devices {
 
 /// Sliding leaves that open and shut together, each shut at 0. Force-limited motors move them along
-/// one profile; what stands between them while they shut makes them open again.
+/// one profile; an obstacle between closing leaves makes them open again.
 class Doorway {
  public:
   enum class Mode { kClosed, kOpen, kOpening, kClosing, kBlocked };
   struct Leaf {
     JointRef joint;
-    double open = 0.0;  // m, where it stands open
+    double open = 0.0;  // m, open position
   };
 
   Doorway() = default;
@@ -25,7 +25,7 @@ class Doorway {
   void select(std::vector<Leaf> leaves, const View& view);
   void open(const View& view);
   void close(const View& view);
-  /// Moves what is to be moved. True when an obstacle has just made it open again.
+  /// Moves the leaves. True when an obstacle has just made it open again.
   bool update(const View& view, Outputs& outputs);
 
   Mode mode() const { return mode_; }

@@ -13,7 +13,7 @@ namespace angen::devices {
 
 namespace {
 
-constexpr double kRestSpeed = 1e-4;  // rad/s: slower wheels stand
+constexpr double kRestSpeed = 1e-4;  // rad/s: slower wheels are at rest
 constexpr double kFarOff = 0.1;      // of the wheels' distance that wheelSeparation may be wrong by
 
 std::string left_joint(Params& params) {
@@ -37,7 +37,7 @@ void Drive::configure(Params& params, Wiring& wiring) {
                                         "it stops this long after the last command", kPositive));
   refresh_ = Refresh(params.number("updateRate", 50.0, "Hz", "rate of odometry", kRefreshRate));
   params.text("commandTopic", "cmd_vel", "where commands come from");
-  params.text("odometryTopic", "odom", "where odometry goes to");
+  params.text("odometryTopic", "odom", "of its odometry");
   params.text("odometryFrame", "odom", "frame that odometry starts in");
   params.text("robotBaseFrame", "base_footprint", "frame that odometry moves");
   params.text("device_name", "", "the name commands use, instead of the model's");
@@ -91,7 +91,7 @@ void Drive::update(const View& view, Outputs& outputs) {
   if (renew) shown_ = odometry_;
 }
 
-// A robot whose battery is empty stands.
+// A robot whose battery is empty stops.
 bool Drive::powered(const View& view) const {
   for (const DeviceView& device : view.devices("empty")) {
     if (device.model == model_ && device.state.get<bool>("empty")) return false;
@@ -99,7 +99,7 @@ bool Drive::powered(const View& view) const {
   return true;
 }
 
-// True when the wheel is commanded to stand and does.
+// True when the wheel is commanded to stop and is at rest.
 bool Drive::lead(Wheel& wheel, double wanted, double step, Outputs& outputs) {
   const double next = std::clamp(wanted, wheel.speed - step, wheel.speed + step);
   if (next != wheel.speed) {
@@ -164,7 +164,7 @@ const Kind& DrivePlugin::kind() const {
   static const Kind kind = Kind("drive", "A differential drive with odometry.")
                                .model("turtlebot")
                                .example("set drive turtlebot stop")
-                               .verb("Stop", "stands still")
+                               .verb("Stop", "stops")
                                .values({"m/s", "rad/s"})
                                .number("x", "m", "by the wheels, in the odometry frame")
                                .shown(2)

@@ -58,8 +58,8 @@ class Drive : public Device {
   bool started_ = false;
   bool powered_ = true;
   bool moving_ = false;
-  double v_ = 0.0;  // m/s, wanted
-  double w_ = 0.0;  // rad/s, wanted
+  double v_ = 0.0;  // m/s, commanded
+  double w_ = 0.0;  // rad/s, commanded
   Nanoseconds commanded_at_ = 0;
   Odometry odometry_;
   Odometry shown_;

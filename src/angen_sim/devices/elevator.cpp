@@ -24,11 +24,11 @@ constexpr double kUnlimited = 1e9;        // m, of a joint's travel
 constexpr double kGreatestLoad = 2000.0;  // kg
 constexpr Nanoseconds kDwell = kSecond;   // between the doors' opening and their shutting
 
-// Gains and limits are times the moving mass; the limits are of what is beyond the weight.
+// Gains and limits are times the moving mass; the limits exclude the weight.
 constexpr PidGains kGains{200.0, 200.0, 25.0, 5.0, -5.0, 5.0, -5.0};
 constexpr PidUnits kUnits{"N/m per kg", "N/(m s) per kg", "N s/m per kg", "N/kg"};
 
-// Of a plain PID, whose integral carries the weight.
+// Gains of a plain PID, whose integral carries the weight.
 constexpr PidGains kPlainGains{200.0, 200.0, 25.0, 1e4, -1e4, 1e4, -1e4};
 constexpr PidUnits kPlainUnits{"N/m", "N/(m s)", "N s/m", "N"};
 
@@ -106,7 +106,7 @@ void Elevator::wire(Params& params, Wiring& wiring) {
                                     " m, floor 0 is at 0 m; give it a <lower> of 0");
   }
   own_mass_ = wiring.mass(wiring.link(wiring.child_of(lift_)));
-  // A leaf stands open at whichever of its limits is further from 0.
+  // A leaf's open position is the limit further from 0.
   const auto add = [&wiring](const std::string& name, std::vector<Doorway::Leaf>& leaves) {
     if (!wiring.has_joint(name)) return false;
     const JointRef joint = wiring.joint(name);
@@ -180,7 +180,7 @@ void Elevator::update(const View& view, Outputs& outputs) {
     stand(view, outputs);
   } else if (phase_ == Phase::kShutting) {
     if (doorway_.update(view, outputs)) {
-      // Somebody stands in the door: it opens, and the stop is tried again.
+      // An obstacle is in the door: it opens, and the stop is tried again.
       outputs.event("obstacle", "door");
       stops_.push_front(target_);
       phase_ = Phase::kStanding;
@@ -295,25 +295,25 @@ void Elevator::report(const View& view, Reading& state) const {
 }
 
 const Kind& ElevatorPlugin::kind() const {
-  static const Kind kind = Kind("elevator", "An elevator with doors.")
-                               .model("elevator")
-                               .example("set elevator elevator 1")
-                               .commanded_on(kTopic)
-                               .counted_verb("Floor", "floor", {0.0, 999.0},
-                                             "goes there, after the floor that it is on its way to")
-                               .choice("mode", {std::begin(kModes), std::end(kModes)},
-                                       "of the cabin; BLOCKED: something holds it")
-                               .shown()
-                               .number("position", "m", "of the cabin above floor 0")
-                               .shown(2)
-                               .number("velocity", "m/s", "upwards")
-                               .number("target", "m", "where it goes")
-                               .integer("floor", "", "where it stands within 5 mm, otherwise -1")
-                               .integer("target_floor", "", "where it goes")
-                               .integer("floors", "", "how many it serves")
-                               .choice("door_mode", {std::begin(kDoorModes), std::end(kDoorModes)},
-                                       "BLOCKED: an obstacle stands between the leaves")
-                               .number("door_position", "m", "travel of a door's leaf, 0 shut");
+  static const Kind kind =
+      Kind("elevator", "An elevator with doors.")
+          .model("elevator")
+          .example("set elevator elevator 1")
+          .commanded_on(kTopic)
+          .counted_verb("Floor", "floor", {0.0, 999.0}, "rides there, after its present target")
+          .choice("mode", {std::begin(kModes), std::end(kModes)},
+                  "of the cabin; BLOCKED: something holds it")
+          .shown()
+          .number("position", "m", "of the cabin above floor 0")
+          .shown(2)
+          .number("velocity", "m/s", "upwards")
+          .number("target", "m", "target position")
+          .integer("floor", "", "where it is within 5 mm, otherwise -1")
+          .integer("target_floor", "", "target")
+          .integer("floors", "", "how many it serves")
+          .choice("door_mode", {std::begin(kDoorModes), std::end(kDoorModes)},
+                  "BLOCKED: an obstacle is between the leaves")
+          .number("door_position", "m", "travel of a door's leaf, 0 shut");
   return kind;
 }
 

@@ -58,7 +58,7 @@ class Elevator : public Device {
   double floor_height_ = kStoreyHeight;
   int floors_ = 2;
   double own_mass_ = 0.0;     // kg, cabin with its doors
-  double mass_ = 0.0;         // kg, with what is aboard
+  double mass_ = 0.0;         // kg, with its load
   double brake_force_ = 0.0;  // N
   double door_force_ = 0.0;   // N
 

@@ -8,7 +8,7 @@
 
 namespace angen::devices {
 
-/// An electric heater: what it takes from its socket is heat in its room, and its casing warms.
+/// An electric heater: its electric power is heat in its room, and its casing warms.
 class Heater : public Device {
  public:
   void configure(Params& params, Wiring& wiring) override {

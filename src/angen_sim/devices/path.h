@@ -17,7 +17,7 @@ class Path {
   struct Place {
     double x = 0.0, y = 0.0;    // m
     double vx = 0.0, vy = 0.0;  // m/s
-    double yaw = 0.0;           // rad: where it walks to, or as the waypoints say where it stands
+    double yaw = 0.0;           // rad: along its way, or of the waypoint where it waits
 
     bool still() const { return vx == 0.0 && vy == 0.0; }
   };

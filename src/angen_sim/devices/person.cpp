@@ -16,23 +16,23 @@ constexpr double kTurnGain = 6.0;     // 1/s, from the wrong heading to a yaw ra
 constexpr double kMaxTurn = 3.0;      // rad/s
 constexpr double kReturnSpeed = 0.8;  // m/s, back to a path it was pushed off
 constexpr double kCatchUp = 1.3;      // times the path's own speed
-constexpr double kThere = 0.01;       // m: nearer than this it may stand
+constexpr double kThere = 0.01;       // m: tolerance of its goal
 constexpr double kFacing = 0.02;      // rad
 constexpr double kPushedAway = 0.1;   // m: further than this it walks back
 constexpr double kNearPath = 0.1;     // m: nearer than this it is not held
 constexpr double kProgress = 0.05;    // m: less than this in kStallTime is none
 constexpr Nanoseconds kStallTime = kSecond;
-constexpr Nanoseconds kPatience = 3 * kSecond;  // held for so long, it makes room
-constexpr Nanoseconds kAway = 5 * kSecond;      // and comes again: a door opens in less
-constexpr double kStepBack = 1.2;               // m, out of the way of a leaf that opens towards it
+constexpr Nanoseconds kTimeout = 3 * kSecond;  // after this time it makes room
+constexpr Nanoseconds kAway = 5 * kSecond;     // and comes again: a door opens in less
+constexpr double kStepBack = 1.2;              // m, out of the way of a leaf that opens towards it
 constexpr Nanoseconds kBackStep = kSecond / 20;
-constexpr int kMostBackSteps = 200;
+constexpr int kMaxBackSteps = 200;
 constexpr int kScansPerPlan = 3;
 constexpr double kArrived = 0.03;    // m: nearer than this an order is carried out
 constexpr double kNearRejoin = 0.3;  // m
-constexpr double kAround = 0.3;      // m: so far from where it came to is progress on a way round
-constexpr double kPushSpeed = 0.3;   // m/s, against what it is told to push
-constexpr Nanoseconds kPathAhead = 7 * kSecond / 5;  // of its path, for what stands on it
+constexpr double kAround = 0.3;      // m: farther than this is progress on a way round
+constexpr double kPushSpeed = 0.3;   // m/s, against a thing that it shall push
+constexpr Nanoseconds kPathAhead = 7 * kSecond / 5;  // of its path, checked for obstacles
 constexpr Nanoseconds kRejoinWithin = 6 * kSecond;
 constexpr double kMouth = 1.5;  // m above the floor, where its sound comes from
 constexpr Range kSoundPower{-100.0, 200.0};
@@ -62,13 +62,13 @@ Path Person::read_path(Params& params) {
 
 void Person::configure(Params& params, Wiring& wiring) {
   path_ = read_path(params);
-  clock_ = -from_seconds(
-      params.number("delay_start", 0.0, "s", "stands so long before the first", kNotNegative));
+  clock_ =
+      -from_seconds(params.number("delay_start", 0.0, "s", "time before the first", kNotNegative));
   const double on_path = params.number("path_time", to_seconds(clock_), "s",
                                        "where on its path it is at the start, as a time of its "
                                        "waypoints; before the first by delay_start unless given");
   if (params.has("path_time")) clock_ = from_seconds(on_path);
-  paused_ = params.flag("stopped", false, "stands at the start, as after Stop");
+  paused_ = params.flag("stopped", false, "waits at the start, as after Stop");
   force_max_ = params.number("force_max", 150.0, "N", "greatest force of its legs", kPositive);
   params.number("mass", 70.0, "kg", "its mass", kPositive);
   step_sound_ =
@@ -83,13 +83,13 @@ void Person::configure(Params& params, Wiring& wiring) {
       "update_rate", 20.0, "Hz", "how often its state is published while it walks", kRefreshRate));
   params.text("device_name", "", "the name commands use, instead of the actor's");
   avoids_ = params.flag(
-      "avoid", true, "walks round what it sees in its way, or stops before it; otherwise pushes");
+      "avoid", true, "walks round obstacles that it sees, or stops before them; otherwise pushes");
   speed_ = params.number("speed", 1.0, "m/s", "of its walk to where it is sent", kPositive);
   for (const bool pushes : {false, true}) {
     const std::vector<std::vector<double>> sent =
         params.rows(pushes ? "push_to" : "go_to", 2, "m",
-                    pushes ? "x y of where it goes at the start, as after PushTo"
-                           : "x y of where it goes at the start, as after GoTo");
+                    pushes ? "x y of its goal at the start, as after PushTo"
+                           : "x y of its goal at the start, as after GoTo");
     if (!sent.empty()) order_ = Order{{sent.back()[0], sent.back()[1]}, pushes};
   }
   body_ = wiring.link("body");
@@ -182,7 +182,7 @@ void Person::walk(const Path::Place& place, const View& view, bool renew, Output
   show(stalled_ >= kStallTime ? Mode::kBlocked : Mode::kWalking, body, renew, outputs);
 }
 
-// The path's clock goes on up to where it comes back to the path, and waits for it there.
+// The path's clock advances up to the point of return, and waits for the person there.
 void Person::go_round(const LinkView& body, const View& view, bool renew, Outputs& outputs) {
   const Vec2 at = body.pose.position.head<2>();
   const Path::Place end = path_.at(*rejoin_);
@@ -214,10 +214,10 @@ void Person::go(const View& view, bool renew, Outputs& outputs) {
   show(stalled_ >= kStallTime ? Mode::kBlocked : Mode::kWalking, body, renew, outputs);
 }
 
-// A door that opens towards whoever waits before it needs room: after a while the person goes back
+// A door that opens towards a person before it needs room: after a while the person steps back
 // the way it came, and tries again.
 bool Person::steps_back(const LinkView& body, const View& view, bool renew, Outputs& outputs) {
-  if (stalled_ >= kPatience) make_room(body, view.time());
+  if (stalled_ >= kTimeout) make_room(body, view.time());
   if (view.time() >= away_until_) return false;
   scan_surroundings(body, view);
   const Vec2 at = body.pose.position.head<2>();
@@ -245,7 +245,7 @@ std::optional<Person::Vec2> Person::way_for(const Vec2& at, const Vec2& to) cons
   return surroundings_.way_round(at, to);
 }
 
-// Where something stands on the path ahead, or between it and the path: the first place behind.
+// If an obstacle is on the path ahead, or on the way to it: the first place behind the obstacle.
 void Person::find_rejoin(const Vec2& at) {
   const auto place_at = [&](Nanoseconds time) {
     const Path::Place place = path_.at(time);
@@ -285,7 +285,7 @@ Person::Vec2 Person::steer(const LinkView& body, const Vec2& to, double fastest)
   return speed * direction;
 }
 
-// So that it stops before what it sees, unless it is to push that.
+// It stops before obstacles that it sees, unless it shall push them.
 double Person::slowed(const Vec2& at, const Vec2& direction, double speed) {
   const double allowed = braking_.limit(surroundings_, at, direction, speed);
   const bool pushes = !avoids_ || (order_ && order_->pushes);
@@ -308,7 +308,7 @@ void Person::make_room(const LinkView& body, Nanoseconds now) {
     return;
   }
   Nanoseconds time = clock_;
-  for (int i = 0; i < kMostBackSteps; ++i, time -= kBackStep) {
+  for (int i = 0; i < kMaxBackSteps; ++i, time -= kBackStep) {
     const Path::Place place = path_.at(time);
     back_to_ << place.x, place.y;
     if ((back_to_ - at).norm() >= kStepBack) return;

@@ -14,7 +14,7 @@ namespace angen::devices {
 
 inline constexpr const char* kPersonModes[] = {"STANDING", "WALKING", "BLOCKED"};
 
-/// Walks a path, or to where it is sent, by a motor of limited force. It walks round what it sees
+/// Walks a path, or to a goal, by a motor of limited force. It walks round obstacles that it sees
 /// in its way, or stops before it; its path waits then, and it steps back from time to time, so
 /// that a door can open towards it. It pushes only where it is told to.
 class Person : public Device {
@@ -71,7 +71,7 @@ class Person : public Device {
   bool avoids_ = true;
   Surroundings surroundings_;
   Nanoseconds scanned_at_ = -1;        // that, as a multiple of kScanPeriod
-  Braking braking_;                    // before what is there
+  Braking braking_;                    // before obstacles
   std::optional<Nanoseconds> rejoin_;  // time on the path where it comes back to it
   std::optional<Vec2> aim_;            // first place of a way round
   bool speaks_ = false;

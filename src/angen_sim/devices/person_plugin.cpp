@@ -11,15 +11,14 @@ const Kind& PersonPlugin::kind() const {
   static const Kind kind =
       Kind("person", "A person who walks a path.")
           .example("set person walker stop")
-          .verb("Stop", "stands still where the person is")
+          .verb("Stop", "stops where the person is")
           .verb("Go", "walks on: to where it was sent, or along its path")
-          .pair_verb("GoTo", "x y", "m", {}, "walks there, round what it sees in its way")
-          .pair_verb("PushTo", "x y", "m", {},
-                     "walks there straight, and pushes what is in its way")
+          .pair_verb("GoTo", "x y", "m", {}, "walks there, round obstacles that it sees")
+          .pair_verb("PushTo", "x y", "m", {}, "walks there straight, and pushes obstacles")
           .verb("Speak", "speaks until Quiet")
           .verb("Quiet", "speaks no more")
           .choice("mode", {std::begin(kPersonModes), std::end(kPersonModes)},
-                  "BLOCKED: something stands in the way")
+                  "BLOCKED: an obstacle is in the way")
           .shown()
           .number("x", "m", "in the world")
           .shown(2)

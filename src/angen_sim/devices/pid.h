@@ -6,7 +6,7 @@
 
 namespace angen::devices {
 
-/// Gazebo's seven numbers. What comes out is in the unit of cmd_max; i_max and i_min limit the
+/// Gazebo's seven numbers. The output is in the unit of cmd_max; i_max and i_min limit the
 /// integral's share of it.
 struct PidGains {
   double p = 0.0;
@@ -18,7 +18,7 @@ struct PidGains {
   double cmd_min = 0.0;
 };
 
-/// What the numbers are given in; i_max … cmd_min share the command's unit.
+/// Units of the numbers; i_max … cmd_min share the command's unit.
 struct PidUnits {
   const char* p;
   const char* i;
@@ -26,10 +26,10 @@ struct PidUnits {
   const char* command;
 };
 
-/// The seven as parameters; `fallback` stands for what is not given.
+/// The seven as parameters; `fallback` has the default values.
 PidGains read_gains(Params& params, const PidGains& fallback, const PidUnits& units);
 
-/// What drives a joint: <controller>.
+/// The control law of a joint: <controller>.
 enum class Controller {
   kProfile,  // a Servo's: a setpoint that is led along a profile, and feed-forward
   kPid       // P + I + D of the distance to the target

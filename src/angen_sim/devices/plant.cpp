@@ -17,7 +17,7 @@ constexpr double kPsychrometer = 0.66;         // hPa/K, at sea level
 constexpr double kLatentHeat = 2.45e6;         // J/kg, of water at 20 degrees
 constexpr double kDryingPower = 0.35 / 1.333;  // mm/(day hPa) in still air: Penman's 0.35 a mm Hg
 constexpr double kWhiteLight = 100.0;          // lm/W, of daylight and of white lamps
-constexpr Nanoseconds kAhead = 5 * kSecond;    // light is prepared so long before it is queried
+constexpr Nanoseconds kAhead = 5 * kSecond;  // light is prepared by this time before it is queried
 
 // hPa over water, Magnus with Sonntag's constants, as in the climate.
 double vapor_pressure(double temperature) {
@@ -101,7 +101,7 @@ class Plant : public Device {
   double per_ml() const { return 100.0 / (1000.0 * soil_); }  // % of moisture
 
   // R. G. Allen et al., Crop evapotranspiration, FAO Irrigation and Drainage Paper 56 (1998): the
-  // share Ks of what a wet surface would lose. Exact while air and light stay.
+  // share Ks of the loss of a wet surface. Exact while air and light stay.
   void dry(const View& view) {
     const Nanoseconds before = dried_at_ < 0 ? view.time() : dried_at_;
     dried_at_ = view.time();

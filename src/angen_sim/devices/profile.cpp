@@ -14,7 +14,7 @@ void Profile::start(double position, double velocity) {
 void Profile::advance(double target, double dt) {
   const double change = max_acceleration_ * dt;
   const double to_go = target - position_;
-  // The last step: what is left is what one step may cover, and it may end at rest.
+  // The last step: one step covers the rest of the way, and may end at rest.
   if (std::abs(velocity_) <= change && std::abs(to_go) <= change * dt) {
     acceleration_ = -velocity_ / dt;
     position_ = target;

@@ -73,7 +73,7 @@ void RoomAir::step(double seconds, const Air& outside, const std::vector<double>
     const double capacity = settings_.heat_capacity * kDensity * kHeat * volumes_[i];
     Air& room = rooms_[i];
     room.temperature += power[i] * seconds / capacity;
-    // What air cannot hold is dew on the panes.
+    // Vapor above saturation is dew on the panes.
     room.moisture = std::clamp(room.moisture + vapor[i] * seconds / volumes_[i], 0.0,
                                moisture_of(room.temperature, 100.0));
   }

@@ -31,7 +31,7 @@ class RoomAir {
   struct Settings {
     double heat_loss = 0.0;      // W/(K m^3), through walls and windows
     double air_change = 0.0;     // 1/s, with the outside through cracks
-    double heat_capacity = 1.0;  // of what is in the room, in that of its air
+    double heat_capacity = 1.0;  // of the room's contents, in that of its air
   };
 
   RoomAir() = default;

@@ -37,7 +37,7 @@ double Servo::update(double target, double position, double velocity, double dt)
   const double lag = profile_.position() - position;
   const bool waits = std::abs(lag) > settings_.max_lag;
   if (waits) profile_.start(position + std::copysign(settings_.max_lag, lag));
-  // It waits ahead of the joint for what holds it, not on the way back.
+  // It waits for an obstacle ahead of the joint, not on the way back.
   const bool returns = lag * (target - profile_.position()) < 0.0;
   if (!waits || returns) profile_.advance(target, dt);
   const double error = profile_.position() - position;

@@ -19,15 +19,15 @@ struct ServoSettings {
   double arrive_speed = 0.01;    // … and slower than this
   double stall_speed = 0.01;     // less towards the target, in the mean over kStallTime, is none
   double freed_distance = 0.02;  // moved on by this much since it was blocked means freed
-  // The integral is for friction and for what holds the joint: it grows only while the joint
-  // stands, and is dropped when the error turns round. For gains that would swing otherwise.
+  // The integral is for friction and obstacles: it grows only at rest, and is set to 0 when the
+  // error changes its sign. For gains that would swing otherwise.
   bool integrate_standing = false;
 };
 
 /// A joint led along a profile by a PID, or driven by a plain one, which has only `gains` of its
 /// settings and what tells whether it is at rest or blocked. What holds the joint makes the profile
-/// wait; after kStallTime without motion it is blocked. When what held it lets go, the profile
-/// starts anew from where the joint is, so that the force gathered meanwhile does not fling it.
+/// wait; after kStallTime without motion it is blocked. When the obstacle is gone, the profile
+/// restarts from the joint's position, so that the force gathered meanwhile does not fling it.
 class Servo {
  public:
   static constexpr double kStallTime = 0.8;  // s
@@ -36,7 +36,7 @@ class Servo {
   Servo() = default;
   explicit Servo(const ServoSettings& settings);
 
-  /// Takes over a joint as it stands or moves.
+  /// Takes over a joint at its position and velocity.
   void start(double position, double velocity);
   /// The command (unit of gains.cmd_max) for the next dt seconds.
   double update(double target, double position, double velocity, double dt);

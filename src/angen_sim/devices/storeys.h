@@ -2,7 +2,7 @@
 
 #include <string>
 
-/// How Angen's buildings are laid out: storeys of one height, and what is in them named after its
+/// The layout of Angen's buildings: storeys of one height, and their parts named after the
 /// room and storey.
 namespace angen::devices {
 
@@ -17,7 +17,7 @@ int floor_of(double z);
 /// "door", 4.0) is "bathroom1", and so is that of "bath_door1".
 std::string command_name(const std::string& model, const std::string& kind, double z);
 
-/// The same of a part of a model that has the kind in its name; all from there on is left out, and
+/// The name of a part of a model that has the kind in its name; all from there on is left out, and
 /// `_fN` before it is the floor. leaf_name("entrance_f1_door_block", "door", 0.0) is "entrance1".
 /// Empty for a part of another name.
 std::string leaf_name(const std::string& part, const std::string& kind, double z);

@@ -19,11 +19,11 @@ constexpr double kRate = 1.0;        // Hz: plates take minutes
 constexpr double kHot = 60.0;        // degrees Celsius: the residual heat lamp is lit above
 constexpr double kHotAgain = 2.0;    // K that it has to cool below that
 constexpr double kCelsius = 273.15;  // K
-constexpr Nanoseconds kPatience = kSecond / 10;  // a climate has published its state by then
+constexpr Nanoseconds kTimeout = kSecond / 10;  // a climate has published its state by then
 constexpr Range kPlateRange{-60.0, 2000.0};
 
 const char* const kPlateVerbs[] = {"FrontLeft", "FrontRight", "RearLeft", "RearRight"};
-constexpr std::size_t kMostPlates = std::size(kPlateVerbs);
+constexpr std::size_t kMaxPlates = std::size(kPlateVerbs);
 
 }  // namespace
 
@@ -46,8 +46,7 @@ class Stove : public Device {
       const Plate small{1000.0, 620.0, 2.0};
       plates_ = {large, small, small, large};
     }
-    if (plates_.size() > kMostPlates)
-      throw params.error("plate", "a stove has four plates at most");
+    if (plates_.size() > kMaxPlates) throw params.error("plate", "a stove has four plates at most");
     const auto starts = params.rows("start", 2, "% degC",
                                     "level and temperature of each plate at the start; off and as "
                                     "warm as the air unless given");
@@ -102,7 +101,7 @@ class Stove : public Device {
     if (!known) air_ = view.ambient_temperature() - kCelsius;
     if (!started_) {
       for (Plate& plate : plates_) plate.temperature = air_;
-      if (!known && view.time() < kPatience) return;
+      if (!known && view.time() < kTimeout) return;
       started_ = true;
     }
     const bool first = stepped_at_ < 0;

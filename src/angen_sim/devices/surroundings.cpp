@@ -31,7 +31,7 @@ constexpr double kLeft = 0.3;     // of cost a meter, per meter to the left of t
 constexpr double kStuck = 0.15;   // m around the person that it may leave in any case
 constexpr double kNearer = 0.3;   // m, at least, that a way must lead nearer
 constexpr double kLongest = 3.0;  // times the straight way …
-constexpr double kExtra = 2.0;    // … and so many meters more
+constexpr double kExtra = 2.0;    // … and these meters more
 
 class Grid {
  public:
@@ -150,7 +150,7 @@ void Surroundings::scan(const View& view, const Vec3& feet) {
 
 double Surroundings::free_way(const Vec2& from, const Vec2& direction, double body) const {
   double least = kSight;
-  double width = body;  // less where it stands closer to something: along that it may walk on
+  double width = body;  // less beside an obstacle: along that it may walk on
   for (const Vec2& point : points_) width = std::min(width, (point - from).norm() - kGraze);
   for (const Vec2& point : points_) {
     const Vec2 to = point - from;
@@ -173,7 +173,8 @@ bool Surroundings::is_occupied(const Vec2& place) const {
   });
 }
 
-// Wide of what it sees, as it sees only points of that; close where that is the only way.
+// At a distance from seen points, as it sees no more of an obstacle; close if there is no other
+// way.
 std::optional<Surroundings::Vec2> Surroundings::way_round(const Vec2& from, const Vec2& to) const {
   const std::optional<Vec2> wide = way_round(from, to, kWide);
   return wide ? wide : way_round(from, to, kBody);

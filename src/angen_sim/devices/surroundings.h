@@ -8,8 +8,8 @@
 
 namespace angen::devices {
 
-/// What is around a person: where surfaces stand between shin and chest, up to kSight away. What
-/// is hidden counts as free.
+/// A person's surroundings: surfaces between shin and chest height, up to kSight away. Hidden
+/// places count as free.
 class Surroundings {
  public:
   using Vec2 = Eigen::Vector2d;
@@ -17,18 +17,17 @@ class Surroundings {
   static constexpr double kSight = 3.0;  // m
   static constexpr double kBody = 0.26;  // m, half a person's width and a centimeter
 
-  /// Casts rays from a body that stands at `feet` (world, m). Keeps what those of the scan before
-  /// met.
+  /// Casts rays from a body at `feet` (world, m). Keeps the hits of the scan before.
   void scan(const View& view, const Vec3& feet);
 
-  /// How far a body of that half width gets along a unit direction, at most kSight: m.
+  /// The free way of a body of that half width along a unit direction, at most kSight: m.
   double free_way(const Vec2& from, const Vec2& direction, double body = kBody) const;
   /// Whether it would meet nothing on the straight way.
   bool is_free(const Vec2& from, const Vec2& to, double body = kBody) const;
   bool is_occupied(const Vec2& place) const;
 
-  /// The first place to make for on a way round what stands between; none where no way is seen that
-  /// leads nearer to `to`. Rather passes on the right.
+  /// The first place on a way round obstacles; none where no way is seen that leads nearer to `to`.
+  /// Prefers to pass on the right.
   std::optional<Vec2> way_round(const Vec2& from, const Vec2& to) const;
 
  private:

@@ -7,7 +7,7 @@ namespace angen::devices {
 class Tag : public Device {
  public:
   void configure(Params& params, Wiring& wiring) override {
-    id_ = params.text("id", wiring.model(), "what a reader reads; the model's name unless given");
+    id_ = params.text("id", wiring.model(), "that readers read; the model's name unless given");
     params.text("device_name", "", "the name commands use, instead of MODEL_tag");
     const auto places = params.rows("position", 3, "m", "x y z in the model's frame; 0 0 0");
     if (places.size() > 1) throw params.error("position", "a tag has one <position>");
@@ -32,13 +32,13 @@ class TagPlugin : public Plugin {
   const Kind& kind() const override {
     static const Kind kind = Kind("tag", "An RFID tag on a model.")
                                  .model("rfid_tag")
-                                 .text("id", "what a reader reads")
+                                 .text("id", "that readers read")
                                  .shown()
                                  .numbers("position", "m", "x y z in the model's frame");
     return kind;
   }
   bool serves(const ModelInfo&) const override { return true; }
-  // Not the model's own, which is that of what it does.
+  // Not the model's own name, which its main device has.
   std::string instance_name(const ModelInfo& model) const override { return model.name + "_tag"; }
   std::unique_ptr<Device> make_device() const override { return std::make_unique<Tag>(); }
 };

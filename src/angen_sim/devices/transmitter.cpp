@@ -9,7 +9,7 @@ namespace angen::devices {
 class Transmitter : public Device {
  public:
   void configure(Params& params, Wiring& wiring) override {
-    id_ = params.text("id", wiring.model(), "what it sends; the model's name unless given");
+    id_ = params.text("id", wiring.model(), "that it sends; the model's name unless given");
     power_ =
         params.number("tx_power", 0.0, "dBm", "radiated, antenna gain included", {-200.0, 100.0});
     frequency_ = params.number("frequency", 2440.0, "MHz", "of its carrier", {100.0, 100'000.0});
@@ -61,7 +61,7 @@ class TransmitterPlugin : public Plugin {
                                  .verb("Off", "sends nothing")
                                  .flag("on", "whether it sends")
                                  .shown_as("sends", "off")
-                                 .text("id", "what it sends")
+                                 .text("id", "that it sends")
                                  .shown()
                                  .number("tx_power", "dBm", "radiated")
                                  .number("frequency", "MHz", "of its carrier")
@@ -69,7 +69,7 @@ class TransmitterPlugin : public Plugin {
     return kind;
   }
   bool serves(const ModelInfo&) const override { return true; }
-  // Not the model's own, which is that of what it does.
+  // Not the model's own name, which its main device has.
   std::string instance_name(const ModelInfo& model) const override {
     return model.name + "_transmitter";
   }

@@ -33,11 +33,11 @@ class WarmSurface : public Device {
     const double start = params.number("temperature", 295.15, "K",
                                        "at the start; as the world's air unless given", kKelvin);
     targeted_ = params.has("target");
-    const double target = params.number("target", start, "K",
-                                        "what it goes to; as at the start unless given", kKelvin);
+    const double target =
+        params.number("target", start, "K", "its target; as at the start unless given", kKelvin);
     heat_ = {start, target,
-             params.number("time_constant", 60.0, "s",
-                           "with which it goes to its target; 0 = at once", {0.0, 1e6})};
+             params.number("time_constant", 60.0, "s", "of its approach to the target; 0 = at once",
+                           {0.0, 1e6})};
     params.text("device_name", "", "the name commands use, instead of the model's");
   }
 
@@ -102,11 +102,11 @@ ANGEN_REGISTER_DEVICE(WarmSurface,
                            "A surface that warms and cools by command; PIRs see it.")
                           .model("warm_surface")
                           .example("set warm_surface panel1 temperature 320")
-                          .verb("Temperature", "kelvin", "K", kKelvin, "what it goes to")
-                          .verb("Air", "goes to the temperature of the world's air")
+                          .verb("Temperature", "kelvin", "K", kKelvin, "sets its target")
+                          .verb("Air", "sets its target to the temperature of the world's air")
                           .number("temperature", "K", "of the surface, once a second")
                           .shown(1)
-                          .number("target", "K", "what it goes to")
+                          .number("target", "K", "that it approaches")
                           .flag("changes", "whether it is more than 1 mK from its target")
                           .shown_as("changes", "steady"))
 

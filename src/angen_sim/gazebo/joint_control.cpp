@@ -108,7 +108,7 @@ ANGEN_REGISTER_ROS_KIND({kCommanded},
                         RosKindBuilder().commanded_by(&of_number, &controller_topics));
 ANGEN_REGISTER_ROS_KIND({kStates}, joint_states().published_elsewhere(&is_published_by_controller));
 
-// From here on devices know nothing of what was commanded before.
+// A reset makes devices forget earlier commands.
 bool was_reset(const sim::Snapshot& snapshot) {
   return std::any_of(snapshot.events.begin(), snapshot.events.end(), [](const sim::Event& event) {
     return event.kind == "world" && event.event == "reset";
@@ -185,7 +185,7 @@ void JointControls::on_structure(const sim::Structure& structure, const Changes&
     find_parts(structure, robot);
     robots_.push_back(std::move(robot));
   }
-  before.clear();  // services of what has gone end before others of their names begin
+  before.clear();  // services of removed robots end before others of their names begin
   for (Robot& robot : robots_) {
     if (robot.control == nullptr)
       robot.control = make_control(*structure.models[robot.model], robot.joints);

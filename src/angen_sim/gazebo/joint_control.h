@@ -15,7 +15,7 @@ namespace angen::node {
 
 struct ControlledJoint {
   std::string name;
-  std::string interface;  // what its commands are: position, velocity or effort
+  std::string interface;  // of its commands: position, velocity or effort
   double position = 0.0;  // rad or m
   double velocity = 0.0;  // rad/s or m/s, in the last tick
   double effort = 0.0;    // N m or N, as its device reported last
@@ -33,7 +33,7 @@ class JointControl {
   virtual void update(Nanoseconds time, std::vector<ControlledJoint>& joints) = 0;
 };
 
-/// Makes those of a <plugin>, for names below `space`. Throws what roscpp throws.
+/// Makes those of a <plugin>, for names below `space`. Throws roscpp's exceptions.
 using MakeJointControl = std::function<std::unique_ptr<JointControl>(
     const Element& plugin, const std::string& space, const std::vector<ControlledJoint>& joints)>;
 
@@ -48,7 +48,7 @@ bool has_joint_control(const std::string& library);
 /// The namespace of a robot that has this <plugin>, not yet a graph name.
 std::string control_space(const Element& plugin, const std::string& model);
 
-/// Runs the controllers of all robots. What they command is queued as what anybody commands is.
+/// Runs the controllers of all robots. Their commands are queued like all others.
 class JointControls {
  public:
   explicit JointControls(sim::Simulation& simulation) : simulation_(simulation) {}

@@ -50,7 +50,7 @@ std::string get(Inbox& inbox, const std::string& name, Answer& response) {
   return "GetJointProperties: got properties";
 }
 
-// What has no meaning for this solver must be a number all the same.
+// Also a value that this solver does not use must be a number.
 void check_unused(const gazebo_msgs::ODEJointProperties& properties) {
   for (const auto* values : {&properties.erp, &properties.cfm, &properties.stop_erp,
                              &properties.stop_cfm, &properties.fudge_factor, &properties.vel}) {

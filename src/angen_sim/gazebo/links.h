@@ -7,7 +7,7 @@
 
 namespace angen::node::gazebo {
 
-/// Throws where it names what does not exist.
+/// Throws for a name that does not exist.
 sim::Edit edit_of(const sim::Structure& structure, const gazebo_msgs::LinkState& state);
 
 /// get_link_state, get_link_properties, set_link_state, set_link_properties, apply_body_wrench,

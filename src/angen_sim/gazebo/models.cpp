@@ -19,7 +19,7 @@ namespace angen::node::gazebo {
 
 namespace {
 
-/// How often each model was asked for, which answers have in their header.
+/// The number of requests for each model, which answers have in their header.
 class Requests {
  public:
   std::uint32_t count(const std::string& model) {

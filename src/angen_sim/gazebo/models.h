@@ -7,7 +7,7 @@
 
 namespace angen::node::gazebo {
 
-/// Throws where it names what does not exist.
+/// Throws for a name that does not exist.
 sim::Edit edit_of(const sim::Structure& structure, const gazebo_msgs::ModelState& state);
 
 /// get_model_state, get_model_properties, get_world_properties, set_model_state,

@@ -10,7 +10,7 @@
 #include "ros/inbox.h"
 #include "sim/snapshot.h"
 
-/// Names and numbers of requests, as gazebo_ros reads them. What does not exist is thrown as
+/// Names and numbers of requests, as gazebo_ros reads them. An unknown name is thrown as
 /// NotFound with the text `missing`.
 namespace angen::node::gazebo {
 
@@ -32,7 +32,8 @@ bool has_light(const sim::Structure& structure, const std::string& name);
 std::string frame_named(const sim::Structure& structure, const std::string& name,
                         const std::string& missing);
 
-/// Throws Error for what is not finite. A quaternion of any length is normalized; 0 is no rotation.
+/// Throws Error for a number that is not finite. A quaternion of any length is normalized; 0 is no
+/// rotation.
 Pose pose_of(const geometry_msgs::Pose& message);
 inline Vec3 vector_of(const geometry_msgs::Vector3& v) { return {v.x, v.y, v.z}; }
 inline Vec3 vector_of(const geometry_msgs::Point& v) { return {v.x, v.y, v.z}; }
@@ -40,9 +41,9 @@ inline Vec3 vector_of(const geometry_msgs::Point& v) { return {v.x, v.y, v.z}; }
 std::shared_ptr<const sim::Structure> structure_of(Inbox& inbox);
 /// Posts the edit and waits; throws Error where it is refused.
 void edit(Inbox& inbox, sim::Edit edit);
-/// Of the world's thread, between ticks.
+/// To be called by the world's thread, between ticks.
 sim::Observed observe(Inbox& inbox, sim::Observation what);
-/// What it does in the frame's axes, relative to the frame.
+/// Its velocity in the frame's axes, relative to the frame.
 sim::Motion relative(const sim::Motion& motion, const sim::Motion& frame);
 
 }  // namespace angen::node::gazebo

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::chrono::seconds kMetricsPeriod(1);
 
-// Due times are known in closed form: what was leapt over counts too.
+// Due times are known in closed form: samples that were leapt over count too.
 double published(const sim::SensorEntry& sensor, const sim::Simulation& simulation,
                  Nanoseconds from, Nanoseconds to) {
   if (sensor.on_demand() && !simulation.requested(sensor.kind, sensor.name)) return 0.0;

@@ -12,7 +12,7 @@ namespace angen::node::gazebo {
 
 namespace {
 
-constexpr std::uint32_t kMostIterations = 1'000'000;
+constexpr std::uint32_t kMaxIterations = 1'000'000;
 
 // Steps a wall second to simulated seconds a wall second; 0 and less are unlimited.
 double rate_of(double update_rate, double step) {
@@ -22,7 +22,7 @@ double rate_of(double update_rate, double step) {
   }
   if (update_rate > 0.0 && update_rate < 1.0) {
     throw Error("max_update_rate is " + number_text(update_rate) +
-                " Hz; calls wait for the next tick: give at least 1, or 0 for as fast as it goes");
+                " Hz; calls wait for the next tick: give at least 1, or 0 for no limit");
   }
   return std::max(0.0, update_rate * step);
 }
@@ -82,7 +82,7 @@ void PhysicsProperties::set(const gazebo_msgs::SetPhysicsProperties::Request& re
     throw Error("sor_pgs_w and sor_pgs_rms_error_tol must be finite");
   }
   sim::SetPhysics to{snapshot->structure->physics, vector_of(request.gravity)};
-  to.physics.iterations = static_cast<int>(std::min(ode.sor_pgs_iters, kMostIterations));
+  to.physics.iterations = static_cast<int>(std::min(ode.sor_pgs_iters, kMaxIterations));
   to.physics.contact_surface_layer = ode.contact_surface_layer;
   to.physics.contact_max_correcting_vel = ode.contact_max_correcting_vel;
   to.physics.cfm = ode.cfm;

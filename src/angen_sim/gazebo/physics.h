@@ -12,11 +12,11 @@
 
 namespace angen::node::gazebo {
 
-/// get_physics_properties and set_physics_properties. What Angen's solver has no use for is kept
-/// and answered.
+/// get_physics_properties and set_physics_properties. Values that Angen's solver does not use are
+/// kept and answered.
 class PhysicsProperties {
  public:
-  /// `rate` is that of the node: simulated seconds a wall second, 0 as fast as it goes.
+  /// `rate` is that of the node: simulated seconds per wall second, 0 for no limit.
   PhysicsProperties(Server& server, Inbox& inbox, std::atomic<double>& rate);
 
   gazebo_msgs::GetPhysicsProperties::Response get();

@@ -28,7 +28,7 @@ struct Parameter {
 // Names, types and ranges are those of gazebo_ros.
 constexpr Parameter kParameters[] = {
     {"time_step", "double", "Step, s; fixed while the world runs", 0, 10},
-    {"max_update_rate", "double", "Steps a wall second; 0: as fast as it goes", -1, 1000},
+    {"max_update_rate", "double", "Steps per wall second; 0: no limit", -1, 1000},
     {"gravity_x", "double", "Gravity along x, m/s^2", -100, 100},
     {"gravity_y", "double", "Gravity along y, m/s^2", -100, 100},
     {"gravity_z", "double", "Gravity along z, m/s^2", -100, 100},
@@ -46,7 +46,7 @@ constexpr Parameter kParameters[] = {
 
 using Request = gazebo_msgs::SetPhysicsProperties::Request;
 
-// Reads or writes the member that a parameter stands for; `set` is null to read.
+// Reads or writes the member that a parameter names; `set` is null to read.
 template <class T>
 double access(T& member, const double* set) {
   if (set != nullptr) member = static_cast<T>(*set);
@@ -133,7 +133,7 @@ dynamic_reconfigure::ConfigDescription description_of(PhysicsProperties& physics
   return description;
 }
 
-// Throws Error for what is not a parameter of that type.
+// Throws Error for a name that is not a parameter of that type.
 void set_in(Request& request, const std::string& name, const std::string& type, double value) {
   const auto* found =
       std::find_if(std::begin(kParameters), std::end(kParameters),
@@ -163,7 +163,7 @@ void Reconfigure::publish() {
   updates_.publish(config_of_now(physics_));
 }
 
-// What is not given stays. A failure has no message: false is all that the type can say.
+// Missing parameters keep their values. The reply type has no field for an error message.
 bool Reconfigure::set(Call::Request& request, Call::Response& response) {
   try {
     Request wanted = request_of(physics_.get());

@@ -34,7 +34,7 @@ class Server {
  public:
   explicit Server(const ros::NodeHandle& node) : node_(node) {}
 
-  /// `title` goes before the message of a failure.
+  /// `title` precedes the message of a failure.
   template <class Service>
   using Handler =
       std::function<std::string(const typename Service::Request&, typename Service::Response&)>;
@@ -57,7 +57,7 @@ class Server {
     servers_.push_back(node_.advertiseService("/gazebo/" + name, called));
   }
 
-  /// A request whose answer is empty: what is thrown is logged, and the call succeeds as
+  /// A request whose answer is empty: an exception is logged, and the call succeeds as
   /// gazebo_ros's does.
   template <class Service>
   void serve_silently(const std::string& name, const std::string& title,
@@ -77,7 +77,7 @@ class Server {
   }
 
  private:
-  /// What the client gets; the log gets it too.
+  /// The client's answer, which is logged too.
   static std::string status_of(const std::string& title, const std::exception& problem);
 
   ros::NodeHandle node_;

@@ -17,10 +17,10 @@ namespace angen::node::gazebo {
 
 namespace {
 
-constexpr std::chrono::milliseconds kStandingPeriod(100);  // while time stands still
+constexpr std::chrono::milliseconds kStandingPeriod(100);  // while time does not advance
 constexpr std::uint32_t kStatesQueue = 10;
 
-// A model goes with its first link.
+// A model moves with its first link.
 sim::Motion model_motion(const sim::Structure& structure, const sim::LinkEntry& first,
                          sim::Motion motion) {
   const desc::Model& model = *structure.models[first.model];

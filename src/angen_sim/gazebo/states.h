@@ -16,7 +16,7 @@ namespace angen::node::gazebo {
 geometry_msgs::Twist twist_of(const sim::Motion& motion);
 
 /// model_states and link_states: so often a simulated second, and ten times a second of wall time
-/// while time stands still; made only while subscribed. Subscribes to set_model_state and
+/// while time does not advance; made only while subscribed. Subscribes to set_model_state and
 /// set_link_state.
 class StateTopics {
  public:
@@ -30,7 +30,7 @@ class StateTopics {
   template <class Message>
   void receive(const Message& message);
   void follow(const sim::Snapshot& snapshot);
-  /// What can move, was put elsewhere or is new.
+  /// Models that can move, were moved by a call, or are new.
   void update(const sim::Snapshot& snapshot);
   void update(const sim::Snapshot& snapshot, std::uint32_t link, bool is_new);
   void fill(std::uint32_t link);

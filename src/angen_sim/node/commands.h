@@ -15,8 +15,8 @@
 
 namespace angen::node {
 
-/// Command topics: one subscription serves all devices of a kind, what a robot carries has its own.
-/// And the topic by which programs add to the event log.
+/// Command topics: one subscription serves all devices of a kind, devices of a robot have their
+/// own. And the topic by which programs add to the event log.
 class Commands {
  public:
   /// Kinds of `plugins` have their topic also where the world has none of them.

@@ -17,18 +17,18 @@ struct Spent {
   Nanoseconds elapsed = 0;  // wall time
 };
 
-/// What that was for each simulated second; the caller fills the header.
+/// The same per simulated second; the caller fills the header.
 angen_msgs::Cost to_message(const Spent& spent);
 
-/// When what was measured is published: after a second of wall time and one of simulated time. The
-/// first second after the node's start is left out: in it everything is set up and comes to rest.
+/// The time at which costs are published: after a second of wall time and one of simulated time.
+/// The first second after the node's start is left out: in it everything comes to rest.
 class CostPeriod {
  public:
   using Time = Pacer::Clock::time_point;
   enum class Due {
     kNo,
-    kDiscard,  // what was measured belongs to the first second, or to before a reset
-    kStill,    // time stands still: there is nothing to measure
+    kDiscard,  // the costs are of the first second, or of before a reset
+    kStill,    // time does not advance: there is nothing to measure
     kYes,
   };
 

@@ -9,7 +9,7 @@
 
 namespace angen::node {
 
-/// What to say where simulated time lags far behind: at most once a minute.
+/// A warning where simulated time lags far behind, at most once a minute.
 class LagWarning {
  public:
   /// Call it after each tick. "" where there is nothing to say.

@@ -16,7 +16,7 @@ std::vector<angen_msgs::Entity> entities(const sim::Snapshot& snapshot,
                                          const std::vector<desc::Plugin>& world_plugins,
                                          Topics topics, const std::string& kind);
 
-/// Where a model's own frame stands now: every model has a link, which gives it.
+/// The present pose of a model's frame, by its first link: every model has one.
 Pose model_pose(const sim::Snapshot& snapshot, std::uint32_t first_link);
 
 }  // namespace angen::node

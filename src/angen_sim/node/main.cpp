@@ -39,7 +39,7 @@ constexpr char kUsage[] =
     "                  [_memory_limit:=4096] [_states_rate:=30] [_strict:=true|false]\n"
     "                  [_odom_parent:=world|none]\n"
     "       angen_node --check WORLD    only loads; exit code 1 when it cannot\n"
-    "WORLD may also stand in the parameter ~world. Where the ROS master is started anew, the node\n"
+    "WORLD may also be the parameter ~world. Where the ROS master was restarted, the node\n"
     "saves the world in FILE and ends with exit code 75.\n";
 
 constexpr std::uint64_t kDefaultSeed = 1;
@@ -50,7 +50,7 @@ std::atomic<bool> stop{false};
 
 void on_signal(int) { stop = true; }
 
-/// malloc raises these limits with what is freed, up to 64 MB that stay with the process.
+/// malloc raises these limits with freed blocks, up to 64 MB that stay with the process.
 void give_back_memory() {
   mallopt(M_MMAP_THRESHOLD, kKept);
   mallopt(M_TRIM_THRESHOLD, kKept);
@@ -68,7 +68,7 @@ std::string folder_of(const std::string& path) {
   return slash == std::string::npos ? "." : path.substr(0, slash);
 }
 
-/// Throws Error for what does not load; warnings go to stderr.
+/// Throws Error if it does not load; prints warnings on stderr.
 angen::desc::World read(const std::string& path) {
   if (path.empty()) throw angen::Error("'': not a path; give the file of a world");
   angen::desc::World world = angen::load::world(path);
@@ -78,7 +78,7 @@ angen::desc::World read(const std::string& path) {
   return world;
 }
 
-/// Throws Error for what does not load; what is ignored of the rest is counted on stderr.
+/// Throws Error if it does not load; prints the number of ignored elements on stderr.
 std::unique_ptr<Simulation> make(const std::string& path, std::uint64_t seed) {
   angen::desc::World world = read(path);
   const std::size_t ignored = world.ignored.size();
@@ -172,7 +172,7 @@ std::optional<angen::Nanoseconds> until_param() {
   return angen::from_seconds(seconds);
 }
 
-/// What ~replay names, up to ~until; null where it names nothing.
+/// The replay of ~replay, up to ~until; null without the parameter.
 std::unique_ptr<angen::record::Replay> make_replay(angen::node::Settings& settings) {
   const auto path = param_or<std::string>("~replay", "");
   const std::optional<angen::Nanoseconds> until = until_param();
@@ -206,7 +206,7 @@ std::unique_ptr<angen::record::Recorder> make_recorder(const std::string& world,
 // Everything that is loaded from now on may name files and libraries anywhere.
 void allow_all_paths() { setenv("ANGEN_ALLOW_PATHS", "true", 1); }
 
-// What Angen does not know in any world or model is an error, or a warning.
+// Unknown elements of worlds and models are errors, or warnings.
 void set_strict(const std::string& word) {
   if (word.empty()) return;
   if (word != "true" && word != "false") {
@@ -255,7 +255,7 @@ int run(std::string path, std::unique_ptr<Simulation> simulation) {
   settings.fast = param_or("~fast", false);
   settings.rate = number_param("~rate", settings.fast ? 0.0 : 1.0, 0.0);
   if (settings.fast && settings.rate > 0.0) {
-    throw angen::Error("~fast goes as fast as it can, with ~rate 0 or none");
+    throw angen::Error("~fast runs without a rate: leave ~rate out, or give 0");
   }
   settings.clock_rate =
       number_param("~clock_rate", number_param("~pub_clock_frequency", 100.0, 0.01), 0.01);

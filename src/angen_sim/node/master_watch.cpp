@@ -64,7 +64,7 @@ void MasterWatch::watch() {
     if (answers) {
       ROS_INFO("the ROS master answers again");
     } else {
-      ROS_WARN("the ROS master at %s does not answer; the simulation goes on and waits for it",
+      ROS_WARN("the ROS master at %s does not answer; the simulation continues and waits for it",
                ros::master::getURI().c_str());
     }
   }

@@ -27,7 +27,7 @@
 namespace angen::node {
 
 struct Settings {
-  double rate = 1.0;          // simulated seconds a wall second; 0 = as fast as it goes
+  double rate = 1.0;          // simulated seconds per wall second; 0 = no limit
   bool fast = false;          // leaps over ticks in which nothing happens; needs rate 0
   double clock_rate = 100.0;  // Hz
   double states_rate = 30.0;  // Hz, of /gazebo/model_states and link_states
@@ -35,7 +35,7 @@ struct Settings {
   std::vector<std::shared_ptr<const Plugin>> plugins;  // whose command topics are always there
   std::string models;  // a folder that model:// is searched in, besides the usual ones
   record::Recorder* recorder = nullptr;  // where the run is recorded
-  record::Replay* replay = nullptr;      // what comes before commands are taken; of this simulation
+  record::Replay* replay = nullptr;      // runs before commands are accepted; of this simulation
   bool hurry = false;                    // the replay leaps, and does not wait for the rate
   bool paused_after = false;             // the replay
   bool odometry_in_world = true;         // world is the parent of odometry frames
@@ -49,7 +49,7 @@ class Node {
 
   enum class End { kStopped, kMasterLost };
 
-  /// Ticks until `stop` or roscpp's end, or until the master has been started anew.
+  /// Ticks until `stop` or roscpp's end, or until the master was restarted.
   End run(const std::atomic<bool>& stop);
 
  private:

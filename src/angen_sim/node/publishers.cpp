@@ -14,7 +14,7 @@ namespace {
 
 constexpr Nanoseconds kOdometryPeriod = kSecond / 10;  // of a robot that stands still
 
-// What of a robot decides where its sensors publish.
+// The part of a robot that its sensors' topics depend on.
 std::string space_of(const Robot* robot) {
   return robot == nullptr ? "" : robot->name + (robot->first ? " first" : "");
 }
@@ -123,7 +123,7 @@ void Publishers::on_structure(const sim::Snapshot& snapshot, const FrameTree& fr
                               const std::vector<Robot>& robots, const Changes& changes) {
   const sim::Structure& structure = *snapshot.structure;
   batched_.clear();
-  // What has gone keeps its channels until all others have theirs: one of the same topic stays.
+  // Removed sources keep their channels until others have theirs: a shared topic is not closed.
   follow_sensors(structure, frames, robots, changes.sensors);
   devices_ = device_sources(structure, robots, changes.devices);
   shut_down_unused();

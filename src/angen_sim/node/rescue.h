@@ -7,7 +7,7 @@
 namespace angen::node {
 
 /// Exit code (EX_TEMPFAIL of sysexits.h) of a node that ends because the ROS master was started
-/// anew: its world is saved, and a new node may go on with it.
+/// again: its world is saved, and a new node may continue it.
 constexpr int kRescued = 75;
 
 /// angen-UID/rescue.world in $XDG_RUNTIME_DIR or /tmp.

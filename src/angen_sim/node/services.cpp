@@ -20,9 +20,9 @@ namespace {
 
 constexpr char kStep[] = "/angen/step";
 constexpr std::uint32_t kServiceThreads = 8;
-constexpr std::size_t kMostSteps = 4;             // calls that wait at once
-constexpr std::uint32_t kMostTicks = 10'000'000;  // of a call
-constexpr std::size_t kLongestAnswer = 10'000;    // bytes
+constexpr std::size_t kMaxSteps = 4;             // calls that wait at once
+constexpr std::uint32_t kMaxTicks = 10'000'000;  // of a call
+constexpr std::size_t kLongestAnswer = 10'000;   // bytes
 
 /// Counts one more while it lives.
 class Count {
@@ -39,7 +39,7 @@ class Count {
   std::size_t now_;
 };
 
-// A message whose quaternion nobody filled means no rotation.
+// A quaternion of zeros means no rotation.
 Pose to_pose(const geometry_msgs::Pose& message) {
   Pose pose;
   pose.position = {message.position.x, message.position.y, message.position.z};
@@ -70,7 +70,7 @@ std::string state_of(const sim::Snapshot& snapshot, const std::string& target) {
   return "";
 }
 
-// Runs `work`; what it throws becomes the answer.
+// Runs `work`; its exception becomes the answer.
 template <class Response, class Work>
 bool answered(Response& response, Work&& work) {
   try {
@@ -128,12 +128,12 @@ bool Services::empty(sim::Action action) {
 
 sim::Outcome Services::take(std::uint32_t ticks, const ros::M_string& client) {
   if (ticks == 0) return inbox_.call(sim::Step{0});
-  if (ticks > kMostTicks) {
-    return {false, "a call takes at most " + std::to_string(kMostTicks) + " ticks"};
+  if (ticks > kMaxTicks) {
+    return {false, "a call takes at most " + std::to_string(kMaxTicks) + " ticks"};
   }
   const Count waiting(steps_);
-  if (waiting.now() > kMostSteps) {
-    return {false, std::to_string(kMostSteps) + " other steps wait; try again"};
+  if (waiting.now() > kMaxSteps) {
+    return {false, std::to_string(kMaxSteps) + " other steps wait; try again"};
   }
   ClientWatch watch(kStep, client);
   return inbox_.call(sim::Step{ticks}, [&] { return watch.lost(); });
@@ -142,7 +142,7 @@ sim::Outcome Services::take(std::uint32_t ticks, const ros::M_string& client) {
 bool Services::step(StepCall& call) {
   angen_msgs::Step::Response& response = call.getResponse();
   return answered(response, [&] {
-    // Counted before the step is queued: what came later may have taken effect later.
+    // Counted before the step is queued: a later command may take effect later.
     response.commands = inbox_.posted();
     sim::Outcome outcome = take(call.getRequest().ticks, call.getConnectionHeader());
     response.taken = static_cast<std::uint32_t>(outcome.ticks);

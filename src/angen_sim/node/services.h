@@ -26,8 +26,8 @@
 
 namespace angen::node {
 
-/// What the node can be requested to do. Parsing happens here, on the thread of the request; the
-/// world changes in its own. Nothing is thrown out: what goes wrong is success = false and a
+/// The services of the node. Parsing happens here, on the thread of the request; the
+/// world changes in its own. No exception leaves it: a failure is success = false and a
 /// message. Services have threads of their own, and calls that wait long never have all of them.
 class Services {
  public:

@@ -29,7 +29,7 @@ void ClockTopic::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point
   if (slot == slot_ && now - sent_ < kStill) return;
   slot_ = slot;
   sent_ = now;
-  ros::Time::setNow(to_ros(snapshot.time));  // this node's own: what it logs has that stamp
+  ros::Time::setNow(to_ros(snapshot.time));  // of this node: its log has that stamp
   publisher_.publish([&] {
     rosgraph_msgs::Clock message;
     message.clock = to_ros(snapshot.time);

@@ -13,7 +13,7 @@
 
 namespace angen::node {
 
-/// /clock: so often a simulated second; while time stands still, ten times a second of wall time.
+/// /clock, at a rate in simulated time; while time does not advance, ten times per wall second.
 class ClockTopic {
  public:
   /// Rate in Hz, positive.
@@ -48,12 +48,12 @@ class Stats {
   TickTimes ticks_;
 };
 
-/// /angen/events; what was rejected, and warnings, also stand in the log.
+/// /angen/events; rejections and warnings are also logged.
 class Events {
  public:
   explicit Events(ros::NodeHandle& node);
   void publish(const sim::Snapshot& snapshot);
-  /// How many there have been, with subscribers or without.
+  /// The number of events so far, with subscribers or without.
   std::uint64_t count() const { return count_; }
 
  private:

@@ -12,7 +12,7 @@
 namespace angen::node {
 
 /// /angen/summary: every sensor and device in a few words, for people who watch. A new subscriber
-/// gets all, then what changes, at most 4 times a second of wall time.
+/// gets all, then changes, at most 4 times per second of wall time.
 class SummaryTopic {
  public:
   SummaryTopic(ros::NodeHandle& node, Readings& readings);

@@ -10,7 +10,7 @@
 
 namespace angen::node {
 
-/// How long the ticks of a while took: two quantiles, 4 % exact, and the longest.
+/// Durations of recent ticks: two quantiles, 4 % exact, and the longest.
 class TickTimes {
  public:
   struct Summary {
@@ -25,7 +25,7 @@ class TickTimes {
     if (time > longest_) longest_ = time;
   }
 
-  /// Of those added since the last call; all 0 where there are none.
+  /// Quantiles of those added since the last call; all 0 without any.
   Summary take() {
     const Summary summary{at(0.5), at(0.99), longest_};
     *this = {};

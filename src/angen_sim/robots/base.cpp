@@ -14,7 +14,7 @@ std::vector<double> numbers(const Quat& q) { return {q.x(), q.y(), q.z(), q.w()}
 
 Topics read_topics(Params& params) {
   params.text("commandTopic", "cmd_vel", "where commands come from, below robotNamespace");
-  params.text("odometryTopic", "odom", "where odometry goes to, below robotNamespace");
+  params.text("odometryTopic", "odom", "of its odometry, below robotNamespace");
   params.text("rosDebugLevel", "", "not used: the node's log level is set by ROS");
   Topics topics;
   topics.odometry_frame = params.text("odometryFrame", "odom", "frame of its odometry");
@@ -64,7 +64,7 @@ void Inertia::read(const View& view, Reading& reading) {
   const Pose pose = view.pose();
   const Vec3 velocity =
       link.linear_velocity + link.angular_velocity.cross(pose.position - link.pose.position);
-  // While it slept or nobody subscribed it had no samples: then it takes this one for rest.
+  // While it slept or nobody subscribed it had no samples: then this one counts as rest.
   const Nanoseconds longest = kSecond;
   const bool follows = time_ >= 0 && view.time() > time_ && view.time() - time_ <= longest;
   Vec3 acceleration = Vec3::Zero();

@@ -7,27 +7,27 @@
 
 #include "plugin/plugin.h"
 
-/// Plug-ins that robots made for Gazebo carry: what they share.
+/// Shared parts of plug-ins that robots made for Gazebo carry.
 namespace angen::robots {
 
-/// Where Gazebo's drives take commands from and publish odometry to.
+/// The frames of the odometry of Gazebo's drives.
 struct Topics {
   std::string odometry_frame;
   std::string base_frame;
 };
 Topics read_topics(Params& params);
 
-/// Where the base of a robot is, and how it moves: what its drive publishes as odometry.
+/// Pose and velocity of a robot's base, which its drive publishes as odometry.
 class Base {
  public:
   void configure(Params& params, Wiring& wiring);
-  /// Of a robot whose parameters do not name its frames; read_true() has no link then.
+  /// For a robot whose parameters do not name its frames; read_true() has no link then.
   void configure(Topics topics) { topics_ = std::move(topics); }
   const Topics& topics() const { return topics_; }
   /// The fields of a reading that odometry is made of, from the pose (world) of the base and its
   /// velocities.
   void read(const Pose& pose, const Vec3& velocity, double yaw_rate, Reading& reading) const;
-  /// The same, as the world has it.
+  /// The fields by the true pose in the world.
   void read_true(const View& view, Reading& reading);
   /// Whether it stood at the last read_true().
   bool rests() const { return rests_; }
@@ -58,7 +58,7 @@ class TrueOdometry : public Sensor {
   Base base_;
 };
 
-/// What an inertial measurement unit feels where it is fastened.
+/// The measurements of an inertial measurement unit where it is fastened.
 class Inertia {
  public:
   /// `link` is its own.
@@ -95,7 +95,7 @@ class InertialUnit : public Sensor {
   Inertia inertia_;
 };
 
-/// The plug-in of a sensor class with a static function describe(): its kind. It stands in a model,
+/// The plug-in of a sensor class with a static function describe(): its kind. It is in a model,
 /// on the link that <bodyName> names.
 template <class Type>
 class BodySensorPlugin : public Plugin {
@@ -110,7 +110,7 @@ class BodySensorPlugin : public Plugin {
   std::unique_ptr<Sensor> make_sensor() const override { return std::make_unique<Type>(); }
 };
 
-/// The same of one that belongs to the model as a whole.
+/// The plug-in of a sensor that belongs to the model as a whole.
 template <class Type>
 class ModelSensorPlugin : public BodySensorPlugin<Type> {
  public:

@@ -44,7 +44,7 @@ Kind diff_drive_kind() {
 
 using DiffDrivePlugin = WheelsPlugin<read_wheels, diff_drive_kind>;
 
-/// Where its base is, as the world or its wheels have it.
+/// The pose of its base, by the world or by its wheels.
 class DiffDriveOdometry : public Sensor {
  public:
   void configure(Params& params, Wiring& wiring) override {

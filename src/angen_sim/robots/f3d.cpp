@@ -4,7 +4,7 @@
 
 namespace angen::robots {
 
-/// What everything that touches a link gives it.
+/// The force of all contacts of a link.
 class F3d : public Sensor {
  public:
   static Kind describe() {

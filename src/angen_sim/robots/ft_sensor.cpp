@@ -4,7 +4,7 @@
 
 namespace angen::robots {
 
-/// What the child of a joint gives its parent.
+/// The force of a joint's child on its parent.
 class FtSensor : public Sensor {
  public:
   static Kind describe() {

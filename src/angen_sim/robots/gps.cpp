@@ -48,7 +48,7 @@ class Gps : public Sensor {
     error_ = three_numbers(params, "gaussianNoise", "m", "standard deviation of the position");
     velocity_error_ =
         three_numbers(params, "velocityGaussianNoise", "m/s", "standard deviation of the velocity");
-    params.text("velocityTopicName", "fix_velocity", "where the velocity goes to");
+    params.text("velocityTopicName", "fix_velocity", "of its velocity");
     params.text("frameId", "", "frame_id of its messages; none: bodyName");
     for (const char* path : {"offset", "drift", "driftFrequency", "scaleError", "velocityOffset",
                              "velocityDrift", "velocityDriftFrequency", "velocityScaleError"}) {
@@ -76,7 +76,7 @@ class Gps : public Sensor {
   }
 
  private:
-  // Of the ellipsoid along the meridian, and of the circle of latitude.
+  // Radii of the ellipsoid along the meridian, and of the circle of latitude.
   void find_radii() {
     const double sine = std::sin(kDegree * latitude_);
     const double eccentricity2 = kFlattening * (2.0 - kFlattening);

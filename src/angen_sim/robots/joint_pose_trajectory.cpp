@@ -71,7 +71,7 @@ class JointPoseTrajectory : public Device {
       const double wanted = position_at(time, i);
       const double ahead = (position_at(time + step, i) - wanted) / step;
       const double left = wanted - view.joint(joints_[i]).position;
-      outputs.motor(joints_[i], done ? 0.0 : ahead + left / kResponse, kMost);
+      outputs.motor(joints_[i], done ? 0.0 : ahead + left / kResponse, kMax);
     }
     if (done) points_.clear();
   }
@@ -85,7 +85,7 @@ class JointPoseTrajectory : public Device {
  private:
   static constexpr double kResponse = 0.02;  // s, in which an error is made up but for a third
   static constexpr double kSettles = 0.2;    // s, after the last point
-  static constexpr double kMost = std::numeric_limits<double>::infinity();
+  static constexpr double kMax = std::numeric_limits<double>::infinity();
 
   static std::string read_points(const std::vector<double>& values, std::size_t joints,
                                  std::vector<Point>& points) {
@@ -108,7 +108,7 @@ class JointPoseTrajectory : public Device {
                                                   "negative time";
   }
 
-  // Where the joints are when it starts: the first point is reached from there.
+  // Positions of the joints at the start, from which the first point is reached.
   void note_begin(const View& view) {
     began_.clear();
     for (const JointRef joint : joints_) began_.push_back(view.joint(joint).position);

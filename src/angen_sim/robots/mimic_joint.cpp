@@ -10,7 +10,7 @@ namespace angen::robots {
 
 namespace {
 
-constexpr double kResponse = 0.01;  // s, in which what is left is made up but for a third
+constexpr double kResponse = 0.01;  // s, time constant of the correction
 constexpr double kStands = 1e-4;    // rad/s or m/s, below which the brake holds it
 
 struct Mimic {

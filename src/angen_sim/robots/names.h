@@ -12,7 +12,7 @@ inline std::string local_name(const std::string& model, const std::string& name)
   return name.rfind(prefix, 0) == 0 ? name.substr(prefix.size()) : name;
 }
 
-/// What a device that serves a part of a model is called.
+/// The name of a device that serves a part of a model.
 inline std::string part_name(const std::string& model, const std::string& part) {
   return part.empty() ? model : model + "_" + part;
 }

@@ -4,7 +4,7 @@
 
 namespace angen::robots {
 
-/// Where a link truly is, and how it moves, in the world.
+/// The true pose and velocity of a link in the world.
 class P3d : public Sensor {
  public:
   static Kind describe() {

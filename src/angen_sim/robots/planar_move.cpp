@@ -28,7 +28,7 @@ Planar read_planar(Params& params) {
 
 }  // namespace
 
-/// A robot that is pushed over the floor as commanded, whatever it stands on.
+/// A robot that is pushed over the floor as commanded, on wheels or without.
 class PlanarMove : public Device {
  public:
   void configure(Params& params, Wiring& wiring) override {
@@ -77,7 +77,7 @@ class PlanarMove : public Device {
   Nanoseconds commanded_at_ = 0;
   Vec3 velocity_ = Vec3::Zero();  // m/s, in its own frame
   double turn_ = 0.0;             // rad/s
-  bool released_ = false;         // it stands, held by its brake
+  bool released_ = false;         // at rest, held by its brake
 };
 
 class PlanarMovePlugin : public Plugin {
@@ -85,7 +85,7 @@ class PlanarMovePlugin : public Plugin {
   const Kind& kind() const override {
     static const Kind kind =
         Kind("planar_move", "A robot that moves over the floor in any direction.")
-            .verb("Stop", "stands still")
+            .verb("Stop", "stops")
             .values({"m/s", "m/s", "rad/s"})
             .number("forward", "m/s", "as commanded")
             .shown(2)

@@ -71,7 +71,7 @@ class JointCommand : public Device {
   }
 
   void update(const View& view, Outputs& outputs) override {
-    constexpr double kMost = std::numeric_limits<double>::infinity();
+    constexpr double kMax = std::numeric_limits<double>::infinity();
     if (interface_ == Interface::kEffort) {
       outputs.force(joint_, force());
       rests_ = target_.value_or(0.0) == 0.0;
@@ -86,8 +86,8 @@ class JointCommand : public Device {
       velocity = std::abs(left) < kThere && ahead == 0.0 ? 0.0 : ahead + left / kResponse;
     }
     // Only what changes: until its first command another drive of the robot may lead the joint.
-    if (velocity != led_) outputs.motor(joint_, velocity, kMost);
-    led_ = velocity;
+    if (velocity != motor_velocity_) outputs.motor(joint_, velocity, kMax);
+    motor_velocity_ = velocity;
     rests_ = interface_ == Interface::kVelocity || velocity == 0.0;
   }
 
@@ -105,7 +105,7 @@ class JointCommand : public Device {
  private:
   double force() const { return std::clamp(target_.value_or(0.0), -most_, most_); }
 
-  // Commands that follow each other closely are a motion: it goes on until the next is due.
+  // Commands that follow each other closely are a motion: it continues until the next is due.
   void aim(double value, Nanoseconds now) {
     const double since = commanded_ ? to_seconds(now - *commanded_) : kResponse;
     const bool follows = since > 0.0 && since < kResponse;
@@ -123,7 +123,7 @@ class JointCommand : public Device {
   std::optional<Nanoseconds> commanded_;
   double slope_ = 0.0;  // rad/s or m/s
   Nanoseconds slope_ends_ = 0;
-  std::optional<double> led_;  // rad/s or m/s, as its motor was told last
+  std::optional<double> motor_velocity_;  // rad/s or m/s, set last
   bool rests_ = false;
 };
 
@@ -134,7 +134,7 @@ class JointCommandPlugin : public Plugin {
         Kind("joint_command", "A joint that is commanded by position, velocity or effort.")
             .values({"rad, m, rad/s, m/s, N m or N"})
             .text("joint", "which it is")
-            .text("interface", "what its commands are: position, velocity or effort")
+            .text("interface", "of its commands: position, velocity or effort")
             .number("command", "", "the last one")
             .number("position", "", "rad or m")
             .shown(3)

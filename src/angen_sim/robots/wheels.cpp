@@ -38,7 +38,7 @@ void Wheels::update(const View& view, Outputs& outputs) {
   ramping_ = !left || !right;
 }
 
-// True when the motors have the speed that is wanted.
+// True when the motors have the commanded speed.
 bool Wheels::lead(Side& side, double wanted, double step, Outputs& outputs) const {
   const double next =
       step > 0.0 ? std::clamp(wanted, side.speed - step, side.speed + step) : wanted;
@@ -103,7 +103,7 @@ std::vector<Mount> mounts_on_wheels(const ModelInfo& model, const WheelSettings&
 
 Kind wheels_kind(std::string name, std::string doc) {
   return Kind(std::move(name), std::move(doc))
-      .verb("Stop", "stands still")
+      .verb("Stop", "stops")
       .values({"m/s", "rad/s"})
       .number("v", "m/s", "forward, as commanded")
       .shown(2)

@@ -10,7 +10,7 @@
 
 namespace angen::robots {
 
-/// What a drive's <plugin> says of its wheels.
+/// A drive's wheels, by its <plugin>.
 struct WheelSettings {
   double separation = 0.0;         // m
   double radius = 0.0;             // m
@@ -44,12 +44,12 @@ class Wheels : public Device {
   Side right_;
   bool ramping_ = true;  // some motor has not its speed yet
   bool started_ = false;
-  double v_ = 0.0;  // m/s, wanted
-  double w_ = 0.0;  // rad/s, wanted
+  double v_ = 0.0;  // m/s, commanded
+  double w_ = 0.0;  // rad/s, commanded
   Nanoseconds stops_at_ = kForever;
 };
 
-/// Where a robot is by the turning of its wheels, one on each side.
+/// A robot's pose by the turning of its wheels, one on each side.
 class WheelOdometry {
  public:
   void set_up(const WheelSettings& settings, Wiring& wiring);

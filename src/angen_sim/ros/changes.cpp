@@ -19,7 +19,7 @@ void relate(Numbers& numbers, std::uint32_t before, std::uint32_t now) {
   numbers.after[before] = now;
 }
 
-/// What describes an entry, and a number that distinguishes several of one description. Both
+/// An entry's description, and a number that distinguishes entries of one description. Both
 /// structures are there, so an address is that of one description.
 struct Identity {
   const void* description;
@@ -58,7 +58,7 @@ Numbers by_identity(const Entries& before, const Entries& now) {
   return numbers;
 }
 
-/// The first entry of each model; entries of a model stand together.
+/// The first entry of each model; entries of a model are adjacent.
 template <class Entry>
 std::vector<std::uint32_t> firsts(const sim::SharedArray<Entry>& entries, std::size_t models) {
   std::vector<std::uint32_t> first(models, 0);
@@ -68,7 +68,7 @@ std::vector<std::uint32_t> firsts(const sim::SharedArray<Entry>& entries, std::s
   return first;
 }
 
-/// What a model has does not change while its description stays.
+/// A model's entries do not change while its description stays.
 template <class Entry>
 Numbers by_model(const Numbers& models, const sim::SharedArray<Entry>& before,
                  const sim::SharedArray<Entry>& now) {

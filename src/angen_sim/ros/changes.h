@@ -7,16 +7,16 @@
 
 namespace angen::node {
 
-/// How the entries of one list of a structure were numbered in another.
+/// The numbers of one structure's entries in another structure.
 struct Numbers {
   static constexpr std::uint32_t kNone = UINT32_MAX;
 
   std::vector<std::uint32_t> before;  // of each entry there is now; kNone: it is new
-  std::vector<std::uint32_t> after;   // of each entry there was; kNone: it has gone
+  std::vector<std::uint32_t> after;   // of each entry there was; kNone: it was removed
 };
 
-/// What came and went between two structures. Entries that stay keep their order. What a model has
-/// goes with it, and comes with it: also where it is described anew. A light of the world's own
+/// Entries added and removed between two structures. Others keep their order. A model's entries are
+/// added and removed with it, also where its description was replaced. A light of the world's own
 /// that has changed is another.
 struct Changes {
   Numbers models;

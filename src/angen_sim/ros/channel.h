@@ -17,7 +17,7 @@
 /// Topics of sensors and devices, by type of message.
 namespace angen::node {
 
-/// What a message holds besides the reading.
+/// The rest of a message, besides the reading.
 struct Label {
   std::string name;   // of the sensor or device
   std::string frame;  // header.frame_id
@@ -140,7 +140,7 @@ class BatchChannel : public Channel {
 /// The last states of devices. Any thread.
 class LastStates {
  public:
-  /// False where it is the one before. It goes with the last owner of its label.
+  /// False where it is the one before. It is removed with the last owner of its label.
   bool add(const StampedReading& state) {
     const std::lock_guard<std::mutex> lock(mutex_);
     State& last = states_[state.label->name];

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kClientPeriod(500);
 
-// roscpp drops the connection of a client that has gone, but does not report it: its list of open
+// roscpp drops the connection of a client that has ended, but does not report it: its list of open
 // ones is private. An explicit instantiation may name private members.
 template <auto Links, auto Mutex>
 struct OpenLinks {

@@ -17,7 +17,7 @@ namespace angen::node {
 using Subscribe = std::function<ros::Subscriber(ros::NodeHandle& node, const std::string& topic,
                                                 const std::function<void(Command)>& take)>;
 
-/// What a kind of device subscribes to.
+/// The subscriptions of a kind of device.
 struct CommandTopicRule {
   using Topics =
       std::function<std::vector<std::string>(const sim::Structure&, const sim::DeviceEntry&)>;

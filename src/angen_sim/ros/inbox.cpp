@@ -12,7 +12,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kSlice(50);
-constexpr std::chrono::seconds kPassPatience(1);
+constexpr std::chrono::seconds kPassTimeout(1);
 
 }  // namespace
 
@@ -29,7 +29,7 @@ void Inbox::queue(sim::Action action) {
 }
 
 sim::Outcome Inbox::give_up(sim::Ticket& ticket, bool is_step) const {
-  const double seconds = std::chrono::duration<double>(patience_).count();
+  const double seconds = std::chrono::duration<double>(timeout_).count();
   const std::string why = "the simulation did not answer within " + number_text(seconds) + " s; ";
   if (ticket.withdraw()) return {false, why + "nothing was done"};
   if (is_step) return {false, why + "the tick that it takes now is the last of this step"};
@@ -42,7 +42,7 @@ sim::Outcome Inbox::call(sim::Action action, const std::function<bool()>& is_los
   const auto ticket = std::make_shared<sim::Ticket>();
   std::future<sim::Outcome> answer = simulation_.post(std::move(action), ticket);
   std::int64_t tick = simulation_.snapshot()->tick;
-  Clock::time_point limit = Clock::now() + patience_;
+  Clock::time_point limit = Clock::now() + timeout_;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     waiting_ = true;
@@ -52,7 +52,7 @@ sim::Outcome Inbox::call(sim::Action action, const std::function<bool()>& is_los
     if (closed_) return {false, "the simulator ends"};
     if (is_lost && is_lost()) ticket->withdraw();
     const std::int64_t now = simulation_.snapshot()->tick;
-    if (now != tick) limit = Clock::now() + patience_;
+    if (now != tick) limit = Clock::now() + timeout_;
     tick = now;
     if (Clock::now() > limit) return give_up(*ticket, is_step);
   }
@@ -62,7 +62,7 @@ sim::Outcome Inbox::call(sim::Action action, const std::function<bool()>& is_los
   waiting_ = true;
   wake_.notify_one();
   const std::uint64_t passes = passes_;
-  done_.wait_for(lock, kPassPatience, [&] { return passes_ > passes || closed_; });
+  done_.wait_for(lock, kPassTimeout, [&] { return passes_ > passes || closed_; });
   return outcome;
 }
 

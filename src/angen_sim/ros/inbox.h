@@ -14,25 +14,24 @@ namespace angen::node {
 /// The way from ROS's threads to the one that owns the world, and back.
 class Inbox {
  public:
-  static constexpr std::chrono::milliseconds kPatience{10'000};
+  static constexpr std::chrono::milliseconds kTimeout{10'000};
 
-  explicit Inbox(sim::Simulation& simulation, std::chrono::milliseconds patience = kPatience)
-      : simulation_(simulation), patience_(patience) {}
+  explicit Inbox(sim::Simulation& simulation, std::chrono::milliseconds timeout = kTimeout)
+      : simulation_(simulation), timeout_(timeout) {}
 
-  /// Queues an action; nobody waits. A refusal is published on /angen/events and logged.
+  /// Queues an action without waiting. A rejection is published on /angen/events and logged.
   void post(sim::Action action);
 
-  /// The same for what a program notes in the event log; lockstep does not count it as a command.
+  /// Queues an event that a program adds to the log; lockstep does not count it as a command.
   void note(sim::Note note) { queue(std::move(note)); }
 
-  /// Queues an action and waits for what became of it; of one that changes something, until the
-  /// topics say so too. Gives up when
-  /// simulated time has stood still for its patience of wall time, when `is_lost` says that nobody
-  /// waits for the answer any more, or when the node ends. An action that is given up is withdrawn;
-  /// one that has begun takes effect all the same, and the outcome says so.
+  /// Queues an action and waits for its outcome; of one that changes something, until the topics
+  /// show it too. Gives up when simulated time has not advanced for `timeout` of wall time, when
+  /// `is_lost` says that the caller has gone, or when the node ends. An action that is given up is
+  /// withdrawn; one that has begun takes effect all the same, and the outcome says so.
   sim::Outcome call(sim::Action action, const std::function<bool()>& is_lost = {});
 
-  /// How many actions have been queued by post().
+  /// The number of actions that post() has queued.
   std::uint64_t posted() const { return posted_; }
 
   /// Main thread: everything that the last tick changed has been published.
@@ -48,7 +47,7 @@ class Inbox {
   sim::Outcome give_up(sim::Ticket& ticket, bool is_step) const;
 
   sim::Simulation& simulation_;
-  std::chrono::milliseconds patience_;
+  std::chrono::milliseconds timeout_;
   std::mutex mutex_;
   std::condition_variable wake_;  // of the main thread
   std::condition_variable done_;  // of those who wait for a pass

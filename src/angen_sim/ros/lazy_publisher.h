@@ -33,7 +33,7 @@ class Traffic {
 /// querying a publisher costs as much as publishing.
 class LazyPublisher {
  public:
-  /// Throws what roscpp throws for a topic it does not take.
+  /// Throws roscpp's exception for an invalid topic.
   template <class Message>
   static LazyPublisher of(ros::NodeHandle& node, const std::string& topic, std::uint32_t queue) {
     LazyPublisher made;
@@ -87,13 +87,12 @@ class LatchedLazyPublisher {
  public:
   using Make = std::function<Message()>;
 
-  /// Throws what roscpp throws for a topic it does not take.
+  /// Throws roscpp's exception for an invalid topic.
   LatchedLazyPublisher(ros::NodeHandle& node, const std::string& topic, std::uint32_t queue) {
     ros::AdvertiseOptions options;
     options.init<Message>(topic, queue);
     options.latch = true;
-    latch_ =
-        handle_for_one(node).advertise(options);  // says in connection headers what this topic is
+    latch_ = handle_for_one(node).advertise(options);  // connection headers name the topic
     const std::shared_ptr<State> state = state_;
     options.init<Message>(
         topic, queue,

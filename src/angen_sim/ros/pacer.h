@@ -9,13 +9,13 @@
 
 namespace angen::node {
 
-/// What is wrong with a rate for steps of that length; empty where nothing is. Calls wait for the
+/// An error message for a rate with steps of that length; empty if it is valid. Calls wait for the
 /// next tick.
 inline std::string rate_problem(double rate, Nanoseconds step) {
   const double least = to_seconds(step);
   if (rate <= 0.0 || rate >= least) return "";
   return "a tick would take longer than a second, and calls wait for it; give at least " +
-         number_text(least) + ", or 0 for as fast as it goes";
+         number_text(least) + ", or 0 for no limit";
 }
 
 /// Keeps simulated time beside the wall's on an absolute schedule, so that no error adds up. What
@@ -28,7 +28,7 @@ class Pacer {
   /// each of them costs more than most of them do.
   static constexpr std::chrono::nanoseconds kBatch = std::chrono::milliseconds(10);
 
-  /// Simulated seconds a wall second; 0 = as fast as it goes.
+  /// Simulated seconds per wall second; 0 = no limit.
   explicit Pacer(double rate) : rate_(rate) {}
 
   double rate() const { return rate_; }
@@ -38,10 +38,10 @@ class Pacer {
     restart();
   }
 
-  /// Starts the schedule anew: after a pause, a jump of time, or at the first tick.
+  /// Restarts the schedule: after a pause, a jump of time, or at the first tick.
   void restart() { anchored_ = false; }
 
-  /// How far `time` is ahead of the schedule; never negative, 0 at rate 0.
+  /// By how much `time` is ahead of the schedule; never negative, 0 at rate 0.
   std::chrono::nanoseconds ahead(Nanoseconds time, Clock::time_point now) {
     if (rate_ <= 0.0) return std::chrono::nanoseconds(0);
     if (!anchored_ || time < start_time_) anchor(time, now);

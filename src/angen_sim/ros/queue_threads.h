@@ -11,7 +11,7 @@
 
 namespace angen::node {
 
-/// Threads that call what comes into a queue. Those of ros::AsyncSpinner wake ten times a second
+/// Threads that run the callbacks of a queue. Those of ros::AsyncSpinner wake ten times a second
 /// each where nothing comes, more often than the node itself at rest.
 class QueueThreads {
  public:
@@ -23,7 +23,7 @@ class QueueThreads {
   void start() {
     while (threads_.size() < count_) threads_.emplace_back([this] { run(); });
   }
-  /// Returns when what is being called has returned; nothing is called any more.
+  /// Returns when running callbacks have returned; no other is called.
   void stop() {
     ended_ = true;
     queue_.disable();

@@ -7,7 +7,7 @@
 
 namespace angen::node {
 
-/// What sensors published last, as Snapshot::reading() has it: what a lazy one computes is kept
+/// The last readings of sensors, as Snapshot::reading() returns them: one that was computed is kept
 /// until its next, for all topics that want it. Of the thread that publishes.
 class Readings {
  public:

@@ -9,7 +9,7 @@
 /// Models with a drive, and their topics and frames.
 namespace angen::node {
 
-/// What a drive's SDF says of ROS.
+/// A drive's frames and topics, as its SDF names them.
 struct Robot {
   std::uint32_t device = 0;  // in Structure::devices
   std::uint32_t model = 0;
@@ -27,7 +27,7 @@ struct Robot {
 std::vector<Robot> find_robots(const sim::Structure& structure,
                                const std::vector<desc::Plugin>& world_plugins);
 
-/// Where a robot's `requested` topic is: one that starts with / means itself; others stand under
+/// The topics for a robot's `requested` one: one that starts with / is itself; others are under
 /// the robot's name, and the first robot's also without it.
 std::vector<std::string> robot_topics(const Robot& robot, const std::string& requested);
 

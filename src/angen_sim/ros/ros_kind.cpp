@@ -142,7 +142,7 @@ void load_ros_library(const std::string& library) {
   const std::string file = find_library(library.substr(0, suffix) + "_ros.so");
   if (file.empty()) return;
   if (dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE) == nullptr) {
-    ROS_WARN("%s does not load, so what it brings is missing: %s", file.c_str(), dlerror());
+    ROS_WARN("%s does not load, its kinds have no messages: %s", file.c_str(), dlerror());
   }
 }
 

@@ -12,7 +12,7 @@
 #include "ros/channel.h"
 #include "ros/command_topic.h"
 
-/// What ROS knows of a kind of sensor or device: its messages, its frame, the messages that command
+/// The ROS side of a kind of sensor or device: its messages, its frame, the messages that command
 /// it, and how rviz shows it. Each kind has one file in ros/kinds/; a plug-in library libX.so
 /// brings its own in libX_ros.so beside it. No other C++ of the node names a kind.
 namespace angen::node {
@@ -22,7 +22,7 @@ struct Format {
   using Open = std::function<std::unique_ptr<Channel>(ros::NodeHandle&, const std::string& topic)>;
 
   std::string type;  // angen_msgs/PirMsg
-  /// Of a kind with several messages: the end of the topic, and the parameter that changes it.
+  /// In a kind with several messages: the end of the topic, and the parameter that changes it.
   std::string leaf;  // empty: it is not published where the parameter is not given
   std::string leaf_parameter;
   std::string other_leaf;       // in place of `leaf` where this parameter is given
@@ -39,17 +39,17 @@ struct Format {
   std::function<void(const Reading&, const Label&, void* message)> fill;
 };
 
-/// How rviz shows a sensor's rays, which its field `ranges` has.
+/// Display of a sensor's rays in rviz; their lengths are its field `ranges`.
 struct RayStyle {
   std::string group;          // rviz namespace
   std_msgs::ColorRGBA alarm;  // while an alarm of its kind is yes
 };
 
-/// How rviz shows the model of a device.
+/// Display of a device's model in rviz.
 struct ModelStyle {
   std::string group;        // rviz namespace of its visuals; empty: KIND + "s"
   std::string label;        // rviz namespace of a label with its name; empty: none
-  bool is_carried = false;  // what carries it is shown as it would be without it
+  bool is_carried = false;  // its carrier is shown as without it
   bool travels = false;     // through the building; its label goes with it
   bool is_on_floor = true;  // false: it changes storeys, its groups are of none
 };
@@ -91,7 +91,7 @@ class RosKindBuilder {
     return *this;
   }
 
-  /// The same for a message whose topic a parameter names, as Gazebo's plug-ins do.
+  /// A message whose topic a parameter names, as Gazebo's plug-ins do.
   template <class Message>
   RosKindBuilder& named_message(Fill<Message> fill, std::string fallback,
                                 std::string parameter = "topicName") {
@@ -110,7 +110,7 @@ class RosKindBuilder {
   /// A transform for each reading, on /tf, unless the parameter is false.
   RosKindBuilder& transform(Fill<geometry_msgs::TransformStamped> fill, std::string off_switch);
 
-  /// The same for a kind of which there may be thousands: with topics:=kind they share a topic.
+  /// A message of a kind with up to thousands of instances: with topics:=kind they share a topic.
   template <class Message, class Array>
   RosKindBuilder& message_with_array(Fill<Message> fill) {
     message<Message>(fill);
@@ -159,7 +159,7 @@ class RosKindBuilder {
     kind_.commands = {subscribe_as(make), std::move(topics)};
     return *this;
   }
-  /// The same on the topic that a parameter of its <plugin> names.
+  /// Messages that command a device, on the topic that a parameter of its <plugin> names.
   template <class Message>
   RosKindBuilder& commanded_by(Command (*make)(const Message&), std::string parameter,
                                std::string fallback) {
@@ -176,7 +176,7 @@ class RosKindBuilder {
     kind_.model.label = std::move(group);
     return *this;
   }
-  /// It is a small part of what carries it, whose visuals it does not group.
+  /// It is a small part of its model, and does not group the model's visuals.
   RosKindBuilder& carried() {
     kind_.model.is_carried = true;
     return *this;
@@ -185,7 +185,7 @@ class RosKindBuilder {
     kind_.model.is_on_floor = false;
     return *this;
   }
-  /// Its model goes about in the building, and so does its label.
+  /// Its model moves through the building, and its label with it.
   RosKindBuilder& travels() {
     kind_.model.travels = true;
     return label("labels").changes_storeys();
@@ -219,9 +219,9 @@ struct RosKindRegistration {
 /// for each; any thread.
 void load_ros_library(const std::string& library);
 
-/// What is registered for a kind; angen_msgs/Reading for one that nobody registered. `library` is
-/// the plug-in's, as its SDF names it: libX_ros.so is loaded where there is one. Any thread; what
-/// it returns lives as long as the process.
+/// The registration of a kind; angen_msgs/Reading for an unregistered one. `library` is
+/// the plug-in's, as its SDF names it: libX_ros.so is loaded if it exists. Any thread; the
+/// result lives as long as the process.
 const RosKind& ros_kind(const std::string& kind, const std::string& library = "");
 
 inline const RosKind& ros_kind(const sim::SensorEntry& sensor) {

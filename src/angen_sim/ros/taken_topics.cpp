@@ -28,7 +28,7 @@ std::string kind_of(const std::string& library, Catalog& catalog) {
   return "";
 }
 
-/// What this node publishes on a topic or subscribes to, empty for a topic that is free.
+/// The node's use of a topic: publication or subscription; empty for a free topic.
 std::string carried(const std::string& topic) {
   if (const auto found = ros::TopicManager::instance()->lookupPublication(topic)) {
     return "carries " + found->getDataType();

@@ -19,8 +19,9 @@ bool is_off(const sim::SensorEntry& sensor, const std::string& parameter) {
 
 std::string below_namespace(const Element& plugin, const std::string& topic) {
   const Element* space = plugin.child("robotNamespace");
-  const bool stands = topic.empty() || topic[0] == '/' || space == nullptr || space->text.empty();
-  return stands ? topic : "/" + space->text + "/" + topic;
+  const bool is_absolute =
+      topic.empty() || topic[0] == '/' || space == nullptr || space->text.empty();
+  return is_absolute ? topic : "/" + space->text + "/" + topic;
 }
 
 std::vector<std::string> sensor_topics(const sim::SensorEntry& sensor, const Format& format,

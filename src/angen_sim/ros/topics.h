@@ -18,7 +18,7 @@ enum class Topics {
 /// Throws Error for a word that is neither "sensor" nor "kind".
 Topics topics_named(const std::string& word);
 
-/// Where one message of a sensor is published if it has topics of its own, nowhere where it is
+/// The topics of one message of a sensor that has topics of its own, none where it is
 /// switched off; `robot` is the one that carries it, or null. The first is the one to name.
 std::vector<std::string> sensor_topics(const sim::SensorEntry& sensor, const Format& format,
                                        const Robot* robot);

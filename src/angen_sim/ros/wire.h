@@ -15,7 +15,7 @@ std::string graph_name(const std::string& text);
 /// /angen/KIND/NAME, not yet a graph name.
 std::string default_topic(const std::string& kind, const std::string& name);
 
-/// Where a sensor or device is published: the topic that its SDF gives (relative to the node's
+/// The topic of a sensor or device: the one that its SDF gives (relative to the node's
 /// namespace, as with Gazebo's plug-ins), or /angen/KIND/NAME.
 std::string topic_of(const std::string& kind, const std::string& name,
                      const std::string& requested = "");

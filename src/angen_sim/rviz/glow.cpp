@@ -15,7 +15,7 @@ using visualization_msgs::Marker;
 constexpr int kCells = 8;            // along each edge of a floor or wall
 constexpr double kSkin = 0.02;       // m over the floor and before the walls
 constexpr double kDirect = 12.0;     // m^2: weight of cos/d^2
-constexpr double kReflected = 0.25;  // what walls and ceiling return, everywhere
+constexpr double kReflected = 0.25;  // share that walls and ceiling reflect, everywhere
 constexpr double kFloorAlpha = 0.75;
 constexpr double kWallAlphaLit = 0.3;
 

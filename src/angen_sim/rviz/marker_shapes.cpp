@@ -50,12 +50,12 @@ Marker draw_triangles(const TriangleMesh& mesh) {
   return marker;
 }
 
-// A message holds three points a triangle: rviz gets at most so many columns and rows.
+// A message holds three points a triangle: the grid is thinned to that many columns and rows.
 Marker draw_heights(const HeightGrid& grid) {
-  constexpr std::uint32_t kMost = 128;
+  constexpr std::uint32_t kMaxCells = 128;
   Marker marker = sized(Marker::TRIANGLE_LIST, 1.0, 1.0, 1.0);
-  const std::uint32_t across = std::min(kMost, grid.columns - 1);
-  const std::uint32_t down = std::min(kMost, grid.rows - 1);
+  const std::uint32_t across = std::min(kMaxCells, grid.columns - 1);
+  const std::uint32_t down = std::min(kMaxCells, grid.rows - 1);
   const auto add = [&](std::uint32_t column, std::uint32_t row) {
     const Eigen::Vector3f vertex =
         grid.vertex(column * (grid.columns - 1) / across, row * (grid.rows - 1) / down);

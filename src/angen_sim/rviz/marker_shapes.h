@@ -12,13 +12,13 @@
 /// Descriptions as rviz's markers, with neither id nor place.
 namespace angen::node {
 
-/// A marker and where it stands on its link.
+/// A marker and its pose on its link.
 struct Drawing {
   visualization_msgs::Marker marker;
   Pose offset;
 };
 
-/// What shows a visual: one marker, three for a capsule, none for an empty shape.
+/// The markers of a visual: one, three for a capsule, none for an empty shape.
 std::vector<Drawing> draw(const desc::Visual& visual);
 
 /// A sphere where a light is, lit or dark. Level 0..1.

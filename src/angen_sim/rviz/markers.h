@@ -14,7 +14,7 @@
 
 namespace angen::node {
 
-/// /angen/markers: all of the world for each newcomer, after that only what has changed, at most 15
+/// /angen/markers: the whole world for each new subscriber, then only changes, at most 15
 /// times a second of wall time. Nothing is built or updated without a subscriber.
 class Markers {
  public:

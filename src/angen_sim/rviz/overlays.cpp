@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kNewRange = 0.15;  // m: beams are drawn again when one differs by more
 
-const Vec3 kOverSensor(0.0, 0.0, 0.12);  // m, where its words stand in the world
+const Vec3 kOverSensor(0.0, 0.0, 0.12);  // m, of its caption, in the world
 const Vec3 kOverModel(0.0, 0.0, 0.5);    // m, in its first link's frame
 
 constexpr double kTextHeight = 0.08;        // m, of a capital letter
@@ -90,7 +90,7 @@ std::uint32_t first_link(const sim::Structure& structure, std::uint32_t model) {
   return static_cast<std::uint32_t>(link - structure.links.begin());
 }
 
-/// Where its description puts it, whatever has moved since.
+/// Its pose by its description, before any motion.
 Pose described_pose(const sim::Structure& structure, std::uint32_t link) {
   const sim::LinkEntry& entry = structure.links[link];
   const desc::Model& model = *structure.models[entry.model];

@@ -24,11 +24,11 @@ class Overlays {
   /// `next_id` is that of the next marker.
   Overlays(std::int32_t& next_id, Readings& readings) : next_id_(next_id), readings_(readings) {}
 
-  /// Makes overlays of what is new since the structure of the last call; what no longer exists is
+  /// Makes overlays of entries that are new since the last call; those of removed entries are
   /// added to `gone`, to be deleted.
   void on_structure(const sim::Structure& structure, const Changes& changes, Array& gone);
 
-  /// Appends what differs from when it was appended last; with `all` everything.
+  /// Appends markers that differ from the last call's; with `all` every marker.
   void append(const sim::Snapshot& snapshot, bool all, Array& array);
 
  private:
@@ -44,7 +44,7 @@ class Overlays {
     bool drawn = false;                   // it was appended
     double level = -1.0;                  // of a lamp, as appended last
     std::shared_ptr<const Reading> last;  // compared last
-    Nanoseconds stamp = 0;                // of what was made in its place then
+    Nanoseconds stamp = 0;                // of the reading computed for it then
     std::vector<double> ranges;           // m, as appended last
     double tilt = 0.0;                    // rad, as well
     bool fired = false;
@@ -60,11 +60,11 @@ class Overlays {
   void add_room_labels();
   /// Whether buildings came or went; then rooms are those of now.
   bool find_other_rooms(const sim::Structure& structure);
-  /// What stays gets the numbers of now, what has gone is added to `gone`.
+  /// Updates the indices of overlays; those of removed entries are added to `gone`.
   static void keep(Named& all, const Changes& changes, Array& gone);
   static void drop(Named& all, Array& gone);
-  /// What an overlay shows from now on; in another namespace than before, or nowhere if that is
-  /// empty, what it showed is deleted.
+  /// Sets the marker of an overlay. With another namespace than before, or an empty one,
+  /// the marker before is deleted.
   void show(Overlay& overlay, visualization_msgs::Marker marker, const std::string& group);
   /// Whether the reading or state that it shows has changed since the last call.
   static bool is_new(const sim::Snapshot& snapshot, Overlay& overlay);

@@ -5,7 +5,7 @@
 
 #include "sim/snapshot.h"
 
-/// What rviz's markers need to know of a building: its storeys, sides and rooms.
+/// The storeys, sides and rooms of a building, for markers.
 namespace angen::node {
 
 /// The space over one floor link of a building.
@@ -20,8 +20,8 @@ struct Room {
 /// A static model of many links is a building: its links are distinguished by their names.
 bool is_building(const desc::Model& model);
 
-/// " 0" for what its description places on floor 0; empty for what changes storeys: people, robots
-/// and elevators.
+/// " 0" for what its description places on floor 0; empty for models that change storeys: people,
+/// robots and elevators.
 std::string storey_suffix(const sim::Structure& structure, std::uint32_t model, double z);
 
 /// "south" for a link that is a part of the building's outermost wall at its lowest y, likewise

@@ -9,13 +9,13 @@ namespace angen::sensors {
 
 namespace {
 
-constexpr double kGentle = 0.3;   // of gravity
-constexpr double kGlides = 0.05;  // m/s up or down: what goes on evenly is not at rest
+constexpr double kGentle = 0.3;                      // of gravity
+constexpr double kGlides = 0.05;                     // m/s up or down: uniform motion is not rest
 constexpr Nanoseconds kLongestGlide = 10 * kSecond;  // the integral of a longer one says nothing
 
 }  // namespace
 
-/// Proper acceleration where it is fastened, and what follows from it: whether it is moved, tilted
+/// Proper acceleration where it is fastened, and conclusions: whether it is moved, tilted
 /// or lifted. Decisions are made before noise, which is far below their thresholds.
 class Accelerometer : public Sensor {
  public:
@@ -55,7 +55,7 @@ class Accelerometer : public Sensor {
     const Vec3 felt = pose.rotation.conjugate() * (acceleration - view.gravity());
     const Vec3 up = pose.rotation.conjugate() * -view.gravity().normalized();
     if (!moving_) note_tilt(std::acos(std::clamp(up.z(), -1.0, 1.0)), reading);
-    // What falls or is jerked feels nothing like the vertical: its tilt stays.
+    // In free fall or a jerk the vertical cannot be measured: the tilt stays.
     const double g = view.gravity().norm();
     if (moving_ && std::abs(felt.norm() - g) < kGentle * g) note_tilt(angle_to(felt), reading);
     reading.set("acceleration", std::vector<double>{felt.x(), felt.y(), felt.z()});
@@ -69,7 +69,7 @@ class Accelerometer : public Sensor {
   bool steady() const override { return !moving_; }
 
  private:
-  // rad, of what it takes for the vertical: what it feels.
+  // rad, of its z axis from the measured acceleration.
   static double angle_to(const Vec3& felt) {
     return felt.isZero(0.0) ? 0.0 : std::acos(std::clamp(felt.normalized().z(), -1.0, 1.0));
   }
@@ -138,13 +138,13 @@ class Accelerometer : public Sensor {
 
 ANGEN_REGISTER_SENSOR(
     Accelerometer,
-    Kind("accelerometer", "What a thing feels when it is moved, tilted, lifted, put down.")
+    Kind("accelerometer", "Acceleration of a thing that is moved, tilted, lifted, put down.")
         .publishes_at(10.0)
         .on_link("imu")
         .example("spawn accelerometer a1 --on kitchen_chair0_a::body --set link=body")
         .numbers("acceleration", "m/s^2", "along its x, y, z; at rest g upwards")
         .shown(2)
-        .number("tilt", "rad", "of its z axis from what it takes for the vertical")
+        .number("tilt", "rad", "of its z axis from the measured vertical")
         .shown(2)
         .flag("moving", "whether it is moved")
         .alarm("MOVED", "")

@@ -20,7 +20,7 @@ render::Distortion read_distortion(Params& params) {
   lens.k3 = coefficient("distortionK3", "radial, of the sixth power");
   lens.p1 = coefficient("distortionT1", "tangential distortion");
   lens.p2 = coefficient("distortionT2", "tangential distortion");
-  if (params.flag("autoDistortion", false, "distortion is what <camera><distortion> says")) {
+  if (params.flag("autoDistortion", false, "distortion is that of <camera><distortion>")) {
     const std::string block = "camera/distortion/";
     lens = {};
     lens.k1 = coefficient((block + "k1").c_str(), "with autoDistortion true: as distortionK1");
@@ -32,7 +32,7 @@ render::Distortion read_distortion(Params& params) {
   return lens;
 }
 
-// What Gazebo's plug-ins take, and what the image itself says here.
+// Parameters of Gazebo's plug-ins; here the image determines these values.
 void read_unused(Params& params) {
   for (const char* path : {"Cx", "Cy", "CxPrime", "focalLength"}) {
     params.number(path, 0.0, "px", "not used: it follows from the image and its angle");
@@ -55,7 +55,7 @@ Lens read_lens(Params& params) {
   camera.far = params.number("camera/clip/far", camera.far, "m", "farther is not seen", kPositive);
   if (camera.near > camera.far)
     throw params.error("camera/clip", "<camera/clip>: near is above far");
-  params.text("cameraName", "", "topics stand below it, instead of /angen/KIND/NAME");
+  params.text("cameraName", "", "prefix of its topics, instead of /angen/KIND/NAME");
   camera.distortion = read_distortion(params);
   lens.baseline = params.number("hackBaseline", 0.0, "m", "to the left camera of a stereo pair");
   read_unused(params);

@@ -7,7 +7,7 @@
 
 namespace angen::sensors {
 
-/// What Gazebo's camera plug-ins have: a lens, and what a message says of it.
+/// The lens of Gazebo's camera plug-ins, and its description in messages.
 struct Lens {
   render::PinholeCamera camera;
   double baseline = 0.0;  // m, to the left camera of a stereo pair
@@ -20,7 +20,7 @@ Lens read_lens(Params& params);
 /// A kind of camera: its rate, and the fields that set_camera_info() sets, after `image`.
 Kind camera_kind(Kind kind, std::string image, std::string image_doc);
 
-/// What sensor_msgs/CameraInfo is made of.
+/// The fields of sensor_msgs/CameraInfo.
 void set_camera_info(const Lens& lens, Reading& reading);
 
 /// An image of the camera's size out of its values.

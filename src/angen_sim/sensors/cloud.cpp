@@ -65,7 +65,7 @@ Kind cloud_kind(Kind kind) {
   return kind.publishes_at(10.0)
       .on_demand()
       .numbers("ranges", "m", "of each ray, row after row from below, infinite without a hit")
-      .numbers("intensities", "", "of each ray, 100 times the albedo of what it hit")
+      .numbers("intensities", "", "of each ray, 100 times the albedo of the surface")
       .integer("columns", "", "rays side by side")
       .shown()
       .integer("rows", "", "of rays")

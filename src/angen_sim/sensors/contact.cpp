@@ -42,8 +42,8 @@ bool has(const std::vector<ContactPair>& pairs, const std::string& first,
 
 }  // namespace
 
-/// Everything that touches some collisions of its link, also what lies still, and what touched them
-/// since its last reading.
+/// All bodies that touch some collisions of its link, also sleeping ones, and those that touched
+/// them since its last reading.
 class Contact : public Sensor {
  public:
   Nanoseconds sample_period() const override { return debounce_ > 0 ? sample_period_ : 0; }
@@ -135,14 +135,14 @@ class Contact : public Sensor {
 
 ANGEN_REGISTER_SENSOR(
     Contact,
-    Kind("contact", "What touches a body: names, points, depths, forces.")
+    Kind("contact", "Contacts of a body: names, points, depths, forces.")
         .publishes_at(1.0)
         .on_link("contact")
         .example("spawn contact c1 --on kitchen_chair0_a::body --set collision=seat_collision")
         .flag("pressed", "something touches it, after the debounce")
         .alarm("touched", "free")
         .texts("collision1", "of each contact, the watched collision")
-        .texts("collision2", "and what touches it")
+        .texts("collision2", "and the one that touches it")
         .shown()
         .numbers("counts", "", "and how many points it has")
         .numbers("positions", "m", "x y z of each point, in `frame`")

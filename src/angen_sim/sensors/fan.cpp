@@ -70,7 +70,7 @@ Fan read_fan(Params& params, const Fan& fallback) {
   Fan fan;
   static_cast<RayGeometry&>(fan) = read_rays(params, fallback);
   const std::string noise = params.choice("ray/noise/type", "gaussian", {"gaussian", "none"},
-                                          "noise of each ray that meets something");
+                                          "noise of each ray that hits something");
   fan.noise_mean = params.number("ray/noise/mean", fallback.noise_mean, "m", "added to a range");
   fan.noise_stddev = params.number("ray/noise/stddev", fallback.noise_stddev, "m",
                                    "standard deviation of a range", kNotNegative);

@@ -23,10 +23,10 @@ struct Fan : RayGeometry {
   /// The scan that `hits` are, without noise.
   Ranges measure(Hits hits) const;
 
-  /// A scan with noise where something was met. Noise takes no range below `min` or above `max`.
+  /// A scan with noise where a ray hit something. Noise takes no range below `min` or above `max`.
   Ranges with_noise(Ranges ranges, Rng rng) const;
 
-  /// The same noise for a reading's field of ranges that are infinite where nothing was met: the
+  /// The same noise for a reading's field of ranges that are infinite without a hit: the
   /// simulator adds it, ray after ray.
   void declare_noise(const std::string& field, Params& params) const {
     params.noise({field, noise_mean, noise_stddev, {min, max}, false});
@@ -38,16 +38,16 @@ struct Fan : RayGeometry {
   /// of its random numbers is below this.
   double quiet_chance(double limit) const { return quiet_chance(limit, size()); }
 
-  /// The same for a scan of so many rays.
+  /// The same for a scan of `rays` rays.
   double quiet_chance(double limit, std::size_t rays) const {
     return noise_stddev > 0.0 ? chance_within(rays, limit / noise_stddev) : 1.0;
   }
 };
 
-/// Reads <scan> and <range> of <ray>; `fallback` stands for what it leaves out.
+/// Reads <scan> and <range> of <ray>; `fallback` has the default values.
 RayGeometry read_rays(Params& params, const RayGeometry& fallback);
 
-/// The same with <noise>.
+/// Reads <noise>, too.
 Fan read_fan(Params& params, const Fan& fallback);
 
 /// The greatest |a[i] - b[i]| in meters.

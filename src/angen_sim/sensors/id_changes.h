@@ -12,7 +12,7 @@ class IdChanges {
  public:
   IdChanges(const char* came, const char* gone) : came_(came), gone_(gone) {}
 
-  /// One event a sample: what came, or where nothing came what went. `ids` are sorted.
+  /// One event per sample: new ids, or if there are none, removed ids. `ids` are sorted.
   void note(const std::vector<std::string>& ids, Reading& reading);
 
  private:

@@ -22,7 +22,7 @@ Fan default_fan() {
 
 }  // namespace
 
-/// A planar laser scanner. A ray that meets nothing is infinite, as REP 117 wants it.
+/// A planar laser scanner. A ray without a hit is infinite, as REP 117 requires.
 class Lidar : public Sensor {
  public:
   void configure(Params& params, Wiring&) override {

@@ -16,7 +16,7 @@ struct Cell {
   double y = 0.0;
 };
 
-/// What cells say together: the sum less the tare, and where that presses.
+/// The result of all cells: the sum less the tare, and its center.
 class Sum {
  public:
   Sum(double tare, double tare_x, double tare_y, double least)
@@ -76,15 +76,15 @@ class StillCells : public LazyReading {
 
 }  // namespace
 
-/// Load cells under the feet of a table: each weighs what its foot presses on the floor. Together
-/// they say what stands on the table, and where its center is.
+/// Load cells under the feet of a table: each weighs the load of its foot. Together
+/// they give the weight on the table, and its center.
 class LoadCells : public Sensor, public NoisySensor {
  public:
   Nanoseconds sample_period() const override { return sample_period_; }
 
   void configure(Params& params, Wiring& wiring) override {
-    const double tare = params.number("tare", 0.0, "kg",
-                                      "what stands on the cells always: the table", kNotNegative);
+    const double tare =
+        params.number("tare", 0.0, "kg", "of the table itself, which is subtracted", kNotNegative);
     const auto places = params.rows("tare_place", 2, "m", "x y of its center; 0 0");
     if (places.size() > 1) throw params.error("tare_place", "load cells have one <tare_place>");
     const double x = places.empty() ? 0.0 : places[0][0];
@@ -137,7 +137,7 @@ class LoadCells : public Sensor, public NoisySensor {
     return {std::min(force / view.gravity().norm(), capacity_), found.x / force, found.y / force};
   }
 
-  // What is put down swings for a moment: a change counts once two samples agree.
+  // A thing that is put down swings for a moment: a change counts once two samples agree.
   void note_change(double weight, Reading& reading) {
     settled_ = std::abs(weight - last_) < 0.1 * step_;
     last_ = weight;
@@ -165,17 +165,16 @@ class LoadCells : public Sensor, public NoisySensor {
 };
 
 ANGEN_REGISTER_SENSOR(
-    LoadCells,
-    Kind("load_cells", "What stands on a table: its weight, and where its center is.")
-        .publishes_at(10.0)
-        .on_link("contact")
-        .example("spawn load_cells l1 --on kitchen_table0::body --set tare=20")
-        .number("weight", "kg", "of what stands on it, without the tare")
-        .shown(2)
-        .number("x", "m", "of its center, in the sensor's frame; NaN where nothing stands on it")
-        .shown(2)
-        .number("y", "m", "of its center, in the sensor's frame")
-        .shown(2)
-        .numbers("cells", "kg", "of each cell"))
+    LoadCells, Kind("load_cells", "Load cells under a table: the weight on it, and its center.")
+                   .publishes_at(10.0)
+                   .on_link("contact")
+                   .example("spawn load_cells l1 --on kitchen_table0::body --set tare=20")
+                   .number("weight", "kg", "on the table, without the tare")
+                   .shown(2)
+                   .number("x", "m", "of its center, in the sensor's frame; NaN without a weight")
+                   .shown(2)
+                   .number("y", "m", "of its center, in the sensor's frame")
+                   .shown(2)
+                   .numbers("cells", "kg", "of each cell"))
 
 }  // namespace angen::sensors

@@ -14,9 +14,9 @@ namespace {
 
 constexpr double kWallGap = 0.5;     // m: faces of two rooms that near have a wall between them
 constexpr double kHysteresis = 3.0;  // dB below the threshold it is quiet again
-constexpr double kBeside = 3.0;  // m: how far above or below a room may be where its things stand
+constexpr double kBeside = 3.0;      // m: tolerance above and below a room for sources in it
 
-/// Area (m^2) of the wall between two rooms that stand side by side; 0 where they do not.
+/// Area (m^2) of the wall between two adjacent rooms; 0 for others.
 double shared_wall(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
   for (int axis = 0; axis < 3; ++axis) {
     const double gap = std::max(b.min()[axis] - a.max()[axis], a.min()[axis] - b.max()[axis]);
@@ -178,7 +178,7 @@ class Microphone : public Sensor {
 };
 
 ANGEN_REGISTER_SENSOR(Microphone,
-                      Kind("microphone", "The sound pressure level of what sounds in the rooms.")
+                      Kind("microphone", "The sound pressure level of sources in the rooms.")
                           .publishes_at(2.0)
                           .model("microphone")
                           .example("spawn microphone m1 --pose \"0.1 1 1.5\" --set background=35")

@@ -18,7 +18,7 @@ Fan default_fan() {
   return fan;
 }
 
-/// The two rays, and what they measure while nothing changes.
+/// The two rays, and their ranges while nothing changes.
 struct Beam : LazyReading {
   Fan fan;
   double threshold = 0.0;  // m
@@ -45,7 +45,7 @@ struct Beam : LazyReading {
 
 }  // namespace
 
-/// A light barrier of two rays, closed while something stands in one of them.
+/// A light barrier of two rays, closed while one of them is blocked.
 class OpticalSwitch : public Sensor, public NoisySensor {
  public:
   Nanoseconds sample_period() const override { return sample_period_; }
@@ -133,7 +133,7 @@ ANGEN_REGISTER_SENSOR(OpticalSwitch,
                           .model("optical_switch")
                           .example("spawn switch s1 --pose \"2.1 3.94 2.125\"")
                           .rays("0 0 1 1")
-                          .flag("closed", "something stands in a ray")
+                          .flag("closed", "a ray is blocked")
                           .alarm("closed", "open")
                           .flag("changed",
                                 "a range differs from the last sample's by more than "

@@ -11,7 +11,7 @@ constexpr double kLightSpeed = 299.792458;  // m/us: m times MHz
 constexpr double kNearest = 0.1;            // m: nearer is not the far field
 constexpr double kThinnest = 0.01;          // m: boards and sheets let waves through
 constexpr double kLight = 0.125;            // m: thicker walls are heavy
-constexpr double kThickestWall = 0.5;       // m: what is thicker is hollow, as a wardrobe is
+constexpr double kThickestWall = 0.5;       // m: thicker things are hollow, as wardrobes
 constexpr double kLevel = 0.7;              // of a normal's z: steeper surfaces are walls
 constexpr double kOverlap = 1e-3;           // m: flush shapes stay two
 

@@ -18,7 +18,7 @@ struct PathLoss {
 /// Loss in free space, dB; distance in m, frequency in MHz.
 double free_space_loss(double distance, double frequency);
 
-/// What a path goes through, by thickness and attitude of what it crosses.
+/// Obstacles in a path, by thickness and attitude.
 struct Obstacles {
   int light = 0;
   int heavy = 0;

@@ -10,11 +10,11 @@ namespace angen::sensors {
 
 namespace {
 
-constexpr double kStandardGravity = 9.80665;  // m/s^2, what scales are marked by
+constexpr double kStandardGravity = 9.80665;  // m/s^2, by which scales are marked
 
 }  // namespace
 
-/// A mat that closes its contact under a load: what presses on it, along its own -z.
+/// A mat that closes its contact under a load, the force along its own -z.
 class PressureMat : public Sensor {
  public:
   Nanoseconds sample_period() const override { return sample_period_; }
@@ -65,7 +65,7 @@ class PressureMat : public Sensor {
     return true;
   }
 
-  // kg; what pulls it upwards is not a load.
+  // kg; a force upwards is not a load.
   double load_on(const View& view) const {
     const Vec3 down = view.pose().rotation * -Vec3::UnitZ();
     double force = 0.0;
@@ -94,7 +94,7 @@ ANGEN_REGISTER_SENSOR(PressureMat,
                           .example("spawn pressure m1 --pose \"1 2 0\" --set threshold=20")
                           .flag("pressed", "whether the load is above the threshold")
                           .alarm("PRESSED", "free")
-                          .number("load", "kg", "what presses on it, as a scale shows it")
+                          .number("load", "kg", "on it, as a scale shows it")
                           .shown(1)
                           .number("threshold", "kg", "as its parameter"))
 

@@ -10,7 +10,7 @@ namespace angen::sensors {
 
 namespace {
 
-constexpr double kSkin = 0.01;  // m: an antenna's distance from what carries it
+constexpr double kSkin = 0.01;  // m: an antenna's distance from its carrier
 
 }  // namespace
 

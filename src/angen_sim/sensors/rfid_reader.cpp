@@ -9,7 +9,7 @@ namespace angen::sensors {
 
 namespace {
 
-constexpr double kSkin = 0.01;  // m: a tag's own thickness on what carries it
+constexpr double kSkin = 0.01;  // m: a tag's own thickness on its carrier
 
 }  // namespace
 

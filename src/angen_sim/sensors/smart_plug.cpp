@@ -7,7 +7,7 @@ namespace angen::sensors {
 
 namespace {
 
-/// What a plug measures while nothing happens to its load: a constant power, and energy that grows.
+/// A plug's readings while its load does not change: a constant power, and energy that grows.
 struct Metering : LazyReading {
   std::string load;  // KIND/NAME
   bool connected = false;

@@ -7,7 +7,7 @@ namespace angen::sensors {
 
 namespace {
 
-constexpr double kReach = 0.5;  // m, from the probe to the origin of the plant that it stands in
+constexpr double kReach = 0.5;  // m, from the probe to the origin of its plant
 
 }  // namespace
 
@@ -48,7 +48,7 @@ class SoilMoisture : public Sensor {
 };
 
 ANGEN_REGISTER_SENSOR(SoilMoisture,
-                      Kind("soil_moisture", "The water in the soil of the pot that it stands in.")
+                      Kind("soil_moisture", "The water in the soil of its pot.")
                           .publishes_at(1.0)
                           .example("spawn soil_moisture s1 --pose \"4.65 5.7 0.2\"")
                           .number("moisture", "%", "of the soil's volume; NaN outside of a pot")

@@ -5,7 +5,7 @@
 
 namespace angen::sensors {
 
-/// The diffuse fields of rooms that sound passes between, in balance: what falls on a room's
+/// The diffuse fields of rooms that sound passes between, in balance: sound on a room's
 /// surfaces is absorbed or passes into the next room (H. Kuttruff, Room Acoustics, coupled rooms).
 /// Sound that leaves into the open does not come back.
 class SoundField {
@@ -27,7 +27,7 @@ class SoundField {
   Eigen::MatrixXd balance_;  // m^2
 };
 
-/// The same for the direct sound at a distance (m) of a source of some directivity: Q / (4 pi r^2).
+/// Gain of the direct sound at a distance (m) of a source of some directivity: Q / (4 pi r^2).
 double direct_gain(double distance, double directivity);
 
 /// 10^(dB/10), and back.

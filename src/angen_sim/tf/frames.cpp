@@ -38,7 +38,7 @@ std::optional<std::string> space_of(const desc::Model& model) {
   return value_of(plugins, "robotNamespace", "");
 }
 
-// Where a model has several drives, its frames are those of the last.
+// A model with several drives has the frames of the last.
 const Robot* owner_in(const std::vector<Robot>& robots, std::uint32_t model) {
   const Robot* owner = nullptr;
   for (const Robot& robot : robots) {

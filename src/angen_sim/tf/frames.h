@@ -24,15 +24,15 @@ struct FrameTree {
   sim::SharedArray<FixedFrame> mounts;  // of sensors, on their links
   sim::SharedArray<MovingFrame> moving;
   sim::SharedArray<std::string> sensors;  // frame of each sensor, as Structure::sensors
-  sim::SharedArray<std::string> bases;    // what each of them moves that is an odometry, or empty
+  sim::SharedArray<std::string> bases;    // the frame that an odometry among them moves, or empty
   sim::SharedArray<std::int32_t>
       moved_by;  // for each link the index in `moving` that carries it, or -1
 
   std::size_t fixed_count() const { return fixed.size() + odometry.size() + mounts.size(); }
 };
 
-/// Makes the tree of each structure, which shares what kept its number with the tree before.
-/// `world` is the root. Odometry frames stand in the world, unless a localization places them.
+/// Makes the tree of each structure, which shares unchanged parts with the tree before.
+/// `world` is the root. Odometry frames are fixed in the world, unless a localization places them.
 class FrameMaker {
  public:
   /// The tf_prefix of robots made for Gazebo in a namespace.
@@ -46,7 +46,7 @@ class FrameMaker {
                                         const std::vector<Robot>& robots, const Changes& changes);
 
  private:
-  /// How a sensor's frame came about.
+  /// The decision about a sensor's frame.
   struct Mounted {
     std::uint32_t mount = 0;   // how many of FrameTree::mounts came before it
     bool takes_frame = false;  // no other sensor has that frame

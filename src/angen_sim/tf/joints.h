@@ -10,8 +10,8 @@
 
 namespace angen::node {
 
-/// Where each robot's joints stand (rad or m), 50 times a simulated second while it has
-/// subscribers: what robot_state_publisher wants.
+/// Positions of each robot's joints (rad or m), 50 times per simulated second while it has
+/// subscribers, as robot_state_publisher expects them.
 class JointStates {
  public:
   explicit JointStates(ros::NodeHandle& node) : node_(node) {}

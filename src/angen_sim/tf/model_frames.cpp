@@ -63,7 +63,7 @@ class LinkFrames {
  private:
   bool is_robot() const { return !frames_.base_frame.empty(); }
 
-  // The link whose frame stands for the whole cluster: a robot's base, else the first.
+  // The link whose frame represents the cluster: a robot's base, else the first.
   std::uint32_t head(std::uint32_t link) {
     const std::uint32_t first = clusters_.first(link);
     return is_robot() && clusters_.first(frames_.base) == first ? frames_.base : first;

@@ -44,7 +44,7 @@ struct ModelFrames {
   std::vector<std::int32_t> moved_by;  // for each link the index in `moving` that carries it, or -1
 };
 
-/// `base_frame` is empty for what is not a robot.
+/// `base_frame` is empty if the model is not a robot.
 ModelFrames frames_of(const desc::Model& model, const std::string& base_frame, std::uint32_t base);
 
 }  // namespace angen::node

@@ -15,7 +15,7 @@ namespace angen::node {
 namespace {
 
 constexpr Nanoseconds kTransformPeriod = kSecond / 50;
-constexpr std::chrono::seconds kWholePeriod(1);  // of what is fixed; of wall time, as in a pause
+constexpr std::chrono::seconds kWholePeriod(1);  // of fixed frames; wall time, so also in a pause
 
 void add(tf2_msgs::TFMessage& message, Nanoseconds time, const std::string& parent,
          const std::string& child, const Pose& pose) {
@@ -31,8 +31,8 @@ void add(tf2_msgs::TFMessage& message, Nanoseconds time, const FixedFrame& frame
   add(message, time, frame.parent, frame.child, frame.pose);
 }
 
-/// Adds what `now` has and `before` has not, where frames that stay keep their order. tf listeners
-/// keep frames that are gone.
+/// Adds frames of `now` that `before` lacks; frames that stay keep their order. tf listeners
+/// keep removed frames.
 template <class Frames>
 void add_new(tf2_msgs::TFMessage& message, Nanoseconds time, const Frames& before,
              const Frames& now) {

@@ -15,9 +15,9 @@
 namespace angen::node {
 
 /// /tf_static whole when there are new frames, but at most once a second of wall time; until then
-/// what is new alone. /tf for what moves: when it has come or moved, at most 50 times a simulated
-/// second, and all of it once a second and for each newcomer. No transform goes out twice with one
-/// stamp, which tf2 warns of, but to a newcomer during a pause.
+/// only new frames. /tf for moving frames: when one is new or has moved, at most 50 times a
+/// simulated second, and all of them once a second and for each new subscriber. No transform is
+/// sent twice with one stamp, which tf2 warns of, but to a newcomer during a pause.
 class Transforms {
  public:
   explicit Transforms(ros::NodeHandle& node);
@@ -31,7 +31,7 @@ class Transforms {
   bool whole_is_due() const;
   void send_whole();
   void mark(std::int32_t frame);
-  /// What has not been sent with this snapshot's stamp; `again`: that, too.
+  /// Transforms not sent with this snapshot's stamp; `again`: also those that were.
   tf2_msgs::TFMessage collect(const sim::Snapshot& snapshot, bool all, bool again);
 
   LatchedLazyPublisher<tf2_msgs::TFMessage> fixed_;

@@ -12,7 +12,7 @@
 namespace angen::node {
 namespace {
 
-/// The rays of a scanner, and what they measured.
+/// The rays of a scanner, and their measurements.
 class Scan {
  public:
   explicit Scan(const Reading& reading)

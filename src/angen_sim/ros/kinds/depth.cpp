@@ -64,7 +64,7 @@ void fill_points(const Reading& reading, const Label&, sensor_msgs::PointCloud2&
   }
 }
 
-constexpr char kColor[] = "imageTopicName";  // what makes it a color camera
+constexpr char kColor[] = "imageTopicName";  // with this parameter it is a color camera
 
 ANGEN_REGISTER_ROS_KIND(
     {"depth", "depth_camera"},

@@ -16,7 +16,7 @@ void fill(const Reading& state, const Label& label, nav_msgs::Odometry& message)
   message.pose.pose = to_ros(odometry_pose(state));
   message.twist.twist.linear.x = state.get<double>("v");
   message.twist.twist.angular.z = state.get<double>("w");
-  // Variances of what wheels cannot measure (z, roll, pitch) are large, of the rest small.
+  // Variances are large where wheels measure nothing (z, roll, pitch), otherwise small.
   constexpr std::array<double, 6> kDriveVariances{1e-4, 1e-4, 1e6, 1e6, 1e6, 1e-3};
   for (std::size_t i = 0; i < kDriveVariances.size(); ++i) {
     message.pose.covariance[i * 7] = message.twist.covariance[i * 7] = kDriveVariances[i];

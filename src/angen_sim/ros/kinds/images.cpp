@@ -21,12 +21,12 @@ void copy(const ImageArray<T>& image, const char* encoding, sensor_msgs::Image& 
 }
 
 ImageArray<std::uint16_t> in_millimeters(const FloatImage& depth) {
-  constexpr float kMost = std::numeric_limits<std::uint16_t>::max();
+  constexpr float kMax = std::numeric_limits<std::uint16_t>::max();
   std::vector<std::uint16_t> whole;
   whole.reserve(depth.values->size());
   for (const float meters : *depth.values) {
     const float millimeters = std::round(1000.0F * meters);
-    const bool fits = millimeters >= 0.0F && millimeters <= kMost;
+    const bool fits = millimeters >= 0.0F && millimeters <= kMax;
     whole.push_back(fits ? static_cast<std::uint16_t>(millimeters) : std::uint16_t{0});
   }
   return {depth.height, depth.width, 1,

@@ -5,7 +5,7 @@
 
 #include "ros/channel.h"
 
-/// What cameras saw, as messages in the optical frame (REP 103: z ahead, x right, y down).
+/// Images of cameras as messages in the optical frame (REP 103: z ahead, x right, y down).
 namespace angen::node {
 
 /// `image` as rgb8, or mono8 with one channel.

@@ -37,7 +37,7 @@ class PointWriter {
     message.data.resize(static_cast<std::size_t>(message.row_step) * height);
   }
 
-  /// Of the present point.
+  /// Sets a field of the present point.
   template <class T>
   void set(std::uint32_t offset, T value) {
     std::memcpy(&message_.data.at(at_ + offset), &value, sizeof value);

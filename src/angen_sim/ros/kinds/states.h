@@ -18,7 +18,7 @@ inline Pose flat_pose(const Reading& state, double z) {
           from_rpy(0.0, 0.0, state.get<double>("yaw"))};
 }
 
-/// Where wheels say that a robot is, in its odometry frame.
+/// A robot's pose by its wheels, in its odometry frame.
 inline Pose odometry_pose(const Reading& state) { return flat_pose(state, 0.0); }
 
 }  // namespace angen::node

@@ -13,7 +13,7 @@ struct Window {
   double high = 0.0;
 };
 
-/// Where the two elements of a detector look through the facets of its Fresnel lens: rows of zones
+/// The zones of a detector's two elements, through the facets of its Fresnel lens: rows of zones
 /// of alternating sign from right to left. Elements and the gaps between them are equally wide.
 class FresnelLens {
  public:
@@ -29,7 +29,7 @@ class FresnelLens {
   /// No zone whose middle lies in `window` sees anything any more.
   void tape(const Window& window);
 
-  /// -1 to 1: how much of what comes from there falls on the positive element, less that on the
+  /// -1 to 1: the share of radiation from there on the positive element, less that on the
   /// negative one. The edges of a zone are soft.
   double sensitivity(double azimuth, double elevation) const;
 

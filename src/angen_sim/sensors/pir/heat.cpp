@@ -13,19 +13,19 @@ constexpr double kHousing = 0.05;                    // m: the detector's own ho
 constexpr double kCellWidth = 0.012;                 // rad: a third of a zone of a wide lens
 constexpr double kCellHeight = 0.024;
 constexpr int kFewest = 12;  // cells on a side
-constexpr int kMost = 64;
-constexpr int kWaits = 4;  // samples left out at what was hidden at the last one
+constexpr int kMaxCells = 64;
+constexpr int kWaits = 4;  // samples left out while all surfaces are hidden
 
 double azimuth_of(const Vec3& p) { return std::atan2(p.y(), p.x()); }
 
-/// A window about the x axis of `pose` that holds the box; `whole` where it goes round. Azimuths
-/// are near that of the box's middle, also beyond pi.
+/// A window about the x axis of `pose` that holds the box; `whole` where it surrounds the detector.
+/// Azimuths are near that of the box's middle, also beyond pi.
 Window window_of(const Eigen::AlignedBox3d& box, const Pose& pose, const Window& whole) {
   if (box.contains(pose.position)) return whole;
   const Pose inverse = pose.inverse();
   const double middle = azimuth_of(inverse * Vec3(box.center()));
   Window window{kTurn, -kTurn, kTurn, -kTurn};
-  // Corners are not enough: what passes in front is highest in the middle of an edge.
+  // Corners are not enough: a box in front is highest in the middle of an edge.
   for (int i = 0; i < 27; ++i) {
     const Vec3 part(i % 3 / 2.0, i / 3 % 3 / 2.0, i / 9 / 2.0);
     const Vec3 p = inverse * Vec3(box.min() + part.cwiseProduct(box.sizes()));
@@ -39,7 +39,7 @@ Window window_of(const Eigen::AlignedBox3d& box, const Pose& pose, const Window&
   return window.left - window.right > M_PI ? whole : window;
 }
 
-/// What two windows have in common, one turned to the left by `turn`; right >= left where nothing.
+/// The intersection of two windows, one turned to the left by `turn`; right >= left if empty.
 Window common(const Window& a, const Window& b, double turn) {
   return {std::max(a.right, b.right + turn), std::min(a.left, b.left + turn),
           std::max(a.low, b.low), std::min(a.high, b.high)};
@@ -51,7 +51,7 @@ double radiance_over(double air, double temperature) {
 }
 
 int cells(double angle, double size) {
-  return std::clamp(static_cast<int>(std::ceil(angle / size)), kFewest, kMost);
+  return std::clamp(static_cast<int>(std::ceil(angle / size)), kFewest, kMaxCells);
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ void Heat::aim(const View& view, RayBatch& rays) {
   }
 }
 
-// Where only temperatures changed, rays would meet what they met. False where something radiates
+// While only temperatures change, hits stay the same. False where a surface radiates
 // that did not when it was sampled.
 bool Heat::reheat(const View& view) {
   std::size_t next = 0;
@@ -99,7 +99,7 @@ void Heat::sum_up() {
   for (const Surface& surface : surfaces_) flux_ += surface.radiance * surface.factor;
 }
 
-// What stands behind a wall is sampled less often.
+// Surfaces behind a wall are sampled less often.
 bool Heat::unseen_lately() {
   const bool hidden = !samples_.empty() && flux_ == 0.0;
   if (hidden && waits_ < kWaits) {
@@ -119,7 +119,7 @@ void Heat::aim_at(const Eigen::AlignedBox3d& box, const Pose& pose, RayBatch& ra
   }
 }
 
-// A grid of rays that goes with the shape, so that its outline makes no noise as it moves.
+// A grid of rays that moves with the shape, so that its outline makes no noise.
 void Heat::scan(const Window& seen, const Pose& pose, RayBatch& rays) {
   const int columns = cells(seen.left - seen.right, kCellWidth);
   const int rows = cells(seen.high - seen.low, kCellHeight);

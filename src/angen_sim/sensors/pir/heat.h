@@ -8,7 +8,7 @@
 
 namespace angen::sensors {
 
-/// What reaches a detector's elements from surfaces that are warmer or colder than the air.
+/// Heat radiation on a detector's elements, from surfaces that are warmer or colder than the air.
 class Heat {
  public:
   Heat() = default;
@@ -23,19 +23,19 @@ class Heat {
   /// Flux on the positive element less that on the negative one, in W.
   double flux(Hits hits);
 
-  /// Whether it has still to sample what moved.
+  /// Whether it has yet to sample moved surfaces.
   bool pending() const { return waits_ > 0; }
 
-  /// Samples anew at the next aim(), whatever changed.
+  /// Samples all surfaces at the next aim().
   void forget() { revision_ = UINT64_MAX; }
 
  private:
-  /// A part of a surface's surroundings that one ray stands for.
+  /// The solid angle of one ray.
   struct Sample {
     std::size_t surface;  // in surfaces_
-    double factor;        // m^2 sr, of the elements' difference, where the ray meets the surface
+    double factor;        // m^2 sr, of the elements' difference, where the ray hits the surface
   };
-  /// What radiates more or less than the air.
+  /// A surface that radiates more or less than the air.
   struct Surface {
     std::uint32_t shape;
     double radiance;      // W/(m^2 sr) more than the air

@@ -46,7 +46,7 @@ FresnelLens read_camera(Params& params) {
   return lens;
 }
 
-/// Rays that stand for the zones in rviz: unless <scan> says otherwise, a row across them.
+/// Rays that show the zones in rviz: unless <scan> is given, a row across them.
 RayGeometry rays_across(const Window& window) {
   RayGeometry rays;
   rays.columns = 13;
@@ -132,7 +132,7 @@ bool Pyroelectric::steady() const {
   return asleep_ && !heat_.pending() && !trigger_.on() && false_alarm_rate_ == 0.0;
 }
 
-// Volts for this sample. A flux that stands still lets the filter fall asleep.
+// Volts for this sample. A constant flux lets the filter come to rest.
 double Pyroelectric::filter(double flux, Rng& rng) {
   if (asleep_ && flux == flux_) return 0.0;
   const double signal = band_.step(flux);

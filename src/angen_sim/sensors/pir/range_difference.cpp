@@ -8,7 +8,7 @@ namespace angen::sensors {
 
 namespace {
 
-constexpr std::size_t kMostDirections = 1'000'000;
+constexpr std::size_t kMaxDirections = 1'000'000;
 
 Fan pir_fan() {
   Fan fan;
@@ -20,7 +20,7 @@ Fan pir_fan() {
   return fan;
 }
 
-/// Whether a range is longer by more than `threshold` than it was: what it met is gone.
+/// Whether a range has grown by more than `threshold`: an obstacle has left.
 bool any_longer(const Ranges& now, const Ranges& before, double threshold) {
   for (std::size_t i = 0; i < std::min(now.size(), before.size()); ++i) {
     if (now[i] - before[i] > threshold) return true;
@@ -166,7 +166,7 @@ std::size_t RangeDifference::count_phases(const Params& params, double nod_perio
             << to_seconds(nod_.period) << " s, the time between two scans";
     throw params.error("nod_period", message.str());
   }
-  if (whole * static_cast<double>(fan_.size()) > kMostDirections) {
+  if (whole * static_cast<double>(fan_.size()) > kMaxDirections) {
     throw params.error("nod_period",
                        "a nod has more than a million rays; take a shorter "
                        "<nod_period> or fewer samples");

@@ -35,7 +35,7 @@ class RangeDifference : public Sensor, public NoisySensor {
       return static_cast<std::size_t>(scans) % phases;
     }
   };
-  /// One scan with noise: what is published, and what the next scan is compared with.
+  /// One scan with noise: the published ranges, and those that the next scan is compared with.
   struct Scan {
     Ranges ranges;
     Ranges ahead;  // at the tilt of the next scan; the same as `ranges` of one that does not nod

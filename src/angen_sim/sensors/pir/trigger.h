@@ -9,23 +9,23 @@ namespace angen::sensors {
 class Trigger {
  public:
   struct Times {
-    Nanoseconds hold = 0;     // on for so long
-    Nanoseconds lockout = 0;  // then deaf for so long
-    Nanoseconds warm_up = 0;  // deaf for so long after the start
-    bool retrigger = true;    // whether the hold begins anew with each firing
+    Nanoseconds hold = 0;     // duration of its output
+    Nanoseconds lockout = 0;  // then it ignores the comparator
+    Nanoseconds warm_up = 0;  // and after the start
+    bool retrigger = true;    // whether each firing restarts the hold
   };
 
   Trigger() = default;
   Trigger(const Times& times, Nanoseconds start)
-      : times_(times), deaf_until_(start + times.warm_up) {}
+      : times_(times), ignored_until_(start + times.warm_up) {}
 
   /// Whether the output is on at `now`.
   bool step(Nanoseconds now, bool fires) {
     if (on_ && now >= off_at_ && !(fires && times_.retrigger)) {
       on_ = false;
-      deaf_until_ = off_at_ + times_.lockout;
+      ignored_until_ = off_at_ + times_.lockout;
     }
-    if (!fires || now < deaf_until_ || (on_ && !times_.retrigger)) return on_;
+    if (!fires || now < ignored_until_ || (on_ && !times_.retrigger)) return on_;
     on_ = true;
     off_at_ = now + times_.hold;
     return true;
@@ -35,7 +35,7 @@ class Trigger {
 
  private:
   Times times_;
-  Nanoseconds deaf_until_ = 0;
+  Nanoseconds ignored_until_ = 0;
   Nanoseconds off_at_ = 0;
   bool on_ = false;
 };
