@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Writes docs/reference/: a page for each kind with its parameters, commands and fields.
+"""Writes docs/reference/, a page for each kind, and the index of devices and sensors in README.md.
 
     python3 docs/tables.py            writes the pages, names those that changed
     python3 docs/tables.py --check    writes nothing, ends with 1 where a page differs
 
 The text comes from the catalog files beside the plug-in libraries, which the build makes of the
-plug-ins' own descriptions.
+plug-ins' own descriptions; the index comes from the titles of docs/devices/ and docs/sensors/.
 """
 from __future__ import annotations
 
@@ -13,10 +13,12 @@ import argparse
 import json
 import re
 import sys
+import textwrap
 from pathlib import Path
 from typing import Any
 
 DOCS = Path(__file__).resolve().parent
+README = DOCS.parent / 'README.md'
 REFERENCE = DOCS / 'reference'
 CATALOG = DOCS.parent / 'devel/lib'
 WITH = re.compile(r'with (\w+ \w+): (.*)')  # a parameter that exists only with a value of another
@@ -152,12 +154,33 @@ def described_in() -> dict[str, str]:
     return found
 
 
+def listed(folder: str) -> str:
+    """Links to the pages of a folder, by title."""
+    links = []
+    for path in sorted((DOCS / folder).glob('*.md')):
+        title = path.read_text().partition('\n')[0].removeprefix('# ')
+        if not title[:2].isupper():
+            title = title[0].lower() + title[1:]
+        links.append(f'[{title}](docs/{folder}/{path.name})')
+    return f'{folder.capitalize()}: ' + ', '.join(sorted(links, key=str.lower)) + '.'
+
+
+def readme() -> str:
+    """README.md with the paragraphs that list the pages of devices and sensors."""
+    text = README.read_text()
+    for folder in ('devices', 'sensors'):
+        paragraph = textwrap.fill(listed(folder), 120, break_on_hyphens=False)
+        text = re.sub(rf'^{folder.capitalize()}: \[.*?\.\n\n', lambda _: paragraph + '\n\n', text,
+                      count=1, flags=re.MULTILINE | re.DOTALL)
+    return text
+
+
 def pages(catalog: dict[str, Kind]) -> dict[Path, str]:
-    """All files of docs/reference/ with their text."""
+    """README.md and all files of docs/reference/ with their text."""
     where = described_in()
     made = {REFERENCE / f'{name}.md': page(kind, catalog, where.get(name, ''))
             for name, kind in catalog.items()}
-    return {REFERENCE / 'README.md': index(catalog), **made}
+    return {README: readme(), REFERENCE / 'README.md': index(catalog), **made}
 
 
 def written() -> set[Path]:
