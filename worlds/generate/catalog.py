@@ -28,6 +28,7 @@ def write_catalog(models: Path) -> None:
     write_heater(models)
     write_warm_surface(models)
     write_daylight(models)
+    write_barometer(models)
     for kind, title in (("temperature", "Temperature sensor"), ("humidity", "Humidity sensor")):
         _write_air_sensor(models, kind, title)
 
@@ -197,6 +198,18 @@ def write_heater(models: Path) -> None:
     add_plugin(model, "heater", "libheater.so", power=1000)
     write_model(root, models, "Heater",
                 "An electric convector of 1 kW, off at the start. Served by libheater.so.")
+
+
+def write_barometer(models: Path) -> None:
+    """Writes models/barometer: a small box on a wall, x into the room."""
+    root, model = new_model("barometer", static=True)
+    box = spanned("box", (0.0, -0.02, -0.02), (0.015, 0.02, 0.02), collide=False)
+    link = add_link(model, "box", [box], moves=False)
+    sensor = add_sensor(link, "barometer", "custom", 1)
+    add_plugin(sensor, "barometer", "libbarometer.so", noise_stddev=1.3)
+    write_model(root, models, "Barometer",
+                "The pressure of the air at its height, with the noise of a BMP280. "
+                "Served by libbarometer.so.")
 
 
 def write_warm_surface(models: Path) -> None:
