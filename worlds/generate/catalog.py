@@ -28,6 +28,7 @@ def write_catalog(models: Path) -> None:
     write_heater(models)
     write_warm_surface(models)
     write_daylight(models)
+    write_doorbell(models)
     write_barometer(models)
     for kind, title in (("temperature", "Temperature sensor"), ("humidity", "Humidity sensor")):
         _write_air_sensor(models, kind, title)
@@ -198,6 +199,20 @@ def write_heater(models: Path) -> None:
     add_plugin(model, "heater", "libheater.so", power=1000)
     write_model(root, models, "Heater",
                 "An electric convector of 1 kW, off at the start. Served by libheater.so.")
+
+
+def write_doorbell(models: Path) -> None:
+    """Writes models/doorbell: a button on a wall and its chime 0.8 m above it, x into the room."""
+    root, model = new_model("doorbell", static=True)
+    parts = [
+        spanned("plate", (0.0, -0.03, -0.05), (0.012, 0.03, 0.05), material=STEEL, collide=False),
+        Part("button", (0.012, 0.006), (0.015, 0, 0), (0, pi / 2, 0), collide=False),
+        spanned("chime", (0.0, -0.07, 0.75), (0.04, 0.07, 0.85), collide=False),
+    ]
+    add_link(model, "doorbell", parts, moves=False)
+    add_plugin(model, "doorbell", "libdoorbell.so", position="0.04 0 0.8")
+    write_model(root, models, "Doorbell",
+                "A button and its chime, which microphones hear. Served by libdoorbell.so.")
 
 
 def write_barometer(models: Path) -> None:
