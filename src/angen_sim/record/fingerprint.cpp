@@ -109,7 +109,7 @@ void Fingerprint::add(const sim::Snapshot& snapshot) {
   mixer.add(snapshot.paused);
   for (const std::uint32_t i : snapshot.new_readings) {
     mixer.add(i);
-    // What stands for readings follows from the one before, the seed and the time.
+    // Lazy readings follow from the one before, the seed and the time.
     const std::shared_ptr<const Reading>& reading = snapshot.sensors[i].reading;
     const bool on_demand = snapshot.structure->sensors[i].on_demand();
     if (reading->stamp == snapshot.time && on_demand) mixer.add(*reading);

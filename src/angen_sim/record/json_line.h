@@ -33,7 +33,7 @@ class LineWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A line of a log; everything throws Error with the line, and says what is wrong in it.
+/// A line of a log; each method throws Error with the line, and names the mistake in it.
 class LineReader {
  public:
   /// `byte` is where the line begins in its file.

@@ -10,7 +10,7 @@
 #include "record/json_line.h"
 #include "sim/command.h"
 
-/// The log of a run: what a replay needs, line by line. docs/replay.md describes the format.
+/// The log of a run: the input of a replay, line by line. docs/replay.md describes the format.
 namespace angen::record {
 
 constexpr std::uint64_t kLogFormat = 1;
@@ -44,7 +44,7 @@ struct AttachText {
   std::string link;
   std::string sdf;
 };
-/// Somebody wants readings of a sensor that samples on demand, or no longer.
+/// A sensor that samples on demand is requested, or no longer.
 struct ReadingRequest {
   std::string kind;
   std::string name;
@@ -54,11 +54,13 @@ struct Check {
   std::string fingerprint;  // RunFingerprint up to this tick
 };
 
+using LogContent = std::variant<sim::Action, SpawnText, AttachText, ReadingRequest, Check>;
+
 struct LogEntry {
   int line = 0;
   std::int64_t tick = 0;
-  std::uint64_t batch = 0;  // actions of one number were carried out together, before one tick
-  std::variant<sim::Action, SpawnText, AttachText, ReadingRequest, Check> what;
+  std::uint64_t batch = 0;  // actions of one number were executed together, before one tick
+  LogContent what;
 
   bool is_action() const { return what.index() <= 2; }
 };
@@ -67,7 +69,7 @@ struct Log {
   std::string path;
   LogHeader header;
   std::vector<LogEntry> entries;  // ticks ascend but for resets of the time
-  std::string truncated;          // why what follows the last entry is missing, else empty
+  std::string truncated;          // why lines after the last entry are missing, else empty
 };
 
 std::string this_version();
@@ -78,8 +80,5 @@ std::string this_host();
 Log read_log(const std::string& path);
 
 void write_header(const LogHeader& header, LineWriter& line);
-/// An action as a line has it; false for one that changes nothing and has no line. `spawned`: the
-/// text and files of one that spawns a model.
-bool write_action(const sim::Action& action, const SpawnText& spawned, LineWriter& line);
 
 }  // namespace angen::record

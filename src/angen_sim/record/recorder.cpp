@@ -11,6 +11,7 @@
 #include "core/random.h"
 #include "core/write_all.h"
 #include "document/xml.h"
+#include "record/action_line.h"
 
 namespace angen::record {
 
@@ -69,17 +70,26 @@ Recorder::~Recorder() {
 void Recorder::action(const sim::Action& action, Nanoseconds time) {
   if (!error_.empty()) return;
   write_requests();
-  SpawnText text;
-  if (const auto* spawn = std::get_if<sim::Spawn>(&action)) {
-    text.sdf = load::world_around(spawn->model);
-    text.files = hashed(text.sdf);
-  }
+  if (sim::only_reads(action)) return;
   LineWriter line;
   line.whole("tick", static_cast<std::uint64_t>(time / simulation_.snapshot()->step));
   line.whole("batch", batch_);
-  if (!write_action(action, text, line)) return;
+  write_content(content_of(action), line);
   batch_used_ = true;
   write(line);
+}
+
+LogContent Recorder::content_of(const sim::Action& action) {
+  if (const auto* spawn = std::get_if<sim::Spawn>(&action)) {
+    std::string sdf = load::world_around(spawn->model);
+    std::vector<LogFile> files = hashed(sdf);
+    return SpawnText{spawn->model.name, spawn->model.pose, std::move(files), std::move(sdf)};
+  }
+  if (const auto* attach = std::get_if<sim::Attach>(&action)) {
+    const desc::Sensor& sensor = attach->sensor;
+    return AttachText{sensor.name, sensor.pose, attach->link, load::print_xml(sensor.element)};
+  }
+  return action;
 }
 
 void Recorder::add(const sim::Snapshot& snapshot) {
@@ -105,16 +115,16 @@ void Recorder::write_requests() {
   }
   for (const ReadingRequest& request : requests) {
     LineWriter line;
-    line.whole("tick", static_cast<std::uint64_t>(tick_)).text("do", "request");
-    line.text("kind", request.kind).text("name", request.name).flag("wanted", request.wanted);
+    line.whole("tick", static_cast<std::uint64_t>(tick_));
+    write_content(request, line);
     write(line);
   }
 }
 
 void Recorder::write_fingerprint() {
   LineWriter line;
-  line.whole("tick", static_cast<std::uint64_t>(tick_)).text("do", "fingerprint");
-  line.text("hash", fingerprint_.text());
+  line.whole("tick", static_cast<std::uint64_t>(tick_));
+  write_content(Check{fingerprint_.text()}, line);
   write(line);
 }
 

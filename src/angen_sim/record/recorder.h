@@ -13,7 +13,7 @@
 
 namespace angen::record {
 
-/// What a recording begins with.
+/// The begin of a recording.
 struct Origin {
   std::string world;  // the file's path
   std::string sdf;    // load::world_text
@@ -23,8 +23,8 @@ struct Origin {
 /// Of a world's file; `allow_any` as in load::SearchPaths.
 Origin origin_of(const std::string& world, bool allow_any = false);
 
-/// Writes the log of a simulation, each line at once: whatever ends the process, what was carried
-/// out before can be replayed. The simulation must not have ticked yet, and outlive this.
+/// Writes the log of a simulation, each line at once: however the process ends, all that was
+/// executed before can be replayed. The simulation must not have ticked yet, and outlive this.
 class Recorder {
  public:
   /// Throws Error where the file exists, or cannot be written.
@@ -37,11 +37,12 @@ class Recorder {
   void add(const sim::Snapshot& snapshot);
   /// How far a leap from this snapshot may go: to the next fingerprint.
   Nanoseconds leap_limit(const sim::Snapshot& snapshot) const;
-  /// Why nothing is written any more, empty while it is.
+  /// Why it does not write any more, empty while it does.
   const std::string& error() const { return error_; }
 
  private:
   void action(const sim::Action& action, Nanoseconds time);
+  LogContent content_of(const sim::Action& action);
   void write_requests();
   void write_fingerprint();
   void write(LineWriter& line);

@@ -12,8 +12,8 @@
 namespace angen::record {
 
 struct ReplaySettings {
-  bool leap = true;      // over ticks in which nothing happens; the fingerprints are the same
-  bool requests = true;  // sensors sample on demand as they did; else somebody else requests them
+  bool leap = true;      // over ticks without a change; the fingerprints are the same
+  bool requests = true;  // sensors sample on demand as they did; else the caller requests them
 };
 
 /// Runs a recorded simulation again and compares its fingerprints.
@@ -28,17 +28,17 @@ class Replay {
   std::shared_ptr<const sim::Snapshot> advance(Nanoseconds until = kForever);
   /// Everything in the log has taken place, or the time of stop_at() is reached.
   bool done() const { return done_; }
-  /// Where the log's time starts anew, the first moment of that time.
+  /// Where the log's time starts again, the first moment of that time.
   void stop_at(Nanoseconds time);
 
   const Log& log() const { return log_; }
   /// The folder of models beside the log's world, where that is here; else empty.
   const std::string& models() const { return models_; }
-  /// The simulation; from done() on it takes what others post.
+  /// The simulation; from done() on it executes actions of others.
   sim::Simulation& simulation();
   std::unique_ptr<sim::Simulation> take_simulation();
 
-  std::size_t actions() const { return actions_; }    // carried out
+  std::size_t actions() const { return actions_; }    // executed
   std::size_t compared() const { return compared_; }  // fingerprints that were equal
   /// The first fingerprint that differed, as file:line: what; empty where all were equal so far.
   const std::string& mismatch() const { return mismatch_; }

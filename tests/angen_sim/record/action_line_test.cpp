@@ -1,4 +1,4 @@
-#include "record/edit_line.h"
+#include "record/action_line.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 namespace angen::record {
 namespace {
 
-TEST(EditLine, ARunWithEveryEditIsReplayedToTheSameBits) {
+TEST(ActionLine, ARunWithEveryEditIsReplayedToTheSameBits) {
   const Folder folder;
   Session session(folder);
   const auto edit = [&](sim::Edit what) {
@@ -43,7 +43,7 @@ TEST(EditLine, ARunWithEveryEditIsReplayedToTheSameBits) {
   EXPECT_EQ(replay.mismatch(), "");
 }
 
-TEST(EditLine, WhatOnlyReadsIsInNoLog) {
+TEST(ActionLine, WhatOnlyReadsIsInNoLog) {
   const Folder folder;
   Session session(folder);
   const auto observed = std::make_shared<sim::Observed>();
