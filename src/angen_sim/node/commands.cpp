@@ -44,10 +44,10 @@ Commands::Commands(ros::NodeHandle& node, Inbox& inbox,
 }
 
 void Commands::receive(const Plugin& plugin, const std::string& text) {
-  const std::string& kind = plugin.kind().name;
-  const std::vector<std::string> names = names_of(*inbox_.simulation().snapshot()->structure, kind);
-  sim::Action action = topic_action(plugin.kind(), text, names);
+  sim::Action action = topic_action(plugin.kind(), text);
   if (auto* reject = std::get_if<sim::Reject>(&action)) {
+    const std::vector<std::string> names =
+        names_of(*inbox_.simulation().snapshot()->structure, plugin.kind().name);
     reject->reason += "; names are " + (names.empty() ? "none" : join_names(names));
   }
   inbox_.post(std::move(action));
@@ -55,14 +55,14 @@ void Commands::receive(const Plugin& plugin, const std::string& text) {
 
 void Commands::subscribe(const std::shared_ptr<const Plugin>& plugin) {
   const Kind& kind = plugin->kind();
-  if (kind.command_topic.empty() || kinds_.count(kind.name) > 0) return;
+  if (kind.command_topic().empty() || kinds_.count(kind.name) > 0) return;
   const boost::function<void(const std_msgs::String::ConstPtr&)> received =
       [this, plugin](const std_msgs::String::ConstPtr& text) { receive(*plugin, text->data); };
   try {
-    kinds_[kind.name] = handle_for_one(node_).subscribe<std_msgs::String>(kind.command_topic,
+    kinds_[kind.name] = handle_for_one(node_).subscribe<std_msgs::String>(kind.command_topic(),
                                                                           kCommandQueue, received);
   } catch (const ros::Exception& error) {
-    ROS_WARN("no commands to a %s on %s: %s", kind.name.c_str(), kind.command_topic.c_str(),
+    ROS_WARN("no commands to a %s on %s: %s", kind.name.c_str(), kind.command_topic().c_str(),
              error.what());
   }
 }

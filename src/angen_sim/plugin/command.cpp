@@ -76,19 +76,23 @@ const Verb* find_verb(const Kind& kind, std::vector<std::string>& words) {
   return nullptr;
 }
 
+/// The words as numbers; none where one of them is not a finite number.
+std::vector<double> numbers_of(const std::vector<std::string>& words) {
+  std::vector<double> numbers;
+  for (const std::string& word : words) {
+    numbers.emplace_back();
+    if (!parse_number(word, false, numbers.back())) return {};
+  }
+  return numbers;
+}
+
 /// Whether the command is as many finite numbers as the kind takes; they are put into its values.
 bool takes_values(const Kind& kind, const std::vector<std::string>& words, Command& command) {
-  if (kind.value_units.empty()) return false;
-  std::vector<double> values = command.values;
-  if (values.empty()) {
-    for (const std::string& word : words) {
-      values.emplace_back();
-      if (!parse_number(word, false, values.back())) return false;
-    }
-  }
+  if (kind.value_units().empty()) return false;
+  std::vector<double> values = command.values.empty() ? numbers_of(words) : command.values;
   const bool finite =
       std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-  if (values.size() != kind.value_units.size() || !finite) return false;
+  if (values.size() != kind.value_units().size() || !finite) return false;
   command.values = std::move(values);
   return true;
 }
@@ -96,7 +100,7 @@ bool takes_values(const Kind& kind, const std::vector<std::string>& words, Comma
 /// Which of as many numbers as the kind takes is beyond its limit.
 std::string values_problem(const Kind& kind, const std::vector<double>& values) {
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const std::string problem = limit_problem(limit_of_unit(kind.value_units[i]), values[i]);
+    const std::string problem = limit_problem(limit_of_unit(kind.value_units()[i]), values[i]);
     if (!problem.empty()) return number_text(values[i]) + " is out of range: " + problem;
   }
   return "";
@@ -115,17 +119,21 @@ std::string forms_of(const Kind& kind) {
     forms.push_back(verb.name + (number.empty() || verb.whole ? "" : " ") + number);
   }
   std::string values;
-  for (const std::string& unit : kind.value_units)
+  for (const std::string& unit : kind.value_units())
     values += (values.empty() ? "<" : " <") + unit + ">";
   if (!values.empty()) forms.push_back(values);
   return join_names(forms);
 }
 
 std::string parse_command(const Kind& kind, Command& command) {
-  if (kind.verbs.empty() && kind.value_units.empty()) return "";
+  const std::string text = unquoted(without_typography(command.text));
+  std::vector<std::string> words = words_of(text);
+  if (kind.verbs.empty() && kind.value_units().empty()) {
+    if (command.values.empty()) command.values = numbers_of(words);
+    return "";
+  }
   const std::string right = with_article(kind.name) + " takes " + forms_of(kind);
-  command.text = unquoted(without_typography(command.text));
-  std::vector<std::string> words = words_of(command.text);
+  command.text = text;
   if (takes_values(kind, words, command)) return values_problem(kind, command.values);
   if (words.empty() && !command.values.empty()) return "numbers without a verb; " + right;
   if (words.empty()) return "no verb; " + right;

@@ -7,18 +7,18 @@
 
 namespace angen {
 
-/// A command for one device: what followed the target's name.
+/// A command for one device: the text after the target's name.
 struct Command {
   std::string text;  // as it was sent: "Open", "Dim 40"; empty where it has values alone
-  std::vector<double> values = {};  // a text that is nothing but numbers (a drive: m/s, rad/s), or
+  std::vector<double> values = {};  // a text of numbers alone (of a drive: m/s, rad/s), or
                                     // the numbers of a verb that takes several
   std::string verb = {};  // one of the kind's, written as there; none where the kind has none
   double number = 0.0;    // of a verb that takes one, within its range
 };
 
 /// Finds the kind's verb in `command.text` ("Dim 40", "dim, 40", "Floor1") and fills in verb and
-/// number. Returns why that is impossible and what would be right, "" where it was done. A kind
-/// without verbs takes any text.
+/// number. Returns why the text is wrong and the right forms, "" where it is right. A kind
+/// without verbs takes any text; numbers alone become values.
 std::string parse_command(const Kind& kind, Command& command);
 
 /// "On, Off and Dim <percent>".

@@ -54,7 +54,7 @@ Replay::Replay(Log log, std::shared_ptr<Catalog> catalog, ReplaySettings setting
                                     " ns, that of its world " +
                                     std::to_string(simulation_->snapshot()->step) + " ns");
   }
-  simulation_->take_over(log_.path + " is being replayed; commands are executed after it");
+  simulation_->accept_only_replay(log_.path + " is being replayed; commands are executed after it");
   note(*simulation_->snapshot());
 }
 
@@ -95,7 +95,7 @@ std::shared_ptr<const sim::Snapshot> Replay::advance(Nanoseconds until) {
   return made;
 }
 
-/// All actions that were carried out together, before one tick.
+/// Executes all actions that were executed together, before one tick.
 std::shared_ptr<const sim::Snapshot> Replay::carry_out() {
   const std::uint64_t batch = next().batch;
   std::vector<sim::Action> actions;
@@ -151,7 +151,7 @@ void Replay::compare(const sim::Snapshot& snapshot) {
   }
   if (!at_end() && !(stop_ && snapshot.time >= *stop_)) return;
   done_ = true;
-  simulation_->take_over("");
+  simulation_->end_replay();
 }
 
 sim::Simulation& Replay::simulation() {
@@ -162,7 +162,7 @@ sim::Simulation& Replay::simulation() {
 std::unique_ptr<sim::Simulation> Replay::take_simulation() {
   simulation();
   done_ = true;
-  simulation_->take_over("");
+  simulation_->end_replay();
   return std::move(simulation_);
 }
 

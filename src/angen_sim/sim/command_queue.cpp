@@ -14,7 +14,7 @@ namespace angen::sim {
 
 namespace {
 
-constexpr std::size_t kLongestReason = 800;  // bytes
+constexpr std::size_t kMaxReason = 800;  // bytes
 
 Event world_event(Nanoseconds time, const std::string& source, const std::string& event,
                   const std::string& detail = "") {
@@ -38,13 +38,11 @@ Outcome unknown_device(const Building& building, const ToDevice& action) {
   return {false, message};
 }
 
-/// Why the device does not take the command, "" where `act` will carry it out.
-std::string prepare(const Building::Target& target, Command command, Building& building,
+/// Why the device does not take the parsed command, "" where `act` will execute it.
+std::string prepare(const Building::Target& target, const Command& command, Building& building,
                     InstanceView::Clock clock, std::function<void()>& act) {
   DeviceInstance& device = *target.device;
   if (!device.error.empty()) return "its plug-in has failed: " + device.error;
-  const std::string wrong = parse_command(device.plugin->kind(), command);
-  if (!wrong.empty()) return printable(wrong, kLongestReason);
   Verdict verdict;
   const std::string thrown = thrown_by([&] {
     device.catch_up(clock.time, clock.step);
@@ -56,7 +54,13 @@ std::string prepare(const Building::Target& target, Command command, Building& b
 }
 
 Outcome to_device(const ToDevice& given, Building& building, InstanceView::Clock clock) {
-  const ToDevice action = with_kind(given);
+  ToDevice action = with_kind(given);
+  if (action.name.empty() && !action.kind.empty()) {  // the only one of a kind needs no name
+    const std::vector<std::string> names = building.device_names(action.kind);
+    if (names.empty()) return {false, "there is no " + printable(action.kind)};
+    if (names.size() > 1) return {false, "no name; names are " + join_names(names)};
+    action.name = names.front();
+  }
   const std::vector<Building::Target> targets = building.devices_named(action.kind, action.name);
   if (targets.empty()) return unknown_device(building, action);
   if (targets.size() > 1 && action.name != "all") {
@@ -65,8 +69,16 @@ Outcome to_device(const ToDevice& given, Building& building, InstanceView::Clock
                        targets[1].device->kind + "; write " + kind + "/" + action.name};
   }
   std::vector<std::function<void()>> acts(targets.size());
+  Command command;
+  const Plugin* parsed_for = nullptr;
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    const std::string reason = prepare(targets[i], action.command, building, clock, acts[i]);
+    const Plugin* plugin = targets[i].device->plugin.get();
+    std::string reason;
+    if (std::exchange(parsed_for, plugin) != plugin) {
+      command = action.command;
+      reason = printable(parse_command(plugin->kind(), command), kMaxReason);
+    }
+    if (reason.empty()) reason = prepare(targets[i], command, building, clock, acts[i]);
     if (reason.empty()) continue;
     const char* others = targets.size() > 1 ? "; none of the others was commanded" : "";
     return {false, targets[i].device->name + ": " + reason + others};
@@ -100,9 +112,9 @@ std::size_t bytes_of(const Action& action) {
 
 void cut(Event& event) {
   for (std::string* text : {&event.source, &event.kind, &event.event}) {
-    *text = shortened(*text, CommandQueue::kLongestName);
+    *text = shortened(*text, CommandQueue::kMaxNameBytes);
   }
-  event.detail = shortened(event.detail, CommandQueue::kLongestDetail);
+  event.detail = shortened(event.detail, CommandQueue::kMaxDetailBytes);
 }
 
 std::string progress(std::int64_t taken, std::int64_t ticks) {
@@ -121,8 +133,8 @@ std::future<Outcome> CommandQueue::post(Action action, std::shared_ptr<Ticket> t
   Request request{std::move(action), {}, std::move(ticket)};
   std::future<Outcome> future = request.answer.get_future();
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (waiting_ + bytes > kMostWaiting) {
-    ++refused_;
+  if (waiting_ + bytes > kMaxQueuedBytes) {
+    ++rejected_;
     request.answer.set_value({false, "too many commands wait; try again"});
     return future;
   }
@@ -133,19 +145,19 @@ std::future<Outcome> CommandQueue::post(Action action, std::shared_ptr<Ticket> t
 
 std::vector<Request> CommandQueue::take() {
   std::vector<Request> requests;
-  std::size_t refused = 0;
+  std::size_t rejected = 0;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     requests.swap(inbox_);
     waiting_ = 0;
-    refused = std::exchange(refused_, 0);
+    rejected = std::exchange(rejected_, 0);
   }
-  if (refused > 0) {
-    Request told;
-    told.action = Reject{"world", "world",
-                         std::to_string(refused) + " commands were refused: more than " +
-                             std::to_string(kMostWaiting >> 20U) + " MB of them waited"};
-    requests.push_back(std::move(told));
+  if (rejected > 0) {
+    Request event;
+    event.action = Reject{"world", "world",
+                          std::to_string(rejected) + " commands were rejected: more than " +
+                              std::to_string(kMaxQueuedBytes >> 20U) + " MB of them waited"};
+    requests.push_back(std::move(event));
   }
   return requests;
 }
@@ -157,7 +169,7 @@ CommandQueue::Effects CommandQueue::drain(Building& building, InstanceView::Cloc
   const std::size_t before = events.size();
   InstanceView::Clock now = clock;
   std::vector<Request> requests = take();
-  if (!taken_over_.empty()) requests = only_replayed(std::move(requests));
+  if (!replay_reason_.empty()) requests = only_replayed(std::move(requests));
   for (Request& request : requests) {
     if (request.ticket && !request.ticket->begin()) {
       answers_.emplace_back(std::move(request.answer), Outcome{false, "withdrawn"});
@@ -174,21 +186,21 @@ CommandQueue::Effects CommandQueue::drain(Building& building, InstanceView::Cloc
       continue;
     }
     Outcome outcome = execute(request.action, building, now, events, effects);
-    if (effects.reset_time) now.time = 0;  // for what comes behind the reset
-    outcome.message = shortened(outcome.message, kLongestDetail);
+    if (effects.reset_time) now.time = 0;  // for the actions after the reset
+    outcome.message = shortened(outcome.message, kMaxDetailBytes);
     answers_.emplace_back(std::move(request.answer), std::move(outcome));
   }
   for (std::size_t i = before; i < events.size(); ++i) cut(events[i]);
   return effects;
 }
 
-void CommandQueue::take_over(std::string reason) {
-  const std::string before = std::exchange(taken_over_, std::move(reason));
-  const std::size_t count = std::exchange(turned_away_, 0);
+void CommandQueue::end_replay() {
+  const std::string reason = std::exchange(replay_reason_, "");
+  const std::size_t count = std::exchange(replay_rejected_, 0);
   if (count == 0) return;
   post(Reject{"world", "world",
               std::to_string(count) + (count == 1 ? " command was" : " commands were") +
-                  " rejected: " + before});
+                  " rejected: " + reason});
 }
 
 std::vector<Request> CommandQueue::only_replayed(std::vector<Request> requests) {
@@ -197,8 +209,8 @@ std::vector<Request> CommandQueue::only_replayed(std::vector<Request> requests) 
     if (only_reads(request.action)) {
       kept.push_back(std::move(request));
     } else {
-      if (!request.ticket && !std::holds_alternative<Note>(request.action)) ++turned_away_;
-      answers_.emplace_back(std::move(request.answer), Outcome{false, taken_over_});
+      if (!request.ticket && !std::holds_alternative<Note>(request.action)) ++replay_rejected_;
+      answers_.emplace_back(std::move(request.answer), Outcome{false, replay_reason_});
     }
   }
   for (Action& action : std::exchange(replayed_, {}))

@@ -14,26 +14,27 @@
 
 namespace angen::sim {
 
-/// The one queue that everything from outside goes through, and the world's running state. What it
-/// repeats of a text from outside, in events and answers, is cut to a length.
+/// The one queue of all actions from outside, and the world's running state. It cuts the texts from
+/// outside that it repeats in events and answers.
 class CommandQueue {
  public:
-  static constexpr std::size_t kMostWaiting = 16U << 20U;  // bytes of texts; more is refused
-  static constexpr std::size_t kLongestName = 255;         // bytes in an event
-  static constexpr std::size_t kLongestDetail = 2000;      // bytes in an event or an answer
+  static constexpr std::size_t kMaxQueuedBytes = 16U << 20U;  // of texts; more is rejected
+  static constexpr std::size_t kMaxNameBytes = 255;           // in an event
+  static constexpr std::size_t kMaxDetailBytes = 2000;        // in an event or an answer
 
   ~CommandQueue();
 
-  /// Any thread. What is refused because too much waits is answered at once, and published as one
-  /// event with the next tick.
+  /// Any thread. An action that is rejected because too much waits is answered at once; the next
+  /// tick publishes one event for all of these.
   std::future<Outcome> post(Action action, std::shared_ptr<Ticket> ticket = nullptr);
   void observe(ActionObserver observer) { observer_ = std::move(observer); }
 
-  /// From now on only what replay() gives is carried out, and a Save; what others post is rejected
-  /// with this reason. "" ends that; what was rejected without a sender that waits is then counted
-  /// in an event.
-  void take_over(std::string reason);
-  /// To be carried out by the next drain().
+  /// From now on only actions of replay() are executed, and a Save; actions that others post are
+  /// rejected with this reason.
+  void accept_only_replay(std::string reason) { replay_reason_ = std::move(reason); }
+  /// An event counts the actions that were rejected and whose sender did not wait.
+  void end_replay();
+  /// To be executed by the next drain().
   void replay(std::vector<Action> actions) { replayed_ = std::move(actions); }
 
   struct Effects {
@@ -42,7 +43,7 @@ class CommandQueue {
     bool commanded = false;                          // a device was
     std::vector<std::shared_ptr<SavedState>> saves;  // to be filled in
   };
-  /// Carries out what waits, in order. Called between ticks.
+  /// Executes the actions that wait, in order. Called between ticks.
   Effects drain(Building& building, InstanceView::Clock clock, std::vector<Event>& events);
 
   bool paused() const { return paused_; }
@@ -51,7 +52,7 @@ class CommandQueue {
   std::int64_t ticks_to_go() const;
   /// Counts ticks that took place.
   void ticks_done(std::int64_t count);
-  /// Answers what was carried out; called when the snapshot that shows it is out.
+  /// Answers executed actions; called when the snapshot that shows them is out.
   void answer();
 
  private:
@@ -75,14 +76,14 @@ class CommandQueue {
 
   mutable std::mutex mutex_;  // of the next three
   std::vector<Request> inbox_;
-  std::size_t waiting_ = 0;  // bytes of texts in inbox_
-  std::size_t refused_ = 0;  // actions since the last drain
+  std::size_t waiting_ = 0;   // bytes of texts in inbox_
+  std::size_t rejected_ = 0;  // actions since the last drain
   std::deque<Pending> steps_;
   std::vector<std::pair<std::promise<Outcome>, Outcome>> answers_;
   bool paused_ = false;
   ActionObserver observer_;
-  std::string taken_over_;
-  std::size_t turned_away_ = 0;  // actions without a sender that waits, while taken over
+  std::string replay_reason_;        // why actions of others are rejected; empty: they are not
+  std::size_t replay_rejected_ = 0;  // those of them whose sender did not wait
   std::vector<Action> replayed_;
 };
 

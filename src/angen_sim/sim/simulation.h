@@ -18,7 +18,7 @@ namespace angen::sim {
 /// A world that runs. One thread calls tick(); any thread may post().
 class Simulation {
  public:
-  /// Builds everything; throws Error for what cannot be built (an unknown plug-in, a wrong
+  /// Builds the world; throws Error where that is impossible (an unknown plug-in, a wrong
   /// parameter).
   Simulation(desc::World world, std::uint64_t seed, std::shared_ptr<Catalog> catalog);
   ~Simulation();
@@ -33,43 +33,44 @@ class Simulation {
   /// Returns the snapshot it made.
   std::shared_ptr<const Snapshot> tick();
 
-  /// As tick(), but first skips the ticks in which nothing happens: no body is awake, no command
-  /// waits, and devices and sensors would only publish again what they published before, or the
-  /// same but for noise. The snapshot is bit for bit what as many calls of tick() would end with.
+  /// As tick(), but first skips the ticks without a change: no body is awake, no command
+  /// waits, and devices and sensors would only publish their last readings again, or the
+  /// same but for noise. The snapshot is bit for bit that after as many calls of tick().
   /// Its tick ends at `until` at the latest, unless that has passed.
   std::shared_ptr<const Snapshot> leap(Nanoseconds until);
 
   /// The latest snapshot; never null.
   std::shared_ptr<const Snapshot> snapshot() const;
 
-  /// Says whether somebody wants this sensor's readings; matters to those that sample on demand
+  /// Requests this sensor's readings, or ends that; matters to those that sample on demand
   /// only. The sensor need not exist yet. Any thread.
   void request(const std::string& kind, const std::string& name, bool wanted);
   bool requested(const std::string& kind, const std::string& name) const;
 
-  /// `actions` sees each action before it is carried out, `requests` each call of request().
+  /// `actions` sees each action before it is executed, `requests` each call of request().
   /// Both may be null. The thread that ticks.
   void observe(ActionObserver actions, RequestedSensors::Observer requests);
 
-  /// From now on only what replay() gives is carried out, and a Save; what others post is rejected
-  /// with this reason. "" ends that. The thread that ticks, as all of these.
-  void take_over(std::string reason);
-  /// To be carried out in the next tick, after a take_over().
+  /// From now on only actions of replay() are executed, and a Save; actions that others post are
+  /// rejected with this reason. The thread that ticks, as all of these.
+  void accept_only_replay(std::string reason);
+  void end_replay();
+  /// To be executed in the next tick, after an accept_only_replay().
   void replay(std::vector<Action> actions);
 
-  /// What a link does now, by its number in Structure::links of the latest snapshot. The thread
+  /// The motion of a link now, by its number in Structure::links of the latest snapshot. The thread
   /// that ticks; others post an Observe.
   Motion motion(std::uint32_t link) const;
   /// As an Observe; throws Error for names that do not exist. The thread that ticks.
   Observed observe(const Observation& what) const;
 
-  /// Whether ticks are to measure what they cost, from the next one on. No result depends on it.
+  /// Whether ticks are to measure their cost, from the next one on. No result depends on it.
   /// The thread that ticks.
   void measure(bool on);
-  /// What the ticks have cost that were measured since the last call. The thread that ticks.
+  /// The cost of the ticks that were measured since the last call. The thread that ticks.
   Cost take_cost();
 
-  /// What the world's file would say of now. The thread that ticks; others post a Save.
+  /// The state for a world file, now. The thread that ticks; others post a Save.
   SavedState saved();
 
   /// True when the next tick will advance time: not paused, or steps are requested.

@@ -14,7 +14,7 @@ Kind lamp() {
 
 Kind elevator() { return Kind("elevator", "").counted_verb("Floor", "floor", {0.0, 99.0}, ""); }
 
-Kind drive() { return Kind("drive", "").verb("Stop", "").values({"m/s", "rad/s"}); }
+Kind drive() { return Kind("drive", "").verb("Stop", "").value_units({"m/s", "rad/s"}); }
 
 Command parsed(const Kind& kind, const std::string& text, std::vector<double> values = {}) {
   Command command{text, std::move(values), "", 0.0};
@@ -83,6 +83,8 @@ TEST(Command, AVerbMayTakeTwoNumbers) {
 
 TEST(Command, AKindWithoutVerbsTakesAnyText) {
   EXPECT_EQ(parsed(Kind("toy", ""), "dance 3").text, "dance 3");
+  EXPECT_TRUE(parsed(Kind("toy", ""), "dance 3").values.empty());
+  EXPECT_EQ(parsed(Kind("toy", ""), "0.2, \u22121").values, (std::vector<double>{0.2, -1.0}));
 }
 
 }  // namespace

@@ -140,7 +140,7 @@ TEST_F(Queue, RefusesWhatIsMoreThanItsBytes) {
   drain();
   ASSERT_EQ(events.size(), 16U);
   EXPECT_EQ(events.back().event, "rejected");
-  EXPECT_EQ(events.back().detail, "25 commands were refused: more than 16 MB of them waited");
+  EXPECT_EQ(events.back().detail, "25 commands were rejected: more than 16 MB of them waited");
   std::future<Outcome> later = queue->post(Note{"a", "b", "c", "d"});
   drain();
   queue->answer();
@@ -160,6 +160,100 @@ TEST_F(Queue, SaysWhatItsCallerMustDo) {
   EXPECT_EQ(events.back().detail, "no such verb");
   queue->post(ToDevice{"door", "nothing", {}});
   EXPECT_TRUE(drain().commanded);
+}
+
+/// Notes the commands that it gets.
+class Listener : public Device {
+ public:
+  explicit Listener(std::vector<Command>& got) : got_(got) {}
+  void configure(Params&, Wiring&) override {}
+  Verdict command(const Command& command, const View&) override {
+    got_.push_back(command);
+    return Verdict::accept();
+  }
+  void update(const View&, Outputs&) override {}
+  void report(const View&, Reading&) const override {}
+
+ private:
+  std::vector<Command>& got_;
+};
+
+class ListenerPlugin : public Plugin {
+ public:
+  const Kind& kind() const override { return kind_; }
+  bool serves(const ModelInfo&) const override { return true; }
+  std::unique_ptr<Device> make_device() const override { return std::make_unique<Listener>(got); }
+  mutable std::vector<Command> got;
+
+ private:
+  Kind kind_ = Kind("lift", "").counted_verb("Floor", "floor", {0.0, 9.0}, "");
+};
+
+/// A queue and a building of some lifts.
+class Lifts : public ::testing::Test {
+ protected:
+  void build(int count) {
+    std::string models;
+    for (int i = 0; i < count; ++i) {
+      models += "<model name='lift" + std::to_string(i) +
+                "'><link name='link'/><plugin name='l' filename='lift.so'/></model>";
+    }
+    const auto catalog = std::make_shared<Catalog>();
+    catalog->add("lift.so", plugin);
+    world = load::world_from_text("<sdf version='1.6'><world name='w'>" + models + "</world></sdf>",
+                                  "test", {});
+    building.emplace(world, 0, catalog);
+  }
+  Outcome command(const std::string& name, const std::string& text) {
+    std::future<Outcome> answer = queue.post(ToDevice{"lift", name, {text}});
+    queue.drain(*building, {}, events);
+    queue.answer();
+    return answer.get();
+  }
+
+  std::shared_ptr<ListenerPlugin> plugin = std::make_shared<ListenerPlugin>();
+  desc::World world;
+  std::optional<Building> building;
+  std::vector<Event> events;
+  CommandQueue queue;
+};
+
+TEST_F(Lifts, AllGetTheParsedCommand) {
+  build(3);
+  EXPECT_TRUE(command("all", "floor2").ok);
+  ASSERT_EQ(plugin->got.size(), 3U);
+  for (const Command& got : plugin->got) {
+    EXPECT_EQ(got.verb, "Floor");
+    EXPECT_EQ(got.number, 2.0);
+  }
+}
+
+TEST_F(Lifts, ATextThatDoesNotFitReachesNone) {
+  build(2);
+  for (const char* text : {"", "Floor", "FloorX", "Floor-1", "Floor1.5", "Up", "Floor1 2",
+                           "Floor99999999999999999999"}) {
+    const Outcome outcome = command("all", text);
+    EXPECT_FALSE(outcome.ok) << text;
+    EXPECT_NE(outcome.message.find("a lift takes Floor<0 to 9 floor>; none of the others"),
+              std::string::npos)
+        << outcome.message;
+  }
+  EXPECT_TRUE(plugin->got.empty());
+  EXPECT_EQ(events.back().event, "rejected");
+}
+
+TEST_F(Lifts, TheOnlyOneNeedsNoName) {
+  build(1);
+  EXPECT_TRUE(command("", "Floor2").ok);
+  EXPECT_EQ(plugin->got.size(), 1U);
+}
+
+TEST_F(Lifts, OneOfSeveralNeedsAName) {
+  build(2);
+  EXPECT_EQ(command("", "Floor2").message, "no name; names are lift0, lift1");
+  build(0);
+  EXPECT_EQ(command("", "Floor2").message, "there is no lift");
+  EXPECT_TRUE(plugin->got.empty());
 }
 
 TEST_F(Queue, WhatStillWaitsAtItsEndIsAnswered) {

@@ -16,7 +16,7 @@ const std::vector<Kind>& kinds() {
     std::vector<Kind> found;
     Catalog catalog;
     for (const auto& plugin : catalog.own()) {
-      if (!plugin->make_sensor()) found.push_back(plugin->kind());
+      if (!plugin->makes_sensors()) found.push_back(plugin->kind());
     }
     require(!found.empty(), "there are plug-ins");
     return found;
@@ -39,7 +39,7 @@ void check(const sim::Action& action) {
 void command(const std::string& input) {
   const Split given = split(input);
   const Kind& kind = kinds()[given.choice % kinds().size()];
-  check(node::topic_action(kind, given.rest, {"only"}));
+  check(node::topic_action(kind, given.rest));
   const std::size_t comma = given.rest.find(',');
   const std::string target = given.rest.substr(0, comma);
   const std::string text = comma == std::string::npos ? "" : given.rest.substr(comma + 1);
