@@ -17,16 +17,17 @@ namespace angen::sim {
 
 struct DeviceInstance : DeviceInfo {
   std::unique_ptr<Device> device;
-  Element element;           // its <plugin>
-  int own_light = -1;        // in Parts::lamps: the light that is this lamp by itself
-  SavedParams started_with;  // what it would have saved then
-  Reading scratch;           // what it reports is written here, then compared
+  Element element;                 // its <plugin>
+  int own_light = -1;              // in Parts::lamps: the light that is this lamp by itself
+  SavedParams started_with;        // the parameters to save at its start
+  Reading scratch;                 // it reports into this, which is then compared
+  std::size_t checked_fields = 0;  // how many of these
   std::shared_ptr<const Reading> last;
   Nanoseconds updated = 0;     // when it last was
   Nanoseconds idle_until = 0;  // unless it is commanded or its model wakes
   bool to_report = true;       // it was updated since its last report
   Nanoseconds cost = 0;        // CPU time that the meter counts
-  std::string error;           // what it threw; it is called no more
+  std::string error;           // text of its exception; it is not called again
 
   /// Has it skip the ticks without updates before the one of `now`.
   void catch_up(Nanoseconds now, Nanoseconds step) {
@@ -61,7 +62,7 @@ struct WatchedLight {
   MoverIndex::Moment sampled;      // changes before it are in the sample
 };
 
-/// What an instance queried of the world besides rays, the time and its own pose.
+/// Which parts of the world an instance queried besides rays, the time and its own pose.
 struct Queried {
   bool contacts = false;
   bool light = false;
@@ -80,15 +81,15 @@ struct Queried {
   }
 };
 
-/// What is known ahead of a lazy sensor's noise.
+/// Forecast of a lazy sensor's noise.
 struct NoiseForecast {
-  double quiet_chance = 0.0;    // see NoisySensor
-  Nanoseconds quiet_until = 0;  // no sample up to then may have an event
-  Nanoseconds loud_at = 0;      // the next one that may; known when later than now
+  double no_event_probability = 0.0;  // see NoisySensor
+  Nanoseconds no_event_until = 0;     // no sample up to then may have an event
+  Nanoseconds possible_event_at = 0;  // the next one that may; known when later than now
 };
 
 struct SensorInstance : SensorInfo {
-  // What is read at each due time stands together, beside the schedule: with many sensors it is not
+  // Each due time reads these, and the schedule beside them: with many sensors they are not
   // in the CPU's cache.
   std::vector<std::unique_ptr<CachedScan>> scans;  // by ray set
   std::unique_ptr<WatchedLight> light;             // null where light may come from anywhere
@@ -99,19 +100,20 @@ struct SensorInstance : SensorInfo {
 
   std::unique_ptr<Sensor> sensor;
   NoisySensor* noisy = nullptr;                // `sensor`, where it applies its noise itself
-  std::vector<Noise> noise;                    // that is added to what it reads
+  std::vector<Noise> noise;                    // that is added to its readings
   std::uint32_t link = 0;                      // in its model
   std::vector<std::string> collisions;         // full names, by ContactRef
   std::vector<physics::CollisionId> touching;  // the same
   Reading clean;                               // the latest, before `noise`; unused without
   Reading latest;
+  std::size_t checked_fields = 0;   // of its readings
   PublishedReading published;       // the latest published, as snapshots have it
   Pose seen_from;                   // at its last sample, if its link moves
   std::uint64_t contacts_seen = 0;  // their revisions at its last sample
   std::uint64_t light_seen = 0;     // as well
   NoiseForecast forecast;
   Nanoseconds cost = 0;  // CPU time that the meter counts
-  std::string error;     // what it threw; it is called no more
+  std::string error;     // text of its exception; it is not called again
 
   /// Whether readings of a steady sensor differ from sample to sample.
   bool varies() const;
@@ -122,21 +124,21 @@ struct SensorInstance : SensorInfo {
 /// A model in the world, with its devices and sensors.
 struct LiveModel {
   std::shared_ptr<const desc::Model> desc;
-  std::shared_ptr<const desc::Model> read;  // as its text has it; what is set changes only `desc`
+  std::shared_ptr<const desc::Model> read;  // as its text has it; edits change only `desc`
   Parts parts;
   std::vector<DeviceInstance> devices;
   std::vector<SensorInstance> sensors;
   std::int64_t awake_at = 0;       // the last tick at whose end some of it was awake
-  MoverIndex::Moment changed = 0;  // when it moved last; what is awake may in the next tick
+  MoverIndex::Moment changed = 0;  // when it moved last; an awake one may move in the next tick
   std::uint32_t first_link = 0;    // index of its first link in Structure::links
   std::uint32_t first_joint = 0;
   std::uint32_t first_device = 0;
   std::uint32_t first_sensor = 0;
   std::uint32_t first_light = 0;
-  bool is_light = false;  // it stands for a light of the world's own, and for nothing else
+  bool is_light = false;  // it represents a light of the world's own
 };
 
-/// The numbers in Structure of what comes after the model.
+/// The numbers in Structure of the parts after the model.
 struct Numbering {
   std::uint32_t link = 0;
   std::uint32_t joint = 0;
@@ -148,7 +150,7 @@ Numbering numbering_after(const LiveModel& live);
 
 ModelInfo info_of(const desc::Model& model);  // `taken` is left out
 
-/// What a model's plug-ins and the world's make of it, not yet in the world. Throws Error for a
+/// Makes devices and sensors of a model that is not yet in the world. Throws Error for a
 /// plug-in or parameter that is wrong; sensors without a plug-in, and joints that one of Angen's
 /// own would drive, are added to `warnings`.
 void make_instances(LiveModel& live, const std::vector<desc::Plugin>& world_plugins,

@@ -1,43 +1,43 @@
-// The part of SensorSystem that lets time leap: which ticks sensors need, and what they publish in
+// The part of DueSensors for leaps: which ticks sensors need, and their publications in
 // those that are skipped.
 #include <algorithm>
 
-#include "sim/sensor_system.h"
+#include "sim/due_sensors.h"
 
 namespace angen::sim {
 
 namespace {
 
-constexpr Nanoseconds kForecast = 10 * kSecond;  // noise is known so far ahead at most
+constexpr Nanoseconds kForecast = 10 * kSecond;  // noise is known at most this far ahead
 
 }  // namespace
 
 /// The first sample at or before `until` whose noise may cause an event; else kForever.
-Nanoseconds SensorSystem::next_loud(SensorInstance& sensor, InstanceView::Clock clock,
-                                    Nanoseconds until) const {
+Nanoseconds DueSensors::next_possible_event(SensorInstance& sensor, InstanceView::Clock clock,
+                                            Nanoseconds until) const {
   NoiseForecast& forecast = sensor.forecast;
-  if (forecast.loud_at > clock.time) return forecast.loud_at;
+  if (forecast.possible_event_at > clock.time) return forecast.possible_event_at;
   const Schedule& schedule = sensor.schedule;
-  Nanoseconds due = schedule.next(std::max(clock.time, forecast.quiet_until));
+  Nanoseconds due = schedule.next(std::max(clock.time, forecast.no_event_until));
   for (Nanoseconds at = schedule.tick_of(due); at <= until;
        at = schedule.tick_of(due += schedule.sample)) {
-    if (quiet(sensor, {at, clock.step})) continue;
-    forecast.loud_at = at;
+    if (has_no_event(sensor, {at, clock.step})) continue;
+    forecast.possible_event_at = at;
     return at;
   }
-  forecast.quiet_until = std::max(forecast.quiet_until, until);
+  forecast.no_event_until = std::max(forecast.no_event_until, until);
   return kForever;
 }
 
 /// The sample up to which the noise of a lazy sensor need not be checked again.
-Nanoseconds SensorSystem::next_check(SensorInstance& sensor, InstanceView::Clock clock) const {
+Nanoseconds DueSensors::next_check(SensorInstance& sensor, InstanceView::Clock clock) const {
   const Nanoseconds until = (clock.time / kForecast + 1) * kForecast;
-  if (sensor.forecast.quiet_chance >= 1.0) return kForever;
-  return std::min(next_loud(sensor, clock, until), until);
+  if (sensor.forecast.no_event_probability >= 1.0) return kForever;
+  return std::min(next_possible_event(sensor, clock, until), until);
 }
 
-std::int64_t SensorSystem::next_tick(Building& building, InstanceView::Clock clock,
-                                     std::int64_t tick) {
+std::int64_t DueSensors::next_tick(Building& building, InstanceView::Clock clock,
+                                   std::int64_t tick) {
   if (outdated_) list(building, clock.time);
   if (building.engines().light_busy()) return clock.time / clock.step;
   const auto stop_before = [&](Nanoseconds sample) {
@@ -57,14 +57,14 @@ std::int64_t SensorSystem::next_tick(Building& building, InstanceView::Clock clo
   meter_.rest.sensors += meter_.watch.lap();
   for (const Entry& entry : entries_) {
     if (!entry.sensor->activity.lazy()) continue;
-    const Nanoseconds loud = next_loud(*entry.sensor, clock, tick * clock.step);
+    const Nanoseconds event = next_possible_event(*entry.sensor, clock, tick * clock.step);
     entry.sensor->cost += meter_.watch.lap();
-    if (loud != kForever) stop_before(loud);
+    if (event != kForever) stop_before(event);
   }
   return tick;
 }
 
-void SensorSystem::skip_to(InstanceView::Clock clock, std::int64_t tick, Snapshot& next) {
+void DueSensors::skip_to(InstanceView::Clock clock, std::int64_t tick, Snapshot& next) {
   const Nanoseconds to = tick * clock.step;
   std::uint64_t readings = next.counts.readings;
   for (const Entry& entry : entries_) {

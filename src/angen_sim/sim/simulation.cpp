@@ -27,7 +27,7 @@ struct Simulation::Impl {
 
   void drain() {
     const CommandQueue::Effects effects = commands.drain(building, clock(), next.events);
-    if (effects.reset) sensors.invalidate();
+    if (effects.reset) sensors.due().invalidate();
     if (effects.commanded) devices.activate_all();
     if (effects.reset_time) {
       next.tick = 0;
@@ -39,13 +39,13 @@ struct Simulation::Impl {
     for (const std::shared_ptr<SavedState>& into : effects.saves) *into = saved();
   }
 
-  // Sensors sample it in the next tick; snapshots show it also while time stands still.
+  // Sensors sample it in the next tick; snapshots show it also in a pause.
   void follow_placed() {
     for (LiveModel* live : building.take_placed()) {
       building.engines().note_change();
       building.note_moved(*live);
       if (!live->devices.empty()) building.forget_fields();
-      sensors.note_moved(*live);
+      sensors.due().note_moved(*live);
       for (std::uint32_t i = 0; i < live->parts.links.size(); ++i) {
         building.engines().follow(live->parts, i);
         write_link(*live, i);
@@ -72,9 +72,9 @@ struct Simulation::Impl {
     const std::int64_t most = commands.ticks_to_go() - 1;
     if (most < tick - next.tick) tick = next.tick + most;
     if (tick <= next.tick) return;
-    tick = sensors.next_tick(building, clock(), tick);
+    tick = sensors.due().next_tick(building, clock(), tick);
     if (tick <= next.tick) return;
-    sensors.skip_to(clock(), tick, next);
+    sensors.due().skip_to(clock(), tick, next);
     commands.ticks_done(tick - next.tick);
     next.tick = tick;
     next.time = tick * next.step;
@@ -114,7 +114,7 @@ struct Simulation::Impl {
     ++next.tick;
     for (const LiveModel* live : building.note_awake(next.tick)) {
       devices.note_awake(*live);
-      sensors.note_moved(*live);
+      sensors.due().note_moved(*live);
     }
     next.time = next.tick * next.step;
     for (const physics::Stopped& stopped : engines.physics.stopped()) note(stopped);
@@ -180,14 +180,14 @@ struct Simulation::Impl {
     return cost;
   }
 
-  // When something came or went, what comes behind it has new numbers, and is written again.
+  // After an addition or a removal, later parts have new numbers, and are written again.
   void restructure() {
     if (next.structure && next.structure->revision == building.revision()) return;
     const std::size_t from = next.structure ? building.renumbered_from() : 0;
     const Numbering kept = building.numbering(from);
     next.structure = building.structure();
     devices.invalidate();
-    sensors.invalidate();
+    sensors.due().invalidate();
     next.link_poses.truncate(kept.link);
     next.joint_positions.truncate(kept.joint);
     next.devices.truncate(kept.device);
@@ -281,7 +281,11 @@ void Simulation::observe(ActionObserver actions, RequestedSensors::Observer requ
   impl_->requested.observe(std::move(requests));
 }
 
-void Simulation::take_over(std::string reason) { impl_->commands.take_over(std::move(reason)); }
+void Simulation::accept_only_replay(std::string reason) {
+  impl_->commands.accept_only_replay(std::move(reason));
+}
+
+void Simulation::end_replay() { impl_->commands.end_replay(); }
 
 void Simulation::replay(std::vector<Action> actions) { impl_->commands.replay(std::move(actions)); }
 
