@@ -64,6 +64,18 @@ class Tracker(angen.Sensor):
                 'x': [float(pose[0] + state['position']) for _, pose, state in found]}
 
 
+class Declared(angen.Sensor):
+    """Reads what its parameter says, with fields that it declares."""
+
+    fields = {'distance': 'number m', 'ids': 'texts'}
+
+    def configure(self, params, wiring):
+        self.field = params.text('field', 'distance')
+
+    def read(self, view, ranges, rng):
+        return {self.field: 2, 'ids': []}
+
+
 class Broken(angen.Sensor):
     """Divides by zero after half a second."""
 
@@ -79,6 +91,7 @@ class Broken(angen.Sensor):
         return {'value': 1 / (0 if view.time > 0.5 else 1)}
 
 
+angen.register('declared.py', 'declared', Declared)
 angen.register('broken.py', 'broken', Broken)
 angen.register('tracker.py', 'tracker', Tracker)
 angen.register('rangefinder.py', 'rangefinder', Rangefinder)
@@ -107,6 +120,35 @@ def test_its_parameters_are_checked_like_any_other(world):
         world(RANGE.format(yaw=0, extra='<reach>far</reach>'))
     with pytest.raises(angen.Error, match='raech'):
         world(RANGE.format(yaw=0, extra='<raech>3</raech>'))
+
+
+def declared(field: str) -> str:
+    return (RANGE.format(yaw=0, extra=f'<field>{field}</field>')
+            .replace('rangefinder', 'declared'))
+
+
+def test_an_integer_and_an_empty_list_become_what_is_declared(world):
+    w = world(declared('distance'))
+    w.run(1.0)
+    reading = w.sensor('declared', 'ranger')
+    assert isinstance(reading['distance'], float) and reading['distance'] == 2.0
+    assert reading['ids'] == []
+
+
+def test_a_field_that_is_not_declared_fails_the_sensor(world):
+    w = world(declared('distnce'))
+    with pytest.raises(angen.Error, match="declare the field 'distnce'; did you mean distance"):
+        w.run(1.0)
+    assert 'distnce' in w.sensor('declared', 'ranger')['error']
+
+
+def test_a_type_that_does_not_exist_is_an_error_when_it_is_registered():
+    class Wrong(angen.Sensor):
+        """Declares a type of its own."""
+        fields = {'distance': 'length'}
+
+    with pytest.raises(angen.Error, match="declared as 'length'; right is TYPE or TYPE UNIT"):
+        angen.register('wrong.py', 'wrong', Wrong)
 
 
 SLED = '''<model name="sled"><pose>0 0 1 0 0 0</pose><link name="rail"/>

@@ -215,7 +215,7 @@ void JointControls::update(const sim::Snapshot& snapshot) {
       const double was = std::exchange(joint.position, snapshot.joint_positions[robot.entries[i]]);
       joint.velocity = passed > 0.0 && time_ >= 0 ? (joint.position - was) / passed : 0.0;
       const std::shared_ptr<const Reading>& state = snapshot.devices[robot.devices[i]];
-      joint.effort = state == nullptr ? 0.0 : state->get<double>("effort");
+      joint.effort = state == nullptr ? 0.0 : state->get<double>("effort", 0.0);
       works = works && (state == nullptr || state->find("error") == nullptr);
       if (was_reset(snapshot)) joint.command = ControlledJoint().command;
     }

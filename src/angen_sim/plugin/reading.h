@@ -50,11 +50,11 @@ using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<
 /// The field of a reading or state whose plug-in threw an exception and is called no more: which.
 inline constexpr const char* kErrorField = "error";
 
-/// What a sensor measured or the state a device is in: named values. A kind without a message of
+/// Values that a sensor measured, or the state of a device, by name. A kind without a message of
 /// its own is published as the generic angen_msgs/Reading.
 struct Reading {
   std::string kind;       // "pir", "door", …
-  Nanoseconds stamp = 0;  // when it was made; it stands until another is
+  Nanoseconds stamp = 0;  // when it was made; it is valid until the next
   std::vector<std::pair<std::string, Value>> fields;
   bool urgent = false;  // a sensor sets it to have this reading sent before its period is over
   std::string event;    // set when something worth an event happened: "motion", "opened"
@@ -63,10 +63,15 @@ struct Reading {
   template <class T>
   void set(const char* name, T value) {
     for (auto& [key, old] : fields) {
-      if (key == name) {
-        old = Value(std::move(value));
-        return;
+      if (key != name) continue;
+      if constexpr (std::is_same_v<T, std::int64_t>) {
+        if (auto* number = std::get_if<double>(&old)) {  // a number stays one
+          *number = static_cast<double>(value);
+          return;
+        }
       }
+      old = Value(std::move(value));
+      return;
     }
     fields.emplace_back(name, Value(std::move(value)));
   }
@@ -79,16 +84,25 @@ struct Reading {
     }
     return nullptr;
   }
-  /// The field's value, or `fallback` where it is missing or of another type; of a choice its name.
+  /// The field's value; of a choice its name, of an integer also the number. Throws Error where it
+  /// is missing, as all may be where the plug-in has failed, or of another type.
   template <class T>
-  T get(const std::string& name, T fallback = T{}) const {
+  T get(const std::string& name) const {
     const Value* value = find(name);
-    if constexpr (std::is_same_v<T, std::string>) {
-      const Choice* choice = value != nullptr ? std::get_if<Choice>(value) : nullptr;
-      if (choice != nullptr) return choice->name;
-    }
-    const T* typed = value != nullptr ? std::get_if<T>(value) : nullptr;
-    return typed != nullptr ? *typed : fallback;
+    if (value == nullptr) throw_missing(name);
+    return value_as<T>(name, *value);
+  }
+  /// The same, but `fallback` where it is missing.
+  template <class T>
+  T get(const std::string& name, T fallback) const {
+    const Value* value = find(name);
+    return value != nullptr ? value_as<T>(name, *value) : fallback;
+  }
+  /// The field's value where it has one of this type, as in states of devices of any kind.
+  template <class T>
+  const T* get_if(const std::string& name) const {
+    const Value* value = find(name);
+    return value != nullptr ? std::get_if<T>(value) : nullptr;
   }
   bool same_names(const Reading& other) const {
     return std::equal(fields.begin(), fields.end(), other.fields.begin(), other.fields.end(),
@@ -97,6 +111,25 @@ struct Reading {
   bool same_values(const Reading& other) const {
     return kind == other.kind && fields == other.fields;
   }
+
+ private:
+  template <class T>
+  T value_as(const std::string& name, const Value& value) const {
+    if (const T* typed = std::get_if<T>(&value)) return *typed;
+    if constexpr (std::is_same_v<T, std::string>) {
+      if (const auto* choice = std::get_if<Choice>(&value)) return choice->name;
+    }
+    if constexpr (std::is_same_v<T, double>) {
+      if (const auto* integer = std::get_if<std::int64_t>(&value)) return double(*integer);
+    }
+    throw_type(name, value, Value(T{}));
+  }
+  [[noreturn]] void throw_missing(const std::string& name) const;
+  [[noreturn]] void throw_type(const std::string& name, const Value& value,
+                               const Value& read_as) const;
 };
+
+/// "number", "text", …: the type's name in descriptions of kinds.
+const char* type_name(const Value& value);
 
 }  // namespace angen

@@ -51,7 +51,7 @@ std::string shown_value(const Field& field, const Value& value) {
 
 // "kitchen 20.1, bedroom 18.0 °C", or the values alone where their names are missing.
 std::string shown_field(const Field& field, const Value& value, const Reading& reading) {
-  const auto names = reading.get<std::vector<std::string>>(field.names);
+  const auto names = reading.get<std::vector<std::string>>(field.names, {});
   const auto* numbers = std::get_if<std::vector<double>>(&value);
   if (numbers == nullptr || numbers->empty() || names.size() != numbers->size()) {
     return shown_value(field, value);
@@ -66,7 +66,7 @@ std::string shown_field(const Field& field, const Value& value, const Reading& r
 }  // namespace
 
 std::string summary(const Kind& kind, const Reading& reading) {
-  if (const auto error = reading.get<std::string>(kErrorField); !error.empty()) {
+  if (const auto error = reading.get<std::string>(kErrorField, ""); !error.empty()) {
     return "failed: " + error;
   }
   std::string text;
@@ -90,7 +90,7 @@ std::string summary(const Kind& kind, const Reading& reading) {
 
 bool alarms(const Kind& kind, const Reading& reading) {
   for (const Field& field : kind.fields) {
-    if (field.alarm && reading.get<bool>(field.name)) return true;
+    if (field.alarm && reading.get<bool>(field.name, false)) return true;
   }
   return false;
 }

@@ -40,7 +40,10 @@ void set_list(const std::string& name, const pyb::handle& value, Reading& readin
   try {
     const bool texts = pyb::isinstance<pyb::sequence>(value) && pyb::len(value) > 0 &&
                        pyb::isinstance<pyb::str>(value[pyb::int_(0)]);
-    if (texts) {
+    const bool empty = pyb::isinstance<pyb::sequence>(value) && pyb::len(value) == 0;
+    if (empty && reading.get_if<std::vector<std::string>>(name) != nullptr) {
+      reading.set(name.c_str(), std::vector<std::string>());  // stays a list of texts
+    } else if (texts) {
       reading.set(name.c_str(), pyb::cast<std::vector<std::string>>(value));
     } else {
       reading.set(name.c_str(), pyb::cast<std::vector<double>>(value));

@@ -115,7 +115,7 @@ void bind_world(pyb::module_& module) {
            pyb::arg("allow_paths") = false, pyb::arg("memory_limit") = pyb::none(),
            "Loads a world file (SDF); `record` is a file for the log that Replay reads. With "
            "allow_paths, models may name files and plug-in libraries anywhere. One that would take "
-           "more than `memory_limit` MB is refused; see set_memory_limit.")
+           "more than `memory_limit` MB is rejected; see set_memory_limit.")
       .def_static(
           "from_text",
           [](const std::string& text, std::uint64_t seed, bool anywhere,
@@ -284,8 +284,11 @@ void bind_bases(pyb::module_& module) {
   pyb::exec(R"(
 class Sensor:
     """A sensor in Python. Override configure(params, wiring), aim(view) -> (n, 8) rows of origin,
-    direction, min, max (m, world frame) or None, and read(view, ranges, rng) -> dict."""
+    direction, min, max (m, world frame) or None, and read(view, ranges, rng) -> dict. `fields`
+    declares the keys of that dict, as {'range': 'number m', 'hit': 'flag'}: type and unit; types
+    are flag, integer, number, text, numbers and texts. None are declared: any are taken."""
 
+    fields = {}
     rate = 10.0
     sample_period = 0.0
 
@@ -302,7 +305,9 @@ class Sensor:
 class Device:
     """A device in Python. Override serves(model, joints, lights) -> bool (static), configure(params,
     wiring), command(text, values, view) -> None or a reason to reject, update(view, outputs) and
-    report(view) -> dict."""
+    report(view) -> dict, whose keys `fields` declares, as of a Sensor."""
+
+    fields = {}
 
     @staticmethod
     def serves(model, joints, lights):

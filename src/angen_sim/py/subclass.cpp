@@ -1,6 +1,10 @@
 #include "py/subclass.h"
 
+#include <algorithm>
+#include <map>
 #include <utility>
+
+#include "core/text.h"
 
 namespace angen::py {
 
@@ -31,7 +35,7 @@ pyb::object borrowed(const T& value) {
   return pyb::cast(&value, pyb::return_value_policy::reference);
 }
 
-// What a Python method raises becomes an error like any other of a plug-in.
+// An exception of a Python method becomes an Error, as of any plug-in.
 template <class F>
 auto with_python(F&& call) {
   const pyb::gil_scoped_acquire gil;
@@ -106,13 +110,34 @@ class PythonDevice : public Device {
   Held self_;
 };
 
+/// A field that a class declares, as "number m".
+Field declared_field(const std::string& name, const std::string& declared) {
+  const std::size_t blank = std::min(declared.find(' '), declared.size());
+  const std::string type = declared.substr(0, blank);
+  std::vector<std::string> types;
+  for (const Field::Type each : {Field::Type::kFlag, Field::Type::kInteger, Field::Type::kNumber,
+                                 Field::Type::kText, Field::Type::kNumbers, Field::Type::kTexts}) {
+    if (type == name_of(each)) {
+      Field field{name, each};
+      if (blank < declared.size()) field.unit = declared.substr(blank + 1);
+      return field;
+    }
+    types.emplace_back(name_of(each));
+  }
+  throw Error("the field '" + name + "' is declared as '" + declared +
+              "'; right is TYPE or TYPE UNIT, types are " + join_names(types));
+}
+
 class PythonPlugin : public Plugin {
  public:
   PythonPlugin(const std::string& kind, pyb::object type, bool is_sensor)
       : kind_(kind, ""), type_(std::move(type)), is_sensor_(is_sensor) {
     const pyb::object doc = type_.get().attr("__doc__");
     if (!doc.is_none()) kind_.doc = pyb::cast<std::string>(doc);
-    if (is_sensor_) kind_.publishes_at(pyb::cast<double>(type_.get().attr("rate")));
+    if (is_sensor_) kind_.rate(pyb::cast<double>(type_.get().attr("rate")));
+    const auto fields = pyb::cast<std::map<std::string, std::string>>(type_.get().attr("fields"));
+    for (const auto& [name, declared] : fields)
+      kind_.fields.push_back(declared_field(name, declared));
   }
 
   const Kind& kind() const override { return kind_; }
@@ -128,7 +153,7 @@ class PythonPlugin : public Plugin {
     if (is_sensor_) return nullptr;
     return with_python([&] { return std::make_unique<PythonDevice>(type_.get()()); });
   }
-  std::unique_ptr<Sensor> make_sensor() const override {
+  std::unique_ptr<Sensor> make_sensor(Params&) const override {
     if (!is_sensor_) return nullptr;
     return with_python([&] { return std::make_unique<PythonSensor>(type_.get()()); });
   }

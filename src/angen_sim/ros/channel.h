@@ -1,5 +1,6 @@
 #pragma once
 
+#include <ros/console.h>
 #include <ros/node_handle.h>
 
 #include <iterator>
@@ -10,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/diagnostics.h"
 #include "plugin/reading.h"
 #include "ros/convert.h"
 #include "ros/lazy_publisher.h"
@@ -50,7 +52,14 @@ Message to_message(const StampedReading& reading, Fill<Message> fill) {
   Message message;
   message.header.stamp = to_ros(reading.stamp);
   message.header.frame_id = reading.label->frame;
-  fill(*reading.reading, *reading.label, message);
+  try {
+    fill(*reading.reading, *reading.label, message);
+  } catch (const Error& error) {                          // of Reading::get()
+    if (reading.reading->find(kErrorField) == nullptr) {  // an event says that it has failed
+      ROS_ERROR_THROTTLE(10.0, "the message of %s is incomplete: %s", reading.label->name.c_str(),
+                         error.what());
+    }
+  }
   return message;
 }
 

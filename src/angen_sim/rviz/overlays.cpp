@@ -28,7 +28,7 @@ constexpr double kOverDevice = 0.17;        // m, a label over the highest visua
 
 const std::optional<RayStyle>& rays_of(const sim::SensorEntry& sensor) {
   static const std::optional<RayStyle> none;
-  if (sensor.rays == nullptr || sensor.plugin->kind().ray_color.empty()) return none;
+  if (sensor.rays == nullptr || sensor.plugin->kind().ray_color().empty()) return none;
   return ros_kind(sensor).rays;
 }
 
@@ -353,7 +353,7 @@ bool Overlays::redraw(const sim::Snapshot& snapshot, Overlay& beams) {
   bool fired = false;
   if (reading != nullptr) {
     tilt = entry.rays->tilt(entry.schedule.samples_before(snapshot.stamp(beams.index)));
-    ranges = reading->get<std::vector<double>>("ranges");
+    ranges = reading->get<std::vector<double>>("ranges", {});
     fired = alarms(entry.plugin->kind(), *reading);
   }
   const bool same = fired == beams.fired && tilt == beams.tilt && !apart(ranges, beams.ranges);

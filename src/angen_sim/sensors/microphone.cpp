@@ -155,8 +155,9 @@ class Microphone : public Sensor {
 
   // As a power whose level over 1 pW is the sound pressure level.
   static double heard(const DeviceView& source, const Vec3& here, const Hearing& hearing) {
-    const auto offset = source.state.get<std::vector<double>>("position", {0.0, 0.0, 0.0});
-    const Vec3 at = source.pose * Vec3::Map(offset.data());
+    const auto* offset = source.state.get_if<std::vector<double>>("position");
+    const bool is_place = offset != nullptr && offset->size() == 3;  // not, say, that of a joint
+    const Vec3 at = is_place ? source.pose * Vec3::Map(offset->data()) : source.pose.position;
     const double power = from_decibels(source.state.get<double>("sound_power_level"));
     const Place room = hearing.place_of(at);
     double gain = 0.0;

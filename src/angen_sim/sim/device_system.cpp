@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "plugin/declared.h"
 #include "sim/guard.h"
 
 namespace angen::sim {
@@ -10,7 +11,7 @@ namespace {
 
 constexpr Nanoseconds kReportPeriod = kSecond / 50;
 
-// What fell asleep in the last tick was awake in it.
+// A body that fell asleep in the last tick was awake in it.
 bool is_idle(const LiveModel& live, const DeviceInstance& device, InstanceView::Clock clock) {
   if (!device.error.empty()) return true;
   return clock.time < device.idle_until && live.awake_at < clock.time / clock.step - 1;
@@ -131,6 +132,7 @@ void DeviceSystem::report(Building& building, InstanceView::Clock clock, Snapsho
     if (device.error.empty()) {
       const std::string thrown = thrown_by([&] {
         device.device->report(InstanceView(building, *entries_[index].live, clock), device.scratch);
+        check_new_fields(device.plugin->kind(), device.scratch, device.checked_fields);
       });
       if (!thrown.empty()) fail(device, thrown, clock.time, next.events);
     }

@@ -17,6 +17,7 @@ std::shared_ptr<const Reading> Snapshot::reading(std::size_t sensor) const {
   auto made = std::make_shared<Reading>();
   made->kind = published.reading->kind;
   made->stamp = stamp(sensor);
+  made->fields = published.reading->fields;  // a number is set to an integer as there
   const SensorEntry& entry = structure->sensors[sensor];
   published.lazy->read(made->stamp, draws_at(entry.schedule, made->stamp, seed, entry.key), *made);
   return made;

@@ -57,7 +57,10 @@ TEST(Messages, Pir) {
 TEST(Messages, SwitchTakesTwoRanges) {
   Reading reading;
   reading.set("closed", true);
+  reading.set("changed", false);
   reading.set("ranges", Numbers{0.2, 0.3});
+  reading.set("difference", 0.1);
+  reading.set("threshold", 0.05);
   angen_msgs::SwitchMsg message;
   fill("switch", reading, {}, message);
   EXPECT_TRUE(message.closed);
@@ -114,6 +117,8 @@ TEST(Messages, ABatteryDrawsANegativeCurrent) {
   Reading state;
   state.set("voltage", 14.8);
   state.set("drawn", 29.6);
+  state.set("charge", 1.0);
+  state.set("capacity", 4.0);
   state.set("percentage", 0.25);
   sensor_msgs::BatteryState message;
   fill("battery", state, {}, message);
@@ -126,6 +131,7 @@ TEST(Messages, ADoorsModeIsItsChoice) {
   const auto mode = [](std::int64_t value) {
     Reading state;
     state.set("mode", Choice{value, "any"});
+    for (const char* field : {"position", "velocity", "target"}) state.set(field, 0.0);
     angen_msgs::DoorState message;
     fill("door", state, {"bathroom1", "world"}, message);
     EXPECT_EQ(message.name, "bathroom1");
@@ -142,6 +148,7 @@ TEST(Messages, ADoorsModeIsItsChoice) {
 TEST(Messages, Elevator) {
   Reading state;
   state.set("mode", Choice{2, "DOWN"});
+  for (const char* field : {"position", "velocity", "target"}) state.set(field, 0.0);
   state.set("floor", -1);
   state.set("target_floor", 1);
   state.set("floors", 3);
@@ -164,6 +171,7 @@ TEST(Messages, PersonAndOdometryStandWhereTheyAre) {
   state.set("y", 2.0);
   state.set("z", 4.9);
   state.set("yaw", M_PI_2);
+  state.set("speed", 0.0);
   state.set("v", 0.5);
   state.set("w", -1.0);
   angen_msgs::PersonState person;
@@ -189,6 +197,7 @@ TEST(Messages, ContactsAreSplitByPairAndSummed) {
   reading.set("normals", Numbers{0, 0, 1, 0, 0, 1, 0, 0, 1});
   reading.set("depths", Numbers{0.001, 0.002, 0.003});
   reading.set("forces", Numbers{0, 0, -10, 0, 0, -20, 0, 0, 30});
+  reading.set("frame", "world");
   gazebo_msgs::ContactsState message;
   fill("contact", reading, {"chair", "somewhere"}, message);
   EXPECT_EQ(message.header.frame_id, "world");
@@ -210,6 +219,8 @@ TEST(Messages, ContactListsOfUnequalLengthGiveNoMoreThanTheyHold) {
   reading.set("collision2", Texts{"b"});
   reading.set("counts", Numbers{5});
   reading.set("positions", Numbers{0, 0, 0});
+  for (const char* field : {"normals", "depths", "forces"}) reading.set(field, Numbers{});
+  reading.set("frame", "world");
   gazebo_msgs::ContactsState message;
   fill("contact", reading, {}, message);
   ASSERT_EQ(message.states.size(), 1U);

@@ -65,7 +65,7 @@ class ThrowingPlugin : public Plugin {
   explicit ThrowingPlugin(bool is_sensor)
       : kind_(is_sensor ? "probe" : "bomb", "throws"), is_sensor_(is_sensor) {
     if (is_sensor) {
-      kind_.publishes_at(10.0);
+      kind_.rate(10.0);
     } else {
       kind_.verb("Go", "may throw");
     }
@@ -75,7 +75,7 @@ class ThrowingPlugin : public Plugin {
   std::unique_ptr<Device> make_device() const override {
     return is_sensor_ ? nullptr : std::make_unique<ThrowingDevice>();
   }
-  std::unique_ptr<Sensor> make_sensor() const override {
+  std::unique_ptr<Sensor> make_sensor(Params&) const override {
     return is_sensor_ ? std::make_unique<ThrowingSensor>() : nullptr;
   }
 
@@ -126,6 +126,116 @@ const Reading& state(const Simulation& simulation, const std::string& name) {
     if (devices[i].name == name) return *snapshot->devices[i];
   }
   throw std::out_of_range(name);
+}
+
+/// A sensor and a device whose kind declares a number `value`, and what they set instead.
+class WrongField : public Sensor {
+ public:
+  void configure(Params& params, Wiring&) override {
+    sets_ = params.text("sets", "value", "the field that it sets");
+    as_ = params.choice("as", "number", {"number", "integer", "text"}, "and to what");
+    later_ = params.number("later", 0.0, "s", "not before");
+    if (params.flag("noisy", false, "its noise is of a field that is not declared")) {
+      params.noise("valeu", "", "");
+    }
+  }
+  void read(const View& view, Hits, Rng&, Reading& reading) override {
+    reading.set("value", 1.5);
+    if (to_seconds(view.time()) < later_) return;
+    const int whole = static_cast<int>(view.time() / (100 * kSecond / 1000));
+    if (as_ == "number") reading.set(sets_.c_str(), 0.5);
+    if (as_ == "integer") reading.set(sets_.c_str(), whole);
+    if (as_ == "text") reading.set(sets_.c_str(), "much");
+  }
+
+ private:
+  std::string sets_;
+  std::string as_;
+  double later_ = 0.0;
+};
+
+class WrongState : public Device {
+ public:
+  void configure(Params&, Wiring&) override {}
+  void update(const View&, Outputs&) override {}
+  void report(const View&, Reading& state) const override { state.set("valeu", 1.0); }
+};
+
+class WrongPlugin : public Plugin {
+ public:
+  explicit WrongPlugin(bool is_sensor) : is_sensor_(is_sensor) {}
+  const Kind& kind() const override { return kind_; }
+  bool serves(const ModelInfo&) const override { return !is_sensor_; }
+  std::unique_ptr<Device> make_device() const override {
+    return is_sensor_ ? nullptr : std::make_unique<WrongState>();
+  }
+  std::unique_ptr<Sensor> make_sensor(Params&) const override {
+    return is_sensor_ ? std::make_unique<WrongField>() : nullptr;
+  }
+
+ private:
+  Kind kind_ = Kind("wrong", "").rate(10.0).number("value", "", "");
+  bool is_sensor_;
+};
+
+std::unique_ptr<Simulation> world_of_wrong(const std::string& parameters) {
+  const auto catalog = std::make_shared<Catalog>();
+  catalog->add("sensor.so", std::make_shared<WrongPlugin>(true));
+  catalog->add("device.so", std::make_shared<WrongPlugin>(false));
+  const std::string inside = parameters.empty()
+                                 ? "<link name='l'/><plugin name='p' filename='device.so'/>"
+                                 : "<link name='l'><sensor name='s' type='ray'><plugin name='p' "
+                                   "filename='sensor.so'>" +
+                                       parameters + "</plugin></sensor></link>";
+  return std::make_unique<Simulation>(
+      load::world_from_text("<sdf version='1.6'><world name='w'><model name='m'><static>true"
+                            "</static>" +
+                                inside + "</model></world></sdf>",
+                            "test", {}),
+      0, catalog);
+}
+
+TEST(AField, ThatIsNotDeclaredFailsTheSensorWhenItIsSet) {
+  const auto simulation = world_of_wrong("<sets>valeu</sets>");
+  const std::vector<Event> events = run(*simulation, 1000);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].event, "failed");
+  EXPECT_EQ(events[0].detail,
+            "kind 'wrong' does not declare the field 'valeu'; did you mean value?");
+  EXPECT_EQ(simulation->snapshot()->reading(0)->get<std::string>(kErrorField), events[0].detail);
+}
+
+TEST(AField, ThatIsSetLaterIsCheckedThen) {
+  const auto simulation = world_of_wrong("<sets>valeu</sets><later>0.5</later>");
+  EXPECT_TRUE(run(*simulation, 400).empty());
+  EXPECT_EQ(run(*simulation, 400).size(), 1U);
+}
+
+TEST(AField, OfAnotherTypeFailsTheSensor) {
+  const auto simulation = world_of_wrong("<as>text</as>");
+  const std::vector<Event> events = run(*simulation, 1000);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_NE(events[0].detail.find("declares it as number"), std::string::npos);
+}
+
+TEST(AField, ThatIsANumberTakesIntegers) {
+  const auto simulation = world_of_wrong("<as>integer</as>");
+  EXPECT_TRUE(run(*simulation, 950).empty());
+  const auto reading = simulation->snapshot()->reading(0);
+  ASSERT_NE(reading->get_if<double>("value"), nullptr);
+  EXPECT_EQ(reading->get<double>("value"), 9.0);
+}
+
+TEST(AField, WithNoiseThatIsNotDeclaredIsRefusedWhenItsWorldIsLoaded) {
+  EXPECT_THROW(world_of_wrong("<noisy>true</noisy>"), Error);
+}
+
+TEST(AField, ThatIsNotDeclaredFailsTheDevice) {
+  const auto simulation = world_of_wrong("");
+  const std::vector<Event> events = run(*simulation, 200);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].event, "failed");
+  EXPECT_NE(events[0].detail.find("did you mean value?"), std::string::npos);
 }
 
 class ADeviceThatThrows : public ::testing::TestWithParam<const char*> {};

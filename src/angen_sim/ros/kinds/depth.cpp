@@ -32,7 +32,7 @@ render::Distortion distortion_of(const Reading& reading) {
 void fill_points(const Reading& reading, const Label&, sensor_msgs::PointCloud2& message) {
   const auto depth = reading.get<FloatImage>("depth");
   if (!depth.values) return;
-  const auto colors = reading.get<ByteImage>("image");
+  const auto colors = reading.get<ByteImage>("image", {});
   const auto focal = reading.get<double>("focal");
   const auto center_x = reading.get<double>("center_x");
   const auto center_y = reading.get<double>("center_y");

@@ -37,7 +37,7 @@ ImageArray<std::uint16_t> in_millimeters(const FloatImage& depth) {
 
 void fill_image(const Reading& reading, const Label&, sensor_msgs::Image& message) {
   namespace encodings = sensor_msgs::image_encodings;
-  const auto image = reading.get<ByteImage>("image");
+  const auto image = reading.get<ByteImage>("image", {});
   copy(image, (image.channels == 1 ? encodings::MONO8 : encodings::RGB8).c_str(), message);
 }
 

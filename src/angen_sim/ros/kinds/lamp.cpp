@@ -11,7 +11,7 @@ void fill(const Reading& state, const Label& label, angen_msgs::LampState& messa
   message.on = state.get<bool>("on");
   message.level = state.get<double>("level");
   message.luminous_flux = state.get<double>("luminous_flux");
-  message.illuminance = state.get<double>("illuminance");
+  message.illuminance = state.get<double>("illuminance", 0.0);
 }
 
 ANGEN_REGISTER_ROS_KIND(

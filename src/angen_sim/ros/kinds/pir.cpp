@@ -10,8 +10,8 @@ namespace {
 void fill(const Reading& reading, const Label&, angen_msgs::PirMsg& message) {
   message.motion = reading.get<bool>("motion");
   message.departure = reading.get<bool>("departure", false);
-  message.difference = reading.get<double>("difference");
-  message.threshold = reading.get<double>("threshold");
+  message.difference = reading.get<double>("difference", 0.0);
+  message.threshold = reading.get<double>("threshold", 0.0);
   message.signal = reading.get<double>("signal");
   message.signal_threshold = reading.get<double>("signal_threshold");
 }
