@@ -105,7 +105,8 @@ def fields(kind: Kind) -> str:
         doc = field['doc']
         if field['type'] == 'choice':
             doc = ', '.join(code(word) for word in field['words']) + (f'; {doc}' if doc else '')
-        rows.append([code(field['name']), field['type'], unit(field['unit']), plain(doc)])
+        doc = plain(doc) + (f'; with {code(field["with"])}' if field['with'] else '')
+        rows.append([code(field['name']), field['type'], unit(field['unit']), doc])
     return table('Fields of its state' if kind['role'] == 'device' else 'Fields of its reading',
                  ['field', 'type', 'unit', ''], rows)
 

@@ -61,7 +61,7 @@ def test_a_page_has_what_the_kind_describes() -> None:
         verbs=[{'name': 'Dim', 'doc': 'of it', 'argument': 'percent', 'unit': '%', 'min': 0,
                 'max': 100}],
         fields=[{'name': 'mode', 'type': 'choice', 'unit': '', 'doc': 'of it',
-                 'words': ['A', 'B']}]), {}, '')
+                 'words': ['A', 'B'], 'with': 'model new'}]), {}, '')
     assert '| `ray/range/max` | 3.1241 | m² | farther is not seen |\n' in made
     assert '| `Dim PERCENT` | 0 to 100 % | of it |' in made
-    assert '| `mode` | choice |  | `A`, `B`; of it |' in made
+    assert '| `mode` | choice |  | `A`, `B`; of it; with `model new` |' in made

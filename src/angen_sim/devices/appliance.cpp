@@ -54,7 +54,6 @@ class Appliance : public Device {
                           "of the model's light while it is on; 0 = it has none", kNotNegative);
     level_ = params.number("level", 50.0, "%", "speed or volume at the start", {0.0, 100.0});
     on_ = params.flag("on", false, "switched on at the start");
-    params.text("device_name", "", "the name commands use, instead of the model's");
     if (flux_ > 0.0) light_ = wiring.light("");
   }
 

@@ -18,7 +18,6 @@ class Battery : public Device {
     efficiency_ =
         params.number("efficiency", 0.6, "", "work of the wheels over electric work", {1e-3, 1.0});
     const double level = params.number("level", 100.0, "%", "charge at the start", {0.0, 100.0});
-    params.text("device_name", "", "the name commands use, instead of MODEL_battery");
     energy_ = full() * level / 100.0;
     model_ = wiring.model();
   }

@@ -49,7 +49,6 @@ class Climate : public Device {
     outside_humidity_ =
         params.number("outside_humidity", 80.0, "%", "of the air outside", {0.0, 100.0});
     outside_.moisture = moisture_of(outside_.temperature, outside_humidity_);
-    params.text("device_name", "", "the name commands use, instead of the model's");
     std::vector<double> volumes;
     for (std::vector<double>& room : rooms_) {
       for (int axis = 0; axis < 3; ++axis) {

@@ -70,7 +70,6 @@ void Cup::configure(Params& params, Wiring& wiring) {
                                      {-50.0, 100.0});
   if (content_ > 0.0 || params.has("temperature")) temperature_ = start;
   poured_ = params.number("poured", 0.0, "ml", "that have run out before the start", kNotNegative);
-  params.text("device_name", "", "the name commands use, instead of the model's");
   body_ = wiring.link(params.text("link", "body", "the link that is the cup, origin at its foot"));
   mass_ = wiring.mass(body_);
 }

@@ -26,7 +26,6 @@ class Daylight : public Device {
                       {0.0, 1.0});
     outdoors_ = params.number("illuminance", 0.0, "lx", "outdoors on open ground, at the start",
                               {0.0, kBrightest});
-    params.text("device_name", "", "the name commands use, instead of the model's and its floor");
     flux_per_lux_ = area * passes * share;
     light_ = wiring.light("");
   }

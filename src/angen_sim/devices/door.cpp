@@ -84,7 +84,6 @@ void Door::configure(Params& params, Wiring& wiring) {
       "update_rate", 50.0, "Hz", "how often its state is published while it moves", kRefreshRate));
   params.choice("topicName", leaf_.topic, {leaf_.topic},
                 "where commands come from: one topic for all");
-  params.text("device_name", "", "the name commands use, instead of the model's and its floor");
   if (leaf_.any_joint) params.texts("joint", "", kJointDoc);
   wire(params, wiring);
   warn_of_effort(params);
@@ -299,7 +298,7 @@ void Door::report(const View& view, Reading& state) const {
 LeafPlugin::LeafPlugin(const LeafKind& leaf)
     : leaf_(leaf), kind_(leaf.kind, std::string("A ") + leaf.kind + ".") {
   kind_.example(leaf.example)
-      .commanded_on(leaf.topic)
+      .command_topic(leaf.topic)
       .verb("Open", "moves to its open_position")
       .verb("Close", "moves to its closed_position")
       .verb("Unlatch", "turns its handle: for 3 s its latch does not hold")

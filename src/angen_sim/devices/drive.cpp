@@ -40,7 +40,6 @@ void Drive::configure(Params& params, Wiring& wiring) {
   params.text("odometryTopic", "odom", "of its odometry");
   params.text("odometryFrame", "odom", "frame that odometry starts in");
   params.text("robotBaseFrame", "base_footprint", "frame that odometry moves");
-  params.text("device_name", "", "the name commands use, instead of the model's");
   model_ = wiring.model();
   left_.joint = wiring.joint(left_joint(params));
   right_.joint = wiring.joint(right_joint(params));
@@ -165,7 +164,7 @@ const Kind& DrivePlugin::kind() const {
                                .model("turtlebot")
                                .example("set drive turtlebot stop")
                                .verb("Stop", "stops")
-                               .values({"m/s", "rad/s"})
+                               .value_units({"m/s", "rad/s"})
                                .number("x", "m", "by the wheels, in the odometry frame")
                                .shown(2)
                                .number("y", "m", "by the wheels")

@@ -74,7 +74,6 @@ void Elevator::configure(Params& params, Wiring& wiring) {
   refresh_ = Refresh(params.number(
       "update_rate", 50.0, "Hz", "how often its state is published while it moves", kRefreshRate));
   params.choice("topicName", kTopic, {kTopic}, "where commands come from: one topic for all");
-  params.text("device_name", "", "the name commands use, instead of the model's");
   params.text("joint", "", kJointDoc);
   queue_size_ = static_cast<std::size_t>(
       params.integer("queue_size", 1, "",
@@ -299,7 +298,7 @@ const Kind& ElevatorPlugin::kind() const {
       Kind("elevator", "An elevator with doors.")
           .model("elevator")
           .example("set elevator elevator 1")
-          .commanded_on(kTopic)
+          .command_topic(kTopic)
           .counted_verb("Floor", "floor", {0.0, 999.0}, "rides there, after its present target")
           .choice("mode", {std::begin(kModes), std::end(kModes)},
                   "of the cabin; BLOCKED: something holds it")

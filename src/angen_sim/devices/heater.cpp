@@ -26,7 +26,6 @@ class Heater : public Device {
     const std::string visual =
         params.text("surface", "", "the visual that warms; all of the model unless given");
     surfaces_ = wiring.surfaces(visual);
-    params.text("device_name", "", "the name commands use, instead of the model's");
   }
 
   Verdict command(const Command& command, const View&) override {

@@ -23,7 +23,6 @@ void Lamp::configure(Params& params, Wiring& wiring) {
   full_power_ = params.number("power", full_flux_ / kEfficacy, "W",
                               "electric power at 100 %; 80 lm/W unless given", kNotNegative);
   params.choice("topicName", kTopic, {kTopic}, "where commands come from: one topic for all");
-  params.text("device_name", "", "the name commands use, instead of the model's and its floor");
   light_ = wiring.light(params.text("light", "", "its <light>; none: the model's only one"));
 }
 
@@ -55,7 +54,7 @@ const Kind& LampPlugin::kind() const {
   static const Kind kind = Kind("lamp", "A lamp.")
                                .model("ceiling_lamp")
                                .example("set lamp kitchen0 40")
-                               .commanded_on(kTopic)
+                               .command_topic(kTopic)
                                .verb("On", "full brightness")
                                .verb("Off", "dark")
                                .verb("Dim", "percent", "%", {0.0, 100.0}, "of its full brightness")

@@ -81,7 +81,6 @@ void Person::configure(Params& params, Wiring& wiring) {
   params.number("clothing_temperature", 299.0, "K", "of the rest of its surface", kPositive);
   refresh_ = Refresh(params.number(
       "update_rate", 20.0, "Hz", "how often its state is published while it walks", kRefreshRate));
-  params.text("device_name", "", "the name commands use, instead of the actor's");
   avoids_ = params.flag(
       "avoid", true, "walks round obstacles that it sees, or stops before them; otherwise pushes");
   speed_ = params.number("speed", 1.0, "m/s", "of its walk to where it is sent", kPositive);

@@ -56,7 +56,6 @@ class Plant : public Device {
                       "share of the water between these two that roots get easily", {0.0, 0.99});
     moisture_ = params.number("moisture", full_, "%", "at the start", {dead_, full_});
     leaf_height_ = params.number("leaf_height", 0.7, "m", "where light falls on it", kNotNegative);
-    params.text("device_name", "", "the name commands use, instead of the model's");
   }
 
   Verdict command(const Command& command, const View&) override {

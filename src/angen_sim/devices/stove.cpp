@@ -72,7 +72,6 @@ class Stove : public Device {
     for (std::size_t i = 0; i < visuals.size(); ++i) {
       plates_[i].surfaces = wiring.surfaces(visuals[i]);
     }
-    params.text("device_name", "", "the name commands use, instead of the model's and its floor");
   }
 
   Verdict command(const Command& command, const View&) override {

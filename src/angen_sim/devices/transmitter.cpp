@@ -18,7 +18,6 @@ class Transmitter : public Device {
     if (places.size() > 1) throw params.error("position", "a transmitter has one <position>");
     if (!places.empty()) position_ = places.front();
     on_ = params.flag("on", true, "sends at the start");
-    params.text("device_name", "", "the name commands use, instead of MODEL_transmitter");
   }
 
   Verdict command(const Command& command, const View&) override {

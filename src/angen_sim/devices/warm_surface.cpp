@@ -38,7 +38,6 @@ class WarmSurface : public Device {
     heat_ = {start, target,
              params.number("time_constant", 60.0, "s", "of its approach to the target; 0 = at once",
                            {0.0, 1e6})};
-    params.text("device_name", "", "the name commands use, instead of the model's");
   }
 
   Verdict command(const Command& command, const View& view) override {

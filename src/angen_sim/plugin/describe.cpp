@@ -33,11 +33,17 @@ class AnyWiring : public Wiring {
   std::string kind_;
 };
 
-// What the simulator itself reads of every sensor.
+ModelInfo any_model() {
+  ModelInfo model;
+  model.name = "MODEL";
+  return model;
+}
+
+// Parameters of every sensor that the simulator itself reads.
 void read_common(Params& params, const Kind& kind) {
   params.update_period();
   params.text("topicName", "/angen/" + kind.name + "/NAME", "where it publishes");
-  if (!kind.ray_color.empty()) read_ray_color(params, kind);
+  if (!kind.ray_color().empty()) read_ray_color(params, kind);
   params.text("frameName", "NAME", "frame_id of its messages");
 }
 
@@ -48,15 +54,18 @@ std::vector<ParamDoc> params_of(const std::string& library, const Plugin& plugin
   element.name = "plugin";
   element.attributes = {{"filename", library}};
   element.children = std::move(given);
-  Params params(element, nullptr, plugin.kind().rate);
+  Params params(element, nullptr, plugin.kind().rate());
   AnyWiring wiring(plugin.kind().name);
-  const auto sensor = plugin.make_sensor();
+  const auto sensor = plugin.make_sensor(params);
   const auto device = sensor ? nullptr : plugin.make_device();
   try {
     if (sensor) sensor->configure(params, wiring);
-    if (device) device->configure(params, wiring);
+    if (device) {
+      read_device_name(params, plugin.instance_name(any_model()));
+      device->configure(params, wiring);
+    }
   } catch (const Error&) {
-    // It cannot do without something that nothing has; what it read until then is known.
+    // It needs a part that no model here has; the parameters that it read until then are known.
   }
   if (sensor) {
     plugin.link_of(params);
@@ -85,7 +94,7 @@ PluginDoc describe(const std::string& library, const Plugin& plugin) {
       }
     }
   }
-  return {library, plugin.kind(), plugin.make_sensor() == nullptr, docs};
+  return {library, plugin.kind(), !plugin.makes_sensors(), docs};
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ std::string object(const Field& f) {
   return "{" +
          members("name", json(f.name), "type", json(name_of(f.type)), "unit", json(f.unit), "doc",
                  json(f.doc), "words", list(f.words), "shown", json(f.in_summary), "decimals",
-                 json(f.decimals), "alarm", json(f.alarm)) +
+                 json(f.decimals), "alarm", json(f.alarm), "with", json(f.with)) +
          "}";
 }
 
@@ -91,11 +91,11 @@ std::string object(const PluginDoc& plugin) {
   const auto each = [](const auto& value) { return object(value); };
   return "{" +
          members("library", json(plugin.library), "kind", json(kind.name), "doc", json(kind.doc),
-                 "role", json(plugin.is_device ? "device" : "sensor"), "rate", json(kind.rate),
+                 "role", json(plugin.is_device ? "device" : "sensor"), "rate", json(kind.rate()),
                  "on_demand", json(kind.is_on_demand), "models", list(kind.models, each),
-                 "sensor_type", json(kind.sensor_type), "example", json(kind.example_line),
-                 "command_topic", json(kind.command_topic), "verbs", list(kind.verbs, each),
-                 "values", list(kind.value_units), "fields", list(kind.fields, each), "params",
+                 "sensor_type", json(kind.sensor_type()), "example", json(kind.example()),
+                 "command_topic", json(kind.command_topic()), "verbs", list(kind.verbs, each),
+                 "values", list(kind.value_units()), "fields", list(kind.fields, each), "params",
                  list(plugin.params, each)) +
          "}";
 }

@@ -24,7 +24,7 @@ struct ParamDoc {
 
 /// A plug-in's parameters: children of <plugin>, then of the <sensor> around it. A path such as
 /// "ray/range/max" walks down. A wrong type, a value out of range or not finite throws Error with
-/// file and line; finish() does so for keys that nobody read.
+/// file and line; finish() does so for keys that were not read.
 class Params {
  public:
   /// `rate` in Hz is the kind's, for a sensor without an <update_rate>.
@@ -60,13 +60,13 @@ class Params {
                bool relative = false);
   /// The same for a noise that was read otherwise.
   void noise(Noise noise) { noise_.push_back(std::move(noise)); }
-  /// What noise() was given: the simulator adds it to what the sensor reads.
+  /// All that noise() was given: the simulator adds it to the sensor's readings.
   const std::vector<Noise>& all_noise() const { return noise_; }
 
   /// An Error at the place of `path`, or of the plug-in when it is not given there.
   Error error(const std::string& path, const std::string& message) const;
 
-  /// Adds a warning at the place of `path`: what is given there has less effect than it says.
+  /// Adds a warning at the place of `path`: its value has less effect than it says.
   void warn(const std::string& path, const std::string& message);
   const std::vector<Diagnostic>& warnings() const { return warnings_; }
 
@@ -95,5 +95,10 @@ class Params {
   std::vector<Noise> noise_;
   std::vector<Diagnostic> warnings_;
 };
+
+/// Of each device: the name that commands use.
+inline std::string read_device_name(Params& params, const std::string& fallback) {
+  return params.text("device_name", fallback, "the name that commands use");
+}
 
 }  // namespace angen

@@ -13,6 +13,11 @@ const ModelInfo::Joint* ModelInfo::joint(const std::string& joint_name) const {
   return nullptr;
 }
 
+bool Plugin::makes_sensors() const {
+  Params nothing{Element{}};
+  return make_sensor(nothing) != nullptr;
+}
+
 std::vector<Mount> Plugin::mounts(const ModelInfo& model, Params&) const {
   if (!serves(model)) return {};
   return {{instance_name(model), ""}};

@@ -22,11 +22,11 @@ namespace angen {
 
 struct Verdict {
   bool accepted = true;
-  std::string reason;         // why not, what would be right
-  std::function<void()> act;  // carries the command out; may be empty
+  std::string reason;         // why not, and the right form
+  std::function<void()> act;  // executes the command; may be empty
 
   static Verdict accept() { return {}; }
-  /// `act` runs once each device that the command is for has accepted it: all carry it out, or
+  /// `act` runs once each device that the command is for has accepted it: all execute it, or
   /// none.
   static Verdict accept(std::function<void()> act) { return {true, "", std::move(act)}; }
   static Verdict reject(std::string why) { return {false, std::move(why), {}}; }
@@ -46,7 +46,7 @@ class Device {
   virtual Nanoseconds idle_until(const View&) const { return 0; }
   /// Called before update() or command() after that much time (ns) without updates.
   virtual void skip(Nanoseconds) {}
-  /// Parameters with which a device that starts where this one is goes on as this one would; the
+  /// Parameters with which a device that starts in this state continues as this one would; the
   /// others stay as they were given. Poses and joint positions are saved with the model.
   virtual void save(SavedParams&) const {}
 };
@@ -79,7 +79,7 @@ class Sensor {
 using Draws = std::function<Rng(int samples_ago)>;
 
 /// Makes the readings of a steady sensor whose readings differ by noise only. Snapshots hold it in
-/// place of readings that nobody has read yet. Any thread may call it, also after the sensor was
+/// place of readings that have not been read yet. Any thread may call it, also after the sensor was
 /// deleted, so it depends on neither.
 class LazyReading {
  public:
@@ -97,7 +97,7 @@ class NoisySensor {
   virtual bool varies() const = 0;
   /// Where the first uniform() of a sample's random numbers is below this, the sample has no event
   /// and is not urgent while the sensor is steady.
-  virtual double quiet_chance() const = 0;
+  virtual double no_event_probability() const = 0;
   /// On how many earlier samples a reading depends.
   virtual int memory() const = 0;
   /// Makes its readings while nothing changes.
@@ -107,7 +107,7 @@ class NoisySensor {
   virtual void resume(Nanoseconds time, const Draws& draws) = 0;
 };
 
-/// What a plug-in sees of a model before deciding to serve it.
+/// The description of a model by which a plug-in decides whether to serve it.
 struct ModelInfo {
   struct Joint {
     std::string name;
@@ -132,7 +132,7 @@ struct ModelInfo {
   const Joint* joint(const std::string& joint_name) const;
 };
 
-/// One of a model's devices: what commands call it, and its joint where a model may have several.
+/// One of a model's devices: its name in commands, and its joint where a model may have several.
 struct Mount {
   std::string name;
   std::string joint;
@@ -153,9 +153,11 @@ class Plugin {
   /// so, unless overridden.
   virtual std::vector<Mount> mounts(const ModelInfo& model, Params& params) const;
   virtual std::unique_ptr<Device> make_device_on(const Mount&) const { return make_device(); }
-  /// Devices: what a model must have to get one, such as "a light"; errors say it.
+  /// Devices: the part that a model needs to get one, such as "a light"; errors name it.
   virtual std::string needs() const { return ""; }
-  virtual std::unique_ptr<Sensor> make_sensor() const { return nullptr; }
+  /// Sensors: of the class that these parameters choose, where there are several.
+  virtual std::unique_ptr<Sensor> make_sensor(Params&) const { return nullptr; }
+  bool makes_sensors() const;
   /// Sensors that a <plugin> of a model makes, as Gazebo's IMU: the link that it sits on by these
   /// parameters, "" = the model's first. None: it is a <sensor>'s plug-in, or switched off.
   virtual std::optional<std::string> link_of(Params&) const { return std::nullopt; }

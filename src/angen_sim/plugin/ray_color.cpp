@@ -8,7 +8,7 @@ namespace angen {
 
 Eigen::Vector4f read_ray_color(Params& params, const Kind& kind) {
   const std::string text =
-      params.text("color", kind.ray_color, "of its rays in rviz: red green blue alpha, 0 to 1");
+      params.text("color", kind.ray_color(), "of its rays in rviz: red green blue alpha, 0 to 1");
   std::istringstream words(text);
   Eigen::Vector4f color(0.0F, 0.0F, 0.0F, 1.0F);
   int count = 0;

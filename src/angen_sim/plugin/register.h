@@ -21,17 +21,17 @@
 /// A sensor class and its kind, with no Plugin subclass to write: ANGEN_REGISTER_SENSOR(Type, NAME,
 /// DOC), or ANGEN_REGISTER_SENSOR(Type, Kind(NAME, DOC).number(…)…). Stands in the class's
 /// namespace.
-#define ANGEN_REGISTER_SENSOR(Type, ...)                          \
-  struct Type##Plugin : angen::Plugin {                           \
-    const angen::Kind& kind() const override {                    \
-      using angen::Kind;                                          \
-      static const Kind described(__VA_ARGS__);                   \
-      return described;                                           \
-    }                                                             \
-    std::unique_ptr<angen::Sensor> make_sensor() const override { \
-      return std::make_unique<Type>();                            \
-    }                                                             \
-  };                                                              \
+#define ANGEN_REGISTER_SENSOR(Type, ...)                                        \
+  struct Type##Plugin : angen::Plugin {                                         \
+    const angen::Kind& kind() const override {                                  \
+      using angen::Kind;                                                        \
+      static const Kind described(__VA_ARGS__);                                 \
+      return described;                                                         \
+    }                                                                           \
+    std::unique_ptr<angen::Sensor> make_sensor(angen::Params&) const override { \
+      return std::make_unique<Type>();                                          \
+    }                                                                           \
+  };                                                                            \
   ANGEN_REGISTER_PLUGIN(Type##Plugin)
 
 /// The same of a device that any model may have.

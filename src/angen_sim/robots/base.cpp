@@ -46,7 +46,7 @@ void Base::read_true(const View& view, Reading& reading) {
 
 Kind odometry_kind(std::string name, std::string doc, double rate) {
   return Kind(std::move(name), std::move(doc))
-      .publishes_at(rate)
+      .rate(rate)
       .numbers("position", "m", "x y z of the base in the odometry frame")
       .shown(2)
       .numbers("orientation", "", "quaternion x y z w")
@@ -81,7 +81,7 @@ void Inertia::read(const View& view, Reading& reading) {
 
 Kind inertia_kind(std::string name, std::string doc, double rate) {
   return Kind(std::move(name), std::move(doc))
-      .publishes_at(rate)
+      .rate(rate)
       .on_demand()
       .numbers("orientation", "", "in the world, quaternion x y z w")
       .numbers("angular_velocity", "rad/s", "about its x, y, z")

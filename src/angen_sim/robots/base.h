@@ -107,7 +107,7 @@ class BodySensorPlugin : public Plugin {
   std::optional<std::string> link_of(Params& params) const override {
     return params.text("bodyName", "", "the link that it is fastened to; none: the first");
   }
-  std::unique_ptr<Sensor> make_sensor() const override { return std::make_unique<Type>(); }
+  std::unique_ptr<Sensor> make_sensor(Params&) const override { return std::make_unique<Type>(); }
 };
 
 /// The plug-in of a sensor that belongs to the model as a whole.

@@ -80,7 +80,7 @@ class DiffDriveOdometryPlugin : public Plugin {
     return params.flag("publishTf", true, "odometry is published") ? std::make_optional("")
                                                                    : std::nullopt;
   }
-  std::unique_ptr<Sensor> make_sensor() const override {
+  std::unique_ptr<Sensor> make_sensor(Params&) const override {
     return std::make_unique<DiffDriveOdometry>();
   }
 };
@@ -104,7 +104,7 @@ class DiffDriveJointsPlugin : public Plugin {
   std::optional<std::string> link_of(Params& params) const override {
     return read_settings(params).publishes_joints ? std::make_optional("") : std::nullopt;
   }
-  std::unique_ptr<Sensor> make_sensor() const override {
+  std::unique_ptr<Sensor> make_sensor(Params&) const override {
     return std::make_unique<DiffDriveJoints>();
   }
 };

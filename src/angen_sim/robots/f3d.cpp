@@ -9,7 +9,7 @@ class F3d : public Sensor {
  public:
   static Kind describe() {
     return Kind("f3d", "The sum of the contact forces on a link.")
-        .publishes_at(1000.0)
+        .rate(1000.0)
         .on_demand()
         .numbers("force", "N", "x y z in the world")
         .shown(2)

@@ -49,7 +49,7 @@ class ForcePlugin : public Plugin {
   const Kind& kind() const override {
     static const Kind kind = Kind("force", "A force and a torque on a link, as commanded.")
                                  .verb("Stop", "pushes no more")
-                                 .values({"N", "N", "N", "N m", "N m", "N m"})
+                                 .value_units({"N", "N", "N", "N m", "N m", "N m"})
                                  .numbers("force", "N", "x y z in the world, at its center of mass")
                                  .shown(2)
                                  .numbers("torque", "N m", "about x y z of the world");

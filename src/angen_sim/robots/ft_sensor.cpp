@@ -9,7 +9,7 @@ class FtSensor : public Sensor {
  public:
   static Kind describe() {
     return Kind("ft_sensor", "Force and torque that a joint carries.")
-        .publishes_at(1000.0)
+        .rate(1000.0)
         .on_demand()
         .numbers("force", "N", "that the child gives the parent, x y z of the child's frame")
         .shown(2)

@@ -20,7 +20,7 @@ class Gps : public Sensor {
  public:
   static Kind describe() {
     return Kind("gps", "Latitude, longitude and altitude of a link.")
-        .publishes_at(4.0)
+        .rate(4.0)
         .on_demand()
         .number("latitude", "deg", "north")
         .shown(7)

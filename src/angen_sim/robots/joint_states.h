@@ -42,7 +42,7 @@ class JointStates : public Sensor {
 
 inline Kind joint_states_kind(std::string name, std::string doc) {
   return Kind(std::move(name), std::move(doc))
-      .publishes_at(100.0)
+      .rate(100.0)
       .texts("names", "of the joints")
       .numbers("positions", "", "rad or m")
       .shown_by_name("names", 2)

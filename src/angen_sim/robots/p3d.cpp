@@ -9,7 +9,7 @@ class P3d : public Sensor {
  public:
   static Kind describe() {
     return Kind("p3d", "Where a link truly is in the world.")
-        .publishes_at(1000.0)
+        .rate(1000.0)
         .on_demand()
         .numbers("position", "m", "x y z")
         .shown(2)

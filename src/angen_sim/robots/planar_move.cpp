@@ -86,7 +86,7 @@ class PlanarMovePlugin : public Plugin {
     static const Kind kind =
         Kind("planar_move", "A robot that moves over the floor in any direction.")
             .verb("Stop", "stops")
-            .values({"m/s", "m/s", "rad/s"})
+            .value_units({"m/s", "m/s", "rad/s"})
             .number("forward", "m/s", "as commanded")
             .shown(2)
             .number("left", "m/s", "as commanded")

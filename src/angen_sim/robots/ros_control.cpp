@@ -132,7 +132,7 @@ class JointCommandPlugin : public Plugin {
   const Kind& kind() const override {
     static const Kind kind =
         Kind("joint_command", "A joint that is commanded by position, velocity or effort.")
-            .values({"rad, m, rad/s, m/s, N m or N"})
+            .value_units({"rad, m, rad/s, m/s, N m or N"})
             .text("joint", "which it is")
             .text("interface", "of its commands: position, velocity or effort")
             .number("command", "", "the last one")
@@ -185,7 +185,7 @@ class ControlledJointsPlugin : public Plugin {
   std::optional<std::string> link_of(Params& params) const override {
     return read_transmissions(params).empty() ? std::nullopt : std::make_optional("");
   }
-  std::unique_ptr<Sensor> make_sensor() const override {
+  std::unique_ptr<Sensor> make_sensor(Params&) const override {
     return std::make_unique<ControlledJoints>();
   }
 };

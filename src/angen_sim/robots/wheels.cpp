@@ -104,7 +104,7 @@ std::vector<Mount> mounts_on_wheels(const ModelInfo& model, const WheelSettings&
 Kind wheels_kind(std::string name, std::string doc) {
   return Kind(std::move(name), std::move(doc))
       .verb("Stop", "stops")
-      .values({"m/s", "rad/s"})
+      .value_units({"m/s", "rad/s"})
       .number("v", "m/s", "forward, as commanded")
       .shown(2)
       .number("w", "rad/s", "to the left, as commanded")

@@ -20,7 +20,7 @@ namespace {
 std::string kind_of(const std::string& library, Catalog& catalog) {
   try {
     for (const auto& plugin : catalog.library(library)) {
-      if (plugin->make_sensor()) return plugin->kind().name;
+      if (plugin->makes_sensors()) return plugin->kind().name;
     }
   } catch (const Error&) {
     return "";

@@ -139,8 +139,8 @@ class Accelerometer : public Sensor {
 ANGEN_REGISTER_SENSOR(
     Accelerometer,
     Kind("accelerometer", "Acceleration of a thing that is moved, tilted, lifted, put down.")
-        .publishes_at(10.0)
-        .on_link("imu")
+        .rate(10.0)
+        .sensor_type("imu")
         .example("spawn accelerometer a1 --on kitchen_chair0_a::body --set link=body")
         .numbers("acceleration", "m/s^2", "along its x, y, z; at rest g upwards")
         .shown(2)

@@ -63,7 +63,7 @@ Lens read_lens(Params& params) {
 }
 
 Kind camera_kind(Kind kind, std::string image, std::string image_doc) {
-  return kind.publishes_at(30.0)
+  return kind.rate(30.0)
       .on_demand()
       .image(std::move(image), std::move(image_doc))
       .integer("width", "px", "of the image")

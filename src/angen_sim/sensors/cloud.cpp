@@ -62,7 +62,7 @@ void Cloud::read(const View& view, Hits hits, Rng&, Reading& reading) {
 }
 
 Kind cloud_kind(Kind kind) {
-  return kind.publishes_at(10.0)
+  return kind.rate(10.0)
       .on_demand()
       .numbers("ranges", "m", "of each ray, row after row from below, infinite without a hit")
       .numbers("intensities", "", "of each ray, 100 times the albedo of the surface")

@@ -136,8 +136,8 @@ class Contact : public Sensor {
 ANGEN_REGISTER_SENSOR(
     Contact,
     Kind("contact", "Contacts of a body: names, points, depths, forces.")
-        .publishes_at(1.0)
-        .on_link("contact")
+        .rate(1.0)
+        .sensor_type("contact")
         .example("spawn contact c1 --on kitchen_chair0_a::body --set collision=seat_collision")
         .flag("pressed", "something touches it, after the debounce")
         .alarm("touched", "free")

@@ -12,7 +12,7 @@ class Humidity : public AirSensor {
 
 ANGEN_REGISTER_SENSOR(Humidity,
                       Kind("humidity", "The relative humidity of the air in its room.")
-                          .publishes_at(1.0)
+                          .rate(1.0)
                           .model("humidity_sensor")
                           .example("spawn humidity h1 --pose \"0.1 2.1 1.5\"")
                           .number("humidity", "%",

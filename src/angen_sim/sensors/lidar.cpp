@@ -65,7 +65,7 @@ class Lidar : public Sensor {
 };
 
 ANGEN_REGISTER_SENSOR(Lidar, Kind("lidar", "A planar laser scanner.")
-                                 .publishes_at(10.0)
+                                 .rate(10.0)
                                  .on_demand()
                                  .numbers("ranges", "m", "of each ray, infinite without a hit")
                                  .number("angle_min", "rad", "of the first ray")

@@ -166,8 +166,8 @@ class LoadCells : public Sensor, public NoisySensor {
 
 ANGEN_REGISTER_SENSOR(
     LoadCells, Kind("load_cells", "Load cells under a table: the weight on it, and its center.")
-                   .publishes_at(10.0)
-                   .on_link("contact")
+                   .rate(10.0)
+                   .sensor_type("contact")
                    .example("spawn load_cells l1 --on kitchen_table0::body --set tare=20")
                    .number("weight", "kg", "on the table, without the tare")
                    .shown(2)

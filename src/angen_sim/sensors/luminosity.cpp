@@ -49,7 +49,7 @@ class Luminosity : public Sensor {
 ANGEN_REGISTER_SENSOR(
     Luminosity,
     Kind("luminosity", "Illuminance in lux and the mean color of a view.")
-        .publishes_at(1.0)
+        .rate(1.0)
         .model("luminosity_sensor")
         .example("spawn luminosity l1 --pose \"2 0.1 2.2 0 0 1.57\" --set update_rate=5")
         .number("illuminance", "lx", "on its face")

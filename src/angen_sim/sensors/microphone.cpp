@@ -180,7 +180,7 @@ class Microphone : public Sensor {
 
 ANGEN_REGISTER_SENSOR(Microphone,
                       Kind("microphone", "The sound pressure level of sources in the rooms.")
-                          .publishes_at(2.0)
+                          .rate(2.0)
                           .model("microphone")
                           .example("spawn microphone m1 --pose \"0.1 1 1.5\" --set background=35")
                           .number("level", "dB", "sound pressure level over 20 µPa, not weighted")

@@ -129,10 +129,10 @@ class OpticalSwitch : public Sensor, public NoisySensor {
 
 ANGEN_REGISTER_SENSOR(OpticalSwitch,
                       Kind("switch", "A light barrier of two rays at a door.")
-                          .publishes_at(1.0)
+                          .rate(1.0)
                           .model("optical_switch")
                           .example("spawn switch s1 --pose \"2.1 3.94 2.125\"")
-                          .rays("0 0 1 1")
+                          .ray_color("0 0 1 1")
                           .flag("closed", "a ray is blocked")
                           .alarm("closed", "open")
                           .flag("changed",

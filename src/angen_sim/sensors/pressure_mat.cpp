@@ -89,7 +89,7 @@ class PressureMat : public Sensor {
 
 ANGEN_REGISTER_SENSOR(PressureMat,
                       Kind("pressure", "A mat that fires under a load.")
-                          .publishes_at(1.0)
+                          .rate(1.0)
                           .model("pressure_mat")
                           .example("spawn pressure m1 --pose \"1 2 0\" --set threshold=20")
                           .flag("pressed", "whether the load is above the threshold")

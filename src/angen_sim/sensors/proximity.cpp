@@ -53,7 +53,7 @@ void Proximity::read(const View&, Hits hits, Rng&, Reading& reading) {
 }
 
 Kind proximity_kind(Kind kind) {
-  return kind.rays("0.1 0.5 0.9 0.45")
+  return kind.ray_color("0.1 0.5 0.9 0.45")
       .number("range", "m", "to the nearest thing, infinite where nothing is in reach")
       .shown(3)
       .flag("near", "whether anything is in reach")

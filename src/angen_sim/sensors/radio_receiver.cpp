@@ -79,7 +79,7 @@ class RadioReceiver : public Sensor {
 
 ANGEN_REGISTER_SENSOR(RadioReceiver,
                       Kind("receiver", "The signal strength of the radio transmitters it receives.")
-                          .publishes_at(1.0)
+                          .rate(1.0)
                           .model("radio_receiver")
                           .example("spawn receiver r1 --pose \"1 1 1.2\" --set sensitivity=-80")
                           .texts("ids", "of the transmitters that it receives, sorted")

@@ -69,8 +69,8 @@ class Reed : public Sensor {
 
 ANGEN_REGISTER_SENSOR(
     Reed, Kind("reed", "A reed contact and its magnet on what opens.")
-              .publishes_at(1.0)
-              .on_link("custom")
+              .rate(1.0)
+              .sensor_type("custom")
               .example("spawn reed r1 --on kitchen_door0::base --pose \"0.93 -0.015 2.09\" --set "
                        "magnet_link=door --set magnet=\"0.93 -0.015 2.078\"")
               .flag("closed", "whether the magnet is near")

@@ -95,7 +95,7 @@ class SmartPlug : public Sensor, public NoisySensor {
 
 ANGEN_REGISTER_SENSOR(
     SmartPlug, Kind("plug", "The power and energy of the device that it feeds.")
-                   .publishes_at(1.0)
+                   .rate(1.0)
                    .model("smart_plug")
                    .example("spawn plug p1 --pose \"0.1 1 0.3 0 0 0\" --set load=lamp/kitchen0")
                    .text("load", "the device that it feeds")

@@ -49,7 +49,7 @@ class SoilMoisture : public Sensor {
 
 ANGEN_REGISTER_SENSOR(SoilMoisture,
                       Kind("soil_moisture", "The water in the soil of its pot.")
-                          .publishes_at(1.0)
+                          .rate(1.0)
                           .example("spawn soil_moisture s1 --pose \"4.65 5.7 0.2\"")
                           .number("moisture", "%", "of the soil's volume; NaN outside of a pot")
                           .shown(1)

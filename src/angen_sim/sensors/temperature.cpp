@@ -13,7 +13,7 @@ class Temperature : public AirSensor {
 ANGEN_REGISTER_SENSOR(
     Temperature,
     Kind("temperature", "The temperature of the air in its room.")
-        .publishes_at(1.0)
+        .rate(1.0)
         .model("temperature_sensor")
         .example("spawn temperature t1 --pose \"0.1 2 1.5\" --set noise_stddev=0.1")
         .number("temperature", "°C", "of the air in its room; NaN where the world has no climate")

@@ -94,7 +94,7 @@ class DeviceMaker {
     throw Error(light.source, described.filename + " holds no " + described.name);
   }
 
-  // A door that nobody has given its plug-in would swing freely, and no command would reach it; the
+  // A door without its plug-in would swing freely, and no command would reach it; the
   // same holds for the wheels of a robot.
   void warn_of_idle_joints() {
     for (const ModelInfo::Joint& joint : info_.joints) {
@@ -158,7 +158,7 @@ class DeviceMaker {
     }
   }
 
-  // A sensor that stands as a plug-in of the model.
+  // A sensor that is a plug-in of the model.
   bool make_sensor_of(const desc::Plugin& described, const Plugin& plugin) {
     Params params(described.element);
     if (model_.tolerant) params.take_first();
@@ -223,7 +223,7 @@ class DeviceMaker {
       instance.scratch.kind = instance.kind;
       Params params(described.element);
       if (model_.tolerant) params.take_first();
-      instance.name = params.text("device_name", mount.name, "the name that commands use");
+      instance.name = read_device_name(params, mount.name);
       const std::string problem = name_problem(instance.name);
       if (!problem.empty()) throw params.error("device_name", problem);
       ModelWiring wiring(model_, instance.name);

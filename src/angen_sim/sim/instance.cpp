@@ -1,8 +1,10 @@
 #include "sim/instance.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
+#include "plugin/declared.h"
 #include "plugin/ray_color.h"
 #include "sim/device_maker.h"
 #include "sim/joined.h"
@@ -31,7 +33,7 @@ const char* type_name(desc::Joint::Type type) {
   return "";
 }
 
-// The world, and what can never move against it.
+// The world, and all links that can never move against it.
 std::set<std::string> fixed_to_world(const desc::Model& model) {
   std::set<std::string> fixed{"world"};
   for (const desc::Link& link : model.links) {
@@ -153,13 +155,17 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
   const desc::Sensor& described = *shared;
   return with_source(described.source, [&] {
     SensorInstance instance;
+    std::optional<Params> read;
     for (const auto& plugin : catalog.library(described.plugin)) {
       if (wanted != nullptr && plugin.get() != wanted) continue;
-      instance.sensor = plugin->make_sensor();
+      read.emplace(described.plugin_element, &described.element, plugin->kind().rate());
+      if (live.desc->tolerant) read->take_first();
+      instance.sensor = plugin->make_sensor(*read);
       instance.plugin = plugin;
       if (instance.sensor) break;
     }
     if (!instance.sensor) throw Error(described.plugin + " holds no sensor");
+    Params& params = *read;
     instance.noisy = dynamic_cast<NoisySensor*>(instance.sensor.get());
     instance.kind = instance.plugin->kind().name;
     instance.name = name;
@@ -168,15 +174,13 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
     instance.link = link;
     instance.pose = described.pose;
     instance.latest.kind = instance.clean.kind = instance.kind;
-    Params params(described.plugin_element, &described.element, instance.plugin->kind().rate);
-    if (live.desc->tolerant) params.take_first();
     instance.schedule.publish = params.update_period();
     instance.topic = params.text("topicName", "", "topic, instead of /angen/KIND/NAME");
     if (instance.topic.empty()) {
       instance.topic = params.text("bumperTopicName", "", "the same, in a contact sensor");
     }
     instance.frame = params.text("frameName", "", "frame of its header, instead of its name");
-    if (!instance.plugin->kind().ray_color.empty()) {
+    if (!instance.plugin->kind().ray_color().empty()) {
       read_ray_color(params, instance.plugin->kind());
     }
     ModelWiring wiring(*live.desc, name, live.desc->links[link].name);
@@ -193,6 +197,7 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
       instance.rays = std::make_shared<const RayGeometry>(*rays);
     }
     instance.noise = params.all_noise();
+    check_noise(instance.plugin->kind(), instance.noise);
     instance.collisions = wiring.collisions();
     instance.schedule.sample = instance.sensor->sample_period();
     if (instance.schedule.sample <= 0) instance.schedule.sample = instance.schedule.publish;

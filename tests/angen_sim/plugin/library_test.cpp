@@ -42,7 +42,8 @@ class Library : public testing::Test {
 };
 
 std::string twin_of(const Plugin& plugin) {
-  const auto sensor = plugin.make_sensor();
+  Params nothing{Element{}};
+  const auto sensor = plugin.make_sensor(nothing);
   Reading reading;
   Rng rng(1, 2, 3);
   sensor->read(test::FakeWorld(), {}, rng, reading);
@@ -69,7 +70,7 @@ TEST_F(Library, FindsAngensOwnBesideItsLibraries) {
   const auto& plugins = catalog.library("libpir_controller.so");
   ASSERT_EQ(plugins.size(), 1U);
   EXPECT_EQ(plugins[0]->kind().name, "pir");
-  EXPECT_NE(plugins[0]->make_sensor(), nullptr);
+  EXPECT_TRUE(plugins[0]->makes_sensors());
   EXPECT_EQ(plugins[0]->make_device(), nullptr);
 }
 
@@ -277,7 +278,8 @@ TEST_F(Library, AProcessThatStillHoldsLibrariesEndsWell) {
       {
         static Catalog catalog;
         static const auto plugin = catalog.library("libtwin_a.so").at(0);
-        static const auto sensor = plugin->make_sensor();
+        Params nothing{Element{}};
+        static const auto sensor = plugin->make_sensor(nothing);
         std::exit(sensor == nullptr ? 1 : 0);
       },
       testing::ExitedWithCode(0), "^$");

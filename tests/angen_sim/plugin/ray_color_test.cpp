@@ -9,7 +9,7 @@ namespace {
 
 Eigen::Vector4f color_of(const std::vector<std::pair<std::string, std::string>>& parameters) {
   Params params(test::plugin_element(parameters));
-  return read_ray_color(params, Kind("beam", "").rays("0 0 1 0.5"));
+  return read_ray_color(params, Kind("beam", "").ray_color("0 0 1 0.5"));
 }
 
 TEST(RayColor, IsItsKindsUnlessItIsGiven) {

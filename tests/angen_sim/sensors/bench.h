@@ -46,8 +46,8 @@ class Bench {
                  const Element& sensor = element("sensor"), FakeWorld filled = {})
       : world(std::move(filled)),
         plugin_(plugin_of(library)),
-        params_(plugin, &sensor, plugin_->kind().rate) {
-    sensor_ = plugin_->make_sensor();
+        params_(plugin, &sensor, plugin_->kind().rate()) {
+    sensor_ = plugin_->make_sensor(params_);
     sensor_->configure(params_, world);
     params_.finish();
   }

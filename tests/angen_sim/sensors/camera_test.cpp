@@ -62,7 +62,7 @@ TEST(Camera, LooksOnDemandThirtyTimesASecond) {
   for (const char* library : {kCamera, kDepth}) {
     const Bench bench(library);
     EXPECT_TRUE(bench.kind().is_on_demand);
-    EXPECT_EQ(bench.kind().rate, 30.0);
+    EXPECT_EQ(bench.kind().rate(), 30.0);
   }
 }
 

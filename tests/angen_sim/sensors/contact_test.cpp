@@ -52,7 +52,7 @@ TEST(Contact, ReadsPairsAndPoints) {
   EXPECT_EQ(reading.get<Numbers>("normals"), (Numbers{0, 0, 1, 0, 0, 1, 0, 0, 1}));
   EXPECT_EQ(reading.get<Numbers>("depths"), (Numbers{0.001, 0.001, 0.001}));
   EXPECT_EQ(reading.get<Numbers>("forces"), (Numbers{0, 0, -20, 0, 0, -22, 0, 0, -3}));
-  EXPECT_EQ(bench.kind().rate, 1.0);
+  EXPECT_EQ(bench.kind().rate(), 1.0);
 }
 
 TEST(Contact, WatchesOnlyTheCollisionsOfItsSdf) {

@@ -76,7 +76,7 @@ TEST(Lidar, NoiseHasTheStandardDeviationThatWasAskedFor) {
 TEST(Lidar, LooksOnDemandTenTimesASecondAllRound) {
   Bench bench(kLidar);
   EXPECT_TRUE(bench.kind().is_on_demand);
-  EXPECT_EQ(bench.kind().rate, 10.0);
+  EXPECT_EQ(bench.kind().rate(), 10.0);
   const Reading reading = bench.sample();
   EXPECT_EQ(ranges_of(reading).size(), 360U);
   EXPECT_NEAR(360 * reading.get<double>("angle_increment"), 2 * M_PI, 1e-9);

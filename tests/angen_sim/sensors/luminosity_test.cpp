@@ -33,7 +33,7 @@ TEST(Luminosity, ReadsLuxAndColour) {
   EXPECT_EQ(reading.get<double>("r"), 0.5);
   EXPECT_EQ(reading.get<double>("g"), 0.25);
   EXPECT_EQ(reading.get<double>("b"), 0.125);
-  EXPECT_EQ(bench.kind().rate, 1.0);
+  EXPECT_EQ(bench.kind().rate(), 1.0);
 }
 
 TEST(Luminosity, NoiseIsRelative) {

@@ -21,7 +21,7 @@ Element noisy(double stddev) {
 TEST(OpticalSwitch, LooksAHundredTimesASecondAndPublishesOnce) {
   const Bench usual(kSwitch);
   EXPECT_EQ(usual.sensor().sample_period(), kSamplePeriod);
-  EXPECT_EQ(usual.kind().rate, 1.0);
+  EXPECT_EQ(usual.kind().rate(), 1.0);
   const Bench slow(kSwitch, plugin_element({{"sample_rate", "50"}}));
   EXPECT_EQ(slow.sensor().sample_period(), 2 * kSamplePeriod);
 }

@@ -32,7 +32,7 @@ class HeavyPlugin : public Plugin {
     static const Kind kind("heavy", "");
     return kind;
   }
-  std::unique_ptr<Sensor> make_sensor() const override { return std::make_unique<Heavy>(); }
+  std::unique_ptr<Sensor> make_sensor(Params&) const override { return std::make_unique<Heavy>(); }
 };
 
 std::unique_ptr<Simulation> simulation(const std::string& text) {

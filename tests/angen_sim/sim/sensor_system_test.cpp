@@ -29,7 +29,9 @@ class CountingLink : public Sensor {
 class CountingLinkPlugin : public Plugin {
  public:
   const Kind& kind() const override { return kind_; }
-  std::unique_ptr<Sensor> make_sensor() const override { return std::make_unique<CountingLink>(); }
+  std::unique_ptr<Sensor> make_sensor(Params&) const override {
+    return std::make_unique<CountingLink>();
+  }
 
  private:
   Kind kind_{"counting", "Counts samples."};

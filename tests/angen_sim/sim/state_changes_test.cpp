@@ -69,7 +69,7 @@ class CountingPlugin : public Plugin {
  public:
   explicit CountingPlugin(const char* field) : field_(field), kind_(field, "Counts samples.") {}
   const Kind& kind() const override { return kind_; }
-  std::unique_ptr<Sensor> make_sensor() const override {
+  std::unique_ptr<Sensor> make_sensor(Params&) const override {
     return std::make_unique<Counting>(field_);
   }
 

@@ -87,8 +87,8 @@ class RestlessPlugin : public Plugin {
  public:
   explicit RestlessPlugin(std::shared_ptr<const Plugin> plugin) : plugin_(std::move(plugin)) {}
   const Kind& kind() const override { return plugin_->kind(); }
-  std::unique_ptr<Sensor> make_sensor() const override {
-    return std::make_unique<Restless>(plugin_->make_sensor());
+  std::unique_ptr<Sensor> make_sensor(Params& params) const override {
+    return std::make_unique<Restless>(plugin_->make_sensor(params));
   }
 
  private:
@@ -305,7 +305,9 @@ class TwoPlacesPlugin : public Plugin {
     static const Kind kind("two_places", "Light at two places.");
     return kind;
   }
-  std::unique_ptr<Sensor> make_sensor() const override { return std::make_unique<TwoPlaces>(); }
+  std::unique_ptr<Sensor> make_sensor(Params&) const override {
+    return std::make_unique<TwoPlaces>();
+  }
 };
 
 TEST(Watching, LightAtASecondPlaceIsMeasuredAgainToo) {

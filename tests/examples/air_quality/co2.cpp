@@ -79,7 +79,7 @@ class Co2 : public angen::Sensor {
 };
 
 ANGEN_REGISTER_SENSOR(Co2, Kind("co2", "The CO2 in the air of a room.")
-                               .publishes_at(1.0)
+                               .rate(1.0)
                                .example("spawn co2 c1 --pose \"1 1 1.5\" --set volume=40")
                                .number("concentration", "ppm", "by volume")
                                .shown()

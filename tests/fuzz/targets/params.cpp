@@ -75,9 +75,9 @@ void params(const std::string& input) {
     const Element root = load::parse_xml(given.rest, "fuzz.sdf");
     const Element* inner = root.child("plugin");  // in a <sensor>
     Params params(inner != nullptr ? *inner : root, inner != nullptr ? &root : nullptr,
-                  plugin.kind().rate);
+                  plugin.kind().rate());
     Anything world;
-    if (const auto sensor = plugin.make_sensor()) return sense(*sensor, params, world);
+    if (const auto sensor = plugin.make_sensor(params)) return sense(*sensor, params, world);
     const auto device = plugin.make_device();
     if (device) act(*device, params, world);
   });

@@ -32,7 +32,8 @@ def _tables(plugin: Plugin) -> Iterator[RenderableType]:
                                                for form, doc in described_forms(plugin)])
     if plugin['fields']:
         yield table(('  FIELD', 'UNIT', 'TYPE', 'MEANING'),
-                    [('  ' + f['name'], f['unit'], _type_of(f), f['doc'])
+                    [('  ' + f['name'], f['unit'], _type_of(f),
+                      f['doc'] + (f'; with {f["with"]}' if f['with'] else ''))
                      for f in plugin['fields']])
     if plugin['params']:
         yield table(('  PARAMETER', 'DEFAULT', 'UNIT', 'TYPE', 'MEANING'),
