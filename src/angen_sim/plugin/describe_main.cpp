@@ -1,4 +1,4 @@
-// angen_describe LIBRARY.so ...: writes what a plug-in library holds to LIBRARY.json beside it.
+// angen_describe LIBRARY.so ...: writes the kinds of a library to LIBRARY.json beside it.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -14,7 +14,7 @@ void write_description(const std::string& library) {
       library.compare(library.size() - suffix.size(), suffix.size(), suffix) != 0) {
     throw angen::Error(library + " is not a shared library, must end with .so");
   }
-  angen::Catalog catalog(true);  // who runs this has named the library
+  angen::Catalog catalog(true);  // the caller has named the library
   const std::string text = to_json(angen::describe(catalog, library));
   const std::string path = library.substr(0, library.size() - suffix.size()) + ".json";
   std::ofstream file(path, std::ios::binary);

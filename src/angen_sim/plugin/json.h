@@ -7,8 +7,8 @@
 
 namespace angen {
 
-/// The catalog as JSON, a list with one object for each kind: what `angen plugins --json` prints
-/// and what stands beside a plug-in library as libNAME.json. Infinite limits are null.
+/// The catalog as JSON, a list with one object for each kind. `angen plugins --json` prints it, and
+/// the build writes it beside each plug-in library, as libNAME.json. Infinite limits are null.
 std::string to_json(const std::vector<PluginDoc>& plugins);
 
 }  // namespace angen

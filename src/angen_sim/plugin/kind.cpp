@@ -24,8 +24,8 @@ const char* name_of(Field::Type type) {
   return "";
 }
 
-Kind& Kind::publishes_at(double hz) {
-  rate = hz;
+Kind& Kind::rate(double hz) {
+  rate_ = hz;
   return *this;
 }
 
@@ -39,23 +39,23 @@ Kind& Kind::model(std::string folder, std::string parameter, std::string value) 
   return *this;
 }
 
-Kind& Kind::on_link(std::string sdf_type) {
-  sensor_type = std::move(sdf_type);
+Kind& Kind::sensor_type(std::string sdf_type) {
+  sensor_type_ = std::move(sdf_type);
   return *this;
 }
 
 Kind& Kind::example(std::string line) {
-  example_line = std::move(line);
+  example_ = std::move(line);
   return *this;
 }
 
-Kind& Kind::commanded_on(std::string topic) {
-  command_topic = std::move(topic);
+Kind& Kind::command_topic(std::string topic) {
+  command_topic_ = std::move(topic);
   return *this;
 }
 
-Kind& Kind::rays(std::string color) {
-  ray_color = std::move(color);
+Kind& Kind::ray_color(std::string color) {
+  ray_color_ = std::move(color);
   return *this;
 }
 
@@ -85,8 +85,8 @@ Kind& Kind::counted_verb(std::string verb_name, std::string argument, Range rang
   return *this;
 }
 
-Kind& Kind::values(std::vector<std::string> units) {
-  value_units = std::move(units);
+Kind& Kind::value_units(std::vector<std::string> units) {
+  value_units_ = std::move(units);
   return *this;
 }
 
@@ -122,6 +122,11 @@ Kind& Kind::texts(std::string field, std::string field_doc) {
 
 Kind& Kind::image(std::string field, std::string field_doc) {
   return add(std::move(field), Field::Type::kImage, "", std::move(field_doc));
+}
+
+Kind& Kind::with(const std::string& parameter, const std::string& value) {
+  fields.back().with = parameter + " " + value;
+  return *this;
 }
 
 Kind& Kind::shown(int decimals) {

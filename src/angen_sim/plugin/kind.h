@@ -12,7 +12,7 @@ namespace angen {
 struct Verb {
   std::string name;       // "Dim", as commands write it; upper and lower case are the same
   std::string doc;        // one line
-  std::string argument;   // what the number is: "percent"; empty where the verb takes none
+  std::string argument;   // meaning of the number: "percent"; empty where the verb has none
   std::string unit;       // of the number
   Range range;            // of the number
   bool whole = false;     // the number is an integer; it may follow the verb without a blank
@@ -33,7 +33,8 @@ struct Field {
   bool in_summary = false;
   std::string names;        // of numbers in a summary: the field of texts that names each of them
   bool as_percent = false;  // a summary shows a share of 1 as a percentage
-  bool alarm = false;       // a flag that is yes while the sensor detects what it is for
+  bool alarm = false;       // a flag that is yes while the sensor detects its target
+  std::string with;         // "model range_difference": the parameter's value that it exists with
 };
 
 const char* name_of(Field::Type type);  // "flag", "number", …
@@ -53,28 +54,35 @@ class Kind {
 
   std::string name;           // "pir"
   std::string doc;            // one line
-  double rate = 10.0;         // Hz, how often a sensor publishes unless its SDF says
-  bool is_on_demand = false;  // a sensor that samples only while somebody subscribes to it
+  bool is_on_demand = false;  // a sensor that samples only while it has subscribers
   std::vector<Model> models;  // the first is the default
-  std::string sensor_type;    // SDF type of one that is mounted on a link of another model
-  std::string example_line;   // arguments of `angen` that spawn or command one
-  std::string command_topic;  // std_msgs/String "VERB, NAME[, NUMBER]"; none: /angen/command only
   std::vector<Verb> verbs;
-  std::vector<std::string> value_units;  // of one commanded by numbers alone: "m/s", "rad/s"
   std::vector<Field> fields;
-  std::string ray_color;  // of a sensor whose rays rviz draws: "r g b a", 0 to 1; <color> overrides
+
+  /// Hz, how often a sensor publishes unless its SDF says.
+  double rate() const { return rate_; }
+  /// SDF type of a sensor that is mounted on a link of another model.
+  const std::string& sensor_type() const { return sensor_type_; }
+  /// Arguments of `angen` that spawn or command one.
+  const std::string& example() const { return example_; }
+  /// std_msgs/String "VERB, NAME[, NUMBER]"; empty: /angen/command only.
+  const std::string& command_topic() const { return command_topic_; }
+  /// Of numbers that are a command without a verb: "m/s", "rad/s".
+  const std::vector<std::string>& value_units() const { return value_units_; }
+  /// "r g b a", 0 to 1, in which rviz draws Sensor::rays(), as long as the field `ranges` says;
+  /// <color> overrides it. Empty: it draws none.
+  const std::string& ray_color() const { return ray_color_; }
 
   // Each adds to the description and returns it, so that calls can be chained.
 
-  Kind& publishes_at(double hz);
+  Kind& rate(double hz);
   Kind& on_demand();
   Kind& model(std::string folder, std::string parameter = "", std::string value = "");
-  /// Mounted on a link of another model, as <sensor type=`sdf_type`>.
-  Kind& on_link(std::string sdf_type);
+  Kind& sensor_type(std::string sdf_type);
   Kind& example(std::string line);
-  Kind& commanded_on(std::string topic);
-  /// rviz draws Sensor::rays in this color, as long as its field `ranges` says.
-  Kind& rays(std::string color);
+  Kind& command_topic(std::string topic);
+  Kind& value_units(std::vector<std::string> units);
+  Kind& ray_color(std::string color);
 
   Kind& verb(std::string name, std::string doc);
   Kind& verb(std::string name, std::string argument, std::string unit, Range range,
@@ -85,9 +93,6 @@ class Kind {
   /// A verb whose number is an integer.
   Kind& counted_verb(std::string name, std::string argument, Range range, std::string doc);
 
-  /// A command may be that many numbers, without a verb.
-  Kind& values(std::vector<std::string> units);
-
   Kind& flag(std::string name, std::string doc);
   Kind& integer(std::string name, std::string unit, std::string doc);
   Kind& number(std::string name, std::string unit, std::string doc);
@@ -97,7 +102,10 @@ class Kind {
   Kind& texts(std::string name, std::string doc);
   Kind& image(std::string name, std::string doc);
 
-  /// Of the field that was added last: it is a part of the summary, a number with so many decimals.
+  /// Of the field that was added last: it exists where this parameter has this value. Another field
+  /// may have the same name with another value.
+  Kind& with(const std::string& parameter, const std::string& value);
+  /// Of the field that was added last: the summary shows it, a number with this number of decimals.
   Kind& shown(int decimals = 0);
   /// The same for numbers, each after its text in the field `names`.
   Kind& shown_by_name(std::string names, int decimals = 0);
@@ -110,6 +118,13 @@ class Kind {
 
  private:
   Kind& add(std::string name, Field::Type type, std::string unit, std::string doc);
+
+  double rate_ = 10.0;
+  std::string sensor_type_;
+  std::string example_;
+  std::string command_topic_;
+  std::vector<std::string> value_units_;
+  std::string ray_color_;
 };
 
 }  // namespace angen

@@ -23,7 +23,7 @@ namespace {
 
 using Plugins = std::vector<std::shared_ptr<const Plugin>>;
 
-// class_loader logs through console_bridge; what matters of it comes as exceptions.
+// class_loader logs through console_bridge; it throws its errors too.
 class Silence {
  public:
   Silence() : level_(console_bridge::getLogLevel()) {
@@ -56,7 +56,7 @@ bool registers_plugins(const fs::path& file) {
          bytes.find("N5angen6PluginE") != std::string::npos;
 }
 
-// A second name of a library that stands beside it; libX.so of libX.so.1 is none.
+// A second name of a library, in the same folder; libX.so of libX.so.1 is none.
 bool is_alias(const fs::path& file) {
   std::error_code ignored;
   if (!fs::is_symlink(file, ignored)) return false;

@@ -9,11 +9,11 @@
 
 namespace angen {
 
-/// The plug-ins of every library that was asked for, by file name. Looked for on ANGEN_PLUGIN_PATH,
+/// The plug-ins of each requested library, by file name. Searches ANGEN_PLUGIN_PATH,
 /// GAZEBO_PLUGIN_PATH, in `lib` of each catkin workspace that is sourced (CMAKE_PREFIX_PATH), then
 /// beside Angen's own libraries; a library of that name that holds no Angen plug-in (Gazebo's own,
-/// say) is passed over. What lies elsewhere is not loaded, and neither is what registers no
-/// plug-in: loading runs code. A library once loaded stays so until the process ends: what it made
+/// say) is skipped. Libraries in other folders are not loaded, nor are those that register no
+/// plug-in: loading runs code. A library stays loaded until the process ends: objects that it made
 /// may outlive the catalog. Calls from several threads are safe.
 class Catalog {
  public:
@@ -34,7 +34,7 @@ class Catalog {
   /// The plug-ins of Angen's own libraries, which have a catalog file beside them.
   std::vector<std::shared_ptr<const Plugin>> own();
 
-  /// The file name that a plug-in's library was asked for by.
+  /// The file name by which a plug-in's library was requested.
   std::string library_of(const Plugin& plugin);
 
   /// File names of every library on the path that holds Angen plug-ins, sorted. Loads none of them.

@@ -13,7 +13,7 @@ namespace angen {
 
 namespace {
 
-// What Gazebo's own plug-ins carry; a plug-in that needs one of them reads it.
+// Parameters of Gazebo's own plug-ins; a plug-in that needs one of them reads it.
 const std::set<std::string> kAlwaysKnown = {
     "alwaysOn",  "updateRate",      "update_rate",    "topicName",   "frameName",
     "visualize", "bumperTopicName", "robotNamespace", "device_name",
@@ -205,7 +205,7 @@ std::vector<std::string> Params::texts(const std::string& path, const std::strin
 }
 
 Nanoseconds Params::update_period() {
-  constexpr double kSlowest = 1e-6;  // Hz; what is much slower has no period in nanoseconds
+  constexpr double kSlowest = 1e-6;  // Hz; a much slower rate has no period in nanoseconds
   std::string path = "update_rate";
   for (const char* other : {"odometryRate", "updateRateHZ", "updateRate"}) {
     if (has(other)) path = other;

@@ -7,7 +7,7 @@ namespace angen {
 
 namespace {
 
-constexpr double kInWall = 0.05;  // m: what hangs in a wall is in the room
+constexpr double kInWall = 0.05;  // m: a thing in a wall is in the room
 constexpr double kBesides = 0.4;  // m from the middle of an opening to the air on either side
 
 }  // namespace

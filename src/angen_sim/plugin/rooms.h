@@ -13,7 +13,7 @@ struct RoomPlan {
   Pose frame;  // world
   std::vector<Eigen::AlignedBox3d> rooms;
 
-  /// The room that a point in the world is in, or kOutside. What hangs in a wall is in the room.
+  /// The room that a point in the world is in, or kOutside. A point in a wall is in the room.
   int at(const Vec3& point) const;
 };
 

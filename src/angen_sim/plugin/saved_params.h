@@ -35,7 +35,7 @@ class SavedParams {
     values_.insert(values_.end(), other.values_.begin(), other.values_.end());
   }
 
-  /// Puts the values in place of what the plug-in's element has of these names.
+  /// Replaces the values of these names in the plug-in's element.
   void write_to(Element& plugin) const;
 
  private:

@@ -18,7 +18,7 @@
 
 namespace angen {
 
-/// Handles that Wiring gives at configuration; indices into what this instance asked for.
+/// Handles that Wiring gives at configuration; indices into what this instance requested.
 struct JointRef {
   int index = -1;
 };
@@ -46,13 +46,13 @@ struct LinkView {
   Vec3 angular_velocity = Vec3::Zero();
   bool awake = false;
 };
-/// What the child of a joint gives its parent through it, in the last step: with motor and what is
+/// Wrench of a joint's child on its parent, in the last step, with motor and with all that is
 /// applied to the joint.
 struct JointWrench {
   Vec3 force = Vec3::Zero();   // N, world axes
   Vec3 torque = Vec3::Zero();  // N m, world axes, about the joint's anchor
 };
-/// What a joint is like: where it stops, and what it takes to move it.
+/// The stops of a joint, and the resistance to its motion.
 struct JointLimits {
   double lower = 0.0;
   double upper = 0.0;
@@ -71,7 +71,7 @@ struct DeviceView {
   const Reading& state;  // its stamp is the time of the last change
 };
 
-/// What a plug-in may see while the world runs. Times are the tick's, never the wall clock's.
+/// Queries of the running world. Times are the tick's, never the wall clock's.
 class View {
  public:
   virtual ~View() = default;
@@ -106,7 +106,7 @@ class View {
   virtual light::Sample illuminance(light::Probe& probe, const Pose& pose) const = 0;
   virtual void expect_light(light::Probe& probe, const Pose& pose) const = 0;
   virtual double ambient_temperature() const = 0;  // K
-  /// What is warmer or colder than the air, and where, as of now.
+  /// Shapes that are warmer or colder than the air now.
   virtual const std::vector<rays::WarmShape>& warm_shapes() const = 0;
   /// Grows when shapes come, go or move: where it is the same, rays get the same answers.
   virtual std::uint64_t scene_revision() const = 0;
@@ -114,14 +114,14 @@ class View {
   virtual std::uint64_t surface_revision() const = 0;
   /// The shapes on the segment between two points (world, m), in the order in which it enters them.
   virtual std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to) const = 0;
-  /// What a camera at `pose` (world, x ahead, z up) sees: height x width x 3 bytes, sRGB.
+  /// The image of a camera at `pose` (world, x ahead, z up): height x width x 3 bytes, sRGB.
   virtual std::vector<std::uint8_t> colors(const render::PinholeCamera& lens,
                                            const Pose& pose) const = 0;
   /// height x width distances along its x axis in m, NaN where nothing is.
   virtual std::vector<float> depths(const render::PinholeCamera& lens, const Pose& pose) const = 0;
 };
 
-/// What a plug-in asks for by name, once, before the world runs. Unknown names throw Error and list
+/// Finds parts of a model by name, once, before the world runs. Unknown names throw Error and list
 /// the known ones.
 class Wiring {
  public:
@@ -146,7 +146,7 @@ class Wiring {
   virtual std::vector<SurfaceRef> surfaces(const std::string& visual) = 0;
 };
 
-/// What a device may do to the world in one tick.
+/// Effects of a device on the world in one tick.
 class Outputs {
  public:
   virtual ~Outputs() = default;
@@ -163,16 +163,16 @@ class Outputs {
   /// A force (N) at a point (world, m) and a torque (N m) on a link, for this tick only. Wakes a
   /// sleeping body unless both are 0; an awake one may fall asleep under the same push.
   virtual void push(LinkRef link, const Vec3& force, const Vec3& torque, const Vec3& point) = 0;
-  /// Light level 0..1 and the flux in lm that level 1 stands for.
+  /// Light level 0..1 and the flux in lm at level 1.
   virtual void light(LightRef light, double level, double luminous_flux) = 0;
-  /// Temperature (K) of a surface, as PIRs see it: from `now` on it goes to `limit` exponentially,
+  /// Temperature (K) of a surface, as PIRs see it: from `now` it goes to `limit` exponentially,
   /// with a time constant in s (0 = it is there at once). Holds until it is set again.
   virtual void temperature(SurfaceRef surface, double now, double limit, double time_constant) = 0;
-  /// PublishedReading to everybody on /angen/events.
+  /// Published on /angen/events.
   virtual void event(const std::string& event, const std::string& detail) = 0;
 };
 
-/// Rays that a sensor asks for, in the world frame.
+/// Rays that a sensor casts, in the world frame.
 using RayBatch = std::vector<rays::Ray>;
 
 /// Answers to a sensor's rays, in their order.

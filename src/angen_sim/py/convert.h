@@ -18,7 +18,7 @@ namespace pyb = pybind11;
 /// Fields of a reading as a dict, with `kind` and `stamp` (s).
 pyb::dict to_dict(const Reading& reading);
 
-/// A dict's values into a reading's fields; throws Error for what cannot be one.
+/// Sets a reading's fields to a dict's values; throws Error for a value of another type.
 void from_dict(const pyb::dict& values, Reading& reading);
 
 /// Six numbers x y z roll pitch yaw (m, rad) as a pose; throws Error for another count or NaN.

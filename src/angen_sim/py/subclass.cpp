@@ -118,7 +118,9 @@ Field declared_field(const std::string& name, const std::string& declared) {
   for (const Field::Type each : {Field::Type::kFlag, Field::Type::kInteger, Field::Type::kNumber,
                                  Field::Type::kText, Field::Type::kNumbers, Field::Type::kTexts}) {
     if (type == name_of(each)) {
-      Field field{name, each};
+      Field field;
+      field.name = name;
+      field.type = each;
       if (blank < declared.size()) field.unit = declared.substr(blank + 1);
       return field;
     }

@@ -11,7 +11,7 @@ namespace angen::py {
 std::shared_ptr<const Plugin> python_sensor(const std::string& kind, pyb::object type);
 std::shared_ptr<const Plugin> python_device(const std::string& kind, pyb::object type);
 
-/// Binds what those classes are given: Params, Wiring, View, Outputs, and the bases Sensor, Device.
+/// Binds the arguments of their methods, Params, Wiring, View, Outputs, and the bases of classes.
 void bind_plugin_types(pyb::module_& module);
 
 }  // namespace angen::py

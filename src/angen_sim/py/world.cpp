@@ -150,7 +150,7 @@ std::uint64_t World::ticks_in(double seconds) const {
   return static_cast<std::uint64_t>(duration(seconds) / snapshot_->step);
 }
 
-// The world stays paused: a tick carries out what waits, and time moves by step() alone.
+// The world stays paused: a tick executes the actions that wait, and only step() moves time.
 void World::drain(sim::Action action) {
   std::future<sim::Outcome> outcome = simulation_.post(std::move(action));
   take(simulation_.tick());

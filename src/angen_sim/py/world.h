@@ -21,7 +21,7 @@ Nanoseconds duration(double seconds);
 class World {
  public:
   /// `log` names a file to record into, unless it is empty. With `allow_paths` documents may name
-  /// files anywhere; what libraries, the catalog knows.
+  /// files anywhere; the catalog knows which libraries.
   World(const std::string& path, std::uint64_t seed, std::shared_ptr<Catalog> catalog,
         const std::string& log, bool allow_paths);
   World(const std::string& text, const std::string& name, std::uint64_t seed,
@@ -31,11 +31,11 @@ class World {
   World(std::unique_ptr<sim::Simulation> simulation, const std::string& models);
 
   void step(std::uint64_t ticks);
-  /// The same, leaping over the ticks in which nothing happens.
+  /// The same, leaping over ticks without a change.
   void run(std::uint64_t ticks);
   std::uint64_t ticks_in(double seconds) const;
 
-  /// These throw Error when the simulator refuses.
+  /// These throw Error when the simulator rejects the action.
   void command(const std::string& kind, const std::string& name, const std::string& text,
                const std::vector<double>& values);
   void spawn(const std::string& what, const std::string& name, const std::vector<double>& pose,
@@ -49,7 +49,7 @@ class World {
 
   Reading sensor(const std::string& kind, const std::string& name) const;
   Reading device(const std::string& kind, const std::string& name) const;
-  /// What /angen/summary shows of a sensor or device, "" before its first reading.
+  /// The summary of a sensor or device, as on /angen/summary; "" before its first reading.
   std::string summary(const std::string& kind, const std::string& name) const;
   std::string save();
 
@@ -57,7 +57,7 @@ class World {
   std::vector<sim::Event> take_events();
   /// Of all that was loaded so far, as "file:line: what".
   const std::vector<std::string>& warnings() const { return warnings_; }
-  /// What nothing reads of those files, as "file:line: what".
+  /// Elements of those files that are not read, as "file:line: what".
   const std::vector<std::string>& ignored() const { return ignored_; }
   std::string fingerprint() const { return fingerprint_.text(); }
 
@@ -68,7 +68,7 @@ class World {
   static void note(std::string text, std::vector<std::string>& to);
   void note_warnings(const sim::Snapshot& snapshot);
   void drain(sim::Action action);
-  /// Error where a plug-in has thrown since; the world has gone on without it.
+  /// Error where a plug-in has thrown since; the world has continued without it.
   void raise_failure();
   void take(std::shared_ptr<const sim::Snapshot> snapshot);
 

@@ -120,7 +120,7 @@ class RosKindBuilder {
     return *this;
   }
 
-  /// Rays are drawn of a kind that has Kind::rays, in its color or, while it alarms, in this.
+  /// Rays are drawn of a kind that has Kind::ray_color, in its color or, while it alarms, in this.
   RosKindBuilder& rays(std::string group, std_msgs::ColorRGBA alarm) {
     kind_.rays = RayStyle{std::move(group), alarm};
     return *this;

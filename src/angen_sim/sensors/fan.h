@@ -36,10 +36,10 @@ struct Fan : RayGeometry {
 
   /// with_noise() keeps noise within ±limit (m) of its mean at every ray where the first uniform()
   /// of its random numbers is below this.
-  double quiet_chance(double limit) const { return quiet_chance(limit, size()); }
+  double no_event_probability(double limit) const { return no_event_probability(limit, size()); }
 
   /// The same for a scan of `rays` rays.
-  double quiet_chance(double limit, std::size_t rays) const {
+  double no_event_probability(double limit, std::size_t rays) const {
     return noise_stddev > 0.0 ? chance_within(rays, limit / noise_stddev) : 1.0;
   }
 };

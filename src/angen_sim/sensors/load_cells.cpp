@@ -111,7 +111,9 @@ class LoadCells : public Sensor, public NoisySensor {
   bool steady() const override { return settled_; }
 
   bool varies() const override { return stddev_ > 0.0; }
-  double quiet_chance() const override { return 1.0; }  // events are of the loads before noise
+  double no_event_probability() const override {
+    return 1.0;
+  }  // events are of the loads before noise
   int memory() const override { return 0; }
   std::shared_ptr<const LazyReading> lazy_reading() const override {
     return std::make_shared<StillCells>(sum_, cells_, stddev_);

@@ -64,7 +64,7 @@ class OpticalSwitch : public Sensor, public NoisySensor {
                                  "to the detector, when nothing is "
                                  "between; <ray><range><max> unless given",
                                  {0.0, beam_.fan.max});
-    quiet_chance_ = beam_.fan.quiet_chance(beam_.threshold / 2.0);
+    no_event_probability_ = beam_.fan.no_event_probability(beam_.threshold / 2.0);
     const double sample_rate =
         params.number("sample_rate", 100.0, "Hz", "how often it samples", {1e-3, 1e6});
     sample_period_ = from_seconds(1.0 / sample_rate);
@@ -92,14 +92,14 @@ class OpticalSwitch : public Sensor, public NoisySensor {
     if (!beam_.fan.noisy()) {
       steady_ = !first && difference == 0.0 && !flipped;
     } else {
-      const bool loud = rng.uniform() >= quiet_chance_;
+      const bool loud = rng.uniform() >= no_event_probability_;
       steady_ = !loud && !changed && !flipped && decided();
     }
   }
 
   bool steady() const override { return steady_; }
   bool varies() const override { return beam_.fan.noisy(); }
-  double quiet_chance() const override { return quiet_chance_; }
+  double no_event_probability() const override { return no_event_probability_; }
   int memory() const override { return 1; }
   std::shared_ptr<const LazyReading> lazy_reading() const override {
     return std::make_shared<Beam>(beam_);
@@ -120,7 +120,7 @@ class OpticalSwitch : public Sensor, public NoisySensor {
 
   Beam beam_;
   std::vector<Vec3> directions_;
-  double quiet_chance_ = 0.0;
+  double no_event_probability_ = 0.0;
   Nanoseconds sample_period_ = kSecond / 100;
   Ranges previous_;
   bool closed_ = false;

@@ -69,7 +69,7 @@ class SmartPlug : public Sensor, public NoisySensor {
 
   bool steady() const override { return true; }
   bool varies() const override { return metering_.power > 0.0 || metering_.noise_stddev > 0.0; }
-  double quiet_chance() const override { return 1.0; }
+  double no_event_probability() const override { return 1.0; }
   int memory() const override { return 0; }
   std::shared_ptr<const LazyReading> lazy_reading() const override {
     return std::make_shared<Metering>(metering_);

@@ -56,7 +56,7 @@ void Building::make_engines() {
   for (WorldLight& own : lights_) put_light(own);
 }
 
-/// What models before `first_model` have keeps its numbers.
+/// Parts of models before `first_model` keep their numbers.
 void Building::note_change(std::size_t first_model) {
   ++revision_;
   renumbered_from_ = std::min(renumbered_from_, first_model);

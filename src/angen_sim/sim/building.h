@@ -14,7 +14,7 @@
 
 namespace angen::sim {
 
-/// What exists: the models with their devices and sensors, in the engines that they share.
+/// All models with their devices and sensors, in the engines that they share.
 class Building {
  public:
   Building(const desc::World& world, std::uint64_t seed, std::shared_ptr<Catalog> catalog);
@@ -103,7 +103,7 @@ class Building {
   /// All that may have devices: the models, and then the world's lights.
   std::vector<LiveModel*> with_devices() const;
 
-  /// Grows with every change of what exists.
+  /// Grows with every change of the structure.
   std::uint64_t revision() const { return revision_; }
   /// A new Structure; also numbers every model's parts in it. It shares what has kept its number
   /// with the last one: the models before the first that was renumbered, and their parts.

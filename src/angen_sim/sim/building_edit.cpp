@@ -1,4 +1,4 @@
-// What changes models and lights that exist; building.cpp has what comes and goes.
+// Changes of models and lights that exist; building.cpp adds and removes them.
 #include <algorithm>
 #include <utility>
 
@@ -96,7 +96,7 @@ void Building::set_light(const std::string& name, desc::Light light) {
   desc::Light& old = described.links[found.link].lights[found.in_link];
   const bool stays = desc::shines(old) && desc::shines(light);
   Parts::Lamp made = engines_->add_light(light, light.pose);
-  if (stays) {  // what a device has set, of the new brightness
+  if (stays) {  // the level that a device has set, of the new brightness
     made.level = lamp.level;
     engines_->light.set_level(made.id, engines_->light.level(lamp.id));
   }

@@ -1,4 +1,4 @@
-// What snapshots and saved worlds have of what exists.
+// The structure of snapshots, and the state of saved worlds.
 #include <map>
 #include <utility>
 

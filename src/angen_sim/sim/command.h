@@ -17,7 +17,7 @@
 
 namespace angen::sim {
 
-/// What became of a command.
+/// The result of a command.
 struct Outcome {
   bool ok = true;
   std::string message;
@@ -45,12 +45,12 @@ struct Delete {
 struct Pause {
   bool paused = true;
 };
-/// Runs so many ticks although paused; answered when they are done, or when a pause, its end or a
+/// Runs ticks although paused; answered when they are done, or when a pause, its end or a
 /// reset interrupts it.
 struct Step {
   std::uint64_t ticks = 1;
 };
-/// Ends the step that is the `which`th of those that are not done, as when nobody waits for it any
+/// Ends the `which`th of the steps that are not done, as when its caller does not wait for it any
 /// more; of a replay.
 struct StopStep {
   std::uint64_t which = 0;
@@ -66,7 +66,7 @@ struct Reject {
   std::string reason;
 };
 
-/// Something that a program outside noticed; becomes an event of the log, at the time it comes.
+/// An event that a program outside adds, at the time of its arrival.
 struct Note {
   std::string source;
   std::string kind;
@@ -74,12 +74,12 @@ struct Note {
   std::string detail;
 };
 
-/// Fills in what the world's file would say between two ticks.
+/// Fills in the state for a world file, between two ticks.
 struct Save {
   std::shared_ptr<SavedState> into;
 };
 
-/// Fills in what entities and joints do between two ticks.
+/// Fills in the states of entities and joints, between two ticks.
 struct Observe {
   Observation what;
   std::shared_ptr<Observed> into;
@@ -88,12 +88,12 @@ struct Observe {
 using Action = std::variant<ToDevice, Spawn, Attach, Delete, Pause, Step, StopStep, Reset, Reject,
                             Note, Save, Edit, Observe>;
 
-/// True for what only reads, and is in no log.
+/// Whether the action only reads, so that no log has it.
 inline bool only_reads(const Action& action) {
   return std::holds_alternative<Save>(action) || std::holds_alternative<Observe>(action);
 }
 
-/// Sees each action before it is carried out, in order, and the time at which it is; in the thread
+/// Gets each action before it is executed, in order, and the time of its execution; in the thread
 /// that ticks.
 using ActionObserver = std::function<void(const Action&, Nanoseconds)>;
 

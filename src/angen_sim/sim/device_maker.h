@@ -7,7 +7,7 @@
 
 namespace angen::sim {
 
-/// Makes what the plug-ins of the model and of the world make of it: devices, and sensors that a
+/// Makes the devices of a model by the plug-ins of model and world, and the sensors that a
 /// model's own plug-in is, and lamps of lights that none of them has, where the model is tolerant
 /// or the light has a level. Throws Error for one that is wrong, unless the model is tolerant.
 void make_devices(LiveModel& live, const std::vector<desc::Plugin>& world_plugins, Catalog& catalog,

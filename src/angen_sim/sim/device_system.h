@@ -25,7 +25,7 @@ class DeviceSystem {
   /// once, the others 50 times a second.
   void report(Building& building, InstanceView::Clock clock, Snapshot& next);
 
-  /// The tick that devices need next, while nothing is awake.
+  /// The tick that devices need next, while no body is awake.
   std::int64_t next_tick(Building& building, InstanceView::Clock clock);
 
   bool lights_changed() const { return lights_changed_; }

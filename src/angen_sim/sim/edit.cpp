@@ -30,7 +30,7 @@ void check(const PushTime& time) {
   }
 }
 
-/// What a StateIn says, in the world.
+/// The motion of a StateIn, in the world.
 Motion in_world(const Building& building, const StateIn& state) {
   const std::string problem = pose_problem(state.pose);
   if (!problem.empty()) throw Error(problem);
@@ -221,9 +221,9 @@ class Apply {
   void operator()(const SetPhysics& edit) {
     check("gravity", limits::kGravity, edit.gravity);
     const desc::Physics& physics = edit.physics;
-    if (physics.iterations < 1 || physics.iterations > kMostIterations) {
+    if (physics.iterations < 1 || physics.iterations > kMaxIterations) {
       throw Error("the number of iterations is " + std::to_string(physics.iterations) +
-                  "; it must be 1 to " + std::to_string(kMostIterations));
+                  "; it must be 1 to " + std::to_string(kMaxIterations));
     }
     check_share("erp", physics.erp);
     check_share("cfm", physics.cfm);
@@ -255,7 +255,7 @@ class Apply {
   void operator()(const DeleteLight& edit) { building_.erase_light(edit.light); }
 
  private:
-  static constexpr int kMostIterations = 10'000;
+  static constexpr int kMaxIterations = 10'000;
 
   static void check_share(const char* what, double value) {
     if (!(value >= 0.0 && value <= 1.0)) {

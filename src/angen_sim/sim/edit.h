@@ -25,12 +25,12 @@ struct SetModelState {
   std::string model;
   StateIn state;
 };
-/// A link, and what is joined to it.
+/// A link, and all links that are joined to it.
 struct SetLinkState {
   std::string link;
   StateIn state;
 };
-/// Positions of joints of one axis, within their limits; what is not named stays.
+/// Positions of joints of one axis, within their limits; other joints keep theirs.
 struct SetJoints {
   std::string model;
   std::vector<std::string> joints;
@@ -107,7 +107,7 @@ using Edit = std::variant<SetModelState, SetLinkState, SetJoints, PushLink, Push
 
 class Building;
 
-/// Throws Error for what cannot be done, and changes nothing.
+/// Throws Error for an edit that is impossible, and changes nothing then.
 void apply(const Edit& edit, Building& building, Nanoseconds now);
 
 }  // namespace angen::sim

@@ -14,7 +14,7 @@ namespace angen::sim {
 
 namespace {
 
-constexpr float kNight = 0.1F;  // of SDF's ambient: what a dark world gives a camera all the same
+constexpr float kNight = 0.1F;  // of SDF's ambient: the light of a dark world for cameras
 
 Eigen::Vector3f with_luminance_one(const Eigen::Vector3f& color) {
   const float luminance = Eigen::Vector3f(0.2126F, 0.7152F, 0.0722F).dot(color);  // Rec. 709

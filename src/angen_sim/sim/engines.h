@@ -27,7 +27,7 @@ struct Parts {
     light::LampId id;
     std::uint32_t link = 0;
     Pose offset;
-    double nominal_flux = 0.0;  // lm that level 1 stands for in the light engine
+    double nominal_flux = 0.0;  // lm at level 1 in the light engine
     double level = 0.0;         // as the device set it, 0..1
   };
   physics::ModelId body;
@@ -38,7 +38,7 @@ struct Parts {
   std::vector<std::uint32_t> first_shape;                // of each link, and how many there are
   std::vector<std::vector<std::uint32_t>> child_joints;  // of each link: that it is the child of
   std::vector<Resting::Body> loose;                      // of each link; kNone for one that is held
-  std::vector<render::BodyId> bodies;                    // as links: what cameras see of them
+  std::vector<render::BodyId> bodies;                    // as links: bodies that cameras see
   std::vector<Lamp> lamps;                               // in the order of links and their lights
 };
 

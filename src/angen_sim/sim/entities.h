@@ -40,7 +40,7 @@ Motion motion_of(const Building& building, const Entity& entity);
 /// Of the world for "".
 Motion motion_of(const Building& building, const std::string& name);
 
-/// What a query of the thread that ticks found.
+/// The answer to a query of the thread that ticks.
 struct Observed {
   Nanoseconds time = 0;
   std::vector<Motion> entities;

@@ -7,8 +7,8 @@
 
 namespace angen::sim {
 
-/// Runs what calls a plug-in, which may throw anything. Returns what it threw, fit for one line; ""
-/// where it threw nothing.
+/// Calls a plug-in, which may throw anything. Returns the text of what it threw, on one line; ""
+/// where it did not throw.
 template <class F>
 std::string thrown_by(F&& call) {
   try {

@@ -11,7 +11,7 @@
 namespace angen::sim {
 
 /// The links of `from`, and those that joints join to them: every joint that `follows` says, from
-/// parent to child and, where `both_ways`, back. Costs what the model's size is.
+/// parent to child and, where `both_ways`, back. The cost grows with the model's size.
 template <class F>
 std::set<std::string> joined_to(std::set<std::string> from, const desc::Model& model,
                                 bool both_ways, F&& follows) {

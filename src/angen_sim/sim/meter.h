@@ -8,7 +8,7 @@
 
 namespace angen::sim {
 
-/// What ticks cost: CPU time of the thread that took them, ns.
+/// Cost of ticks: CPU time of the thread that took them, ns.
 struct Cost {
   Nanoseconds simulated = 0;  // by these ticks
   std::shared_ptr<const Structure> structure;
@@ -16,13 +16,13 @@ struct Cost {
   std::vector<Nanoseconds> each_sensor;  // as Structure::sensors
   Nanoseconds commands = 0;              // executing commands
   Nanoseconds devices = 0;               // all of them, and finding those that have to act
-  Nanoseconds physics = 0;               // and passing what moved to the other engines
+  Nanoseconds physics = 0;               // and updating the other engines
   Nanoseconds sensors = 0;               // all of them, and finding those that are due
   Nanoseconds snapshots = 0;             // putting them together
 };
 
 /// Measures while it is on: each part of a tick ends with a lap, charged to who caused it. What
-/// instances cost stands in them; here is the rest.
+/// instances cost is in them; here is the rest.
 struct Meter {
   bool on = false;
   Stopwatch watch;

@@ -40,7 +40,7 @@ void each_cell(const Cells& cells, F&& visit) {
   }
 }
 
-// Keeps the order: what came first mostly goes first, and is then found at once.
+// Keeps the order: the oldest is mostly removed first, and is then found at once.
 template <class T>
 void take_out(std::vector<T>& list, const T& value) {
   const auto at = std::find(list.begin(), list.end(), value);

@@ -39,7 +39,7 @@ class MoverIndex {
     const std::vector<rays::ShapeId>& near() const;
     /// near() in two: movers that have neither moved nor come at `since` or later, and the others.
     void split(Moment since, SplitMovers& split) const;
-    /// Whether any of them has moved, come or gone at `since` or later.
+    /// Whether any of them has moved, been added or removed at `since` or later.
     bool changed_since(Moment since) const { return movers_.changed_since(index_, since); }
     /// The region's number for MoverIndex::changed_since(), valid until the box changes; UINT32_MAX
     /// where each_changed_since() cannot find it.
@@ -75,7 +75,7 @@ class MoverIndex {
   /// met.
   void put(rays::ShapeId mover, const Box& box);
   void remove(rays::ShapeId mover);
-  /// A static shape of this box came or goes.
+  /// A static shape of this box was added or is removed.
   void change_static(const Box& box);
 
   /// Starts the next moment: later changes get a larger one.

@@ -10,7 +10,7 @@ namespace angen::sim {
 class Engines;
 struct LiveModel;
 
-/// Forces and efforts that act for a time. What is pushed does not fall asleep meanwhile.
+/// Forces and efforts that act for a time. A pushed body does not fall asleep meanwhile.
 class Pushes {
  public:
   /// World frame; the force acts at the link's center of mass.
@@ -19,13 +19,13 @@ class Pushes {
   void add(const LiveModel& model, std::uint32_t joint, double effort, const PushTime& time);
   void clear_link(const LiveModel& model, std::uint32_t link);
   void clear_joint(const LiveModel& model, std::uint32_t joint);
-  /// The model goes.
+  /// The model is removed.
   void forget(const LiveModel& model);
   void clear() { pushes_.clear(); }
 
   /// Before the step that begins at `now`.
   void apply(Engines& engines, Nanoseconds now, Nanoseconds step);
-  /// When the next one begins or goes on, at or after `now`; kForever without any.
+  /// When the next one begins or acts, at or after `now`; kForever without any.
   Nanoseconds next(Nanoseconds now) const;
 
  private:

@@ -8,13 +8,13 @@
 
 namespace angen::sim {
 
-/// The sensors whose readings somebody requests, among those that sample on demand only. By kind
+/// The requested ones of the sensors that sample on demand only. By kind
 /// and name; any thread.
 class RequestedSensors {
  public:
   using Observer = std::function<void(const std::string&, const std::string&, bool)>;
 
-  /// It sees what set() is called with.
+  /// It gets the arguments of each set().
   void observe(Observer observer) {
     const std::lock_guard<std::mutex> lock(mutex_);
     observer_ = std::move(observer);

@@ -29,7 +29,7 @@ struct SavedLight {
   Element lamp;             // its parameters as children
 };
 
-/// What a world's file can say of one moment.
+/// The state of a world at one moment, as a world file can have it.
 struct SavedState {
   std::shared_ptr<const Snapshot> snapshot;
   std::vector<SavedPlugin> plugins;  // of devices that differ from how they started

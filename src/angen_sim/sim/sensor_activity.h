@@ -3,21 +3,21 @@
 namespace angen::sim {
 
 /// Whether a sensor has to sample at its next due time, and why not. Everything that skips samples
-/// (the scheduler, leaps, snapshots) goes by this state.
+/// (the scheduler, leaps, snapshots) uses this state.
 class SensorActivity {
  public:
   enum class State {
     kActive,     // samples at each due time
     kSteady,     // its values stay as they are, and have not been published yet
-    kRepeating,  // its published reading stands: it is published again, and not made again
+    kRepeating,  // publishes its last reading again, without making it again
     kVarying,    // its readings differ by noise only; it samples until enough of them were alike
-    kLazy,       // a LazyReading stands for its samples
+    kLazy,       // a LazyReading replaces its samples
   };
 
   State state() const { return state_; }
   bool steady() const { return state_ == State::kSteady || state_ == State::kRepeating; }
   bool lazy() const { return state_ == State::kLazy; }
-  /// Whether its samples can be skipped for as long as nothing changes.
+  /// Whether its samples can be skipped until a change.
   bool skips() const { return state_ == State::kRepeating || state_ == State::kLazy; }
   /// Whether the last sample's values are those of the last published reading.
   bool published() const { return published_; }
@@ -36,11 +36,11 @@ class SensorActivity {
     if (state_ == State::kSteady) state_ = State::kRepeating;
   }
 
-  /// A due time at which nothing that it samples had changed, or had.
+  /// A due time at which none of its inputs had changed, or one had.
   void note_unchanged() { ++unchanged_; }
   void note_changed() { unchanged_ = 0; }
 
-  /// Whether so many samples in a row were alike that none before matters, a reading depending on
+  /// Whether enough samples in a row were alike that none before matters, a reading depending on
   /// `memory` samples before it.
   bool settled(int memory) const { return unchanged_ > memory; }
   void become_lazy() { state_ = State::kLazy; }

@@ -11,7 +11,7 @@ namespace {
 
 using Sensors = std::vector<std::uint32_t>;
 
-/// Takes those out that `wanted` says.
+/// Removes those for which `wanted` is true.
 template <class F>
 Sensors take(Sensors& from, F&& wanted) {
   const auto gone = std::stable_partition(from.begin(), from.end(),

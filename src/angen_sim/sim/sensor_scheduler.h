@@ -30,7 +30,7 @@ class SensorScheduler {
     bool outdated = false;  // some are in the wrong list
   };
 
-  /// Starts anew, with all sensors active.
+  /// Starts again, with all sensors active.
   void assign(const std::vector<Schedule>& schedules, Nanoseconds now);
   /// Time has jumped to `now`.
   void requeue(Nanoseconds now);

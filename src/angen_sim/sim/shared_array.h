@@ -10,7 +10,7 @@
 
 namespace angen::sim {
 
-/// An array whose copies share what did not change: a copy costs a pointer for each 2048 elements,
+/// An array whose copies share unchanged elements: a copy costs a pointer for each 2048 elements,
 /// a change after a copy one chunk of 64 and the pointers to 32 chunks.
 template <class T>
 class SharedArray {
@@ -88,7 +88,7 @@ class SharedArray {
   using Chunk = std::array<T, kChunk>;
   using Block = std::array<std::shared_ptr<Chunk>, kBlock / kChunk>;
 
-  // What a copy shares is copied before it is changed.
+  // Shared elements are copied before they are changed.
   template <class Part>
   static Part& own(std::shared_ptr<Part>& part) {
     if (part.use_count() > 1) part = std::make_shared<Part>(*part);

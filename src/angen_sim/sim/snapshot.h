@@ -34,7 +34,7 @@ struct JointEntry {
   std::uint32_t joint = 0;  // index in desc::Model::joints
 };
 
-/// What is fixed of a device as long as it exists.
+/// Properties of a device that stay the same as long as it exists.
 struct DeviceInfo {
   std::string kind;
   std::string name;
@@ -47,7 +47,7 @@ struct DeviceEntry : DeviceInfo {
   std::uint32_t light = UINT32_MAX;  // that light, in Structure::lights
 };
 
-/// What is fixed of a sensor as long as it exists.
+/// Properties of a sensor that stay the same as long as it exists.
 struct SensorInfo {
   std::string kind;
   std::string name;
@@ -77,7 +77,7 @@ struct LightEntry {
   desc::Light light;
 };
 
-/// What exists. Replaced, never changed, when something is spawned or deleted; the next shares what
+/// All parts of the world. Replaced, never changed, by a spawn or a deletion; the next shares what
 /// kept its numbers.
 struct Structure {
   std::uint64_t revision = 0;
@@ -98,14 +98,14 @@ struct Counts {
   std::uint64_t failed_steps = 0;  // redone by the other solver
 };
 
-/// What a sensor published last: the reading, and from then on what stands for its samples.
+/// The reading that a sensor published last, and the lazy reading that replaces its samples since.
 struct PublishedReading {
   std::shared_ptr<const Reading> reading;   // null before the first
   std::shared_ptr<const LazyReading> lazy;  // null where it is the reading itself
 };
 
 /// The world after a tick. Shared and immutable; parts that did not change are shared with the
-/// snapshot before, so that comparing pointers shows what changed.
+/// snapshot before, so that comparing pointers shows the changes.
 struct Snapshot {
   std::int64_t tick = 0;
   Nanoseconds time = 0;
@@ -129,8 +129,8 @@ struct Snapshot {
   /// nothing changed since.
   Nanoseconds stamp(std::size_t sensor) const;
 
-  /// What the sensor published last, null before the first. Its own stamp may be earlier than
-  /// stamp(): it stands until another is made.
+  /// The last publication of a sensor, null before the first. Its own stamp may be earlier than
+  /// stamp(): it is valid until the next.
   std::shared_ptr<const Reading> reading(std::size_t sensor) const;
 };
 

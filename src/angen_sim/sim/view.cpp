@@ -71,7 +71,7 @@ void InstanceView::cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hi
 light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) const {
   queried_.other = queried_.other || queried_.light;  // only one place's light is watched
   queried_.light = true;
-  // Whether somebody subscribes to a sensor must not change what others read.
+  // Subscriptions of a sensor must not change the readings of others.
   probe.ahead = sensor_ == nullptr || !sensor_->on_demand();
   if (engines_.light.dark() && engines_.light.knows(probe))
     return engines_.light.measure(probe, pose);
@@ -127,8 +127,8 @@ std::vector<std::uint8_t> InstanceView::colors(const render::PinholeCamera& lens
                                                const Pose& pose) const {
   queried_.other = true;
   render::Ambience ambience = engines_.ambience;
-  // Pictures use only what is known already: whether somebody subscribes to a camera must not
-  // change what other sensors read.
+  // Pictures use only light that is known already: subscriptions of a camera must not
+  // change the readings of other sensors.
   if (engines_.light.active()) ambience.reflected = engines_.light.reflected();
   return engines_.visuals.colors(lens, pose, engines_.light.lit(), ambience);
 }

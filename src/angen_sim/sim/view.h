@@ -8,7 +8,7 @@
 
 namespace angen::sim {
 
-/// What one device or sensor sees of the world at one moment.
+/// The world as one device or sensor queries it at one moment.
 class InstanceView : public View {
  public:
   struct Clock {
@@ -63,7 +63,7 @@ class InstanceView : public View {
   mutable Queried queried_;
 };
 
-/// What one device does to the world.
+/// The effects of one device on the world.
 class InstanceOutputs : public Outputs {
  public:
   InstanceOutputs(Engines& engines, LiveModel& live, const DeviceInstance& device, Nanoseconds time,

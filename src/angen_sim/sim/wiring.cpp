@@ -43,7 +43,7 @@ std::vector<const desc::Link*> moving_with(const desc::Model& model, const std::
   return links;
 }
 
-// Of what a joint moves: kg m^2 about a revolute joint's axis, kg along a prismatic one's.
+// Inertia that a joint moves: kg m^2 about a revolute joint's axis, kg along a prismatic one's.
 double inertia(const desc::Model& model, const desc::Joint& joint) {
   const bool turns = joint.type == desc::Joint::Type::kRevolute;
   const Vec3& axis = joint.axes.front().xyz;

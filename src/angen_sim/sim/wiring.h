@@ -31,9 +31,9 @@ class ModelWiring : public Wiring {
   ContactRef collision(const std::string& collision) override;
   std::vector<SurfaceRef> surfaces(const std::string& visual) override;
 
-  const std::set<std::string>& joints() const { return joints_; }  // those asked for
+  const std::set<std::string>& joints() const { return joints_; }  // those requested
   const std::set<int>& lights() const { return lights_; }          // by LightRef
-  /// Full names of the collisions asked for, by ContactRef.
+  /// Full names of the requested collisions, by ContactRef.
   const std::vector<std::string>& collisions() const { return collisions_; }
 
  private:

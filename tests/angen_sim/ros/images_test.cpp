@@ -31,6 +31,9 @@ Reading lens() {
   reading.set("focal", 2.0);
   reading.set("center_x", 1.0);
   reading.set("center_y", 0.5);
+  reading.set("distortion", std::vector<double>(5, 0.0));
+  reading.set("baseline", 0.0);
+  reading.set("in_millimeters", false);
   return reading;
 }
 
@@ -145,6 +148,7 @@ Reading scan() {  // 2 columns at -90 and 90 degrees, 3 rows at -45, 0 and 45
   reading.set("columns", 2);
   reading.set("rows", 3);
   reading.set("angles", std::vector<double>{-M_PI_2, M_PI_2, -M_PI_4, M_PI_4});
+  reading.set("organized", false);
   return reading;
 }
 

@@ -75,7 +75,7 @@ void RangeDifference::configure(Params& params, Wiring&) {
     directions_.back().insert(directions_.back().end(), next.begin(), next.end());
   }
   // Two scans that are both within half the threshold do not differ by more than it.
-  quiet_chance_ = fan_.quiet_chance(threshold_ / 2.0, directions_[0].size());
+  no_event_probability_ = fan_.no_event_probability(threshold_ / 2.0, directions_[0].size());
   previous_.resize(nod_.phases);
   clean_.resize(nod_.phases);
 }
@@ -130,7 +130,7 @@ void RangeDifference::read(const View& view, Hits hits, Rng& rng, Reading& readi
   reading.set("departure", departure);
   if (motion != was_on) announce_range(motion, difference, reading);
   changes_ = difference > 0.0 || motion;
-  const bool loud = rng.uniform() >= quiet_chance_;  // with_noise() drew from a copy
+  const bool loud = rng.uniform() >= no_event_probability_;  // with_noise() drew from a copy
   const bool quiet = !loud && !motion && !departure && difference <= threshold_;
   quiet_scans_ = quiet ? quiet_scans_ + 1 : 0;
 }

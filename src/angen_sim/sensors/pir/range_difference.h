@@ -19,7 +19,7 @@ class RangeDifference : public Sensor, public NoisySensor {
   void read(const View& view, Hits hits, Rng& rng, Reading& reading) override;
   bool steady() const override;
   bool varies() const override { return previous_.size() > 1 || fan_.noisy(); }
-  double quiet_chance() const override { return quiet_chance_; }
+  double no_event_probability() const override { return no_event_probability_; }
   int memory() const override { return static_cast<int>(previous_.size()); }
   std::shared_ptr<const LazyReading> lazy_reading() const override;
   void resume(Nanoseconds time, const Draws& draws) override;
@@ -49,7 +49,7 @@ class RangeDifference : public Sensor, public NoisySensor {
   Fan fan_;
   Nod nod_;
   double threshold_ = 0.0;
-  double quiet_chance_ = 0.0;
+  double no_event_probability_ = 0.0;
   Trigger::Times times_;
   Trigger trigger_;
   std::vector<std::vector<Vec3>> directions_;  // by phase of the nod: its tilt's, the next tilt's

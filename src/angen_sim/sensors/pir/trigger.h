@@ -40,8 +40,8 @@ class Trigger {
   bool on_ = false;
 };
 
-/// Reads <hold_time>, <lockout_time>, <warm_up> and <retrigger>; `fallback` stands for what is not
-/// given.
+/// Reads <hold_time>, <lockout_time>, <warm_up> and <retrigger>; `fallback` has the values that are
+/// not given.
 Trigger::Times read_times(Params& params, const Trigger::Times& fallback);
 
 }  // namespace angen::sensors
