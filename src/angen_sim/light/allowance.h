@@ -7,12 +7,11 @@
 
 namespace angen::light {
 
-/// Rays that may be spent on light: so many each second of simulated time, and what is not spent
-/// is kept up to a limit. How often it is asked makes no difference.
+/// A token bucket of rays for light: simulated time fills it up to a limit, however often it is
+/// asked.
 class Allowance {
  public:
-  /// `per_ray`: time in which one more may be spent; `most`: rays that are kept, and there at
-  /// first.
+  /// `per_ray`: simulated ns that earn one ray; `most`: capacity in rays, full at first.
   constexpr Allowance(Nanoseconds per_ray, std::int64_t most)
       : per_ray_(per_ray), most_(most * per_ray), saved_(most_) {}
 
@@ -20,7 +19,7 @@ class Allowance {
     saved_ = std::min(most_, saved_ + std::max<Nanoseconds>(0, now - now_));
     now_ = now;
   }
-  /// Rays; none or less where what was spent last is not paid for yet.
+  /// Rays; 0 or less until time has paid for an overdraft.
   std::int64_t left() const { return saved_ / per_ray_; }
   void spend(std::int64_t rays) { saved_ -= rays * per_ray_; }
 

@@ -11,9 +11,9 @@
 namespace angen::light {
 namespace {
 
-constexpr double kFar = 1e4;         // m, as far as anything can stand before a directional lamp
+constexpr double kFar = 1e4;         // m, length of shadow rays to a directional lamp
 constexpr double kOnSurface = 1e-9;  // m
-constexpr std::size_t kSides = 64;   // of the polygon that stands for a disc
+constexpr std::size_t kSides = 64;   // of the polygon that approximates a disc
 
 /// Unit vectors along a flat lamp's width and height.
 struct Axes {
@@ -32,16 +32,15 @@ double area_of(const Lamp& lamp) {
                                         : lamp.width * lamp.height;
 }
 
-/// Of a spot whose intensity is that ahead times a power of the cosine: half at
-/// its half angle.
+/// Candela of a spot: its axial intensity times a power of the cosine, half at its half angle.
 double spot_intensity(const Lamp& lamp, double cosine) {
   const double exponent = std::log(0.5) / std::log(std::cos(lamp.half_angle));
   const double ahead = lamp.luminous_flux * (exponent + 1.0) / (2.0 * M_PI);
   return cosine > 0.0 ? ahead * std::pow(cosine, exponent) : 0.0;
 }
 
-/// A spot's flux is spread evenly over its inner cone and falls off linearly in
-/// the cosine to its outer one; SDF gives both cones' full angles.
+/// Candela of a spot with cones: constant within the inner cone, then linear in the cosine down to
+/// 0 at the outer one; SDF gives both cones' full angles.
 double cone_intensity(const Lamp& lamp, double cosine) {
   const double outer = std::cos(std::min(lamp.outer_angle, 2.0 * M_PI) / 2.0);
   const double inner =
@@ -77,7 +76,7 @@ struct Corners {
   std::size_t count = 0;
 };
 
-/// Seen from `point`.
+/// Relative to `point`.
 Corners corners_of(const Lamp& lamp, const Vec3& point) {
   const Axes axes = axes_of(lamp);
   const Vec3 middle = lamp.pose.position - point;
@@ -90,7 +89,7 @@ Corners corners_of(const Lamp& lamp, const Vec3& point) {
     }
     return out;
   }
-  // As large as the disc: a regular polygon's area is n/2 R^2 sin(2 pi/n).
+  // A polygon of the disc's area: that of a regular one is n/2 R^2 sin(2 pi/n).
   const double step = 2.0 * M_PI / kSides;
   const double reach = lamp.radius * std::sqrt(step / std::sin(step));
   for (std::size_t i = 0; i < kSides; ++i) {
@@ -101,7 +100,7 @@ Corners corners_of(const Lamp& lamp, const Vec3& point) {
   return out;
 }
 
-/// What of the polygon lies before the plane through the origin.
+/// Clips the polygon to the front side of the plane through the origin.
 Corners clipped(const Corners& all, const Vec3& normal) {
   Corners out;
   for (std::size_t i = 0; i < all.count; ++i) {
@@ -116,9 +115,8 @@ Corners clipped(const Corners& all, const Vec3& normal) {
   return out;
 }
 
-/// Lambert 1760: the sum over the edges of the angle each fills, times its
-/// plane's cosine. Of what of the polygon lies before the plane, for a
-/// luminance of 1.
+/// Lambert 1760: the sum over the edges of the angle each subtends, times the cosine of the edge's
+/// plane; for the part of the polygon in front of the plane, at a luminance of 1.
 double polygon_illuminance(const Corners& all, const Vec3& normal) {
   const Corners corners = clipped(all, normal);
   if (corners.count < 3) return 0.0;
@@ -159,8 +157,8 @@ double tube_illuminance(const Lamp& lamp, const Vec3& point, const Vec3& normal)
   return lamp.luminous_flux / (M_PI * skin) * polygon_illuminance(strip, normal);
 }
 
-/// An evenly bright globe that the plane cuts: J. M. Snyder, Area light sources
-/// for real-time graphics (Microsoft Research, 1996).
+/// A uniform sphere that the plane may cut: J. M. Snyder, Area light sources for real-time graphics
+/// (Microsoft Research, 1996).
 double globe_illuminance(const Lamp& lamp, const Vec3& point, const Vec3& normal) {
   const Vec3 towards = lamp.pose.position - point;
   const double distance = std::max(towards.norm(), lamp.radius);
@@ -185,7 +183,7 @@ bool sees(const rays::Scene& scene, const Lamp& lamp, const Vec3& point, const V
   return !scene.blocked(point, point + kFar * towards, 1e-4, among);
 }
 
-/// What a lamp's point gives on the plane, in a measure of its own.
+/// Relative contribution of a sample point of the lamp to the plane.
 double weight_of(const Lamp& lamp, const Vec3& on_lamp, const Vec3& point, const Vec3& normal) {
   const Vec3 way = on_lamp - point;
   if (lamp.type == Lamp::Type::kPoint) return way.dot(normal) > 0.0 ? 1.0 : 0.0;
@@ -209,7 +207,7 @@ Count count_seen(const rays::Scene& scene, const Lamp& lamp, const Vec3& point, 
   Count count;
   for (std::size_t i = 0; i < points; ++i) {
     const Vec3 on_lamp = lamp_point(lamp, i);
-    // A ceiling that the sphere dips into takes none of its light.
+    // A sample point inside a ceiling counts neither as seen nor as shadowed.
     if (!lamp.flat() && scene.blocked(lamp.pose.position, on_lamp, 0.0, among)) continue;
     const double weight = weight_of(lamp, on_lamp, point, normal);
     count.free += weight;
@@ -270,8 +268,7 @@ double visible_share(const rays::Scene& scene, const Lamp& lamp, const Vec3& poi
   if (lamp.type == Lamp::Type::kDirectional) {
     return sees(scene, lamp, point, Vec3::Zero(), among) ? 1.0 : 0.0;
   }
-  // A few points show whether a shadow's edge is near; only there many are
-  // worth their cost.
+  // A few points tell whether the plane is in penumbra; only there many are worth their cost.
   const double coarse = count_seen(scene, lamp, point, normal, among, kLampPoints / 8).share();
   if (coarse == 0.0 || coarse == 1.0) return coarse;
   return count_seen(scene, lamp, point, normal, among, kLampPoints).share();

@@ -6,8 +6,7 @@
 
 #include "core/pose.h"
 
-/// Fixed directions and points, spread evenly. Always the same, so that a reading changes only when
-/// the world does.
+/// Fixed, evenly spread directions and points, so that a reading changes only when the world does.
 namespace angen::light {
 
 constexpr std::size_t kLampPoints = 128;
@@ -24,7 +23,7 @@ const std::array<std::pair<double, double>, kLampPoints>& square_points();
 /// Van der Corput's sequence: the bits of i behind the binary point, last bit first.
 double radical_inverse(unsigned i);
 
-/// Malley's way: a point of the unit square as a cosine-weighted direction about z.
+/// Malley's method: maps a point of the unit square to a cosine-weighted direction about z.
 Vec3 cosine_direction(double u, double v);
 
 /// A right-handed frame whose z axis is the unit `normal`.

@@ -15,14 +15,14 @@
 namespace angen::light {
 namespace {
 
-constexpr double kReach = 15.0;  // m that the reflected light of an 800 lm lamp is followed from it
-constexpr float kDark = 1e-3F;   // lx: what throws back less is not followed farther
+constexpr double kReach = 15.0;       // m around an 800 lm lamp, in which its light is followed
+constexpr float kDark = 1e-3F;        // lx: less reflected light is not followed
 constexpr double kBeyondSites = 0.5;  // m
 constexpr double kSettled = 1e-4;     // of the mean: a change that ends the bounces
 constexpr int kMaxBounces = 200;
 // Costs of the parts of a solution, measured; they decide only how it is cut into ticks.
 constexpr std::int64_t kSumsPerRay = 500;
-constexpr std::int64_t kRowsPerRay = kSumsPerRay / kLinks;  // patches that are balanced
+constexpr std::int64_t kRowsPerRay = kSumsPerRay / kLinks;  // patches in balance()
 constexpr std::int64_t kCostToMake = 64;                    // a patch
 constexpr std::int64_t kBouncesToPrepare = 4;
 constexpr std::size_t kFirstAtOnce = 64;
@@ -36,7 +36,7 @@ std::uint32_t place_of(std::uint32_t patch, const Unfinished& work) {
   return patch < work.places.size() ? work.places[patch] : kNoPatch;
 }
 
-/// Puts a patch on the solution's list, unless it is there.
+/// Adds a patch to the solution, unless it contains the patch.
 void reach_patch(std::uint32_t patch, Unfinished& work) {
   if (patch == kNoPatch || place_of(patch, work) != kNoPatch) return;
   if (work.places.size() <= patch) work.places.resize(patch + 1 + patch / 2, kNoPatch);
@@ -44,7 +44,7 @@ void reach_patch(std::uint32_t patch, Unfinished& work) {
   work.solution.patches.push_back(patch);
 }
 
-/// The end of as many rows from `first` on as `rays` take, of `count` in all.
+/// The end of the rows from `first` on that `rays` pay for, of `count` in all.
 std::size_t rows_from(std::size_t first, std::size_t count, std::int64_t rays) {
   const auto left = static_cast<std::int64_t>(count - first);
   const std::int64_t affordable = std::clamp<std::int64_t>(rays, 1, left / kRowsPerRay + 1);
@@ -90,7 +90,7 @@ Field::Link Field::link_of(const rays::Ray& ray, const rays::Hit& hit) {
 
 const std::vector<Field::Link>& Field::links(std::uint32_t patch) {
   static_assert(std::is_nothrow_move_constructible_v<PatchLinks>,
-                "all lists were copied as it grows");
+                "a growing vector would copy all lists");
   if (patch_links_.size() <= patch)
     patch_links_.resize(std::max<std::size_t>(patch + 1, surfaces_.size()));
   // What nobody was counted for leaves no trace: while shapes change it is found anew.
@@ -128,7 +128,7 @@ float Field::direct(const Lamp& lamp, std::uint32_t patch) const {
   return static_cast<float>(sum / static_cast<double>(on.sites.size()));
 }
 
-/// Finds what the lamp shines on; returns what it cost in rays, as all of these parts do.
+/// Finds the directly lit patches; returns its cost in rays, as all these parts do.
 std::int64_t Field::start(Unfinished& work, std::int64_t rays) {
   std::array<rays::Hit, kFirstAtOnce> hits;
   std::int64_t cost = 0;
@@ -146,7 +146,7 @@ std::int64_t Field::start(Unfinished& work, std::int64_t rays) {
   return cost;
 }
 
-/// Follows the light from patch to patch as far as it matters.
+/// Follows the light from patch to patch, as far as kReach and kDark allow.
 std::int64_t Field::spread(Unfinished& work, std::int64_t rays) {
   std::int64_t cost = 0;
   for (; work.followed < work.solution.patches.size() && cost < rays; ++work.followed) {
@@ -175,8 +175,8 @@ std::int64_t Field::cost_of(std::uint32_t patch) {
   return cost;
 }
 
-/// The light that a patch gets, with a first guess of what comes from others: what those before it
-/// throw back.
+/// Computes the light on a patch; its first guess of reflected light is that of the patches before
+/// it.
 void Field::follow_patch(Unfinished& work) {
   Solution& solution = work.solution;
   const std::size_t i = work.followed;
@@ -206,7 +206,7 @@ void Field::follow_patch(Unfinished& work) {
   }
 }
 
-/// Lists what some more of the patches see.
+/// Lists the patches that the next patches see.
 std::int64_t Field::prepare_balance(Unfinished& work, std::int64_t rays) {
   const Solution& solution = work.solution;
   const auto count = static_cast<std::uint32_t>(solution.patches.size());
@@ -224,13 +224,12 @@ std::int64_t Field::prepare_balance(Unfinished& work, std::int64_t rays) {
   }
   if (i == count) {
     work.rows.push_back(work.seen.size());
-    work.leaving.push_back(Rgb::Zero());  // the dark
+    work.leaving.push_back(Rgb::Zero());  // for links without a patch
   }
   return 1 + static_cast<std::int64_t>(i - first) * kBouncesToPrepare / kRowsPerRay;
 }
 
-/// Goes on with a bounce: each patch takes what it sees of the others, of those before it what they
-/// throw back by now (Gauss and Seidel).
+/// Continues a bounce: a Gauss-Seidel step of the radiosity equation for each patch.
 std::int64_t Field::balance(Unfinished& work, std::int64_t rays) {
   Solution& solution = work.solution;
   const std::size_t first = work.balanced;
@@ -296,7 +295,7 @@ void Field::finish(Unfinished& work) {
   solution.direct.shrink_to_fit();
   solution.reflected.shrink_to_fit();
   number_places(solution);
-  // A patch goes on beyond its outermost sites.
+  // A patch extends beyond its outermost sites.
   solution.bounds.min().array() -= kBeyondSites;
   solution.bounds.max().array() += kBeyondSites;
   solution.stamp = next_stamp();

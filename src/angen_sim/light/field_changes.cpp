@@ -1,4 +1,4 @@
-// The part of Field that takes up what came, went or moved.
+// The part of Field that follows added, removed and moved shapes.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,15 +10,15 @@
 namespace angen::light {
 namespace {
 
-constexpr double kNear = 1e-3;         // m, as near as touches
-constexpr double kStill = 5e-5;        // m that a shape may move unnoticed: a ray's margin is more
+constexpr double kNear = 1e-3;         // m, closer counts as touching
+constexpr double kStill = 5e-5;        // m: smaller motion is ignored; a ray's margin is larger
 constexpr double kLargestPatch = 1.5;  // m across
-// Costs in rays, measured; they decide only how an update is cut into ticks.
+// Measured costs in rays; they decide only how an update is divided into ticks.
 constexpr std::int64_t kCostToSkip = 1;     // a patch that sees no change
-constexpr std::int64_t kCostToCompare = 6;  // the links of one with a box
-constexpr std::int64_t kCostToFind = 4;     // a link anew, alone
+constexpr std::int64_t kCostToCompare = 6;  // the links of a patch with a box
+constexpr std::int64_t kCostToFind = 4;     // one link
 
-/// Slabs, over the segment from the ray's origin.
+/// Slab test of the segment of that range from the ray's origin.
 bool passes(const Eigen::AlignedBox3d& box, const rays::Ray& ray, double range) {
   double enter = 0.0, leave = range;
   for (int axis = 0; axis < 3; ++axis) {
@@ -32,7 +32,8 @@ bool passes(const Eigen::AlignedBox3d& box, const rays::Ray& ray, double range) 
   return enter <= leave;
 }
 
-/// Whether that is the same shape, as good as where it was. A plane's box does not tell.
+/// Whether the shape is the same and has not moved by kStill. An infinite box, a plane's, shows no
+/// motion.
 bool stays(const std::optional<rays::Standing>& before, const std::optional<rays::Standing>& now) {
   if (!before || !now) return !before && !now;
   if (before->id != now->id || before->is_static != now->is_static) return false;
@@ -51,7 +52,7 @@ void Field::note(std::uint32_t shape, const Box& box, bool is_static,
   been_[shape].extend(box);
 }
 
-/// Notes what has changed at an index among what is static, or among what is not.
+/// Notes the change of a shape among static ones, or among those that are not static.
 void Field::compare(std::uint32_t shape, const Known& now, bool is_static,
                     std::vector<Change>& changes) {
   const Known& before = known_[shape];
@@ -67,12 +68,12 @@ void Field::compare(std::uint32_t shape, const Known& now, bool is_static,
 }
 
 std::vector<Field::Change> Field::follow() {
-  const bool first = followed_ == 0;  // nothing is known that could change
+  const bool first = followed_ == 0;  // no shape is known that could have changed
   std::vector<Change> statics, anchored;
   for (const std::uint32_t shape : scene_.standing_changes(followed_)) {
     if (known_.size() <= shape) known_.resize(shape + 1);
     Known now = scene_.standing(shape);
-    if (stays(known_[shape], now)) continue;  // creeping adds up
+    if (stays(known_[shape], now)) continue;  // known_ keeps the old box, so that creeping adds up
     if (!first) {
       compare(shape, now, true, statics);
       compare(shape, now, false, anchored);
@@ -88,7 +89,7 @@ bool Field::outdated_in(const Box& box) const {
                      [&](std::uint32_t shape) { return box.intersects(been_[shape]); });
 }
 
-/// What stands near a surface may cover or divide its patches.
+/// A shape near a surface may cover or divide its patches.
 void Field::forget_near(const Box& box) {
   const Box near(box.min() - Vec3::Constant(kFacing), box.max() + Vec3::Constant(kFacing));
   for (const bool is_static : {true, false}) {
@@ -150,7 +151,7 @@ std::int64_t Field::update_links(std::uint32_t patch) {
   if (!patch_links_[patch].counted) return 0;
   std::vector<Box> near;
   for (const Box& box : boxes_) {
-    // A link ends on a patch that may go on beyond it.
+    // The patch at a link's end may extend beyond that point.
     const Box grown(box.min() - Vec3::Constant(kLargestPatch),
                     box.max() + Vec3::Constant(kLargestPatch));
     if (patch_links_[patch].reach.intersects(grown)) near.push_back(box);

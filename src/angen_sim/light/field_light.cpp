@@ -1,4 +1,4 @@
-// What a Field knows of the light on its patches.
+// The part of Field that returns the light on its patches.
 #include <algorithm>
 #include <utility>
 
@@ -41,11 +41,12 @@ Rgb Field::reflected(const Solution& solution, std::uint32_t patch, bool stale) 
   const std::uint32_t at = place(solution, patch, stale);
   if (at != kNoPatch) return solution.reflected[at];
   if (solution.patches.empty()) return Rgb::Zero();
-  // What of a stale one has to be found first is found with the next: who queries leaves no trace.
+  // No links are made for a stale solution, so that queries leave no trace; the next solution has
+  // them.
   return stale && !counted(patch) ? Rgb(Rgb::Zero()) : cached_indirect(solution, patch, stale);
 }
 
-/// One more bounce, from what the solution reaches.
+/// One more bounce, from the patches of the solution.
 Rgb Field::cached_indirect(const Solution& solution, std::uint32_t patch, bool stale) {
   const std::uint64_t state = 2 * (in_flux() ? ~scene_.revision() : revision_) + (stale ? 1 : 0);
   if (solution.indirect_state != state) solution.indirect_cache.clear();

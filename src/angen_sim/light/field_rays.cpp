@@ -12,13 +12,13 @@
 namespace angen::light {
 namespace {
 
-constexpr std::size_t kFans = 32;      // ways to spread a patch's links
-constexpr std::size_t kFirst = 2048;   // rays that find what a lamp shines on
-constexpr std::size_t kLattice = 128;  // rays along a side of the world that find what the sun does
-constexpr double kMargin = 1e-4;       // m, a surface does not meet its own rays
+constexpr std::size_t kFans = 32;      // different spreads of a patch's links
+constexpr std::size_t kFirst = 2048;   // rays from any other lamp
+constexpr std::size_t kLattice = 128;  // rays from a directional lamp, per side
+constexpr double kMargin = 1e-4;       // m, so that a ray does not hit its own surface
 constexpr double kFarthest = 1e4;      // m
 
-/// Directions for one patch's links, about z, and which of its sites each starts from.
+/// Directions of a patch's links about z, and the site from which each starts.
 struct Fan {
   std::vector<Vec3> directions;
   std::vector<std::size_t> sites;
@@ -61,7 +61,7 @@ rays::Ray ray_from(const Vec3& origin, const Vec3& direction) {
 
 }  // namespace
 
-/// Each patch turns its fan about the normal by an angle of its own.
+/// Each patch turns its fan about the normal by its own angle.
 std::vector<rays::Ray> link_rays(const Patch& patch) {
   const Fan& fan = fan_of(patch);
   const double angle = 2.0 * M_PI * static_cast<double>(patch.hash >> 40) / (1 << 24);

@@ -12,14 +12,14 @@
 namespace angen::light {
 namespace {
 
-constexpr std::size_t kMaxWays = 1024;  // from all points of movers, about
-constexpr double kGrazing = 0.15;       // cosine: areas seen at less are not trusted
-constexpr std::size_t kStride = 797;    // odd: every direction is taken once
+constexpr std::size_t kMaxWays = 1024;  // about, from the points of all free movers
+constexpr double kGrazing = 0.15;       // least cosine in areas, which are inaccurate below
+constexpr std::size_t kStride = 797;    // odd, so that each direction is used once
 constexpr std::uint32_t kNoMover = UINT32_MAX;
-constexpr double kGatherMargin = 1e-4;  // m, a surface does not meet its own rays
+constexpr double kGatherMargin = 1e-4;  // m, so that a ray does not hit its own surface
 constexpr rays::Mobilities kMovable = rays::kAll & ~rays::only(rays::Mobility::kStatic);
 
-/// By the ray's way up to `range`.
+/// Extends the reach by the ray up to `range`.
 void extend(Eigen::AlignedBox3d& reach, const rays::Ray& ray, double range) {
   reach.extend(ray.origin);
   if (std::isfinite(range)) {
@@ -54,8 +54,7 @@ Gather::Gather(const rays::Scene& scene, Field& field, const Pose& pose)
   }
 }
 
-/// One way that light may come to the surface in direction i: all of them
-/// together fill each surface's hemisphere.
+/// One path of light to surface i; the paths of all directions together fill the hemisphere.
 rays::Ray Gather::next(std::size_t i) const {
   const Vec3& about_x = gather_directions()[(i * kStride) % kDirections];
   const Vec3 way = frame_about(surfaces_[i].normal) * Vec3(about_x.y(), about_x.z(), about_x.x());
@@ -80,7 +79,7 @@ void Gather::locate(Surface& surface) const {
   surface.serial = surface.patch == kNoPatch ? 0 : field_.serial(surface.patch);
 }
 
-/// Finds patches again that the field has made anew since, and lists all.
+/// Looks up patches again that the field has replaced, and lists all.
 void Gather::relocate() {
   if (located_ == field_.revision()) return;
   located_ = field_.revision();
@@ -96,7 +95,7 @@ void Gather::relocate() {
     }
     for (Surface& seen : around_) check(seen);
   } else {
-    movers_revision_ = kNever;  // their shapes may be gone
+    movers_revision_ = kNever;  // their shapes may have been removed
   }
   std::unordered_map<std::uint32_t, std::uint32_t> slots;
   patches_.clear();
@@ -148,8 +147,8 @@ void Gather::find_between() {
   }
 }
 
-/// Points of free movers find the light they reflect: the more points, the
-/// fewer ways each.
+/// Casts rays from points of free movers for the light that they reflect: the more points, the
+/// fewer rays each.
 void Gather::find_around() {
   around_.clear();
   const auto free = static_cast<std::size_t>(std::count_if(
@@ -173,11 +172,10 @@ void Gather::find_around() {
   }
 }
 
-/// As in an integrating sphere: free movers take their share of the light that
-/// goes to and fro, by what they and the room absorb. Areas are those seen from
-/// here; a body has another half. The two last surfaces on the light's way are
-/// taken one by one, so only what was reflected before counts: of each bounce's
-/// light the mean albedo's share.
+/// Computes `left_` as in an integrating sphere: free movers absorb a share of the light, by area
+/// times absorptance of theirs and of the room's surfaces. Areas are those seen from here; a body's
+/// other half counts too. The last two surfaces of a path are computed one by one, so that the
+/// share applies to the light of earlier bounces only: the mean albedo's share of all.
 void Gather::weigh() {
   double room = 0.0, movers = 0.0, albedos = 0.0;
   for (std::size_t i = 0; i < kDirections; ++i) {

@@ -9,39 +9,40 @@
 
 namespace angen::light {
 
-/// A lamp as a place receives its light.
+/// A lamp and its solution, as a place receives its light.
 struct Source {
   LampId id;
   const Lamp& lamp;
   const Solution& solution;
-  std::uint64_t geometry = 0;  // grows when the lamp has moved or walls have around it
-  bool stale = false;          // the solution is not what it would be if it were found now
+  std::uint64_t geometry = 0;  // grows when the lamp or static shapes in its light have moved
+  bool stale = false;          // the lamp or standing shapes have changed since it was solved
 };
 
-/// What one place sees over its hemisphere: static surfaces once, then what moves before them.
+/// Final gather at one place: finds the static surfaces over its hemisphere once, and the movers in
+/// front of them after each change.
 class Gather {
  public:
   Gather(const rays::Scene& scene, Field& field, const Pose& pose);
 
-  /// Forgets what came from a lamp.
+  /// Forgets the light of a lamp.
   void forget(LampId lamp) { received_.erase(lamp); }
 
-  /// Whether any of the surfaces may be in the box.
+  /// Whether any of the surfaces may be in the box (m, world).
   bool may_see(const Eigen::AlignedBox3d& box) const { return fixed_reach_.intersects(box); }
 
-  /// Whether the anchored and moving shapes before the surfaces are known as they are now.
+  /// Whether the anchored and moving shapes in front of the surfaces are up to date.
   bool movers_known() const;
-  /// Nothing has moved in the box since they were found.
+  /// Keeps them up to date if `within` contains their reach: nothing has moved in it since.
   void hold_movers(const Eigen::AlignedBox3d& within);
 
-  /// How many surfaces' patches see what prepare() has not been counted for.
+  /// Number of patches in view that the solution does not contain and that are not counted.
   std::size_t lacking(const Source& source);
-  /// Finds what they see, for the cost of about `rays` rays, which it takes off. True when that is
-  /// all.
+  /// Charges these patches for about `rays` rays and subtracts the cost. Returns whether all are
+  /// charged.
   bool prepare(const Source& source, std::int64_t& rays);
 
-  /// What all surfaces send to the place. `reach` grows by the ways of its light on which shapes
-  /// that move could stand.
+  /// Light of all surfaces on the place. Extends `reach` by the light paths that movers could
+  /// block.
   Gathered gather(const Source& source, Eigen::AlignedBox3d& reach);
 
  private:
@@ -50,7 +51,7 @@ class Gather {
   struct Surface {
     Vec3 position;
     Vec3 normal;  // towards the place
-    Rgb albedo;   // 0 where nothing is met
+    Rgb albedo;   // 0 without a hit
     double range = 0.0;
     std::uint32_t shape = UINT32_MAX;
     std::uint32_t patch = kNoPatch;
@@ -59,16 +60,16 @@ class Gather {
   struct Mover {
     Surface surface;
     bool anchored = false;
-    std::uint32_t around = 0;  // the first of the surfaces that a point of a free one sees
+    std::uint32_t around = 0;  // of a free mover: index of its first surface in `around_`
   };
   struct Received {                   // from one lamp, by direction
-    std::uint64_t geometry = kNever;  // that `direct` belongs to
-    std::uint64_t stamp = kNever;     // of the solution that `reflected` belongs to
-    std::uint64_t located = kNever;   // the patches that it belongs to
-    bool stale = false;               // as that was
+    std::uint64_t geometry = kNever;  // of the source, for `direct`
+    std::uint64_t stamp = kNever;     // of the solution, for `reflected`
+    std::uint64_t located = kNever;   // the field's revision, for `reflected`
+    bool stale = false;               // of the source, for `reflected`
     bool lit = false;                 // any of `direct` is more than 0
-    bool any = false;                 // any of both is
-    std::vector<float> direct;        // lx, when nothing moves
+    bool any = false;                 // any of `direct` or `reflected` is
+    std::vector<float> direct;        // lx, without movers
     std::vector<Rgb> reflected;       // lx
   };
   Surface surface(const rays::Ray& ray, const rays::Hit& hit) const;
@@ -91,19 +92,19 @@ class Gather {
   std::vector<rays::Ray> rays_;
   std::vector<Surface> surfaces_;
   std::vector<Mover> movers_;
-  std::vector<std::uint32_t> before_;  // by direction: which mover hides the surface, or kNoMover
+  std::vector<std::uint32_t> before_;  // by direction: mover in front, or kNoMover
   std::vector<Surface> around_;
   std::size_t ways_ = 0;            // surfaces in `around_` for each free mover's point
-  std::vector<float> next_ranges_;  // m, by direction: from the surface on, to the next
-  std::vector<Rgb> between_;  // albedo of the moving shape before that; negative where none is
-  float left_ = 1.0F;         // share that moving shapes leave of light still farther back
+  std::vector<float> next_ranges_;  // m, by direction: from the surface to the next static one
+  std::vector<Rgb> between_;        // albedo of a moving shape before that one, or negative
+  float left_ = 1.0F;               // share of earlier bounces' light that movers do not absorb
   std::map<LampId, Received> received_;
   std::vector<std::uint32_t> patches_;      // of all surfaces, each once
-  std::vector<std::uint32_t> slots_;        // by direction: where its patch is in that list
-  std::uint64_t located_ = kNever;          // the field's revision that patches belong to
-  std::uint64_t movers_revision_ = kNever;  // the scene's, that `movers_` belong to
-  Eigen::AlignedBox3d fixed_reach_;  // of the ways between place and surfaces, and to the next
-  Eigen::AlignedBox3d reach_;        // and of those from what moves
+  std::vector<std::uint32_t> slots_;        // by direction: index of its patch in `patches_`
+  std::uint64_t located_ = kNever;          // the field's revision, for the patches
+  std::uint64_t movers_revision_ = kNever;  // the scene's revision, for `movers_`
+  Eigen::AlignedBox3d fixed_reach_;         // of the paths to the surfaces and on to the next ones
+  Eigen::AlignedBox3d reach_;               // also of the paths from movers
 };
 
 }  // namespace angen::light

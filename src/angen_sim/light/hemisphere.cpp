@@ -27,7 +27,7 @@ const std::vector<Vec3>& gather_directions() {
   return all;
 }
 
-/// Directions are cosine-weighted; an image plane weighs all its points alike.
+/// Corrects the cosine weights of the directions: an image plane weighs all its points equally.
 const std::vector<float>& view_weights() {
   static const std::vector<float> weights = [] {
     std::vector<double> all;

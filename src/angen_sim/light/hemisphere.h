@@ -12,13 +12,13 @@ constexpr std::size_t kDirections = 2048;
 /// Cosine-weighted, in the frame of the place, which faces x.
 const std::vector<Vec3>& gather_directions();
 
-/// By direction: its share of what the view sees.
+/// Weight of each direction in the view; their sum is 1.
 const std::vector<float>& view_weights();
 
 /// Whether the view's square image sees a direction of the place's frame.
 bool in_view(const Vec3& local);
 
-/// Of the image, on the plane 1 m ahead, in m^2.
+/// Area of the image on the plane 1 m ahead, m^2.
 double view_area();
 
 }  // namespace angen::light

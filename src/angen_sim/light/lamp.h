@@ -26,13 +26,13 @@ struct Lamp {
   double inner_angle = 0.0;                      // rad, spot: full angle of its evenly lit cone
   double outer_angle = 0.0;                      // rad, spot: full angle beyond which it is dark
   std::shared_ptr<const Photometry> photometry;  // of a point or spot, in place of its own
-  double photometric_flux = 0.0;                 // lm, of that
+  double photometric_flux = 0.0;                 // lm, of `photometry`
   bool cast_shadows = true;
 
   bool flat() const { return type == Type::kRectangle || type == Type::kDisc; }
 };
 
-/// A lamp that shines, and at what share of its flux.
+/// A lit lamp, with the share of its flux.
 struct Lit {
   Lamp lamp;
   double level = 0.0;

@@ -10,21 +10,21 @@
 namespace angen::light {
 namespace {
 
-constexpr std::int64_t kRaysAtOnce = 5000;  // some 1.5 ms
-// At some 4,000 and 5,000 rays a millisecond these are two thirds and a quarter of the time that
-// passes; what is kept lets small changes be found quickly.
+constexpr std::int64_t kRaysAtOnce = 5000;  // about 1.5 ms
+// At about 4,000 and 5,000 rays per ms, these are two thirds and a quarter of simulated time; the
+// kept rays process small changes quickly.
 constexpr Nanoseconds kPerSolvingRay = 400, kPerDeliveryRay = 800;
 constexpr std::int64_t kKeptRays = 500000, kKeptDeliveryRays = 200000;
-constexpr Nanoseconds kRest = kSecond / 10;  // changes are taken up when there was none for so long
+constexpr Nanoseconds kRest = kSecond / 10;  // changes are processed after this time without one
 constexpr Nanoseconds kLongestWait = kSecond;
-constexpr Nanoseconds kDarkFollow = kRest / 10;  // how often the dark looks for changes
+constexpr Nanoseconds kDarkFollow = kRest / 10;  // period of checks for changes in the dark
 
-/// Whether a lamp has no whole solution yet, not even an old one.
+/// Whether a lamp has no complete solution, not even a stale one.
 bool is_new(const std::shared_ptr<const Solution>& solution) {
   return solution == nullptr || solution->outlined;
 }
 
-/// A probe that outlives a Lighting (a world that was reset) knows nothing about the next one.
+/// Unique: a probe that outlives its Lighting (reset of the world) is unknown to the next one.
 std::uint64_t next_id() {
   static std::atomic<std::uint64_t> made{0};
   return made++;
@@ -107,7 +107,7 @@ std::shared_ptr<const ReflectedLight> Lighting::reflected() const {
   return reflected_;
 }
 
-/// Finds what the light of lamps depends on and has changed. Whether anything has.
+/// Marks the lamps and places that changed shapes affect. Returns whether any shape has changed.
 bool Lighting::follow() const {
   const std::vector<Field::Change> changes = field_->follow();
   if (changes.empty()) return false;
@@ -126,7 +126,7 @@ bool Lighting::follow() const {
   return true;
 }
 
-/// Finds all at once.
+/// Computes all light at once.
 void Lighting::complete() const {
   follow();
   if (field_->outdated() && !field_->updating()) field_->start_update();
@@ -171,8 +171,8 @@ bool Lighting::missing() const {
   return any;
 }
 
-/// Whether what has changed is to be taken up now: for a new lamp at once, else when all lamps are
-/// done that were due before.
+/// Whether to process changes now: at once for a new lamp, else when the lamps are solved that were
+/// due before.
 bool Lighting::due(Nanoseconds now) const {
   if (!waiting_) return false;
   if (missing()) return true;
@@ -187,7 +187,7 @@ void Lighting::take_up() {
   lamps_.each([](LampId, Entry& entry) { entry.due = entry.due || entry.stale; });
 }
 
-/// The lit lamp whose solution is found next: first new ones, then the others in turn.
+/// The lit lamp to solve next: first new ones, then the others in turn.
 std::optional<LampId> Lighting::next() const {
   std::optional<LampId> first, later, renewed;
   lamps_.each([&](LampId id, const Entry& entry) {
@@ -209,7 +209,7 @@ void Lighting::pick() {
   work_moved_ = false;
 }
 
-/// In the dark nobody sees a change before the next lamp is lit; it waits to be taken up anyway.
+/// While no lamp is lit, changes can wait.
 bool Lighting::may_wait(Nanoseconds now) const {
   const bool idle = dark() && !work_ && !field_->updating() && deliveries_.empty();
   return idle && now >= followed_ && now - followed_ < kDarkFollow;

@@ -37,52 +37,50 @@ class Lighting {
   void move(LampId lamp, const Pose& pose);
   std::vector<Lit> lit() const;  // those of a level above 0
   bool dark() const { return lit_count_ == 0; }
-  /// Grows when a lamp that is lit comes, goes, moves or changes its level.
+  /// Grows when a lit lamp is added, removed, moved or changes its level, and with each new result.
   std::uint64_t lit_revision() const { return lit_revision_; }
 
-  /// Illuminance at pose.position on the plane whose normal is pose's x axis, and the mean colour
+  /// Illuminance at pose.position on the plane whose normal is pose's x axis, and the mean color
   /// that a square pixel of 60 degrees along x sees: a mean luminance of L cd/m^2 gives L / (L +
-  /// 50) in each channel. Direct light with shadows, plus what diffuse surfaces reflect: balanced
-  /// between patches of all that is static or anchored, then gathered here over 2048 directions, in
-  /// which moving shapes block and reflect. Albedos above 0.9 count as 0.9. A shape around a lamp
-  /// or around the place keeps the light out, the sensor's own housing too: leave it out of the
-  /// scene or put the place before it. The scene must be committed. Same scene, same lamps, same
-  /// pose: same bits, whatever was measured before. One thread at a time. After pace() the light
-  /// between surfaces is what advance() has found so far: of a new lamp at first what comes
-  /// straight or after one reflection. All probes that are measured `ahead` share a budget of rays
-  /// for each tick. Where that is used up, or where surfaces are seen that no solution has reached
-  /// yet, a lamp counts as it was last found to, and advance() finds it anew. The first query of a
-  /// probe finds everything, unless expect() has been called. `still` says that since the last time
-  /// no shape has moved, come or gone within the probe's reach, so that lamps are not looked for
-  /// again whose light takes the same ways as then.
+  /// 50) in each channel. Direct light with shadows, plus diffuse reflections: radiosity between
+  /// the patches of static and anchored shapes, then a final gather over 2048 directions, in which
+  /// moving shapes block and reflect. Albedos above 0.9 count as 0.9. A shape around a lamp or
+  /// around the place keeps the light out, also the sensor's own housing: leave it out of the scene
+  /// or put the place in front of it. The scene must be committed. One thread at a time.
+  /// Same scene, lamps and pose give the same bits, whatever was measured before. After pace(), the
+  /// reflected light is the one that advance() has found so far; a new lamp has direct light and
+  /// one reflection at first. All probes that are measured `ahead` share a budget of rays for each
+  /// tick. When it is used up, or where no solution contains the surfaces in view, a lamp's last
+  /// known light counts, and advance() updates it. The first query of a probe computes everything,
+  /// unless expect() was called. `still`: no shape was moved, added or removed within the probe's
+  /// reach since the last query, so light on unchanged paths is not computed again.
   Sample measure(Probe& probe, const Pose& pose, bool still = false) const;
 
-  /// What surfaces reflect onto each other, of all lamps that are lit, as far as it is known; see
-  /// measure().
+  /// Light that surfaces reflect onto each other, of all lit lamps, as far as known; see measure().
   std::shared_ptr<const ReflectedLight> reflected() const;
 
   /// Whether the place has been measured before.
   bool knows(const Probe& probe) const { return probe.lighting == id_; }
 
-  /// From now on only advance() finds light between surfaces, but what measure() needs now. The
-  /// scene must be committed.
+  /// Computes all light between surfaces now. From then on only advance() does, and measure() where
+  /// it must. The scene must be committed.
   void pace();
-  /// Has advance() begin, so that less is left for pace().
+  /// Activates advance(), so that less is left for pace().
   void prepare();
-  /// The same, for a query of that probe some time later.
+  /// The same for a later query of that probe.
   void expect(Probe& probe, const Pose& pose);
-  /// Begins a tick: measure() has its budget again.
+  /// Begins a tick: resets the budget of measure().
   void begin_tick() { budget_ = kMeasureRays; }
-  /// Finds what measure() needs of the lamps that are lit: that of lamps that were switched on or
-  /// came, and anew where standing shapes have come, gone or moved, once they have rested for 0.1
-  /// s, or else once a second; and what of it comes to each probe that is measured `ahead`. It
-  /// takes some 5 ms of CPU time at most, and over time less than what passes. How long
-  /// it all takes depends on what happened and when (`now`), and on which of these probes there
-  /// are, not on what was measured. The scene must be committed.
+  /// Computes the reflected light of lit lamps: at once for new ones, and again where standing
+  /// shapes were added, removed or moved, after 0.1 s without a change, or else once a second. Then
+  /// computes the light at each probe that is measured `ahead`. Takes about 5 ms of CPU time at
+  /// most, and less than simulated time on average. When a result is complete depends on the events
+  /// and their times (`now`) and on these probes, not on what was measured. The scene must be
+  /// committed.
   void advance(Nanoseconds now);
-  /// Whether advance() has been asked for.
+  /// Whether prepare() or pace() was called.
   bool active() const { return active_; }
-  /// Whether advance() has something to do, as far as is known.
+  /// Whether advance() has something to do, as far as known.
   bool busy() const { return active_ && busy_; }
 
  private:
@@ -91,14 +89,14 @@ class Lighting {
     double level;
     std::shared_ptr<const Solution> solution;  // null until it has been lit
     std::uint64_t geometry = 0;                // see Source
-    bool stale = false;                        // lamp or shapes have changed since
-    bool due = false;                          // to be found anew
+    bool stale = false;                        // the lamp or shapes have changed since
+    bool due = false;                          // to be solved again
   };
   struct Delivery {
     std::weak_ptr<Receiver> receiver;
-    std::optional<LampId> lamp;  // without one only what the place sees is found
+    std::optional<LampId> lamp;  // without one, only the surfaces around the place are found
   };
-  static constexpr std::size_t kMeasureRays = 12000;  // some 4 ms
+  static constexpr std::size_t kMeasureRays = 12000;  // about 4 ms
 
   bool follow() const;
   void complete() const;
@@ -133,25 +131,25 @@ class Lighting {
   mutable Slots<Entry, LampTag> lamps_;
   std::unique_ptr<Field> field_;
   mutable std::vector<std::weak_ptr<Receiver>> receivers_;  // of all probes
-  mutable std::unique_ptr<Unfinished> work_;                // on the solution of `worked_on_`
-  bool work_moved_ = false;                                 // its lamp has, since
+  mutable std::unique_ptr<Unfinished> work_;                // for the solution of `worked_on_`
+  bool work_moved_ = false;                                 // its lamp has moved since
   LampId worked_on_;
   Allowance solving_;     // for light between surfaces
-  Allowance delivering_;  // for what of it comes to places
+  Allowance delivering_;  // for light at places
   mutable std::deque<Delivery> deliveries_;
-  mutable std::size_t budget_ = kMeasureRays;  // that measure() has left in this tick
+  mutable std::size_t budget_ = kMeasureRays;  // rays that measure() has left in this tick
   bool active_ = false;
   bool paced_ = false;
   mutable bool busy_ = false;
-  mutable bool changed_ = false;          // something, since the last advance()
+  mutable bool changed_ = false;          // since the last advance()
   bool waiting_ = false;                  // for changes to end
   Nanoseconds followed_ = INT64_MIN / 2;  // when advance() last looked for changes
-  Nanoseconds first_change_ = 0;          // of those that wait
-  Nanoseconds last_change_ = 0;           // the same
-  std::uint64_t id_;                      // no two Lightings share one
+  Nanoseconds first_change_ = 0;          // of the waiting changes
+  Nanoseconds last_change_ = 0;           // of the waiting changes
+  std::uint64_t id_;                      // unique
   std::size_t lit_count_ = 0;
   mutable std::shared_ptr<const ReflectedLight> reflected_;  // null until it is queried
-  mutable std::uint64_t reflected_revision_ = 0;             // the lit_revision_ that it is of
+  mutable std::uint64_t reflected_revision_ = 0;             // the lit_revision_ of `reflected_`
   std::uint64_t lit_revision_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// The part of Lighting that brings light to places.
+// The part of Lighting that computes the light at places.
 #include <algorithm>
 #include <utility>
 
@@ -9,18 +9,18 @@
 namespace angen::light {
 namespace {
 
-// Half of the color range: about what a white wall returns at 200 lx.
+// Half of the color range: about the luminance of a white wall at 200 lx.
 constexpr float kMiddleLuminance = 50.0F;     // cd/m^2
-constexpr std::int64_t kDeliveryRays = 5000;  // some 1 ms
-constexpr std::size_t kMaxReceivers = 256;    // before those are dropped that are gone
-// Costs in rays, measured; they decide only what a tick does.
-constexpr std::size_t kCostToSee = 8000;     // what stands around a place
-constexpr std::size_t kCostOfMovers = 2000;  // what moves before it
+constexpr std::int64_t kDeliveryRays = 5000;  // about 1 ms
+constexpr std::size_t kMaxReceivers = 256;    // from this number on, expired ones are removed
+// Measured costs in rays; they decide only how the work is divided into ticks.
+constexpr std::size_t kCostToSee = 8000;     // the surfaces around a place
+constexpr std::size_t kCostOfMovers = 2000;  // the movers in front of them
 constexpr std::size_t kCostOfLamp = 1500;
 constexpr std::size_t kCostOfFarLamp = 100;
 constexpr std::size_t kCostOfPatch = 500;  // with the patches that it sees
 
-/// Of what a lamp sends to a place, once the place's patches are counted.
+/// Cost of a lamp's light at a place whose patches are counted.
 std::size_t cost_of(const Gather& gather, const Source& source, bool with_movers) {
   if (!gather.may_see(source.solution.bounds)) return kCostOfFarLamp;
   return kCostOfLamp + (with_movers ? kCostOfMovers : 0);
@@ -76,7 +76,7 @@ void Lighting::queue_all(LampId lamp) const {
   each_ahead([&](const std::shared_ptr<Receiver>& receiver) { queue(receiver, lamp); });
 }
 
-/// Static shapes have changed in the box.
+/// Drops the surfaces of places that changes of static shapes in the box affect.
 void Lighting::drop_near(const Eigen::AlignedBox3d& box) const {
   for (const std::weak_ptr<Receiver>& each : receivers_) {
     const std::shared_ptr<Receiver> receiver = each.lock();
@@ -91,8 +91,8 @@ Source Lighting::source(LampId id, const Entry& entry) const {
   return {id, entry.lamp, *entry.solution, entry.geometry, entry.stale};
 }
 
-/// Of what a transport is found from, but what moves. While the solution is stale each step of the
-/// field's update counts.
+/// Identifies the inputs of a transport except movers. Of a stale solution, the begin and end of
+/// each update of the field count.
 std::uint64_t Lighting::key_of(const Source& source) const {
   std::uint64_t key = source.solution.stamp;
   const std::uint64_t field = source.stale ? ~field_->revision() : field_->updates();
@@ -106,7 +106,7 @@ void Lighting::see(Receiver& receiver) const {
   if (!receiver.gather) receiver.gather = std::make_unique<Gather>(scene_, *field_, receiver.pose);
 }
 
-/// Of a lamp whose light comes to nothing that the place sees, only what comes straight counts.
+/// A lamp that lights no surface in view of the place gives direct light only.
 void Lighting::find(Receiver& receiver, const Source& source) const {
   see(receiver);
   Eigen::AlignedBox3d reach(receiver.pose.position);
@@ -121,7 +121,7 @@ void Lighting::find(Receiver& receiver, const Source& source) const {
   known.scene = scene_.revision();
 }
 
-/// Whether the lamp's light is found now: as much as the tick's budget takes.
+/// Whether the tick's budget pays for the lamp's light; subtracts the cost.
 bool Lighting::affords(Receiver& receiver, const Source& source) const {
   if (!receiver.gather && !take(kCostToSee, budget_)) return false;
   see(receiver);
@@ -142,7 +142,7 @@ Sample Lighting::measure(Probe& probe, const Pose& pose, bool still) const {
   const bool bounded = ahead && place.begun;
   place.begun = true;
   probe.reach = Eigen::AlignedBox3d(pose.position);
-  // A dark lamp's transport is left for when it is lit; each lamp's is independent of the others'.
+  // A dark lamp's transport is computed when it is lit; lamps are independent of each other.
   double illuminance = 0.0;
   Eigen::Array3f radiance = Eigen::Array3f::Zero();
   lamps_.each([&](LampId id, const Entry& entry) {
@@ -152,7 +152,7 @@ Sample Lighting::measure(Probe& probe, const Pose& pose, bool still) const {
       if (!place.of(id).holds(key_of(from), scene_.revision())) {
         if (!bounded) see(place);
         if (ahead && !bounded && !take(place.gather->lacking(from) * kCostOfPatch, budget_)) {
-          from.stale = true;  // at first it is without the light that no solution follows so far
+          from.stale = true;  // the first value lacks light that no solution has followed yet
           queue(probe.receiver, id);
         }
         if (!bounded || affords(place, from)) {
@@ -181,8 +181,8 @@ void Lighting::expect(Probe& probe, const Pose& pose) {
   });
 }
 
-/// Finds ahead of measure() what comes to places. Costs count whether or not measure() has found
-/// some of it before, so that it leaves no trace.
+/// Computes the light at places ahead of measure(). Counts the cost even if measure() has computed
+/// some of it, so that queries leave no trace.
 void Lighting::deliver() {
   const std::int64_t allowed = std::min(kDeliveryRays, delivering_.left());
   std::int64_t left = allowed;
@@ -198,7 +198,7 @@ void Lighting::deliver() {
   delivering_.spend(allowed - left);
 }
 
-/// False where it goes on in a later tick.
+/// False if it continues in a later tick.
 bool Lighting::deliver(Receiver& receiver, LampId lamp, std::int64_t& left) {
   if (!lamps_.contains(lamp)) return true;
   const Entry& entry = lamps_.at(lamp);

@@ -19,8 +19,7 @@ Between between(const std::vector<double>& angles, double angle) {
   return {low, (angle - angles[low]) / (angles[low + 1] - angles[low])};
 }
 
-/// The angle about the axis, as far as the planes given repeat: all around,
-/// halves or quarters.
+/// The angle about the axis, folded by the symmetry of the given planes: none, halves or quarters.
 double folded(double about, double last) {
   double angle = std::fmod(about, 2.0 * M_PI);
   if (angle < 0.0) angle += 2.0 * M_PI;
@@ -29,8 +28,7 @@ double folded(double about, double last) {
   return angle;
 }
 
-/// The integral of I sin(angle) over one plane, I straight between the angles
-/// given.
+/// The integral of I sin(angle) over one plane, with I linear between the given angles.
 double over_plane(const Photometry& luminaire, std::size_t plane) {
   const std::vector<double>& angles = luminaire.vertical;
   double sum = 0.0;

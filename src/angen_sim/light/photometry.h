@@ -4,12 +4,11 @@
 
 namespace angen::light {
 
-/// Candela in a direction, between those given: `vertical` rad from where the
-/// luminaire shines, `about` rad about that from its x axis. Beyond the
-/// vertical angles given it is dark.
+/// Candela in a direction, interpolated linearly: `vertical` rad from the luminaire's axis, `about`
+/// rad about the axis from x. 0 outside of the given vertical angles.
 double intensity(const Photometry& luminaire, double vertical, double about);
 
-/// lm, all that it emits.
+/// Total luminous flux, lm.
 double flux(const Photometry& luminaire);
 
 }  // namespace angen::light

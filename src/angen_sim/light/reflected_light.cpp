@@ -13,8 +13,8 @@ namespace {
 using Piece = ReflectedLight::Piece;
 
 constexpr float kNearPoint = 0.6F, kFar = 2.4F;  // m
-constexpr float kMerged = 1.2F;  // m, of cells whose pieces are one from farther away
-// What lies off the plane of a surface is another surface, at a third of the distance already.
+constexpr float kMerged = 1.2F;  // m, side of cells whose pieces are merged for larger distances
+// Factor of distances off the plane of a surface: a piece there is part of another surface.
 constexpr float kOffPlane = 3.0F;
 constexpr float kMinWeight = 1e-3F;
 constexpr float kLift = 0.02F;   // m off the surfaces that pieces are looked for
@@ -32,7 +32,7 @@ Eigen::AlignedBox3f box_of(const Eigen::Vector3i& cell, float step, float margin
   return {low.array() - margin, low.array() + step + margin};
 }
 
-/// 0 to 5: the axis and its direction that a normal is nearest to.
+/// 0 to 5: the signed axis nearest to a normal.
 int axis_of(const Eigen::Vector3f& normal) {
   int axis = 0;
   normal.cwiseAbs().maxCoeff(&axis);
@@ -64,7 +64,7 @@ class Heaviest {
     all_[at] = {&piece, weight};
   }
 
-  /// The mean of those that can be seen; false: none can.
+  /// The mean light of the visible ones; false if there are none.
   bool mean(const Eigen::Vector3f& from, const ReflectedLookup::Visible& visible,
             Eigen::Vector3f& out) const {
     if (count_ == 0) return false;
@@ -160,7 +160,7 @@ void ReflectedLight::Lattice::near(const Eigen::AlignedBox3f& box, Visit&& visit
 ReflectedLight::ReflectedLight(const std::vector<Piece>& pieces)
     : fine_(pieces, kNearPoint), coarse_(Lattice(pieces, kMerged).merged(), kFar) {}
 
-/// Those that may face the same way, near the point's cell.
+/// Pieces near the point's cell that may face the same way.
 const std::vector<Piece>& ReflectedLookup::alike(const Eigen::Vector3f& point,
                                                  const Eigen::Vector3f& normal) {
   const int nearest = axis_of(normal);

@@ -9,12 +9,12 @@
 
 namespace angen::light {
 
-/// What surfaces reflect onto others, in pieces.
+/// Reflected light on surfaces, in pieces.
 class ReflectedLight {
  public:
   struct Piece {
     Eigen::Vector3f position;  // m, world
-    Eigen::Vector3f normal;    // unit, to the side that is lit
+    Eigen::Vector3f normal;    // unit, on the lit side
     Eigen::Vector3f light;     // lx, r g b
   };
 
@@ -25,13 +25,13 @@ class ReflectedLight {
 
   struct Cell {
     std::uint64_t key = 0;
-    std::uint32_t first = 0;  // of its pieces
+    std::uint32_t first = 0;  // index of its first piece
     std::uint32_t count = 0;
   };
-  /// The pieces of a cubic lattice of that step, m, by cell.
+  /// Pieces sorted by cells of a cubic lattice of that step, m.
   struct Lattice {
     Lattice(const std::vector<Piece>& from, float step);
-    /// One piece a cell and axis that normals are nearest to: the mean of theirs.
+    /// The mean piece for each cell and each axis nearest to normals.
     std::vector<Piece> merged() const;
     template <class Visit>
     void near(const Eigen::AlignedBox3f& box, Visit&& visit) const;
@@ -45,8 +45,7 @@ class ReflectedLight {
   Lattice coarse_;
 };
 
-/// An estimate of reflected light for any place. Remembers which pieces are near; one for each
-/// picture.
+/// Estimates reflected light at any place. Caches nearby pieces; make one for each image.
 class ReflectedLookup {
  public:
   static constexpr int kMax = 16;  // pieces that count at one place
@@ -58,8 +57,8 @@ class ReflectedLookup {
       : light_(light), visible_(std::move(visible)) {}
 
   /// lx, r g b, on a surface at `point` (m, world) with that unit normal: the mean of visible
-  /// pieces within 0.6 m that face the same way, nearer ones counting more. Where there are none,
-  /// as on a person in the middle of a room, that of pieces within 2.4 m that face the point.
+  /// pieces within 0.6 m that face the same way, weighted by distance. If there are none, as on a
+  /// person in the middle of a room, that of pieces within 2.4 m that face the point.
   Eigen::Vector3f at(const Eigen::Vector3f& point, const Eigen::Vector3f& normal);
 
  private:

@@ -9,13 +9,13 @@ namespace angen::light {
 namespace {
 
 constexpr double kCell = 0.4;       // m
-constexpr double kPlaneCell = 1.0;  // m: planes go on for ever
-constexpr double kPart = 0.1;       // m, a side of the parts of a cell that is divided
+constexpr double kPlaneCell = 1.0;  // m: planes are infinite
+constexpr double kPart = 0.1;       // m, side of the parts of a divided cell
 constexpr int kSitesPerSide = 4;    // of a cell
 constexpr std::size_t kSites = std::size_t{kSitesPerSide} * kSitesPerSide;
 constexpr int kFineSitesPerSide = 2;
-constexpr double kSiteLift = 0.01;  // m: how far off a surface its sites must see each other
-constexpr double kOff = 1e-3;       // m: what is nearer than this covers a surface
+constexpr double kSiteLift = 0.01;  // m off the surface, for visibility between its sites
+constexpr double kOff = 1e-3;       // m: a closer shape covers a surface
 constexpr std::uint32_t kDivided = kNoPatch - 1;
 
 bool rounded(Shape::Type type) {
@@ -69,7 +69,7 @@ std::uint32_t Surfaces::at(std::uint32_t shape, const Vec3& point, const Vec3& n
   const int axis = dominant(outward);
   const int face = 2 * axis + (outward[axis] > 0.0 ? 0 : 1);
   const Lattice cells = lattice(shape, face);
-  // Which of the sheets that lie one behind the other along the axis.
+  // Number of the surface's layer along the axis.
   int depth = 0;
   if (placement.type == Shape::Type::kBox) depth = local[axis] > 0.0 ? 1 : 0;
   if (rounded(placement.type)) depth = local.dot(outward) > 0.0 ? 1 : 0;
@@ -117,7 +117,7 @@ std::uint32_t Surfaces::make(const Key& key) {
   return found->second;
 }
 
-/// Also counts those on which something stands.
+/// Also counts the sites that a shape covers.
 std::vector<Site> Surfaces::sites(const Key& key, int per_side, int& covered) const {
   const Lattice cells = lattice(static_cast<std::uint32_t>(key[0]), key[1]);
   const Eigen::Array2d step = key[5] == 1 ? Eigen::Array2d(cells.step / cells.parts) : cells.step;
@@ -138,7 +138,7 @@ std::vector<Site> Surfaces::sites(const Key& key, int per_side, int& covered) co
   return {found.begin(), found.begin() + count};
 }
 
-/// Casts rays at the shape alone, straight along the face's axis.
+/// Casts a ray at this shape only, along the face's axis.
 bool Surfaces::site(const Lattice& cells, const Key& key, double u, double v, Site& out) const {
   const rays::Placement& placement = cells.placement;
   const int axis = cells.axis;
@@ -169,7 +169,7 @@ bool Surfaces::site(const Lattice& cells, const Key& key, double u, double v, Si
   return dominant(local) == axis;
 }
 
-/// Whether the sites fall into groups that do not see each other, along the surface.
+/// Whether the sites form groups that do not see each other along the surface.
 bool Surfaces::parted(const std::vector<Site>& sites) const {
   std::vector<std::size_t> reached{0};
   std::vector<bool> seen(sites.size(), false);
@@ -195,7 +195,7 @@ bool Surfaces::parted(const std::vector<Site>& sites) const {
   return reached.size() != sites.size();
 }
 
-/// Whether something stands close before any of the sites: light differs much along such gaps.
+/// Whether a shape is close in front of any site: light varies strongly along such gaps.
 bool Surfaces::faced(const std::vector<Site>& sites) const {
   return std::any_of(sites.begin(), sites.end(), [&](const Site& site) {
     return scene_.blocked(site.position, site.position + kFacing * site.normal, kOff, kStanding);

@@ -10,32 +10,32 @@
 namespace angen::light {
 
 constexpr std::uint32_t kNoPatch = UINT32_MAX;
-constexpr double kFacing = 0.4;  // m: what stands so near before a surface divides its cells
+constexpr double kFacing = 0.4;  // m: a shape this close in front of a surface divides its cells
 
 /// Static and anchored shapes: light is balanced between them.
 constexpr rays::Mobilities kStanding =
     rays::only(rays::Mobility::kStatic) | rays::only(rays::Mobility::kAnchored);
 
-/// A point of a patch where nothing covers it.
+/// A point of a patch that no shape covers; m, world.
 struct Site {
   Vec3 position;
   Vec3 normal;
 };
 
-/// A piece of one shape's surface of about 0.4 m (0.1 m where something stands on a part of it or
-/// close before it), seen from one side, lit as one.
+/// A piece of one side of a shape's surface of about 0.4 m (0.1 m if a shape covers a part of it or
+/// is close in front of it), with one illuminance.
 struct Patch {
   std::array<std::int32_t, 6> key;  // shape, face, depth, u, v, level
   std::uint64_t hash = 0;
   std::vector<Site> sites;
-  std::uint64_t serial = 0;  // no two patches have had the same
+  std::uint64_t serial = 0;  // unique over all patches ever made
   bool alive = true;         // not forgotten since
 
   bool is_part() const { return key[5] != 0; }  // of a divided cell
 };
 
-/// Patches, found when they are first hit. What a patch is depends on the shapes alone, not on
-/// what hit them first.
+/// Patches, made when they are first hit. A patch depends on the shapes only, not on the ray that
+/// hit it first.
 class Surfaces {
  public:
   explicit Surfaces(const rays::Scene& scene) : scene_(scene) {}
@@ -47,12 +47,12 @@ class Surfaces {
   std::uint64_t serials() const { return serials_; }    // given so far, from 1 on
   std::size_t size() const { return patches_.size(); }  // numbers given so far, removed or not
 
-  /// Forgets the patches of one shape, or those of it that may meet a box (m, world). Appends their
-  /// numbers to `gone`; they stay what they were until release().
+  /// Forgets the patches of one shape, or those of it that may intersect a box (m, world). Appends
+  /// their numbers to `gone`; they can be read until release().
   void forget(std::uint32_t shape, std::vector<std::uint32_t>& gone);
   void forget_near(std::uint32_t shape, const Eigen::AlignedBox3d& box,
                    std::vector<std::uint32_t>& gone);
-  /// Lets the numbers of forgotten patches be given anew.
+  /// Frees the numbers of forgotten patches.
   void release(const std::vector<std::uint32_t>& gone);
 
  private:
@@ -65,7 +65,7 @@ class Surfaces {
     int axis = 0;
     double sign = 1.0;
     Eigen::Array2d low, step;  // m, of cells
-    Eigen::Array2d parts;      // of the sides of a cell that is divided
+    Eigen::Array2d parts;      // number along the sides of a divided cell
   };
 
   Lattice lattice(std::uint32_t shape, int face) const;

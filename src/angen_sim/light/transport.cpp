@@ -10,7 +10,7 @@
 namespace angen::light {
 namespace {
 
-constexpr std::size_t kViewPoints = 16;                    // of a flat lamp or a tube
+constexpr std::size_t kViewPoints = 16;                    // sample points of a flat lamp or a tube
 const Rgb kLuminance = {0.2126F, 0.7152F, 0.0722F, 0.0F};  // Rec. 709
 
 struct Direct {
@@ -31,8 +31,7 @@ Direct direct(const rays::Scene& scene, const Pose& pose, const Lamp& lamp,
   Direct out;
   out.illuminance = free * share;
   if (lamp.type == Lamp::Type::kDirectional) return out;
-  // The lamp covers (1 / x^3) of its solid angle on the image plane: what it
-  // sends is the same whatever its size.
+  // A solid angle w covers w / x^3 of the image plane, so the lamp's size does not matter.
   const bool extended = lamp.flat() || lamp.type == Lamp::Type::kTube;
   const std::size_t points = extended ? kViewPoints : 1;
   for (std::size_t i = 0; i < points; ++i) {
