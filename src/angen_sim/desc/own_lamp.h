@@ -5,21 +5,22 @@
 #include "core/text.h"
 #include "desc/world.h"
 
-/// What SDF leaves open of lights: how bright they are, and who switches those that no plug-in has.
+/// Properties of lights that SDF does not define: brightness, and the plug-in of lights without
+/// one.
 namespace angen::desc {
 
-// SDF gives lights no photometric unit: intensity 1 at full diffuse stands for
-// a common lamp, or for overcast daylight.
+// SDF gives lights no photometric unit: intensity 1 at full diffuse means a common lamp, or
+// overcast daylight.
 constexpr double kPointFlux = 800.0;             // lm
 constexpr double kDirectionalIlluminance = 1e3;  // lx
 
-/// A black one is dark whatever its level is.
+/// Whether the light can be lit; a black one is dark at any level.
 inline bool shines(const Light& light) {
   return light.intensity > 0.0 && light.diffuse.maxCoeff() > 0.0F;
 }
 
-/// At full level: lm in all directions, of a directional light lx. A black one would give what a
-/// white one does.
+/// At full level: lm in all directions; lx for a directional light. A black light counts as a white
+/// one of intensity 1.
 inline double brightness(const Light& light) {
   const double given = shines(light) ? light.intensity * light.diffuse.maxCoeff() : 1.0;
   return given * (light.type == Light::Type::kDirectional ? kDirectionalIlluminance : kPointFlux);

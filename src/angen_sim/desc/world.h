@@ -25,8 +25,8 @@ namespace angen::desc {
 struct Material {
   Eigen::Vector4f diffuse{0.7F, 0.7F, 0.7F, 1.0F};  // r g b a, 0..1; r g b also serve as albedo
   Eigen::Vector4f emissive{0.0F, 0.0F, 0.0F, 1.0F};
-  std::shared_ptr<const MeshLook> look;  // that the file of a mesh has, where SDF has none
-  // Of the look's parts, null where one has none; otherwise the one of all, if there is any.
+  std::shared_ptr<const MeshLook> look;  // of the mesh's file, if SDF has none
+  // One for each part of the look, or null; without a look one for all, if there is any.
   std::vector<std::shared_ptr<const Texture>> textures;
 };
 
@@ -55,7 +55,7 @@ struct Visual {
   Pose pose;  // in the link's frame
   Shape shape;
   Material material;
-  std::optional<double> temperature;  // K, of its surface; as the air around it where not given
+  std::optional<double> temperature;  // K, of its surface; that of the air if not given
 };
 
 struct Inertial {
@@ -78,11 +78,11 @@ struct Light {
   double width = 0.0;       // m, rectangle: along its own x axis (y, where it shines along x)
   double height = 0.0;      // m, rectangle: across
   double length = 0.0;      // m, tube: along its own x axis (y, where it shines along x)
-  double radius = 0.0;      // m, disc, tube, and the globe of a point or spot; 0 for a common one
-  double half_angle = 0.0;  // rad, spot: where its intensity is half of that ahead; 0 for cones
+  double radius = 0.0;      // m, disc, tube, and the sphere of a point or spot; 0 = default
+  double half_angle = 0.0;  // rad, spot: angle to half the axial intensity; 0 = use the cones
   std::shared_ptr<const Photometry> photometry;  // of a point or spot; null for none
   bool cast_shadows = true;
-  std::optional<double> level;  // percent at the start, of one that is a lamp without a plug-in
+  std::optional<double> level;  // percent at the start, of a lamp without a plug-in
   Source source;
 };
 
@@ -105,7 +105,7 @@ struct Link {
   bool gravity = true;
   bool kinematic = false;
   bool upright = false;              // never tilts: rotates about world z only (people)
-  std::optional<bool> self_collide;  // where it differs from its model's
+  std::optional<bool> self_collide;  // if it differs from its model's
   std::vector<Collision> collisions;
   std::vector<Visual> visuals;
   std::vector<Sensor> sensors;
@@ -113,7 +113,7 @@ struct Link {
   Source source;
 };
 
-/// URDF's <safety_controller>: bounds on what drives the joint, tighter near its soft limits.
+/// URDF's <safety_controller>: limits of the joint's drive, tighter near its soft limits.
 struct JointSafety {
   double soft_lower = -1e16;  // rad or m
   double soft_upper = 1e16;
@@ -159,15 +159,14 @@ struct Model {
   bool is_static = false;
   bool allow_auto_disable = true;
   bool self_collide = false;
-  bool tolerant = false;  // what its plug-ins do not know is a warning
+  bool tolerant = false;  // unknown parameters of its plug-ins are warnings
   std::vector<Link> links;
   std::vector<Joint> joints;
   std::vector<Plugin> plugins;
-  std::string xml;  // as it stood in its file (an <include>, <model> or <actor>), for `save`
-  std::string expanded_xml;  // where xml holds includes: the same with them written out
-  std::vector<Diagnostic>
-      warnings;                     // of a model that was loaded by itself; else the world has them
-  std::vector<Diagnostic> ignored;  // the same, as the world's
+  std::string xml;           // as in its file (an <include>, <model> or <actor>), for `save`
+  std::string expanded_xml;  // if xml has includes: the same, with them expanded
+  std::vector<Diagnostic> warnings;  // of a model that was loaded alone; else the world has them
+  std::vector<Diagnostic> ignored;   // as the warnings
   Source source;
 };
 
@@ -177,7 +176,7 @@ struct Physics {
   int iterations = 50;
   double erp = 0.2;
   double cfm = 0.0;
-  double contact_max_correcting_vel = 1.0;  // m/s; SDF's 100 lets what overlaps deeply fly away
+  double contact_max_correcting_vel = 1.0;  // m/s; at SDF's 100, deeply overlapping bodies fly away
   double contact_surface_layer = 0.001;     // m
 };
 
@@ -192,8 +191,8 @@ struct World {
   Vec3 gravity{0.0, 0.0, -9.81};  // m/s^2
   Physics physics;
   Scene scene;
-  double ambient_temperature = 295.15;  // K, of the air and of all that has no temperature given
-  bool tolerant = false;                // as each of its models, also those that are spawned
+  double ambient_temperature = 295.15;  // K, of the air and of surfaces without a temperature
+  bool tolerant = false;                // as each of its models, also spawned ones
   std::vector<Light> lights;
   std::vector<Model> models;
   std::vector<Plugin> plugins;

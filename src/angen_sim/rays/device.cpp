@@ -7,7 +7,7 @@ namespace angen::rays {
 // One for the process: a second device would start a worker.
 RTCDevice device() {
   static const Embree<RTCDevice> shared(rtcNewDevice("threads=1"));
-  if (!shared) throw std::runtime_error("Embree gives no device on this machine");
+  if (!shared) throw std::runtime_error("Embree cannot create a device on this machine");
   return shared.get();
 }
 

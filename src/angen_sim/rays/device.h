@@ -7,7 +7,7 @@
 
 namespace angen::rays {
 
-/// Embree counts references; these give one back.
+/// Releases a reference to an object of Embree.
 struct ReleaseEmbree {
   void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
   void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
@@ -16,10 +16,11 @@ struct ReleaseEmbree {
 template <class Handle>
 using Embree = std::unique_ptr<std::remove_pointer_t<Handle>, ReleaseEmbree>;
 
-/// The process's one device; it has no threads of its own.
+/// The process's only device, without threads of its own. Throws std::runtime_error if Embree
+/// fails.
 RTCDevice device();
 
-/// A scene whose only geometry is a list of primitives that our own functions bound and meet.
+/// A scene whose only geometry is a list of primitives that our own functions bound and intersect.
 struct Hierarchy {
   Embree<RTCScene> scene;
   Embree<RTCGeometry> geometry;
@@ -27,7 +28,8 @@ struct Hierarchy {
   Hierarchy(RTCBoundsFunction bounds, RTCIntersectFunctionN intersect,
             RTCOccludedFunctionN occluded);
 
-  /// Rebuilds over `count` primitives; `data` is handed to the functions and must stay.
+  /// Rebuilds over `count` primitives; passes `data`, which must outlive the hierarchy, to the
+  /// functions.
   void build(const void* data, std::size_t count);
 };
 

@@ -133,7 +133,7 @@ void HeightTree::visit(std::size_t level, std::uint32_t column, std::uint32_t ro
     visit_cells(column * kBlock, row * kBlock, q);
     return;
   }
-  // The nearer ones first: what they hold spares the others.
+  // Nearer blocks first: a hit in them excludes the others.
   const std::uint32_t near_column = q.direction.x() >= 0.0 ? 0 : 1;
   const std::uint32_t near_row = q.direction.y() >= 0.0 ? 1 : 0;  // y falls with the row
   for (std::uint32_t i = 0; i < 4; ++i) {

@@ -8,13 +8,13 @@
 
 namespace angen::rays {
 
-/// The triangles of a heightmap. They are worked out when a ray comes near: only the lowest and
-/// greatest height of each block of cells is kept, of four such blocks, and so on.
+/// The triangles of a heightmap, computed when a ray comes near. Stores only the range of heights
+/// of each block of cells, of four such blocks, and so on.
 class HeightTree : public TriangleTree {
  public:
   explicit HeightTree(std::shared_ptr<const HeightGrid> grid);
 
-  /// The one of this grid: kept and shared while somebody uses it. Null where there are no heights.
+  /// The shared tree of a grid, kept while it is used; null if the grid has no heights.
   static std::shared_ptr<const HeightTree> of(const std::shared_ptr<const HeightGrid>& grid);
 
   bool meet(const Vec3& origin, const Vec3& direction, double min, double max, double& range,

@@ -48,10 +48,10 @@ bool query_inside(RTCPointQueryFunctionArguments* args) {
   const Solid& solid = (*cover.solids)[args->primID];
   if (solid.slot == cover.except || !(cover.fixed || solid.anchored)) return false;
   cover.found = cover.found || contains(solid, cover.point);
-  return false;  // the query's radius stays
+  return false;  // keeps the query's radius
 }
 
-// Embree asserts that what it gets is below 1.8e18.
+// Embree asserts that coordinates are below 1.8e18.
 bool fit_for_embree(const Vec3& v) { return (v.array().abs() < 1e18).all(); }
 
 }  // namespace
@@ -97,7 +97,7 @@ void Layer::commit() {
   changed_ = Changed::kNothing;
 }
 
-// Who asks for what stands needs no new hierarchy at each step of what moves.
+// A query of standing shapes needs no rebuild after moving shapes have moved.
 void Layer::prepare(Mobilities among) const {
   const Changed matters = (among & only(Mobility::kMoving)) != 0 ? Changed::kMoved : Changed::kAny;
   if (unbuilt_ < matters) return;
@@ -139,7 +139,7 @@ bool Layer::covers(const Vec3& point, std::uint32_t except) const {
   cover.except = except;
   cover.fixed = fixed;
   const Eigen::Vector3f at = point.cast<float>();
-  RTCPointQuery query{at.x(), at.y(), at.z(), 0.0F, 1e-5F};  // m, what floats lose
+  RTCPointQuery query{at.x(), at.y(), at.z(), 0.0F, 1e-5F};  // m, the rounding of floats
   rtcPointQuery(tree_.scene.get(), &query, &cover.context, query_inside, &cover);
   return cover.found;
 }

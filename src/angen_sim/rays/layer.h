@@ -11,17 +11,18 @@
 
 namespace angen::rays {
 
-/// One ray, and the nearest of what it has met so far.
+/// One ray, and its nearest hit so far.
 struct SceneQuery {
-  RTCIntersectContext context;  // first: Embree hands back its address
+  RTCIntersectContext context;  // first member: Embree returns its address
   Vec3 origin, direction;
   double min;
   Meeting best;        // range starts at the ray's max
   std::uint64_t rank;  // of the best so far; the lower wins a tie
   const Solid* solid;
-  bool anchored, moving;  // which of those that can move are met
+  bool anchored, moving;  // which of the movable shapes it can hit
 
-  /// False for a ray that meets nothing by definition: not finite, no direction, an empty interval.
+  /// False for a ray that cannot hit anything: not finite, without direction, with an empty
+  /// interval.
   bool prepare(const Vec3& from, const Vec3& towards, double nearest, double farthest,
                Mobilities among);
   bool prepare(const Ray& ray, Mobilities among) {
@@ -42,11 +43,11 @@ struct SceneQuery {
   Hit hit() const;
 };
 
-/// What has changed of a layer, the lesser first: places of moving shapes; anything else.
+/// Changes of a layer, ascending: none, places of moving shapes, any other.
 enum class Changed { kNothing, kMoved, kAny };
 
-/// The shapes that stand, or those that can move: those with a box in a hierarchy, planes (which
-/// have none) beside it.
+/// The static shapes or the movable ones: bounded shapes in a hierarchy, and planes, which have no
+/// box.
 class Layer {
  public:
   explicit Layer(bool fixed);
@@ -57,33 +58,33 @@ class Layer {
 
   void change(Changed changed) { changed_ = std::max(changed_, changed); }
   bool changed() const { return changed_ != Changed::kNothing; }
-  /// The next query takes the changes into account.
+  /// Makes the changes visible to the next query.
   void commit();
 
   std::vector<Solid>& list(Shape::Type type) {
     return type == Shape::Type::kPlane ? planes : bounded;
   }
 
-  /// Whether it may hold any of these.
+  /// Whether it may contain shapes of these mobilities.
   bool holds(Mobilities among) const {
     constexpr Mobilities kStanding = only(Mobility::kStatic);
     return (among & (fixed ? kStanding : kAll & ~kStanding)) != 0;
   }
 
-  /// Rebuilds the hierarchy where queries among these would miss what has changed. Queries may come
-  /// from several threads.
+  /// Rebuilds the hierarchy if queries among these depend on the changes. Several threads may call
+  /// it.
   void prepare(Mobilities among) const;
-  /// Takes into account what lies nearer here than the best so far. Requires prepare().
+  /// Replaces the query's best hit by a nearer one of this layer. Requires prepare().
   void nearest(SceneQuery& q) const;
-  /// Whether the ray meets anything here. Requires prepare().
+  /// Whether the ray hits a shape of this layer. Requires prepare().
   bool any(SceneQuery& q) const;
-  /// Whether a static or anchored solid with a box, other than `except`, has the point inside.
+  /// Whether a bounded static or anchored solid other than `except` contains the point (m, world).
   /// Requires prepare().
   bool covers(const Vec3& point, std::uint32_t except) const;
 
  private:
   Changed changed_ = Changed::kNothing;                      // since the last commit()
-  mutable std::atomic<Changed> unbuilt_{Changed::kNothing};  // until then, since it was built
+  mutable std::atomic<Changed> unbuilt_{Changed::kNothing};  // committed since it was built
   mutable std::mutex building_;
   mutable Hierarchy tree_;
 };

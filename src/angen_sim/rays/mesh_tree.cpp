@@ -17,7 +17,7 @@ Corners corners(const TriangleMesh& mesh, std::uint32_t triangle) {
 }
 
 struct Query {
-  RTCIntersectContext context;  // first: Embree hands back its address
+  RTCIntersectContext context;  // first member: Embree returns its address
   const TriangleMesh* mesh;
   Vec3 origin, direction;
   double min, range;

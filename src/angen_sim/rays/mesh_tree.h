@@ -8,7 +8,7 @@
 
 namespace angen::rays {
 
-/// The triangles of a mesh, in a hierarchy of Embree's.
+/// The triangles of a mesh, in a hierarchy of Embree.
 class MeshTree : public TriangleTree {
  public:
   explicit MeshTree(std::shared_ptr<const TriangleMesh> mesh);

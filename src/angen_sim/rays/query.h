@@ -19,7 +19,7 @@ inline RTCBounds padded(const Eigen::AlignedBox3d& box) {
   };
   RTCBounds out{};
   if (box.isEmpty() || !box.min().allFinite() || !box.max().allFinite()) {
-    // Embree leaves out a primitive whose box is inside out.
+    // Embree skips a primitive with an inverted box.
     out.lower_x = out.lower_y = out.lower_z = std::numeric_limits<float>::infinity();
     out.upper_x = out.upper_y = out.upper_z = -std::numeric_limits<float>::infinity();
     return out;

@@ -80,7 +80,7 @@ void RayCache::pack() {
   }
 }
 
-/// Nothing farther than these hits is of interest.
+/// Limits the rays of the packets to these hits.
 void RayCache::clip(const std::vector<Hit>& hits) {
   for (std::size_t i = 0; i < rays_.size(); ++i) {
     if (!usable(rays_[i])) continue;
@@ -105,7 +105,7 @@ bool RayCache::cast_against(const Scene& scene, const std::vector<ShapeId>& move
   return met;
 }
 
-// The slab test of Kay and Kajiya 1986, on boxes padded as those that Embree is given.
+// Slab test (Kay and Kajiya 1986), on boxes padded as for Embree.
 bool RayCache::cast_mover(const Scene& scene, ShapeId mover, const Eigen::AlignedBox3d& box,
                           Hit* hits) const {
   bool met = false;

@@ -6,29 +6,30 @@
 
 namespace angen::rays {
 
-/// Rays that stay where they are. Their hits on static shapes are cached; cast() then takes the
-/// movers that are near and casts only those rays that may hit one. Movers that stand still may be
-/// added to the cache, too. Its hits are bit for bit those of Scene::cast.
+/// Caches the hits of fixed rays on static shapes; cast() then tests nearby movers against those
+/// rays only that may hit one. Settled movers may be cached, too. Its hits are bit for bit those of
+/// Scene::cast.
 class RayCache {
  public:
-  /// Measures; the scene must be committed.
+  /// Calls measure(); the scene must be committed.
   RayCache(std::vector<Ray> rays, const Scene& scene);
 
-  /// The same rays anew, after static shapes came, went or moved. The scene must be committed.
+  /// Casts the rays again, after static shapes were added, removed or moved. The scene must be
+  /// committed.
   void measure(const Scene& scene);
 
-  /// The box (world, m) in which the rays run, up to what stops them: a mover whose box does not
-  /// overlap it changes no hit. Infinite where a ray ends nowhere.
+  /// Box (m, world) around the rays up to their static hits: a mover whose box does not overlap it
+  /// changes no hit. Infinite if a ray has no end.
   const Eigen::AlignedBox3d& reach() const { return reach_; }
 
   std::size_t size() const { return rays_.size(); }
 
-  /// Caches hits on these movers, and on none cached before, for each cast() until one of them
-  /// moves or goes; then, and after measure(), it is to be called anew.
+  /// Caches hits on these movers in place of those cached before. Must be called again when one of
+  /// them has been moved or removed, and after measure().
   void settle(const Scene& scene, const std::vector<ShapeId>& movers);
 
-  /// hits[i] answers ray i. `movers` must hold every moving shape whose box overlaps reach() but
-  /// those that have been settled, each once. Returns whether any of them is met.
+  /// hits[i] is that of ray i. `movers` must contain every mover whose box overlaps reach(), except
+  /// settled ones, each once. Returns whether any of them is hit.
   bool cast(const Scene& scene, const std::vector<ShapeId>& movers, Hit* hits) const;
 
  private:
@@ -46,8 +47,8 @@ class RayCache {
                   Hit* hits) const;
 
   std::vector<Ray> rays_;
-  std::vector<Hit> fixed_;    // of static shapes
-  std::vector<Hit> settled_;  // of these and settled movers; empty where none of those is met
+  std::vector<Hit> fixed_;    // on static shapes
+  std::vector<Hit> settled_;  // on these and settled movers; empty if no settled one is hit
   std::vector<Packet> packets_;
   Eigen::AlignedBox3d reach_;
 };

@@ -23,13 +23,13 @@ struct Entry {
   Pose pose;
 };
 
-/// Where in its layer's lists a shape is, or was that has gone; nowhere if it is empty.
+/// Position of a shape in its layer's lists, or the last one of a removed shape; no layer if empty.
 struct Place {
   ShapeId id;
   Layer* layer = nullptr;
   Shape::Type type = Shape::Type::kEmpty;
   std::uint32_t at = 0;
-  std::uint64_t noted = 0;  // where in what has changed of what stands; 0 before
+  std::uint64_t noted = 0;  // mark of its latest entry in `changes`; 0 without one
 };
 
 Solid make_solid(const Shape& shape, std::shared_ptr<const TriangleTree> mesh, const Pose& pose) {
@@ -58,9 +58,9 @@ struct Scene::Impl {
   std::uint64_t revision = 0;
   std::uint64_t warm_revision = 0;
   bool warm_dirty = false;
-  std::vector<std::uint32_t> changes;  // of what stands: indices, the latest last
-  std::uint64_t forgotten = 1;         // the mark before which they are not known
-  mutable std::uint64_t read = 1;      // the latest mark that somebody has
+  std::vector<std::uint32_t> changes;  // indices of changed standing shapes, the latest last
+  std::uint64_t forgotten = 1;         // mark of the first entry in `changes`
+  mutable std::uint64_t read = 1;      // the latest mark given out
 
   void touch(std::uint32_t index, Mobility mobility, Changed changed = Changed::kAny) {
     layer(mobility).change(changed);
@@ -69,7 +69,7 @@ struct Scene::Impl {
 
   void note_standing(std::uint32_t index) {
     std::uint64_t& noted = places[index].noted;
-    if (noted >= read) return;  // nobody has read that yet
+    if (noted >= read) return;  // not read since
     if (changes.size() == 2 * kMaxChanges) {
       changes.erase(changes.begin(), changes.begin() + kMaxChanges);
       forgotten += kMaxChanges;
@@ -268,9 +268,9 @@ bool Scene::blocked(const Vec3& from, const Vec3& to, double margin, Mobilities 
 
 namespace {
 
-constexpr double kPast = 1e-7;  // m beyond a surface: farther than its range can be wrong
+constexpr double kPast = 1e-7;  // m beyond a surface, more than the error of its range
 
-/// The parts of the line from `origin` that run inside one shape, the line taken as endless.
+/// Appends the parts of the infinite line from `origin` that are inside one shape.
 void add_insides(const Scene& scene, std::uint32_t shape, const Vec3& origin, const Vec3& direction,
                  std::vector<Crossing>& found) {
   std::vector<Hit> surfaces;
@@ -284,7 +284,7 @@ void add_insides(const Scene& scene, std::uint32_t shape, const Vec3& origin, co
     return;
   }
   std::size_t next = 0;
-  if (surfaces.size() % 2 == 1) {  // it starts inside
+  if (surfaces.size() % 2 == 1) {  // the line starts inside
     found.push_back({0.0, surfaces[0].range, shape, surfaces[0].normal});
     next = 1;
   }

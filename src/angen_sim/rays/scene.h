@@ -17,51 +17,51 @@ using ShapeId = Id<struct RayShapeTag>;
 
 struct Ray {
   Vec3 origin = Vec3::Zero();      // m, world frame
-  Vec3 direction = Vec3::UnitX();  // unit (a range counts its lengths)
-  double min = 0.0;                // m; nearer surfaces are not seen
+  Vec3 direction = Vec3::UnitX();  // unit; ranges are multiples of its length
+  double min = 0.0;                // m; nearer surfaces are not hit
   double max = std::numeric_limits<double>::infinity();
 };
 
 struct Hit {
-  double range = std::numeric_limits<double>::infinity();  // m, infinite where nothing is met
-  std::uint32_t shape = UINT32_MAX;                        // index of the ShapeId met
+  double range = std::numeric_limits<double>::infinity();  // m, infinite without a hit
+  std::uint32_t shape = UINT32_MAX;                        // index of its ShapeId
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();        // unit, towards the ray's origin
 
   bool hit() const { return shape != UINT32_MAX; }
 };
 
-/// The part of a straight line that runs inside a shape; `enter` and `leave` are equal for a plane.
+/// The part of a segment inside a shape; `enter` and `leave` are equal for a plane.
 struct Crossing {
-  double enter = 0.0;                                // m from the line's start
+  double enter = 0.0;                                // m from the segment's start
   double leave = 0.0;                                // m
   std::uint32_t shape = UINT32_MAX;                  // index of its ShapeId
-  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // unit, of the surface that it enters by, or
-                                                     // leaves by where it starts inside
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  // unit, at `enter`, or at `leave` if inside
 };
 
-/// Anchored: stands until it moves, as a door does, or a chair that nobody pushes.
+/// Anchored: can move, but counts as standing until it does, such as a door or a chair at rest.
 enum class Mobility { kStatic, kAnchored, kMoving };
 
-/// Which mobilities a cast meets.
+/// A set of mobilities, such as those that a cast can hit.
 using Mobilities = unsigned;
 constexpr Mobilities only(Mobility mobility) { return 1U << static_cast<unsigned>(mobility); }
 constexpr Mobilities kAll = 7U;
 
-/// A shape's place, and its box in its own frame; a plane's is infinite along x and y.
+/// A shape's pose in the world, and its box in its own frame (m), infinite along x and y for a
+/// plane.
 struct Placement {
   Shape::Type type = Shape::Type::kEmpty;
   Pose pose;
   Eigen::AlignedBox3d box;
 };
 
-/// A shape whose surface has a temperature of its own; all others are as warm as the air.
+/// A shape with its own surface temperature; all others have the temperature of the air.
 struct WarmShape {
   std::uint32_t shape = UINT32_MAX;  // index of its ShapeId, as in Hit
   double temperature = 0.0;          // K
   Eigen::AlignedBox3d box;           // m, world, around it
 };
 
-/// A static or anchored shape that casts may meet.
+/// A static or anchored shape that casts may hit.
 struct Standing {
   ShapeId id;
   bool is_static = false;
@@ -75,63 +75,63 @@ class Scene {
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
-  /// Reflectance is the diffuse albedo (r g b, 0..1) that `light` uses. Empty shapes are never met.
+  /// Reflectance is the diffuse albedo (r g b, 0..1) that `light` uses. Empty shapes are never hit.
   ShapeId add(const Shape& shape, const Pose& pose, Mobility mobility,
               const Eigen::Vector3f& reflectance);
-  /// Gives a shape that is not empty a surface temperature in K, or another one.
+  /// Sets the surface temperature of a shape, K; ignores empty shapes.
   void warm(ShapeId shape, double temperature);
   void move(ShapeId shape, const Pose& pose);
-  /// Makes an anchored shape a moving one, or the other way round.
+  /// Makes a movable shape anchored or moving; ignores static shapes.
   void set_anchored(ShapeId shape, bool anchored);
   void remove(ShapeId shape);
 
   /// Makes additions, moves and removals visible to casts. Cheap when nothing changed.
   void commit();
 
-  /// Nearest hits; hits[i] answers rays[i]. Surfaces are met from both sides; a ray that starts
-  /// inside a shape meets its far side; planes are infinite. Where several lie at bit-equal range,
-  /// static shapes come before moving ones and then the lowest index wins. A ray that is not finite
-  /// or has no direction meets nothing. Requires commit() since the last change. Casts may run in
-  /// several threads at once.
+  /// Nearest hits; hits[i] is that of rays[i]. Surfaces are hit from both sides; a ray that starts
+  /// inside a shape hits its far side; planes are infinite. At bit-equal range, static shapes come
+  /// before movable ones, then the lowest index wins. A ray that is not finite or has no direction
+  /// hits nothing. Requires commit() since the last change. Several threads may call it at once.
   void cast(const Ray* rays, Hit* hits, std::size_t count, Mobilities among = kAll) const;
   void cast(const std::vector<Ray>& rays, std::vector<Hit>& hits) const;
 
-  /// Takes into account one more moving shape than `hit` does. A cast() among the static
-  /// ones bettered by every moving shape on the ray's way, in any order, is bit for bit what cast()
-  /// gives. Needs no commit().
+  /// Replaces `hit` if the movable shape is nearer. A cast() among static shapes, followed by this
+  /// for every movable shape on the ray's way, in any order, equals a cast() among all bit for bit.
+  /// Needs no commit().
   void better(ShapeId moving, const Ray& ray, Hit& hit) const;
 
-  /// World box (m) around a shape: infinite for a plane, empty for what is never met.
+  /// Box (m, world) around a shape: infinite for a plane, empty for a shape that is never hit.
   Eigen::AlignedBox3d bounds(ShapeId shape) const;
 
-  /// True when anything lies on the segment (both ends shortened by `margin` m).
+  /// Whether a shape is on the segment (m, world), which `margin` (m) shortens at both ends.
+  /// Requires commit().
   bool blocked(const Vec3& from, const Vec3& to, double margin = 1e-4,
                Mobilities among = kAll) const;
 
-  /// What lies on the segment, all shapes, in the order in which it enters them. Requires commit().
+  /// All shapes on the segment (m, world), in the order in which it enters them. Requires commit().
   std::vector<Crossing> crossings(const Vec3& from, const Vec3& to) const;
 
-  /// The nearest hit on one shape alone.
+  /// The nearest hit on one shape; ignores all others.
   Hit cast_at(std::uint32_t shape_index, const Ray& ray) const;
-  /// Whether a static or anchored solid other than `except` has the point inside; meshes and planes
-  /// have none.
+  /// Whether a static or anchored solid other than `except` contains the point (m, world); meshes
+  /// and planes contain none.
   bool covered(const Vec3& point, std::uint32_t except) const;
 
   Eigen::Vector3f reflectance(std::uint32_t shape_index) const;
   /// In the order in which they were first warmed, as of the last commit().
   const std::vector<WarmShape>& warm_shapes() const;
-  /// Counts commits after which warm_shapes() have other temperatures.
+  /// Counts commits that changed temperatures of warm_shapes().
   std::uint64_t warm_revision() const;
 
   Mobility mobility(std::uint32_t shape_index) const;
   Placement placement(std::uint32_t shape_index) const;
 
-  /// Around all static shapes but planes, world frame.
+  /// Box (m, world) around all static shapes except planes.
   Eigen::AlignedBox3d static_bounds() const;
-  /// What stands at an index of a ShapeId; none where nothing does.
+  /// The standing shape at the index of a ShapeId, if there is one.
   std::optional<Standing> standing(std::uint32_t index) const;
-  /// Ascending indices of all that came, went or moved among what stands, or may have, since the
-  /// call that left `mark`; with a mark of 0 all there ever were. Leaves a new mark.
+  /// Ascending indices of standing shapes that have, or may have, been added, removed or moved
+  /// since the call that set `mark`; for a mark of 0, all indices ever used. Sets a new mark.
   std::vector<std::uint32_t> standing_changes(std::uint64_t& mark) const;
 
   /// Counts commits that changed something: equal revisions mean equal answers.

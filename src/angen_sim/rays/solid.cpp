@@ -61,8 +61,8 @@ Span box_span(const Solid& solid, const LocalRay& ray) {
   return span;
 }
 
-/// Sphere or infinite cylinder: from the point nearest to the center, which keeps digits at a
-/// distance.
+/// Sphere or infinite cylinder. Starts from the point nearest to the center, which is accurate far
+/// away.
 template <int kDimensions>
 Span round_span(const Eigen::Matrix<double, kDimensions, 1>& origin,
                 const Eigen::Matrix<double, kDimensions, 1>& direction, double radius) {
@@ -89,7 +89,8 @@ Span cylinder_span(const Solid& solid, const LocalRay& ray) {
   return span;
 }
 
-/// A capsule is the union of a cylinder and two balls, and convex: the outermost ends are its own.
+/// A capsule is convex and the union of a cylinder and two balls, so the outermost ends are its
+/// own.
 Span capsule_span(const Solid& solid, const LocalRay& ray) {
   Span whole;
   whole.miss();
@@ -126,7 +127,7 @@ Span span_of(const Solid& solid, const LocalRay& ray) {
 
 bool within(double range, double min, double max) { return range >= min && range <= max; }
 
-/// Half extents of the solid's box in the world, and false when its sizes make no sense.
+/// Half extents of the solid's box in the world; false if its sizes are invalid.
 bool half_extent(const Solid& solid, Vec3& extent) {
   const Vec3 axis = solid.rotation.col(2).cwiseAbs();
   switch (solid.type) {

@@ -9,7 +9,7 @@
 
 namespace angen::rays {
 
-/// A shape placed in the world, as rays meet it.
+/// A shape placed in the world, for tests against rays.
 struct Solid {
   Shape::Type type = Shape::Type::kEmpty;
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  // own frame to world
@@ -20,9 +20,9 @@ struct Solid {
   bool aligned = true;  // rotation is exactly the identity
   bool anchored = false;
   std::shared_ptr<const TriangleTree> mesh;  // also of a heightmap, which is a mesh here
-  Eigen::AlignedBox3d box;  // m, world; empty when it cannot be met: bad sizes, bad pose; a plane
+  Eigen::AlignedBox3d box;                   // m, world; empty for a plane, bad sizes or a bad pose
 
-  /// Requires all the rest of it.
+  /// Requires all other members.
   void place(const Pose& pose);
 };
 
@@ -33,18 +33,18 @@ struct Meeting {
   std::uint32_t feature = 0;
 };
 
-/// The solid's box in its own frame; empty when its sizes make no sense.
+/// The solid's box in its own frame, m; empty if its sizes are invalid.
 Eigen::AlignedBox3d own_box(const Solid& solid);
 
-/// Whether a convex solid has the point inside; false for a mesh or a plane.
+/// Whether a convex solid contains the point (m, world); false for a mesh or a plane.
 bool contains(const Solid& solid, const Vec3& point);
 
-/// Whether a ray meets the solid in [min, max]; all in double. Direction need not be unit: ranges
-/// are in its lengths. Where it does, the answer does not depend on max.
+/// Whether a ray hits the solid in [min, max]; all in double. The direction need not be unit:
+/// ranges are multiples of its length. The hit does not depend on max.
 bool meet(const Solid& solid, const Vec3& origin, const Vec3& direction, double min, double max,
           Meeting& out);
 
-/// Unit normal in the world frame at what `meet` found, on the side the ray comes from.
+/// Unit normal (world) at the hit that `meet` found, on the side of the ray's origin.
 Vec3 normal_at(const Solid& solid, const Vec3& origin, const Vec3& direction,
                const Meeting& meeting);
 

@@ -11,7 +11,8 @@ class TriangleTree {
  public:
   virtual ~TriangleTree() = default;
 
-  /// Nearest triangle in [min, max], both sides; on a tie the one that comes first.
+  /// Nearest triangle in [min, max], from both sides; the lowest number on a tie. False without a
+  /// hit.
   virtual bool meet(const Vec3& origin, const Vec3& direction, double min, double max,
                     double& range, std::uint32_t& triangle) const = 0;
   virtual Vec3 normal(std::uint32_t triangle) const = 0;
