@@ -12,7 +12,7 @@ namespace angen::render {
 
 namespace {
 
-constexpr float kSeenFrom = 0.5F;  // opacity; glass and the like are not seen
+constexpr float kSeenFrom = 0.5F;  // opacity; glass and the like are invisible
 
 Eigen::AlignedBox3d bounds_of(const PlacedHeightmap& heightmap) {
   const Eigen::AlignedBox3d& own = heightmap.tree->bounds();
@@ -78,7 +78,7 @@ Patch::Patch(const std::vector<std::pair<const Body*, Pose>>& bodies)
 
 void Patch::attach_triangles() {
   if (triangles_.empty()) return;
-  vertices_.emplace_back();  // Embree may read a little beyond the last one
+  vertices_.emplace_back();  // Embree may read beyond the last one
   const rays::Embree<RTCGeometry> geometry(
       rtcNewGeometry(rays::device(), RTC_GEOMETRY_TYPE_TRIANGLE));
   rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -154,7 +154,7 @@ void Patch::append_part(const Surface& surface, const TriangleMesh& mesh, std::s
     const Eigen::Vector3f& a = vertices_[first + t[0]];
     const Eigen::Vector3f normal = (vertices_[first + t[1]] - a).cross(vertices_[first + t[2]] - a);
     const float length = normal.norm();
-    if (!(length > 0.0F) || !std::isfinite(length)) continue;  // nothing to see of a sliver
+    if (!(length > 0.0F) || !std::isfinite(length)) continue;  // slivers are invisible
     triangles_.push_back({first + t[0], first + t[1], first + t[2]});
     facets_.push_back({normal / length, finish, static_cast<std::uint32_t>(corners_.size())});
     if (!made.texture) continue;

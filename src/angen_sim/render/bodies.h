@@ -11,11 +11,11 @@
 
 namespace angen::render {
 
-/// A triangle's finish, in the frame of the patch that it belongs to.
+/// Normal and finish of a triangle, in the frame of its patch.
 struct Facet {
   Eigen::Vector3f normal;
   std::uint32_t finish = 0;
-  std::uint32_t corners = 0;  // where its picture lies, of one with a texture
+  std::uint32_t corners = 0;  // index of its texture coordinates, if its finish has a texture
 };
 
 struct Finish {
@@ -24,7 +24,7 @@ struct Finish {
   std::shared_ptr<const Texture> texture{};  // in place of the color
 };
 
-/// A heightmap in its patch.
+/// A heightmap in the frame of its patch.
 struct PlacedHeightmap {
   std::shared_ptr<const rays::HeightTree> tree;
   Eigen::Matrix3d rotation;
@@ -38,10 +38,10 @@ class Patch {
   /// Bodies with their poses in the patch's frame.
   explicit Patch(const std::vector<std::pair<const Body*, Pose>>& bodies);
 
-  /// Of what a ray met: geometry 0 holds the triangles, each further one is a heightmap.
+  /// The facet that a ray has hit: geometry 0 has the triangles, each further one is a heightmap.
   Facet facet(std::uint32_t geometry, std::uint32_t triangle) const;
   const Finish& finish(const Facet& facet) const { return finishes_[facet.finish]; }
-  /// The color at u v of the triangle, as Embree counts them.
+  /// The color at Embree's coordinates u v of a triangle.
   Eigen::Vector3f color(const Facet& facet, float u, float v) const;
   RTCScene scene() const { return scene_.get(); }
 
@@ -57,11 +57,11 @@ class Patch {
   std::vector<Facet> facets_;
   std::vector<PlacedHeightmap> heightmaps_;
   std::vector<Finish> finishes_;
-  std::vector<std::array<float, 6>> corners_;  // u v of those of triangles with textures
+  std::vector<std::array<float, 6>> corners_;  // u v of the corners of triangles with textures
   rays::Embree<RTCScene> scene_;
 };
 
-/// A patch where it stands.
+/// A patch with its place in the world.
 struct Placed {
   std::unique_ptr<Patch> patch;
   Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();
@@ -69,12 +69,12 @@ struct Placed {
   rays::Embree<RTCGeometry> instance;
 };
 
-/// Every patch, in two hierarchies: all that is seen, and all that throws shadows.
+/// All patches, in two hierarchies: visible ones, and those that throw shadows.
 class Stand {
  public:
   Stand();
 
-  /// Puts a patch in; its number is the instance's in both hierarchies.
+  /// Adds a patch; returns its number, which is the instance's in both hierarchies.
   std::uint32_t add(std::unique_ptr<Patch> patch, const Pose& pose, bool throws_shadows);
   void place(std::uint32_t number, const Pose& pose);
   void clear();

@@ -8,15 +8,15 @@ namespace angen::render {
 namespace {
 
 constexpr int kRays = 4096;
-constexpr float kFar = 1e4F;         // m, as far as light comes outdoors
-constexpr float kBeside = 0.3F;      // m: what may lie between two rays
-constexpr std::size_t kKnown = 256;  // lamps; those that move leave their old places behind
+constexpr float kFar = 1e4F;         // m, range of light outdoors
+constexpr float kBeside = 0.3F;      // m: margin for surfaces between two rays
+constexpr std::size_t kKnown = 256;  // positions; moving lamps leave old ones
 
 Eigen::AlignedBox3f everywhere() {
   return {Eigen::Vector3f::Constant(-kFar), Eigen::Vector3f::Constant(kFar)};
 }
 
-/// Even over the sphere: equal steps in z, turned by the golden angle.
+/// Even over the sphere: equal steps in z, each turned by the golden angle.
 Eigen::Vector3f direction(int i) {
   const double z = 1.0 - (2.0 * i + 1.0) / kRays;
   const double around = std::sqrt(1.0 - z * z);

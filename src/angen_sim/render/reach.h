@@ -8,15 +8,15 @@
 
 namespace angen::render {
 
-/// How far lamps' light comes before what stands still ends it: a lamp in another room costs a
-/// picture nothing.
+/// Boxes that the light of lamps can reach before bodies that do not move block it, so that images
+/// skip lamps of other rooms.
 class Reaches {
  public:
-  /// Takes another scene, which must outlive this or the next start.
+  /// Uses another scene, which must outlive this or the next start.
   void start(RTCScene scene);
 
-  /// A box around all that the lamp can light, m. Found by rays, so a gap that is less than 4
-  /// degrees wide from the lamp may be missed.
+  /// Box (m, world) around everything that the lamp can light. Found by rays, so a gap of less than
+  /// 4 degrees as seen from the lamp may be missed.
   Eigen::AlignedBox3f of(const light::Lamp& lamp);
 
  private:

@@ -12,19 +12,19 @@
 namespace angen::render {
 namespace {
 
-constexpr float kHousing = 0.5F;    // m, in depth: walls of a housing stand nearer
+constexpr float kHousing = 0.5F;    // m, in depth: largest distance of a housing's walls
 constexpr float kPastWall = 1e-5F;  // m
 constexpr int kMaxWalls = 8;
 
 struct Entry {
   Body body;
-  std::uint32_t number = 0;  // in the stand, of a body that stands alone
+  std::uint32_t number = 0;  // in the stand, of a body with its own patch
   bool moved = false;
 };
 
 bool alone(const Body& body) { return body.moves || body.holds_lamp; }
 
-/// The camera's rays, a tile at a time. Directions are as long as makes their reach the depth.
+/// The camera's rays, one tile at a time. The length of a direction makes its range the depth.
 class Eye {
  public:
   Eye(const PinholeCamera& camera, const Pose& pose)
@@ -38,7 +38,7 @@ class Eye {
     }
   }
 
-  /// What is the same in all tiles.
+  /// Sets the values that all tiles share.
   void begin(RTCRayHit16& rays) const {
     for (int i = 0; i < kLanes; ++i) {
       rays.ray.org_x[i] = origin_.x();
@@ -98,11 +98,11 @@ bool equal(const PinholeCamera& a, const PinholeCamera& b) {
   return numbers(a) == numbers(b);
 }
 
-/// What the last picture in color met: cameras that have both ask for the depths next.
+/// The hits of the last color image: depths of the same camera are usually requested next.
 struct LastPicture {
   PinholeCamera camera;
   Pose pose;
-  std::vector<float> depths;  // empty: none, or something has changed since
+  std::vector<float> depths;  // empty: none, or outdated
 };
 
 std::vector<float> no_depths(const PinholeCamera& camera) {
@@ -114,8 +114,8 @@ Facet facet_of(const RTCRayHit16& rays, int i, const Placed& placed) {
   return placed.patch->facet(rays.hit.geomID[i], rays.hit.primID[i]);
 }
 
-/// Has rays go on that met something near from behind: many cameras stand in their own housing,
-/// which is not seen where back faces are not drawn.
+/// Continues rays that have hit a near surface from behind: many cameras are inside their own
+/// housing, which renderers that cull back faces do not show.
 void leave_housing(const Stand& stand, float far, const int* valid, RTCRayHit16& rays) {
   alignas(64) int inside[kLanes];
   for (int walls = 0; walls < kMaxWalls; ++walls) {
@@ -160,7 +160,7 @@ void trace(const PinholeCamera& camera, const Pose& pose, const Stand& stand, Vi
   }
 }
 
-/// Around what of the tile was met; empty where nothing was.
+/// Box around the hits of a tile; empty without hits.
 Eigen::AlignedBox3f bounds_of(const Tile& tile) {
   Eigen::AlignedBox3f box;
   for (int i = 0; i < kLanes; ++i) {
@@ -201,8 +201,8 @@ void show(const Tile& tile, int i, std::uint8_t* pixel) {
 struct Scene::Impl {
   Slots<Entry, BodyTag> entries;
   Stand stand;
-  Reaches reaches;      // of lamps among the bodies that stand still
-  bool new_set = true;  // bodies came or went
+  Reaches reaches;      // of lamps among the bodies that do not move
+  bool new_set = true;  // bodies were added or removed
   bool moved = false;
   LastPicture last;
 

@@ -27,7 +27,7 @@ std::array<std::uint8_t, kCodes + 1> make_codes() {
   return codes;
 }
 
-/// lx that a point lamp gives on a surface facing it, or any other lamp by way of `light`.
+/// lx of a lamp on a surface that faces it: a point lamp here, any other by `light`.
 struct Source {
   explicit Source(const light::Lit& lit)
       : lamp(lit.lamp), level(lit.level), position(lit.lamp.pose.position.cast<float>()) {
@@ -36,7 +36,7 @@ struct Source {
     nearest2 = static_cast<float>(lamp.radius * lamp.radius);
   }
 
-  /// `way` is from the point to the lamp, in m.
+  /// `way` is set to the vector from the point to the lamp, m.
   float illuminance(const Eigen::Vector3f& point, Eigen::Vector3f& way) const {
     if (is_point) {
       way = position - point;
@@ -71,7 +71,7 @@ void set_segment(const Eigen::Vector3f& from, const Eigen::Vector3f& way, int i,
   rays.flags[i] = 0;
 }
 
-/// Those that meet something get a tfar below 0.
+/// Sets tfar of rays with a hit below 0.
 void find_occluded(const int* wanted, RTCScene opaque, RTCRay16& rays) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
@@ -128,7 +128,7 @@ void shine(const light::Lit& lit, RTCScene opaque, Tile& tile) {
 
 void shine(light::ReflectedLookup& reflected, Tile& tile) {
   Eigen::Vector3f found[kLanes];
-  int of[kLanes];  // lanes that something was found for
+  int of[kLanes];  // lanes with a value in `found`
   int count = 0;
   for (int i = 0; i < kLanes; ++i) {
     if (tile.valid[i] == 0) continue;

@@ -11,9 +11,9 @@ namespace angen::render {
 constexpr int kTile = 4;
 constexpr int kLanes = kTile * kTile;
 
-/// What the rays of a tile met.
+/// The hits of a tile's rays.
 struct alignas(64) Tile {
-  int valid[kLanes];  // -1 where something was met, as Embree wants it
+  int valid[kLanes];  // -1 for a hit, as Embree requires
   Eigen::Vector3f point[kLanes];
   Eigen::Vector3f normal[kLanes];  // unit, towards the camera
   Eigen::Vector3f light[kLanes];   // lx, r g b
@@ -22,19 +22,19 @@ struct alignas(64) Tile {
   Eigen::Vector3f color[kLanes];  // albedo
 };
 
-/// Adds what one lamp sends to each point.
+/// Adds the direct light of one lamp to each point.
 void shine(const light::Lit& lit, RTCScene opaque, Tile& tile);
 
-/// Adds what surfaces reflect to each point.
+/// Adds reflected light to each point.
 void shine(light::ReflectedLookup& reflected, Tile& tile);
-/// Which points can be seen from another; see light::ReflectedLookup.
+/// Which points are visible from another, as bits; see light::ReflectedLookup.
 std::uint32_t seen_from(const Eigen::Vector3f& from, const Eigen::Vector3f* to, int count,
                         RTCScene opaque);
 
-/// sRGB bytes of a luminance in cd/m^2.
+/// sRGB byte of a luminance in cd/m^2.
 std::uint8_t shown(float luminance);
 
-/// A color of 0..1 that is to be displayed as it is.
+/// Byte of a color of 0..1 that is displayed unchanged.
 std::uint8_t shown_as_is(float value);
 
 constexpr float kMiddleLuminance = 10.0F;    // cd/m^2, shown as half of full light

@@ -5,7 +5,7 @@
 namespace angen::render {
 namespace {
 
-constexpr int kSides = 64;  // of a circle: chords stay within 0.12 % of the radius
+constexpr int kSides = 64;  // of a circle: chords are within 0.12 % of the radius
 constexpr float kEndlessPlane = 500.0F;
 
 using Index = std::uint32_t;
@@ -92,7 +92,7 @@ TriangleMesh tessellate(const Shape& shape) {
       return capsule(shape.radius, shape.length);
     case Shape::Type::kMesh:
       return shape.mesh ? *shape.mesh : TriangleMesh{};
-    case Shape::Type::kHeightmap:  // is met without triangles of its own
+    case Shape::Type::kHeightmap:  // rays hit its HeightTree
     case Shape::Type::kEmpty:
       break;
   }

@@ -23,7 +23,7 @@ Point on_plane(const Eigen::Vector3f& p, const Vec3& size) {
   return {part(p.x(), size.x()), part(p.y(), size.y())};
 }
 
-// Around z; a triangle's corners are on the side of the seam that its middle is on.
+// Around z; all corners of a triangle are on the side of the seam where its middle is.
 Point on_round(const Eigen::Vector3f& p, double height, float around_middle) {
   const bool pole = p.head<2>().norm() < 1e-6F;
   const float around = pole ? around_middle : std::atan2(p.y(), p.x());

@@ -6,8 +6,9 @@
 
 namespace angen::render {
 
-/// Where a picture lies on a triangle of a tessellated shape: u v of its three corners. A box has
-/// it once on each side, a plane and what is round once in all, an endless plane once a meter.
+/// Texture coordinates of a triangle of a tessellated shape: u v of its three corners. The texture
+/// is on each side of a box, once on a plane and around a round shape, and on each meter of an
+/// endless plane.
 std::array<float, 6> wrapped(const Shape& shape, const Eigen::Vector3f& a, const Eigen::Vector3f& b,
                              const Eigen::Vector3f& c);
 
