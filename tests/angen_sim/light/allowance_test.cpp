@@ -8,7 +8,7 @@ namespace {
 TEST(Allowance, IsFullAtFirstAndGrowsWithTimeUpToALimit) {
   Allowance rays(1000, 50);
   EXPECT_EQ(rays.left(), 50);
-  rays.spend(60);  // what is spent beyond it is paid for later
+  rays.spend(60);  // an overdraft is paid for later
   EXPECT_EQ(rays.left(), -10);
   rays.pass_to(10'000);
   EXPECT_EQ(rays.left(), 0);

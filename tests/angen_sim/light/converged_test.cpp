@@ -1,4 +1,4 @@
-// Readings against converged values, which a path tracer finds.
+// Readings against converged values of a path tracer.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace angen::light::testing {
 namespace {
 
-/// Within 2 % or 0.05 lx, and what the oracle itself may be off by.
+/// Within 2 % or 0.05 lx, plus the oracle's own error.
 void expect_converged(const rays::Scene& scene, const Lighting& lighting, const Lamp& lamp,
                       const Pose& pose, int paths = 60'000, double share = 0.02) {
   const Traced truth = trace(scene, lamp, pose, paths);
@@ -88,7 +88,7 @@ TEST(Converged, Corridor) {
   expect_converged(scene, lighting, lamp, facing(Vec3(6, 0.7, 1.5), Vec3::UnitX()), 100'000);
 }
 
-/// Shelves, a chest and a screen, as things that stand or as loose ones that rest.
+/// Shelves, a chest and a screen, static or loose at rest.
 void expect_converged_among(rays::Mobility mobility, float albedo) {
   const Lamp lamp = point_lamp(Vec3(2, 2, 2.2), 800.0);
   rays::Scene scene;

@@ -1,4 +1,4 @@
-// Light that is found in parts of a tick, and what places read meanwhile.
+// Light that is computed in parts over ticks, and the readings meanwhile.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,11 +9,11 @@
 namespace angen::light::testing {
 namespace {
 
-/// Of 1 ms each.
+/// Ticks of 1 ms.
 struct Ticks {
   Nanoseconds now = 0;
   void advance(Lighting& lighting) { lighting.advance(now += kSecond / 1000); }
-  /// How many it took until there was nothing left to do.
+  /// Returns how many ticks it took until nothing was left to do.
   int work_off(Lighting& lighting) {
     int count = 0;
     for (; lighting.busy() && count < 20000; ++count) advance(lighting);
@@ -106,7 +106,7 @@ TEST(Lighting, ALampIsSeenWhenItsLightIsKnownWhoeverMeasures) {
   expect_same_bits(measure(Room().lighting, alone.sensor), seen);
 }
 
-/// Until it is solved: without what is reflected twice and more.
+/// Until it is solved, light that is reflected more than once is missing.
 TEST(Lighting, ALampThatIsLitForTheFirstTimeIsSeenInTheNextTickAndWholeWhenItIsSolved) {
   Room room, bare;
   bare.lighting.remove(bare.lamp);
@@ -138,7 +138,7 @@ TEST(Lighting, OverTimeItTakesNoMoreThanItsShare) {
 }
 
 /// Readings of one place every 10 ms while a lamp is lit for the first time, a door moves, a wall
-/// comes and goes and somebody walks; `beside` is called in each tick.
+/// is added and removed and a person walks; calls `beside` in each tick.
 template <class F>
 std::vector<Sample> readings_while_things_change(F&& beside) {
   TwoRooms rooms;
@@ -189,7 +189,7 @@ TEST(Lighting, AnotherReaderChangesNoReading) {
   EXPECT_GT(different, 15);
 }
 
-/// Eight places in two rooms, of which a tick's budget is enough for some only.
+/// Eight places in two rooms: a tick's budget is enough for some of them only.
 TEST(Lighting, WhatExceedsATicksBudgetIsReadWhenItIsFoundAndThenExact) {
   TwoRooms rooms;
   const rays::ShapeId person = add_box(rooms.scene, Vec3(6, 3, 0.85), Vec3(0.3, 0.5, 1.7),
@@ -261,7 +261,7 @@ TEST(Lighting, PacedLightEndsWhereItIsFoundAtOnce) {
   rooms.lighting.pace();
   const double shut = rooms.lighting.measure(probe, rooms.dark_sensor).illuminance;
   rooms.open();
-  for (int i = 0; i < 5; ++i) {  // on its way it stands elsewhere
+  for (int i = 0; i < 5; ++i) {  // intermediate places
     rooms.scene.move(rooms.door, {Vec3(4.3, 1.6, 1.005), from_rpy(0, 0, 0.3 * i)});
     rooms.scene.commit();
     ticks.advance(rooms.lighting);
@@ -277,7 +277,7 @@ TEST(Lighting, PacedLightEndsWhereItIsFoundAtOnce) {
   expect_same_bits(open, measure(fresh.lighting, fresh.dark_sensor));
 }
 
-/// Patches are found anew when the door has rested for 0.1 s, which takes some ticks.
+/// Patches are updated when the door has rested for 0.1 s, which takes some ticks.
 TEST(Lighting, ADoorThatMovesWhilePatchesAreFoundAnewEndsWhereItIsFoundAtOnce) {
   TwoRooms rooms, fresh;
   const Sample shut = measure(fresh.lighting, fresh.dark_sensor);
@@ -298,7 +298,7 @@ TEST(Lighting, ADoorThatMovesWhilePatchesAreFoundAnewEndsWhereItIsFoundAtOnce) {
   }
 }
 
-/// What moves there is looked at each 10 ms only, and at once when a lamp is lit.
+/// In the dark, motion is checked each 10 ms only, and at once when a lamp is lit.
 TEST(Lighting, ADoorThatMovedInTheDarkIsKnownWhenALampIsLit) {
   TwoRooms rooms, fresh;
   fresh.open();

@@ -1,4 +1,4 @@
-// What a measure does with rooms, shadows, switches and change.
+// Measurements with rooms, shadows, switched lamps and changes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -47,7 +47,7 @@ TEST(Lighting, ProbeRemembersWithTheSameBits) {
   expect_same_bits(room.lighting.measure(probe, room.sensor), measure(room.lighting, room.sensor));
 }
 
-/// Two closed rooms, things that move about in both, and a lamp in each.
+/// Two closed rooms with moving things, and a lamp in each.
 struct ClosedRooms {
   ClosedRooms() {
     add_room(scene, Vec3(0, 0, 0), Vec3(4, 4, 2.6), gray(0.7F));
@@ -219,7 +219,7 @@ TEST(Lighting, ScreenBetweenLampAndSensorDarkens) {
 }
 
 TEST(Lighting, ShadowHasASoftEdge) {
-  // A half-plane screen half way between lamp and point slides over the lamp's disc of 0.1 m.
+  // A half-plane screen in the middle between lamp and point slides over the lamp's disc of 0.1 m.
   rays::Scene scene;
   const rays::ShapeId screen =
       add_box(scene, Vec3(0, 0, 1), Vec3(4, 4, 0.01), gray(0.0F), rays::Mobility::kMoving);

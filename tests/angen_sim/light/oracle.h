@@ -8,8 +8,8 @@
 #include "light/field.h"
 #include "rooms.h"
 
-/// A path tracer, slow and plain: random walks, with the lamp sampled at every vertex. It shares
-/// rays and the lamp's direct light with what it judges, and nothing else.
+/// A slow and simple path tracer: random walks, with the lamp sampled at every vertex. It shares
+/// only rays and the lamp's direct light with the tested code.
 namespace angen::light::testing {
 
 struct Traced {
@@ -34,7 +34,7 @@ inline double walk(const rays::Scene& scene, const Lamp& lamp, const Pose& pose,
     ray.min = 1e-4;
     rays::Hit hit;
     scene.cast(&ray, &hit, 1);
-    // It goes on with the chance that light would be reflected.
+    // Russian roulette: the walk continues with the albedo's probability.
     if (!hit.hit() || rng.uniform() >= std::min(kLargestAlbedo, scene.reflectance(hit.shape).y())) {
       return value;
     }

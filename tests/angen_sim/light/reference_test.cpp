@@ -1,4 +1,4 @@
-// Illuminances that photometry has closed forms for.
+// Illuminances with closed forms in photometry.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -42,7 +42,7 @@ TEST(Reference, WithinItsRadiusALampIsNoBrighterThanItsSurface) {
 
 TEST(Reference, CosineOfTheTilt) {
   Lamp lamp = point_lamp(Vec3(0, 0, 2), kThousandCandela);
-  lamp.radius = 0.0;  // of a globe a plane at 90 degrees would still see half
+  lamp.radius = 0.0;  // a plane at 90 degrees would still see half of a globe
   const Open open(lamp);
   for (int degrees = 0; degrees < 180; degrees += 15) {
     const double tilt = degrees * M_PI / 180;
@@ -116,7 +116,7 @@ TEST(Reference, UnderALambertianDisc) {
 TEST(Reference, UnderLambertianSquares) {
   EXPECT_NEAR(under_square(2.0, 1.0, Vec3(0, 0, 0)), 1740.8, 0.1);
   EXPECT_NEAR(under_square(1.0, 2.0, Vec3(0, 0, 0)), 230.8, 0.1);
-  // Under a corner a quarter of what the middle of a square twice as wide gives.
+  // Under a corner: a quarter of that under the middle of a square twice as wide.
   EXPECT_NEAR(under_square(1.0, 1.0, Vec3(0.5, 0.5, 0)), 1740.8 / 4, 0.05);
 }
 
@@ -127,13 +127,14 @@ TEST(Reference, ASquareBehindTheSensorsPlaneIsClippedByIt) {
   const auto facing_lux = [&](const Vec3& normal) {
     return lux(open.lighting, facing(Vec3(0, 0, 0), normal));
   };
-  // Half of it lies before an upright plane; the vectors' sum is that of the flux vector.
+  // Half of it is in front of an upright plane; the vectors' sum is that of the flux vector.
   EXPECT_GT(facing_lux(Vec3::UnitX()), 0.0);
   EXPECT_NEAR(facing_lux(Vec3::UnitX()), facing_lux(-Vec3::UnitX()), 1e-9);
   EXPECT_EQ(facing_lux(-Vec3::UnitZ()), 0.0);
 }
 
-/// The sum over the parts of a globe's skin of what each, a Lambertian disc, gives a plane.
+/// Sum over the parts of a globe's surface, each a Lambertian disc, of their illuminance on a
+/// plane.
 double summed_globe(double radius, const Vec3& center, const Vec3& normal, double flux) {
   const double luminance = flux / (4 * M_PI * M_PI * radius * radius);
   constexpr int kRings = 1000;
@@ -212,8 +213,8 @@ TEST(Reference, ASpotHasHalfItsIntensityAtItsHalfAngle) {
   EXPECT_EQ(lux(open.lighting, facing(Vec3(0, 0, 4), -Vec3::UnitZ())), 0.0);
 }
 
-/// A closed cube of 4 m with 10,000 lm at its center: direct and total, as means over a wall's
-/// points laid out evenly on all six walls.
+/// A closed cube of 4 m with 10,000 lm at its center: direct and total light, as means over points
+/// spread evenly over all six walls.
 double mean_indirect(float albedo) {
   rays::Scene scene;
   add_room(scene, Vec3(-2, -2, -2), Vec3(2, 2, 2), gray(albedo));
@@ -253,7 +254,7 @@ TEST(Reference, ClosedCubeOfHighAlbedo) {
 TEST(Reference, ClosedCubeOfBlackHasNoIndirect) { EXPECT_NEAR(mean_indirect(0.0F), 0.0, 1e-6); }
 
 TEST(Reference, ViewOfAnEvenWallIsItsLuminance) {
-  // A wall so far from the lamp, and so large, that it is lit alike all over the view.
+  // A wall that is far and large enough to be lit evenly over the whole view.
   rays::Scene scene;
   add_box(scene, Vec3(10.5, 0, 0), Vec3(1, 400, 400), gray(0.5F));
   scene.commit();
@@ -265,7 +266,7 @@ TEST(Reference, ViewOfAnEvenWallIsItsLuminance) {
   const Sample sample = measure(lighting, facing(Vec3(0, 0, 0), Vec3::UnitX()));
   const double luminance = 1000 * 0.5 / M_PI;
   EXPECT_NEAR(sample.color.x(), luminance / (luminance + 50), 1e-4);
-  EXPECT_NEAR(sample.illuminance, 1000 * 0.5, 0.03 * 500);  // the wall fills almost all it faces
+  EXPECT_NEAR(sample.illuminance, 1000 * 0.5, 0.03 * 500);  // the wall fills almost all it sees
 }
 
 TEST(Reference, ViewOfALampIsItsDiscsShareOfThePixel) {

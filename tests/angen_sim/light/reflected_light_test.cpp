@@ -1,4 +1,4 @@
-// What surfaces reflect, estimated for any place, against what a sensor there measures.
+// Estimated reflected light against measurements of sensors at the same places.
 #include "light/reflected_light.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kIntensity = 800.0 / (4.0 * M_PI);  // cd
 
-/// lx, of a room that has been measured in.
+/// lx, in a room that has been measured before.
 template <class AnyRoom>
 double estimate(const AnyRoom& room, const Vec3& point, const Vec3& normal) {
   const auto visible = [&](const Eigen::Vector3f& from, const Eigen::Vector3f* to, int count) {
@@ -33,7 +33,7 @@ double estimate(const AnyRoom& room, const Vec3& point, const Vec3& normal) {
       .x();
 }
 
-/// lx straight from the room's lamp.
+/// Direct lx from the room's lamp.
 double direct(const Vec3& point, const Vec3& normal) {
   const Vec3 way = Vec3(2, 2, 2.2) - point;
   return kIntensity * std::max(0.0, way.dot(normal)) / std::pow(way.norm(), 3);

@@ -1,4 +1,4 @@
-// Ranges and normals of each shape against what geometry says.
+// Ranges and normals of each shape against closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>

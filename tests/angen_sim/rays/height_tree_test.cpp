@@ -1,4 +1,4 @@
-// A heightmap meets rays exactly as a mesh of its triangles does.
+// A heightmap's hits equal those of a mesh of its triangles.
 #include "rays/height_tree.h"
 
 #include <gtest/gtest.h>

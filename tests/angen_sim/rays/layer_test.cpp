@@ -20,7 +20,7 @@ struct Known {
 
 Mobility random_mobility(Rng& rng) { return static_cast<Mobility>(rng.next() % 3); }
 
-/// One of the changes that a scene takes.
+/// Makes one random change to a scene.
 void change(Scene& scene, std::vector<Known>& live, Rng& rng) {
   Known& one = live[rng.next() % live.size()];
   const std::uint64_t what = rng.next() % 6;

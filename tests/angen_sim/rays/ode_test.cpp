@@ -16,7 +16,7 @@ struct OdeSession {
   ~OdeSession() { dCloseODE(); }
 };
 
-/// The same shapes as a Scene's, in one ODE space.
+/// The shapes of a Scene, in one ODE space.
 class OdeScene {
  public:
   OdeScene() : space_(dSimpleSpaceCreate(nullptr)), ray_(dCreateRay(nullptr, 1.0)) {
@@ -88,7 +88,7 @@ class OdeScene {
   std::vector<dTriMeshDataID> meshes_;
 };
 
-/// The shape from outside to outside: any point further than this from its center is outside.
+/// Radius of a sphere around the shape.
 double reach_of(const Shape& shape) {
   switch (shape.type) {
     case Shape::Type::kBox:
@@ -136,9 +136,9 @@ struct Pair {
   }
 };
 
-// Where a ray starts inside a shape ODE's colliders differ among themselves, so rays start outside.
-// A ray that grazes an edge or a rim may be met by one and missed by the other; none of these was.
-// The largest differences (some 0.03 mm) are meshes', which ODE meets in floats.
+// ODE's colliders differ for rays that start inside a shape, so rays start outside. One of both may
+// miss at a grazed edge or rim; none of these rays does. The largest differences (about 0.03 mm)
+// are those of meshes, which ODE computes in floats.
 TEST(Ode, AgreesOnRandomRays) {
   const OdeSession session;
   Rng rng(3, 1, 0);

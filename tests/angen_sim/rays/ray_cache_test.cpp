@@ -1,4 +1,4 @@
-// A cache against the cast of all rays: bit for bit the same hits.
+// A cache has bit for bit the hits of a cast of all rays.
 #include "rays/ray_cache.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace angen::rays::testing {
 namespace {
 
-/// Rays of a fan and some that are odd: along an axis, too short, with no direction, endless.
+/// Rays of a fan, and special ones: along an axis, too short, without direction, infinite.
 std::vector<Ray> fan(Rng& rng, double reach) {
   const Pose pose = random_pose(rng, 3.0);
   std::vector<Ray> rays(33);

@@ -1,4 +1,4 @@
-// What a scene promises beyond geometry: identity, change, ties, bad input.
+// Properties of a scene other than geometry: identity, change, ties, bad input.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -180,7 +180,7 @@ TEST(Scene, ReflectanceBelongsToTheShapeMet) {
   EXPECT_EQ(scene.reflectance(hit.shape), Eigen::Vector3f(0.1F, 0.2F, 0.3F));
 }
 
-/// A scene that was changed again and again answers with the same bits as one built at once.
+/// A scene after many changes gives the same bits as one built at once.
 TEST(Scene, HistoryLeavesNoTrace) {
   Rng rng(7, 1, 0);
   Scene grown;
@@ -216,7 +216,7 @@ TEST(Scene, HistoryLeavesNoTrace) {
   }
 }
 
-/// Cutting a ray's length where its answer is known changes no bit of the answer.
+/// Limiting a ray to a known answer's range changes no bit of it.
 TEST(Scene, ClippedRaysAreBitEqual) {
   Rng rng(8, 1, 0);
   Scene scene;
@@ -240,7 +240,7 @@ TEST(Scene, ClippedRaysAreBitEqual) {
   EXPECT_GT(met, 10000);
 }
 
-/// Embree's traversal against meeting every shape in turn, one scene a shape: none is missed.
+/// Embree's traversal against a test of every shape, one scene for each: none is missed.
 TEST(Scene, SameAsTryingEveryShape) {
   Rng rng(9, 1, 0);
   Scene all;
@@ -268,7 +268,7 @@ TEST(Scene, SameAsTryingEveryShape) {
   }
 }
 
-/// 10 um within a box's rim, where floats have steps of 120 um: the ray must still find the box.
+/// 10 um within a box's rim, where floats have steps of 120 um: the ray still hits the box.
 TEST(Scene, RimsFarFromTheOriginAreMet) {
   Rng rng(11, 1, 0);
   Scene scene;
@@ -331,7 +331,7 @@ TEST(Scene, AShapeCanBecomeAnchored) {
   const ShapeId chair = add(scene, box(1, 1, 1), at(2, 0, 0), Mobility::kMoving);
   scene.commit();
   scene.set_anchored(chair, true);
-  scene.set_anchored(wall, true);  // stays what it is
+  scene.set_anchored(wall, true);  // ignored: it is static
   scene.commit();
   EXPECT_EQ(scene.mobility(chair.index), Mobility::kAnchored);
   EXPECT_EQ(scene.mobility(wall.index), Mobility::kStatic);

@@ -1,4 +1,4 @@
-// What is inside a solid: covered points, and the parts of segments.
+// Inside of solids: covered points, and parts of segments.
 #include "rays/solid.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ TEST(Solid, CrossingsAreTheInsidesOfWhatLiesOnASegment) {
   Scene scene;
   const ShapeId wall = add(scene, box(0.1, 4, 4), at(2, 0, 0));
   const ShapeId flush = add(scene, box(0.5, 1, 1), at(2.3, 0, 0), Mobility::kMoving);  // on it
-  const ShapeId beam = add(scene, box(4, 1, 1), at(4, 0, 0));  // around what comes after
+  const ShapeId beam = add(scene, box(4, 1, 1), at(4, 0, 0));  // contains the next ones
   const ShapeId ball = add(scene, octahedron(0.5F), at(5, 0.1, 0.05));
   add(scene, box(1, 1, 1), at(9, 0, 0));   // beyond
   add(scene, box(1, 1, 1), at(-3, 0, 0));  // behind

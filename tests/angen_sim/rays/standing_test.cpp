@@ -1,4 +1,4 @@
-// What a scene says of the shapes that stand in it, and of changes among them.
+// Standing shapes of a scene, and their changes.
 #include <gtest/gtest.h>
 
 #include "shapes.h"

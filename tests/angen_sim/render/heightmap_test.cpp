@@ -1,4 +1,4 @@
-// A heightmap looks as the mesh of its triangles does.
+// A heightmap looks like the mesh of its triangles.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,7 +45,7 @@ Shape as_mesh(const HeightGrid& grid) {
   return shape;
 }
 
-/// A body of the shape that stands turned, with a box on it, under a lamp.
+/// A turned body of the shape, with a box on it, under a lamp.
 struct Picture {
   Picture(const Shape& ground, bool moves) {
     Body body;

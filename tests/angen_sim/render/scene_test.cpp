@@ -49,7 +49,7 @@ light::Lit lamp(const Vec3& position, double lumen) {
 const Ambience kDark{Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()};
 const Ambience kDim{Eigen::Vector3f::Ones(), Eigen::Vector3f::Zero()};
 
-/// What the header says is shown of a surface of albedo `albedo` under `lux`.
+/// The byte of a surface of albedo `albedo` under `lux`, by the header's formula.
 int expected_byte(double albedo, double lux) {
   const double luminance = albedo * lux / M_PI;
   const double v = luminance / (luminance + 10.0);
@@ -118,7 +118,7 @@ TEST(Picture, ACameraInItsOwnHousingSeesWhatIsBeyond) {
   view.scene.add(body(box(1.0, 9.0, 9.0), at(2.5)));
   EXPECT_NEAR(view.depth(160, 120), 2.0, 1e-4);
   EXPECT_NEAR(view.depth(3, 200), 2.0, 1e-4);
-  view.scene.add(body(box(0.1, 0.1, 0.1), at(0.45)));  // before the housing
+  view.scene.add(body(box(0.1, 0.1, 0.1), at(0.45)));  // in front of the housing
   EXPECT_NEAR(view.depth(160, 120), 0.4, 1e-4);
 }
 
@@ -149,7 +149,7 @@ TEST(Picture, DepthOfABallFollowsItsEquation) {
                    v = (row - 119.5) / view.pinhole.focal();
       const double length2 = 1.0 + u * u + v * v;
       const double root2 = 4.0 - length2 * (4.0 - 0.25);
-      if (root2 < 0.05) continue;  // not near the rim, where a millimetre aside is far behind
+      if (root2 < 0.05) continue;  // not near the rim, where 1 mm sideways is far behind
       EXPECT_NEAR(depths[static_cast<std::size_t>(row * 320 + column)],
                   (2.0 - std::sqrt(root2)) / length2, 0.01);
       ++seen;
