@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <string>
@@ -91,6 +93,11 @@ class FakeWorld : public View, public Wiring, public Outputs {
   FakeJoint& joint_named(const std::string& name) { return joints[index(joints, name)].second; }
   FakeLink& link_named(const std::string& name) { return links[index(links, name)].second; }
   FakeLight& light_named(const std::string& name) { return lights[index(lights, name)].second; }
+  /// How often it has published an event of that name.
+  std::ptrdiff_t count(const std::string& event) const {
+    return std::count_if(events.begin(), events.end(),
+                         [&](const auto& each) { return each.first == event; });
+  }
   /// Forces hold for one tick: call before each Device::update.
   void begin_tick() {
     for (auto& [name, joint] : joints) joint.force = 0.0;
@@ -218,7 +225,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
     events.emplace_back(event, detail);
   }
 
- private:
+ protected:
   template <class T>
   static int index(const std::vector<std::pair<std::string, T>>& all, const std::string& name) {
     Names known;

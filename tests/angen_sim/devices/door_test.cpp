@@ -22,10 +22,6 @@ Vec3 before_edge(double at) {
   return 0.87 * along + 0.045 * ahead;
 }
 
-bool has_event(const Rig& rig, const std::string& event) {
-  return std::find(rig.events.begin(), rig.events.end(), event) != rig.events.end();
-}
-
 TEST(Door, OpensInTimeAndArrivesGently) {
   for (const double mass : {8.0, 20.0, 25.0}) {
     Bench bench;
@@ -44,8 +40,8 @@ TEST(Door, OpensInTimeAndArrivesGently) {
     EXPECT_GT(took, 0.0) << mass;
     EXPECT_LT(arrival, 1.0) << mass;
     EXPECT_NEAR(angle(door), -1.57, 0.02) << mass;
-    EXPECT_TRUE(has_event(door, "opening"));
-    EXPECT_TRUE(has_event(door, "opened"));
+    EXPECT_GT(door.count("opening"), 0);
+    EXPECT_GT(door.count("opened"), 0);
   }
 }
 
@@ -151,7 +147,7 @@ TEST(Door, HeldByAPostItIsBlockedWithinASecondAndItsEdgeForceIsLimited) {
          greatest);
   EXPECT_LE(greatest, 150.0);
   EXPECT_GT(greatest, 50.0);
-  EXPECT_TRUE(has_event(door, "blocked"));
+  EXPECT_GT(door.count("blocked"), 0);
 }
 
 TEST(Door, ItsFirstBlowIsNoMoreThanTheLeafsOwnMomentum) {
@@ -304,7 +300,7 @@ TEST(Door, AHandOnItsHandleLetsItBePushedOpen) {
   bench.run(0.2);
   ASSERT_TRUE(door.command("Unlatch").accepted);
   walk_against(bench, 0.7, 3.0);
-  EXPECT_TRUE(has_event(door, "unlatched"));
+  EXPECT_GT(door.count("unlatched"), 0);
   EXPECT_LT(angle(door), -0.5);
   EXPECT_EQ(door.mode(), "AJAR");
 }

@@ -23,10 +23,6 @@ bool standing_open(const Rig& rig, int floor) {
   return rig.mode() == "IDLE" && floor_of(rig) == floor && door_mode(rig) == "OPEN";
 }
 
-int count(const Rig& rig, const std::string& event) {
-  return static_cast<int>(std::count(rig.events.begin(), rig.events.end(), event));
-}
-
 TEST(Elevator, ServesAFloorAndComesBackInTimeWhateverItCarries) {
   for (const double cabin : {84.0, 400.0}) {
     for (const double load : {0.0, 6.3, 200.0}) {
@@ -117,14 +113,14 @@ TEST(Elevator, OfTheCallsThatWaitTheNewestHolds) {
   rig.command("Floor1");
   bench.run(20.0);
   EXPECT_TRUE(standing_open(rig, 1)) << "where it was going is where it was called last";
-  EXPECT_EQ(count(rig, "arrived"), 1);
+  EXPECT_EQ(rig.count("arrived"), 1);
   rig.command("Floor0");
   bench.run(4.0);
   ASSERT_EQ(rig.mode(), "DOWN");
   rig.command("Floor1");
   bench.run(30.0);
   EXPECT_TRUE(standing_open(rig, 1)) << "one call waits while it moves";
-  EXPECT_EQ(count(rig, "arrived"), 3);
+  EXPECT_EQ(rig.count("arrived"), 3);
 }
 
 TEST(Elevator, AFullQueueLosesItsOldestCall) {
@@ -159,7 +155,7 @@ TEST(Elevator, CommandsWhileItMovesAreQueuedIfTheQueueIsLong) {
     if (floor >= 0 && (seen.empty() || seen.back() != floor)) seen.push_back(floor);
   });
   EXPECT_EQ(seen, (std::vector<std::int64_t>{1, 0, 1}));
-  EXPECT_EQ(count(rig, "arrived"), 3);
+  EXPECT_EQ(rig.count("arrived"), 3);
 }
 
 TEST(Elevator, SameFloorTwiceIsOneStop) {
@@ -170,7 +166,7 @@ TEST(Elevator, SameFloorTwiceIsOneStop) {
   bench.run(2.0);
   rig.command("Floor1");
   bench.run(20.0);
-  EXPECT_EQ(count(rig, "arrived"), 1);
+  EXPECT_EQ(rig.count("arrived"), 1);
   EXPECT_TRUE(standing_open(rig, 1));
 }
 
@@ -182,7 +178,7 @@ TEST(Elevator, ItsDoorReopensOnAnObstacleAndShutsWhenItIsGone) {
   rig.command("Floor1");
   double greatest = 0.0;
   bench.run(10.0, [&] { greatest = std::max(greatest, std::abs(height(rig))); });
-  EXPECT_GE(count(rig, "obstacle"), 2);
+  EXPECT_GE(rig.count("obstacle"), 2);
   EXPECT_LT(greatest, 0.001);
   EXPECT_EQ(floor_of(rig), 0);
   bench.world.remove(post);
@@ -231,8 +227,8 @@ TEST(Elevator, TellsOneDirectionAWay) {
   ASSERT_GT(bench.run_until(15.0, [&] { return standing_open(rig, 1); }), 0.0);
   rig.command("Floor0");
   ASSERT_GT(bench.run_until(15.0, [&] { return standing_open(rig, 0); }), 0.0);
-  EXPECT_EQ(std::count(rig.events.begin(), rig.events.end(), "up"), 1);
-  EXPECT_EQ(std::count(rig.events.begin(), rig.events.end(), "down"), 1);
+  EXPECT_EQ(rig.count("up"), 1);
+  EXPECT_EQ(rig.count("down"), 1);
 }
 
 TEST(Elevator, RefusesFloorsThatItHasNot) {

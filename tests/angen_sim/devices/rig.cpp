@@ -3,8 +3,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "angen_sim/fakes.h"
-
 namespace angen::test {
 
 Bench::Bench(const desc::Physics& settings) : settings_(settings), world(settings, gravity_, 1) {}
@@ -87,16 +85,53 @@ Vec3 Bench::contact_force(const std::string& one, const std::string& other) cons
   return sum;
 }
 
-Rig::Rig(Bench& bench, desc::Model model, std::shared_ptr<const Plugin> plugin,
+/// Where the joint stops, and what it moves.
+JointLimits limits_of(const desc::Joint& joint, const desc::Link& child) {
+  const desc::JointAxis& axis = joint.axes.at(0);
+  double inertia = child.inertial.mass;
+  if (joint.type == desc::Joint::Type::kRevolute) {
+    const Pose center = child.pose * child.inertial.pose;
+    const Vec3 turned = center.rotation.conjugate() * axis.xyz;
+    inertia = turned.dot(child.inertial.moment * turned) +
+              inertia * axis.xyz.cross(center.position - joint.anchor).squaredNorm();
+  }
+  const double effort = axis.effort >= 0.0 ? axis.effort : std::numeric_limits<double>::infinity();
+  return {axis.lower, axis.upper, axis.damping, axis.friction, inertia, effort};
+}
+
+Rig::Rig(Bench& bench, const desc::Model& model, std::shared_ptr<const Plugin> plugin,
          const Parameters& parameters)
-    : bench_(bench), model_(std::move(model)), model_id_(bench.world.add(model_)) {
-  bench_.show(model_, model_id_);
-  plugin_ = std::move(plugin);
+    : bench_(bench), model_id_(bench.world.add(model)), plugin_(std::move(plugin)) {
+  bench_.show(model, model_id_);
+  describe(model);
   device_ = plugin_->make_device();
   Params params(plugin_element(parameters));
   device_->configure(params, *this);
   params.finish();
   warnings = params.warnings();
+}
+
+void Rig::describe(const desc::Model& model) {
+  instance = model_name = model.name;
+  FakeWorld::at = model.pose;
+  dt = bench_.step();
+  gravity_vector = bench_.gravity();
+  for (const desc::Link& link : model.links) {
+    FakeLink fake;
+    fake.mass = link.inertial.mass;
+    fake.center = link.inertial.pose.position;
+    links.emplace_back(link.name, fake);
+  }
+  for (const desc::Joint& joint : model.joints) {
+    FakeJoint fake;
+    fake.fixed = joint.type == desc::Joint::Type::kFixed;
+    fake.child = joint.child;
+    fake.anchor = joint.anchor;
+    if (!joint.axes.empty()) {
+      fake.limits = limits_of(joint, model.links.at(index(links, joint.child)));
+    }
+    joints.emplace_back(joint.name, fake);
+  }
 }
 
 Reading Rig::state() const {
@@ -113,20 +148,6 @@ Verdict Rig::command(Command command) {
   return verdict;
 }
 
-int Rig::joint_index(const std::string& joint) const {
-  for (std::size_t i = 0; i < model_.joints.size(); ++i) {
-    if (model_.joints[i].name == joint) return static_cast<int>(i);
-  }
-  return -1;
-}
-
-int Rig::link_index(const std::string& link) const {
-  for (std::size_t i = 0; i < model_.links.size(); ++i) {
-    if (model_.links[i].name == link) return static_cast<int>(i);
-  }
-  throw Error("no link " + link);
-}
-
 physics::JointId Rig::id_of(JointRef joint) const {
   return bench_.world.joints(model_id_).at(static_cast<std::size_t>(joint.index));
 }
@@ -134,12 +155,6 @@ physics::JointId Rig::id_of(JointRef joint) const {
 physics::LinkId Rig::id_of(LinkRef link) const {
   return bench_.world.links(model_id_).at(static_cast<std::size_t>(link.index));
 }
-
-JointView Rig::at(const std::string& joint) const {
-  return this->joint(JointRef{joint_index(joint)});
-}
-
-LinkView Rig::body(const std::string& link) const { return this->link(LinkRef{link_index(link)}); }
 
 JointView Rig::joint(JointRef joint) const {
   const physics::JointState state = bench_.world.joint(id_of(joint));
@@ -157,60 +172,6 @@ LinkView Rig::link(LinkRef link) const {
           bench_.world.awake(id_of(link))};
 }
 
-bool Rig::has_joint(const std::string& joint) const { return joint_index(joint) >= 0; }
-
-std::vector<std::string> Rig::joint_names() const {
-  std::vector<std::string> names;
-  for (const desc::Joint& joint : model_.joints) names.push_back(joint.name);
-  return names;
-}
-
-JointRef Rig::joint(const std::string& joint) {
-  if (!has_joint(joint)) throw Error("no joint " + joint);
-  return {joint_index(joint)};
-}
-
-JointLimits Rig::limits(JointRef joint) const {
-  const desc::Joint& described = model_.joints.at(static_cast<std::size_t>(joint.index));
-  const desc::JointAxis& axis = described.axes.at(0);
-  const desc::Link& child = model_.links.at(static_cast<std::size_t>(link_index(described.child)));
-  double inertia = child.inertial.mass;
-  if (described.type == desc::Joint::Type::kRevolute) {
-    const Pose center = child.pose * child.inertial.pose;
-    const Vec3 turned = center.rotation.conjugate() * axis.xyz;
-    inertia = turned.dot(child.inertial.moment * turned) +
-              inertia * axis.xyz.cross(center.position - described.anchor).squaredNorm();
-  }
-  const double effort = axis.effort >= 0.0 ? axis.effort : std::numeric_limits<double>::infinity();
-  return {axis.lower, axis.upper, axis.damping, axis.friction, inertia, effort};
-}
-
-LinkRef Rig::link(const std::string& link) { return {link_index(link)}; }
-
-bool Rig::is_fixed(JointRef joint) const {
-  return model_.joints.at(static_cast<std::size_t>(joint.index)).type == desc::Joint::Type::kFixed;
-}
-
-std::string Rig::child_of(JointRef joint) const {
-  return model_.joints.at(static_cast<std::size_t>(joint.index)).child;
-}
-
-Vec3 Rig::anchor(JointRef joint) const {
-  return model_.joints.at(static_cast<std::size_t>(joint.index)).anchor;
-}
-
-double Rig::mass(LinkRef link) const {
-  return model_.links.at(static_cast<std::size_t>(link.index)).inertial.mass;
-}
-
-Vec3 Rig::center(LinkRef link) const {
-  return model_.links.at(static_cast<std::size_t>(link.index)).inertial.pose.position;
-}
-
-LightRef Rig::light(const std::string&) { throw Error("no lights on this bench"); }
-
-ContactRef Rig::collision(const std::string&) { throw Error("no contacts on this bench"); }
-
 void Rig::force(JointRef joint, double force) {
   if (force != 0.0) ++forces;
   ++calls;
@@ -220,10 +181,6 @@ void Rig::force(JointRef joint, double force) {
 void Rig::motor(JointRef joint, double velocity, double max_force) {
   ++calls;
   bench_.world.set_motor(id_of(joint), velocity, max_force);
-}
-
-void Rig::cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const {
-  bench_.cast(rays, hits);
 }
 
 void Rig::latch(JointRef joint, double break_force) {
