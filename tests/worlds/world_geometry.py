@@ -34,6 +34,7 @@ class Model:
     pose: np.ndarray
     element: etree._Element
     links: dict[str, np.ndarray] = field(default_factory=dict)
+    posed: dict[frozenset[tuple[str, float]], list[Shape]] = field(default_factory=dict)
 
     def joint(self, name: str) -> etree._Element | None:
         return self.element.find(f"joint[@name='{name}']")
@@ -122,8 +123,11 @@ def _moved(model: Model, positions: dict[str, float]) -> dict[str, np.ndarray]:
 
 def shapes(model: Model, positions: dict[str, float] | None = None) -> list[Shape]:
     """Returns a model's collisions, planes left out, with its joints at `positions`."""
+    key = frozenset((positions or {}).items())
+    if key in model.posed:
+        return model.posed[key]
     poses = _moved(model, positions or {})
-    result = []
+    result = model.posed[key] = []
     for link in model.element.iterfind("link"):
         for collision in link.iterfind("collision"):
             sized = _half(collision.find("geometry"))
@@ -143,13 +147,23 @@ def nearby(solids: list[Shape], center: np.ndarray, radius: float) -> list[Shape
 def gaps(one: Shape, others: list[Shape]) -> np.ndarray:
     """Returns, per other shape, a lower bound of the gap in m; negative where boxes overlap.
 
-    Boxes are compared by their separating axes; a round shape stands in as the box round it.
+    Boxes are compared by the balls round them, and where those are close by their separating axes;
+    a round shape stands in as the box round it.
     """
     if not others:
         return np.array([])
-    halves = np.array([s.half for s in others])
-    turns = np.array([s.pose[:3, :3] for s in others])
     between = np.array([s.pose[:3, 3] for s in others]) - one.pose[:3, 3]
+    radii = np.array([s.half @ s.half for s in others]) ** 0.5
+    bound = np.linalg.norm(between, axis=1) - radii - np.linalg.norm(one.half)
+    close = np.flatnonzero(bound < 0.2)
+    bound[close] = _box_gaps(one, [others[k] for k in close], between[close])
+    return bound
+
+
+def _box_gaps(one: Shape, others: list[Shape], between: np.ndarray) -> np.ndarray:
+    """Returns the gaps along the best of the 15 axes that may separate two boxes."""
+    halves = np.array([s.half for s in others]).reshape(-1, 3)
+    turns = np.array([s.pose[:3, :3] for s in others]).reshape(-1, 3, 3)
     own = np.broadcast_to(one.pose[:3, :3], turns.shape)
     crosses = np.cross(own.transpose(0, 2, 1)[:, :, None], turns.transpose(0, 2, 1)[:, None])
     axes = np.concatenate([own.transpose(0, 2, 1), turns.transpose(0, 2, 1),
