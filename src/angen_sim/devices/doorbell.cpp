@@ -30,7 +30,6 @@ class Doorbell : public Device {
     if (!places.empty()) position_ = places.front();
     left_ = from_seconds(
         params.number("remaining", 0.0, "s", "of a ring that sounds at the start", kNotNegative));
-    params.text("device_name", "", "the name commands use, instead of the model's");
   }
 
   Verdict command(const Command&, const View&) override {

@@ -101,9 +101,15 @@ TEST(Declared, FieldsAreCheckedAgainOnlyWhereThereAreMore) {
 }
 
 TEST(Declared, NoiseIsOfNumbersThatAreDeclared) {
-  check_noise(tape(), {{"distance", 0.0, 0.1}, {"ranges", 0.0, 0.1}});
-  EXPECT_THROW(check_noise(tape(), {{"distnce", 0.0, 0.1}}), Error);
-  EXPECT_THROW(check_noise(tape(), {{"count", 0.0, 0.1}}), Error);
+  const auto noise_of = [](const std::string& field) {
+    Noise noise;
+    noise.field = field;
+    return std::vector<Noise>{noise};
+  };
+  check_noise(tape(), noise_of("distance"));
+  check_noise(tape(), noise_of("ranges"));
+  EXPECT_THROW(check_noise(tape(), noise_of("distnce")), Error);
+  EXPECT_THROW(check_noise(tape(), noise_of("count")), Error);
 }
 
 }  // namespace

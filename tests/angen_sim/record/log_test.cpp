@@ -191,7 +191,7 @@ TEST(Log, WhatIsMissingOrOfAnotherTypeIsAnError) {
            {"\"do\":\"delete\"", "\"do\":\"explode\"",
             "'explode' is not something that a log does"},
            {"\"step\":1000000", "\"step\":0", "'step' is not 1 ns to 1 s"},
-           {"\"pose\":[", "\"pose\":[1,", "'pose' has not seven numbers"}}) {
+           {"\"pose\":[", "\"pose\":[1,", "'pose' has not 7 numbers"}}) {
     write_all(bad, forged(whole, from, to));
     EXPECT_NE(wrong_with(bad).find(why), std::string::npos) << wrong_with(bad);
   }
