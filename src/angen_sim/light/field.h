@@ -109,7 +109,7 @@ class Field {
   float direct(const Solution& solution, std::uint32_t patch, bool stale) const;
 
   /// lx on a patch from other patches, also if the solution does not contain the patch; but 0 then
-  /// if the solution is `stale` and the patch is not charged.
+  /// if the solution is `stale` and the patch is not counted.
   Rgb reflected(const Solution& solution, std::uint32_t patch, bool stale);
 
   /// Adds the solution's reflected lx times `factor` to `light`, by patch.
@@ -169,7 +169,7 @@ class Field {
   std::vector<Box> boxes_;                // changes that the current update processes
   std::vector<std::uint32_t> releasing_;  // patch numbers to free after the update
   std::size_t updated_ = 0;               // of `counted_`
-  std::vector<std::uint32_t> counted_;    // patches, in the order of charging
+  std::vector<std::uint32_t> counted_;    // patches, in the order of counting
   std::vector<std::uint32_t> uncounted_;  // patches whose links only queries have used
 };
 

@@ -38,7 +38,7 @@ class Gather {
   /// Number of patches in view that the solution does not contain and that are not counted.
   std::size_t lacking(const Source& source);
   /// Charges these patches for about `rays` rays and subtracts the cost. Returns whether all are
-  /// charged.
+  /// counted.
   bool prepare(const Source& source, std::int64_t& rays);
 
   /// Light of all surfaces on the place. Extends `reach` by the light paths that movers could
