@@ -4,9 +4,11 @@ find_package(Eigen3 REQUIRED NO_MODULE)
 if(TARGET angen_ros)  # in one workspace with Angen, which is not built yet
   set(ANGEN_DESCRIBE angen_describe)
   set(ANGEN_ROS_LIBRARY angen_ros)
+  set(ANGEN_GAZEBO_LIBRARY angen_gazebo)
 else()
   find_program(ANGEN_DESCRIBE angen_describe HINTS ${angen_sim_DIR}/../../../lib/angen_sim REQUIRED)
   find_library(ANGEN_ROS_LIBRARY angen_ros HINTS ${angen_sim_DIR}/../../../lib REQUIRED)
+  find_library(ANGEN_GAZEBO_LIBRARY angen_gazebo HINTS ${angen_sim_DIR}/../../../lib REQUIRED)
 endif()
 
 function(angen_add_library name)
@@ -26,9 +28,9 @@ function(angen_add_plugin name)
 endfunction()
 
 # angen_add_ros_kinds(NAME sources...): libNAME_ros.so, which holds what ROS must know of the kinds in libNAME.so:
-# their messages, how these are filled, and how rviz shows them. Angen's node loads it by its name.
+# their messages, how these are filled, how rviz shows them, and controllers of joints. Angen's node loads it by its name.
 function(angen_add_ros_kinds name)
   angen_add_library(${name}_ros ${ARGN})
   target_include_directories(${name}_ros SYSTEM PRIVATE ${catkin_INCLUDE_DIRS} ${CATKIN_DEVEL_PREFIX}/include)
-  target_link_libraries(${name}_ros PRIVATE ${ANGEN_ROS_LIBRARY} ${catkin_LIBRARIES})
+  target_link_libraries(${name}_ros PRIVATE ${ANGEN_ROS_LIBRARY} ${ANGEN_GAZEBO_LIBRARY} ${catkin_LIBRARIES})
 endfunction()
