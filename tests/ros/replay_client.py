@@ -68,7 +68,8 @@ class Client:
 
     def door(self) -> None:
         self.doors.publish(self.random.choice(
-            ["Open, bathroom0", "Close, bathroom0", "Set, bathroom0, -0.7", "Fly, bathroom0"]))
+            ["Open, bathroom0", "Close, bathroom0", "Set, bathroom0, -0.7", "Fly, bathroom0",
+             "Open, "]))
 
     def lamp(self) -> None:
         self.lamps.publish(f"Dim, kitchen0, {self.random.randrange(101)}")
