@@ -10,6 +10,7 @@
 #include "core/pose.h"
 #include "core/shape.h"
 #include "core/time.h"
+#include "desc/home.h"
 
 /// Plain values that describe a world as its files say it, before anything moves. SI units and
 /// radians.
@@ -163,6 +164,7 @@ struct Model {
   std::vector<Link> links;
   std::vector<Joint> joints;
   std::vector<Plugin> plugins;
+  HomeParts home;            // in the model's frame
   std::string xml;           // as in its file (an <include>, <model> or <actor>), for `save`
   std::string expanded_xml;  // if xml has includes: the same, with them expanded
   std::vector<Diagnostic> warnings;  // of a model that was loaded alone; else the world has them
@@ -196,6 +198,8 @@ struct World {
   std::vector<Light> lights;
   std::vector<Model> models;
   std::vector<Plugin> plugins;
+  HomeParts home;
+  HomeSite site;
   std::vector<Diagnostic> warnings;
   std::vector<Diagnostic> ignored;  // elements and attributes that nothing reads
   std::string xml;                  // the world's own text without models, for `save`

@@ -297,7 +297,8 @@ void Door::report(const View& view, Reading& state) const {
 
 LeafPlugin::LeafPlugin(const LeafKind& leaf)
     : leaf_(leaf), kind_(leaf.kind, std::string("A ") + leaf.kind + ".") {
-  kind_.example(leaf.example)
+  kind_.passage(leaf.passage)
+      .example(leaf.example)
       .command_topic(leaf.topic)
       .verb("Open", "moves to its open_position")
       .verb("Close", "moves to its closed_position")

@@ -15,6 +15,7 @@ namespace angen::devices {
 /// The name of a door, window or cabinet front, and the joint that its leaf turns on.
 struct LeafKind {
   const char* kind;
+  Kind::Passage passage;
   const char* joint;  // revolute; its parent is the link `base`
   bool any_joint;     // or any about a vertical axis with limits that hangs on the world
   const char* topic;  // where commands come from
@@ -100,6 +101,7 @@ class DoorPlugin : public LeafPlugin {
  public:
   DoorPlugin()
       : LeafPlugin({"door",
+                    Kind::Passage::kDoor,
                     "hinge",
                     true,
                     "/gazebo/Door_controller",
@@ -113,6 +115,7 @@ class WindowPlugin : public LeafPlugin {
  public:
   WindowPlugin()
       : LeafPlugin({"window",
+                    Kind::Passage::kWindow,
                     "sash",
                     false,
                     "/gazebo/Window_controller",
@@ -125,6 +128,7 @@ class CabinetPlugin : public LeafPlugin {
  public:
   CabinetPlugin()
       : LeafPlugin({"cabinet",
+                    Kind::Passage::kNone,
                     "front",
                     false,
                     "/gazebo/Cabinet_controller",

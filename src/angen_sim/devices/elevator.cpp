@@ -274,6 +274,12 @@ void Elevator::show(const View& view, Outputs& outputs) {
   if (renew) shown_ = {view.joint(lift_), doorway_.position(view)};
 }
 
+std::vector<double> Elevator::stops() const {
+  std::vector<double> heights;
+  for (int floor = 0; floor < floors_; ++floor) heights.push_back(floor * floor_height_);
+  return heights;
+}
+
 void Elevator::save(SavedParams& params) const {
   params.unset("call");
   if (phase_ != Phase::kStanding) params.row("call", {static_cast<double>(target_)});
@@ -297,6 +303,7 @@ const Kind& ElevatorPlugin::kind() const {
   static const Kind kind =
       Kind("elevator", "An elevator with doors.")
           .model("elevator")
+          .passage(Kind::Passage::kElevator)
           .example("set elevator elevator 1")
           .command_topic(kTopic)
           .counted_verb("Floor", "floor", {0.0, 999.0}, "rides there, after its present target")

@@ -24,6 +24,7 @@ class Elevator : public Device {
   void update(const View& view, Outputs& outputs) override;
   void report(const View& view, Reading& state) const override;
   void save(SavedParams& params) const override;
+  std::vector<double> stops() const override;
   Nanoseconds idle_until(const View& view) const override;
 
  private:

@@ -24,6 +24,11 @@ const char* name_of(Field::Type type) {
   return "";
 }
 
+Kind& Kind::passage(Passage passage) {
+  passage_ = passage;
+  return *this;
+}
+
 Kind& Kind::rate(double hz) {
   rate_ = hz;
   return *this;

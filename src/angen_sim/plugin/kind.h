@@ -43,6 +43,9 @@ const char* name_of(Field::Type type);  // "flag", "number", …
 /// command topics, `angen plugins`, rviz's captions and the tables of docs/ come from it.
 class Kind {
  public:
+  /// What a device is in the description of the home: a leaf on a hinge, or an elevator.
+  enum class Passage { kNone, kDoor, kWindow, kElevator };
+
   /// A model of worlds/models that holds one; used where `parameter` (if any) is set to `value`.
   struct Model {
     std::string folder;
@@ -59,6 +62,7 @@ class Kind {
   std::vector<Verb> verbs;
   std::vector<Field> fields;
 
+  Passage passage() const { return passage_; }
   /// Hz, how often a sensor publishes unless its SDF says.
   double rate() const { return rate_; }
   /// SDF type of a sensor that is mounted on a link of another model.
@@ -75,6 +79,7 @@ class Kind {
 
   // Each adds to the description and returns it, so that calls can be chained.
 
+  Kind& passage(Passage passage);
   Kind& rate(double hz);
   Kind& on_demand();
   Kind& model(std::string folder, std::string parameter = "", std::string value = "");
@@ -119,6 +124,7 @@ class Kind {
  private:
   Kind& add(std::string name, Field::Type type, std::string unit, std::string doc);
 
+  Passage passage_ = Passage::kNone;
   double rate_ = 10.0;
   std::string sensor_type_;
   std::string example_;

@@ -49,6 +49,8 @@ class Device {
   /// Parameters with which a device that starts in this state continues as this one would; the
   /// others stay as they were given. Poses and joint positions are saved with the model.
   virtual void save(SavedParams&) const {}
+  /// Of an elevator: the positions (m) of its joint at which it stops, the lowest first.
+  virtual std::vector<double> stops() const { return {}; }
 };
 constexpr Nanoseconds kForever = INT64_MAX;
 

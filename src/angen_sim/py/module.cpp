@@ -9,6 +9,7 @@
 #include "core/names.h"
 #include "plugin/json.h"
 #include "py/edits.h"
+#include "py/home.h"
 #include "py/subclass.h"
 #include "py/world.h"
 
@@ -206,6 +207,21 @@ void bind_world(pyb::module_& module) {
       .def_property_readonly("failed_steps",
                              [](const World& w) { return w.now().counts.failed_steps; })
       .def_property_readonly("readings", [](const World& w) { return w.now().counts.readings; })
+      .def_property_readonly(
+          "home", [](const World& w) { return home_dict(w.now().structure->home->get()); },
+          "The home: its storeys, rooms, things, doors and elevators, as a dict; docs/home.md.")
+      .def(
+          "home_findings",
+          [](const World& w) {
+            std::vector<pyb::tuple> all;
+            for (const HomeFinding& finding : w.now().structure->home->findings()) {
+              all.push_back(
+                  pyb::make_tuple(finding.guessed ? "guessed" : "contradicting", finding.text));
+            }
+            return all;
+          },
+          "What is missing or wrong in the description of the home: ('guessed' or 'contradicting', "
+          "what).")
       .def_property_readonly("fingerprint", &World::fingerprint,
                              "a hash of every snapshot since the start or the last reset")
       .def_property_readonly(

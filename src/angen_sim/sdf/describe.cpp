@@ -8,6 +8,7 @@
 #include "document/xml.h"
 #include "sdf/check.h"
 #include "sdf/geometry.h"
+#include "sdf/home.h"
 #include "sdf/light.h"
 #include "sdf/material.h"
 #include "sdf/reader.h"
@@ -170,6 +171,9 @@ void add_parts(const Reader& model, const std::string& scope, const Context& con
     model.attribute(read_by_frames);
   }
   model.note({"plugin"});
+  const Pose frame =
+      scope.empty() ? Pose{} : context.frames.pose(scope.substr(0, scope.size() - 2));
+  read_home_parts(model, frame, to.home, session);
   for (const Element& part : model.element().children) {
     if (part.name == "link") {
       to.links.push_back(link_of(part, scope, context));

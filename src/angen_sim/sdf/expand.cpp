@@ -13,6 +13,7 @@
 #include "document/xml.h"
 #include "import/upgrade.h"
 #include "import/urdf.h"
+#include "sdf/home.h"
 
 namespace angen::load {
 
@@ -96,7 +97,8 @@ void check_given_once(const Element& include) {
 
 void apply_include(const Element& include, Element& to, Session& session) {
   check_given_once(include);
-  std::vector<Element> plugins;
+  std::vector<Element> added;
+  std::set<std::string> replaced;
   for (const Element& child : include.children) {
     if (child.name == "uri") continue;
     if (child.name == "name") {
@@ -109,7 +111,10 @@ void apply_include(const Element& include, Element& to, Session& session) {
       remove_children(to, "static");
       to.children.insert(to.children.begin(), child);
     } else if (child.name == "plugin") {
-      plugins.push_back(child);
+      added.push_back(child);
+    } else if (is_of_home(child.name)) {
+      if (replaced.insert(child.name).second) remove_children(to, child.name);
+      added.push_back(child);
     } else if (child.name == "placement_frame") {
       throw Error(child.source, "<placement_frame> is not supported; give the model's own <pose>");
     } else {
@@ -118,7 +123,7 @@ void apply_include(const Element& include, Element& to, Session& session) {
                                      "takes uri, name, pose, static and plugin");
     }
   }
-  to.children.insert(to.children.end(), plugins.begin(), plugins.end());
+  to.children.insert(to.children.end(), added.begin(), added.end());
 }
 
 // merge="true" adds these parts; the rest, such as <static>, is the outer model's own.
@@ -130,7 +135,7 @@ void merge_parts(Element& included, std::vector<Element>& into) {
                 "give it to the outer model");
   }
   for (Element& child : included.children) {
-    if (parts.count(child.name) != 0) into.push_back(std::move(child));
+    if (parts.count(child.name) != 0 || is_of_home(child.name)) into.push_back(std::move(child));
   }
 }
 

@@ -141,11 +141,53 @@ void serialize(A& a, angen::desc::Plugin& v) {
 }
 
 template <class A>
+void serialize(A& a, angen::FloorPose& v) {
+  auto& [position, yaw] = v;
+  a(position, yaw);
+}
+
+template <class A>
+void serialize(A& a, angen::Place& v) {
+  auto& [posture, pose] = v;
+  a(posture, pose);
+}
+
+template <class A>
+void serialize(A& a, angen::desc::Storey& v) {
+  auto& [name, number, elevation, height, source] = v;
+  a(name, number, elevation, height, source);
+}
+
+template <class A>
+void serialize(A& a, angen::desc::Room& v) {
+  auto& [name, use, outline, holes, floor, ceiling, source] = v;
+  a(name, use, outline, holes, floor, ceiling, source);
+}
+
+template <class A>
+void serialize(A& a, angen::desc::Opening& v) {
+  auto& [name, pose, width, height, source] = v;
+  a(name, pose, width, height, source);
+}
+
+template <class A>
+void serialize(A& a, angen::desc::HomeParts& v) {
+  auto& [storeys, rooms, openings, thing, places] = v;
+  a(storeys, rooms, openings, thing, places);
+}
+
+template <class A>
+void serialize(A& a, angen::desc::HomeSite& v) {
+  auto& [entrance, north, latitude, start, source] = v;
+  a(entrance, north, latitude, start, source);
+}
+
+template <class A>
 void serialize(A& a, angen::desc::Model& v) {
   auto& [name, pose, is_static, allow_auto_disable, self_collide, tolerant, links, joints, plugins,
-         xml, expanded_xml, warnings, ignored, source] = v;
-  a(name, pose, is_static, allow_auto_disable, self_collide, tolerant, links, joints, plugins, xml,
-    expanded_xml, warnings, ignored, source);
+         home, xml, expanded_xml, warnings, ignored, source] = v;
+  a(name, pose, is_static, allow_auto_disable, self_collide, tolerant, links, joints, plugins, home,
+    xml, expanded_xml, warnings, ignored, source);
 }
 
 template <class A>
@@ -165,9 +207,9 @@ void serialize(A& a, angen::desc::Scene& v) {
 template <class A>
 void serialize(A& a, angen::desc::World& v) {
   auto& [name, gravity, physics, scene, ambient_temperature, tolerant, lights, models, plugins,
-         warnings, ignored, xml] = v;
-  a(name, gravity, physics, scene, ambient_temperature, tolerant, lights, models, plugins, warnings,
-    ignored, xml);
+         home, site, warnings, ignored, xml] = v;
+  a(name, gravity, physics, scene, ambient_temperature, tolerant, lights, models, plugins, home,
+    site, warnings, ignored, xml);
 }
 
 }  // namespace cereal

@@ -1,4 +1,5 @@
 #include "sdf/describe.h"
+#include "sdf/home.h"
 #include "sdf/reader.h"
 
 namespace angen::load {
@@ -69,6 +70,8 @@ void read_settings(const Element& element, desc::World& to, Session& session) {
     if (child.name == "plugin") to.plugins.push_back(plugin_of(child));
   }
   world.note({"plugin"});
+  read_home_parts(world, Pose{}, to.home, session);
+  to.site = home_site_of(world, session);
 }
 
 }  // namespace angen::load

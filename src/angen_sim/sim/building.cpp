@@ -5,6 +5,7 @@
 
 #include "core/nearest.h"
 #include "core/text.h"
+#include "sim/home.h"
 
 namespace angen::sim {
 
@@ -237,6 +238,7 @@ void Building::build(desc::Model model, const std::vector<SensorInstance>* attac
     owners_[index] = {live.get(), i};
   }
   add_names(*live);
+  home_changed_ = home_changed_ || is_of_home(*live);
   models_.push_back(std::move(live));
   note_change(models_.size() - 1);
 }
@@ -289,6 +291,7 @@ void Building::erase(const std::string& name) {
     pushes_.forget(**model);
     placed_.erase(std::remove(placed_.begin(), placed_.end(), model->get()), placed_.end());
     remove_names(**model);
+    home_changed_ = home_changed_ || is_of_home(**model);
     const auto number = static_cast<std::size_t>(model - models_.begin());
     models_.erase(model);
     note_change(number);

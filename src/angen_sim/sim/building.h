@@ -145,6 +145,7 @@ class Building {
   void start(SensorInstance& sensor, Nanoseconds now) const;
   std::vector<std::shared_ptr<const Plugin>> device_plugins();
   void append(LiveModel& live, Structure& all) const;
+  HomeSurvey survey_home() const;
   std::size_t number_of(const LiveModel& live) const;
   void make_engines();
   void check_names(const LiveModel& live) const;
@@ -186,6 +187,7 @@ class Building {
   std::uint64_t revision_ = 0;
   std::shared_ptr<const Structure> structure_;  // the last one
   std::size_t renumbered_from_ = 0;
+  bool home_changed_ = true;  // since the last structure()
   struct DevicesByField {
     std::vector<FoundDevice>
         fixed;  // by height: a storey's are found without going through a tower

@@ -219,6 +219,7 @@ class DeviceMaker {
       instance.kind = plugin->kind().name;
       instance.plugin = plugin;
       instance.library = described.filename;
+      instance.joint = mount.joint;
       instance.device = plugin->make_device_on(mount);
       instance.scratch.kind = instance.kind;
       Params params(described.element);

@@ -1,0 +1,112 @@
+#include "core/home.h"
+
+#include <algorithm>
+
+namespace angen {
+
+namespace {
+
+constexpr double kInWall = 0.1;   // m: a thing in a wall, floor or ceiling is in the room
+constexpr double kOnFloor = 0.5;  // m below its floor that belongs to a storey
+
+}  // namespace
+
+const char* name_of(HomeDoor::Kind kind) {
+  switch (kind) {
+    case HomeDoor::Kind::kDoor:
+      return "door";
+    case HomeDoor::Kind::kWindow:
+      return "window";
+    case HomeDoor::Kind::kOpening:
+      return "opening";
+  }
+  return "";
+}
+
+bool Room::contains(const Point2& point) const {
+  return angen::contains(outline, point) &&
+         std::none_of(holes.begin(), holes.end(),
+                      [&](const Polygon& hole) { return angen::contains(hole, point); });
+}
+
+double Room::distance(const Point2& point) const {
+  double nearest = distance_to_edge(outline, point);
+  for (const Polygon& hole : holes) nearest = std::min(nearest, distance_to_edge(hole, point));
+  return nearest;
+}
+
+bool Room::at_height(double z) const { return z >= floor - kInWall && z <= ceiling + kInWall; }
+
+const Room* Home::room_at(const Vec3& point) const {
+  const Point2 flat = point.head<2>();
+  const Room* nearest = nullptr;
+  double distance = kInWall;
+  for (const Room& room : rooms) {
+    if (!room.at_height(point.z())) continue;
+    if (room.contains(flat)) return &room;
+    const double away = room.distance(flat);
+    if (away >= distance) continue;
+    distance = away;
+    nearest = &room;
+  }
+  return nearest;
+}
+
+std::string Home::room_name_at(const Vec3& point) const {
+  const Room* room = room_at(point);
+  return room == nullptr ? "" : room->name;
+}
+
+int Home::storey_at(double z) const {
+  int number = storeys.empty() ? 0 : storeys.front().number;
+  for (const Storey& storey : storeys) {
+    if (storey.elevation - kOnFloor <= z) number = storey.number;
+  }
+  return number;
+}
+
+const std::vector<std::string>& room_uses() {
+  static const std::vector<std::string> uses = {"kitchen", "bedroom", "bathroom", "living", "hall",
+                                                "work",    "landing", "outdoor",  "other"};
+  return uses;
+}
+
+const std::vector<std::string>& thing_types() {
+  static const std::vector<std::string> types = {"bed",
+                                                 "chair",
+                                                 "armchair",
+                                                 "sofa",
+                                                 "table",
+                                                 "desk",
+                                                 "stove",
+                                                 "sink",
+                                                 "fridge",
+                                                 "toilet",
+                                                 "shower",
+                                                 "bathtub",
+                                                 "washing_machine",
+                                                 "dishwasher",
+                                                 "tv",
+                                                 "stereo",
+                                                 "wardrobe",
+                                                 "bookshelf",
+                                                 "cabinet",
+                                                 "dresser",
+                                                 "nightstand",
+                                                 "lamp",
+                                                 "window",
+                                                 "plant",
+                                                 "fan",
+                                                 "heater",
+                                                 "rug",
+                                                 "stairs",
+                                                 "other"};
+  return types;
+}
+
+const std::vector<std::string>& postures() {
+  static const std::vector<std::string> all = {"stand", "sit", "lie"};
+  return all;
+}
+
+}  // namespace angen

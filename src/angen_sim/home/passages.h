@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "home/survey.h"
+
+namespace angen {
+
+/// A name with the storey's number in place of "{storey}".
+std::string with_storey(std::string name, const std::string& number);
+
+/// Doors, windows and openings with the rooms on their sides, and elevators with their landings, of
+/// a home whose rooms and storeys are known.
+void add_passages(const HomeSurvey& survey, Home& home);
+
+}  // namespace angen

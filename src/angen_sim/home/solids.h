@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "home/survey.h"
+
+namespace angen {
+
+/// A box around a shape, in the world.
+struct OrientedBox {
+  Pose pose;  // of its middle
+  Vec3 size = Vec3::Zero();
+
+  Eigen::AlignedBox3d bounds() const;
+};
+
+/// The box around a shape in `frame`; none for planes, heightmaps and empty shapes.
+std::optional<OrientedBox> box_around(const Shape& shape, const Pose& frame);
+
+/// By how much two boxes overlap along the direction in which they do least, m; at most 0 where
+/// they are apart.
+double overlap_of(const OrientedBox& a, const OrientedBox& b);
+
+/// The boxes around the collisions of a model.
+std::vector<OrientedBox> solid_boxes(const HomeSurvey::Standing& standing);
+
+}  // namespace angen

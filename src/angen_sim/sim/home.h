@@ -1,0 +1,11 @@
+#pragma once
+
+#include "sim/instance.h"
+
+namespace angen::sim {
+
+/// Whether the description of the home may change with that model: it says something of it, has a
+/// door or elevator, or may be a wall.
+bool is_of_home(const LiveModel& live);
+
+}  // namespace angen::sim
