@@ -4,11 +4,9 @@ from __future__ import annotations
 from math import pi
 from pathlib import Path
 
-from lxml import etree
-
 from .devices import add_sensor
-from .sdf import (Color, Part, add, add_link, add_plugin, add_pose, new_model, numbers, spanned,
-                  write_model)
+from .sdf import (Color, Part, add, add_home, add_link, add_plugin, add_pose, add_thing, new_model,
+                  numbers, spanned, write_model)
 
 BLACK: Color = (0.05, 0.05, 0.06)
 GREY: Color = (0.35, 0.36, 0.38)
@@ -44,6 +42,7 @@ def _write_fan(models: Path) -> None:
     add_link(model, "fan", parts, moves=False)
     add_plugin(model, "fan", "libappliance.so", control="speed", power=50, sound_power_level=60,
                level=50, directivity=1, position=numbers(0.06, 0, 1.0))
+    add_thing(model, "fan")
     write_model(root, models, "Fan",
                 "A pedestal fan of 50 W and 60 dB at full speed, off at the start. "
                 "Served by libappliance.so.")
@@ -60,11 +59,12 @@ def _write_tv(models: Path) -> None:
     light = add(link, "light", name="screen", type="point")
     add_pose(light, (0.022, 0, 0.375))
     add(light, "direction", "1 0 0")
-    etree.SubElement(light, "{angen}rectangle", nsmap={"angen": "angen"}).text = "1.1 0.65"
+    add_home(light, "rectangle", "1.1 0.65")
     # a picture of 90 cd/m2 in the mean: pi x 90 x 1.1 x 0.65 = 200 lm
     add_plugin(model, "tv", "libappliance.so", control="volume", power=90, idle_power=70,
                standby_power=0.5, sound_power_level=85, level=40, directivity=2,
                position=numbers(0.02, 0, 0.35), luminous_flux=200)
+    add_thing(model, "tv")
     write_model(root, models, "Television",
                 "A television of 70 to 90 W, 0.5 W on standby, 85 dB at full volume and 200 lm; "
                 "off at the start. Served by libappliance.so.")
@@ -82,6 +82,7 @@ def _write_stereo(models: Path) -> None:
     add_plugin(model, "stereo", "libappliance.so", control="volume", power=60, idle_power=12,
                standby_power=0.5, sound_power_level=95, level=20, directivity=2,
                position=numbers(0.1, 0, 0.1))
+    add_thing(model, "stereo")
     write_model(root, models, "Stereo",
                 "A small stereo of 12 to 60 W and 95 dB at full volume, off at the start. "
                 "Served by libappliance.so.")

@@ -8,8 +8,8 @@ from typing import Any
 from lxml import etree
 
 from . import openers, plan
-from .sdf import (Part, Vector, add, add_fixed, add_joint, add_link, add_plugin, add_pose, new_model,
-                  numbers, spanned, write_model)
+from .sdf import (Part, Vector, add, add_fixed, add_home, add_joint, add_link, add_plugin, add_pose,
+                  new_model, numbers, spanned, write_model)
 
 FLOOR_MATERIAL = "Gazebo/Wood"
 WALL_MATERIAL = "Gazebo/White"
@@ -119,6 +119,17 @@ def apartment_links() -> list[tuple[str, list[Part]]]:
     return links + window_parts()
 
 
+def add_rooms(model: etree._Element) -> None:
+    """Appends the rooms between the faces of their walls, each once a storey."""
+    half = plan.WALL / 2
+    for name, (x0, y0, x1, y1) in (*plan.ROOMS.items(), ("landing", plan.LANDING)):
+        x0, y0, x1, y1 = x0 + half, y0 + half, x1 - half, y1 - half
+        room = add_home(model, "room", name=f"{name}{{storey}}")
+        add_home(room, "use", plan.USES[name])
+        add_home(room, "polygon", numbers(x0, y0, x1, y0, x1, y1, x0, y1))
+        add_home(room, "ceiling", plan.CEILING)
+
+
 def write_apartment(models: Path) -> None:
     """Writes models/apartment; its origin is at floor level, so flats stack every 4 m."""
     root, model = new_model("apartment", static=True)
@@ -130,6 +141,7 @@ def write_apartment(models: Path) -> None:
     for name, (x0, y0, x1, y1) in (*plan.ROOMS.items(), ("landing", plan.LANDING)):
         add(climate, "room", numbers(x0 + half, y0 + half, 0, x1 - half, y1 - half, plan.CEILING),
             name=name)
+    add_rooms(model)
     write_model(root, models, "Apartment",
                 "One storey: entrance, five rooms, landing and elevator shaft. "
                 "Stack at z = 0, 4, 8 ...")

@@ -9,10 +9,10 @@ from lxml import etree
 
 from . import plan
 from .sdf import add, add_plugin, numbers, write
-from .world import (add_devices, add_openers, add_readers, add_state, add_world_plugins, comment,
-                    furniture_in, include, new_world)
+from .world import (add_devices, add_home_site, add_openers, add_readers, add_state,
+                    add_world_plugins, comment, furniture_in, include, new_world)
 
-BEGINS = 6 * 60         # min of the day at which the worlds begin
+BEGINS = 60 * int(plan.BEGINS[:2])      # min of the day at which the worlds begin
 SPEED = 0.8             # m/s
 PAUSE = 0.6             # s, to turn
 HALL = 4.9              # y of the way along the entrance
@@ -138,6 +138,7 @@ def write_day(folder: Path, name: str, day: Day) -> None:
     """Writes a world of one day."""
     root, world = new_world(name)
     add_world_plugins(world)
+    add_home_site(world)
     comment(world, "floor 0")
     include(world, "apartment", "apartment0", (0, 0, 0, 0, 0, 0))
     add_devices(world, 0)

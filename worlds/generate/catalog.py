@@ -7,8 +7,8 @@ from pathlib import Path
 from lxml import etree
 
 from .devices import add_ray, add_sensor
-from .sdf import (Color, Part, add, add_fixed, add_joint, add_link, add_plugin, add_pose, new_model,
-                  numbers, spanned, write_model)
+from .sdf import (Color, Part, add, add_fixed, add_home, add_joint, add_link, add_plugin, add_pose,
+                  add_thing, new_model, numbers, spanned, write_model)
 
 GREY: Color = (0.35, 0.36, 0.38)
 STEEL: Color = (0.75, 0.75, 0.78)
@@ -100,6 +100,7 @@ def write_window(models: Path) -> None:
     add_joint(model, "sash", "revolute", "base", "pane", (0, 0, 1),
               limits={"lower": -1.57, "upper": 0.001, "effort": 200, "velocity": 3},
               dynamics={"damping": 0.2, "friction": 0.1})
+    add_thing(model, "window")
     write_model(root, models, "Window",
                 "A hinged window for an opening of 1.0 x 1.2 m, 18 kg, with a reed contact; opens "
                 "from 0 to -1.57 rad towards its -y. Served by libdoor_world_plugin.so.")
@@ -139,6 +140,7 @@ def write_wall_cabinet(models: Path) -> None:
               dynamics={"damping": 0.05, "friction": 0.05})
     add_plugin(model, "cabinet_controller", "libdoor_world_plugin.so", p=20, i=20, d=4,
                brake_torque=1, latch_torque=10, edge_force_max=40)
+    add_thing(model, "cabinet")
     write_model(root, models, "Wall cabinet",
                 "A cabinet of 0.6 x 0.3 x 0.7 m with a hinged front and a reed contact. "
                 "Served by libdoor_world_plugin.so.")
@@ -197,6 +199,7 @@ def write_heater(models: Path) -> None:
     ]
     add_link(model, "heater", parts, moves=False)
     add_plugin(model, "heater", "libheater.so", power=1000)
+    add_thing(model, "heater")
     write_model(root, models, "Heater",
                 "An electric convector of 1 kW, off at the start. Served by libheater.so.")
 
@@ -246,8 +249,9 @@ def write_daylight(models: Path) -> None:
     link = add_link(model, "pane", [pane], moves=False)
     light = add(link, "light", name="sky", type="point")
     add(light, "direction", "1 0 0")
-    etree.SubElement(light, "{angen}rectangle", nsmap={"angen": "angen"}).text = "1.4 1"
+    add_home(light, "rectangle", "1.4 1")
     add_plugin(model, "daylight", "libdaylight_plugin.so", area=1.4)
+    add_thing(model, "window")
     write_model(root, models, "Window as a source of daylight",
                 "A pane of 1.4 x 1.0 m that scatters the light of an overcast sky into the room. "
                 "Served by libdaylight_plugin.so.")

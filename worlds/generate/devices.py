@@ -8,8 +8,8 @@ from typing import Sequence
 from lxml import etree
 
 from . import urdf
-from .sdf import (Part, add, add_joint, add_link, add_plugin, add_pose, new_model, numbers,
-                  spanned, write_model)
+from .sdf import (Part, add, add_joint, add_link, add_plugin, add_pose, add_thing, new_model,
+                  numbers, spanned, write_model)
 
 LIGHT_DROP = 0.35       # the light hangs this far under the ceiling
 SOIL = 8.0              # l, in the pot of models/plant
@@ -38,6 +38,7 @@ def write_lamp(models: Path) -> None:
         add(attenuation, tag, value)
     add(light, "direction", "0 0 -1")
     add_plugin(model, "lamp_controller", "libros_plugin.so", luminous_flux=800, level=0)
+    add_thing(model, "lamp")
     write_model(root, models, "Ceiling lamp",
                 "A point light of 800 lm in a shade, off at the start. Served by libros_plugin.so.")
 

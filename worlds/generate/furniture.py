@@ -2,10 +2,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import pi
 from pathlib import Path
 
 from .devices import add_soil
-from .sdf import Color, Part, Vector, add, add_link, add_plugin, new_model, spanned, write_model
+from .sdf import (Color, Part, Place, Vector, add, add_link, add_plugin, add_thing, new_model,
+                  spanned, write_model)
 
 OAK: Color = (0.65, 0.47, 0.28)
 DARK: Color = (0.35, 0.23, 0.14)
@@ -245,6 +247,38 @@ def pieces() -> dict[str, Piece]:
     }
 
 
+def _stand(x: float, y: float = 0.0) -> Place:
+    """Returns a place in front of a piece, facing it."""
+    return Place("stand", x, y, 0.0, pi)
+
+
+# piece: what it is, and the places at which one uses it
+THINGS: dict[str, tuple[str, tuple[Place, ...]]] = {
+    "armchair": ("armchair", (Place("sit", 0.1, 0.0, 0.45, 0.0),)),
+    "bathtub": ("bathtub", (Place("lie", 0.0, 0.0, 0.16, pi / 2), _stand(0.75))),
+    "bed": ("bed", (Place("lie", 0.05, 0.39, 0.53, pi), Place("lie", 0.05, -0.39, 0.53, pi),
+                    Place("sit", 0.1, 0.6, 0.53, pi / 2), Place("sit", 0.1, -0.6, 0.53, -pi / 2))),
+    "bookshelf": ("bookshelf", (_stand(0.55),)),
+    "cabinet": ("cabinet", (_stand(0.7),)),
+    "chair": ("chair", (Place("sit", 0.0, 0.0, 0.47, 0.0),)),
+    "desk": ("desk", (_stand(0.7),)),
+    "dresser": ("dresser", (_stand(0.65),)),
+    "fridge": ("fridge", (_stand(0.9),)),
+    "kitchen_counter": ("sink", (_stand(0.65, -0.35),)),
+    "kitchen_table": ("table", ()),
+    "nightstand": ("nightstand", ()),
+    "plant": ("plant", ()),
+    "shoe_cabinet": ("cabinet", (_stand(0.65),)),
+    "sofa": ("sofa", (Place("sit", 0.1, 0.5, 0.45, 0.0), Place("sit", 0.1, 0.0, 0.45, 0.0),
+                      Place("sit", 0.1, -0.5, 0.45, 0.0), Place("lie", 0.1, 0.0, 0.45, pi / 2))),
+    "stove": ("stove", (_stand(0.65),)),
+    "table": ("table", ()),
+    "toilet": ("toilet", (Place("sit", 0.1, 0.0, 0.42, 0.0),)),
+    "tv_stand": ("cabinet", ()),
+    "wardrobe": ("wardrobe", (_stand(0.85),)),
+    "washbasin": ("sink", (_stand(0.55),)),
+    "washing_machine": ("washing_machine", (_stand(0.65),)),
+}
 PLUGINS = {"stove": "libstove.so"}      # pieces that are devices
 
 
@@ -269,5 +303,7 @@ def write_piece(models: Path, name: str, piece: Piece) -> None:
             add(plugin, "plate_visual", f"{plate}_visual")
     if piece.potted:
         add_soil(model, link)
+    kind, places = THINGS[name]
+    add_thing(model, kind, *places)
     how = "" if piece.static else "; moves when pushed, reports contacts"
     write_model(root, models, piece.title, f"{piece.title}, faces +x{how}.")

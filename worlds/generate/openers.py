@@ -14,8 +14,8 @@ from lxml import etree
 from . import plan
 from .catalog import REED_GAP, STEEL, add_reed
 from .furniture import CERAMIC, CREAM, OAK
-from .sdf import (Color, Part, add, add_fixed, add_joint, add_link, add_plugin, new_model, spanned,
-                  write_model)
+from .sdf import (Color, Part, add, add_fixed, add_joint, add_link, add_plugin, add_thing,
+                  new_model, spanned, write_model)
 
 GLASS: Color = (0.55, 0.68, 0.8)
 GLASS_DENSITY = 20.0    # kg/m2 of a sash: two panes of 3 mm at 2500 kg/m3, and its frame
@@ -141,6 +141,7 @@ def _write_sash(models: Path, room: str, sash: plan.Sash) -> None:
     _add_hinge(model, "sash", "pane", False, -1.57, 200)
     add_plugin(model, "window_controller", "libdoor_world_plugin.so",
                height=round(height - 2 * plan.SASH_LAP, 6), **_gains(mass * width ** 2 / 3))
+    add_thing(model, "window")
     title = f"{room.replace('_', ' ').capitalize()} window"
     write_model(root, models, title,
                 f"A sash of {width:g} x {height:.4g} m, {mass:g} kg, with a reed contact; opens "

@@ -9,6 +9,10 @@ from math import pi
 
 STOREY = 4.0
 FLOORS = 2
+NORTH = pi / 2          # +y
+LATITUDE = 48.1         # degrees, of Munich
+DAY = "2026-03-21"      # on which the worlds begin, at BEGINS
+BEGINS = "06:00:00"
 WALL = 0.1              # thickness
 SLAB = 0.2              # floor slab, below z = 0
 CEILING = 2.8           # underside of the ceiling slab
@@ -26,6 +30,9 @@ ROOMS = {
     "workroom": (6.8, 4.0, 10.0, 9.6),
     "bathroom": (4.0, 6.0, 6.8, 9.6),
 }
+# what each is used for
+USES = {"entrance": "hall", "kitchen": "kitchen", "livingroom": "living", "bedroom": "bedroom",
+        "workroom": "work", "bathroom": "bathroom", "landing": "landing"}
 LANDING = (-2.7, 3.3, 0.0, 6.7)
 # inside faces of the elevator's shaft; the landing's slab ends 5 cm inside the east face
 SHAFT = (-4.5, 3.9, -2.75, 6.1)

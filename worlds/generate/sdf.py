@@ -10,6 +10,7 @@ import numpy as np
 from lxml import etree
 
 SDF_VERSION = "1.6"
+ANGEN = "angen"     # the namespace of our own elements
 Color = tuple[float, float, float]
 Vector = tuple[float, float, float]
 
@@ -103,6 +104,30 @@ def add(parent: etree._Element, tag: str, text: object = None, **attributes: str
     if text is not None:
         child.text = num(text) if isinstance(text, (int, float)) else str(text)
     return child
+
+
+def add_home(parent: etree._Element, tag: str, text: object = None, **attributes: str
+             ) -> etree._Element:
+    """Appends <angen:tag>, a part of the home's description, and returns it."""
+    return add(parent, f"{{{ANGEN}}}{tag}", text, **attributes)
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where one stands, sits or lies, in the model's frame: feet, seat or middle; m, rad."""
+    posture: str
+    x: float
+    y: float
+    z: float
+    yaw: float
+
+
+def add_thing(model: etree._Element, thing: str, *places: Place) -> None:
+    """Says what a model is, and where one uses it."""
+    add_home(model, "thing", thing)
+    for place in places:
+        add_home(model, "place", numbers(place.x, place.y, place.z, round(place.yaw, 5)),
+                 posture=place.posture)
 
 
 def add_pose(parent: etree._Element, at: Sequence[float], rpy: Sequence[float] = (0, 0, 0)) -> None:
@@ -224,6 +249,7 @@ def new_model(name: str, static: bool = False) -> tuple[etree._Element, etree._E
 def write(root: etree._Element, path: Path) -> None:
     """Writes pretty-printed XML, making the folder where it is missing."""
     path.parent.mkdir(parents=True, exist_ok=True)
+    etree.cleanup_namespaces(root, top_nsmap={"angen": ANGEN})
     etree.indent(root, "  ")
     body = etree.tostring(root, encoding="unicode")
     path.write_text('<?xml version="1.0"?>\n' + body + "\n", encoding="utf-8")

@@ -8,8 +8,8 @@ from lxml import etree
 from .catalog import STEEL
 from .devices import add_sensor
 from .furniture import OAK, legs
-from .sdf import (Color, Part, add, add_link, add_plugin, add_pose, new_model, numbers, spanned,
-                  write_model)
+from .sdf import (Color, Part, add, add_link, add_plugin, add_pose, add_thing, new_model, numbers,
+                  spanned, write_model)
 
 STONEWARE: Color = (0.82, 0.3, 0.2)
 FEET = ("leg_front_left", "leg_front_right", "leg_back_left", "leg_back_right")
@@ -57,6 +57,7 @@ def write_weighing_table(models: Path) -> None:
     for foot in FEET:
         add(contact, "collision", f"{foot}_collision")
     add_plugin(sensor, "load_cells", "libload_cells.so", tare=TABLE_MASS, noise_stddev=CELL_NOISE)
+    add_thing(model, "table")
     write_model(root, models, "Weighing table",
                 "A side table of 6 kg on four load cells: the weight of what stands on it, and "
                 "where. Served by libload_cells.so.")

@@ -9,7 +9,7 @@ from lxml import etree
 
 from . import catalog, openers, plan
 from .building import add_ground
-from .sdf import SDF_VERSION, add, add_plugin, add_pose, numbers, write
+from .sdf import SDF_VERSION, add, add_home, add_plugin, add_pose, numbers, write
 from .things import add_tag
 
 Pose = tuple[float, float, float, float, float, float]
@@ -44,6 +44,15 @@ def add_world_plugins(world: etree._Element) -> None:
                commandTopic="cmd_vel", odometryTopic="odom", odometryFrame="odom",
                robotBaseFrame="base_footprint", leftJoint="left_wheel_joint",
                rightJoint="right_wheel_joint", updateRate=50)
+
+
+def add_home_site(world: etree._Element) -> None:
+    """Says which door is the main entrance, where north is, and when simulated time begins."""
+    home = add_home(world, "home")
+    add_home(home, "entrance", "entrance0")
+    add_home(home, "north", round(plan.NORTH, 5))
+    add_home(home, "latitude", plan.LATITUDE)
+    add_home(home, "start", f"{plan.DAY}T{plan.BEGINS}")
 
 
 def include(world: etree._Element, model: str, name: str, pose: Pose) -> etree._Element:
@@ -210,6 +219,7 @@ def write_angen(folder: Path) -> None:
     """Writes angen.world: two storeys with all that stands in them."""
     root, world = new_world("angen")
     add_world_plugins(world)
+    add_home_site(world)
     comment(world, "the building")
     for floor in range(plan.FLOORS):
         include(world, "apartment", f"apartment{floor}", (0, 0, floor * plan.STOREY, 0, 0, 0))
