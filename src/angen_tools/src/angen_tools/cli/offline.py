@@ -1,4 +1,5 @@
-"""The commands that need no running simulator: plugins, check, luxcheck, world, run, replay."""
+"""The commands that need no running simulator: plugins, check, home, luxcheck, world, run,
+replay."""
 from __future__ import annotations
 
 import argparse
@@ -36,6 +37,12 @@ def run_check(args: argparse.Namespace) -> int:
         else:
             print(checked.found)
     return code
+
+
+def run_home(args: argparse.Namespace) -> int:
+    from angen_tools.offline.home import home_json, home_text, load_home
+    print((home_json if args.json else home_text)(*load_home(args.world)))
+    return 0
 
 
 def run_luxcheck(args: argparse.Namespace) -> int:
@@ -76,7 +83,7 @@ def add_plugins(commands: Any) -> None:
 
 
 def add_checks(commands: Any) -> None:
-    """angen check, angen luxcheck."""
+    """angen check, angen home, angen luxcheck."""
     check = command(commands, 'check', run_check,
                     'reports what is wrong with files of worlds, models and robots; needs no '
                     'simulator', 'check worlds/angen.world',
@@ -84,6 +91,13 @@ def add_checks(commands: Any) -> None:
     check.add_argument('paths', metavar='PATH', nargs='+', help='a world, a model (SDF, URDF, or '
                        'its folder), or model://NAME')
     add_allow_paths(check)
+    home = command(commands, 'home', run_home,
+                   'prints the rooms of a world, its doors and what is in the rooms, and lists '
+                   'what is missing or wrong; needs no simulator', 'home worlds/angen.world',
+                   'home worlds/angen.world --json')
+    home.add_argument('world', metavar='FILE.world', help='the SDF file of the world')
+    add_json(home)
+    add_allow_paths(home)
     lux = command(commands, 'luxcheck', run_luxcheck,
                   'compares the simulated light with closed forms; needs no simulator', 'luxcheck')
     add_json(lux)
