@@ -43,6 +43,7 @@ std::vector<angen_msgs::Entity> entities(const sim::Snapshot& snapshot,
     entity.kind = its_kind;
     if (model != UINT32_MAX) entity.model = structure.models[model]->name;
     entity.pose = to_ros(pose);
+    entity.room = structure.home->get().room_name_at(pose.position);
     all.push_back(std::move(entity));
     return &all.back();
   };

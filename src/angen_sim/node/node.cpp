@@ -72,6 +72,7 @@ Node::Node(sim::Simulation& simulation, const Settings& settings)
       events_(handle_),
       cost_(handle_, simulation),
       summary_(handle_, readings_),
+      home_(handle_),
       frames_(settings.odometry_in_world, tf_prefix_in),
       transforms_(handle_),
       markers_(handle_, readings_),
@@ -144,6 +145,7 @@ void Node::go_live() {
 void Node::follow_structure(const sim::Snapshot& snapshot) {
   const Changes changes = changes_between(structure_.get(), *snapshot.structure);
   structure_ = snapshot.structure;
+  home_.on_structure(*structure_);
   const std::vector<Robot> robots = find_robots(*structure_, simulation_.world().plugins);
   const std::shared_ptr<const FrameTree> frames = frames_.make(snapshot, robots, changes);
   transforms_.on_structure(snapshot, frames, robots, changes);

@@ -9,6 +9,7 @@
 #include "gazebo/states.h"
 #include "node/commands.h"
 #include "node/cost.h"
+#include "node/home_topic.h"
 #include "node/lag_warning.h"
 #include "node/publishers.h"
 #include "node/services.h"
@@ -84,6 +85,7 @@ class Node {
   CostTopic cost_;
   Readings readings_;
   SummaryTopic summary_;
+  HomeTopic home_;
   FrameMaker frames_;
   Transforms transforms_;
   Markers markers_;
