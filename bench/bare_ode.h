@@ -9,8 +9,8 @@
 
 #include "desc/world.h"
 
-/// A described world in bare ODE with the fastest of its spaces: a quadtree per storey for what is
-/// static, sweep and prune for what moves; auto-disable, dWorldStep, a PD torque for each joint
+/// A described world in bare ODE with the fastest of its spaces: a quadtree per storey for static
+/// geometry, sweep and prune for movers; auto-disable, dWorldStep, a PD torque for each joint
 /// that has stops and a motor for each that has none. No devices, no sensors, no poses handed out.
 namespace angen::bench {
 
@@ -74,7 +74,7 @@ class BareOde {
     const dBodyID one = dGeomGetBody(a);
     const dBodyID two = dGeomGetBody(b);
     const auto rests = [](dBodyID body) { return body == nullptr || !dBodyIsEnabled(body); };
-    // Of one model nothing touches.
+    // Collisions of one model are not tested against each other.
     if ((rests(one) && rests(two)) || dGeomGetData(a) == dGeomGetData(b)) return;
     dContact found[8];
     const int n = dCollide(a, b, 8, &found[0].geom, sizeof(dContact));
@@ -90,20 +90,20 @@ class BareOde {
   static void push(const Driven& d, double time) {
     if (d.upper - d.lower > 100.0) return;  // a wheel has its motor
     const double middle = 0.5 * (d.lower + d.upper), reach = 0.45 * (d.upper - d.lower);
-    const double wanted = middle + reach * std::sin(time);
+    const double target = middle + reach * std::sin(time);
     if (d.slides) {
-      const double error = wanted - dJointGetSliderPosition(d.joint);
+      const double error = target - dJointGetSliderPosition(d.joint);
       dJointAddSliderForce(d.joint, d.weight + d.stiffness * error -
                                         d.damping * dJointGetSliderPositionRate(d.joint));
     } else {
-      const double error = wanted - dJointGetHingeAngle(d.joint);
+      const double error = target - dJointGetHingeAngle(d.joint);
       dJointAddHingeTorque(d.joint,
                            d.stiffness * error - d.damping * dJointGetHingeAngleRate(d.joint));
     }
   }
 
-  // Links that fixed joints hold together are one body, that of the first; "world" and what is
-  // static is none.
+  // Links that fixed joints connect are one body, that of the first; "world" and static links have
+  // none.
   void add(const desc::Model& model) {
     std::map<std::string, std::string> part_of;
     for (const desc::Link& link : model.links) {

@@ -1,5 +1,5 @@
-// What the core costs without ROS: many sensors, rest, towers, a day. A batch starts in a world
-// that has just been loaded, or in one that nothing changes.
+// The cost of the core without ROS: many sensors, rest, towers, a day. A batch starts in a world
+// that has just been loaded, or in an unchanged one.
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 #include <sys/resource.h>
@@ -43,13 +43,13 @@ struct Factor {
   }
 };
 
-/// PIRs of 96 rays at 10 Hz in the rooms of angen.world; so many people walk through them.
+/// PIRs of 96 rays at 10 Hz in the rooms of angen.world, and people who walk through them.
 void pirs(benchmark::State& state) {
   desc::World world = apartment();
   put_persons(world, static_cast<int>(state.range(1)));
   put_pirs(world, static_cast<int>(state.range(0)));
   const auto simulation = simulate(std::move(world));
-  run(*simulation, 6.0);  // until what stands on the floor has come to rest
+  run(*simulation, 6.0);  // until all bodies on the floor are at rest
   Factor factor;
   const std::uint64_t before = simulation->snapshot()->counts.readings;
   for (auto _ : state) {
@@ -86,7 +86,7 @@ desc::Model door(const desc::World& world) {
   return {};
 }
 
-/// An empty world with so many doors at rest, per tick.
+/// An empty world with doors at rest, per tick.
 void doors_at_rest(benchmark::State& state) {
   desc::World world = apartment();
   const desc::Model one = door(world);
@@ -103,7 +103,7 @@ void doors_at_rest(benchmark::State& state) {
 }
 BENCHMARK(doors_at_rest)->ArgName("doors")->Arg(0)->Arg(100)->Arg(1000);
 
-/// angen.world with so many floors like its lower one.
+/// angen.world with a number of floors like its lower one.
 desc::World tower(std::int64_t floors) {
   desc::World world = apartment();
   const auto on_ground = [](const desc::Model& model) {
@@ -128,7 +128,7 @@ desc::World tower(std::int64_t floors) {
   return world;
 }
 
-/// Takes the ticks of a second; counts what is awake and the time of a tick.
+/// Takes the ticks of a second; counts awake bodies and measures the time of a tick.
 void run_seconds(benchmark::State& state, sim::Simulation& simulation) {
   double awake = 0.0;
   for (auto _ : state) {
@@ -175,7 +175,7 @@ BENCHMARK(people)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(12);
 
-/// A person whose walk of about `walk` s is followed by nine times as long a stand.
+/// A person who walks for about `walk` s and then stands for nine times as long.
 void let_rest(desc::World& world) {
   const auto person = std::find_if(world.models.begin(), world.models.end(), is_person);
   std::vector<Element>& children = person->plugins[0].element.children;
@@ -215,8 +215,8 @@ double thread_cpu_now() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// What happens in the building in second `i`: each lamp is switched now and then, alone or with
-/// all others, doors and the elevator move, and a lit lamp comes and goes.
+/// Commands in second `i`: each lamp is switched at intervals, alone or with all others, doors and
+/// the elevator move, and a lit lamp is spawned and deleted.
 void use_all(sim::Simulation& simulation, int i) {
   const auto order = [&](const char* kind, const char* name, const char* text) {
     simulation.post(sim::ToDevice{kind, name, {text, {}}});

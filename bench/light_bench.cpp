@@ -1,4 +1,4 @@
-// What a luminosity reading costs in a furnished storey with a lamp in each of its six rooms,
+// The cost of a luminosity reading in a furnished storey with a lamp in each of its six rooms,
 // twice.
 #include <benchmark/benchmark.h>
 

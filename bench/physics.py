@@ -26,7 +26,7 @@ Trace = dict[str, np.ndarray]  # arrays over the same instants, 't' in s among t
 
 @dataclass
 class Check:
-    """One number against what it should be; 0 is expected of what should not be there."""
+    """A measured number and its expected value; an effect that should be absent has 0."""
     name: str
     measured: float
     unit: str
@@ -45,7 +45,7 @@ class Check:
 
 @dataclass
 class Result:
-    """What one experiment gave."""
+    """The result of one experiment."""
     checks: list[Check]
     trace: Trace
 
@@ -95,7 +95,7 @@ def link_of(world: angen.World, name: str, axis: int) -> Callable[[], float]:
 
 
 def crossings(t: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """When x goes through 0, s, between instants by a straight line."""
+    """The time at which x is 0, s, between instants by a straight line."""
     i = np.nonzero(np.sign(x[:-1]) * np.sign(x[1:]) < 0)[0]
     return t[i] + (t[i + 1] - t[i]) * x[i] / (x[i] - x[i + 1])
 
@@ -230,7 +230,7 @@ def door_step(target: float = -1.2) -> Result:
     world.command('door', 'kitchen0', f'Set {target}')
     trace = record(world, 4.0, x=joint_of(world, 'kitchen_door::hinge'))
     trace['setpoint'] = profile(trace['t'], target, 0.6, 2.0)
-    # As its setpoint: the time of the trapezoid, less what it still brakes within the band.
+    # As its setpoint: the time of the trapezoid, less its braking within the band.
     settles = abs(target) / 0.6 + 0.6 / 2.0 - math.sqrt(2 * 0.01 / 2.0)
     return Result(step_checks('door to -1.2 rad', trace, target, 0.01, 'rad', settles, 0.003),
                   trace)
@@ -240,7 +240,7 @@ def elevator_step(load: float = 0.0) -> Result:
     """The elevator is sent a floor up, empty or with a load (kg)."""
     cargo = box('load', '0 0 0.201 0 0 0', (0.8, 0.8, 0.4), load) if load else ''
     world = world_of(f'<include><uri>model://elevator</uri></include>{cargo}')
-    world.run(5)  # its doors open, its brake weighs what is aboard
+    world.run(5)  # its doors open, its brake weighs the load
     world.command('elevator', 'elevator', 'Floor1')
     while world.device('elevator', 'elevator')['mode'] != 'UP':
         world.step()
@@ -272,7 +272,7 @@ def stack_world(sleeps: bool) -> angen.World:
 
 
 def drift(name: str, world: angen.World, seconds: float, settle: float = 3.0) -> Result:
-    """How far anything but the person gets in so long, after `settle` s."""
+    """The largest way of anything but the person within `seconds`, after `settle` s."""
     world.run(settle)
     watched = [i for i, link in enumerate(world.links) if not link.startswith('person::')]
     before = world.link_poses[watched]
@@ -316,7 +316,7 @@ def draw(folder: Path, results: dict[str, Result]) -> None:
     at.plot(swing['t'], swing['lost'], label='lost in the hinge')
     at.plot(swing['t'], swing['energy'] + swing['lost'], 'k--', lw=1, label='sum')
     at.legend()
-    at = panel(axes[1, 1], 'Drift of what should stand', 'mm')
+    at = panel(axes[1, 1], 'Drift at rest', 'mm')
     for name, result in results.items():
         if name.startswith('drift'):
             at.plot(result.trace['t'], result.trace['way'], '.-', label=name[6:])
@@ -359,7 +359,7 @@ def main() -> int:
     """The program."""
     parser = argparse.ArgumentParser(description=__doc__.split('\n', 1)[0])
     parser.add_argument('--folder', type=Path, default=Path('out'), help='for the figures (out)')
-    parser.add_argument('--hour', action='store_true', help='watch what should stand for an hour')
+    parser.add_argument('--hour', action='store_true', help='watch bodies at rest for an hour')
     options = parser.parse_args()
     results = measure(options.hour)
     print(f'{"":44} {"measured":>10} {"expected":>10} {"within":>9}')

@@ -16,8 +16,8 @@ constexpr double kSize[3] = {0.8, 0.04, 2.0};
 constexpr double kMass = 40.0;
 
 double target(int tick) { return -0.75 + 0.7 * std::sin(0.002 * tick); }
-double torque(double wanted, double angle, double rate) {
-  return 200.0 * (wanted - angle) - 50.0 * rate;
+double torque(double target, double angle, double rate) {
+  return 200.0 * (target - angle) - 50.0 * rate;
 }
 
 desc::Model door(int number) {

@@ -5,8 +5,8 @@
     python3 bench/radiance.py /tmp/rad/lib/python3.11/site-packages/pyradiance
 
 Three rooms of movable furniture, a door ajar in one: each is written as a world and as a scene of
-Radiance. Exit code 1 where a sensor is off by more than 2 % or 0.05 lx and what the tracer's own
-noise may be.
+Radiance. Exit code 1 where a sensor differs by more than 2 % or 0.05 lx and the tracer's own
+noise.
 """
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Room:
     boxes: list[Box]
     lamps: list[tuple[Vec, float]]
     sensors: list[tuple[Vec, Vec]]
-    seconds: float = 7.0  # until what is loose counts as resting
+    seconds: float = 7.0  # until loose bodies count as resting
 
 
 def shell(size: Vec, albedo: float) -> list[Box]:
@@ -70,7 +70,7 @@ def shell(size: Vec, albedo: float) -> list[Box]:
 
 
 def on_floor(x: float, y: float, size: Vec, albedo: float, yaw: float = 0.0, z: float = 0.0) -> Box:
-    """A loose box that stands at that height."""
+    """A loose box at that height."""
     return Box((x, y, z + size[2] / 2), size, albedo, 'loose', yaw)
 
 

@@ -121,7 +121,7 @@ void BM_RawEmbree(benchmark::State& state, std::vector<rays::Ray> (*make)()) {
   rtcReleaseDevice(device);
 }
 
-/// All movers have moved: what a commit costs.
+/// All movers have moved: the cost of a commit.
 void BM_Commit(benchmark::State& state) {
   rays::Scene scene;
   const std::vector<Block> blocks = storey(kFurniture, static_cast<int>(state.range(0)));

@@ -27,7 +27,7 @@ SENSOR = 'model://luminosity_sensor'
 
 
 def uses(world: angen.World, second: int) -> Iterator[Callable[[], None]]:
-    """What is done at the start of one second; each call takes a tick."""
+    """The work at the start of one second; each call takes a tick."""
     lamps, doors = world.devices('lamp'), world.devices('door')
     if second == 2:
         yield lambda: world.command('lamp', 'all', 'On')

@@ -76,7 +76,7 @@ inline void put_persons(desc::World& world, int count) {
   }
 }
 
-/// Where a person is at `time` s on the way that its waypoints (t x y z yaw) describe.
+/// A person's pose at `time` s on the way that its waypoints (t x y z yaw) describe.
 inline Pose on_the_way(const desc::Model& person, double time) {
   std::vector<double> before, after;
   for (const Element& c : person.plugins[0].element.children) {
@@ -91,7 +91,7 @@ inline Pose on_the_way(const desc::Model& person, double time) {
   return {{between(1), between(2), between(3)}, from_rpy(0, 0, between(4))};
 }
 
-/// So many people on the way of the world's own, evenly along it, ten on a floor of 4 m.
+/// People on the way of the world's own, evenly along it, ten on a floor of 4 m.
 inline void put_walkers(desc::World& world, int count) {
   constexpr int kOnFloor = 10;
   constexpr double kRound = 11.5;  // s, that the way takes
@@ -108,7 +108,7 @@ inline void put_walkers(desc::World& world, int count) {
   }
 }
 
-/// What a PIR of the world is like with 24 x 4 rays and no noise.
+/// A PIR of the world with 24 x 4 rays and no noise.
 inline desc::Model quiet_pir(const desc::Model& pir) {
   desc::Model model = pir;
   drop_ray_noise(model.links[0].sensors[0]);

@@ -52,10 +52,10 @@ def run_bench_soak(args: argparse.Namespace) -> int:
 
 def add_commands(commands: Any) -> None:
     """angen bench sensors, core, load and soak."""
-    bench = command(commands, 'bench', run_bench, 'measures what things cost in a node of its own',
+    bench = command(commands, 'bench', run_bench, 'measures costs in a node of its own',
                     'bench sensors --kind pir --counts 0,10,50,100')
     kinds = bench.add_subparsers(dest='what', metavar='WHAT', required=True)
-    sensors = command(kinds, 'sensors', run_bench, 'measures what sensors cost: CPU of the node '
+    sensors = command(kinds, 'sensors', run_bench, 'measures the cost of sensors: CPU of the node '
                       'and of rviz, speed, readings, memory',
                       'bench sensors --kind pir --counts 0,10,50,100',
                       'bench sensors --mode desired', 'bench sensors --kind pir --vs gazebo')

@@ -78,7 +78,7 @@ class Contest:
             found.rtf_fast, found.delivered_fast = _speed(sensors, first, last)
             found.sim_per_cpu = share(last.sim - first.sim, last.processor - first.processor)
             gazebo.send(f'rate {STEPS}')
-            with suppress(Failure):  # it is known to stop answering; what it did until then counts
+            with suppress(Failure):  # it sometimes stops answering; the spawns until then count
                 readings, ends = [], []
                 for trial in range(TRIALS):
                     readings.append(gazebo.spawn(NEW.name, 'new.sdf'))
@@ -151,7 +151,7 @@ def measure(groups: Sequence[Sequence[Case]], repeats: int, window: float, folde
             chroot: Path | None, json: bool) -> None:
     """Measures, prints and writes into `folder` a CSV, a table and a figure for each kind.
 
-    `chroot` is made where it is missing. KeyboardInterrupt keeps what is measured and is raised
+    `chroot` is made where it is missing. KeyboardInterrupt keeps all measurements and is raised
     again. Failure where Gazebo cannot be had.
     """
     chroot = (chroot or default_chroot()).resolve()
@@ -174,7 +174,7 @@ def measure(groups: Sequence[Sequence[Case]], repeats: int, window: float, folde
 
 
 def simulators(kind: str) -> tuple[str, ...]:
-    """What is compared: contact sensors sit on furniture, not on one link."""
+    """The cases to compare: contact sensors sit on furniture, not on one link."""
     return (ANGEN, EACH) if kind == 'contact' else (ANGEN, EACH, ONE_LINK)
 
 

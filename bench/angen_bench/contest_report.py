@@ -25,7 +25,7 @@ class Session:
     rss_mb: float | None = None
     start_s: float | None = None  # from the start of the process to the first step
     first_reading_ms: float | None = None  # from the order to spawn a sensor to its first reading
-    gone_ms: float | None = None  # from the order to delete it until it is gone
+    gone_ms: float | None = None  # from the order to delete it until the deletion is reported
 
     @property
     def cpu_per_sim(self) -> float | None:
@@ -62,7 +62,7 @@ class Question:
     title: str
     value: Callable[[Row], float | None]
     less_is_better: bool
-    above_none: bool = False  # compared without what the world costs that has no sensor
+    above_none: bool = False  # without the cost of the world without sensors
     per_sensor: bool = False
 
 
@@ -77,7 +77,7 @@ QUESTIONS = (
              per_sensor=True),
     Question('start to first step, s', lambda row: row.start_s, True),
     Question('spawn to first reading, ms', lambda row: row.first_reading_ms, True),
-    Question('delete until gone, ms', lambda row: row.gone_ms, True),
+    Question('deletion, ms', lambda row: row.gone_ms, True),
 )
 
 
@@ -119,7 +119,7 @@ def table(rows: Sequence[Row]) -> list[str]:
         lost = [f'{row.count}: {100 * share:.0f} %' for row in rows if row.simulator == simulator
                 for share in (row.delivered_fast,) if share is not None and share < 0.99]
         if lost:
-            lines += ['', f'{NAMES[simulator]} made only so many of its readings at rate 0: '
+            lines += ['', f'{NAMES[simulator]} made only part of its readings at rate 0: '
                       + ', '.join(lost)]
     return lines
 

@@ -1,4 +1,4 @@
-"""angen bench core: what the simulator's core costs without ROS, as ratios, by google-benchmark."""
+"""angen bench core: the cost of the core without ROS, as ratios, by google-benchmark."""
 from __future__ import annotations
 
 import json as jsonlib
@@ -73,8 +73,8 @@ def cases_of(report: str) -> list[Case]:
 
 
 def start_cases() -> list[Case]:
-    """What a process needs that loads flats with 200 PIRs and takes a tick, without and with the
-    world in the cache; the median of five.
+    """The time of a process that loads apartments with 200 PIRs and takes a tick, without and with
+    the world in the cache; the median of five.
     """
     program = 'import sys, angen; angen.World(sys.argv[1]).step(1)'
     cases = []

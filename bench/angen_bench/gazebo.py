@@ -43,7 +43,7 @@ def script() -> Path:
 
 
 def prepare(root: Path) -> None:
-    """Makes the chroot where it is missing; Failure says what stands in the way."""
+    """Makes the chroot where it is missing; Failure says why it cannot be made."""
     program = script()
     with watchdog():
         made = subprocess.run([str(program), str(root)], stdout=subprocess.PIPE, text=True,
@@ -184,7 +184,7 @@ class Gazebo:
         return self._answer('reading', ANSWER_LIMIT) - ordered
 
     def delete(self, name: str) -> float:
-        """s from the order until the model is gone."""
+        """s from the order until the model is deleted."""
         ordered = time.monotonic()
         self.send(f'delete {name}')
         return self._answer('gone', ANSWER_LIMIT) - ordered

@@ -1,7 +1,7 @@
 """Subscribers of all that a node publishes, many in one process: python3 -m … READERS SLEEPERS
 
 They speak TCPROS and decode nothing, so that the machine measures the node and not them. Readers
-take what comes and drop it; sleepers connect and never read. A line on stdout
+read messages and drop them; sleepers connect and never read. A line on stdout
 says when all are connected.
 """
 from __future__ import annotations
@@ -19,7 +19,7 @@ BUFFER = 1 << 18
 
 
 def allow_many_connections() -> None:
-    """Raises the soft limit of open files as far as it goes, for this process and its children."""
+    """Raises the soft limit of open files to the hard limit, for this process and its children."""
     most = resource.getrlimit(resource.RLIMIT_NOFILE)[1]
     resource.setrlimit(resource.RLIMIT_NOFILE, (most, most))
 
@@ -71,7 +71,7 @@ def drain(readers: list[socket.socket]) -> None:
 
 
 def main() -> None:
-    """Connects, and reads until the node has gone."""
+    """Connects, and reads until the node disconnects."""
     import xmlrpc.client
     allow_many_connections()
     readers, sleepers = int(sys.argv[1]), int(sys.argv[2])

@@ -47,7 +47,7 @@ VERBS = {'door': ('Open', 'Close')}  # with a lamp lit, each spawn has its light
 
 @dataclass
 class Row:
-    """What a run found. Times in ms; ticks in CPU time, service answers in wall time."""
+    """The result of a run. Times in ms; ticks in CPU time, service answers in wall time."""
     topics: str
     sensors: int
     readers: int
@@ -60,7 +60,7 @@ class Row:
     tick_p99: float  # of the median second
     tick_longest: float
     answers: int
-    refused: int
+    rejected: int
     answer_median: float
     answer_p99: float
     answer_longest: float
@@ -75,7 +75,7 @@ class Row:
 
 @dataclass
 class Second:
-    """What a /angen/stats said, and the node's state then: s, of ticks ms, bytes."""
+    """The fields of a /angen/stats, and the node's state then: s, of ticks ms, bytes."""
     wall: float
     sim: float
     cpu: float
@@ -137,7 +137,7 @@ class Callers:
     """Threads that call services at a steady rate, each on a connection of its own."""
     stop: threading.Event = field(default_factory=threading.Event)
     answers: list[float] = field(default_factory=list)  # ms
-    refused: list[str] = field(default_factory=list)
+    rejected: list[str] = field(default_factory=list)
     _threads: list[threading.Thread] = field(default_factory=list)
 
     def start(self, rate: float, call: Callable[[], Any]) -> None:
@@ -154,11 +154,11 @@ class Callers:
             try:
                 answer = call()
             except Exception as problem:  # of rospy, where the node has not answered
-                self.refused.append(str(problem))
+                self.rejected.append(str(problem))
                 continue
             self.answers.append(1e3 * (time.monotonic() - asked))
             if not answer.success:
-                self.refused.append(answer.message)
+                self.rejected.append(answer.message)
 
     def end(self) -> None:
         """Returns when none of them calls any more."""
@@ -245,16 +245,16 @@ def run(sandbox: Sandbox, topics: str, sensors: int, seconds: float) -> Row:
         open_now.callback(callers.end)
         start_calls(callers, client)
         watch.pass_by(WARM_UP)
-        del callers.answers[:], callers.refused[:]
+        del callers.answers[:], callers.rejected[:]
         taken = watch.pass_by(seconds)
-        answers, refused = list(callers.answers), list(callers.refused)
+        answers, rejected = list(callers.answers), list(callers.rejected)
         callers.end()
     if not answers:
-        raise Failure('no service call was answered' + (f': {refused[0]}' if refused else ''))
-    for reason, count in Counter(refused).most_common(3):
-        print(f'angen: {count} times refused: {reason}', file=sys.stderr)
+        raise Failure('no service call was answered' + (f': {rejected[0]}' if rejected else ''))
+    for reason, count in Counter(rejected).most_common(3):
+        print(f'angen: {count} times rejected: {reason}', file=sys.stderr)
     return row_of(taken, answers, topics=topics, sensors=sensors, readers=readers,
-                  connections=connections, refused=len(refused))
+                  connections=connections, rejected=len(rejected))
 
 
 def row_of(seconds: Sequence[Second], answers: Sequence[float], **what: Any) -> Row:
@@ -291,11 +291,11 @@ def measure(modes: Sequence[str], sensors: int, seconds: float, out: Path, json:
         print(as_json(cells))
         return
     show(table(('TOPICS', 'SUBSCRIBERS', 'RTF', 'CPU %', 'TICK p50/p99/max ms',
-                'ANSWER p50/p99/max ms', 'REFUSED', 'MEMORY MB'), [
+                'ANSWER p50/p99/max ms', 'REJECTED', 'MEMORY MB'), [
         (row.topics, f'{row.readers} + {SLEEPERS}', f'{row.rtf:.3f}', f'{row.cpu:.0f}',
          f'{row.tick_median:.2f} / {row.tick_p99:.2f} / {row.tick_longest:.0f}',
          f'{row.answer_median:.1f} / {row.answer_p99:.1f} / {row.answer_longest:.0f}',
-         f'{row.refused} of {row.answers}',
+         f'{row.rejected} of {row.answers}',
          f'{row.rss_start:.0f} to {row.rss_end:.0f}, most {row.rss_most:.0f}') for row in rows],
         right=('RTF', 'CPU %')))
     print(f"wrote {out / 'load.csv'}")

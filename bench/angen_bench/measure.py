@@ -161,7 +161,7 @@ def client_load(first: float | None, last: float | None, seconds: float) -> floa
 
 
 def spread(sensors: Sequence[Placement], most: int) -> list[Placement]:
-    """At most so many of the sensors, evenly over the list."""
+    """At most `most` of the sensors, evenly over the list."""
     step = max(1, math.ceil(len(sensors) / most))
     return list(sensors[::step])
 

@@ -1,4 +1,4 @@
-"""What the benches found: medians, CSV, a straight line, a figure."""
+"""Reports of the benches: medians, CSV, a straight line, a figure."""
 from __future__ import annotations
 
 import math

@@ -1,4 +1,4 @@
-"""angen bench sensors: what sensors cost, with a master, nodes and rviz of its own."""
+"""angen bench sensors: the cost of sensors, with a master, nodes and rviz of its own."""
 from __future__ import annotations
 
 import sys
@@ -58,10 +58,10 @@ class Case:
 
 def cases(mode: str, kind: str, counts: Sequence[int] | None, mover: str = 'person'
           ) -> list[list[Case]]:
-    """The cases of each figure; `both` is added and deployed. All counts of a kind stand in as many
-    flats as the largest needs.
+    """The cases of each figure; `both` is added and deployed. All counts of a kind have as many
+    apartments as the largest needs.
 
-    Failure where `desired` is given without a flat, or there is no room for the sensors.
+    Failure where `desired` is given without an apartment, or there is no room for the sensors.
     """
     if mode == 'both':
         return [*cases('added', kind, counts, mover), *cases('deployed', kind, counts, mover)]
@@ -123,7 +123,7 @@ class Bench:
                         case.elevator and not deployed, case.mover, one_link)
 
     def in_time(self, case: Case, found: Session, meter: Meter, client: Client) -> None:
-        """What a node at rate 1 costs."""
+        """The cost of a node at rate 1."""
         sensors = case.sensors()
         subscribed = spread(sensors, SUBSCRIBED)
         meter.subscribe([topic_of(s) for s in subscribed])
@@ -212,7 +212,7 @@ def robot_round() -> tuple[float, float]:
 
 def rows_of(bench: Bench, group: Sequence[Case], repeats: int, steps: Steps, kept: list[Row]
             ) -> Iterator[Row]:
-    """The row of each case, which `kept` has too; on Ctrl-C also that of the repeats so far."""
+    """The row of each case, also added to `kept`; on Ctrl-C from the repeats until then."""
     for case in group:
         sessions: list[Session] = []
         try:
@@ -231,7 +231,7 @@ def measure(groups: Sequence[Sequence[Case]], repeats: int, window: float, folde
     """Measures, prints and writes into `folder` a CSV and a figure for each kind and mode, and for
     several modes one of all.
 
-    KeyboardInterrupt keeps what is measured and is raised again.
+    KeyboardInterrupt keeps all measurements and is raised again.
     """
     steps = Steps(repeats * sum(len(group) for group in groups))
     with tempfile.TemporaryDirectory(prefix='angen_bench_') as work, Sandbox(Path(work)) as sandbox:

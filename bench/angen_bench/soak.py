@@ -1,4 +1,4 @@
-"""angen bench soak: spawns and deletes everything again and again, and shows what stays behind."""
+"""angen bench soak: spawns and deletes everything again and again, and shows what remains."""
 from __future__ import annotations
 
 import gc
@@ -39,7 +39,7 @@ ANCHOR = '''<model name="anchor"><static>true</static><link name="link"><collisi
 ROBOT = 'turtlebot'
 # Of the robot: 30 a second would take most of the time, and cameras come and go too.
 PICTURES = ('/camera/', f'/{ROBOT}/camera/')
-FAR = (60.0, 0.0, 0.05, 0.0, 0.0, 0.0)  # from the flat, where what is spawned stands
+FAR = (60.0, 0.0, 0.05, 0.0, 0.0, 0.0)  # from the apartment: the pose of spawned models
 # Parameters without which there is none.
 NEEDS = {'accelerometer': [('link', 'link')], 'reed': [('magnet_link', 'link')],
          'joint_states': [('jointName', 'left_joint')], 'ft_sensor': [('jointName', 'left_joint')]}
@@ -48,7 +48,7 @@ ON_ANCHOR = (0.0, 0.0, 0.1, 0.0, 0.0, 0.0)
 
 @dataclass(frozen=True)
 class Thing:
-    """What is spawned: a model, or a <sensor> that is put on a link."""
+    """Something to spawn: a model, or a <sensor> that is put on a link."""
     kind: str
     what: str
     on: str = ''
@@ -56,7 +56,7 @@ class Thing:
 
 @dataclass(frozen=True)
 class Sample:
-    """What the process has; memory in MB."""
+    """The resources of the process; memory in MB."""
     cycle: int
     rss_mb: float
     descriptors: int
@@ -97,12 +97,12 @@ def doors_and_lamps(lit: bool) -> list[tuple[str, str]]:
 
 
 def speed(lit: bool) -> tuple[float, float]:
-    """m/s and rad/s of the robot, which goes one way and then the other."""
+    """m/s and rad/s of the robot, which drives forward and back in turn."""
     return (0.2, 0.5) if lit else (-0.1, 0.3)
 
 
 def process_sample(process: Any, cycle: int) -> Sample:
-    """What a process of psutil has."""
+    """The resources of a process of psutil."""
     return Sample(cycle, process.memory_info().rss / 1e6, process.num_fds(), process.num_threads())
 
 
@@ -198,7 +198,7 @@ class Node:
 
 
 def soak(home: Home, cycles: int, progress: Progress) -> tuple[list[Sample], list[str]]:
-    """A sample after each round of so many cycles, and what is wrong with them."""
+    """A sample after each round of `round_size` cycles, and the problems in them."""
     all_things = things()
     warm = [_warm(home, all_things, lit) for _ in range(WARM_UP) for lit in (True, False)]
     registered = home.registered()
@@ -238,8 +238,8 @@ def _cycle(home: Home, thing: Thing) -> None:
 
 
 def grown(samples: Sequence[Sample]) -> list[str]:
-    """What is wrong with memory, by the least in the first and last quarter: what stays is in it,
-    what was in use for a moment is not.
+    """Whether memory has grown, by the least in the first and last quarter: a leak remains in it,
+    memory in use for a moment does not.
     """
     memory = [sample.rss_mb for sample in samples]
     quarter = max(1, len(memory) // 4)
@@ -250,7 +250,7 @@ def grown(samples: Sequence[Sample]) -> list[str]:
 
 
 def _left(home: Home, warm: Sequence[Sample], registered: set[str], cycles: int) -> list[str]:
-    """What has not gone, once all is quiet."""
+    """The problems in the last sample, once all is quiet."""
     descriptors = max(sample.descriptors for sample in warm) + MASTER
     threads = max(sample.threads for sample in warm)
 

@@ -1,5 +1,5 @@
-// A system plug-in of gzserver: counts what its sensors read and does what the bench says on stdin,
-// whose end ends it.
+// A system plug-in of gzserver: counts the readings of its sensors and executes the bench's orders
+// on stdin; it ends when stdin is closed.
 //
 //   rate HZ            steps a second of wall time, 0: as fast as it goes
 //   drive MODEL L R    the wheels left_wheel_joint and right_wheel_joint turn at L and R rad/s
@@ -10,7 +10,7 @@
 //   probe first TIME                            the first step has begun
 //   probe sample TIME SIM_TIME READINGS SENSORS four times a second
 //   probe reading TIME                          the sensor of the spawned model has read
-//   probe gone TIME                             the deleted model is gone
+//   probe gone TIME                             the model is deleted
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -178,7 +178,7 @@ class Probe : public gazebo::SystemPlugin {
   std::atomic<bool> stepped_{false};
   std::atomic<long> readings_{0};
   std::string going_;  // the model that is being deleted
-  std::mutex mutex_;   // of what follows
+  std::mutex mutex_;   // of the members below
   std::vector<std::string> orders_;
   std::string coming_;  // the model whose sensor is awaited
 };

@@ -19,7 +19,7 @@ def test_a_row_is_of_the_window_between_its_first_and_last_second() -> None:
     seconds = [second(10.0, 9.0, longest=99.0, rss=50_000_000), second(11.0, 10.0, longest=3.0),
                second(12.0, 10.9, longest=2.0, rss=60_000_000)]
     row = load.row_of(seconds, [1.0, 2.0, 30.0], topics='kind', sensors=5, readers=2,
-                      connections=8, refused=0)
+                      connections=8, rejected=0)
     assert (row.seconds, row.cpu, row.tick_longest) == (2.0, 50.0, 3.0)
     assert row.rtf == pytest.approx(0.95) and not row.real_time
     assert row.others_cpu == pytest.approx(30.0)
