@@ -50,8 +50,8 @@ def test_what_sensors_add_is_told_apart_from_the_world() -> None:
 def test_readings_that_were_not_made_count_against_the_speed() -> None:
     assert cells(ROWS, 'simulated s a CPU second, rate 0')['100'][:2] == ['25', '12']
     assert cells(ROWS, 'the same, times the share of readings made')['100'][0] == '50'
-    assert [line for line in bench_vs.table(ROWS) if 'only so many' in line] == [
-        'Gazebo, a model a sensor made only so many of its readings at rate 0: 100: 50 %']
+    assert [line for line in bench_vs.table(ROWS) if 'only part of' in line] == [
+        'Gazebo, a model a sensor made only part of its readings at rate 0: 100: 50 %']
 
 
 @pytest.mark.parametrize('angen,peer', [(None, 1.0), (1.0, None), (0.0, 1.0), (1.0, -1.0)])

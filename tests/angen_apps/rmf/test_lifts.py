@@ -83,7 +83,7 @@ def test_a_session_gets_the_lift_back_that_somebody_calls_away(lift: Lift) -> No
     lift.take(standing(1))
     assert lift.command() == ''
     lift.take(standing(0))
-    assert lift.stands and lift.command() == 'Floor1'
+    assert lift.is_standing and lift.command() == 'Floor1'
     lift.request(request('robot', kind=END))
     assert lift.command() == ''
 

@@ -1,4 +1,4 @@
-"""angen care: warns about what goes on in a home, by rules over its sensors."""
+"""angen care: warns about situations in a home, by rules over its sensors."""
 from __future__ import annotations
 
 import sys
@@ -29,7 +29,7 @@ def care_live(path: Path | None, out: Path) -> int:
 
 def care_offline(path: Path | None, world: Path, seconds: float, day: Path | None, seed: int,
                  out: Path, json: bool) -> int:
-    """Simulates a world for so long; prints its warnings and writes what happened."""
+    """Simulates a world for a time; prints its warnings and writes its events."""
     import time
 
     from angen_apps.care.offline import Watched

@@ -1,4 +1,4 @@
-"""What happens on a simulated day: commands to devices at times of day, from a CSV file."""
+"""A simulated day: commands to devices at times of day, from a CSV file."""
 from __future__ import annotations
 
 import csv

@@ -61,11 +61,11 @@ class Curve:
 
 
 class Engine:
-    """Follows the signals and gives warnings. Time only goes on."""
+    """Follows the signals and gives warnings. Time never decreases."""
 
     def __init__(self, rules: Rules, existing: Collection[str], summaries: Mapping[str, str],
                  now: float = 0.0) -> None:
-        """`existing`: each KIND/NAME; `summaries`: what they show at the time `now` (s)."""
+        """`existing`: each KIND/NAME; `summaries`: their states at the time `now` (s)."""
         self.rules = rules
         self.began = self.now = now
         self.signals = {name: LiveSignal(signal, existing, summaries, now)
@@ -113,7 +113,7 @@ class Engine:
                         heappush(self._corners, since + corner)
 
     def acknowledge(self, name: str) -> list[Change]:
-        """Somebody has seen the warning of a rule, or of 'all'; none where it is not active."""
+        """A user has seen the warning of a rule, or of 'all'; none where it is not active."""
         changes = []
         for rule, warning in self.active.items():
             if name in ('all', rule) and warning.acknowledged is None:

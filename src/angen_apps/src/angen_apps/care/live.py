@@ -51,7 +51,7 @@ class Clock:
 
 
 class Live:
-    """An engine that follows the simulator; a reset of its time begins anew."""
+    """An engine that follows the simulator; a reset of its time starts it again."""
 
     def __init__(self, rules: Rules, tell: Callable[[Change], None]) -> None:
         from angen_msgs.msg import Event as Message
@@ -66,7 +66,7 @@ class Live:
         self._mail.subscribe(ACKNOWLEDGE, String)
 
     def _begin(self) -> None:
-        """Takes what exists and what it shows now."""
+        """Reads which devices and sensors exist, and their present states."""
         from angen_msgs.msg import Summary
         entities = self._client.entities()
         found: list[Any] = []
@@ -93,7 +93,7 @@ class Live:
             self._take(*mail)
 
     def follow(self) -> None:
-        """Takes what comes for a moment."""
+        """Handles the messages of a moment."""
         self._mail.drain(self._take, LAG)
         self._publish(self.engine.advance(self._clock.advance()))
         if self._clock.went_back:

@@ -10,7 +10,7 @@ from typing import Sequence
 class Trapezoid:
     """Rises from `a` to `b`, is 1 to `c`, falls to 0 at `d`; edges may be upright or at infinity.
 
-    With a `cycle` the quantity is one that begins anew, as the time of day does.
+    With a `cycle` the quantity is a periodic one, as the time of day is.
     """
 
     a: float
@@ -43,7 +43,7 @@ def falls(c: float, d: float) -> Trapezoid:
 
 
 def around(corners: Sequence[float], cycle: float) -> Trapezoid:
-    """Four corners of a quantity that begins anew: each is the next after the one before.
+    """Four corners of a periodic quantity: each is the next after the one before.
 
     ValueError where they go round more than once.
     """

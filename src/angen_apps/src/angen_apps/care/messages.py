@@ -18,7 +18,7 @@ LINE = 18  # letters
 
 
 class WarningPublisher:
-    """Publishes what becomes of warnings."""
+    """Publishes changes of warnings."""
 
     def __init__(self, client: Client, rules: Rules, existing: Collection[str],
                  entities: Sequence[Any]) -> None:
@@ -36,7 +36,7 @@ class WarningPublisher:
         self._log = client.publisher(LOG, Event)
 
     def publish(self, engine: Engine, changes: Sequence[Change]) -> None:
-        """Publishes changes, and what is active after them."""
+        """Publishes changes, and the warnings that are active after them."""
         from angen_msgs.msg import CareWarningArray, Event
         for change in changes:
             self._one.publish(self._message(change.warning, change.event, change.time,
@@ -81,7 +81,7 @@ class WarningPublisher:
 
 
 def _markers(number: int, place: Any, color: Sequence[float], reason: str) -> list[Any]:
-    """What shows one warning; `number`: of the first marker."""
+    """The markers that show one warning; `number`: of the first marker."""
     from visualization_msgs.msg import Marker
     disc = _marker(number, Marker.CYLINDER, place, color, 0.7, THICK / 2)
     disc.scale.x, disc.scale.y, disc.scale.z = 2 * RADIUS, 2 * RADIUS, THICK
@@ -106,7 +106,7 @@ def _marker(number: int, kind: int, place: Any, color: Sequence[float], alpha: f
 
 
 def _place(rule: Rule, rules: Rules, existing: Collection[str]) -> str:
-    """The name of what stands where a rule's warnings are shown."""
+    """The name of the model where a rule's warnings are shown."""
     if rule.at:
         return rule.at
     signal = next((condition.signal for condition in rule.when if condition.signal), '')

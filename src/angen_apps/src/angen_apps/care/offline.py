@@ -50,7 +50,7 @@ class Watched:
                 progress.update(self.time / seconds)
 
     def _run(self, seconds: float) -> None:
-        """Simulates so long; at least a tick."""
+        """Simulates `seconds`; at least a tick."""
         before = self._world.tick
         self._world.run(seconds)
         if self._world.tick == before:
@@ -61,7 +61,7 @@ class Watched:
             self._world.command(order.kind, order.name, order.text)
 
     def _follow(self) -> None:
-        """Gives the engine what has happened."""
+        """Gives the engine all new events."""
         for time, source, kind, event, detail in self._world.events():
             self.events.append(Event(time, source, kind, event, detail))
             self.changes += self.engine.observe(self.events[-1])

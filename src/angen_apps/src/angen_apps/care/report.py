@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 KIND = 'care'  # of its events
-LOGGED = {RAISED: 'warning'}  # what the event log calls it, where that differs
+LOGGED = {RAISED: 'warning'}  # its name in the event log, where that differs
 
 
 def line_of(change: Change, starts: float) -> str:
@@ -36,7 +36,7 @@ def event_of(change: Change) -> Event:
 
 
 def warnings_of(engine: Engine) -> list[CareWarning]:
-    """All warnings so far, by time."""
+    """All warnings until now, by time."""
     return sorted([*engine.past, *engine.active.values()], key=lambda warning: warning.raised)
 
 

@@ -12,7 +12,7 @@ class Signal:
     """True while any of some sensors or devices is in a state.
 
     With `elsewhere` it lasts from that state in one of `of` until one of `elsewhere` that is not
-    in `of` comes into the state: where somebody was detected last.
+    in `of` comes into the state: where a person was detected last.
     """
 
     name: str

@@ -148,6 +148,6 @@ class _Reader(YamlFile):
                  ) -> tuple[float, ...]:
         nodes = self.list(node, what)
         if len(nodes) not in counts:
-            wanted = ' or '.join(str(count) for count in counts)
-            raise self.fail(node, f'{what} has {len(nodes)} corners, must have {wanted}')
+            expected = ' or '.join(str(count) for count in counts)
+            raise self.fail(node, f'{what} has {len(nodes)} corners, must have {expected}')
         return tuple(self._said(each, what, read) for each in nodes)

@@ -29,7 +29,7 @@ class LiveSignal:
 
     def __init__(self, signal: Signal, existing: Collection[str], summaries: Mapping[str, str],
                  now: float) -> None:
-        """`summaries`: what each KIND/NAME shows, as on /angen/summary."""
+        """`summaries`: the state of each KIND/NAME, as on /angen/summary."""
         self.signal = signal
         self._of = chosen(signal.of, existing)
         self._elsewhere = chosen(signal.elsewhere, existing) - self._of
@@ -51,7 +51,7 @@ class LiveSignal:
         return self.signal.tag in ('', tag)
 
     def observe(self, event: Event) -> bool:
-        """Takes an event; whether the signal is now what it was not."""
+        """Handles an event; returns whether the signal has changed."""
         if event.key in self._of:
             self._observe_own(event)
         elif event.key in self._elsewhere:

@@ -18,7 +18,7 @@ def chosen(patterns: Iterable[str], existing: Collection[str]) -> set[str]:
 
 
 def check_sources(rules: Rules, existing: Collection[str], places: Collection[str]) -> None:
-    """Failure where a signal names what does not exist, or a rule a place that does not.
+    """Failure where a signal names an unknown source, or a rule an unknown place.
 
     `existing`: each KIND/NAME of a sensor or device; `places`: names of models, sensors, devices.
     """

@@ -11,7 +11,7 @@ class State:
 
     begins: tuple[str, ...]  # events of angen_msgs/Event
     ends: tuple[str, ...]
-    shown: str               # what the summary of something in that state matches
+    shown: str               # matches the summary of a source in that state
 
     def matches(self, summary: str) -> bool:
         """Whether a summary says that the state holds."""

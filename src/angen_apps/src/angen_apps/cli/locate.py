@@ -54,7 +54,7 @@ def add_locate(commands: Any) -> None:
                      'locate', 'locate --for 60', 'locate --world worlds/angen.world --for 300')
     locate.set_defaults(parser=locate)
     locate.add_argument('--for', metavar='SECONDS', dest='span', type=checked(duration),
-                        help='for so many simulated seconds, then compares with the truth; '
+                        help='for that many simulated seconds, then compares with the truth; '
                         'otherwise shows a live table')
     locate.add_argument('--world', metavar='FILE', type=Path,
                         help='in a world of its own, without a running simulator')

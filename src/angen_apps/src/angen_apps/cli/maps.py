@@ -25,7 +25,7 @@ def add_map(commands: Any) -> None:
     parser.add_argument('--world', metavar='FILE', type=Path, help='of a world '
                         '(worlds/angen.world)')
     parser.add_argument('--doors', choices=['away', 'open', 'shut'], default='away',
-                        help='away: doorways are free; otherwise as the leaves stand (away)')
+                        help='away: doorways are free; otherwise as the leaves are (away)')
     parser.add_argument('-o', '--output', metavar='NAME', type=Path, default=Path('map'),
                         help='writes NAME.pgm and NAME.yaml (map)')
     add_allow_paths(parser)

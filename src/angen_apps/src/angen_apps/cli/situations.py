@@ -16,8 +16,8 @@ def run_situations(args: argparse.Namespace) -> int:
 def add_situations(commands: Any) -> None:
     """angen situations."""
     battery = command(commands, 'situations', run_situations,
-                      'plays everyday situations before a PIR and compares what it reports with '
-                      'what physics and data sheets expect; needs no simulator',
+                      'plays everyday situations before a PIR and compares its reports with the '
+                      'expectations of physics and data sheets; needs no simulator',
                       'situations', 'situations --only postures')
     battery.add_argument('--only', metavar='WORDS', default='',
                          help='those with these words in their group or scene')

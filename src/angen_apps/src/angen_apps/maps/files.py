@@ -9,7 +9,7 @@ from angen_tools.world.models import building
 
 
 def save_map(world: Path | None, floor: int, doors: str, stem: Path) -> str:
-    """Writes STEM.pgm and STEM.yaml; returns what was done. `world` is worlds/angen.world without.
+    """Writes STEM.pgm and STEM.yaml; returns a report. `world` is worlds/angen.world without.
 
     Failure where the world does not load, has no such floor, or the files cannot be written.
     """

@@ -15,11 +15,11 @@ from angen_tools.common.files import write_text, writing
 
 RESOLUTION = 0.05  # m; cells are centered on its multiples, where the faces of buildings lie
 STOREY = 4.0  # m
-LOW, HIGH = 0.02, 0.45  # m above the floor: what a robot of that height can meet
+LOW, HIGH = 0.02, 0.45  # m above the floor: a robot of that height can touch things between
 LEVEL = 0.02  # m from one height of rays to the next
-FINE = 0.01  # m between rays: what is thinner both ways may be missed
+FINE = 0.01  # m between rays: a thing that is thinner both ways may be missed
 STEP_DOWN = 0.05  # m: ground that lies deeper is not a floor
-REACH = 60.0  # m: how far from the origin a building may stand
+REACH = 60.0  # m: the largest distance of a building from the origin
 SETTLE = 60.0  # s of simulated time for doors and elevators to get where they are sent
 ROOM, HEADROOM = 0.4, 1.0  # m: free floor without a circle of that radius and height is not a room
 
@@ -106,12 +106,13 @@ def load_world(path: str, seed: int = 0) -> Any:
 
 
 def make_map(world: Any, floor: int, doors: str = 'away', high: float = HIGH) -> GridMap:
-    """The map of a floor: what stands between LOW and `high` (m) above it. Changes the world.
+    """The map of a floor: everything between LOW and `high` (m) above it. Changes the world.
 
-    Robots and people are left out; elevators stand at that floor with open doors, as far as they
-    serve it. Doors are left out (`doors='away'`), or stand `'open'` or `'shut'`. FREE is floor
-    that is connected to a place to stand; the insides of walls and furniture, and ground that
-    is not a floor, are UNKNOWN. Failure where the world has no such floor; it names those it has.
+    Robots and people are left out; elevators are at that floor with open doors, where they
+    serve it. Doors are left out (`doors='away'`), `'open'` or `'shut'`. FREE is floor
+    that is connected to a place where a robot fits; the insides of walls and furniture, and
+    ground that is not a floor, are UNKNOWN. Failure where the world has no such floor; it
+    names those it has.
     """
     _prepare(world, floor, doors)
     surveyor = _Surveyor(world, high)
@@ -119,7 +120,7 @@ def make_map(world: Any, floor: int, doors: str = 'away', high: float = HIGH) ->
     if bounds is None:
         known = ', '.join(str(known) for known in floors(world))
         raise Failure(f'there is no floor {floor}; ' +
-                      (f'known are {known}' if known else 'nothing stands on any'))
+                      (f'known are {known}' if known else 'it has no floor'))
     west, south, columns, rows = bounds
     x = (west + np.arange(columns)) * RESOLUTION
     y = (south + np.arange(rows)) * RESOLUTION
@@ -133,7 +134,7 @@ def make_map(world: Any, floor: int, doors: str = 'away', high: float = HIGH) ->
 
 
 def floors(world: Any) -> list[int]:
-    """The floors 0, 1, … on which something stands, up to the first on which nothing does."""
+    """The floors 0, 1, … that are not empty, up to the first that is."""
     surveyor = _Surveyor(world)
     found: list[int] = []
     while surveyor.bounds(len(found)) is not None:
@@ -148,7 +149,7 @@ def models_with(world: Any, joint: str) -> list[str]:
 
 
 def _prepare(world: Any, floor: int, doors: str) -> None:
-    """Takes out what is in no map, and has doors and elevators stand as the map shows them."""
+    """Removes everything that no map shows, and moves doors and elevators as the map shows them."""
     leave_out = world.devices('person') + models_with(world, 'left_wheel_joint')
     if doors == 'away':
         leave_out += models_with(world, 'hinge')
@@ -195,12 +196,12 @@ class _Surveyor:
         self._high, self._levels = high, np.arange(LOW, high, LEVEL)
 
     def bounds(self, floor: int) -> tuple[int, int, int, int] | None:
-        """West and south in cells, columns and rows of all that stands on a floor, with a margin.
+        """West and south in cells, columns and rows of everything on a floor, with a margin.
 
         None where rays from afar meet nothing.
         """
         across = np.arange(-REACH, REACH, RESOLUTION) + FINE
-        met = []
+        hits = []
         for axis in (0, 1):
             for sign in (1, -1):
                 origins = np.zeros((len(across), len(self._levels), 3))
@@ -210,8 +211,8 @@ class _Surveyor:
                 origins = origins.reshape(-1, 3)
                 ranges = self._cast(origins, axis, sign, 2 * REACH)
                 origins[:, axis] += sign * ranges
-                met.append(origins[ranges < 2 * REACH, :2])
-        points = np.rint(np.concatenate(met) / RESOLUTION).astype(int)
+                hits.append(origins[ranges < 2 * REACH, :2])
+        points = np.rint(np.concatenate(hits) / RESOLUTION).astype(int)
         if not len(points):
             return None
         (west, south), (east, north) = points.min(axis=0), points.max(axis=0)

@@ -14,14 +14,14 @@ WORLD = 'world'  # the frame
 def publish_maps(path: str) -> None:
     """A node that serves the maps of a world's file; see MapServer.
 
-    It ends at once where nothing stands in the world, otherwise when ROS ends. Failure where the
+    It ends at once where the world is empty, otherwise when ROS ends. Failure where the
     world does not load.
     """
     maps = survey(path)
     import rospy
     rospy.init_node('map_publisher')
     if not maps:
-        rospy.loginfo('nothing stands in %s, so there is no map', path)
+        rospy.loginfo('%s has no floor, so there is no map', path)
         return
     MapServer(maps, rospy.get_param('~frame_id', WORLD))
     rospy.spin()
@@ -104,14 +104,14 @@ def survey(path: str) -> list[GridMap]:
 
 
 def _survey(path: str, unused: Connection, out: Connection) -> None:
-    unused.close()  # or a write would not fail once the reader is gone
+    unused.close()  # or a write would not fail once the reader has ended
     try:
         world = load_world(path)
         out.send([make_map(world, floor) for floor in floors(world)])
     except Failure as failure:
         out.send(failure)
     except (KeyboardInterrupt, BrokenPipeError):
-        pass  # the reader is gone
+        pass  # the reader has ended
 
 
 def occupancy_grid(grid: GridMap, frame: str = WORLD) -> Any:

@@ -35,7 +35,7 @@ angen.register('angen_ray_probe.py', 'ray_probe', _Probe)
 
 
 class Caster:
-    """Rays against all that stands in a world at the moment."""
+    """Rays against the present geometry of a world."""
 
     def __init__(self, world: angen.World) -> None:
         self._world = world
@@ -58,7 +58,9 @@ class Caster:
         return np.minimum(ranges, rows[:, 7])
 
     def sees(self, origin: np.ndarray, points: np.ndarray, near: float = 0.0) -> np.ndarray:
-        """Which points (n, 3) nothing hides from `origin`, but what is nearer than `near` (m)."""
+        """Whether each of points (n, 3) is visible from `origin`; a hit that is at most `near` m
+        before a point is of the point.
+        """
         lines = points - origin
         far = np.maximum(np.linalg.norm(lines, axis=1), 1e-6)
         ranges = self.cast(np.broadcast_to(origin, points.shape), lines / far[:, None], far)

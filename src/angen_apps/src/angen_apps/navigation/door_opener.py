@@ -21,7 +21,7 @@ SHUT = (DoorState.CLOSED, DoorState.CLOSING, DoorState.AJAR)
 
 @dataclass
 class Doorway:
-    """A door: where it is hinged, and what it does."""
+    """A door: its hinge, and its state."""
 
     name: str
     place: tuple[float, float, float]  # m
@@ -47,10 +47,10 @@ def in_the_way(doorways: Sequence[Doorway], robot: Sequence[float],
     if not path:
         return []
     start = min(range(len(path)), key=lambda i: math.dist(path[i], robot[:2]))
-    ahead, gone = [path[start]], 0.0
+    ahead, passed = [path[start]], 0.0
     for here, there in zip(path[start:], path[start + 1:]):
-        gone += math.dist(here, there)
-        if gone > AHEAD:
+        passed += math.dist(here, there)
+        if passed > AHEAD:
             break
         ahead.append(there)
     return [door for door in doorways
@@ -87,7 +87,7 @@ class DoorOpener:
             at = self._buffer.lookup_transform('world', self._base, rospy.Time()) \
                 .transform.translation
         except tf2_ros.TransformException:
-            return  # nobody places the robot yet
+            return  # no localization has published a pose
         doors = list(self._doors.of('door').values())
         for door in in_the_way(doors, (at.x, at.y, at.z), self._path):
             rospy.loginfo('opening door %s', door.name)

@@ -104,7 +104,7 @@ def watch(sandbox: Sandbox) -> None:
 
 
 def show_robot(sandbox: Sandbox) -> None:
-    """Gives rviz what its RobotModel wants, as angen.launch does."""
+    """Sets the parameter of rviz's RobotModel, as angen.launch does."""
     import rospy
     urdf = worlds_models() / 'turtlebot/turtlebot.urdf'
     rospy.set_param('/robot_description', urdf.read_text())
@@ -146,8 +146,8 @@ class Bag:
             self._complain()
 
     def _receive_the_rest(self) -> None:
-        """Returns when no command has arrived for a while: none is sent any more, and what a slow
-        machine has still on its way belongs to the run.
+        """Returns when no command has arrived for a while: none is sent any more, and commands
+        that a slow machine still delivers belong to the run.
         """
         before = -1
         while before != (received := self._sandbox.received_by('record', self._commands)):

@@ -118,7 +118,7 @@ def _constant(message: Any, value: int, names: tuple[str, ...]) -> str:
 class Patrol:
     """One run of a route's actions.
 
-    `watch` is called after each cycle with the time (s), the share that is done, and what goes on;
+    `watch` is called after each cycle with the time (s), the finished share, and the action;
     `note` at each waypoint with the time and what happened on the way there.
     """
 

@@ -52,7 +52,7 @@ class Lockstep:
         return answer
 
     def entities(self, kind: str = '') -> list[Any]:
-        """angen_msgs/Entity of what is in the world now."""
+        """angen_msgs/Entity of everything in the world."""
         return self._list(kind=kind).entities
 
     def spawn(self, name: str, xml: str, on: str) -> None:
@@ -103,7 +103,7 @@ class Lockstep:
         self.wait_for_subscribers(1)
 
     def wait_for_subscribers(self, count: int) -> None:
-        """Returns when each command topic has so many subscribers, the node being one."""
+        """Returns when each command topic has that many subscribers, the node being one."""
         end = time.monotonic() + LIMIT
         while missing := [topic for topic, publisher in self._publishers.items()
                           if publisher.get_num_connections() < count]:

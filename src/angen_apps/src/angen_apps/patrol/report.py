@@ -1,4 +1,4 @@
-"""What a patrol leaves: events.csv, rooms.csv, and what is printed."""
+"""Files and texts of a patrol: events.csv, rooms.csv, and the printed summary."""
 from __future__ import annotations
 
 import csv
@@ -68,7 +68,7 @@ class Run:
                 if (e.source, e.kind) == (source, kind)]
 
     def collisions(self) -> list[tuple[float, str]]:
-        """When the robot touched what it must not, and what."""
+        """When the robot touched something that it must not touch, and its name."""
         return interface.collisions(self.events)
 
 
@@ -119,7 +119,7 @@ def first_detection(seen: float | None, detected: list[tuple[float, float]], mov
                     ) -> float | None:
     """When a sensor that detected something from … to … (s) first did so because of the robot.
 
-    The robot stands while doors turn: what is detected then is a door.
+    The robot waits while doors turn: a detection during that time is of a door.
     """
     if seen is None:
         return None

@@ -1,4 +1,4 @@
-"""What a patrol knows before it starts: its own copy of the world, maps, doors, the whole route."""
+"""A patrol's knowledge before it starts: a copy of the world, maps, doors, the whole route."""
 from __future__ import annotations
 
 import random
@@ -38,11 +38,11 @@ def write_world(world: Path, robot: str, seed: int, to: Path) -> None:
 
 @dataclass(frozen=True)
 class Scene:
-    """What the robot knows of the building before it starts, and what the report needs."""
+    """The robot's knowledge of the building before it starts, and the data of the report."""
 
     start: Start
     maps: dict[int, GridMap]  # of floors, with doors open
-    landmarks: dict[int, GridMap]  # what a laser may meet: leaves stand open and shut
+    landmarks: dict[int, GridMap]  # what a laser may hit: leaves both open and shut
     doors: dict[int, list[Door]]
     beams: dict[str, float]  # of a switch: rad of its door from shut at which its beam is free
     body: np.ndarray  # (n, 3) points of the robot's surface, m

@@ -35,7 +35,7 @@ def hidden(origin: np.ndarray, points: np.ndarray, door: Door, turned: np.ndarra
 
 
 def outline(world: Any, start: np.ndarray) -> np.ndarray:
-    """Points (n, 3) of the surface of the robot that stands at `start` (x, y, z, yaw; m), in its
+    """Points (n, 3) of the surface of the robot at `start` (x, y, z, yaw; m), in its
     own frame. Takes all robots out of the world."""
     caster = Caster(world)
     turns = np.arange(SIDES) * 2 * math.pi / SIDES
@@ -45,14 +45,14 @@ def outline(world: Any, start: np.ndarray) -> np.ndarray:
     before = caster.cast(origins, ways, AROUND)
     for name in models_with(world, 'left_wheel_joint'):
         world.delete(name)
-    met = before < caster.cast(origins, ways, AROUND) - 1e-6
-    points = (origins + before[:, None] * ways)[met] - start[:3]
+    hit = before < caster.cast(origins, ways, AROUND) - 1e-6
+    points = (origins + before[:, None] * ways)[hit] - start[:3]
     c, s = math.cos(start[3]), math.sin(start[3])
     return points @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
 
 
 class Sight:
-    """Lines of sight in a world, out of which it takes the doors; leaves stand as was recorded.
+    """Lines of sight in a world, from which it removes the doors; leaves are at recorded angles.
 
     `body` (n, 3): points of the robot's surface. `angles` has, for each door, (n, 2) times (s) and
     radians from shut. The world must be without robots.

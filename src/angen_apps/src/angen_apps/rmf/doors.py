@@ -6,18 +6,18 @@ from typing import Any
 from angen_msgs.msg import DoorState as State
 from rmf_door_msgs.msg import DoorMode, DoorState
 
-# A door that stands in between, or that something holds, is neither open nor closed.
+# A door between its ends, or one that is blocked, is neither open nor closed.
 MODES = {State.CLOSED: DoorMode.MODE_CLOSED, State.OPEN: DoorMode.MODE_OPEN,
          State.OPENING: DoorMode.MODE_MOVING, State.CLOSING: DoorMode.MODE_MOVING,
          State.BLOCKED: DoorMode.MODE_MOVING, State.AJAR: DoorMode.MODE_MOVING}
 VERBS = {DoorMode.MODE_OPEN: 'Open', DoorMode.MODE_CLOSED: 'Close'}
-# Modes in which a door does already what it was requested to do.
+# Modes in which a door already does its request.
 DONE = {DoorMode.MODE_OPEN: (State.OPEN, State.OPENING, State.BLOCKED),
         DoorMode.MODE_CLOSED: (State.CLOSED, State.CLOSING, State.BLOCKED)}
 
 
 class Door:
-    """What a door was last requested to do, and what it does."""
+    """The last request to a door, and its state."""
 
     def __init__(self, name: str) -> None:
         self.name = name
@@ -36,7 +36,7 @@ class Door:
         return None if self._state is None else MODES[self._state.mode]
 
     def request(self, mode: int) -> str:
-        """The command that a request comes to, '' where it repeats what the door does.
+        """The command of a request, '' where it repeats the present one.
 
         ValueError where the mode is none that a door can be requested to take.
         """

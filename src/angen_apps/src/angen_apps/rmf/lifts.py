@@ -36,7 +36,7 @@ class Lift:
         self.name = name
         self.session: Session | None = None
         self._state: Any = None
-        self._floor: int | None = None  # where it stood last
+        self._floor: int | None = None  # the last floor at which it stopped
 
     def take(self, state: Any) -> bool:
         """Takes an angen_msgs/ElevatorState; whether a LiftState differs from the one before."""
@@ -77,7 +77,7 @@ class Lift:
         return floor_name(self.session.floor)
 
     @property
-    def stands(self) -> bool:
+    def is_standing(self) -> bool:
         """Whether the cabin does not move."""
         return self._state is not None and self._state.mode == State.IDLE
 

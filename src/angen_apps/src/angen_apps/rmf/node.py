@@ -63,7 +63,7 @@ class Node:
             due = self._due + PERIOD
             self._due = due if due > now else now + PERIOD
             for lift in self._lifts.values():
-                if lift.stands:  # others can call it too
+                if lift.is_standing:  # others can call it too
                     self._send('elevator', lift.name, lift.command())
             self._publish([*self._doors.values(), *self._lifts.values()], now)
 

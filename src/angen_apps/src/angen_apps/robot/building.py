@@ -1,4 +1,4 @@
-"""What a robot knows of a building before it starts: its floors' maps and doors, and itself."""
+"""A robot's knowledge of a building before it starts: its floors' maps and doors, and itself."""
 from __future__ import annotations
 
 import re
@@ -11,7 +11,7 @@ from lxml import etree
 
 from angen_apps.maps.gridmap import STOREY, GridMap, floor_of, floors, make_map
 from angen_apps.maps.rays import Caster
-from angen_apps.robot.doors import find_door, find_hinge, find_top, opened_alone, stand_of
+from angen_apps.robot.doors import find_door, find_hinge, find_top, opened_alone, pose_of
 from angen_apps.robot.pilot import Pose
 from angen_apps.robot.planner import Door
 from angen_apps.robot.route_file import Route
@@ -55,13 +55,13 @@ class Survey:
     `world` and `shut` are two worlds of the same file; it changes both.
     """
 
-    def __init__(self, world: Any, shut: Any, entities: list[Entity], wanted: set[int] | None
+    def __init__(self, world: Any, shut: Any, entities: list[Entity], only: set[int] | None
                  ) -> None:
         self.maps: dict[int, GridMap] = {}
         self.landmarks: dict[int, GridMap] = {}
         self.shut: dict[int, GridMap] = {}
         known = set(floors(world))
-        for floor in sorted(known if wanted is None else wanted & known):
+        for floor in sorted(known if only is None else only & known):
             self.maps[floor] = make_map(world, floor, 'open')
             self.shut[floor] = make_map(shut, floor, 'shut')
             both = np.maximum(self.maps[floor].cells, self.shut[floor].cells)
@@ -74,8 +74,8 @@ class Survey:
             floor = entity.floor if alone else self._floor_by_name(entity)
             if floor not in self.maps:
                 continue
-            before = stand_of(shut, entity.model)
-            after = (stand_of(world, entity.model) if alone
+            before = pose_of(shut, entity.model)
+            after = (pose_of(world, entity.model) if alone
                      else opened_alone(shut, entity.model, entity.name))
             hinge = find_hinge(before.links, after.links)
             door = hinge and find_door(entity.name, hinge, self.shut[floor], self.maps[floor])

@@ -1,4 +1,4 @@
-"""Where doors stand and turn, measured from a world's own geometry."""
+"""Poses and swings of doors, measured from a world's own geometry."""
 from __future__ import annotations
 
 import math
@@ -20,13 +20,13 @@ LOOK = 0.5  # s of simulated time between two looks at a door that turns
 
 
 @dataclass(frozen=True)
-class Stand:
-    """How a model stands: its links (x, y in m, yaw), and its joints by name (rad or m)."""
+class ModelPose:
+    """The pose of a model: its links (x, y in m, yaw), and its joints by name (rad or m)."""
 
     links: list[tuple[float, float, float]]
     joints: dict[str, float]
 
-    def turned(self, since: Stand) -> str:
+    def turned(self, since: ModelPose) -> str:
         """The joint that has moved farthest."""
         return max(self.joints, key=lambda name: abs(self.joints[name] - since.joints[name]))
 
@@ -39,23 +39,23 @@ class Hinge:
     turn: float
 
 
-def stand_of(world: Any, model: str) -> Stand:
-    """How a model of a world stands now."""
+def pose_of(world: Any, model: str) -> ModelPose:
+    """The present pose of a model of a world."""
     of = f'{model}::'
     links = [(x, y, yaw(qx, qy, qz, qw))
              for name, (x, y, _, qx, qy, qz, qw) in zip(world.links, world.link_poses)
              if name.startswith(of)]
     joints = {name: float(position) for name, position in zip(world.joints, world.joint_positions)
               if name.startswith(of)}
-    return Stand(links, joints)
+    return ModelPose(links, joints)
 
 
-def opened_alone(world: Any, model: str, door: str) -> Stand:
-    """How a model stands while one of its doors, which are shut, is open."""
+def opened_alone(world: Any, model: str, door: str) -> ModelPose:
+    """The pose of a model while one of its doors, which are shut, is open."""
     _turn(world, door, 'Open', 'OPEN')
-    stand = stand_of(world, model)
+    pose = pose_of(world, model)
     _turn(world, door, 'Close', 'CLOSED')
-    return stand
+    return pose
 
 
 def _turn(world: Any, door: str, text: str, mode: str) -> None:
@@ -80,7 +80,7 @@ def find_hinge(shut: list[tuple[float, float, float]],
 
 
 def find_door(name: str, hinge: Hinge, shut: GridMap, opened: GridMap) -> Door | None:
-    """The door on a hinge: what is on one map of its floor and not on the other.
+    """The door on a hinge: the cells that are on one map of its floor and not on the other.
 
     None where the maps do not differ around the hinge.
     """

@@ -17,7 +17,7 @@ from angen_tools.common.failure import Failure
 
 DEVICE_LIMIT = 60.0  # s of simulated time that a door or elevator may take
 DRIVE_SLACK = 30.0  # s beyond thrice the time that a drive should take
-SETTLE = 5  # scans until a robot that stands at its start knows where
+SETTLE = 5  # scans at rest until a robot has localized itself at its start
 
 
 @dataclass
@@ -35,9 +35,9 @@ class Stuck(Failure):
 
 
 class Driver:
-    """Drives one robot. `landmarks`: of each floor, what a laser may meet; `mount`: the laser on
+    """Drives one robot. `landmarks`: of each floor, what a laser may hit; `mount`: the laser on
     the robot. `watch` is called after each cycle. `may_go` says before each cycle of a drive
-    whether the robot may drive on; while it may not, it stands. `give_up` says whether to end a
+    whether the robot may drive on; while it may not, it waits. `give_up` says whether to end a
     drive before its end."""
 
     def __init__(self, robot: Robot, route: Route, landmarks: dict[int, GridMap], mount: Pose,
@@ -57,7 +57,7 @@ class Driver:
         return self._localizer.pose
 
     def begin(self, start: Pose, floor: int) -> None:
-        """Finds out where it stands: about `start`."""
+        """Localizes the robot, which is about at `start`."""
         odometry = self._robot.odometry()
         self._origin = start.then(odometry.inverse())
         self._localizer = Localizer(self._landmarks[floor], start, odometry)
@@ -74,7 +74,7 @@ class Driver:
         self._robot.cycle(v, w)
         odometry = self._robot.odometry()
         pose = self._localizer.move(odometry)
-        if v or w:  # while it stands, doors turn, which are not on the map
+        if v or w:  # while it waits, doors turn, which are not on the map
             pose = self._localizer.see(self._returns())
         wheels = self._origin.then(odometry)
         self.track.rows.append((self._robot.now, *self._robot.truth()))
@@ -121,9 +121,9 @@ class Driver:
                      + (f'; it was touched {touched[-1][1]}' if touched else ''))
 
     def _turn(self, turn: Turn) -> None:
-        wanted = 'OPEN' if turn.open else 'CLOSED'
+        mode = 'OPEN' if turn.open else 'CLOSED'
         self._command('door', turn.door, 'Open' if turn.open else 'Close',
-                      lambda: self._robot.door(turn.door).mode == wanted)
+                      lambda: self._robot.door(turn.door).mode == mode)
 
     def _ride(self, ride: Ride) -> None:
         if self._route.elevator is None:

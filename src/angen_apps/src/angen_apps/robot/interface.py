@@ -1,4 +1,4 @@
-"""What a robot's program gets from a simulator and gives to it, through ROS or in this process."""
+"""The inputs and outputs of a robot's program, through ROS or in this process."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -44,7 +44,7 @@ class LiftState:
     position: float
 
     def stands_open(self, floor: int, level: float) -> bool:
-        """Whether it stands at a floor, whose z is `level` (m), with its doors open."""
+        """Whether it is at a floor, whose z is `level` (m), with its doors open."""
         return (self.mode == 'IDLE' and self.target_floor == floor and self.door_mode == 'OPEN'
                 and abs(self.position - level) < 0.1)
 
@@ -81,7 +81,7 @@ class Robot(Protocol):
 
 
 def bumper(world: Path, robot: str) -> tuple[str, str]:
-    """SDF of a sensor that samples each step the contacts of what may touch nothing, and the
+    """SDF of a sensor that samples each step the contacts of the robot's body, and the
     MODEL::LINK that carries it. Failure where the file of the world has no such robot."""
     link = f'{robot}::{BASE}'
     names = collisions_of(read(world), link)
@@ -99,6 +99,6 @@ def bumper_of(collisions: list[str]) -> str:
 
 
 def collisions(events: list[Event]) -> list[tuple[float, str]]:
-    """When the robot touched what it must not (s), and what."""
+    """When the robot touched something that it must not touch (s), and its name."""
     return [(e.time, e.detail) for e in events
             if (e.source, e.kind, e.event) == (BUMPER, 'contact', 'pressed')]

@@ -10,7 +10,7 @@ from scipy.ndimage import distance_transform_edt
 from angen_apps.maps.gridmap import OCCUPIED, GridMap
 from angen_apps.robot.pilot import Pose
 
-GATE = 0.25  # m: what lies farther from everything on the map is a door or a person
+GATE = 0.25  # m: a return that is farther from everything on the map is of a door or a person
 ROUNDS = 10
 ENOUGH = 0.0005  # m, rad: a round that moves it less is the last
 EVERY = 3  # of a scan's returns one is taken
@@ -52,18 +52,18 @@ class Localizer:
         self._field = Field(grid)
 
     def enter(self, grid: GridMap) -> None:
-        """Goes on with another map: of the floor where an elevator has taken it."""
+        """Continues on another map: of the floor where an elevator has taken it."""
         self._field = Field(grid)
 
     def move(self, odometry: Pose) -> Pose:
-        """Adds what odometry has gone on by since the last time."""
+        """Adds the change of the odometry since the last call."""
         self.pose = self.pose.then(self._odometry.inverse().then(odometry))
         self._odometry = odometry
         return self.pose
 
     def see(self, returns: np.ndarray) -> Pose:
         """Fits a scan's returns (n, 2), in the robot's frame (m), to the map: least squares about
-        the pose so far (Gauss, Newton), each return drawn to what is nearest to it."""
+        the previous pose (Gauss, Newton), each return matched to the nearest cell."""
         start = np.array([self.pose.x, self.pose.y, self.pose.yaw])
         if len(returns) < FEWEST:
             return self.pose
@@ -93,6 +93,6 @@ def returns_of(scan: Any, mount: Pose, every: int = 1) -> tuple[np.ndarray, np.n
     numbers in the scan; `mount`: the laser on the robot."""
     ranges = np.asarray(scan.ranges[::every])
     angles = scan.angle_min + every * scan.angle_increment * np.arange(len(ranges)) + mount.yaw
-    met = np.isfinite(ranges) & (ranges >= scan.range_min) & (ranges <= scan.range_max)
+    hit = np.isfinite(ranges) & (ranges >= scan.range_min) & (ranges <= scan.range_max)
     points = ranges[:, None] * np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    return points[met] + [mount.x, mount.y], every * np.nonzero(met)[0]
+    return points[hit] + [mount.x, mount.y], every * np.nonzero(hit)[0]

@@ -53,11 +53,11 @@ class Pilot:
         return self._points[self._next:]
 
     def stop(self, dt: float) -> tuple[float, float] | None:
-        """Speed and turn for the next dt seconds of a robot that brakes; None once it stands."""
+        """Speed and turn for the next dt seconds while the robot brakes; None once it stopped."""
         return None if self._v == 0.0 and self._w == 0.0 else self._ramp(0.0, 0.0, dt)
 
     def steer(self, pose: Pose, dt: float) -> tuple[float, float] | None:
-        """Speed and turn for the next dt seconds; None once it has arrived and stands."""
+        """Speed and turn for the next dt seconds; None once it has arrived and stopped."""
         end = self._points[-1]
         left = math.dist((pose.x, pose.y), end)
         if left < ARRIVED or (self._next == len(self._points) - 1 and left < 3 * ARRIVED

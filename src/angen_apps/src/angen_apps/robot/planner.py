@@ -40,20 +40,20 @@ class Planner:
         cost = 1 + NEAR_COST * np.clip((radius + OPEN - clear) / OPEN, 0, 1)
         self._graph = step_costs(self._passable, cost)
 
-    def stands(self, point: Point) -> bool:
-        """Whether the robot can stand there."""
+    def is_free(self, point: Point) -> bool:
+        """Whether the robot fits there."""
         row, column = self.grid.cell(*point)
         rows, columns = self._passable.shape
         return 0 <= row < rows and 0 <= column < columns and bool(self._passable[row, column])
 
     @property
     def passable(self) -> np.ndarray:
-        """The cells (rows, columns) where the robot can stand."""
+        """The cells (rows, columns) where the robot fits."""
         return self._passable
 
     def nearest(self, point: Point, reach: float) -> Point | None:
-        """The point, or the nearest place within `reach` (m) where the robot can stand."""
-        if self.stands(point):
+        """The point, or the nearest place within `reach` (m) where the robot fits."""
+        if self.is_free(point):
             return point
         rows, columns = np.nonzero(self._passable)
         away = np.hypot(self.grid.origin[0] + (columns + 0.5) * self.grid.resolution - point[0],
@@ -64,7 +64,7 @@ class Planner:
         return self.grid.point(int(rows[best]), int(columns[best]))
 
     def costs(self, start: Point) -> np.ndarray:
-        """What the way from start to each cell (rows, columns) costs, in m of open floor."""
+        """The cost of the way from start to each cell (rows, columns), in m of open floor."""
         columns = self._passable.shape[1]
         row, column = self.grid.cell(*start)
         found = dijkstra(self._graph, indices=row * columns + column)
@@ -72,7 +72,7 @@ class Planner:
 
     def way(self, start: Point, goal: Point) -> list[Point] | None:
         """Points from start to goal, about a cell apart; None where there is no way."""
-        if not (self.stands(start) and self.stands(goal)):
+        if not (self.is_free(start) and self.is_free(goal)):
             return None
         cells = self._search(self.grid.cell(*start), self.grid.cell(*goal))
         if cells is None:
@@ -96,7 +96,7 @@ class Planner:
 
 
 def step_costs(passable: np.ndarray, cost: np.ndarray) -> csr_matrix:
-    """What a step from each passable cell to each of its eight neighbors costs: its length in
+    """The cost of a step from each passable cell to each of its eight neighbors: its length in
     cells times the cost of the cell that it leads to. Cells are counted row by row."""
     rows, columns = passable.shape
     index = np.arange(rows * columns).reshape(rows, columns)

@@ -26,7 +26,7 @@ class Turn:
 
 @dataclass(frozen=True)
 class Ride:
-    """Have the elevator come, or go with the robot aboard, and wait until it stands open."""
+    """Have the elevator come, or carry the robot, and wait until it is open at the floor."""
 
     floor: int
     aboard: bool
@@ -50,7 +50,7 @@ class Router:
             if goal.floor not in self._planners:
                 known = ', '.join(str(known) for known in self._planners)
                 raise self._route.wrong(goal, f'there is no floor {goal.floor}; known are {known}')
-            if not self._planners[goal.floor].stands(goal.at):
+            if not self._planners[goal.floor].is_free(goal.at):
                 raise self._route.wrong(
                     goal, f'the robot cannot stand at {goal.at[0]:g}, {goal.at[1]:g} on floor '
                     f'{goal.floor}: no floor there, or something nearer than '

@@ -24,7 +24,7 @@ class Waypoint:
 
 @dataclass(frozen=True)
 class Lift:
-    """An elevator: its name, and where a robot stands in its cabin and before it (m)."""
+    """An elevator: its name, and the robot's places in its cabin and before it (m)."""
 
     name: str
     cabin: Point

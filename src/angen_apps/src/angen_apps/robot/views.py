@@ -1,4 +1,4 @@
-"""What the sensors of a building can see, by their SDF."""
+"""The fields of view of a building's sensors, by their SDF."""
 from __future__ import annotations
 
 import math
@@ -17,7 +17,7 @@ FAR = 20.0  # m: how far a sensor without a range sees
 
 @dataclass(frozen=True)
 class View:
-    """What a sensor sees: half angles about its x axis (rad) and reach (m)."""
+    """A field of view: half angles about its x axis (rad) and reach (m)."""
 
     position: np.ndarray  # (3,)
     rotation: np.ndarray  # (3, 3), sensor to world

@@ -1,4 +1,4 @@
-"""What ambient sensors say about a person, as far as the robot itself is not the reason."""
+"""Evidence of ambient sensors about a person, unless the robot itself causes it."""
 from __future__ import annotations
 
 import math
@@ -10,7 +10,7 @@ from angen_apps.robot.interface import Event
 from angen_apps.seek.belief import DEVICE, LIGHT, Belief
 from angen_apps.seek.home import DOORWAY, Home
 
-OWN = 5.0  # s after a command of the robot what its device does is the robot's doing
+OWN = 5.0  # s after a command of the robot its device's changes are the robot's doing
 OWN_LIFT = 40.0  # s: a ride, with its doors
 MOVED = 1.5  # s after it moved a PIR may still detect the robot
 ROBOT_NEAR = 1.0  # m
@@ -21,7 +21,7 @@ POINT = {'pressure': 0.6, 'contact': 0.8, 'reed': 1.5, 'cabinet': 1.3, 'window':
 
 @dataclass
 class RobotNow:
-    """Where the robot estimates to be, and what it does."""
+    """The robot's estimate of its pose, and its action."""
 
     x: float
     y: float
@@ -42,10 +42,10 @@ class Ambient:
         self._said: dict[tuple[int, int, int], float] = {}  # s, by the place of an event
         self._places = {(e.kind, e.name): e for e in home.entities}
         self._doors = {door.name: (floor, door) for floor, door in home.all_doors()}
-        self.last: tuple[str, float] | None = None  # what said last where somebody is; s
+        self.last: tuple[str, float] | None = None  # the last sensor that detected a person; s
 
     def step(self, events: list[Event], robot: RobotNow, now: float) -> None:
-        """Takes in what was published in a STEP that ends at `now` (s)."""
+        """Updates the belief by the messages of a STEP that ends at `now` (s)."""
         moved = set()
         for event in events:
             if event.kind == 'pir':

@@ -8,14 +8,14 @@ from angen_apps.seek.home import CELL, Home, Pir
 
 STEP = 1.0  # s
 SPEED = 0.8  # m/s
-SETS_OUT, SETTLES = 1 / 50, 1 / 10  # 1/s: somebody who stands walks on; who walks stands
+SETS_OUT, SETTLES = 1 / 50, 1 / 10  # 1/s: a standing person starts to walk; a walking one stops
 LIFT = 0.01  # share of those who walk beside the elevator that come out on another floor, per STEP
-UNKNOWN_DOOR = 0.3  # a door of which nobody says whether it stands open is passed so much less
+UNKNOWN_DOOR = 0.3  # the share that passes a door of unknown state
 LEAST = 1e-7  # of a cell: whatever was observed may have been wrong
 
 # Probabilities of `motion` within a STEP:
 SEEN, GLIMPSED, AFTER, FALSE = 0.6, 0.25, 0.03, 0.005
-# Probability ratios of what is observed elsewhere, to where it is observed:
+# Probability ratios of an observation elsewhere, to one at its place:
 DEVICE, LIGHT, ARC, LOOK = 0.003, 0.02, 0.02, 0.25
 
 
@@ -66,7 +66,7 @@ class Belief:
         return csr_matrix(diags(1 - share) @ matrix + ride)
 
     def step(self, opened: frozenset[str] | None) -> None:
-        """Lets STEP pass. `opened`: the doors that stand open, None where it is not known."""
+        """Advances the belief by STEP. `opened`: the open doors, None where it is not known."""
         self._walk = self._walks(opened)
         stand, walk = self.p
         walk = self._walk.T @ walk
@@ -75,7 +75,7 @@ class Belief:
         self._normalize()
 
     def weigh(self, likelihood: np.ndarray) -> None:
-        """What was observed is so likely in each cell: (n,), or (2, n) for standing, walking."""
+        """The likelihood of an observation in each cell: (n,), or (2, n) for standing, walking."""
         self.p = self.p * likelihood
         self._normalize()
 
@@ -84,19 +84,19 @@ class Belief:
         self.p /= self.p.sum()
 
     def pir(self, pir: Pir, motion: bool) -> None:
-        """A STEP of a PIR. Who stands is not detected, except for a while after motion."""
+        """A STEP of a PIR. It detects a standing person only for a while after motion."""
         walk = np.where(pir.sees, SEEN, np.where(pir.through_doors, GLIMPSED, FALSE))
         stand = np.where(pir.sees, AFTER, FALSE)
         both = np.stack([stand, walk])
         self.weigh(both if motion else 1 - both)
 
     def near(self, cells: np.ndarray, ratio: float) -> None:
-        """Somebody is at one of these cells (n,); elsewhere that would be `ratio` as likely."""
+        """A person is at one of these cells (n,); elsewhere that would be `ratio` as likely."""
         if cells.any():
             self.weigh(np.where(cells, 1.0, ratio))
 
     def looked(self, cells: np.ndarray) -> None:
-        """The robot's own sensors see these cells (n,), and nobody there."""
+        """The robot's own sensors see these cells (n,), and no person there."""
         self.weigh(np.where(cells, LOOK, 1.0))
 
     def rooms(self) -> dict[str, float]:

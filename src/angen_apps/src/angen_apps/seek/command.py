@@ -105,7 +105,7 @@ def _begin(parent: int) -> None:
 
 
 def survey(world: Path, route: Route, out: Path) -> tuple[Home, Route]:
-    """What the robot knows of the building of a world's file, and its route there."""
+    """The robot's knowledge of the building of a world's file, and its route there."""
     empty = out / 'survey.world'
     try:
         run.write_world(world, route, None, 0, 0.0, empty)
@@ -118,7 +118,7 @@ def survey(world: Path, route: Route, out: Path) -> tuple[Home, Route]:
 
 def served(route: Route, entities: list[Entity]) -> Route:
     """The shipped route is for a building with an elevator: without one the robot keeps to its
-    floor. What a route of one's own names has to be there."""
+    floor. The elevator of a user's own route must exist."""
     lifts = [entity.name for entity in entities if entity.kind == 'elevator']
     if route.path != default_route() or route.elevator is None or route.elevator.name in lifts:
         return route

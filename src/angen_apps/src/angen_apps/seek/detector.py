@@ -1,4 +1,4 @@
-"""Finds people in what a robot's own sensors measure: arcs in a scan, figures in a depth image."""
+"""Finds people in a robot's own measurements: arcs in a scan, figures in a depth image."""
 from __future__ import annotations
 
 import math
@@ -10,7 +10,7 @@ import numpy as np
 from angen_apps.robot.localizer import Field, returns_of
 from angen_apps.robot.pilot import Pose
 
-UNEXPLAINED = 0.15  # m: a return so far from all that the map has is of something else
+UNEXPLAINED = 0.15  # m: a return at this distance from all cells of the map is of something else
 GAP = 0.15  # m between two returns of the same thing
 FEWEST = 6  # returns of a person
 RADIUS = (0.15, 0.36)  # m, of a body at the height of the laser
@@ -21,8 +21,8 @@ STRAIGHT = 0.6  # of the rms beside a line, at most, is that beside the circle
 
 # A figure in a depth image:
 FRONT, BACK = 0.45, 0.15  # m before and behind the middle of the arc
-LOW, HIGH = 0.2, 1.3  # m: it fills the heights between these, as far as they are in view
-OVER = 0.95  # m: its width is measured above what stands beside it
+LOW, HIGH = 0.2, 1.3  # m: it fills the heights between these that are in view
+OVER = 0.95  # m: its width is measured above furniture beside it
 FILLED = 0.85
 WIDEST = 0.8  # m
 ROWS_AT_LEAST = 20
@@ -54,7 +54,7 @@ def unexplained(points: np.ndarray, field: Field) -> np.ndarray:
 
 
 def find_arcs(scan: Any, mount: Pose, pose: Pose, field: Field) -> list[Arc]:
-    """The round things of a person's size that stand where the map has nothing."""
+    """The round things of a person's size where the map is free."""
     points, numbers = returns_of(scan, mount)
     if not len(points):
         return []
@@ -68,9 +68,9 @@ def find_arcs(scan: Any, mount: Pose, pose: Pose, field: Field) -> list[Arc]:
     return found
 
 
-def groups(points: np.ndarray, numbers: np.ndarray, wanted: np.ndarray) -> list[np.ndarray]:
-    """Rows of neighbors in a scan that belong together, all of them wanted."""
-    rows = np.nonzero(wanted)[0]
+def groups(points: np.ndarray, numbers: np.ndarray, chosen: np.ndarray) -> list[np.ndarray]:
+    """Rows of neighbors in a scan that belong together, all of them chosen."""
+    rows = np.nonzero(chosen)[0]
     if len(rows) < FEWEST:
         return []
     apart = np.linalg.norm(np.diff(points[rows], axis=0), axis=1)
@@ -139,8 +139,8 @@ def find_figure(depth: Any, camera: tuple[float, float, float], pose: Pose, arc:
         upper = min(HIGH, camera[2] + depth.center_y / depth.focal * (ahead - 0.25))
         wide = there & (beside < 0.7) & (height > min(OVER, 0.75 * upper))
     levels = np.unique((height[core] / 0.05).astype(int))
-    wanted = np.arange(int(LOW / 0.05) + 1, int(upper / 0.05))
-    if len(wanted) < 4 or not wide.any() or np.isin(wanted, levels).mean() < FILLED:
+    heights = np.arange(int(LOW / 0.05) + 1, int(upper / 0.05))
+    if len(heights) < 4 or not wide.any() or np.isin(heights, levels).mean() < FILLED:
         return None
     spread = ((columns - column) / depth.focal * image)[wide]
     width = float(np.percentile(spread, 98) - np.percentile(spread, 2))

@@ -161,14 +161,14 @@ def draw_times(found: list[Figures], limit: float, path: Path) -> None:
         ax.set_axisbelow(True)
         for side in ('top', 'right'):
             ax.spines[side].set_visible(False)
-    figure.suptitle('What a smart apartment is worth to a robot that looks for somebody',
+    figure.suptitle('What a smart apartment contributes to a robot that searches for a person',
                     fontsize=12)
     save_figure(figure, path)
 
 
 def _shares(ax: Any, found: list[Figures], limit: float, end: float, color: str, name: str
             ) -> None:
-    """A step for each search that found somebody, up to `end` (s), and the median."""
+    """A step for each search that found a person, up to `end` (s), and the median."""
     times = sorted(figures.time_s for figures in found if figures.found)
     ends = [0.0, *times, end]
     shares = [0.0, *(100 * (i + 1) / len(found) for i in range(len(times)))]

@@ -259,7 +259,7 @@ def find_viewpoints(at: np.ndarray, floor: np.ndarray, planners: dict[int, Plann
     found: list[int] = []
     for i, (place, number) in enumerate(zip(at, floor)):
         point = (float(place[0]), float(place[1]))
-        if number not in planners or not planners[number].stands(point):
+        if number not in planners or not planners[number].is_free(point):
             continue
         if any(door.room_for(point) < route.door_room for door in doors[number]):
             continue

@@ -1,4 +1,4 @@
-"""What a search leaves and prints: of one, and of many."""
+"""Files and texts of a search: of one, and of many."""
 from __future__ import annotations
 
 import math

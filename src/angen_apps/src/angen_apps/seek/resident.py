@@ -19,7 +19,7 @@ from angen_tools.common.failure import Failure
 
 SPEED = 0.8  # m/s
 STAYS = (10.0, 90.0)  # s at a place
-STAND = 1.0  # s that his path pauses where he may have to wait
+PAUSE = 1.0  # s that his path pauses where he may have to wait
 STRIDE = 4  # points of a way, a square of the map apart, between two of his path
 THERE = 0.15  # m
 CLOSES = 0.6  # probability that he closes a door behind him
@@ -55,7 +55,7 @@ class Itinerary:
 
 
 def plan_walk(home: Home, route: Route, seed: int, seconds: float) -> Itinerary:
-    """An itinerary of at least so many seconds of walking and staying."""
+    """An itinerary of at least that many seconds of walking and staying."""
     chance = random.Random(f'resident {seed}')
     planners = {floor: Planner(_without_robot(home, grid), BODY)
                 for floor, grid in home.walkable.items()}
@@ -65,7 +65,7 @@ def plan_walk(home: Home, route: Route, seed: int, seconds: float) -> Itinerary:
     here = _choose(home, places, chance, None, route)
     (x, y), floor = home.point(here), int(home.floor[here])
     waypoints, gates = [(0.0, x, y)], [_stay(home, here, chance)]
-    time, spent, tries = STAND, gates[0].stays, 0
+    time, spent, tries = PAUSE, gates[0].stays, 0
     waypoints.append((time, x, y))
     while spent + time < seconds and tries < 200:
         tries += 1
@@ -82,13 +82,13 @@ def plan_walk(home: Home, route: Route, seed: int, seconds: float) -> Itinerary:
         spent += gates[-1].stays
         here = there
         x, y = goal.at
-        time += STAND
+        time += PAUSE
         waypoints.append((time, x, y))
     return Itinerary(waypoints, gates)
 
 
 def _without_robot(home: Home, grid: GridMap) -> GridMap:
-    """The map without the place where the robot stands at the start: he walks around it."""
+    """The map without the robot's place at the start: he walks around it."""
     if grid.floor != home.start.floor:
         return grid
     cells = grid.cells.copy()
@@ -114,9 +114,9 @@ def _choose(home: Home, places: list[int], chance: random.Random, here: int | No
         places = [i for i in places if home.room[i] != home.room[here]] or places
     else:
         other = route.elevator is not None and chance.random() < OTHER_FLOOR
-        wanted = [i for i in places if (home.floor[i] != home.floor[here]) == other
+        chosen = [i for i in places if (home.floor[i] != home.floor[here]) == other
                   and home.room[i] != home.room[here]]
-        places = wanted or places
+        places = chosen or places
     room = chance.choice(sorted({int(home.room[i]) for i in places}))
     return chance.choice([i for i in places if home.room[i] == room])
 
@@ -139,7 +139,7 @@ def _add(action: Action, waypoints: list[tuple[float, float, float]], gates: lis
                 waypoints.append((time, x, y))
         return time, floor
     gates.append(Gate((x, y), floor, action))
-    time += STAND
+    time += PAUSE
     waypoints.append((time, x, y))
     return time, action.floor if isinstance(action, Ride) and action.aboard else floor
 
@@ -159,7 +159,7 @@ def add_actor(root: etree._Element, name: str, itinerary: Itinerary) -> None:
 
 
 class Resident:
-    """Does what the itinerary says, gate by gate."""
+    """Follows the itinerary, gate by gate."""
 
     def __init__(self, simulation: Simulation, home: Home, route: Route, name: str,
                  itinerary: Itinerary, seed: int) -> None:

@@ -46,7 +46,7 @@ class Figures:
 
 @dataclass(frozen=True)
 class Outcome:
-    """A search: its figures, and what its report is made of."""
+    """A search: its figures, and the data of its report."""
 
     figures: Figures
     found: Found | None
@@ -81,7 +81,7 @@ def write_world(world: Path, route: Route, home: Home | None, seed: int, limit: 
 def search(world: Path, route: Route, home: Home, seed: int, ambient: bool, limit: float,
            scratch: Path, note: Callable[[float, str], None] = lambda now, text: None) -> Outcome:
     """Runs one search; `scratch`: the file for its world; `note` is called with the time (s) and
-    what the robot does next."""
+    the robot's next action."""
     began = time.monotonic()
     name = write_world(world, route, home, seed, limit, scratch)
     simulation = Simulation(scratch, seed, route.robot)

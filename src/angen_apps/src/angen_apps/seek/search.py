@@ -1,4 +1,4 @@
-"""The search: where to look next, what the robot sees on the way, and when it has found him."""
+"""The search: the next viewpoint, observations on the way, and the decision that he is found."""
 from __future__ import annotations
 
 import math
@@ -24,13 +24,13 @@ from angen_tools.common.failure import Failure
 
 LEAD = 60.0  # s before the search begins
 DOOR_TIME, LIFT_TIME, LOOK_TIME = 5.0, 25.0, 3.0  # s
-BETTER = 2.0  # times the score of the goal: a goal that is so much better is taken instead
+BETTER = 2.0  # times the score of the goal: a goal of a higher score is taken instead
 REPLAN = 3.0  # s between two comparisons
 SAME = 0.6  # m between two scans' arcs of the same thing
 LOST = 1.0  # s without an arc
-MOVES, SIGHTINGS = 0.4, 5  # m, arcs: something that has moved so far is a person
+MOVES, SIGHTINGS = 0.4, 5  # m, arcs: something that has moved by this is a person
 PATIENCE = 4.0  # s that it examines something
-KNOWN, ELSEWHERE = 0.5, 0.8  # m around what was not a person; it is examined again from so far
+KNOWN, ELSEWHERE = 0.5, 0.8  # m around a rejected thing; it is examined again from this distance
 FORGETS = 60.0  # s
 IN_WAY, AHEAD = 0.30, 14  # m beside the line; points of the line, 0.05 m apart
 HELD = 5.0  # s that it waits for something in its way
@@ -40,7 +40,7 @@ TURN = 1.2  # rad/s
 
 @dataclass(frozen=True)
 class Found:
-    """What the robot reports."""
+    """The robot's report."""
 
     time: float  # s since the search began
     x: float  # m
@@ -81,7 +81,7 @@ class Search:
                               self._may_go, self._give_up)
         self._lift_costs: dict[int, np.ndarray] = {}
         self._sighting: Sighting | None = None
-        # s, floor, place of what was not a person, and from where that was seen
+        # s, floor, place of a thing that was not a person, and from where that was seen
         self._known: list[tuple[float, int, Point, Point]] = []
         self._views = home.views.copy()
         self._avoid: dict[int, float] = {}
@@ -99,7 +99,7 @@ class Search:
     def driver(self) -> Driver:
         return self._driver
 
-    # --- what happens in each cycle
+    # --- the parts of each cycle
 
     def _watch(self) -> None:
         now, pose = self._simulation.now, self._driver.pose
@@ -178,7 +178,7 @@ class Search:
     # --- while it drives
 
     def _may_go(self) -> bool:
-        """Whether nothing that is not on the map stands in its way."""
+        """Whether nothing that is not on the map blocks its way."""
         ahead = np.array(self._driver.left[:AHEAD]).reshape(-1, 2)
         foreign = self._foreign
         if not len(ahead) or not len(foreign):
@@ -282,7 +282,7 @@ class Search:
         return self.found
 
     def _go(self) -> None:
-        """Drives to the best viewpoint, as far as nothing intervenes."""
+        """Drives to the best viewpoint, unless something intervenes."""
         scores = self._scores()
         best = int(scores.argmax())
         if scores[best] <= 0.0:
@@ -304,7 +304,7 @@ class Search:
         else:
             for _ in range(2):
                 self._driver.cycle()
-            self._views[best] &= self._in_view()  # what it does not see from there it never will
+            self._views[best] &= self._in_view()  # cells hidden from there remain hidden
             self._avoid[best] = self._simulation.now
 
     def _note_goal(self, cell: int) -> None:
@@ -335,11 +335,11 @@ class Search:
         return lift is not None and math.dist((pose.x, pose.y), lift.cabin) < 1.0
 
     def _actions(self, cell: int) -> list[Action]:
-        """All that leads to a cell; doors that stand open stay so."""
+        """All steps that lead to a cell; open doors remain open."""
         home, floor, pose = self._home, self._driver.floor, self._driver.pose
         here = self._planners[floor].nearest((pose.x, pose.y), 0.5)
         if here is None:
-            raise Failure('the robot stands where it cannot')
+            raise Failure('the robot is at a place where it does not fit')
         goal = Waypoint(home.rooms[home.room[cell]], int(home.floor[cell]), home.point(cell), 0)
         shut: dict[int, list[Door]] = {
             number: [door for door in doors if self._simulation.door(door.name).mode != 'OPEN']
@@ -351,10 +351,10 @@ class Search:
     # --- something that may be him
 
     def _examine(self) -> None:
-        """Faces what it sees until it has moved, the camera sees a person, or it is neither."""
+        """Faces a thing until it has moved, the camera sees a person, or it is neither."""
         end = self._simulation.now + PATIENCE
         self._note(self._simulation.now - self.began, 'sees something that the map has not')
-        self._simulation.want_depth(True)
+        self._simulation.request_depth(True)
         try:
             while self._sighting is not None and self._simulation.now < min(end, self.limit):
                 sighting = self._sighting
@@ -367,7 +367,7 @@ class Search:
                                     self._sighting.latest.at, (pose.x, pose.y)))
                 self._sighting = None
         finally:
-            self._simulation.want_depth(False)
+            self._simulation.request_depth(False)
             self._driver.cycle()
 
     def _turn_to(self, arc: Arc) -> float:

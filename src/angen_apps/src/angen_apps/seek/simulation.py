@@ -1,7 +1,7 @@
 """The building, the robot and the person of one search, in this process (`import angen`).
 
-The robot gets what subscribers of the topics get: events, states of doors and elevator, odometry,
-scans, depth images. What is true of robot and person is for the person's own eyes and the judge.
+The robot receives the messages of its topics: events, states of doors and elevator, odometry,
+scans, depth images. The true poses of robot and person are for the person's own eyes and the judge.
 """
 from __future__ import annotations
 
@@ -95,10 +95,10 @@ class Simulation:
         except angen_module().Error:
             return None
 
-    def want_depth(self, wanted: bool) -> None:
+    def request_depth(self, requested: bool) -> None:
         """Switches the depth camera on or off."""
         if self._depth:
-            self.world.request('depth', self._depth, wanted)
+            self.world.request('depth', self._depth, requested)
 
     def truth(self) -> tuple[float, float, float, float]:
         return self.place(f'{self._name}::{BASE}')

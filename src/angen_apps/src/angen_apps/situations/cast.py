@@ -1,4 +1,4 @@
-"""What is in a situation besides the detector: a row's `cast` becomes puppets, models, commands."""
+"""The cast of a situation besides the detector: a row's `cast` as puppets, models, commands."""
 from __future__ import annotations
 
 import math
@@ -15,7 +15,7 @@ Entry = Mapping[str, Any]
 
 @dataclass
 class Part:
-    """One thing of the cast: what is put into the world, and when it has done what it does."""
+    """One member of the cast: its model or command, and when its action has ended."""
     ends: float = BEGINS + 1.0
     puppets: list[Puppet] = field(default_factory=list)
     models: list[tuple[str, str, list[float]]] = field(default_factory=list)  # SDF, name, pose
@@ -68,18 +68,18 @@ def _static(name: str, shape: Shape, plugin: str = '') -> str:
 
 
 def _box(entry: Entry, name: str, air: float) -> Part:
-    """Stands still: furniture, a wall, a pane."""
+    """Does not move: furniture, a wall, a pane."""
     return Part(models=[(_static(name, _shape(entry, air)), name, [*entry['at'], 0, 0, 0])])
 
 
 def _slab(entry: Entry, name: str, air: float) -> Part:
-    """Slides to and fro: a curtain, leaves; or with `speed` one way, as what a robot carries."""
+    """Slides to and fro: a curtain, leaves; or with `speed` one way, as a robot's load."""
     axis = {'x': (1, 0, 0), 'y': (0, 1, 0)}[entry['slides']]
     if 'speed' in entry:
         way = figures.Way((0, 0), (entry['by'], 0), entry['speed'], BEGINS)
 
         def script(time: float) -> Joints:
-            return {'slide': way.gone(time)}
+            return {'slide': way.distance(time)}
         ends = way.ends
     else:
         def script(time: float) -> Joints:

@@ -1,4 +1,4 @@
-"""angen situations: what a PIR makes of everyday situations, against what is to be expected."""
+"""angen situations: a PIR's reports of everyday situations, against expectations."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -17,7 +17,7 @@ MODELS = ('pyroelectric', 'range_difference')
 
 
 def sources() -> dict[str, str]:
-    """What rows refer to."""
+    """The things that rows name."""
     return _read()['sources']
 
 

@@ -1,4 +1,4 @@
-"""People and animals of shapes on joints, and what they do. In m, s, rad, K.
+"""People and animals of shapes on joints, and their motions. In m, s, rad, K.
 
 A person is 1.75 m tall and lives in a room of `air` K: head and hands are skin, the rest is
 clothing. Between skin (306.5 K on average) and air there are the 0.155 m^2 K/W of 1 clo and the
@@ -29,7 +29,7 @@ def clothing(air: float) -> float:
 
 
 def _carriage(height: float) -> tuple[Segment, ...]:
-    """What moves a body about: along x and y, about z, up and down, and about its own y."""
+    """The joints that move a body: along x and y, about z, up and down, and about its own y."""
     return (Segment('x', axis=(1, 0, 0), slides=True),
             Segment('y', 'x', axis=(0, 1, 0), slides=True),
             Segment('yaw', 'y', axis=(0, 0, 1)),
@@ -93,18 +93,18 @@ class Way:
     def place(self, time: float) -> dict[str, float]:
         """Joints of the carriage."""
         dx, dy = self.end[0] - self.start[0], self.end[1] - self.start[1]
-        share = self.gone(time) / self.length if self.length else 0.0
+        share = self.distance(time) / self.length if self.length else 0.0
         return {'x': share * dx, 'y': share * dy, 'yaw': math.atan2(dy, dx)}
 
-    def gone(self, time: float) -> float:
+    def distance(self, time: float) -> float:
         return min(max(time - self.begins, 0.0) * self.speed, self.length)
 
 
 def _gait(way: Way, swing: float, lean: float = 0.0) -> Script:
     def script(time: float) -> Joints:
-        gone = way.gone(time)
-        moves = 0.0 < gone < way.length
-        phase = 2 * math.pi * gone / STRIDE
+        distance = way.distance(time)
+        moves = 0.0 < distance < way.length
+        phase = 2 * math.pi * distance / STRIDE
         leg, arm = swing * math.sin(phase) * moves, 0.8 * swing * math.sin(phase) * moves
         return {**way.place(time), 'lift': -(1 - math.cos(leg)) * THIGH, 'waist': lean,
                 'hip_left': -leg, 'hip_right': leg, 'shoulder_left': arm, 'shoulder_right': -arm,
@@ -116,7 +116,7 @@ def _gait(way: Way, swing: float, lean: float = 0.0) -> Script:
 def _crawl(way: Way) -> Script:
     """On hands and knees, the back level."""
     def script(time: float) -> Joints:
-        swing = 0.3 * math.sin(2 * math.pi * way.gone(time) / 0.8)
+        swing = 0.3 * math.sin(2 * math.pi * way.distance(time) / 0.8)
         return {**way.place(time), 'lift': 0.55 - HIP, 'pitch': 1.3,
                 'hip_left': -1.3 - swing, 'hip_right': -1.3 + swing,
                 'knee_left': 1.5, 'knee_right': 1.5,
@@ -179,7 +179,7 @@ GAITS: dict[str, Callable[[Way], Script]] = {
 
 
 def mover(name: str, who: str, gait: str, way: Way, air: float) -> Puppet:
-    """Somebody who goes a way: adult, child, insulated (an adult as warm as the air) or an animal.
+    """A walker: an adult, child, insulated (an adult as warm as the air) or animal.
     """
     start = (way.start[0], way.start[1], 0.0)
     if who in ANIMALS:

@@ -39,7 +39,7 @@ class Segment:
 
 @dataclass(frozen=True)
 class Puppet:
-    """A model of segments, parents first, and what its joints do."""
+    """A model of segments, parents first, and the motion of its joints."""
     name: str
     segments: tuple[Segment, ...]
     script: Script
@@ -108,9 +108,9 @@ def _register() -> None:
             self.joints = [(name, wiring.joint(f'{name}_joint')) for name in names]
 
         def update(self, view: Any, outputs: Any) -> None:
-            wanted = self.script(view.time + view.step)
+            targets = self.script(view.time + view.step)
             for name, joint in self.joints:
-                rate = (wanted.get(name, 0.0) - view.joint(joint)[0]) / view.step
+                rate = (targets.get(name, 0.0) - view.joint(joint)[0]) / view.step
                 outputs.motor(joint, min(max(rate, -FASTEST), FASTEST), FORCE)
 
     angen.register(LIBRARY, LIBRARY.removesuffix('.py'), Puppeteer)

@@ -27,7 +27,7 @@ MOUNTS = {'wall': (0, 0, 2.2, 0, 0, 0), 'low': (0, 0, 1.2, 0, 0, 0),
 
 @dataclass(frozen=True)
 class Row:
-    """A situation, and what physics or data sheets expect of each model of a PIR."""
+    """A situation, and the expectation of physics or data sheets for each model of a PIR."""
     group: str
     scene: str
     expect: str                # of the pyroelectric model: motion, still

@@ -30,7 +30,7 @@ SEED = 1
 
 @dataclass(frozen=True)
 class Detector:
-    """What is tested: its SDF model, where it hangs and what it is declared to cover."""
+    """The detector under test: its SDF model, its mounting and its declared coverage."""
     model: str
     xml: str
     height: float  # m

@@ -5,7 +5,7 @@ import math
 from dataclasses import dataclass, field
 from typing import Any, Iterator, Mapping
 
-TRANSIT = 1.0   # m/s, between what is tested
+TRANSIT = 1.0   # m/s, between probes
 BLIND = 0.5     # m: no one stands nearer to the detector
 
 

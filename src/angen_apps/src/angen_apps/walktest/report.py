@@ -1,4 +1,4 @@
-"""What a walk test found: words, CSV, a plan of what was seen and what was not."""
+"""The results of a walk test: words, CSV, a plan of detected and missed steps."""
 from __future__ import annotations
 
 import math
@@ -58,7 +58,7 @@ def draw(path: Path, title: str, results: Sequence[Result]) -> None:
 
 
 def _plan(axis: Any, result: Result) -> None:
-    """One test's plan. What the detector sees on its left is drawn on the left."""
+    """One test's plan. The detector's left is drawn on the left."""
     from matplotlib.patches import Rectangle, Wedge
     for (x, y), seen in result.places.items():
         if result.cell:
