@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Iterator
 
 import pytest
-from harness import WORLD, Angen, Cli, Master, end
+from harness import WORLD, Angen, Cli, Master, end, unregister_publishers
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -32,6 +32,13 @@ def rospy_node(master: Master) -> None:
     master.api.setParam("/test", "/use_sim_time", True)
     import rospy
     rospy.init_node("angen_tests", disable_signals=True)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def publishers() -> Iterator[None]:
+    """Those that a module's tests have opened end with it."""
+    yield
+    unregister_publishers()
 
 
 @pytest.fixture(scope="module")

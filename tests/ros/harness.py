@@ -22,7 +22,7 @@ ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "src/angen_tools/scripts/angen"
 TREE = ROOT / os.environ.get("ANGEN_TEST_TREE", "build")  # a sanitizer's has another
 SANITIZED = TREE.name != "build"
-PATIENCE = 4.0 if SANITIZED else 1.0
+SLOWNESS = 4.0 if SANITIZED else 1.0  # limits of time are multiplied by it
 without_sanitizer = pytest.mark.skipif(
     SANITIZED, reason="it limits memory, or the time of another program that a sanitizer slows")
 WORLD = """<?xml version="1.0"?>
@@ -58,13 +58,15 @@ WORLD = """<?xml version="1.0"?>
 def until(condition: Callable[[], Any], what: str, timeout: float = 30.0) -> Any:
     """Return the first true value of `condition`; fail after `timeout` wall seconds, more with
     a sanitizer."""
-    timeout *= PATIENCE
+    timeout *= SLOWNESS
     end = time.monotonic() + timeout
+    pause = 0.01
     while time.monotonic() < end:
         value = condition()
         if value:
             return value
-        time.sleep(0.02)
+        time.sleep(pause)
+        pause = min(1.5 * pause, 0.1)  # a condition that queries the master costs CPU time
     raise AssertionError(f"not within {timeout} s: {what}")
 
 
@@ -88,7 +90,7 @@ def end(process: subprocess.Popen[str], timeout: float = 20.0) -> int:
     if process.poll() is None:
         process.send_signal(signal.SIGINT)
     try:
-        return process.wait(PATIENCE * timeout)
+        return process.wait(SLOWNESS * timeout)
     except subprocess.TimeoutExpired:
         process.kill()
         process.wait()
@@ -140,6 +142,27 @@ class Master:
         return process
 
 
+_publishers: dict[tuple[str, type], Any] = {}
+
+
+def publisher_of(topic: str, kind: type) -> Any:
+    """The publisher of this process for a topic.
+
+    It stays until the end of the module: a subscriber discards unread messages of a publisher
+    that unregisters.
+    """
+    import rospy
+    if (topic, kind) not in _publishers:
+        _publishers[topic, kind] = rospy.Publisher(topic, kind, queue_size=10)
+    return _publishers[topic, kind]
+
+
+def unregister_publishers() -> None:
+    for publisher in _publishers.values():
+        publisher.unregister()
+    _publishers.clear()
+
+
 class Angen:
     """The node under test, as its users reach it."""
 
@@ -154,17 +177,15 @@ class Angen:
     def call(self, name: str, kind: type, /, **fields: Any) -> Any:
         """Call a service; blank fields keep their defaults."""
         import rospy
-        rospy.wait_for_service(name, timeout=20.0 * PATIENCE)
+        rospy.wait_for_service(name, timeout=20.0 * SLOWNESS)
         return rospy.ServiceProxy(name, kind)(**fields)
 
     def send(self, topic: str, message: Any) -> None:
         """Publish one message when the node subscribes."""
-        import rospy
-        publisher = rospy.Publisher(topic, type(message), queue_size=10)
+        publisher = publisher_of(topic, type(message))
         until(lambda: publisher.get_num_connections() > 0, f"the node subscribes to {topic}")
         publisher.publish(message)
         time.sleep(0.1)
-        publisher.unregister()
 
     def wait(self, topic: str, kind: type, wanted: Callable[[Any], bool] = lambda _: True,
              timeout: float = 30.0) -> Any:
@@ -188,12 +209,14 @@ class RawText(str):
 
 
 class Inbox:
-    """Collects the messages of a topic while it is open."""
+    """Collects the messages of a topic while it is open, from when a publisher of it knows."""
 
     def __init__(self, topic: str, kind: type) -> None:
         import rospy
         self.messages: list[Any] = []
         self._subscriber = rospy.Subscriber(topic, kind, self.messages.append)
+        if topic in dict(rospy.get_published_topics()):
+            until(lambda: self._subscriber.get_num_connections() > 0, f"{topic} is connected")
 
     def __enter__(self) -> Inbox:
         return self
@@ -215,7 +238,7 @@ class Cli:
 
     def run(self, *words: str) -> subprocess.CompletedProcess[str]:
         return subprocess.run([*self.words, *words], env=self.environment, text=True,
-                              capture_output=True, stdin=subprocess.DEVNULL, timeout=120 * PATIENCE)
+                              capture_output=True, stdin=subprocess.DEVNULL, timeout=120 * SLOWNESS)
 
     def does(self, *words: str) -> str:
         """What it says when it succeeds, without the newline."""

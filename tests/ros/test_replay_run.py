@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any, Iterator
 
 import pytest
-from harness import PATIENCE, WORLD, Cli, Master, end, node_binary, until
+from harness import SLOWNESS, WORLD, Cli, Master, end, node_binary, until
 
 SECONDS = float(os.environ.get("ANGEN_REPLAY_SECONDS", "60"))
 RATE = 10.0
@@ -50,7 +50,7 @@ def session(master: Master, folder: Path, seconds: float, kill: bool = False, **
                   "half of it", 300.0)
             node.kill()
         else:
-            limit = PATIENCE * (60 + 3 * seconds)
+            limit = SLOWNESS * (60 + 3 * seconds)
             done = [client.communicate(timeout=limit)[0] for client in clients]
             node.send_signal(signal.SIGINT)
             assert node.wait(20) == 0
