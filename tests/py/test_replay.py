@@ -11,10 +11,10 @@ ACTOR = '''<actor name="guest"><script><loop>true</loop><trajectory id="0" type=
 <waypoint><time>3</time><pose>1.1 0.3 0 0 0 0.3</pose></waypoint></trajectory></script></actor>'''
 
 
-@pytest.fixture
-def log(building: str, tmp_path: Path) -> Path:
-    """Of half a minute in the building."""
-    path = tmp_path / 'run.log'
+@pytest.fixture(scope='module')
+def log(building: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The log of half a minute in the building."""
+    path = tmp_path_factory.mktemp('replay') / 'run.log'
     world = angen.World(building, seed=3, record=str(path))
     world.run(1.5)
     world.command('door', 'bathroom0', 'Open')
