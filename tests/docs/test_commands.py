@@ -8,11 +8,14 @@ from __future__ import annotations
 import json
 import os
 import re
+import shlex
 import signal
 import socket
 import subprocess
+import time
+import xmlrpc.client
 from pathlib import Path
-from typing import Iterator
+from typing import Any, Iterator
 
 import pytest
 
@@ -62,9 +65,11 @@ class Terminal:
         for entry in ROOT.iterdir():
             if entry.name not in ('out', '.git'):
                 (folder / entry.name).symlink_to(entry)
+        uri = f'http://127.0.0.1:{port}'
+        self.master: Any = xmlrpc.client.ServerProxy(uri)
         self.environment = dict(
             os.environ, HOME=str(home), ROS_HOME=str(home / '.ros'),
-            ROS_MASTER_URI=f'http://127.0.0.1:{port}', ROS_IP='127.0.0.1',
+            ROS_MASTER_URI=uri, ROS_IP='127.0.0.1',
             ANGEN_MODEL_PATH=str(home / 'my_models'),
             ANGEN_PLUGIN_PATH=str(home / 'tape_measure/devel/lib'))
         self.arguments: str | None = None
@@ -86,21 +91,32 @@ class Terminal:
         self.process = subprocess.Popen(
             f'exec ./angen run headless:=true {arguments}', shell=True, cwd=self.folder,
             env=self.environment, stdout=log, stderr=log)
-        try:
-            self.run('until rostopic list 2>/dev/null | grep -q /angen/ready; do sleep 0.2; done',
-                     60.0)
-        except subprocess.TimeoutExpired:
-            raise AssertionError((self.folder / 'home/run.log').read_text()) from None
-        self.first = self.names()
+        end = time.monotonic() + 60.0
+        while not self.is_ready():
+            assert time.monotonic() < end, (self.folder / 'home/run.log').read_text()
+            time.sleep(0.1)
+        self.first = {entity['name'] for entity in self.entities()}
         self.arguments = arguments
 
-    def names(self) -> set[str]:
-        return {entity['name'] for entity in json.loads(self.run('angen list --json'))}
+    def is_ready(self) -> bool:
+        """Whether the simulator serves."""
+        try:
+            published = self.master.getSystemState('/test')[2][0]
+        except OSError:  # no master yet
+            return False
+        return any(topic == '/angen/ready' for topic, _ in published)
+
+    def entities(self) -> list[dict[str, Any]]:
+        found: list[dict[str, Any]] = json.loads(self.run('angen list --json'))
+        return found
 
     def clear(self) -> None:
-        """Deletes what was spawned; sensors go with their models."""
-        for name in sorted(self.names() - self.first):
-            subprocess.run(['angen', 'delete', name], env=self.environment, capture_output=True)
+        """Deletes what was spawned; the sensors and devices of a model go with it."""
+        spawned = [entity for entity in self.entities() if entity['name'] not in self.first]
+        models = {entity['name'] for entity in spawned if entity['kind'] == 'model'}
+        names = models | {entity['name'] for entity in spawned if entity['model'] not in models}
+        if names:
+            self.run(f'angen delete {shlex.join(sorted(names))}')
 
     def end(self) -> None:
         if self.process:

@@ -6,8 +6,8 @@ from typing import Iterator
 
 import pytest
 
-from tests.docs.pages import ROOT
-from tests.docs.test_commands import LEFT_OUT, Terminal
+from tests.docs.pages import PAGES, ROOT
+from tests.docs.test_commands import LEFT_OUT, Terminal, steps
 
 PAGE = (ROOT / 'docs/thesis.md').read_text()
 SECTIONS = '''1.1 1.1.1 1.2 1.3 1.4 1.5 2.1 2.2 2.2.1 2.2.2 2.3 2.3.1 2.3.2 2.3.3 2.4 2.5 2.5.1
@@ -32,6 +32,7 @@ def rows(heading: str) -> list[list[str]]:
 
 ROWS = [row for heading in ('Sections', 'Figures', 'Appendices') for row in rows(heading)]
 COMMANDS = list(dict.fromkeys(row[2].strip('`') for row in ROWS))
+OF_PAGES = {line.strip() for page in PAGES for _, text in steps(page) for line in text.splitlines()}
 
 
 @pytest.mark.parametrize('heading, numbers', [
@@ -59,7 +60,8 @@ def building(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
 
 
 @pytest.mark.ros
-@pytest.mark.parametrize('command', [c for c in COMMANDS if not NOT_HERE.match(c)])
+@pytest.mark.parametrize('command', [command for command in COMMANDS
+                                     if not NOT_HERE.match(command) and command not in OF_PAGES])
 def test_its_command_runs(command: str, building: Terminal) -> None:
     building.run(command, 100.0)
 
