@@ -222,8 +222,13 @@ words_of() { # FOLDER
   find "$1" -type f -exec grep -aohE '</?[A-Za-z_:]+|[A-Za-z_]{2,30}=?' {} + | sort -u | head -n 600 | sed 's/.*/"&"/'
 }
 
-run_coverage() {
-  local tree=build-coverage
+run_coverage() { # [--floor CPP PYTHON]: fails where a smaller share of the lines (%) is run
+  local tree=build-coverage floors=(0 0)
+  if (($#)); then
+    [[ $1 == --floor && $# == 3 && "$2 $3" =~ ^[0-9]+\ [0-9]+$ ]] ||
+      die "coverage understands --floor CPP PYTHON, two whole numbers in %"
+    floors=("$2" "$3")
+  fi
   cd "$root" || exit
   install dev
   prepare
@@ -232,11 +237,12 @@ run_coverage() {
   set +u
   source "$tree/devel/setup.bash"
   set -u
-  pytest_arguments=(tests --cov=angen_tools --cov=angen_apps --cov=angen_bench "--cov-report=html:$tree/python" --cov-report=term)
+  pytest_arguments=(tests --cov=angen_tools --cov=angen_apps --cov=angen_bench "--cov-report=html:$tree/python" --cov-report=term
+    "--cov-fail-under=${floors[1]}")
   suite ctest check_ctest
   suite pytest check_pytest
   suite gcovr gcovr --root . --object-directory "$tree" --filter src/angen_sim/ --exclude-unreachable-branches \
-    --html-details "$tree/cpp.html" --print-summary --output "$tree/cpp.txt"
+    --html-details "$tree/cpp.html" --print-summary --output "$tree/cpp.txt" --fail-under-line "${floors[0]}"
   say "by line: $tree/cpp.html (C++), $tree/python/index.html"
   report
 }

@@ -181,3 +181,27 @@ def test_a_checkout_of_another_user_names_missing_packages(checkout):
 def test_a_checkout_of_another_user_without_a_build_is_named(checkout):
     shutil.rmtree(checkout / 'build')
     assert_one_line(prepare_in(checkout), f'{checkout} cannot be written', 'not built')
+
+
+def run_coverage(folder, *arguments):
+    """The suites of ./angen coverage, in a built checkout where commands only print."""
+    (folder / 'build-coverage/devel').mkdir(parents=True)
+    (folder / 'build-coverage/devel/setup.bash').touch()
+    script = '''
+    source "$1/angen"; source "$1/.ci/checks.bash"; root=$2
+    install() { :; }; prepare() { :; }; locked() { :; }; report() { :; }
+    suite() { echo "$@"; [[ $1 != pytest ]] || echo "${pytest_arguments[@]}"; }
+    run_coverage "${@:3}"'''
+    return subprocess.run(['bash', '-c', script, 'test', ROOT, folder, *arguments],
+                          capture_output=True, text=True)
+
+
+def test_coverage_has_a_floor_for_each_language(tmp_path):
+    printed = run_coverage(tmp_path, '--floor', '81', '72').stdout.splitlines()
+    assert '--fail-under-line 81' in next(line for line in printed if line.startswith('gcovr'))
+    assert any('--cov-fail-under=72' in line for line in printed)
+
+
+@pytest.mark.parametrize('words', [['--floor'], ['--floor', '80'], ['--floor', '80', 'x'], ['80']])
+def test_a_floor_is_two_numbers(tmp_path, words):
+    assert_one_line(run_coverage(tmp_path, *words), '--floor CPP PYTHON')
