@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, Iterator
 
 import pytest
-from angen_msgs.srv import Step
+from angen_msgs.srv import Delete, Step
 from harness import Angen, Cli, Master, end, open_terminal, own_terminal
 from gazebo_msgs.msg import ContactsState
 from lxml import etree
@@ -23,12 +23,12 @@ EMPTY = ROOT / 'worlds/empty.world'
 
 
 @pytest.fixture
-def spawned(cli: Cli) -> Iterator[list[str]]:
-    """Names that are deleted when the test ends."""
+def spawned(angen: Angen) -> Iterator[list[str]]:
+    """Names that are deleted when the test ends, where the test has not."""
     names: list[str] = []
     yield names
     for name in names:
-        cli.run('delete', name)
+        angen.call('/angen/delete', Delete, name=name)
 
 
 def test_a_sensor_comes_and_goes(cli: Cli, angen: Angen, spawned: list[str]) -> None:

@@ -6,13 +6,15 @@ from typing import Callable
 
 from angen_tools.common.failure import Failure
 
-PERIOD = 0.01  # s between two checks
+FIRST, LONGEST = 0.01, 0.1  # s between two checks, which become rarer: some query a node
 
 
 def wait(condition: Callable[[], bool], problem: str, limit: float) -> None:
     """Returns when the condition holds; Failure with `problem` after `limit` s of wall time."""
     end = time.monotonic() + limit
+    pause = FIRST
     while not condition():
         if time.monotonic() > end:
             raise Failure(f'{problem} within {limit:g} s')
-        time.sleep(PERIOD)
+        time.sleep(pause)
+        pause = min(1.5 * pause, LONGEST)
