@@ -31,7 +31,7 @@ def run_bench(args: argparse.Namespace) -> int:
 def run_bench_core(args: argparse.Namespace) -> int:
     from angen_bench import core
     check_folder(args.out)
-    core.measure(args.out, args.json)
+    core.measure(args.out, args.json, args.history)
     return 0
 
 
@@ -82,8 +82,11 @@ def add_commands(commands: Any) -> None:
     add_json(sensors)
     add_out(sensors, 'the CSV files and figures')
     core = command(kinds, 'core', run_bench_core, 'measures the core without ROS: doors, rays, '
-                   'PIRs, towers, an hour; some minutes', 'bench core', 'bench core -o out')
+                   'PIRs, towers, an hour; some minutes', 'bench core',
+                   'bench core -o out --history')
     add_json(core)
+    core.add_argument('--history', action='store_true',
+                      help='adds the ratios of this version to bench/history.csv')
     add_out(core, 'core.csv')
     load = command(kinds, 'load', run_bench_load, 'measures a node under load: 1,000 sensors, '
                    'subscribers to every topic and one that never reads, 50 commands and 10 spawns '

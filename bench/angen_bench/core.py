@@ -10,6 +10,8 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
+from angen_bench import history
+from angen_tools.common.catalog import angen_module
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_csv
 from angen_tools.common.output import as_json, show, table
@@ -129,14 +131,18 @@ def all_cases(programs: list[Path], steps: Steps) -> list[Case]:
     return cases + start_cases()
 
 
-def measure(out: Path, json: bool) -> None:
-    """Runs all benchmarks one after the other and writes out/core.csv."""
+def measure(out: Path, json: bool, keep: bool) -> None:
+    """Runs all benchmarks one after the other and writes out/core.csv, with `keep` also
+    bench/history.csv.
+    """
     programs = [program(name) for name in PROGRAMS]
     steps = Steps(len(programs) + 1)
     with watchdog():
         cases = all_cases(programs, steps)
     rows = rows_of(cases, commit_of(Path(__file__).resolve().parent))
     write_csv(out / 'core.csv', COLUMNS, ([row[key] for key in COLUMNS] for row in rows))
+    if keep:
+        history.add(history.FILE, angen_module().__version__, rows)
     steps.close()
     if json:
         print(as_json(rows))
