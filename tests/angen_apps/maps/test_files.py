@@ -61,7 +61,8 @@ def test_the_files_say_what_the_map_says(tmp_path: Path, capsys: pytest.CaptureF
 
 @pytest.mark.parametrize('words, part', [
     (['--floor', '2'], 'worlds/angen.world: there is no floor 2; known are 0, 1'),
-    (['--world', f'{ROOT}/worlds/empty.world'], 'empty.world: there is no floor 0; it has no floor'),
+    (['--world', f'{ROOT}/worlds/empty.world'],
+     'empty.world: there is no floor 0; it has no floor'),
     (['--world', 'none.world'], 'none.world'),
     (['-o', 'no/such/folder/map'], 'no/such/folder/map: cannot be written')])
 def test_what_is_wrong_is_one_line(words: list[str], part: str, tmp_path: Path,
