@@ -15,7 +15,7 @@ LONG = ('docs/test_commands.py', 'docs/test_thesis.py', 'ros/test_cli.py', 'ros/
 TESTS = Path(__file__).parent
 ORDER = {TESTS / name: place for place, name in enumerate(LONG)}
 
-# A shell ignores SIGINT in what it starts by &, and processes inherit that.
+# A shell ignores SIGINT in a process that it starts by &, and children inherit that.
 if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 

@@ -1,4 +1,4 @@
-"""How the contest goes on where Gazebo fails."""
+"""The contest continues where Gazebo fails."""
 from __future__ import annotations
 
 from contextlib import suppress

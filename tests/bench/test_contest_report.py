@@ -22,7 +22,7 @@ def test_a_row_has_the_median_of_what_was_measured() -> None:
 
 
 def cells(rows: list[Row], title: str) -> dict[str, list[str]]:
-    """What the table's lines of a question say, by count."""
+    """The cells of a question's lines, by count."""
     lines = [[cell.strip() for cell in line.strip('|').split('|')]
              for line in bench_vs.table(rows) if line.startswith(f'| {title} |')]
     return {line[1]: line[2:] for line in lines}

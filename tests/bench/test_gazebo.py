@@ -24,8 +24,8 @@ def test_lines_of_the_probe_are_told_from_others(line: str, said: tuple[str, lis
 
 
 def test_the_chroot_is_made_by_root_alone() -> None:
-    nobody = ['setpriv', '--reuid=65534', '--clear-groups'] if os.geteuid() == 0 else []
-    made = subprocess.run([*nobody, 'bash', '-s', '/nowhere'], input=SCRIPT.read_text(),
+    other_user = ['setpriv', '--reuid=65534', '--clear-groups'] if os.geteuid() == 0 else []
+    made = subprocess.run([*other_user, 'bash', '-s', '/nowhere'], input=SCRIPT.read_text(),
                           capture_output=True, text=True, check=False)
     assert (made.returncode, made.stderr) == (1, '')
     assert made.stdout == ('Gazebo runs in a chroot, which root alone can make: run it as root, '

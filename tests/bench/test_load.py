@@ -1,4 +1,4 @@
-"""What angen bench load makes of a run, and its subscribers."""
+"""The figures of a run of angen bench load, and its subscribers."""
 from __future__ import annotations
 
 import socket
@@ -49,7 +49,7 @@ def test_readers_end_when_all_have_been_closed() -> None:
     thread = threading.Thread(target=listeners.drain, args=([ours for ours, _ in pairs],))
     thread.start()
     for _, theirs in pairs:
-        theirs.sendall(b'x' * 1_000_000)  # more than a socket holds: somebody reads
+        theirs.sendall(b'x' * 1_000_000)  # more than a socket buffers: the reader reads
         theirs.close()
     thread.join(10.0)
     assert not thread.is_alive()

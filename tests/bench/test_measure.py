@@ -1,4 +1,4 @@
-"""What is due, and which sensors are subscribed to."""
+"""Due times of measurements, and the choice of sensors to subscribe to."""
 from __future__ import annotations
 
 import pytest

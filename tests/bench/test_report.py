@@ -1,4 +1,4 @@
-"""What the bench makes of its figures: lines, medians, CSV, a figure."""
+"""Reports of the bench: lines, medians, CSV, a figure."""
 from __future__ import annotations
 
 import csv

@@ -1,4 +1,4 @@
-"""What angen bench soak says of samples."""
+"""The verdict of angen bench soak about samples."""
 from __future__ import annotations
 
 from typing import Sequence

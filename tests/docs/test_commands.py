@@ -38,7 +38,7 @@ LEFT_OUT = re.compile('|'.join((
 
 
 def steps(page: Path) -> list[tuple[str, str]]:
-    """What a reader types: the arguments of a simulator that is started, and what runs with it."""
+    """A reader's input: the arguments of a simulator to start, and the commands beside it."""
     made = [('', '')]
     for block in blocks(page):
         made.append((made[-1][0], ''))
@@ -111,7 +111,7 @@ class Terminal:
         return found
 
     def clear(self) -> None:
-        """Deletes what was spawned; the sensors and devices of a model go with it."""
+        """Deletes all spawned models and sensors; the sensors and devices of a model go with it."""
         spawned = [entity for entity in self.entities() if entity['name'] not in self.first]
         models = {entity['name'] for entity in spawned if entity['kind'] == 'model'}
         names = models | {entity['name'] for entity in spawned if entity['model'] not in models}

@@ -1,4 +1,4 @@
-"""What docs/ shows is what the simulator takes and the command understands."""
+"""The simulator accepts the models that docs/ shows, and the command the words."""
 from __future__ import annotations
 
 import re

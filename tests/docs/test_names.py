@@ -34,7 +34,7 @@ def test_the_tests_across_files_exist() -> None:
 
 @functools.cache
 def sources() -> list[Path]:
-    """All files but pages, and but the tests of pages, which name what must not exist."""
+    """All files but pages, and but the tests of pages, which contain names of nothing."""
     below = [path for folder in FOLDERS for path in (ROOT / folder).rglob('*') if path.is_file()]
     return [path for path in [*below, *ROOT.glob('*')] if path.is_file() and path.suffix != '.md'
             and not {'__pycache__', '.git'} & set(path.parts)
@@ -70,7 +70,7 @@ def exists(path: str) -> bool:
 
 
 def unknown(span: str, own: set[str]) -> list[str]:
-    """What a span in code font names that does not exist; `own` are files that its page makes."""
+    """Names in a span in code font that do not exist; `own` are files that its page makes."""
     if span in own:
         return []
     if is_path(span):

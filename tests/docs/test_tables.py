@@ -1,4 +1,4 @@
-"""docs/reference/ is what docs/tables.py makes of the catalog, and pages lead to each kind."""
+"""docs/reference/ has the output of docs/tables.py, and pages lead to each kind."""
 from __future__ import annotations
 
 import importlib.util

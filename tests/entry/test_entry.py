@@ -1,4 +1,4 @@
-"""The shell entry: what it says where it cannot work, and whose python3 it uses."""
+"""The shell entry: its errors where it cannot work, and whose python3 it uses."""
 import fcntl
 import os
 from pathlib import Path
@@ -14,7 +14,7 @@ DEBIAN_12 = 'ID=debian\nVERSION_ID="12"\n'
 
 @pytest.fixture
 def folder(tmp_path):
-    """A folder on which PATH can stand alone: bash and sed, but neither apt-get nor sudo."""
+    """A folder that can be all of PATH: bash and sed, but neither apt-get nor sudo."""
     (tmp_path / 'bin').mkdir()
     for name in ('bash', 'sed'):
         (tmp_path / 'bin' / name).symlink_to(f'/usr/bin/{name}')
@@ -28,7 +28,7 @@ def program(path, text):
 
 
 def require_installer(folder, os_release, user_id):
-    """Runs the check that stands before every installation, on a machine as described."""
+    """Runs the check that precedes every installation, on a machine as described."""
     (folder / 'os-release').write_text(os_release)
     return subprocess.run(
         ['/bin/bash', '-c', 'source "$1"; PATH=$2; require_installer "$3" "$4" 7; echo passed',
@@ -94,7 +94,7 @@ def test_a_suite_that_is_missing_is_named_in_one_line():
 
 
 def test_nothing_waits_for_another_that_builds_nothing(tmp_path):
-    """A command of what is built already does not even take the lock."""
+    """A command of a finished build does not even take the lock."""
     with (ROOT / 'build/angen/lock').open('w') as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         result = subprocess.run([ROOT / 'angen', 'shell', '-c', 'true'],
@@ -155,9 +155,9 @@ def set_modes(root, mode):
 def prepare_in(root):
     """Runs what every command does first, as a user who is not root."""
     set_modes(root, 0o555)
-    nobody = {'user': 65534, 'group': 65534, 'extra_groups': []} if os.getuid() == 0 else {}
+    other_user = {'user': 65534, 'group': 65534, 'extra_groups': []} if os.getuid() == 0 else {}
     return subprocess.run(['/bin/bash', '-c', 'source "$1"; prepare run; echo ready', 'test',
-                           root / 'angen'], capture_output=True, text=True, cwd='/', **nobody)
+                           root / 'angen'], capture_output=True, text=True, cwd='/', **other_user)
 
 
 def test_a_checkout_of_another_user_works_when_it_is_built(checkout):

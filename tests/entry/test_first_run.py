@@ -1,4 +1,4 @@
-"""The first run of the shell entry: packages first, then the build; what it shows; one more try."""
+"""The first run of the shell entry: packages first, then the build; its output; one more try."""
 from __future__ import annotations
 
 import os
@@ -85,8 +85,8 @@ def test_nothing_is_built_while_packages_are_installed(
     installed = set((machine / 'installed').read_text().splitlines())
     for name in lists:
         lines = (ROOT / f'dependencies{name}.apt').read_text().splitlines()
-        wanted = {line.split()[0] for line in lines if line and not line.startswith('#')}
-        assert wanted and {f'installed {package}' for package in wanted} <= installed
+        listed = {line.split()[0] for line in lines if line and not line.startswith('#')}
+        assert listed and {f'installed {package}' for package in listed} <= installed
 
 
 def test_more_packages_are_installed_before_more_is_built(machine: Path) -> None:

@@ -1,4 +1,4 @@
-"""./angen run: whatever it started is gone after Ctrl-C, and a roscore that it found is not."""
+"""./angen run: it ends all that it started after Ctrl-C, and no roscore that it found."""
 import os
 from pathlib import Path
 import random
@@ -43,13 +43,13 @@ def running(environment):
 
 
 def restore_signals():
-    """In the child: undoes what a test run in the background or under nohup ignores."""
+    """In the child: restores signals that tests in the background or under nohup ignore."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_DFL)
 
 
 def until(process, words):
-    """What it has printed, up to a line with these words."""
+    """Its output, up to a line with these words."""
     printed = []
     alarm = threading.Timer(120, process.kill)  # a line that never comes must not hold up the tests
     alarm.start()
@@ -64,7 +64,7 @@ def until(process, words):
 
 
 def start(environment):
-    """Starts ./angen run and returns it when the node runs, with the lines printed so far."""
+    """Starts ./angen run and returns it when the node runs, with the lines printed until then."""
     process = subprocess.Popen([ROOT / 'angen', 'run', f'world:={ROOT}/worlds/empty.world'],
                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                                env=environment, preexec_fn=restore_signals)

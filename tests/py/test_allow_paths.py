@@ -1,4 +1,4 @@
-"""What a world may name: files and libraries of the paths, unless every path is allowed."""
+"""Files and libraries that a world may name: those of the paths, unless every path is allowed."""
 from pathlib import Path
 
 import pytest
@@ -16,7 +16,7 @@ endloop
 endfacet
 endsolid s
 '''
-REFUSED = 'lies neither on the model or resource path'
+REJECTED = 'lies neither on the model or resource path'
 
 
 def model(inside: str) -> str:
@@ -45,7 +45,7 @@ def world_file(tmp_path: Path, outside: Path) -> Path:
 
 
 def test_a_world_names_no_file_elsewhere(world_file: Path) -> None:
-    with pytest.raises(angen.Error, match=REFUSED) as error:
+    with pytest.raises(angen.Error, match=REJECTED) as error:
         angen.World(str(world_file))
     assert str(error.value).startswith(f'{world_file}:1: ')
     assert angen.World(str(world_file), allow_paths=True).models == ['m']
@@ -54,7 +54,7 @@ def test_a_world_names_no_file_elsewhere(world_file: Path) -> None:
 def test_a_text_that_is_spawned_names_no_file_elsewhere(outside: Path) -> None:
     include = f'<include><uri>file://{outside}</uri></include>'
     world = angen.World.from_text(in_world(''))
-    with pytest.raises(angen.Error, match=REFUSED):
+    with pytest.raises(angen.Error, match=REJECTED):
         world.spawn(include)
     world.spawn(str(outside))  # which the user has named
     assert world.models == ['m']
@@ -87,7 +87,7 @@ def test_the_command_line_allows_every_path(world_file: Path, capsys: pytest.Cap
                                             monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv('ANGEN_ALLOW_PATHS', 'false')
     assert cli.run(['check', str(world_file)]) == 1
-    assert REFUSED in capsys.readouterr().err
+    assert REJECTED in capsys.readouterr().err
     cli.make_parser().parse_args(['check', '--allow-paths', str(world_file)])
     assert cli.run(['check', str(world_file)]) == 1, 'understood is not run'
     assert cli.run(['check', '--allow-paths', str(world_file)]) == 0

@@ -1,4 +1,4 @@
-"""The PIRs of the building: what they report at rest, and once somebody has gone."""
+"""The PIRs of the building: their reports at rest, and after a person has left."""
 import math
 from pathlib import Path
 
@@ -21,21 +21,21 @@ def test_noise_alone_moves_none_of_them_from_the_start_on():
     assert pir_events(w) == []
 
 
-def test_the_nodding_one_reports_a_departure_and_no_motion_once_somebody_has_gone():
+def test_the_nodding_one_reports_a_departure_and_no_motion_once_a_person_has_left():
     w = angen.World(str(BUILDING))
     w.run(2.5)  # he walks by
     assert any(name == NODDING and event == 'motion' for _, name, event in pir_events(w))
     w.delete('person')
-    gone = w.time
+    left = w.time
     departures = []
-    while w.time < gone + 3 * NOD:
+    while w.time < left + 3 * NOD:
         w.run(SAMPLE)
         reading = w.sensor('pir', NODDING)
         if reading['departure']:
             departures.append(w.time)
-        assert not reading['motion'] or w.time <= gone + SAMPLE
-    assert all(time <= gone + SAMPLE for time, _, event in pir_events(w) if event == 'motion')
-    assert departures and departures[-1] <= gone + NOD + SAMPLE
+        assert not reading['motion'] or w.time <= left + SAMPLE
+    assert all(time <= left + SAMPLE for time, _, event in pir_events(w) if event == 'motion')
+    assert departures and departures[-1] <= left + NOD + SAMPLE
 
 
 def test_the_nodding_one_reports_no_motion_of_who_has_stopped():
@@ -44,7 +44,7 @@ def test_the_nodding_one_reports_no_motion_of_who_has_stopped():
         w.command('person', 'person', 'Go')
         w.run(1.7)
         w.command('person', 'person', 'Stop')
-        w.run(1)  # until he stands
+        w.run(1)  # until he has stopped
         pir_events(w)
         w.run(2 * NOD)
         assert [event for event in pir_events(w) if event[2] == 'motion'] == []

@@ -84,12 +84,12 @@ def test_the_mat_knows_a_weight_that_sleeps_and_one_that_left(world):
 
 def angle_at(distance: float, shut: float, radius: float) -> float:
     """rad that a magnet `radius` off its hinge has turned when it is `distance` from a reed that
-    stands `shut` above its place."""
+    is `shut` above its place."""
     return 2 * asin((distance ** 2 - shut ** 2) ** 0.5 / (2 * radius))
 
 
 def swing(world: angen.World, name: str, joint: str) -> list[tuple[float, bool]]:
-    """(angle, closed) a hundred times a second while it goes to where it was sent."""
+    """(angle, closed) a hundred times a second while it turns to its target."""
     seen = []
     index = world.joints.index(joint)
     for _ in range(400):
@@ -186,7 +186,7 @@ def test_a_tag_is_read_in_range_and_beam(world, pose, read):
 
 
 def test_a_tag_behind_a_wall_is_never_read(world):
-    """The tag goes by behind the wall and comes out at its end."""
+    """The tag passes behind the wall and comes out at its end."""
     w = world(block('rfid_reader', 'r', '0 0 1 0 0 0')
               + box('wall', '1 -1 1 0 0 0', '0.1 2 2', static=True))
     for y in (-1.0, -0.5, -0.05, 0.05, 0.5):

@@ -1,4 +1,4 @@
-"""Contact sensors in a world: a sitter's weight, and what bounces."""
+"""Contact sensors in a world: a sitter's weight, and a bouncing ball."""
 import math
 
 import numpy as np
@@ -18,7 +18,7 @@ def models(monkeypatch):
 
 
 def weight(world: angen.World) -> float:
-    """What the chair's sensor says that its seat carries, N."""
+    """The load of the seat by the chair's sensor, N."""
     forces = np.reshape(world.sensor('contact', 'chair1')['forces'], (-1, 3))
     return -float(forces[:, 2].sum())
 

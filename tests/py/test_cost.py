@@ -13,7 +13,7 @@ from sdf_text import sdf_world
 
 
 def links(count: int) -> str:
-    """A model of so many empty links."""
+    """A model of that many empty links."""
     return '<model name="m">' + '\n'.join(f'<link name="l{i}"/>' for i in range(count)) + '</model>'
 
 

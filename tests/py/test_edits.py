@@ -35,5 +35,5 @@ def test_joints_are_set_by_name(world):
     assert w.joint_positions[w.joints.index('slide::along')] == pytest.approx(1.5)
     with pytest.raises(angen.Error, match="no joint 'across'"):
         w.set_joints('slide', {'across': 1.5})
-    with pytest.raises(angen.Error, match="no model named 'nobody'"):
-        w.motion('nobody')
+    with pytest.raises(angen.Error, match="no model named 'missing'"):
+        w.motion('missing')

@@ -28,8 +28,8 @@ def test_gzserver_starts_the_node_with_the_world_below_the_resource_path(
 
 def test_gzserver_has_a_world_of_its_own_and_names_one_that_is_missing() -> None:
     assert Path(words()[1]).name == 'empty.world'
-    with pytest.raises(server.Failure, match='no world worlds/gone.world; searched'):
-        words('worlds/gone.world')
+    with pytest.raises(server.Failure, match='no world worlds/missing.world; searched'):
+        words('worlds/missing.world')
 
 
 def test_an_unknown_option_and_engine_are_left_out(capsys: pytest.CaptureFixture[str]) -> None:
@@ -77,4 +77,4 @@ def test_spawn_model_says_what_is_wrong_with_a_file(tmp_path: Path, text: str, s
     with pytest.raises(spawn.Failure, match=said):
         spawn.read_xml(options('-sdf', '-file', str(file)))
     with pytest.raises(spawn.Failure, match='No such file'):
-        spawn.read_xml(options('-sdf', '-file', str(tmp_path / 'gone')))
+        spawn.read_xml(options('-sdf', '-file', str(tmp_path / 'missing')))

@@ -1,4 +1,4 @@
-"""A heightmap as large as may be: what it costs, and that things stand on it and are seen on it."""
+"""A heightmap of the largest size: its cost, and that bodies rest on it and cameras see them."""
 from __future__ import annotations
 
 import os
@@ -18,7 +18,7 @@ SIDE = 2049     # pixels, the most
 HIGH = 4.0      # m, of white
 SIZE = 200.0    # m
 MEMORY = 500.0  # MB, of the whole process
-SANITIZED = 'ANGEN_TEST_TREE' in os.environ  # it keeps what was freed, and shadows of all
+SANITIZED = 'ANGEN_TEST_TREE' in os.environ  # it keeps freed memory, and shadows of all
 
 GROUND = '''<model name="ground"><static>true</static><link name="link">
   <collision name="c"><geometry>FORM</geometry></collision>

@@ -1,4 +1,4 @@
-"""Light in worlds as users have them: what a luminosity sensor reads beside what a camera sees,
+"""Light in users' worlds: readings of a luminosity sensor beside pictures of a camera,
 behind doors and people, and by day.
 """
 import numpy as np

@@ -1,4 +1,4 @@
-"""What no number, name or size that a world holds may do: end the process."""
+"""No number, name or size in a world may end the process."""
 import multiprocessing
 import os
 import re
@@ -24,7 +24,7 @@ def representative() -> str:
 
 
 def spans_of(text: str) -> list[tuple[int, int]]:
-    """Where the numbers are that stand as elements' texts, alone or in rows."""
+    """The places of the numbers in the texts of elements, alone or in rows."""
     spans = []
     for piece in re.finditer(r'>([^<>]+)<', text):
         at = piece.start(1)
@@ -49,7 +49,7 @@ def cases() -> list[tuple[str, str]]:
 
 
 def attempt(text: str) -> str:
-    """Loads a world and runs it for 100 ticks; what is wrong with how that went, or ''."""
+    """Loads a world and runs it for 100 ticks; the problem of that run, or ''."""
     try:
         world = angen.World.from_text(text)
         world.step(100)
@@ -60,7 +60,7 @@ def attempt(text: str) -> str:
 
 
 def work(first: int, path: str) -> None:
-    """Goes through the cases from `first` on, noting each before it and what was wrong after it."""
+    """Runs the cases from `first` on, writing each before it runs and its problem after it."""
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     all_cases = cases()
     with open(path, 'a', encoding='utf-8') as notes:
@@ -128,7 +128,7 @@ def test_commands_have_limits_by_their_unit(world) -> None:
 
 
 def test_what_flies_off_is_stopped_and_told(world) -> None:
-    """What falls sideways for ever ends as an event, and then moves no more."""
+    """A body that falls sideways for ever ends as an event, and then moves no more."""
     text = ('<model name="hangs"><pose>0 0 1 0 0 0</pose><link name="l"><gravity>0</gravity></link>'
             '</model><model name="falls"><pose>3 0 1 0 0 0</pose><link name="l"/></model>')
     there = angen.World.from_text(

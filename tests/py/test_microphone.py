@@ -99,7 +99,7 @@ def test_levels_add_as_powers_and_to_the_background(world):
 
 
 def test_an_open_window_lets_sound_out_and_none_in(world):
-    """The room's own level falls by what the opening adds to its absorption."""
+    """The room's own level falls by the opening's share of its absorption."""
     window = ('<include><uri>model://window</uri><name>hall_window0</name>'
               '<pose>1.5 0 1 0 0 0</pose></include>')
     w = world(air(ROOMS[0]) + source('1 1.5 1 0 0 0') + source('1 -4 1 0 0 0', 120, 'street')

@@ -5,7 +5,7 @@ import angen
 
 
 def until(world: angen.World, seconds: float, done) -> bool:
-    """Runs until done(), at most so many simulated seconds."""
+    """Runs until done(), at most `seconds` of simulated time."""
     end = world.time + seconds
     while not done() and world.time < end:
         world.run(0.1)

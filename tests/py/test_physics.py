@@ -1,4 +1,4 @@
-"""What bench/physics.py measures, from SDF to what is published, within its tolerances."""
+"""The measurements of bench/physics.py, from SDF to published values, within its tolerances."""
 import sys
 from pathlib import Path
 

@@ -109,9 +109,9 @@ def test_what_is_no_door_is_none(world):
 
 
 def framed(model: str, joint: str, leaf: str) -> str:
-    """A model whose leaf hangs on a frame that stands fast."""
+    """A model whose leaf hangs on a fixed frame."""
     text = hung(model, joint, leaf).replace('<parent>world</parent>', '<parent>frame</parent>')
-    return text.replace('</model>', '''<link name="frame"/><joint name="stands" type="fixed">
+    return text.replace('</model>', '''<link name="frame"/><joint name="fixed" type="fixed">
       <parent>world</parent><child>frame</child></joint></model>''')
 
 
@@ -143,7 +143,7 @@ def test_a_joint_is_named_where_its_axis_does_not_tell(world):
     assert w.devices('door') == ['flap0']
     w.command('door', 'flap0', 'Open')
     w.run(6)
-    assert position(w, 'flap::lid') == pytest.approx(1.2, abs=0.02), 'as far as it opens'
+    assert position(w, 'flap::lid') == pytest.approx(1.2, abs=0.02), 'it opens to its stop'
 
 
 @pytest.mark.parametrize('parameters, message', [

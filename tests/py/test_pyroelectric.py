@@ -1,4 +1,4 @@
-"""What a pyroelectric PIR makes of people, robots, doors and lamps."""
+"""A pyroelectric PIR's reports of people, robots, doors and lamps."""
 import angen
 import pytest
 
@@ -17,7 +17,7 @@ PIR = model('pir_pyroelectric', 'eye', '0 0 2.2 0 0 0')
 
 
 def walker(waypoints: list[str], plugin: str = '') -> str:
-    """An actor who goes from each "t x y" to the next, once."""
+    """An actor who walks from each "t x y" to the next, once."""
     points = ''.join(f'<waypoint><time>{t}</time><pose>{x} {y} 0 0 0 0</pose></waypoint>'
                      for t, x, y in (point.split() for point in waypoints))
     return f'''<actor name="anna"><script><loop>false</loop>
@@ -98,7 +98,7 @@ def test_a_door_between_hides_the_person(world):
 
 
 def on_times(world: angen.World, seconds: float) -> list[tuple[float, float]]:
-    """When the PIR goes on and off."""
+    """The times at which the PIR switches on and off."""
     world.run(seconds)
     changes = [time for time, source, *_ in world.events() if source == 'eye']
     return list(zip(changes[::2], changes[1::2]))

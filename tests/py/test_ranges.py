@@ -1,6 +1,6 @@
 """Lidar and depth camera in a world, against closed forms of rays and solids.
 
-A solid is met wherever a ray goes through its surface: one that starts inside meets its far side.
+A ray hits a solid at each crossing of its surface: one that starts inside hits its far side.
 """
 from dataclasses import dataclass
 
@@ -49,8 +49,8 @@ class Solid:
                 first, last = ball(o[:2], d[:, :2], self.size[0])
                 low, high = slab(o[2:], d[:, 2:], np.array([self.size[1] / 2]))
                 first, last = np.maximum(first, low), np.minimum(last, high)
-        gone = ~(first <= last)
-        return np.where(gone, np.nan, first), np.where(gone, np.nan, last)
+        empty = ~(first <= last)
+        return np.where(empty, np.nan, first), np.where(empty, np.nan, last)
 
 
 def slab(o: np.ndarray, d: np.ndarray, half: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -75,8 +75,8 @@ def text(values: np.ndarray) -> str:
     return ' '.join(repr(float(v)) for v in values)
 
 
-def met(solids: list[Solid], origin: np.ndarray, ways: np.ndarray, least: float, most: float,
-        behind: float = 0.0) -> np.ndarray:
+def hits(solids: list[Solid], origin: np.ndarray, ways: np.ndarray, least: float, most: float,
+         behind: float = 0.0) -> np.ndarray:
     """The nearest surface from `least` to `most` along each way, from behind only from `behind` on;
     infinite where there is none.
     """
@@ -101,7 +101,7 @@ def some_solids(rng: np.random.Generator, kinds: tuple[str, ...], count: int) ->
 def compare(measured: np.ndarray, exact: np.ndarray) -> tuple[float, float]:
     """Median error (m) of the rays that meet something, and the share of all that disagree.
 
-    A ray that grazes an edge may be met by one and missed by the other.
+    A ray that grazes an edge may hit in one and miss in the other.
     """
     both = np.isfinite(measured) & np.isfinite(exact)
     error = np.abs(measured[both] - exact[both])
@@ -134,7 +134,7 @@ def test_a_hundred_thousand_rays_of_lidars(world):
     for i, pose in enumerate(poses):
         ways = fan @ rotation(pose[3:]).T
         measured.append(np.array(w.sensor('lidar', f'l{i}')['ranges']))
-        exact.append(met(solids, pose[:3], ways, 0.05, REACH))
+        exact.append(hits(solids, pose[:3], ways, 0.05, REACH))
         starts = [s.crossings(pose[:3], ways[:1]) for s in solids]
         inside += any(first[0] < 0 < last[0] for first, last in starts)
     assert inside >= 3, 'some must start inside a solid'
@@ -168,13 +168,13 @@ def depth_camera(name: str, pose: np.ndarray) -> str:
 
 def depths(world: angen.World, name: str, solids: list[Solid], pose: np.ndarray
            ) -> tuple[np.ndarray, np.ndarray]:
-    """What the camera measured and what it should, infinite where nothing is."""
+    """The camera's measurements and the expected ones, infinite where nothing is."""
     reading = world.sensor('depth', name)
     measured = reading['depth'].astype(float)
     rows, columns = np.indices(measured.shape[:2])
     ways = np.stack([np.ones(rows.shape), -(columns - reading['center_x']) / reading['focal'],
                      -(rows - reading['center_y']) / reading['focal']], axis=-1).reshape(-1, 3)
-    exact = met(solids, pose[:3], ways @ rotation(pose[3:]).T, 0.1, REACH, HOUSING)
+    exact = hits(solids, pose[:3], ways @ rotation(pose[3:]).T, 0.1, REACH, HOUSING)
     return np.where(np.isnan(measured), np.inf, measured).ravel(), exact
 
 
@@ -201,7 +201,7 @@ def test_depth_of_round_things_is_that_of_their_facets(world):
     w.request('depth', 'd')
     w.step()
     measured, exact = depths(w, 'd', [sphere], pose)
-    middle = np.isfinite(measured) & (exact < 2.3)  # where the surface is not met at a flat angle
+    middle = np.isfinite(measured) & (exact < 2.3)  # where rays do not hit at a flat angle
     assert middle.sum() > 300
     error = measured[middle] - exact[middle]
     assert error.min() > -1e-5, 'facets lie within the sphere'

@@ -1,4 +1,4 @@
-"""A day's start that is saved and loaded goes on as it was."""
+"""A day's start that is saved and loaded continues unchanged."""
 from __future__ import annotations
 
 import angen

@@ -1,4 +1,4 @@
-"""angen task seek in two rooms with a door between them: who is found, and that nobody is."""
+"""angen task seek in two rooms with a door between them: with a person, and without one."""
 from __future__ import annotations
 
 import csv

@@ -1,4 +1,4 @@
-"""The stove: its plates against the closed form, what it gives to its room, and its commands."""
+"""The stove: its plates against the closed form, its heat in the room, and its commands."""
 from __future__ import annotations
 
 from math import exp
@@ -62,7 +62,7 @@ def test_each_plate_has_its_own_level_and_the_rest_stay_cold(world):
 
 
 def test_energy_in_is_energy_in_the_plates_and_in_the_air(world):
-    """In a closed room nothing is lost: what the plug counts is in iron and air."""
+    """In a closed room nothing is lost: the energy that the plug counts is in iron and air."""
     w = world(stove() + AIR.format(1)
               + '<model name="p"><static>true</static><link name="l"><sensor name="p" '
               'type="custom"><update_rate>1</update_rate><plugin name="p" '

@@ -65,7 +65,7 @@ class Tracker(angen.Sensor):
 
 
 class Declared(angen.Sensor):
-    """Reads what its parameter says, with fields that it declares."""
+    """A reading by its parameter, with fields that it declares."""
 
     fields = {'distance': 'number m', 'ids': 'texts'}
 

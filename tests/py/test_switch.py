@@ -59,7 +59,7 @@ def yaw(pose: np.ndarray) -> float:
 
 
 def changes(world: angen.World, seconds: float, doors: dict[str, int]) -> dict[str, float]:
-    """The angle at which each switch first changes within so many seconds."""
+    """The angle at which each switch first changes within that time, s."""
     found: dict[str, float] = {}
     for _ in range(round(seconds * 1000)):
         world.step()
@@ -93,7 +93,7 @@ def test_they_change_where_geometry_says(building, monkeypatch):
         hinges[name] = world.joints.index(f'{room}_door{floor}::hinge')
     assert len(expected) == 12
 
-    world.command('door', 'all', 'Close')  # three stand open for the person
+    world.command('door', 'all', 'Close')  # three are open for the person
     world.run(5)
     world.events()
     world.command('door', 'all', 'Open')

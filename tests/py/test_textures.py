@@ -69,7 +69,7 @@ def model(tmp_path: Path) -> Path:
 
 
 def picture_of(model: Path, visual: str) -> np.ndarray:
-    """What a camera sees of it 2 m ahead, under ambient light alone."""
+    """A camera's picture of it 2 m ahead, under ambient light alone."""
     world = model.parents[1] / 'w.world'
     world.write_text(f'''<sdf version="1.6"><world name="w"><scene><ambient>1 1 1 1</ambient>
   <background>0 0 0 1</background></scene>
@@ -89,9 +89,9 @@ def picture_of(model: Path, visual: str) -> np.ndarray:
 
 def expect_four_colors(image: np.ndarray) -> None:
     places = image[[[16], [48]], [[16, 48]]].astype(int)
-    wanted = np.array([[[1, 0, 0], [0, 1, 0]], [[0, 0, 1], [1, 1, 1]]]) * places[1, 1, 0]
+    expected = np.array([[[1, 0, 0], [0, 1, 0]], [[0, 0, 1], [1, 1, 1]]]) * places[1, 1, 0]
     assert abs(places[1, 1, 0] - WHITE) < 15
-    np.testing.assert_allclose(places, wanted, atol=4)
+    np.testing.assert_allclose(places, expected, atol=4)
 
 
 @pytest.mark.parametrize('mesh', ['obj', 'dae'])

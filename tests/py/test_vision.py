@@ -1,4 +1,4 @@
-"""Lidars and cameras: looked at only when wanted; images are arrays, alike for like input."""
+"""Lidars and cameras: they sample only on request; images are arrays, equal for equal input."""
 import numpy as np
 import pytest
 
@@ -60,11 +60,11 @@ def test_wanting_one_that_is_not_there_is_refused(world):
 def test_wanting_one_changes_no_other(world):
     """Noise is keyed by name and tick: the same scans with and without a camera that looks."""
     scans = []
-    for wanted in (False, True):
+    for requested in (False, True):
         w = world(lidar('l', '0 0 1 0 0 0') + camera('c', '0 0 1 0 0 0')
                   + box('wall', '4 0 1 0 0 0', '1 9 2', static=True))
         w.request('lidar', 'l')
-        w.request('camera', 'c', wanted)
+        w.request('camera', 'c', requested)
         w.step(750)
         scans.append(w.sensor('lidar', 'l')['ranges'])
     assert scans[0] == scans[1]

@@ -1,4 +1,4 @@
-"""Surfaces whose temperature changes: what a pyroelectric PIR makes of them, and who changes them.
+"""Surfaces whose temperature changes: a pyroelectric PIR's reports of them, and what heats them.
 
 The oracle is the filter's differential equation in continuous time, by Runge-Kutta in numpy; the
 simulator has it as a recursion at 100 Hz.
@@ -39,7 +39,7 @@ def include(source: str, name: str, pose: str) -> str:
 
 
 def excess(kelvin: float) -> float:
-    """What radiates more than the air, but for a factor."""
+    """A surface that radiates more than the air, but for a factor."""
     return kelvin ** 4 - AIR ** 4
 
 
@@ -64,7 +64,7 @@ def response(flux, seconds: float, step: float = 0.001) -> np.ndarray:
 
     def derivative(state: np.ndarray, time: float) -> np.ndarray:
         warm, charge, low, high = state
-        kept = warm - charge            # of a high pass: what its low pass has not
+        kept = warm - charge            # of a high pass: the rest of its low pass
         passed = kept - low
         return rates * np.array([flux(time) - warm, kept, passed, passed - high])
 

@@ -1,4 +1,4 @@
-"""What the tests of gazebo_ros's services spawn, and short ways to call them."""
+"""Models that the tests of gazebo_ros's services spawn, and short ways to call them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from geometry_msgs.msg import Pose
 from harness import Angen
 from std_srvs.srv import Empty
 
-# Free in space: nothing but what is applied acts on it. Its center of mass is its origin.
+# Free in space: only applied forces act on it. Its center of mass is its origin.
 CRATE = """<sdf version="1.6"><model name="any"><link name="body"><gravity>0</gravity>
   <inertial><mass>2</mass><inertia><ixx>0.5</ixx><iyy>0.5</iyy><izz>0.5</izz></inertia></inertial>
   <collision name="hull"><geometry><box><size>0.2 0.2 0.2</size></box></geometry></collision>
@@ -48,7 +48,7 @@ class Gazebo:
         return self._angen.call(f"/gazebo/{name}", getattr(srv, kind), **fields)
 
     def call(self, name: str, **fields: Any) -> Any:
-        """Call what must succeed."""
+        """Call a service that must succeed."""
         answer = self.ask(name, **fields)
         assert answer.success, answer.status_message
         return answer

@@ -1,4 +1,4 @@
-"""A ROS master of the tests' own, and the node in it. Ends what it starts, by pid."""
+"""A ROS master of the tests' own, and the node in it. Ends its own processes, by pid."""
 
 from __future__ import annotations
 
@@ -121,7 +121,7 @@ class Master:
             return False
 
     def topics(self) -> dict[str, str]:
-        """Every topic that somebody publishes, with its type."""
+        """Every published topic, with its type."""
         published = {name for name, _ in self.api.getSystemState("/test")[2][0]}
         return {name: kind for name, kind in self.api.getTopicTypes("/test")[2]
                 if name in published}
@@ -187,16 +187,16 @@ class Angen:
         publisher.publish(message)
         time.sleep(0.1)
 
-    def wait(self, topic: str, kind: type, wanted: Callable[[Any], bool] = lambda _: True,
+    def wait(self, topic: str, kind: type, accept: Callable[[Any], bool] = lambda _: True,
              timeout: float = 30.0) -> Any:
-        """Subscribe and return the first message that is `wanted`."""
+        """Subscribe and return the first message that `accept` accepts."""
         with Inbox(topic, kind) as inbox:
-            return until(lambda: next((m for m in list(inbox.messages) if wanted(m)), None),
-                         f"a message wanted on {topic}", timeout)
+            return until(lambda: next((m for m in list(inbox.messages) if accept(m)), None),
+                         f"an accepted message on {topic}", timeout)
 
 
 class RawText(str):
-    """A text that goes out as bytes of its own, whatever their encoding."""
+    """A text that is sent as bytes of its own, whatever their encoding."""
     raw: bytes
 
     def __new__(cls, raw: bytes) -> RawText:
@@ -224,8 +224,8 @@ class Inbox:
     def __exit__(self, *_: object) -> None:
         self._subscriber.unregister()
 
-    def wait(self, wanted: Callable[[Any], bool], what: str, timeout: float = 30.0) -> Any:
-        return until(lambda: next((m for m in list(self.messages) if wanted(m)), None), what,
+    def wait(self, accept: Callable[[Any], bool], what: str, timeout: float = 30.0) -> Any:
+        return until(lambda: next((m for m in list(self.messages) if accept(m)), None), what,
                      timeout)
 
 
@@ -241,7 +241,7 @@ class Cli:
                               capture_output=True, stdin=subprocess.DEVNULL, timeout=120 * SLOWNESS)
 
     def does(self, *words: str) -> str:
-        """What it says when it succeeds, without the newline."""
+        """Its output when it succeeds, without the newline."""
         done = self.run(*words)
         assert (done.returncode, done.stderr) == (0, ""), done
         return done.stdout.removesuffix("\n")

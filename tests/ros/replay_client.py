@@ -1,4 +1,4 @@
-"""A client that does at random what clients do, until a simulated time; the argument is SECONDS.
+"""A client with random actions, until a simulated time; the argument is SECONDS.
 
 Prints how often it did each.
 """

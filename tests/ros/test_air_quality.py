@@ -1,4 +1,4 @@
-"""A plug-in package of somebody else's, with a message of its own: tests/examples/air_quality.
+"""A plug-in package of a user, with a message of its own: tests/examples/air_quality.
 
 CTest builds it as its author would, in a workspace of its own; sourcing that workspace is enough.
 """

@@ -10,7 +10,7 @@ from harness import Master, node_binary
 
 @pytest.mark.parametrize('allow, said', [
     (False, 'w.world:2: model'),
-    (True, '~rate is -1'),  # what it looks at once the world is loaded
+    (True, '~rate is -1'),  # it checks that once the world is loaded
 ])
 def test_a_model_from_elsewhere_is_loaded_where_allowed(master: Master, tmp_path: Path,
                                                         allow: bool, said: str) -> None:

@@ -1,4 +1,4 @@
-"""angen bench sensors against real nodes: what it writes, never how fast it was."""
+"""angen bench sensors against real nodes: its output, never the speed."""
 from __future__ import annotations
 
 import csv

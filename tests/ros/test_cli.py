@@ -252,7 +252,7 @@ def test_ctrl_c_is_quiet(tmp_path: Path) -> None:
 
 @pytest.fixture
 def empty_house(tmp_path: Path) -> Iterator[Cli]:
-    """A node of its own with worlds/empty.world, as fast as it goes."""
+    """A node of its own with worlds/empty.world, at rate 4."""
     folder = tmp_path / 'ros'
     folder.mkdir()
     master = Master(folder)

@@ -31,7 +31,7 @@ class Driver:
         os.write(self._ours, keys)
 
     def said(self) -> str:
-        """All that it has shown so far."""
+        """All its output until now."""
         try:
             while more := os.read(self._ours, 4096):
                 self._said += more
@@ -52,7 +52,7 @@ class Driver:
 
 @pytest.fixture(scope='module', autouse=True)
 def put_back(angen: Angen) -> Iterator[None]:
-    """The robot stands where other tests expect it, when these are done."""
+    """The robot is where other tests expect it, when these are done."""
     yield
     angen.call('/gazebo/reset_world', Empty)
 
@@ -97,14 +97,14 @@ def test_the_terminal_is_put_back_and_the_robot_stands(angen: Angen, driver: Dri
               and inbox.messages[-1].twist.twist.linear.x > 0.1, 'it drives')
         driver.process.send_signal(ended_by)
         assert driver.process.wait(30) == code and driver.is_as_before()
-        until(lambda: inbox.messages[-1].twist.twist.linear.x == 0.0, 'it stands')
+        until(lambda: inbox.messages[-1].twist.twist.linear.x == 0.0, 'it has stopped')
 
 
 def test_what_is_wrong_is_told(cli: Cli) -> None:
     assert 'needs a terminal' in cli.fails('drive')
-    driver = Driver(cli, '--robot', 'nobody')
+    driver = Driver(cli, '--robot', 'missing')
     assert driver.process.wait(30) == 1
-    assert "there is no robot 'nobody'; did you mean turtlebot?" in driver.said()
+    assert "there is no robot 'missing'; did you mean turtlebot?" in driver.said()
     driver.close()
 
 

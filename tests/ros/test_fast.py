@@ -18,7 +18,7 @@ STILL = '''<sdf version="1.6"><world name="still">
 
 
 def clocks(master: Master, count: int) -> list[float]:
-    """So many messages of /clock in a row, s."""
+    """That many messages of /clock in a row, s."""
     done = subprocess.run(['/usr/bin/rostopic', 'echo', '-n', str(count), '-p', '/clock'],
                           env=master.environment, text=True, capture_output=True, timeout=60)
     return [int(line.split(',')[1]) * 1e-9 for line in done.stdout.splitlines()[1:]]
@@ -38,7 +38,7 @@ def test_it_leaps_and_tells_every_event_and_state(tmp_path: Path) -> None:
                                       env=master.environment, stdout=said)
         until(lambda: any('/rostopic' in name for _, names in
                           master.api.getSystemState('/test')[2][1] for name in names
-                          if _ == '/angen/events'), 'somebody subscribes')
+                          if _ == '/angen/events'), 'rostopic subscribes')
         assert 'OPEN' in cli.does('set', 'door', 'bathroom0', 'open')
         until(lambda: '"opened"' in (tmp_path / 'said').read_text(), 'the door says so')
         end(subscriber)
@@ -52,7 +52,7 @@ def test_fast_needs_no_rate(master: Master, tmp_path: Path) -> None:
     world = tmp_path / 'still.world'
     world.write_text(STILL)
     done = subprocess.run(
-        [str(node_binary()), str(world), '_fast:=true', '_rate:=2', '__name:=refused'],
+        [str(node_binary()), str(world), '_fast:=true', '_rate:=2', '__name:=rejected'],
         env=master.environment, text=True, capture_output=True, timeout=60)
     assert done.returncode == 1
     assert done.stderr.splitlines()[-1] == '~fast runs without a rate: leave ~rate out, or give 0'

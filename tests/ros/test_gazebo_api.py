@@ -99,8 +99,8 @@ def test_a_model_comes_while_time_stands_still_and_goes(node: Gazebo) -> None:
     again = node.ask("spawn_sdf_model", model_name="box", model_xml=CRATE)
     assert not again.success
     assert again.status_message == "SpawnModel: Failure - entity already exists."
-    gone = node.call("delete_model", model_name="box")
-    assert gone.status_message == "DeleteModel: successfully deleted model"
+    deleted = node.call("delete_model", model_name="box")
+    assert deleted.status_message == "DeleteModel: successfully deleted model"
     missing = node.ask("delete_model", model_name="box")
     assert not missing.success and missing.status_message == "DeleteModel: model does not exist"
 
@@ -305,8 +305,8 @@ def test_physics_is_answered_as_it_was_set(gazebo: Gazebo) -> None:
     fallen = gazebo.call("get_model_state", model_name="falls")
     assert fallen.twist.linear.z == pytest.approx(-1.62, rel=1e-6)
     gazebo.call("delete_model", model_name="falls")
-    refused = gazebo.ask("set_physics_properties", ode_config=ode, **{**given, "time_step": 0.01})
-    assert not refused.success and "<max_step_size>" in refused.status_message
+    rejected = gazebo.ask("set_physics_properties", ode_config=ode, **{**given, "time_step": 0.01})
+    assert not rejected.success and "<max_step_size>" in rejected.status_message
     gazebo.call("set_physics_properties", time_step=0.001, max_update_rate=1000.0,
                 gravity=Vector3(0, 0, -9.8), ode_config=first.ode_config)
 
@@ -318,7 +318,7 @@ def test_the_update_rate_is_the_rate_of_time(gazebo: Gazebo) -> None:
     gazebo.unpause()
     start, wall = gazebo.call("get_world_properties").sim_time, time.monotonic()
     until(lambda: gazebo.call("get_world_properties").sim_time - start > 3 * (
-        time.monotonic() - wall) + 1, "time goes faster than the wall's")
+        time.monotonic() - wall) + 1, "time is faster than the wall's")
     gazebo.pause()
     gazebo.call("set_physics_properties", max_update_rate=1000.0, **fields)
 
@@ -354,8 +354,8 @@ def test_lights_come_change_and_go(gazebo: Gazebo) -> None:
     assert (light.diffuse.b, light.diffuse.a, light.attenuation_linear) == (0.75, 0.5, 0.7)
     again = gazebo.ask("spawn_sdf_model", model_name="bulb", model_xml=LAMP)
     assert again.status_message == "SpawnModel: Failure - entity already exists."
-    gone = gazebo.call("delete_light", light_name="bulb")
-    assert gone.status_message == "DeleteLight: bulb successfully deleted"
+    deleted = gazebo.call("delete_light", light_name="bulb")
+    assert deleted.status_message == "DeleteLight: bulb successfully deleted"
     kept = gazebo.ask("delete_light", light_name="kitchen_lamp0::bulb")
     assert not kept.success and "is a part of model" in kept.status_message
 

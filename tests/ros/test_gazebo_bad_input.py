@@ -93,14 +93,14 @@ def state(gazebo: Gazebo) -> list[str]:
     return [str(answer) for answer in answers]
 
 
-def refused(gazebo: Gazebo, name: str, fields: dict[str, Any]) -> str:
+def rejected(gazebo: Gazebo, name: str, fields: dict[str, Any]) -> str:
     answer = gazebo.ask(name, **fields)
     assert answer.success is False and answer.status_message, (name, fields, answer)
     return str(answer.status_message)
 
 
 @pytest.mark.parametrize("number", [math.nan, math.inf, -math.inf, 1e30], ids=str)
-def test_a_number_that_makes_no_sense_is_refused(gazebo: Gazebo, number: float) -> None:
+def test_a_number_that_makes_no_sense_is_rejected(gazebo: Gazebo, number: float) -> None:
     import gazebo_msgs.srv as srv
     before = state(gazebo)
     tried = 0
@@ -113,7 +113,7 @@ def test_a_number_that_makes_no_sense_is_refused(gazebo: Gazebo, number: float) 
                 continue
             if math.isfinite(number) and ("sor_pgs_w" in where or "rms" in where):
                 continue
-            refused(gazebo, name, wrong)
+            rejected(gazebo, name, wrong)
             tried += 1
     assert tried > 60
     assert state(gazebo) == before
@@ -145,7 +145,7 @@ NAMES = {
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_an_unknown_name_is_refused(gazebo: Gazebo, name: str) -> None:
+def test_an_unknown_name_is_rejected(gazebo: Gazebo, name: str) -> None:
     field, fields = NAMES[name]
     before = state(gazebo)
     unknown = ["nobody", "crate::nobody", "crate::", "::", "base_footprint ", "x" * 1_000_000,
@@ -155,19 +155,19 @@ def test_an_unknown_name_is_refused(gazebo: Gazebo, name: str) -> None:
         states = {"model_state": lambda: ModelState(model_name=value),
                   "link_state": lambda: LinkState(link_name=value)}
         given = states[field]() if field in states else value
-        message = refused(gazebo, name.strip(), {**fields, field: given})
+        message = rejected(gazebo, name.strip(), {**fields, field: given})
         assert len(message) <= 11_000
     assert state(gazebo) == before
 
 
 @pytest.mark.parametrize("kind,state_of", [("set_model_state", ModelState),
                                            ("set_link_state", LinkState)])
-def test_a_state_in_an_unknown_frame_is_refused(gazebo: Gazebo, kind: str, state_of: type) -> None:
+def test_a_state_in_an_unknown_frame_is_rejected(gazebo: Gazebo, kind: str, state_of: type) -> None:
     before = state(gazebo)
     field = kind.removeprefix("set_")
     target = dict(model_name="crate") if state_of is ModelState else dict(link_name="crate::body")
     for frame in ("odom", "nobody", "crate::nobody"):
-        refused(gazebo, kind, {field: state_of(reference_frame=frame, **target)})
+        rejected(gazebo, kind, {field: state_of(reference_frame=frame, **target)})
     assert state(gazebo) == before
 
 
@@ -194,19 +194,19 @@ TEXTS = {
 
 @pytest.mark.parametrize("text", TEXTS)
 @pytest.mark.parametrize("service", ["spawn_urdf_model", "spawn_sdf_model"])
-def test_a_text_that_is_no_model_is_refused(gazebo: Gazebo, service: str, text: str) -> None:
+def test_a_text_that_is_no_model_is_rejected(gazebo: Gazebo, service: str, text: str) -> None:
     before = state(gazebo)
-    message = refused(gazebo, service, dict(model_name="other", model_xml=TEXTS[text]))
+    message = rejected(gazebo, service, dict(model_name="other", model_xml=TEXTS[text]))
     assert len(message) <= 11_000
     assert state(gazebo) == before
 
 
-def test_lists_of_different_lengths_are_refused(gazebo: Gazebo) -> None:
+def test_lists_of_different_lengths_are_rejected(gazebo: Gazebo) -> None:
     before = state(gazebo)
-    message = refused(gazebo, "set_model_configuration", dict(
+    message = rejected(gazebo, "set_model_configuration", dict(
         model_name="slide", joint_names=["along"], joint_positions=[]))
     assert message == ("SetModelConfiguration: joint name and position list have different lengths")
-    refused(gazebo, "set_model_configuration", dict(
+    rejected(gazebo, "set_model_configuration", dict(
         model_name="slide", joint_names=["across"], joint_positions=[0.0]))
     assert state(gazebo) == before
 

@@ -125,7 +125,7 @@ def test_it_drives_true_to_its_odometry_and_stands_on_its_wheels(server: Angen) 
     twist = Twist()
     twist.linear.x = 0.2
     with Inbox('/odom', Odometry) as odometry:
-        at_rest = odometry.wait(lambda m: abs(m.twist.twist.linear.x) < 1e-3, 'it stands')
+        at_rest = odometry.wait(lambda m: abs(m.twist.twist.linear.x) < 1e-3, 'it is at rest')
         assert abs(at_rest.pose.pose.position.z) < 0.003  # not in the floor, whose layer is 10 mm
         start = place()
         server.send('/cmd_vel', twist)

@@ -1,4 +1,4 @@
-"""examples/lamps_by_pir.py in a house of three rooms without walls, where somebody walks."""
+"""examples/lamps_by_pir.py in a house of three rooms without walls, where a person walks."""
 from __future__ import annotations
 
 import re

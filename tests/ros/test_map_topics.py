@@ -78,8 +78,8 @@ def test_it_serves_one_floor_as_map_server_does(angen: Angen, two_floors: Path) 
         lower, upper = (cells(angen.wait(f'/floor{n}/map', OccupancyGrid)) for n in (0, 1))
         assert first == cells(angen.wait('/map', OccupancyGrid)) == lower != upper
         assert angen.wait('/map_metadata', MapMetaData) == first[1]
-        refused = angen.call('/change_map', LoadMap, map_url='floor7')
-        assert refused.result == LoadMapResponse.RESULT_MAP_DOES_NOT_EXIST
+        rejected = angen.call('/change_map', LoadMap, map_url='floor7')
+        assert rejected.result == LoadMapResponse.RESULT_MAP_DOES_NOT_EXIST
         assert cells(angen.call('/static_map', GetMap).map) == lower
         changed = angen.call('/change_map', LoadMap, map_url='floor1')
         assert changed.result == LoadMapResponse.RESULT_SUCCESS

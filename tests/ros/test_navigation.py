@@ -89,7 +89,7 @@ def test_a_door_on_the_path_opens_and_no_other_one(site: Angen) -> None:
         with Inbox('/angen/door/bathroom0', DoorState) as states:
             site.send('/test_plan', aside)
             began = rospy.get_time()
-            until(lambda: rospy.get_time() > began + 3.0, 'time goes on')
+            until(lambda: rospy.get_time() > began + 3.0, 'time advances')
             assert {m.mode for m in states.messages} == {DoorState.CLOSED}
             site.send('/test_plan', through)
             states.wait(lambda m: m.mode == DoorState.OPEN, 'the door opens')
@@ -118,4 +118,4 @@ def test_the_launch_file_has_what_the_stack_reads() -> None:
         assert values[f'/move_base/{costmap}/global_frame'] == frame
         assert values[f'/move_base/{costmap}/robot_base_frame'] == 'base_footprint'
         assert values[f'/move_base/{costmap}/robot_radius'] > 0.177  # of its widest collision
-    assert values['/move_base/DWAPlannerROS/max_vel_trans'] < 0.7  # what its wheels can do
+    assert values['/move_base/DWAPlannerROS/max_vel_trans'] < 0.7  # the limit of its wheels

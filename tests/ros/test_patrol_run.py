@@ -1,4 +1,4 @@
-"""angen task patrol in two rooms with a door between them: what it leaves, and that it repeats."""
+"""angen task patrol in two rooms with a door between them: its files, and that it repeats."""
 from __future__ import annotations
 
 import csv
@@ -83,7 +83,7 @@ def read(path: Path) -> list[dict[str, str]]:
 
 @pytest.fixture(scope='module')
 def run(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
-    """The folder of a whole patrol, and what it said."""
+    """The folder of a whole patrol, and its output."""
     folder = tmp_path_factory.mktemp('patrol')
     patrol = start(folder, 'out')
     said, trouble = patrol.communicate(timeout=300)
@@ -166,7 +166,7 @@ def test_a_signal_ends_all(tmp_path: Path, number: int) -> None:
     assert not running(tmp_path)
 
 
-def gone(folder: Path) -> bool:
+def is_clean(folder: Path) -> bool:
     """Whether nothing that a patrol has started is left within 5 s."""
     end = time.monotonic() + 5.0
     while running(folder) and time.monotonic() < end:
@@ -181,7 +181,7 @@ def test_a_kill_while_it_starts_leaves_nothing(tmp_path: Path, seed: int) -> Non
     time.sleep(random.Random(seed).uniform(0.0, 0.5))
     patrol.kill()
     patrol.communicate()
-    assert gone(tmp_path)
+    assert is_clean(tmp_path)
 
 
 @without_sanitizer
@@ -194,7 +194,7 @@ def test_a_kill_while_it_drives_leaves_a_bag_that_can_be_read(tmp_path: Path) ->
     assert len(running(tmp_path)) > 2
     patrol.kill()
     patrol.communicate()
-    assert gone(tmp_path)
+    assert is_clean(tmp_path)
     with rosbag.Bag(str(tmp_path / 'out/patrol.bag')) as bag:
         assert bag.get_message_count('/clock') > 10
     assert not (tmp_path / 'out/summary.csv').exists()
@@ -208,7 +208,7 @@ def test_a_bag_that_the_disk_has_no_room_for_ends_it_in_a_line(tmp_path: Path) -
     last = trouble.splitlines()[-1]
     assert last.startswith(f'angen: {tmp_path}/out/patrol.bag: cannot be written: ')
     assert 'rosbag reindex' in last and not (tmp_path / 'out/patrol.bag').exists()
-    assert gone(tmp_path)
+    assert is_clean(tmp_path)
     with rosbag.Bag(str(tmp_path / 'out/patrol.bag.active'), 'a', allow_unindexed=True) as bag:
         for _ in bag.reindex():
             pass

@@ -18,7 +18,7 @@ BOB = '''<actor name="bob"><script><loop>true</loop><auto_start>true</auto_start
 @pytest.fixture(scope="module")
 def angen(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFactory
           ) -> Iterator[Angen]:
-    """The small world with a person in it who stands."""
+    """The small world with a standing person in it."""
     folder = tmp_path_factory.mktemp("node")
     world = folder / "bob.world"
     world.write_text(WORLD.replace("</world>", BOB + "</world>"))
@@ -31,7 +31,7 @@ def arrives(person: Inbox, x: float, y: float) -> None:
     def there(state: PersonState) -> bool:
         place = state.pose.position
         return state.mode == PersonState.STANDING and hypot(place.x - x, place.y - y) < 0.1
-    person.wait(there, f"it stands at {x} {y}")
+    person.wait(there, f"it has stopped at {x} {y}")
 
 
 def test_a_person_goes_where_a_topic_sends_it(angen: Angen) -> None:

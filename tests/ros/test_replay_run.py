@@ -35,7 +35,7 @@ def own_master(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Master]:
 
 def session(master: Master, folder: Path, seconds: float, kill: bool = False, **params: object
             ) -> tuple[Path, list[str]]:
-    """The log of a session, and what each client has done."""
+    """The log of a session, and the actions of each client."""
     world, log = folder / "small.world", folder / "session.log"
     world.write_text(WORLD)
     node = master.node(world, folder / "node", seed=7, rate=RATE, record=log, **params)
@@ -76,7 +76,7 @@ def replay(master: Master, log: Path, *words: str) -> str:
 
 
 def seen(master: Master) -> dict[str, str]:
-    """The environment in which what a node prints is in its log at once."""
+    """The environment in which a node's output is in its log at once."""
     return dict(master.environment, ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
 
 
@@ -144,7 +144,7 @@ def test_until_stops_there_and_goes_on_live(own_master: Master, recorded: Path, 
         assert "17 %" in cli.does("set", "lamp", "kitchen0", "17")
     finally:
         end(node)
-    # What the replayed node recorded is a log of its own, of the old actions and the new one.
+    # The replayed node records a log of its own, of the old actions and the new one.
     before = [line for line in lines(recorded)[1:] if line["tick"] <= 20_000]
     after = [line for line in lines(second)[1:] if line["tick"] <= 20_000]
     assert [line["hash"] for line in before if line["do"] == "fingerprint"] == [

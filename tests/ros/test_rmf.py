@@ -52,11 +52,11 @@ def lifts(rmf: Path) -> Iterator[Inbox]:
         yield inbox
 
 
-def follow(inbox: Inbox, wanted: Callable[[object], bool], what: str, timeout: float = 40.0
+def follow(inbox: Inbox, accept: Callable[[object], bool], what: str, timeout: float = 40.0
            ) -> object:
-    """The first message from now on that is wanted."""
+    """The first message from now on that `accept` accepts."""
     seen = len(inbox.messages)
-    return until(lambda: next((m for m in inbox.messages[seen:] if wanted(m)), None), what, timeout)
+    return until(lambda: next((m for m in inbox.messages[seen:] if accept(m)), None), what, timeout)
 
 
 def ask_door(angen: Angen, mode: int, name: str = 'bathroom0') -> None:
@@ -91,13 +91,13 @@ def test_states_come_once_a_simulated_second(doors: Inbox, lifts: Inbox) -> None
 
 def test_two_sessions_compete_for_the_lift(angen: Angen, lifts: Inbox, rmf: Path) -> None:
     free = lifts.wait(lambda m: m.lift_name == 'lift' and m.current_floor,
-                      'the elevator that was spawned stands')
+                      'the elevator that was spawned has stopped')
     assert free.available_floors == ['Floor0', 'Floor1']
     assert (free.session_id, free.current_floor) == ('', 'Floor0')
     assert list(free.available_modes) == [LiftState.MODE_HUMAN, LiftState.MODE_AGV]
     ask_lift(angen, 'first', 'Floor1')
     ask_lift(angen, 'second', 'Floor0')
-    up = follow(lifts, lambda m: m.motion_state == LiftState.MOTION_UP, 'it goes up')
+    up = follow(lifts, lambda m: m.motion_state == LiftState.MOTION_UP, 'it moves up')
     assert (up.session_id, up.destination_floor, up.current_floor) == ('first', 'Floor1', 'Floor0')
     assert (up.door_state, up.current_mode) == (LiftState.DOOR_CLOSED, LiftState.MODE_AGV)
     there = follow(lifts, lambda m: m.current_floor == 'Floor1'
@@ -112,7 +112,7 @@ def test_two_sessions_compete_for_the_lift(angen: Angen, lifts: Inbox, rmf: Path
     ended = follow(lifts, lambda m: m.session_id == '', 'the session ends')
     assert ended.current_mode == LiftState.MODE_HUMAN
     ask_lift(angen, 'second', 'Floor0')
-    down = follow(lifts, lambda m: m.motion_state == LiftState.MOTION_DOWN, 'it goes down')
+    down = follow(lifts, lambda m: m.motion_state == LiftState.MOTION_DOWN, 'it moves down')
     assert down.session_id == 'second'
 
 
@@ -143,5 +143,5 @@ def test_what_is_deleted_is_silent(angen: Angen, lifts: Inbox) -> None:
     assert angen.call('/angen/delete', Delete, name='lift').success
     time.sleep(0.5)
     seen, now = len(lifts.messages), rospy.get_time()
-    until(lambda: rospy.get_time() > now + 3.0, 'time goes on')
+    until(lambda: rospy.get_time() > now + 3.0, 'time advances')
     assert len(lifts.messages) == seen

@@ -22,7 +22,7 @@ def second(angen: Angen) -> Iterator[str]:
     cli.does('spawn', 'model', 'model://turtlebot', 'robot2', '--pose', '3 5 0.01')
     yield 'robot2'
     cli.does('delete', 'robot2')
-    angen.call('/gazebo/reset_world', Empty)  # the first one stands where other tests expect it
+    angen.call('/gazebo/reset_world', Empty)  # the first one is where other tests expect it
 
 
 def pose(message: Odometry) -> tuple[float, float, float, float]:
@@ -40,7 +40,7 @@ def test_each_answers_its_own_commands_only(angen: Angen, second: str, command: 
     twist.linear.x, twist.angular.z = 0.2, 0.5
     angen.wait('/angen/stats', Stats, lambda stats: stats.awake_bodies == 0)
     with Inbox(mine, Odometry) as robot, Inbox(other, Odometry) as stays:
-        at_rest = 'both stand and say so'
+        at_rest = 'both report that they are at rest'
         start = robot.wait(lambda m: m.twist.twist.linear.x == 0, at_rest)
         rests = pose(stays.wait(lambda m: m.twist.twist.linear.x == 0, at_rest))
         count = len(stays.messages)
@@ -55,16 +55,16 @@ def test_each_answers_its_own_commands_only(angen: Angen, second: str, command: 
 
 def test_every_frame_has_one_parent_and_hangs_on_the_world(angen: Angen, second: str) -> None:
     parents: dict[str, set[str]] = {}
-    wanted = FIRST | {f'{second}/{frame}' for frame in FIRST}
+    expected = FIRST | {f'{second}/{frame}' for frame in FIRST}
     with Inbox('/tf', TFMessage) as moving, Inbox('/tf_static', TFMessage) as fixed:
         def complete() -> bool:
             for message in moving.messages + fixed.messages:
                 for each in message.transforms:
                     parents.setdefault(each.child_frame_id, set()).add(each.header.frame_id)
-            return wanted | {'odom', f'{second}/odom'} <= parents.keys()
+            return expected | {'odom', f'{second}/odom'} <= parents.keys()
         until(complete, 'all frames are published')
     assert [frame for frame, above in parents.items() if len(above) > 1] == []
-    for frame in wanted:
+    for frame in expected:
         names = [frame]
         while names[-1] != 'world':
             names += parents[names[-1]]

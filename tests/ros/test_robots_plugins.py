@@ -1,4 +1,4 @@
-"""What robots made for Gazebo carry, on the topics and in the frames of Gazebo's plug-ins."""
+"""Plug-ins of robots made for Gazebo, on the topics and in the frames of Gazebo's plug-ins."""
 from __future__ import annotations
 
 import math

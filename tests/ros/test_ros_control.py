@@ -1,7 +1,7 @@
 """The package gazebo_ros_control in the node, which CTest builds with tests/examples/ros_control.
 
-That stands in for ros_control, which Debian 12 does not have: its controller manager leads all
-joints of examples/arm to a position.
+That is a substitute for ros_control, which Debian 12 does not have: its controller manager leads
+all joints of examples/arm to a position.
 """
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def test_a_service_that_waits_for_an_update_does_not_keep_the_model(arm: Angen) 
     waiting.join(10.0)
     assert not waiting.is_alive()
     until(lambda: '/arm/controller_manager/switch' not in
-          [name for name, _ in arm.master.api.getSystemState('/test')[2][2]], 'it has gone')
+          [name for name, _ in arm.master.api.getSystemState('/test')[2][2]], 'it is unregistered')
     arm.call('/gazebo/unpause_physics', Empty)
     assert arm.call('/angen/spawn', Spawn, name='arm', xml=ARM).success
     arm.send('/arm/controller_manager/reach', Float64(-0.3))

@@ -100,7 +100,7 @@ def test_paused_time_moves_by_steps_only(angen: Angen, paused: None) -> None:
     assert (second.sim_time - first.sim_time).to_nsec() == 250_000_000
     with Inbox("/clock", Clock) as clock:
         until(lambda: [m.clock for m in clock.messages[-3:]] == [second.sim_time] * 3,
-              "a clock for latecomers while time stands still")
+              "a clock for latecomers while time is paused")
 
 
 def test_a_step_counts_commands_and_events(angen: Angen, paused: None) -> None:

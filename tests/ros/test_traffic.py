@@ -1,4 +1,4 @@
-"""What is sent, and to whom: nothing without a subscriber, one message for all of a kind."""
+"""The messages that are sent: none without a subscriber, one for all of a kind."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class House:
         end(self.master.process)
 
     def echo(self, topic: str, count: int) -> list[Any]:
-        """So many messages of a topic, as rostopic prints them."""
+        """That many messages of a topic, as rostopic prints them."""
         done = subprocess.run(['/usr/bin/rostopic', 'echo', '-n', str(count), topic], text=True,
                               env=self.master.environment, capture_output=True, timeout=60)
         assert done.returncode == 0, done.stderr
@@ -64,7 +64,7 @@ def test_nothing_is_sent_that_nobody_hears(house: House) -> None:
                           '{linear: {x: 0.2}}')
     subscriber = None
     try:
-        until(lambda: '/cmd_vel' in house.master.topics(), 'somebody drives')
+        until(lambda: '/cmd_vel' in house.master.topics(), 'the robot is driven')
         for kind, name, value in (('door', 'bathroom0', 'open'), ('lamp', 'kitchen0', 'on')):
             house.cli.does('set', kind, name, value)
         stats = house.echo('/angen/stats', 4)
@@ -101,7 +101,7 @@ def test_what_falls_due_in_one_tick_goes_in_one_message(house_of_kinds: House) -
 
 
 def test_devices_of_a_kind_share_a_topic_too(house_of_kinds: House) -> None:
-    """A newcomer gets the states of all, whenever they came; then what changes."""
+    """A new subscriber gets the states of all devices, of whatever age; then the changed ones."""
     cli, master = house_of_kinds.cli, house_of_kinds.master
     assert master.topics()['/angen/door'] == 'angen_msgs/DoorStateArray'
     assert not [topic for topic in master.topics() if topic.startswith('/angen/door/')]

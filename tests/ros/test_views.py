@@ -1,4 +1,4 @@
-"""What viewers get: markers and frames."""
+"""Topics of viewers: markers and frames."""
 
 from __future__ import annotations
 
@@ -116,7 +116,7 @@ def test_frames_are_sent_again_only_with_a_new_one(angen: Angen) -> None:
             assert len(inbox.messages) <= sent + 2  # its own, then all
             assert angen.call("/angen/delete", Delete, name=name).success
             frames -= {name}
-        assert angen.call("/gazebo/pause_physics", Empty) is not None  # the world's time stands
+        assert angen.call("/gazebo/pause_physics", Empty) is not None  # the world's time is paused
         for name in ("four", "five"):
             assert angen.call("/angen/spawn", Spawn, name=name, xml="model://pir").success
         until(lambda: children(inbox.messages[-1]) >= frames | {"four", "five"}, "all in a pause")
@@ -161,7 +161,8 @@ def test_a_lit_lamp_lights_the_room_around_it(angen: Angen) -> None:
         angen.send("/gazebo/Light_controller", String("Off, kitchen0"))
         until(lambda: not lit(inbox), "no light")
         assert angen.call("/angen/delete", Delete, name="house").success
-        until(lambda: "hall" not in {m.text for m in keyed(list(inbox.messages)).values()}, "gone")
+        until(lambda: "hall" not in {m.text for m in keyed(list(inbox.messages)).values()},
+              "no hall")
 
 
 def test_rays_change_groups_while_a_sensor_fires(angen: Angen) -> None:
@@ -192,8 +193,8 @@ def test_rays_are_blue_or_in_the_color_that_is_given(angen: Angen) -> None:
                 return ink.r, ink.g, ink.b, ink.a
         return None
 
-    for given, wanted in (("", (0.0, 0.0, 1.0, 1.0)),
-                          ("<color>1 0.5 0 0.25</color>", (1.0, 0.5, 0.0, 0.25))):
+    for given, expected in (("", (0.0, 0.0, 1.0, 1.0)),
+                            ("<color>1 0.5 0 0.25</color>", (1.0, 0.5, 0.0, 0.25))):
         beam = ('<sdf version="1.6"><model name="tinted"><static>true</static><link name="link">'
                 '<sensor name="s" type="ray"><plugin name="s" '
                 f'filename="liboptical_switch_controller.so">{given}</plugin></sensor></link>'
@@ -201,7 +202,7 @@ def test_rays_are_blue_or_in_the_color_that_is_given(angen: Angen) -> None:
         with Inbox("/angen/markers", MarkerArray) as inbox:
             assert angen.call("/angen/spawn", Spawn, name="tinted", xml=beam,
                               pose=at(-20.0, -20.0, 5.0)).success
-            assert until(lambda: color_of(inbox), "the beam's color") == wanted
+            assert until(lambda: color_of(inbox), "the beam's color") == expected
             assert angen.call("/angen/delete", Delete, name="tinted").success
             until(lambda: color_of(inbox) is None, "no rays")
 
@@ -229,7 +230,7 @@ def test_no_transform_goes_out_twice_with_one_stamp(angen: Angen) -> None:
             name = f"walker{i}"
             assert angen.call("/angen/spawn", Spawn, name=name, xml="model://bathroom_door").success
             until(lambda: any(t.child_frame_id.startswith(name) for m in list(moving.messages)
-                              for t in m.transforms), "the frames of what was spawned")
+                              for t in m.transforms), "the frames of the spawned model")
             assert angen.call("/angen/delete", Delete, name=name).success
         sent = [(t.child_frame_id, t.header.stamp) for m in list(moving.messages)
                 for t in m.transforms]

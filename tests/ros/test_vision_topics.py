@@ -112,4 +112,4 @@ def test_a_room_camera_is_a_model_of_its_own(angen: Angen, wall: None) -> None:
     image = angen.wait("/angen/camera/c1/image_raw", Image)
     assert image.header.frame_id == "c1_optical_frame" and len(image.data) == 320 * 240 * 3
     assert angen.call("/angen/delete", Delete, name="c1").success
-    until(lambda: "/angen/camera/c1/image_raw" not in angen.master.topics(), "its topic is gone")
+    until(lambda: "/angen/camera/c1/image_raw" not in angen.master.topics(), "its topic ends")

@@ -33,7 +33,7 @@ def paused(angen: Angen) -> Iterator[None]:
 
 
 def in_threads(angen: Angen, count: int) -> tuple[list[Any], list[threading.Thread]]:
-    """So many steps at once; their answers come into the list."""
+    """That many steps at once; their answers are appended to the list."""
     answers: list[Any] = []
     threads = [threading.Thread(
         target=lambda: answers.append(angen.call("/angen/step", Step, ticks=MOST)))
@@ -76,15 +76,15 @@ def test_many_long_steps_leave_threads_for_others(angen: Angen, paused: None) ->
 def test_a_step_says_how_many_ticks_it_took(angen: Angen, paused: None) -> None:
     done = angen.call("/angen/step", Step, ticks=12)
     assert done.success and done.taken == 12
-    refused = angen.call("/angen/step", Step, ticks=2**32 - 1)
-    assert not refused.success and refused.taken == 0 and "at most 10000000" in refused.message
+    rejected = angen.call("/angen/step", Step, ticks=2**32 - 1)
+    assert not rejected.success and rejected.taken == 0 and "at most 10000000" in rejected.message
 
 
 @pytest.mark.parametrize("count", [1, 4])
 def test_steps_of_lost_clients_end(angen: Angen, paused: None, count: int) -> None:
     lost = [raw_step(angen, MOST) for _ in range(count)]
     start = angen.call("/angen/step", Step, ticks=0).sim_time
-    until(lambda: angen.call("/angen/step", Step, ticks=0).sim_time > start, "time goes on")
+    until(lambda: angen.call("/angen/step", Step, ticks=0).sim_time > start, "time advances")
     for connection in lost:
         connection.close()
 

@@ -1,4 +1,4 @@
-"""The TurtleBot's URDF says what its SDF says."""
+"""The TurtleBot's URDF agrees with its SDF."""
 from pathlib import Path
 
 import pytest

@@ -31,7 +31,7 @@ def models() -> dict[str, geometry.Model]:
 
 
 def solids(models, opened=(), without=()) -> list[geometry.Shape]:
-    """Returns all collisions but those of `without`, the doors in `opened` standing open."""
+    """Returns all collisions but those of `without`, the doors in `opened` open."""
     return [shape for model in models.values() if model.name not in without
             for shape in geometry.shapes(model, OPEN if model.name in opened else {})]
 

@@ -148,7 +148,7 @@ def gaps(one: Shape, others: list[Shape]) -> np.ndarray:
     """Returns, per other shape, a lower bound of the gap in m; negative where boxes overlap.
 
     Boxes are compared by the balls round them, and where those are close by their separating axes;
-    a round shape stands in as the box round it.
+    a round shape is the box round it.
     """
     if not others:
         return np.array([])
