@@ -1,6 +1,6 @@
 """The order of packages and modules: no import cycle, also not through imports inside of functions.
 
-angen_apps and angen_bench stand above angen_tools, which finds their commands by name.
+angen_apps and angen_bench import angen_tools, which finds their commands by name.
 """
 from __future__ import annotations
 
@@ -40,14 +40,14 @@ def files(sources: dict[str, Path]) -> dict[str, Path]:
 
 
 def module_graph(sources: dict[str, Path]) -> Graph:
-    """What each module imports."""
+    """The imports of each module."""
     found = files(sources)
     return {name: imports(path.read_text(encoding='utf-8'), set(found))
             for name, path in found.items()}
 
 
 def reduced(modules: Graph, depth: int) -> Graph:
-    """What each package imports of others; a package is the first `depth` words of a name."""
+    """The imports of each package from others; a package is the first `depth` words of a name."""
     graph: Graph = {}
     for name, imported in modules.items():
         package = '.'.join(name.split('.')[:depth])

@@ -1,4 +1,4 @@
-"""A home without a simulator: what exists in it, and rules about it."""
+"""A home without a simulator: its sensors and devices, and rules about it."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -38,7 +38,7 @@ class Home:
         self.changes += self.engine.advance(time)
 
     def told(self) -> list[tuple[float, str, str]]:
-        """Time, rule and event of all changes so far."""
+        """Time, rule and event of all changes until now."""
         return [(c.time, c.warning.rule.name, c.event) for c in self.changes]
 
 

@@ -14,7 +14,7 @@ STOVE = rule('stove', 'stove on', '{not: kitchen used, for: 10 min}')
 def test_both_conditions_have_to_hold(tmp_path: Path) -> None:
     home = Home(tmp_path, STOVE)
     home.until(20 * MIN)
-    assert home.told() == []  # nobody there, but the stove is off
+    assert home.told() == []  # no person there, but the stove is off
     home.at(20 * MIN, 'pir/kitchen_a', 'motion')
     home.at(21 * MIN, 'plug/stove0', 'on')
     home.at(22 * MIN, 'pir/kitchen_b', 'motion')

@@ -1,4 +1,4 @@
-"""The rules file: what it means, and what is said of a wrong one."""
+"""The rules file: its meaning, and the errors of a wrong one."""
 from __future__ import annotations
 
 import math

@@ -1,4 +1,4 @@
-"""Signals: what is so, by the events of sensors."""
+"""Signals: their state, by the events of sensors."""
 from __future__ import annotations
 
 from pathlib import Path

@@ -36,8 +36,8 @@ def test_the_lidar_meets_what_the_map_says(floor: int) -> None:
     for door in world.devices('door'):
         world.command('door', door, 'Open')
     world.run(4)
-    met = hits(world, 'guest_lidar', 'guest')
+    points = hits(world, 'guest_lidar', 'guest')
     grid = make_map(load_world(BUILDING), floor, 'open')
     cells = np.array([grid.point(*cell) for cell in np.argwhere(grid.cells == OCCUPIED)])
-    far = np.hypot(*(met[:, None] - cells[None]).transpose(2, 0, 1)).min(axis=1)
-    assert len(met) > 700 and far.mean() < 0.05
+    far = np.hypot(*(points[:, None] - cells[None]).transpose(2, 0, 1)).min(axis=1)
+    assert len(points) > 700 and far.mean() < 0.05

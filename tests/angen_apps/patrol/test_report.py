@@ -1,4 +1,4 @@
-"""What counts as a detection."""
+"""Which events count as a detection."""
 from __future__ import annotations
 
 import numpy as np

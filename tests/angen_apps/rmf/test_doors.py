@@ -1,4 +1,4 @@
-"""What a door makes of requests, and what it reports."""
+"""A door's commands by requests, and its reports."""
 from __future__ import annotations
 
 import pytest

@@ -1,4 +1,4 @@
-"""A lift's sessions, the commands that they come to, and what it reports."""
+"""A lift's sessions, their commands, and its reports."""
 from __future__ import annotations
 
 import pytest
@@ -75,7 +75,7 @@ def test_a_repeated_request_is_one_command(lift: Lift) -> None:
                     door_mode=State.DOOR_CLOSING))
     assert lift.request(request('robot', 'Floor1')) == ''
     assert lift.request(request('robot', 'Floor2')) == 'Floor2'
-    assert lift.request(request('robot', 'Floor1')) == 'Floor1'  # cancels what waits
+    assert lift.request(request('robot', 'Floor1')) == 'Floor1'  # cancels the waiting request
 
 
 def test_a_session_gets_the_lift_back_that_somebody_calls_away(lift: Lift) -> None:

@@ -1,4 +1,4 @@
-"""What a survey finds of a building whose leaves hang on the world, several in one model."""
+"""A survey of a building whose leaves hang on the world, several in one model."""
 from __future__ import annotations
 
 import math

@@ -23,7 +23,7 @@ LINE = [(0.05 * i, 0.0) for i in range(41)]
 
 
 class IdealRobot:
-    """Goes as it is commanded; what it commands is done `answers` s later, or never."""
+    """Moves as it is commanded; a command is done `answers` s later, or never."""
 
     def __init__(self, answers: float = 1.0) -> None:
         self.now, self.pose, self.answers = 0.0, Pose(0.0, 0.0, 0.0), answers

@@ -20,7 +20,7 @@ def box(width: int = 80, height: int = 60) -> GridMap:
 
 
 def scan_from(grid: GridMap, pose: Pose) -> np.ndarray:
-    """What a laser there measures: the middles of the cells that rays meet, in its frame."""
+    """A laser's scan there: the middles of the cells that rays hit, in its frame."""
     found = []
     for angle in np.arange(0, 2 * math.pi, math.radians(2)):
         for far in np.arange(0.1, 6.0, 0.01):

@@ -1,4 +1,4 @@
-"""The filter over cells, and what the robot takes from events."""
+"""The filter over cells, and the evidence of events."""
 from __future__ import annotations
 
 from dataclasses import replace

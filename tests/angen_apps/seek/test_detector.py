@@ -51,7 +51,7 @@ def room() -> Field:
 
 
 def scan(pose: Pose, *shapes: Shape, seed: int = 1) -> SimpleNamespace:
-    """What a laser with a noise of 1 cm measures at a pose in the room with these things in it."""
+    """The scan of a laser with a noise of 1 cm at a pose in the room with these things in it."""
     angles = -math.pi + np.arange(COUNT) * 2 * math.pi / COUNT
     ways = np.stack([np.cos(angles + pose.yaw), np.sin(angles + pose.yaw)], axis=1)
     eye = np.array([pose.x, pose.y])
@@ -90,7 +90,7 @@ def test_an_empty_room_has_none() -> None:
 
 
 @pytest.mark.parametrize('shape', [
-    segment(3.0, 2.6, 3.0, 3.1),  # a leaf that stands ajar
+    segment(3.0, 2.6, 3.0, 3.1),  # a leaf that is ajar
     segment(3.0, 2.8, 3.3, 3.2),
     circle(3.0, 3.0, 0.03),  # the leg of a table
     circle(3.0, 3.0, 0.7),  # a round table

@@ -46,7 +46,7 @@ def test_clothing_of_a_room_of_22_degrees_is_that_of_the_person() -> None:
 
 
 def test_a_figure_takes_the_postures_of_its_script() -> None:
-    """The head of who sits down goes where trigonometry says."""
+    """The head of a person who sits down is where trigonometry says."""
     row, = command.rows('sits down at 2 m')
     world = stage.world_of(row, stage.parts_of(row))
     links = world.links

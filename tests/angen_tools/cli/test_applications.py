@@ -1,4 +1,4 @@
-"""How the angen command finds the commands of other packages, and what it says without them."""
+"""The commands of other packages: how the angen command finds them, and its errors without them."""
 from __future__ import annotations
 
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What a shell offers after TAB."""
+"""Completions that a shell offers after TAB."""
 from __future__ import annotations
 
 from pathlib import Path

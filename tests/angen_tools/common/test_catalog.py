@@ -74,7 +74,7 @@ def test_a_file_without_its_library_is_passed_over(folder: Path) -> None:
 
 @pytest.mark.parametrize('stale', [True, False])
 def test_a_library_whose_description_is_old_or_missing_is_loaded(folder: Path, stale: bool) -> None:
-    """A copy of a library of Angen's, whose file says what is not true."""
+    """A copy of a library of Angen's, whose JSON file is wrong."""
     library, = [d / 'libheater.so' for d in catalog.directories() if (d / 'libheater.so').exists()]
     (folder / 'libheater.so').write_bytes(library.read_bytes())
     if stale:

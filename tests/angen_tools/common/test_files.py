@@ -23,7 +23,7 @@ SOURCES = ('src/angen_tools/src', 'src/angen_apps/src', 'bench/angen_bench')
 
 @contextmanager
 def limited(size: int) -> Iterator[None]:
-    """No file gets larger than so many bytes: what a full disk does, also for root."""
+    """No file gets larger than that many bytes: as on a full disk, also for root."""
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
     try:
@@ -162,7 +162,7 @@ def test_a_kill_at_any_moment_leaves_a_whole_file(tmp_path: Path) -> None:
 
 
 def writes(path: Path) -> Iterator[str]:
-    """What a source calls that writes files by itself."""
+    """The calls of a source that write files by themselves."""
     for node in ast.walk(ast.parse(path.read_text(encoding='utf-8'))):
         if not isinstance(node, ast.Call):
             continue
@@ -179,7 +179,7 @@ def writes(path: Path) -> Iterator[str]:
 def test_nothing_else_writes_files() -> None:
     found = [line for folder in SOURCES for path in sorted((ROOT / folder).rglob('*.py'))
              if path.parts[-2:] != ('common', 'files.py') for line in writes(path)]
-    allowed = (f'{SOURCES[0]}/angen_tools/live/sandbox.py',  # logs of what they start
+    allowed = (f'{SOURCES[0]}/angen_tools/live/sandbox.py',  # logs of its processes
                'bench/angen_bench/gazebo.py',
                'bench/angen_bench/contest.py')  # a model in a temporary folder
     assert [line for line in found if not line.startswith(allowed)] == []

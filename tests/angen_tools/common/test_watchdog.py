@@ -1,4 +1,4 @@
-"""What a command has started ends with it."""
+"""The processes of a command end with it."""
 from __future__ import annotations
 
 import os
@@ -30,13 +30,13 @@ with watchdog():
 
 @pytest.fixture
 def mark(monkeypatch: pytest.MonkeyPatch) -> str:
-    """What the processes of a test carry, besides the mark of the watchdog."""
+    """The environment of a test's processes, besides the mark of the watchdog."""
     value = uuid.uuid4().hex
     monkeypatch.setenv('ANGEN_TEST_MARK', value)
     return f'ANGEN_TEST_MARK={value}'
 
 
-def gone(mark: str) -> bool:
+def has_ended(mark: str) -> bool:
     """Whether no process has the mark before the limit."""
     end = time.monotonic() + LIMIT
     while marked(mark):
@@ -63,7 +63,7 @@ def test_a_kill_ends_all_that_was_started(mark: str, seed: int) -> None:
     assert len(marked(mark)) > 1
     parent.kill()
     parent.communicate()
-    assert gone(mark)
+    assert has_ended(mark)
 
 
 def test_a_signal_to_the_group_does_not_end_the_watchdog(mark: str) -> None:
@@ -72,7 +72,7 @@ def test_a_signal_to_the_group_does_not_end_the_watchdog(mark: str) -> None:
     assert parent.stdout.readline() == 'started\n'
     os.killpg(parent.pid, signal.SIGKILL)
     parent.communicate()
-    assert gone(mark)
+    assert has_ended(mark)
 
 
 def test_an_orderly_end_leaves_nothing(mark: str) -> None:

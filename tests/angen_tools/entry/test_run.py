@@ -17,7 +17,7 @@ def test_the_rest_of_the_words_stays(monkeypatch: pytest.MonkeyPatch) -> None:
         assert with_world(words, Path('/run/rescued.world')) == [
             '--screen', 'world:=/run/rescued.world', 'seed:=7']
     assert os.environ['ANGEN_MODEL_PATH'] == '/a/models:/mine'
-    assert os.environ['GAZEBO_RESOURCE_PATH'] == '/a'  # what lies beside the first may be named
+    assert os.environ['GAZEBO_RESOURCE_PATH'] == '/a'  # files beside the first may be named
 
 
 def test_no_log_is_written_over(tmp_path: Path) -> None:

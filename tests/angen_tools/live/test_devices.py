@@ -103,7 +103,7 @@ def test_devices_may_share_a_topic(simulator: Simulator) -> None:
     doors = followed(simulator)
     simulator.topics['/doors'](states(a=1, b=2))
     assert [door['mode'] for door in doors.of('door').values()] == [1, 2]
-    simulator.topics['/doors'](states(b=3, c=4))  # before anybody has heard of c
+    simulator.topics['/doors'](states(b=3, c=4))  # before c is known
     simulator.add('door', 'c', topic='/doors', message='DoorStateArray')
     doors.survey()
     assert [door['mode'] for door in doors.of('door').values()] == [1, 3, 4]

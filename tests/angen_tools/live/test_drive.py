@@ -1,4 +1,4 @@
-"""Keys and what they make a robot do; time is given, not waited for."""
+"""Keys and the robot's motion by them; the test sets the time."""
 from __future__ import annotations
 
 import pytest
@@ -8,14 +8,14 @@ from angen_tools.live.drive import FIRST_HOLD, HOLD, SPEED, STEP, TURN, Keys
 UP, DOWN, RIGHT, LEFT = (b'\x1b[' + end for end in (b'A', b'B', b'C', b'D'))
 
 
-@pytest.mark.parametrize('key, wanted', [
+@pytest.mark.parametrize('key, expected', [
     (UP, (SPEED, 0)), (DOWN, (-SPEED, 0)), (LEFT, (0, TURN)), (RIGHT, (0, -TURN)),
     (b'\x1bOA', (SPEED, 0)), (b'\x1bOD', (0, TURN))])
-def test_arrows_drive_and_turn(key: bytes, wanted: tuple[float, float]) -> None:
+def test_arrows_drive_and_turn(key: bytes, expected: tuple[float, float]) -> None:
     keys = Keys()
     assert keys.command(0.0) == (0, 0)
     keys.read(key, 0.0)
-    assert keys.command(0.0) == wanted
+    assert keys.command(0.0) == expected
 
 
 def test_it_goes_on_while_the_key_repeats_and_stops_after() -> None:

@@ -1,4 +1,4 @@
-"""What angen list prints."""
+"""The output of angen list."""
 from __future__ import annotations
 
 import json

@@ -44,21 +44,21 @@ def board(monkeypatch: pytest.MonkeyPatch) -> Board:
     return Board(object())
 
 
-def names(board: Board, **wanted: Any) -> list[str]:
-    return [row.name for row in board.chosen(Filter(**wanted))]
+def names(board: Board, **words: Any) -> list[str]:
+    return [row.name for row in board.chosen(Filter(**words))]
 
 
 def test_rows_come_by_kind_and_name(board: Board) -> None:
     assert names(board) == ['eye', 'kitchen0', 'bath_pir0', 'kitchen_pir0', 'kitchen_reed']
 
 
-@pytest.mark.parametrize('wanted, rows', [
+@pytest.mark.parametrize('words, rows', [
     ({'kinds': ['pir']}, ['bath_pir0', 'kitchen_pir0']),
     ({'kinds': ['pir', 'lamp'], 'room': 'Kitchen'}, ['kitchen0', 'kitchen_pir0']),
     ({'names': ['eye', 'kitchen0']}, ['eye', 'kitchen0']),
     ({'room': 'attic'}, []), ({'active': True}, ['bath_pir0'])])
-def test_filters(board: Board, wanted: Any, rows: list[str]) -> None:
-    assert names(board, **wanted) == rows
+def test_filters(board: Board, words: Any, rows: list[str]) -> None:
+    assert names(board, **words) == rows
 
 
 def test_what_changes_is_active(board: Board) -> None:

@@ -1,4 +1,4 @@
-"""What angen top prints of a message of costs."""
+"""The output of angen top for a message of costs."""
 from __future__ import annotations
 
 from types import SimpleNamespace

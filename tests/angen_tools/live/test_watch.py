@@ -1,4 +1,4 @@
-"""What angen watch prints, and what is missing in it."""
+"""The output of angen watch, and what is missing in it."""
 from __future__ import annotations
 
 import subprocess
@@ -18,7 +18,7 @@ ROWS = [Row('lamp', 'kitchen0', 'on  40 %', False, 1.0, 0.0),
 
 
 class Scene:
-    """A board whose simulated time goes on by `step` whenever it receives."""
+    """A board whose simulated time advances by `step` whenever it receives."""
 
     def __init__(self, step: float = 0.1, paused: bool = False) -> None:
         self.rows = {(row.kind, row.name): row for row in ROWS}
@@ -28,14 +28,14 @@ class Scene:
         self.time += self._step
         return True
 
-    def chosen(self, wanted: Filter) -> list[Row]:
-        return [row for row in self.rows.values() if wanted.passes(row.kind, row.name)]
+    def chosen(self, rule: Filter) -> list[Row]:
+        return [row for row in self.rows.values() if rule.passes(row.kind, row.name)]
 
 
-def once(monkeypatch: pytest.MonkeyPatch, scene: Scene, **wanted: object) -> tuple[str, str]:
+def once(monkeypatch: pytest.MonkeyPatch, scene: Scene, **words: object) -> tuple[str, str]:
     monkeypatch.setattr(watch, 'Board', lambda client: scene)
     monkeypatch.setattr(watch, 'Client', object)
-    shown, missing = watch.watch_once(Filter(**wanted), json=True)
+    shown, missing = watch.watch_once(Filter(**words), json=True)
     return str(shown), missing
 
 
@@ -56,13 +56,13 @@ def test_only_what_is_chosen_is_waited_for(monkeypatch: pytest.MonkeyPatch) -> N
     assert missing == '' and 'pir' not in shown
 
 
-@pytest.mark.parametrize('wanted, part', [
+@pytest.mark.parametrize('words, part', [
     ({'names': ['kitchen']}, "no sensor or device named 'kitchen'; did you mean kitchen0"),
     ({'kinds': ['lampp']}, "no kind 'lampp'; did you mean lamp")])
 def test_a_filter_must_name_what_there_is(
-        monkeypatch: pytest.MonkeyPatch, wanted: dict[str, object], part: str) -> None:
+        monkeypatch: pytest.MonkeyPatch, words: dict[str, object], part: str) -> None:
     with pytest.raises(Failure, match=part):
-        once(monkeypatch, Scene(), **wanted)
+        once(monkeypatch, Scene(), **words)
 
 
 def test_a_live_table_needs_a_terminal() -> None:

@@ -1,4 +1,4 @@
-"""angen replay, what it says."""
+"""The output of angen replay."""
 from __future__ import annotations
 
 from pathlib import Path

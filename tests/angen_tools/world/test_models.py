@@ -1,4 +1,4 @@
-"""Models and what is in them."""
+"""Models and their parts."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -20,7 +20,7 @@ def test_collisions_are_found_in_models_and_includes(monkeypatch: pytest.MonkeyP
     assert models.collisions(world, 'd1::body') == ['top', 'leg']
     assert models.collisions(world, 'table::body') == ['top', 'leg']
     assert models.collisions(world, 'table::foot') == []
-    assert models.collisions(world, 'nobody::body') == []
+    assert models.collisions(world, 'missing::body') == []
 
 
 def test_parts_of_a_merged_include_are_found() -> None:
