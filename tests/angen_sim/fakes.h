@@ -20,7 +20,7 @@ struct FakeJoint {
   std::string child = "child";
   Vec3 anchor = Vec3::Zero();
   JointWrench wrench;
-  double force = 0.0;  // what the device requested in this tick
+  double force = 0.0;  // the device's request in this tick
   double motor_velocity = 0.0;
   double motor_force = 0.0;
   double latch_force = 0.0;  // 0: not latched
@@ -93,7 +93,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
   FakeJoint& joint_named(const std::string& name) { return joints[index(joints, name)].second; }
   FakeLink& link_named(const std::string& name) { return links[index(links, name)].second; }
   FakeLight& light_named(const std::string& name) { return lights[index(lights, name)].second; }
-  /// How often it has published an event of that name.
+  /// The number of its events of that name.
   std::ptrdiff_t count(const std::string& event) const {
     return std::count_if(events.begin(), events.end(),
                          [&](const auto& each) { return each.first == event; });

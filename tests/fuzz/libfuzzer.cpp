@@ -26,7 +26,7 @@ const angen::fuzz::Target& chosen() {
 
 }  // namespace
 
-/// What a target loads once takes no input's time.
+/// Objects that a target loads once take no input's time.
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
   chosen().run("");
   return 0;

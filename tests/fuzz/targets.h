@@ -5,7 +5,7 @@
 
 #include "core/diagnostics.h"
 
-/// What reads bytes from outside, each as a function of one input. libFuzzer calls it with inputs
+/// Readers of bytes from outside, each as a function of one input. libFuzzer calls it with inputs
 /// of its own (libfuzzer.cpp), the unit test with those of corpus/ (corpus_test.cpp).
 namespace angen::fuzz {
 

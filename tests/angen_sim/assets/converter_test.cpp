@@ -1,4 +1,5 @@
-// Damaged and hostile meshes: each is an error of the file that names it, and the process goes on.
+// Damaged and hostile meshes: each is an error of the file that names it, and the process
+// continues.
 #include "assets/converter.h"
 
 #include <sys/resource.h>
@@ -24,7 +25,7 @@ class HostileMesh : public testing::Test {
   HostileMesh() { setenv("ANGEN_NO_CACHE", "1", 1); }
   ~HostileMesh() override { unsetenv("ANGEN_NO_CACHE"); }
 
-  /// What a world says whose mesh this is.
+  /// The error of a world with this mesh.
   std::string complaint(const std::string& name, const std::string& text) {
     folder_.write("part/" + name, text);
     return error_of(in_link("\n<visual name='v'><geometry><mesh><uri>model://part/" + name +

@@ -43,7 +43,7 @@ TEST(Polygon, IsSimpleWhereItsEdgesMeetAtCornersOnly) {
 TEST(Polygon, CrossesItself) {
   EXPECT_TRUE(crossing_edges({{0, 0}, {2, 2}, {2, 0}, {0, 2}}));          // a bow tie
   EXPECT_TRUE(crossing_edges({{0, 0}, {4, 0}, {4, 3}, {2, 0}, {0, 3}}));  // touches its own edge
-  EXPECT_TRUE(crossing_edges({{0, 0}, {2, 0}, {1, 0}, {1, 2}}));          // goes back on itself
+  EXPECT_TRUE(crossing_edges({{0, 0}, {2, 0}, {1, 0}, {1, 2}}));          // overlaps itself
   EXPECT_TRUE(crossing_edges({{0, 0}, {1, 0}, {2, 0}}));                  // is flat
 }
 

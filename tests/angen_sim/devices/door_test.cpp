@@ -250,7 +250,7 @@ TEST(Door, TheLatchHoldsAgainstAPushThatTheBrakeWouldNot) {
   EXPECT_EQ(door.mode(), "CLOSED");
 }
 
-/// Somebody of 70 kg who walks towards -y, against a leaf that opens that way.
+/// A person of 70 kg who walks towards -y, against a leaf that opens that way.
 void walk_against(Bench& bench, double speed, double seconds) {
   const physics::ModelId id = bench.add(person({0.6, 1.0, 0.001}));
   const physics::LinkId body = bench.world.links(id)[0];
@@ -375,7 +375,7 @@ TEST(Door, WarnsOfWhatItsJointsEffortCaps) {
                   .warnings.empty());
 }
 
-TEST(Door, RefusesWhatItDoesNotKnowAndStaysAsItIs) {
+TEST(Door, RejectsWhatItDoesNotKnowAndStaysAsItIs) {
   Bench bench;
   Rig& door = add_door(bench);
   bench.run(0.1);
@@ -389,7 +389,7 @@ TEST(Door, RefusesWhatItDoesNotKnowAndStaysAsItIs) {
   EXPECT_EQ(door.forces, 0);
 }
 
-TEST(Door, RefusesParametersThatDoNotFitTheHinge) {
+TEST(Door, RejectsParametersThatDoNotFitTheHinge) {
   Bench bench;
   EXPECT_THROW(add_door(bench, {}, {{"open_position", "1.57"}}), Error);
   EXPECT_THROW(add_door(bench, {}, {{"p", "-1"}}), Error);

@@ -18,7 +18,7 @@ struct Field {
     rig = &bench.add(robot({0, 0, 0}), "librobot_controller.so", "drive", parameters);
     bench.run(1.0);
   }
-  /// Commands at 10 Hz for so many seconds, then stops.
+  /// Commands at 10 Hz for that many seconds, then stops.
   void drive(double v, double w, double seconds) {
     for (int i = 0; i < std::lround(10 * seconds); ++i) {
       rig->command(v, w);
@@ -131,7 +131,7 @@ TEST(Drive, AWallStopsItAndItsWheelsPushNoHarderThanTheirTorque) {
   EXPECT_GT(push, 1.0);
 }
 
-TEST(Drive, RefusesWhatIsNoPairOfSpeeds) {
+TEST(Drive, RejectsWhatIsNoPairOfSpeeds) {
   Field field;
   EXPECT_FALSE(field.rig->command("").accepted);
   EXPECT_FALSE(field.rig->command("fast").accepted);

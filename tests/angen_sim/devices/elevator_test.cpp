@@ -231,7 +231,7 @@ TEST(Elevator, TellsOneDirectionAWay) {
   EXPECT_EQ(rig.count("down"), 1);
 }
 
-TEST(Elevator, RefusesFloorsThatItHasNot) {
+TEST(Elevator, RejectsFloorsThatItHasNot) {
   Bench bench;
   Rig& rig = add_elevator(bench);
   bench.run(3.0);
@@ -244,7 +244,7 @@ TEST(Elevator, RefusesFloorsThatItHasNot) {
   EXPECT_TRUE(standing_open(rig, 0));
 }
 
-TEST(Elevator, RefusesMoreFloorsThanItsLiftReaches) {
+TEST(Elevator, RejectsMoreFloorsThanItsLiftReaches) {
   Bench bench;
   EXPECT_THROW(add_elevator(bench, 400.0, {{"floors", "3"}}), Error);
 }

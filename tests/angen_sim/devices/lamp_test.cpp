@@ -78,7 +78,7 @@ TEST(Lamp, SameLevelAgainIsNoEvent) {
   EXPECT_EQ(lit.world.events.size(), 1u);
 }
 
-TEST(Lamp, RefusesWhatItDoesNotKnow) {
+TEST(Lamp, RejectsWhatItDoesNotKnow) {
   Lit lit;
   for (const char* text : {"", "Onn", "Dim", "Dim x", "Dim -1", "Dim 100.1", "Dim nan", "On 1"}) {
     const Verdict verdict = lit.say(text);
@@ -88,7 +88,7 @@ TEST(Lamp, RefusesWhatItDoesNotKnow) {
   EXPECT_EQ(lit.bulb().level, 0.0);
 }
 
-TEST(Lamp, RefusesALevelBeyondAHundredPercent) {
+TEST(Lamp, RejectsALevelBeyondAHundredPercent) {
   EXPECT_THROW(Lit(Parameters{{"level", "101"}}), Error);
   EXPECT_THROW(Lit(Parameters{{"luminous_flux", "0"}}), Error);
 }

@@ -20,7 +20,7 @@ struct DoorMeasures {
   double friction = 0.5;  // N m
   double angle = 0.0;     // at the start
 };
-/// Its hinge stands at the origin; shut, the leaf lies along +x. Base is static.
+/// Its hinge is at the origin; shut, the leaf lies along +x. Base is static.
 desc::Model door(const DoorMeasures& measures = {});
 
 /// Cabin floor at z = 0 when at floor 0, inner 1.4 m by 1.4 m, open towards -y where its doors are;

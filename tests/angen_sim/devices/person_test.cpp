@@ -105,7 +105,7 @@ TEST(Person, AWallStopsItItPushesWithNoMoreThanItsForceAndGoesOnWhenFreed) {
   EXPECT_LT(walk.place().x(), 1.81);
   walk.bench.world.remove(wall);
   const double rest = walk.bench.run_until(12.0, [&] { return walk.rig->mode() == "STANDING"; });
-  EXPECT_GT(rest, 2.0);  // the path waited: what was left of it takes its time
+  EXPECT_GT(rest, 2.0);  // the path waited: the rest of it takes its time
   EXPECT_NEAR(walk.place().x(), 5.0, 0.02);
 }
 
@@ -245,12 +245,12 @@ TEST(Person, GoesWhereItIsSentRoundWhatStandsInTheWay) {
   EXPECT_LT(stays.moved, 2e-3);
   walk.bench.run(2.0);
   EXPECT_FALSE(walk.rig->body("body").awake);
-  ASSERT_TRUE(walk.rig->command("Go").accepted);  // back to its path: where it stood
+  ASSERT_TRUE(walk.rig->command("Go").accepted);  // back to its path: where it had stopped
   walk.bench.run(12.0);
   EXPECT_LT(walk.place().head<2>().norm(), 0.1);
 }
 
-TEST(Person, RefusesToGoNowhere) {
+TEST(Person, RejectsToGoNowhere) {
   Walk walk(Parameters{});
   for (const char* text : {"GoTo", "GoTo 1", "GoTo 1 x", "GoTo nan 1", "GoTo 1 2 3", "PushTo 1"}) {
     const Verdict verdict = walk.rig->command(text);

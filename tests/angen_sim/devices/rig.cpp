@@ -85,7 +85,7 @@ Vec3 Bench::contact_force(const std::string& one, const std::string& other) cons
   return sum;
 }
 
-/// Where the joint stops, and what it moves.
+/// The stops of the joint, and the masses that it moves.
 JointLimits limits_of(const desc::Joint& joint, const desc::Link& child) {
   const desc::JointAxis& axis = joint.axes.at(0);
   double inertia = child.inertial.mass;

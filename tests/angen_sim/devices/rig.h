@@ -34,10 +34,10 @@ class Bench {
   void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits);
 
   void tick();
-  /// Ticks for so many seconds; `each` is called after every tick.
+  /// Ticks for that many seconds; `each` is called after every tick.
   void run(
       double seconds, const std::function<void()>& each = [] {});
-  /// Ticks until `done`, at most so many seconds; the seconds it took, or -1.
+  /// Ticks until `done`, at most that many seconds; the seconds it took, or -1.
   double run_until(double seconds, const std::function<bool()>& done);
 
   Nanoseconds now() const { return tick_ * settings_.step; }
@@ -66,7 +66,7 @@ class Bench {
   std::vector<std::unique_ptr<Rig>> rigs_;
 };
 
-/// What one device sees, and what it does, on one model of the bench: physics moves it.
+/// The view and the outputs of one device, on one model of the bench: physics moves it.
 class Rig : public FakeWorld {
  public:
   Rig(Bench& bench, const desc::Model& model, std::shared_ptr<const Plugin> plugin,

@@ -15,7 +15,7 @@ TEST(RoomAir, MoistureAndHumidityAreInverse) {
   for (const double humidity : {5.0, 50.0, 100.0}) {
     EXPECT_NEAR(humidity_of({25.0, moisture_of(25.0, humidity)}), humidity, 1e-9);
   }
-  EXPECT_EQ(humidity_of({0.0, moisture_of(30.0, 100.0)}), 100.0);  // what it cannot hold is dew
+  EXPECT_EQ(humidity_of({0.0, moisture_of(30.0, 100.0)}), 100.0);  // the excess condenses
 }
 
 TEST(RoomAir, AClosedRoomWarmsByItsHeatAndLosesNone) {

@@ -1,4 +1,4 @@
-// What a document may name: files of the paths and beside it, wherever links lead.
+// Files that a document may name: those of the paths and beside it, wherever links lead.
 #include "document/allowed.h"
 
 #include <cstdlib>
@@ -19,7 +19,7 @@ std::string with_mesh(const std::string& uri) {
              "</uri></mesh></geometry></visual></link></model>");
 }
 
-/// A folder `home` with what may be read, and beside it `secret` with what may not.
+/// A folder `home` with readable files, and beside it `secret` with forbidden ones.
 class Allowed : public testing::Test {
  protected:
   Allowed() {
@@ -34,7 +34,7 @@ class Allowed : public testing::Test {
     fs::create_directories((fs::path(home()) / name).parent_path());
     fs::create_symlink(target, fs::path(home()) / name);
   }
-  /// Of the model NAME/model.sdf in `home`, which names the mesh.
+  /// The error of the model NAME/model.sdf in `home`, which names the mesh.
   std::string complaint(const std::string& name, const std::string& uri,
                         const SearchPaths& paths = {}) const {
     folder_.write("home/" + name + "/model.sdf", with_mesh(uri));

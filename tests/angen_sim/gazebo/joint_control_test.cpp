@@ -9,7 +9,7 @@
 namespace angen::node {
 namespace {
 
-/// What a control in these tests does with its joints.
+/// The actions of a control in these tests on its joints.
 using Law = std::function<void(double time, std::vector<ControlledJoint>& joints)>;
 Law law;
 std::string made_in;
@@ -49,13 +49,13 @@ struct Arms {
                           changes_between(nullptr, *hall.snapshot->structure));
     hall.simulation.observe([this](const sim::Action&, Nanoseconds) { ++commands; }, {});
   }
-  /// The farthest that the left arm was from `wanted`.
-  double run(double seconds, const std::function<double(double)>& wanted) {
+  /// The largest distance of the left arm from `target`.
+  double run(double seconds, const std::function<double(double)>& target) {
     double worst = 0.0;
     for (int i = 0; i < std::lround(1000 * seconds); ++i) {
       controls.update(*hall.snapshot);
       hall.snapshot = hall.simulation.tick();
-      const double off = position() - wanted(to_seconds(hall.snapshot->time));
+      const double off = position() - target(to_seconds(hall.snapshot->time));
       worst = std::max(worst, std::abs(off));
     }
     return worst;
@@ -79,7 +79,7 @@ TEST(JointControl, PositionsOfEachTickAreFollowed) {
   Arms arms("Position");
   EXPECT_EQ(made_in, "/bot/arm");
   law = [](double time, std::vector<ControlledJoint>& joints) {
-    ASSERT_EQ(joints.size(), 1U) << "what is no joint of the model is left out";
+    ASSERT_EQ(joints.size(), 1U) << "a name without a joint in the model is left out";
     joints[0].command = wave(time);
   };
   EXPECT_LT(arms.run(4.0, wave), 0.003);
@@ -100,7 +100,7 @@ TEST(JointControl, OnlyChangesAreQueued) {
   Arms arms("Position");
   law = [](double, std::vector<ControlledJoint>&) {};
   arms.run(0.1, wave);
-  EXPECT_EQ(arms.commands, 0) << "no command so far";
+  EXPECT_EQ(arms.commands, 0) << "no command yet";
   law = [](double, std::vector<ControlledJoint>& joints) { joints[0].command = 0.25; };
   arms.run(1.0, wave);
   EXPECT_EQ(arms.commands, 1);

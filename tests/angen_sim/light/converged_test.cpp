@@ -150,8 +150,8 @@ TEST(Converged, PersonInTheRoom) {
   Furnished room(point_lamp(Vec3(2, 2, 2.2), 800.0));
   const rays::ShapeId person = add_box(room.scene, Vec3(0, 0, 0.85), Vec3(0.3, 0.5, 1.7),
                                        gray(0.4F), rays::Mobility::kMoving);
-  for (const Vec3& stands : {Vec3(1.2, 1.6, 0.85), Vec3(2.1, 2.0, 0.85), Vec3(1.0, 2.6, 0.85)}) {
-    room.scene.move(person, {stands, Quat::Identity()});
+  for (const Vec3& place : {Vec3(1.2, 1.6, 0.85), Vec3(2.1, 2.0, 0.85), Vec3(1.0, 2.6, 0.85)}) {
+    room.scene.move(person, {place, Quat::Identity()});
     room.scene.commit();
     expect_converged(room.scene, room.lighting, room.lamp, facing(Vec3(0.05, 1, 2), Vec3::UnitX()));
     expect_converged(room.scene, room.lighting, room.lamp,

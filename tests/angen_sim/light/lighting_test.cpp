@@ -298,12 +298,12 @@ TEST(Lighting, ShutDoorKeepsTheNextRoomDark) {
 }
 
 TEST(Lighting, ADoorsWayLeavesNoTrace) {
-  TwoRooms moved, stood;
+  TwoRooms moved, fixed;
   const Pose side = facing(Vec3(4.2, 3.5, 1.5), Vec3::UnitX());
   lux(moved.lighting, moved.dark_sensor);
   moved.open();
-  stood.open();
-  expect_same_bits(measure(moved.lighting, side), measure(stood.lighting, side));
+  fixed.open();
+  expect_same_bits(measure(moved.lighting, side), measure(fixed.lighting, side));
   moved.shut();
   const TwoRooms fresh;
   expect_same_bits(measure(moved.lighting, side), measure(fresh.lighting, side));

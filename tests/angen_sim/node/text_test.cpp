@@ -10,7 +10,7 @@ std::string sent(const sim::Action& action) {
   return command.kind + "/" + command.name + ": " + command.command.text;
 }
 
-std::string refused(const sim::Action& action) { return std::get<sim::Reject>(action).reason; }
+std::string rejection(const sim::Action& action) { return std::get<sim::Reject>(action).reason; }
 
 bool says(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -46,7 +46,7 @@ TEST(TopicText, CurlyQuotesAreLeftOut) {
 
 TEST(AnyText, CurlyQuotesAreLeftOut) {
   EXPECT_EQ(sent(any_action("\u201Cturtlebot\u201D", "0.1 -0.2")), "/turtlebot: 0.1 -0.2");
-  EXPECT_TRUE(says(refused(any_action("a", "\u201C\u201D")), "no text"));
+  EXPECT_TRUE(says(rejection(any_action("a", "\u201C\u201D")), "no text"));
 }
 
 TEST(DoorText, VerbsAndNames) {
@@ -71,9 +71,9 @@ TEST(LongText, IsRefusedWithItsLength) {
   for (const sim::Action& action :
        {topic_action(door(), longest), topic_action(door(), "Open, " + longest),
         any_action(longest, "Open"), any_action("a", longest)}) {
-    EXPECT_TRUE(says(refused(action), "at most 4096")) << refused(action);
-    EXPECT_TRUE(says(refused(action), "(10000")) << refused(action);
-    EXPECT_LT(refused(action).size(), 400U);
+    EXPECT_TRUE(says(rejection(action), "at most 4096")) << rejection(action);
+    EXPECT_TRUE(says(rejection(action), "(10000")) << rejection(action);
+    EXPECT_LT(rejection(action).size(), 400U);
   }
 }
 
@@ -83,20 +83,20 @@ TEST(DoorText, CaseOfNamesMatters) {
 
 TEST(DoorText, AMissingVerbOrNameIsRejectedWithTheRightForms) {
   for (const std::string text : {"", ",", ", a", "Open", "Open,"}) {
-    const std::string reason = refused(topic_action(door(), text));
+    const std::string reason = rejection(topic_action(door(), text));
     EXPECT_TRUE(says(reason, "Set <radians>")) << text << " -> " << reason;
     EXPECT_TRUE(says(reason, "`" + text + "`")) << reason;
   }
 }
 
 TEST(DoorText, OtherBytesThanUtf8AreRefusedInPrintableWords) {
-  const std::string reason = refused(topic_action(door(), "Open, \xff\xfe"));
+  const std::string reason = rejection(topic_action(door(), "Open, \xff\xfe"));
   EXPECT_TRUE(says(reason, "not UTF-8")) << reason;
   EXPECT_TRUE(valid_utf8(reason));
 }
 
 TEST(DoorText, ALongTextMakesAShortReason) {
-  EXPECT_LT(refused(topic_action(door(), std::string(100000, 'x'))).size(), 700U);
+  EXPECT_LT(rejection(topic_action(door(), std::string(100000, 'x'))).size(), 700U);
 }
 
 TEST(LampText, VerbsAndNames) {
@@ -108,14 +108,14 @@ TEST(LampText, VerbsAndNames) {
 TEST(ElevatorText, NeedsNoName) {
   EXPECT_EQ(sent(topic_action(elevator(), " floor 0 ")), "elevator/: floor 0");
   EXPECT_EQ(sent(topic_action(elevator(), "Floor2, b")), "elevator/b: Floor2");
-  EXPECT_TRUE(says(refused(topic_action(elevator(), "Floor1,")), "no name"));
-  EXPECT_TRUE(says(refused(topic_action(elevator(), "")), "Floor<0 to 999 floor>"));
+  EXPECT_TRUE(says(rejection(topic_action(elevator(), "Floor1,")), "no name"));
+  EXPECT_TRUE(says(rejection(topic_action(elevator(), "")), "Floor<0 to 999 floor>"));
 }
 
 TEST(AnyText, ReachesADeviceByName) {
   EXPECT_EQ(sent(any_action(" lamp/kitchen0 ", " Dim 40 ")), "/lamp/kitchen0: Dim 40");
-  EXPECT_TRUE(says(refused(any_action("", "On")), "no target"));
-  EXPECT_TRUE(says(refused(any_action("kitchen0", " ")), "no text"));
+  EXPECT_TRUE(says(rejection(any_action("", "On")), "no target"));
+  EXPECT_TRUE(says(rejection(any_action("kitchen0", " ")), "no text"));
 }
 
 }  // namespace

@@ -79,14 +79,15 @@ TEST(Boxes, AgreeWithOdeWhereNothingIsParallel) {
     };
     ode::set_pose(boxes.lower.get(), pose());
     ode::set_pose(boxes.upper.get(), pose());
-    std::array<dContactGeom, 16> wanted{};
-    const int n = dCollide(boxes.lower.get(), boxes.upper.get(), 16, wanted.data(),
+    std::array<dContactGeom, 16> expected{};
+    const int n = dCollide(boxes.lower.get(), boxes.upper.get(), 16, expected.data(),
                            static_cast<int>(sizeof(dContactGeom)));
     ASSERT_EQ(boxes.collide(), static_cast<std::size_t>(n)) << i;
     for (int k = 0; k < n; ++k) {
-      EXPECT_LT((ode::vec(boxes.points[k].pos) - ode::vec(wanted[k].pos)).norm(), 1e-9) << i;
-      EXPECT_LT((ode::vec(boxes.points[k].normal) - ode::vec(wanted[k].normal)).norm(), 1e-9) << i;
-      EXPECT_NEAR(boxes.points[k].depth, wanted[k].depth, 1e-9) << i;
+      EXPECT_LT((ode::vec(boxes.points[k].pos) - ode::vec(expected[k].pos)).norm(), 1e-9) << i;
+      EXPECT_LT((ode::vec(boxes.points[k].normal) - ode::vec(expected[k].normal)).norm(), 1e-9)
+          << i;
+      EXPECT_NEAR(boxes.points[k].depth, expected[k].depth, 1e-9) << i;
     }
     touching += n > 0 ? 1 : 0;
   }

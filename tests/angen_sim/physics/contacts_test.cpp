@@ -1,4 +1,4 @@
-// What touches is found, and what overlaps is parted gently.
+// Touching shapes are found, and overlapping ones are parted gently.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,7 +49,7 @@ TEST(Contacts, WhatIsPutIntoAnotherIsPartedSlowly) {
   }
 }
 
-// Where a collision says how deep it may stand in another, the layer of the world does not hold.
+// A collision's own minimum depth replaces the layer of the world.
 TEST(Contacts, MinDepthTakesThePlaceOfTheSurfaceLayer) {
   desc::Physics settings;
   settings.contact_surface_layer = 0.01;

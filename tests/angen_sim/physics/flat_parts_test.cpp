@@ -62,7 +62,7 @@ LinkState pushed(const desc::Model& floor, const Shape& shape, const Pose& pose,
   return world.link(link);
 }
 
-// ODE's contacts with the triangles turn, brake and stop what goes over their edges.
+// ODE's contacts with the triangles turn, brake and stop bodies that cross their edges.
 TEST(FlatParts, SlideAndRollAsOnAPlane) {
   using Type = Shape::Type;
   const Quat lying = from_rpy(0.0, M_PI / 2.0, 0.3);
@@ -99,7 +99,7 @@ TEST(FlatParts, EndAtTheirBorder) {
   }
 }
 
-// What is partly below a table has its lower corners far below the plane of its top.
+// A body that is partly below a table has its lower corners far below the plane of its top.
 TEST(FlatParts, ATableIsMetAtItsEdge) {
   auto top = std::make_shared<TriangleMesh>();
   for (int i = 0; i < 8; ++i) {
@@ -123,7 +123,7 @@ TEST(FlatParts, ATableIsMetAtItsEdge) {
   }
 }
 
-// A wall that stands on the floor, of the same mesh: its edges stop what comes.
+// A wall on the floor, of the same mesh: its edges stop a moving body.
 TEST(FlatParts, WallsStop) {
   Shape shape = mesh_floor(0.1);
   auto mesh = std::make_shared<TriangleMesh>(*shape.mesh);

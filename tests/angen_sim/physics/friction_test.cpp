@@ -125,7 +125,8 @@ TEST(Friction, BendsThePathOfWhatIsThrownAcrossASlope) {
   EXPECT_LT(worst, 0.02);
 }
 
-// The force at the floor's height, so that no wheel is relieved; what the wheels carry is measured.
+// The force is at the floor's height, so that no wheel is relieved; the load of the wheels is
+// measured.
 TEST(Friction, OfTheWheelsOfARobotThatBrakesIsTheSameInEachDirection) {
   const double mu = 0.4;
   double least = 1e9;
@@ -152,7 +153,7 @@ TEST(Friction, OfTheWheelsOfARobotThatBrakesIsTheSameInEachDirection) {
     least = std::min(least, force / pressed);
     most = std::max(most, force / pressed);
   }
-  printf("wheels hold against %.4f to %.4f of what they carry, mu = %.1f\n", least, most, mu);
+  printf("wheels hold against %.4f to %.4f of their load, mu = %.1f\n", least, most, mu);
   EXPECT_GT(least, 0.98 * mu);
   EXPECT_LT(most, 1.02 * mu);
 }

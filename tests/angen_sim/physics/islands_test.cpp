@@ -33,7 +33,7 @@ TEST(Islands, AreLargeByTheirOwnContacts) {
       geoms[i].body = &bodies[i];
       awake.push_back(&bodies[i]);
     }
-    // Two touch each other, all stand on the floor, which connects nothing.
+    // Two touch each other, all are on the floor, which connects nothing.
     const bool any = mark_large_islands(awake, {{&geoms[0], &geoms[2], 0, points - 40},
                                                 {&floor, &geoms[0], 0, 40},
                                                 {&floor, &geoms[1], 0, 90},

@@ -128,7 +128,7 @@ TEST(Joints, BrakeHoldsALoadWithoutMotionAndSleeps) {
   EXPECT_NEAR(world.joint(joint).effort, -50.0, 0.01);
   world.set_motor(joint, 0.0, 40.0);
   world.run(0.5);
-  // 10 N m too little: it goes down with 10 / (m r^2).
+  // 10 N m too little: it falls with 10 / (m r^2).
   EXPECT_GT(world.joint(joint).position, 0.1);
 }
 

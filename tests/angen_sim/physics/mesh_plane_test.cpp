@@ -49,7 +49,7 @@ desc::Model drum(const Pose& pose) {
   return model_of("drum", {link}, pose);
 }
 
-// Of 1440 corners half are below the plane, on a floor that is level or tilted.
+// Half of 1440 corners are below the plane, on a floor that is level or tilted.
 TEST(MeshPlane, TheDeepestAndTheOutermostCornersAreFound) {
   for (const double tilt : {0.0, 0.3, -1.0}) {
     const Quat turned = from_rpy(tilt, 0.0, 0.0);

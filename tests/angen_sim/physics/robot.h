@@ -5,7 +5,7 @@
 namespace angen::physics::testing {
 
 /// A disc on two wheels of 3.5 cm and two sliding casters, as large as a TurtleBot's base. Its
-/// joints 0 and 1 are the left and right wheel's; its frame stands on the floor.
+/// joints 0 and 1 are the left and right wheel's; its frame is on the floor.
 inline desc::Model robot_model(const std::string& name, const Vec3& at = Vec3::Zero()) {
   desc::Link base;
   base.name = "base";

@@ -45,7 +45,7 @@ Shape mesh_ground(int half) {
   return shape;
 }
 
-/// The same as a heightmap of `cells` by `cells`, of `size` m, all of it at height 0 but a corner.
+/// A heightmap of `cells` by `cells`, of `size` m, all of it at height 0 but a corner.
 Shape height_ground(std::uint32_t cells, double size) {
   auto grid = std::make_shared<HeightGrid>();
   *grid = {cells + 1, cells + 1, size, size, std::vector<float>((cells + 1) * (cells + 1), 0.0F)};

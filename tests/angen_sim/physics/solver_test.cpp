@@ -46,7 +46,7 @@ TEST(Solver, TakesAFailedStepAgainFromItsStart) {
         dMessage(d_ERR_LCP, "LCP internal error, s <= 0 (s=%.4e)", 0.0);
       });
   EXPECT_FALSE(good);
-  // The same as if the other solver had been used at once.
+  // As if the other solver had been used at once.
   Pile other;
   EXPECT_FALSE(solve_step(other.world.get(), other.awake, 1e-3, 3, 4, [](dWorldID, double) {
     dMessage(d_ERR_LCP, "LCP internal error, s <= 0 (s=%.4e)", 0.0);

@@ -31,7 +31,7 @@ TEST(Step, TurnAboutTheirCentreOfMassNotTheirOrigin) {
     world.add_force(world.joints(id)[0], 0.01);
     world.step(i);
   }
-  // The center stays, the origin goes round it.
+  // The center stays, the origin circles it.
   const LinkState state = world.link(world.links(id)[0]);
   EXPECT_NEAR((state.pose * Vec3(0.5, 0, 0) - Vec3(0.5, 0, 0)).norm(), 0.0, 1e-6);
   const double inertia = 2.0 / 12.0 * 0.02;

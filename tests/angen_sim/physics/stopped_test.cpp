@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing;
 
-/// Gravity along x of so much.
+/// Gravity of that size along x.
 World world_with(double gravity) { return {desc::Physics{}, Vec3(gravity, 0.0, 0.0), 1}; }
 
 TEST(Stopped, AtTheGreatestSpeedWhileTheRestGoesOn) {
@@ -39,7 +39,7 @@ TEST(Stopped, AtTheGreatestSpeedWhileTheRestGoesOn) {
   world.push(link, {1e3, 0.0, 0.0}, Vec3::Zero(), Vec3::Zero());
   world.drive(link, {1.0, 0.0, 0.0}, 0.0, 10.0);
   world.step(tick++);
-  EXPECT_EQ(world.link(link).pose, there) << "nothing moves what has been stopped";
+  EXPECT_EQ(world.link(link).pose, there) << "a stopped body does not move";
   EXPECT_TRUE(world.stopped().empty()) << "it is told once";
   world.place(fast, {});
   EXPECT_TRUE(world.awake(link));

@@ -129,7 +129,7 @@ TEST(Determinism, AnotherProcessGetsTheSameBits) {
   EXPECT_EQ(pclose(pipe), 0);
   std::array<char, 32> mine{};
   std::snprintf(mine.data(), mine.size(), "hash=%016lx", run_scene());
-  EXPECT_NE(output.find(mine.data()), std::string::npos) << output << "wanted " << mine.data();
+  EXPECT_NE(output.find(mine.data()), std::string::npos) << output << "expected " << mine.data();
 }
 
 TEST(World, ThirtyBoxesAtRestDriftLessThanATenthOfAMillimetre) {

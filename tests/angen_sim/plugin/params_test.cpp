@@ -46,7 +46,7 @@ TEST(Params, ReadsWholeNumbersInAnyNotation) {
   EXPECT_EQ(params.integer("n", 0, "", ""), -7);
 }
 
-TEST(Params, RefusesWhatIsNotOneFiniteNumber) {
+TEST(Params, RejectsWhatIsNotOneFiniteNumber) {
   for (const char* text : {"", "abc", "1.0x", "1 2", "1,5", "nan", "inf", "1e999", "0x10", "+-1"}) {
     EXPECT_EQ(complaint_about_number(text),
               "test.sdf:1: <x> is \"" + std::string(text) + "\", must be a finite number (m)");
@@ -73,7 +73,7 @@ TEST(Params, OfARobotMadeForGazeboTakesTheWholePart) {
   }
 }
 
-TEST(Params, RefusesFractionsWordsAndUnknownChoices) {
+TEST(Params, RejectsFractionsWordsAndUnknownChoices) {
   Params params(plugin_element({{"n", "1.5"}, {"f", "yes"}, {"c", "z"}}));
   EXPECT_EQ(complaint([&] { params.integer("n", 0, "", ""); }),
             "test.sdf:1: <n> is \"1.5\", must be a whole number");

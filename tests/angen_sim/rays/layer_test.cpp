@@ -50,7 +50,7 @@ TEST(Layer, QueriesOfAnyMobilitiesBetweenChangesMissNone) {
     live.back().id = add(scene, live.back().shape, live.back().pose, live.back().mobility);
   }
   const Mobilities asked[] = {kStanding, kAll, only(Mobility::kStatic), only(Mobility::kMoving)};
-  int met = 0;
+  int hits = 0;
   for (int round = 0; round < 400; ++round) {
     change(scene, live, rng);
     scene.commit();
@@ -68,10 +68,10 @@ TEST(Layer, QueriesOfAnyMobilitiesBetweenChangesMissNone) {
       ASSERT_EQ(scene.blocked(ray.origin, end, 1e-4, among),
                 fresh.blocked(ray.origin, end, 1e-4, among));
       ASSERT_EQ(scene.covered(ray.origin, UINT32_MAX), fresh.covered(ray.origin, UINT32_MAX));
-      met += got.hit() ? 1 : 0;
+      hits += got.hit() ? 1 : 0;
     }
   }
-  EXPECT_GT(met, 400);
+  EXPECT_GT(hits, 400);
 }
 
 TEST(Layer, SeveralThreadsMayBeTheFirstToAsk) {

@@ -144,7 +144,7 @@ TEST(Ode, AgreesOnRandomRays) {
   Rng rng(3, 1, 0);
   constexpr double kMax = 25.0;
   std::vector<double> errors;
-  int misses = 0, met = 0;
+  int misses = 0, hits = 0;
   for (int scene_index = 0; scene_index < 10; ++scene_index) {
     const Pair pair(rng);
     for (int i = 0; i < 10000;) {
@@ -161,11 +161,11 @@ TEST(Ode, AgreesOnRandomRays) {
         ++misses;
         continue;
       }
-      ++met;
+      ++hits;
       errors.push_back(std::abs(ours - theirs));
     }
   }
-  ASSERT_GT(met, 50000);
+  ASSERT_GT(hits, 50000);
   std::sort(errors.begin(), errors.end());
   const double median = errors[errors.size() / 2];
   const auto beyond =
@@ -173,8 +173,8 @@ TEST(Ode, AgreesOnRandomRays) {
   RecordProperty("median_um", std::to_string(1e6 * median));
   RecordProperty("worst_um", std::to_string(1e6 * errors.back()));
   EXPECT_LT(median, 1e-4);
-  EXPECT_LT(beyond, met / 10000);
-  EXPECT_LT(misses, met / 10000);
+  EXPECT_LT(beyond, hits / 10000);
+  EXPECT_LT(misses, hits / 10000);
 }
 
 }  // namespace

@@ -231,13 +231,13 @@ TEST(Scene, ClippedRaysAreBitEqual) {
   std::vector<Ray> shorter = rays;
   for (std::size_t i = 0; i < rays.size(); ++i) shorter[i].max = full[i].range;
   scene.cast(shorter, clipped);
-  int met = 0;
+  int hits = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     ASSERT_EQ(full[i].range, clipped[i].range);
     ASSERT_EQ(full[i].shape, clipped[i].shape);
-    met += full[i].hit() ? 1 : 0;
+    hits += full[i].hit() ? 1 : 0;
   }
-  EXPECT_GT(met, 10000);
+  EXPECT_GT(hits, 10000);
 }
 
 /// Embree's traversal against a test of every shape, one scene for each: none is missed.

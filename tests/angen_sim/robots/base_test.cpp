@@ -2,7 +2,7 @@
 
 #include "robot.h"
 
-// What sensors of a robot's own plug-ins read: inertia, truth, joints.
+// Readings of the sensors of a robot's own plug-ins: inertia, truth, joints.
 namespace angen::robots {
 namespace {
 

@@ -59,10 +59,10 @@ TEST(DiffDrive, CountsItsWheelsAsTheClosedFormHasIt) {
 
 TEST(DiffDrive, SaysWhichJointIsMissing) {
   try {
-    Hall hall(robot(plugin("diff_drive", "<rightJoint>gone</rightJoint>")));
+    Hall hall(robot(plugin("diff_drive", "<rightJoint>missing</rightJoint>")));
     FAIL();
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("model 'bot' has no joint 'gone'; known are"),
+    EXPECT_NE(std::string(error.what()).find("model 'bot' has no joint 'missing'; known are"),
               std::string::npos);
   }
 }
@@ -112,9 +112,9 @@ TEST(DiffDrive, WarningsOfARejectedSpawnAreNotTheNextOnes) {
   const std::string text = "<sdf version='1.6'>" + robot(drive("<colour>red</colour>")) + "</sdf>";
   load::SearchPaths paths;
   paths.strictness = load::Strictness::kAuto;
-  auto refused = hall.simulation.post(sim::Spawn{load::model(text, "bot", {}, paths, true)});
+  auto rejected = hall.simulation.post(sim::Spawn{load::model(text, "bot", {}, paths, true)});
   hall.run(0.001);
-  EXPECT_FALSE(refused.get().ok);
+  EXPECT_FALSE(rejected.get().ok);
   auto taken = hall.simulation.post(
       sim::Spawn{load::model("<model name='box'><link name='l'/></model>", "", {}, paths)});
   hall.run(0.001);

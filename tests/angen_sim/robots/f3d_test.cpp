@@ -13,7 +13,8 @@ TEST(F3d, IsTheSumOfWhatTouchesTheLink) {
   hall.request("f3d");
   hall.run(1.0);
   const Reading reading = hall.reading("f3d");
-  // The floor carries both, and the load presses on it: what is left holds its own weight.
+  // The floor carries both, and the load presses on it: the force that remains holds its own
+  // weight.
   EXPECT_NEAR(list(reading, "force")[2], 3.0 * 9.8, 0.1);
   EXPECT_NEAR(list(reading, "torque")[1], 0.0, 0.05);
   EXPECT_EQ(reading.get<std::string>("frame"), "world");

@@ -37,9 +37,9 @@ TEST(MimicJoint, WithAPidItHasNoMoreThanItsEffort) {
 
 TEST(MimicJoint, NamesTheJointThatIsMissing) {
   Hall hall(arms("<plugin name='m' filename='libroboticsgroup_gazebo_mimic_joint_plugin.so'><joint>"
-                 "gone</joint><mimicJoint>right_joint</mimicJoint></plugin>"),
+                 "missing</joint><mimicJoint>right_joint</mimicJoint></plugin>"),
             true);
-  EXPECT_TRUE(hall.warns("no joint 'gone'"));
+  EXPECT_TRUE(hall.warns("no joint 'missing'"));
 }
 
 }  // namespace

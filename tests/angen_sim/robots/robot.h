@@ -41,7 +41,7 @@ inline std::string plugin(const std::string& library, const std::string& more,
          "</plugin>";
 }
 
-/// A box that stands loose; `more` belongs to its link.
+/// A loose box; `more` belongs to its link.
 inline std::string box(const std::string& name, double mass, const std::string& pose,
                        const std::string& size, const std::string& more = "") {
   const std::string moment = std::to_string(mass / 100.0);

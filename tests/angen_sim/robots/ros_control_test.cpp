@@ -67,7 +67,7 @@ TEST(RosControl, PositionsInASequenceAreAMotion) {
   EXPECT_NEAR(angle(hall), 0.4, 0.001) << "it stops with its commands";
 }
 
-// As robots have it whose drive needs no controllers: nobody commands these joints here.
+// As in robots whose drive needs no controllers: these joints get no commands here.
 TEST(RosControl, AnotherDriveOfTheRobotLeadsItsWheels) {
   std::string both = "<plugin name='c' filename='libgazebo_ros_control.so'>";
   for (const char* joint : {"left_joint", "right_joint"}) {

@@ -52,10 +52,10 @@ TEST(SkidSteerDrive, TurnsByItsWheelsSlip) {
 
 TEST(SkidSteerDrive, SaysWhichWheelIsMissing) {
   try {
-    Hall hall(wagon("<leftRearJoint>gone</leftRearJoint>"));
+    Hall hall(wagon("<leftRearJoint>missing</leftRearJoint>"));
     FAIL();
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("no joint 'gone'"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("no joint 'missing'"), std::string::npos);
   }
 }
 

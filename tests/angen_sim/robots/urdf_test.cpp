@@ -7,7 +7,7 @@
 
 #include "robot.h"
 
-// What <gazebo reference> says of links, and what a URDF says that SDF has no words for.
+// Elements of <gazebo reference> for links, and elements of a URDF that SDF does not have.
 namespace angen::robots {
 namespace {
 
@@ -97,7 +97,7 @@ TEST(Urdf, LinksThatSelfCollideTouch) {
   EXPECT_LT(passes.height("upper"), 0.2);
 }
 
-// It is m g / kp deep; a drop onto a spring without a damper goes twice as deep.
+// It is m g / kp deep; a drop onto a spring without a damper is twice as deep.
 TEST(Urdf, KpAndKdAreASpringAndADamper) {
   for (const auto& [kd, least, most] : {std::tuple(1.0, 1.5, 2.2), {100.0, 0.9, 1.25}}) {
     Urdf hall(

@@ -10,7 +10,7 @@
 namespace angen::node {
 namespace {
 
-/// What a barometer at that height reads, in air of `kelvin`.
+/// The reading of a barometer at that height, in air of `kelvin`.
 angen_msgs::BarometerMsg message_at(double height, double kelvin, const std::string& parameters) {
   const std::string world =
       "<sdf version='1.6'><world name='w'><gravity>0 0 -9.80665</gravity><atmosphere "
@@ -46,7 +46,7 @@ TEST(Barometer, AStoreyIsHalfAHectopascal) {
   EXPECT_NEAR(below - above, 46.9, 0.1);  // Pa
 }
 
-// Where air is as warm as the standard has it, its altitude is the height.
+// In air of the standard's temperature, its altitude is the height.
 TEST(Barometer, ItsAltitudeIsThatOfTheStandardAtmosphere) {
   EXPECT_NEAR(message_at(10.0, 288.15, "").altitude, 10.0, 0.01);
   EXPECT_NEAR(message_at(10.0, 295.15, "").altitude, 10.0 * 288.15 / 295.15, 0.01);

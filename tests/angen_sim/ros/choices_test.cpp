@@ -1,4 +1,4 @@
-// The words of a kind's modes stand in the order of its message's constants.
+// The words of a kind's modes are in the order of its message's constants.
 #include <angen_msgs/DoorState.h>
 #include <angen_msgs/ElevatorState.h>
 #include <angen_msgs/PersonState.h>

@@ -69,7 +69,7 @@ class InboxTest : public ::testing::Test {
 };
 
 TEST_F(InboxTest, ACallThatHasGivenUpHasNoEffect) {
-  const sim::Outcome outcome = inbox->call(sim::Delete{"box"});  // nobody ticks
+  const sim::Outcome outcome = inbox->call(sim::Delete{"box"});  // without a tick
   EXPECT_FALSE(outcome.ok);
   EXPECT_EQ(outcome.message, "the simulation did not answer within 0.2 s; nothing was done");
   const auto after = simulation->tick();

@@ -28,7 +28,7 @@ class LazyPublishers : public testing::Test {
   }
   static void TearDownTestSuite() { ros::shutdown(); }
 
-  /// Bytes in use after topics have come and gone.
+  /// Bytes in use after topics have been advertised and ended.
   template <class Make>
   static std::size_t used_after(Make&& make) {
     for (int i = 0; i < kTopics; ++i) make("/topic" + std::to_string(i % 10));

@@ -10,7 +10,7 @@
 namespace angen::node {
 namespace {
 
-/// What rviz shows after the arrays that it got.
+/// The display of rviz after the arrays that it got.
 class Screen {
  public:
   void take(const Overlays::Array& array) {
@@ -71,8 +71,8 @@ class Followed {
   Screen screen_;
 };
 
-/// What overlays show that are made now.
-std::vector<std::string> made_anew(const sim::Snapshot& snapshot) {
+/// The markers of new overlays.
+std::vector<std::string> markers_of_new(const sim::Snapshot& snapshot) {
   std::int32_t next_id = 0;
   Readings readings;
   Overlays overlays(next_id, readings);
@@ -108,7 +108,7 @@ TEST(Overlays, ThatFollowChangesShowWhatNewOnesShow) {
   Followed followed(simulation);
   const auto check = [&](const std::string& after) {
     for (int i = 0; i < 300; ++i) followed.follow();
-    EXPECT_EQ(followed.content(), made_anew(*simulation.snapshot())) << after;
+    EXPECT_EQ(followed.content(), markers_of_new(*simulation.snapshot())) << after;
   };
   const auto change = [&](sim::Action action, const std::string& what) {
     auto answer = simulation.post(std::move(action));

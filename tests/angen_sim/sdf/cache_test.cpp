@@ -68,7 +68,7 @@ class CacheTest : public testing::Test {
   }
   Cache cache() const { return Cache(path_, paths()); }
   bool kept() const { return cache().recall().has_value(); }
-  std::string anew() const {
+  std::string uncached() const {
     const Variable off("ANGEN_NO_CACHE", "1");
     return pack(world(path_));
   }
@@ -149,7 +149,7 @@ TEST_F(CacheTest, DamagedAnywhereItIsIgnored) {
   }
   write(whole + "x");
   EXPECT_FALSE(kept());
-  EXPECT_EQ(pack(world(path_)), anew());
+  EXPECT_EQ(pack(world(path_)), uncached());
   EXPECT_TRUE(kept());
 }
 
@@ -164,7 +164,7 @@ TEST_F(CacheTest, OfAnotherWorldItIsIgnored) {
 
 TEST_F(CacheTest, ThatCannotBeWrittenDoesNotMatter) {
   const Variable nowhere("XDG_CACHE_HOME", path_);  // a file
-  EXPECT_EQ(pack(world(path_)), anew());
+  EXPECT_EQ(pack(world(path_)), uncached());
   EXPECT_FALSE(kept());
 }
 
@@ -220,7 +220,7 @@ TEST_F(CacheTest, GivesTheWholeBuildingByteByByte) {
   const std::string first = pack(world(path_));
   ASSERT_TRUE(kept());
   EXPECT_EQ(pack(world(path_)), first);
-  EXPECT_EQ(anew(), first);
+  EXPECT_EQ(uncached(), first);
 }
 
 TEST(Pack, SizesBeyondTheBytesThrowBeforeMemoryIsTaken) {

@@ -3,7 +3,7 @@
 namespace angen::load {
 namespace {
 
-/// A broken world and what must be said of it; the place is part of the text.
+/// A broken world and its expected error; the place is part of the text.
 struct Broken {
   const char* name;
   const char* text;

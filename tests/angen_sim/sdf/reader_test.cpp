@@ -43,13 +43,13 @@ TEST(Ignored, IsListedWithFileAndLine) {
       "<visual name='v'><geometry><box><size>1 2 3</size></box></geometry>\n"
       "<cast_shadows>false</cast_shadows></visual>\n"
       "</link></model></world></sdf>");
-  const std::vector<std::string> wanted = {
+  const std::vector<std::string> expected = {
       "test.world:3: <wind> in <world>",          "test.world:5: <enable_wind> in <model>",
       "test.world:7: <velocity_decay> in <link>", "test.world:9: <max_contacts> in <collision>",
       "test.world:10: <max_vel> in <ode>",        "test.world:12: <cast_shadows> in <visual>",
   };
-  for (const std::string& text : wanted) EXPECT_TRUE(has(found, text)) << text;
-  EXPECT_EQ(found.size(), wanted.size());
+  for (const std::string& text : expected) EXPECT_TRUE(has(found, text)) << text;
+  EXPECT_EQ(found.size(), expected.size());
 }
 
 TEST(Ignored, OfASensorIsListed) {

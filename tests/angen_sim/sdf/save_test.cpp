@@ -3,7 +3,7 @@
 namespace angen::load {
 namespace {
 
-// A text has no folder: what lies in none of the paths is named by who trusts it.
+// A text has no folder: a trusted caller may name files that are in none of the paths.
 SearchPaths anywhere() {
   SearchPaths paths;
   paths.allow_any = true;
@@ -147,7 +147,7 @@ TEST(Save, JointPressedIntoItsStopIsSavedAtIt) {
 TEST(Save, DeletedAndSpawnedModels) {
   const Folder folder;
   const std::string file = folder.write("x/door.sdf", sdf(kDoor, "1.4"));
-  const desc::World first = read(in_world("<model name='gone'><link name='l'/></model>"));
+  const desc::World first = read(in_world("<model name='m'><link name='l'/></model>"));
   const Pose pose{{0.0, 0.0, 8.0}, Quat::Identity()};
   const desc::Model by_path = model(file, "by_path", pose, {});
   const desc::Model by_text = model(sdf(kDoor, "1.4"), "by_text", pose, {});

@@ -3,8 +3,8 @@
 namespace angen::load {
 namespace {
 
-// libsdformat gets a schema without what the document lacks; it must not miss any of it. Whether
-// each of these loads or is refused matters less than that both come back.
+// libsdformat gets a schema without the parts that the document lacks; it must not miss any of
+// them. Whether each of these loads or is rejected matters less than that both come back.
 void expect_no_crash(const std::string& text) {
   SCOPED_TRACE(text);
   try {

@@ -11,7 +11,7 @@
 
 namespace angen::load {
 
-/// A folder of its own for one test, gone with it.
+/// A folder of its own for one test, removed with it.
 class Folder {
  public:
   Folder() {

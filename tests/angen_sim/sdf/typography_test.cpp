@@ -61,7 +61,7 @@ TEST(Typography, NamesAreLeftAlone) {
   EXPECT_TRUE(w.warnings.empty());
 }
 
-/// Text that is not XML, and what must be said of it.
+/// Text that is not XML, and its expected error.
 void expect_error(const std::string& text, const std::string& start, const std::string& part) {
   const std::string message = error_of(text);
   EXPECT_EQ(message.find(start), 0U) << message;
@@ -102,7 +102,7 @@ TEST(Typography, CommentsAndTextMayHoldIt) {
       "<!-- name=\u201Cx\u201D \u2212 --><plugin name='p' "
       "filename='p.so'><note>\u201Cx\u201D</note></plugin>";
   EXPECT_TRUE(read(in_world(fine)).models.empty());
-  // What is wrong there is something else.
+  // The error there is another one.
   expect_error(
       "<sdf version='1.6'>\n<!-- \u201Cx\u201D -->\n<world name='w'>\n<model></world></sdf>",
       "w.world:4: ", "not closed");

@@ -218,7 +218,7 @@ TEST(Include, LightBecomesALightOfTheWorld) {
 
 TEST(Include, EachFileKeepsItsOwnVersion) {
   const Folder folder;
-  // The same text: until 1.4 the axis is the model's, from 1.5 the link's.
+  // One text: until 1.4 the axis is the model's, from 1.5 the link's.
   const std::string model =
       "<model name='m'><link name='a'/><link name='b'><pose>0 0 0 0 0 1.5707963267948966</pose>"
       "</link><joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>1 0 0"

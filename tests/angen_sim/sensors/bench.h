@@ -99,7 +99,7 @@ class Bench {
   std::unique_ptr<Sensor> sensor_;
 };
 
-/// What configuring such a sensor complains of, "" when nothing.
+/// The error of configuring such a sensor, "" without one.
 inline std::string complaint_of(const std::string& library, const Element& plugin,
                                 const Element& sensor = element("sensor"),
                                 const FakeWorld& filled = {}) {

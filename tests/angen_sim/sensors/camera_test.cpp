@@ -77,7 +77,7 @@ TEST(Camera, TakesTheTopicsOfGazebosPlugins) {
             "");
 }
 
-TEST(Camera, RefusesALensThatSeesNothing) {
+TEST(Camera, RejectsALensThatSeesNothing) {
   EXPECT_NE(test::complaint_of(kCamera, plugin_element({}), lens("0")).find("<camera/image/width>"),
             std::string::npos);
   EXPECT_NE(test::complaint_of(kDepth, plugin_element({}), lens("4", "9.5")).find("near is above"),

@@ -127,7 +127,7 @@ TEST(Contact, NoiseIsOnForcesOnly) {
   EXPECT_NEAR(std::sqrt(squares / n / 3.0), 0.5, 0.015);
 }
 
-TEST(Contact, RefusesNoCollisionAndUnknownOnesAtTheirPlace) {
+TEST(Contact, RejectsNoCollisionAndUnknownOnesAtTheirPlace) {
   EXPECT_NE(test::complaint_of(kContact, plugin_element({})).find("watches nothing"),
             std::string::npos);
   Element sensor = watching({"chair::link::leg"});

@@ -10,7 +10,7 @@ namespace angen::test {
 namespace {
 
 constexpr double kThreshold = 3e-4;  // V
-constexpr double kMan = 300.0;       // K, what a person radiates as
+constexpr double kMan = 300.0;       // K, the radiant temperature of a person
 
 /// All as it is by default, but for noise and the time that it takes to warm up.
 Element standard() {
@@ -19,14 +19,14 @@ Element standard() {
 
 double radians(double degrees) { return degrees * M_PI / 180.0; }
 
-/// Directions from which somebody comes, in degrees: 37 within the declared 90.
+/// Directions from which a person comes, in degrees: 37 within the declared 90.
 std::vector<double> directions() {
   std::vector<double> all;
   for (int k = -18; k <= 18; ++k) all.push_back(2.5 * k);
   return all;
 }
 
-/// Who stands at `from` m and walks straight to `to` m: how far away he is when he is detected, 0
+/// The distance at which a person who walks straight from `from` m to `to` m is detected, 0
 /// where he is not.
 double detected_at(double azimuth, double from, double to, double speed = 1.0) {
   Bench bench(kPir, standard());
@@ -45,7 +45,7 @@ double detected_at(double azimuth, double from, double to, double speed = 1.0) {
   return 0.0;
 }
 
-/// The same for who crosses the direction `azimuth` at a right angle, `away` m from the detector.
+/// Whether a person who crosses the direction `azimuth` at a right angle, at `away` m, is detected.
 bool crossing_detected(double azimuth, double away, double speed = 1.0) {
   Bench bench(kPir, standard());
   bench.world.at = {{0.0, 0.0, 0.0}, from_rpy(0.0, 0.0, -radians(azimuth))};
@@ -92,7 +92,7 @@ TEST(FresnelLens, WhoCrossesItsViewIsDetectedFromFartherAwayThanWhoComesTowardsI
 }
 
 TEST(FresnelLens, TheRatedObjectIsDetectedAtTheRatedRangeWhereverItCrossesTheZones) {
-  // 0.7 x 0.25 m, 4 K, 1 m/s at 12 m: what the maker rates the detector with. A plate that always
+  // 0.7 x 0.25 m, 4 K, 1 m/s at 12 m: the maker's rated object. A plate that always
   // faces the same way, so that no side of it adds to its area.
   double least = 1.0, greatest = 0.0;
   for (const double azimuth : directions()) {
@@ -128,8 +128,8 @@ double peak_of(Bench& bench, rays::ShapeId id, double seconds, Move&& move) {
   return peak;
 }
 
-/// Of NEMA WD 7's arm, bare, 36 in above the floor, that turns by 90 degrees and back, about the
-/// line to the detector.
+/// The peak of NEMA WD 7's arm, bare, 36 in above the floor, that turns by 90 degrees and back,
+/// about the line to the detector.
 double peak_of_arm(double azimuth, double away) {
   Bench bench(kPir, standard());
   const auto id = add_warm(bench, box(0.381, 0.0762, 0.0762), at(away), 307.0);
@@ -159,7 +159,7 @@ TEST(FresnelLens, AnArmIsDetectedNearItFromNearlyAllDirectionsFartherAwayFromFew
   EXPECT_EQ(arms_detected(12.0), 0);
 }
 
-/// Of something that walks by at `away` m at 0.6 m/s, its middle `up` m above the floor.
+/// The peak of an animal that walks by at `away` m at 0.6 m/s, its middle `up` m above the floor.
 double peak_of_animal(const Shape& shape, double away, double up) {
   Bench bench(kPir, standard());
   const auto id = add_warm(bench, shape, at(away, -1.0, up - kHeight), 300.0);
@@ -202,16 +202,16 @@ TEST(FresnelLens, GlassAndBrickHideAPerson) {
 }
 
 TEST(FresnelLens, ADoorThatSwingsIsNoMotionUnlessItUncoversSomebody) {
-  for (const bool somebody : {false, true}) {
+  for (const bool with_person : {false, true}) {
     Bench bench(kPir, standard());
-    if (somebody) add_warm(bench, person(), at(4.0, 0.3, 0.875 - kHeight), kMan);
+    if (with_person) add_warm(bench, person(), at(4.0, 0.3, 0.875 - kHeight), kMan);
     const auto door = bench.add(box(0.04, 0.9, 2.1), at(3.0));
     const double peak = peak_of(bench, door, 3.0, [](double t) {
       const double yaw = std::min(1.5, 0.75 * t);
       return Pose{{3.0 + 0.45 * std::sin(yaw), -0.2 + 0.45 * std::cos(yaw), 1.05 - kHeight},
                   from_rpy(0.0, 0.0, -yaw)};
     });
-    if (somebody) {
+    if (with_person) {
       EXPECT_GT(peak, kThreshold);
     } else {
       EXPECT_EQ(peak, 0.0);

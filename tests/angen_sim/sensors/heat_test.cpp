@@ -60,7 +60,7 @@ TEST(Heat, TapedZonesSeeNothing) {
   const auto id = add_warm(bench, sphere(0.1), at(3, -1), 310.0);
   EXPECT_EQ(bench.sample(kSample).get<double>("flux", -1.0), 0.0);
   bench.scene.move(id, at(3, 1));
-  for (int i = 0; i < 5; ++i) bench.sample(kSample);  // what was hidden is looked for less often
+  for (int i = 0; i < 5; ++i) bench.sample(kSample);  // hidden surfaces are tested less often
   EXPECT_LT(bench.sample(kSample).get<double>("flux"), 0.0);
 }
 

@@ -152,7 +152,7 @@ TEST(Pir, NoiseHasTheStandardDeviationOfTheSdf) {
     const double difference = bench.sample().get<double>("difference");
     sum += difference * difference;
   }
-  // Of two independent scans: 2 sigma^2, known to within 2 % at n = 20000.
+  // Two independent scans differ by 2 sigma^2, known to within 2 % at n = 20000.
   EXPECT_NEAR(std::sqrt(sum / n / 2.0), 0.02, 0.0006);
 }
 
@@ -184,7 +184,7 @@ TEST(Pir, ItsOwnNoddingIsNoMotion) {
   for (int i = 0; i < 100; ++i) EXPECT_FALSE(bench.sample().get<bool>("motion", true)) << i;
 }
 
-/// A room, and a person who comes in, stands, and is gone again: what a nodding PIR reports.
+/// The reports of a nodding PIR in a room in which a person comes in, stops, and is deleted.
 struct Visit {
   Bench bench{kPir, nodding(), fan(16, 4, 0.01)};
   rays::ShapeId body;
@@ -272,8 +272,8 @@ TEST(Pir, OneThatDoesNotNodHasNoDepartures) {
   EXPECT_FALSE(reading.get<bool>("departure", true));
 }
 
-/// How many samples in a row it is still, then reports motion, then is still, … with something that
-/// moves before each of the first `moving` samples of `all`.
+/// Numbers of samples in a row that are still, then report motion, then are still, … with something
+/// that moves before each of the first `moving` samples of `all`.
 std::vector<int> run_lengths(const std::vector<std::pair<std::string, std::string>>& parameters,
                              int moving, int all) {
   Bench bench(kPir, plugin_element(parameters), fan(5, 1));
@@ -307,7 +307,7 @@ TEST(Pir, AClockThatGoesBackStartsAnew) {
   EXPECT_FALSE(bench.sample().get<bool>("motion", true));
 }
 
-TEST(Pir, RefusesANodThatItsScansDoNotDivide) {
+TEST(Pir, RejectsANodThatItsScansDoNotDivide) {
   const std::string text = test::complaint_of(
       kPir, plugin_element({{"nod_amplitude", "0.3"}, {"nod_period", "0.25"}}), fan(1, 1));
   EXPECT_EQ(text,
@@ -316,7 +316,7 @@ TEST(Pir, RefusesANodThatItsScansDoNotDivide) {
   EXPECT_NE(test::complaint_of(kPir, plugin_element({{"nod_amplitude", "0.3"}}), fan(1, 1)), "");
 }
 
-TEST(Pir, RefusesWhatMakesNoSense) {
+TEST(Pir, RejectsWhatMakesNoSense) {
   EXPECT_NE(test::complaint_of(kPir, plugin_element({{"threshold", "0"}})), "");
   EXPECT_NE(test::complaint_of(kPir, plugin_element({{"model", "magic"}})), "");
   EXPECT_NE(test::complaint_of(kPir, plugin_element({}), fan(0, 1)), "");

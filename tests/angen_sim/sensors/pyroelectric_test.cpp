@@ -78,8 +78,8 @@ TEST(Pyroelectric, NoiseIsThatOfTheSdfAndOfTheSeed) {
   EXPECT_NE(first, signals(2));
 }
 
-/// How many samples the output is off, then on, then off, … with a comparator that fires at every
-/// sample while something moves: for `moving` samples of `all`.
+/// Numbers of samples in a row whose output is off, then on, then off, … with a comparator that
+/// fires at every sample while something moves: for `moving` samples of `all`.
 std::vector<int> run_lengths(Parameters more, int moving, int all) {
   more.push_back(kWidePair);
   more.emplace_back("noise_stddev", "1e-3");
@@ -149,7 +149,7 @@ TEST(Pyroelectric, MissesWhoMovesTooSlowlyOrTooFastForItsBand) {
   EXPECT_FALSE(seen(10.0, 100.0));
 }
 
-TEST(Pyroelectric, RefusesWhatMakesNoSense) {
+TEST(Pyroelectric, RejectsWhatMakesNoSense) {
   const auto complaint = [](const char* key, const char* value) {
     return complaint_of(kPir, plugin_element({{"model", "pyroelectric"}, {key, value}}));
   };

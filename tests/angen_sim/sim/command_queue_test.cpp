@@ -28,14 +28,14 @@ class Queue : public ::testing::Test {
 };
 
 TEST_F(Queue, ExecutesInOrderAndAnswersAfterTheSnapshot) {
-  std::future<Outcome> gone = queue->post(Delete{"box"});
+  std::future<Outcome> deleted = queue->post(Delete{"box"});
   std::future<Outcome> again = queue->post(Delete{"box"});
   EXPECT_FALSE(building.models().empty());
   drain();
   EXPECT_TRUE(building.models().empty());
-  EXPECT_FALSE(is_ready(gone));
+  EXPECT_FALSE(is_ready(deleted));
   queue->answer();
-  EXPECT_TRUE(gone.get().ok);
+  EXPECT_TRUE(deleted.get().ok);
   EXPECT_FALSE(again.get().ok);
   ASSERT_EQ(events.size(), 2U);
   EXPECT_EQ(events[0].event, "deleted");
@@ -85,11 +85,11 @@ TEST_F(Queue, PauseItsEndAndResetInterruptSteps) {
 
 TEST_F(Queue, WhatIsWithdrawnHasNoEffect) {
   const auto ticket = std::make_shared<Ticket>();
-  std::future<Outcome> gone = queue->post(Delete{"box"}, ticket);
+  std::future<Outcome> deleted = queue->post(Delete{"box"}, ticket);
   EXPECT_TRUE(ticket->withdraw());
   drain();
   queue->answer();
-  EXPECT_FALSE(gone.get().ok);
+  EXPECT_FALSE(deleted.get().ok);
   EXPECT_FALSE(building.models().empty());
   EXPECT_TRUE(events.empty());
 }
@@ -130,7 +130,7 @@ TEST_F(Queue, LongTextsAreCutWhereTheyAreRepeated) {
   }
 }
 
-TEST_F(Queue, RefusesWhatIsMoreThanItsBytes) {
+TEST_F(Queue, RejectsWhatIsMoreThanItsBytes) {
   const std::string long_text(1U << 20U, 'x');
   std::vector<std::future<Outcome>> answers;
   for (int i = 0; i < 40; ++i) answers.push_back(queue->post(Note{"a", "b", "c", long_text}));

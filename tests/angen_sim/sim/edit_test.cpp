@@ -213,7 +213,7 @@ TEST_F(Edits, AnotherGravityActsAndIsInTheStructure) {
   EXPECT_EQ(world_->snapshot()->structure->physics.step, world_->snapshot()->step);
 }
 
-// An elevator, a sensor that stands still, and a crate of 5 kg on load cells.
+// An elevator, a sensor that does not move, and a crate of 5 kg on load cells.
 std::unique_ptr<Simulation> world_of_weights() {
   const std::string felt = custom("felt", "accelerometer", "");
   const std::string crate =
@@ -254,7 +254,7 @@ TEST(EditsOfGravity, DevicesAndSensorsFeelANewOneAtOnce) {
   world->post(Edit(SetPhysics{world->snapshot()->structure->physics, {0.0, 0.0, -3.7}}));
   run(2.0);
   EXPECT_NEAR(reading("post").get<std::vector<double>>("acceleration")[2], 3.7, 1e-6);
-  EXPECT_NEAR(reading("crate").get<double>("weight"), 5.0, 0.01) << "a mass stays what it is";
+  EXPECT_NEAR(reading("crate").get<double>("weight"), 5.0, 0.01) << "a mass remains";
   world->post(ToDevice{"elevator", "elevator", {"Floor1", {}, "", 0.0}});
   const auto structure = world->snapshot()->structure;
   const auto lift =
@@ -266,7 +266,7 @@ TEST(EditsOfGravity, DevicesAndSensorsFeelANewOneAtOnce) {
     const auto snapshot = world->tick();
     highest = std::max(highest, snapshot->joint_positions[lift - structure->joints.begin()]);
   }
-  EXPECT_NEAR(highest, 4.0, 0.002) << "carried by what it weighs now";
+  EXPECT_NEAR(highest, 4.0, 0.002) << "carried by its new weight";
 }
 
 TEST_F(Edits, LightsComeChangeAndGo) {

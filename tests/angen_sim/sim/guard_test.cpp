@@ -12,7 +12,8 @@
 namespace angen::sim {
 namespace {
 
-/// Where a plug-in of the test throws: "update", "report", "command", "act", "aim", "read", "skip".
+/// The call in which a plug-in of the test throws: "update", "report", "command", "act", "aim",
+/// "read", "skip".
 class Thrower {
  public:
   void configure(Params& params) { where_ = params.text("throws", "", "where it throws"); }
@@ -128,7 +129,8 @@ const Reading& state(const Simulation& simulation, const std::string& name) {
   throw std::out_of_range(name);
 }
 
-/// A sensor and a device whose kind declares a number `value`, and what they set instead.
+/// A sensor and a device whose kind declares a number `value`, and the fields that they set
+/// instead.
 class WrongField : public Sensor {
  public:
   void configure(Params& params, Wiring&) override {

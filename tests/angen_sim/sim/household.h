@@ -4,7 +4,7 @@
 
 #include "angen_sim/sim/room.h"
 
-/// Worlds with a door, a lamp, a person and what a home has.
+/// Worlds with a door, a lamp, a person and a home's sensors.
 namespace angen::sim {
 
 inline const std::string kDoor = R"(<model name='hall_door'><pose>-2 2 0 0 0 0</pose>
@@ -55,7 +55,7 @@ inline std::string custom(const std::string& name, const std::string& library,
          "filename='lib" + library + ".so'>" + more + "</plugin></sensor>";
 }
 
-/// What changes by itself, and sensors of what devices report.
+/// Devices that change by themselves, and sensors of their reports.
 inline std::string text_of_household() {
   const std::string none = "<box><size>0.05 0.05 0.05</size></box>";
   const std::string mat =

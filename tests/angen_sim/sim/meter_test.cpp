@@ -1,4 +1,4 @@
-// What the meter says, and that a world does not know of it.
+// The meter's figures, and that a world does not know of it.
 #include <time.h>
 
 #include "angen_sim/sim/room.h"

@@ -37,7 +37,8 @@ inline const std::string kPir = "libpir_controller.so";
 inline const std::string kNodding =
     "<nod_amplitude>0.3</nod_amplitude><nod_period>0.4</nod_period>";
 
-/// A room in which things fall, roll and come to rest; sensors stand, nod, and ride on a roller.
+/// A room in which things fall, roll and come to rest; sensors are fixed, nod, and ride on a
+/// roller.
 inline std::string room() {
   const std::string all_sensors =
       ray_sensor("plain", kPir, 20, 0.0) + ray_sensor("noisy", kPir, 10, 0.01) +

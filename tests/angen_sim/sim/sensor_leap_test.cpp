@@ -1,4 +1,4 @@
-// A run that leaps over what does not happen, against one that takes every tick.
+// A run that leaps over ticks without events, against one that takes every tick.
 #include <cstring>
 #include <map>
 #include <utility>
@@ -100,7 +100,7 @@ TEST(Leaping, WhatChangesByItselfIsNotLeaptOver) {
   race.run(1.0);
   race.command("lamp", "hall0", "Off");
   race.command("person", "person", "Stop");
-  race.run(5.0);  // the person comes to a stand
+  race.run(5.0);  // the person stops
   race.landings = 0;
   race.run(60.0);
   EXPECT_LT(race.landings, 600U);

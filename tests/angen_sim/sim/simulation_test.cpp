@@ -24,10 +24,10 @@ TEST(Simulation, PausedTimeStandsStillAndCommandsAreStillAnswered) {
   const auto simulation = floor_only();
   simulation->post(Pause{true});
   simulation->tick();
-  std::future<Outcome> refused = simulation->post(Delete{"nothing"});
+  std::future<Outcome> rejected = simulation->post(Delete{"nothing"});
   EXPECT_EQ(simulation->tick()->time, 0);
-  ASSERT_TRUE(ready(refused));
-  EXPECT_FALSE(refused.get().ok);
+  ASSERT_TRUE(ready(rejected));
+  EXPECT_FALSE(rejected.get().ok);
 }
 
 TEST(Simulation, AStepIsAnsweredWhenItsTicksAreDone) {

@@ -1,4 +1,4 @@
-// Structures share what kept its numbers: each must be as one that is made anew.
+// Structures share parts that kept their numbers: each must equal one that is built from nothing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace angen::sim {
 namespace {
 
-/// What comes and goes at random in a household, by commands of one a tick.
+/// Spawns and deletions at random in a household, by one command a tick.
 class ChangingWorld {
  public:
   explicit ChangingWorld(unsigned seed)
@@ -154,7 +154,7 @@ std::map<std::string, std::size_t> numbers_of(const Entries& entries) {
   return numbers;
 }
 
-// What a device that stays said last is still there, unless it has said something since.
+// The last report of a device that remains is still there, unless it has reported since.
 void expect_kept(const Snapshot& before, const Snapshot& now) {
   const auto then = numbers_of(before.structure->devices);
   for (const auto& [name, i] : numbers_of(now.structure->devices)) {

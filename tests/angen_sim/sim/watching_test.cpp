@@ -1,4 +1,4 @@
-// What a sensor that skips samples and casts few rays reads, against one that samples at each due
+// Readings of a sensor that skips samples and casts few rays, against one that samples at each due
 // time with all its rays.
 #include <gtest/gtest.h>
 
@@ -182,7 +182,7 @@ struct Twins {
 };
 
 struct AtRest {
-  int kept = 0;  // sensors whose reading stands for later ones
+  int kept = 0;  // sensors whose reading is reused
   int lazy = 0;  // sensors whose lazy reading does
 };
 
@@ -278,13 +278,13 @@ TEST(Watching, LightInAClosedRoomIsMeasuredAgainWhenSomethingMovesThere) {
   twins.spawn(body("inside", kBall, "0 0 0 0 0 0", false), {0.5, 0.3, 0.8});
   twins.run(3000);
   EXPECT_EQ(at_rest(*twins.skipping->snapshot()).kept, 1);
-  for (const char* gone : {"outside", "inside", "east"}) {
-    twins.command(Delete{gone}, Delete{gone});
+  for (const char* deleted : {"outside", "inside", "east"}) {
+    twins.command(Delete{deleted}, Delete{deleted});
     twins.run(500);
   }
 }
 
-/// Measures light at two places: where it stands, and beyond the east wall.
+/// Measures light at two places: its own, and beyond the east wall.
 class TwoPlaces : public Sensor {
  public:
   void configure(Params&, Wiring&) override {}
@@ -337,8 +337,8 @@ TEST(Watching, WhatIsSpawnedOrDeletedIsSeenAtOnce) {
   twins.run(1500);
   twins.spawn(body("screen", "<box><size>0.1 4 1</size></box>", "0 0 0 0 0 0", true), {-2, 0, 0.6});
   twins.run(1450);  // until between two publications of the gates
-  for (const char* gone : {"screen", "post", "wall", "drop", "brick"}) {
-    twins.command(Delete{gone}, Delete{gone});
+  for (const char* deleted : {"screen", "post", "wall", "drop", "brick"}) {
+    twins.command(Delete{deleted}, Delete{deleted});
     twins.run(300);
   }
   twins.command(Reset{false}, Reset{false});

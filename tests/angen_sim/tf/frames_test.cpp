@@ -170,7 +170,7 @@ TEST(Frames, SensorsHangOnTheirLinks) {
   EXPECT_EQ(parents(tree)["pir_eye"], "fixed door/base");
 }
 
-/// How the sensors of a world are named.
+/// The names of a world's sensors.
 enum class Names { kTwice, kOnce, kAsALink };
 
 std::string sensor_name(Names names, const World& world) {

@@ -18,7 +18,7 @@ void sources(const std::string& bytes) {
 void packed_world(const std::string& bytes) {
   const desc::World read = load::unpack(bytes);
   const std::string packed = load::pack(read);
-  require(load::pack(load::unpack(packed)) == packed, "what was packed unpacks the same");
+  require(load::pack(load::unpack(packed)) == packed, "a packed world unpacks the same");
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ void cache(const std::string& input) {
   try {
     given.choice % 2 == 0 ? sources(given.rest) : packed_world(given.rest);
   } catch (const std::exception&) {
-    return;  // it is read anew then
+    return;  // the world's file is read then
   }
 }
 

@@ -27,7 +27,7 @@ std::optional<Request> deserialized(const std::string& bytes) {
   return request;
 }
 
-// As the node parses what is to be spawned, before it queues it.
+// As the node parses a model to spawn, before it queues it.
 void parse(const angen_msgs::SpawnRequest& request) {
   check_name(request.name);
   if (load::is_sensor(request.xml)) {

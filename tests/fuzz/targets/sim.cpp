@@ -4,7 +4,7 @@
 
 namespace angen::fuzz {
 
-// A world that loads runs, or its building says what is wrong with it.
+// A world that loads runs, or building it throws an error.
 void sim(const std::string& input) {
   static const auto catalog = std::make_shared<Catalog>();
   answered([&] {

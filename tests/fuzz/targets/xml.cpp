@@ -14,7 +14,7 @@ void xml(const std::string& input) {
   const std::string printed = load::print_xml(root);
   std::string again;
   answered([&] { again = load::print_xml(load::parse_xml(printed, "printed.xml")); });
-  require(again == printed, "what was read and printed reads the same");
+  require(again == printed, "printed XML reads the same");
 }
 
 }  // namespace angen::fuzz
