@@ -19,6 +19,7 @@ struct FakeJoint {
   bool fixed = false;
   std::string child = "child";
   Vec3 anchor = Vec3::Zero();
+  Vec3 axis = Vec3::UnitZ();
   JointWrench wrench;
   double force = 0.0;  // the device's request in this tick
   double motor_velocity = 0.0;
@@ -88,6 +89,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
     double now, limit, time_constant;
   };
   std::vector<Warming> warmings;
+  std::vector<std::string> commands;  // "KIND NAME TEXT", to other devices
   std::vector<std::pair<std::string, std::string>> events;
 
   FakeJoint& joint_named(const std::string& name) { return joints[index(joints, name)].second; }
@@ -143,9 +145,12 @@ class FakeWorld : public View, public Wiring, public Outputs {
   const std::vector<rays::WarmShape>& warm_shapes() const override { return warm; }
   std::uint64_t scene_revision() const override { return revision; }
   std::uint64_t surface_revision() const override { return surface; }
-  std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to) const override {
+  using View::crossings;
+  std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to,
+                                        rays::Mobilities) const override {
     return crossings_at ? crossings_at(from, to) : std::vector<rays::Crossing>{};
   }
+  Eigen::AlignedBox3d static_bounds() const override { return {}; }
   std::vector<std::uint8_t> colors(const render::PinholeCamera& lens,
                                    const Pose& pose) const override {
     return colors_at ? colors_at(lens, pose) : std::vector<std::uint8_t>{};
@@ -175,6 +180,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
   bool is_fixed(JointRef ref) const override { return joints.at(ref.index).second.fixed; }
   std::string child_of(JointRef ref) const override { return joints.at(ref.index).second.child; }
   Vec3 anchor(JointRef ref) const override { return joints.at(ref.index).second.anchor; }
+  Vec3 axis(JointRef ref) const override { return joints.at(ref.index).second.axis; }
   double mass(LinkRef ref) const override { return links.at(ref.index).second.mass; }
   Vec3 center(LinkRef ref) const override { return links.at(ref.index).second.center; }
   LightRef light(const std::string& light) override {
@@ -220,6 +226,9 @@ class FakeWorld : public View, public Wiring, public Outputs {
   }
   void temperature(SurfaceRef ref, double warm, double limit, double time_constant) override {
     warmings.push_back({ref.index, warm, limit, time_constant});
+  }
+  void command(const std::string& kind, const std::string& name, const std::string& text) override {
+    commands.push_back(kind + " " + name + " " + text);
   }
   void event(const std::string& event, const std::string& detail) override {
     events.emplace_back(event, detail);

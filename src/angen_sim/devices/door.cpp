@@ -24,6 +24,8 @@ constexpr double kNearError = 0.003;     // rad
 constexpr double kArriveSpeed = 0.02;    // rad/s
 constexpr double kMaxLag = 0.08;         // rad
 constexpr double kStallSpeed = 0.004;    // rad/s
+constexpr double kHandForce = 60.0;      // N, at the edge
+constexpr double kUprightAxis = 0.999;   // |z| of the axis of a leaf that stands
 constexpr Nanoseconds kHandleTime = 3 * kSecond;
 
 constexpr PidGains kGains{70.0, 200.0, 25.0, 100.0, -100.0, 120.0, -120.0};
@@ -88,7 +90,11 @@ void Door::configure(Params& params, Wiring& wiring) {
   wire(params, wiring);
   warn_of_effort(params);
   // A leaf is a slab: its mass and its moment give its width, m w^2 / 3 = I.
-  const double mass = wiring.mass(wiring.link(wiring.child_of(hinge_)));
+  child_ = wiring.link(wiring.child_of(hinge_));
+  center_ = wiring.center(child_);
+  anchor_ = wiring.anchor(hinge_);
+  axis_ = wiring.axis(hinge_);
+  const double mass = wiring.mass(child_);
   if (width_ == 0.0) width_ = std::sqrt(3.0 * limits_.inertia / mass);
   const bool is_plain = servo.controller == Controller::kPid;
   torque_max_ = is_plain ? servo.gains.cmd_max - servo.gains.cmd_min : edge_force * width_;
@@ -158,7 +164,9 @@ Verdict Door::command(const Command& command, const View& view) {
       handle_until_ = until;
     });
   }
-  double target = command.verb == "Open" ? open_position_ : closed_position_;
+  const bool by_hand = command.verb == "OpenByHand" || command.verb == "CloseByHand";
+  const bool opens = command.verb == "Open" || command.verb == "OpenByHand";
+  double target = opens ? open_position_ : closed_position_;
   if (command.verb == "Set") {
     target = command.number;
     if (target < limits_.lower || target > limits_.upper) {
@@ -168,12 +176,14 @@ Verdict Door::command(const Command& command, const View& view) {
       return Verdict::reject(reason.str());
     }
   }
-  return Verdict::accept(
-      [this, target, position = view.joint(hinge_).position] { go(target, position); });
+  return Verdict::accept([this, target, by_hand, position = view.joint(hinge_).position] {
+    go(target, position, by_hand);
+  });
 }
 
-void Door::go(double target, double position) {
+void Door::go(double target, double position, bool by_hand) {
   target_ = target;
+  by_hand_ = by_hand;
   opening_ = std::abs(target - closed_position_) > std::abs(position - closed_position_);
   if (resting_ && started_ && std::abs(target - position) < kArriveError) return;
   leaving_ = resting_ || !started_;
@@ -181,7 +191,7 @@ void Door::go(double target, double position) {
 
 void Door::update(const View& view, Outputs& outputs) {
   if (!started_) {
-    if (first_target_ && !leaving_) go(*first_target_, view.joint(hinge_).position);
+    if (first_target_ && !leaving_) go(*first_target_, view.joint(hinge_).position, false);
     if (!leaving_) target_ = view.joint(hinge_).position;
     mode_ = mode_at_rest(view.joint(hinge_).position);
     rest(view.joint(hinge_), outputs);
@@ -203,12 +213,14 @@ void Door::update(const View& view, Outputs& outputs) {
   }
   const double torque =
       servo_.update(target_, hinge.position, hinge.velocity, to_seconds(view.step()));
-  if (servo_.arrived()) {
+  if (servo_.arrived() || (by_hand_ && servo_.blocked())) {  // a hand gives up
+    if (!servo_.arrived()) show(Mode::kBlocked, hinge, true, outputs);
     rest(hinge, outputs);
     show(mode_at_rest(hinge.position), hinge, true, outputs);
     return;
   }
-  outputs.force(hinge_, std::clamp(torque, -torque_max_, torque_max_));
+  const double most = by_hand_ ? kHandForce * width_ : torque_max_;
+  outputs.force(hinge_, std::clamp(torque, -most, most));
   const Mode going = opening_ ? Mode::kOpening : Mode::kClosing;
   show(servo_.blocked() ? Mode::kBlocked : going, hinge, renew, outputs);
 }
@@ -282,6 +294,19 @@ double Door::free_width(double position) const {
   return std::min(width_, 2.0 * width_ * std::sin(0.5 * std::min(angle, M_PI)));
 }
 
+// The leaf's direction is that from the hinge to its middle.
+void Door::report_place(const View& view, Reading& state) const {
+  const Pose model = view.pose();
+  const Vec3 hinge = model * anchor_;
+  const double up = (model.rotation * axis_).z();
+  if (std::abs(up) < kUprightAxis) return;
+  const Vec3 leaf = view.link(child_).pose * center_ - hinge;
+  const double turned = std::copysign(1.0, up) * (view.joint(hinge_).position - closed_position_);
+  state.set("hinge", std::vector<double>{hinge.x(), hinge.y(), hinge.z()});
+  state.set("shut", std::remainder(std::atan2(leaf.y(), leaf.x()) - turned, 2.0 * M_PI));
+  state.set("opens", std::copysign(1.0, up) * (open_position_ - closed_position_));
+}
+
 void Door::report(const View& view, Reading& state) const {
   const JointView hinge = started_ ? shown_ : view.joint(hinge_);
   state.set("mode", choice_of(started_ ? mode_ : mode_at_rest(hinge.position), kModeNames));
@@ -292,6 +317,7 @@ void Door::report(const View& view, Reading& state) const {
     state.set("gap", free_width(hinge.position));
     state.set("width", width_);
     state.set("height", height_);
+    report_place(view, state);
   }
 }
 
@@ -302,6 +328,8 @@ LeafPlugin::LeafPlugin(const LeafKind& leaf)
       .command_topic(leaf.topic)
       .verb("Open", "moves to its open_position")
       .verb("Close", "moves to its closed_position")
+      .verb("OpenByHand", "a hand turns its handle and opens it, with at most 60 N at its edge")
+      .verb("CloseByHand", "a hand shuts it, with at most 60 N at its edge")
       .verb("Unlatch", "turns its handle: for 3 s its latch does not hold")
       .verb("Set", "radians", "rad", {}, "moves to this angle of its hinge")
       .choice("mode", {std::begin(kModeNames), std::end(kModeNames)},
@@ -313,7 +341,10 @@ LeafPlugin::LeafPlugin(const LeafKind& leaf)
       .number("target", "rad", "target angle")
       .number("gap", "m", "free width of the opening")
       .number("width", "m", "of the leaf")
-      .number("height", "m", "of the opening");
+      .number("height", "m", "of the opening")
+      .numbers("hinge", "m", "where its hinge is, in the world")
+      .number("shut", "rad", "direction from the hinge to the edge of the shut leaf, in the world")
+      .number("opens", "rad", "from shut to open, counterclockwise from above");
   for (const char* model : leaf.models) kind_.model(model);
 }
 

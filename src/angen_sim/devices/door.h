@@ -41,18 +41,20 @@ class Door : public Device {
 
   void wire(Params& params, Wiring& wiring);
   void read_target(Params& params);
-  void go(double target, double position);
+  void go(double target, double position, bool by_hand);
   void warn_of_effort(Params& params) const;
   void rest(const JointView& hinge, Outputs& outputs);
   void hold(bool shut, Outputs& outputs);
   void stay(const View& view, bool renew, Outputs& outputs);
   Mode mode_at_rest(double position) const;
   double free_width(double position) const;
+  void report_place(const View& view, Reading& state) const;
   void show(Mode mode, const JointView& hinge, bool renew, Outputs& outputs);
 
   LeafKind leaf_;
   std::string joint_;
   JointRef hinge_;
+  LinkRef child_;
   Servo servo_;
   Refresh refresh_;
   double open_position_ = 0.0;
@@ -61,13 +63,17 @@ class Door : public Device {
   double brake_torque_ = 0.0;
   double latch_torque_ = 0.0;
   JointLimits limits_;
-  double width_ = 0.0;   // m
-  double height_ = 0.0;  // m
+  double width_ = 0.0;          // m
+  double height_ = 0.0;         // m
+  Vec3 center_ = Vec3::Zero();  // m, of the leaf's mass, in its frame
+  Vec3 anchor_ = Vec3::Zero();  // m, of the hinge, in the model's frame
+  Vec3 axis_ = Vec3::UnitZ();   // unit, in that frame
 
   bool started_ = false;
   bool resting_ = true;
   bool leaving_ = false;  // a command came: the brake is to be let go
   bool opening_ = false;
+  bool by_hand_ = false;  // a hand moves it, not its drive
   bool latched_ = false;
   bool unlatches_ = false;              // its handle was turned since the last update
   Nanoseconds handle_until_ = 0;        // the time until which its handle is turned

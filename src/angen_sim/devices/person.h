@@ -1,12 +1,16 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "devices/braking.h"
+#include "devices/door_use.h"
 #include "devices/path.h"
 #include "devices/refresh.h"
+#include "devices/route.h"
 #include "devices/surroundings.h"
 #include "plugin/plugin.h"
 
@@ -14,9 +18,10 @@ namespace angen::devices {
 
 inline constexpr const char* kPersonModes[] = {"STANDING", "WALKING", "BLOCKED"};
 
-/// Walks a path, or to a goal, by a motor of limited force. It walks round obstacles that it sees
-/// in its way, or stops before it; its path waits then, and it steps back from time to time, so
-/// that a door can open towards it. It pushes only where it is told to.
+/// Walks a path, or to a goal, by a motor of limited force. It plans its way to a goal on a map of
+/// what cannot move, opens doors by hand, and walks round obstacles that it sees. Where it cannot
+/// come on it steps back, so that a door can open towards it, and waits; a goal that it cannot
+/// reach it gives up. It pushes only where it is told to.
 class Person : public Device {
  public:
   void configure(Params& params, Wiring& wiring) override;
@@ -29,14 +34,34 @@ class Person : public Device {
 
  private:
   using Vec2 = Surroundings::Vec2;
+
+  static constexpr double kReturnSpeed = 0.8;  // m/s, back to a path it was pushed off
+  static constexpr double kPushedAway = 0.1;   // m: further than this it walks back
+  static constexpr double kProgress = 0.05;    // m: less than this in a second is none
+  static constexpr Nanoseconds kPathAhead = 7 * kSecond / 5;  // of its path, checked for obstacles
+
   enum class Mode { kStanding, kWalking, kBlocked };
   enum class Scan { kNone, kScanned, kPlans };
 
   static Path read_path(Params& params);
   void start(const LinkView& body);
+  void start_anew();
   void walk(const Path::Place& place, const View& view, bool renew, Outputs& outputs);
   void go(const View& view, bool renew, Outputs& outputs);
-  bool steps_back(const LinkView& body, const View& view, bool renew, Outputs& outputs);
+  bool plan(const View& view, const LinkView& body, bool with_seen);
+  double way_left(const Vec2& at) const;
+  void give_up(Outputs& outputs);
+  bool uses_door(const LinkView& body, const View& view, const Vec2& to, bool looks, bool renew,
+                 Outputs& outputs);
+  void take_other_way(const LinkView& body, const View& view, Outputs& outputs);
+  void learn(const View& view, const Vec3& feet);
+  void explore(const View& view, const LinkView& body);
+  void note_obstacle(const View& view, const LinkView& body);
+  void wait(const LinkView& body, const View& view);
+  void note_held(const Vec2& at);
+  bool gives_way(const LinkView& body, const View& view, bool renew, Outputs& outputs);
+  bool loses_patience(Nanoseconds now) const;
+  bool is_freed(const LinkView& body, const View& view);
   void go_round(const LinkView& body, const View& view, bool renew, Outputs& outputs);
   Scan scan_surroundings(const LinkView& body, const View& view);
   void find_rejoin(const Vec2& at);
@@ -44,8 +69,10 @@ class Person : public Device {
   Vec2 steer(const LinkView& body, const Vec2& to, double fastest);
   double slowed(const Vec2& at, const Vec2& direction, double speed);
   void head_for(const Vec2& velocity, double turn, Outputs& outputs);
-  void make_room(const LinkView& body, Nanoseconds now);
-  void note_progress(const Vec2& at, const Vec2& goal, bool on_path, Nanoseconds step);
+  static double turn_to(const Vec2& direction, const LinkView& body);
+  void make_room(const LinkView& body, const View& view);
+  double nearer_by(const Vec2& at, const Vec2& goal) const;
+  void note_progress(const Vec2& at, bool nearer, bool on_path, const View& view);
   void stand(Outputs& outputs);
   double sound() const;
   void show(Mode mode, const LinkView& body, bool renew, Outputs& outputs);
@@ -59,15 +86,37 @@ class Person : public Device {
   Nanoseconds clock_ = 0;        // time on the path; below 0 while the start is delayed
   Nanoseconds stalled_ = 0;      // since it last came on
   Vec2 came_to_ = Vec2::Zero();  // where that was
+  bool held_ = false;            // something holds it, until it has come on
+  Nanoseconds best_at_ = 0;      // when it last was nearer to its goal than ever
+  Nanoseconds resumed_at_ = 0;   // when it last went on after waiting
+  Nanoseconds held_clock_ = 0;   // clock_ then
+  double held_left_ = 0.0;       // m of the way to its goal then
+  int tries_ = 0;                // while it is held
+  int errors_ = 0;               // of these, when it saw a free way that was none
+  bool waits_at_door_ = false;   // until somebody opens it
+  bool waits_ = false;           // until it sees a free way
+  Nanoseconds waits_since_ = 0;  // that
   Nanoseconds away_until_ = 0;   // of stepping back
   Vec2 back_to_ = Vec2::Zero();  // where it does so
+  Nanoseconds retry_at_ = 0;     // if it sees a free way
+  Nanoseconds blind_at_ = 0;     // in any case
+  Nanoseconds checked_at_ = -1;  // that, in whole seconds
+  bool opens_doors_ = true;
+  DoorUse doors_;
   struct Order {
     Vec2 to;  // m, world
     bool pushes = false;
     bool arrived = false;
+    bool planned = false;
+    bool unreachable = false;  // it has given up
   };
   std::optional<Order> order_;  // in place of its path
-  double speed_ = 1.0;          // m/s, on an order
+  std::optional<Route> route_;  // to its goal; none: straight
+  std::vector<Vec2> seen_;      // of obstacles that have held it on the way there
+  std::optional<Vec2> target_;  // on that
+  Nanoseconds came_clock_ = 0;  // on its path: the most so far
+  double came_left_ = std::numeric_limits<double>::infinity();  // m of the way, the least so far
+  double speed_ = 1.0;                                          // m/s, on an order
   bool avoids_ = true;
   Surroundings surroundings_;
   Nanoseconds scanned_at_ = -1;        // that, as a multiple of kScanPeriod

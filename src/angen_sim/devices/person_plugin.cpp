@@ -13,7 +13,7 @@ const Kind& PersonPlugin::kind() const {
           .example("set person walker stop")
           .verb("Stop", "stops where the person is")
           .verb("Go", "walks on: to where it was sent, or along its path")
-          .pair_verb("GoTo", "x y", "m", {}, "walks there, round obstacles that it sees")
+          .pair_verb("GoTo", "x y", "m", {}, "walks there, through doors and round obstacles")
           .pair_verb("PushTo", "x y", "m", {}, "walks there straight, and pushes obstacles")
           .verb("Speak", "speaks until Quiet")
           .verb("Quiet", "speaks no more")
@@ -28,6 +28,7 @@ const Kind& PersonPlugin::kind() const {
           .number("yaw", "rad", "in the world")
           .number("speed", "m/s", "horizontal")
           .shown(2)
+          .flag("unreachable", "whether it has given up where it was sent: no way leads there")
           .flag("speaking", "whether the person speaks")
           .number("sound_power_level", "dB",
                   "of steps and speech, over 1 pW; minus infinity: silent")

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <queue>
 #include <utility>
@@ -16,6 +17,7 @@ using Vec2 = Surroundings::Vec2;
 
 constexpr int kDirections = 48;
 constexpr double kHeights[] = {0.15, 0.5, 1.2};  // m
+constexpr double kBeyond = 0.1;                  // m
 constexpr double kGraze = 1e-3;                  // m
 constexpr double kOwn = 0.255;                   // m, up to the person's own surface
 
@@ -148,6 +150,28 @@ void Surroundings::scan(const View& view, const Vec3& feet) {
   points_.insert(points_.begin(), seen.begin(), seen.end());
 }
 
+void Surroundings::remove_gone(const View& view, const Vec3& feet, std::vector<Vec2>& points) {
+  constexpr std::size_t kRays = std::size(kHeights);
+  std::vector<rays::Ray> rays;
+  for (const Vec2& point : points) {
+    const Vec2 way = point - feet.head<2>();
+    const Vec3 direction(way.x() / way.norm(), way.y() / way.norm(), 0.0);
+    for (const double height : kHeights) {
+      rays.push_back({feet + height * Vec3::UnitZ(), direction, kOwn, way.norm() + kBeyond});
+    }
+  }
+  std::vector<rays::Hit> hits;
+  view.cast(rays, hits);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto first = hits.begin() + static_cast<std::ptrdiff_t>(i * kRays);
+    const bool stays = (points[i] - feet.head<2>()).norm() > kSight ||
+                       std::any_of(first, first + kRays, [](const auto& hit) { return hit.hit(); });
+    if (stays) points[kept++] = points[i];
+  }
+  points.resize(kept);
+}
+
 double Surroundings::free_way(const Vec2& from, const Vec2& direction, double body) const {
   double least = kSight;
   double width = body;  // less beside an obstacle: along that it may walk on
@@ -171,6 +195,13 @@ bool Surroundings::is_occupied(const Vec2& place) const {
   return std::any_of(points_.begin(), points_.end(), [&](const Vec2& point) {
     return (point - place).squaredNorm() < kBody * kBody;
   });
+}
+
+bool Surroundings::reaches(const Vec2& from, const Vec2& to) const {
+  if (is_free(from, to)) return true;
+  Grid grid(from, points_, kBody);
+  grid.spread({0.0, 0.0});
+  return (grid.place(grid.best(to)) - to).norm() < 2.0 * kCell;
 }
 
 // At a distance from seen points, as it sees no more of an obstacle; close if there is no other

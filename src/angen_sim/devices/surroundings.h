@@ -25,10 +25,17 @@ class Surroundings {
   /// Whether it would meet nothing on the straight way.
   bool is_free(const Vec2& from, const Vec2& to, double body = kBody) const;
   bool is_occupied(const Vec2& place) const;
+  /// Whether it sees a free way, straight or round obstacles, all the way.
+  bool reaches(const Vec2& from, const Vec2& to) const;
+  /// Of the last two scans, m.
+  const std::vector<Vec2>& points() const { return points_; }
 
   /// The first place on a way round obstacles; none where no way is seen that leads nearer to `to`.
   /// Prefers to pass on the right.
   std::optional<Vec2> way_round(const Vec2& from, const Vec2& to) const;
+
+  /// Removes the points that a person at `feet` now sees past.
+  static void remove_gone(const View& view, const Vec3& feet, std::vector<Vec2>& points);
 
  private:
   std::optional<Vec2> way_round(const Vec2& from, const Vec2& to, double body) const;

@@ -22,6 +22,7 @@ class AnyWiring : public Wiring {
   bool is_fixed(JointRef) const override { return false; }
   std::string child_of(JointRef) const override { return "link"; }
   Vec3 anchor(JointRef) const override { return Vec3::Zero(); }
+  Vec3 axis(JointRef) const override { return Vec3::UnitZ(); }
   double mass(LinkRef) const override { return 1.0; }
   Vec3 center(LinkRef) const override { return Vec3::Zero(); }
   LightRef light(const std::string&) override { return {0}; }

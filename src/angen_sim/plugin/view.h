@@ -112,8 +112,15 @@ class View {
   virtual std::uint64_t scene_revision() const = 0;
   /// Grows while temperatures of warm_shapes() change.
   virtual std::uint64_t surface_revision() const = 0;
-  /// The shapes on the segment between two points (world, m), in the order in which it enters them.
-  virtual std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to) const = 0;
+  /// The shapes of these mobilities on the segment between two points (world, m), in the order in
+  /// which it enters them.
+  virtual std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to,
+                                                rays::Mobilities among) const = 0;
+  std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to) const {
+    return crossings(from, to, rays::kAll);
+  }
+  /// Box (m, world) around all static shapes except planes.
+  virtual Eigen::AlignedBox3d static_bounds() const = 0;
   /// The image of a camera at `pose` (world, x ahead, z up): height x width x 3 bytes, sRGB.
   virtual std::vector<std::uint8_t> colors(const render::PinholeCamera& lens,
                                            const Pose& pose) const = 0;
@@ -136,6 +143,7 @@ class Wiring {
   virtual bool is_fixed(JointRef joint) const = 0;               // its links are one body
   virtual std::string child_of(JointRef joint) const = 0;        // name of the link it moves
   virtual Vec3 anchor(JointRef joint) const = 0;                 // m, in the model's frame
+  virtual Vec3 axis(JointRef joint) const = 0;                   // unit, the first, in that frame
   virtual double mass(LinkRef link) const = 0;                   // kg
   virtual Vec3 center(LinkRef link) const = 0;                   // m, of its mass, in its own frame
   virtual LightRef light(const std::string& light) = 0;          // "" = the model's only one
@@ -168,6 +176,10 @@ class Outputs {
   /// Temperature (K) of a surface, as PIRs see it: from `now` it goes to `limit` exponentially,
   /// with a time constant in s (0 = it is there at once). Holds until it is set again.
   virtual void temperature(SurfaceRef surface, double now, double limit, double time_constant) = 0;
+  /// Commands another device of this world, as a hand on it does. It is executed at the end of this
+  /// tick's updates; a rejection is an event.
+  virtual void command(const std::string& kind, const std::string& name,
+                       const std::string& text) = 0;
   /// Published on /angen/events.
   virtual void event(const std::string& event, const std::string& detail) = 0;
 };

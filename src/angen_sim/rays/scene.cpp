@@ -295,14 +295,14 @@ void add_insides(const Scene& scene, std::uint32_t shape, const Vec3& origin, co
 
 }  // namespace
 
-std::vector<Crossing> Scene::crossings(const Vec3& from, const Vec3& to) const {
+std::vector<Crossing> Scene::crossings(const Vec3& from, const Vec3& to, Mobilities among) const {
   std::vector<Crossing> found;
   const double length = (to - from).norm();
   if (!(length > 0.0)) return found;
   Ray ray{from, (to - from) / length, 0.0, length};
   std::set<std::uint32_t> met;
   Hit hit;
-  for (cast(&ray, &hit, 1); hit.hit(); cast(&ray, &hit, 1)) {
+  for (cast(&ray, &hit, 1, among); hit.hit(); cast(&ray, &hit, 1, among)) {
     if (met.insert(hit.shape).second) {
       add_insides(*this, hit.shape, from, ray.direction, found);
     }

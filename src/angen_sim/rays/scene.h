@@ -109,7 +109,7 @@ class Scene {
                Mobilities among = kAll) const;
 
   /// All shapes on the segment (m, world), in the order in which it enters them. Requires commit().
-  std::vector<Crossing> crossings(const Vec3& from, const Vec3& to) const;
+  std::vector<Crossing> crossings(const Vec3& from, const Vec3& to, Mobilities among = kAll) const;
 
   /// The nearest hit on one shape; ignores all others.
   Hit cast_at(std::uint32_t shape_index, const Ray& ray) const;

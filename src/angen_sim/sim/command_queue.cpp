@@ -53,6 +53,8 @@ std::string prepare(const Building::Target& target, const Command& command, Buil
   return verdict.accepted ? thrown : verdict.reason;
 }
 
+}  // namespace
+
 Outcome to_device(const ToDevice& given, Building& building, InstanceView::Clock clock) {
   ToDevice action = with_kind(given);
   if (action.name.empty() && !action.kind.empty()) {  // the only one of a kind needs no name
@@ -88,6 +90,8 @@ Outcome to_device(const ToDevice& given, Building& building, InstanceView::Clock
   }
   return {true, ""};
 }
+
+namespace {
 
 struct TextBytes {
   std::size_t operator()(const ToDevice& action) const {

@@ -14,6 +14,9 @@
 
 namespace angen::sim {
 
+/// Executes a command, in no queue.
+Outcome to_device(const ToDevice& given, Building& building, InstanceView::Clock clock);
+
 /// The one queue of all actions from outside, and the world's running state. It cuts the texts from
 /// outside that it repeats in events and answers.
 class CommandQueue {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "plugin/declared.h"
+#include "sim/command_queue.h"
 #include "sim/guard.h"
 
 namespace angen::sim {
@@ -84,7 +85,7 @@ void DeviceSystem::update(Building& building, InstanceView::Clock clock,
     active_[kept++] = i;
     meter_.rest.devices += meter_.watch.lap();
     const InstanceView view(building, live, clock);
-    InstanceOutputs outputs(building.engines(), live, device, clock.time, events);
+    InstanceOutputs outputs(building.engines(), live, device, clock.time, events, commands_);
     const std::string thrown = thrown_by([&] {
       device.catch_up(clock.time, clock.step);
       device.device->update(view, outputs);
@@ -101,8 +102,22 @@ void DeviceSystem::update(Building& building, InstanceView::Clock clock,
     device.cost += meter_.watch.lap();
   }
   active_.resize(kept);
+  execute_commands(building, clock, events);
   if (reports_added) std::sort(to_report_.begin(), to_report_.end());
   meter_.rest.devices += meter_.watch.lap();
+}
+
+void DeviceSystem::execute_commands(Building& building, InstanceView::Clock clock,
+                                    std::vector<Event>& events) {
+  if (commands_.empty()) return;
+  for (const FromDevice& each : commands_) {
+    const Outcome outcome =
+        to_device({each.kind, each.name, Command{each.text, {}, "", 0.0}}, building, clock);
+    if (!outcome.ok)
+      events.push_back({clock.time, each.name, each.kind, "rejected", outcome.message});
+  }
+  commands_.clear();
+  activate_all();
 }
 
 std::int64_t DeviceSystem::next_tick(Building& building, InstanceView::Clock clock) {

@@ -55,6 +55,7 @@ class DeviceSystem {
   /// Those whose timer has run out; active ones are in the order of entries_.
   void activate_due(Nanoseconds now);
   void make_idle(std::uint32_t index);
+  void execute_commands(Building& building, InstanceView::Clock clock, std::vector<Event>& events);
   /// The device has thrown `error`.
   static void fail(DeviceInstance& device, const std::string& error, Nanoseconds now,
                    std::vector<Event>& events);
@@ -67,6 +68,7 @@ class DeviceSystem {
   std::priority_queue<Timer, std::vector<Timer>, std::greater<>> timers_;  // of the others
   std::vector<std::uint32_t> to_report_;                                   // of entries_, ascending
   std::vector<std::uint32_t> had_event_;  // those of them that had an event in this tick
+  std::vector<FromDevice> commands_;      // of devices to others, in this tick
   bool lights_changed_ = false;
 };
 

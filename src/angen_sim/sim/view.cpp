@@ -117,10 +117,16 @@ std::uint64_t InstanceView::surface_revision() const {
   return engines_.rays.warm_revision();
 }
 
-std::vector<rays::Crossing> InstanceView::crossings(const Vec3& from, const Vec3& to) const {
+std::vector<rays::Crossing> InstanceView::crossings(const Vec3& from, const Vec3& to,
+                                                    rays::Mobilities among) const {
   queried_.other = true;
   engines_.rays.commit();
-  return engines_.rays.crossings(from, to);
+  return engines_.rays.crossings(from, to, among);
+}
+
+Eigen::AlignedBox3d InstanceView::static_bounds() const {
+  queried_.other = true;
+  return engines_.rays.static_bounds();
 }
 
 std::vector<std::uint8_t> InstanceView::colors(const render::PinholeCamera& lens,

@@ -47,7 +47,10 @@ class InstanceView : public View {
   const std::vector<rays::WarmShape>& warm_shapes() const override;
   std::uint64_t scene_revision() const override;
   std::uint64_t surface_revision() const override;
-  std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to) const override;
+  using View::crossings;
+  std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to,
+                                        rays::Mobilities among) const override;
+  Eigen::AlignedBox3d static_bounds() const override;
   std::vector<std::uint8_t> colors(const render::PinholeCamera& lens,
                                    const Pose& pose) const override;
   std::vector<float> depths(const render::PinholeCamera& lens, const Pose& pose) const override;
@@ -63,12 +66,24 @@ class InstanceView : public View {
   mutable Queried queried_;
 };
 
+/// A command of one device to another.
+struct FromDevice {
+  std::string kind;
+  std::string name;
+  std::string text;
+};
+
 /// The effects of one device on the world.
 class InstanceOutputs : public Outputs {
  public:
   InstanceOutputs(Engines& engines, LiveModel& live, const DeviceInstance& device, Nanoseconds time,
-                  std::vector<Event>& events)
-      : engines_(engines), live_(live), device_(device), time_(time), events_(events) {}
+                  std::vector<Event>& events, std::vector<FromDevice>& commands)
+      : engines_(engines),
+        live_(live),
+        device_(device),
+        time_(time),
+        events_(events),
+        commands_(commands) {}
 
   void force(JointRef joint, double force) override;
   void motor(JointRef joint, double velocity, double max_force) override;
@@ -78,6 +93,9 @@ class InstanceOutputs : public Outputs {
   void push(LinkRef link, const Vec3& force, const Vec3& torque, const Vec3& point) override;
   void light(LightRef light, double level, double luminous_flux) override;
   void temperature(SurfaceRef surface, double now, double limit, double time_constant) override;
+  void command(const std::string& kind, const std::string& name, const std::string& text) override {
+    commands_.push_back({kind, name, text});
+  }
   void event(const std::string& event, const std::string& detail) override;
 
   bool lights_changed() const { return lights_changed_; }
@@ -89,6 +107,7 @@ class InstanceOutputs : public Outputs {
   const DeviceInstance& device_;
   Nanoseconds time_;
   std::vector<Event>& events_;
+  std::vector<FromDevice>& commands_;
   bool lights_changed_ = false;
   bool had_event_ = false;
 };

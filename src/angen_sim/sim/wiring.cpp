@@ -104,6 +104,10 @@ Vec3 ModelWiring::anchor(JointRef joint) const {
   return model_.joints.at(static_cast<std::size_t>(joint.index)).anchor;
 }
 
+Vec3 ModelWiring::axis(JointRef joint) const {
+  return model_.joints.at(static_cast<std::size_t>(joint.index)).axes.at(0).xyz;
+}
+
 double ModelWiring::mass(LinkRef link) const {
   const std::string& name = model_.links.at(static_cast<std::size_t>(link.index)).name;
   double mass = 0.0;

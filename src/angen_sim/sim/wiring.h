@@ -24,6 +24,7 @@ class ModelWiring : public Wiring {
   bool is_fixed(JointRef joint) const override;
   std::string child_of(JointRef joint) const override;
   Vec3 anchor(JointRef joint) const override;
+  Vec3 axis(JointRef joint) const override;
   double mass(LinkRef link) const override;
   Vec3 center(LinkRef link) const override;
   LightRef light(const std::string& light) override;

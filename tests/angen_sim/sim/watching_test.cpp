@@ -50,9 +50,11 @@ class Forgetful : public View {
   const std::vector<rays::WarmShape>& warm_shapes() const override { return view_.warm_shapes(); }
   std::uint64_t scene_revision() const override { return view_.scene_revision(); }
   std::uint64_t surface_revision() const override { return view_.surface_revision(); }
-  std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to) const override {
-    return view_.crossings(from, to);
+  std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to,
+                                        rays::Mobilities among) const override {
+    return view_.crossings(from, to, among);
   }
+  Eigen::AlignedBox3d static_bounds() const override { return view_.static_bounds(); }
   std::vector<std::uint8_t> colors(const render::PinholeCamera& lens,
                                    const Pose& pose) const override {
     return view_.colors(lens, pose);

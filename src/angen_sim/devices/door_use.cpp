@@ -1,0 +1,208 @@
+#include "devices/door_use.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace angen::devices {
+
+namespace {
+
+constexpr double kNeeded = 0.62;                  // m, free width for a person
+constexpr double kStoreyWithin = 1.0;             // m, from a person's feet to the foot of a door
+constexpr double kReach = 1.1;                    // m from a person's middle to a handle
+constexpr double kAtSpot = 0.07;                  // m
+constexpr double kBeforeHandle = 0.5;             // m, to push
+constexpr double kOutOfSwing = 0.37;              // m beyond the leaf's edge
+constexpr double kBehind = 0.4;                   // m past a door, to close it
+constexpr double kForgets = 4.0;                  // m
+constexpr double kSeesDoor = 2.0;                 // m, before the leaf
+constexpr Nanoseconds kNearEnough = 3 * kSecond;  // then it opens from where it can reach
+constexpr Nanoseconds kLongest = 8 * kSecond;     // of each phase
+constexpr Nanoseconds kRefresh = kSecond / 50;    // of a door's state
+constexpr Nanoseconds kStarts = kSecond / 5;      // until the door's state shows the hand
+constexpr Nanoseconds kRests = 30 * kSecond;      // after a door that did not open, then twice that
+constexpr int kRestDoublings = 7;
+
+double cross_of(const Surroundings::Vec2& a, const Surroundings::Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Where two segments meet, as a share of the first; none where they do not.
+std::optional<double> meeting(const Surroundings::Vec2& a, const Surroundings::Vec2& b,
+                              const Surroundings::Vec2& c, const Surroundings::Vec2& d) {
+  const double turned = cross_of(b - a, d - c);
+  if (std::abs(turned) < 1e-9) return std::nullopt;
+  const double first = cross_of(c - a, d - c) / turned;
+  const double second = cross_of(c - a, b - a) / turned;
+  if (first < 0.0 || first > 1.0 || second < 0.0 || second > 1.0) return std::nullopt;
+  return first;
+}
+
+}  // namespace
+
+bool DoorSeen::is_passable() const { return gap >= std::min(kNeeded, 0.9 * width); }
+
+std::vector<DoorSeen> doors_seen(const View& view, double z) {
+  std::vector<DoorSeen> doors;
+  for (const DeviceView& device : view.devices("opens")) {
+    if (device.kind != "door") continue;
+    const auto& hinge = device.state.get<std::vector<double>>("hinge");
+    if (std::abs(hinge.at(2) - z) > kStoreyWithin) continue;
+    DoorSeen door;
+    door.name = std::string(device.name);
+    door.mode = device.state.get<std::string>("mode");
+    door.hinge << hinge[0], hinge[1];
+    const double shut = device.state.get<double>("shut");
+    const double turned = std::copysign(M_PI / 2, device.state.get<double>("opens"));
+    door.along << std::cos(shut), std::sin(shut);
+    door.into << std::cos(shut + turned), std::sin(shut + turned);
+    door.width = device.state.get<double>("width");
+    door.gap = device.state.get<double>("gap");
+    doors.push_back(std::move(door));
+  }
+  return doors;
+}
+
+std::optional<DoorSeen> door_on_way(const std::vector<DoorSeen>& doors,
+                                    const Surroundings::Vec2& at, const Surroundings::Vec2& to) {
+  std::optional<DoorSeen> found;
+  double nearest = 2.0;
+  for (const DoorSeen& door : doors) {
+    if (door.is_passable()) continue;
+    const std::optional<double> share = meeting(at, to, door.hinge, door.edge());
+    if (!share || *share >= nearest) continue;
+    nearest = *share;
+    found = door;
+  }
+  return found;
+}
+
+void DoorUse::enter(Phase phase, Nanoseconds now) {
+  phase_ = phase;
+  since_ = now;
+}
+
+void DoorUse::look(const View& view, const Vec3& feet, const Vec2& to) {
+  const Vec2 at = feet.head<2>();
+  const std::optional<DoorSeen> next = door_on_way(doors_seen(view, feet.z()), at, to);
+  const bool near = next && std::abs(next->into.dot(at - next->hinge)) < kSeesDoor;
+  if (!near) return;
+  if (phase_ == Phase::kPassing && next->name == door_.name) return;
+  door_ = *next;
+  side_ = door_.into.dot(at - door_.hinge) > 0.0 ? 1.0 : -1.0;
+  enter(Phase::kApproach, view.time());
+}
+
+bool DoorUse::refresh(const View& view, double z) {
+  for (DoorSeen& door : doors_seen(view, z)) {
+    if (door.name != door_.name) continue;
+    door_ = std::move(door);
+    return true;
+  }
+  return false;
+}
+
+// To pull: at arm's length from the handle, out of the leaf's way. To push: close.
+DoorUse::Vec2 DoorUse::spot() const {
+  if (side_ < 0.0) return handle() - kBeforeHandle * door_.into;
+  return door_.hinge + (door_.width + kOutOfSwing) * (door_.along + door_.into).normalized();
+}
+
+DoorUse::Advice DoorUse::update(const View& view, const Vec3& feet, const Vec2& to, bool looks,
+                                Outputs& outputs) {
+  if (looks && (phase_ == Phase::kNone || phase_ == Phase::kPassing)) look(view, feet, to);
+  if (phase_ == Phase::kNone) return {};
+  if (view.time() - refreshed_ >= kRefresh) {
+    refreshed_ = view.time();
+    if (!refresh(view, feet.z())) reset();
+  }
+  const Vec2 at = feet.head<2>();
+  switch (phase_) {
+    case Phase::kApproach:
+      return approach(at, view.time(), outputs);
+    case Phase::kOpening:
+      return wait_until_open(view.time());
+    case Phase::kWaiting:
+      if (door_.is_passable()) {
+        enter(Phase::kPassing, view.time());
+        return {};
+      }
+      if (opens_ && view.time() >= tries_at_) enter(Phase::kApproach, view.time());
+      return {Advice::Step::kWait, handle()};
+    case Phase::kPassing:
+      return pass(at, view.time(), outputs);
+    case Phase::kClosing: {
+      const bool starts = view.time() - since_ < kStarts;
+      const bool late = view.time() - since_ > kLongest;
+      if (late || (!starts && door_.mode != "CLOSING")) reset();
+      return {Advice::Step::kStand, door_.hinge + 0.5 * door_.width * door_.along};
+    }
+    default:
+      return {};
+  }
+}
+
+DoorUse::Advice DoorUse::approach(const Vec2& at, Nanoseconds now, Outputs& outputs) {
+  if (door_.is_passable()) {
+    enter(Phase::kPassing, now);
+    return {};
+  }
+  if (door_.mode == "OPENING") {  // somebody else opens it
+    enter(Phase::kOpening, now);
+    return {Advice::Step::kStand, handle()};
+  }
+  const Nanoseconds time = now - since_;
+  const bool reaches = time > kNearEnough && (at - handle()).norm() < kReach;
+  if ((at - spot()).norm() < kAtSpot || reaches) {
+    if (!opens_) {
+      enter(Phase::kWaiting, now);
+      return {Advice::Step::kWait, handle()};
+    }
+    outputs.event("opens", door_.name);
+    outputs.command("door", door_.name, "OpenByHand");
+    enter(Phase::kOpening, now);
+    return {Advice::Step::kStand, handle()};
+  }
+  if (time > kLongest) return fail(now);
+  return {Advice::Step::kGo, spot()};
+}
+
+DoorUse::Advice DoorUse::wait_until_open(Nanoseconds now) {
+  const Nanoseconds time = now - since_;
+  const bool moves = door_.mode == "OPENING";
+  if (door_.is_passable() && (!moves || time > kLongest)) {
+    failures_ = 0;
+    enter(Phase::kPassing, now);
+    return {};
+  }
+  if (time > kLongest || (time > kStarts && !moves)) return fail(now);
+  return {Advice::Step::kStand, handle()};
+}
+
+DoorUse::Advice DoorUse::fail(Nanoseconds now) {
+  tries_at_ = now + (kRests << std::min(failures_++, kRestDoublings));
+  enter(Phase::kWaiting, now);
+  return {Advice::Step::kFailed, handle()};
+}
+
+DoorUse::Advice DoorUse::pass(const Vec2& at, Nanoseconds now, Outputs& outputs) {
+  const Vec2 from_hinge = at - door_.hinge;
+  if (from_hinge.norm() > door_.width + kForgets) {
+    reset();
+    return {};
+  }
+  const double past = -side_ * door_.into.dot(from_hinge);
+  const bool swings_here = side_ < 0.0;
+  const double clear = swings_here ? from_hinge.norm() - door_.width - kOutOfSwing : 0.0;
+  if (past < kBehind || clear < 0.0) return {};
+  if (!closes_) {
+    reset();
+    return {};
+  }
+  outputs.event("closes", door_.name);
+  outputs.command("door", door_.name, "CloseByHand");
+  enter(Phase::kClosing, now);
+  return {Advice::Step::kStand, handle()};
+}
+
+}  // namespace angen::devices

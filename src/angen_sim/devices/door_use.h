@@ -1,0 +1,81 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "devices/surroundings.h"
+#include "plugin/view.h"
+
+namespace angen::devices {
+
+/// A door between two rooms, as a person sees it.
+struct DoorSeen {
+  using Vec2 = Surroundings::Vec2;
+
+  std::string name;
+  std::string mode;
+  Vec2 hinge = Vec2::Zero();   // m
+  Vec2 along = Vec2::UnitX();  // unit, from the hinge along the shut leaf
+  Vec2 into = Vec2::UnitY();   // unit, towards the side that the leaf opens to
+  double width = 0.0;          // m
+  double gap = 0.0;            // m, free width
+
+  Vec2 edge() const { return hinge + width * along; }
+  /// Whether a person fits through.
+  bool is_passable() const;
+};
+
+/// The doors of a storey whose floor is at `z`.
+std::vector<DoorSeen> doors_seen(const View& view, double z);
+/// The shut door nearest to `at` that is on the straight way.
+std::optional<DoorSeen> door_on_way(const std::vector<DoorSeen>& doors,
+                                    const Surroundings::Vec2& at, const Surroundings::Vec2& to);
+
+/// How a person passes shut doors: it goes to the handle, opens the door by hand, from out of the
+/// leaf's way, walks through, and may close it.
+class DoorUse {
+ public:
+  using Vec2 = Surroundings::Vec2;
+
+  struct Advice {
+    // kWait: until somebody opens the door; kFailed: in this step it found that it cannot open it.
+    enum class Step { kWalk, kGo, kStand, kWait, kFailed } step = Step::kWalk;
+    Vec2 to = Vec2::Zero();  // of kGo; otherwise what it looks at
+  };
+
+  DoorUse() = default;
+  DoorUse(bool opens, bool closes) : opens_(opens), closes_(closes) {}
+
+  /// The next step of a person at `feet` (world, m) whose way leads to `to`. Looks for doors where
+  /// `looks`. Commands doors.
+  Advice update(const View& view, const Vec3& feet, const Vec2& to, bool looks, Outputs& outputs);
+  void reset() { phase_ = Phase::kNone; }
+  /// The door that it is at.
+  const DoorSeen& door() const { return door_; }
+
+ private:
+  enum class Phase { kNone, kApproach, kOpening, kWaiting, kPassing, kClosing };
+
+  void look(const View& view, const Vec3& feet, const Vec2& to);
+  Advice approach(const Vec2& at, Nanoseconds now, Outputs& outputs);
+  Advice wait_until_open(Nanoseconds now);
+  Advice fail(Nanoseconds now);
+  Advice pass(const Vec2& at, Nanoseconds now, Outputs& outputs);
+  Vec2 handle() const { return door_.hinge + (door_.width - 0.07) * door_.along; }
+  Vec2 spot() const;
+  bool refresh(const View& view, double z);
+  void enter(Phase phase, Nanoseconds now);
+
+  bool opens_ = true;
+  bool closes_ = false;
+  Phase phase_ = Phase::kNone;
+  DoorSeen door_;
+  Nanoseconds refreshed_ = 0;
+  double side_ = 1.0;         // where it came from: 1 = the side that the leaf opens to
+  Nanoseconds since_ = 0;     // of this phase
+  int failures_ = 0;          // one after the other
+  Nanoseconds tries_at_ = 0;  // again, after those
+};
+
+}  // namespace angen::devices

@@ -1,0 +1,246 @@
+#include "devices/floor_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+
+namespace angen::devices {
+
+namespace {
+
+constexpr double kScanHeights[] = {0.15, 0.5, 1.2};  // m, as a person sees
+constexpr double kDetour = 20.0;                     // m around both places
+constexpr double kBorder = 1.0;                      // m around the static shapes
+constexpr double kMostCells = 4e6;
+constexpr double kRoomyMap = 0.5;   // m: nearer to something costs more …
+constexpr double kTightMap = 3.0;   // … per meter nearer than that
+constexpr double kInside = 0.3;     // m from the surface: deeper places need no distances
+constexpr double kStep = 0.2;       // m up or down that a floor may be
+constexpr double kStartAway = 1.0;  // m, at most, from a place without room to a free one
+
+double cross2(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+}  // namespace
+
+FloorMap::FloorMap(const View& view, const Vec3& feet, const Vec2& to) {
+  const Vec2 from = feet.head<2>();
+  floor_ = feet.z();
+  Eigen::AlignedBox2d ends(from);
+  ends.extend(to);
+  Eigen::AlignedBox2d box(ends.min() - Vec2::Constant(kDetour),
+                          ends.max() + Vec2::Constant(kDetour));
+  const Eigen::AlignedBox3d all = view.static_bounds();
+  Eigen::AlignedBox2d standing;
+  if (!all.isEmpty()) {
+    standing = {Vec2(all.min().head<2>()) - Vec2::Constant(kBorder),
+                Vec2(all.max().head<2>()) + Vec2::Constant(kBorder)};
+  }
+  box = box.intersection(standing);
+  ends = {ends.min() - Vec2::Constant(kBorder), ends.max() + Vec2::Constant(kBorder)};
+  box = box.isEmpty() ? ends : box.merged(ends);
+  if (box.volume() > kMostCells * kCell * kCell) return;
+  corner_ = box.min();
+  columns_ = static_cast<int>(std::ceil(box.sizes().x() / kCell)) + 1;
+  rows_ = static_cast<int>(std::ceil(box.sizes().y() / kCell)) + 1;
+  gaps_.assign(static_cast<std::size_t>(columns_) * rows_, kRoomyMap);
+  toll_.assign(gaps_.size(), 0.0F);
+  known_.assign(gaps_.size(), 0);
+  for (const double height : kScanHeights) {
+    for (const int axis : {0, 1}) scan_lines(view, feet.z() + height, axis);
+  }
+}
+
+// Lines along both axes, so that none of two is along a thin wall.
+void FloorMap::scan_lines(const View& view, double z, int axis) {
+  const int lines = axis == 0 ? rows_ : columns_;
+  const double length = kCell * ((axis == 0 ? columns_ : rows_) - 1);
+  for (int line = 0; line < lines; ++line) {
+    Vec3 from(corner_.x(), corner_.y(), z);
+    from[1 - axis] += line * kCell;
+    Vec3 to = from;
+    to[axis] += length;
+    for (const rays::Crossing& c : view.crossings(from, to, rays::only(rays::Mobility::kStatic))) {
+      const Vec3 ahead = Vec3::Unit(axis);
+      add_span((from + c.enter * ahead).head<2>(), (from + c.leave * ahead).head<2>());
+    }
+  }
+}
+
+void FloorMap::add_span(const Vec2& enter, const Vec2& leave) {
+  const double length = (leave - enter).norm();
+  const Vec2 ahead = length > 0.0 ? Vec2((leave - enter) / length) : Vec2::Zero();
+  for (double at = 0.0; at < length; at += kCell) {
+    if (std::min(at, length - at) < kInside) {
+      add_point(enter + at * ahead);
+    } else if (const std::optional<int> cell = cell_at(enter + at * ahead)) {
+      gaps_[*cell] = 0.0F;
+    }
+  }
+  add_point(leave);
+}
+
+void FloorMap::add_points(const std::vector<Vec2>& points) {
+  for (const Vec2& point : points) add_point(point);
+}
+
+void FloorMap::add_point(const Vec2& point) {
+  const int reach = static_cast<int>(kRoomyMap / kCell) + 1;
+  const int middle_x = column(point.x());
+  const int middle_y = row(point.y());
+  for (int y = std::max(0, middle_y - reach); y <= std::min(rows_ - 1, middle_y + reach); ++y) {
+    for (int x = std::max(0, middle_x - reach); x <= std::min(columns_ - 1, middle_x + reach);
+         ++x) {
+      const int cell = y * columns_ + x;
+      const auto distance = static_cast<float>((place(cell) - point).norm());
+      gaps_[cell] = std::min(gaps_[cell], distance);
+    }
+  }
+}
+
+void FloorMap::add_toll(const Vec2& from, const Vec2& to, double toll) {
+  const double length = (to - from).norm();
+  const Vec2 along = (to - from) / length;
+  const int reach = static_cast<int>(length / kCell) + 2;
+  const int middle_x = column(0.5 * (from.x() + to.x()));
+  const int middle_y = row(0.5 * (from.y() + to.y()));
+  for (int y = std::max(0, middle_y - reach); y <= std::min(rows_ - 1, middle_y + reach); ++y) {
+    for (int x = std::max(0, middle_x - reach); x <= std::min(columns_ - 1, middle_x + reach);
+         ++x) {
+      const Vec2 offset = place(y * columns_ + x) - from;
+      const double at = along.dot(offset);
+      if (at < 0.0 || at > length || std::abs(cross2(along, offset)) > kCell) continue;
+      toll_[y * columns_ + x] = static_cast<float>(0.5 * toll);  // two cells are on the way across
+    }
+  }
+}
+
+int FloorMap::column(double x) const {
+  return static_cast<int>(std::lround((x - corner_.x()) / kCell));
+}
+
+int FloorMap::row(double y) const {
+  return static_cast<int>(std::lround((y - corner_.y()) / kCell));
+}
+
+std::optional<int> FloorMap::cell_at(const Vec2& place) const {
+  const int x = column(place.x());
+  const int y = row(place.y());
+  if (x < 0 || y < 0 || x >= columns_ || y >= rows_) return std::nullopt;
+  return y * columns_ + x;
+}
+
+FloorMap::Vec2 FloorMap::place(int cell) const {
+  return corner_ + kCell * Vec2(cell % columns_, cell / columns_);
+}
+
+bool FloorMap::is_free(const Vec2& place) const {
+  const std::optional<int> cell = cell_at(place);
+  return !cell || gaps_[*cell] >= kClearance;
+}
+
+bool FloorMap::is_clear(const Vec2& from, const Vec2& to) const {
+  const double length = (to - from).norm();
+  const int steps = static_cast<int>(length / (0.5 * kCell)) + 1;
+  for (int i = 0; i <= steps; ++i) {
+    if (!is_free(from + (to - from) * (static_cast<double>(i) / steps))) return false;
+  }
+  return true;
+}
+
+std::optional<int> FloorMap::free_cell(const Vec2& near, double reach) const {
+  const int cells = static_cast<int>(reach / kCell) + 1;
+  std::optional<int> best;
+  double least = reach;
+  for (int y = row(near.y()) - cells; y <= row(near.y()) + cells; ++y) {
+    for (int x = column(near.x()) - cells; x <= column(near.x()) + cells; ++x) {
+      if (x < 0 || y < 0 || x >= columns_ || y >= rows_) continue;
+      const int cell = y * columns_ + x;
+      const double away = (place(cell) - near).norm();
+      if (gaps_[cell] < kClearance || away >= least) continue;
+      least = away;
+      best = cell;
+    }
+  }
+  return best;
+}
+
+// Of the cost of a meter's way.
+double FloorMap::rate(int cell) const {
+  return 1.0 + kTightMap * std::max(0.0, kRoomyMap - static_cast<double>(gaps_[cell]));
+}
+
+// Where there is no floor, no way leads.
+bool FloorMap::can_stand(const View& view, int cell) {
+  if (gaps_[cell] < kClearance) return false;
+  if (std::exchange(known_[cell], 1) != 0) return true;
+  const Vec2 at = place(cell);
+  static thread_local std::vector<rays::Hit> hits;
+  view.cast({{Vec3(at.x(), at.y(), floor_ + kStep), -Vec3::UnitZ(), 0.0, 2.0 * kStep}}, hits);
+  if (!hits[0].hit()) gaps_[cell] = 0.0F;
+  return hits[0].hit();
+}
+
+/// A* over the free cells.
+struct FloorMap::Search {
+  struct Entry {
+    double estimate;
+    double cost;
+    int cell;
+    bool operator>(const Entry& o) const {
+      return estimate != o.estimate ? estimate > o.estimate : cell > o.cell;
+    }
+  };
+  std::vector<double> cost;
+  std::vector<int> from;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+
+  explicit Search(std::size_t cells)
+      : cost(cells, std::numeric_limits<double>::infinity()), from(cells, -1) {}
+
+  void reach(int cell, double at, int by, double rest) {
+    if (at >= cost[cell]) return;
+    cost[cell] = at;
+    from[cell] = by;
+    open.push({at + rest, at, cell});
+  }
+};
+
+std::optional<std::vector<FloorMap::Vec2>> FloorMap::way(const View& view, const Vec2& from,
+                                                         const Vec2& to, double tolerance) {
+  if (gaps_.empty()) return std::vector<Vec2>{to};  // too far for a map: it tries
+  const std::optional<int> start = free_cell(from, kStartAway);
+  const std::optional<int> goal = free_cell(to, tolerance);
+  if (!start || !goal) return std::nullopt;
+  Search search(gaps_.size());
+  const auto rest = [&](int cell) { return (place(cell) - place(*goal)).norm(); };
+  search.reach(*start, 0.0, -1, rest(*start));
+  while (!search.open.empty()) {
+    const Search::Entry now = search.open.top();
+    search.open.pop();
+    if (now.cell == *goal) break;
+    if (now.cost > search.cost[now.cell]) continue;
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        const int x = now.cell % columns_ + dx;
+        const int y = now.cell / columns_ + dy;
+        if (x < 0 || y < 0 || x >= columns_ || y >= rows_) continue;
+        const int next = y * columns_ + x;
+        if (!can_stand(view, next)) continue;
+        const double more = kCell * std::hypot(dx, dy) * rate(next) + toll_[next];
+        search.reach(next, now.cost + more, now.cell, rest(next));
+      }
+    }
+  }
+  if (!std::isfinite(search.cost[*goal])) return std::nullopt;
+  std::vector<Vec2> way{to};
+  for (int cell = *goal; cell >= 0; cell = search.from[cell]) way.push_back(place(cell));
+  std::reverse(way.begin(), way.end());
+  return way;
+}
+
+}  // namespace angen::devices

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <vector>
+
+#include "plugin/view.h"
+
+namespace angen::devices {
+
+/// Where a person can stand between the static shapes of a storey, in cells of 5 cm. Everything
+/// that can move, such as doors and chairs, is left out of it unless it is added.
+class FloorMap {
+ public:
+  using Vec2 = Eigen::Vector2d;
+
+  static constexpr double kCell = 0.05;       // m
+  static constexpr double kClearance = 0.25;  // m, half a person's width
+
+  /// Around both places, for a person whose feet are at `feet` (world, m).
+  FloorMap(const View& view, const Vec3& feet, const Vec2& to);
+
+  /// Obstacles that were seen, m.
+  void add_points(const std::vector<Vec2>& points);
+  /// A way across this segment counts as that much longer (m).
+  void add_toll(const Vec2& from, const Vec2& to, double toll);
+
+  /// Whether a person fits there.
+  bool is_free(const Vec2& place) const;
+  /// Whether a person who walks straight stays free.
+  bool is_clear(const Vec2& from, const Vec2& to) const;
+  /// The best way on floor, as places at most two cells apart, to within `tolerance` (m) of `to`;
+  /// none where no way leads there. Ways along the middle of a passage are better than ways along a
+  /// wall.
+  std::optional<std::vector<Vec2>> way(const View& view, const Vec2& from, const Vec2& to,
+                                       double tolerance);
+
+ private:
+  struct Search;
+
+  void scan_lines(const View& view, double z, int axis);
+  void add_span(const Vec2& enter, const Vec2& leave);
+  void add_point(const Vec2& point);
+  int column(double x) const;
+  int row(double y) const;
+  std::optional<int> cell_at(const Vec2& place) const;
+  Vec2 place(int cell) const;
+  /// The free cell next to a place, at most `reach` (m) away.
+  std::optional<int> free_cell(const Vec2& near, double reach) const;
+  double rate(int cell) const;
+  bool can_stand(const View& view, int cell);
+
+  Vec2 corner_ = Vec2::Zero();  // m, of the first cell
+  double floor_ = 0.0;          // m
+  int columns_ = 0;
+  int rows_ = 0;
+  std::vector<float> gaps_;  // m from each cell to the next obstacle, at most kRoomy
+  std::vector<float> toll_;  // m, added to a way through the cell
+  std::vector<char> known_;  // whether its floor was looked at
+};
+
+}  // namespace angen::devices

@@ -1,0 +1,36 @@
+#include "devices/route.h"
+
+#include <algorithm>
+
+namespace angen::devices {
+
+namespace {
+
+constexpr std::size_t kSearch = 60;  // places ahead: 3 to 4 m
+constexpr std::size_t kLook = 45;    // places that it may make for
+
+}  // namespace
+
+Route::Route(FloorMap map, std::vector<Vec2> way)
+    : map_(std::move(map)), way_(std::move(way)), left_(way_.size(), 0.0) {
+  for (std::size_t i = way_.size() - 1; i-- > 0;) {
+    left_[i] = left_[i + 1] + (way_[i + 1] - way_[i]).norm();
+  }
+}
+
+Route::Vec2 Route::follow(const Vec2& at) {
+  const std::size_t end = std::min(way_.size(), next_ + kSearch);
+  std::size_t nearest = next_;
+  for (std::size_t i = next_; i < end; ++i) {
+    if ((way_[i] - at).norm() < (way_[nearest] - at).norm()) nearest = i;
+  }
+  next_ = nearest;
+  for (std::size_t i = std::min(way_.size() - 1, next_ + kLook); i > next_; --i) {
+    if (map_.is_clear(at, way_[i])) return way_[i];
+  }
+  return way_[std::min(way_.size() - 1, next_ + 2)];
+}
+
+double Route::left(const Vec2& at) const { return left_[next_] + (way_[next_] - at).norm(); }
+
+}  // namespace angen::devices

@@ -1,0 +1,157 @@
+"""Ways of a person who is sent: through rooms and doors, or told that no way leads there."""
+from __future__ import annotations
+
+from math import hypot
+from typing import Callable, Iterator
+
+import numpy as np
+import pytest
+
+import angen
+from sdf_text import box
+
+DOORS = '<plugin name="door_controller" filename="libdoor_world_plugin.so"/>'
+# A wall along x with an opening from 0 to 0.99 m.
+WALL = (box('wall_west', '-5.05 0.06 1.2 0 0 0', '9.9 0.12 2.4', True)
+        + box('wall_east', '5.55 0.06 1.2 0 0 0', '8.9 0.12 2.4', True))
+DOOR = '<include><name>kitchen_door0</name><uri>model://kitchen_door</uri></include>'
+
+World = Callable[..., angen.World]
+
+
+def person(pose: str, params: str = '') -> str:
+    return f'''<actor name="ann"><pose>{pose}</pose>
+    <plugin name="person" filename="libperson_controller.so">{params}</plugin></actor>'''
+
+
+def state(w: angen.World) -> dict:
+    return w.device('person', 'ann')
+
+
+def place(w: angen.World) -> np.ndarray:
+    return np.array([state(w)['x'], state(w)['y']])
+
+
+def watch(w: angen.World, seconds: float, period: float = 0.1) -> Iterator[dict]:
+    """The person's state, once a period."""
+    for _ in range(round(seconds / period)):
+        w.run(period)
+        yield state(w)
+
+
+def told(w: angen.World) -> dict[str, list[str]]:
+    """Details of the person's events since the last call, by event."""
+    events: dict[str, list[str]] = {}
+    for _, source, _, event, detail in w.events():
+        if source == 'ann':
+            events.setdefault(event, []).append(detail)
+    return events
+
+
+@pytest.mark.parametrize('goal, told_within', [
+    ('3 0', 0.2),      # in a pillar
+    ('-4 4', 0.2),     # in a closet without a door
+    ('8 -8', 60.0),    # in a wardrobe, which could be moved
+])
+def test_a_person_stands_and_tells_that_no_way_leads_there(world, goal, told_within):
+    closet = (box('c1', '-4 3 1.2 0 0 0', '2.1 0.1 2.4', True)
+              + box('c2', '-4 5 1.2 0 0 0', '2.1 0.1 2.4', True)
+              + box('c3', '-5 4 1.2 0 0 0', '0.1 2.1 2.4', True)
+              + box('c4', '-3 4 1.2 0 0 0', '0.1 2.1 2.4', True))
+    wardrobe = box('wardrobe', '8 -8 1.001 0 0 0', '1.6 1.6 2', mass=120.0)
+    w = world(closet + wardrobe + box('pillar', '3 0 1.2 0 0 0', '0.8 0.8 2.4', True)
+              + person('0 0 0 0 0 0'))
+    w.run(0.5)
+    w.command('person', 'ann', f'GoTo {goal}')
+    start = w.time
+    while not state(w)['unreachable'] and w.time < start + 90:
+        w.run(0.1)
+    assert w.time - start < told_within
+    here = place(w)
+    walked = 0.0
+    for now in watch(w, 30.0, 1.0):
+        assert now['mode'] == 'STANDING' and now['unreachable']
+        walked = max(walked, float(np.linalg.norm(place(w) - here)))
+    assert walked < 0.1
+    assert told(w)['unreachable'] == [goal]
+    w.command('person', 'ann', 'GoTo -1 -1')
+    for now in watch(w, 20.0):
+        assert not now['unreachable']
+    assert np.linalg.norm(place(w) - (-1, -1)) < 0.1
+
+
+def test_a_person_finds_the_way_through_other_rooms(world):
+    # From one room to the next, through the only opening, 8 m away from both.
+    walls = (box('between', '-1 0 1.2 0 0 0', '18 0.1 2.4', True)
+             + box('west', '-10 0 1.2 0 0 0', '0.1 20 2.4', True))
+    w = world(walls + person('0 -2 0 0 0 0'))
+    w.run(0.5)
+    w.command('person', 'ann', 'GoTo 0 2')
+    walked, last = 0.0, place(w)
+    for now in watch(w, 40.0):
+        assert now['mode'] != 'BLOCKED'
+        walked += float(np.linalg.norm(place(w) - last))
+        last = place(w)
+    assert np.linalg.norm(last - (0, 2)) < 0.1
+    shortest = 2 * hypot(8.25, 2.0)  # round the end of the wall, with room for a body
+    assert walked < 1.15 * shortest
+
+
+@pytest.mark.parametrize('start, goal', [('0.5 -2', (0.5, 2.0)), ('0.5 2', (0.5, -2.0)),
+                                         ('-3 -1', (2.0, 3.0))])
+@pytest.mark.parametrize('closes', [False, True])
+def test_a_person_opens_a_shut_door_by_hand(world, start, goal, closes):
+    w = world(WALL + DOOR + person(f'{start} 0 0 0 0',
+                                   f'<closes_doors>{str(closes).lower()}</closes_doors>'), DOORS)
+    w.run(0.5)
+    w.command('person', 'ann', f'GoTo {goal[0]} {goal[1]}')
+    far = 0.0
+    for now in watch(w, 25.0, 0.05):
+        door = w.device('door', 'kitchen0')
+        if door['mode'] in ('OPENING', 'CLOSING'):  # its hand is on it
+            handle = 0.93 * np.array([np.cos(door['position']), np.sin(door['position'])])
+            if door['mode'] == 'OPENING' and door['position'] > -0.1:
+                far = max(far, float(np.linalg.norm(place(w) - handle)))
+        assert now['mode'] != 'BLOCKED'
+    assert np.linalg.norm(place(w) - goal) < 0.1
+    assert 0.0 < far < 1.15  # an arm's length
+    assert w.device('door', 'kitchen0')['mode'] == ('CLOSED' if closes else 'OPEN')
+    events = told(w)
+    assert events['opens'] == ['kitchen0']
+    assert events.get('closes', []) == (['kitchen0'] if closes else [])
+
+
+def test_a_person_who_opens_no_doors_waits_and_tells_it_once(world):
+    w = world(WALL + DOOR + person('0.5 -2 0 0 0 0', '<opens_doors>false</opens_doors>'), DOORS)
+    w.run(0.5)
+    w.command('person', 'ann', 'GoTo 0.5 2')
+    w.run(3600.0)
+    assert state(w)['mode'] == 'BLOCKED' and not state(w)['unreachable']
+    assert place(w)[1] < 0
+    events = told(w)
+    assert len(events['blocked']) == len(events['walks']) == 1
+    w.command('door', 'kitchen0', 'Open')
+    w.run(15.0)
+    assert np.linalg.norm(place(w) - (0.5, 2.0)) < 0.1
+
+
+def test_a_person_on_a_path_behind_a_shut_door_does_not_pace(world):
+    path = ''.join(f'<waypoint>{t} 0.5 {y} 0 0</waypoint>' for t, y in ((0, -3), (6, 3), (12, -3)))
+    w = world(WALL + DOOR + person('0.5 -3 0 0 0 0', f'<opens_doors>false</opens_doors>{path}'),
+              DOORS)
+    w.run(3600.0)
+    assert len(told(w)['blocked']) == 1
+    w.command('door', 'kitchen0', 'Open')
+    w.run(60.0)
+    assert state(w)['mode'] == 'WALKING'
+
+
+def test_a_door_that_does_not_open_is_given_up(world):
+    crate = box('crate', '0.5 -0.32 0.601 0 0 0', '0.9 0.5 1.2', mass=400.0)
+    w = world(WALL + DOOR + crate + person('0.5 2 0 0 0 0'), DOORS)
+    w.run(0.5)
+    w.command('person', 'ann', 'GoTo 0.5 -3')
+    start = w.time
+    while not state(w)['unreachable'] and w.time < start + 120:
+        w.run(0.5)
+    assert state(w)['unreachable'] and state(w)['mode'] == 'STANDING'
