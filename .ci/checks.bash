@@ -58,7 +58,7 @@ check_pytest() { # [WORDS]
 }
 pytest_arguments=(tests)
 preloaded= # libraries, before Python's own
-slowness=1 # what a build of its own multiplies limits of time by
+slowness=1 # by which a build of its own multiplies limits of time
 
 run_test() { # [-k WORDS] [--asan | --tsan | --bare] [SUITE...]
   local words='' sanitizer='' bare='' chosen=() name
@@ -131,7 +131,7 @@ sanitizer_options() {
   export TSAN_OPTIONS=exitcode=66:history_size=4:suppressions=$lists/tsan.txt
 }
 
-# Unit tests of what reads files, under AddressSanitizer and UndefinedBehaviorSanitizer; part of each ./angen test.
+# Unit tests of the readers of files, under AddressSanitizer and UndefinedBehaviorSanitizer; part of each ./angen test.
 check_asan() { # [WORDS]
   local program failed=0
   (sanitizer_options && sanitized_tree asan core_test document_test assets_test import_test sdf_test) || return
@@ -153,7 +153,7 @@ run_sanitized() { # asan|tsan WORDS [SUITE...]
   # Each program finds the libraries of its own build by its RUNPATH, which LD_LIBRARY_PATH would overrule.
   unset LD_LIBRARY_PATH
   export CMAKE_PREFIX_PATH=$root/$tree/devel:$CMAKE_PREFIX_PATH ANGEN_TEST_TREE=$tree
-  # Python loads what is instrumented where it has the sanitizer's library already.
+  # Python loads instrumented libraries only if the sanitizer's library is loaded already.
   export PYTHONPATH=$root/$tree/devel/lib/python3/dist-packages:$PYTHONPATH
   preloaded=$(g++ -print-file-name="lib$1.so"):$(g++ -print-file-name=libstdc++.so)
   pytest_arguments=(tests/ros)
@@ -202,7 +202,7 @@ run_fuzz() { # [TARGET...] [--seconds N | --runs N]
   report
 }
 
-# Finds crashes, what takes longer than 5 s, and what takes more than 1 GB; new inputs are kept in the tree.
+# Finds crashes, inputs of more than 5 s, and of more than 1 GB; new inputs are kept in the tree.
 fuzz_target() { # TREE NAME LIMIT
   local log=$1/logs/$2 code=0 seeds=tests/fuzz/corpus/$2 runs
   mkdir -p "$1/corpus/$2"
@@ -247,7 +247,7 @@ run_coverage() { # [--floor CPP PYTHON]: fails where a smaller share of the line
   report
 }
 
-# clang-tidy sees each source by itself, with neither precompiled headers nor its neighbors: it finds what is not included.
+# clang-tidy compiles each source by itself, without precompiled headers or its neighbors: it finds missing includes.
 run_tidy() { # [FILE...]
   local tree=build-tidy files=("$@")
   cd "$root" || exit

@@ -40,7 +40,7 @@ def lit_world(*lamps: str) -> Any:
 
 
 def picture(world: Any, pose: Pose, fov: float = 1.25) -> plt.Figure:
-    """What a camera sees that looks along x of its pose."""
+    """The picture of a camera that looks along x of its pose."""
     world.spawn(CAMERA.format(fov=fov), 'eye', list(pose))
     world.request('camera', 'eye')
     world.run(0.1)
@@ -160,7 +160,7 @@ def architecture() -> plt.Figure:
 
 
 def models_and_plugins() -> plt.Figure:
-    """What angen.world holds: how many of each kind, and the library that each is made by."""
+    """The contents of angen.world: the number of each kind, and the library that makes it."""
     world = angen.World(str(WORLD))
     libraries = {plugin['kind']: plugin['library'] for plugin in angen.plugins()}
     rows = {role: [(kind, count, libraries[kind]) for kind in sorted(libraries)

@@ -38,7 +38,7 @@ def go(what, x, y, yaw):
 
 
 def call_elevator(name, floor):
-    """Returns when the elevator stands open at the floor."""
+    """Returns when the elevator is open at the floor."""
     calls.publish(f'Floor{floor}, {name}')
     while (state := rospy.wait_for_message(f'/angen/elevator/{name}', ElevatorState)) and not (
             state.floor == state.target_floor == floor

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Lights a room while its PIRs see somebody and it is dark; prints the lamp-hours that it saves.
+"""Lights a room while its PIRs detect motion and it is dark; prints the lamp-hours that it saves.
 
     ./angen run                                                           # in another terminal
     ./angen shell -c "python3 examples/lamps_by_pir.py _duration:=120"    # simulated seconds
@@ -11,12 +11,12 @@ from angen_msgs.msg import LampState, LightSensMsg, PirMsg
 from angen_msgs.srv import List
 from std_msgs.msg import String
 
-HOLD = rospy.Duration(10.0)  # a lamp stays on so long after the last motion
+HOLD = rospy.Duration(10.0)  # for which a lamp stays on after the last motion
 DARK = 10.0  # lx; where it is brighter without the room's own lamp, that one stays off
 
 
 class Room:
-    """A lamp, and what the sensors of its room have said."""
+    """A lamp, and the last reports of the sensors of its room."""
 
     def __init__(self, lamp, start, orders):
         self.name, self._start, self._orders = lamp.name, start, orders
@@ -38,10 +38,10 @@ class Room:
             self._dark = reading.illuminance < DARK
 
     def switch(self, now):
-        wanted = now < self._until
-        if wanted != bool(self._since):
-            rospy.loginfo('%s %s', self.name, 'on' if wanted else 'off')
-            self._orders.publish(f'{"On" if wanted else "Off"}, {self.name}')
+        needed = now < self._until
+        if needed != bool(self._since):
+            rospy.loginfo('%s %s', self.name, 'on' if needed else 'off')
+            self._orders.publish(f'{"On" if needed else "Off"}, {self.name}')
 
 
 def room_of(sensor):
@@ -67,7 +67,7 @@ while not rospy.is_shutdown() and (now - start).to_sec() < rospy.get_param('~dur
     now = rospy.Time.now()
     for room in rooms.values():
         room.switch(now)
-for room in rooms.values():  # what is still on counts up to now
+for room in rooms.values():  # lamps that are still on count up to now
     room.lamp(LampState(header=rospy.Header(stamp=now), on=False))
 used, all_on = sum(r.seconds for r in rooms.values()), len(rooms) * (now - start).to_sec()
 print(f'{used / 3600:.3f} lamp-hours instead of {all_on / 3600:.3f} with all {len(rooms)} lamps '

@@ -36,7 +36,7 @@ class Part:
 
 @dataclass
 class Model:
-    """What the SDF of a model says."""
+    """The contents of a model's SDF."""
     color: str
     mass: float  # kg; 0: it is static
     parts: list[Part] = field(default_factory=list)

@@ -71,7 +71,7 @@ def _write_tv(models: Path) -> None:
 
 
 def _write_stereo(models: Path) -> None:
-    """Writes models/stereo: 0.43 m wide, to stand on something, facing x."""
+    """Writes models/stereo: 0.43 m wide, for a shelf or table, facing x."""
     root, model = new_model("stereo", static=True)
     parts = [
         spanned("body", (-0.13, -0.13, 0.0), (0.13, 0.13, 0.12), material=BLACK),

@@ -168,7 +168,7 @@ def _leaf(room: str) -> list[Part]:
     return [
         spanned("block", (0.0, 0.0, 0.005), (LEAF_WIDTH, LEAF_THICK, LEAF_TOP),
                 material=leaf_color, mass=20.0),
-        # stands up in front of the lintel: cuts the optical switch's beam when the door is shut
+        # upright in front of the lintel: cuts the optical switch's beam when the door is shut
         spanned("strip", (0.35, -0.01, 2.06), (0.65, 0.0, 2.14), material="Gazebo/Green",
                 mass=0.05),
         *panels,

@@ -54,7 +54,7 @@ class Day:
         self.rows.append((t + PAUSE + far / SPEED, x, y, yaw))
 
     def at(self, clock: str, room: str, every: float = 0.0, until: str = "") -> None:
-        """Goes into a room at a time of day; there moves `every` so many minutes until a time."""
+        """Enters a room at a time of day; there moves every `every` minutes until a time."""
         self._add(seconds(clock), *self.rows[-1][1:3])
         if room != self.room:
             self._go(*WAYS[self.room][1])
@@ -97,7 +97,7 @@ def ordinary() -> Day:
 
 
 def wrong() -> Day:
-    """A day in which all goes wrong that the rules warn of."""
+    """A day with every situation of which the rules warn."""
     day = Day()
     day.at("7:00", "bathroom", 3, "7:18")
     day.at("7:20", "kitchen", 2, "7:28")

@@ -1,4 +1,4 @@
-"""The small sensors of the catalog, and what they watch."""
+"""The small sensors of the catalog, and their surroundings."""
 from __future__ import annotations
 
 from math import pi

@@ -200,7 +200,7 @@ def _robot_body() -> list[Part]:
 
 
 def write_sitter(models: Path) -> None:
-    """Writes models/sitter: 75 kg who sits on what is under the origin and faces +x.
+    """Writes models/sitter: 75 kg who sits on the seat under the origin and faces +x.
 
     One rigid body: its feet hang 5 cm over the floor of a chair 0.47 m high, so that the seat
     carries all of it. Masses of the parts: D. A. Winter, Biomechanics and Motor Control of Human

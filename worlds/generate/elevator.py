@@ -52,7 +52,7 @@ def _add_slider(model: etree._Element, name: str, parent: str, sign: int, parts:
 
 
 def _base_parts() -> list[Part]:
-    """Returns what stands still: two guide rails (looks) and the shaft's roof, clear of walls."""
+    """Returns the fixed parts: two guide rails (looks) and the shaft's roof, clear of walls."""
     top = plan.CABIN_TRAVEL * (FLOORS - 1) + 3.7
     rails = [spanned(f"rail_{side}", (-0.05, y - 0.03, -0.15), (0.05, y + 0.03, top),
                      material=(0.3, 0.3, 0.32), mass=20.0, collide=False)

@@ -1,6 +1,6 @@
-"""What opens besides doors: sashes of windows, fronts of furniture. Each has a reed contact.
+"""Parts that open besides doors: sashes of windows, fronts of furniture. Each has a reed contact.
 
-A leaf's frame stands on its hinge at its foot: x along the shut leaf, it opens towards -y. A flap's
+A leaf's frame is on its hinge at its foot: x along the shut leaf, it opens towards -y. A flap's
 hinge is its foot, along x.
 """
 from __future__ import annotations
@@ -20,7 +20,7 @@ from .sdf import (Color, Part, add, add_fixed, add_joint, add_link, add_plugin, 
 GLASS: Color = (0.55, 0.68, 0.8)
 GLASS_DENSITY = 20.0    # kg/m2 of a sash: two panes of 3 mm at 2500 kg/m3, and its frame
 SASH_THICK = 0.04
-GAP = 0.002             # m between a shut leaf and what is behind it
+GAP = 0.002             # m between a shut leaf and the frame behind it
 # yaw of a sash in an outer wall: its -y is the room's side
 INWARDS = {"wall_south": pi, "wall_north": 0.0, "wall_east": -pi / 2, "wall_west": pi / 2}
 # gains in those of a PID for a leaf of 1 kg m2: of 1 Hz, damped
@@ -90,7 +90,7 @@ def opening(sash: plan.Sash) -> Rectangle:
 
 
 def panes(window: Rectangle, sash: plan.Sash) -> list[Rectangle]:
-    """Returns what is left of a window beside, under and over its sash."""
+    """Returns the parts of a window beside, under and over its sash."""
     start, end, bottom, top = window
     left, right, low, high = span(sash)
     gap = 2 * GAP
@@ -102,7 +102,7 @@ def panes(window: Rectangle, sash: plan.Sash) -> list[Rectangle]:
 
 
 def sash_pose(sash: plan.Sash, floor: int) -> Pose:
-    """Returns where a sash stands on a floor."""
+    """Returns the pose of a sash on a floor."""
     wall = next(wall for wall in plan.WALLS if wall.name == sash.wall)
     yaw = INWARDS[sash.wall]
     away = plan.WALL / 2 + GAP + SASH_THICK     # from the wall's axis to the hinge, into the room
@@ -112,7 +112,7 @@ def sash_pose(sash: plan.Sash, floor: int) -> Pose:
 
 
 def front_pose(piece: Pose, place: tuple[float, float, float]) -> Pose:
-    """Returns where a front stands, by its hinge's place in the frame of its piece."""
+    """Returns the pose of a front, by its hinge's place in the frame of its piece."""
     yaw = piece[5]
     x, y, z = place
     return (piece[0] + x * cos(yaw) - y * sin(yaw), piece[1] + x * sin(yaw) + y * cos(yaw),

@@ -26,7 +26,7 @@ def write_things(models: Path) -> None:
 
 
 def write_cup(models: Path) -> None:
-    """Writes models/cup: origin at its foot; its lip towards x is what it pours over."""
+    """Writes models/cup: origin at its foot; it pours over its lip towards x."""
     root, model = new_model("cup")
     handle = [spanned(name, low, high, material=STONEWARE, collide=False) for name, low, high in (
         ("handle", (-0.066, -0.006, 0.02), (-0.058, 0.006, 0.075)),

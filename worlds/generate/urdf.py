@@ -43,8 +43,8 @@ def add_link(robot: etree._Element, name: str, parts: Sequence[Part]) -> None:
     add(inertial, "inertia", ixx=num(tensor[0, 0]), ixy=num(tensor[0, 1]), ixz=num(tensor[0, 2]),
         iyy=num(tensor[1, 1]), iyz=num(tensor[1, 2]), izz=num(tensor[2, 2]))
     for part in parts:
-        for tag, wanted in (("visual", part.show), ("collision", part.collide)):
-            if not wanted:
+        for tag, present in (("visual", part.show), ("collision", part.collide)):
+            if not present:
                 continue
             shape = add(link, tag)
             _add_origin(shape, part.at, part.rpy)
