@@ -32,9 +32,9 @@ std::string with_unit(const std::string& text, const std::string& unit) {
 
 // Of a number that fits.
 std::optional<int> whole_part(const std::string& text) {
-  constexpr double kMost = std::numeric_limits<int>::max();
+  constexpr double kLargest = std::numeric_limits<int>::max();
   const std::optional<double> value = parse_finite(text);
-  if (!value || std::abs(*value) > kMost) return std::nullopt;
+  if (!value || std::abs(*value) > kLargest) return std::nullopt;
   return static_cast<int>(*value);
 }
 

@@ -67,8 +67,8 @@ class Layer {
 
   /// Whether it may contain shapes of these mobilities.
   bool holds(Mobilities among) const {
-    constexpr Mobilities kStanding = only(Mobility::kStatic);
-    return (among & (fixed ? kStanding : kAll & ~kStanding)) != 0;
+    constexpr Mobilities kStaticOnly = only(Mobility::kStatic);
+    return (among & (fixed ? kStaticOnly : kAll & ~kStanding)) != 0;
   }
 
   /// Rebuilds the hierarchy if queries among these depend on the changes. Several threads may call

@@ -46,7 +46,7 @@ class RosControl : public JointControl {
     ends_ = true;
     while (!ended_) {  // a service may wait for an update
       manager_->update(ros_time(time_), ros::Duration(), false);
-      std::this_thread::sleep_for(kPatience);
+      std::this_thread::sleep_for(kPollPeriod);
     }
     thread_.join();
   }
@@ -71,7 +71,7 @@ class RosControl : public JointControl {
   }
 
  private:
-  static constexpr std::chrono::milliseconds kPatience{1};
+  static constexpr std::chrono::milliseconds kPollPeriod{1};
   static constexpr double kNap = 0.05;  // s
 
   static void hold_still(std::vector<ControlledJoint>& joints) {

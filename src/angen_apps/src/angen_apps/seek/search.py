@@ -29,7 +29,7 @@ REPLAN = 3.0  # s between two comparisons
 SAME = 0.6  # m between two scans' arcs of the same thing
 LOST = 1.0  # s without an arc
 MOVES, SIGHTINGS = 0.4, 5  # m, arcs: something that has moved by this is a person
-PATIENCE = 4.0  # s that it examines something
+EXAMINES = 4.0  # s, at most, that it examines something
 KNOWN, ELSEWHERE = 0.5, 0.8  # m around a rejected thing; it is examined again from this distance
 FORGETS = 60.0  # s
 IN_WAY, AHEAD = 0.30, 14  # m beside the line; points of the line, 0.05 m apart
@@ -352,7 +352,7 @@ class Search:
 
     def _examine(self) -> None:
         """Faces a thing until it has moved, the camera sees a person, or it is neither."""
-        end = self._simulation.now + PATIENCE
+        end = self._simulation.now + EXAMINES
         self._note(self._simulation.now - self.began, 'sees something that the map has not')
         self._simulation.request_depth(True)
         try:
