@@ -20,4 +20,4 @@ class TapeMeasure : public angen::Sensor {
 };
 
 ANGEN_REGISTER_SENSOR(TapeMeasure, Kind("tape", "The distance straight ahead.")
-                                       .number("distance", "m", "infinite where nothing is met"))
+                                       .number("distance", "m", "infinite without a hit"))
