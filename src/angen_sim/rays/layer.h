@@ -68,7 +68,7 @@ class Layer {
   /// Whether it may contain shapes of these mobilities.
   bool holds(Mobilities among) const {
     constexpr Mobilities kStaticOnly = only(Mobility::kStatic);
-    return (among & (fixed ? kStaticOnly : kAll & ~kStanding)) != 0;
+    return (among & (fixed ? kStaticOnly : kAll & ~kStaticOnly)) != 0;
   }
 
   /// Rebuilds the hierarchy if queries among these depend on the changes. Several threads may call
