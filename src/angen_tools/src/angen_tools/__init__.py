@@ -1,1 +1,1 @@
-"""The angen command and what it is made of."""
+"""The angen command and its parts."""

@@ -32,6 +32,6 @@ def add_commands(commands: Any) -> None:
         else:
             module.add_commands(commands)
     if 'bench' not in commands.choices:
-        absent = command(commands, 'bench', run_absent_bench, 'measures what things cost; only in '
+        absent = command(commands, 'bench', run_absent_bench, 'measures costs; only in '
                          'a checkout', 'bench')
         absent.add_argument('words', nargs=argparse.REMAINDER, help=argparse.SUPPRESS)

@@ -1,4 +1,4 @@
-"""What a shell offers after TAB; nothing where there is no simulator to query."""
+"""Completions that a shell offers after TAB; none where there is no simulator to query."""
 from __future__ import annotations
 
 import argparse
@@ -24,9 +24,9 @@ def _entities() -> list[Any]:
     return found
 
 
-def names_of(*wanted: str) -> Callable[..., list[str]]:
-    """Names of what is in the running simulator, of these kinds."""
-    return lambda **_: [e.name for e in _entities() if e.kind in wanted]
+def names_of(*chosen: str) -> Callable[..., list[str]]:
+    """Names in the running simulator, of these kinds."""
+    return lambda **_: [e.name for e in _entities() if e.kind in chosen]
 
 
 def names_of_devices(kind: str) -> Callable[..., list[str]]:
@@ -43,7 +43,7 @@ def names_to_watch(**_: Any) -> list[str]:
 
 
 def names_to_delete(**_: Any) -> list[str]:
-    """Names of the models and sensors; a device goes with its model."""
+    """Names of the models and sensors; a device is deleted with its model."""
     devices = kinds('device')
     return [e.name for e in _entities() if e.kind not in devices]
 

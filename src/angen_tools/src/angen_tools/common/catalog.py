@@ -93,7 +93,7 @@ def _is_alias(library: Path) -> bool:
 
 
 def _read(library: Path) -> list[Plugin] | None:
-    """What the JSON file of a library says; None where there is none that fits the library."""
+    """The contents of the JSON file of a library; None without one that fits the library."""
     file = library.with_suffix('.json')
     try:
         if file.stat().st_mtime < library.stat().st_mtime:

@@ -36,7 +36,7 @@ class Progress:
         self.close()
 
     def update(self, share: float, text: str = '') -> None:
-        """`share` of the whole is done; `text`: what goes on."""
+        """`share` of the whole is done; `text`: the present step."""
         if self._bar is not None:
             self._bar.update(self._task, completed=share, text=text)
             if time.monotonic() - self._shown > REFRESH:

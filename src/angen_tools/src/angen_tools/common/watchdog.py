@@ -1,7 +1,7 @@
-"""Ends what a command has started when the command ends, however it ends: also by SIGKILL.
+"""Ends the processes of a command when the command ends, however it ends: also by SIGKILL.
 
-A process of its own waits at a pipe that only the command holds open. What the command started is
-found by a mark in its environment, which every child inherits, whatever its parent and session are.
+A process of its own waits at a pipe that only the command holds open. The command's processes are
+found by a mark in their environment, which children inherit, whatever their parent and session are.
 """
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ VARIABLE = 'ANGEN_STARTED_BY'
 GRACE = 2.0  # s between SIGTERM and SIGKILL
 TURN = 0.1  # s between two searches
 LIMIT = 10.0  # s after SIGKILL, for what cannot be ended
-QUIET = 3  # searches in a row that find nothing: what is being started has no mark yet
+QUIET = 3  # searches in a row that find nothing: a process that is being started has no mark yet
 PR_SET_PDEATHSIG = 1
 
 
 @contextmanager
 def watchdog() -> Iterator[None]:
-    """Whatever this process starts within, and what that starts, is gone at the end.
+    """All processes that this process starts within, and their children, have ended at the end.
 
     Not what `fork` alone has made: that calls `end_with_parent`.
     """
@@ -45,7 +45,7 @@ def watchdog() -> Iterator[None]:
         else:
             os.environ[VARIABLE] = before
         with suppress(OSError):
-            os.write(held, b'.')  # an orderly end: what is still there gets no grace
+            os.write(held, b'.')  # an orderly end: remaining processes get no grace
         os.close(held)
         process.wait()
 

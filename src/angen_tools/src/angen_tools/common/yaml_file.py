@@ -29,7 +29,7 @@ class YamlFile:
                           ) from None
 
     def fail(self, node: Any, what: str) -> Failure:
-        """What is wrong at a node."""
+        """The error at a node."""
         return Failure(f'{self.path}:{line_of(node)}: {what}')
 
     def entries(self, node: Any, what: str, keys: Iterable[str] = (), required: Iterable[str] = ()
@@ -37,8 +37,8 @@ class YamlFile:
         """A mapping's values by key; with `keys` no others are known."""
         known = list(keys)
         if not isinstance(node, yaml.MappingNode):
-            wanted = f'have {", ".join(known)}' if known else 'be a mapping'
-            raise self.fail(node, f'{what} must {wanted}')
+            expected = f'have {", ".join(known)}' if known else 'be a mapping'
+            raise self.fail(node, f'{what} must {expected}')
         found: dict[str, Any] = {}
         for key, value in node.value:
             name = self.text(key, 'a key')

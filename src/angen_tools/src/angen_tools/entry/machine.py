@@ -27,8 +27,8 @@ def has_display() -> bool:
 
 
 def stay_local() -> None:
-    """ROS has no authentication: only this machine's programs reach what is started from now on,
-    unless the environment says where others do."""
+    """ROS has no authentication: only this machine's programs reach nodes that start from now on,
+    unless the environment allows others."""
     if os.environ.get('ROS_HOSTNAME') or os.environ.get('ROS_IP'):
         return
     if LOCAL.match(os.environ.get('ROS_MASTER_URI') or 'http://localhost'):

@@ -29,14 +29,14 @@ class Limited(Transport):
 
 
 def call(uri: str, method: str, *arguments: str) -> Any:
-    """What a method of a ROS master or node gives; None where it fails. OSError where nobody
-    listens, Failure where what listens is not of ROS or does not answer."""
+    """The value of a method of a ROS master or node; None where it fails. OSError where nothing
+    listens, Failure where the listener is not of ROS or does not answer."""
     try:
         code, _, value = getattr(ServerProxy(uri, Limited()), method)(CALLER, *arguments)
     except TimeoutError:
         raise Failure(f'{uri} does not answer') from None
     except (Error, http.client.HTTPException, TypeError, ValueError):
-        raise Failure(f'what answers at {uri} is not a part of ROS') from None
+        raise Failure(f'the program at {uri} is not a part of ROS') from None
     return value if code == 1 else None
 
 

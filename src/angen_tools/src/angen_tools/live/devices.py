@@ -12,7 +12,7 @@ from angen_msgs.srv import List
 from angen_tools.live.states import states_by_name
 
 Thing = TypeVar('Thing')
-# topic, type of its messages, what handles each, and what that is given before the message
+# topic, type of its messages, the handler of each, and its arguments before the message
 Subscribe = Callable[..., Any]
 
 
@@ -29,9 +29,9 @@ class Devices(Generic[Thing]):
                  renew: Callable[[Thing, Any], None] = lambda thing, entity: None) -> None:
         """`make`: of an entity of /angen/list.
 
-        `renew` gets a thing that stays, and its entity, which may stand elsewhere now.
+        `renew` gets a thing that remains, and its entity, which may have another pose now.
         """
-        self.changed = True  # something may have come or gone
+        self.changed = True  # something may have been spawned or deleted
         self._kinds = kinds
         self._make = make
         self._on_state = on_state
@@ -39,7 +39,7 @@ class Devices(Generic[Thing]):
         self._renew = renew
         self._lock = threading.Lock()  # of the next two
         self._things: dict[tuple[str, str, str], Thing] = {}
-        self._early: dict[tuple[str, str], Any] = {}  # states of what no survey has found yet
+        self._early: dict[tuple[str, str], Any] = {}  # states of things not yet found
         self._subscribers: dict[str, Any] = {}
         self._entities = rospy.ServiceProxy('/angen/list', List)
         self._entities.wait_for_service()
@@ -48,15 +48,15 @@ class Devices(Generic[Thing]):
 
     def survey(self) -> None:
         """Follows the devices that there are now."""
-        self.changed = False  # what comes while it asks is seen at the next call
+        self.changed = False  # a change during the query is seen at the next call
         try:
             found = {(entity.kind, entity.name, entity.topic): entity
                      for kind in self._kinds for entity in self._entities(kind).entities}
         except rospy.ServiceException:
             self.changed = True  # the simulator ends, or begins
             return
-        for gone in self._things.keys() - found.keys():
-            del self._things[gone]
+        for deleted in self._things.keys() - found.keys():
+            del self._things[deleted]
         for stays, thing in self._things.items():
             self._renew(thing, found[stays])
         for which, entity in found.items():  # in the world's order

@@ -18,7 +18,7 @@ FIRST_HOLD = 0.7  # s after the first one: as long as X waits before a held key 
 PERIOD = 0.05  # s between commands
 STEP = 1.25  # faster or slower by one key
 SPEED, TURN = 0.2, 1.0  # m/s and rad/s to begin with
-MOST_SPEED, MOST_TURN = 0.7, 3.1  # the drive cuts what is more
+MOST_SPEED, MOST_TURN = 0.7, 3.1  # the limits of the drive
 ARROWS = {b'A': (1, 0), b'B': (-1, 0), b'C': (0, -1), b'D': (0, 1)}  # ahead, to the left
 STARTS = (b'\x1b[', b'\x1bO')  # of what an arrow key sends, in either mode of the keypad
 HELP = 'arrows drive and turn, + and - change the speed, space or s stops, q quits'
@@ -35,7 +35,7 @@ class Keys:
         self._part = b''
 
     def read(self, text: bytes, now: float) -> None:
-        """What the terminal sent at a time in s, b'' where it sent nothing."""
+        """Handles the terminal's input at a time in s, b'' where there was none."""
         if not text and self._part:  # the escape key itself
             self._part = b''
             self._way = (0, 0)
@@ -70,7 +70,7 @@ class Keys:
 
 
 def drive(robot: str | None) -> None:
-    """Drives a robot, the first without a name, until q or Ctrl-C; it stands when this returns.
+    """Drives a robot, the first without a name, until q or Ctrl-C; it is at rest when this returns.
 
     Failure where there is no such robot, it has not subscribed or is deleted, or stdin is not a
     terminal.
@@ -107,7 +107,7 @@ class _Wheel:
         self._publisher: Any = client.publisher(topic, Twist)
 
     def send(self, ahead: float, left: float) -> None:
-        """m/s and rad/s; Failure where the robot is gone."""
+        """m/s and rad/s; Failure where the robot has been deleted."""
         if self._publisher.get_num_connections() == 0:
             raise Failure(f'{self._topic} has no subscriber any more')
         twist = self._kind()
@@ -115,24 +115,24 @@ class _Wheel:
         self._publisher.publish(twist)
 
     def stop(self) -> None:
-        """Sends it to a stand, if it is still there."""
+        """Stops it, if it still exists."""
         with suppress(Failure):
             self.send(0.0, 0.0)
             time.sleep(0.1)  # the message is on its way
 
 
 def _drive(wheel: _Wheel) -> None:
-    keys, stands = Keys(), True
+    keys, stopped = Keys(), True
     while not keys.quit:
         text = b''
         if select.select([sys.stdin], [], [], PERIOD)[0]:
             text = os.read(sys.stdin.fileno(), 64)
-            keys.quit = not text  # the terminal is gone
+            keys.quit = not text  # the terminal is closed
         keys.read(text, time.monotonic())
         ahead, left = keys.command(time.monotonic())
         moves = ahead != 0.0 or left != 0.0
-        if moves or not stands:
+        if moves or not stopped:
             wheel.send(ahead, left)
-        stands = not moves
+        stopped = not moves
         print(f'\r\033[K{ahead:+.2f} m/s {left:+.2f} rad/s   (speed {keys.speed:.2f} m/s, '
               f'{keys.turn:.2f} rad/s)', end='', flush=True)

@@ -1,4 +1,4 @@
-"""angen list: what is in the world."""
+"""angen list: the contents of the world."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def list_entities(kind: str, json: bool) -> RenderableType:
-    """What is in the world, or what of it is of one kind."""
+    """All entities of the world, or those of one kind."""
     every = Client().entities()
     known = {entity.kind for entity in every} | set(kinds()) | {'model'}
     if kind and kind not in known:

@@ -1,4 +1,4 @@
-"""A ROS master of its own on a free port, the node, rviz. Ends what it starts, by process id; when
+"""A ROS master of its own on a free port, the node, rviz. Ends its processes, by process id; when
 it is killed itself, a watchdog does."""
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ class Sandbox:
         return {topic for topic, nodes in self._state()[1] if any(name in node for node in nodes)}
 
     def received_by(self, name: str, pattern: str) -> int:
-        """Messages that C++ nodes with this in their name have received so far, on the topics whose
+        """Messages that C++ nodes with this in their name have received, on the topics whose
         whole name matches a pattern.
         """
         import xmlrpc.client
@@ -95,7 +95,7 @@ class Sandbox:
         count = 0
         for node in nodes:
             api: Any = xmlrpc.client.ServerProxy(self._api.lookupNode('/angen_bench', node)[2])
-            # roscpp answers without code and text: what is published, what is subscribed
+            # roscpp answers without code and text: publications, subscriptions
             for topic, connections in api.getBusStats('/angen_bench')[1]:
                 if re.fullmatch(pattern, topic):
                     count += sum(connection[2] for connection in connections)
@@ -110,7 +110,7 @@ class Sandbox:
             if f'/{name}' in nodes}
 
     def start(self, words: list[str], log: str, **options: Any) -> subprocess.Popen[bytes]:
-        """Starts a process that Ctrl-C does not reach; its output goes to a file named `log`."""
+        """Starts a process without Ctrl-C; its output is written to a file named `log`."""
         with (self.folder / f'{log}.log').open('wb') as out, uninterrupted():
             settings: dict[str, Any] = {'env': self.environment, 'stdout': out, **options}
             process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stderr=out,
@@ -120,7 +120,7 @@ class Sandbox:
 
     def node(self, world: Path, rate: float, **params: Any) -> subprocess.Popen[bytes]:
         """The node with a world, once it serves; `params` are more of its parameters."""
-        wait(lambda: not self._names(0, '/angen/ready'), 'the last node has not gone', START_LIMIT)
+        wait(lambda: not self._names(0, '/angen/ready'), 'the last node has not ended', START_LIMIT)
         self.launched = time.monotonic()
         words = [f'_rate:={rate:g}', *(f'_{key}:={value}' for key, value in params.items())]
         node = built_program('angen_node')

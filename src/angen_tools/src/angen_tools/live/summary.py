@@ -38,7 +38,7 @@ class Row:
     kind: str
     name: str
     text: str       # '' before its first reading
-    alarm: bool     # it detects what it is for
+    alarm: bool     # it detects something
     stamp: float    # s, of that reading
     period: float   # s, how often a sensor publishes; 0 for a device and a sensor on demand
     changed: float = -math.inf  # s of wall time, when its text changed last
@@ -50,7 +50,7 @@ class Row:
 
 
 class Board:
-    """What /angen/summary has said so far, and how time goes in the simulation."""
+    """The messages of /angen/summary, and the state of time in the simulation."""
 
     def __init__(self, client: Client) -> None:
         from angen_msgs.msg import Stats, Summary
@@ -91,10 +91,10 @@ class Board:
                 row.changed = old.changed if old.text == row.text else time.monotonic()
             self.rows[key] = row
 
-    def chosen(self, wanted: Filter) -> list[Row]:
+    def chosen(self, rule: Filter) -> list[Row]:
         """The rows to show, by kind and name."""
-        rows = (self.rows[key] for key in sorted(self.rows) if wanted.passes(*key))
-        return [row for row in rows if not wanted.active or is_active(row)]
+        rows = (self.rows[key] for key in sorted(self.rows) if rule.passes(*key))
+        return [row for row in rows if not rule.active or is_active(row)]
 
 
 def is_active(row: Row) -> bool:

@@ -23,26 +23,26 @@ WIDEST = 120     # characters of a value that a table shows
 HEAD = ('KIND', 'NAME', 'VALUE', 'TIME')
 
 
-def watch_once(wanted: Filter, json: bool = False) -> tuple[RenderableType, str]:
-    """The table of what each sensor and device read last, and what is missing in it, '' if nothing.
+def watch_once(rule: Filter, json: bool = False) -> tuple[RenderableType, str]:
+    """The last reading of each sensor and device, and the name of a missing one, '' without one.
 
     Waits for the first reading of each sensor up to its period of simulated time.
     """
     board = Board(Client())
-    check(board, wanted)
-    silent = _wait(board, wanted)
-    rows = board.chosen(wanted)
+    check(board, rule)
+    silent = _wait(board, rule)
+    rows = board.chosen(rule)
     if json:
         return as_json([_as_dict(row) for row in rows]), _missing(board, silent)
     return table(HEAD, map(_cells, rows)), _missing(board, silent)
 
 
-def _wait(board: Board, wanted: Filter) -> list[Row]:
+def _wait(board: Board, rule: Filter) -> list[Row]:
     """Waits for first readings; the sensors that have sent none within their period."""
     start, end = board.time, time.monotonic() + LIMIT
     while True:
         waiting = [row for row in board.rows.values()
-                   if row.waits and wanted.passes(row.kind, row.name)]
+                   if row.waits and rule.passes(row.kind, row.name)]
         late = [row for row in waiting if board.time > start + row.period + MARGIN]
         if len(late) == len(waiting) or board.paused or time.monotonic() > end:
             return waiting
@@ -58,15 +58,15 @@ def _missing(board: Board, silent: Sequence[Row]) -> str:
     return f'no reading of {names}{more}: {why}'
 
 
-def check(board: Board, wanted: Filter) -> None:
-    """Failure where a filter names what is not there."""
+def check(board: Board, rule: Filter) -> None:
+    """Failure where a filter has an unknown name."""
     names = {name for _, name in board.rows}
-    for name in wanted.names:
+    for name in rule.names:
         if name not in names:
             raise Failure(f"no sensor or device named '{name}'; "
                           + did_you_mean(name, names, 'angen watch --once'))
     known = {kind for kind, _ in board.rows} | set(kinds())
-    for kind in wanted.kinds:
+    for kind in rule.kinds:
         if kind not in known:
             raise Failure(f"there is no kind '{kind}'; "
                           + did_you_mean(kind, known, 'angen plugins'))
@@ -82,22 +82,22 @@ def _as_dict(row: Row) -> dict[str, object]:
             'time': row.stamp if row.text else None}
 
 
-def watch(wanted: Filter) -> None:
-    """Draws the table anew until q or Ctrl-C; space turns its pages."""
+def watch(rule: Filter) -> None:
+    """Redraws the table until q or Ctrl-C; space turns its pages."""
     from angen_tools.common.terminal import LiveTable
     if not sys.stdin.isatty() or not sys.stdout.isatty():
         raise Failure('a live table needs a terminal; use --once for one table')
     board = Board(Client())
-    check(board, wanted)
+    check(board, rule)
     with LiveTable() as screen, suppress(KeyboardInterrupt):
         while not screen.closed():
-            rows = board.chosen(wanted)
+            rows = board.chosen(rule)
             screen.draw(title(board, rows), HEAD, list(map(_cells, rows)), right=('TIME',))
             _receive(board)
 
 
 def _receive(board: Board) -> None:
-    """Takes what comes until the next picture."""
+    """Handles all messages until the next picture."""
     end = time.monotonic() + REFRESH
     while (left := end - time.monotonic()) > 0:
         board.receive(left)

@@ -52,7 +52,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Place:
-    """Where a sensor stands, m, and along which axis and sign it faces."""
+    """A sensor's place, m, and along which axis and sign it faces."""
     position: tuple[float, float, float]
     axis: int = 2
     sign: int = 1
@@ -91,7 +91,7 @@ def cube(albedo: float) -> str:
 
 def measure(content: str, places: list[Place], seconds: float = 0.0,
             folder: str = '') -> list[float]:
-    """Illuminances in lx at the places, in a world with `content`, after so many seconds; its file
+    """Illuminances in lx at the places, in a world with `content`, after `seconds`; its file
     is in `folder` where it names others.
     """
     text = f'<sdf version="1.9"><world name="luxcheck">{content}{sensors(places)}</world></sdf>'
@@ -173,7 +173,7 @@ def source_cases() -> Iterator[Case]:
 
 
 def crate(static: bool, yaw: float = 0.0, joint: str = '') -> str:
-    """A dark cabinet on the cube's floor that stands for good, or a loose or a hinged one."""
+    """A dark cabinet on the cube's floor that is static, or a loose or a hinged one."""
     box = '<geometry><box><size>0.6 1.2 2</size></box></geometry>'
     return f'''<model name="cabinet"><static>{"true" if static else "false"}</static>
   <pose>-1.6 0.9 -1 0 0 {yaw}</pose><link name="link"><collision name="c">{box}</collision>
@@ -189,9 +189,9 @@ def furniture_cases() -> Iterator[Case]:
               Place((-1.0, 1.99, -1.0), 1, -1)]
     room = cube(0.7) + lamp(800.0, '0 0 1.5 0 0 0')
     for what, yaw, joint in (('loose cabinet', 0.0, ''), ('leaf ajar on a hinge', 0.5, hinge)):
-        standing = measure(room + crate(True, yaw), places)
+        fixed = measure(room + crate(True, yaw), places)
         moving = measure(room + crate(False, yaw, joint), places, 7.0)
-        for i, (expected, lux) in enumerate(zip(standing, moving)):
+        for i, (expected, lux) in enumerate(zip(fixed, moving)):
             yield Case(f'{what}, place {i + 1}', expected, lux, FURNITURE_LIMIT)
 
 
@@ -207,7 +207,7 @@ def cube_places() -> list[Place]:
 
 
 def cube_cases() -> Iterator[Case]:
-    """The area mean of what a closed cube's walls get from each other: phi rho / (S (1 - rho))."""
+    """The area mean of the walls' light on each other in a closed cube: phi rho / (S (1 - rho))."""
     places = cube_places()
     direct = sum(CUBE_FLUX / (4 * pi) * abs(p.position[p.axis]) / hypot(*p.position) ** 3
                  for p in places) / len(places)

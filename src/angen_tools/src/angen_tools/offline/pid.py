@@ -29,7 +29,7 @@ ROOM = 1e5              # N m or N: limits of integral and command that nothing 
 
 @dataclass(frozen=True)
 class Plant:
-    """What is driven: its joint, its command, and what the closed form needs."""
+    """A controlled part: its joint, its command, and the parameters of the closed form."""
     kind: str
     device: str
     joint: str
@@ -56,7 +56,7 @@ class Answer:
 
     @property
     def overshoot(self) -> float:
-        """As a share of the step; that of what grows is as large as the trace is long."""
+        """As a share of the step; where it grows, at the end of the trace."""
         return max(0.0, float((self.x / self.target).max()) - 1.0)
 
     @property

@@ -1,4 +1,4 @@
-"""Writes a world of stacked flats with as many sensors of each kind as wanted."""
+"""Writes a world of stacked flats with a number of sensors of each kind."""
 from __future__ import annotations
 
 from copy import deepcopy
@@ -34,7 +34,7 @@ def write_apartment(path: Path, floors: int, counts: Mapping[str, int], seed: in
 
     Flats with doors, lamps, furniture and, on floor 0, the `mover`: person, robot or nobody. Chairs
     and tables hold the contact sensors, so there are only as many as `counts` has. With
-    `one_link` all others of a KIND stand at the same places on one link of the model KIND_sensors,
+    `one_link` all others of a KIND are at the same places on one link of the model KIND_sensors,
     without housings, and are called KIND_sensors_NAME. The same arguments give the same bytes.
     Failure where there is no room for the sensors.
     """

@@ -1,4 +1,4 @@
-"""Finds models and what stands in them, where the simulator finds them."""
+"""Finds models and their parts, where the simulator finds them."""
 from __future__ import annotations
 
 import os

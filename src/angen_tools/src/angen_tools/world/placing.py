@@ -1,7 +1,7 @@
-"""Where sensors stand in the flats: the source's own places first, then a lattice in each room.
+"""Poses of sensors in the flats: the source's own places first, then a lattice in each room.
 
 Meters and radians. Each room has a stream of random numbers for each kind of sensor, so that the
-sensors of one kind move none of another, and more sensors move none that stand already.
+sensors of one kind move none of another, and more sensors move none that exist already.
 """
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def generator(part: str) -> ModuleType:
 
 def placements(kind: str, count: int, floors: int, seed: int, elevator: bool = False
                ) -> list[Placement]:
-    """The first `count` sensors of a kind; Failure where there is no room for so many.
+    """The first `count` sensors of a kind; Failure where there is no room for them.
 
     Sensors go from room to room: first to the places where the building has them, then, again from
     room to room, to free places.
@@ -159,7 +159,7 @@ def _lattice(kind: str, room: str, floor: int, rng: Random) -> list[Spot]:
 
 
 def _free_chairs(_kind: str, room: str, floor: int, rng: Random) -> list[Spot]:
-    """Chairs that stand free of furniture, of doors that swing and of what moves."""
+    """Chairs that are free of furniture, of doors that swing and of movers."""
     plan = generator('plan')
     points = list(_free_points(room, floor == 0))
     rng.shuffle(points)
@@ -184,7 +184,7 @@ def _free_points(room: str, ground_floor: bool) -> list[tuple[float, float]]:
 
 
 def _footprint(model: str, _name: str, pose: Pose) -> tuple[float, float, float, float]:
-    """x0, y0, x1, y1 of a piece of furniture that stands along the walls."""
+    """x0, y0, x1, y1 of a piece of furniture along the walls."""
     parts = _pieces()[model].parts
     corners = []
     for part in parts:

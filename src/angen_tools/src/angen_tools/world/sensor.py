@@ -11,9 +11,9 @@ from angen_tools.common.nearest import did_you_mean
 from angen_tools.world import models, sdf
 
 Setting = tuple[str, str]  # key, value
-# Parameters that SDF has for every sensor; all others stand in the plug-in.
+# Parameters that SDF has for every sensor; all others are in the plug-in.
 SENSOR_KEYS = ('update_rate', 'ray/', 'contact/', 'camera/')
-COLLISION = 'contact/collision'  # the parameter of kinds that sense what touches their link
+COLLISION = 'contact/collision'  # the parameter of kinds that sense contacts of their link
 
 
 def senses_contacts(kind: Plugin) -> bool:
