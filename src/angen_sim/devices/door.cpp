@@ -39,6 +39,10 @@ const char* const kOwnJoints[] = {"hinge", "sash", "front"};
 
 bool limited(double lower, double upper) { return lower < upper && upper - lower < 2.0 * M_PI; }
 
+bool turns_or_slides(const ModelInfo::Joint& joint) {
+  return joint.type == "revolute" || joint.type == "prismatic";
+}
+
 // A leaf of any name on a frame that is fixed to the world, whose name says what it is: an arm's
 // first joint may turn as a door does.
 bool is_framed(const ModelInfo::Joint& joint, const ModelInfo& model, const LeafKind& leaf) {
@@ -95,9 +99,12 @@ void Door::configure(Params& params, Wiring& wiring) {
   anchor_ = wiring.anchor(hinge_);
   axis_ = wiring.axis(hinge_);
   const double mass = wiring.mass(child_);
+  slides_ = limits_.inertia == mass;  // about an axis it is in kg m^2
+  if (width_ == 0.0 && slides_) width_ = std::abs(open_position_ - closed_position_);
   if (width_ == 0.0) width_ = std::sqrt(3.0 * limits_.inertia / mass);
   const bool is_plain = servo.controller == Controller::kPid;
-  torque_max_ = is_plain ? servo.gains.cmd_max - servo.gains.cmd_min : edge_force * width_;
+  const double force_max = slides_ ? edge_force : edge_force * width_;
+  torque_max_ = is_plain ? servo.gains.cmd_max - servo.gains.cmd_min : force_max;
   servo.inertia = limits_.inertia;
   servo.damping = limits_.damping;
   servo.friction = limits_.friction;
@@ -291,6 +298,7 @@ void Door::save(SavedParams& params) const {
 double Door::free_width(double position) const {
   const double angle = std::abs(position - closed_position_);
   if (angle < kClosedWithin) return 0.0;
+  if (slides_) return std::min(width_, angle);
   return std::min(width_, 2.0 * width_ * std::sin(0.5 * std::min(angle, M_PI)));
 }
 
@@ -359,8 +367,8 @@ std::string LeafPlugin::needs() const {
 }
 
 bool LeafPlugin::is_leaf(const ModelInfo::Joint& joint) const {
+  if (joint.name == leaf_.joint && joint.parent == "base") return turns_or_slides(joint);
   if (joint.type != "revolute") return false;
-  if (joint.name == leaf_.joint && joint.parent == "base") return true;
   const bool is_others =
       joint.name != leaf_.joint &&
       std::find(std::begin(kOwnJoints), std::end(kOwnJoints), joint.name) != std::end(kOwnJoints);
@@ -375,9 +383,9 @@ std::vector<const ModelInfo::Joint*> LeafPlugin::leaves(const ModelInfo& model,
   std::vector<const ModelInfo::Joint*> found;
   for (const ModelInfo::Joint& joint : model.joints) {
     const bool is_named = std::find(named.begin(), named.end(), joint.name) != named.end();
-    if (is_named && joint.type != "revolute") {
-      throw params.error(
-          "joint", "joint '" + joint.name + "' is " + joint.type + "; that of a leaf is revolute");
+    if (is_named && !turns_or_slides(joint)) {
+      throw params.error("joint", "joint '" + joint.name + "' is " + joint.type +
+                                      "; that of a leaf is revolute or prismatic");
     }
     const bool is_found = is_leaf(joint) || is_framed(joint, model, leaf_);
     if ((is_named || is_found) && !joint.taken) found.push_back(&joint);

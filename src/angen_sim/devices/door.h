@@ -16,7 +16,7 @@ namespace angen::devices {
 struct LeafKind {
   const char* kind;
   Kind::Passage passage;
-  const char* joint;  // revolute; its parent is the link `base`
+  const char* joint;  // revolute or prismatic; its parent is the link `base`
   bool any_joint;     // or any about a vertical axis with limits that hangs on the world
   const char* topic;  // where commands come from
   double height;      // m, of the opening, unless its SDF says
@@ -24,8 +24,8 @@ struct LeafKind {
   std::vector<const char*> models;  // of worlds/models; the first is the default
 };
 
-/// A leaf on a revolute joint: a PID drives it, a brake holds it, and a latch where it is shut,
-/// until it is commanded, its handle is turned, or something breaks it open.
+/// A leaf on a revolute or prismatic joint: a PID drives it, a brake holds it, and a latch where it
+/// is shut, until it is commanded, its handle is turned, or something breaks it open.
 class Door : public Device {
  public:
   Door(const LeafKind& leaf, std::string joint) : leaf_(leaf), joint_(std::move(joint)) {}
@@ -65,6 +65,7 @@ class Door : public Device {
   JointLimits limits_;
   double width_ = 0.0;          // m
   double height_ = 0.0;         // m
+  bool slides_ = false;         // on a prismatic joint: positions are in m, forces in N
   Vec3 center_ = Vec3::Zero();  // m, of the leaf's mass, in its frame
   Vec3 anchor_ = Vec3::Zero();  // m, of the hinge, in the model's frame
   Vec3 axis_ = Vec3::UnitZ();   // unit, in that frame
