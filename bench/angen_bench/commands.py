@@ -50,8 +50,17 @@ def run_bench_soak(args: argparse.Namespace) -> int:
     return 0
 
 
+def run_bench_homes(args: argparse.Namespace) -> int:
+    from angen_bench import homes
+    from angen_tools.common.output import show
+    check_folder(args.out)
+    args.out.mkdir(parents=True, exist_ok=True)
+    show(homes.show_table(homes.measure(args.out)))
+    return 0
+
+
 def add_commands(commands: Any) -> None:
-    """angen bench sensors, core, load and soak."""
+    """angen bench sensors, core, load, soak and homes."""
     bench = command(commands, 'bench', run_bench, 'measures costs in a node of its own',
                     'bench sensors --kind pir --counts 0,10,50,100')
     kinds = bench.add_subparsers(dest='what', metavar='WHAT', required=True)
@@ -108,3 +117,7 @@ def add_commands(commands: Any) -> None:
     soak.add_argument('--core', action='store_true', help='the simulator alone, without ROS')
     add_json(soak)
     add_out(soak, 'soak.csv, soak_core.csv')
+    imported = command(kinds, 'homes', run_bench_homes, 'imports the nine homes of Debian\'s '
+                       'sweethome3d and examines them: counts, areas, doors, rays, rooms reached',
+                       'bench homes')
+    add_out(imported, 'the worlds')

@@ -1,0 +1,270 @@
+"""Imports homes and examines them: counts, areas, rays, doors, rooms that a person reaches."""
+from __future__ import annotations
+
+import time
+import zipfile
+from collections import deque
+from dataclasses import dataclass
+from math import cos, sin
+from pathlib import Path
+from typing import Any, Mapping
+
+import numpy as np
+from lxml import etree
+from scipy.ndimage import distance_transform_edt
+
+from angen_apps.imports.sweethome import read_sweethome
+from angen_apps.plan.doors import LEAST_TURN
+from angen_apps.plan.model import Plan
+from angen_apps.plan.shapes import read_shapes
+from angen_apps.plan.writer import write_world
+from angen_tools.common.failure import Failure
+from angen_tools.common.output import table
+
+JAR = Path('/usr/share/sweethome3d/sweethome3d.jar')
+FOLDER = 'com/eteks/sweethome3d/io/resources/examples/'
+CELL = 0.05  # m of the map on which a person's ways are found
+BODY = 0.22  # m, radius of a person
+STEP_OVER = 0.12  # m that is not in a person's way
+TALL = 1.75  # m
+OPENING = 8.0  # s for all leaves to open
+
+
+def examples() -> dict[str, bytes]:
+    """The homes of Debian's package sweethome3d, by name."""
+    if not JAR.exists():
+        raise Failure(f'{JAR} is missing; apt install sweethome3d')
+    with zipfile.ZipFile(JAR) as jar:
+        return {name.removeprefix(FOLDER).removesuffix('.xml'): jar.read(name)
+                for name in sorted(jar.namelist())
+                if name.startswith(FOLDER) and name.endswith('.xml')}
+
+
+@dataclass
+class Imported:
+    """A home that was imported: its plan, counts of the writer, and CPU seconds."""
+
+    name: str
+    plan: Plan
+    path: Path
+    counts: dict[str, int]
+    seconds: float
+
+
+def import_example(name: str, xml: bytes, folder: Path) -> Imported:
+    """Writes NAME.xml and NAME.world into a folder."""
+    source, path = folder / f'{name}.xml', folder / f'{name}.world'
+    source.write_bytes(xml)
+    begin = time.process_time()
+    plan = read_sweethome(source)
+    counts = write_world(plan, path, 'seed')
+    return Imported(name, plan, path, counts, time.process_time() - begin)
+
+
+def in_file(xml: bytes) -> dict[str, int]:
+    """What a home's file says there is of what; what has no size is not built."""
+    root = etree.fromstring(xml)
+
+    def has_size(element: etree._Element) -> bool:
+        if element.tag == 'wall':
+            ends = [float(element.get(key)) for key in ('xStart', 'yStart', 'xEnd', 'yEnd')]
+            return abs(ends[0] - ends[2]) + abs(ends[1] - ends[3]) >= 0.5
+        return True
+
+    return {tag: sum(map(has_size, root.iter(tag)))
+            for tag in ('wall', 'room', 'doorOrWindow', 'light', 'level', 'pieceOfFurniture')}
+
+
+def in_world(imported: Imported) -> dict[str, int]:
+    """The same counts of the world that was written."""
+    counts = imported.counts
+    return {'wall': counts['walls'], 'room': counts['rooms'],
+            'doorOrWindow': counts['doors'] + counts['windows'] + counts['openings'] - sum(
+                opening.source == 'passage' for opening in imported.plan.all_openings()),
+            'light': counts['lamps'], 'pieceOfFurniture': counts['pieces'],
+            'level': counts['storeys'] if len(imported.plan.storeys) > 1 else 0}
+
+
+def areas_in_file(xml: bytes) -> list[float]:
+    """Areas of the rooms, m2, by the shoelace formula on the file's points in cm."""
+    areas = []
+    for room in etree.fromstring(xml).iter('room'):
+        points = [(float(p.get('x')), float(p.get('y'))) for p in room.findall('point')]
+        after = points[1:] + points[:1]
+        twice = sum(x0 * y1 - x1 * y0 for (x0, y0), (x1, y1) in zip(points, after))
+        areas.append(abs(twice) / 2e4)
+    return areas
+
+
+def through(world: Any, plan: Plan) -> dict[str, bool]:
+    """For each opening, whether a ray passes its middle from one face of the wall to the other."""
+    from angen_apps.maps.rays import Caster
+    names, origins, directions, reach = [], [], [], []
+    for opening in plan.all_openings():
+        low, high = opening.band[0] - 0.06, opening.band[1] + 0.06
+        for leaf in opening.leaves:
+            low, high = min(low, leaf.hinge[1] - 0.06), max(high, leaf.hinge[1] + 0.06)
+        # beside the middle of two leaves, where a gap is
+        x, y = opening.point(0.1 * opening.width, low)
+        names.append(opening.name + ' ' + opening.kind)
+        origins.append((x, y, (opening.bottom + opening.top) / 2))
+        directions.append((-sin(opening.yaw), cos(opening.yaw), 0.0))
+        reach.append(high - low)
+    if not names:
+        return {}
+    ranges = Caster(world).cast(np.array(origins), np.array(directions), np.array(reach))
+    return {name: bool(r >= far - 1e-6) for name, r, far in zip(names, ranges, reach)}
+
+
+def open_all(world: Any) -> dict[tuple[str, str], tuple[str, float, float]]:
+    """Opens every door and window; mode, position and target of each."""
+    for kind in ('door', 'window'):
+        if world.devices(kind):
+            world.command(kind, 'all', 'Open')
+    world.run(OPENING)
+    found = {}
+    for kind in ('door', 'window'):
+        for name in world.devices(kind):
+            state = world.device(kind, name)
+            found[kind, name] = (state['mode'], state['position'], state['target'])
+    return found
+
+
+def turns(plan: Plan) -> int:
+    """How many leaves a plan has that open at all."""
+    return sum(abs(leaf.turn) >= LEAST_TURN or leaf.slide != 0
+               for opening in plan.all_openings() for leaf in opening.leaves)
+
+
+def reached(path: Path, home: Mapping[str, Any]) -> tuple[set[str], set[str]]:
+    """Rooms of the main entrance's storey with a door or opening, and those that a person reaches.
+
+    The map is made of the file's shapes by this function alone; leaves are out of the way.
+    """
+    entrance = next((d for d in home['doors'] if d['name'] == home['entrance']), None)
+    if entrance is None:
+        return set(), set()
+    rooms = {room['name']: room for room in home['rooms']}
+    floor = next(rooms[name]['floor'] for name in entrance['rooms'] if name)
+    here = {name: room for name, room in rooms.items() if abs(room['floor'] - floor) < 0.3}
+    joined = {name for door in home['doors'] if door['kind'] != 'window'
+              for name in door['rooms'] if name in here}
+    free, west, south = _free_map(path, floor)
+    start = _cell(entrance['pose'], west, south)
+    seen = _flood(free, start)
+    found = set()
+    for name, room in here.items():
+        cells = [(r, c) for r, c in seen if _inside(room['polygon'], west + (c + .5) * CELL,
+                                                    south + (r + .5) * CELL)]
+        if len(cells) * CELL * CELL > 0.1:
+            found.add(name)
+    return joined, found
+
+
+def _cell(pose: Any, west: float, south: float) -> tuple[int, int]:
+    return int((pose[1] - south) / CELL), int((pose[0] - west) / CELL)
+
+
+def _free_map(path: Path, floor: float) -> tuple[np.ndarray, float, float]:
+    shapes = read_shapes(path)
+    solids = [s for s in shapes.solids if s.model not in shapes.moving and len(s.corners) > 2
+              and s.bottom < floor + TALL and s.top > floor + STEP_OVER]
+    points = np.array([p for s in solids for p in s.corners])
+    west, south = points.min(axis=0) - 1
+    columns, rows = (np.ceil((points.max(axis=0) + 1 - (west, south)) / CELL)).astype(int)
+    x = west + (np.arange(columns) + 0.5) * CELL
+    y = south + (np.arange(rows) + 0.5) * CELL
+    solid = np.zeros((rows, columns), bool)
+    for shape in solids:
+        corners = np.array(shape.corners)
+        inside = np.ones((rows, columns), bool)
+        for (ax, ay), (bx, by) in zip(corners, np.roll(corners, -1, axis=0)):
+            inside &= (bx - ax) * (y[:, None] - ay) - (by - ay) * (x[None] - ax) > -1e-9
+        solid |= inside
+    return distance_transform_edt(~solid) * CELL > BODY, float(west), float(south)
+
+
+def _flood(free: np.ndarray, start: tuple[int, int]) -> set[tuple[int, int]]:
+    """Cells that are reached from the free cell nearest to the start."""
+    cells = np.argwhere(free)
+    nearest = tuple(int(v) for v in cells[np.abs(cells - start).sum(axis=1).argmin()])
+    seen, queue = {nearest}, deque([nearest])
+    while queue:
+        r, c = queue.popleft()
+        for here in ((r + 1, c), (r - 1, c), (r, c + 1), (r, c - 1)):
+            if here not in seen and 0 <= here[0] < free.shape[0] and 0 <= here[1] < free.shape[1] \
+                    and free[here]:
+                seen.add(here)
+                queue.append(here)
+    return seen
+
+
+def _inside(polygon: Any, x: float, y: float) -> bool:
+    found = False
+    for (x0, y0), (x1, y1) in zip(polygon, polygon[1:] + polygon[:1]):
+        if (y0 > y) != (y1 > y) and x < (x1 - x0) * (y - y0) / (y1 - y0) + x0:
+            found = not found
+    return found
+
+
+def moved(world: Any, seconds: float) -> tuple[str, float]:
+    """The link that moves farthest within a time without a command, and how far (m)."""
+    before = np.array(world.link_poses)
+    world.run(seconds)
+    away = np.linalg.norm(np.array(world.link_poses)[:, :3] - before[:, :3], axis=1)
+    worst = int(away.argmax())
+    return world.links[worst], float(away[worst])
+
+
+def measure(folder: Path) -> list[dict[str, Any]]:
+    """A row for each of the nine homes."""
+    import angen
+    rows = []
+    for name, xml in examples().items():
+        imported = import_example(name, xml, folder)
+        said, made = in_file(xml), in_world(imported)
+        world = angen.World(str(imported.path))
+        home = world.home
+        areas = sorted(room['area'] for room in home['rooms'])
+        errors = [abs(a - b) for a, b in zip(sorted(areas_in_file(xml)), areas)]
+        link, away = moved(world, 60.0)
+        shut = through(world, imported.plan)
+        states = open_all(world)
+        opened = sum(mode == 'OPEN' for mode, _, _ in states.values())
+        free = through(world, imported.plan)
+        joined, found = reached(imported.path, home)
+        rows.append({
+            'home': name, 'in file': '/'.join(map(str, said.values())),
+            'in world': '/'.join(map(str, made.values())), 'equal': said == made,
+            'area': max(errors, default=0.0), 'opened': f'{opened}/{len(states)}',
+            'fixed': sum(len(o.leaves) for o in imported.plan.all_openings()) - len(states),
+            'shut stops rays': sum(not v for v in shut.values()),
+            'open lets rays': sum(free.values()), 'reached': f'{len(found & joined)}/{len(joined)}',
+            'moved': away, 'import': imported.seconds, 'factor': speed(imported.path, home)})
+    return rows
+
+
+def speed(path: Path, home: Mapping[str, Any]) -> float:
+    """Simulated seconds a CPU second, with a person that walks to and fro in the largest room."""
+    import angen
+    room = max((r for r in home['rooms'] if r['use'] != 'outdoor'), key=lambda r: r['area'])
+    x, y = np.array(room['polygon']).mean(axis=0)
+    actor = f'''<actor name="walker"><script><loop>true</loop><auto_start>true</auto_start>
+      <trajectory id="0" type="walk">
+      <waypoint><time>0</time><pose>{x} {y} {room["floor"]} 0 0 0</pose></waypoint>
+      <waypoint><time>2</time><pose>{x + 1} {y} {room["floor"]} 0 0 0</pose></waypoint>
+      <waypoint><time>4</time><pose>{x} {y} {room["floor"]} 0 0 0</pose></waypoint>
+      </trajectory></script></actor>'''
+    text = path.read_text().replace('</world>', f'{actor}</world>')
+    world = angen.World.from_text(text)
+    world.run(2)
+    begin = time.process_time()
+    world.run(30)
+    return 30 / max(time.process_time() - begin, 1e-9)
+
+
+def show_table(rows: list[dict[str, Any]]) -> Any:
+    """The rows as a table."""
+    head = list(rows[0])
+    return table(head, [[f'{v:.4g}' if isinstance(v, float) else str(v) for v in row.values()]
+                        for row in rows])

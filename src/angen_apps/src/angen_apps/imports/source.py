@@ -1,0 +1,117 @@
+"""Files that a home is imported from: bounded reading, and errors with file and line."""
+from __future__ import annotations
+
+import math
+import zipfile
+from pathlib import Path
+
+from lxml import etree
+
+from angen_tools.common.failure import Failure
+
+LARGEST = 64 << 20  # bytes of a file
+LARGEST_XML = 32 << 20  # bytes of Home.xml
+ELEMENTS = 50_000
+FARTHEST = 500.0  # m from the origin of a plan
+HOME = 'Home.xml'
+OLD = 'Home'
+
+
+def read_bytes(path: Path) -> bytes:
+    """All of a regular file; Failure where it cannot be read or is too large."""
+    if not path.is_file():
+        raise Failure(f'{path}: is not a file that can be read')
+    if path.stat().st_size > LARGEST:
+        raise Failure(f'{path}: has {path.stat().st_size >> 20} MB, at most {LARGEST >> 20} MB '
+                      'are read')
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise Failure(f'{path}: cannot be read: {error.strerror}') from None
+
+
+class Xml:
+    """An XML document whose attributes are checked where they are read."""
+
+    def __init__(self, name: str, data: bytes) -> None:
+        self.name = name
+        if b'<!ENTITY' in data:
+            raise Failure(f'{name}:1: defines entities; Sweet Home 3D writes none')
+        try:
+            self.root = etree.fromstring(data, etree.XMLParser(
+                resolve_entities=False, no_network=True, load_dtd=False, remove_comments=True,
+                remove_pis=True))
+        except etree.XMLSyntaxError as error:
+            raise Failure(f'{name}:{error.lineno or 1}: is not XML: {error.msg}') from None
+        count = sum(1 for _ in self.root.iter())
+        if count > ELEMENTS:
+            raise Failure(f'{name}:1: has {count} elements, at most {ELEMENTS} are read')
+
+    def fail(self, element: etree._Element, what: str) -> Failure:
+        return Failure(f'{self.name}:{element.sourceline}: {what}')
+
+    def number(self, element: etree._Element, key: str, default: float | None = None,
+               low: float = -math.inf, high: float = math.inf) -> float:
+        """A finite number within bounds, as it is in the file."""
+        text = element.get(key)
+        if text is None:
+            if default is None:
+                raise self.fail(element, f'<{element.tag}> has no {key}; it needs a number')
+            return default
+        try:
+            value = float(text)
+        except ValueError:
+            value = math.nan
+        if not math.isfinite(value):
+            raise self.fail(element, f'{key} of <{element.tag}> is "{_short(text)}", must be a '
+                            'finite number')
+        if not low <= value <= high:
+            raise self.fail(element, f'{key} of <{element.tag}> is {_short(text)}, must be '
+                            f'{low:g} to {high:g}')
+        return value
+
+    def length(self, element: etree._Element, key: str, default: float | None = None,
+               low: float = -FARTHEST, high: float = FARTHEST) -> float:
+        """A length given in cm, in m."""
+        given = None if default is None else default * 100
+        return self.number(element, key, given, low * 100, high * 100) / 100
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= 40 else text[:37] + '...'
+
+
+def home_xml(path: Path) -> Xml:
+    """Home.xml of a .sh3d file, or the file itself if it is XML."""
+    data = read_bytes(path)
+    if not data.startswith(b'PK'):
+        if data.lstrip()[:1] != b'<':
+            raise Failure(f'{path}: is neither a .sh3d file (a zip) nor Home.xml')
+        return Xml(str(path), data)
+    return Xml(f'{path}/{HOME}', _member(path))
+
+
+def _member(path: Path) -> bytes:
+    try:
+        with zipfile.ZipFile(path) as archive:
+            names = archive.namelist()
+            if HOME not in names:
+                if OLD in names:
+                    raise Failure(f'{path}: holds no {HOME}, only the format before Sweet Home 3D '
+                                  '5.3; open it with 5.3 or later and save it')
+                raise Failure(f'{path}: holds no {HOME}; it is not a home of Sweet Home 3D')
+            with archive.open(HOME) as file:
+                data = file.read(LARGEST_XML + 1)
+    except Failure:
+        raise
+    except Exception as error:  # zipfile and zlib raise many kinds for torn files
+        raise Failure(f'{path}: is a damaged zip file: {error or type(error).__name__}') from None
+    if len(data) > LARGEST_XML:
+        raise Failure(f'{path}/{HOME}: has more than {LARGEST_XML >> 20} MB')
+    return data
+
+
+def root_of(xml: Xml, tag: str) -> etree._Element:
+    if xml.root.tag != tag:
+        raise xml.fail(xml.root, f'begins with <{xml.root.tag}>, must be <{tag}>')
+    return xml.root

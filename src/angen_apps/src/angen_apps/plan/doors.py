@@ -1,0 +1,231 @@
+"""Leaves of doors and sashes of windows: how far they open, and their models."""
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import cos, degrees, pi, sin
+from typing import Sequence
+
+from lxml import etree
+
+from angen_apps.plan.model import Leaf, Opening, Plan, Storey, local, turned
+from angen_apps.plan.polygons import overlap, rectangle
+from angen_apps.plan.walls import Box
+from angen_tools.world.placing import generator
+
+LEAF_THICK = 0.04  # m
+SASH_THICK = 0.03
+UNDER = 0.008  # m of air under a door, and above it
+SASH_GAP = 0.004
+EDGE = 0.004  # m from a leaf's far edge to its jamb
+DOOR_MASS = 10.0  # kg/m2
+SASH_MASS = 20.0  # kg/m2: two panes of 3 mm and the frame
+STEP = pi / 60  # between the angles at which a leaf is tried
+LEAST_TURN = 0.15  # rad: a leaf that opens less is fixed
+TOUCH = 0.001  # m of overlap that is not a touch
+CLOSE = 0.002  # m above or below a leaf is in its way
+OAK = (0.62, 0.45, 0.28)
+GLASS = (0.55, 0.68, 0.8)
+# gains in those of a PID for a leaf of 1 kg m2: of 1 Hz, damped
+GAIN = {'p': 40.0, 'i': 40.0, 'd': 8.0}
+
+
+@dataclass(frozen=True)
+class Obstacle:
+    """Something that a leaf may meet: corners seen from above, and its heights."""
+
+    name: str
+    corners: list[tuple[float, float]]
+    bottom: float
+    top: float
+
+
+@dataclass(frozen=True)
+class Hung:
+    """A leaf of an opening, in the plan, with the angle to which it opens."""
+
+    name: str
+    opening: Opening
+    leaf: Leaf
+    turn: float
+
+    @property
+    def opens(self) -> bool:
+        return self.turn != 0.0 or self.leaf.slide != 0.0
+
+    @property
+    def hinge(self) -> tuple[float, float]:
+        return self.opening.point(*self.leaf.hinge)
+
+    @property
+    def yaw(self) -> float:
+        return self.opening.yaw + self.leaf.shut
+
+    @property
+    def thick(self) -> float:
+        return SASH_THICK if self.opening.kind == 'window' else LEAF_THICK
+
+    @property
+    def width(self) -> float:
+        return self.leaf.width - EDGE
+
+    @property
+    def heights(self) -> tuple[float, float]:
+        gap = SASH_GAP if self.opening.kind == 'window' else UNDER
+        return self.opening.bottom + gap, self.opening.top - gap
+
+    def corners(self, angle: float) -> list[tuple[float, float]]:
+        """The leaf seen from above, turned by an angle."""
+        low, high = (0.0, self.thick) if self.turn <= 0 else (-self.thick, 0.0)
+        return rectangle(*self.hinge, self.yaw + angle, (0.0, low), (self.width, high))
+
+
+def hang(storey: Storey, walls: Sequence[Box], furniture: Sequence[Obstacle], plan: Plan
+         ) -> list[Hung]:
+    """The leaves of a storey; each opens as far as nothing is in its way."""
+    solid = [Obstacle('a wall', box.corners(), box.low[2], box.high[2]) for box in walls]
+    found: list[Hung] = []
+    for opening in storey.openings:
+        for i, leaf in enumerate(opening.leaves):
+            name = opening.name
+            if len(opening.leaves) > 1:
+                name = _sided(opening, leaf, i)
+            found.append(Hung(name, opening, leaf, leaf.turn))
+    shut = [Obstacle(f'the leaf {hung.name}', hung.corners(0.0), *hung.heights) for hung in found]
+    for i, hung in enumerate(found):
+        others = [other for k, other in enumerate(shut) if k != i]
+        if hung.leaf.slide:
+            continue
+        turn, why = _free_turn(hung, [*solid, *furniture, *others])
+        if abs(turn) < abs(hung.leaf.turn) - 1e-6:
+            opens = f'opens by {degrees(abs(turn)):.0f} degrees only' if abs(turn) >= LEAST_TURN \
+                else 'does not open'
+            plan.remarks.append(f'{hung.opening.kind} {hung.name} {opens}: {why} is in its way')
+            found[i] = replace(hung, turn=turn if abs(turn) >= LEAST_TURN else 0.0)
+    return found
+
+
+def _sided(opening: Opening, leaf: Leaf, index: int) -> str:
+    """The name of one of two leaves; a number at its end stays there."""
+    side = ('left' if leaf.hinge[0] < 0 else 'right') if len(opening.leaves) == 2 else f'n{index}'
+    if opening.name == opening.source:
+        return f'{opening.name}_{side}'
+    stem = opening.name.rstrip('0123456789')
+    joint = '' if stem.endswith('_') else '_'
+    return f'{stem}{joint}{side}{opening.name[len(stem):]}'
+
+
+def _free_turn(hung: Hung, obstacles: Sequence[Obstacle]) -> tuple[float, str]:
+    """How far a leaf turns without touching, and what stops it."""
+    bottom, top = hung.heights
+    x, y = hung.hinge
+    reach = hung.width + 0.1
+    near = [o for o in obstacles if o.bottom < top + CLOSE and o.top > bottom - CLOSE
+            and min(c[0] for c in o.corners) < x + reach
+            and max(c[0] for c in o.corners) > x - reach
+            and min(c[1] for c in o.corners) < y + reach
+            and max(c[1] for c in o.corners) > y - reach]
+    sign = -1.0 if hung.turn < 0 else 1.0
+    count = max(1, round(abs(hung.turn) / STEP))
+    free = 0.0
+    for i in range(count + 1):
+        angle = hung.turn * i / count
+        corners = hung.corners(angle)
+        for o in near:
+            if overlap(corners, o.corners) > TOUCH:
+                return sign * max(0.0, abs(free) - STEP / 2), o.name
+        free = angle
+    return hung.turn, ''
+
+
+def leaf_model(hung: Hung, base_z: float, reed: bool) -> etree._Element:
+    """The <model> of a leaf that turns: its origin is on its hinge at its foot."""
+    blocks = generator('sdf')
+    window = hung.opening.kind == 'window'
+    glazed = window or hung.opening.glazed
+    bottom, top = hung.heights
+    width, height, thick = hung.width, top - bottom, hung.thick
+    slides = hung.leaf.slide != 0.0
+    side = 1.0 if hung.turn <= 0 else -1.0
+    mass = round(max(1.0, (SASH_MASS if glazed else DOOR_MASS) * width * height), 1)
+    root, model = blocks.new_model(model_name(hung))
+    x, y = hung.hinge
+    blocks.add_pose(model, (round(x, 5), round(y, 5), round(bottom, 5)),
+                    (0, 0, round(hung.yaw, 6)))
+    base = blocks.add_link(model, 'base', [_frame(width, thick * side, height)])
+    if reed:
+        _add_reed(base, hung, height, side)
+    blocks.add_fixed(model, 'base_to_world', 'world', 'base')
+    name = 'pane' if window else 'leaf'
+    blocks.add_link(model, name, _leaf_parts(glazed, width, height, thick, side, mass))
+    far = hung.leaf.slide if slides else hung.turn
+    low, high = (far, 0.001) if far <= 0 else (-0.001, far)
+    joint = 'sash' if window else 'slide' if slides else 'hinge'
+    blocks.add_joint(model, joint, 'prismatic' if slides else 'revolute', 'base', name,
+                     (1, 0, 0) if slides else (0, 0, 1),
+                     limits={'lower': round(low, 4), 'upper': round(high, 4), 'effort': 200,
+                             'velocity': 3},
+                     dynamics={'damping': 0.2, 'friction': 0.1})
+    inertia = mass if slides else mass * width ** 2 / 3
+    gains: dict[str, object] = {key: round(gain * max(inertia, 0.2), 2)
+                                for key, gain in GAIN.items()}
+    if slides and not window:
+        gains['joint'] = joint
+    blocks.add_plugin(model, 'window_controller' if window else 'door_controller',
+                      'libdoor_world_plugin.so', device_name=hung.name,
+                      open_position=round(far, 4), width=round(width, 3),
+                      height=round(height, 3), **gains)
+    root.remove(model)
+    return model
+
+
+def model_name(hung: Hung) -> str:
+    """The name of a leaf's model: that of its device with its kind before the storey's number."""
+    stem = hung.name.rstrip('0123456789')
+    return f'{stem.rstrip("_")}_{hung.opening.kind}{hung.name[len(stem):]}'
+
+
+def _frame(width: float, thick: float, height: float) -> object:
+    """What carries the reed contact; it is in nobody's way."""
+    low, high = sorted((thick, thick + (0.006 if thick > 0 else -0.006)))
+    return generator('sdf').spanned('reed', (width - 0.07, low, height - 0.056),
+                                    (width - 0.03, high, height - 0.044), mass=0.01,
+                                    collide=False)
+
+
+def _add_reed(base: etree._Element, hung: Hung, height: float, side: float) -> None:
+    catalog = generator('catalog')
+    x, z = hung.width - 0.05, height - 0.05
+    y = side * hung.thick
+    gap = side * catalog.REED_GAP
+    catalog.add_reed(base, (round(x, 5), round(y + gap, 5), round(z, 5)),
+                     'pane' if hung.opening.kind == 'window' else 'leaf',
+                     (round(x, 5), round(y, 5), round(z, 5)))
+
+
+def _leaf_parts(glazed: bool, width: float, height: float, thick: float, side: float, mass: float
+                ) -> list[object]:
+    blocks = generator('sdf')
+    low, high = sorted((0.0, thick * side))
+    parts = [blocks.spanned('pane' if glazed else 'panel', (0.0, low, 0.0), (width, high, height),
+                            material=GLASS if glazed else OAK, mass=mass)]
+    lever = min(1.0, height / 2)
+    for y in (low - 0.04, high + 0.01):
+        parts.append(blocks.spanned(f'handle_{"front" if y < low else "back"}',
+                                    (width - 0.14, y, lever), (width - 0.03, y + 0.03,
+                                                               lever + 0.025),
+                                    material=(0.75, 0.75, 0.78), collide=False))
+    return parts
+
+
+def swing(hung: Hung, count: int = 12) -> list[tuple[float, float]]:
+    """The area that a leaf sweeps, as a polygon of the plan."""
+    x, y = hung.hinge
+    return [(x, y), *(turned((x, y), hung.yaw + hung.turn * i / count, hung.width, 0.0)
+                      for i in range(count + 1))]
+
+
+def is_in_swing(hung: Hung, point: tuple[float, float], keep: float = 0.0) -> bool:
+    """Whether a point is where the leaf turns, or nearer than `keep` to it."""
+    u, v = local(hung.hinge, hung.yaw, point)
+    return (u * u + v * v) ** 0.5 < hung.width + keep and u * cos(hung.turn / 2) + v * sin(
+        hung.turn / 2) > -keep

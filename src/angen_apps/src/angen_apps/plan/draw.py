@@ -1,0 +1,236 @@
+"""Draws a world as an architect's plan, to scale, storeys side by side."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import cos, pi, sin
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from angen_apps.plan import overlays
+from angen_apps.plan.shapes import Shape, Shapes, Swing, read_shapes
+from angen_apps.plan.symbols import SYMBOLS
+from angen_tools.common.catalog import angen_module
+from angen_tools.common.failure import Failure
+from angen_tools.common.files import pyplot, writing
+from angen_tools.common.home import Door, Home, Room, Storey, Thing
+
+CUT = 1.1  # m above a floor at which walls are cut
+TALL = 1.7  # m: a shape that ends higher than this over the floor is a wall
+INCH = 0.9  # of paper for a meter, at most
+WIDEST = 24.0  # inches
+MARGIN = 1.0  # m around a storey
+DPI = 130
+TINTS = {'kitchen': '#fdf0d8', 'bedroom': '#e8eefa', 'bathroom': '#dff2f2', 'living': '#f3f0e4',
+         'hall': '#efefef', 'work': '#e9f3e4', 'landing': '#e6e6e6', 'outdoor': '#e4f1dc'}
+INK, GRAY, THIN = '#222222', '#8a8a8a', 0.7
+
+
+@dataclass
+class Scene:
+    """A world, read for drawing."""
+
+    path: Path
+    home: Home
+    shapes: Shapes
+    entities: list[Any]
+    things: dict[str, Thing] = field(default_factory=dict)
+
+
+def read_scene(path: Path) -> Scene:
+    """Loads a world; Failure where it cannot be loaded or has no room."""
+    angen = angen_module()
+    try:
+        world = angen.World(str(path))
+    except angen.Error as error:
+        raise Failure(str(error)) from None
+    home = Home.of_world(world)
+    if not home.rooms:
+        raise Failure(f'{path}: has no rooms, named or guessed, to draw')
+    return Scene(path, home, read_shapes(path), list(world.entities()),
+                 {thing.name: thing for thing in home.things})
+
+
+def draw(path: Path, output: Path, what: overlays.What) -> str:
+    """Draws a world's plan as SVG or PNG, by the ending of `output`."""
+    kind = output.suffix.lower().lstrip('.')
+    if kind not in ('svg', 'png'):
+        raise Failure(f'{output}: must end in .svg or .png')
+    scene = read_scene(path)
+    data = overlays.read(what, scene.entities)
+    plt = pyplot()
+    storeys = [s for s in scene.home.storeys if any(r.storey == s.number for r in scene.home.rooms)]
+    extents = [_extent(scene, storey) for storey in storeys]
+    widths = [e[1] - e[0] for e in extents]
+    high = max(e[3] - e[2] for e in extents)
+    inch = min(INCH, WIDEST / sum(widths))
+    with plt.rc_context({'svg.hashsalt': 'angen', 'svg.fonttype': 'none', 'font.size': 8}):
+        figure, axes = plt.subplots(1, len(storeys), squeeze=False, width_ratios=widths, figsize=(
+            sum(widths) * inch, high * inch + 0.6))
+        for axis, storey, extent in zip(axes[0], storeys, extents):
+            middle = (extent[2] + extent[3]) / 2
+            axis.set_xlim(extent[0], extent[1])
+            axis.set_ylim(middle - high / 2, middle + high / 2)
+            _draw_storey(axis, scene, storey, inch)
+            overlays.draw(axis, scene, storey, data, what)
+            axis.set_title(storey.name, fontsize=9)
+        _scale_and_north(axes[0][0], scene.home.north)
+        figure.subplots_adjust(0.005, 0.005, 0.995, 1 - 0.35 / (high * inch + 0.6), 0.02)
+        with writing(output, binary=True) as file:
+            metadata = {'Date': None} if kind == 'svg' else {'Software': None}
+            figure.savefig(file, format=kind, dpi=DPI, metadata=metadata)
+        plt.close(figure)
+    return (f'wrote {output}: {len(storeys)} storey{"s"[:len(storeys) > 1]}, '
+            f'{len(scene.home.rooms)} rooms, {len(scene.home.doors)} doors and windows')
+
+
+def _extent(scene: Scene, storey: Storey) -> tuple[float, float, float, float]:
+    points = np.array([p for room in scene.home.rooms if room.storey == storey.number
+                       for p in room.polygon])
+    for elevator in scene.home.elevators:
+        points = np.vstack([points, np.array([elevator.pose[:2]]) + 1, np.array(
+            [elevator.pose[:2]]) - 1])
+    west, south = points.min(axis=0) - MARGIN
+    east, north = points.max(axis=0) + MARGIN
+    return float(west), float(east), float(south), float(north)
+
+
+def _draw_storey(axis: Any, scene: Scene, storey: Storey, inch: float) -> None:
+    axis.set_aspect('equal')
+    axis.axis('off')
+    rooms = [room for room in scene.home.rooms if room.storey == storey.number]
+    for room in rooms:
+        axis.fill(*zip(*room.polygon), color=TINTS.get(room.use, '#f6f6f6'), lw=0, zorder=1)
+    swings = [s for s in scene.shapes.swings if _is_on(s.bottom, storey)]
+    leaves = {swing.model for swing in swings}
+    for shape in scene.shapes.solids:
+        if shape.model not in leaves and len(shape.corners) > 2:
+            _draw_solid(axis, scene, storey, shape)
+    for thing in scene.home.things:
+        _draw_thing(axis, scene, storey, thing)
+    for door in scene.home.doors:
+        if door.kind == 'window' and _is_on(door.pose[2], storey):
+            _draw_window(axis, door)
+    for swing in swings:
+        _draw_swing(axis, swing)
+    for room in rooms:
+        _label(axis, room, inch)
+    for elevator in scene.home.elevators:
+        for landing in elevator.landings:
+            if landing.storey == storey.number:
+                x, y = elevator.pose[:2]
+                axis.plot([x - .7, x + .7], [y - .7, y + .7], color=GRAY, lw=THIN, zorder=5)
+                axis.plot([x - .7, x + .7], [y + .7, y - .7], color=GRAY, lw=THIN, zorder=5)
+
+
+def _is_on(z: float, storey: Storey) -> bool:
+    return storey.elevation - 0.3 <= z < storey.elevation + storey.height - 0.3
+
+
+def _draw_solid(axis: Any, scene: Scene, storey: Storey, shape: Shape) -> None:
+    """Walls are black, what is lower is an outline; things have symbols of their own."""
+    thing = scene.things.get(shape.model)
+    cut = storey.elevation + CUT
+    is_building = shape.model not in scene.shapes.moving and thing is None
+    if is_building and shape.link.startswith(('window_', 'door_')):
+        axis.fill(*zip(*shape.corners), color='#4a7fb5', lw=0, zorder=6)  # a pane or a fixed leaf
+    elif is_building and shape.bottom < cut < shape.top and shape.top > storey.elevation + TALL:
+        axis.fill(*zip(*shape.corners), color=INK, lw=0, zorder=6)
+    elif is_building and _is_low(shape, storey, 0.3):
+        axis.fill(*zip(*shape.corners), facecolor='white', edgecolor=GRAY, lw=THIN, zorder=3)
+
+
+def _is_low(shape: Shape, storey: Storey, least: float) -> bool:
+    """Whether a shape is on the floor of a storey and higher than a step."""
+    return (storey.elevation - 0.15 < shape.bottom < storey.elevation + CUT
+            and shape.top > storey.elevation + least and shape.top - shape.bottom > 0.02)
+
+
+def _draw_thing(axis: Any, scene: Scene, storey: Storey, thing: Thing) -> None:
+    parts = [shape for shape in scene.shapes.solids if shape.model == thing.name
+             and storey.elevation - 0.15 < shape.bottom < storey.elevation + 1.8]
+    if not parts or thing.type in ('lamp', 'window'):
+        return
+    if all(part.bottom > storey.elevation + 1.3 for part in parts):
+        style = {'ls': ':', 'facecolor': 'none'}  # above the cut
+    else:
+        style = {'facecolor': 'white'}
+    turn = 2 * np.arctan2(thing.pose[5], thing.pose[6])
+    c, s = np.cos(turn), np.sin(turn)
+    local = np.array([((x - thing.pose[0]) * c + (y - thing.pose[1]) * s,
+                       (y - thing.pose[1]) * c - (x - thing.pose[0]) * s)
+                      for part in parts for x, y in part.corners])
+    low, high = local.min(axis=0), local.max(axis=0)
+    middle, half = (low + high) / 2, (high - low) / 2
+
+    def place(line: list[tuple[float, float]]) -> Any:
+        points = np.array(line) * half + middle
+        return (thing.pose[0] + points[:, 0] * c - points[:, 1] * s,
+                thing.pose[1] + points[:, 0] * s + points[:, 1] * c)
+
+    outline = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+    if len(parts) == 1 and parts[0].round:
+        outline = [(cos(a), sin(a)) for a in np.linspace(0, 2 * pi, 24)]
+    axis.fill(*place(outline), edgecolor=INK, lw=THIN, zorder=4, **style)
+    for line in SYMBOLS.get(thing.type, []):
+        axis.plot(*place(line), color=GRAY if 'ls' in style else INK, lw=THIN * 0.8, zorder=4.5)
+
+
+def _draw_window(axis: Any, door: Door) -> None:
+    x, y, _, yaw = door.pose
+    c, s = cos(yaw), sin(yaw)
+    for away in (-0.07, 0.0, 0.07):
+        axis.plot(*zip(*((x + u * c - away * s, y + u * s + away * c)
+                         for u in (-door.width / 2, door.width / 2))),
+                  color='#4a7fb5', lw=THIN, zorder=7, solid_capstyle='butt')
+
+
+def _draw_swing(axis: Any, swing: Swing) -> None:
+    color = '#4a7fb5' if swing.window else INK
+    far = swing.path[-1]
+    axis.plot([swing.hinge[0], far[0]], [swing.hinge[1], far[1]], color=color,
+              lw=0.6 if swing.window else 1.4, zorder=7)
+    axis.plot(*zip(*swing.path), color=color, lw=0.5, zorder=7)
+
+
+def _label(axis: Any, room: Room, inch: float) -> None:
+    """The room's name and area at the point of it that is farthest from its walls."""
+    x, y, away = _inner_point(room)
+    west, south, east, north = room.bounds
+    text = room.name.rstrip('0123456789').rstrip('_').replace('_', ' ')
+    wide = 0.065 * max(len(text), 7) / inch  # m of 8 points
+    size = 8 if wide < max(2 * away, 0.6 * (east - west)) else 5.5
+    axis.text(x, y, f'{text}{"?" if room.guessed else ""}\n{room.area:.1f} m²', ha='center',
+              va='center', fontsize=size, zorder=9, color='#333333', linespacing=1.1,
+              bbox={'facecolor': 'white', 'alpha': 0.65, 'lw': 0, 'pad': 0.6})
+
+
+def _inner_point(room: Room) -> tuple[float, float, float]:
+    west, south, east, north = room.bounds
+    best = (*room.polygon[0], -1.0)
+    for x in np.linspace(west, east, 18)[1:-1]:
+        for y in np.linspace(south, north, 18)[1:-1]:
+            if room.contains(x, y) and (away := room.distance(x, y)) > best[2] + 1e-9:
+                best = (float(x), float(y), away)
+    return best
+
+
+def _scale_and_north(axis: Any, north: float) -> None:
+    west, east = axis.get_xlim()
+    south = axis.get_ylim()[0]
+    length = 1.0 if east - west < 12 else 2.0
+    x, y = west + 0.2, south + 0.2
+    for i in range(2):
+        axis.fill([x + i * length / 2, x + (i + 1) * length / 2] * 1 + [
+            x + (i + 1) * length / 2, x + i * length / 2], [y, y, y + 0.07, y + 0.07],
+            facecolor=INK if i == 0 else 'white', edgecolor=INK, lw=THIN, zorder=10)
+    axis.text(x + length, y + 0.1, f'{length:g} m', fontsize=7, ha='center', va='bottom')
+    cx, cy, r = west + length + 0.9, south + 0.45, 0.28
+    dx, dy = cos(north), sin(north)
+    axis.fill([cx + r * dx, cx - r * dx * 0.6 - r * dy * 0.5, cx - r * dx * 0.25,
+               cx - r * dx * 0.6 + r * dy * 0.5],
+              [cy + r * dy, cy - r * dy * 0.6 + r * dx * 0.5, cy - r * dy * 0.25,
+               cy - r * dy * 0.6 - r * dx * 0.5], color=INK, lw=0, zorder=10)
+    axis.text(cx + 1.35 * r * dx, cy + 1.35 * r * dy, 'N', fontsize=7, ha='center', va='center',
+              zorder=11)

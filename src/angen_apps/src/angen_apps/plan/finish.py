@@ -1,0 +1,126 @@
+"""Completes a plan that was read: names, what rooms are for, and the main entrance."""
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from math import cos, sin
+
+from angen_apps.plan.model import Lamp, Opening, Piece, Plan, Point, Room, Storey
+from angen_apps.plan.names import Names, slug, use_by_things, use_of
+from angen_apps.plan.passages import passages
+from angen_apps.plan.polygons import area, contains
+
+BESIDE = 0.15  # m from the face of a wall to the room beside it
+TO_PASS = ('hall', 'landing', 'outdoor', '')
+
+
+def finish(plan: Plan) -> Plan:
+    """Names rooms, openings, furniture and lamps; all names are unique."""
+    rooms, doors, windows, pieces, lamps = (Names() for _ in range(5))
+    for storey in plan.storeys:
+        _name_rooms(storey, rooms)
+    for storey in plan.storeys:
+        storey.openings += passages(storey)
+        storey.openings = [_named_opening(
+            opening, storey, windows if opening.kind == 'window' else doors)
+            for opening in storey.openings]
+        storey.pieces = [_named_piece(piece, storey, pieces) for piece in storey.pieces]
+        storey.lamps = [_named_lamp(lamp, storey, lamps) for lamp in storey.lamps]
+    if not plan.entrance:
+        plan.entrance = _entrance(plan)
+    return plan
+
+
+def stem(name: str) -> str:
+    """A name without the storey's number."""
+    return name.rstrip('0123456789').rstrip('_')
+
+
+def room_at(storey: Storey, point: Point) -> Room | None:
+    """The smallest room around a point of a storey."""
+    around = [room for room in storey.rooms if contains(room.polygon, *point)]
+    return min(around, key=lambda room: area(room.polygon), default=None)
+
+
+def sides(opening: Opening, storey: Storey) -> tuple[Room | None, Room | None]:
+    """The rooms on the two sides of an opening: toward its -y and its +y."""
+    found = []
+    for edge, sign in ((opening.band[0], -1), (opening.band[1], 1)):
+        room = None
+        for away in (BESIDE, 2 * BESIDE, 0.02):
+            room = room or room_at(storey, opening.point(0.0, edge + sign * away))
+        found.append(room)
+    return found[0], found[1]
+
+
+def _name_rooms(storey: Storey, names: Names) -> None:
+    named = []
+    for room in storey.rooms:
+        things = {piece.thing for piece in storey.pieces
+                  if contains(room.polygon, piece.x, piece.y)}
+        use = room.use or use_of(room.name) or use_by_things(things - {''})
+        text = slug(room.name) if room.name else (use if use != 'other' else 'room')
+        named.append((room, use, text))
+    for room, use, text in named:
+        made = replace(room, use=use, name=names.take(text, storey.number))
+        storey.rooms[storey.rooms.index(room)] = made
+
+
+def _named_opening(opening: Opening, storey: Storey, names: Names) -> Opening:
+    """Named after the room to which it leads: not a hall, if it joins one with another room."""
+    if opening.name:  # a name that other programs use
+        return replace(opening, name=names.take(opening.name))
+    beside = [room for room in sides(opening, storey) if room is not None]
+    best = sorted(beside, key=lambda room: (room.use in TO_PASS, area(room.polygon)))
+    text = stem(best[0].name) if best else slug(opening.source, opening.kind)
+    return replace(opening, name=names.take(text, storey.number))
+
+
+def _named_piece(piece: Piece, storey: Storey, names: Names) -> Piece:
+    room = room_at(storey, (piece.x, piece.y))
+    what = slug(piece.name or piece.source or piece.thing, 'piece')
+    text = f'{stem(room.name)}_{what}' if room is not None else what
+    return replace(piece, name=names.take(text, storey.number))
+
+
+def _named_lamp(lamp: Lamp, storey: Storey, names: Names) -> Lamp:
+    room = room_at(storey, (lamp.x, lamp.y))
+    text = stem(room.name) if room is not None else slug(lamp.name or lamp.source, 'lamp')
+    return replace(lamp, name=names.take(text, storey.number))
+
+
+def _entrance(plan: Plan) -> str:
+    """The name of the main entrance's leaf: a door to the outside, best one called so."""
+    from angen_apps.plan.doors import _sided
+    best: tuple[tuple[bool, bool, float, int], Opening] | None = None
+    for storey in plan.storeys:
+        for i, opening in enumerate(storey.openings):
+            if opening.kind == 'window' or opening.bottom > storey.elevation + 0.35:
+                continue
+            beside = sides(opening, storey)
+            outside = any(room is None or room.use == 'outdoor' for room in beside)
+            inside = [room for room in beside if room is not None and room.use != 'outdoor']
+            if not outside or not inside:
+                continue
+            called = bool(re.search('front|entr|main|haus', opening.source.lower()))
+            hall = any(room.use in ('hall', 'landing') for room in inside)
+            rank = (not called, not hall, abs(storey.elevation), i)
+            if best is None or rank < best[0]:
+                best = (rank, opening)
+    if best is None:
+        return ''
+    opening = best[1]
+    if len(opening.leaves) > 1:
+        return _sided(opening, opening.leaves[0], 0)
+    return opening.name
+
+
+def beside_box(storey: Storey, middle: Point, yaw: float, half: float) -> tuple[str, str]:
+    """Names of the rooms on both sides of a wall's box that runs along `yaw`."""
+    found = []
+    for sign in (-1, 1):
+        away = sign * (half + BESIDE)
+        room = room_at(storey, (middle[0] - away * sin(yaw), middle[1] + away * cos(yaw)))
+        found.append(stem(room.name) if room is not None else 'outside')
+    first, second = sorted(found, key=lambda name: (name == 'outside', name))
+    return first, second

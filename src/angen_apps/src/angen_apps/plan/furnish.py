@@ -1,0 +1,266 @@
+"""Furniture: models of worlds/models scaled to a piece's box, and boxes for the rest."""
+from __future__ import annotations
+
+from copy import deepcopy
+from functools import cache
+from math import pi, prod
+from typing import Sequence
+
+import numpy as np
+from lxml import etree
+
+from angen_apps.plan.doors import Obstacle
+from angen_apps.plan.model import Piece
+from angen_apps.plan.polygons import rectangle
+from angen_tools.world import sdf
+from angen_tools.world.models import find
+from angen_tools.world.placing import generator
+
+ANGEN = 'angen'  # the namespace of our elements
+SAME = 0.02  # a scale within this of 1 is 1
+STEPS = 15
+TREADS = 0.69  # of the height of a flight with its railing are steps
+TRAY = 0.08  # m, height of a shower's tray
+THIN = 0.02  # m: a flatter thing on the floor is not in anyone's way
+
+
+@cache
+def _template(name: str) -> tuple[etree._Element, np.ndarray, np.ndarray] | None:
+    """A model and the corners of the box around its collisions; None where it is not found."""
+    file = find(f'model://{name}')
+    model = sdf.read(file).find('model') if file is not None else None
+    if model is None:
+        return None
+    lows, highs = [], []
+    for link in model.iterfind('link'):
+        base = np.array(sdf.parse_pose(link.findtext('pose', '0 0 0')))[:3]
+        for collision in link.iterfind('collision'):
+            half = _half(collision.find('geometry'))
+            if half is None:
+                continue
+            pose = sdf.parse_pose(collision.findtext('pose', '0 0 0'))
+            reach = np.abs(generator('sdf').rotation(pose[3:])) @ half
+            at = base + np.array(pose[:3])
+            lows.append(at - reach)
+            highs.append(at + reach)
+    if not lows:
+        return None
+    return model, np.min(lows, axis=0), np.max(highs, axis=0)
+
+
+def _half(geometry: etree._Element) -> np.ndarray | None:
+    if geometry.find('box') is not None:
+        return np.array([float(v) for v in geometry.findtext('box/size').split()]) / 2
+    if geometry.find('cylinder') is not None:
+        radius = float(geometry.findtext('cylinder/radius'))
+        return np.array([radius, radius, float(geometry.findtext('cylinder/length')) / 2])
+    if geometry.find('sphere') is not None:
+        return np.full(3, float(geometry.findtext('sphere/radius')))
+    return None
+
+
+def piece_model(piece: Piece, seat_sensor: bool) -> etree._Element | None:
+    """The <model> of a piece; None where it is nothing that can be built."""
+    if min(piece.width, piece.depth, piece.height) < 1e-3:
+        return None
+    template = _template(piece.model) if piece.model else None
+    upright = not any(piece.tilt)
+    if template is not None and upright:
+        model = _scaled(template, piece, seat_sensor)
+    else:
+        model = _boxes(piece)
+    model.set('name', piece.name)
+    _add_thing(model, piece)
+    return model
+
+
+def _scaled(template: tuple[etree._Element, np.ndarray, np.ndarray], piece: Piece,
+            seat_sensor: bool) -> etree._Element:
+    original, low, high = template
+    size = np.array([piece.depth, piece.width, piece.height])
+    scale = size / (high - low)
+    scale[np.abs(scale - 1) < SAME] = 1.0
+    model = deepcopy(original)
+    _freeze(model, seat_sensor)
+    for element in list(model.iter()):
+        if isinstance(element.tag, str):
+            _scale(element, scale)
+    middle = (low + high) / 2 * scale
+    foot = low[2] * scale[2]
+    c, s = np.cos(piece.yaw), np.sin(piece.yaw)
+    x = piece.x - middle[0] * c + middle[1] * s
+    y = piece.y - middle[0] * s - middle[1] * c
+    _set_pose(model, (x, y, piece.z - foot, 0, 0, piece.yaw))
+    return model
+
+
+def _freeze(model: etree._Element, seat_sensor: bool) -> None:
+    """Makes a model static, without what only makes sense where it moves or is needed twice."""
+    for static in model.findall('static'):
+        model.remove(static)
+    static = etree.Element('static')
+    static.text = 'true'
+    model.insert(0, static)
+    for link in model.iterfind('link'):
+        for inertial in link.findall('inertial'):
+            link.remove(inertial)
+        if not seat_sensor:
+            for sensor in link.findall('sensor'):
+                if sensor.get('type') == 'contact':
+                    link.remove(sensor)
+
+
+def _scale(element: etree._Element, scale: np.ndarray) -> None:
+    """Scales one element's own numbers."""
+    name = etree.QName(element).localname
+    text = (element.text or '').split()
+    if name == 'pose' and len(text) in (3, 6):
+        values = [float(v) for v in text]
+        values[:3] = list(np.array(values[:3]) * scale)
+    elif name == 'place' and len(text) == 4:
+        values = [float(v) for v in text]
+        # what is before the front stays as far before it
+        values[:3] = list(np.array(values[:3]) * (scale if element.get('posture') != 'stand'
+                                                  else np.array([1, scale[1], 1])))
+    elif name == 'size' and len(text) == 3:
+        values = list(_turned(element, scale) * [float(v) for v in text])
+    elif name == 'scale' and len(text) == 3 and element.getparent().tag == 'mesh':
+        values = list(scale * [float(v) for v in text])
+    elif name == 'mesh':
+        if element.find('scale') is None and not np.all(scale == 1):
+            etree.SubElement(element, 'scale').text = '1 1 1'
+        return
+    elif name == 'radius':
+        values = [float(text[0]) * (scale[0] * scale[1]) ** 0.5]
+    elif name == 'length':
+        values = [float(text[0]) * scale[2]]
+    elif name == 'rectangle' and len(text) == 2:
+        values = [float(text[0]) * scale[1], float(text[1]) * scale[2]]
+    elif name == 'position' and len(text) == 3:
+        values = list(scale * [float(v) for v in text])
+    else:
+        return
+    element.text = generator('sdf').numbers(*(round(v, 5) for v in values))
+
+
+def _turned(element: etree._Element, scale: np.ndarray) -> np.ndarray:
+    """The scale along the axes of a shape, which may be turned by quarter turns."""
+    pose = element.getparent().getparent().getparent().findtext('pose', '0 0 0')
+    turn = np.abs(generator('sdf').rotation(sdf.parse_pose(pose)[3:]))
+    return np.asarray(turn.T @ scale / turn.sum(axis=0))
+
+
+def _set_pose(model: etree._Element, pose: Sequence[float]) -> None:
+    for old in model.findall('pose'):
+        model.remove(old)
+    element = etree.Element('pose')
+    element.text = generator('sdf').numbers(*(round(float(v), 5) for v in pose))
+    model.insert(1, element)
+
+
+def _boxes(piece: Piece) -> etree._Element:
+    blocks = generator('sdf')
+    _, model = blocks.new_model(piece.name, static=True)
+    _set_pose(model, (piece.x, piece.y, piece.z, *piece.tilt, piece.yaw))
+    blocks.add_link(model, 'body', _parts(piece), moves=False)
+    model.getparent().remove(model)
+    return model
+
+
+def _parts(piece: Piece) -> list[object]:
+    blocks = generator('sdf')
+    deep, wide, high = piece.depth, piece.width, piece.height
+    look = {'material': piece.color}
+
+    def box(name: str, low: Sequence[float], top: Sequence[float], **more: object) -> object:
+        return blocks.spanned(name, tuple(low), tuple(top), **look, **more)
+
+    whole = ((-deep / 2, -wide / 2, 0.0), (deep / 2, wide / 2, high))
+    if any(piece.tilt):  # turned about its middle
+        return [box('body', (-deep / 2, -wide / 2, -high / 2), (deep / 2, wide / 2, high / 2))]
+    if piece.shape == 'cylinder':
+        return [blocks.Part('body', ((wide + deep) / 4, high), (0, 0, high / 2), **look)]
+    if piece.shape == 'flat' or (high < THIN and prod((wide, deep)) > 0.1):
+        return [box('body', *whole, collide=False)]
+    if piece.shape == 'tray':
+        return [box('tray', whole[0], (deep / 2, wide / 2, min(TRAY, high)))]
+    if piece.shape in ('stairs', 'curved_stairs'):
+        return [box(f'step_{i}', low, top) for i, (low, top) in enumerate(
+            steps(deep, wide, high, piece.shape == 'curved_stairs'))]
+    return [box('body', *whole)]
+
+
+def steps(deep: float, wide: float, high: float, curved: bool
+          ) -> list[tuple[tuple[float, ...], tuple[float, ...]]]:
+    """Solid steps that rise from the front to the back; curved: first from right to left."""
+    top = high * TREADS
+    first = 4 if curved and deep > wide else 0
+    turn = wide if first else 0.0
+    found = []
+    for i in range(first):
+        y = wide / 2 - wide * i / first
+        found.append(((deep / 2 - turn, y - wide / first, 0.0),
+                      (deep / 2, y, top * (i + 1) / STEPS)))
+    rest = STEPS - first
+    for i in range(rest):
+        x = deep / 2 - turn - (deep - turn) * i / rest
+        found.append(((x - (deep - turn) / rest, -wide / 2, 0.0),
+                      (x, wide / 2, top * (first + i + 1) / STEPS)))
+    return found
+
+
+def obstacles(model: etree._Element, name: str) -> list[Obstacle]:
+    """What a leaf may meet of a model: its collisions, seen from above."""
+    at = np.array(sdf.parse_pose(model.findtext('pose', '0 0 0')))
+    turn = generator('sdf').rotation(at[3:])
+    found = []
+    for link in model.iterfind('link'):
+        base = np.array(sdf.parse_pose(link.findtext('pose', '0 0 0')))[:3]
+        for collision in link.iterfind('collision'):
+            half = _half(collision.find('geometry'))
+            if half is None:
+                continue
+            pose = sdf.parse_pose(collision.findtext('pose', '0 0 0'))
+            reach = np.abs(generator('sdf').rotation(pose[3:])) @ half
+            x, y, z = at[:3] + turn @ (base + np.array(pose[:3]))
+            rise = float(np.abs(turn[2]) @ reach)
+            wide = np.abs(turn[:2, :2]) @ reach[:2] + np.abs(turn[:2, 2]) * reach[2]
+            corners = rectangle(x, y, at[5], (-reach[0], -reach[1]), (reach[0], reach[1])) \
+                if not any(at[3:5]) else rectangle(x, y, 0, (-wide[0], -wide[1]),
+                                                   (wide[0], wide[1]))
+            found.append(Obstacle(name, corners, float(z) - rise, float(z) + rise))
+    return found
+
+
+# seat height as a share of the height of a thing that has no model
+SEATS = {'chair': 0.5, 'armchair': 0.5, 'sofa': 0.5, 'toilet': 0.6, 'bed': 0.55, 'bathtub': 0.4}
+STANDS = ('desk', 'table', 'stove', 'sink', 'fridge', 'washing_machine', 'tv', 'wardrobe',
+          'bookshelf', 'cabinet')
+
+
+def _add_thing(model: etree._Element, piece: Piece) -> None:
+    """Says what a model is and how it is used, unless the model's own file does."""
+    def angen(tag: str) -> etree._Element:
+        return etree.SubElement(model, f'{{{ANGEN}}}{tag}', nsmap={'angen': ANGEN})
+
+    if not piece.thing or model.find(f'{{{ANGEN}}}thing') is not None:
+        return
+    angen('thing').text = piece.thing
+    numbers = generator('sdf').numbers
+    seat = piece.height * SEATS.get(piece.thing, 0)
+    if piece.thing == 'bed':
+        place = angen('place')
+        place.set('posture', 'lie')
+        place.text = numbers(0, 0, round(seat, 3), pi)
+    elif piece.thing in SEATS:
+        place = angen('place')
+        place.set('posture', 'sit')
+        place.text = numbers(0, 0, round(seat, 3), 0)
+    elif piece.thing in STANDS and not piece.model:
+        place = angen('place')
+        place.set('posture', 'stand')
+        place.text = numbers(round(piece.depth / 2 + 0.35, 3), 0, 0, pi)
+    elif piece.thing == 'shower':
+        place = angen('place')
+        place.set('posture', 'stand')
+        place.text = numbers(0, 0, TRAY, 0)

@@ -1,0 +1,93 @@
+"""Names of rooms and models from the texts of a plan, and what a room is for."""
+from __future__ import annotations
+
+import re
+import unicodedata
+
+LONGEST = 40
+LETTERS = 'abcdefghijklmnopqrstuvwxyz'
+# the first that is in the name, in lower case without accents
+USES = (
+    ('bedroom', ('bedr', 'bed room', 'guest', 'nursery', 'chambre', 'schlaf', 'kinderz', 'sov')),
+    ('bathroom', ('bath', 'toilet', 'wc', 'shower', 'restroom', 'salle de bain', 'bad',
+                  'lavatory')),
+    ('kitchen', ('kitchen', 'cuisine', 'kuche', 'kueche', 'kok', 'pantry')),
+    ('living', ('living', 'lounge', 'dining', 'salon', 'sejour', 'wohn', 'family', 'vardagsrum')),
+    ('work', ('office', 'work', 'study', 'bureau', 'arbeit', 'meeting', 'desk')),
+    ('outdoor', ('balcon', 'terrac', 'garden', 'patio', 'outdoor', 'jardin', 'garten', 'roof',
+                 'porch')),
+    ('landing', ('landing', 'stair', 'lobby', 'elevator', 'lift')),
+    ('hall', ('hall', 'corridor', 'entr', 'flur', 'couloir', 'foyer', 'passage', 'vestib')),
+)
+# what a room without a name is for, by what is in it; the first that is there
+BY_THINGS = (
+    ('bathroom', ('toilet', 'shower', 'bathtub')),
+    ('kitchen', ('stove', 'fridge')),
+    ('bedroom', ('bed',)),
+    ('living', ('sofa', 'tv')),
+    ('work', ('desk',)),
+    ('living', ('armchair', 'table')),
+)
+
+
+def slug(text: str, otherwise: str = 'room') -> str:
+    """A name of lower-case letters, digits and _, which begins with a letter."""
+    plain = unicodedata.normalize('NFKD', text.replace('ß', 'ss')).encode('ascii', 'ignore')
+    words = re.findall(r'[a-z0-9]+', plain.decode().lower())
+    made = '_'.join(words)[:LONGEST].strip('_')
+    if not made or not made[0].isalpha():
+        made = f'{otherwise}_{made}'.rstrip('_')
+    return made
+
+
+def plain_name(text: str, otherwise: str) -> str:
+    """A name as it is, but for what a model's name may not contain."""
+    return re.sub(r'[^A-Za-z0-9_. -]', '_', text).strip()[:LONGEST] or otherwise
+
+
+def use_of(name: str) -> str:
+    """What a room of that name is for; '' where the name does not say."""
+    plain = unicodedata.normalize('NFKD', name).encode('ascii', 'ignore').decode().lower()
+    for use, words in USES:
+        if any(word in plain for word in words):
+            return use
+    return ''
+
+
+def use_by_things(things: set[str]) -> str:
+    """What a room with those things is for."""
+    for use, typical in BY_THINGS:
+        if things & set(typical):
+            return use
+    return 'other'
+
+
+class Names:
+    """Hands out names once each: NAME, or with a letter NAME_b, and the storey's number last."""
+
+    def __init__(self) -> None:
+        self._taken: set[str] = set()
+        self._tried: dict[tuple[str, int | None], int] = {}
+
+    def take(self, stem: str, number: int | None = None) -> str:
+        """A free name like the stem."""
+        tried = self._tried.get((stem, number), 0)
+        while (name := with_number(stem + self._ending(tried), number)) in self._taken:
+            tried += 1
+        self._tried[stem, number] = tried + 1
+        self._taken.add(name)
+        return name
+
+    @staticmethod
+    def _ending(tried: int) -> str:
+        if tried == 0:
+            return ''
+        return f'_{LETTERS[tried]}' if tried < len(LETTERS) else f'_z{tried - len(LETTERS)}'
+
+
+def with_number(stem: str, number: int | None) -> str:
+    """The stem and a storey's number, apart from a digit before it."""
+    if number is None:
+        return stem
+    gap = '_' if stem[-1:].isdigit() else ''
+    return f'{stem}{gap}{number}' if number >= 0 else f'{stem}_m{-number}'

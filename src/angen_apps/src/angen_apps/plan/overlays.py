@@ -1,0 +1,187 @@
+"""What is drawn over a plan: sensors with their fields of view, events, and tracks."""
+from __future__ import annotations
+
+import csv
+import math
+from collections import Counter
+from dataclasses import dataclass, field
+from math import cos, hypot, pi, sin
+from pathlib import Path
+from typing import Any, Iterable
+
+import numpy as np
+from lxml import etree
+
+from angen_tools.common.failure import Failure
+from angen_tools.common.home import Storey
+
+ROWS = 5_000_000
+SIGHT = 0.15  # m above a PIR's cone's lower edge where it meets the floor, at least
+STEP = pi / 90  # between the rays of a field of view
+COLORS = {'pir': '#c0392b', 'camera': '#8e44ad', 'lidar': '#16a085', 'luminosity': '#d68910',
+          'reed': '#1f618d', 'switch': '#1f618d', 'contact': '#7d6608'}
+TRACKS = ('#c0392b', '#1f77b4', '#2ca02c', '#9467bd', '#ff7f0e', '#17becf')
+
+
+@dataclass(frozen=True)
+class What:
+    """What the command line asks for."""
+
+    sensors: bool = False
+    events: Path | None = None
+    track: Path | None = None
+
+
+@dataclass
+class Data:
+    """Counts by sensor, and the tracks by name: rows of x, y, z."""
+
+    counts: Counter[str] = field(default_factory=Counter)
+    tracks: dict[str, np.ndarray] = field(default_factory=dict)
+
+
+def read(what: What, entities: Iterable[Any]) -> Data:
+    """Reads the files; Failure with file and line where one is wrong."""
+    data = Data()
+    names = {name for _, name, _, _ in entities}
+    if what.events:
+        for line, row in _rows(what.events, ('source',)):
+            source = row['source']
+            data.counts[source] += 1
+        if data.counts and not names & set(data.counts):
+            raise Failure(f'{what.events}:2: names no sensor or device of this world')
+    if what.track:
+        found: dict[str, list[tuple[float, float, float]]] = {}
+        for line, row in _rows(what.track, ('x', 'y')):
+            who = row.get('name') or row.get('person') or row.get('who') or 'track'
+            try:
+                point = float(row['x']), float(row['y']), float(row.get('z') or 'nan')
+            except ValueError:
+                raise Failure(f'{what.track}:{line}: x and y must be numbers') from None
+            if not (math.isfinite(point[0]) and math.isfinite(point[1])):
+                raise Failure(f'{what.track}:{line}: x and y must be finite')
+            found.setdefault(who, []).append(point)
+        data.tracks = {name: np.array(points) for name, points in found.items()}
+    return data
+
+
+def _rows(path: Path, needed: tuple[str, ...]) -> Iterable[tuple[int, dict[str, str]]]:
+    try:
+        with path.open(newline='', encoding='utf-8') as file:
+            reader = csv.DictReader(file)
+            missing = [key for key in needed if key not in (reader.fieldnames or [])]
+            if missing:
+                raise Failure(f'{path}:1: has no column {missing[0]}; it needs '
+                              f'{", ".join(needed)}')
+            for line, row in enumerate(reader, 2):
+                if line > ROWS:
+                    raise Failure(f'{path}:{line}: has more than {ROWS} rows')
+                yield line, {key: value or '' for key, value in row.items() if key}
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise Failure(f'{path}: cannot be read: {getattr(error, "strerror", error)}') from None
+
+
+def draw(axis: Any, scene: Any, storey: Storey, data: Data, what: What) -> None:
+    """Draws all that was asked for on a storey."""
+    here = [(kind, name, model, pose) for kind, name, model, pose in scene.entities
+            if storey.elevation - 0.2 <= pose[2] < storey.elevation + storey.height]
+    if what.sensors:
+        walls = _walls(scene, storey)
+        for entity in here:
+            if entity[0] in COLORS:
+                _draw_sensor(axis, scene, storey, entity, walls)
+    if what.events:
+        _draw_counts(axis, here, data.counts)
+    for i, (name, points) in enumerate(sorted(data.tracks.items())):
+        z = points[:, 2]
+        mine = np.isnan(z) | ((z > storey.elevation - 0.3)
+                              & (z < storey.elevation + storey.height - 0.3))
+        x, y = np.where(mine, points[:, 0], np.nan), np.where(mine, points[:, 1], np.nan)
+        axis.plot(x, y, color=TRACKS[i % len(TRACKS)], lw=1.0, alpha=0.7, zorder=8, label=name)
+    if data.tracks:
+        axis.legend(loc='lower right', fontsize=6)
+
+
+def _walls(scene: Any, storey: Storey) -> np.ndarray:
+    """Edges (n, 4) of what is as high as a wall: x0 y0 x1 y1."""
+    edges = []
+    for shape in scene.shapes.solids:
+        if shape.top > storey.elevation + 1.7 and shape.bottom < storey.elevation + 1.1 \
+                and shape.model not in scene.things:
+            corners = shape.corners
+            edges += [(*a, *b) for a, b in zip(corners, [*corners[1:], corners[0]])]
+    return np.array(edges, float).reshape(-1, 4)
+
+
+def reach_of(x: float, y: float, yaw: float, walls: np.ndarray, far: float) -> float:
+    """How far it is from a point along a direction to the nearest edge, at most `far`."""
+    if not len(walls):
+        return far
+    dx, dy = cos(yaw), sin(yaw)
+    ex, ey = walls[:, 2] - walls[:, 0], walls[:, 3] - walls[:, 1]
+    cross = dx * ey - dy * ex
+    with np.errstate(divide='ignore', invalid='ignore'):
+        t = ((walls[:, 0] - x) * ey - (walls[:, 1] - y) * ex) / cross
+        s = ((walls[:, 0] - x) * dy - (walls[:, 1] - y) * dx) / cross
+    hit = (np.abs(cross) > 1e-9) & (t > 0.02) & (s >= 0) & (s <= 1)
+    return float(min(far, t[hit].min())) if hit.any() else far
+
+
+def view(sensor: etree._Element | None, kind: str) -> tuple[float, float] | None:
+    """Half the horizontal angle (rad) and the range (m) of a field of view; None without one."""
+    if sensor is None or kind not in ('pir', 'camera', 'lidar', 'depth'):
+        return None
+    half = sensor.findtext('.//scan/horizontal/max_angle')
+    if half is not None:
+        return float(half), float(sensor.findtext('.//range/max') or 6.0)
+    wide = sensor.findtext('.//horizontal_fov')
+    return (float(wide) / 2, 6.0) if wide is not None else None
+
+
+def _draw_sensor(axis: Any, scene: Any, storey: Storey, entity: Any, walls: np.ndarray) -> None:
+    kind, name, model, pose = entity
+    color = COLORS[kind]
+    elements = scene.shapes.sensors.get(model, [])
+    seen = next((found for e in elements if (found := view(e, kind))), None)
+    yaw, ahead = _heading(pose)
+    if seen is not None:
+        half, far = seen
+        if ahead < 0.3:  # looks down: a circle below
+            far = max(0.3, (pose[2] - storey.elevation) * math.tan(min(half, 1.4)))
+            outline = [(pose[0] + far * cos(a), pose[1] + far * sin(a))
+                       for a in np.linspace(0, 2 * pi, 40)]
+        else:
+            angles = np.arange(yaw - half, yaw + half + STEP / 2, STEP)
+            outline = [(pose[0], pose[1])]
+            for a in angles:
+                r = reach_of(pose[0], pose[1], float(a), walls, far)
+                outline.append((pose[0] + r * cos(a), pose[1] + r * sin(a)))
+        axis.fill(*zip(*outline), color=color, alpha=0.10, lw=0, zorder=5)
+        axis.plot(*zip(*outline, outline[0]), color=color, alpha=0.4, lw=0.4, zorder=5)
+    axis.plot([pose[0]], [pose[1]], 'o', color=color, ms=2.5, zorder=9)
+    axis.text(pose[0], pose[1] + 0.05, name, fontsize=4.5, color=color, ha='center', va='bottom',
+              zorder=10)
+
+
+def _heading(pose: Any) -> tuple[float, float]:
+    """The yaw of the x axis of a pose, and how much of it is horizontal."""
+    x, y, z, w = pose[3:7]
+    ahead = 1 - 2 * (y * y + z * z), 2 * (x * y + w * z)
+    return math.atan2(ahead[1], ahead[0]), hypot(*ahead)
+
+
+def _draw_counts(axis: Any, here: list[Any], counts: Counter[str]) -> None:
+    """A disc for each sensor that fired, the redder and larger the more often."""
+    from matplotlib import colormaps
+    most = max(counts.values(), default=1)
+    for _, name, _, pose in here:
+        count = counts.get(name, 0)
+        if not count:
+            continue
+        share = math.log1p(count) / math.log1p(most)
+        for r, alpha in ((0.75, 0.12), (0.5, 0.18), (0.3, 0.35)):
+            angles = np.linspace(0, 2 * pi, 32)
+            axis.fill(pose[0] + r * (0.4 + 0.6 * share) * np.cos(angles),
+                      pose[1] + r * (0.4 + 0.6 * share) * np.sin(angles),
+                      color=colormaps['YlOrRd'](0.25 + 0.75 * share), alpha=alpha, lw=0, zorder=8)
+        axis.text(pose[0], pose[1], str(count), fontsize=5.5, ha='center', va='center', zorder=10)

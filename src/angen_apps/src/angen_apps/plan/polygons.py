@@ -1,0 +1,184 @@
+"""Polygons of a plan: area, inside, rectangles that overlap, and the strips of a raster."""
+from __future__ import annotations
+
+from math import cos, hypot, inf, sin
+from typing import Iterable, Sequence
+
+import numpy as np
+
+from angen_apps.plan.model import Point
+
+NEAR = 0.002  # m between corners that are one
+
+
+def area(polygon: Sequence[Point]) -> float:
+    """The area of a simple polygon, m2, without a sign."""
+    return abs(signed_area(polygon))
+
+
+def signed_area(polygon: Sequence[Point]) -> float:
+    x, y = np.array(polygon, float).T
+    return float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)) / 2)
+
+
+def center(polygon: Sequence[Point]) -> Point:
+    """The center of mass of a polygon; the mean of its corners if it has no area."""
+    points = np.array(polygon, float)
+    after = np.roll(points, -1, axis=0)
+    cross = points[:, 0] * after[:, 1] - points[:, 1] * after[:, 0]
+    whole = cross.sum() / 2
+    if abs(whole) < 1e-9:
+        return float(points[:, 0].mean()), float(points[:, 1].mean())
+    x, y = ((points + after) * cross[:, None]).sum(axis=0) / (6 * whole)
+    return float(x), float(y)
+
+
+def contains(polygon: Sequence[Point], x: float, y: float) -> bool:
+    """Whether a point is inside, by the even-odd rule."""
+    found = False
+    x0, y0 = polygon[-1]
+    for x1, y1 in polygon:
+        if (y0 > y) != (y1 > y) and x < (x1 - x0) * (y - y0) / (y1 - y0) + x0:
+            found = not found
+        x0, y0 = x1, y1
+    return found
+
+
+def inside(polygon: Sequence[Point], x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Which points are inside, by the even-odd rule."""
+    found = np.zeros(np.shape(x), bool)
+    for (x0, y0), (x1, y1) in zip(polygon, [*polygon[1:], polygon[0]]):
+        if y0 == y1:
+            continue
+        crosses = ((y0 > y) != (y1 > y)) & (x < (x1 - x0) * (y - y0) / (y1 - y0) + x0)
+        found ^= crosses
+    return found
+
+
+def cleaned(polygon: Sequence[Point]) -> list[Point]:
+    """Without corners that are within 2 mm of the one before, and without spikes."""
+    points = [(round(x, 4), round(y, 4)) for x, y in polygon]
+    changed = True
+    while changed and len(points) > 3:
+        changed = False
+        for i, (x, y) in enumerate(points):
+            (ax, ay), (bx, by) = points[i - 1], points[(i + 1) % len(points)]
+            u, v = (x - ax, y - ay), (bx - x, by - y)
+            turns_back = u[0] * v[0] + u[1] * v[1] < 0 and abs(
+                u[0] * v[1] - u[1] * v[0]) < 2e-3 * min(hypot(*u), hypot(*v))
+            if hypot(*u) < NEAR or turns_back:
+                del points[i]
+                changed = True
+                break
+    return points
+
+
+def split(polygon: Sequence[Point]) -> list[list[Point]]:
+    """The loops of a polygon that touches itself, largest first: its outline and then its holes."""
+    loops, done = [cleaned(_with_touches(cleaned(polygon)))], []
+    while loops:
+        points = loops.pop()
+        at = _twice(points)
+        if at is None:
+            done.append(points)
+        else:
+            i, k = at
+            loops += [cleaned(part) for part in (points[i:k], points[k:] + points[:i])]
+    return sorted((loop for loop in done if len(loop) > 2 and area(loop) > 1e-3), key=area,
+                  reverse=True)
+
+
+def _twice(points: list[Point]) -> tuple[int, int] | None:
+    for i, (x, y) in enumerate(points):
+        for k in range(i + 2, len(points) - (i == 0)):
+            if hypot(points[k][0] - x, points[k][1] - y) < NEAR:
+                return i, k
+    return None
+
+
+def _with_touches(points: list[Point]) -> list[Point]:
+    """The corners, and on each edge those corners of others that it passes."""
+    found: list[Point] = []
+    for i, (ax, ay) in enumerate(points):
+        bx, by = points[(i + 1) % len(points)]
+        length = hypot(bx - ax, by - ay)
+        found.append((ax, ay))
+        on_edge = []
+        for x, y in points:
+            along = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / max(length, 1e-9)
+            away = abs((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / max(length, 1e-9)
+            if away < NEAR / 2 and NEAR < along < length - NEAR:
+                on_edge.append((along, (x, y)))
+        found += [point for _, point in sorted(on_edge)]
+    return found
+
+
+def crosses_itself(polygon: Sequence[Point]) -> bool:
+    """Whether two edges that are not neighbors cross."""
+    points = np.array(polygon, float)
+    after = np.roll(points, -1, axis=0)
+
+    def side(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
+        return (b[..., 0] - a[..., 0]) * (c[..., 1] - a[..., 1]) \
+            - (b[..., 1] - a[..., 1]) * (c[..., 0] - a[..., 0])
+
+    for i in range(len(points)):
+        a, b = points[i], after[i]
+        c, d = points[i + 1:], after[i + 1:]
+        left, right = side(a, b, c), side(a, b, d)
+        near, far = side(c, d, a), side(c, d, b)
+        # clearly on both sides: corners that touch, within 0.1 mm on 10 cm, are drawn so
+        if np.any((left * right < 0) & (near * far < 0) & (np.abs(left) > 1e-5)
+                  & (np.abs(right) > 1e-5) & (np.abs(near) > 1e-5) & (np.abs(far) > 1e-5)):
+            return True
+    return False
+
+
+def rectangle(x: float, y: float, yaw: float, low: Point, high: Point) -> list[Point]:
+    """The corners of a rectangle given in a frame at x, y turned by yaw."""
+    c, s = cos(yaw), sin(yaw)
+    return [(x + u * c - v * s, y + u * s + v * c)
+            for u, v in ((low[0], low[1]), (high[0], low[1]), (high[0], high[1]),
+                         (low[0], high[1]))]
+
+
+def overlap(first: Sequence[Point], second: Sequence[Point]) -> float:
+    """How deep two convex polygons overlap, m; not above 0 if they are apart."""
+    depth = inf
+    for polygon in (first, second):
+        x0, y0 = polygon[-1]
+        for x1, y1 in polygon:
+            length = hypot(x1 - x0, y1 - y0)
+            if length > 1e-9:
+                ux, uy = (y0 - y1) / length, (x1 - x0) / length
+                p = [x * ux + y * uy for x, y in first]
+                q = [x * ux + y * uy for x, y in second]
+                depth = min(depth, min(max(p), max(q)) - max(min(p), min(q)))
+                if depth <= 0:
+                    return depth
+            x0, y0 = x1, y1
+    return depth
+
+
+def bounds(points: Iterable[Point]) -> tuple[float, float, float, float]:
+    """West, south, east, north of some points."""
+    x, y = np.array(list(points), float).T
+    return float(x.min()), float(y.min()), float(x.max()), float(y.max())
+
+
+def rectangles(cells: np.ndarray) -> list[tuple[int, int, int, int]]:
+    """Covers the true cells by rectangles without overlap: (row, column, rows, columns) each."""
+    left = cells.copy()
+    found: list[tuple[int, int, int, int]] = []
+    while True:
+        rows, columns = np.nonzero(left)
+        if not len(rows):
+            return found
+        row, column = int(rows[0]), int(columns[0])
+        run = left[row, column:]
+        width = int(np.argmin(run)) if not run.all() else len(run)
+        height = 1
+        while row + height < left.shape[0] and left[row + height, column:column + width].all():
+            height += 1
+        left[row:row + height, column:column + width] = False
+        found.append((row, column, height, width))

@@ -1,0 +1,145 @@
+"""Floors and ceilings as boxes: the plan in cells, each room's cells covered by rectangles."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import ceil, floor
+
+import numpy as np
+
+from angen_apps.plan.model import Plan, Point, Storey
+from angen_apps.plan.polygons import bounds, inside, rectangle, rectangles
+from angen_apps.plan.walls import footprint
+
+CELL = 0.05  # m
+CELLS = 4_000_000  # of a storey, at most: 100 m x 100 m
+MARGIN = 0.2  # m around the walls
+Rectangle = tuple[float, float, float, float]  # west, south, east, north
+
+
+@dataclass
+class Slabs:
+    """Rectangles of floors by room, '' between rooms, and of ceilings."""
+
+    floors: dict[str, list[Rectangle]] = field(default_factory=dict)
+    ceilings: list[tuple[float, Rectangle]] = field(default_factory=list)  # with z
+
+
+@dataclass
+class Raster:
+    """The cells of a storey: their middles' x and y."""
+
+    west: float
+    south: float
+    x: np.ndarray
+    y: np.ndarray
+
+    @staticmethod
+    def of(points: list[Point]) -> Raster | None:
+        """A raster around some points; None where they are too far apart."""
+        west, south, east, north = bounds(points)
+        west, south = CELL * floor((west - MARGIN) / CELL), CELL * floor((south - MARGIN) / CELL)
+        columns, rows = ceil((east + MARGIN - west) / CELL), ceil((north + MARGIN - south) / CELL)
+        if columns * rows > CELLS:
+            return None
+        x, y = np.meshgrid(west + (np.arange(columns) + 0.5) * CELL,
+                           south + (np.arange(rows) + 0.5) * CELL)
+        return Raster(west, south, x, y)
+
+    def filled(self, polygon: list[Point] | tuple[Point, ...]) -> np.ndarray:
+        """Which cells' middles a polygon contains."""
+        found = np.zeros(self.x.shape, bool)
+        west, south, east, north = bounds(polygon)
+        rows = slice(max(0, int((south - self.south) / CELL) - 1),
+                     max(0, int((north - self.south) / CELL) + 2))
+        columns = slice(max(0, int((west - self.west) / CELL) - 1),
+                        max(0, int((east - self.west) / CELL) + 2))
+        found[rows, columns] = inside(polygon, self.x[rows, columns], self.y[rows, columns])
+        return found
+
+    def cover(self, cells: np.ndarray) -> list[Rectangle]:
+        """The cells as rectangles in m."""
+        return [(round(self.west + column * CELL, 4), round(self.south + row * CELL, 4),
+                 round(self.west + (column + width) * CELL, 4),
+                 round(self.south + (row + height) * CELL, 4))
+                for row, column, height, width in rectangles(cells)]
+
+
+def slabs(plan: Plan) -> dict[int, Slabs]:
+    """The slabs of each storey, by number."""
+    points = [point for storey in plan.storeys for point in _points(storey)]
+    found = {storey.number: Slabs() for storey in plan.storeys}
+    raster = Raster.of(points) if points else None
+    if raster is None:
+        return found
+    above: list[tuple[float, np.ndarray]] = []  # undersides of floors and their cells
+    for storey in sorted(plan.storeys, key=lambda s: -s.elevation):
+        rooms, rest, roofed = _cells(storey, raster)
+        made = found[storey.number]
+        for name, cells in [*rooms.items(), ('', rest)]:
+            made.floors[name] = raster.cover(cells)
+        _add_ceilings(made, storey, roofed, above, raster)
+        whole = rest.copy()
+        for cells in rooms.values():
+            whole |= cells
+        above.append((storey.elevation - storey.slab, whole))
+    return found
+
+
+def _points(storey: Storey) -> list[Point]:
+    found = [point for room in storey.rooms for point in room.polygon]
+    return found + [corner for wall in storey.walls for corner in footprint(wall)]
+
+
+def _cells(storey: Storey, raster: Raster
+           ) -> tuple[dict[str, np.ndarray], np.ndarray, dict[float, np.ndarray]]:
+    """Cells of each room's floor, of walls and thresholds, and of ceilings by their height."""
+    taken = np.zeros(raster.x.shape, bool)
+    holes = taken.copy()
+    for cutout in storey.cutouts:
+        holes |= raster.filled(cutout)
+    rooms: dict[str, np.ndarray] = {}
+    roofed: dict[float, np.ndarray] = {}
+    for room in storey.rooms:
+        cells = raster.filled(room.polygon)
+        for hole in room.holes:
+            cells &= ~raster.filled(hole)
+        if room.has_ceiling:
+            height = round(room.floor + room.ceiling, 4)
+            roofed[height] = roofed.get(height, np.zeros_like(cells)) | cells
+        if room.has_floor:
+            rooms[room.name] = cells & ~taken & ~holes
+            taken |= cells
+    rest = np.zeros(raster.x.shape, bool)
+    for wall in storey.walls:
+        if wall.bottom < storey.elevation + 0.1:
+            rest |= raster.filled(footprint(wall))
+    for opening in storey.openings:
+        half = opening.width / 2 + CELL
+        rest |= raster.filled(rectangle(opening.x, opening.y, opening.yaw,
+                                        (-half, opening.band[0] - CELL),
+                                        (half, opening.band[1] + CELL)))
+    walls = rest.copy()
+    rest &= ~taken & ~holes
+    if roofed:
+        height = max(roofed, key=lambda z: int(roofed[z].sum()))
+        near = _grown(roofed[height], 6)
+        for other, cells in roofed.items():
+            walls &= ~cells if other != height else True
+        roofed[height] |= walls & near
+    return rooms, rest, roofed
+
+
+def _grown(cells: np.ndarray, steps: int) -> np.ndarray:
+    from scipy.ndimage import binary_dilation
+    return np.asarray(binary_dilation(cells, iterations=steps))
+
+
+def _add_ceilings(made: Slabs, storey: Storey, roofed: dict[float, np.ndarray],
+                  above: list[tuple[float, np.ndarray]], raster: Raster) -> None:
+    """Ceilings where no floor of a storey above closes the room within 0.6 m over it."""
+    for height, cells in sorted(roofed.items()):
+        open_cells = cells.copy()
+        for underside, floors in above:
+            if -0.2 < underside - height < 0.6:
+                open_cells &= ~floors
+        made.ceilings += [(height, box) for box in raster.cover(open_cells)]

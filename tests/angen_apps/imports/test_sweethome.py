@@ -1,0 +1,230 @@
+"""The nine homes of Debian's package sweethome3d, and small homes for what they do not have."""
+from __future__ import annotations
+
+from math import hypot, pi
+from pathlib import Path
+from typing import Any
+
+import angen
+import pytest
+
+from angen_apps.imports.sweethome import read_sweethome
+from angen_apps.plan.model import Opening, Plan
+from angen_apps.plan.walls import boxes
+from angen_apps.plan.writer import write_world
+from angen_bench import homes
+from angen_tools.common.failure import Failure
+
+NAMES = ('1BedroomApartmentWithRoundWall', '2BedroomApartment', '2BedroomApartmentWithBowWindow',
+         '2BedroomHouseWithBasement', '3BedroomApartment', '3BedroomHouseWithAttic',
+         '3BedroomHouseWithMezzanine', '4BedroomHouse', 'Studio')
+# its only frame is filled by a box called Garage door
+SHUT = {'3BedroomHouseWithAttic': {'garage0'}}
+SASH = '<sash xAxis="0.05" yAxis="0.5" width="0.9" startAngle="0" endAngle="-1.5707964"/>'
+
+
+@pytest.fixture(scope='module')
+def xml() -> dict[str, bytes]:
+    return homes.examples()
+
+
+@pytest.fixture(scope='module')
+def imported(xml: dict[str, bytes], tmp_path_factory: pytest.TempPathFactory
+             ) -> dict[str, homes.Imported]:
+    folder = tmp_path_factory.mktemp('homes')
+    return {name: homes.import_example(name, data, folder) for name, data in xml.items()}
+
+
+@pytest.fixture(scope='module')
+def worlds(imported: dict[str, homes.Imported]) -> dict[str, Any]:
+    return {name: angen.World(str(made.path)) for name, made in imported.items()}
+
+
+def is_filled(plan: Plan, frame: Opening) -> bool:
+    """Whether the file has a door or a piece of furniture in the same hole."""
+    there = [(o.x, o.y) for o in plan.all_openings() if o is not frame]
+    there += [(p.x, p.y) for storey in plan.storeys for p in storey.pieces]
+    return any(hypot(x - frame.x, y - frame.y) < 0.3 for x, y in there)
+
+
+def small(tmp_path: Path, *parts: str) -> Path:
+    """A room of 4 x 3 m with walls of 20 cm, and what is added to it."""
+    ends = [(0, 0), (400, 0), (400, 300), (0, 300)]
+    walls = ''.join(f'<wall id="w{i}" xStart="{a[0]}" yStart="{a[1]}" xEnd="{b[0]}" yEnd="{b[1]}" '
+                    'height="250" thickness="20"/>\n'
+                    for i, (a, b) in enumerate(zip(ends, ends[1:] + ends[:1])))
+    points = ''.join(f'<point x="{x}" y="{y}"/>'
+                     for x, y in ((10, 10), (390, 10), (390, 290), (10, 290)))
+    path = tmp_path / 'small.xml'
+    path.write_text(f'<home wallHeight="250">\n{walls}<room name="Kitchen">{points}</room>\n'
+                    + '\n'.join(parts) + '\n</home>')
+    return path
+
+
+def test_all_nine_are_tested(xml: dict[str, bytes]) -> None:
+    assert tuple(xml) == NAMES
+
+
+@pytest.mark.parametrize('name', NAMES)
+def test_counts_are_those_of_the_file(name: str, xml: dict[str, bytes],
+                                      imported: dict[str, homes.Imported]) -> None:
+    assert homes.in_world(imported[name]) == homes.in_file(xml[name])
+
+
+@pytest.mark.parametrize('name', NAMES)
+def test_rooms_have_the_areas_of_the_file(name: str, xml: dict[str, bytes],
+                                          worlds: dict[str, Any]) -> None:
+    said = sorted(homes.areas_in_file(xml[name]))
+    made = sorted(room['area'] for room in worlds[name].home['rooms'])
+    assert len(made) == len(said) and not any(room['guessed'] for room in
+                                              worlds[name].home['rooms'])
+    assert max(abs(a - b) for a, b in zip(said, made)) < 0.1
+
+
+@pytest.mark.parametrize('name', NAMES)
+def test_leaves_stop_rays_shut_and_let_them_pass_open(name: str, worlds: dict[str, Any],
+                                                      imported: dict[str, homes.Imported]) -> None:
+    world, plan = worlds[name], imported[name].plan
+    link, away = homes.moved(world, 1.0)
+    assert away < 1e-3, link
+    before = homes.through(world, plan)
+    states = homes.open_all(world)
+    after = homes.through(world, plan)
+    assert all(mode == 'OPEN' for mode, _, _ in states.values()), states
+    checked = 0
+    for opening in plan.all_openings():
+        key = f'{opening.name} {opening.kind}'
+        if not opening.leaves and not opening.glass:
+            assert before[key] or is_filled(plan, opening), key
+        elif not opening.ajar:
+            assert not before[key], key
+        at = [opening.name] if len(opening.leaves) == 1 else [
+            name for _, name in states if name.startswith(opening.name.rstrip('0123456789_'))
+            and 'right' in name]
+        for leaf in at:
+            _, position, _ = states.get((opening.kind, leaf), ('', 0.0, 0.0))
+            if abs(position) > 1.2 and len(opening.leaves) == 1:
+                checked += 1
+                assert after[key], key
+    assert checked >= 2
+
+
+@pytest.mark.parametrize('name', NAMES)
+def test_a_person_reaches_rooms_with_doors_from_the_entrance(
+        name: str, worlds: dict[str, Any], imported: dict[str, homes.Imported]) -> None:
+    assert worlds[name].home['entrance']
+    joined, found = homes.reached(imported[name].path, worlds[name].home)
+    assert joined and joined - found == SHUT.get(name, set())
+
+
+def test_a_wall_at_an_angle_and_an_arc_are_as_long_as_in_the_file(tmp_path: Path) -> None:
+    path = small(tmp_path, '<wall id="a" xStart="0" yStart="600" xEnd="200" yEnd="600" height="250"'
+                 ' thickness="10" arcExtent="3.1415926"/>')
+    plan = read_sweethome(path)
+    arc = plan.storeys[0].walls[4:]
+    assert sum(wall.length for wall in arc) == pytest.approx(pi, rel=0.02)
+    middle = arc[len(arc) // 2].start
+    # Sweet Home 3D's positive extent bends a wall from west to east toward the top of the page
+    assert middle[1] == pytest.approx(-5.0, abs=0.06)
+    for a, b in zip(arc, arc[1:]):
+        assert a.end == b.start
+
+
+def test_corners_have_no_gap_and_nothing_twice(tmp_path: Path) -> None:
+    made = boxes(read_sweethome(small(tmp_path)).storeys[0].walls, [], 0.0)
+    volume = sum(x * y * z for x, y, z in (box.size for box in made))
+    assert volume == pytest.approx((4.2 * 3.2 - 3.8 * 2.8) * 2.5, abs=0.01)
+
+
+def test_a_sloped_wall_has_steps_between_its_heights(tmp_path: Path) -> None:
+    path = small(tmp_path, '<wall id="s" xStart="600" yStart="0" xEnd="1000" yEnd="0" height="100" '
+                 'heightAtEnd="200" thickness="10"/>')
+    walls = read_sweethome(path).storeys[0].walls
+    tops = sorted(box.high[2] for box in boxes(walls[4:], [], 0.0))
+    assert tops[0] == pytest.approx(1.05, abs=0.01) and tops[-1] == pytest.approx(1.95, abs=0.01)
+    assert max(b - a for a, b in zip(tops, tops[1:])) < 0.11
+
+
+@pytest.mark.parametrize('mirrored, angle, turn', [('false', '0', -1.5708), ('true', '0', 1.5708),
+                                                   ('false', '3.14159265', -1.5708)])
+def test_a_door_opens_to_the_side_of_its_sash(tmp_path: Path, mirrored: str, angle: str,
+                                              turn: float) -> None:
+    path = small(tmp_path, '<doorOrWindow catalogId="door" name="Door" x="200" y="300" width="100" '
+                 f'depth="20" height="210" angle="{angle}" modelMirrored="{mirrored}">{SASH}'
+                 '</doorOrWindow>')
+    opening, = read_sweethome(path).all_openings()
+    leaf, = opening.leaves
+    assert leaf.turn == pytest.approx(turn, abs=1e-3)
+    out = tmp_path / 'home.world'
+    write_world(read_sweethome(path), out, 'none')
+    world = angen.World(str(out))
+    world.command('door', 'kitchen0', 'Open')
+    world.run(6)
+    assert world.device('door', 'kitchen0')['mode'] == 'OPEN'
+    y = world.motion('kitchen_door0::leaf')[0][1]
+    link = next(i for i, name in enumerate(world.links) if name == 'kitchen_door0::leaf')
+    assert abs(world.link_poses[link][1] - y) < 0.01
+    # at angle 0 the front of a piece is the bottom of the page, outside of this room
+    assert world.home['doors'][0]['rooms'].count('') == 1
+
+
+def test_a_slider_slides_before_its_fixed_pane(tmp_path: Path) -> None:
+    path = small(tmp_path, '<doorOrWindow catalogId="sliderWindow" name="Slider window" x="200" '
+                 'y="300" width="200" depth="20" height="210"/>')
+    out = tmp_path / 'home.world'
+    write_world(read_sweethome(path), out, 'none')
+    world = angen.World(str(out))
+    assert len(world.devices('door')) + len(world.devices('window')) == 1
+    kind = 'door' if world.devices('door') else 'window'
+    name, = world.devices(kind)
+    world.command(kind, name, 'Open')
+    world.run(5)
+    state = world.device(kind, name)
+    assert state['mode'] == 'OPEN' and state['position'] == pytest.approx(0.98, abs=0.02)
+    assert state['gap'] == pytest.approx(0.98, abs=0.02)
+
+
+def test_a_leaf_stops_before_what_is_in_its_way(tmp_path: Path) -> None:
+    box = ('<pieceOfFurniture catalogId="x#box" name="Box" x="{}" y="350" width="20" depth="20" '
+           'height="100"/>')
+    door = ('<doorOrWindow catalogId="door" name="Door" x="200" y="300" width="100" depth="20" '
+            f'height="210">{SASH}</doorOrWindow>')
+    path = small(tmp_path, door, box.format(190))
+    plan = read_sweethome(path)
+    out = tmp_path / 'home.world'
+    write_world(plan, out, 'none')
+    remark, = (r for r in plan.remarks if 'degrees only' in r)
+    assert 'the Box is in its way' in remark
+    world = angen.World(str(out))
+    world.command('door', 'kitchen0', 'Open')
+    world.run(6)
+    state = world.device('door', 'kitchen0')
+    assert state['mode'] == 'OPEN' and 0.2 < abs(state['position']) < 1.2
+
+
+def test_compass_and_latitude(tmp_path: Path) -> None:
+    path = small(tmp_path, f'<compass northDirection="{pi / 2}" latitude="0.8"/>')
+    plan = read_sweethome(path)
+    # clockwise from the top by 90 degrees: to the right
+    assert plan.north == pytest.approx(0.0, abs=1e-9)
+    assert plan.latitude == pytest.approx(45.84, abs=0.01)
+
+
+def test_an_unknown_piece_is_a_box_with_a_remark_and_a_table_of_ones_own_counts(tmp_path: Path
+                                                                                ) -> None:
+    path = small(tmp_path, '<pieceOfFurniture catalogId="a#b" name="Zorb" x="100" y="100" '
+                 'width="50" depth="60" height="70"/>')
+    plan = read_sweethome(path)
+    assert '"Zorb" is unknown; it is a box of its size' in plan.remarks[0]
+    assert f'{path}:' in plan.remarks[0]
+    own = tmp_path / 'own.yaml'
+    own.write_text('- {word: zorb, thing: sofa, model: sofa}\n')
+    piece, = read_sweethome(path, own).storeys[0].pieces
+    assert (piece.thing, piece.model) == ('sofa', 'sofa')
+
+
+def test_a_level_that_is_missing_is_named(tmp_path: Path) -> None:
+    path = small(tmp_path, '<level id="l0" name="A" elevation="0" height="250" '
+                 'floorThickness="12"/>')
+    with pytest.raises(Failure, match=r'small.xml:2: <wall> is on the level "None"'):
+        read_sweethome(path)
