@@ -1,0 +1,115 @@
+"""What residents can do: the catalog in activities.yaml."""
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from angen_tools.common.yaml_file import YamlFile, is_list, is_text
+
+USES = ('kitchen', 'bedroom', 'bathroom', 'living', 'hall', 'work', 'landing', 'outdoor', 'other')
+POSTURES = ('stand', 'sit', 'lie', 'roam')
+OPENS = ('fridge', 'wardrobe', 'entrance')
+RUNS = ('stove', 'tv', 'appliance')
+CATALOG = Path(__file__).with_name('activities.yaml')
+SPAN = re.compile(r'([0-9.]+)(?:-([0-9.]+))? ?(min|h)')
+NOON, EVENING = 11, 16  # h, from which a second and a third label of meals hold
+
+
+@dataclass(frozen=True)
+class Step:
+    """A part of an activity at one place. `at`: things, the best first, each 'thing' or
+    'use thing'; `room`: the use of the room, where none is at hand."""
+
+    at: tuple[str, ...] = ()
+    room: str = ''
+    posture: str = 'stand'
+    share: float = 1.0
+    minutes: float | None = None
+    opens: str = ''
+    runs: str = ''
+
+
+@dataclass(frozen=True)
+class Activity:
+    """One that residents do. `alone`: the use of a room that nobody shares meanwhile."""
+
+    name: str
+    steps: tuple[Step, ...]
+    casas: str
+    openshs: str
+    aras: tuple[int, ...]
+    kasteren: tuple[int, ...]
+    lasts: tuple[float, float]  # s, 10 % and 90 % quantiles
+    alone: str = ''
+    dark: bool = False
+
+    def number(self, numbers: tuple[int, ...], hour: float) -> int:
+        """The number of a label that may depend on the time of day."""
+        part = 0 if hour < NOON else 1 if hour < EVENING else 2
+        return numbers[min(part, len(numbers) - 1)]
+
+    def times(self, seconds: float) -> list[float]:
+        """How long each step takes, of so many seconds in all."""
+        fixed = sum(60 * step.minutes for step in self.steps if step.minutes is not None)
+        shares = sum(step.share for step in self.steps if step.minutes is None)
+        scale = min(1.0, seconds / fixed) if fixed and shares == 0 else 1.0
+        if fixed > 0.8 * seconds:
+            scale = 0.8 * seconds / fixed
+        left = seconds - scale * fixed
+        return [scale * 60 * step.minutes if step.minutes is not None
+                else left * step.share / shares for step in self.steps]
+
+
+@cache
+def activities() -> dict[str, Activity]:
+    """The activities by name."""
+    file = YamlFile(CATALOG)
+    return {name: _read(file, name, node)
+            for name, node in file.entries(file.root, 'the catalog').items()}
+
+
+def _read(file: YamlFile, name: str, node: Any) -> Activity:
+    entry = file.entries(node, name, ('labels', 'lasts', 'steps', 'alone', 'dark'),
+                         ('labels', 'lasts', 'steps'))
+    labels = file.entries(entry['labels'], 'labels', ('casas', 'aras', 'kasteren', 'openshs'),
+                          ('casas', 'aras', 'kasteren', 'openshs'))
+    numbers = {key: tuple(int(file.number(part, key)) for part in
+                          (labels[key].value if is_list(labels[key]) else [labels[key]]))
+               for key in ('aras', 'kasteren')}
+    return Activity(
+        name, tuple(_step(file, step) for step in file.list(entry['steps'], 'steps')),
+        file.text(labels['casas'], 'casas'), file.text(labels['openshs'], 'openshs'),
+        numbers['aras'], numbers['kasteren'], span(file, entry['lasts'], 'lasts'),
+        file.choice(entry['alone'], 'alone', USES) if 'alone' in entry else '',
+        'dark' in entry and file.choice(entry['dark'], 'dark', ('true', 'false')) == 'true')
+
+
+def span(file: YamlFile, node: Any, what: str) -> tuple[float, float]:
+    """Two durations as '10-35 min' or '8-9.5 h', in s."""
+    text = file.text(node, what)
+    found = SPAN.fullmatch(text)
+    if not found or not 0 < float(found[1]) <= float(found[2] or found[1]):
+        raise file.fail(node, f"{what} is '{text}', must be two times as 10-35 min or 8-9.5 h")
+    unit = 60.0 if found[3] == 'min' else 3600.0
+    return unit * float(found[1]), unit * float(found[2] or found[1])
+
+
+def _step(file: YamlFile, node: Any) -> Step:
+    entry = file.entries(node, 'a step', ('at', 'room', 'posture', 'share', 'minutes', 'opens',
+                                          'runs'))
+    at: tuple[str, ...] = ()
+    if 'at' in entry:
+        nodes = [entry['at']] if is_text(entry['at']) else file.list(entry['at'], 'at')
+        at = tuple(file.text(part, 'at') for part in nodes)
+    if not at and 'room' not in entry:
+        raise file.fail(node, 'a step needs at: a thing, or room: a use')
+    return Step(
+        at, file.choice(entry['room'], 'room', USES) if 'room' in entry else '',
+        file.choice(entry['posture'], 'posture', POSTURES) if 'posture' in entry else 'stand',
+        file.number(entry['share'], 'share', 0.0, 1.0) if 'share' in entry else 1.0,
+        file.number(entry['minutes'], 'minutes', 0.01, 1440) if 'minutes' in entry else None,
+        file.choice(entry['opens'], 'opens', OPENS) if 'opens' in entry else '',
+        file.choice(entry['runs'], 'runs', RUNS) if 'runs' in entry else '')

@@ -1,0 +1,257 @@
+"""Where people can walk in a home, and ways there through its doors."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Sequence
+
+import numpy as np
+from scipy.ndimage import label
+
+from angen_apps.maps.gridmap import FREE, OCCUPIED, RESOLUTION, GridMap
+from angen_apps.maps.rays import Caster
+from angen_apps.robot.planner import Planner, Point
+from angen_tools.common.home import Door, Home, Place
+
+BODY = 0.3  # m from a person's middle to what is beside
+TALL = 2.0  # m: what hangs higher is in nobody's way
+STEP = 0.06  # m: a higher thing on the floor is an obstacle
+DROP = 0.3  # m: ground that lies deeper is none
+HEIGHTS = (0.2, 1.0, 1.8)  # m above the floor where walls are looked for
+PAST = 1e-4  # m beyond a surface, to meet the next
+MARGIN = 1.5  # m around the rooms
+DEEP = 0.35  # m to both sides of a door's middle that belong to its opening
+PORCH = 1.2  # m outside the entrance where people come and go
+SWING = 1.25  # m from a door's middle that its leaf does not reach
+REACH = 1.1  # m from where one stands to what one uses
+
+
+@dataclass(frozen=True)
+class Leg:
+    """A part of a way: places to pass, and the door that has to be open before it begins."""
+
+    points: tuple[Point, ...]
+    door: Door | None = None
+
+
+class Ground:
+    """The floors of a home. `world` is one of its own, from which people and leaves are removed."""
+
+    def __init__(self, world: Any, home: Home) -> None:
+        self.home = home
+        for kind, _, model, _ in list(world.entities()):
+            if kind in ('person', 'door', 'drive') and model in world.models:
+                world.delete(model)
+        self._caster = Caster(world)
+        entrance = self.entrance()
+        lives = self.storey_at(entrance.pose[2]) if entrance else min(r.storey for r in home.rooms)
+        self.planners = {storey: Planner(self._grid(storey), BODY) for storey in (lives,)}
+        self.free = {storey: self._largest(planner) for storey, planner in self.planners.items()}
+
+    def support(self, place: Place) -> float:
+        """z of what carries one who sits or lies at a place, m."""
+        x, y, z, yaw = place.pose
+        c, s = math.cos(yaw), math.sin(yaw)
+        along = np.linspace(-0.7, 0.4, 12) if place.posture == 'lie' else np.linspace(-0.1, 0.1, 3)
+        across = np.linspace(-0.15, 0.15, 4)
+        offsets = np.array([(a, b) for a in along for b in across])
+        origins = np.column_stack([x + c * offsets[:, 0] - s * offsets[:, 1],
+                                   y + s * offsets[:, 0] + c * offsets[:, 1],
+                                   np.full(len(offsets), z + 0.45)])
+        down = np.broadcast_to([0.0, 0.0, -1.0], origins.shape)
+        return float(z + 0.45 - self._caster.cast(origins, down, 0.9).min())
+
+    def storey_at(self, z: float) -> int:
+        """The storey whose floor is nearest below a height."""
+        return min(self.home.storeys, key=lambda s: (abs(s.elevation - z), s.number)).number
+
+    def elevation(self, storey: int) -> float:
+        return float(next(s.elevation for s in self.home.storeys if s.number == storey))
+
+    def near(self, x: float, y: float, z: float, reach: float = REACH) -> Point | None:
+        """The place nearest to a point, in its room, where a person can stand."""
+        room = self.home.room_at(x, y, z + 0.1)
+        planner = self.planners.get(self.storey_at(z))
+        if planner is None or room is None:
+            return None
+        free = self.free[self.storey_at(z)]
+        row, column = planner.grid.cell(x, y)
+        if planner.stands((x, y)) and free[row, column]:
+            return x, y
+        rows, columns = np.nonzero(free)
+        px, py = self._middles(planner.grid, rows, columns)
+        away = np.hypot(px - x, py - y)
+        away[~in_polygon(px, py, room.polygon)] = np.inf
+        best = int(away.argmin()) if len(away) else -1
+        if best < 0 or away[best] > reach:
+            return None
+        return float(px[best]), float(py[best])
+
+    def spots(self, room: str, count: int, numbers: Any) -> list[Point]:
+        """Places in a room, in the open first."""
+        found = next(r for r in self.home.rooms if r.name == room)
+        planner = self.planners[found.storey]
+        rows, columns = np.nonzero(self.free[found.storey])
+        x, y = self._middles(planner.grid, rows, columns)
+        inside = in_polygon(x, y, found.polygon)
+        away = np.full(len(x), np.inf)
+        for door in self.home.doors:
+            away = np.minimum(away, np.hypot(x - door.pose[0], y - door.pose[1]))
+        for least in (SWING - 0.2, 0.6, 0.0):
+            cells = np.nonzero(inside & (away >= least))[0]
+            if len(cells):
+                chosen = [cells[numbers.randrange(len(cells))] for _ in range(count)]
+                return [(float(x[i]), float(y[i])) for i in chosen]
+        return []
+
+    def porch(self) -> tuple[Point, int] | None:
+        """Where people stand before the main entrance, outside, and the storey; None without."""
+        door = self.entrance()
+        if door is None:
+            return None
+        storey = self.storey_at(door.pose[2])
+        x, y, _, yaw = door.pose
+        for sign in (1, -1):
+            at = (x - sign * SWING * math.sin(yaw), y + sign * SWING * math.cos(yaw))
+            room = self.home.room_at(*at, door.pose[2] + 0.1)
+            if room is None or room.use in ('landing', 'outdoor'):
+                point = self.planners[storey].nearest(at, 0.7)
+                if point:
+                    return point, storey
+        return None
+
+    def entrance(self) -> Door | None:
+        """The main entrance's door."""
+        named = [d for d in self.home.doors if d.name == self.home.entrance
+                 and d.kind in ('door', 'opening')]
+        return named[0] if named else None
+
+    def way(self, start: Point, goal: Point, storey: int) -> list[Leg] | None:
+        """Legs from a place to another on a storey; None where there is no way."""
+        planner = self.planners[storey]
+        begin = self.near(*start, self.elevation(storey), 0.8) or planner.nearest(start, 0.8)
+        points = begin and planner.way(begin, goal)
+        if not points:
+            return None
+        doors = [d for d in self.home.doors if d.kind == 'door'
+                 and self.storey_at(d.pose[2]) == storey]
+        legs: list[Leg] = []
+        first, door = 0, None
+        for i, crossed in _crossings(points, doors):
+            before = next((j for j in range(i, first - 1, -1)
+                           if math.dist(points[j], crossed.pose[:2]) >= SWING), first)
+            legs.append(Leg(self._corners(planner, points[first:before + 1]), door))
+            first, door = before, crossed
+        legs.append(Leg(self._corners(planner, points[first:]), door))
+        return legs
+
+    def _corners(self, planner: Planner, points: Sequence[Point]) -> tuple[Point, ...]:
+        """The few points of a way between which one walks straight."""
+        kept = [points[0]]
+        i = 0
+        while i < len(points) - 1:
+            step = min(i + 40, len(points) - 1)
+            while step > i + 1 and not self._straight(planner, points[i], points[step]):
+                step -= 2 if step - 2 > i else 1
+            i = step
+            kept.append(points[i])
+        return tuple(kept[1:] or kept)
+
+    @staticmethod
+    def _straight(planner: Planner, a: Point, b: Point) -> bool:
+        count = max(int(math.dist(a, b) / RESOLUTION), 1)
+        return all(planner.stands((a[0] + (b[0] - a[0]) * k / count, a[1] + (b[1] - a[1]) * k
+                                   / count)) for k in range(1, count))
+
+    def _largest(self, planner: Planner) -> np.ndarray:
+        """The largest connected part (rows, columns) of where a person can stand."""
+        parts, _ = label(planner.passable, np.ones((3, 3), int))
+        return np.asarray(parts == 1 + int(np.argmax(np.bincount(parts.ravel())[1:])))
+
+    def _grid(self, storey: int) -> GridMap:
+        rooms = [room for room in self.home.rooms if room.storey == storey]
+        corners = np.array([corner for room in rooms for corner in room.polygon])
+        west, south = np.floor((corners.min(axis=0) - MARGIN) / RESOLUTION) * RESOLUTION
+        columns, rows = np.ceil((corners.max(axis=0) + MARGIN - (west, south))
+                                / RESOLUTION).astype(int)
+        grid = GridMap(np.full((rows, columns), OCCUPIED, np.int8), (float(west), float(south)),
+                       RESOLUTION, storey)
+        row, column = np.indices(grid.cells.shape)
+        x, y = (part.ravel() for part in self._middles(grid, row, column))
+        inside = np.zeros(len(x), bool)
+        for room in rooms:
+            inside |= in_polygon(x, y, room.polygon)
+            for hole in room.holes:
+                inside &= ~in_polygon(x, y, hole)
+        floor = self.elevation(storey)
+        for door in self.home.doors:
+            if door.kind != 'window' and self.storey_at(door.pose[2]) == storey:
+                outside = door.name == self.home.entrance
+                inside |= _opening(x, y, door, PORCH + 0.2 if outside else DEEP)
+        free = np.zeros(len(x), bool)
+        free[inside] = self._clear(x[inside], y[inside], floor)
+        grid.cells[free.reshape(grid.cells.shape) & ~self._surfaces(grid, floor)] = FREE
+        return grid
+
+    def _clear(self, x: np.ndarray, y: np.ndarray, floor: float) -> np.ndarray:
+        """Where nothing but the floor is below TALL, by rays from above."""
+        origins = np.column_stack([x, y, np.full(len(x), floor + TALL)])
+        down = np.broadcast_to([0.0, 0.0, -1.0], origins.shape)
+        ranges = self._caster.cast(origins, down, TALL + DROP + 0.01)
+        return np.asarray((ranges > TALL - STEP) & (ranges < TALL + DROP))
+
+    def _surfaces(self, grid: GridMap, floor: float) -> np.ndarray:
+        """Which cells (rows, columns) hold an upright surface, as of a wall, by level rays: those
+        from above begin inside of what is as high as a wall."""
+        found = np.zeros(grid.cells.shape, bool)
+        for axis, count in ((0, grid.cells.shape[0]), (1, grid.cells.shape[1])):
+            across = grid.origin[1 - axis] + (np.arange(count) + 0.5) * RESOLUTION
+            starts = np.array([(a, floor + height) for a in across for height in HEIGHTS])
+            origins = np.insert(starts, axis, grid.origin[axis], axis=1)
+            end = grid.origin[axis] + grid.cells.shape[1 - axis] * RESOLUTION
+            ways = np.eye(3)[axis]
+            while len(origins):
+                reach = end - origins[:, axis]
+                ranges = self._caster.cast(origins, np.broadcast_to(ways, origins.shape), reach)
+                origins = origins[ranges < reach - PAST]
+                origins[:, axis] += ranges[ranges < reach - PAST]
+                at = np.floor((origins[:, :2] - grid.origin) / RESOLUTION).astype(int)
+                found[at[:, 1], at[:, 0]] = True
+                origins = origins + PAST * ways
+        return found
+
+    @staticmethod
+    def _middles(grid: GridMap, rows: np.ndarray, columns: np.ndarray
+                 ) -> tuple[np.ndarray, np.ndarray]:
+        return (grid.origin[0] + (columns + 0.5) * grid.resolution,
+                grid.origin[1] + (rows + 0.5) * grid.resolution)
+
+
+def in_polygon(x: np.ndarray, y: np.ndarray, corners: Sequence[Sequence[float]]) -> np.ndarray:
+    """Which points lie inside a polygon."""
+    inside = np.zeros(np.shape(x), bool)
+    for (x0, y0), (x1, y1) in zip(corners, [*corners[1:], corners[0]]):
+        if y0 != y1:
+            inside ^= ((y0 > y) != (y1 > y)) & (x < (x1 - x0) * (y - y0) / (y1 - y0) + x0)
+    return inside
+
+
+def _opening(x: np.ndarray, y: np.ndarray, door: Door, deep: float) -> np.ndarray:
+    c, s = math.cos(door.pose[3]), math.sin(door.pose[3])
+    dx, dy = x - door.pose[0], y - door.pose[1]
+    return np.asarray((np.abs(c * dx + s * dy) <= door.width / 2)
+                      & (np.abs(c * dy - s * dx) <= deep))
+
+
+def _crossings(points: Sequence[Point], doors: Sequence[Door]) -> list[tuple[int, Door]]:
+    """Which doors a way passes, and the index of its last point before each."""
+    found = []
+    line = np.array(points)
+    for door in doors:
+        c, s = math.cos(door.pose[3]), math.sin(door.pose[3])
+        dx, dy = line[:, 0] - door.pose[0], line[:, 1] - door.pose[1]
+        across, along = c * dy - s * dx, c * dx + s * dy
+        passes = (across[:-1] > 0) != (across[1:] > 0)
+        near = np.abs(along[:-1]) <= door.width / 2 + 0.1
+        found += [(int(i), door) for i in np.nonzero(passes & near)[0]]
+    return sorted(found, key=lambda entry: entry[0])

@@ -1,0 +1,131 @@
+"""Residents of one home, each a process that says when it continues, and what they share."""
+from __future__ import annotations
+
+import datetime
+import heapq
+from typing import Any, Callable, Iterator
+
+from angen_apps.residents.agenda import Day
+from angen_apps.residents.ground import Ground
+from angen_apps.residents.interface import Refused, Simulator
+from angen_apps.residents.light import daylight
+from angen_apps.residents.places import Places
+from angen_tools.common.home import Home
+
+Process = Iterator[float]  # yields when it continues, s
+LIT = 100.0  # lx of a lamp, in rooms without a sensor
+CLEAR = 1.2  # m: a door with somebody so near is not shut
+
+
+class Household:
+    """The home that residents share. `day`: of simulated time 0; `since`: its seconds then."""
+
+    def __init__(self, simulator: Simulator, ground: Ground, seed: int, name: str,
+                 day: datetime.date, since: float = 0.0) -> None:
+        self.simulator, self.ground, self.seed, self.name = simulator, ground, seed, name
+        self.home: Home = simulator.home
+        self.places = Places(ground)
+        self.first, self.since = day, since
+        self.residents: list[Any] = []  # of resident.Resident
+        self.held: dict[Any, str] = {}  # a door, place or room, by who has it
+        self.acts: dict[tuple[str, str], tuple[float, str]] = {}  # when and who commanded a device
+        self.heard: Callable[[], None] = lambda: None  # after each part of time
+        self._queue: list[tuple[float, int, Process]] = []
+        self._devices = simulator.devices()
+        self._lux: dict[str, str] = {}
+        self.lamps: dict[str, list[str]] = {}
+        for kind, device, _, pose in self._devices:
+            room = self.home.room_at(pose[0], pose[1], pose[2] - 0.1)
+            if room and kind == 'lamp':
+                self.lamps.setdefault(room.name, []).append(device)
+            elif room and kind == 'luminosity':
+                self._lux.setdefault(room.name, device)
+
+    @property
+    def now(self) -> float:
+        return self.simulator.now
+
+    def date(self, time: float) -> tuple[datetime.date, float]:
+        """The day of a simulated time, and its seconds since midnight."""
+        days, seconds = divmod(time + self.since, 86400.0)
+        return self.first + datetime.timedelta(days=int(days)), seconds
+
+    def day(self, number: int) -> Day:
+        return Day(number, self.first + datetime.timedelta(days=number))
+
+    def add(self, process: Process) -> None:
+        """Begins a process."""
+        heapq.heappush(self._queue, (self.now, len(self._queue), process))
+
+    def run(self, until: float) -> None:
+        """Lets residents live until a simulated time."""
+        while self._queue and self._queue[0][0] < until:
+            due, order, process = self._queue[0]
+            if due > self.now + 1e-9:
+                self.simulator.run(due - self.now)
+                self.heard()
+            heapq.heappop(self._queue)
+            wakes = next(process, None)
+            if wakes is not None:
+                heapq.heappush(self._queue, (max(wakes, self.now + 1e-3), order, process))
+        if until > self.now:
+            self.simulator.run(until - self.now)
+            self.heard()
+
+    def close(self) -> None:
+        """Ends what residents do."""
+        for _, _, process in self._queue:
+            getattr(process, 'close', lambda: None)()
+        for resident in self.residents:
+            resident.diary.end(self.now)
+
+    def take(self, what: Any, who: str) -> bool:
+        """Whether `who` has it now: a door, a place, a room."""
+        return self.held.setdefault(what, who) == who
+
+    def leave(self, what: Any, who: str) -> None:
+        if self.held.get(what) == who:
+            del self.held[what]
+
+    def do(self, who: str, kind: str, name: str, text: str) -> bool:
+        """A resident commands a device; whether it obeyed."""
+        try:
+            self.simulator.command(kind, name, text)
+        except Refused:
+            return False
+        self.acts[kind, name] = (self.now, who)
+        return True
+
+    def of_model(self, model: str, *kinds: str) -> tuple[str, str] | None:
+        """Kind and name of a device of a model."""
+        return next(((kind, name) for kind, name, other, _ in self._devices
+                     if other == model and kind in kinds), None)
+
+    def front(self, thing: Any) -> tuple[str, str] | None:
+        """The front of a piece of furniture that opens: the nearest cabinet within its reach."""
+        near = sorted((((pose[0] - thing.pose[0]) ** 2 + (pose[1] - thing.pose[1]) ** 2, name)
+                       for kind, name, _, pose in self._devices if kind == 'cabinet'
+                       and abs(pose[2] - thing.pose[2]) < 2.2))
+        return ('cabinet', near[0][1]) if near and near[0][0] < 0.8 else None
+
+    def others_in(self, room: str, who: str) -> bool:
+        """Whether somebody else is awake in a room."""
+        return any(r.room == room and r.name != who and not r.away for r in self.residents)
+
+    def doorway_free(self, x: float, y: float, who: str) -> bool:
+        """Whether nobody else is where a leaf swings."""
+        return all((r.at[0] - x) ** 2 + (r.at[1] - y) ** 2 > CLEAR ** 2
+                   for r in self.residents if r.name != who and not r.away)
+
+    def lux(self, room: str) -> float:
+        """How light it is in a room: by its sensor, or else by its lamps and the sun."""
+        if room in self._lux:
+            reading = self.simulator.state('luminosity', self._lux[room])
+            if 'illuminance' in reading:
+                return float(reading['illuminance'])
+        lit = any(self.simulator.state('lamp', lamp).get('on') for lamp in self.lamps.get(room, ()))
+        date, seconds = self.date(self.now)
+        windows = [d for d in self.home.doors if d.kind == 'window']
+        window = not windows or any(room in d.rooms for d in windows)
+        return (LIT if lit else 0.0) + (daylight(date, seconds, self.home.latitude)
+                                        if window else 0.0)

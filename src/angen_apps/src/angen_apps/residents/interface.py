@@ -1,0 +1,58 @@
+"""What residents need of a simulator: a process of their own (simulated.py) or the node (live.py)."""
+from __future__ import annotations
+
+from typing import Any, NamedTuple, Protocol
+
+from angen_tools.common.home import Home, Place
+
+
+class Body(NamedTuple):
+    """Where a resident is: m and rad in the world, and WALKING, STANDING or BLOCKED."""
+
+    x: float
+    y: float
+    z: float
+    yaw: float
+    mode: str
+
+
+class Refused(Exception):
+    """The simulator did not do what it was asked for."""
+
+
+class Simulator(Protocol):
+    """One home with residents in it."""
+
+    home: Home
+
+    @property
+    def now(self) -> float:
+        """Simulated time, s."""
+
+    def run(self, seconds: float) -> None:
+        """Lets time pass."""
+
+    def devices(self) -> list[tuple[str, str, str, tuple[float, ...]]]:
+        """Kind, name, model and pose (x y z qx qy qz qw) of each device and sensor."""
+
+    def state(self, kind: str, name: str) -> dict[str, Any]:
+        """The state of a device, or the reading of a sensor; empty where there is none."""
+
+    def command(self, kind: str, name: str, text: str) -> None:
+        """Commands a device; Refused says why not."""
+
+    def appear(self, name: str, x: float, y: float, z: float, yaw: float, speed: float, body: str
+               ) -> None:
+        """Puts a resident on its feet there, whatever its posture was."""
+
+    def settle(self, name: str, place: Place, number: int) -> None:
+        """Has a resident sit or lie at a place."""
+
+    def vanish(self, name: str) -> None:
+        """Takes a resident out of the home."""
+
+    def fidget(self, name: str, turn: float) -> None:
+        """One who sits or lies moves a little: turned by so many rad."""
+
+    def body(self, name: str) -> Body:
+        """Where a resident is."""

@@ -1,0 +1,223 @@
+"""How a resident gets from place to place: on foot, through doors, out of the home and back."""
+from __future__ import annotations
+
+import math
+from random import Random
+from typing import Iterator
+
+from angen_apps.residents.ground import BODY, SWING, Leg
+from angen_apps.residents.household import Household
+from angen_apps.residents.places import Spot
+from angen_apps.residents.profiles import Profile
+from angen_apps.robot.planner import Point
+from angen_tools.common.home import Door
+
+POLL = 0.1  # s between two looks at where one is
+PASSED, THERE = 0.35, 0.12  # m from a corner of the way, and from its end
+STALLED = 7.0  # s without coming nearer, after which another way is tried
+TRIES = 3
+DOOR_WAIT = 20.0  # s for somebody else in a doorway
+OPENS_IN = 12.0  # s
+ASIDE = 0.55  # m between the middles of two people
+NEARER = 0.05  # m
+
+Process = Iterator[float]
+
+
+class Mover:
+    """A resident's body."""
+
+    def __init__(self, household: Household, name: str, number: int, profile: Profile) -> None:
+        self.household, self.name, self.number, self.profile = household, name, number, profile
+        self.simulator, self.ground = household.simulator, household.ground
+        self.spot: Spot | None = None  # where it is, or was last
+        self.posture = 'stand'
+        self.away = True
+        self.walks = False
+        self.room = ''
+        self.at: tuple[float, float] = (math.inf, math.inf)
+        self.storey = 0
+        self.moved = -math.inf  # s: when it last moved
+        self._habits = Random(0)
+
+    @property
+    def now(self) -> float:
+        return self.simulator.now
+
+    def look(self) -> None:
+        """Notes where the body is."""
+        if self.away:
+            return
+        body = self.simulator.body(self.name)
+        if math.dist(self.at, (body.x, body.y)) > 0.02:
+            self.moved = self.now
+        self.at = (body.x, body.y)
+        room = self.ground.home.room_at(body.x, body.y, self.ground.elevation(self.storey) + 0.5)
+        self.room = room.name if room else ''
+
+    def enter(self, spot: Spot) -> None:
+        """Comes to be at a place, standing: outside the entrance, or where a run begins."""
+        self.storey, self.spot = spot.storey, spot
+        point = self._free(spot.stand) or spot.stand
+        yaw = self._habits.uniform(-math.pi, math.pi)
+        self.simulator.appear(self.name, *point, spot.z, yaw, self.profile.speed,
+                              self.profile.body)
+        self.away, self.posture = False, 'stand'
+        self.look()
+
+    def settle(self, spot: Spot) -> None:
+        """Sits down or lies down."""
+        if spot.place is None or self.profile.body != 'person':
+            return
+        self.simulator.settle(self.name, spot.place, self.number)
+        self.posture, self.spot = spot.place.posture, spot
+        self.moved = self.now
+        self.look()
+
+    def rise(self) -> Process:
+        """Gets up, when nobody stands before the seat."""
+        if self.posture == 'stand' or self.spot is None:
+            return
+        point = self._free(self.spot.stand)
+        waited = 0.0
+        while point is None and waited < DOOR_WAIT:
+            yield self.now + 1.0
+            waited += 1.0
+            point = self._free(self.spot.stand)
+        body = self.simulator.body(self.name)
+        self.simulator.appear(self.name, *(point or self.spot.stand), self.spot.z, body.yaw,
+                              self.profile.speed, self.profile.body)
+        self.posture, self.moved = 'stand', self.now
+        self.look()
+        yield self.now + 0.3
+
+    def vanish(self) -> None:
+        """Is out of the home."""
+        self.simulator.vanish(self.name)
+        self.away, self.room, self.at = True, '', (math.inf, math.inf)
+
+    def _free(self, point: Point) -> Point | None:
+        """The point, or one beside it, that no other resident is at."""
+        others = [r.at for r in self.household.residents if r is not self and not r.away]
+        planner = self.ground.planners[self.storey]
+        around = [(0.0, 0.0)] + [(d * math.cos(k * math.pi / 4), d * math.sin(k * math.pi / 4))
+                                 for d in (0.4, 0.7, 1.0) for k in range(8)]
+        for dx, dy in around:
+            at = (point[0] + dx, point[1] + dy)
+            if (dx or dy) and not planner.stands(at):
+                continue
+            if all(math.dist(at, other) > ASIDE for other in others):
+                return at
+        return None
+
+    def go(self, goal: Point, storey: int) -> Iterator[float]:
+        """Walks there; `self.arrived` says whether it came there."""
+        self.arrived = False
+        yield from self.rise()
+        for attempt in range(TRIES):
+            legs = self.ground.way(self.at, goal, storey) if storey == self.storey else None
+            if legs is None:
+                return
+            yield from self._follow(legs)
+            if self.arrived:
+                return
+            if attempt + 1 < TRIES:
+                yield from self._aside(attempt)
+
+    def _follow(self, legs: list[Leg]) -> Process:
+        self.walks = True
+        held: Door | None = None
+        try:
+            for i, leg in enumerate(legs):
+                if leg.door is not None:
+                    if held is not None:
+                        self._let_go(held)
+                    held = None
+                    yield from self._open(leg.door)
+                    if not self._opened:
+                        return
+                    held = leg.door
+                for j, point in enumerate(leg.points):
+                    last = i == len(legs) - 1 and j == len(leg.points) - 1
+                    yield from self._walk(point, THERE if last else PASSED, held)
+                    if not self._came:
+                        return
+                    if held and math.dist(self.at, held.pose[:2]) > SWING:
+                        self._let_go(held)
+                        held = None
+            self.arrived = True
+        finally:
+            self.walks = False
+            if held is not None:
+                self._let_go(held)
+
+    def _walk(self, point: Point, near: float, held: Door | None) -> Process:
+        """Straight to a point; `self._came` says whether it came so near."""
+        self._came = False
+        if not self.household.do(self.name, 'person', self.name,
+                                 f'GoTo {point[0]:.3f} {point[1]:.3f}'):
+            return
+        best, since = math.inf, self.now
+        while True:
+            self.look()
+            away = math.dist(self.at, point)
+            if away < near:
+                self._came = True
+                return
+            if away < best - NEARER:
+                best, since = away, self.now
+            elif self.now - since > STALLED:
+                return
+            if held and math.dist(self.at, held.pose[:2]) > SWING and self._behind(held, point):
+                self._let_go(held)
+                held = None
+            yield self.now + POLL
+
+    def _behind(self, door: Door, point: Point) -> bool:
+        """Whether a door lies behind, on the way to a point."""
+        return math.dist(self.at, point) < math.dist(door.pose[:2], point)
+
+    def _open(self, door: Door) -> Process:
+        """Has a door open; `self._opened` says whether it is. The door is held until let go."""
+        self._opened = False
+        key, since = ('door', door.name), self.now
+        while not self.household.take(key, self.name):
+            if self.now - since > DOOR_WAIT:
+                return
+            yield self.now + 0.5
+        state = self.simulator.state('door', door.name)
+        if state.get('mode') != 'OPEN' and self.profile.body == 'person':
+            self.household.do(self.name, 'door', door.name, 'Open')
+        while state and state.get('mode') != 'OPEN':
+            if self.now - since > OPENS_IN + DOOR_WAIT or self.profile.body != 'person':
+                self.household.leave(key, self.name)
+                return
+            yield self.now + 0.25
+            state = self.simulator.state('door', door.name)
+        self._opened = True
+
+    def _let_go(self, door: Door) -> None:
+        """Leaves a door behind, and shuts it by habit; the entrance always."""
+        key = ('door', door.name)
+        if self.household.held.get(key) != self.name:
+            return
+        self.household.leave(key, self.name)
+        shuts = (door.name == self.ground.home.entrance
+                 or self._habits.random() < self.profile.closes_doors)
+        beyond = math.dist(self.at, door.pose[:2]) > SWING - 0.3
+        if shuts and beyond and self.profile.body == 'person' \
+                and self.household.doorway_free(door.pose[0], door.pose[1], self.name):
+            self.household.do(self.name, 'door', door.name, 'Close')
+
+    def _aside(self, attempt: int) -> Process:
+        """Makes room before another try."""
+        planner = self.ground.planners[self.storey]
+        for _ in range(12):
+            turn = self._habits.uniform(-math.pi, math.pi)
+            point = (self.at[0] + 3 * BODY * math.cos(turn), self.at[1] + 3 * BODY * math.sin(turn))
+            if planner.stands(point):
+                self.household.do(self.name, 'person', self.name,
+                                  f'GoTo {point[0]:.3f} {point[1]:.3f}')
+                break
+        yield self.now + 2.0 + attempt
+        self.look()

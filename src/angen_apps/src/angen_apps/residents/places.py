@@ -1,0 +1,140 @@
+"""Where activities happen in a home: things and rooms as spots to stand, sit or lie at."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from random import Random
+
+from angen_apps.residents.activities import Step
+from angen_apps.residents.ground import Ground
+from angen_apps.robot.planner import Point
+from angen_tools.common.home import Place, Room, Thing
+
+FAR = 1.9  # m from where one stands to the middle of a bed
+TOWARDS = 0.62  # m from the middle of a thing without places to where one stands
+OUTSIDE, ENTRANCE = 'outside', 'entrance'
+
+
+@dataclass(frozen=True)
+class Spot:
+    """Where a resident stands, and the place of a thing at which it then sits or lies."""
+
+    stand: Point
+    storey: int
+    z: float
+    room: str
+    thing: str = ''
+    place: Place | None = None
+
+    @property
+    def key(self) -> tuple[str, float, float]:
+        """One resident at a time is there."""
+        at = self.place.pose[:2] if self.place else self.stand
+        return self.thing or self.room, round(at[0], 2), round(at[1], 2)
+
+
+class Places:
+    """The spots of a home, found when they are first needed."""
+
+    def __init__(self, ground: Ground) -> None:
+        self.ground, self.home = ground, ground.home
+        self._rooms = {room.name: room for room in self.home.rooms}
+        self._spots: dict[tuple[str, str], list[Spot]] = {}
+
+    def use(self, room: str) -> str:
+        """What a room is for."""
+        return self._rooms[room].use if room in self._rooms else 'outdoor'
+
+    def rooms_of(self, use: str) -> list[Room]:
+        return [room for room in self.home.rooms if room.use == use
+                and room.storey in self.ground.planners]
+
+    def spots(self, step: Step) -> list[Spot]:
+        """Where a step can be done, the best first; empty where no thing and no room serves."""
+        posture = 'stand' if step.posture == 'roam' else step.posture
+        found = [spot for what in step.at for spot in self._of(what, posture)]
+        if not found and step.room:
+            found = self.free(step.room, Random(step.room), 1)
+        return found
+
+    def free(self, use: str, numbers: Random, count: int) -> list[Spot]:
+        """Places on the open floor of rooms of a use."""
+        rooms = self.rooms_of(use)
+        if not rooms:
+            return []
+        room = rooms[numbers.randrange(len(rooms))]
+        z = self.ground.elevation(room.storey)
+        return [Spot(point, room.storey, z, room.name)
+                for point in self.ground.spots(room.name, count, numbers)]
+
+    def anywhere(self) -> Spot:
+        """A place in the largest room, where nothing else serves."""
+        room = max((r for r in self.home.rooms if r.storey in self.ground.planners
+                    and r.use not in ('landing', 'outdoor')), key=lambda r: (r.area, r.name))
+        point = self.ground.spots(room.name, 1, Random(room.name))[0]
+        return Spot(point, room.storey, self.ground.elevation(room.storey), room.name)
+
+    def _of(self, what: str, posture: str) -> list[Spot]:
+        key = (what, posture)
+        if key not in self._spots:
+            self._spots[key] = list(self._find(what, posture))
+        return self._spots[key]
+
+    def _find(self, what: str, posture: str) -> list[Spot]:
+        if what == OUTSIDE:
+            return self._porch()
+        if what == ENTRANCE:
+            return self._inside()
+        use, _, kind = what.rpartition(' ')
+        found = []
+        for thing in sorted(self.home.things, key=lambda t: t.name):
+            if thing.type == kind and (not use or self.use(thing.room) == use):
+                found += self._at(thing, posture)
+        return found
+
+    def _at(self, thing: Thing, posture: str) -> list[Spot]:
+        room = self._rooms.get(thing.room)
+        if room is None or room.storey not in self.ground.planners:
+            return []
+        floor = self.ground.elevation(room.storey)
+        places = [place for place in thing.places if place.posture == posture]
+        if posture == 'stand' and not places:
+            places = self._fronts(thing, floor)
+        found = []
+        for place in places:
+            x, y = place.pose[0], place.pose[1]
+            stand = self.ground.near(x, y, floor, FAR if posture == 'lie' else 1.1)
+            if stand is None:
+                continue
+            seat = None
+            if posture != 'stand':
+                seat = replace(place, pose=[x, y, self.ground.support(place), place.pose[3]])
+            found.append(Spot(stand, room.storey, floor, thing.room, thing.name, seat))
+        return found
+
+    def _fronts(self, thing: Thing, floor: float) -> list[Place]:
+        """Before a thing that names no place: ahead of it, or else beside it."""
+        x, y, _, qx, qy, qz, qw = thing.pose
+        yaw = math.atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz))
+        return [Place('stand', [x + TOWARDS * math.cos(yaw), y + TOWARDS * math.sin(yaw), floor,
+                                yaw + math.pi])]
+
+    def _porch(self) -> list[Spot]:
+        porch = self.ground.porch()
+        if porch is None:
+            return []
+        point, storey = porch
+        z = self.ground.elevation(storey)
+        room = self.home.room_at(*point, z + 0.1)
+        return [Spot(point, storey, z, room.name if room else '')]
+
+    def _inside(self) -> list[Spot]:
+        """Behind the entrance's door, clear of its leaf."""
+        door, porch = self.ground.entrance(), self.ground.porch()
+        if door is None or porch is None:
+            return []
+        x, y = 2 * door.pose[0] - porch[0][0], 2 * door.pose[1] - porch[0][1]
+        z = self.ground.elevation(porch[1])
+        point = self.ground.near(x, y, z)
+        room = self.home.room_at(x, y, z + 0.1)
+        return [Spot(point, porch[1], z, room.name)] if point and room else []

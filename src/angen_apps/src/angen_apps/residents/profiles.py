@@ -1,0 +1,209 @@
+"""Who lives in a home: habits of a kind of person, in profiles/*.yaml or a file of one's own."""
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from angen_apps.residents.activities import Activity, activities, span
+from angen_tools.common.failure import Failure
+from angen_tools.common.nearest import did_you_mean
+from angen_tools.common.yaml_file import YamlFile, is_text
+
+FOLDER = Path(__file__).with_name('profiles')
+DAY = 86400.0  # s
+HOURS = re.compile(r'(\d{1,2}):(\d\d)-(\d{1,2}):(\d\d)')
+DAYS = ('all', 'weekday', 'weekend')
+BODIES = ('person', 'cat')
+KEYS = ('about', 'body', 'speed', 'lives', 'closes_doors', 'lamps_on', 'lamps_off', 'wakes',
+        'sleeps', 'scheduled', 'free', 'needs')
+
+
+@dataclass(frozen=True)
+class Span:
+    """A range of times of day in s, the second after midnight where it is the lesser."""
+
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Scheduled:
+    """Activities one after the other that begin at a usual time of day."""
+
+    do: tuple[str, ...]
+    at: Span
+    days: str = 'all'
+    chance: float = 1.0
+    together: bool = False
+    lasts: tuple[float, float] | None = None  # of the first
+
+
+@dataclass(frozen=True)
+class Free:
+    """An activity that fills the time between: its weight holds from an hour to the next given."""
+
+    weights: tuple[tuple[float, float], ...]
+    lasts: tuple[float, float]
+    per_day: float
+
+    def weight(self, hour: float) -> float:
+        return next((weight for start, weight in reversed(self.weights) if hour >= start),
+                    self.weights[-1][1])
+
+
+@dataclass(frozen=True)
+class Need:
+    """What interrupts: again and again, `every` so many s while awake, or in some of the nights."""
+
+    every: tuple[float, float] | None
+    per_day: float
+    at_night: float
+
+
+@dataclass(frozen=True)
+class Profile:
+    """The habits of a kind of resident. `lives`: False for one who only comes to visit."""
+
+    name: str
+    speed: float  # m/s
+    wakes: dict[str, Span]
+    sleeps: dict[str, Span]
+    scheduled: tuple[Scheduled, ...]
+    free: dict[str, Free]
+    needs: dict[str, Need]
+    body: str = 'person'
+    lives: bool = True
+    closes_doors: float = 0.3
+    lamps_on: float = 0.95
+    lamps_off: float = 0.85
+    does: frozenset[str] = field(default_factory=frozenset)
+
+
+def names() -> list[str]:
+    """The profiles that Angen has."""
+    return sorted(file.stem for file in FOLDER.glob('*.yaml'))
+
+
+def read(name: str) -> Profile:
+    """A shipped profile, or that of a file; Failure says file and line of what is wrong."""
+    path = Path(name)
+    if path.suffix not in ('.yaml', '.yml'):
+        path = FOLDER / f'{name}.yaml'
+        if not path.is_file():
+            raise Failure(f"there is no profile '{name}'; {did_you_mean(name, names())}")
+    return _Reader(YamlFile(path)).profile(path.stem)
+
+
+class _Reader:
+    def __init__(self, file: YamlFile) -> None:
+        self.file, self.known = file, activities()
+
+    def profile(self, name: str) -> Profile:
+        file = self.file
+        entry = file.entries(file.root, 'a profile', KEYS, ('speed', 'wakes', 'sleeps'))
+        scheduled = tuple(self.scheduled(node) for node in
+                          (file.list(entry['scheduled'], 'scheduled')
+                           if 'scheduled' in entry else []))
+        free = self.several(entry, 'free', self.free)
+        needs = self.several(entry, 'needs', self.need)
+        wakes, sleeps = (self.spans(entry[key], key) for key in ('wakes', 'sleeps'))
+        made = Profile(
+            name, file.number(entry['speed'], 'speed', 0.2, 2.0), wakes, sleeps, scheduled, free,
+            needs, file.choice(entry['body'], 'body', BODIES) if 'body' in entry else 'person',
+            'lives' not in entry or file.choice(entry['lives'], 'lives',
+                                                ('true', 'false')) == 'true',
+            **{key: file.number(entry[key], key, 0.0, 1.0)
+               for key in ('closes_doors', 'lamps_on', 'lamps_off') if key in entry},
+            does=frozenset([*free, *needs, *(name for part in scheduled for name in part.do)]))
+        self.check_time(made, entry)
+        return made
+
+    def several(self, entry: dict[str, Any], key: str, read: Any) -> dict[str, Any]:
+        if key not in entry:
+            return {}
+        found = {}
+        for name, node in self.file.entries(entry[key], key).items():
+            self.activity(name, node)
+            found[name] = read(name, node)
+        return found
+
+    def activity(self, name: str, node: Any) -> Activity:
+        if name not in self.known:
+            raise self.file.fail(node, f"'{name}' is not an activity; "
+                                 f'{did_you_mean(name, self.known)}')
+        return self.known[name]
+
+    def scheduled(self, node: Any) -> Scheduled:
+        file = self.file
+        entry = file.entries(node, 'scheduled', ('do', 'at', 'days', 'chance', 'together', 'lasts'),
+                             ('do', 'at'))
+        nodes = [entry['do']] if is_text(entry['do']) else file.list(entry['do'], 'do')
+        for part in nodes:
+            self.activity(file.text(part, 'do'), part)
+        return Scheduled(
+            tuple(file.text(part, 'do') for part in nodes), self.hours(entry['at'], 'at'),
+            file.choice(entry['days'], 'days', DAYS) if 'days' in entry else 'all',
+            file.number(entry['chance'], 'chance', 0.0, 1.0) if 'chance' in entry else 1.0,
+            'together' in entry and file.choice(entry['together'], 'together',
+                                                ('true', 'false')) == 'true',
+            span(file, entry['lasts'], 'lasts') if 'lasts' in entry else None)
+
+    def free(self, name: str, node: Any) -> Free:
+        file = self.file
+        entry = file.entries(node, name, ('hours', 'lasts', 'per_day'), ('hours',))
+        weights = sorted((float(hour), file.number(weight, 'a weight', 0.0))
+                         for hour, weight in self.hourly(entry['hours']))
+        return Free(tuple(weights), span(file, entry['lasts'], 'lasts') if 'lasts' in entry
+                    else self.known[name].lasts,
+                    file.number(entry['per_day'], 'per_day', 0.0) if 'per_day' in entry else 99.0)
+
+    def hourly(self, node: Any) -> list[tuple[float, Any]]:
+        found = []
+        for key, value in self.file.entries(node, 'hours').items():
+            if not key.isdigit() or not 0 <= int(key) < 24:
+                raise self.file.fail(value, f"'{key}' is not an hour of 0 to 23")
+            found.append((float(key), value))
+        return found
+
+    def need(self, name: str, node: Any) -> Need:
+        file = self.file
+        entry = file.entries(node, name, ('every', 'per_day', 'at_night'))
+        return Need(span(file, entry['every'], 'every') if 'every' in entry else None,
+                    file.number(entry['per_day'], 'per_day', 0, 50) if 'per_day' in entry else 0.0,
+                    file.number(entry['at_night'], 'at_night', 0, 9) if 'at_night' in entry
+                    else 0.0)
+
+    def spans(self, node: Any, what: str) -> dict[str, Span]:
+        if is_text(node):
+            both = self.hours(node, what)
+            return {'weekday': both, 'weekend': both}
+        entry = self.file.entries(node, what, DAYS[1:], DAYS[1:])
+        return {day: self.hours(part, what) for day, part in entry.items()}
+
+    def hours(self, node: Any, what: str) -> Span:
+        text = self.file.text(node, what)
+        found = HOURS.fullmatch(text)
+        if not found or int(found[1]) > 23 or int(found[3]) > 23 \
+                or int(found[2]) > 59 or int(found[4]) > 59:
+            raise self.file.fail(node, f"{what} is '{text}', must be two times of day as "
+                                 "'7:00-7:30'")
+        low, high = (3600.0 * int(found[i]) + 60.0 * int(found[i + 1]) for i in (1, 3))
+        return Span(low, high if high >= low else high + DAY)
+
+    def check_time(self, profile: Profile, entry: dict[str, Any]) -> None:
+        """What is scheduled fits into the time awake, if all takes its usual time."""
+        for day in DAYS[1:]:
+            sleeps, wakes = profile.sleeps[day], profile.wakes[day]
+            awake = (sleeps.low + sleeps.high - wakes.low - wakes.high) / 2 % DAY
+            taken = 0.0
+            for part in profile.scheduled:
+                if part.days in ('all', day):
+                    times = [part.lasts if i == 0 and part.lasts else self.known[name].lasts
+                             for i, name in enumerate(part.do)]
+                    taken += part.chance * sum((low * high) ** 0.5 for low, high in times)
+            if taken > awake:
+                raise self.file.fail(entry['scheduled'], f'what is scheduled on a {day} takes '
+                                     f'{taken / 3600:.1f} h, but {profile.name} is awake for '
+                                     f'{awake / 3600:.1f} h')

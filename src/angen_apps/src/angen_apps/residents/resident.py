@@ -1,0 +1,351 @@
+"""A resident: does what the agenda says, and uses the home by its habits."""
+from __future__ import annotations
+
+from typing import Any, Iterator
+
+from angen_apps.residents.activities import Activity, Step, activities
+from angen_apps.residents.agenda import Item, Planner
+from angen_apps.residents.chance import chance
+from angen_apps.residents.household import Household
+from angen_apps.residents.interface import Refused
+from angen_apps.residents.mover import Mover
+from angen_apps.residents.places import OUTSIDE, Spot
+from angen_apps.residents.profiles import DAY, Profile
+from angen_apps.residents.truth import Diary, Interval
+from angen_tools.common.failure import Failure
+
+DARK = 50.0  # lx: with less, lamps are switched on
+LATE = 20.0  # s: an activity that would be shorter is left out
+FIDGETS = {'sit': 150.0, 'lie': 1500.0}  # s on average between two movements
+SHUFFLES = 25.0  # s on average between two steps of one who stands
+ROAMS = (15.0, 45.0)  # s at a place
+OPEN_FOR = 20.0  # s that a fridge stands open, at most
+QUEUE, PATIENCE = 10.0, 900.0  # s between two tries at a room, and until it is given up
+OUT_BETWEEN = 900.0  # s: a visitor with less to wait stays
+
+Process = Iterator[float]
+
+
+class Resident(Mover):
+    """One who lives in a household; live() is its process."""
+
+    def __init__(self, household: Household, name: str, number: int, profile: Profile) -> None:
+        super().__init__(household, name, number, profile)
+        self.diary = Diary()
+        self.planner = Planner(household.seed, household.name, name, profile)
+        self.item = Item(0.0, 0.0, 'sleep', 'scheduled')
+        self._known = activities()
+        self._tasks = {task: self._resolve(self._known[task])
+                       for task in sorted(profile.does | {'sleep', 'leave'}
+                                          | ({'relax', 'toilet', 'wash', 'shower', 'dress'}
+                                             if profile.body == 'person' else {'nap'}))}
+
+    def _resolve(self, activity: Activity) -> list[list[Spot]]:
+        """The spots of each step; Failure where a resident would have no bed."""
+        places = self.household.places
+        found = []
+        for step in activity.steps:
+            spots = places.spots(step)
+            if not spots and activity.name == 'sleep' and self.profile.lives \
+                    and self.profile.body == 'person':
+                raise Failure(f'the home has no {" and no ".join(step.at)} where {self.name} '
+                              f'({self.profile.name}), who sleeps, could lie')
+            if not spots and OUTSIDE not in step.at:
+                spots = [places.anywhere()]
+            found.append(spots)
+        return found
+
+    def live(self) -> Process:
+        """Day after day."""
+        number = 0
+        household = self.household
+        midnight = -household.since
+        items = [Item(item.start - DAY, item.end - DAY, item.activity, item.cause)
+                 for item in self.planner.plan(household.day(-1)) if item.end > DAY]
+        self._begin(items)
+        while True:
+            for item in items:
+                self.item = Item(midnight + item.start, midnight + item.end, item.activity,
+                                 item.cause)
+                self._habits = chance(household.seed, household.name, self.name, 'habits',
+                                      number, round(item.start, 3))
+                if self.item.end > self.now + LATE:
+                    yield from self._do(self.item)
+            midnight = number * DAY - household.since
+            items = self.planner.plan(household.day(number))
+            number += 1
+
+    def _begin(self, items: list[Item]) -> None:
+        """Is where the first item has it, or out of the home."""
+        self._note('away', '')
+        now = self.now + self.household.since
+        first = next((item for item in items if item.end > now), None)
+        if not self.profile.lives or first is None or first.activity == 'leave':
+            return
+        spots = self._tasks.get(first.activity, self._tasks['sleep'])
+        spot = self._choose(spots[0]) or self.household.places.anywhere()
+        self.storey = spot.storey
+        self.enter(spot)
+        if first.activity == 'sleep':
+            self.settle(spot)
+        self._note('does', first.activity)
+
+    def _do(self, item: Item) -> Process:
+        activity = self._known[item.activity]
+        if item.start > self.now + OUT_BETWEEN and not self.profile.lives and not self.away:
+            yield from self._leave(item.start)
+        if item.start > self.now:
+            yield from self._stay(item.start, Step(), 0)
+        if activity.name == 'leave' or (not self.profile.lives and activity.name == 'sleep'):
+            yield from self._leave(item.end)
+            return
+        yield from self._come()
+        if self.away:
+            return
+        if activity.alone and not (yield from self._queue(activity, item)):
+            return
+        try:
+            times = activity.times(max(item.end - self.now, LATE))
+            end = self.now
+            for i, (step, seconds) in enumerate(zip(activity.steps, times)):
+                end += seconds
+                yield from self._step(activity, step, i, end)
+        finally:
+            if activity.alone:
+                self._leave_rooms(activity)
+
+    def _step(self, activity: Activity, step: Step, index: int, end: float) -> Process:
+        """A part of an activity at one place."""
+        self._release()
+        spot = self._choose(self._tasks[activity.name][index])
+        if step.posture == 'roam':
+            yield from self._roam(activity, step, end)
+            return
+        if spot is None:
+            self.diary.note(f'no place for {activity.name}')
+            spot = self.household.places.anywhere()
+        yield from self._reach(spot, activity.name)
+        if not self.arrived:
+            self.diary.note('gave up the way')
+            yield from self._stay(min(end, self.now + 60.0), step, 0)
+            return
+        if spot.place is not None and self.profile.body == 'person':
+            try:
+                self.settle(spot)
+            except Refused as error:
+                self.diary.note(str(error))
+        self._note('does', activity.name)
+        self._lamps(activity)
+        used = self._use(step, spot)
+        if used and step.opens:
+            yield from self._stay(min(end, self.now + OPEN_FOR), step, 0)
+            self._unuse(used)
+            used = None
+        yield from self._stay(end, step, 1)
+        self._unuse(used)
+
+    def _reach(self, spot: Spot, name: str) -> Process:
+        """Walks to a spot, unless the resident is there."""
+        if self.spot == spot and not self.away:
+            self.arrived = True
+            return
+        self._note('goes', name)
+        left = self.room
+        yield from self.go(spot.stand, spot.storey)
+        if left and left != self.room:
+            self._lamp_off(left)
+        if self.arrived:
+            self.spot = spot
+
+    def _stay(self, until: float, step: Step, busy: int) -> Process:
+        """Stays, and moves a little from time to time."""
+        mean = FIDGETS.get(self.posture, SHUFFLES if busy else 600.0)
+        if self.profile.body != 'person':
+            mean = 300.0
+        while self.now < until and not self.away:
+            pause = self._habits.expovariate(1.0 / mean)
+            if self.now + pause >= until:
+                break
+            yield self.now + pause
+            self.moved = self.now
+            if self.posture != 'stand':
+                self.simulator.fidget(self.name, self._habits.choice((-0.12, 0.12)))
+            elif busy and self.spot is not None:
+                yield from self._shuffle(self.spot)
+        if until > self.now:
+            yield until
+
+    def _shuffle(self, spot: Spot) -> Process:
+        """A step aside, along what one stands at."""
+        for _ in range(4):
+            point = (spot.stand[0] + self._habits.uniform(-0.3, 0.3),
+                     spot.stand[1] + self._habits.uniform(-0.3, 0.3))
+            if self.ground.planners[spot.storey].stands(point):
+                self.household.do(self.name, 'person', self.name,
+                                  f'GoTo {point[0]:.3f} {point[1]:.3f}')
+                break
+        yield self.now + 1.2
+        self.look()
+
+    def _roam(self, activity: Activity, step: Step, end: float) -> Process:
+        """Goes about in a room."""
+        tries = 0
+        while self.now < end - 5.0 and tries < 40:
+            tries += 1
+            spots = self.household.places.free(step.room, self._habits, 1)
+            spot = spots[0] if spots else self.household.places.anywhere()
+            yield from self._reach(spot, activity.name)
+            if not self.arrived:
+                self.diary.note('gave up the way')
+                yield self.now + 5.0
+                continue
+            self._note('does', activity.name)
+            self._lamps(activity)
+            yield from self._stay(min(self.now + self._habits.uniform(*ROAMS), end), step, 0)
+
+    def _queue(self, activity: Activity, item: Item) -> Iterator[float]:
+        """Waits until rooms for one are free; whether they are."""
+        rooms = [room.name for room in self.household.places.rooms_of(activity.alone)]
+        since = self.now
+        while rooms:
+            if any(self.household.take(('room', room), self.name) for room in rooms):
+                return True
+            if self.now == since:
+                self._note('waits', activity.name)
+            if self.now - since > PATIENCE or self.now > item.end:
+                self.diary.note('gave up waiting')
+                return False
+            yield self.now + QUEUE
+        return True
+
+    def _leave_rooms(self, activity: Activity) -> None:
+        for room in self.household.places.rooms_of(activity.alone):
+            self.household.leave(('room', room.name), self.name)
+
+    def _leave(self, until: float) -> Process:
+        """Out of the home, until then."""
+        porch = self._tasks['leave'][0]
+        self._release()
+        if not self.away and porch:
+            yield from self._reach(porch[0], 'leave')
+            if self.arrived:
+                yield self.now + 0.5
+                self.vanish()
+                self._note('away', 'leave')
+                entrance = self.ground.entrance()
+                if entrance is not None:  # it falls shut behind
+                    self.household.do(self.name, 'door', entrance.name, 'Close')
+            else:
+                self.diary.note('gave up the way out')
+        if until > self.now:
+            yield until
+
+    def _come(self) -> Process:
+        """Back into the home."""
+        porch = self._tasks['leave'][0]
+        if not self.away:
+            return
+        if not porch:
+            raise Failure(f'the home has no entrance by which {self.name} could come in')
+        waits = 0
+        while not self.household.take(porch[0].key, self.name) and waits < 60:
+            waits += 1
+            yield self.now + 2.0
+        self.enter(porch[0])
+        self._note('goes', self.item.activity)
+        self.household.leave(porch[0].key, self.name)
+
+    def _choose(self, spots: list[Spot]) -> Spot | None:
+        """The first free place; beds by the resident's number, so that each keeps its own."""
+        order = list(spots)
+        lying = [spot for spot in order if spot.place and spot.place.posture == 'lie']
+        if len(lying) > 1 and self.number:
+            order = order[self.number % len(lying):] + order[:self.number % len(lying)]
+        for spot in order:
+            if self.household.take(('spot', spot.key), self.name):
+                return spot
+        return None
+
+    def _release(self) -> None:
+        held = self.household.held
+        for key in [key for key, who in held.items() if who == self.name and key[0] == 'spot']:
+            del held[key]
+
+    def _use(self, step: Step, spot: Spot) -> list[tuple[str, str, str]] | None:
+        """Opens or switches on what a step needs; how to undo it."""
+        if self.profile.body != 'person':
+            return None
+        household = self.household
+        thing = next((t for t in self.ground.home.things if t.name == spot.thing), None)
+        if step.opens == 'entrance':
+            entrance = self.ground.entrance()
+            if entrance and household.do(self.name, 'door', entrance.name, 'Open'):
+                return [('door', entrance.name, 'Close')]
+        elif step.opens and thing is not None:
+            front = household.front(thing)
+            if front and household.do(self.name, *front, 'Open'):
+                return [(*front, 'Close')]
+        elif step.runs == 'stove' and thing is not None:
+            stove = household.of_model(thing.name, 'stove')
+            if stove and household.do(self.name, *stove, 'FrontLeft 60'):
+                return [(*stove, 'Off')]
+        elif step.runs == 'tv':
+            return self._watch()
+        return None
+
+    def _watch(self) -> list[tuple[str, str, str]] | None:
+        sets = [t for t in self.ground.home.things if t.type == 'tv']
+        near = next((t for t in sets if t.room == self.room), sets[0] if sets else None)
+        screen = near and self.household.of_model(near.name, 'appliance')
+        if not screen:
+            return None
+        self.household.do(self.name, *screen, 'On')
+        return [(*screen, 'Off')]
+
+    def _unuse(self, used: list[tuple[str, str, str]] | None) -> None:
+        for kind, name, text in used or ():
+            if kind == 'appliance' and self._somebody_watches():
+                continue
+            self.household.do(self.name, kind, name, text)
+
+    def _somebody_watches(self) -> bool:
+        return any(r is not self and r.item.activity == 'watch_tv' and not r.away
+                   for r in self.household.residents)
+
+    def _lamps(self, activity: Activity) -> None:
+        """Switches the room's lamps by how light it is, and by habit."""
+        household, room = self.household, self.room
+        if self.profile.body != 'person' or room not in household.lamps:
+            return
+        if activity.dark:
+            self._lamp_off(room)
+        elif household.lux(room) < DARK and self._habits.random() < self.profile.lamps_on:
+            for lamp in household.lamps[room]:
+                household.do(self.name, 'lamp', lamp, 'On')
+
+    def _lamp_off(self, room: str) -> None:
+        household = self.household
+        if self.profile.body != 'person' or household.others_in(room, self.name):
+            return
+        for lamp in household.lamps.get(room, ()):
+            if household.simulator.state('lamp', lamp).get('on') \
+                    and self._habits.random() < self.profile.lamps_off:
+                household.do(self.name, 'lamp', lamp, 'Off')
+
+    def _note(self, phase: str, activity: str) -> None:
+        """A phase begins, for the truth."""
+        thing = self.spot.thing if self.spot and phase == 'does' else ''
+        posture = '' if self.away else 'stand' if phase == 'goes' else self.posture
+        cause = self.item.cause
+        x, y = self.at if not self.away else (float('nan'), float('nan'))
+        self.diary.turn(Interval(self.now, self.now, self.name, activity or 'leave', cause, phase,
+                                 self.room, thing, posture, x, y))
+
+
+def make(household: Household, who: list[tuple[str, Profile]]) -> list[Any]:
+    """The residents of a household, whose days begin."""
+    for number, (name, profile) in enumerate(who):
+        household.residents.append(Resident(household, name, number, profile))
+    for resident in household.residents:
+        household.add(resident.live())
+    return household.residents
