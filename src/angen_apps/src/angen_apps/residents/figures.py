@@ -1,4 +1,4 @@
-"""The bodies of residents as SDF: who walks is an actor, who sits or lies a figure of a few parts."""
+"""Bodies of residents as SDF: who walks is an actor, who sits or lies a figure of a few parts."""
 from __future__ import annotations
 
 from typing import Sequence

@@ -76,7 +76,7 @@ class Ground:
             return None
         free = self.free[self.storey_at(z)]
         row, column = planner.grid.cell(x, y)
-        if planner.stands((x, y)) and free[row, column]:
+        if planner.is_free((x, y)) and free[row, column]:
             return x, y
         rows, columns = np.nonzero(free)
         px, py = self._middles(planner.grid, rows, columns)
@@ -160,7 +160,7 @@ class Ground:
     @staticmethod
     def _straight(planner: Planner, a: Point, b: Point) -> bool:
         count = max(int(math.dist(a, b) / RESOLUTION), 1)
-        return all(planner.stands((a[0] + (b[0] - a[0]) * k / count, a[1] + (b[1] - a[1]) * k
+        return all(planner.is_free((a[0] + (b[0] - a[0]) * k / count, a[1] + (b[1] - a[1]) * k
                                    / count)) for k in range(1, count))
 
     def _largest(self, planner: Planner) -> np.ndarray:

@@ -14,6 +14,7 @@ from angen_tools.common.home import Home
 
 Process = Iterator[float]  # yields when it continues, s
 LIT = 100.0  # lx of a lamp, in rooms without a sensor
+LATITUDE = 48.0  # degrees, of homes that do not say theirs
 CLEAR = 1.2  # m: a door with somebody so near is not shut
 
 
@@ -29,12 +30,13 @@ class Household:
         self.residents: list[Any] = []  # of resident.Resident
         self.held: dict[Any, str] = {}  # a door, place or room, by who has it
         self.acts: dict[tuple[str, str], tuple[float, str]] = {}  # when and who commanded a device
+        self.count = 0  # of commands to devices
         self.heard: Callable[[], None] = lambda: None  # after each part of time
         self._queue: list[tuple[float, int, Process]] = []
-        self._devices = simulator.devices()
+        self.devices = simulator.devices()
         self._lux: dict[str, str] = {}
         self.lamps: dict[str, list[str]] = {}
-        for kind, device, _, pose in self._devices:
+        for kind, device, _, pose in self.devices:
             room = self.home.room_at(pose[0], pose[1], pose[2] - 0.1)
             if room and kind == 'lamp':
                 self.lamps.setdefault(room.name, []).append(device)
@@ -93,18 +95,20 @@ class Household:
             self.simulator.command(kind, name, text)
         except Refused:
             return False
-        self.acts[kind, name] = (self.now, who)
+        if kind != 'person':
+            self.acts[kind, name] = (self.now, who)
+            self.count += 1
         return True
 
     def of_model(self, model: str, *kinds: str) -> tuple[str, str] | None:
         """Kind and name of a device of a model."""
-        return next(((kind, name) for kind, name, other, _ in self._devices
+        return next(((kind, name) for kind, name, other, _ in self.devices
                      if other == model and kind in kinds), None)
 
     def front(self, thing: Any) -> tuple[str, str] | None:
         """The front of a piece of furniture that opens: the nearest cabinet within its reach."""
         near = sorted((((pose[0] - thing.pose[0]) ** 2 + (pose[1] - thing.pose[1]) ** 2, name)
-                       for kind, name, _, pose in self._devices if kind == 'cabinet'
+                       for kind, name, _, pose in self.devices if kind == 'cabinet'
                        and abs(pose[2] - thing.pose[2]) < 2.2))
         return ('cabinet', near[0][1]) if near and near[0][0] < 0.8 else None
 
@@ -126,6 +130,7 @@ class Household:
         lit = any(self.simulator.state('lamp', lamp).get('on') for lamp in self.lamps.get(room, ()))
         date, seconds = self.date(self.now)
         windows = [d for d in self.home.doors if d.kind == 'window']
-        window = not windows or any(room in d.rooms for d in windows)
-        return (LIT if lit else 0.0) + (daylight(date, seconds, self.home.latitude)
-                                        if window else 0.0)
+        if windows and not any(room in d.rooms for d in windows):
+            return LIT if lit else 0.0
+        latitude = LATITUDE if self.home.latitude is None else self.home.latitude
+        return (LIT if lit else 0.0) + daylight(date, seconds, latitude)

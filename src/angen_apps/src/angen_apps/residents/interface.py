@@ -1,4 +1,4 @@
-"""What residents need of a simulator: a process of their own (simulated.py) or the node (live.py)."""
+"""What residents need of a simulator: of this process (simulated.py) or the node (live.py)."""
 from __future__ import annotations
 
 from typing import Any, NamedTuple, Protocol

@@ -104,7 +104,7 @@ class Mover:
                                  for d in (0.4, 0.7, 1.0) for k in range(8)]
         for dx, dy in around:
             at = (point[0] + dx, point[1] + dy)
-            if (dx or dy) and not planner.stands(at):
+            if (dx or dy) and not planner.is_free(at):
                 continue
             if all(math.dist(at, other) > ASIDE for other in others):
                 return at
@@ -215,7 +215,7 @@ class Mover:
         for _ in range(12):
             turn = self._habits.uniform(-math.pi, math.pi)
             point = (self.at[0] + 3 * BODY * math.cos(turn), self.at[1] + 3 * BODY * math.sin(turn))
-            if planner.stands(point):
+            if planner.is_free(point):
                 self.household.do(self.name, 'person', self.name,
                                   f'GoTo {point[0]:.3f} {point[1]:.3f}')
                 break

@@ -180,7 +180,7 @@ class Resident(Mover):
         for _ in range(4):
             point = (spot.stand[0] + self._habits.uniform(-0.3, 0.3),
                      spot.stand[1] + self._habits.uniform(-0.3, 0.3))
-            if self.ground.planners[spot.storey].stands(point):
+            if self.ground.planners[spot.storey].is_free(point):
                 self.household.do(self.name, 'person', self.name,
                                   f'GoTo {point[0]:.3f} {point[1]:.3f}')
                 break

@@ -20,7 +20,7 @@ from angen_tools.entry.machine import has_display, stay_local
 from angen_tools.entry.master import running_node, start_master
 from angen_tools.entry.rescue import Rescue
 
-FILES = ('world', 'record', 'replay')  # arguments
+FILES = ('world', 'record', 'replay', 'residents')  # arguments
 END_LIMIT = 4.0  # s for an orderly end
 SAVE_LIMIT = 30.0  # s that the node has to notice that its master is another, and save the world
 TURN = 0.1

@@ -1,0 +1,142 @@
+"""angen generate, validate and realism on the command line."""
+from __future__ import annotations
+
+import argparse
+import os
+from pathlib import Path
+from typing import Any
+
+from angen_tools.cli.arguments import at_least, checked
+from angen_tools.cli.parser import add_json, add_out, add_seed, command
+
+NAMES = ('casas', 'casas-columns', 'aras', 'kasteren', 'openshs', 'csv', 'parquet', 'xes', 'power')
+
+
+def formats(text: str) -> tuple[str, ...]:
+    """Formats between commas."""
+    from angen_tools.common.nearest import did_you_mean
+    words = [word.strip() for word in text.split(',')]
+    for word in words:
+        if word not in NAMES:
+            raise ValueError(f"'{word}' is not a format; {did_you_mean(word, NAMES)}")
+    return tuple(dict.fromkeys(words))
+
+
+def date(text: str) -> str:
+    import datetime
+    try:
+        return datetime.date.fromisoformat(text).isoformat()
+    except ValueError:
+        raise ValueError(f"'{text}' is not a date as 2026-03-23") from None
+
+
+def run_generate(args: argparse.Namespace) -> int:
+    from angen_apps.data.generate import Job, generate
+    job = Job(str(args.out), 'home', args.seed, args.days,
+              tuple(word.strip() for word in args.residents.split(',') if word.strip()),
+              args.format, args.start or '', str(args.world or ''), str(args.faults or ''),
+              args.light, args.own_sensors)
+    entries = generate(job, args.homes, args.processes, args.scheduler)
+    for entry in entries[:20]:
+        who = ', '.join(f'{name} ({profile})' for name, profile in entry['residents'])
+        print(f'{entry["name"]}: {entry["events"]} events of {entry["sensors"]} sensors; {who}')
+    if len(entries) > 20:
+        print(f'and {len(entries) - 20} more')
+    return 0
+
+
+def run_validate(args: argparse.Namespace) -> int:
+    from angen_apps.data.validate import SHOWN, Findings, homes, validate
+    from angen_tools.common.output import as_json, show, table
+    every = Findings()
+    for home in homes(args.folder):
+        found = validate(home)
+        every.checked += found.checked
+        for check, wrong in found.wrong.items():
+            every.wrong.setdefault(check, []).extend(f'{home.name}: {line}' for line in wrong)
+    if args.json:
+        print(as_json({'findings': every.wrong, 'checked': dict(every.checked)}))
+    else:
+        show(table(('check', 'checked', 'findings'),
+                   [(check, str(every.checked[check]), str(len(wrong)))
+                    for check, wrong in every.wrong.items()], ('checked', 'findings')))
+        for check, wrong in every.wrong.items():
+            for line in wrong[:SHOWN]:
+                print(f'{check}: {line}')
+    return 1 if every.count else 0
+
+
+def run_realism(args: argparse.Namespace) -> int:
+    from angen_apps.data import realism
+    from angen_apps.data.validate import homes
+    from angen_tools.common.output import as_json, show, table
+    path = args.folder if args.folder.is_file() else homes(args.folder)[0]
+    stream = realism.read(path)
+    reference = realism.read(args.against) if args.against else None
+    found = realism.compare(stream, reference)
+    spans = {name: sorted(values)[len(values) // 2] / 60
+             for name, values in realism.durations(stream).items()}
+    if args.json:
+        print(as_json({'measures': [dict(zip(('name', 'value', 'reference', 'verdict'), row))
+                                    for row in found], 'median minutes': spans}))
+    else:
+        show(table(('measure', 'data', 'reference', ''),
+                   [(name, f'{value:.4g}', other, verdict) for name, value, other, verdict
+                    in found], ('data',)))
+        show(table(('activity', 'median, min'), [(name, f'{value:.1f}')
+                                                 for name, value in sorted(spans.items())],
+                   ('median, min',)))
+    if args.figure:
+        realism.figure(stream, reference, args.figure)
+    return 0
+
+
+def add_generate(commands: Any) -> None:
+    """angen generate."""
+    made = command(commands, 'generate', run_generate,
+                   'has residents live in homes and writes labeled data of their sensors; needs '
+                   'no simulator', 'generate --days 2 --residents 2 --seed 7 --format casas',
+                   'generate --homes 20 --days 30 --residents 3 --format casas,csv -o homes')
+    made.add_argument('--days', metavar='N', type=checked(at_least(1)), default=1,
+                      help='days of each home (1)')
+    made.add_argument('--residents', metavar='WHO', default='2',
+                      help='how many, or profiles between commas: names or YAML files (2)')
+    add_seed(made, 'of everything')
+    made.add_argument('--format', metavar='LIST', type=checked(formats), default=('casas',),
+                      help=f'formats between commas: {", ".join(NAMES)} (casas)')
+    made.add_argument('--start', metavar='DATE', type=checked(date),
+                      help="the first day (that of the home's description)")
+    made.add_argument('--world', metavar='FILE', type=Path,
+                      help='a home of your own that describes its rooms')
+    made.add_argument('--own-sensors', action='store_true',
+                      help="uses the world's sensors and adds none")
+    made.add_argument('--light', action='store_true', help='adds a light sensor to each room; slow')
+    made.add_argument('--faults', metavar='FILE', type=Path, help='a YAML file of faults')
+    made.add_argument('--homes', metavar='N', type=checked(at_least(1)), default=1,
+                      help='homes, each in a folder of its own (1)')
+    made.add_argument('--processes', metavar='N', type=checked(at_least(1)),
+                      default=os.cpu_count() or 1, help='homes at a time (one a core)')
+    made.add_argument('--scheduler', metavar='ADDRESS', default='',
+                      help='of a Dask cluster whose workers see the output folder')
+    add_out(made, 'the data')
+
+
+def add_validate(commands: Any) -> None:
+    """angen validate."""
+    made = command(commands, 'validate', run_validate,
+                   'checks the data of angen generate against walls, rooms, seats and causes',
+                   'validate out')
+    made.add_argument('folder', metavar='DIR', type=Path, help='what angen generate has written')
+    add_json(made)
+
+
+def add_realism(commands: Any) -> None:
+    """angen realism."""
+    made = command(commands, 'realism', run_realism,
+                   'compares data with figures of real homes, or with a file of CASAS',
+                   'realism out', 'realism out --against aruba.txt --figure realism.png')
+    made.add_argument('folder', metavar='DIR', type=Path,
+                      help='what angen generate has written, or a file of CASAS')
+    made.add_argument('--against', metavar='FILE', type=Path, help='a reference: such a file')
+    made.add_argument('--figure', metavar='FILE', type=Path, help='also draws it')
+    add_json(made)

@@ -1,0 +1,53 @@
+"""A plain long table: one event a line, with its cause."""
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from angen_apps.data.formats.periods import zipped
+from angen_apps.data.run import Data
+from angen_tools.common.failure import Failure
+from angen_tools.common.files import writing
+
+HEAD = ('time', 'sensor', 'kind', 'room', 'value', 'resident', 'activity', 'cause')
+
+
+def rows(data: Data) -> list[tuple[str, ...]]:
+    """The lines of the table."""
+    found = []
+    for event in data.events:
+        sensor = data.by_id[event.sensor]
+        found.append((f'{data.at(event.time):%Y-%m-%d %H:%M:%S.%f}', event.sensor, sensor.kind,
+                      sensor.room, event.value, event.resident, event.activity, event.cause))
+    return found
+
+
+def write(folder: Path, data: Data) -> list[Path]:
+    """events.csv.gz."""
+    path = folder / 'events.csv.gz'
+    with zipped(path) as file:
+        file.write(','.join(HEAD) + '\n')
+        file.writelines(','.join(row) + '\n' for row in rows(data))
+    return [path]
+
+
+def pyarrow() -> Any:
+    """The optional library; Failure where it is not installed."""
+    try:
+        import pyarrow
+        import pyarrow.parquet
+    except ImportError:
+        raise Failure('parquet needs pyarrow, which Debian 12 lacks; install it with '
+                      '`pip install pyarrow`, or leave parquet out of --format') from None
+    return pyarrow
+
+
+def write_parquet(folder: Path, data: Data) -> list[Path]:
+    """events.parquet."""
+    arrow = pyarrow()
+    columns = list(zip(*rows(data))) or [()] * len(HEAD)
+    path = folder / 'events.parquet'
+    with writing(path, binary=True) as file:
+        arrow.parquet.write_table(arrow.table({name: list(column) for name, column
+                                               in zip(HEAD, columns)}), file, compression='zstd')
+    return [path]

@@ -1,0 +1,275 @@
+"""Makes homes' data: one after the other, on several processes, or on a cluster."""
+from __future__ import annotations
+
+import csv
+import datetime
+import hashlib
+import json
+import multiprocessing
+import os
+import shutil
+import tempfile
+import time
+from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any, Callable, Iterator
+
+from angen_apps.data import faults, run, site
+from angen_apps.data.formats import FORMATS
+from angen_apps.data.formats.periods import zipped
+from angen_apps.data.formats.table import pyarrow
+from angen_apps.residents import truth
+from angen_apps.residents.chance import chance
+from angen_apps.residents.profiles import names, read
+from angen_tools.common.failure import Failure
+from angen_tools.common.files import check_folder, make_folder, write_csv, write_text
+from angen_tools.common.progress import Progress
+
+MANIFEST, HOME = 'manifest.json', 'home.json'
+AGAIN = 5  # times that the pool is made anew, after processes of it have died
+MIXED = ('worker', 'retired', 'student', 'night_shift_worker', 'elder_with_dementia')
+
+
+@dataclass(frozen=True)
+class Job:
+    """One home. All but `folder` decides about its bytes."""
+
+    folder: str
+    name: str
+    seed: int
+    days: int
+    residents: tuple[str, ...]
+    formats: tuple[str, ...]
+    start: str = ''
+    world: str = ''
+    faults: str = ''
+    light: bool = False
+    own_sensors: bool = False
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        found = asdict(self)
+        del found['folder']
+        for key in ('world', 'faults'):  # their content counts, not where they are
+            if found[key]:
+                found[key] = hashlib.sha256(Path(found[key]).read_bytes()).hexdigest()
+        return {key: list(value) if isinstance(value, tuple) else value
+                for key, value in found.items()}
+
+
+def jobs(job: Job, homes: int) -> list[Job]:
+    """The jobs of so many homes, which differ by seed and, if only a number of residents is
+    given, in who lives there."""
+    if homes == 1:
+        return [job]
+    found = []
+    for i in range(1, homes + 1):
+        numbers = chance(job.seed, 'home', i)
+        residents = job.residents
+        if len(residents) == 1 and residents[0].isdigit():
+            count = numbers.randint(1, int(residents[0]))
+            residents = tuple(numbers.choice(MIXED) for _ in range(count))
+        name = f'home_{i:05d}'
+        found.append(replace(job, folder=str(Path(job.folder) / name), name=name,
+                             seed=numbers.getrandbits(31), residents=residents))
+    return found
+
+
+def check(job: Job) -> None:
+    """Failure about what is wrong with the settings, before any work."""
+    check_folder(Path(job.folder))
+    who = run.residents_of(list(job.residents))
+    if not who:
+        raise Failure('--residents names nobody; give a number or profiles of '
+                      + ', '.join(names()))
+    if 'aras' in job.formats and len(who) > 2:
+        raise Failure(f'aras has 2 residents, not {len(who)}; leave aras out of --format')
+    if 'parquet' in job.formats:
+        pyarrow()
+    if job.faults:
+        faults.read(Path(job.faults))
+
+
+def make(job: Job, progress: Callable[[float], None] = lambda _: None) -> dict[str, Any]:
+    """Makes a home's files in its folder, which gets its name when it is complete; what the
+    manifest says of it."""
+    folder = Path(job.folder)
+    made = finished(job)
+    if made is not None:
+        return made
+    part = folder.with_name(folder.name + '.part')
+    if part.is_dir():
+        shutil.rmtree(part)  # torn
+    make_folder(part)
+    data = _live(job, progress)
+    happened: list[faults.Happened] = []
+    if job.faults:
+        data, happened = faults.apply(data, faults.read(Path(job.faults)))
+    paths = [path for name in dict.fromkeys((*job.formats, 'csv'))
+             for path in FORMATS[name](part, data)]
+    paths += write_truth(part, data, happened)
+    entry = {
+        'name': job.name, 'settings': job.settings,
+        'residents': [list(pair) for pair in data.residents], 'sensors': len(data.sensors),
+        'events': len(data.events), 'missed': len(data.missed), 'faults': len(happened),
+        'files': {str(path.relative_to(part)): sha256(path) for path in sorted(paths)}}
+    write_text(part / HOME, json.dumps(entry, indent=1, sort_keys=True) + '\n')
+    _put(part, folder)
+    return entry
+
+
+def _put(part: Path, folder: Path) -> None:
+    """Gives the finished files their names: the last of them is home.json."""
+    if not folder.exists():
+        os.replace(part, folder)
+        return
+    for path in sorted(part.rglob('*'), key=lambda p: (p.name == HOME, p)):
+        if path.is_file():
+            target = folder / path.relative_to(part)
+            make_folder(target.parent)
+            os.replace(path, target)
+    shutil.rmtree(part)
+
+
+def _live(job: Job, progress: Callable[[float], None]) -> run.Data:
+    start = datetime.date.fromisoformat(job.start) if job.start else None
+    with tempfile.TemporaryDirectory(prefix='angen_') as scratch:
+        world = Path(job.world) if job.world else Path(scratch) / 'home.world'
+        if not job.world:
+            site.apartment(world)
+        return run.live(world, job.name, job.days, run.residents_of(list(job.residents)), job.seed,
+                        start, not job.own_sensors, job.light, progress)
+
+
+def finished(job: Job) -> dict[str, Any] | None:
+    """What the manifest says of a home that is complete; Failure where it is another one."""
+    path = Path(job.folder) / HOME
+    if not path.is_file():
+        return None
+    try:
+        entry: dict[str, Any] = json.loads(path.read_text(encoding='utf-8'))
+        settings = entry['settings']
+    except (ValueError, KeyError, OSError):
+        return None
+    if settings != job.settings:
+        raise Failure(f'{path}: was made with other settings; give another folder with -o')
+    if any(not (Path(job.folder) / name).is_file() for name in entry['files']):
+        return None
+    return entry
+
+
+def write_truth(folder: Path, data: run.Data, happened: list[faults.Happened]) -> list[Path]:
+    """truth.csv.gz, missed.csv, faults.csv, layout.json and track.csv.gz."""
+    paths = [folder / 'truth.csv.gz', folder / 'missed.csv', folder / 'faults.csv',
+             folder / 'layout.json', folder / 'track.csv.gz']
+    with zipped(paths[0]) as file:
+        writer = csv.writer(file, lineterminator='\n')
+        writer.writerow(truth.HEAD)
+        writer.writerows(interval.row() for interval in data.truth)
+    write_csv(paths[1], ('start', 'end', 'sensor', 'resident'),
+              [(f'{m.start:.3f}', f'{m.end:.3f}', m.sensor, m.resident) for m in data.missed])
+    write_csv(paths[2], ('time', 'sensor', 'fault', 'detail'), happened)
+    home = data.home
+    layout = {
+        'start': data.start.isoformat(), 'days': data.days,
+        'residents': [{'name': name, 'profile': profile, 'speed': read(profile).speed}
+                      for name, profile in data.residents],
+        'rooms': [{'name': r.name, 'use': r.use, 'polygon': r.polygon, 'area': r.area}
+                  for r in home.rooms],
+        'doors': [{'name': d.name, 'kind': d.kind, 'rooms': list(d.rooms), 'pose': list(d.pose),
+                   'width': d.width} for d in home.doors],
+        'things': [{'name': t.name, 'type': t.type, 'room': t.room, 'x': t.pose[0], 'y': t.pose[1]}
+                   for t in home.things],
+        'sensors': [{key: value for key, value in asdict(s).items() if key != 'source'}
+                    for s in data.sensors]}
+    with zipped(paths[4]) as file:
+        file.write('time,resident,x,y\n')
+        file.writelines(f'{t:.1f},{who},{x:.3f},{y:.3f}\n' for t, who, x, y in data.track)
+    write_text(paths[3], json.dumps(_rounded(layout), indent=1) + '\n')
+    return paths
+
+
+def _rounded(value: Any) -> Any:
+    if isinstance(value, float):
+        return round(value, 4)
+    if isinstance(value, (list, tuple)):
+        return [_rounded(part) for part in value]
+    if isinstance(value, dict):
+        return {key: _rounded(part) for key, part in value.items()}
+    return value
+
+
+def sha256(path: Path) -> str:
+    """The hash of a file."""
+    digest = hashlib.sha256()
+    with path.open('rb') as file:
+        while block := file.read(1 << 20):
+            digest.update(block)
+    return digest.hexdigest()
+
+
+def generate(job: Job, homes: int, processes: int, scheduler: str = '') -> list[dict[str, Any]]:
+    """Makes all homes and their manifest; what it says of each."""
+    check(job)
+    todo = jobs(job, homes)
+    made: dict[str, dict[str, Any]] = {}
+    begun = time.monotonic()
+    with Progress('generate', 0.1) as progress:
+        if homes == 1 and not scheduler:
+            made[job.name] = make(job, lambda share: progress.update(share, _left(share, begun)))
+        else:
+            results = _on_cluster(todo, scheduler) if scheduler else _on_processes(todo, processes)
+            for entry in results:
+                made[entry['name']] = entry
+                share = len(made) / len(todo)
+                progress.update(share, f'{len(made)} of {len(todo)} homes, {_left(share, begun)}')
+    entries = [made[name] for name in sorted(made)]
+    write_text(Path(job.folder) / MANIFEST, json.dumps({
+        'format': 1, 'seed': job.seed, 'homes': entries}, indent=1, sort_keys=True) + '\n')
+    return entries
+
+
+def _left(share: float, begun: float) -> str:
+    seconds = (time.monotonic() - begun) * (1 - share) / max(share, 1e-6)
+    return f'{seconds / 60:.0f} min left' if seconds > 90 else f'{seconds:.0f} s left'
+
+
+def _on_processes(todo: list[Job], processes: int) -> Iterator[dict[str, Any]]:
+    """Results as they come. If a process is killed, what it has not finished is made again."""
+    waiting = {job.name: job for job in todo}
+    for attempt in range(AGAIN):
+        context = multiprocessing.get_context('spawn')
+        with ProcessPoolExecutor(processes, context) as pool:
+            running = {pool.submit(make, job): name for name, job in sorted(waiting.items())}
+            try:
+                while running:
+                    done, _ = wait(running, return_when=FIRST_COMPLETED)
+                    for future in done:
+                        name = running.pop(future)
+                        entry = future.result()
+                        del waiting[name]
+                        yield entry
+                return
+            except BrokenProcessPool:
+                if attempt + 1 == AGAIN:
+                    raise Failure(f'processes died {AGAIN} times; is there enough memory?'
+                                  ) from None
+
+
+def _on_cluster(todo: list[Job], scheduler: str) -> Iterator[dict[str, Any]]:
+    """Results of a Dask cluster, whose workers share this folder."""
+    try:
+        from distributed import Client, as_completed
+    except ImportError:
+        raise Failure('--scheduler needs Dask; install python3-distributed') from None
+    try:
+        client = Client(scheduler, timeout=10, set_as_default=False)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise Failure(f'no scheduler at {scheduler}: {error}') from None
+    with client:
+        futures = [client.submit(make, job, key=f'angen-{job.name}-{job.seed}', pure=False,
+                                 retries=3) for job in todo]
+        for _, entry in as_completed(futures, with_results=True):
+            yield entry

@@ -1,0 +1,202 @@
+"""What a home's sensors report while residents live there, and what each event came from."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Iterator, NamedTuple
+
+from angen_apps.data.site import Sensor, Site
+from angen_apps.residents.household import Household
+
+ON = {'motion', 'pressed', 'opened', 'on'}
+OFF = {'still', 'released', 'closed', 'off'}
+VALUES = {'motion': ('ON', 'OFF'), 'area': ('ON', 'OFF'), 'door': ('OPEN', 'CLOSE'),
+          'item': ('PRESENT', 'ABSENT'), 'power': ('ON', 'OFF')}
+AIR = 300.0  # s between two looks at the temperature
+DEGREES = 0.5  # of a step of temperature
+RECENT = 3.0  # s: who moved no longer ago may have caused motion
+HAND = 30.0  # s: who commanded a device no longer ago has moved it
+NEAR = 1.5  # m: who is no farther may have sat down there
+CELL = 0.4  # m around the middle of a cell, where a sensor has to see who moves
+LEAST = 1.0  # s: for so long
+STRIDE = 0.3  # s between two places of a track
+HOLD = 2.5  # s before and after, within which an event counts
+
+
+class Event(NamedTuple):
+    """One of a sensor. `cause`: motion, seat, hand, air, light, or noise."""
+
+    time: float
+    sensor: str
+    value: str
+    resident: str
+    activity: str
+    cause: str
+
+
+class Missed(NamedTuple):
+    """A resident moved over a sensor's cell, and no event came."""
+
+    start: float
+    end: float
+    sensor: str
+    resident: str
+
+
+class Step(NamedTuple):
+    """Where a resident was on foot."""
+
+    time: float
+    resident: str
+    x: float
+    y: float
+
+
+@dataclass
+class Recording:
+    """All that a run has left."""
+
+    events: list[Event]
+    missed: list[Missed]
+    power: dict[str, list[tuple[float, float]]]  # W from a time on, by device
+    track: list[Step]
+
+
+class Recorder:
+    """Follows a household; heard() is called after each part of time."""
+
+    def __init__(self, site: Site, household: Household) -> None:
+        self.site, self.household = site, household
+        self.recording = Recording([], [], {}, [])
+        self._by_name = {(s.source, s.name): s for s in site.sensors}
+        self._on: dict[str, float] = {}  # when sensors came on
+        self._last_on: dict[str, float] = {}
+        self._whose: dict[str, tuple[str, str, str]] = {}
+        self._air: dict[str, float] = {}
+        self._loads = [(kind, name) for kind, name, _, _ in site.world.entities()
+                       if kind in ('lamp', 'stove', 'appliance', 'heater')]
+        self._acted = -1
+        self._over: dict[tuple[str, str], float] = {}
+        self._cells = [s for s in site.sensors if s.kind == 'motion' and s.name.startswith('cell')]
+        self._left: list[Missed] = []
+        self._stepped: dict[str, float] = {}
+
+    def start(self) -> None:
+        """Begins: what the sensors report at the start of a run."""
+        self.household.heard = self.heard
+        self.household.add(self._air_process())
+        self.heard()
+
+    def heard(self) -> None:
+        now = self.household.now
+        for resident in self.household.residents:
+            if resident.walks:
+                self._follow(resident)
+                if now - self._stepped.get(resident.name, -math.inf) >= STRIDE:
+                    self._stepped[resident.name] = now
+                    self.recording.track.append(Step(now, resident.name, *resident.at))
+        for time, source, kind, event, _ in self.site.world.events():
+            sensor = self._by_name.get((kind, source))
+            if sensor is not None:
+                self._note(float(time), sensor, event)
+        self._note_power()
+
+    def _note(self, time: float, sensor: Sensor, event: str) -> None:
+        if sensor.kind == 'light' and event == 'changed':
+            lux = self.site.world.sensor('luminosity', sensor.name)['illuminance']
+            self._add(time, sensor, f'{min(100, round(lux))}', self._lit(sensor))
+        elif event in ON:
+            self._last_on[sensor.id] = time
+            self._on[sensor.id] = time
+            self._whose[sensor.id] = whose = self._cause(time, sensor)
+            self._add(time, sensor, VALUES[sensor.kind][0], whose)
+        elif event in OFF and sensor.kind in VALUES:
+            self._on.pop(sensor.id, None)
+            whose = self._cause(time, sensor) if sensor.kind in ('door', 'power') \
+                else self._whose.get(sensor.id, ('', '', 'noise'))
+            self._add(time, sensor, VALUES[sensor.kind][1], whose)
+
+    def _add(self, time: float, sensor: Sensor, value: str, whose: tuple[str, str, str]) -> None:
+        self.recording.events.append(Event(time, sensor.id, value, *whose))
+
+    def _cause(self, time: float, sensor: Sensor) -> tuple[str, str, str]:
+        """Resident, activity and cause of what a sensor has detected."""
+        residents = [r for r in self.household.residents if not r.away]
+        if sensor.kind in ('door', 'power'):
+            who = self._hand(time, sensor)
+            resident = next((r for r in self.household.residents if r.name == who), None)
+            return (who, resident.item.activity, 'hand') if resident else ('', '', 'noise')
+        near = sorted((math.dist(r.at, (sensor.x, sensor.y)), r.number, r) for r in residents)
+        for away, _, resident in near:
+            if sensor.kind == 'item':
+                if away < NEAR:
+                    return resident.name, resident.item.activity, 'seat'
+            elif time - resident.moved < RECENT and (away < 2.0 or resident.room == sensor.room):
+                return resident.name, resident.item.activity, 'motion'
+        for away, _, resident in near:  # seen through a doorway
+            if sensor.kind == 'area' and time - resident.moved < RECENT:
+                return resident.name, resident.item.activity, 'motion'
+        return '', '', 'noise'
+
+    def _hand(self, time: float, sensor: Sensor) -> str:
+        """Who last commanded what a contact or a plug belongs to."""
+        words = {sensor.name, sensor.name.removesuffix('_contact'),
+                 sensor.name.removesuffix('_plug')}
+        models = {f'{kind}/{name}': model for kind, name, model, _ in self.household.devices}
+        best = (-math.inf, '')
+        for (kind, name), (when, who) in self.household.acts.items():
+            if kind != 'person' and time - when < HAND and \
+                    ({name, models.get(f'{kind}/{name}', '')} & words):
+                best = max(best, (when, who))
+        return best[1]
+
+    def _lit(self, sensor: Sensor) -> tuple[str, str, str]:
+        for (kind, _), (when, who) in self.household.acts.items():
+            if kind == 'lamp' and self.site.world.time - when < 5.0:
+                resident = next(r for r in self.household.residents if r.name == who)
+                return who, resident.item.activity, 'light'
+        return '', '', 'light'
+
+    def _follow(self, resident: Any) -> None:
+        """Notes over which cells a resident walks, and which of these saw nothing."""
+        now = self.household.now
+        for sensor in self._cells:
+            key = (sensor.id, resident.name)
+            inside = math.dist(resident.at, (sensor.x, sensor.y)) < CELL
+            if inside:
+                self._over.setdefault(key, now)
+            elif key in self._over:
+                since = self._over.pop(key)
+                if now - since >= LEAST and sensor.id not in self._on \
+                        and self._last_on.get(sensor.id, -math.inf) < since - HOLD:
+                    self._left.append(Missed(since, now, sensor.id, resident.name))
+        due = [m for m in self._left if m.end + HOLD < now]
+        for missed in due:
+            self._left.remove(missed)
+            if self._last_on.get(missed.sensor, -math.inf) < missed.start - HOLD:
+                self.recording.missed.append(missed)
+
+    def _note_power(self) -> None:
+        """The power of what was switched."""
+        if self.household.count == self._acted:
+            return
+        self._acted = self.household.count
+        for kind, name in self._loads:
+            watts = float(self.site.simulator.state(kind, name).get('power', 0.0))
+            line = self.recording.power.setdefault(f'{kind}/{name}', [])
+            if not line or line[-1][1] != watts:
+                line.append((self.household.now, watts))
+
+    def _air_process(self) -> Iterator[float]:
+        """Reports a temperature when it has changed by a step."""
+        sensors = [s for s in self.site.sensors if s.kind == 'temperature']
+        while sensors:
+            for sensor in sensors:
+                celsius = float(self.site.simulator.state('temperature', sensor.name)
+                                .get('temperature', math.nan))
+                last = self._air.get(sensor.id)
+                if math.isfinite(celsius) and (last is None or abs(celsius - last) >= DEGREES):
+                    step = round(celsius / DEGREES) * DEGREES
+                    self._air[sensor.id] = step
+                    self._add(self.household.now, sensor, f'{step:.1f}', ('', '', 'air'))
+            yield self.household.now + AIR

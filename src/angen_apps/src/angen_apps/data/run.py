@@ -1,0 +1,82 @@
+"""One home, lived in for some days: the data of a run."""
+from __future__ import annotations
+
+import datetime
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Callable
+
+from angen_apps.data.recorder import Event, Missed, Recorder, Step
+from angen_apps.data.site import Sensor, Site
+from angen_apps.residents.household import Household
+from angen_apps.residents.profiles import DAY, Profile, read
+from angen_apps.residents.resident import make
+from angen_apps.residents.truth import Interval
+from angen_tools.common.home import Home
+
+NAMES = ('anna', 'bert', 'clara', 'dora', 'emil', 'fritz', 'greta', 'hans')
+USUAL = ('worker', 'retired', 'student', 'child')
+SLICE = 900.0  # s between two reports of progress
+
+
+@dataclass(frozen=True)
+class Data:
+    """What a run has left; times in s since `start`, a midnight."""
+
+    start: datetime.datetime
+    days: int
+    seed: int
+    residents: list[tuple[str, str]]  # name and profile
+    home: Home
+    sensors: list[Sensor]
+    events: list[Event]
+    truth: list[Interval]
+    missed: list[Missed]
+    power: dict[str, list[tuple[float, float]]]
+    track: list[Step]
+
+    def intervals(self, resident: str) -> list[Interval]:
+        return [interval for interval in self.truth if interval.resident == resident]
+
+    @cached_property
+    def by_id(self) -> dict[str, Sensor]:
+        """The sensors by id."""
+        return {sensor.id: sensor for sensor in self.sensors}
+
+    def at(self, time: float) -> datetime.datetime:
+        """The wall clock at a time."""
+        return self.start + datetime.timedelta(microseconds=round(time * 1e6))
+
+
+def residents_of(words: list[str]) -> list[tuple[str, Profile]]:
+    """Names and profiles: of a number the usual ones, or those that are listed."""
+    if len(words) == 1 and words[0].isdigit():
+        words = [USUAL[i % len(USUAL)] for i in range(int(words[0]))]
+    return [(NAMES[i % len(NAMES)] + ('' if i < len(NAMES) else str(i)), read(word))
+            for i, word in enumerate(words)]
+
+
+def live(world: Path, name: str, days: int, who: list[tuple[str, Profile]], seed: int,
+         start: datetime.date | None = None, placed: bool = True, light: bool = False,
+         progress: Callable[[float], None] = lambda _: None) -> Data:
+    """Has residents live in the home of a world's file."""
+    site = Site(world, seed, placed, light)
+    first = start or datetime.date.fromisoformat((site.home.start or '2026-03-23')[:10])
+    household = Household(site.simulator, site.ground, seed, name, first)
+    make(household, who)
+    recorder = Recorder(site, household)
+    recorder.start()
+    end = days * DAY
+    while household.now < end - 1e-6:
+        household.run(min(household.now + SLICE, end))
+        progress(household.now / end)
+    household.close()
+    truth = sorted((interval for resident in household.residents
+                    for interval in resident.diary.closed),
+                   key=lambda i: (i.start, i.resident))
+    events = sorted(recorder.recording.events, key=lambda e: (e.time, e.sensor))
+    left = recorder.recording
+    return Data(datetime.datetime.combine(first, datetime.time()), days, seed,
+                [(resident, profile.name) for resident, profile in who], site.home, site.sensors,
+                events, truth, left.missed, left.power, left.track)

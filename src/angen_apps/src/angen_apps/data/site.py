@@ -1,0 +1,221 @@
+"""The home that data comes from: its world, and sensors placed as in the CASAS apartments."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from lxml import etree
+
+from angen_apps.residents.ground import Ground
+from angen_apps.residents.simulated import Simulated
+from angen_tools.common.catalog import simulator
+from angen_tools.common.failure import Failure
+from angen_tools.common.files import write_text
+from angen_tools.common.home import Home, Room
+from angen_tools.world import sdf
+from angen_tools.world.models import find
+from angen_tools.world.placing import generator
+
+CEILING = 0.05  # m below the ceiling where motion sensors are
+APART = 1.1  # m: motion sensors of a cell are not nearer to each other
+WALL = 0.12  # m from the walls where those of a room are
+HIGH = 2.2  # m above the floor
+SAMPLES = 50.0  # Hz of motion sensors, the least that they allow: half as often as by default
+AREAS = ('living', 'kitchen', 'bedroom')  # rooms that have a sensor for all of them
+LEFT_OUT = ('plant', 'cup', 'weighing_table', 'pressure_mat')
+
+
+@dataclass(frozen=True)
+class Sensor:
+    """One in the data: `id` as datasets call it, `kind` motion, area, door, item, power,
+    temperature or light; `source` and `name` of the simulator's sensor."""
+
+    id: str
+    kind: str
+    source: str
+    name: str
+    room: str
+    x: float
+    y: float
+    z: float
+
+
+LETTERS = {'motion': 'M', 'area': 'M', 'door': 'D', 'item': 'I', 'power': 'P', 'temperature': 'T',
+           'light': 'LS'}
+BY_SOURCE = {'pir': 'motion', 'reed': 'door', 'contact': 'item', 'pressure': 'item',
+             'plug': 'power',
+             'temperature': 'temperature', 'luminosity': 'light'}
+
+
+def apartment(path: Path) -> None:
+    """Writes the world of one furnished apartment without sensors and people."""
+    plan, blocks = generator('plan'), generator('world')
+    root, world = blocks.new_world('home')
+    blocks.add_world_plugins(world)
+    blocks.add_home_site(world)
+    blocks.include(world, 'apartment', 'apartment0', (0, 0, 0, 0, 0, 0))
+    blocks.add_devices(world, 0)
+    for room in plan.FURNITURE:
+        for model, name, pose in blocks.furniture_in(room, 0):
+            if model not in LEFT_OUT:
+                blocks.include(world, model, name, pose)
+    blocks.add_openers(world, 0)
+    for room, (model, x, y, height, yaw) in plan.APPLIANCES.items():
+        blocks.include(world, model, f'{room}_{model}0', (x, y, height, 0, 0, yaw))
+    blocks.add_state(world, 'home')
+    etree.cleanup_namespaces(root, top_nsmap={'angen': generator('sdf').ANGEN})
+    write_text(path, f'<?xml version="1.0"?>\n{sdf.text(root)}')
+
+
+class Site:
+    """A home to live in: world, description, ground, and its sensors by rule or of its own."""
+
+    def __init__(self, path: Path, seed: int, placed: bool = True, light: bool = False) -> None:
+        with simulator() as angen:
+            self.world = angen.World(str(path), seed)
+            bare = angen.World(str(path), seed)
+        for kind, _, model, _ in self.world.entities():
+            if kind in ('person', 'drive') and model in self.world.models:
+                self.world.delete(model)
+        self.home = Home.of_world(self.world)
+        if not self.home.rooms:
+            raise Failure(f'{path}: describes no rooms; see docs/home.md')
+        self.ground = Ground(bare, self.home)
+        self.simulator = Simulated(self.world, self.home)
+        if placed:
+            _Placer(self, light).place()
+        self.sensors = self._listed()
+
+    def _listed(self) -> list[Sensor]:
+        """The sensors by id, counted from 1 by kind in the order of their names."""
+        found: dict[str, list[tuple[str, str, str, Any]]] = {}
+        for source, name, model, pose in self.world.entities():
+            kind = BY_SOURCE.get(source)
+            if kind is None:
+                continue
+            if kind == 'motion' and name.startswith('area_'):
+                kind = 'area'
+            found.setdefault(LETTERS[kind], []).append((name, kind, source, pose))
+        sensors = []
+        for letter in sorted(found):
+            for number, (name, kind, source, pose) in enumerate(sorted(found[letter],
+                                                                       key=lambda e: e[0]), 1):
+                x, y, z = (float(v) for v in pose[:3])
+                room = self.home.room_at(x, y, z)
+                sensors.append(Sensor(f'{letter}{number:03d}', kind, source, name,
+                                      room.name if room else '', round(x, 3), round(y, 3),
+                                      round(z, 3)))
+        return sensors
+
+
+def _sampled(model: str) -> str:
+    """A motion sensor that samples less often than it could, which costs less."""
+    path = find(f'model://{model}')
+    if path is None:
+        raise Failure(f'model://{model} is not found')
+    root = sdf.read(path)
+    for plugin in root.iter('plugin'):
+        etree.SubElement(plugin, 'sample_rate').text = f'{SAMPLES:g}'
+    return sdf.text(root)
+
+
+class _Placer:
+    """Sensors by rule: over what is used and behind doors, at doors, in rooms, at the mains."""
+
+    def __init__(self, site: Site, light: bool) -> None:
+        self.site, self.light, self.world, self.home = site, light, site.world, site.home
+        self.lived = [room for room in self.home.rooms
+                      if room.storey in site.ground.planners
+                      and room.use not in ('landing', 'outdoor')]
+
+    def place(self) -> None:
+        for room in self.lived:
+            self._cells(room)
+            if room.use in AREAS:
+                self._area(room)
+            self._spawn('model://temperature_sensor', f'{room.name}_temperature',
+                        (*self._corner(room, 0), room.floor + 1.5, 0.0))
+            if self.light:
+                x, y, yaw = self._facing(room, 1)
+                self._spawn('model://luminosity_sensor', f'{room.name}_light',
+                            (x, y, room.floor + HIGH, yaw))
+        for door in self.home.doors:
+            if door.kind == 'door':
+                self._contact(door.name)
+        for thing in self.home.things:
+            for i, place in enumerate(thing.places):
+                if thing.type == 'bed' and place.posture == 'lie':
+                    x, y, _, yaw = place.pose
+                    z = self.site.ground.support(place)
+                    self._spawn('model://pressure_mat', f'{thing.name}_mat_{i}', (x, y, z, yaw))
+            self._plug(thing.name)
+
+    def _spawn(self, what: str, name: str, pose: tuple[float, float, float, float],
+               pitch: float = 0.0) -> None:
+        x, y, z, yaw = pose
+        with simulator(f'{name}: '):
+            self.world.spawn(what, name, [x, y, z, 0.0, pitch, yaw])
+
+    def _cells(self, room: Room) -> None:
+        """Motion sensors at the ceiling, each over a cell of the floor where people come to be."""
+        wanted = [place.pose[:2] for thing in self.home.things if thing.room == room.name
+                  for place in thing.places]
+        for door in self.home.doors:
+            if door.kind != 'window' and room.name in door.rooms:
+                x, y, _, yaw = door.pose
+                inside = [(x + s * 0.7 * math.sin(yaw), y - s * 0.7 * math.cos(yaw))
+                          for s in (1, -1)]
+                wanted += [at for at in inside if room.contains(*at)]
+        wanted.append(room.center)
+        kept: list[tuple[float, float]] = []
+        for x, y in wanted:
+            if room.contains(x, y) and all(math.dist((x, y), other) >= APART for other in kept):
+                kept.append((x, y))
+        for i, (x, y) in enumerate(kept):
+            self._spawn(_sampled('pir_casas'), f'cell_{room.name}_{i:02d}',
+                        (x, y, room.ceiling - CEILING, 0.0), math.pi / 2)
+
+    def _area(self, room: Room) -> None:
+        x, y, yaw = self._facing(room, 2)
+        self._spawn(_sampled('pir_pyroelectric'), f'area_{room.name}',
+                    (x, y, room.floor + HIGH, yaw))
+
+    def _corner(self, room: Room, number: int) -> tuple[float, float]:
+        """Beside a corner of the room, inside."""
+        corner = room.polygon[number % len(room.polygon)]
+        cx, cy = room.center
+        away = math.dist(corner, (cx, cy))
+        share = 2 * WALL / away
+        return corner[0] + (cx - corner[0]) * share, corner[1] + (cy - corner[1]) * share
+
+    def _facing(self, room: Room, number: int) -> tuple[float, float, float]:
+        x, y = self._corner(room, number)
+        cx, cy = room.center
+        return x, y, math.atan2(cy - y, cx - x)
+
+    def _contact(self, door: str) -> None:
+        """A reed contact at the upper edge of a leaf, on a model with links base and door."""
+        model = next((model for kind, name, model, _ in self.world.entities()
+                      if (kind, name) == ('door', door)), '')
+        if not {f'{model}::base', f'{model}::door'} <= set(self.world.links):
+            return
+        width = next(d.width for d in self.home.doors if d.name == door)
+        xml = ('<sensor name="{0}" type="custom"><pose>{1:.3f} -0.015 2.09 0 0 0</pose>'
+               '<plugin name="reed" filename="libreed_contact.so"><magnet_link>door</magnet_link>'
+               '<magnet>{1:.3f} -0.015 2.078</magnet></plugin></sensor>'
+               ).format(f'{door}_contact', min(0.93, width - 0.07))
+        with simulator(f'{door}: '):
+            self.world.spawn(xml, f'{door}_contact', on=f'{model}::base')
+
+    def _plug(self, thing: str) -> None:
+        """A smart plug that feeds what uses power there."""
+        load = next((f'{kind}/{name}' for kind, name, model, _ in self.world.entities()
+                     if model == thing and kind in ('stove', 'appliance', 'heater')), '')
+        if load:
+            pose = self.world.motion(thing)[0]
+            model = generator('catalog').smart_plug(f'{thing}_plug', load)
+            text = f'<sdf version="1.6">{etree.tostring(model, encoding="unicode")}</sdf>'
+            self._spawn(text, f'{thing}_plug', (float(pose[0]), float(pose[1]),
+                                                float(pose[2]) + 0.3, 0.0))

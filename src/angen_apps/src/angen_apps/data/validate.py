@@ -1,0 +1,194 @@
+"""Checks a home's data against itself: walls, rooms, seats, causes, labels."""
+from __future__ import annotations
+
+import csv
+import gzip
+import json
+import math
+from collections import Counter
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Iterator
+
+from angen_apps.data.recorder import VALUES
+from angen_apps.residents.ground import in_polygon
+from angen_tools.common.failure import Failure
+
+DAY = 86400.0
+FASTER = 1.35  # times the speed of a profile that a person may reach
+SLACK = 0.25  # m beside an opening, in a wall
+SITS = (3.0, 1.0)  # s after the begin and before the end of sitting, when the seat is pressed
+SHOWN = 3  # findings of a kind that are listed
+
+
+@dataclass
+class Findings:
+    """What is wrong, by check, and how much was checked."""
+
+    wrong: dict[str, list[str]] = field(default_factory=dict)
+    checked: Counter[str] = field(default_factory=Counter)
+
+    def say(self, check: str, fine: bool, what: str) -> None:
+        self.checked[check] += 1
+        self.wrong.setdefault(check, [])
+        if not fine:
+            self.wrong[check].append(what)
+
+    @property
+    def count(self) -> int:
+        return sum(len(found) for found in self.wrong.values())
+
+
+def homes(folder: Path) -> list[Path]:
+    """The homes of an output folder; Failure where there are none."""
+    if (folder / 'layout.json').is_file():
+        return [folder]
+    found = sorted(path.parent for path in folder.glob('*/layout.json')
+                   if not path.parent.name.endswith('.part'))
+    if not found:
+        raise Failure(f'{folder}: has no data of angen generate')
+    return found
+
+
+def rows(path: Path) -> Iterator[dict[str, str]]:
+    """The lines of a CSV file, compressed or not, by column."""
+    try:
+        opened: Any = gzip.open(path, 'rt', encoding='utf-8', newline='') \
+            if path.suffix == '.gz' else path.open(encoding='utf-8', newline='')
+        with opened as file:
+            yield from csv.DictReader(file)
+    except (OSError, EOFError) as error:
+        raise Failure(f'{path}: cannot be read: {error}') from None
+
+
+def validate(folder: Path) -> Findings:
+    """Checks one home."""
+    findings = Findings()
+    try:
+        layout = json.loads((folder / 'layout.json').read_text(encoding='utf-8'))
+    except (OSError, ValueError) as error:
+        raise Failure(f'{folder}/layout.json: cannot be read: {error}') from None
+    truth = list(rows(folder / 'truth.csv.gz'))
+    events = list(rows(folder / 'events.csv.gz'))
+    faulty = next(rows(folder / 'faults.csv'), None) is not None
+    _times(findings, layout, truth)
+    _walls(findings, layout, folder)
+    _rooms(findings, layout, truth)
+    _causes(findings, events)
+    if not faulty:
+        _alternate(findings, events)
+        _seats(findings, layout, truth, events)
+    if (folder / 'casas.txt').is_file():
+        _labels(findings, folder / 'casas.txt')
+    return findings
+
+
+def _times(findings: Findings, layout: Any, truth: list[dict[str, str]]) -> None:
+    for resident in layout['residents']:
+        own = [row for row in truth if row['resident'] == resident['name']]
+        time = 0.0
+        for row in own:
+            findings.say('no gap in the truth', abs(float(row['start']) - time) < 0.01,
+                         f'{resident["name"]} at {row["start"]}, before it {time:.3f}')
+            time = float(row['end'])
+        findings.say('no gap in the truth', abs(time - layout['days'] * DAY) < 0.01,
+                     f'{resident["name"]} ends at {time:.3f}')
+
+
+def _walls(findings: Findings, layout: Any, folder: Path) -> None:
+    """Nobody is faster than it can be, or changes rooms but through a door or opening."""
+    speeds = {r['name']: FASTER * r['speed'] for r in layout['residents']}
+    last: dict[str, tuple[float, float, float]] = {}
+    for row in rows(folder / 'track.csv.gz'):
+        who, time, x, y = row['resident'], float(row['time']), float(row['x']), float(row['y'])
+        before = last.get(who)
+        last[who] = (time, x, y)
+        if before is None or time - before[0] > 0.65:
+            continue
+        way = math.dist(before[1:], (x, y))
+        findings.say('no speed above their own', way <= speeds[who] * (time - before[0]) + 0.06,
+                     f'{who} at {time}: {way:.2f} m in {time - before[0]:.2f} s')
+        rooms = [_room(layout, *before[1:]), _room(layout, x, y)]
+        if rooms[0] != rooms[1]:
+            middle = ((before[1] + x) / 2, (before[2] + y) / 2)
+            near = any(_in_opening(door, middle) for door in layout['doors'])
+            findings.say('nobody crossed a wall', near,
+                         f'{who} at {time}: from {rooms[0]} to {rooms[1]} at {middle}')
+
+
+def _room(layout: Any, x: float, y: float) -> str:
+    return next((str(room['name']) for room in layout['rooms']
+                 if in_polygon(x, y, room['polygon'])), '')  # type: ignore[arg-type]
+
+
+def _in_opening(door: Any, at: tuple[float, float]) -> bool:
+    x, y, _, yaw = door['pose']
+    dx, dy = at[0] - x, at[1] - y
+    along = math.cos(yaw) * dx + math.sin(yaw) * dy
+    across = math.cos(yaw) * dy - math.sin(yaw) * dx
+    return (door['kind'] != 'window' and abs(along) <= door['width'] / 2 + 0.05
+            and abs(across) <= SLACK + 0.25)
+
+
+def _rooms(findings: Findings, layout: Any, truth: list[dict[str, str]]) -> None:
+    """Who does something at a thing is in its room."""
+    things = {thing['name']: thing['room'] for thing in layout['things']}
+    for row in truth:
+        if row['phase'] == 'does' and row['thing'] and row['room']:
+            findings.say('label matches room', things.get(row['thing']) == row['room'],
+                         f'{row["resident"]} at {row["start"]}: {row["activity"]} at '
+                         f'{row["thing"]} in {row["room"]}')
+
+
+def _causes(findings: Findings, events: list[dict[str, str]]) -> None:
+    for row in events:
+        caused = row['cause'] in ('air', 'light', 'noise') or bool(row['resident'])
+        findings.say('each event has a cause or is noise', caused,
+                     f'{row["time"]} {row["sensor"]} {row["value"]}')
+
+
+def _alternate(findings: Findings, events: list[dict[str, str]]) -> None:
+    last: dict[str, str] = {}
+    for row in events:
+        if row['kind'] in VALUES:
+            findings.say('on and off alternate', last.get(row['sensor']) != row['value'],
+                         f'{row["time"]} {row["sensor"]} {row["value"]} twice')
+            last[row['sensor']] = row['value']
+
+
+def _seats(findings: Findings, layout: Any, truth: list[dict[str, str]],
+           events: list[dict[str, str]]) -> None:
+    """Who sits on a chair with a contact presses it."""
+    import datetime
+    start = datetime.datetime.fromisoformat(layout['start'])
+    seats = {sensor['name']: sensor['id'] for sensor in layout['sensors']
+             if sensor['kind'] == 'item'}
+    pressed: dict[str, list[tuple[float, bool]]] = {}
+    for row in events:
+        if row['kind'] == 'item':
+            at = (datetime.datetime.fromisoformat(row['time']) - start).total_seconds()
+            pressed.setdefault(row['sensor'], []).append((at, row['value'] == 'PRESENT'))
+    for row in truth:
+        seat = seats.get(row['thing'])
+        begin, end = float(row['start']) + SITS[0], float(row['end']) - SITS[1]
+        if row['posture'] != 'sit' or row['phase'] != 'does' or seat is None or end <= begin:
+            continue
+        on = False
+        for at, value in pressed.get(seat, []):
+            if at <= begin:
+                on = value
+        findings.say('a seat is pressed while one sits', on,
+                     f'{row["resident"]} at {row["start"]} on {row["thing"]}')
+
+
+def _labels(findings: Findings, path: Path) -> None:
+    """Of casas.txt: each begin has its end."""
+    opened: Counter[str] = Counter()
+    for line in path.read_text(encoding='utf-8').splitlines():
+        words = line.split('\t')
+        if len(words) > 4:
+            label, _, turn = words[4].rpartition(' ')
+            opened[label] += 1 if turn == 'begin' else -1
+            findings.say('each begin has its end', opened[label] in (0, 1), line)
+    for label, count in opened.items():
+        findings.say('each begin has its end', count == 0, f'{label} has no end')

@@ -1,0 +1,57 @@
+"""Residents in the running simulator: a file says who lives there."""
+from __future__ import annotations
+
+import datetime
+from pathlib import Path
+from typing import Any
+
+from angen_apps.maps.gridmap import load_world
+from angen_apps.residents.ground import Ground
+from angen_apps.residents.household import Household
+from angen_apps.residents.live import Live
+from angen_apps.residents.profiles import Profile, read
+from angen_apps.residents.resident import make
+from angen_apps.residents.truth import HEAD, Interval
+from angen_tools.common.yaml_file import YamlFile
+
+AHEAD = 60.0  # s of simulated time
+
+
+def read_household(path: Path) -> tuple[list[tuple[str, Profile]], int, float]:
+    """Names and profiles, the seed, and the time of day (s) at simulated time 0, of a YAML file."""
+    file = YamlFile(path)
+    entry = file.entries(file.root, 'the household', ('residents', 'seed', 'starts'),
+                         ('residents',))
+    who = []
+    for name, node in file.entries(entry['residents'], 'residents').items():
+        text = file.text(node, name)
+        beside = path.parent / text
+        who.append((name, read(str(beside) if beside.suffix in ('.yaml', '.yml') else text)))
+    seed = int(file.number(entry['seed'], 'seed', 0)) if 'seed' in entry else 1
+    starts = 7.0
+    if 'starts' in entry:
+        starts = file.number(entry['starts'], 'starts (hour of the day)', 0.0, 24.0)
+    return who, seed, 3600.0 * starts
+
+
+def run(path: Path, world: str) -> None:
+    """Lives in the running simulator until it ends; `world`: the file that it was started with."""
+    who, seed, since = read_household(path)
+    simulator = Live()
+    ground = Ground(load_world(world), simulator.home)
+    date = datetime.date.fromisoformat((simulator.home.start or '2026-03-23')[:10])
+    household = Household(simulator, ground, seed, 'home', date, since - simulator.now)
+    residents = make(household, who)
+    shown: dict[str, Any] = {}
+
+    def tell() -> None:
+        for resident in residents:
+            now: Interval | None = resident.diary.now
+            if now is not None and shown.get(resident.name) != now:
+                shown[resident.name] = now
+                simulator.publish({key: getattr(now, key) for key in HEAD if key != 'end'})
+            resident.diary.closed.clear()
+
+    household.heard = tell
+    while True:
+        household.run(household.now + AHEAD)

@@ -1,0 +1,120 @@
+"""A resident in the simulated apartment: a quarter of an hour, checked against itself."""
+import datetime
+import gzip
+import json
+from pathlib import Path
+
+import pytest
+
+from angen_apps.data.formats import FORMATS
+from angen_apps.data.generate import Job, check, finished, jobs, write_truth
+from angen_apps.data.recorder import Recorder
+from angen_apps.data.run import Data, residents_of
+from angen_apps.data.site import Site, apartment
+from angen_apps.data.validate import validate
+from angen_apps.residents.household import Household
+from angen_apps.residents.profiles import read
+from angen_apps.residents.resident import Resident, make
+from angen_tools.common.failure import Failure
+
+EIGHT = 8 * 3600.0
+SECONDS = 900.0
+
+
+@pytest.fixture(scope='module')
+def home(tmp_path_factory) -> Path:
+    path = tmp_path_factory.mktemp('home') / 'home.world'
+    apartment(path)
+    return path
+
+
+@pytest.fixture(scope='module')
+def lived(home) -> Data:
+    """A carer, who comes in the morning."""
+    site = Site(home, 7)
+    day = datetime.date(2026, 3, 23)
+    household = Household(site.simulator, site.ground, 3, 'home', day, EIGHT + 1800.0)
+    who = residents_of(['carer'])
+    make(household, who)
+    recorder = Recorder(site, household)
+    recorder.start()
+    household.run(SECONDS)
+    household.close()
+    left = recorder.recording
+    truth = [i for resident in household.residents for i in resident.diary.closed]
+    return Data(datetime.datetime(2026, 3, 23), 1, 3, [(n, p.name) for n, p in who], site.home,
+                site.sensors, sorted(left.events, key=lambda e: (e.time, e.sensor)), truth,
+                left.missed, left.power, left.track)
+
+
+def test_who_comes_home_walks_in_and_is_detected(lived, tmp_path):
+    phases = [interval.phase for interval in lived.truth]
+    assert phases[0] == 'away' and 'goes' in phases and 'does' in phases
+    entrance = next(s.id for s in lived.sensors if s.name == 'entrance0_contact')
+    opened = [e for e in lived.events if (e.sensor, e.value) == (entrance, 'OPEN')]
+    assert opened and opened[0].resident == 'anna' and opened[0].cause == 'hand'
+    seen = {e.sensor for e in lived.events if e.value == 'ON' and e.cause == 'motion'}
+    assert len(seen) >= 3
+    FORMATS['csv'](tmp_path, lived)
+    FORMATS['casas'](tmp_path, lived)
+    write_truth(tmp_path, lived, [])
+    findings = validate(tmp_path)
+    ends = [line for line in findings.wrong['no gap in the truth'] if 'ends at' not in line]
+    assert not ends  # the day is not over
+    assert findings.checked['nobody crossed a wall'] >= 2
+    assert {check: wrong for check, wrong in findings.wrong.items()
+            if wrong and check != 'no gap in the truth'} == {}
+
+
+def test_validate_finds_walls_and_seats(lived, tmp_path):
+    FORMATS['csv'](tmp_path, lived)
+    write_truth(tmp_path, lived, [])
+    track = tmp_path / 'track.csv.gz'
+    with gzip.open(track, 'rt') as file:
+        lines = file.read().splitlines()
+    lines += ['5000.0,anna,3.900,2.000', '5000.4,anna,4.100,2.000']  # kitchen to living room
+    with gzip.open(track, 'wt') as file:
+        file.write('\n'.join(lines) + '\n')
+    assert len(validate(tmp_path).wrong['nobody crossed a wall']) == 1
+
+
+def test_a_home_without_a_bed_is_refused(home, tmp_path):
+    text = home.read_text()
+    for name in ('bedroom_bed0', 'livingroom_sofa0'):
+        start = text.rindex('<include>', 0, text.index(name))
+        text = text[:start] + text[text.index('</include>', start) + len('</include>'):]
+    path = tmp_path / 'bare.world'
+    path.write_text(text)
+    site = Site(path, 7, placed=False)
+    household = Household(site.simulator, site.ground, 3, 'home', datetime.date(2026, 3, 23))
+    with pytest.raises(Failure, match='no bed and no sofa where anna .* could lie'):
+        Resident(household, 'anna', 0, read('retired'))
+
+
+def job(folder: Path, **more) -> Job:
+    return Job(str(folder), 'home', 7, 1, ('2',), ('casas',), **more)
+
+
+def test_homes_differ_by_seed_and_are_the_same_again(tmp_path):
+    made = jobs(job(tmp_path), 5)
+    assert made == jobs(job(tmp_path), 5)
+    assert len({j.seed for j in made}) == 5 and made[0].name == 'home_00001'
+
+
+def test_what_is_finished_is_not_made_again_and_other_settings_are_refused(tmp_path):
+    one = job(tmp_path)
+    assert finished(one) is None
+    entry = {'name': 'home', 'settings': one.settings, 'files': {}}
+    (tmp_path / 'home.json').write_text(json.dumps(entry))
+    assert finished(one) == entry
+    with pytest.raises(Failure, match='was made with other settings'):
+        finished(job(tmp_path, light=True))
+    (tmp_path / 'home.json').write_text('{"name": ')  # torn
+    assert finished(one) is None
+
+
+def test_what_cannot_be_is_said_before_any_work(tmp_path):
+    with pytest.raises(Failure, match='aras has 2 residents, not 3'):
+        check(Job(str(tmp_path), 'home', 1, 1, ('3',), ('aras',)))
+    with pytest.raises(Failure, match="there is no profile 'retird'; did you mean"):
+        check(Job(str(tmp_path), 'home', 1, 1, ('retird',), ('casas',)))

@@ -1,0 +1,39 @@
+"""Distances and figures, against closed forms."""
+import numpy as np
+import pytest
+
+from angen_apps.data import realism
+from angen_tools.common.failure import Failure
+
+
+def test_distances_are_those_of_their_definitions():
+    assert realism.ks(np.array([1.0, 2, 3, 4]), np.array([3.0, 4, 5, 6])) == 0.5
+    assert realism.ks(np.arange(9.0), np.arange(9.0)) == 0
+    assert realism.jensen_shannon(np.array([1.0, 0]), np.array([0, 1.0])) == 1
+    assert realism.jensen_shannon(np.array([1.0, 1]), np.array([2.0, 2])) == 0
+
+
+@pytest.mark.parametrize('fraction, separator', [('.250000', '\t'), ('', ' ')])
+def test_files_of_casas_are_read_with_tabs_or_blanks(tmp_path, fraction, separator):
+    file = tmp_path / 'aruba.txt'
+    lines = [('2010-11-04', f'00:03:50{fraction}', 'M003', 'ON', 'Sleeping begin'),
+             ('2010-11-04', f'00:03:52{fraction}', 'M003', 'OFF'),
+             ('2010-11-05', f'00:03:52{fraction}', 'M004', 'ON'),
+             ('2010-11-05', f'00:03:53{fraction}', 'M004', 'OFF', 'Sleeping end')]
+    file.write_text('\n'.join(separator.join(line) for line in lines) + '\n')
+    stream = realism.read(file)
+    found = realism.measures(stream)
+    assert found['events a day'] == 2 and found['ON time p50, s'] == 1.5
+    assert realism.durations(stream)['Sleeping'] == [86403.0]
+    assert realism.transitions(stream) == {('M003', 'M004'): 1}
+    file.write_text('hello\n')
+    with pytest.raises(Failure, match=r'aruba\.txt:1: is not an event'):
+        realism.read(file)
+
+
+def test_what_is_outside_comes_first():
+    time = np.arange(0, 86400, 1000.0)
+    values = ['ON' if i % 2 == 0 else 'OFF' for i in range(len(time))]
+    stream = realism.Stream(time, ['M001'] * len(time), values, ['kitchen'] * len(time), [])
+    verdicts = [row[3] for row in realism.compare(stream, None)]
+    assert verdicts[0] != 'within' and verdicts == sorted(verdicts, key=lambda v: v == 'within')

@@ -1,0 +1,70 @@
+"""Days are whole, alone and as their profile says."""
+import datetime
+import statistics
+
+import pytest
+
+from angen_apps.residents import profiles
+from angen_apps.residents.agenda import Day, Planner
+from angen_tools.common.failure import Failure
+
+MONDAY = Day(0, datetime.date(2026, 3, 23))
+
+
+def later(days: int) -> Day:
+    return Day(days, MONDAY.date + datetime.timedelta(days=days))
+
+
+@pytest.mark.parametrize('name', profiles.names())
+def test_a_day_follows_the_day_before_without_overlap(name):
+    planner = Planner(7, 'home', 'anna', profiles.read(name))
+    for number in range(14):
+        items = planner.plan(later(number))
+        following = planner.plan(later(number + 1))
+        for a, b in zip(items, items[1:]):
+            assert a.start < a.end <= b.start + 1e-6
+        if profiles.read(name).lives and items[-1].activity == 'sleep':
+            # the last item ends when the resident gets up on the next day
+            assert following[0].start + 86400 <= items[-1].end + 4 * 3600
+
+
+def test_a_day_is_planned_again_alone():
+    profile = profiles.read('worker')
+    whole = [Planner(7, 'home', 'anna', profile).plan(later(n)) for n in range(5)]
+    assert Planner(7, 'home', 'anna', profile).plan(later(3)) == whole[3]
+    assert Planner(8, 'home', 'anna', profile).plan(later(3)) != whole[3]
+
+
+def test_a_worker_is_out_on_workdays_and_sleeps_seven_to_nine_hours():
+    planner = Planner(3, 'home', 'anna', profiles.read('worker'))
+    out, slept = [], []
+    for number in range(50):
+        day = later(number)
+        items = planner.plan(day)
+        if day.kind == 'weekday':
+            out.append(sum(i.end - i.start for i in items if i.activity == 'leave') / 3600)
+        slept.append(sum(i.end - i.start for i in items if i.activity == 'sleep') / 3600)
+    assert 8.5 < statistics.median(out) < 10
+    assert 7 < statistics.mean(slept) < 9.2
+
+
+def test_residents_who_eat_together_begin_together():
+    home = [Planner(3, 'home', name, profiles.read('retired')) for name in ('anna', 'bert')]
+    starts = [{i.activity: i.start for i in planner.plan(MONDAY) if i.cause == 'scheduled'}['cook']
+              for planner in home]
+    assert abs(starts[0] - starts[1]) < 1800
+
+
+@pytest.mark.parametrize('change, message', [
+    (('watch_tv', 'watch_telly'), r"mine\.yaml:\d+: 'watch_telly' is not an activity; did you"),
+    (("{weekday: '6:15-7:00'", "{weekday: '6:15-27:00'"), r'must be two times of day'),
+    (('lasts: 8.5-10 h', 'lasts: 20-26 h'), r'on a weekday takes 2\d\.\d h, but mine is awake'),
+    (('speed: 1.1', 'sped: 1.1'), r"'sped' is not known in a profile; did you mean"),
+])
+def test_what_is_wrong_with_a_profile_is_said_with_its_line(tmp_path, change, message):
+    text = (profiles.FOLDER / 'worker.yaml').read_text()
+    assert change[0] in text
+    file = tmp_path / 'mine.yaml'
+    file.write_text(text.replace(*change))
+    with pytest.raises(Failure, match=message):
+        profiles.read(str(file))
