@@ -202,12 +202,13 @@ class _Placer:
         if not {f'{model}::base', f'{model}::door'} <= set(self.world.links):
             return
         width = next(d.width for d in self.home.doors if d.name == door)
-        xml = ('<sensor name="{0}" type="custom"><pose>{1:.3f} -0.015 2.09 0 0 0</pose>'
-               '<plugin name="reed" filename="libreed_contact.so"><magnet_link>door</magnet_link>'
-               '<magnet>{1:.3f} -0.015 2.078</magnet></plugin></sensor>'
-               ).format(f'{door}_contact', min(0.93, width - 0.07))
+        along = min(0.93, width - 0.07)
+        xml = (f'<sensor name="{door}_contact" type="custom"><plugin name="reed" '
+               'filename="libreed_contact.so"><magnet_link>door</magnet_link>'
+               f'<magnet>{along:.3f} -0.015 2.078</magnet></plugin></sensor>')
         with simulator(f'{door}: '):
-            self.world.spawn(xml, f'{door}_contact', on=f'{model}::base')
+            self.world.spawn(xml, f'{door}_contact', [along, -0.015, 2.09, 0.0, 0.0, 0.0],
+                             on=f'{model}::base')
 
     def _plug(self, thing: str) -> None:
         """A smart plug that feeds what uses power there."""
