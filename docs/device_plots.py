@@ -9,7 +9,9 @@ from plot_base import block, figure, world
 
 def stove() -> plt.Figure:
     w = world('''<model name="flat"><static>true</static><link name="l"/>
-      <plugin name="air" filename="libroom_climate.so"><room>-2 -2 0 2 2 2.8</room>
+      <angen:room name="kitchen"><angen:polygon>-2 -2 2 -2 2 2 -2 2</angen:polygon>
+      <angen:ceiling>2.8</angen:ceiling></angen:room>
+      <plugin name="air" filename="libroom_climate.so">
       <heat_capacity>5</heat_capacity></plugin></model>'''
               + block('stove', 'kitchen_stove0', '0 0 0 0 0 0'))
     times, rows = [], []

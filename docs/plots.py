@@ -151,10 +151,16 @@ def smart_plug() -> plt.Figure:
     return drawn
 
 
+def room(name: str, low: float, high: float) -> str:
+    """A room of 4 m along x, from y = low to high."""
+    return (f'<angen:room name="{name}"><angen:polygon>0 {low} 4 {low} 4 {high} 0 {high}'
+            '</angen:polygon></angen:room>')
+
+
 def temperature() -> plt.Figure:
-    rooms = '<room>0 0.05 0 4 3 2.5</room><room>0 -3 0 4 -0.05 2.5</room>'
-    w = world(f'''<model name="flat"><static>true</static><link name="l"/>
-      <plugin name="air" filename="libroom_climate.so">{rooms}<heat_capacity>5</heat_capacity>
+    rooms = room('warm', 0.05, 3) + room('cold', -3, -0.05)
+    w = world(f'''<model name="flat"><static>true</static><link name="l"/>{rooms}
+      <plugin name="air" filename="libroom_climate.so"><heat_capacity>5</heat_capacity>
       </plugin></model>''' + block('heater', 'heater1', '0.1 1.5 0 0 0 0')
               + block('kitchen_door', 'hall_door0', '1.5 0 0 0 0 0')
               + block('temperature_sensor', 'warm', '2 1.5 1.5 0 0 0')
@@ -220,9 +226,9 @@ def coupled_levels(doors: list[dict]) -> list[float]:
 
 def microphone() -> plt.Figure:
     rooms = [(0.05, 2.95), (-2.95, -0.05), (-5.95, -3.05)]
-    boxes = ''.join(f'<room>0 {low} 0 4 {high} 2.5</room>' for low, high in rooms)
-    w = world(f'''<model name="flat"><static>true</static><link name="l"/>
-      <plugin name="air" filename="libroom_climate.so">{boxes}</plugin></model>'''
+    described = ''.join(room(f'room{i}', *edges) for i, edges in enumerate(rooms))
+    w = world(f'''<model name="flat"><static>true</static><link name="l"/>{described}
+      <plugin name="air" filename="libroom_climate.so"/></model>'''
               + block('stereo', 'stereo', '0.9 1.5 0.9 0 0 0')
               + block('kitchen_door', 'near_door0', '1.5 0 0 0 0 0')
               + block('kitchen_door', 'far_door0', '1.5 -3 0 0 0 0')

@@ -78,6 +78,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
   std::function<std::vector<float>(const render::PinholeCamera&, const Pose&)> depths_at;
   std::function<std::vector<rays::Crossing>(const Vec3&, const Vec3&)> crossings_at;  // else none
   std::vector<FakeDevice> others;
+  Home described;
   struct Push {
     std::string link;
     Vec3 force;
@@ -133,6 +134,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
     }
     return found;
   }
+  const Home& home() const override { return described; }
   void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override {
     hits.assign(rays.size(), {});
   }
@@ -162,6 +164,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
   // Wiring
   std::string name() const override { return instance; }
   std::string model() const override { return model_name; }
+  std::vector<Room> rooms() const override { return described.rooms; }
   Vec3 gravity() const override { return gravity_vector; }
   bool has_joint(const std::string& joint) const override {
     for (const auto& [name, value] : joints) {

@@ -24,6 +24,17 @@ def box(name: str, pose: str, size: str, static: bool = False, mass: float = 1.0
   </model>'''
 
 
+def rooms(*boxes: str) -> str:
+    """Rooms room0, room1, … in a model; each box is x0 y0 z0 x1 y1 z1."""
+    made = ''
+    for i, text in enumerate(boxes):
+        x0, y0, z0, x1, y1, z1 = (float(v) for v in text.split())
+        made += (f'<angen:room name="room{i}"><angen:polygon>{x0} {y0} {x1} {y0} {x1} {y1} '
+                 f'{x0} {y1}</angen:polygon><angen:floor>{z0}</angen:floor><angen:ceiling>'
+                 f'{z1 - z0}</angen:ceiling></angen:room>')
+    return made
+
+
 def pir(name: str, pose: str, extra: str = '') -> str:
     """A static model with one PIR of 9 x 1 rays over 60 degrees, without noise."""
     return f'''<model name="{name}"><static>true</static><pose>{pose}</pose><link name="link">

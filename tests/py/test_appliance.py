@@ -6,6 +6,7 @@ from math import inf, log10
 import pytest
 
 import angen
+from sdf_text import rooms
 
 
 def block(model: str, name: str, pose: str = '0 0 0 0 0 0') -> str:
@@ -79,8 +80,9 @@ def test_a_television_lights_what_is_before_it(world):
 
 
 def test_it_heats_its_room_by_what_it_takes(world):
-    w = world('<model name="flat"><static>true</static><link name="l"/><plugin name="air" '
-              'filename="libroom_climate.so"><room>-2 -2 0 2 2 2.5</room><heat_loss>0</heat_loss>'
+    w = world('<model name="flat"><static>true</static><link name="l"/>'
+              + rooms('-2 -2 0 2 2 2.5')
+              + '<plugin name="air" filename="libroom_climate.so"><heat_loss>0</heat_loss>'
               '<air_change>0</air_change></plugin></model>' + block('stereo', 'stereo'))
     w.command('appliance', 'stereo', 'On')
     w.run(601)

@@ -6,7 +6,7 @@ from math import asin, exp
 import pytest
 
 import angen
-from sdf_text import box
+from sdf_text import box, rooms
 
 DOORS = '<plugin name="doors" filename="libdoor_world_plugin.so"/>'
 
@@ -247,10 +247,9 @@ def test_a_plug_without_its_load_says_so(world):
 
 # temperature and humidity
 
-def air(rooms: str, extra: str) -> str:
-    rows = ''.join(f'<room>{row}</room>' for row in rooms.split(';'))
-    return ('<model name="flat"><static>true</static><link name="l"/>'
-            f'<plugin name="air" filename="libroom_climate.so">{rows}{extra}</plugin></model>')
+def air(boxes: str, extra: str) -> str:
+    return (f'<model name="flat"><static>true</static><link name="l"/>{rooms(*boxes.split(";"))}'
+            f'<plugin name="air" filename="libroom_climate.so">{extra}</plugin></model>')
 
 
 LEAKS = '<heat_loss>0.8</heat_loss><air_change>0.5</air_change><heat_capacity>1.2</heat_capacity>'

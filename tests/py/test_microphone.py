@@ -6,6 +6,7 @@ from math import log10, pi, sin
 import pytest
 
 import angen
+from sdf_text import rooms
 
 DOORS = '<plugin name="doors" filename="libdoor_world_plugin.so"/>'
 ROOMS = ('0 0.05 0 4 3 2.5', '0 -3 0 4 -0.05 2.5')      # their door in the wall between them
@@ -14,10 +15,9 @@ ABSORPTION = 0.2
 CONSTANT = SURFACE * ABSORPTION / (1 - ABSORPTION)
 
 
-def air(*rooms: str) -> str:
-    boxes = ''.join(f'<room>{room}</room>' for room in rooms)
-    return ('<model name="flat"><static>true</static><link name="l"/>'
-            f'<plugin name="air" filename="libroom_climate.so">{boxes}</plugin></model>')
+def air(*boxes: str) -> str:
+    return (f'<model name="flat"><static>true</static><link name="l"/>{rooms(*boxes)}'
+            '<plugin name="air" filename="libroom_climate.so"/></model>')
 
 
 def source(pose: str, level: float = 80, name: str = 'radio', directivity: float = 1) -> str:

@@ -6,9 +6,10 @@ from math import exp
 import pytest
 
 import angen
+from sdf_text import rooms
 
-AIR = ('<model name="flat"><static>true</static><link name="l"/><plugin name="air" '
-       'filename="libroom_climate.so"><room>-2 -2 0 2 2 2.5</room><heat_loss>0</heat_loss>'
+AIR = ('<model name="flat"><static>true</static><link name="l"/>' + rooms('-2 -2 0 2 2 2.5')
+       + '<plugin name="air" filename="libroom_climate.so"><heat_loss>0</heat_loss>'
        '<air_change>0</air_change><heat_capacity>{}</heat_capacity></plugin></model>')
 STEADY_AIR = AIR.format(1000)
 

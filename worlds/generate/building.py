@@ -136,11 +136,7 @@ def write_apartment(models: Path) -> None:
     for name, parts in apartment_links():
         at, local = _centered(parts)
         add_link(model, name, local, at=at, moves=False)
-    climate = add_plugin(model, "climate", "libroom_climate.so", outside_temperature=5)
-    half = plan.WALL / 2
-    for name, (x0, y0, x1, y1) in (*plan.ROOMS.items(), ("landing", plan.LANDING)):
-        add(climate, "room", numbers(x0 + half, y0 + half, 0, x1 - half, y1 - half, plan.CEILING),
-            name=name)
+    add_plugin(model, "climate", "libroom_climate.so", outside_temperature=5)
     add_rooms(model)
     write_model(root, models, "Apartment",
                 "One storey: entrance, five rooms, landing and elevator shaft. "

@@ -57,12 +57,12 @@ std::string Home::room_name_at(const Vec3& point) const {
   return room == nullptr ? "" : room->name;
 }
 
-int Home::storey_at(double z) const {
-  int number = storeys.empty() ? 0 : storeys.front().number;
+const Storey* storey_at(const std::vector<Storey>& storeys, double z) {
+  const Storey* found = storeys.empty() ? nullptr : &storeys.front();
   for (const Storey& storey : storeys) {
-    if (storey.elevation - kOnFloor <= z) number = storey.number;
+    if (storey.elevation - kOnFloor <= z) found = &storey;
   }
-  return number;
+  return found;
 }
 
 const std::vector<std::string>& room_uses() {

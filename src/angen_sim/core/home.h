@@ -24,11 +24,12 @@ struct Room {
   int storey = 0;   // its number
   Polygon outline;  // counterclockwise
   std::vector<Polygon> holes;
-  double floor = 0.0;    // z
-  double ceiling = 0.0;  // z
-  double area = 0.0;     // m^2, without holes
-  bool guessed = false;  // by flood fill: the world names no rooms
-  std::string model;     // that names it; "" for the world
+  double floor = 0.0;      // z
+  double ceiling = 0.0;    // z
+  double area = 0.0;       // m^2, without holes
+  bool guessed = false;    // by flood fill: the world names no rooms
+  std::string model;       // that names it; "" for the world
+  std::size_t number = 0;  // among those of its model
 
   /// Whether a place (x, y) is inside, at any height.
   bool contains(const Point2& point) const;
@@ -36,6 +37,9 @@ struct Room {
   double distance(const Point2& point) const;
   bool at_height(double z) const;
 };
+
+/// The storey at a height: the highest whose floor is not above it; null where there are none.
+const Storey* storey_at(const std::vector<Storey>& storeys, double z);
 
 struct FloorPose {
   Vec3 position = Vec3::Zero();
@@ -96,8 +100,6 @@ struct Home {
   const Room* room_at(const Vec3& point) const;
   /// Its name, "" outside.
   std::string room_name_at(const Vec3& point) const;
-  /// The storey at a height: the highest whose floor is not above. 0 where there is none.
-  int storey_at(double z) const;
 };
 
 /// Words of descriptions.

@@ -23,14 +23,9 @@ constexpr Range kCelsius{-60.0, 60.0};
 /// whatever reports a `gap` lets air through between the rooms on its two sides.
 class Climate : public Device {
  public:
-  void configure(Params& params, Wiring&) override {
-    rooms_ = params.rows("room", 6, "m",
-                         "x y z of two opposite corners in the model's frame; the attribute name "
-                         "says what it is called");
-    names_ = params.names("room");
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-      if (names_[i].empty()) names_[i] = "room" + std::to_string(i);
-    }
+  void configure(Params& params, Wiring& wiring) override {
+    model_ = wiring.model();
+    const std::vector<Room> rooms = wiring.rooms();
     RoomAir::Settings settings;
     settings.heat_loss = params.number("heat_loss", 0.5, "W/(K m^3)",
                                        "through walls and windows, a volume", kNotNegative);
@@ -50,23 +45,19 @@ class Climate : public Device {
         params.number("outside_humidity", 80.0, "%", "of the air outside", {0.0, 100.0});
     outside_.moisture = moisture_of(outside_.temperature, outside_humidity_);
     std::vector<double> volumes;
-    for (std::vector<double>& room : rooms_) {
-      for (int axis = 0; axis < 3; ++axis) {
-        if (room[axis] > room[axis + 3]) std::swap(room[axis], room[axis + 3]);
-      }
-      volumes.push_back((room[3] - room[0]) * (room[4] - room[1]) * (room[5] - room[2]));
-      if (!(volumes.back() > 0.0)) throw params.error("room", "a <room> is flat; give two corners");
-      plan_.rooms.emplace_back(Vec3::Map(room.data()), Vec3::Map(&room[3]));
+    for (const Room& room : rooms) volumes.push_back(room.area * (room.ceiling - room.floor));
+    if (rooms.empty()) {
+      throw Error("model '" + model_ +
+                  "' has a climate and no rooms; describe them by <angen:room>");
     }
-    if (rooms_.empty()) throw params.error("room", "a climate needs a <room> at least");
     air_ = RoomAir(settings, std::move(volumes), inside);
     const auto airs = params.rows("air", 2, "degC %",
                                   "temperature and humidity at the start, of each room in its "
                                   "order; of all as above unless given");
-    if (!airs.empty() && airs.size() != rooms_.size()) {
+    if (!airs.empty() && airs.size() != rooms.size()) {
       throw params.error("air", "there are " + std::to_string(airs.size()) + " <air> and " +
-                                    std::to_string(rooms_.size()) +
-                                    " <room>; give one for each room, or none");
+                                    std::to_string(rooms.size()) +
+                                    " rooms; give one for each room, or none");
     }
     for (std::size_t i = 0; i < airs.size(); ++i) {
       const double temperature = airs[i][0];
@@ -90,19 +81,18 @@ class Climate : public Device {
     if (!due_.due(view.time(), view.step())) return;
     const Nanoseconds before = stepped_at_ < 0 ? view.time() : stepped_at_;
     stepped_at_ = view.time();
-    plan_.frame = view.pose();
-    const Eigen::AlignedBox3d around = surroundings(view.pose());
-    std::vector<double> heat(rooms_.size(), 0.0);
-    std::vector<Opening> openings;
+    const RoomPlan plan = room_plan(view, model_);
+    const Eigen::AlignedBox3d around = surroundings(plan);
+    std::vector<double> heat(air_.rooms().size(), 0.0);
     for (const DeviceView& device : view.devices("power", around)) {
-      const int room = plan_.at(device.pose.position);
+      const int room = plan.at(device.pose.position);
       if (room == RoomPlan::kOutside) continue;
       const auto power = device.state.get<double>("power");
       heat[static_cast<std::size_t>(room)] += device.state.get<double>("heat", power);
     }
-    for (const DeviceView& device : view.devices("gap", around)) {
-      const RoomOpening opening = room_opening(device, plan_);
-      if (!(opening.gap > 0.0) || opening.first == opening.second) continue;
+    std::vector<Opening> openings;
+    for (const RoomOpening& opening : room_openings(view, plan, around)) {
+      if (!(opening.gap > 0.0)) continue;
       openings.push_back({opening.first, opening.second, opening.gap, opening.height});
     }
     air_.step(to_seconds(stepped_at_ - before), outside_, heat, openings);
@@ -115,42 +105,37 @@ class Climate : public Device {
     for (const Air& air : air_.rooms()) params.row("air", {air.temperature, humidity_of(air)});
   }
 
-  void report(const View&, Reading& state) const override {
-    std::vector<double> boxes;
+  void report(const View& view, Reading& state) const override {
+    std::vector<std::string> names;
+    for (const Room* room : room_plan(view, model_).rooms) names.push_back(room->name);
     std::vector<double> temperatures;
     std::vector<double> humidities;
-    for (std::size_t i = 0; i < rooms_.size(); ++i) {
-      boxes.insert(boxes.end(), rooms_[i].begin(), rooms_[i].end());
-      temperatures.push_back(air_.rooms()[i].temperature);
-      humidities.push_back(humidity_of(air_.rooms()[i]));
+    for (const Air& air : air_.rooms()) {
+      temperatures.push_back(air.temperature);
+      humidities.push_back(humidity_of(air));
     }
-    state.set("names", names_);
+    state.set("names", std::move(names));
     state.set("temperatures", std::move(temperatures));
     state.set("humidities", std::move(humidities));
     state.set("outside_temperature", outside_.temperature);
     state.set("outside_humidity", outside_humidity_);
-    state.set("rooms", std::move(boxes));
   }
 
  private:
   // The region of models that affect a room, hinges of leaves beside it included.
-  Eigen::AlignedBox3d surroundings(const Pose& pose) const {
+  static Eigen::AlignedBox3d surroundings(const RoomPlan& plan) {
+    const Vec3 margin(kWidestLeaf, kWidestLeaf, kWall);
     Eigen::AlignedBox3d around;
-    for (const std::vector<double>& room : rooms_) {
-      const Vec3 margin(kWidestLeaf, kWidestLeaf, kWall);
-      const Eigen::AlignedBox3d box(Vec3(room[0], room[1], room[2]) - margin,
-                                    Vec3(room[3], room[4], room[5]) + margin);
-      for (int corner = 0; corner < 8; ++corner) {
-        const auto type = static_cast<Eigen::AlignedBox3d::CornerType>(corner);
-        around.extend(pose * Vec3(box.corner(type)));
+    for (const Room* room : plan.rooms) {
+      for (const Point2& corner : room->outline) {
+        around.extend(Vec3(corner.x(), corner.y(), room->floor));
+        around.extend(Vec3(corner.x(), corner.y(), room->ceiling));
       }
     }
-    return around;
+    return {Vec3(around.min() - margin), Vec3(around.max() + margin)};
   }
 
-  std::vector<std::vector<double>> rooms_;  // x y z of the lower, then of the upper corner
-  RoomPlan plan_;                           // the same
-  std::vector<std::string> names_;          // of rooms_
+  std::string model_;
   RoomAir air_;
   Air outside_;
   double outside_humidity_ = 0.0;  // percent
@@ -168,7 +153,6 @@ class ClimatePlugin : public Plugin {
             .numbers("temperatures", "°C", "of each room")
             .shown_by_name("names", 1)
             .numbers("humidities", "%", "of each room, relative")
-            .numbers("rooms", "m", "x0 y0 z0 x1 y1 z1 of each room, in the model's frame")
             .number("outside_temperature", "°C", "outdoors")
             .number("outside_humidity", "%", "outdoors, relative");
     return kind;

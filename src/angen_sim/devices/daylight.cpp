@@ -71,7 +71,7 @@ class DaylightPlugin : public Plugin {
   }
   bool serves(const ModelInfo& model) const override { return !model.lights.empty(); }
   std::string instance_name(const ModelInfo& model) const override {
-    return command_name(model.name, "window", model.pose.position.z());
+    return command_name(model, "window");
   }
   std::unique_ptr<Device> make_device() const override { return std::make_unique<Daylight>(); }
 };

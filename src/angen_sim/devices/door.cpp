@@ -406,11 +406,11 @@ std::vector<Mount> LeafPlugin::mounts(const ModelInfo& model, Params& params) co
 // The model's only leaf is named after it, if it says what it is; others after their links.
 std::string LeafPlugin::name_of(const ModelInfo::Joint& leaf, const ModelInfo& model,
                                 bool only) const {
-  std::string of_model = command_name(model.name, kind_.name, model.pose.position.z());
+  std::string of_model = command_name(model, kind_.name);
   const bool is_own = leaf.name == leaf_.joint && leaf.parent == "base";
   if (only && (is_own || model.name.find(kind_.name) != std::string::npos)) return of_model;
   for (const std::string& part : {leaf.child, leaf.name}) {
-    std::string name = leaf_name(part, kind_.name, leaf.height);
+    std::string name = leaf_name(part, kind_.name, floor_of(model.storeys, leaf.height));
     if (!name.empty()) return name;
   }
   return only ? of_model : leaf.name;

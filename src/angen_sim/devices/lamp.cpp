@@ -70,7 +70,7 @@ const Kind& LampPlugin::kind() const {
 }
 
 std::string LampPlugin::instance_name(const ModelInfo& model) const {
-  return command_name(model.name, "lamp", model.pose.position.z());
+  return command_name(model, "lamp");
 }
 
 }  // namespace angen::devices

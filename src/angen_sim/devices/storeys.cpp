@@ -17,9 +17,13 @@ std::string full_room(const std::string& name) {
 
 }  // namespace
 
-int floor_of(double z) { return static_cast<int>(std::floor((z + 0.5) / kStoreyHeight)); }
+int floor_of(const std::vector<Storey>& storeys, double z) {
+  const Storey* storey = storey_at(storeys, z);
+  return storey != nullptr ? storey->number
+                           : static_cast<int>(std::floor((z + 0.5) / kStoreyHeight));
+}
 
-std::string command_name(const std::string& model, const std::string& kind, double z) {
+std::string command_name(const std::string& model, const std::string& kind, int floor) {
   std::string base = model;
   while (!base.empty() &&
          (std::isdigit(static_cast<unsigned char>(base.back())) != 0 || base.back() == '_')) {
@@ -34,24 +38,28 @@ std::string command_name(const std::string& model, const std::string& kind, doub
     base.erase(0, prefix.size());
   }
   if (base.empty()) base = kind;
-  return base + std::to_string(floor_of(z));
+  return base + std::to_string(floor);
 }
 
-std::string leaf_name(const std::string& part, const std::string& kind, double z) {
+std::string command_name(const ModelInfo& model, const std::string& kind) {
+  return command_name(model.name, kind, floor_of(model.storeys, model.pose.position.z()));
+}
+
+std::string leaf_name(const std::string& part, const std::string& kind, int floor) {
   const std::string word = "_" + kind;
   const std::size_t at = part.find(word);
   const std::size_t after = at + word.size();
   if (at == std::string::npos || at == 0) return "";
   if (after < part.size() && std::isalpha(static_cast<unsigned char>(part[after])) != 0) return "";
   std::string room = part.substr(0, at);
-  const std::size_t floor = room.rfind("_f");
-  const std::size_t digits = floor + 2;
-  if (floor != std::string::npos && floor > 0 && digits < room.size() && room.size() < digits + 4 &&
+  const std::size_t mark = room.rfind("_f");
+  const std::size_t digits = mark + 2;
+  if (mark != std::string::npos && mark > 0 && digits < room.size() && room.size() < digits + 4 &&
       room.find_first_not_of("0123456789", digits) == std::string::npos) {
-    z = std::stoi(room.substr(digits)) * kStoreyHeight;
-    room.resize(floor);
+    floor = std::stoi(room.substr(digits));
+    room.resize(mark);
   }
-  return command_name(room + word, kind, z);
+  return command_name(room + word, kind, floor);
 }
 
 }  // namespace angen::devices

@@ -2,24 +2,26 @@
 
 #include <string>
 
-/// The layout of Angen's buildings: storeys of one height, and their parts named after the
-/// room and storey.
+#include "plugin/plugin.h"
+
+/// The names of a building's parts: after their room and storey.
 namespace angen::devices {
 
-/// Height between two floors in meters; floor 0 is at z = 0.
+/// Height between two floors in meters where the world describes none; floor 0 is at z = 0.
 constexpr double kStoreyHeight = 4.0;
 
-/// floor((z + 0.5) / 4): the storey of a model whose origin is at z meters.
-int floor_of(double z);
+/// The number of the storey at z meters; floor((z + 0.5) / 4) where there are none.
+int floor_of(const std::vector<Storey>& storeys, double z);
 
 /// The name that commands use: the model's without trailing digits and '_' and without the kind as
 /// suffix or prefix (`_door`, `door_`), followed by the floor. command_name("bathroom_door1",
-/// "door", 4.0) is "bathroom1", and so is that of "bath_door1".
-std::string command_name(const std::string& model, const std::string& kind, double z);
+/// "door", 1) is "bathroom1", and so is that of "bath_door1".
+std::string command_name(const std::string& model, const std::string& kind, int floor);
+std::string command_name(const ModelInfo& model, const std::string& kind);
 
 /// The name of a part of a model that has the kind in its name; all from there on is left out, and
-/// `_fN` before it is the floor. leaf_name("entrance_f1_door_block", "door", 0.0) is "entrance1".
+/// `_fN` before it is the floor. leaf_name("entrance_f1_door_block", "door", 0) is "entrance1".
 /// Empty for a part of another name.
-std::string leaf_name(const std::string& part, const std::string& kind, double z);
+std::string leaf_name(const std::string& part, const std::string& kind, int floor);
 
 }  // namespace angen::devices

@@ -231,7 +231,7 @@ class StovePlugin : public Plugin {
   }
   bool serves(const ModelInfo&) const override { return true; }
   std::string instance_name(const ModelInfo& model) const override {
-    return command_name(model.name, "stove", model.pose.position.z());
+    return command_name(model, "stove");
   }
   std::unique_ptr<Device> make_device() const override { return std::make_unique<Stove>(); }
 };

@@ -21,20 +21,10 @@ Polygon placed(const Polygon& polygon, const Pose& frame) {
   return all;
 }
 
-void add_rooms(const desc::HomeParts& parts, const Pose& frame, const std::string& model,
-               std::vector<Room>& rooms) {
-  for (const desc::Room& given : parts.rooms) {
-    Room room;
-    room.name = given.name;
-    room.use = given.use;
-    room.outline = placed(given.outline, frame);
-    for (const Polygon& hole : given.holes) room.holes.push_back(placed(hole, frame));
-    const Point2& corner = given.outline.front();
-    room.floor = (frame * Vec3(corner.x(), corner.y(), given.floor)).z();
-    room.ceiling = room.floor + given.ceiling;
-    room.model = model;
-    rooms.push_back(std::move(room));
-  }
+double area_of(const Room& room) {
+  double area = std::abs(signed_area(room.outline));
+  for (const Polygon& hole : room.holes) area -= std::abs(signed_area(hole));
+  return area;
 }
 
 void add_storeys(const desc::HomeParts& parts, const Pose& frame, std::vector<Storey>& storeys) {
@@ -44,9 +34,7 @@ void add_storeys(const desc::HomeParts& parts, const Pose& frame, std::vector<St
   }
 }
 
-std::vector<Storey> storeys_of_floors(const std::vector<Room>& rooms) {
-  std::vector<double> floors;
-  for (const Room& room : rooms) floors.push_back(room.floor);
+std::vector<Storey> storeys_of_floors(std::vector<double> floors) {
   std::sort(floors.begin(), floors.end());
   std::vector<Storey> storeys;
   double last = 0.0;
@@ -59,9 +47,12 @@ std::vector<Storey> storeys_of_floors(const std::vector<Room>& rooms) {
   return storeys;
 }
 
-void add_heights(const std::vector<Room>& rooms, std::vector<Storey>& storeys) {
+void sort_by_height(std::vector<Storey>& storeys) {
   std::stable_sort(storeys.begin(), storeys.end(),
                    [](const Storey& a, const Storey& b) { return a.elevation < b.elevation; });
+}
+
+void add_heights(const std::vector<Room>& rooms, std::vector<Storey>& storeys) {
   for (std::size_t i = 0; i < storeys.size(); ++i) {
     Storey& storey = storeys[i];
     if (storey.name.empty()) storey.name = "Floor " + std::to_string(storey.number);
@@ -73,25 +64,30 @@ void add_heights(const std::vector<Room>& rooms, std::vector<Storey>& storeys) {
 }
 
 void add_rooms_and_storeys(const HomeSurvey& survey, Home& home) {
-  add_rooms(survey.parts, Pose{}, "", home.rooms);
-  add_storeys(survey.parts, Pose{}, home.storeys);
+  home.rooms = rooms_of(survey.parts, Pose{}, "");
   for (const HomeSurvey::Standing& standing : survey.models) {
-    add_rooms(standing.model->home, standing.pose, standing.model->name, home.rooms);
-    add_storeys(standing.model->home, standing.pose, home.storeys);
+    const desc::Model& model = *standing.model;
+    for (Room& room : rooms_of(model.home, standing.pose, model.name)) {
+      home.rooms.push_back(std::move(room));
+    }
   }
+  home.storeys = survey.storeys;
   const bool guessed = home.rooms.empty();
   if (guessed) home.rooms = guess_rooms(survey);
-  if (home.storeys.empty()) home.storeys = storeys_of_floors(home.rooms);
+  if (home.storeys.empty()) {
+    std::vector<double> floors;
+    for (const Room& room : home.rooms) floors.push_back(room.floor);
+    home.storeys = storeys_of_floors(std::move(floors));
+  }
   add_heights(home.rooms, home.storeys);
   for (std::size_t i = 0; i < home.rooms.size(); ++i) {
     Room& room = home.rooms[i];
     room.guessed = guessed;
-    room.storey = home.storey_at(room.floor);
+    room.storey = storey_at(home.storeys, room.floor)->number;
     room.name =
         guessed ? "room" + std::to_string(i) : with_storey(room.name, std::to_string(room.storey));
     if (signed_area(room.outline) < 0.0) std::reverse(room.outline.begin(), room.outline.end());
-    room.area = signed_area(room.outline);
-    for (const Polygon& hole : room.holes) room.area -= std::abs(signed_area(hole));
+    room.area = area_of(room);
   }
 }
 
@@ -120,12 +116,48 @@ std::string likely_entrance(const Home& home) {
   for (const HomeDoor& door : home.doors) {
     if (door.kind == HomeDoor::Kind::kWindow || door.rooms[0] == door.rooms[1]) continue;
     if (!door.rooms[0].empty() && !door.rooms[1].empty()) continue;
-    if (home.storey_at(door.pose.position.z()) == home.storeys.front().number) return door.name;
+    if (storey_at(home.storeys, door.pose.position.z()) == &home.storeys.front()) return door.name;
   }
   return "";
 }
 
 }  // namespace
+
+std::vector<Room> rooms_of(const desc::HomeParts& parts, const Pose& frame,
+                           const std::string& model) {
+  std::vector<Room> rooms;
+  for (const desc::Room& given : parts.rooms) {
+    Room room;
+    room.name = given.name;
+    room.use = given.use;
+    room.outline = placed(given.outline, frame);
+    for (const Polygon& hole : given.holes) room.holes.push_back(placed(hole, frame));
+    const Point2& corner = given.outline.front();
+    room.floor = (frame * Vec3(corner.x(), corner.y(), given.floor)).z();
+    room.ceiling = room.floor + given.ceiling;
+    room.area = area_of(room);
+    room.model = model;
+    room.number = rooms.size();
+    rooms.push_back(std::move(room));
+  }
+  return rooms;
+}
+
+std::vector<Storey> described_storeys(
+    const std::vector<std::pair<const desc::HomeParts*, Pose>>& parts) {
+  std::vector<Storey> storeys;
+  std::vector<double> floors;
+  for (const auto& [each, frame] : parts) {
+    add_storeys(*each, frame, storeys);
+    for (const desc::Room& room : each->rooms) {
+      const Point2& corner = room.outline.front();
+      floors.push_back((frame * Vec3(corner.x(), corner.y(), room.floor)).z());
+    }
+  }
+  if (storeys.empty()) return storeys_of_floors(std::move(floors));
+  sort_by_height(storeys);
+  return storeys;
+}
 
 Home derive_home(const HomeSurvey& survey) {
   Home home;

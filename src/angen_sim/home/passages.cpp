@@ -193,8 +193,8 @@ void add_openings(const desc::HomeParts& parts, const Pose& frame, Home& home) {
     door.height = opening.height;
     door.pose.position = frame * opening.pose.position;
     door.pose.yaw = std::remainder(opening.pose.yaw + yaw_of(frame.rotation), 2 * M_PI);
-    const std::string storey = std::to_string(home.storey_at(door.pose.position.z()));
-    door.name = with_storey(door.name, storey);
+    const Storey* storey = storey_at(home.storeys, door.pose.position.z());
+    door.name = with_storey(door.name, storey == nullptr ? "0" : std::to_string(storey->number));
     add(std::move(door), home);
   }
 }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/home.h"
@@ -35,6 +36,7 @@ struct HomeSurvey {
   std::vector<Standing> models;
   std::vector<Leaf> leaves;
   std::vector<Lift> lifts;
+  std::vector<Storey> storeys;  // as described_storeys()
 };
 
 /// Something of a description that is missing, so that it was derived, or that contradicts itself.
@@ -43,6 +45,13 @@ struct HomeFinding {
   std::string text;
 };
 
+/// The rooms of parts in a frame, whose names and storeys are not known yet.
+std::vector<Room> rooms_of(const desc::HomeParts& parts, const Pose& frame,
+                           const std::string& model);
+/// The storeys that parts in these frames describe, or that follow from the floors of their rooms,
+/// by elevation; heights and names that are not given are left to derive_home().
+std::vector<Storey> described_storeys(
+    const std::vector<std::pair<const desc::HomeParts*, Pose>>& parts);
 Home derive_home(const HomeSurvey& survey);
 std::vector<HomeFinding> check_home(const HomeSurvey& survey, const Home& home);
 

@@ -14,6 +14,7 @@ class AnyWiring : public Wiring {
   explicit AnyWiring(std::string kind) : kind_(std::move(kind)) {}
   std::string name() const override { return kind_; }
   std::string model() const override { return "model"; }
+  std::vector<Room> rooms() const override { return std::vector<Room>(1); }
   bool has_joint(const std::string&) const override { return true; }
   std::vector<std::string> joint_names() const override { return {"joint"}; }
   JointRef joint(const std::string&) override { return {0}; }

@@ -130,6 +130,7 @@ struct ModelInfo {
   std::vector<std::string> links;
   std::vector<Joint> joints;
   std::vector<std::string> lights;
+  std::vector<Storey> storeys;  // that the world describes; none: they are 4 m high
 
   const Joint* joint(const std::string& joint_name) const;
 };

@@ -1,29 +1,31 @@
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "plugin/view.h"
 
 namespace angen {
 
-/// The rooms of one climate as its state has them: boxes in the frame of its model.
+/// The rooms of one climate: those that its model describes, in their order. It is valid as long as
+/// the view's home.
 struct RoomPlan {
   static constexpr int kOutside = -1;
 
-  Pose frame;  // world
-  std::vector<Eigen::AlignedBox3d> rooms;
+  const Home& home;
+  std::vector<const Room*> rooms;
 
   /// The room that a point in the world is in, or kOutside. A point in a wall is in the room.
   int at(const Vec3& point) const;
+  int named(const std::string& name) const;
 };
 
-/// The rooms of a climate's state.
-RoomPlan room_plan(const DeviceView& climate);
+RoomPlan room_plan(const View& view, std::string_view model);
 
 /// The climates of the world, in the order in which they came into it.
 std::vector<DeviceView> climates(const View& view);
 
-/// A doorway or window: the rooms on its two sides, and how far its leaf is open.
+/// A doorway or window: the rooms on its two sides, and how far it is open.
 struct RoomOpening {
   int first = RoomPlan::kOutside;
   int second = RoomPlan::kOutside;
@@ -32,9 +34,10 @@ struct RoomOpening {
   double height = 0.0;  // m
 };
 
-/// The opening that a leaf stands in. `leaf` is a device whose state has a `gap`; its model's
-/// origin is on the hinge at the opening's foot, x along the shut leaf.
-RoomOpening room_opening(const DeviceView& leaf, const RoomPlan& plan);
+/// The openings between rooms of a plan, or to the outside: those whose leaf, a device whose state
+/// has a `gap`, is in a model in `within`, and then those without a leaf.
+std::vector<RoomOpening> room_openings(const View& view, const RoomPlan& plan,
+                                       const Eigen::AlignedBox3d& within);
 
 struct AirHere {
   double temperature = 0.0;  // degrees Celsius

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/contact.h"
+#include "core/home.h"
 #include "core/pose.h"
 #include "core/time.h"
 #include "light/probe.h"
@@ -96,6 +97,8 @@ class View {
     const Vec3 far = Vec3::Constant(std::numeric_limits<double>::infinity());
     return devices(field, {-far, far});
   }
+  /// The home that the world describes. It is valid until the next update or sample.
+  virtual const Home& home() const = 0;
   /// Nearest hits: hits[i] answers rays[i].
   virtual void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const = 0;
   /// The albedo, r g b, 0 to 1, of a shape that a ray hit.
@@ -135,6 +138,8 @@ class Wiring {
   virtual ~Wiring() = default;
   virtual std::string name() const = 0;   // of this instance: "bathroom1"
   virtual std::string model() const = 0;  // of the model it belongs to
+  /// The rooms that its model describes, in the model's frame; names and storeys are not known yet.
+  virtual std::vector<Room> rooms() const = 0;
   virtual bool has_joint(const std::string& joint) const = 0;
   virtual std::vector<std::string> joint_names() const = 0;
   virtual JointRef joint(const std::string& joint) = 0;

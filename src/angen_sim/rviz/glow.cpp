@@ -1,8 +1,8 @@
 #include "rviz/glow.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <vector>
 
 #include "ros/convert.h"
 #include "rviz/marker_shapes.h"
@@ -28,18 +28,30 @@ struct LitFace {
   double alpha;  // under endless light
 };
 
-std::array<LitFace, 5> faces_of(const Vec3& size) {
-  const double x = size.x() / 2 - kSkin;
-  const double y = size.y() / 2 - kSkin;
-  const Vec3 along(2 * x, 0, 0);
-  const Vec3 across(0, 2 * y, 0);
-  const Vec3 up(0, 0, size.z() - kSkin);
-  const Vec3 low(-x, -y, kSkin);
-  return {{{low, along, across, Vec3::UnitZ(), kFloorAlpha},
-           {low, along, up, Vec3::UnitY(), kWallAlphaLit},
-           {low + across, along, up, -Vec3::UnitY(), kWallAlphaLit},
-           {low, across, up, Vec3::UnitX(), kWallAlphaLit},
-           {low + along, across, up, -Vec3::UnitX(), kWallAlphaLit}}};
+// The floor, as the rectangle around it, and then each wall.
+std::vector<LitFace> faces_of(const Room& room) {
+  Eigen::AlignedBox2d around;
+  for (const Point2& corner : room.outline) around.extend(corner);
+  const Point2 low = around.min() + Point2::Constant(kSkin);
+  const Point2 size = around.sizes() - Point2::Constant(2 * kSkin);
+  const double bottom = room.floor + kSkin;
+  const Vec3 up(0, 0, room.ceiling - room.floor - kSkin);
+  std::vector<LitFace> faces = {
+      {{low.x(), low.y(), bottom}, {size.x(), 0, 0}, {0, size.y(), 0}, Vec3::UnitZ(), kFloorAlpha}};
+  for (std::size_t i = 0; i < room.outline.size(); ++i) {
+    const Point2& from = room.outline[i];
+    const Point2 edge = room.outline[(i + 1) % room.outline.size()] - from;
+    const Point2 inward = Point2(-edge.y(), edge.x()).normalized();
+    const Point2 along = edge.normalized() * kSkin;
+    const Point2 corner = from + kSkin * inward + along;
+    const Point2 length = edge - 2 * along;
+    faces.push_back({{corner.x(), corner.y(), bottom},
+                     {length.x(), length.y(), 0},
+                     up,
+                     {inward.x(), inward.y(), 0},
+                     kWallAlphaLit});
+  }
+  return faces;
 }
 
 /// 0..1, saturating as film does.
@@ -58,17 +70,18 @@ Marker draw_glow(const Room& room, const Vec3& point, const desc::Light& light, 
   marker.type = Marker::TRIANGLE_LIST;
   marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
   marker.color = color(1.0F, 1.0F, 1.0F, 1.0F);
-  const Vec3 lamp = room.pose.inverse() * point;
   const Eigen::Vector3f c = light.diffuse / std::max(light.diffuse.maxCoeff(), 1e-3F);
-  for (const LitFace& face : faces_of(room.size)) {
+  for (const LitFace& face : faces_of(room)) {
     const auto put = [&](int i, int j) {
       const Vec3 at = face.corner + face.u * i / kCells + face.v * j / kCells;
-      const auto alpha = static_cast<float>(face.alpha * brightness(face, at, lamp, level));
-      marker.points.push_back(to_point(at - lamp));
+      const auto alpha = static_cast<float>(face.alpha * brightness(face, at, point, level));
+      marker.points.push_back(to_point(at - point));
       marker.colors.push_back(color(c[0], 0.93F * c[1], 0.6F * c[2], alpha));
     };
     for (int i = 0; i < kCells; ++i) {
       for (int j = 0; j < kCells; ++j) {
+        const Vec3 middle = face.corner + face.u * (i + 0.5) / kCells + face.v * (j + 0.5) / kCells;
+        if (face.normal.z() > 0.0 && !room.contains(middle.head<2>())) continue;
         for (const auto& [a, b] : {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1),
                                    std::pair(0, 0), std::pair(1, 1), std::pair(0, 1)}) {
           put(i + a, j + b);

@@ -136,12 +136,11 @@ void Overlays::add_glow(const sim::Structure& structure, std::uint32_t light) {
   if (entry.light.type == desc::Light::Type::kDirectional) return;
   if (entry.link != UINT32_MAX && structure.links[entry.link].moves) return;
   const Vec3 place = described_pose(structure, entry).position;
-  const Room* room = room_around(rooms_, place);
-  if (room == nullptr) return;
+  if (home_->get().room_at(place) == nullptr) return;
   Overlay overlay;
   overlay.of = Of::kLight;
   overlay.index = light;
-  overlay.offset = {place, room->pose.rotation};
+  overlay.offset.position = place;
   overlay.storey = storey_suffix(structure, entry.model, place.z());
   put(glows_, entry.name, std::move(overlay));
 }
@@ -204,25 +203,17 @@ void Overlays::add_label(const sim::Structure& structure, std::uint32_t device) 
 }
 
 void Overlays::add_room_labels() {
-  for (const Room& room : rooms_) {
+  for (const Room& room : home_->get().rooms) {
+    Eigen::AlignedBox2d around;
+    for (const Point2& corner : room.outline) around.extend(corner);
+    const Point2 middle = around.center() - Point2(0.0, around.sizes().y() / 4);
     Overlay overlay;
-    overlay.storey = room.storey;
-    overlay.offset.position = room.pose * Vec3(0.0, -room.size.y() / 4, kRoomTextAt);
-    Overlay& kept = put(room_labels_, room.building + "/" + room.name, std::move(overlay));
+    overlay.storey = " " + std::to_string(room.storey);
+    overlay.offset.position = {middle.x(), middle.y(), room.floor + kRoomTextAt};
+    Overlay& kept = put(room_labels_, room.model + "/" + room.name, std::move(overlay));
     show(kept, text_marker(room.name, kRoomTextHeight, color(1.0F, 1.0F, 1.0F, 1.0F)),
-         "labels" + room.storey);
+         "labels" + kept.storey);
   }
-}
-
-bool Overlays::find_other_rooms(const sim::Structure& structure) {
-  std::vector<std::shared_ptr<const desc::Model>> buildings;
-  for (const auto& model : structure.models) {
-    if (is_building(*model)) buildings.push_back(model);
-  }
-  if (buildings == buildings_) return false;
-  buildings_ = std::move(buildings);
-  rooms_ = find_rooms(structure);
-  return true;
 }
 
 void Overlays::drop(Named& all, Array& gone) {
@@ -250,8 +241,9 @@ void Overlays::keep(Named& all, const Changes& changes, Array& gone) {
 }
 
 void Overlays::on_structure(const sim::Structure& structure, const Changes& changes, Array& gone) {
-  const bool other_rooms = find_other_rooms(structure);
+  const bool other_rooms = home_ != structure.home;
   if (other_rooms) {
+    home_ = structure.home;
     drop(room_labels_, gone);
     drop(glows_, gone);
     add_room_labels();
@@ -321,7 +313,7 @@ bool Overlays::glow(const sim::Snapshot& snapshot, Overlay& lamp) {
   const double level = (*snapshot.light_levels)[lamp.index];
   if (level == lamp.level) return false;
   lamp.level = level;
-  const Room* room = room_around(rooms_, lamp.offset.position);
+  const Room* room = home_->get().room_at(lamp.offset.position);
   const desc::Light& light = snapshot.structure->lights[lamp.index].light;
   if (level > 0.0) {
     show(lamp, draw_glow(*room, lamp.offset.position, light, level), "lit rooms" + lamp.storey);

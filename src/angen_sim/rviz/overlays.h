@@ -58,8 +58,6 @@ class Overlays {
   void add_device(const sim::Structure& structure, std::uint32_t device);
   void add_label(const sim::Structure& structure, std::uint32_t device);
   void add_room_labels();
-  /// Whether buildings came or went; then rooms are those of now.
-  bool find_other_rooms(const sim::Structure& structure);
   /// Updates the indices of overlays; those of removed entries are added to `gone`.
   static void keep(Named& all, const Changes& changes, Array& gone);
   static void drop(Named& all, Array& gone);
@@ -76,8 +74,7 @@ class Overlays {
 
   std::int32_t& next_id_;
   Readings& readings_;
-  std::vector<std::shared_ptr<const desc::Model>> buildings_;
-  std::vector<Room> rooms_;  // of these
+  std::shared_ptr<const DerivedHome> home_;  // whose rooms are shown
   Named lamps_;
   Named beams_;
   Named captions_;

@@ -16,34 +16,65 @@ constexpr double kWallGap = 0.5;     // m: faces of two rooms that near have a w
 constexpr double kHysteresis = 3.0;  // dB below the threshold it is quiet again
 constexpr double kBeside = 3.0;      // m: tolerance above and below a room for sources in it
 
-/// Area (m^2) of the wall between two adjacent rooms; 0 for others.
-double shared_wall(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const double gap = std::max(b.min()[axis] - a.max()[axis], a.min()[axis] - b.max()[axis]);
-    if (gap < 0.0 || gap > kWallGap) continue;
-    double area = 1.0;
-    for (const int across : {(axis + 1) % 3, (axis + 2) % 3}) {
-      const double overlap =
-          std::min(a.max()[across], b.max()[across]) - std::max(a.min()[across], b.min()[across]);
-      area *= std::max(0.0, overlap);
-    }
-    if (area > 0.0) return area;
+double perimeter(const Polygon& polygon) {
+  double length = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    length += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
   }
-  return 0.0;
+  return length;
+}
+
+/// m of the edge from a to b before which, outside of its room, the edge from c to d faces it.
+double facing(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
+  constexpr double kParallel = 0.05;
+  const Point2 along = (b - a).normalized();
+  const Point2 outward(along.y(), -along.x());
+  if ((d - c).normalized().dot(along) > kParallel - 1.0) return 0.0;
+  const double gap = (0.5 * (c + d) - a).dot(outward);
+  if (gap < 0.0 || gap > kWallGap) return 0.0;
+  return std::max(0.0,
+                  std::min((b - a).norm(), (c - a).dot(along)) - std::max(0.0, (d - a).dot(along)));
+}
+
+Eigen::AlignedBox2d flat_box(const Room& room) {
+  Eigen::AlignedBox2d box;
+  for (const Point2& corner : room.outline) box.extend(corner);
+  return box;
+}
+
+/// Area (m^2) of the wall or floor between two adjacent rooms; 0 for others.
+double shared_wall(const Room& a, const Room& b) {
+  const double height = std::min(a.ceiling, b.ceiling) - std::max(a.floor, b.floor);
+  if (height <= 0.0) {
+    if (-height > kWallGap) return 0.0;
+    const Eigen::AlignedBox2d both = flat_box(a).intersection(flat_box(b));
+    return both.isEmpty() ? 0.0 : std::min({both.volume(), a.area, b.area});
+  }
+  double length = 0.0;
+  for (std::size_t i = 0; i < a.outline.size(); ++i) {
+    for (std::size_t k = 0; k < b.outline.size(); ++k) {
+      length += facing(a.outline[i], a.outline[(i + 1) % a.outline.size()], b.outline[k],
+                       b.outline[(k + 1) % b.outline.size()]);
+    }
+  }
+  return length * height;
 }
 
 /// The layer of the world, endless to the sides, in which the rooms of a plan are.
 Eigen::AlignedBox3d layer_of(const RoomPlan& plan) {
-  const Eigen::Isometry3d frame(Eigen::Translation3d(plan.frame.position) * plan.frame.rotation);
-  Eigen::AlignedBox3d box;
-  for (const Eigen::AlignedBox3d& room : plan.rooms) box.extend(room.transformed(frame));
-  return {Vec3(-HUGE_VAL, -HUGE_VAL, box.min().z() - kBeside),
-          Vec3(HUGE_VAL, HUGE_VAL, box.max().z() + kBeside)};
+  double low = HUGE_VAL;
+  double high = -HUGE_VAL;
+  for (const Room* room : plan.rooms) {
+    low = std::min(low, room->floor);
+    high = std::max(high, room->ceiling);
+  }
+  return {Vec3(-HUGE_VAL, -HUGE_VAL, low - kBeside), Vec3(HUGE_VAL, HUGE_VAL, high + kBeside)};
 }
 
-double surface(const Eigen::AlignedBox3d& room) {
-  const Vec3 s = room.sizes();
-  return 2.0 * (s.x() * s.y() + s.y() * s.z() + s.z() * s.x());
+double surface(const Room& room) {
+  double around = perimeter(room.outline);
+  for (const Polygon& hole : room.holes) around += perimeter(hole);
+  return 2.0 * room.area + around * (room.ceiling - room.floor);
 }
 
 }  // namespace
@@ -114,12 +145,13 @@ class Microphone : public Sensor {
   Hearing listen(const View& view, const Vec3& here) const {
     Hearing hearing;
     for (const DeviceView& climate : climates(view)) {
-      RoomPlan plan = room_plan(climate);
+      RoomPlan plan = room_plan(view, climate.model);
       const int room = plan.at(here);
       if (room != RoomPlan::kOutside) {
         hearing.within = layer_of(plan);
         hearing.gains = field(view, plan, hearing.within).gains(room);
-        hearing.plans = {std::move(plan)};
+        hearing.plans.clear();
+        hearing.plans.push_back(std::move(plan));
         hearing.here = {0, room};
         return hearing;
       }
@@ -132,17 +164,15 @@ class Microphone : public Sensor {
   SoundField field(const View& view, const RoomPlan& plan,
                    const Eigen::AlignedBox3d& within) const {
     std::vector<double> surfaces;
-    for (const Eigen::AlignedBox3d& room : plan.rooms) surfaces.push_back(surface(room));
+    for (const Room* room : plan.rooms) surfaces.push_back(surface(*room));
     SoundField field(surfaces, absorption_);
     for (std::size_t i = 0; i < plan.rooms.size(); ++i) {
       for (std::size_t k = 0; k < i; ++k) {
-        const double area = shared_wall(plan.rooms[i], plan.rooms[k]);
+        const double area = shared_wall(*plan.rooms[i], *plan.rooms[k]);
         if (area > 0.0) field.pass(static_cast<int>(i), static_cast<int>(k), area * wall_);
       }
     }
-    for (const DeviceView& leaf : view.devices("gap", within)) {
-      const RoomOpening opening = room_opening(leaf, plan);
-      if (opening.first == opening.second) continue;
+    for (const RoomOpening& opening : room_openings(view, plan, within)) {
       const double open = opening.height * opening.gap;
       const double shut = opening.height * std::max(0.0, opening.width - opening.gap);
       const bool inside =

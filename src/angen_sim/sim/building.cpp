@@ -44,6 +44,9 @@ Building::Building(const desc::World& world, std::uint64_t seed, std::shared_ptr
       warnings_.push_back(placed.what() + std::string(" (ignored)"));
     }
   }
+  std::vector<const desc::Model*> all;
+  for (const desc::Model& model : world_.models) all.push_back(&model);
+  find_storeys(all);
   for (const desc::Model& model : world_.models) build(model, nullptr, 0);
   for (WorldLight& own : lights_) make_lamp(*own.live, 0);
 }
@@ -220,6 +223,7 @@ void Building::build(desc::Model model, const std::vector<SensorInstance>* attac
                      Nanoseconds now) {
   auto live = std::make_unique<LiveModel>();
   model.tolerant = model.tolerant || world_.tolerant;
+  live->storeys = storeys_;
   live->desc = live->read = std::make_shared<const desc::Model>(std::move(model));
   make_instances(*live, plugins_, *catalog_, warnings_);
   for (std::size_t i = 0; attached != nullptr && i < attached->size(); ++i) {
@@ -245,10 +249,13 @@ void Building::build(desc::Model model, const std::vector<SensorInstance>* attac
 
 void Building::add(desc::Model model, Nanoseconds now) {
   const std::size_t before = warnings_.size();
+  const bool has_storeys = describes_storeys(model);
+  if (has_storeys) find_storeys({&model});
   try {
     build(std::move(model), nullptr, now);
   } catch (...) {
     warnings_.resize(before);  // those of a model that is not there
+    if (has_storeys) find_storeys({});
     throw;
   }
 }
@@ -293,7 +300,9 @@ void Building::erase(const std::string& name) {
     remove_names(**model);
     home_changed_ = home_changed_ || is_of_home(**model);
     const auto number = static_cast<std::size_t>(model - models_.begin());
+    const bool has_storeys = describes_storeys(*(*model)->desc);
     models_.erase(model);
+    if (has_storeys) find_storeys({});
     note_change(number);
     return;
   }

@@ -110,6 +110,8 @@ class Building {
   std::shared_ptr<const Structure> structure();
   /// The first model whose number, or whose parts' numbers, structure() will change.
   std::size_t renumbered_from() const { return renumbered_from_; }
+  /// As the last structure() has it.
+  const Home& home() const { return structure_->home->get(); }
   /// The numbers in Structure at which that model's parts begin.
   Numbering numbering(std::size_t model) const;
   /// Levels (0..1) in the order of Structure::lights.
@@ -146,6 +148,7 @@ class Building {
   std::vector<std::shared_ptr<const Plugin>> device_plugins();
   void append(LiveModel& live, Structure& all) const;
   HomeSurvey survey_home() const;
+  void find_storeys(const std::vector<const desc::Model*>& added);
   std::size_t number_of(const LiveModel& live) const;
   void make_engines();
   void check_names(const LiveModel& live) const;
@@ -187,7 +190,8 @@ class Building {
   std::uint64_t revision_ = 0;
   std::shared_ptr<const Structure> structure_;  // the last one
   std::size_t renumbered_from_ = 0;
-  bool home_changed_ = true;  // since the last structure()
+  bool home_changed_ = true;     // since the last structure()
+  std::vector<Storey> storeys_;  // that are described
   struct DevicesByField {
     std::vector<FoundDevice>
         fixed;  // by height: a storey's are found without going through a tower

@@ -64,6 +64,7 @@ std::shared_ptr<const Structure> Building::structure() {
   all->revision = revision_;
   all->physics = physics_;
   all->gravity = gravity_;
+  all->storeys = storeys_;
   all->device_plugins = device_plugins();
   if (std::exchange(home_changed_, false) || !all->home) {
     all->home = std::make_shared<const DerivedHome>(survey_home());

@@ -39,7 +39,9 @@ class DeviceMaker {
         model_(*live.desc),
         catalog_(catalog),
         warnings_(warnings),
-        info_(info_of(*live.desc)) {}
+        info_(info_of(*live.desc)) {
+    info_.storeys = live.storeys;
+  }
 
   void make_all(const std::vector<desc::Plugin>& world_plugins) {
     for (std::size_t i = 0; i < model_.plugins.size(); ++i) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "home/solids.h"
 #include "sim/building.h"
 
 namespace angen::sim {
@@ -10,7 +11,24 @@ namespace {
 
 using Passage = Kind::Passage;
 
+constexpr double kWallHeight = 1.0;  // m
+constexpr double kSlabArea = 1.0;    // m^2
+
 Passage passage_of(const DeviceInstance& device) { return device.plugin->kind().passage(); }
+
+// As what the home module takes for one: the sensors and furniture that are spawned are not.
+bool may_be_wall(const desc::Model& model) {
+  if (!model.is_static) return false;
+  for (const desc::Link& link : model.links) {
+    for (const desc::Collision& collision : link.collisions) {
+      const auto box = box_around(collision.shape, model.pose * link.pose * collision.pose);
+      if (!box) return true;  // a ground
+      const Vec3 size = box->bounds().sizes();
+      if (size.z() >= kWallHeight || size.x() * size.y() >= kSlabArea) return true;
+    }
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -18,14 +36,26 @@ bool is_of_home(const LiveModel& live) {
   const auto is_passage = [](const DeviceInstance& device) {
     return passage_of(device) != Passage::kNone;
   };
-  return live.desc->is_static || !live.desc->home.empty() ||
+  return !live.desc->home.empty() || may_be_wall(*live.desc) ||
          std::any_of(live.devices.begin(), live.devices.end(), is_passage);
+}
+
+bool describes_storeys(const desc::Model& model) {
+  return !model.home.rooms.empty() || !model.home.storeys.empty();
+}
+
+void Building::find_storeys(const std::vector<const desc::Model*>& added) {
+  std::vector<std::pair<const desc::HomeParts*, Pose>> parts = {{&world_.home, Pose{}}};
+  for (const auto& live : models_) parts.emplace_back(&live->desc->home, pose_of(*live));
+  for (const desc::Model* model : added) parts.emplace_back(&model->home, model->pose);
+  storeys_ = described_storeys(parts);
 }
 
 HomeSurvey Building::survey_home() const {
   HomeSurvey survey;
   survey.parts = world_.home;
   survey.site = world_.site;
+  survey.storeys = storeys_;
   for (const auto& live : models_) {
     const std::size_t number = survey.models.size();
     survey.models.push_back({live->desc, pose_of(*live)});

@@ -8,4 +8,7 @@ namespace angen::sim {
 /// door or elevator, or may be a wall.
 bool is_of_home(const LiveModel& live);
 
+/// Whether it gives storeys, or rooms from which they follow.
+bool describes_storeys(const desc::Model& model);
+
 }  // namespace angen::sim

@@ -128,6 +128,7 @@ struct LiveModel {
   Parts parts;
   std::vector<DeviceInstance> devices;
   std::vector<SensorInstance> sensors;
+  std::vector<Storey> storeys;     // of the world when it came
   std::int64_t awake_at = 0;       // the last tick at whose end some of it was awake
   MoverIndex::Moment changed = 0;  // when it moved last; an awake one may move in the next tick
   std::uint32_t first_link = 0;    // index of its first link in Structure::links

@@ -41,7 +41,7 @@ struct DeviceInfo {
   std::string name;
   std::shared_ptr<const Plugin> plugin;  // describes the kind, and keeps its library loaded
   std::string library;                   // that the plug-in is in, as its SDF names it
-  std::string joint;                     // of its model that it moves, where it has one of several
+  std::string joint{};                   // of its model that it moves, where it has one of several
 };
 
 struct DeviceEntry : DeviceInfo {
@@ -92,6 +92,7 @@ struct Structure {
   std::vector<std::shared_ptr<const Plugin>> device_plugins;  // of each kind there is or may be
   desc::Physics physics;                                      // as it is set now
   Vec3 gravity = Vec3::Zero();                                // m/s^2
+  std::vector<Storey> storeys;                                // that are described, by elevation
   std::shared_ptr<const DerivedHome> home;                    // of these models
 };
 

@@ -62,6 +62,11 @@ std::vector<DeviceView> InstanceView::devices(const std::string& field,
   return found;
 }
 
+const Home& InstanceView::home() const {
+  queried_.devices = true;  // it changes when models come or go
+  return building_.home();
+}
+
 void InstanceView::cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const {
   queried_.other = true;
   engines_.rays.commit();

@@ -37,6 +37,7 @@ class InstanceView : public View {
   using View::devices;
   std::vector<DeviceView> devices(const std::string& field,
                                   const Eigen::AlignedBox3d& within) const override;
+  const Home& home() const override;
   void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override;
   Eigen::Vector3f reflectance(std::uint32_t shape) const override {
     return engines_.rays.reflectance(shape);

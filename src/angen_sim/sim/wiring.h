@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "desc/world.h"
+#include "home/survey.h"
 #include "plugin/view.h"
 
 namespace angen::sim {
@@ -16,6 +17,7 @@ class ModelWiring : public Wiring {
 
   std::string name() const override { return name_; }
   std::string model() const override { return model_.name; }
+  std::vector<Room> rooms() const override { return rooms_of(model_.home, Pose{}, model_.name); }
   bool has_joint(const std::string& joint) const override;
   std::vector<std::string> joint_names() const override;
   JointRef joint(const std::string& joint) override;

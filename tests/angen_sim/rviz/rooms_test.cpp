@@ -49,24 +49,6 @@ sim::Structure structure_of(const std::vector<desc::Model>& models) {
   return structure;
 }
 
-TEST(Rooms, OneForEachFloorThatIsLargeEnough) {
-  const std::vector<Room> rooms = find_rooms(structure_of({house(0.0), house(4.0)}));
-  ASSERT_EQ(rooms.size(), 2U);
-  EXPECT_EQ(rooms[0].name, "kitchen");
-  EXPECT_EQ(rooms[0].storey, " 0");
-  EXPECT_EQ(rooms[1].storey, " 1");
-  EXPECT_LT((rooms[1].pose.position - Vec3(2.0, 1.5, 4.0)).norm(), 1e-9);
-  EXPECT_LT((rooms[0].size - Vec3(4.0, 3.0, 2.5)).norm(), 1e-9);
-}
-
-TEST(Rooms, ContainPointsUpToTheirCeiling) {
-  const std::vector<Room> rooms = find_rooms(structure_of({house(0.0), house(4.0)}));
-  EXPECT_EQ(room_around(rooms, {1.0, 1.0, 2.0}), &rooms[0]);
-  EXPECT_EQ(room_around(rooms, {1.0, 1.0, 6.0}), &rooms[1]);
-  EXPECT_EQ(room_around(rooms, {1.0, 1.0, 3.0}), nullptr);
-  EXPECT_EQ(room_around(rooms, {4.5, 1.0, 1.0}), nullptr);
-}
-
 TEST(Groups, OfABuildingHaveItsStoreyAndSide) {
   const sim::Structure structure = structure_of({house(4.0)});
   const std::vector<std::string> expected = {"floors 1",      "floors 1",      "ceilings 1",
@@ -102,8 +84,26 @@ std::pair<float, float> strongest(const visualization_msgs::Marker& glow, double
   return found;
 }
 
+/// L-shaped, 4 x 3 m without its upper right quarter.
+Room corner_room(double floor) {
+  Room room;
+  room.outline = {{0, 0}, {4, 0}, {4, 1.5}, {2, 1.5}, {2, 3}, {0, 3}};
+  room.floor = floor;
+  room.ceiling = floor + 2.5;
+  return room;
+}
+
+TEST(Storey, OfAModelIsByTheStoreysThatTheWorldDescribes) {
+  sim::Structure structure = structure_of({house(0.0)});
+  EXPECT_EQ(storey_suffix(structure, 0, 3.0), " 0");
+  structure.storeys = {{-1, "", -2.6, 2.6}, {0, "", 0.0, 2.9}, {1, "", 2.9, 2.6}};
+  EXPECT_EQ(storey_suffix(structure, 0, 3.0), " 1");
+  EXPECT_EQ(storey_suffix(structure, 0, -2.0), " -1");
+}
+
 TEST(Glow, GrowsWithTheLampsLevelOnFloorAndWalls) {
-  const Room room = find_rooms(structure_of({house(0.0)})).front();
+  Room room = corner_room(0.0);
+  room.outline = {{0, 0}, {4, 0}, {4, 3}, {0, 3}};
   const Vec3 lamp(2.0, 1.5, 2.2);
   const auto dim = strongest(draw_glow(room, lamp, {}, 0.1), -2.2);
   const auto full = strongest(draw_glow(room, lamp, {}, 1.0), -2.2);
@@ -113,13 +113,26 @@ TEST(Glow, GrowsWithTheLampsLevelOnFloorAndWalls) {
 }
 
 TEST(Glow, LiesInTheRoom) {
-  const std::vector<Room> rooms = find_rooms(structure_of({house(4.0)}));
+  const Room room = corner_room(4.0);
   const Vec3 lamp(1.0, 1.0, 6.2);
-  const visualization_msgs::Marker glow = draw_glow(rooms.front(), lamp, {}, 1.0);
+  const visualization_msgs::Marker glow = draw_glow(room, lamp, {}, 1.0);
   ASSERT_EQ(glow.points.size(), glow.colors.size());
-  for (const geometry_msgs::Point& p : glow.points) {
-    EXPECT_NE(room_around(rooms, lamp + Vec3(p.x, p.y, p.z)), nullptr);
+  double area = 0.0;  // of the floor that is lit
+  for (std::size_t i = 0; i < glow.points.size(); i += 3) {
+    Vec3 middle = lamp;
+    std::vector<Vec3> corners;
+    for (std::size_t k = i; k < i + 3; ++k) {
+      corners.emplace_back(glow.points[k].x, glow.points[k].y, glow.points[k].z);
+      middle += corners.back() / 3.0;
+    }
+    EXPECT_TRUE(room.at_height(middle.z()));
+    const bool inside = room.contains(middle.head<2>());
+    EXPECT_TRUE(inside || room.distance(middle.head<2>()) < 0.5) << middle.transpose();
+    if (middle.z() < room.floor + 0.03) {
+      area += (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / 2;
+    }
   }
+  EXPECT_NEAR(area, 9.0, 1.0);
 }
 
 }  // namespace

@@ -12,9 +12,7 @@ std::string room(const std::string& inside, const std::string& name = "hall") {
   return "<angen:room name='" + name + "'>" + inside + "</angen:room>";
 }
 
-std::string in_bed(const std::string& inside) {
-  return in_model("<link name='l'/>" + inside);
-}
+std::string in_bed(const std::string& inside) { return in_model("<link name='l'/>" + inside); }
 
 std::string problem_of(const std::string& text) {
   try {
@@ -53,11 +51,11 @@ TEST(Home, IsReadFromAWorld) {
 }
 
 TEST(Home, IsReadFromANestedModel) {
-  const desc::World world = read(in_model(
-      "<link name='l'/><model name='part'><pose>1 2 3 0 0 1.5707963267948966</pose>"
-      "<link name='l'/>" +
-      room(kSquare) + "<angen:thing>bed</angen:thing>" +
-      "<angen:place posture='lie'>1 0 0.5 0</angen:place></model>"));
+  const desc::World world =
+      read(in_model("<link name='l'/><model name='part'><pose>1 2 3 0 0 1.5707963267948966</pose>"
+                    "<link name='l'/>" +
+                    room(kSquare) + "<angen:thing>bed</angen:thing>" +
+                    "<angen:place posture='lie'>1 0 0.5 0</angen:place></model>"));
   const desc::HomeParts& home = world.models.at(0).home;
   ASSERT_EQ(home.rooms.size(), 1U);
   EXPECT_NEAR(home.rooms[0].outline[1].x(), 1.0, 1e-9);

@@ -81,7 +81,7 @@ class CountingPlugin : public Plugin {
 TEST(StateChanges, ASensorSamplesAgainForDevicesThatItQueried) {
   const auto catalog = std::make_shared<Catalog>();
   std::string sensors;
-  for (const char* field : {"power", "rooms"}) {
+  for (const char* field : {"power", "temperatures"}) {
     catalog->add(std::string("lib") + field + ".so", std::make_shared<CountingPlugin>(field));
     sensors += custom(field, field, "");
   }
@@ -89,7 +89,8 @@ TEST(StateChanges, ASensorSamplesAgainForDevicesThatItQueried) {
   // nothing.
   const std::string text =
       "<sdf version='1.6'><world name='w'><model name='flat'><static>true</static><link name='l'/>"
-      "<plugin name='c' filename='libroom_climate.so'><room>-3 -3 0 3 2 2.5</room></plugin></model>"
+      "<angen:room name='r'><angen:polygon>-3 -3 3 -3 3 2 -3 2</angen:polygon></angen:room>"
+      "<plugin name='c' filename='libroom_climate.so'/></model>"
       "<model name='stove'><static>true</static><link name='l'/><plugin name='h' "
       "filename='libheater.so'/></model>" +
       body("it", "<box><size>0.05 0.05 0.05</size></box>", "0 0 1 0 0 0", true, sensors) +

@@ -33,6 +33,7 @@ class Forgetful : public View {
                                   const Eigen::AlignedBox3d& within) const override {
     return view_.devices(field, within);
   }
+  const Home& home() const override { return view_.home(); }
   void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override {
     view_.cast(rays, hits);
   }
