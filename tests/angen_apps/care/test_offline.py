@@ -20,7 +20,7 @@ def lived(name: str) -> Watched:
     """A day of worlds/care."""
     rules = read_rules(ROOT / 'src/angen_apps/config/care.yaml')
     watched = Watched(rules, ROOT / f'worlds/care/{name}.world', 1)
-    watched.run(DAY, read_day(ROOT / f'worlds/care/{name}.csv', rules.starts))
+    watched.run(DAY, read_day(ROOT / f'worlds/care/{name}.csv', watched.engine.starts))
     return watched
 
 
@@ -71,7 +71,7 @@ def test_the_day_does_not_depend_on_how_it_is_cut(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr('angen_apps.care.offline.SLICE', 7.3)
     rules = wrong.rules
     again = Watched(rules, ROOT / 'worlds/care/wrong.world', 1)
-    again.run(2 * 60 * MINUTE, read_day(ROOT / 'worlds/care/wrong.csv', rules.starts))
+    again.run(2 * 60 * MINUTE, read_day(ROOT / 'worlds/care/wrong.csv', again.engine.starts))
     until = again.time
     assert [c for c in again.changes if c.time < until - 1] == [
         c for c in wrong.changes if c.time < until - 1]

@@ -9,8 +9,9 @@ import pytest
 from angen_apps.care.membership import Trapezoid
 from angen_apps.care.rules import Rules
 from angen_apps.care.rules_file import read_rules
-from angen_apps.care.sources import check_sources
+from angen_apps.care.sources import at_home, check_sources
 from angen_tools.common.failure import Failure
+from angen_tools.common.home import Home, Room
 
 ROOT = Path(__file__).resolve().parents[3]
 RIGHT = '''starts: 6:00
@@ -102,3 +103,33 @@ def test_what_does_not_exist_is_told(tmp_path: Path) -> None:
 def test_the_shipped_rules_are_right() -> None:
     rules = read_rules(ROOT / 'src/angen_apps/config/care.yaml')
     assert len(rules.rules) == 6
+
+
+SQUARE = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)]
+HOME = Home(start='2026-03-21T07:30:00', rooms=[
+    Room(name, use, 0, SQUARE, [], 0.0, 2.5, 16.0, False)
+    for name, use in (('a', 'kitchen'), ('b', 'kitchen'), ('c', 'bathroom'))])
+ROOMS = {'pir/p1': 'a', 'pir/p2': 'b', 'pir/p3': 'c', 'rfid/r': 'a'}
+
+
+def by_room(folder: Path, room: str) -> Rules:
+    text = f"signals:\n  moves: {{of: pir/*, in: {room}, is: motion}}\nrules:\n" \
+        "  - {name: r, reason: x, when: [moves]}\n"
+    return at_home(rules_of(folder, text), HOME, ROOMS)
+
+
+@pytest.mark.parametrize('room, of', [('kitchen', ('pir/p1', 'pir/p2')), ('c', ('pir/p3',)),
+                                      ('[bathroom, a]', ('pir/p1', 'pir/p3'))])
+def test_a_signal_means_the_sensors_in_rooms_of_a_name_or_use(tmp_path: Path, room: str,
+                                                              of: tuple[str, ...]) -> None:
+    assert by_room(tmp_path, room).signals['moves'].of == of
+
+
+def test_the_home_says_when_the_day_begins_unless_the_rules_do(tmp_path: Path) -> None:
+    assert by_room(tmp_path, 'a').starts == 7.5 * 3600
+    assert at_home(rules_of(tmp_path, RIGHT), HOME, ROOMS).starts == 6 * 3600
+
+
+def test_a_room_that_there_is_not_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(Failure, match="my.yaml:2: .*no room 'kitchn'; did you mean kitchen"):
+        by_room(tmp_path, 'kitchn')

@@ -1,3 +1,4 @@
+from dataclasses import replace
 from math import exp, isnan, pi
 
 import numpy as np
@@ -5,18 +6,31 @@ import pytest
 
 from angen_apps.locate.belief import Belief, Evidence, Model
 from angen_apps.locate.site import Site, Thing, make_site
+from angen_tools.common.failure import Failure
+from angen_tools.common.home import Door, Elevator, Home, Landing, Room
 
-# three rooms of 4 x 4 m in a row, doors between them, a PIR in each, a reader in the first
-ROOMS = [0, 0, 0, 4, 4, 3, 4.1, 0, 0, 8, 4, 3, 8.1, 0, 0, 12, 4, 3]
+HALL, STUDY, DEN = ((0.0, 4.0), (4.1, 8.0), (8.1, 12.0))
+
+
+def described(*doors: Door) -> Home:
+    """Three rooms of 4 x 4 m in a row."""
+    rooms = [Room(name, 'other', 0, [(x0, 0.0), (x1, 0.0), (x1, 4.0), (x0, 4.0)], [], 0.0, 3.0,
+                  4 * (x1 - x0), False)
+             for name, (x0, x1) in (('hall0', HALL), ('study0', STUDY), ('den0', DEN))]
+    return Home(rooms=rooms, doors=list(doors))
+
+
+def door(name: str, a: str, b: str, kind: str = 'door') -> Door:
+    return Door(name, kind, (a, b), 0.9, 2.0, (0.0, 0.0, 0.0, 0.0))
 
 
 def home(*more: Thing) -> Site:
+    """With doors between them, a PIR in each and a reader in the first."""
     things = [Thing('pir', f'{name}_pir0_a', (x, 0.1, 2.3), 1.57)
               for name, x in (('hall', 2), ('study', 6), ('den', 10))]
-    things += [Thing('door', 'study0', (4.05, 1.0, 0), 1.5708),
-               Thing('door', 'den0', (8.05, 1.0, 0), 1.5708),
-               Thing('rfid', 'gate', (0.1, 2.0, 2.0), 0.0)]
-    return make_site([((0.0, 0.0, 0.0), {'rooms': ROOMS})], [*things, *more])
+    things += [Thing('rfid', 'gate', (0.1, 2.0, 2.0), 0.0)]
+    return make_site(described(door('study0', 'hall0', 'study0'), door('den0', 'den0', 'study0')),
+                     [*things, *more])
 
 
 def read(tag: str, distance: float = 2.0) -> Evidence:
@@ -27,25 +41,34 @@ def silent(**more) -> Evidence:
     return Evidence(reads={'gate': {}}, **more)
 
 
-def test_rooms_are_called_after_their_sensors_and_joined_by_doors():
-    site = home()
-    assert [room.name for room in site.rooms] == ['hall0', 'study0', 'den0']
-    assert site.ways == [(0, 1, 'study0'), (1, 2, 'den0')]
+def test_rooms_are_joined_by_doors_and_openings():
+    assert home().ways == [(0, 1, 'study0'), (1, 2, 'den0')]
+    site = make_site(described(door('front', '', 'hall0'),
+                               door('pane', 'hall0', 'study0', 'window'),
+                               door('arch', 'study0', 'hall0', 'opening')), [])
+    assert site.ways == [(0, 1, '')]
 
 
-def test_named_rooms_keep_their_names():
-    site = make_site([((0, 0, 4), {'rooms': ROOMS[:6], 'names': ['attic']})], [])
-    assert site.rooms[0].name == 'attic1' and site.room_at((1, 1, 5)) == 0
+def test_an_elevator_joins_its_landings():
+    lift = Elevator('lift', (0.0,) * 6 + (1.0,),
+                    [Landing(i, name, (0.0,) * 4) for i, name in enumerate(('hall0', '', 'den0'))])
+    assert make_site(replace(described(), elevators=[lift]), []).ways == [(0, 2, '')]
 
 
-def test_rooms_without_doors_are_open_to_what_they_touch():
-    site = make_site([((0, 0, 0), {'rooms': ROOMS})], [])
-    assert {(a, b) for a, b, _ in site.ways} == {(0, 1), (1, 0), (1, 2), (2, 1)}
+def test_a_sensor_in_a_wall_is_in_its_room():
+    site = home(Thing('pir', 'wall', (2.0, -0.05, 1.0), 0.0), Thing('pir', 'out', (2, -1, 1), 0.0))
+    assert site.of_kind('pir') == {'hall_pir0_a': 0, 'study_pir0_a': 1, 'den_pir0_a': 2, 'wall': 0}
+
+
+def test_a_home_without_rooms_cannot_be_located_in():
+    with pytest.raises(Failure, match='angen:room'):
+        make_site(Home(), [])
 
 
 def test_without_evidence_a_belief_spreads_as_its_rates_say():
-    site = make_site([((0, 0, 0), {'rooms': ROOMS[:12]})], [])
-    belief = Belief(site, Model(leaves=0.15))
+    joined = replace(described(door('arch', 'hall0', 'study0', 'opening')),
+                     rooms=described().rooms[:2])
+    belief = Belief(make_site(joined, []), Model(leaves=0.15))
     belief.chances['a'] = np.array([1.0, 0.0])
     for _ in range(40):
         belief.step(Evidence(), 0.05)

@@ -4,11 +4,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import pytest
 
-from angen_apps.patrol.sight import hidden
+from angen_apps.patrol.sight import door_beside, hidden
+from angen_apps.robot.building import Entity
 from angen_apps.robot.planner import Door
-from angen_apps.robot.views import View, room_of
+from angen_apps.robot.views import View
 
 
 def test_a_leaf_hides_what_is_behind_it_and_not_above() -> None:
@@ -25,8 +25,14 @@ def test_a_view_has_angles_and_a_reach() -> None:
     assert view.holds(points).tolist() == [True, True, False, False, False, False]
 
 
-@pytest.mark.parametrize('sensor, room', [
-    ('kitchen_pir0_a', 'kitchen0'), ('livingroom_switch12', 'livingroom12'),
-    ('entrance_lux1', 'entrance1'), ('p1', 'p1'), ('elevator', 'elevator')])
-def test_a_sensor_tells_its_room(sensor: str, room: str) -> None:
-    assert room_of(sensor) == room
+def test_a_switch_belongs_to_the_door_under_it() -> None:
+    doors = [Door(f'kitchen{floor}', (2.4, 3.94), 0.0, -1.57, 1.0, top=2.1 + 4.0 * floor)
+             for floor in (0, 1)]
+
+    def switch(x: float, y: float, z: float) -> Entity:
+        return Entity('switch', 's', 's', (x, y, z, 0, 0, 0, 1))
+
+    assert door_beside(switch(2.65, 3.94, 2.125), doors) == 'kitchen0'
+    assert door_beside(switch(2.65, 3.94, 6.125), doors) == 'kitchen1'
+    assert door_beside(switch(2.65, 2.0, 2.125), doors) == ''
+    assert door_beside(switch(0, 0, 0), []) == ''

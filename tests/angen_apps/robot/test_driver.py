@@ -61,7 +61,8 @@ class IdealRobot:
 
 
 def driver(robot: IdealRobot, **more: Any) -> Driver:
-    grids = {floor: GridMap(np.full((40, 60), FREE, np.int8), (-0.5, -1.0), 0.05, floor)
+    grids = {floor: GridMap(np.full((40, 60), FREE, np.int8), (-0.5, -1.0), 0.05, floor,
+                            4.0 * floor)
              for floor in (0, 1)}
     made = Driver(robot, ROUTE, grids, Pose(0, 0, 0), lambda: None, **more)
     made.begin(Pose(0.0, 0.0, 0.0), 0)

@@ -14,6 +14,7 @@ from angen_apps.robot.planner import Door
 from angen_apps.seek.ambient import Ambient, RobotNow
 from angen_apps.seek.belief import Belief
 from angen_apps.seek.home import Home, Pir, doors_between
+from angen_tools.common import home as described
 
 COUNT = 20  # cells in a row, 0.5 m apart; a door between the first and the last ten
 DOOR = Door('kitchen0', (5.0, 0.0), np.pi / 2, np.pi, 1.0)
@@ -29,7 +30,8 @@ def home() -> Home:
     robot = Entity('drive', 'robot', 'robot', (0.25, 0.5, 0.0, *still))
     entities = [robot, Entity('luminosity', 'kitchen_lux0', 'l', (9.0, 0.5, 2.0, *still)),
                 Entity('pressure', 'kitchen_mat0', 'm', (8.0, 0.5, 0.0, *still))]
-    return Home(entities, Start(robot, robot, Pose(0.25, 0.5, 0.0), Pose(0, 0, 0)), {0: grid},
+    start = Start(robot, robot, Pose(0.25, 0.5, 0.0), Pose(0, 0, 0))
+    return Home(described.Home(), entities, start, {0: grid},
                 {0: grid}, {0: [DOOR]}, {0: grid}, np.zeros(COUNT, int), at, room,
                 ['hall0', 'kitchen0'], edges,
                 ['kitchen0' if i == COUNT // 2 - 1 else '' for i in range(COUNT - 1)],

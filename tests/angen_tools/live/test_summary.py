@@ -1,6 +1,7 @@
 """The rows that angen watch shows, from messages of /angen/summary."""
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -41,7 +42,8 @@ def message(*entries: SummaryEntry, at: float = 1.0, complete: bool = False) -> 
 @pytest.fixture
 def board(monkeypatch: pytest.MonkeyPatch) -> Board:
     monkeypatch.setattr(summary, 'Mailbox', Mail)
-    return Board(object())
+    listed = [SimpleNamespace(kind='camera', name='eye', room='cellar0')]
+    return Board(SimpleNamespace(entities=lambda: listed))
 
 
 def names(board: Board, **words: Any) -> list[str]:
@@ -56,7 +58,7 @@ def test_rows_come_by_kind_and_name(board: Board) -> None:
     ({'kinds': ['pir']}, ['bath_pir0', 'kitchen_pir0']),
     ({'kinds': ['pir', 'lamp'], 'room': 'Kitchen'}, ['kitchen0', 'kitchen_pir0']),
     ({'names': ['eye', 'kitchen0']}, ['eye', 'kitchen0']),
-    ({'room': 'attic'}, []), ({'active': True}, ['bath_pir0'])])
+    ({'room': 'attic'}, []), ({'room': 'cellar'}, ['eye']), ({'active': True}, ['bath_pir0'])])
 def test_filters(board: Board, words: Any, rows: list[str]) -> None:
     assert names(board, **words) == rows
 

@@ -16,7 +16,7 @@ def care_live(path: Path | None, out: Path) -> int:
     """Follows the running simulator until Ctrl-C, and writes what happened then."""
     from angen_apps.care.live import Live
     rules = read_rules(path or shipped('care.yaml'))
-    live = Live(rules, lambda change: print(line_of(change, rules.starts), flush=True))
+    live = Live(rules, lambda change, starts: print(line_of(change, starts), flush=True))
     print(f'angen: {len(rules.rules)} rules of {rules.path}; warnings are on /angen/warnings; '
           'Ctrl-C ends', file=sys.stderr)
     with suppress(KeyboardInterrupt):
@@ -34,9 +34,10 @@ def care_offline(path: Path | None, world: Path, seconds: float, day: Path | Non
 
     from angen_apps.care.offline import Watched
     rules = read_rules(path or shipped('care.yaml'))
-    orders = read_day(day, rules.starts) if day else []
     began = time.monotonic()
     watched = Watched(rules, world, seed)
+    starts = watched.engine.starts
+    orders = read_day(day, starts) if day else []
     watched.run(seconds, orders)
     wall = time.monotonic() - began
     write(watched.engine, out)
@@ -46,7 +47,7 @@ def care_offline(path: Path | None, world: Path, seconds: float, day: Path | Non
         print(as_json([as_dict(warning) for warning in warnings]))
         return 0
     if warnings:
-        show(table_of(warnings, rules.starts))
+        show(table_of(warnings, starts))
     print(f'{len(warnings)} warnings of {len(rules.rules)} rules, {len(watched.events)} events '
           f'in {watched.time:g} s, simulated in {wall:.1f} s; see {out}/care.png, warnings.csv, '
           'events.csv')

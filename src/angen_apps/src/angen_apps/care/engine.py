@@ -67,6 +67,7 @@ class Engine:
                  now: float = 0.0) -> None:
         """`existing`: each KIND/NAME; `summaries`: their states at the time `now` (s)."""
         self.rules = rules
+        self.starts = rules.starts or 0.0  # time of day at simulated time 0, s
         self.began = self.now = now
         self.signals = {name: LiveSignal(signal, existing, summaries, now)
                         for name, signal in rules.signals.items()}
@@ -161,7 +162,7 @@ class Engine:
         return _and(product, degrees)
 
     def _time_of_day(self, time: float) -> float:
-        return (self.rules.starts + time) % DAY
+        return (self.starts + time) % DAY
 
     def _describe(self, rule: Rule, time: float) -> str:
         parts = []

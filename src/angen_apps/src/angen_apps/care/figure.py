@@ -42,7 +42,7 @@ def draw(engine: Engine, warnings: Sequence[CareWarning], path: Path) -> None:
 
 
 def _title(engine: Engine, count: int) -> str:
-    begin, end = (show_time((engine.rules.starts + t) % DAY)[:-3]
+    begin, end = (show_time((engine.starts + t) % DAY)[:-3]
                   for t in (engine.began, engine.now))
     hours = (engine.now - engine.began) / HOUR
     return f'{count or "No"} warning{"s" * (count != 1)}, {begin} to {end} ({hours:.3g} h)'
@@ -91,7 +91,7 @@ def _label(ax: Any, engine: Engine, warning: CareWarning) -> None:
     """The time and degree at which a warning was raised, on the side where there is room."""
     share = (warning.raised - engine.began) / max(1.0, engine.now - engine.began)
     left = share > 0.85
-    clock = show_time((engine.rules.starts + warning.raised) % DAY)[:-3]
+    clock = show_time((engine.starts + warning.raised) % DAY)[:-3]
     ax.annotate(f'{clock}   degree {warning.degree:.2f}', (warning.raised, 1.06),
                 xytext=(4 if left else -4, 0), textcoords='offset points',
                 ha='right' if left else 'left', va='bottom', fontsize=8.5, color=WARNED, zorder=7)
@@ -117,7 +117,7 @@ def _draw_lane(ax: Any, engine: Engine, condition: Condition, low: float) -> Non
 
 def _draw_window(ax: Any, engine: Engine, window: Trapezoid, low: float, height: float) -> None:
     times = np.linspace(engine.began, engine.now, 2000)
-    degrees = [window.degree((engine.rules.starts + t) % DAY) for t in times]
+    degrees = [window.degree((engine.starts + t) % DAY) for t in times]
     ax.fill_between(times, low, low + height * np.array(degrees), color=NIGHT, linewidth=0,
                     zorder=3)
 
@@ -125,7 +125,7 @@ def _draw_window(ax: Any, engine: Engine, window: Trapezoid, low: float, height:
 def _name_hours(ax: Any, engine: Engine) -> None:
     span = engine.now - engine.began
     step = next((step for step in STEPS if span / step <= 13), STEPS[-1])
-    starts = engine.rules.starts
+    starts = engine.starts
     first = math.ceil((starts + engine.began) / step)
     last = math.floor((starts + engine.now) / step)
     ticks = [k * step - starts for k in range(first, last + 1)]

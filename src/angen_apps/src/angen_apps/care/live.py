@@ -9,7 +9,7 @@ from angen_apps.care.engine import Change, Engine
 from angen_apps.care.messages import WarningPublisher
 from angen_apps.care.rules import Rules
 from angen_apps.care.signals import Event
-from angen_apps.care.sources import check_sources
+from angen_apps.care.sources import at_home, check_sources
 from angen_tools.common.failure import Failure
 from angen_tools.live.client import CONNECT_LIMIT, Client, Mailbox
 
@@ -53,7 +53,7 @@ class Clock:
 class Live:
     """An engine that follows the simulator; a reset of its time starts it again."""
 
-    def __init__(self, rules: Rules, tell: Callable[[Change], None]) -> None:
+    def __init__(self, rules: Rules, tell: Callable[[Change, float], None]) -> None:
         from angen_msgs.msg import Event as Message
         from std_msgs.msg import String
         self._rules, self._tell = rules, tell
@@ -84,6 +84,8 @@ class Live:
             raise Failure(f'{SUMMARY} is not published')
         self._mail.unsubscribe(SUMMARY)
         summaries = {f'{entry.kind}/{entry.name}': entry.text for entry in found[0].entries}
+        rooms = {f'{entity.kind}/{entity.name}': entity.room for entity in entities}
+        self._rules = at_home(self._rules, self._client.home(), rooms)
         check_sources(self._rules, summaries, {entity.name for entity in entities})
         self._start = found[0].header.stamp.to_sec()
         self.engine = Engine(self._rules, summaries, summaries, self._start)
@@ -111,6 +113,6 @@ class Live:
 
     def _publish(self, changes: list[Change]) -> None:
         for change in changes:
-            self._tell(change)
+            self._tell(change, self.engine.starts)
         if changes:
             self._publisher.publish(self.engine, changes)

@@ -8,8 +8,9 @@ from angen_apps.care.day import Order
 from angen_apps.care.engine import Change, Engine
 from angen_apps.care.rules import Rules
 from angen_apps.care.signals import Event
-from angen_apps.care.sources import check_sources
+from angen_apps.care.sources import at_home, check_sources
 from angen_tools.common.catalog import kinds, simulator
+from angen_tools.common.home import Home
 from angen_tools.common.progress import Progress
 
 SLICE = 60.0  # simulated s between two progress reports
@@ -23,6 +24,7 @@ class Watched:
         with simulator() as angen:
             self._world = angen.World(str(world), seed=seed)
         existing = set(_existing(self._world))
+        rules = at_home(rules, Home.of_world(self._world), _rooms(self._world))
         names = {key.split('/', 1)[1] for key in existing}
         check_sources(rules, existing, names | set(self._world.models))
         self.rules = rules
@@ -66,6 +68,16 @@ class Watched:
             self.events.append(Event(time, source, kind, event, detail))
             self.changes += self.engine.observe(self.events[-1])
         self.changes += self.engine.advance(self.time)
+
+
+def _rooms(world: Any) -> dict[str, str]:
+    """The name of the room of each KIND/NAME that is in one."""
+    home, found = Home.of_world(world), {}
+    for kind, name, _, pose in world.entities():
+        room = home.room_at(*pose[:3])
+        if room is not None:
+            found[f'{kind}/{name}'] = room.name
+    return found
 
 
 def _existing(world: Any) -> Iterator[str]:

@@ -21,6 +21,7 @@ class Signal:
     tag: str             # only this RFID tag, '' any
     elsewhere: tuple[str, ...]
     line: int
+    rooms: tuple[str, ...] = ()  # names or uses of rooms that `of` is in; none: wherever it is
 
 
 @dataclass(frozen=True)
@@ -52,6 +53,6 @@ class Rules:
     """The contents of a rules file."""
 
     path: Path
-    starts: float  # time of day at simulated time 0, s
+    starts: float | None  # time of day at simulated time 0, s; None: as the home says
     signals: dict[str, Signal]
     rules: tuple[Rule, ...]

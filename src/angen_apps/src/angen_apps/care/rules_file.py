@@ -25,7 +25,7 @@ class _Reader(YamlFile):
 
     def rules(self) -> Rules:
         top = self.entries(self.root, 'a rules file', ('starts', 'signals', 'rules'), ('rules',))
-        starts = self._said(top['starts'], 'starts', time_of_day) if 'starts' in top else 0.0
+        starts = self._said(top['starts'], 'starts', time_of_day) if 'starts' in top else None
         signals = {}
         if 'signals' in top:
             for name, node in self.entries(top['signals'], 'signals').items():
@@ -46,7 +46,7 @@ class _Reader(YamlFile):
             raise self.fail(node, f'{what}: {error}') from None
 
     def _signal(self, name: str, node: Any) -> Signal:
-        parts = self.entries(node, f"signal '{name}'", ('of', 'is', 'tag', 'until_elsewhere'),
+        parts = self.entries(node, f"signal '{name}'", ('of', 'is', 'tag', 'until_elsewhere', 'in'),
                              ('of', 'is'))
         of = self._sources(parts['of'], 'of')
         state = self.text(parts['is'], 'is')
@@ -64,7 +64,11 @@ class _Reader(YamlFile):
         if 'tag' in parts and any(not source.startswith('rfid/') for source in of):
             raise self.fail(parts['tag'], 'only rfid/NAME reads a tag')
         tag = self.text(parts['tag'], 'tag') if 'tag' in parts else ''
-        return Signal(name, of, state, tag, elsewhere, line_of(node))
+        rooms: tuple[str, ...] = ()
+        if 'in' in parts:
+            nodes = self.list(parts['in'], 'in') if is_list(parts['in']) else [parts['in']]
+            rooms = tuple(self.text(each, 'in') for each in nodes)
+        return Signal(name, of, state, tag, elsewhere, line_of(node), rooms)
 
     def _sources(self, node: Any, what: str) -> tuple[str, ...]:
         nodes = self.list(node, what) if is_list(node) else [node]

@@ -96,11 +96,11 @@ class Belief:
         if chances[best] < self.model.known:
             return Answer(tag, '', float(chances[best]), (np.nan,) * 3)
         room = self.site.rooms[best]
-        place = room.center[:2]
+        place = np.array(room.center)
         if tag in self._places and self._places[tag][0] == best:
             place = self._places[tag][1]
         return Answer(tag, room.name, float(chances[best]),
-                      (float(place[0]), float(place[1]), float(room.low[2])))
+                      (float(place[0]), float(place[1]), room.floor))
 
     def _moves(self, is_open: Mapping[str, bool], seconds: float) -> np.ndarray:
         """The chance of each room (column) after a step that began in a room (row)."""

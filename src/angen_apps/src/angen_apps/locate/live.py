@@ -1,7 +1,6 @@
 """angen locate: who is where in the running simulator, by its public topics."""
 from __future__ import annotations
 
-import re
 import sys
 import time
 from contextlib import suppress
@@ -18,12 +17,11 @@ from angen_tools.live.client import CONNECT_LIMIT, Client, Mailbox
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
-KINDS = ('pir', 'rfid', 'pressure', 'door')
+SENSORS = ('pir', 'rfid', 'pressure')
+KINDS = (*SENSORS, 'door')
 HEAD = ('TAG', 'ROOM', 'CHANCE', 'X', 'Y', 'Z')
 REFRESH = 0.5    # s of wall time between two pictures
-START_LIMIT = 30.0  # s of wall time for the first state of climates: a world may just begin
 SILENCE = 30.0   # s of wall time without a message after which the simulator is taken for ended
-INDEXED = re.compile(r'(.+)\[\d+\]$')
 
 
 class Locator:
@@ -101,38 +99,13 @@ class Locator:
 
     def _site(self, entities: list[Any]) -> Site:
         things = [Thing(entity.kind, entity.name, _xyz(entity), yaw_of(entity.pose.orientation))
-                  for entity in entities if entity.kind in (*KINDS, 'elevator')]
-        origins = {entity.topic: entity for entity in entities if entity.kind == 'climate'}
-        if not origins:
-            raise Failure('the world has no climate, which says what rooms there are')
-        mail, states = Mailbox(self.client), {}
-
-        def take(topic: str, message: Any) -> bool:
-            states[topic] = _lists(message)
-            return len(states) == len(origins)
-
-        for topic, entity in origins.items():
-            mail.subscribe(topic, entity.type)
-        if not mail.until(take, START_LIMIT):
-            raise Failure('a climate has not said what rooms there are; is the simulation paused?')
-        return make_site([(_xyz(entity), states[topic]) for topic, entity in origins.items()],
-                         things)
+                  for entity in entities if entity.kind in SENSORS]
+        return make_site(self.client.home(), things)
 
 
 def _xyz(entity: Any) -> tuple[float, float, float]:
     at = entity.pose.position
     return (at.x, at.y, at.z)
-
-
-def _lists(message: Any) -> dict[str, list[Any]]:
-    """The lists of an angen_msgs/Reading, which names their values NAME[0], NAME[1], …"""
-    lists: dict[str, list[Any]] = {}
-    for names, values in ((message.names, message.values), (message.text_names, message.texts)):
-        for name, value in zip(names, values):
-            match = INDEXED.match(name)
-            if match:
-                lists.setdefault(match.group(1), []).append(value)
-    return lists
 
 
 def _cells(answer: Answer) -> list[str]:

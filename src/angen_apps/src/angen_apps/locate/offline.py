@@ -4,40 +4,24 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import Any, Callable
 
-from lxml import etree
-
 from angen_apps.locate.belief import STEP, Answer, Belief, Evidence
 from angen_apps.locate.score import Row, compare
 from angen_apps.locate.site import Site, Thing, make_site
 from angen_apps.maps.gridmap import load_world
 from angen_tools.common.failure import Failure
 from angen_tools.common.geometry import yaw
+from angen_tools.common.home import Home
 from angen_tools.common.progress import Progress
 
 SAMPLE = 0.1  # s, at which PIRs and readers publish
-KINDS = ('pir', 'rfid', 'pressure', 'door', 'elevator')
+KINDS = ('pir', 'rfid', 'pressure')
 
 
 def site_of(world: Any) -> Site:
-    """The home that is a world: rooms by its climates, things where their models stand."""
-    world.run(SAMPLE)
-    things = [_thing(kind, name, pose) for kind, name, _, pose in world.entities()
-              if kind in KINDS]
-    origins = _origins(world)
-    climates = [(origins[name], world.device('climate', name))
-                for name in world.devices('climate') if name in origins]
-    site = make_site(climates, things)
-    if not site.rooms:
-        raise Failure('the world has no climate, which tells what rooms there are')
-    return site
-
-
-def _origins(world: Any) -> dict[str, list[float]]:
-    """x y z of each model."""
-    saved = etree.fromstring(world.save().encode()).find('world')
-    return {element.get('name') or element.findtext('name'):
-            [float(v) for v in element.findtext('pose', '0 0 0').split()[:3]]
-            for element in saved if element.tag in ('model', 'include')}
+    """The home that is a world, with its sensors."""
+    return make_site(Home.of_world(world), [_thing(kind, name, pose)
+                                            for kind, name, _, pose in world.entities()
+                                            if kind in KINDS])
 
 
 def _thing(kind: str, name: str, pose: Any) -> Thing:
@@ -49,9 +33,10 @@ def run(path: str, seconds: float, seed: int, drive: Callable[[Any], None] | Non
         ) -> tuple[list[Row], Site, list[Answer]]:
     """Locates in a world file for so many simulated seconds; `drive` is called ten times a second.
 
-    Failure where the world does not load, has no climate or no reader.
+    Failure where the world does not load, has no rooms or no reader.
     """
     world = load_world(path, seed)
+    world.run(SAMPLE)  # until all have reported
     site = site_of(world)
     if not site.of_kind('rfid'):
         raise Failure('the world has no RFID reader in a room: nobody can be told from another')

@@ -1,7 +1,6 @@
 """Occupancy maps of a world's floors, measured by rays against its geometry."""
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Callable
@@ -12,9 +11,9 @@ from scipy.ndimage import binary_propagation, distance_transform_edt
 from angen_tools.common.catalog import angen_module, simulator
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_text, writing
+from angen_tools.common.home import Home
 
 RESOLUTION = 0.05  # m; cells are centered on its multiples, where the faces of buildings lie
-STOREY = 4.0  # m
 LOW, HIGH = 0.02, 0.45  # m above the floor: a robot of that height can touch things between
 LEVEL = 0.02  # m from one height of rays to the next
 FINE = 0.01  # m between rays: a thing that is thinner both ways may be missed
@@ -27,27 +26,23 @@ FREE, OCCUPIED, UNKNOWN = 0, 100, -1  # as nav_msgs/OccupancyGrid has them
 GRAYS = {FREE: 254, OCCUPIED: 0, UNKNOWN: 205}  # as map_server has them
 
 
-def on_floor(heights: np.ndarray, floor: int) -> np.ndarray:
+def on_floor(home: Home, heights: np.ndarray, floor: int) -> np.ndarray:
     """Which heights z (m) belong to a floor."""
-    return np.asarray(np.floor((heights + 0.5) / STOREY) == floor)
-
-
-def floor_of(z: float) -> int:
-    """The floor that something at height z (m) belongs to."""
-    return math.floor((z + 0.5) / STOREY)
+    return np.array([home.storey_at(z) == floor for z in heights], bool)
 
 
 @dataclass
 class GridMap:
     """A floor from above. cells (rows, columns) int8: FREE, OCCUPIED or UNKNOWN; row 0 lowest y.
 
-    `origin` is the world's x, y (m) of the outer corner of cell (0, 0).
+    `origin` is the world's x, y (m) of the outer corner of cell (0, 0), `height` z of the floor.
     """
 
     cells: np.ndarray
     origin: tuple[float, float]
     resolution: float
     floor: int
+    height: float = 0.0
 
     def cell(self, x: float, y: float) -> tuple[int, int]:
         """(row, column) of a point (m); may lie outside the map."""
@@ -58,11 +53,6 @@ class GridMap:
         """x, y (m) of a cell's middle."""
         return (self.origin[0] + (column + 0.5) * self.resolution,
                 self.origin[1] + (row + 0.5) * self.resolution)
-
-    @property
-    def height(self) -> float:
-        """z of the floor, m."""
-        return self.floor * STOREY
 
     @property
     def extent(self) -> tuple[float, float, float, float]:
@@ -114,9 +104,10 @@ def make_map(world: Any, floor: int, doors: str = 'away', high: float = HIGH) ->
     ground that is not a floor, are UNKNOWN. Failure where the world has no such floor; it
     names those it has.
     """
+    height = Home.of_world(world).elevation(floor)
     _prepare(world, floor, doors)
     surveyor = _Surveyor(world, high)
-    bounds = surveyor.bounds(floor)
+    bounds = surveyor.bounds(height)
     if bounds is None:
         known = ', '.join(str(known) for known in floors(world))
         raise Failure(f'there is no floor {floor}; ' +
@@ -124,20 +115,25 @@ def make_map(world: Any, floor: int, doors: str = 'away', high: float = HIGH) ->
     west, south, columns, rows = bounds
     x = (west + np.arange(columns)) * RESOLUTION
     y = (south + np.arange(rows)) * RESOLUTION
-    occupied = surveyor.surfaces(x, y, floor)
-    ground, room = surveyor.ground(x, y, floor)
+    occupied = surveyor.surfaces(x, y, height)
+    ground, room = surveyor.ground(x, y, height)
     ground &= ~occupied
     cells = np.full((rows, columns), UNKNOWN, np.int8)
     cells[reached(_shrunk(ground & room, ROOM), ground)] = FREE
     cells[occupied] = OCCUPIED
-    return GridMap(cells, (x[0] - RESOLUTION / 2, y[0] - RESOLUTION / 2), RESOLUTION, floor)
+    return GridMap(cells, (x[0] - RESOLUTION / 2, y[0] - RESOLUTION / 2), RESOLUTION, floor,
+                   height)
 
 
 def floors(world: Any) -> list[int]:
-    """The floors 0, 1, … that are not empty, up to the first that is."""
+    """The floors that the world describes; or 0, 1, … that are not empty, up to the first that
+    is."""
+    home = Home.of_world(world)
+    if home.described:
+        return [storey.number for storey in home.storeys]
     surveyor = _Surveyor(world)
     found: list[int] = []
-    while surveyor.bounds(len(found)) is not None:
+    while surveyor.bounds(home.elevation(len(found))) is not None:
         found.append(len(found))
     return found
 
@@ -195,8 +191,9 @@ class _Surveyor:
         self._caster = Caster(world)
         self._high, self._levels = high, np.arange(LOW, high, LEVEL)
 
-    def bounds(self, floor: int) -> tuple[int, int, int, int] | None:
-        """West and south in cells, columns and rows of everything on a floor, with a margin.
+    def bounds(self, floor: float) -> tuple[int, int, int, int] | None:
+        """West and south in cells, columns and rows of everything on a floor at that
+        height, with a margin.
 
         None where rays from afar meet nothing.
         """
@@ -207,7 +204,7 @@ class _Surveyor:
                 origins = np.zeros((len(across), len(self._levels), 3))
                 origins[..., axis] = -sign * REACH
                 origins[..., 1 - axis] = across[:, None]
-                origins[..., 2] = floor * STOREY + self._levels
+                origins[..., 2] = floor + self._levels
                 origins = origins.reshape(-1, 3)
                 ranges = self._cast(origins, axis, sign, 2 * REACH)
                 origins[:, axis] += sign * ranges
@@ -220,11 +217,11 @@ class _Surveyor:
         return (west - margin, south - margin, east - west + 1 + 2 * margin,
                 north - south + 1 + 2 * margin)
 
-    def surfaces(self, x: np.ndarray, y: np.ndarray, floor: int) -> np.ndarray:
+    def surfaces(self, x: np.ndarray, y: np.ndarray, floor: float) -> np.ndarray:
         """Which cells (rows, columns) around y, x (m) hold a surface at the heights of the map."""
         found = np.zeros((len(y), len(x)), bool)
         aside = np.arange(-2, 3) * FINE
-        heights = floor * STOREY + self._levels
+        heights = floor + self._levels
         for axis, along, across in ((0, x, y), (1, y, x)):
             lines = np.array([(a, z) for a in (across[:, None] + aside).ravel() for z in heights])
             starts = np.zeros((len(lines), 3))
@@ -234,13 +231,14 @@ class _Surveyor:
                 rows = np.rint((points[:, 1] - y[0]) / RESOLUTION).astype(int)
                 columns = np.rint((points[:, 0] - x[0]) / RESOLUTION).astype(int)
                 found[rows, columns] = True
-        from_above = self._vertical(x, y, floor * STOREY + self._high, -1, self._high - LOW)
+        from_above = self._vertical(x, y, floor + self._high, -1, self._high - LOW)
         return found | (from_above < self._high - LOW)
 
-    def ground(self, x: np.ndarray, y: np.ndarray, floor: int) -> tuple[np.ndarray, np.ndarray]:
+    def ground(self, x: np.ndarray, y: np.ndarray, floor: float
+               ) -> tuple[np.ndarray, np.ndarray]:
         """Which cells have floor beneath, small gaps apart, and which also HEADROOM above."""
         reach, aside = LOW + STEP_DOWN, 0.4 * RESOLUTION
-        start = floor * STOREY + LOW
+        start = floor + LOW
         ground = np.zeros((len(y), len(x)), bool)
         for dx, dy in ((0, 0), (1, 1), (-1, 1), (1, -1), (-1, -1)):
             ground |= self._vertical(x + dx * aside, y + dy * aside, start, -1, reach) < reach

@@ -10,6 +10,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, NoReturn
 
+from angen_apps.maps.gridmap import load_world
 from angen_apps.patrol import scene
 from angen_apps.patrol.drive import Patrol, RosRobot
 from angen_apps.patrol.figure import draw
@@ -21,6 +22,7 @@ from angen_apps.robot.interface import BUMPER, CYCLE, bumper
 from angen_apps.robot.route_file import prepare
 from angen_apps.robot.tables import write_figures
 from angen_tools.common.failure import Failure
+from angen_tools.common.home import Home
 from angen_tools.common.output import as_json, show
 from angen_tools.common.progress import Progress
 from angen_tools.common.wait import wait
@@ -48,7 +50,8 @@ def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, 
     with Sandbox((out / 'logs').absolute()) as sandbox:
         sandbox.node(own_world, 0.0, paused='true', seed=seed)
         lockstep = Lockstep(CYCLE)
-        entities = [entity_of(message) for message in lockstep.entities()]
+        home = Home.of_world(load_world(str(own_world)))
+        entities = [entity_of(message, home) for message in lockstep.entities()]
         place, actions = scene.make_scene(route, str(own_world), entities,
                                           scene.start_offset(seed))
         lockstep.spawn(BUMPER, *bumper(own_world, route.robot))
@@ -85,11 +88,12 @@ def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, 
     return verdict(found)
 
 
-def entity_of(message: Any) -> Entity:
+def entity_of(message: Any, home: Home) -> Entity:
     """An angen_msgs/Entity."""
     at, turned = message.pose.position, message.pose.orientation
     return Entity(message.kind, message.name, message.model,
-                  (at.x, at.y, at.z, turned.x, turned.y, turned.z, turned.w), message.topic)
+                  (at.x, at.y, at.z, turned.x, turned.y, turned.z, turned.w), message.topic,
+                  home.storey_at(at.z), message.room)
 
 
 def watch(sandbox: Sandbox) -> None:

@@ -11,7 +11,6 @@ from angen_apps.robot.interface import CYCLE, DoorState, Event, LiftState
 from angen_apps.robot.pilot import Pose
 from angen_apps.robot.route import Action, Drive
 from angen_apps.robot.route_file import Route
-from angen_apps.robot.views import room_of
 from angen_tools.common.geometry import yaw_of
 
 PAUSE = 5  # cycles, at most, between two actions
@@ -159,5 +158,5 @@ class Patrol:
         self._noted_events += len(events)
         names = dict.fromkeys(event.source for event in events
                               if (event.kind, event.event) in DETECTIONS
-                              and room_of(event.source) == waypoint.split()[0])
+                              and self._scene.rooms.get(event.source) == waypoint.split()[0])
         return f'; sensors that reacted: {", ".join(names)}' if names else ''

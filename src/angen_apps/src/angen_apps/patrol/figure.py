@@ -26,7 +26,7 @@ def draw(run: Run, rows: list[Row], route: Route, floor: int, path: Path) -> Non
     figure, axes = pyplot().subplots(figsize=(10, 7.1), dpi=150)
     plan(axes, run, floor)
     track = np.array(run.track.rows)
-    here = on_floor(track[:, 3], floor)
+    here = on_floor(run.scene.home, track[:, 3], floor)
     line = np.where(here[:, None], track[:, 1:3], np.nan)
     axes.plot(line[:, 0], line[:, 1], color=TRACK, linewidth=1.2, zorder=3)
     entities = {entity.name: entity for entity in run.sensors}

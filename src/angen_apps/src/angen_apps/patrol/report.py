@@ -24,7 +24,7 @@ from angen_apps.robot.building import Entity
 from angen_apps.robot.driver import Track
 from angen_apps.robot.interface import BUMPER, CYCLE, Event
 from angen_apps.robot.tables import write_events, write_track
-from angen_apps.robot.views import room_of, sensor_element, view_of
+from angen_apps.robot.views import sensor_element, view_of
 
 TIMES = ('SIGHT s', 'DETECTED s', 'DELAY s')
 BEGINS = {'pir': ('motion',), 'switch': ('opened', 'closed'), 'luminosity': ('changed',)}
@@ -101,10 +101,10 @@ def make_rows(run: Run, world: Path) -> list[Row]:
             first = next((t for t, _ in detected
                           if seen is not None and t >= seen - STATE_PERIOD), None)
         else:
-            here = track[on_floor(track[:, 3], entity.floor)]
+            here = track[on_floor(run.scene.home, track[:, 3], entity.floor)]
             seen = sight.first(view_of(entity, sensor_element(described, entity)), here)
             first = first_detection(seen, detected, moved)
-        rows.append(Row(room_of(entity.name), entity.name, entity.kind, seen, first))
+        rows.append(Row(run.scene.rooms[entity.name], entity.name, entity.kind, seen, first))
     return sorted(rows, key=lambda row: (row.room[-1:], row.room, row.kind, row.sensor))
 
 
@@ -136,12 +136,12 @@ def contact_row(run: Run, entity: Entity) -> list[Row]:
                if event == 'pressed' and f'{run.robot}::' in detail]
     if not touched or entity.name == BUMPER:
         return []
-    return [Row(room_of(entity.name), entity.name, 'contact', None, touched[0])]
+    return [Row(run.scene.rooms[entity.name], entity.name, 'contact', None, touched[0])]
 
 
 def beam_change(run: Run, entity: Entity) -> float | None:
     """When the door of a switch first passed the angle at which its beam comes free, s."""
-    angles = run.angles.get(room_of(entity.name))
+    angles = run.angles.get(run.scene.rooms[entity.name])
     limit = run.scene.beams.get(entity.name)
     if not angles or limit is None:
         return None

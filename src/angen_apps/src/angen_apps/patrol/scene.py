@@ -9,13 +9,14 @@ from typing import Any
 import numpy as np
 
 from angen_apps.maps.gridmap import GridMap, load_world
-from angen_apps.patrol.sight import beam_angles, outline
+from angen_apps.patrol.sight import beam_angles, door_beside, outline
 from angen_apps.robot.building import (Entity, Start, Survey, find_start, move_robot,
                                        remove_actors)
 from angen_apps.robot.planner import Door, Planner
 from angen_apps.robot.route import Action, Router
 from angen_apps.robot.route_file import Route
 from angen_tools.common.files import write_text
+from angen_tools.common.home import Home
 from angen_tools.world import sdf
 
 START_PLACE, START_YAW = 0.1, 0.1  # m, rad: how far a start may lie from the world's own
@@ -47,6 +48,8 @@ class Scene:
     beams: dict[str, float]  # of a switch: rad of its door from shut at which its beam is free
     body: np.ndarray  # (n, 3) points of the robot's surface, m
     world: Any  # angen.World without robots, for rays
+    rooms: dict[str, str]  # of each sensor; of a switch its door, which is called after a room
+    home: Home
 
 
 def make_scene(route: Route, path: str, entities: list[Entity],
@@ -59,8 +62,11 @@ def make_scene(route: Route, path: str, entities: list[Entity],
     world, shut = load_world(path), load_world(path)
     body = outline(world, np.array([*start.robot.place, start.robot.flat.yaw]))
     survey = Survey(world, shut, entities, {start.floor} | {p.floor for p in route.waypoints})
+    doors = [door for doors in survey.doors.values() for door in doors]
+    rooms = {e.name: (e.kind == 'switch' and door_beside(e, doors)) or e.room for e in entities}
     beams = beam_angles(shut, survey.by_joint, [e for e in entities if e.kind == 'switch'])
-    scene = Scene(start, survey.maps, survey.landmarks, survey.doors, beams, body, world)
+    scene = Scene(start, survey.maps, survey.landmarks, survey.doors, beams, body, world, rooms,
+                  survey.home)
     planners = {number: Planner(grid, route.clearance) for number, grid in survey.maps.items()}
     return scene, Router(route, planners, survey.doors).actions((start.pose.x, start.pose.y),
                                                                 start.floor)

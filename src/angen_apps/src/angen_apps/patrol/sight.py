@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, Iterable
 
 import numpy as np
 
@@ -10,11 +10,12 @@ from angen_apps.maps.gridmap import models_with
 from angen_apps.maps.rays import Caster
 from angen_apps.robot.building import Entity
 from angen_apps.robot.planner import Door
-from angen_apps.robot.views import View, room_of
+from angen_apps.robot.views import View
 
 AROUND = 1.0  # m from a robot's axis, from where its outline is sampled
 SIDES, HEIGHTS = 16, np.arange(0.03, 1.5, 0.06)  # rays that find a robot's outline; m
 BEAM = 0.5  # m
+BESIDE = 0.6  # m from the top of a leaf to the switch over it
 CHUNK = 50  # positions at a time
 TICKS, SAMPLES = 5, 120  # ticks between two samples of the beams of opening doors, and how many
 CHANGED = 0.05  # m by which a cut beam is shorter
@@ -97,10 +98,17 @@ class Sight:
         return free
 
 
+def door_beside(switch: Entity, doors: Iterable[Door]) -> str:
+    """The door in whose opening a switch is: it is over the middle of the leaf; '' for none."""
+    near = [(math.dist(switch.pose[:3], (*door.middle, door.top)), door.name) for door in doors]
+    away, name = min(near, default=(math.inf, ''))
+    return name if away < BESIDE else ''
+
+
 def beam_angles(world: Any, doors: dict[str, Door], switches: list[Entity]) -> dict[str, float]:
     """How far (rad) each switch's door has turned from shut when its beam comes free.
 
-    `doors` by joint, all shut; they are opened for it. A switch belongs to the door of its room.
+    `doors` by joint, all shut; they are opened for it.
     """
     caster = Caster(world)
     origins = np.array([s.place for s in switches]).reshape(-1, 3)
@@ -115,7 +123,7 @@ def beam_angles(world: Any, doors: dict[str, Door], switches: list[Entity]) -> d
         longer = caster.cast(origins, ways, BEAM) > shut + CHANGED
         positions = world.joint_positions
         for switch, free in zip(switches, longer):
-            room = room_of(switch.name)
-            if free and room in joints:
-                found.setdefault(switch.name, abs(float(positions[joints[room]])))
+            door = door_beside(switch, doors.values())
+            if free and door:
+                found.setdefault(switch.name, abs(float(positions[joints[door]])))
     return found

@@ -1,7 +1,6 @@
 """A robot's knowledge of a building before it starts: its floors' maps and doors, and itself."""
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -9,7 +8,7 @@ from typing import Any
 import numpy as np
 from lxml import etree
 
-from angen_apps.maps.gridmap import STOREY, GridMap, floor_of, floors, make_map
+from angen_apps.maps.gridmap import GridMap, floors, make_map
 from angen_apps.maps.rays import Caster
 from angen_apps.robot.doors import find_door, find_hinge, find_top, opened_alone, pose_of
 from angen_apps.robot.pilot import Pose
@@ -17,6 +16,7 @@ from angen_apps.robot.planner import Door
 from angen_apps.robot.route_file import Route
 from angen_tools.common.failure import Failure
 from angen_tools.common.geometry import rotation_of, yaw
+from angen_tools.common.home import Home
 
 
 @dataclass(frozen=True)
@@ -28,6 +28,8 @@ class Entity:
     model: str
     pose: tuple[float, ...]  # x y z (m) qx qy qz qw, in the world
     topic: str = ''
+    floor: int = 0
+    room: str = ''
 
     @property
     def place(self) -> np.ndarray:
@@ -38,10 +40,6 @@ class Entity:
     def rotation(self) -> np.ndarray:
         """The 3 x 3 matrix from its frame to the world."""
         return rotation_of(*self.pose[3:])
-
-    @property
-    def floor(self) -> int:
-        return floor_of(self.pose[2])
 
     @property
     def flat(self) -> Pose:
@@ -57,6 +55,7 @@ class Survey:
 
     def __init__(self, world: Any, shut: Any, entities: list[Entity], only: set[int] | None
                  ) -> None:
+        self.home = Home.of_world(world)
         self.maps: dict[int, GridMap] = {}
         self.landmarks: dict[int, GridMap] = {}
         self.shut: dict[int, GridMap] = {}
@@ -68,10 +67,12 @@ class Survey:
             self.landmarks[floor] = replace(self.shut[floor], cells=both)
         self.doors: dict[int, list[Door]] = {floor: [] for floor in self.maps}
         self.by_joint: dict[str, Door] = {}  # MODEL::JOINT
+        storeys = {door.name: self.home.storey_at(door.pose[2]) for door in self.home.doors
+                   if door.kind == 'door'}
         doors = [entity for entity in entities if entity.kind == 'door']
         for entity in doors:
             alone = sum(other.model == entity.model for other in doors) == 1
-            floor = entity.floor if alone else self._floor_by_name(entity)
+            floor = storeys.get(entity.name, entity.floor)
             if floor not in self.maps:
                 continue
             before = pose_of(shut, entity.model)
@@ -80,14 +81,9 @@ class Survey:
             hinge = find_hinge(before.links, after.links)
             door = hinge and find_door(entity.name, hinge, self.shut[floor], self.maps[floor])
             if door:
-                door = replace(door, top=find_top(Caster(shut), door, STOREY * floor))
+                door = replace(door, top=find_top(Caster(shut), door, self.maps[floor].height))
                 self.doors[floor].append(door)
                 self.by_joint[after.turned(before)] = door
-
-    def _floor_by_name(self, door: Entity) -> int:
-        """Of one of a model's doors, which may be on several floors."""
-        digits = re.search('[0-9]+$', door.name)
-        return int(digits[0]) if digits and int(digits[0]) in self.maps else door.floor
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from typing import Callable
 
 import numpy as np
 
-from angen_apps.maps.gridmap import STOREY, GridMap
+from angen_apps.maps.gridmap import GridMap
 from angen_apps.robot.interface import CYCLE, Robot, collisions
 from angen_apps.robot.localizer import EVERY, Localizer, returns_of
 from angen_apps.robot.pilot import Pilot, Pose
@@ -129,7 +129,7 @@ class Driver:
         if self._route.elevator is None:
             raise Failure(f'{self._route.path}: names no elevator')
         name = self._route.elevator.name
-        level = STOREY * ride.floor
+        level = self._landmarks[ride.floor].height
         self._command('elevator', name, f'Floor{ride.floor}',
                       lambda: self._robot.lift(name).stands_open(ride.floor, level))
         self.track.levels.append((ride.floor, self._robot.lift(name).position - level))

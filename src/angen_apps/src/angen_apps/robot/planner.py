@@ -140,6 +140,12 @@ class Door:
         return (self.hinge[0] + self.width * math.cos(angle),
                 self.hinge[1] + self.width * math.sin(angle))
 
+    @property
+    def middle(self) -> Point:
+        """Of the shut leaf."""
+        tip = self.tip(self.shut)
+        return (self.hinge[0] + tip[0]) / 2, (self.hinge[1] + tip[1]) / 2
+
     def room_for(self, point: Point) -> float:
         """Meters from a point to the nearest place that the leaf sweeps."""
         away = (point[0] - self.hinge[0], point[1] - self.hinge[1])

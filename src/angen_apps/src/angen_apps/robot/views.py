@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import math
-import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -59,9 +58,3 @@ def view_of(entity: Entity, sensor: etree._Element | None) -> View:
 
 def _number(element: etree._Element, path: str, fallback: float) -> float:
     return float(element.findtext(path) or fallback)
-
-
-def room_of(sensor: str) -> str:
-    """`kitchen0` of `kitchen_pir0_a`; the whole name where it has no such form."""
-    found = re.match(r'([a-z]+)_[a-z_]*?(\d+)', sensor)
-    return found[1] + found[2] if found else sensor

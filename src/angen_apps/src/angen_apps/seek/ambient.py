@@ -77,7 +77,7 @@ class Ambient:
         for (kind, name), when in robot.commanded.items():
             if kind == 'door' and now - when < OWN + memory and name in self._doors:
                 floor, door = self._doors[name]
-                x, y = self._home.door_middle(door)
+                x, y = door.middle
                 if sees[self._home.around(x, y, floor, DOORWAY)].any():
                     return True
         return False
@@ -94,7 +94,7 @@ class Ambient:
                 or robot.commanded_lately('door', event.source, event.time, OWN):
             return
         floor, door = self._doors[event.source]
-        x, y = self._home.door_middle(door)
+        x, y = door.middle
         if self._new(x, y, floor, event):
             reach = DOORWAY if event.event == 'opening' else DOORWAY + 1.0
             self._belief.near(self._home.around(x, y, floor, reach), DEVICE)
@@ -131,6 +131,6 @@ class Ambient:
 
     def _robots_door(self, x: float, y: float, floor: int, robot: RobotNow, now: float) -> bool:
         """Whether the robot has just commanded the door at a place."""
-        return any(where == floor and math.dist(self._home.door_middle(door), (x, y)) < 1.0
+        return any(where == floor and math.dist(door.middle, (x, y)) < 1.0
                    and robot.commanded_lately('door', name, now, OWN)
                    for name, (where, door) in self._doors.items())

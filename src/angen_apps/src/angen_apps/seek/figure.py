@@ -34,7 +34,7 @@ def draw_search(home: Home, outcome: Outcome, path: Path) -> None:
             ax = axes[row][column]
             shade = _plan(ax, home, floor, belief)
             _detections(ax, home, outcome, floor, moment)
-            _walks(ax, outcome, floor, moment)
+            _walks(ax, home, outcome, floor, moment)
             share = belief[home.floor == floor].sum()
             ax.text(0.02, 0.02, f'{100 * share:.0f} % on floor {floor}', transform=ax.transAxes,
                     fontsize=7, color=INK)
@@ -101,15 +101,15 @@ def _plan(ax: Any, home: Home, floor: int, belief: np.ndarray) -> Any:
     return shade
 
 
-def _walks(ax: Any, outcome: Outcome, floor: int, moment: float) -> None:
+def _walks(ax: Any, home: Home, outcome: Outcome, floor: int, moment: float) -> None:
     """Robot and person until a moment."""
     robot = np.array(outcome.track.rows)
     robot = robot[:max(1, int((robot[:, 0] <= moment + 0.05).sum()))]
-    _line(ax, robot[:, :4], floor, ROBOT, '-', 1.3, 'o', 6)
+    _line(ax, home, robot[:, :4], floor, ROBOT, '-', 1.3, 'o', 6)
     if outcome.person:
         person = np.array(outcome.person)
         person = person[(person[:, 0] <= moment + 0.05) & (person[:, 0] >= moment - 30.0)]
-        _line(ax, person, floor, PERSON, ':', 1.0, '*', 10)
+        _line(ax, home, person, floor, PERSON, ':', 1.0, '*', 10)
 
 
 def _detections(ax: Any, home: Home, outcome: Outcome, floor: int, moment: float) -> None:
@@ -125,11 +125,11 @@ def _detections(ax: Any, home: Home, outcome: Outcome, floor: int, moment: float
                     color=PIR if recent else '#9a9a9a')
 
 
-def _line(ax: Any, rows: np.ndarray, floor: int, color: str, style: str, width: float, mark: str,
-          size: float) -> None:
+def _line(ax: Any, home: Home, rows: np.ndarray, floor: int, color: str, style: str, width: float,
+          mark: str, size: float) -> None:
     if not len(rows):
         return
-    here = on_floor(rows[:, 3], floor)
+    here = on_floor(home.described, rows[:, 3], floor)
     places = np.where(here[:, None], rows[:, 1:3], np.nan)
     ax.plot(places[:, 0], places[:, 1], style, color=color, lw=width)
     if here[-1]:

@@ -7,22 +7,21 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt, label
+from scipy.ndimage import label
 
-from angen_apps.maps.gridmap import FREE, STOREY, GridMap, floor_of, load_world, make_map
+from angen_apps.maps.gridmap import FREE, GridMap, load_world, make_map
 from angen_apps.maps.rays import Caster
 from angen_apps.robot.building import Entity, Start, Survey, find_start
 from angen_apps.robot.planner import Door, Planner, distances
 from angen_apps.robot.route_file import Route
 from angen_apps.robot.views import sensor_element, view_of
 from angen_tools.common.failure import Failure
+from angen_tools.common.home import Home as DescribedHome
 from angen_tools.world import sdf
 
 CELL = 0.5  # m
 BODY = 0.3  # m: what a person keeps from everything
 TALL = 1.8  # m: what a person can meet
-ROOM = 1.0  # m2 of a room, at least
-SLIT = 0.1  # m: rooms are not connected through narrower gaps
 PERSON_HEIGHTS = (0.4, 1.0, 1.5)  # m: a person is in view where one of these is
 LASER = 0.44  # m
 SEES = 4.0  # m: how far a look from a viewpoint counts
@@ -44,6 +43,7 @@ class Pir:
 class Home:
     """A building in cells of CELL; all arrays (n, ...) are by cell."""
 
+    described: DescribedHome
     entities: list[Entity]
     start: Start
     maps: dict[int, GridMap]
@@ -83,12 +83,6 @@ class Home:
         away = np.hypot(self.at[:, 0] - x, self.at[:, 1] - y)
         return (self.floor == floor) & (away <= radius)
 
-    @staticmethod
-    def door_middle(door: Door) -> tuple[float, float]:
-        """The middle of a shut leaf."""
-        tip = door.tip(door.shut)
-        return (door.hinge[0] + tip[0]) / 2, (door.hinge[1] + tip[1]) / 2
-
     def all_doors(self) -> list[tuple[int, Door]]:
         """Floor and door, of each."""
         return [(floor, door) for floor, doors in self.doors.items() for door in doors]
@@ -101,75 +95,42 @@ def make_home(route: Route, path: Path, entities: list[Entity],
     world, shut = load_world(str(path)), load_world(str(path))
     survey = Survey(world, shut, entities, None)
     walkable = {floor: make_map(world, floor, 'open', TALL) for floor in survey.maps}
-    named = room_labels(survey, floor_links(world))
+    named = {floor: Rooms(survey.home, floor) for floor in walkable}
     cells = _Cells(walkable, named, survey.doors)
     if not len(cells.at):
         raise Failure('there is no floor on which a person could walk')
     free = _Sight(world, shut)
-    targets = np.array([[[x, y, STOREY * floor + h] for h in PERSON_HEIGHTS]
+    targets = np.array([[[x, y, walkable[floor].height + h] for h in PERSON_HEIGHTS]
                         for (x, y), floor in zip(cells.at, cells.floor)])
     described = sdf.read(path)
     pirs = [free.pir(entity, described, targets) for entity in entities if entity.kind == 'pir']
     planners = {floor: Planner(grid, route.clearance) for floor, grid in survey.maps.items()}
     viewpoints = find_viewpoints(cells.at, cells.floor, planners, survey.doors, route)
-    views = np.array([free.around(cells.at, cells.floor, k) for k in viewpoints])
+    views = np.array([free.around(cells.at, cells.floor, k, walkable) for k in viewpoints])
     by_lift = np.zeros(len(cells.at), bool)
     if route.elevator:
         for place in (route.elevator.cabin, route.elevator.landing):
             by_lift |= np.hypot(*(cells.at - place).T) < 1.3
-    return Home(entities, start, survey.maps, survey.landmarks,
+    return Home(survey.home, entities, start, survey.maps, survey.landmarks,
                 survey.doors, walkable, cells.floor, cells.at, cells.room, cells.names,
                 cells.edges, cells.edge_door, pirs, viewpoints, views, by_lift)
 
 
-def floor_links(world: Any) -> dict[int, list[tuple[str, float, float]]]:
-    """Name and place of each room by the building's links `floor_NAME`, by floor."""
-    found: dict[int, list[tuple[str, float, float]]] = {}
-    for name, pose in zip(world.links, np.asarray(world.link_poses)):
-        link = name.split('::')[-1]
-        if link.startswith('floor_'):
-            floor = floor_of(pose[2])
-            found.setdefault(floor, []).append((link.removeprefix('floor_'), pose[0], pose[1]))
-    return found
-
-
-@dataclass(frozen=True)
 class Rooms:
-    """Of a floor: the room's number of each square of the map (rows, columns), and names."""
+    """The rooms of a floor, by name; those whose south-west corner comes first are first."""
 
-    grid: GridMap
-    labels: np.ndarray
-    names: list[str]
+    def __init__(self, home: DescribedHome, floor: int) -> None:
+        self._rooms = sorted((room for room in home.rooms if room.storey == floor),
+                             key=lambda room: (round(room.bounds[1], 2), room.bounds[0]))
+        self.names = [room.name for room in self._rooms] or [f'floor {floor}']
 
     def at(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """The rooms' numbers at places (m); beyond the map as at its edge."""
-        rows = np.floor((y - self.grid.origin[1]) / self.grid.resolution).astype(int)
-        columns = np.floor((x - self.grid.origin[0]) / self.grid.resolution).astype(int)
-        height, width = self.labels.shape
-        return np.asarray(self.labels[np.clip(rows, 0, height - 1), np.clip(columns, 0, width - 1)])
-
-
-def room_labels(survey: Survey, links: dict[int, list[tuple[str, float, float]]]
-                ) -> dict[int, Rooms]:
-    """The rooms: what is connected while doors are shut. Named after the floor in them."""
-    found = {}
-    for floor, grid in survey.shut.items():
-        parts, count = label(distances(grid, SLIT) >= SLIT)
-        sizes = np.bincount(parts.ravel(), minlength=count + 1) * grid.resolution ** 2
-        kept = [i for i in range(1, count + 1) if sizes[i] >= ROOM]
-        numbers = np.zeros(count + 1, int)
-        numbers[kept] = np.arange(1, len(kept) + 1)
-        parts = numbers[parts]
-        near = distance_transform_edt(parts == 0, return_distances=False, return_indices=True)
-        parts = parts[tuple(near)]
-        names = [f'room {i}' for i in range(len(kept))]
-        for name, x, y in links.get(floor, []):
-            row, column = grid.cell(x, y)
-            if 0 <= row < parts.shape[0] and 0 <= column < parts.shape[1]:
-                number = parts[row, column] - 1
-                names[number] = name if names[number].startswith('room ') else names[number]
-        found[floor] = Rooms(grid, parts - 1, [f'{name}{floor}' for name in names])
-    return found
+        """The numbers of the rooms that places (m) are in, or nearest to."""
+        if not self._rooms:
+            return np.zeros(len(x), int)
+        away = [[0.0 if room.contains(*place) else room.distance(*place) for room in self._rooms]
+                for place in zip(x, y)]
+        return np.array(away).reshape(len(x), -1).argmin(axis=1)
 
 
 def _largest(mask: np.ndarray) -> np.ndarray:
@@ -219,7 +180,7 @@ class _Cells:
         if self.room[a] == self.room[b]:
             return ''
         middle = (self.at[a] + self.at[b]) / 2
-        near = [(float(np.hypot(*(middle - Home.door_middle(d)))), d.name) for d in doors]
+        near = [(float(np.hypot(*(middle - d.middle))), d.name) for d in doors]
         best = min(near, default=(np.inf, ''))
         return best[1] if best[0] < DOORWAY else ''
 
@@ -243,9 +204,10 @@ class _Sight:
         period = float(sensor.findtext('plugin/nod_period') or 0) if sensor is not None else 0.0
         return Pir(entity.name, shut, opened & ~shut, period)
 
-    def around(self, at: np.ndarray, floor: np.ndarray, cell: int) -> np.ndarray:
+    def around(self, at: np.ndarray, floor: np.ndarray, cell: int, maps: dict[int, GridMap]
+               ) -> np.ndarray:
         """The cells in which a laser at a cell sees a person, with doors shut."""
-        z = STOREY * floor[cell] + LASER
+        z = maps[int(floor[cell])].height + LASER
         found = (floor == floor[cell]) & (np.hypot(*(at - at[cell]).T) <= SEES)
         rows = np.nonzero(found)[0]
         points = np.column_stack([at[rows], np.full(len(rows), z)])

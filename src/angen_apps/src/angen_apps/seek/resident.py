@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from lxml import etree
 
-from angen_apps.maps.gridmap import OCCUPIED, STOREY, GridMap, floor_of
+from angen_apps.maps.gridmap import OCCUPIED, GridMap
 from angen_apps.robot.planner import Door, Planner, Point
 from angen_apps.robot.route import Action, Drive, Ride, Router, Turn
 from angen_apps.robot.route_file import Route, Waypoint
@@ -144,11 +144,11 @@ def _add(action: Action, waypoints: list[tuple[float, float, float]], gates: lis
     return time, action.floor if isinstance(action, Ride) and action.aboard else floor
 
 
-def add_actor(root: etree._Element, name: str, itinerary: Itinerary) -> None:
+def add_actor(root: etree._Element, name: str, itinerary: Itinerary, home: Home) -> None:
     """Adds the person to a world's SDF."""
     x, y, floor = itinerary.start
     actor = etree.SubElement(root.find('world'), 'actor', name=name)
-    etree.SubElement(actor, 'pose').text = f'0 0 {STOREY * floor:g} 0 0 0'
+    etree.SubElement(actor, 'pose').text = f'0 0 {home.maps[floor].height:g} 0 0 0'
     script = etree.SubElement(actor, 'script')
     etree.SubElement(script, 'loop').text = 'false'
     trajectory = etree.SubElement(script, 'trajectory', id='0', type='walk')
@@ -185,7 +185,10 @@ class Resident:
     def _at(self, gate: Gate, x: float, y: float, z: float) -> bool:
         if self._since is not None:
             return True
-        return math.dist((x, y), gate.at) < THERE and floor_of(z) == gate.floor
+        return math.dist((x, y), gate.at) < THERE and self._floor(z) == gate.floor
+
+    def _floor(self, z: float) -> int:
+        return self._home.described.storey_at(z)
 
     def _stop(self, stop: bool) -> None:
         if stop != self._stopped:
@@ -226,7 +229,8 @@ class Resident:
         if turn.open and mode == 'OPEN':
             return True
         door = self._doors[turn.door]
-        clear = (floor_of(robot[2]) != floor_of(self._simulation.place(f'{self._name}::body')[2])
+        here = self._simulation.place(f'{self._name}::body')[2]
+        clear = (self._floor(robot[2]) != self._floor(here)
                  or door.room_for((robot[0], robot[1])) > 2 * BODY)
         if not turn.open:  # he walks on while it closes
             if clear and mode == 'OPEN' and self._chance.random() < CLOSES:
@@ -243,7 +247,7 @@ class Resident:
         busy = min(math.dist(robot[:2], lift.cabin), math.dist(robot[:2], lift.landing)) < LIFT_ROOM
         if busy:
             return False
-        if state.stands_open(ride.floor, STOREY * ride.floor):
+        if state.stands_open(ride.floor, self._home.maps[ride.floor].height):
             return True
         if state.mode == 'IDLE' and state.door_mode == 'OPEN':
             self._simulation.order('elevator', lift.name, f'Floor{ride.floor}')
@@ -255,5 +259,5 @@ class Resident:
         dx, dy = robot[0] - x, robot[1] - y
         ahead = math.cos(yaw) * dx + math.sin(yaw) * dy
         aside = math.cos(yaw) * dy - math.sin(yaw) * dx
-        return (floor_of(z) == floor_of(robot[2]) and 0 < ahead < ROBOT_IN_WAY
+        return (self._floor(z) == self._floor(robot[2]) and 0 < ahead < ROBOT_IN_WAY
                 and abs(aside) < BESIDE)

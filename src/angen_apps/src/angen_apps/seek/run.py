@@ -10,7 +10,6 @@ from typing import Callable
 import numpy as np
 from lxml import etree
 
-from angen_apps.maps.gridmap import floor_of
 from angen_apps.patrol.scene import start_offset
 from angen_apps.robot.building import find_start, move_robot, remove_actors
 from angen_apps.robot.driver import Track
@@ -73,7 +72,7 @@ def write_world(world: Path, route: Route, home: Home | None, seed: int, limit: 
     if home is not None:
         move_robot(root, route.robot, start_offset(seed), world)
         if people:
-            add_actor(root, people[0], plan_walk(home, route, seed, LEAD + limit))
+            add_actor(root, people[0], plan_walk(home, route, seed, LEAD + limit), home)
     write_text(to, sdf.text(root))
     return people[0] if people and home is not None else NOBODY
 
@@ -117,7 +116,7 @@ def judge(home: Home, seed: int, ambient: bool, found: Found | None,
     distance = float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum())
     error, true_room = math.nan, NOBODY
     if truth is not None:
-        floor = floor_of(truth[2])
+        floor = home.described.storey_at(truth[2])
         true_room = home.room_at(truth[0], truth[1], floor)
         if found is not None:
             error = (math.dist((found.x, found.y), truth[:2]) if floor == found.floor

@@ -7,7 +7,6 @@ from typing import Callable
 
 import numpy as np
 
-from angen_apps.maps.gridmap import STOREY
 from angen_apps.robot.driver import Driver
 from angen_apps.robot.interface import CYCLE, Event
 from angen_apps.robot.localizer import Field, returns_of
@@ -402,4 +401,4 @@ class Search:
         camera = next(e for e in self._home.entities
                       if (e.kind, e.model) == ('depth', start.robot.model))
         there = start.robot.flat.inverse().then(camera.flat)
-        return there.x, there.y, camera.pose[2] - STOREY * start.floor
+        return there.x, there.y, camera.pose[2] - self._home.maps[start.floor].height

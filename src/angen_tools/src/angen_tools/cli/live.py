@@ -220,7 +220,8 @@ def add_watch(commands: Any) -> None:
                            help='only this kind; may be given more than once'),
         complete.kind_names)
     watch.add_argument('--room', metavar='WORD', default='',
-                       help='only those with this word in their name')
+                       help='only those with this word in the name of their room, or '
+                       'in their own')
     watch.add_argument('--active', action='store_true', help='leaves out what detects nothing '
                        'and, where a kind does not detect, what has not changed for 5 s')
     watch.add_argument('--once', action='store_true',

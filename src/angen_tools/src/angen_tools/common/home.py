@@ -9,6 +9,8 @@ from typing import Any, Mapping, Sequence
 
 from angen_tools.common.geometry import yaw as yaw_of
 
+STOREY = 4.0  # m from a floor to the next where a world describes none
+ON_FLOOR = 0.5  # m below its floor that belong to a storey
 IN_WALL = 0.1  # m: what is in a wall, floor or ceiling is in the room
 Point = tuple[float, float]
 FloorPose = tuple[float, float, float, float]  # x y z yaw
@@ -190,13 +192,25 @@ class Home:
                 nearest, distance = room, away
         return nearest
 
-    def storey_at(self, z: float) -> int:
-        """The number of the highest storey whose floor is not above; 0 where there is none."""
-        below = [storey for storey in self.storeys if storey.elevation - 0.5 <= z]
-        return (below or self.storeys or [Storey(0, '', 0.0, 0.0)])[-1 if below else 0].number
+    @property
+    def described(self) -> bool:
+        """Whether its world says which rooms there are; else they were found between walls."""
+        return any(not room.guessed for room in self.rooms)
 
     def storey(self, number: int) -> Storey | None:
         return next((storey for storey in self.storeys if storey.number == number), None)
+
+    def storey_at(self, z: float) -> int:
+        """The number of the highest storey whose floor is not above z."""
+        if not self.described:
+            return math.floor((z + ON_FLOOR) / STOREY)
+        below = [storey for storey in self.storeys if storey.elevation - ON_FLOOR <= z]
+        return below[-1].number if below else self.storeys[0].number
+
+    def elevation(self, number: int) -> float:
+        """The height of a storey's floor."""
+        storey = self.storey(number) if self.described else None
+        return storey.elevation if storey else number * STOREY
 
 
 def _edges(polygon: list[Point]) -> list[tuple[Point, Point]]:

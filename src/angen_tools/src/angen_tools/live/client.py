@@ -10,6 +10,7 @@ from typing import Any, Callable
 from urllib.parse import urlsplit
 
 from angen_tools.common.failure import Failure
+from angen_tools.common.home import Home
 from angen_tools.common.wait import wait
 
 SERVICE_LIMIT = 60.0  # a large model takes seconds to parse; the node itself gives up after 10 s
@@ -76,6 +77,17 @@ class Client:
         """angen_msgs/Entity of all that is in the world, or of one kind."""
         from angen_msgs.srv import List
         return self.call('/angen/list', List, kind=kind).entities
+
+    def home(self) -> Home:
+        """The home that the world describes."""
+        from angen_msgs.msg import Home as Message
+        mail = Mailbox(self)
+        mail.subscribe('/angen/home', Message)
+        got = mail.get(CONNECT_LIMIT)
+        mail.unsubscribe('/angen/home')
+        if got is None:
+            raise Failure('/angen/home has no message; is the simulator an older one?')
+        return Home.of_message(got[1])
 
     def join(self) -> None:
         """Makes this process a ROS node, as publishing and subscribing need."""

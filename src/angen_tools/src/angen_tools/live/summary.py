@@ -24,11 +24,11 @@ class Filter:
     room: str = ''
     active: bool = False
 
-    def passes(self, kind: str, name: str) -> bool:
+    def passes(self, kind: str, name: str, room: str = '') -> bool:
         """Whether a sensor or device is shown, whatever it does."""
         return ((not self.names or name in self.names)
                 and (not self.kinds or kind in self.kinds)
-                and self.room.lower() in name.lower())
+                and any(self.room.lower() in text.lower() for text in (room, name)))
 
 
 @dataclass
@@ -41,6 +41,7 @@ class Row:
     alarm: bool     # it detects something
     stamp: float    # s, of that reading
     period: float   # s, how often a sensor publishes; 0 for a device and a sensor on demand
+    room: str = ''
     changed: float = -math.inf  # s of wall time, when its text changed last
 
     @property
@@ -58,6 +59,7 @@ class Board:
         self.time = 0.0       # s simulated
         self.paused = False
         self._complete = False
+        self._rooms = {(e.kind, e.name): e.room for e in client.entities()}
         self._mail = Mailbox(client)
         self._mail.subscribe(STATS, Stats)
         self._mail.subscribe(TOPIC, Summary)
@@ -85,7 +87,8 @@ class Board:
             self.rows = {}
         for entry in message.entries:
             key = (entry.kind, entry.name)
-            row = Row(*key, entry.text, entry.alarm, entry.stamp.to_sec(), entry.period)
+            row = Row(*key, entry.text, entry.alarm, entry.stamp.to_sec(), entry.period,
+                      self._rooms.get(key, ''))
             old = before.get(key)
             if old is not None:
                 row.changed = old.changed if old.text == row.text else time.monotonic()
@@ -93,7 +96,8 @@ class Board:
 
     def chosen(self, rule: Filter) -> list[Row]:
         """The rows to show, by kind and name."""
-        rows = (self.rows[key] for key in sorted(self.rows) if rule.passes(*key))
+        rows = (row for _, row in sorted(self.rows.items())
+                if rule.passes(row.kind, row.name, row.room))
         return [row for row in rows if not rule.active or is_active(row)]
 
 

@@ -42,7 +42,7 @@ def _wait(board: Board, rule: Filter) -> list[Row]:
     start, end = board.time, time.monotonic() + LIMIT
     while True:
         waiting = [row for row in board.rows.values()
-                   if row.waits and rule.passes(row.kind, row.name)]
+                   if row.waits and rule.passes(row.kind, row.name, row.room)]
         late = [row for row in waiting if board.time > start + row.period + MARGIN]
         if len(late) == len(waiting) or board.paused or time.monotonic() > end:
             return waiting
