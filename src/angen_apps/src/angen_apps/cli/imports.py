@@ -5,9 +5,21 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from angen_tools.cli.arguments import checked
 from angen_tools.cli.parser import command
 
 SENSORS = ('seed', 'casas', 'none')
+
+
+def pixel(text: str) -> float:
+    """The width of a pixel: 0.0005 to 1 m."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0.0005 <= value <= 1.0:
+        raise ValueError(f"'{text}' is not a valid width of a pixel; give 0.0005 to 1 m")
+    return value
 
 
 def run_import(args: argparse.Namespace) -> int:
@@ -20,10 +32,15 @@ def add_import(commands: Any) -> None:
     """angen import."""
     parser = command(commands, 'import', run_import,
                      'writes a world from a floor plan; needs no simulator',
-                     'import home.sh3d -o home.world')
+                     'import home.sh3d -o home.world',
+                     'import plan.png --scale 0.05 --doors -o home.world')
     parser.add_argument('file', metavar='FILE', type=Path,
-                        help='a home of Sweet Home 3D (.sh3d, or its Home.xml), or a '
-                        'building of Open-RMF (building.yaml)')
+                        help='a home of Sweet Home 3D (.sh3d, or its Home.xml), a building of '
+                        'Open-RMF (building.yaml), a picture, or a map of map_server (map.yaml)')
+    parser.add_argument('--scale', metavar='M', type=checked(pixel),
+                        help='how wide a pixel of a picture is, in m')
+    parser.add_argument('--doors', action='store_true', help='gaps of 0.7 to 1.1 m in the walls '
+                        'of a picture or map are doors')
     parser.add_argument('--sensors', choices=SENSORS, default='seed', help='seed: two PIRs and a '
                         'luminosity sensor a room, a reed contact a door and window, contacts in '
                         'seats; casas: a PIR of the CASAS flats on each ceiling and reed contacts '

@@ -4,18 +4,25 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from angen_apps.imports.picture import ENDINGS, is_map, read_map, read_picture
 from angen_apps.imports.rmf import read_rmf
 from angen_apps.imports.sweethome import read_sweethome
 from angen_apps.plan.model import Plan
 from angen_apps.plan.writer import write_world
+from angen_tools.common.failure import Failure
 
 SHOWN = 20  # remarks
 
 
 def read_plan(path: Path, args: argparse.Namespace) -> Plan:
     """The plan of a file, by its ending."""
-    if path.suffix.lower() in ('.yaml', '.yml'):
-        return read_rmf(path)
+    ending = path.suffix.lower()
+    if ending in ENDINGS:
+        if args.scale is None:
+            raise Failure(f'{path}: is a picture; give --scale METERS_A_PIXEL, such as 0.05')
+        return read_picture(path, args.scale, args.doors)
+    if ending in ('.yaml', '.yml'):
+        return read_map(path, args.doors) if is_map(path) else read_rmf(path)
     return read_sweethome(path, args.things)
 
 

@@ -1,0 +1,232 @@
+"""Reads plans that are pictures: scans, drawings, and the maps of map_server (map.yaml)."""
+from __future__ import annotations
+
+from dataclasses import replace
+from math import pi
+from pathlib import Path
+
+import numpy as np
+from scipy.ndimage import binary_closing, binary_opening, label, median_filter
+
+from angen_apps.imports.flood import rooms_of
+from angen_apps.imports.source import FARTHEST, read_bytes
+from angen_apps.plan.finish import finish
+from angen_apps.plan.model import Leaf, Opening, Plan, Storey, Wall
+from angen_apps.plan.names import slug
+from angen_apps.plan.polygons import rectangles
+from angen_tools.common.failure import Failure
+from angen_tools.common.yaml_file import YamlFile
+
+HEIGHT = 2.5  # m
+DOOR_TOP = 2.1  # m
+NARROW, WIDE = 0.7, 1.1  # m: gaps that are doors
+THICKEST = 0.45  # m of a wall across
+LEAST_WALL = 0.25  # m of a wall along: shorter dark spots are text and dirt
+FINE = 0.035  # m a pixel: thin walls have several pixels across
+PIXELS = 20_000_000
+WALLS = 20_000
+ENDINGS = ('.png', '.pgm', '.jpg', '.jpeg')
+
+
+def read_picture(path: Path, scale: float, with_doors: bool) -> Plan:
+    """The plan of a picture whose pixels are `scale` m wide; dark is wall."""
+    return _plan(path, _dark(path, 0.5, smooth=scale < FINE), scale, (0.0, 0.0), with_doors)
+
+
+def read_map(path: Path, with_doors: bool) -> Plan:
+    """The plan of a map of map_server: its picture, resolution, origin and thresholds."""
+    file = YamlFile(path)
+    if not hasattr(file.root, 'value'):
+        raise file.fail(file.root, 'is not a map: it needs image, resolution and origin')
+    values = {key.value: node for key, node in file.root.value if hasattr(key, 'value')}
+    for key in ('image', 'resolution', 'origin'):
+        if key not in values:
+            raise file.fail(file.root, f'has no {key}; a map needs image, resolution and origin')
+    image = file.text(values['image'], 'image')
+    picture = (path.parent / image).resolve()
+    if path.parent.resolve() not in picture.parents:
+        raise file.fail(values['image'], f'the image "{image}" is not in the folder of the map')
+    scale = file.number(values['resolution'], 'resolution', 1e-4, 10.0)
+    origin = [file.number(node, 'origin', -FARTHEST, FARTHEST)
+              for node in file.list(values['origin'], 'origin')]
+    if len(origin) != 3 or abs(origin[2]) > 1e-6:
+        raise file.fail(values['origin'], 'origin must be [x, y, 0]')
+    threshold = file.number(values['occupied_thresh'], 'occupied_thresh', 0.0, 1.0) \
+        if 'occupied_thresh' in values else 0.65
+    negate = 'negate' in values and file.number(values['negate'], 'negate', 0, 1) == 1
+    return _plan(path, _dark(picture, threshold, negate), scale, (origin[0], origin[1]),
+                 with_doors)
+
+
+def is_map(path: Path) -> bool:
+    """Whether a YAML file is a map of map_server."""
+    lines = read_bytes(path)[:4096].splitlines()
+    return any(line.startswith(b'resolution:') for line in lines)
+
+
+def _dark(path: Path, threshold: float, negate: bool = False, smooth: bool = False
+          ) -> np.ndarray:
+    """Which pixels are darker than a threshold of 0 (white) to 1 (black); row 0 is the lowest."""
+    import io
+
+    from PIL import Image
+    data = read_bytes(path)
+    try:
+        with Image.open(io.BytesIO(data)) as picture:
+            if picture.width * picture.height > PIXELS:
+                raise Failure(f'{path}: has {picture.width} x {picture.height} pixels, at most '
+                              f'{PIXELS // 1_000_000} million are read')
+            if picture.mode in ('RGBA', 'LA', 'P'):  # what is transparent is paper
+                picture = picture.convert('RGBA')
+                paper = Image.new('RGBA', picture.size, (255, 255, 255, 255))
+                picture = Image.alpha_composite(paper, picture)
+            gray = np.asarray(picture.convert('L'), float)
+    except Failure:
+        raise
+    except Exception as error:  # Pillow raises many kinds for damaged pictures
+        raise Failure(f'{path}: is not a picture that can be read: {error}') from None
+    dark = gray / 255 if negate else 1 - gray / 255
+    if smooth:  # a median of 3 x 3, twice, takes the noise of a scan away
+        dark = median_filter(median_filter(dark, 3), 3)
+    return np.asarray(dark[::-1] > threshold)
+
+
+def _plan(path: Path, dark: np.ndarray, scale: float, origin: tuple[float, float],
+          with_doors: bool) -> Plan:
+    if max(dark.shape) * scale > FARTHEST:
+        raise Failure(f'{path}: is {max(dark.shape) * scale:.0f} m wide at {scale:g} m a pixel, '
+                      f'at most {FARTHEST:g} m are read')
+    boxes = straight_walls(cleaned_walls(dark, scale), scale)
+    if not boxes:
+        raise Failure(f'{path}: has no walls: nothing dark is {LEAST_WALL:g} m long; check the '
+                      'scale')
+    if len(boxes) > WALLS:
+        raise Failure(f'{path}: has more than {WALLS} walls; it is not a floor plan')
+    storey = Storey(0, 'Ground floor', 0.0, HEIGHT)
+    for west, south, east, north in boxes:
+        storey.walls.append(_wall(west * scale + origin[0], south * scale + origin[1],
+                                  east * scale + origin[0], north * scale + origin[1]))
+    gaps = _doors(storey.walls)
+    storey.openings = gaps if with_doors else [
+        replace(gap, kind='opening', leaves=()) for gap in gaps]
+    storey.walls += [_over(opening) for opening in storey.openings]
+    storey.rooms = rooms_of(storey, HEIGHT, ())
+    return finish(Plan(slug(path.name.partition('.')[0], 'plan'), [storey]))
+
+
+def cleaned_walls(dark: np.ndarray, scale: float) -> np.ndarray:
+    """The dark pixels without noise: specks are removed, holes of a pixel or two filled."""
+    closed = binary_closing(np.pad(dark, 3), np.ones((3, 3)))[3:-3, 3:-3]
+    opened = closed if scale >= 0.03 else binary_opening(closed, np.ones((2, 2)))
+    labels, count = label(opened, np.ones((3, 3)))
+    kept = np.zeros(count + 1, bool)
+    rows, columns = np.nonzero(labels)
+    index = labels[rows, columns]
+    for values in (rows, columns):
+        low = np.full(count + 1, 1 << 30)
+        high = np.full(count + 1, -1)
+        np.minimum.at(low, index, values)
+        np.maximum.at(high, index, values)
+        kept |= (high - low + 1) * scale >= LEAST_WALL
+    kept[0] = False
+    return np.asarray(kept[labels])
+
+
+def straight_walls(dark: np.ndarray, scale: float) -> list[tuple[int, int, int, int]]:
+    """Boxes (west, south, east, north) in pixels: runs along x and y, their edges straightened."""
+    found = []
+    left = dark.copy()
+    least = max(2, round(LEAST_WALL / scale))
+    for turned in (False, True):
+        cells = left.T if turned else left
+        runs = binary_opening(cells, np.ones((1, least)))
+        labels, count = label(runs)
+        for k, where in enumerate(_slices(labels, count), 1):
+            part = labels[where] == k
+            for row, column, high, wide in _bands(part):
+                south, west = where[0].start + row, where[1].start + column
+                found.append((south, west, south + high, west + wide) if turned
+                             else (west, south, west + wide, south + high))
+        cells &= ~runs
+    for row, column, high, wide in rectangles(left):
+        if max(high, wide) >= least:
+            found.append((column, row, column + wide, row + high))
+    return found
+
+
+def _slices(labels: np.ndarray, count: int) -> list[tuple[slice, slice]]:
+    from scipy.ndimage import find_objects
+    return [where for where in find_objects(labels, count) if where is not None]
+
+
+def _bands(part: np.ndarray) -> list[tuple[int, int, int, int]]:
+    """A run's rectangles: one if it is nearly straight, otherwise those that cover it."""
+    filled = part.mean()
+    if filled > 0.8:
+        rows = np.nonzero(part.mean(axis=1) >= 0.5)[0]
+        if len(rows):
+            return [(int(rows[0]), 0, int(rows[-1] - rows[0] + 1), part.shape[1])]
+    return rectangles(part)
+
+
+def _wall(west: float, south: float, east: float, north: float) -> Wall:
+    wide, high = east - west, north - south
+    x, y = (west + east) / 2, (south + north) / 2
+    if wide >= high:
+        return Wall((west, y), (east, y), high, 0.0, HEIGHT)
+    return Wall((x, south), (x, north), wide, 0.0, HEIGHT)
+
+
+def _doors(walls: list[Wall]) -> list[Opening]:
+    """Gaps of 0.7 to 1.1 m between two walls in one line, and between a wall's end and a face."""
+    found = []
+    for along in (0, 1):
+        spans = []
+        for wall in walls:
+            run = 0 if abs(wall.end[0] - wall.start[0]) >= abs(wall.end[1] - wall.start[1]) else 1
+            half = wall.thickness / 2
+            low, high = sorted((wall.start[along], wall.end[along]))
+            across = wall.start[1 - along]
+            if run == along:
+                spans.append((low, high, across - half, across + half, True))
+            else:
+                ends = sorted((wall.start[1 - along], wall.end[1 - along]))
+                spans.append((wall.start[along] - half, wall.start[along] + half, *ends, False))
+        for low, high, first, last, runs in spans:
+            if not runs or last - first > THICKEST:
+                continue
+            found += _gaps(spans, (low, high, first, last), along)
+    return _once(found)
+
+
+def _gaps(spans: list[tuple[float, float, float, float, bool]],
+          wall: tuple[float, float, float, float], along: int) -> list[Opening]:
+    """The gaps at both ends of a wall."""
+    low, high, first, last = wall
+    found = []
+    for end, sign in ((high, 1), (low, -1)):
+        beyond = [(s[0] - end if sign > 0 else end - s[1]) for s in spans
+                  if min(s[3], last) - max(s[2], first) > 0.5 * (last - first)]
+        gap = min((g for g in beyond if g > 0.02), default=0.0)
+        if NARROW <= gap <= WIDE and not any(-0.02 < g <= 0.02 for g in beyond):
+            at, across = end + sign * gap / 2, (first + last) / 2
+            x, y = (at, across) if along == 0 else (across, at)
+            half = (last - first) / 2
+            leaf = Leaf((-gap / 2 + 0.005, -half), gap - 0.01, 0.0, -pi / 2)
+            found.append(Opening('door', x, y, 0.0 if along == 0 else pi / 2, gap, 0.0, DOOR_TOP,
+                                 (-half, half), (leaf,), source='gap'))
+    return found
+
+
+def _once(openings: list[Opening]) -> list[Opening]:
+    kept: list[Opening] = []
+    for opening in openings:
+        if all(abs(opening.x - o.x) + abs(opening.y - o.y) > 0.3 for o in kept):
+            kept.append(opening)
+    return kept
+
+
+def _over(opening: Opening) -> Wall:
+    """The wall over a door, from its top to the ceiling."""
+    a, b = opening.point(-opening.width / 2, 0.0), opening.point(opening.width / 2, 0.0)
+    return Wall(a, b, opening.band[1] - opening.band[0], DOOR_TOP, HEIGHT)
