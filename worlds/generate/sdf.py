@@ -109,7 +109,10 @@ def add(parent: etree._Element, tag: str, text: object = None, **attributes: str
 def add_home(parent: etree._Element, tag: str, text: object = None, **attributes: str
              ) -> etree._Element:
     """Appends <angen:tag>, a part of the home's description, and returns it."""
-    return add(parent, f"{{{ANGEN}}}{tag}", text, **attributes)
+    child = etree.SubElement(parent, f"{{{ANGEN}}}{tag}", attributes, nsmap={"angen": ANGEN})
+    if text is not None:
+        child.text = num(text) if isinstance(text, (int, float)) else str(text)
+    return child
 
 
 @dataclass(frozen=True)

@@ -42,6 +42,7 @@ def write_apartment(path: Path, floors: int, counts: Mapping[str, int], seed: in
     sensors = apartment(floors, counts, seed, elevator)
     root, world = blocks.new_world('apartment')
     blocks.add_world_plugins(world)
+    blocks.add_home_site(world)
     for floor in range(floors):
         blocks.comment(world, f'floor {floor}')
         blocks.include(world, 'apartment', f'apartment{floor}',
