@@ -30,6 +30,10 @@ def home(tmp_path_factory) -> Path:
 
 @pytest.fixture(scope='module')
 def lived(home) -> Data:
+    return morning(home)
+
+
+def morning(home: Path) -> Data:
     """A carer, who comes in the morning."""
     site = Site(home, 7)
     day = datetime.date(2026, 3, 23)
@@ -64,6 +68,12 @@ def test_who_comes_home_walks_in_and_is_detected(lived, tmp_path):
     assert findings.checked['nobody crossed a wall'] >= 2
     assert {check: wrong for check, wrong in findings.wrong.items()
             if wrong and check != 'no gap in the truth'} == {}
+
+
+def test_the_same_morning_has_the_same_bytes(lived, home):
+    again = morning(home)
+    assert (again.events, again.track) == (lived.events, lived.track)
+    assert [i.row() for i in again.truth] == [i.row() for i in lived.truth]
 
 
 def test_validate_finds_walls_and_seats(lived, tmp_path):

@@ -33,6 +33,8 @@ class Live:
         self._now, self._ticked = 0.0, time.monotonic()
         self._states: dict[str, Any] = {}
         self._subscribed: set[str] = set()
+        self._here: set[str] = set()  # residents that have a body
+        self._topics: dict[tuple[str, str], tuple[str, str]] = {}
         self._clock = rospy.Subscriber('/clock', Clock, self._tick, queue_size=1)
         self._truth = rospy.Publisher(TRUTH, String, queue_size=50, latch=True)
         try:
@@ -109,13 +111,13 @@ class Live:
         from angen_msgs.srv import Spawn
         self.vanish(name)
         self._call('/angen/spawn', Spawn, name=name, xml=sdf, on='', pose=_pose(x, y, z, yaw))
+        self._here.add(name)
 
     def vanish(self, name: str) -> None:
         from angen_msgs.srv import Delete
-        try:
+        if name in self._here:
+            self._here.remove(name)
             self._call('/angen/delete', Delete, name=name)
-        except Refused:
-            pass  # it is not there
 
     def fidget(self, name: str, turn: float) -> None:
         from gazebo_msgs.msg import ModelState
