@@ -1,7 +1,7 @@
 """A resident: does what the agenda says, and uses the home by its habits."""
 from __future__ import annotations
 
-from typing import Any, Iterator
+from typing import Any, Generator, Iterator
 
 from angen_apps.residents.activities import Activity, Step, activities
 from angen_apps.residents.agenda import Item, Planner
@@ -203,7 +203,7 @@ class Resident(Mover):
             self._lamps(activity)
             yield from self._stay(min(self.now + self._habits.uniform(*ROAMS), end), step, 0)
 
-    def _queue(self, activity: Activity, item: Item) -> Iterator[float]:
+    def _queue(self, activity: Activity, item: Item) -> Generator[float, None, bool]:
         """Waits until rooms for one are free; whether they are."""
         rooms = [room.name for room in self.household.places.rooms_of(activity.alone)]
         since = self.now
