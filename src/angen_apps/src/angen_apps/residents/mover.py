@@ -20,6 +20,7 @@ DOOR_WAIT = 20.0  # s for somebody else in a doorway
 OPENS_IN = 12.0  # s
 ASIDE = 0.55  # m between the middles of two people
 NEARER = 0.05  # m
+SLOWS = 0.4  # s in which it walks the rest of its way
 
 Process = Iterator[float]
 
@@ -146,10 +147,17 @@ class Mover:
                         self._let_go(held)
                         held = None
             self.arrived = True
+            yield self.now + SLOWS
         finally:
             self.walks = False
+            self.halt()
             if held is not None:
                 self._let_go(held)
+
+    def halt(self) -> None:
+        """Stands still where it is: it would go on trying to come the last centimeters nearer."""
+        if not self.away and self.posture == 'stand':
+            self.household.do(self.name, 'person', self.name, 'Stop')
 
     def _walk(self, point: Point, near: float, held: Door | None) -> Process:
         """Straight to a point; `self._came` says whether it came so near."""
@@ -220,4 +228,5 @@ class Mover:
                                   f'GoTo {point[0]:.3f} {point[1]:.3f}')
                 break
         yield self.now + 2.0 + attempt
+        self.halt()
         self.look()

@@ -108,7 +108,7 @@ class Places:
                 continue
             seat = None
             if posture != 'stand':
-                seat = replace(place, pose=[x, y, self.ground.support(place), place.pose[3]])
+                seat = replace(place, pose=(x, y, self.ground.support(place), place.pose[3]))
             found.append(Spot(stand, room.storey, floor, thing.room, thing.name, seat))
         return found
 
@@ -116,8 +116,8 @@ class Places:
         """Before a thing that names no place: ahead of it, or else beside it."""
         x, y, _, qx, qy, qz, qw = thing.pose
         yaw = math.atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz))
-        return [Place('stand', [x + TOWARDS * math.cos(yaw), y + TOWARDS * math.sin(yaw), floor,
-                                yaw + math.pi])]
+        return [Place('stand', (x + TOWARDS * math.cos(yaw), y + TOWARDS * math.sin(yaw), floor,
+                                yaw + math.pi))]
 
     def _porch(self) -> list[Spot]:
         porch = self.ground.porch()

@@ -185,6 +185,7 @@ class Resident(Mover):
                                   f'GoTo {point[0]:.3f} {point[1]:.3f}')
                 break
         yield self.now + 1.2
+        self.halt()
         self.look()
 
     def _roam(self, activity: Activity, step: Step, end: float) -> Process:

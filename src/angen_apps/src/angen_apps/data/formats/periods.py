@@ -6,7 +6,7 @@ import io
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import IO, Iterator
+from typing import IO, Iterator, cast
 
 import numpy as np
 
@@ -76,7 +76,7 @@ def zipped(path: Path) -> Iterator[IO[str]]:
     """A text file that is compressed to the same bytes at any time."""
     with writing(path, binary=True) as file:
         with gzip.GzipFile('', 'wb', LEVEL, file, mtime=0) as packed:
-            text = io.TextIOWrapper(packed, 'utf-8', newline='')
+            text = io.TextIOWrapper(cast(IO[bytes], packed), 'utf-8', newline='')
             yield text
             text.flush()
             text.detach()

@@ -14,7 +14,7 @@ HEAD = ('time', 'sensor', 'kind', 'room', 'value', 'resident', 'activity', 'caus
 
 def rows(data: Data) -> list[tuple[str, ...]]:
     """The lines of the table."""
-    found = []
+    found: list[tuple[str, ...]] = []
     for event in data.events:
         sensor = data.by_id[event.sensor]
         found.append((f'{data.at(event.time):%Y-%m-%d %H:%M:%S.%f}', event.sensor, sensor.kind,
