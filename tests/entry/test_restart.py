@@ -63,7 +63,7 @@ def start(environment, fake, count):  # noqa: F811
     """./angen run as its script starts it."""
     (fake / 'first.world').write_text(str(count))
     environment['ROS_PACKAGE_PATH'] = f'{fake}:{environment.get("ROS_PACKAGE_PATH", "")}'
-    environment['XDG_RUNTIME_DIR'] = str(fake.parent)
+    environment['XDG_STATE_HOME'] = str(fake.parent)
     return subprocess.Popen(
         [sys.executable, '-m', 'angen_tools.entry.run', fake / 'fake.launch',
          f'world:={fake}/first.world'], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
@@ -87,11 +87,11 @@ def test_master_and_node_start_anew_with_the_world(environment, fake):  # noqa: 
     assert ['another one is started' in line for line in said] == [True, False], said
     assert 'starting again with the world as it was' in said[1]
     assert 'Traceback' not in ''.join(first + printed)
-    assert str(fake.parent / f'angen-{os.getuid()}/rescued-{process.pid}.world') in printed[-1]
+    assert str(fake.parent / f'angen/rescued-{process.pid}.world') in printed[-1]
     process.send_signal(signal.SIGINT)
     process.communicate(timeout=60)
     assert process.returncode == 130
-    assert list((fake.parent / f'angen-{os.getuid()}').iterdir()) == []
+    assert list((fake.parent / 'angen').iterdir()) == []
     assert marked(f'ANGEN_TEST_MARK={environment["ANGEN_TEST_MARK"]}') == []
 
 
@@ -103,7 +103,7 @@ def test_not_for_ever(environment, fake):  # noqa: F811
     rest = process.communicate(timeout=60)[0]
     assert process.returncode == 1
     assert 'angen: the ROS master was lost 4 times within 60 s' in rest
-    saved = fake.parent / f'angen-{os.getuid()}/rescue-{process.pid}.world'
+    saved = fake.parent / f'angen/rescue-{process.pid}.world'
     assert f'the world as it was is in {saved}' in rest and saved.read_text() == '4'
 
 

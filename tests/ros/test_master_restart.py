@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import signal
 import subprocess
 import time
@@ -65,14 +64,20 @@ def test_it_ends_with_its_world_saved(master: Master, tmp_path: Path) -> None:
 
 
 def test_the_default_place_is_the_users_own(master: Master, tmp_path: Path) -> None:
-    runtime = tmp_path / "runtime"
-    runtime.mkdir()
-    master.environment["XDG_RUNTIME_DIR"] = str(runtime)
+    kept = tmp_path / "precious"
+    kept.write_text("mine")
+    state = tmp_path / "state"
+    (state / "angen").mkdir(parents=True, mode=0o777)
+    (state / "angen" / "rescue.world").symlink_to(kept)
+    master.environment["XDG_STATE_HOME"] = str(state)
     process = master.node(world_file(tmp_path), tmp_path / "log")
     anew = killed_and_started_anew(master, tmp_path)
     try:
         assert process.wait(20) == 75
-        assert (runtime / f"angen-{os.geteuid()}" / "rescue.world").exists()
+        saved = state / "angen" / "rescue.world"
+        assert saved.is_file() and not saved.is_symlink() and kept.read_text() == "mine"
+        assert saved.stat().st_mode & 0o777 == 0o600
+        assert (state / "angen").stat().st_mode & 0o777 == 0o700
     finally:
         end(anew.process)
 

@@ -1,10 +1,8 @@
 #include "assets/cache_file.h"
 
 #include <dlfcn.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -12,6 +10,7 @@
 #include <sstream>
 #include <vector>
 
+#include "core/private_file.h"
 #include "core/random.h"
 
 namespace angen::load {
@@ -62,20 +61,6 @@ void make_room(const fs::path& folder) {
   }
 }
 
-void write_whole(const fs::path& file, const std::string& bytes) {
-  static std::atomic<int> count{0};
-  const fs::path fresh =
-      file.string() + "." + std::to_string(getpid()) + "." + std::to_string(++count);
-  std::ofstream stream(fresh, std::ios::binary);
-  stream << bytes;
-  stream.close();
-  if (stream) {
-    fs::rename(fresh, file);
-  } else {
-    fs::remove(fresh);
-  }
-}
-
 }  // namespace
 
 std::string cache_file(const std::string& key, const std::string& extension) {
@@ -97,8 +82,8 @@ std::optional<std::string> read_cache_file(const std::string& file) {
 
 void write_cache_file(const std::string& file, const std::string& bytes) {
   const fs::path where = fs::path(file).parent_path();
-  fs::create_directories(where);
-  write_whole(file, hex(hash_bytes(bytes)) + bytes);
+  make_private_folder(where.string());
+  write_private_file(file, hex(hash_bytes(bytes)) + bytes);
   make_room(where);
 }
 

@@ -1,7 +1,6 @@
 """The world that the node leaves when it has lost the ROS master."""
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import pytest
@@ -13,9 +12,9 @@ from angen_tools.entry.rescue import Rescue, own_folder
 
 @pytest.fixture(autouse=True)
 def runtime(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The folder of $XDG_RUNTIME_DIR."""
-    monkeypatch.setenv('XDG_RUNTIME_DIR', str(tmp_path))
-    return tmp_path / f'angen-{os.getuid()}'
+    """The folder of $XDG_STATE_HOME."""
+    monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path))
+    return tmp_path / 'angen'
 
 
 def test_the_world_is_taken_once_and_removed_at_the_end(runtime: Path) -> None:
@@ -29,7 +28,8 @@ def test_the_world_is_taken_once_and_removed_at_the_end(runtime: Path) -> None:
 
 
 def test_nobody_else_may_read_it(runtime: Path) -> None:
-    assert own_folder().stat().st_mode & 0o777 == 0o700
+    runtime.mkdir(mode=0o777)
+    assert own_folder() == runtime and runtime.stat().st_mode & 0o777 == 0o700
 
 
 def test_a_folder_of_somebody_else_is_not_used(runtime: Path, tmp_path: Path) -> None:

@@ -13,14 +13,24 @@ MOST, SPAN = 3, 60.0  # restarts in so many s
 
 
 def own_folder() -> Path:
-    """A folder that only this user can write, in $XDG_RUNTIME_DIR or /tmp."""
-    folder = Path(os.environ.get('XDG_RUNTIME_DIR') or '/tmp') / f'angen-{os.getuid()}'
+    """A folder that only this user can use: $XDG_STATE_HOME/angen, or ~/.local/state/angen."""
+    given = Path(os.environ.get('XDG_STATE_HOME', ''))
+    folder = (given if given.is_absolute() else Path.home() / '.local' / 'state') / 'angen'
     try:
+        folder.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         folder.mkdir(mode=0o700, exist_ok=True)
-        found = folder.lstat()
+        found = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
+        try:
+            own = os.fstat(found).st_uid == os.getuid()
+            if own:
+                os.fchmod(found, 0o700)
+        finally:
+            os.close(found)
+    except NotADirectoryError:  # a link, too
+        own = False
     except OSError as error:
         raise Failure(f'{folder}: cannot be made: {error.strerror}') from None
-    if found.st_uid != os.getuid() or folder.is_symlink() or not folder.is_dir():
+    if not own:
         raise Failure(f'{folder}: is not a folder of yours; remove it')
     return folder
 
