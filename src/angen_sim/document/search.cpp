@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/allow_paths.h"
+#include "core/plain_file.h"
 #include "core/plugin_path.h"
 #include "core/text.h"
 #include "document/xml.h"
@@ -99,8 +100,7 @@ void check_allowed(const std::string& file, const std::string& what, const Sourc
 }
 
 bool is_file(const std::string& path, Session& session) {
-  std::error_code failed;
-  return session.sources.exists(path) && fs::is_regular_file(path, failed);
+  return session.sources.exists(path) && is_plain_file(path);
 }
 
 bool may_name(const std::string& path, const std::string& file, const Source& at,
@@ -167,11 +167,10 @@ std::string need_uri(const std::string& uri, const std::string& what, const Sour
         at, "unknown uri '" + uri + "'; " + what + "s are read from model://NAME/… and file://…");
   }
   if (auto found = find_uri(uri, at.file, session)) {
-    std::error_code failed;
     // The user has named it, not a document.
     if (!at.file.empty()) check_allowed(*found, what + " '" + uri + "'", at, session);
-    if (what == "model" || fs::is_regular_file(*found, failed)) return *found;
-    throw Error(at, what + " '" + uri + "' is not a file (" + *found + "); name one");
+    if (what == "model" || is_plain_file(*found)) return *found;
+    throw Error(at, what + " '" + uri + "' is not a regular file (" + *found + "); name one");
   }
   throw Error(at, what + " '" + uri +
                       "' is not found; searched: " + searched_places(uri, at.file, session));

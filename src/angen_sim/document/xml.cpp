@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/plain_file.h"
 #include "core/text.h"
 #include "core/typography.h"
 
@@ -220,7 +221,7 @@ std::string read_file(const std::string& path) {
   if (std::filesystem::is_directory(path, failed)) {
     throw Error({path, 0}, "is a folder; give an SDF file");
   }
-  if (std::filesystem::exists(path, failed) && !std::filesystem::is_regular_file(path, failed)) {
+  if (std::filesystem::exists(path, failed) && !is_plain_file(path)) {
     throw Error({path, 0}, "is not a regular file; give an SDF file");
   }
   std::ifstream stream(path, std::ios::binary);

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <vector>
 
+#include "core/plain_file.h"
 #include "core/text.h"
 #include "document/search.h"
 
@@ -50,7 +51,7 @@ std::vector<std::string> scripts_at(const std::string& path, Session& session) {
   std::vector<std::string> files;
   std::error_code failed;
   const auto add = [&](const fs::path& file) {
-    if (fs::is_regular_file(file, failed)) files.push_back(file.string());
+    if (is_plain_file(file.string())) files.push_back(file.string());
   };
   if (!session.sources.is_folder(path)) {
     add(path);
@@ -113,8 +114,7 @@ std::string ogre_texture(const Element& script, const OgreMaterial& material, Se
     const auto folder = find_uri(uri.text, uri.source.file, session);
     if (!folder || !session.sources.is_folder(*folder)) continue;
     std::string path = (fs::path(*folder) / material.texture).lexically_normal().string();
-    std::error_code failed;
-    if (!session.sources.exists(path) || !fs::is_regular_file(path, failed)) continue;
+    if (!session.sources.exists(path) || !is_plain_file(path)) continue;
     if (session.allowed.holds(path, uri.source.file)) return path;
   }
   return find_beside(material.texture, "texture", material.file, script.source, session);

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/allow_paths.h"
+#include "core/plain_file.h"
 #include "core/plugin_path.h"
 #include "core/text.h"
 
@@ -99,7 +100,6 @@ bool is_on_search_path(const fs::path& file) {
 
 // The file to load for `filename`, by its path or from the search path.
 fs::path locate(const std::string& filename, bool any_path) {
-  std::error_code ignored;  // of paths that are too long, or lead where we may not read
   if (filename.find('/') != std::string::npos) {
     if (!any_path && !is_on_search_path(filename)) {
       throw Error(
@@ -107,7 +107,7 @@ fs::path locate(const std::string& filename, bool any_path) {
           " does not lie on the plug-in path; add its folder to ANGEN_PLUGIN_PATH, or allow "
           "every path by allow_paths:=true (ANGEN_ALLOW_PATHS=true)");
     }
-    if (!fs::is_regular_file(filename, ignored)) {
+    if (!is_plain_file(filename)) {
       throw Error("there is no plug-in library " + printable(filename, 300));
     }
     if (!registers_plugins(filename)) holds_none(filename);
@@ -118,7 +118,7 @@ fs::path locate(const std::string& filename, bool any_path) {
   for (const fs::path& directory : plugin_path()) {
     fs::path candidate = directory / filename;
     searched.push_back(directory.string());
-    if (!fs::is_regular_file(candidate, ignored)) continue;
+    if (!is_plain_file(candidate)) continue;
     if (registers_plugins(candidate)) return candidate;
     if (unsuitable.empty()) unsuitable = candidate;
   }

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/plain_file.h"
 #include "record/action_line.h"
 
 namespace angen::record {
@@ -85,8 +86,7 @@ void write_header(const LogHeader& header, LineWriter& line) {
 }
 
 Log read_log(const std::string& path) {
-  std::error_code failed;
-  const bool is_file = std::filesystem::is_regular_file(path, failed);  // others may not end
+  const bool is_file = is_plain_file(path);  // others may not end
   std::ifstream stream(is_file ? path : "", std::ios::binary);
   if (!stream) throw Error({path, 0}, "cannot be read; give a log that record:= wrote");
   check_begin(stream, path);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/plain_file.h"
 #include "record/recorder.h"
 
 namespace angen::record {
@@ -32,8 +33,7 @@ bool is_near(const Pose& text, const Pose& exact) {
 // Logs come from others: the folder that one names is searched only where the world that it names
 // is here, which would have it searched as well.
 std::string models_beside_world(const LogHeader& header) {
-  std::error_code failed;
-  if (!fs::is_regular_file(header.world, failed)) return "";
+  if (!is_plain_file(header.world)) return "";
   return fs::path(header.models) == folder_of(header.world) / "models" ? header.models : "";
 }
 

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "assets/png.h"
+#include "core/plain_file.h"
 #include "core/text.h"
 #include "document/search.h"
 #include "document/values.h"
@@ -86,7 +87,7 @@ double file_cost(const Element& shape, Session& session) {
   if (!file || !session.allowed.holds(*file, uri->source.file)) return 0.0;
   if (!session.counted_files.insert(*file).second) return 0.0;
   std::error_code failed;
-  if (!std::filesystem::is_regular_file(*file, failed)) return 0.0;
+  if (!is_plain_file(*file)) return 0.0;
   if (shape.name == "heightmap") return kHeightSample * heights_in(*file);
   const auto size = std::filesystem::file_size(*file, failed);
   return failed ? 0.0 : kMeshByte * static_cast<double>(size);
