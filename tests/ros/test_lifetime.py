@@ -10,7 +10,7 @@ from pathlib import Path
 import psutil
 import pytest
 from angen_msgs.srv import Delete, Spawn
-from harness import WORLD, Angen, Master, end, node_binary
+from harness import WORLD, Angen, Master, end, node_binary, until
 
 
 def check(world: Path) -> subprocess.CompletedProcess[str]:
@@ -101,3 +101,36 @@ def test_what_comes_and_goes_leaves_nothing(angen: Angen) -> None:
             break
         time.sleep(0.05)
     assert after[0] <= before[0] and after[1] <= before[1], (before, after)
+
+
+def test_a_second_node_of_the_name_leaves_the_first_alone(tmp_path: Path) -> None:
+    world = tmp_path / "small.world"
+    world.write_text(WORLD)
+    master = Master(tmp_path)
+
+    def second(*words: str) -> subprocess.Popen[str]:
+        return subprocess.Popen([str(node_binary()), str(world), *words], text=True,
+                                env=master.environment, stdout=subprocess.DEVNULL,
+                                stderr=subprocess.PIPE)
+
+    first = master.node(world, tmp_path / "log")
+    replacing = None
+    try:
+        refused = second()
+        _, said = refused.communicate(timeout=60)
+        assert refused.returncode == 1 and len(said.splitlines()) == 1, said
+        assert said.startswith("a node /angen runs already at http://")
+        assert "_replace:=true" in said
+        assert first.poll() is None and "/angen/ready" in master.topics()
+        replacing = second("_replace:=true")
+        assert first.wait(60) == 0  # the master has told it to end
+        first = master.node(world, tmp_path / "log", replace="true")  # and it was replaced in turn
+        assert replacing.wait(60) == 0
+        first.kill()  # it stays registered, but a node that is gone is in nobody's way
+        first.wait()
+        first = master.node(world, tmp_path / "again")
+        until(lambda: "; seed " in (tmp_path / "again").read_text(), "it runs")
+    finally:
+        for process in (first, replacing, master.process):
+            if process is not None:
+                end(process)

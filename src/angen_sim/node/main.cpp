@@ -21,6 +21,7 @@
 #include "core/diagnostics.h"
 #include "core/text.h"
 #include "node/node.h"
+#include "node/other_node.h"
 #include "node/rescue.h"
 #include "plugin/library.h"
 #include "record/recorder.h"
@@ -37,7 +38,7 @@ constexpr char kUsage[] =
     "                  [_fast:=false] [_topics:=sensor|kind] [_record:=FILE]\n"
     "                  [_replay:=FILE [_until:=SECONDS]] [_allow_paths:=false] [_rescue:=FILE]\n"
     "                  [_memory_limit:=4096] [_states_rate:=30] [_strict:=true|false]\n"
-    "                  [_odom_parent:=world|none]\n"
+    "                  [_odom_parent:=world|none] [_replace:=true]\n"
     "       angen_node --check WORLD    only loads; exit code 1 when it cannot\n"
     "WORLD may also be the parameter ~world. Where the ROS master was restarted, the node\n"
     "saves the world in FILE and ends with exit code 75.\n";
@@ -325,6 +326,9 @@ int main(int argc, char** argv) {
     if (!paths.empty()) simulation = make(path, seed_in(raw));
     ros::init(argc, argv, "angen", ros::init_options::NoSigintHandler);
     end_on_signals();
+    if (std::count(raw.begin(), raw.end(), "_replace:=true") == 0) {
+      angen::node::require_no_other_node();
+    }
     return run(path, std::move(simulation));
   } catch (const angen::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -1,0 +1,70 @@
+#include "node/other_node.h"
+
+#include <fcntl.h>
+#include <netdb.h>
+#include <poll.h>
+#include <ros/master.h>
+#include <ros/network.h>
+#include <ros/this_node.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "core/diagnostics.h"
+
+namespace angen::node {
+namespace {
+
+constexpr int kConnectLimit = 2000;  // ms
+
+bool connects(const addrinfo& address) {
+  const int file = socket(address.ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  if (file < 0) return false;
+  bool connected = connect(file, address.ai_addr, address.ai_addrlen) == 0;
+  if (!connected && errno == EINPROGRESS) {
+    pollfd waits{file, POLLOUT, 0};
+    int problem = ETIMEDOUT;
+    socklen_t size = sizeof problem;
+    connected = poll(&waits, 1, kConnectLimit) == 1 &&
+                getsockopt(file, SOL_SOCKET, SO_ERROR, &problem, &size) == 0 && problem == 0;
+  }
+  close(file);
+  return connected;
+}
+
+/// Whether anybody serves at the address of a node.
+bool answers(const std::string& uri) {
+  std::string host;
+  std::uint32_t port = 0;
+  if (!ros::network::splitURI(uri, host, port)) return false;
+  addrinfo wanted{};
+  wanted.ai_socktype = SOCK_STREAM;
+  addrinfo* found = nullptr;
+  if (getaddrinfo(host.c_str(), std::to_string(port).c_str(), &wanted, &found) != 0) return false;
+  const std::unique_ptr<addrinfo, void (*)(addrinfo*)> owner(found, freeaddrinfo);
+  for (const addrinfo* at = found; at != nullptr; at = at->ai_next) {
+    if (connects(*at)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void require_no_other_node() {
+  const std::string& name = ros::this_node::getName();
+  XmlRpc::XmlRpcValue request, response, uri;
+  request[0] = name;
+  request[1] = name;
+  if (!ros::master::execute("lookupNode", request, response, uri, true)) return;
+  if (uri.getType() != XmlRpc::XmlRpcValue::TypeString || !answers(uri)) return;
+  throw Error("a node " + name + " runs already at " + static_cast<std::string>(uri) +
+              " and would be ended by this one; end it by rosnode kill " + name +
+              ", replace it by _replace:=true, or give this one a master of its own by "
+              "ROS_MASTER_URI");
+}
+
+}  // namespace angen::node
