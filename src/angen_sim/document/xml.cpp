@@ -33,11 +33,7 @@ std::string checked(const char* text, const Source& at) {
   throw Error(at, "a reference to a character that XML does not allow; leave it out");
 }
 
-Element convert(const tinyxml2::XMLElement& from, const std::string& file, std::size_t& count) {
-  if (++count > kMaxElements) {
-    throw Error({file, from.GetLineNum()}, "more than " + std::to_string(kMaxElements) +
-                                               " elements; split the file into models");
-  }
+Element convert(const tinyxml2::XMLElement& from, const std::string& file) {
   Element to;
   to.name = from.Name();
   to.source = {file, from.GetLineNum()};
@@ -47,7 +43,7 @@ Element convert(const tinyxml2::XMLElement& from, const std::string& file, std::
   std::string text;
   for (auto* node = from.FirstChild(); node != nullptr; node = node->NextSibling()) {
     if (auto* child = node->ToElement()) {
-      to.children.push_back(convert(*child, file, count));
+      to.children.push_back(convert(*child, file));
     } else if (auto* piece = node->ToText()) {
       text += checked(piece->Value(), to.source);
     }
@@ -139,6 +135,55 @@ Error syntax_error(const std::string& text, const std::string& file,
       "the typographic character " + found->name + " in a tag, which XML does not allow; " + right);
 }
 
+// The end of the tag that begins before `at`; counts its attributes.
+std::size_t after_tag(const std::string& text, std::size_t at, std::size_t& attributes) {
+  char quote = '\0';
+  for (; at < text.size(); ++at) {
+    const char c = text[at];
+    if (quote != '\0') {
+      if (c == quote) quote = '\0';
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '>') {
+      break;
+    } else if (c == '=') {
+      ++attributes;
+    }
+  }
+  return at;
+}
+
+// Before the parser: it takes memory for all nodes, and compares each attribute of an element with
+// all others.
+void check_counts(const std::string& text, const std::string& file) {
+  std::size_t elements = 0, asides = 0, all_attributes = 0;
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
+    const std::size_t after = after_aside(text, at);
+    std::size_t attributes = 0;
+    const std::size_t begin = at;
+    if (after > at) {
+      ++asides;
+      at = after;
+    } else if (text.compare(at, 2, "</") != 0) {
+      ++elements;
+      at = after_tag(text, at + 1, attributes);
+    } else {
+      ++at;
+    }
+    all_attributes += attributes;
+    if (attributes > kMaxAttributes) {
+      throw Error({file, line_at(text, begin)}, "an element with more than " +
+                                                    std::to_string(kMaxAttributes) +
+                                                    " attributes; give it elements instead");
+    }
+    if (elements > kMaxElements || asides > kMaxElements || all_attributes > 2 * kMaxElements) {
+      throw Error({file, line_at(text, begin)}, "more than " + std::to_string(kMaxElements) +
+                                                    " elements or comments, or twice as many "
+                                                    "attributes; split the file into models");
+    }
+  }
+}
+
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -203,6 +248,7 @@ Element parse_xml(const std::string& text, const std::string& file) {
                 is_utf8 ? "a control character, which XML does not allow; leave it out"
                         : "a byte that is not UTF-8; save the file as UTF-8");
   }
+  check_counts(text, file);
   tinyxml2::XMLDocument document;
   document.Parse(text.data(), text.size());
   if (document.Error()) throw syntax_error(text, file, document);
@@ -212,8 +258,13 @@ Element parse_xml(const std::string& text, const std::string& file) {
     throw Error({file, root->NextSiblingElement()->GetLineNum()},
                 "a second root element; put all into one <sdf>");
   }
-  std::size_t count = 0;
-  return convert(*root, file, count);
+  return convert(*root, file);
+}
+
+void check_text_size(const std::string& text) {
+  if (text.size() <= kMaxTextBytes) return;
+  throw Error("a text of " + std::to_string(text.size() >> 20U) +
+              " MB; a text may have 4 MB: write it into a file, and give its path");
 }
 
 std::string read_file(const std::string& path) {

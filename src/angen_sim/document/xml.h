@@ -9,11 +9,16 @@
 namespace angen::load {
 
 constexpr std::size_t kMaxFileBytes = 64U << 20U;
+constexpr std::size_t kMaxTextBytes = 4U << 20U;  // of a text that a client sends
 constexpr std::size_t kMaxElements = 100'000;
+constexpr std::size_t kMaxAttributes = 100;  // of one element
 
 /// The root element of a document; `file` stands for it in messages. Throws Error for text that is
 /// not well-formed, not UTF-8, or too large.
 Element parse_xml(const std::string& text, const std::string& file);
+
+/// Throws Error for a text of more than kMaxTextBytes.
+void check_text_size(const std::string& text);
 
 /// A whole file; throws Error when it cannot be read or is larger than kMaxFileBytes.
 std::string read_file(const std::string& path);

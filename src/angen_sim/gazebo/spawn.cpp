@@ -6,6 +6,7 @@
 
 #include "core/names.h"
 #include "core/text.h"
+#include "document/xml.h"
 #include "gazebo/model_text.h"
 #include "gazebo/names.h"
 #include "ros/taken_topics.h"
@@ -24,6 +25,7 @@ constexpr const char* kNoModel =
 void check_format(const std::string& xml, bool urdf_only) {
   if (!valid_utf8(xml)) throw Error("model_xml is not UTF-8");
   try {
+    load::check_text_size(xml);
     if (!is_urdf(xml) && urdf_only) throw Error("the root element is not <robot>");
   } catch (const Error& error) {
     throw Failed(std::string(urdf_only ? kNoUrdf : kNoModel) + " " + error.what());

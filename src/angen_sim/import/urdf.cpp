@@ -18,6 +18,9 @@ namespace angen::load {
 
 namespace {
 
+constexpr std::size_t kMaxLinks = 1000;
+constexpr std::size_t kMaxChain = 200;  // joints from a link to the root
+
 void need_link(const Element& joint, const char* end, const std::set<std::string>& links) {
   const Element* element = joint.child(end);
   const std::string* link = element == nullptr ? nullptr : element->attribute("link");
@@ -64,6 +67,28 @@ void check_numbers(const Element& element) {
   for (const Element& child : element.children) check_numbers(child);
 }
 
+// libsdformat recurses along chains, and takes a time that grows with their square.
+void check_chains(const Element& robot, std::size_t links) {
+  if (links > kMaxLinks) {
+    throw Error(robot.source, "more than " + std::to_string(kMaxLinks) +
+                                  " links in one robot; split it into several");
+  }
+  std::map<std::string, std::string> parents;
+  for (const Element& child : robot.children) {
+    if (child.name != "joint") continue;
+    parents[*child.child("child")->attribute("link")] = *child.child("parent")->attribute("link");
+  }
+  for (const auto& [link, parent] : parents) {
+    std::size_t length = 0;
+    for (auto at = parents.find(link); at != parents.end(); at = parents.find(at->second)) {
+      if (++length <= kMaxChain) continue;
+      throw Error(robot.source, "a chain of more than " + std::to_string(kMaxChain) +
+                                    " joints, or a loop of them, above the link '" +
+                                    printable(link) + "'; make it shorter");
+    }
+  }
+}
+
 void check_robot(const Element& robot) {
   std::set<std::string> links;
   std::set<std::string> joints;
@@ -83,6 +108,7 @@ void check_robot(const Element& robot) {
     need_link(child, "parent", links);
     need_link(child, "child", links);
   }
+  check_chains(robot, links.size());
 }
 
 // Elements that libsdformat made keep the place of the URDF element of the same kind and name.

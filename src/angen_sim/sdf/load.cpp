@@ -44,6 +44,7 @@ const Element* lone_child(const Element& sdf, F accepts) {
 }
 
 Element model_from_text(const std::string& text, Session& session) {
+  check_text_size(text);
   Element root = parse_xml(text, kText);
   if (root.name == "sdf" || root.name == "robot") {
     const Element sdf = read_document(text, kText, session);
@@ -135,7 +136,7 @@ desc::Model model(const std::string& what, const std::string& name, const Pose& 
 }
 
 bool is_sensor(const std::string& what) {
-  if (!is_text(what)) return false;
+  if (!is_text(what) || what.size() > kMaxTextBytes) return false;
   try {
     const Element root = parse_xml(what, kText);
     const auto accepts = [](const Element& e) { return e.name == "sensor"; };
@@ -148,6 +149,7 @@ bool is_sensor(const std::string& what) {
 desc::Sensor sensor(const std::string& what, const std::string& name, const Pose& pose) {
   if (!name.empty()) check_name(name, "the sensor", {});
   if (const std::string problem = pose_problem(pose); !problem.empty()) throw Error(problem);
+  check_text_size(what);
   Element root = parse_xml(what, kText);
   if (root.name == "sdf") {
     const Element* child = lone_child(root, [](const Element& e) { return e.name == "sensor"; });

@@ -1,12 +1,17 @@
 #include "sensors/camera_params.h"
 
+#include <cmath>
 #include <utility>
+
+#include "core/text.h"
 
 namespace angen::sensors {
 
 namespace {
 
 constexpr Range kPixels{1.0, 4096.0};
+constexpr double kMostPixels = 3840.0 * 2160.0;
+constexpr double kMostPixelsPerSecond = 30.0 * kMostPixels;
 constexpr Range kAngle{1e-3, 3.1};
 constexpr Range kCoefficient{-100.0, 100.0};
 
@@ -41,6 +46,22 @@ void read_unused(Params& params) {
   params.text("triggerTopicName", "image_trigger", "not used: it is not triggered");
 }
 
+// The thread that renders an image answers no call meanwhile.
+void check_pixels(const render::PinholeCamera& camera, Params& params) {
+  const double pixels = static_cast<double>(camera.width) * camera.height;
+  if (pixels > kMostPixels) {
+    throw params.error("camera/image", "an image of " + number_text(pixels) +
+                                           " pixels, must have at most 3840 x 2160");
+  }
+  const double rate = 1.0 / to_seconds(params.update_period());
+  if (pixels * rate > kMostPixelsPerSecond) {
+    throw params.error("camera/image", number_text(std::round(pixels * rate)) +
+                                           " pixels a second, must be at most " +
+                                           number_text(kMostPixelsPerSecond) +
+                                           ": a smaller image, or a lower update_rate");
+  }
+}
+
 }  // namespace
 
 Lens read_lens(Params& params) {
@@ -50,6 +71,7 @@ Lens read_lens(Params& params) {
                                           "full angle from left to right", kAngle);
   camera.width = params.integer("camera/image/width", camera.width, "", "pixels", kPixels);
   camera.height = params.integer("camera/image/height", camera.height, "", "pixels", kPixels);
+  check_pixels(camera, params);
   camera.near =
       params.number("camera/clip/near", camera.near, "m", "nearer is not seen", kPositive);
   camera.far = params.number("camera/clip/far", camera.far, "m", "farther is not seen", kPositive);

@@ -25,6 +25,29 @@ TEST(Xml, ElementsAreBounded) {
   EXPECT_NE(error_of(in_world(many)).find("more than 100000 elements"), std::string::npos);
 }
 
+// The parser would compare each attribute with all before it: 20,000 took 5 s.
+TEST(Xml, AttributesAreBounded) {
+  const auto with = [](int count) {
+    std::string text = "\n<gui";
+    for (int i = 0; i < count; ++i) text += " a" + std::to_string(i) + "='<x y=\"1\">'";
+    return in_world(text + "/>");
+  };
+  read(with(100));
+  for (const int count : {101, 200'000}) {
+    EXPECT_NE(error_of(with(count)).find("w.world:2: an element with more than 100 attributes"),
+              std::string::npos);
+  }
+  std::string many;
+  for (int i = 0; i < 90'000; ++i) many += "<x a='1' b='2' c='3'/>";
+  EXPECT_NE(error_of(in_world(many)).find("twice as many attributes"), std::string::npos);
+}
+
+TEST(Xml, CommentsAreBounded) {
+  std::string many;
+  for (int i = 0; i < 100'001; ++i) many += "<!---->";
+  EXPECT_NE(error_of(in_world(many)).find("elements or comments"), std::string::npos);
+}
+
 TEST(Xml, DepthIsBounded) {
   std::string deep;
   for (int i = 0; i < 5000; ++i) deep += "<model name='m'>";
