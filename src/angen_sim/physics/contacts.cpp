@@ -19,9 +19,10 @@ constexpr double kStickMu = 1e6;       // from here on nothing slides
 constexpr std::size_t kManyJoints = 256;
 constexpr double kStopSteps =
     2.0;  // contacts that friction stops within this many steps do not slide
-constexpr double kMinSlip = 1e-6;          // m/s
-constexpr double kMinLoad = 1e-6;          // N
-constexpr std::size_t kMaxInStep = 20000;  // points
+constexpr double kMinSlip = 1e-6;              // m/s
+constexpr double kMinLoad = 1e-6;              // N
+constexpr std::size_t kMaxInStep = 20000;      // points
+constexpr std::size_t kMaxInMeshes = 400'000;  // triangles, about 0.1 s
 constexpr double kPush =
     50.0;  // m/s^2, at which a soft contact lifts a body that is deep in the floor
 
@@ -32,6 +33,8 @@ bool joined(const Body& a, const Body& b) {
     return joint->first == &other || joint->second == &other;
   });
 }
+
+std::size_t triangles_of(const Geom& geom) { return geom.mesh->mesh->triangles.size(); }
 
 double usable_mu(double mu) { return mu >= kStickMu ? dInfinity : std::max(0.0, mu); }
 
@@ -120,9 +123,10 @@ void Contacts::start() {
   pairs_.clear();
   found_.clear();
   points_.clear();
+  in_meshes_ = 0;
 }
 
-bool Contacts::full() const { return found_.size() >= kMaxInStep; }
+bool Contacts::full() const { return found_.size() >= kMaxInStep || in_meshes_ >= kMaxInMeshes; }
 
 bool Contacts::collide(Geom& a, Geom& b) {
   Geom& first = a.serial < b.serial ? a : b;
@@ -130,6 +134,7 @@ bool Contacts::collide(Geom& a, Geom& b) {
   std::array<dContactGeom, kMaxFound> found;
   const std::size_t n = touching_points(first, second, found.data());
   if (n == 0) return false;
+  if (first.mesh && second.mesh) in_meshes_ += triangles_of(first) + triangles_of(second);
   std::size_t kept = reduce_points(found.data(), n);
   if (first.body->upright && second.body->upright) kept = reduce_upright(found.data(), kept);
   note_change(first, second);

@@ -33,8 +33,9 @@ class Contacts {
   /// Sets the world of contact joints; it may change between finish() and make_joints().
   void use(dWorldID world);
 
-  /// True if there are too many contact points and those of two moving bodies are skipped: bodies
-  /// that were put in one place would take all memory and time.
+  /// True if there are too many contact points, or meshes in each other took too long, and those of
+  /// two moving bodies are skipped: bodies that were put in one place would take all memory and
+  /// time.
   bool full() const;
 
   /// Narrow phase; true when the geoms touch.
@@ -118,6 +119,7 @@ class Contacts {
   double fastest_;        // m/s, at which deep contacts separate
   ode::JointGroupHandle group_;
   std::size_t most_joints_ = 0;  // that group_ has held
+  std::size_t in_meshes_ = 0;    // triangles of meshes that touch each other in this step
   std::vector<Pair> pairs_;
   std::vector<dContactGeom> found_;
   std::vector<ContactPoint> points_;

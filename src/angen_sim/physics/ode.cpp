@@ -1,7 +1,9 @@
 #include "physics/ode.h"
 
+#include <atomic>
 #include <cstdarg>
 #include <cstdio>
+#include <cstring>
 
 namespace angen::physics::ode {
 
@@ -14,9 +16,18 @@ void on_message(int number, const char* text, va_list arguments) {
     lcp_failed = true;
     return;
   }
-  std::fputs("ODE: ", stderr);
-  std::vfprintf(stderr, text, arguments);
-  std::fputc('\n', stderr);
+  static std::atomic<bool> told{false};
+  char line[200];
+  std::vsnprintf(line, sizeof line, text, arguments);
+  if (std::strstr(line, "hash table") != nullptr) {  // said for each pair in each step
+    if (told.exchange(true)) return;
+    std::fputs(
+        "physics: meshes overlap at more places than ODE tells apart: some of their contacts may "
+        "be doubled (said once)\n",
+        stderr);
+    return;
+  }
+  std::fprintf(stderr, "ODE: %s\n", line);
 }
 
 // ODE would abort() or exit() after it.

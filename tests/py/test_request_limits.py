@@ -1,0 +1,108 @@
+"""Limits on what a client may send: checked before time and memory are spent on it."""
+import multiprocessing
+import resource
+import subprocess
+import sys
+import time
+
+import pytest
+
+import angen
+from sdf_text import sdf_world
+
+LONGEST, LARGEST = 5.0, 500.0  # s of CPU time, MB
+
+
+def chain(links: int, kind: str = 'fixed') -> str:
+    """A robot whose links are in a row."""
+    inertial = ('<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" '
+                'iyz="0"/></inertial>')
+    return '<robot name="r">' + ''.join(
+        f'<link name="l{i}">{inertial}</link>' for i in range(links)) + ''.join(
+        f'<joint name="j{i}" type="{kind}"><parent link="l{i}"/><child link="l{i + 1}"/>'
+        '<axis xyz="0 0 1"/></joint>' for i in range(links - 1)) + '</robot>'
+
+
+def in_link(part: str) -> str:
+    return f'<model name="m"><static>true</static><link name="l">{part}</link></model>'
+
+
+def camera(width: int, height: int, rate: float, library: str = 'libgazebo_ros_camera.so') -> str:
+    kind = 'depth' if 'openni' in library else 'camera'
+    return in_link(
+        f'<sensor name="c" type="{kind}"><update_rate>{rate}</update_rate><camera><image><width>'
+        f'{width}</width><height>{height}</height></image></camera>'
+        f'<plugin name="c" filename="{library}"/></sensor>')
+
+
+def attributes(count: int) -> str:
+    return '<model name="m" ' + ' '.join(f'a{i}="1"' for i in range(count)) + '/>'
+
+
+TEXTS = {
+    'attributes': (attributes(200_000), 'more than 100 attributes'),
+    'elements': ('<model name="m">' + '<a/>' * 900_000 + '</model>', 'more than 100000 elements'),
+    'comments': ('<model name="m">' + '<!---->' * 500_000 + '</model>', 'elements or comments'),
+    'bytes': (in_link('<pose>' + '1 ' * 3_000_000 + '</pose>'), 'a text may have 4 MB'),
+    'numbers': (in_link('<pose>' + '1 ' * 1_900_000 + '</pose>'), 'numbers; give 6'),
+    'name': (in_link('').replace('"m"', '"' + 'm' * 4_000_000 + '"'), 'name'),
+    'depth': ('<model name="m">' * 200_000, 'more than 100 deep'),
+    'chain': (chain(900), 'a chain of more than 200 joints'),
+    'moving chain': (chain(900, 'continuous'), 'a chain of more than 200 joints'),
+    'links': (chain(10_000), 'more than 1000 links'),
+    'pixels': (camera(4000, 4000, 1.0), 'must have at most 3840 x 2160'),
+    'pixels a second': (camera(3000, 2000, 100.0), 'pixels a second, must be at most'),
+    'points': (camera(4096, 4096, 1.0, 'libgazebo_ros_openni_kinect.so'), 'must have at most 3840'),
+}
+
+
+def spend(text: str, queue) -> None:
+    """What a spawn answers, its CPU time (s), and the memory that it took at most (MB)."""
+    world = angen.World.from_text(sdf_world(''))
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    start = time.process_time()
+    try:
+        world.spawn(text)
+        answer = ''
+    except Exception as error:
+        answer = str(error)
+    spent = time.process_time() - start
+    queue.put((answer, spent, (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024))
+
+
+@pytest.mark.parametrize('what', TEXTS)
+def test_too_much_is_refused_at_once(what: str) -> None:
+    text, reason = TEXTS[what]
+    context = multiprocessing.get_context('spawn')
+    queue = context.Queue()
+    child = context.Process(target=spend, args=(text, queue))
+    child.start()
+    answer, seconds, megabytes = queue.get(timeout=300)
+    child.join()
+    assert reason in answer and len(answer) < 2000
+    assert seconds < LONGEST and megabytes < LARGEST
+
+
+def test_what_real_robots_have_is_taken() -> None:
+    world = angen.World.from_text(sdf_world(''))
+    world.spawn(chain(150))
+    world.spawn(camera(3840, 2160, 30.0), name='camera')
+
+
+PILE = """
+import angen
+world = angen.World.from_text('''{world}''')
+for i in range(40):
+    world.spawn('model://{model}', name=f'm{{i}}', pose=[0, 0, 0.5, 0, 0, 0.001 * i])
+world.step(3)
+print(sum(event.name == 'crowded' for event in world.events()))
+"""
+
+
+@pytest.mark.parametrize('model', ['chair'])
+def test_meshes_in_one_place_do_not_take_all_time(model: str) -> None:
+    """Each pair takes 0.5 ms and more in each step: not all 780 are computed, and that is told."""
+    done = subprocess.run([sys.executable, '-c', PILE.format(world=sdf_world(''), model=model)],
+                          capture_output=True, text=True, timeout=300, check=True)
+    assert done.stdout == '1\n'
+    assert done.stderr.count('\n') <= 1 and 'ODE:' not in done.stderr
