@@ -163,7 +163,8 @@ void Reconfigure::publish() {
   updates_.publish(config_of_now(physics_));
 }
 
-// Missing parameters keep their values. The reply type has no field for an error message.
+// Missing parameters keep their values. The reply type has no field for an error message: roscpp logs
+// what is thrown, and sends its text to the client.
 bool Reconfigure::set(Call::Request& request, Call::Response& response) {
   try {
     Request wanted = request_of(physics_.get());
@@ -176,8 +177,7 @@ bool Reconfigure::set(Call::Request& request, Call::Response& response) {
     physics_.set(wanted);
     response.config = config_of_now(physics_);
   } catch (const std::exception& problem) {
-    ROS_ERROR("/gazebo/set_parameters: %s", printable(problem.what(), 2000).c_str());
-    return false;
+    throw Error("/gazebo/set_parameters: " + printable(problem.what(), 2000));
   }
   return true;
 }
