@@ -5,27 +5,13 @@
 #include <cmath>
 #include <limits>
 
-#include "light/directions.h"
 #include "light/photometry.h"
 
 namespace angen::light {
 namespace {
 
-constexpr double kFar = 1e4;         // m, length of shadow rays to a directional lamp
 constexpr double kOnSurface = 1e-9;  // m
 constexpr std::size_t kSides = 64;   // of the polygon that approximates a disc
-
-/// Unit vectors along a flat lamp's width and height.
-struct Axes {
-  Vec3 along, across;
-};
-
-Axes axes_of(const Lamp& lamp) {
-  // Its own x axis unless it shines along that.
-  const Vec3 guide = std::abs(lamp.direction.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitY();
-  const Vec3 across = lamp.direction.cross(guide).normalized();
-  return {lamp.pose.rotation * across.cross(lamp.direction), lamp.pose.rotation * across};
-}
 
 double area_of(const Lamp& lamp) {
   return lamp.type == Lamp::Type::kDisc ? M_PI * lamp.radius * lamp.radius
@@ -176,63 +162,13 @@ double globe_illuminance(const Lamp& lamp, const Vec3& point, const Vec3& normal
          ((cosine * std::acos(y) - x * sine * root) / (far * far) + std::atan(sine * root / x));
 }
 
-bool sees(const rays::Scene& scene, const Lamp& lamp, const Vec3& point, const Vec3& on_lamp,
-          rays::Mobilities among) {
-  if (lamp.type != Lamp::Type::kDirectional) return !scene.blocked(point, on_lamp, 1e-4, among);
-  const Vec3 towards = -(lamp.pose.rotation * lamp.direction);
-  return !scene.blocked(point, point + kFar * towards, 1e-4, among);
-}
-
-/// Relative contribution of a sample point of the lamp to the plane.
-double weight_of(const Lamp& lamp, const Vec3& on_lamp, const Vec3& point, const Vec3& normal) {
-  const Vec3 way = on_lamp - point;
-  if (lamp.type == Lamp::Type::kPoint) return way.dot(normal) > 0.0 ? 1.0 : 0.0;
-  if (lamp.type != Lamp::Type::kTube && !lamp.flat()) return 1.0;
-  const double distance2 = way.squaredNorm();
-  if (lamp.type == Lamp::Type::kTube) {
-    return std::max(0.0, way.dot(normal)) * way.cross(axes_of(lamp).along).norm() /
-           (distance2 * distance2);
-  }
-  const Vec3 shines = lamp.pose.rotation * lamp.direction;
-  return std::max(0.0, way.dot(normal)) * std::max(0.0, -way.dot(shines)) / (distance2 * distance2);
-}
-
-struct Count {
-  double free = 0.0, seen = 0.0;
-  double share() const { return free > 0.0 ? seen / free : 0.0; }
-};
-
-Count count_seen(const rays::Scene& scene, const Lamp& lamp, const Vec3& point, const Vec3& normal,
-                 rays::Mobilities among, std::size_t points) {
-  Count count;
-  for (std::size_t i = 0; i < points; ++i) {
-    const Vec3 on_lamp = lamp_point(lamp, i);
-    // A sample point inside a ceiling counts neither as seen nor as shadowed.
-    if (!lamp.flat() && scene.blocked(lamp.pose.position, on_lamp, 0.0, among)) continue;
-    const double weight = weight_of(lamp, on_lamp, point, normal);
-    count.free += weight;
-    if (weight > 0.0 && sees(scene, lamp, point, on_lamp, among)) count.seen += weight;
-  }
-  return count;
-}
-
 }  // namespace
 
-Vec3 lamp_point(const Lamp& lamp, std::size_t which) {
-  const std::size_t i = which % kLampPoints;
-  if (lamp.type == Lamp::Type::kTube) {
-    const double at = (square_points()[i].first - 0.5) * lamp.length;
-    return lamp.pose.position + at * axes_of(lamp).along;
-  }
-  if (!lamp.flat()) return lamp.pose.position + lamp.radius * lamp_points()[i];
-  const Axes axes = axes_of(lamp);
-  const auto [u, v] = square_points()[i];
-  if (lamp.type == Lamp::Type::kRectangle) {
-    return lamp.pose.position + (u - 0.5) * lamp.width * axes.along +
-           (v - 0.5) * lamp.height * axes.across;
-  }
-  const double out = lamp.radius * std::sqrt(u), angle = 2.0 * M_PI * v;
-  return lamp.pose.position + out * (std::cos(angle) * axes.along + std::sin(angle) * axes.across);
+Axes axes_of(const Lamp& lamp) {
+  // Its own x axis unless it shines along that.
+  const Vec3 guide = std::abs(lamp.direction.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitY();
+  const Vec3 across = lamp.direction.cross(guide).normalized();
+  return {lamp.pose.rotation * across.cross(lamp.direction), lamp.pose.rotation * across};
 }
 
 Beam beam(const Lamp& lamp, const Vec3& point) {
@@ -260,23 +196,6 @@ double illuminance(const Lamp& lamp, const Vec3& point, const Vec3& normal) {
   }
   const Beam from_lamp = beam(lamp, point);
   return from_lamp.illuminance * std::max(0.0, normal.dot(from_lamp.towards));
-}
-
-double visible_share(const rays::Scene& scene, const Lamp& lamp, const Vec3& point,
-                     const Vec3& normal, rays::Mobilities among) {
-  if (!lamp.cast_shadows) return 1.0;
-  if (lamp.type == Lamp::Type::kDirectional) {
-    return sees(scene, lamp, point, Vec3::Zero(), among) ? 1.0 : 0.0;
-  }
-  // A few points tell whether the plane is in penumbra; only there many are worth their cost.
-  const double coarse = count_seen(scene, lamp, point, normal, among, kLampPoints / 8).share();
-  if (coarse == 0.0 || coarse == 1.0) return coarse;
-  return count_seen(scene, lamp, point, normal, among, kLampPoints).share();
-}
-
-bool sees_one(const rays::Scene& scene, const Lamp& lamp, const Vec3& point, std::size_t which,
-              rays::Mobilities among) {
-  return !lamp.cast_shadows || sees(scene, lamp, point, lamp_point(lamp, which), among);
 }
 
 }  // namespace angen::light

@@ -1,9 +1,16 @@
 #pragma once
 
 #include "light/lamp.h"
-#include "rays/scene.h"
 
+/// Unobstructed light of lamps.
 namespace angen::light {
+
+/// Unit vectors along a flat lamp's width and height; a tube's length is along the first.
+struct Axes {
+  Vec3 along, across;
+};
+
+Axes axes_of(const Lamp& lamp);
 
 /// Unobstructed light of a lamp at level 1 at a point, as if all came from the lamp's center.
 struct Beam {
@@ -18,19 +25,5 @@ Beam beam(const Lamp& lamp, const Vec3& point);
 /// Unobstructed lx on the plane through `point` with the unit `normal`. Exact for flat lamps
 /// (Lambert's formula for a uniform diffuse polygon; a disc is approximated by 64 sides).
 double illuminance(const Lamp& lamp, const Vec3& point, const Vec3& normal);
-
-/// Visible share (0..1) of the lamp's light on that plane, with the shapes `among` as occluders; 1
-/// if the lamp casts no shadows.
-double visible_share(const rays::Scene& scene, const Lamp& lamp, const Vec3& point,
-                     const Vec3& normal, rays::Mobilities among);
-
-/// Whether the point sees the lamp's sample point `which` (modulo kLampPoints); true if the lamp
-/// casts no shadows.
-bool sees_one(const rays::Scene& scene, const Lamp& lamp, const Vec3& point, std::size_t which,
-              rays::Mobilities among);
-
-/// Sample point `which` (modulo kLampPoints) of a lamp, m, world: on its sphere, a tube's axis or a
-/// flat lamp's face.
-Vec3 lamp_point(const Lamp& lamp, std::size_t which);
 
 }  // namespace angen::light

@@ -11,6 +11,7 @@
 #include "light/beam.h"
 #include "light/directions.h"
 #include "light/field_rays.h"
+#include "light/shadow.h"
 
 namespace angen::light {
 namespace {

@@ -8,6 +8,7 @@
 #include "core/random.h"
 #include "light/beam.h"
 #include "light/directions.h"
+#include "light/shadow.h"
 
 namespace angen::light {
 namespace {

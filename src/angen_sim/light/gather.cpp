@@ -8,6 +8,7 @@
 #include "light/beam.h"
 #include "light/directions.h"
 #include "light/hemisphere.h"
+#include "light/shadow.h"
 
 namespace angen::light {
 namespace {

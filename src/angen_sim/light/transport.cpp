@@ -6,6 +6,7 @@
 
 #include "light/beam.h"
 #include "light/hemisphere.h"
+#include "light/shadow.h"
 
 namespace angen::light {
 namespace {
@@ -23,11 +24,11 @@ Direct direct(const rays::Scene& scene, const Pose& pose, const Lamp& lamp,
   const Vec3 normal = pose.rotation * Vec3::UnitX();
   const double free = illuminance(lamp, pose.position, normal);
   if (free <= 0.0) return {};
-  const auto share_among = [&](rays::Mobilities among) {
-    return visible_share(scene, lamp, pose.position, normal, among);
-  };
-  const double share = share_among(rays::kAll);
-  if (share > 0.0 || share_among(rays::only(rays::Mobility::kStatic)) > 0.0) extend(reach, lamp);
+  const double share = visible_share(scene, lamp, pose.position, normal, rays::kAll);
+  if (share > 0.0 ||
+      sees_any(scene, lamp, pose.position, normal, rays::only(rays::Mobility::kStatic))) {
+    extend(reach, lamp);
+  }
   Direct out;
   out.illuminance = free * share;
   if (lamp.type == Lamp::Type::kDirectional) return out;

@@ -5,6 +5,7 @@
 #include "core/random.h"
 #include "light/beam.h"
 #include "light/directions.h"
+#include "light/shadow.h"
 #include "light/field.h"
 #include "rooms.h"
 
