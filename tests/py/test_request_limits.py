@@ -46,7 +46,7 @@ TEXTS = {
     'bytes': (in_link('<pose>' + '1 ' * 3_000_000 + '</pose>'), 'a text may have 4 MB'),
     'numbers': (in_link('<pose>' + '1 ' * 1_900_000 + '</pose>'), 'numbers; give 6'),
     'name': (in_link('').replace('"m"', '"' + 'm' * 4_000_000 + '"'), 'name'),
-    'depth': ('<model name="m">' * 200_000, 'more than 100 deep'),
+    'depth': ('<model name="m">' * 90_000, 'more than 100 deep'),
     'chain': (chain(900), 'a chain of more than 200 joints'),
     'moving chain': (chain(900, 'continuous'), 'a chain of more than 200 joints'),
     'links': (chain(10_000), 'more than 1000 links'),
@@ -63,7 +63,7 @@ def spend(text: str, queue) -> None:
     start = time.process_time()
     try:
         world.spawn(text)
-        answer = ''
+        answer = ' '.join(event[4] for event in world.events())  # what a tolerant model lacks
     except Exception as error:
         answer = str(error)
     spent = time.process_time() - start
@@ -95,7 +95,7 @@ world = angen.World.from_text('''{world}''')
 for i in range(40):
     world.spawn('model://{model}', name=f'm{{i}}', pose=[0, 0, 0.5, 0, 0, 0.001 * i])
 world.step(3)
-print(sum(event.name == 'crowded' for event in world.events()))
+print(sum(event[3] == 'crowded' for event in world.events()))
 """
 
 

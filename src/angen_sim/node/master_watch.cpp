@@ -3,6 +3,7 @@
 #include <ros/console.h>
 #include <ros/master.h>
 #include <ros/this_node.h>
+#include <ros/xmlrpc_manager.h>
 
 #include <chrono>
 #include <optional>
@@ -32,6 +33,14 @@ std::optional<int> pid_of_master() {
                                                                : std::nullopt;
 }
 
+// Another node has taken this one's name: the master will end this one.
+bool is_replaced() {
+  XmlRpc::XmlRpcValue uri;
+  const bool known = call_master("lookupNode", ros::this_node::getName(), uri) == Answer::kGood;
+  return known && uri.getType() == XmlRpc::XmlRpcValue::TypeString &&
+         static_cast<std::string>(uri) != ros::XMLRPCManager::instance()->getServerURI();
+}
+
 }  // namespace
 
 MasterWatch::MasterWatch() : thread_([this] { watch(); }) {}
@@ -54,7 +63,7 @@ void MasterWatch::watch() {
     XmlRpc::XmlRpcValue provider;
     const Answer service = call_master("lookupService", kService, provider);
     if (pid && !first) first = pid;
-    if ((pid && pid != first) || service == Answer::kError) {
+    if ((pid && pid != first) || (service == Answer::kError && !is_replaced())) {
       lost_ = true;
       return;
     }

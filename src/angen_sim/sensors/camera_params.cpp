@@ -1,9 +1,8 @@
 #include "sensors/camera_params.h"
 
 #include <cmath>
+#include <string>
 #include <utility>
-
-#include "core/text.h"
 
 namespace angen::sensors {
 
@@ -46,18 +45,19 @@ void read_unused(Params& params) {
   params.text("triggerTopicName", "image_trigger", "not used: it is not triggered");
 }
 
+std::string whole_text(double number) { return std::to_string(std::llround(number)); }
+
 // The thread that renders an image answers no call meanwhile.
 void check_pixels(const render::PinholeCamera& camera, Params& params) {
   const double pixels = static_cast<double>(camera.width) * camera.height;
   if (pixels > kMostPixels) {
-    throw params.error("camera/image", "an image of " + number_text(pixels) +
+    throw params.error("camera/image", "an image of " + whole_text(pixels) +
                                            " pixels, must have at most 3840 x 2160");
   }
-  const double rate = 1.0 / to_seconds(params.update_period());
-  if (pixels * rate > kMostPixelsPerSecond) {
-    throw params.error("camera/image", number_text(std::round(pixels * rate)) +
-                                           " pixels a second, must be at most " +
-                                           number_text(kMostPixelsPerSecond) +
+  const double rate = pixels / to_seconds(params.update_period());
+  if (rate > kMostPixelsPerSecond) {
+    throw params.error("camera/image", whole_text(rate) + " pixels a second, must be at most " +
+                                           whole_text(kMostPixelsPerSecond) +
                                            ": a smaller image, or a lower update_rate");
   }
 }
