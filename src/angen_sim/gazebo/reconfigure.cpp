@@ -163,8 +163,8 @@ void Reconfigure::publish() {
   updates_.publish(config_of_now(physics_));
 }
 
-// Missing parameters keep their values. The reply type has no field for an error message: roscpp logs
-// what is thrown, and sends its text to the client.
+// Missing parameters keep their values. The reply type has no field for an error message: roscpp
+// logs what is thrown, and sends its text to the client.
 bool Reconfigure::set(Call::Request& request, Call::Response& response) {
   try {
     Request wanted = request_of(physics_.get());

@@ -19,18 +19,6 @@ std::array<std::pair<double, double>, kLampPoints> make_square_points() {
   return points;
 }
 
-std::array<Vec3, kLampPoints> make_lamp_points() {
-  std::array<Vec3, kLampPoints> points;
-  for (std::size_t i = 0; i < kLampPoints; ++i) {
-    const auto [u, v] = square_points()[i];
-    const double z = 1.0 - 2.0 * u;
-    const double around = std::sqrt(1.0 - z * z);
-    const double angle = 2.0 * M_PI * v;
-    points[i] = {around * std::cos(angle), around * std::sin(angle), z};
-  }
-  return points;
-}
-
 }  // namespace
 
 double radical_inverse(unsigned i) {
@@ -56,11 +44,6 @@ std::vector<Vec3> cosine_directions(std::size_t count) {
 
 const std::array<std::pair<double, double>, kLampPoints>& square_points() {
   static const auto points = make_square_points();
-  return points;
-}
-
-const std::array<Vec3, kLampPoints>& lamp_points() {
-  static const auto points = make_lamp_points();
   return points;
 }
 

@@ -14,9 +14,6 @@ constexpr std::size_t kLampPoints = 128;
 /// `count` cosine-weighted directions about z that fill the hemisphere evenly.
 std::vector<Vec3> cosine_directions(std::size_t count);
 
-/// Points spread evenly over the unit sphere; so are the first sixteen.
-const std::array<Vec3, kLampPoints>& lamp_points();
-
 /// Points spread evenly over the unit square; so are the first sixteen.
 const std::array<std::pair<double, double>, kLampPoints>& square_points();
 

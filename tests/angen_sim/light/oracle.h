@@ -5,8 +5,8 @@
 #include "core/random.h"
 #include "light/beam.h"
 #include "light/directions.h"
-#include "light/shadow.h"
 #include "light/field.h"
+#include "light/shadow.h"
 #include "rooms.h"
 
 /// A slow and simple path tracer: random walks, with the lamp sampled at every vertex. It shares

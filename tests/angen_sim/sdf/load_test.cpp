@@ -104,11 +104,13 @@ TEST(MissingFile, FolderOrPipeIsNotRead) {
   EXPECT_THROW(world(folder.path()), Error);
   const std::string mesh =
       "<visual name='v'><geometry><mesh><uri>model://pipe.world</uri></mesh></geometry></visual>";
-  EXPECT_NE(error_of(in_link(mesh), folder.paths()).find("is not a regular file"), std::string::npos);
+  EXPECT_NE(error_of(in_link(mesh), folder.paths()).find("is not a regular file"),
+            std::string::npos);
   const std::string ground =
       "<collision name='c'><geometry><heightmap><uri>model://pipe.world</uri>"
       "<size>1 1 1</size></heightmap></geometry></collision>";
-  EXPECT_NE(error_of(in_link(ground), folder.paths()).find("is not a regular file"), std::string::npos);
+  EXPECT_NE(error_of(in_link(ground), folder.paths()).find("is not a regular file"),
+            std::string::npos);
 }
 
 /// They call themselves regular; whoever reads them waits for the kernel, or never comes to an end.
