@@ -55,7 +55,8 @@ def run_bench_homes(args: argparse.Namespace) -> int:
     from angen_tools.common.output import show
     check_folder(args.out)
     args.out.mkdir(parents=True, exist_ok=True)
-    show(homes.show_table(homes.measure(args.out)))
+    rows = homes.measure_seeds(args.seeds, args.out) if args.seeds else homes.measure(args.out)
+    show(homes.show_table(rows))
     return 0
 
 
@@ -119,5 +120,7 @@ def add_commands(commands: Any) -> None:
     add_out(soak, 'soak.csv, soak_core.csv')
     imported = command(kinds, 'homes', run_bench_homes, 'imports the nine homes of Debian\'s '
                        'sweethome3d and examines them: counts, areas, doors, rays, rooms reached',
-                       'bench homes')
+                       'bench homes', 'bench homes --seeds 200')
+    imported.add_argument('--seeds', metavar='N', type=checked(at_least(1)), default=0,
+                          help='examines so many homes of angen world home instead')
     add_out(imported, 'the worlds')

@@ -268,3 +268,34 @@ def show_table(rows: list[dict[str, Any]]) -> Any:
     head = list(rows[0])
     return table(head, [[f'{v:.4g}' if isinstance(v, float) else str(v) for v in row.values()]
                         for row in rows])
+
+
+def examine_seed(seed: int, folder: Path) -> list[str]:
+    """What is wrong with the home of a seed: findings, shut doors, rooms that are not reached."""
+    from angen_apps.plan.apartment import apartment
+    rooms, storeys = 1 + seed % 5, 1 + (seed % 4 == 3)
+    path = folder / f'home{seed}.world'
+    plan = apartment(rooms, storeys, seed)
+    write_world(plan, path, 'seed')
+    import angen
+    world = angen.World(str(path))
+    wrong = list(plan.remarks)
+    wrong += [text for kind, text in world.home_findings() if kind == 'contradicting']
+    states = open_all(world)
+    wrong += [f'{kind} {name} is {mode}' for (kind, name), (mode, _, _) in states.items()
+              if mode != 'OPEN']
+    joined, found = reached(path, world.home)
+    wrong += [f'{name} is not reached' for name in sorted(joined - found)]
+    if len(joined) < rooms + 3:
+        wrong.append(f'only {len(joined)} rooms have doors')
+    return wrong
+
+
+def measure_seeds(count: int, folder: Path) -> list[dict[str, Any]]:
+    """A row for each of so many seeds that has something wrong, and one for all."""
+    rows = []
+    for seed in range(count):
+        wrong = examine_seed(seed, folder)
+        if wrong:
+            rows.append({'seed': seed, 'wrong': '; '.join(wrong)})
+    return [*rows, {'seed': 'all', 'wrong': f'{len(rows)} of {count}'}]

@@ -107,7 +107,7 @@ def add_world(commands: Any) -> None:
     """angen world apartment."""
     world = command(commands, 'world', run_world, 'writes a world; needs no simulator',
                     'world apartment --floors 2 --pir 50 -o out.world')
-    kinds = world.add_subparsers(dest='what', metavar='WHAT', required=True)
+    world.kinds = kinds = world.add_subparsers(dest='what', metavar='WHAT', required=True)
     flat = command(kinds, 'apartment', run_world, 'writes flats, one above the other, with sensors',
                    'world apartment --floors 2 --pir 50 --switch 12 -o out.world')
     flat.add_argument('--floors', metavar='N', type=checked(at_least(1)), default=2,

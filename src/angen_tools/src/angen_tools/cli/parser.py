@@ -14,6 +14,8 @@ Run = Callable[[argparse.Namespace], int]  # does what the words say; returns th
 class Parser(argparse.ArgumentParser):
     """Reports in one line what is wrong with the words."""
 
+    kinds: Any = None  # the subcommands to which other packages add
+
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         """argparse's own check, which lists every choice there is."""
         if action.choices is not None and value not in action.choices:

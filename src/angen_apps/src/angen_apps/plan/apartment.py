@@ -1,0 +1,181 @@
+"""Homes by seed: rooms on both sides of a hall, one or two storeys with a lift between them.
+
+Bedrooms have at least 11.5 m2 and 2.75 m (the first) or 7.5 m2 and 2.15 m, ceilings 2.5 m: the
+Nationally Described Space Standard (England, 2015) asks for that and for 2.3 m. Leaves are 0.86 m
+wide: Approved Document M (2015) asks for 0.75 m clear where one comes head on.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+from random import Random
+
+from angen_apps.plan.finish import finish
+from angen_apps.plan.furnished import furnish
+from angen_apps.plan.model import Lamp, Leaf, Lift, Opening, Plan, Room, Storey, Wall
+
+OUTER, INNER = 0.2, 0.1  # m, walls
+CEILING, RISE = 2.5, 3.0  # m
+HALL = 1.5  # m wide
+LEAF = 0.86  # m
+DOOR_TOP = 2.05
+SILL, WINDOW_TOP = 0.95, 2.15  # m
+# least area and width, and how much of it varies
+SIZES = {'living': (16.0, 3.2, 10.0), 'kitchen': (8.0, 2.4, 5.0), 'bathroom': (4.5, 1.9, 2.5),
+         'bedroom': (11.5, 2.75, 5.0), 'bedroom_small': (7.5, 2.15, 4.0), 'work': (7.5, 2.15, 4.0)}
+OTHERS = ('bedroom', 'living', 'bedroom_small', 'work', 'bedroom_small')
+LANDING = 2.4  # m
+SHAFT = (1.7, 1.7)  # m, inner depth and width
+
+
+@dataclass(frozen=True)
+class _Cell:
+    """A room of a row: its use, west and east face of the space between walls' middles."""
+
+    kind: str
+    west: float
+    east: float
+
+
+def apartment(rooms: int, storeys: int, seed: int) -> Plan:
+    """A home of `rooms` rooms besides kitchen, bathroom and hall on each storey."""
+    made = []
+    widths = Random(f'{seed} widths').uniform(0.0, 1.0)
+    for number in range(storeys):
+        dice = Random(f'{seed} {number}')
+        made.append(_storey(number, rooms, storeys > 1, dice, widths))
+    plan = Plan('apartment', made, latitude=51.5)
+    if storeys > 1:
+        x = -LANDING - OUTER / 2 - SHAFT[0] / 2 - 0.15
+        plan.lifts.append(Lift('elevator', x, HALL / 2, 0.0, SHAFT[1] - 0.12, SHAFT[0] - 0.2,
+                               tuple(range(storeys))))
+        for storey in made:
+            low = -SHAFT[0] - 0.2 + x + SHAFT[0] / 2
+            storey.cutouts.append(((low, HALL / 2 - SHAFT[1] / 2), (-LANDING - 0.12, HALL / 2
+                                  - SHAFT[1] / 2), (-LANDING - 0.12, HALL / 2 + SHAFT[1] / 2),
+                                   (low, HALL / 2 + SHAFT[1] / 2)))
+    plan = finish(plan)
+    for storey in plan.storeys:
+        furnish(storey, Random(f'{seed} furniture {storey.number}'))
+    return plan
+
+
+def _rows(rooms: int, dice: Random) -> tuple[list[str], list[str]]:
+    kinds = ['kitchen', 'bathroom', *OTHERS[:rooms]]
+    dice.shuffle(kinds)
+    kinds.sort(key=lambda kind: -SIZES[kind][0])
+    rows: tuple[list[str], list[str]] = ([], [])
+    for kind in kinds:  # the larger ones first, each to the row with less of it
+        min(rows, key=lambda row: sum(SIZES[k][0] for k in row)).append(kind)
+    for row in rows:
+        dice.shuffle(row)
+    return rows
+
+
+def _storey(number: int, rooms: int, is_tower: bool, dice: Random, share: float) -> Storey:
+    z = number * RISE
+    storey = Storey(number, f'Floor {number}', z, RISE, RISE - CEILING - 0.01)
+    rows = _rows(rooms, dice)
+    depths = [dice.uniform(3.3, 4.3) for _ in rows]
+    # towers have the same outline on each storey
+    if is_tower:
+        depths = [3.6 + 0.6 * share, 3.5 + 0.6 * share]
+    needed = [sum(max(SIZES[kind][1], (SIZES[kind][0] + dice.uniform(0, SIZES[kind][2]))
+                      / (depth - 0.15)) + INNER for kind in row)
+              for row, depth in zip(rows, depths)]
+    length = max(needed) if not is_tower else max(
+        max(needed), sum(SIZES[k][0] + SIZES[k][2] for k in ('kitchen', 'bathroom',
+                                                             *OTHERS[:rooms])) / 2 / 3.3)
+    _hall(storey, length)
+    for row, depth, south in zip(rows, depths, (False, True)):
+        _row(storey, row, depth, south, length, dice)
+    _outside(storey, length, depths, is_tower)
+    return storey
+
+
+def _row(storey: Storey, kinds: list[str], depth: float, south: bool, length: float, dice: Random
+         ) -> None:
+    """The rooms of one side of the hall, each with its door, window and lamp."""
+    z = storey.elevation
+    least = [max(SIZES[kind][1], SIZES[kind][0] / (depth - 0.15)) + INNER for kind in kinds]
+    spare = length - sum(least)
+    parts = [dice.uniform(0.5, 1.5) for _ in kinds]
+    west = 0.0
+    wall = 0.0 if south else HALL  # the middle of the wall to the hall
+    far = wall + (-depth if south else depth)
+    sign = -1 if south else 1
+    for i, (kind, wide) in enumerate(zip(kinds, least)):
+        east = length if i == len(kinds) - 1 else west + wide + spare * parts[i] / sum(parts)
+        low = west + (OUTER if i == 0 else INNER) / 2
+        high = east - (OUTER if i == len(kinds) - 1 else INNER) / 2
+        near, end = wall + sign * INNER / 2, far - sign * OUTER / 2
+        use = kind.partition('_')[0]
+        storey.rooms.append(Room('', use, ((low, near), (high, near), (high, end), (low, end)), z,
+                                 CEILING))
+        if i:
+            storey.walls.append(Wall((west, wall), (west, far), INNER, z, z + CEILING))
+        at = dice.uniform(low + LEAF / 2 + 0.25, high - LEAF / 2 - 0.25)
+        _door(storey, at, wall, 0.0, INNER, sign > 0, dice.random() < 0.5)
+        _window(storey, (low + high) / 2, far, min(1.2, high - low - 0.8), sign > 0)
+        storey.lamps.append(Lamp('', (low + high) / 2, (near + end) / 2, z + CEILING - 0.3, 800.0))
+        west = east
+
+
+def _door(storey: Storey, x: float, y: float, yaw: float, thick: float, into_y: bool,
+          hinge_left: bool, source: str = 'door') -> None:
+    """A door whose leaf opens toward the +y or -y of its opening."""
+    half, z = LEAF / 2 + 0.005, storey.elevation
+    face = thick / 2 if into_y else -thick / 2
+    turn = pi / 2 if into_y else -pi / 2
+    leaf = Leaf((-LEAF / 2, face), LEAF, 0.0, turn) if hinge_left else Leaf(
+        (LEAF / 2, face), LEAF, pi, -turn)
+    storey.openings.append(Opening('door', x, y, yaw, 2 * half, z, z + DOOR_TOP,
+                                   (-thick / 2, thick / 2), (leaf,), source=source))
+
+
+def _window(storey: Storey, x: float, y: float, width: float, north: bool) -> None:
+    z, half = storey.elevation, OUTER / 2
+    inner = -half if north else half
+    leaf = Leaf((-width / 2 + 0.005, inner), width - 0.01, 0.0, -pi / 2 if north else pi / 2)
+    storey.openings.append(Opening('window', x, y, 0.0, width, z + SILL, z + WINDOW_TOP,
+                                   (-half, half), (leaf,), source='window'))
+
+
+def _hall(storey: Storey, length: float) -> None:
+    z = storey.elevation
+    storey.walls += [Wall((0.0, y), (length, y), INNER, z, z + CEILING) for y in (0.0, HALL)]
+    low, high = INNER / 2, HALL - INNER / 2
+    storey.rooms.append(Room('', 'hall', ((OUTER / 2, low), (length - OUTER / 2, low),
+                                          (length - OUTER / 2, high), (OUTER / 2, high)), z,
+                             CEILING))
+    storey.lamps.append(Lamp('', length / 2, HALL / 2, z + CEILING - 0.3, 800.0))
+
+
+def _outside(storey: Storey, length: float, depths: list[float], is_tower: bool) -> None:
+    """The outer walls, the entrance, and in towers the landing with its shaft."""
+    z = storey.elevation
+    north, south = HALL + depths[0], -depths[1]
+    corners = [(0.0, south), (length, south), (length, north), (0.0, north)]
+    storey.walls += [Wall(a, b, OUTER, z, z + CEILING)
+                     for a, b in zip(corners, corners[1:] + corners[:1])]
+    _door(storey, 0.0, HALL / 2, -pi / 2, OUTER, True, True, 'front door')
+    if not is_tower:
+        return
+    west, half = -LANDING, 1.2
+    middle = HALL / 2
+    a, b = OUTER / 2, half + OUTER / 2
+    storey.rooms.append(Room('', 'landing', ((west + a, middle - half), (-a, middle - half),
+                                             (-a, middle + half), (west + a, middle + half)), z,
+                             CEILING))
+    storey.walls += [Wall((0.0, y), (west, y), OUTER, z, z + CEILING)
+                     for y in (middle - b, middle + b)]
+    storey.walls.append(Wall((west, middle - b), (west, middle + b), OUTER, z, z + CEILING))
+    storey.openings.append(Opening('opening', west, middle, pi / 2, 1.16, z, z + 2.12,
+                                   (-OUTER / 2, OUTER / 2), source='shaft'))
+    end, side = west - SHAFT[0] - 0.3, SHAFT[1] / 2 + OUTER / 2
+    storey.walls += [Wall((west, middle - side), (end, middle - side), OUTER, z, z + CEILING),
+                     Wall((west, middle + side), (end, middle + side), OUTER, z, z + CEILING),
+                     Wall((end, middle - side), (end, middle + side), OUTER, z, z + CEILING)]
+    storey.lamps.append(Lamp('', west / 2, middle, z + CEILING - 0.3, 800.0))
+    if storey.number == 0:
+        _door(storey, west / 2, middle - b, 0.0, OUTER, True, True, 'house door')
