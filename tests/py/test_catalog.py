@@ -120,7 +120,8 @@ def test_a_window_takes_a_doors_commands(world):
     w.run(3)
     state = w.device('window', 'hall0')
     assert state['mode'] == 'AJAR' and state['position'] == pytest.approx(-0.5, abs=0.005)
-    with pytest.raises(angen.Error, match='a window takes Open, Close, Unlatch, Set <radians>'):
+    with pytest.raises(angen.Error, match='a window takes Open, Close, OpenByHand, CloseByHand, '
+                       'Unlatch, Set <radians>'):
         w.command('window', 'hall0', 'Tilt')
     w.command('window', 'hall0', 'Close')
     w.run(3)
