@@ -26,13 +26,13 @@ def test_a_view_has_angles_and_a_reach() -> None:
 
 
 def test_a_switch_belongs_to_the_door_under_it() -> None:
-    doors = [Door(f'kitchen{floor}', (2.4, 3.94), 0.0, -1.57, 1.0, top=2.1 + 4.0 * floor)
-             for floor in (0, 1)]
+    doors = [Door('kitchen0', (2.4, 3.94), 0.0, -1.57, 1.0),
+             Door('hall0', (4.4, 3.94), 0.0, -1.57, 1.0)]
 
-    def switch(x: float, y: float, z: float) -> Entity:
-        return Entity('switch', 's', 's', (x, y, z, 0, 0, 0, 1))
+    def switch(x: float, y: float) -> Entity:
+        return Entity('switch', 's', 's', (x, y, 2.125, 0, 0, 0, 1))
 
-    assert door_beside(switch(2.65, 3.94, 2.125), doors) == 'kitchen0'
-    assert door_beside(switch(2.65, 3.94, 6.125), doors) == 'kitchen1'
-    assert door_beside(switch(2.65, 2.0, 2.125), doors) == ''
-    assert door_beside(switch(0, 0, 0), []) == ''
+    assert door_beside(switch(2.65, 3.94), doors) == 'kitchen0'
+    assert door_beside(switch(4.9, 3.9), doors) == 'hall0'
+    assert door_beside(switch(2.65, 2.0), doors) == ''
+    assert door_beside(switch(0, 0), []) == ''

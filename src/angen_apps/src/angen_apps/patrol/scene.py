@@ -62,9 +62,10 @@ def make_scene(route: Route, path: str, entities: list[Entity],
     world, shut = load_world(path), load_world(path)
     body = outline(world, np.array([*start.robot.place, start.robot.flat.yaw]))
     survey = Survey(world, shut, entities, {start.floor} | {p.floor for p in route.waypoints})
-    doors = [door for doors in survey.doors.values() for door in doors]
-    rooms = {e.name: (e.kind == 'switch' and door_beside(e, doors)) or e.room for e in entities}
-    beams = beam_angles(shut, survey.by_joint, [e for e in entities if e.kind == 'switch'])
+    rooms = {e.name: (e.kind == 'switch' and door_beside(e, survey.doors.get(e.floor, [])))
+             or e.room or e.name for e in entities}
+    beams = beam_angles(shut, survey.by_joint, [e for e in entities if e.kind == 'switch'],
+                        rooms)
     scene = Scene(start, survey.maps, survey.landmarks, survey.doors, beams, body, world, rooms,
                   survey.home)
     planners = {number: Planner(grid, route.clearance) for number, grid in survey.maps.items()}

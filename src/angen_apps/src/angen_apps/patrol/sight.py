@@ -15,7 +15,7 @@ from angen_apps.robot.views import View
 AROUND = 1.0  # m from a robot's axis, from where its outline is sampled
 SIDES, HEIGHTS = 16, np.arange(0.03, 1.5, 0.06)  # rays that find a robot's outline; m
 BEAM = 0.5  # m
-BESIDE = 0.6  # m from the top of a leaf to the switch over it
+BESIDE = 0.6  # m from the middle of a shut leaf to the switch over it
 CHUNK = 50  # positions at a time
 TICKS, SAMPLES = 5, 120  # ticks between two samples of the beams of opening doors, and how many
 CHANGED = 0.05  # m by which a cut beam is shorter
@@ -100,12 +100,13 @@ class Sight:
 
 def door_beside(switch: Entity, doors: Iterable[Door]) -> str:
     """The door in whose opening a switch is: it is over the middle of the leaf; '' for none."""
-    near = [(math.dist(switch.pose[:3], (*door.middle, door.top)), door.name) for door in doors]
+    near = [(math.dist(switch.pose[:2], door.middle), door.name) for door in doors]
     away, name = min(near, default=(math.inf, ''))
     return name if away < BESIDE else ''
 
 
-def beam_angles(world: Any, doors: dict[str, Door], switches: list[Entity]) -> dict[str, float]:
+def beam_angles(world: Any, doors: dict[str, Door], switches: list[Entity],
+                rooms: dict[str, str]) -> dict[str, float]:
     """How far (rad) each switch's door has turned from shut when its beam comes free.
 
     `doors` by joint, all shut; they are opened for it.
@@ -123,7 +124,7 @@ def beam_angles(world: Any, doors: dict[str, Door], switches: list[Entity]) -> d
         longer = caster.cast(origins, ways, BEAM) > shut + CHANGED
         positions = world.joint_positions
         for switch, free in zip(switches, longer):
-            door = door_beside(switch, doors.values())
-            if free and door:
+            door = rooms[switch.name]
+            if free and door in joints:
                 found.setdefault(switch.name, abs(float(positions[joints[door]])))
     return found
