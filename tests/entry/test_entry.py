@@ -77,6 +77,17 @@ def test_every_dependency_has_a_purpose(path):
     assert [line for line in packages if '#' not in line] == []
 
 
+def test_a_login_shell_within_the_environment_finds_the_programs(folder):
+    """As tmux starts one: PATH is that of /etc/profile, other variables are those of setup.bash."""
+    for name in ('ours', 'on_top', 'without_programs'):
+        (folder / name / ('lib' if 'without' in name else 'bin')).mkdir(parents=True)
+    result = subprocess.run(
+        ['/bin/bash', '-c', 'source "$1"; PATH=/usr/bin; restore_path; restore_path; echo "$PATH"',
+         'test', ROOT / 'angen'], capture_output=True, text=True,
+        env={'CMAKE_PREFIX_PATH': f'{folder}/on_top:{folder}/ours:{folder}/without_programs'})
+    assert result.stdout == f'/usr/bin:{folder}/on_top/bin:{folder}/ours/bin\n', result.stderr
+
+
 def test_no_arguments_print_the_usage(folder):
     result = subprocess.run([ROOT / 'angen'], capture_output=True, text=True)
     assert result.returncode == 0

@@ -110,7 +110,19 @@ def test_a_world_that_cannot_be_read_ends_it_with_failure(environment, tmp_path)
                             capture_output=True, text=True, env=environment, timeout=120)
     assert result.returncode == 1
     assert 'broken.world:' in result.stdout + result.stderr
-    assert 'process has died' in result.stderr  # of roslaunch's lines those of errors stay
+    assert not re.search('Traceback|process has died|====', result.stdout + result.stderr)
+
+
+@pytest.mark.parametrize('wait', [0.3, 1.0, 2.0])
+def test_an_early_ctrl_c_prints_no_traceback(environment, wait):
+    process = subprocess.Popen([ROOT / 'angen', 'run', f'world:={ROOT}/worlds/empty.world'],
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                               env=environment, preexec_fn=restore_signals)
+    time.sleep(wait)
+    process.send_signal(signal.SIGINT)
+    printed = process.communicate(timeout=60)[0]
+    assert 'Traceback' not in printed and 'KeyboardInterrupt' not in printed, printed
+    assert process.returncode in (130, -signal.SIGINT) and marked(environment) == []
 
 
 @pytest.mark.parametrize('word, part', [

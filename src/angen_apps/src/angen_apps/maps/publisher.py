@@ -1,6 +1,7 @@
 """The node that publishes the maps of a building's floors."""
 from __future__ import annotations
 
+import sys
 from multiprocessing import Pipe, Process
 from multiprocessing.connection import Connection
 from typing import Any
@@ -126,3 +127,15 @@ def occupancy_grid(grid: GridMap, frame: str = WORLD) -> Any:
     message.info.origin.orientation.w = 1.0
     message.data = grid.cells.ravel().tolist()
     return message
+
+
+def main() -> None:
+    """WORLD: the node map_publisher."""
+    from rospy import myargv
+    words = myargv()[1:]
+    if len(words) != 1:
+        sys.exit('usage: map_publisher WORLD')
+    try:
+        publish_maps(words[0])
+    except Failure as failure:
+        sys.exit(f'map_publisher: {failure}')

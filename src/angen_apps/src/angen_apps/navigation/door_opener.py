@@ -92,3 +92,11 @@ class DoorOpener:
         for door in in_the_way(doors, (at.x, at.y, at.z), self._path):
             rospy.loginfo('opening door %s', door.name)
             self._commands.publish(Command(target=f'door/{door.name}', text='Open'))
+
+
+def main() -> None:
+    """The node door_opener."""
+    try:
+        DoorOpener().spin()
+    except rospy.ROSInterruptException:
+        pass

@@ -125,3 +125,11 @@ class Node:
         if text not in self._said and len(self._said) < MOST_LINES:
             self._said.add(text)
             rospy.logwarn('%s', text)
+
+
+def main() -> None:
+    """The node rmf."""
+    try:
+        Node().spin()
+    except rospy.ROSInterruptException:
+        pass

@@ -61,6 +61,9 @@ def run(arguments: Sequence[str]) -> int:
     for word in arguments:
         if _has_other_bytes(word):
             parser.error(f'{ascii(word)} is not text in UTF-8')
+    meant = live.right_order(arguments)
+    if meant:
+        parser.error(f"'{arguments[1]}' is not a kind; did you mean {meant}?")
     try:
         args = parser.parse_args(straightened(arguments))
         if getattr(args, 'allow_paths', False):  # also for what this process starts
@@ -103,6 +106,8 @@ def main() -> None:
     logging.raiseExceptions = False  # a log that cannot be written, of rospy's, is not reported
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, stop)
+    if signal.getsignal(signal.SIGINT) == signal.SIG_DFL:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         code = run(sys.argv[1:])
     except SystemExit as end:

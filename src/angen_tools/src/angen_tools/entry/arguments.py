@@ -89,6 +89,23 @@ def check_roslaunch(launch: str) -> None:
         check_arguments(Path(launch), [word for word in words if ':=' in word])
 
 
+def require_packages(names: str, page: str) -> None:
+    """Failure where roslaunch is to start nodes of ROS packages that are missing; `page` says how
+    to get them."""
+    if Path(sys.argv[0]).name != 'roslaunch':
+        return
+    from rospkg import ResourceNotFound, RosPack
+    found, missing = RosPack(), []
+    for name in names.split():
+        try:
+            found.get_path(name)
+        except ResourceNotFound:
+            missing.append(name)
+    if missing:
+        raise Failure(f'{" and ".join(missing)} {"are" if len(missing) > 1 else "is"} not '
+                      f'installed, or its workspace is not sourced; {page} says how to build it')
+
+
 def main() -> None:
     """LAUNCH WORD...: exit code 1 and a line on stderr where a word is wrong."""
     try:

@@ -24,14 +24,14 @@ FILES = ('world', 'record', 'replay', 'residents')  # arguments
 END_LIMIT = 4.0  # s for an orderly end
 SAVE_LIMIT = 30.0  # s that the node has to notice that its master is another, and save the world
 TURN = 0.1
-# roslaunch's own progress is left out, which it prints by Python; errors and nodes' lines are not.
+# roslaunch's own progress is left out, which it prints by Python, and its box about a node that has
+# ended with an error of its own; other errors and nodes' lines are not.
 ROSLAUNCH = '''
-import os, sys, roslaunch
+import os, sys, roslaunch, roslaunch.pmon
 sys.stdout = open(os.devnull, "w")
-try:
-    roslaunch.main()
-except KeyboardInterrupt:  # while it still starts nodes
-    pass'''
+say = roslaunch.pmon.printerrlog
+roslaunch.pmon.printerrlog = lambda text: "exit code 1," in text or say(text)
+roslaunch.main()'''
 OPTIONS = ('--disable-title', '--no-summary', '--skip-log-check', '--sigint-timeout=1.5',
            '--sigterm-timeout=0.5')
 HELP = '''Ctrl-C ends it. To try, in a second terminal, after {angen} shell:
@@ -67,7 +67,7 @@ class Session:
     def __exit__(self, *_: object) -> None:
         for process in (self._launch, self._master):
             if process is not None and process.poll() is None:
-                process.send_signal(signal.SIGINT)
+                process.terminate()  # by SIGINT Python prints a traceback while it still starts
                 try:
                     process.wait(END_LIMIT)
                 except subprocess.TimeoutExpired:
