@@ -128,10 +128,14 @@ class Meter:
     def window(self, warm_up: float, length: float) -> tuple[Sample, Sample]:
         """Two samples `length` s of wall time apart or a little more.
 
-        The first comes when `warm_up` s have passed, of wall time and since the world's start.
+        The first comes when `warm_up` s have passed, of wall time and of simulated time: only then
+        has each lamp shone on each sensor, and only then is all furniture at rest, whose light is
+        computed once.
         """
-        first = self.sample(time.monotonic() + warm_up)
-        while first.sim < warm_up:
+        first = self.sample(0.0)
+        begun = first.sim
+        first = self.sample(first.wall + warm_up)
+        while first.sim < begun + warm_up:
             first = self.sample(first.wall)
         return first, self.sample(first.wall + length)
 
@@ -164,6 +168,20 @@ def spread(sensors: Sequence[Placement], most: int) -> list[Placement]:
     """At most `most` of the sensors, evenly over the list."""
     step = max(1, math.ceil(len(sensors) / most))
     return list(sensors[::step])
+
+
+def handled(client: Client, limit: float = 6 * STATS_LIMIT) -> None:
+    """Returns when the simulator has handled all that it has received. The tick in which lamps
+    shine on many sensors for the first time takes longer than a service waits."""
+    end = time.monotonic() + limit
+    while True:
+        try:
+            client.fence()
+            return
+        except Failure:
+            if time.monotonic() > end:
+                raise
+            time.sleep(1.0)
 
 
 def deploy(client: Client, meter: Meter, sensors: Sequence[Placement]) -> Deployed:

@@ -79,6 +79,12 @@ def fit(counts: Sequence[float], values: Sequence[float | None]) -> Line | None:
     return Line(mean_v - slope * mean_c, slope)
 
 
+def fit_of(rows: Sequence[Row], panel: str) -> Line | None:
+    """The line of a figure over the counts that ran in real time."""
+    kept = [row for row in rows if row.real_time]
+    return fit([row.count for row in kept], [getattr(row, panel) for row in kept])
+
+
 COLUMNS = ('mode', 'kind', 'count', 'sensors', 'floors', 'repeats',
            *(field.name for field in fields(Session)), 'real_time')
 
@@ -124,11 +130,13 @@ def _percent(value: float | None) -> str:
 
 
 def describe_fit(rows: Sequence[Row]) -> list[str]:
-    """The cost of one more sensor, or flat, for the server and the client."""
+    """The cost of one more sensor, or flat, for the server and the client; of the rows in real
+    time, as a processor that is full shows no cost."""
     thing = 'flat' if rows and rows[0].mode == 'desired' else 'sensor'
-    lines = []
+    slow = [row.count for row in rows if not row.real_time]
+    lines = [f'not fitted, as not in real time: {", ".join(map(str, slow))}'] if slow else []
     for who in ('server', 'client'):
-        line = fit([r.count for r in rows], [getattr(r, f'{who}_cpu') for r in rows])
+        line = fit_of(rows, f'{who}_cpu')
         if line:
             lines.append(f'{who}: one more {thing} costs {line.slope:.3g} % of a core '
                          f'({line.base:.1f} % without)')
@@ -175,11 +183,17 @@ def draw_together(path: Path, tables: Sequence[Sequence[Row]]) -> None:
 
 
 def _panel(axis: Any, panel: str, rows: Sequence[Row], thing: str) -> None:
-    """One axis: the medians as points and, of a load that lasts, their line and its slope."""
+    """One axis: the medians as points, hollow where not in real time, and, of a load that lasts,
+    their line and its slope."""
     points = [(r.count, v) for r in rows if (v := getattr(r, panel)) is not None]
     counts, values = zip(*points)
-    axis.plot(counts, values, 'o', label=PANELS[panel])
-    line = None if panel.startswith('deploy') else fit(counts, values)
+    for real_time, fill in ((True, 'full'), (False, 'none')):
+        some = [(r.count, v) for r in rows
+                if r.real_time is real_time and (v := getattr(r, panel)) is not None]
+        if some:
+            axis.plot(*zip(*some), 'o', color=f'C{list(PANELS).index(panel)}', fillstyle=fill,
+                      label=PANELS[panel] + ('' if real_time else ', not in real time'))
+    line = None if panel.startswith('deploy') else fit_of(rows, panel)
     if line:
         ends = [min(counts), max(counts)]
         axis.plot(ends, [line.base + line.slope * c for c in ends],

@@ -12,7 +12,7 @@ from angen_bench.report import Row, Session
 
 def row(count: int, server: float, client: float | None = None, **more: object) -> Row:
     return Row(mode='added', kind='pir', count=count, sensors=count, server_cpu=server,
-               client_cpu=client, **more)
+               client_cpu=client, **{'rtf': 1.0, **more})
 
 
 def test_a_line_is_fitted_exactly() -> None:
@@ -60,6 +60,15 @@ def test_csv_has_a_line_a_count_and_blanks_for_what_is_missing(tmp_path: Path) -
 def test_the_cost_of_one_more_is_described() -> None:
     said = bench_report.describe_fit([row(0, 2.0), row(100, 12.0)])
     assert said == ['server: one more sensor costs 0.1 % of a core (2.0 % without)']
+
+
+def test_what_is_not_in_real_time_is_not_fitted() -> None:
+    rows = [row(0, 2.0), row(100, 12.0), row(500, 99.0, rtf=0.14)]
+    assert bench_report.describe_fit(rows) == [
+        'not fitted, as not in real time: 500',
+        'server: one more sensor costs 0.1 % of a core (2.0 % without)']
+    assert bench_report.describe_fit([row(n, 99.0, rtf=0.3) for n in (1, 2)]) == [
+        'not fitted, as not in real time: 1, 2']
 
 
 @pytest.mark.parametrize('client', [None, 80.0])
