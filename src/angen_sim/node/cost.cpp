@@ -2,6 +2,7 @@
 
 #include <time.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "ros/convert.h"
@@ -35,6 +36,7 @@ angen_msgs::Cost to_message(const Spent& spent) {
   message.commands = rate(ticks.commands);
   message.snapshots = rate(ticks.snapshots);
   message.publishing = rate(spent.publishing);
+  message.network = rate(std::max<Nanoseconds>(spent.process - spent.main, 0));
   const auto add = [&](const auto& entry, Nanoseconds cost) {
     angen_msgs::InstanceCost instance;
     instance.kind = entry.kind;
@@ -86,6 +88,7 @@ CostPeriod::Due CostPeriod::check(Nanoseconds time, bool paused, Time now) {
 void CostTopic::restart(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {
   period_.restart(snapshot.time, now);
   process_since_ = process_time();
+  main_since_ = Stopwatch::system_clocks().cpu();
   publishing_ = 0;
 }
 
@@ -102,6 +105,7 @@ void CostTopic::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point 
   }
   if (!measuring_ || due == Due::kNo) return;
   Spent spent{simulation_.take_cost(), publishing_, process_time() - process_since_,
+              Stopwatch::system_clocks().cpu() - main_since_,
               std::chrono::nanoseconds(now - period_.since()).count()};
   restart(snapshot, now);
   if (due == Due::kDiscard) return;

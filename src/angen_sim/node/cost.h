@@ -14,6 +14,7 @@ struct Spent {
   sim::Cost ticks;
   Nanoseconds publishing = 0;
   Nanoseconds process = 0;  // all threads
+  Nanoseconds main = 0;     // the thread that ticks and publishes
   Nanoseconds elapsed = 0;  // wall time
 };
 
@@ -66,6 +67,7 @@ class CostTopic {
   bool measuring_ = false;
   CostPeriod period_;
   Nanoseconds process_since_ = 0;
+  Nanoseconds main_since_ = 0;
   Nanoseconds publishing_ = 0;
 };
 

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <optional>
 
+#include "core/stopwatch.h"
 #include "node/master_watch.h"
 #include "ros/changes.h"
 #include "ros/queue_threads.h"
@@ -170,7 +171,8 @@ void Node::publish(const sim::Snapshot& snapshot) {
   summary_.publish(snapshot, now);
   stats_.publish(snapshot, now);
   cost_.publish(snapshot, now);
-  const std::string lag = lag_.update(snapshot.time, rate_, snapshot.paused, now);
+  const std::string lag =
+      lag_.update(snapshot.time, rate_, snapshot.paused, now, Stopwatch::system_clocks().cpu);
   if (!lag.empty()) ROS_WARN("%s", lag.c_str());
   if (!replaying()) controls_.update(snapshot);
 }

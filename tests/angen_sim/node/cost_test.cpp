@@ -20,6 +20,7 @@ Spent spent() {
   all.ticks.physics = 20'000'000;
   all.publishing = 1'000'000;
   all.process = 60'000'000;
+  all.main = 48'000'000;
   all.elapsed = 2 * kSecond;
   return all;
 }
@@ -31,6 +32,7 @@ TEST(Cost, IsInMicrosecondsForEachSimulatedSecond) {
   EXPECT_DOUBLE_EQ(message.process, 15'000.0);
   EXPECT_DOUBLE_EQ(message.physics, 5000.0);
   EXPECT_DOUBLE_EQ(message.publishing, 250.0);
+  EXPECT_DOUBLE_EQ(message.network, 3000.0);
   ASSERT_EQ(message.instances.size(), 2U);
   EXPECT_EQ(message.instances[0].kind, "door");
   EXPECT_EQ(message.instances[0].name, "hall0");

@@ -11,7 +11,8 @@ def cost(**changes: Any) -> SimpleNamespace:
     instances = [SimpleNamespace(kind=kind, name=name, cost=value) for kind, name, value in (
         ('pir', 'b', 10.0), ('door', 'd', 50.0), ('pir', 'a', 10.0))]
     values = {'simulated': 2.0, 'elapsed': 1.0, 'process': 200.0, 'physics': 100.0, 'devices': 50.0,
-              'sensors': 20.0, 'commands': 0.0, 'snapshots': 5.0, 'publishing': 5.0}
+              'sensors': 20.0, 'commands': 0.0, 'snapshots': 5.0, 'publishing': 5.0,
+              'network': 15.0}
     return SimpleNamespace(**{**values, 'instances': instances, **changes})
 
 
@@ -24,7 +25,7 @@ def test_the_most_expensive_comes_first_and_equals_by_name() -> None:
 def test_the_title_has_the_whole_and_what_is_left_of_it() -> None:
     title = top.title(cost())
     # 200 µs a simulated second, 2 simulated seconds a second: 0.04 % of a processor
-    assert 'at 0.0 % of a processor' in title and title.endswith('other 20')
+    assert 'at 0.0 % of a processor' in title and title.endswith('network 15, the rest 5')
     assert 'at 40.0 %' in top.title(cost(process=200_000.0))
     assert 'time stands still' in top.title(cost(simulated=0.0))
 

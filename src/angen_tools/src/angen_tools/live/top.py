@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 TOPIC = '/angen/cost'
 LIMIT = 10.0    # s of wall time for the first message; it comes after about one
 REFRESH = 0.25  # s of wall time between two checks for a key
-PARTS = ('physics', 'devices', 'sensors', 'commands', 'snapshots', 'publishing')
+PARTS = ('physics', 'devices', 'sensors', 'commands', 'snapshots', 'publishing', 'network')
 HEAD = ('KIND', 'NAME', 'µs/s', 'SHARE')
 
 
@@ -28,7 +28,7 @@ def title(cost: Any) -> str:
     parts = ', '.join(f'{part} {getattr(cost, part):.0f}' for part in PARTS)
     return (f'{cost.simulated:.2f} s simulated in {cost.elapsed:.2f} s, at {core:.1f} % of a '
             f'processor; for each simulated second {cost.process:.0f} µs:\n'
-            f'{parts}, other {other:.0f}')
+            f'{parts}, the rest {other:.0f}')
 
 
 def rows(cost: Any) -> list[list[str]]:
