@@ -32,10 +32,8 @@ def write_lamp(models: Path) -> None:
     add_pose(light, (0, 0, -LIGHT_DROP))
     add(light, "cast_shadows", "true")
     add(light, "diffuse", "1 0.95 0.85 1")
-    add(light, "specular", "0.1 0.1 0.1 1")
     attenuation = add(light, "attenuation")
-    for tag, value in (("range", 20), ("constant", 0.2), ("linear", 0), ("quadratic", 0.1)):
-        add(attenuation, tag, value)
+    add(attenuation, "range", 20)
     add(light, "direction", "0 0 -1")
     add_plugin(model, "lamp_controller", "libros_plugin.so", luminous_flux=800, level=0)
     add_thing(model, "lamp")

@@ -10,7 +10,9 @@ namespace {
 
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
-std::size_t distance(const std::string& a, const std::string& b) {
+}  // namespace
+
+std::size_t edits(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), 0);
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -24,8 +26,6 @@ std::size_t distance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-}  // namespace
-
 std::vector<std::string> nearest_names(const std::string& name, std::vector<std::string> known,
                                        std::size_t count) {
   constexpr std::size_t kLongest = 256;  // longer names are compared up to here
@@ -33,7 +33,7 @@ std::vector<std::string> nearest_names(const std::string& name, std::vector<std:
   std::vector<std::pair<std::size_t, std::string>> ranked;
   ranked.reserve(known.size());
   for (std::string& each : known) {
-    ranked.emplace_back(distance(wanted, each.substr(0, kLongest)), std::move(each));
+    ranked.emplace_back(edits(wanted, each.substr(0, kLongest)), std::move(each));
   }
   std::sort(ranked.begin(), ranked.end());
   if (ranked.size() > count) ranked.resize(count);

@@ -5,8 +5,10 @@
 
 namespace angen {
 
-/// The `count` names that are nearest to `name` by edit distance (Levenshtein 1966), the nearest
-/// first.
+/// The edit distance of two names (Levenshtein 1966), whatever their case.
+std::size_t edits(const std::string& a, const std::string& b);
+
+/// The `count` names that are nearest to `name` by edit distance, the nearest first.
 std::vector<std::string> nearest_names(const std::string& name, std::vector<std::string> known,
                                        std::size_t count = 3);
 

@@ -38,6 +38,7 @@ std::vector<Waypoint> waypoints_of(const Element& script, const Pose& place, Ses
   for (const Element& trajectory : script.children) {
     if (trajectory.name != "trajectory") continue;
     const Reader path(trajectory, session);
+    path.attribute("type");  // of an animation, which people here do not have
     path.attribute("id");
     for (const Element& element : trajectory.children) {
       if (element.name != "waypoint") continue;

@@ -206,10 +206,18 @@ bool is_static(const Element& model) {
          });
 }
 
+// One range for each ray is what there is.
+void note_resolution(const Reader& axis) {
+  const Element* given = axis ? axis.element().child("resolution") : nullptr;
+  const bool one = given != nullptr && parse_finite(given->text) == 1.0;
+  (one ? axis : axis.unused()).number("resolution");
+}
+
 // The values that Angen's own plug-ins read of SDF's blocks; those of others may read more.
 void check_blocks(const Reader& sensor, Session& session) {
   sensor.leave_to_others();
-  sensor.unused().flag("always_on", false);
+  const Element* always_on = sensor.element().child("always_on");  // which is what it is
+  (always_on != nullptr && flag_of(*always_on) ? sensor : sensor.unused()).flag("always_on", false);
   sensor.unused().child("enable_metrics");
   const auto check = [](const Reader& block, std::initializer_list<const char*> keys,
                         const Range& range = {}) {
@@ -223,6 +231,7 @@ void check_blocks(const Reader& sensor, Session& session) {
       const Reader scan = block.block("scan");
       for (const char* axis : {"horizontal", "vertical"}) {
         check(scan.block(axis), {"samples", "min_angle", "max_angle"});
+        note_resolution(scan.block(axis));
       }
       check(block.block("range"), {"min", "max"});
       block.block("noise").note({"type"});

@@ -6,6 +6,7 @@
 #include "core/text.h"
 #include "document/tolerance.h"
 #include "document/values.h"
+#include "sdf/vocabulary.h"
 
 namespace angen::load {
 
@@ -77,6 +78,11 @@ const Element* Reader::child(const std::string& key) const {
 
 const Element& Reader::need(const std::string& key) const {
   if (const Element* found = child(key)) return *found;
+  for (const Element& other : element_->children) {
+    if (meant_element(other.name, element_->name) == key) {
+      throw Error(other.source, misspelling(other.name, element_->name));
+    }
+  }
   throw Error(element_->source, "<" + element_->name + "> has no <" + key + ">; give it one");
 }
 
@@ -163,7 +169,7 @@ namespace {
 void note_attributes(const Element& element, Session& session) {
   static const std::set<std::string> of_pose = {"relative_to", "degrees", "rotation_format"};
   for (const auto& [name, value] : element.attributes) {
-    if (name == "name" || name == kStrict) continue;
+    if (name == "name" || name == kStrict || name.rfind("xmlns", 0) == 0) continue;
     if (element.name == "pose" && of_pose.count(name) != 0) continue;
     if (session.read_attributes.count({&element, name}) != 0) continue;
     session.ignore(element.source, name + "=\"" + value + "\" of <" + element.name + ">");
@@ -177,7 +183,10 @@ void walk(const Element& element, Mark mark, Session& session) {
     const bool known = found != session.read.end();
     const Mark its = known ? found->second : child.name == "pose" ? Mark::kRead : Mark::kUnused;
     if (its == Mark::kUnused) {
-      if (known || mark != Mark::kOpen) {
+      const std::string meant = known ? "" : misspelling(child.name, element.name);
+      if (!meant.empty()) {
+        session.warn_or_throw(Error(child.source, meant));
+      } else if (known || mark != Mark::kOpen) {
         session.ignore(child.source, "<" + child.name + "> in <" + element.name + ">");
       }
     } else if (its != Mark::kWarned && child.name != "plugin") {  // its kind lists its own

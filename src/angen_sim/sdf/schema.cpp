@@ -9,6 +9,7 @@
 #include "document/tolerance.h"
 #include "document/xml.h"
 #include "import/libsdformat.h"
+#include "sdf/vocabulary.h"
 
 namespace angen::load {
 
@@ -79,6 +80,19 @@ std::vector<Element> pieces_of(const Element& world) {
   return pieces;
 }
 
+// "XML Element[waypont], child of element[trajectory], not defined in SDF. …" in our words, where
+// there is an element that is near; else empty.
+std::string misspelled_in(const std::string& message) {
+  const auto bracketed = [&](const std::string& before) -> std::string {
+    const std::size_t at = message.find(before + "[");
+    if (at == std::string::npos) return "";
+    const std::size_t begin = at + before.size() + 1;
+    return message.substr(begin, message.find(']', begin) - begin);
+  };
+  if (message.find("not defined in SDF") == std::string::npos) return "";
+  return misspelling(bracketed("XML Element"), bracketed("child of element"));
+}
+
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text.size() > 300 ? text.substr(0, 300) + " …" : text;
@@ -141,7 +155,10 @@ void check_piece(const Element& world, Session& session) {
   for (const sdf::Error& error : errors) {
     const Source at =
         error.LineNumber() ? source_of(error, lines) : named_in(error.Message(), world);
-    if (error.Code() == sdf::ErrorCode::ELEMENT_INCORRECT_TYPE) {
+    const std::string meant = misspelled_in(error.Message());
+    if (!meant.empty()) {
+      session.warn_or_throw(Error(at, meant));
+    } else if (error.Code() == sdf::ErrorCode::ELEMENT_INCORRECT_TYPE) {
       session.warn(at, one_line(error.Message()));
     } else {
       session.warn_or_throw(Error(at, one_line(error.Message())));

@@ -28,6 +28,10 @@ void read_physics(const Reader& element, desc::Physics& physics, Session& sessio
   const Range iterations = Range::solver(1.0, 1e4, Range::Sign::kPositive);
   physics.iterations =
       static_cast<int>(ode.block("solver").number("iters", physics.iterations, iterations));
+  const Element* solver = ode.block("solver").child("type");  // the exact one, as here
+  if (solver != nullptr && solver->text != "world") {
+    session.ignore(solver->source, "<type> in <solver>");
+  }
   const Reader constraints = ode.block("constraints");
   physics.erp = constraints.number("erp", physics.erp, Range::solver(0.0, 1.0));
   physics.cfm = constraints.number("cfm", physics.cfm, Range::solver(0.0, 1e6));

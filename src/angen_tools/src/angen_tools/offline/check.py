@@ -1,15 +1,21 @@
 """angen check: whether the file of a world, a model or a robot loads."""
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, Collection
 
 from lxml import etree
 
 from angen_tools.common.catalog import angen_module
-from angen_tools.world.models import worlds_models
+from angen_tools.common.nearest import did_you_mean
+from angen_tools.world import models
 
+MISSPELLED = re.compile(r' is not known; did you mean <\w+>\?$')
+NOT_INCLUDED = re.compile(r'(.*: )an <include> has no <(\w+)>')
+INCLUDE = ('uri', 'name', 'pose', 'static', 'plugin')
 SHOWN = 8  # names of a model's devices and sensors
 
 
@@ -32,7 +38,10 @@ def check(path: str) -> Checked:
             return _checked_world(angen.World(path), path)
         return _checked_model(angen, path)
     except angen.Error as error:
-        return Checked(wrong=str(error).splitlines())
+        wrong = str(error).splitlines()
+        if path.startswith('model://') and models.find(path) is None:
+            wrong[-1] += f'; {did_you_mean(path, models.addresses())}'
+        return Checked(wrong=wrong)
 
 
 def holds_world(path: str) -> bool:
@@ -56,7 +65,7 @@ def _checked_world(world: Any, path: str) -> Checked:
 
 
 def _checked_model(angen: Any, path: str) -> Checked:
-    world = angen.World(str(worlds_models().parent / 'empty.world'))
+    world = angen.World(str(models.worlds_models().parent / 'empty.world'))
     for name in world.models:
         world.delete(name)
     around = set(world.ignored)
@@ -72,11 +81,23 @@ def _checked_model(angen: Any, path: str) -> Checked:
 
 def _right(path: str, found: str, world: Any, around: Collection[str] = ()) -> Checked:
     """`around`: what is ignored of the world that a model was loaded into."""
-    warnings = world.warnings
+    wrong = [meant for line in world.warnings if (meant := misspelled(line))]
+    warnings = [line for line in world.warnings if not misspelled(line)]
     state = f'loads with {_counted(len(warnings), "warning")}' if warnings else 'nothing is wrong'
     ignored = [line for line in world.ignored if line not in around]
-    return Checked(warnings=warnings, ignored=ignored,
+    return Checked(wrong=wrong, warnings=warnings, ignored=ignored,
                    found=f'{path}: {state}; {found}')
+
+
+def misspelled(warning: str) -> str:
+    """What was meant, where a warning of a tolerant world is about a misspelled element; else
+    ''."""
+    if MISSPELLED.search(warning):
+        return warning
+    found = NOT_INCLUDED.match(warning)
+    meant = get_close_matches(found[2], INCLUDE, 1) if found else []
+    return f'{found[1]}<{found[2]}> in <include> is not known; did you mean <{meant[0]}>?' \
+        if found and meant else ''
 
 
 def _counted(count: int, noun: str) -> str:
