@@ -102,6 +102,22 @@ void advance(World& world, std::uint64_t ticks, void (World::*advance)(std::uint
   }
 }
 
+template <class T>
+pyb::array_t<T> to_array(const std::vector<T>& values) {
+  return pyb::array_t<T>(static_cast<pyb::ssize_t>(values.size()), values.data());
+}
+
+pyb::dict take_readings(World& world) {
+  const ReadingLog::Rows rows = world.readings().take();
+  pyb::dict texts, columns;
+  for (const auto& [row, text] : rows.texts) texts[pyb::int_(row)] = text;
+  columns["time"] = to_array(rows.time);
+  columns["series"] = to_array(rows.series);
+  columns["value"] = to_array(rows.value);
+  columns["texts"] = texts;
+  return columns;
+}
+
 void bind_world(pyb::module_& module) {
   pyb::class_<World> world(module, "World", "A world that advances by step() and run().");
   bind_edits(world);
@@ -240,7 +256,23 @@ void bind_world(pyb::module_& module) {
             }
             return all;
           },
-          "What happened since the last call: (time, source, kind, event, detail).");
+          "What happened since the last call: (time, source, kind, event, detail).")
+      .def("keep_readings", &World::keep_readings,
+           "Keeps all that sensors publish from now on, for take_readings().")
+      .def("take_readings", &take_readings,
+           "The readings since the last call, as columns: time (s), series, value, and texts: "
+           "{row: text}. `series` has numbers of rows in reading_series. Lists and images are left "
+           "out.")
+      .def_property_readonly(
+          "reading_series",
+          [](World& w) {
+            std::vector<pyb::tuple> all;
+            for (const ReadingLog::Series& s : w.readings().series()) {
+              all.push_back(pyb::make_tuple(s.kind, s.name, s.field, s.unit, s.type));
+            }
+            return all;
+          },
+          "Of the readings that are kept: (kind, name, field, unit, type).");
 }
 
 // Until the end, or `seconds` further; true while something is left.

@@ -97,6 +97,7 @@ void World::note_warnings(const sim::Snapshot& snapshot) {
 }
 
 void World::take(std::shared_ptr<const sim::Snapshot> snapshot) {
+  if (readings_) readings_->add(*snapshot_, *snapshot);
   snapshot_ = std::move(snapshot);
   fingerprint_.add(*snapshot_);
   if (recorder_) {
@@ -230,6 +231,11 @@ std::string World::summary(const std::string& kind, const std::string& name) con
 }
 
 std::string World::save() { return record::world_file(simulation_.world(), simulation_.saved()); }
+
+ReadingLog& World::readings() {
+  if (!readings_) throw Error("no readings are kept; call keep_readings() first");
+  return *readings_;
+}
 
 std::vector<sim::Event> World::take_events() { return std::exchange(events_, {}); }
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "py/convert.h"
+#include "py/reading_log.h"
 #include "record/fingerprint.h"
 #include "record/recorder.h"
 #include "record/replay.h"
@@ -55,6 +57,10 @@ class World {
 
   const sim::Snapshot& now() const { return *snapshot_; }
   std::vector<sim::Event> take_events();
+  /// Keeps the readings of all sensors from now on.
+  void keep_readings() { readings_.emplace(); }
+  /// What is kept; throws Error where keep_readings() was not called.
+  ReadingLog& readings();
   /// Of all that was loaded so far, as "file:line: what".
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// Elements of those files that are not read, as "file:line: what".
@@ -78,6 +84,7 @@ class World {
   std::unique_ptr<record::Recorder> recorder_;
   std::shared_ptr<const sim::Snapshot> snapshot_;
   std::vector<sim::Event> events_;
+  std::optional<ReadingLog> readings_;
   std::vector<std::string> warnings_;
   std::vector<std::string> ignored_;
   std::string failure_;  // of a plug-in, until it is raised

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import pytest
 
-from angen_apps.care.clock import duration, show_duration, show_time, time_of_day
+from angen_tools.common.clock import duration, show_duration, show_time, time_of_day
 from angen_apps.care.membership import Trapezoid, around, rises
 
 H = 3600.0

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from angen_apps.care.clock import DAY, time_of_day
-from angen_apps.care.day import read_day
+from angen_tools.common.clock import DAY, time_of_day
+from angen_tools.offline.day import read_day
 from angen_apps.care.offline import Watched
 from angen_apps.care.report import warnings_of
 from angen_apps.care.rules_file import read_rules

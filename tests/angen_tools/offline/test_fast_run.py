@@ -2,15 +2,20 @@
 from __future__ import annotations
 
 import csv
+import gzip
 import random
 import resource
+import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 from typing import Any
 
 import angen
 import pytest
+
+from angen_tools.offline import events
 
 ROOT = Path(__file__).resolve().parents[3]
 SCRIPT = ROOT / 'src/angen_tools/scripts/angen'
@@ -40,15 +45,18 @@ def run(*words: object, **options: Any) -> subprocess.CompletedProcess[str]:
 
 
 def test_it_leaves_the_events_that_all_ticks_would_tell(world: Path, tmp_path: Path) -> None:
-    done = run(world, '--for', '55.5', '--seed', '3', '-o', tmp_path / 'out')
+    done = run(world, '--for', '55.5s', '--seed', '3', '-o', tmp_path / 'out')
     assert (done.returncode, done.stderr) == (0, '')
     with (tmp_path / 'out/events.csv').open() as file:
         rows = list(csv.reader(file))
     walked = angen.World(str(world), seed=3)
     walked.step(55500)
     expected = walked.events()
-    assert rows[0] == ['time', 'source', 'kind', 'event', 'detail']
-    assert rows[1:] == [[f'{at:.6f}', *what] for at, *what in expected]
+    assert rows[0] == ['time', 'source', 'kind', 'event', 'detail', 'quantity', 'value', 'unit']
+    assert [(float(row[0]), *row[1:5]) for row in rows[1:]] == expected
+    moved = next(row for row in rows if row[3] == 'motion')  # "difference 0.11 m"
+    assert moved[5:] == moved[4].split() and moved[5] == 'difference' and moved[7] == 'm'
+    assert '0.3' == events.seconds(0.1 + 0.2) and '86400' == events.seconds(86400.0)
     assert {'motion'} <= {row[3] for row in rows[1:] if row[1] == 'eye'}
     assert done.stdout.startswith('55.5 s in ')
     assert f'{walked.readings} readings, {len(expected)} events in {tmp_path}' in done.stdout
@@ -102,4 +110,98 @@ def test_a_full_disk_leaves_whole_lines(world: Path, tmp_path: Path) -> None:
                     f'written before is in {tmp_path}/events.csv.part')
     assert [path.name for path in tmp_path.glob('events*')] == ['events.csv.part']
     with (tmp_path / 'events.csv.part').open() as file:
-        assert {len(row) for row in csv.reader(file)} == {5}
+        assert {len(row) for row in csv.reader(file)} == {8}
+
+
+@pytest.mark.parametrize('detail, value', [
+    ('difference 0.11 m', ('difference', '0.11', 'm')),
+    ('magnet at 0.02 m', ('magnet', '0.02', 'm')),
+    ('from 0 to 130 lx', ('', '130', 'lx')), ('floor 1', ('floor', '1', '')),
+    ('-120 g', ('', '-120', 'g')), ('3 ml, 1 ml run through', ('', '3', 'ml')),
+    ('by bath_door0::leaf', ('', '', '')), ('', ('', '', '')), ('false alarm', ('', '', ''))])
+def test_the_value_of_an_event_has_columns_of_its_own(detail: str, value: tuple[str, ...]) -> None:
+    assert tuple(part or '' for part in events.row(1.0, 'a', 'pir', 'motion', detail)[5:]) == value
+
+
+FLAT = WORLD.replace('</world>', '''
+  <include><uri>model://luminosity_sensor</uri><name>kitchen_lux0</name>
+    <pose>1 1 2 0 0 0</pose></include>
+  <plugin name="doors" filename="libdoor_world_plugin.so"/>
+  <include><uri>model://bath_door0</uri></include>
+  <include><uri>model://stove</uri><name>kitchen_stove0</name><pose>-3 0 0 0 0 0</pose></include>
+</world>''')
+
+
+def table(path: Path) -> list[dict[str, str]]:
+    with gzip.open(path, 'rt', newline='') as file:
+        return list(csv.DictReader(file))
+
+
+def test_readings_are_those_that_each_tick_would_publish(tmp_path: Path) -> None:
+    """Also of the time that was leapt over; the noise of each sample is its own."""
+    path, readings = tmp_path / 'flat.world', tmp_path / 'r.csv.gz'
+    path.write_text(FLAT)
+    day = tmp_path / 'day.csv'
+    day.write_text('time,target,command\n0:00:12,door/bathroom0,Open\n0:00:20,stove/all,Off\n')
+    done = run(path, '--for', '30', '--day', day, '--readings', readings, '-o', tmp_path)
+    assert (done.returncode, done.stderr) == (0, '')
+    with (tmp_path / 'events.csv').open() as file:
+        assert {('12.001', 'bathroom0', 'opening')} <= {
+            (row['time'], row['source'], row['event']) for row in csv.DictReader(file)}
+    walked = angen.World(str(path), seed=1)
+    expected = []
+    for tick in range(1, 30001):
+        if tick - 1 == 12000:
+            walked.command('door', 'bathroom0', 'Open')
+        walked.step()
+        for kind, name, every in (('pir', 'eye', 100), ('luminosity', 'kitchen_lux0', 1000)):
+            if tick % every == 0 or tick == 1:
+                reading = walked.sensor(kind, name)
+                if reading['stamp'] == walked.time:
+                    expected += [(walked.time, name, field, float(value))
+                                 for field, value in reading.items()
+                                 if isinstance(value, (bool, int, float)) and field != 'stamp']
+    found = [(float(row['time']), row['name'], row['field'], float(row['value']))
+             for row in table(readings) if row['name'] in ('eye', 'kitchen_lux0') and row['value']]
+    assert {row[1] for row in expected} == {'eye', 'kitchen_lux0'} and len(expected) > 600
+    assert sorted(found) == [
+        (time, name, field, pytest.approx(value, rel=1e-8))
+        for time, name, field, value in sorted(expected)]
+    units = {(row['field'], row['unit']) for row in table(readings)}
+    assert ('illuminance', 'lx') in units
+
+
+@pytest.mark.parametrize('line, part', [
+    ('0:01,door/bathrom0,Open', "no door is named 'bathrom0'; did you mean bathroom0"),
+    ('0:01,dor/bathroom0,Open', "there is no kind 'dor'; did you mean door"),
+    ('0:01,door/bathroom0,Opne', "'Opne' is not a command of a door")])
+def test_a_wrong_order_is_told_before_the_day_begins(line: str, part: str, tmp_path: Path) -> None:
+    path, day = tmp_path / 'flat.world', tmp_path / 'day.csv'
+    path.write_text(FLAT)
+    day.write_text(f'time,target,command\n{line}\n')
+    done = run(path, '--for', '30', '--day', day, '-o', tmp_path)
+    said, = done.stderr.splitlines()
+    assert done.returncode == 1 and said.startswith(f'angen: {day}:2: ') and part in said
+
+
+def test_ctrl_c_says_what_it_kept(world: Path, tmp_path: Path) -> None:
+    readings = tmp_path / 'r.csv.gz'
+    process = subprocess.Popen(
+        [sys.executable, str(SCRIPT), 'run', '--fast', str(world), '--for', '100d', '--readings',
+         str(readings), '-o', str(tmp_path)], stderr=subprocess.PIPE, text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+    part = tmp_path / 'r.csv.gz.part'
+    while not part.exists() or part.stat().st_size < 3000:
+        assert process.poll() is None
+        time.sleep(0.02)
+    process.send_signal(signal.SIGINT)
+    said = process.communicate(timeout=60)[1].splitlines()[-1]
+    assert process.returncode == 130 and said.endswith(
+        f'what happened until then is in {tmp_path}/events.csv and {readings}')
+    rows = table(readings)
+    assert rows and set(rows[0]) == {'time', 'kind', 'name', 'field', 'value', 'unit', 'text'}
+
+
+def test_a_table_needs_a_known_ending(world: Path, tmp_path: Path) -> None:
+    done = run(world, '--for', '1', '--readings', tmp_path / 'r.xlsx', '-o', tmp_path)
+    assert done.returncode == 1 and '.csv.gz or .parquet' in done.stderr

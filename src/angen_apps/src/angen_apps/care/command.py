@@ -5,7 +5,7 @@ import sys
 from contextlib import suppress
 from pathlib import Path
 
-from angen_apps.care.day import read_day
+from angen_tools.offline.day import read_day
 from angen_apps.care.report import as_dict, line_of, table_of, warnings_of, write, write_events
 from angen_apps.care.rules_file import read_rules
 from angen_apps.shipped import shipped

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from heapq import heappop, heappush
 from typing import Collection, Iterable, Mapping
 
-from angen_apps.care.clock import DAY, show_duration, show_time
+from angen_tools.common.clock import DAY, show_duration, show_time
 from angen_apps.care.rules import Condition, Rule, Rules
 from angen_apps.care.signals import Event, LiveSignal
 

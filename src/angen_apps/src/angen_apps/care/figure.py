@@ -7,7 +7,7 @@ from typing import Any, Sequence
 
 import numpy as np
 
-from angen_apps.care.clock import DAY, HOUR, MINUTE, show_time
+from angen_tools.common.clock import DAY, HOUR, MINUTE, show_time
 from angen_apps.care.engine import CareWarning, Engine
 from angen_apps.care.membership import Trapezoid
 from angen_apps.care.rules import Condition, Rule

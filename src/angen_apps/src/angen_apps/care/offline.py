@@ -4,7 +4,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any, Iterator, Sequence
 
-from angen_apps.care.day import Order
+from angen_tools.offline.day import Order
 from angen_apps.care.engine import Change, Engine
 from angen_apps.care.rules import Rules
 from angen_apps.care.signals import Event
@@ -45,7 +45,7 @@ class Watched:
         with Progress('care') as progress:
             while self.time < seconds - 1e-6:
                 while waiting and waiting[0].time <= self.time:
-                    self._command(waiting.pop(0))
+                    waiting.pop(0).execute(self._world)
                 end = min([seconds, self.time + SLICE, *(order.time for order in waiting[:1])])
                 self._run(end - self.time)
                 self._follow()
@@ -57,10 +57,6 @@ class Watched:
         self._world.run(seconds)
         if self._world.tick == before:
             self._world.step()
-
-    def _command(self, order: Order) -> None:
-        with simulator(f'{order.where}: '):
-            self._world.command(order.kind, order.name, order.text)
 
     def _follow(self) -> None:
         """Gives the engine all new events."""

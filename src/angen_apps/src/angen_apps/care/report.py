@@ -4,12 +4,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Iterable, Sequence
 
-from angen_apps.care.clock import show_time
+from angen_tools.common.clock import show_time
 from angen_apps.care.engine import RAISED, CareWarning, Change, Engine
 from angen_apps.care.signals import Event
 from angen_tools.common.files import write_csv
 from angen_tools.common.output import table
-from angen_tools.offline.fast_run import COLUMNS
+from angen_tools.offline.events import COLUMNS, row
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -72,5 +72,5 @@ def write_events(events: Iterable[Event], changes: Iterable[Change], out: Path) 
     every = sorted([*events, *(event_of(change) for change in changes)],
                    key=lambda event: event.time)
     write_csv(out / 'events.csv', COLUMNS,
-              ((f'{event.time:.6f}', event.source, event.kind, event.event, event.detail)
+              (row(event.time, event.source, event.kind, event.event, event.detail)
                for event in every))

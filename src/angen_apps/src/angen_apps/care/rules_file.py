@@ -4,7 +4,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any, Callable, Sequence
 
-from angen_apps.care.clock import DAY, duration, time_of_day
+from angen_tools.common.clock import DAY, duration, time_of_day
 from angen_apps.care.membership import Trapezoid, around, rises
 from angen_apps.care.rules import Condition, Rule, Rules, Signal
 from angen_apps.care.states import STATES

@@ -5,8 +5,8 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from angen_apps.care.clock import DAY, duration
-from angen_tools.cli.arguments import checked
+from angen_tools.common.clock import DAY
+from angen_tools.cli.arguments import checked, duration
 from angen_tools.cli.parser import add_allow_paths, add_json, add_out, add_seed, command
 from angen_tools.common.files import check_folder
 

@@ -16,7 +16,7 @@ def run_locate(args: argparse.Namespace) -> int:
         check_folder(args.out)
     if args.world is not None:
         if args.span is None:
-            args.parser.error('--world needs --for SECONDS')
+            args.parser.error('--world needs --for TIME')
         from angen_apps.locate.offline import run
         rows, site, answers = run(str(args.world), args.span or 0.0, args.seed)
     elif args.span is not None:
@@ -53,7 +53,7 @@ def add_locate(commands: Any) -> None:
                      'says who is where, by RFID, PIRs, doors and mats',
                      'locate', 'locate --for 60', 'locate --world worlds/angen.world --for 300')
     locate.set_defaults(parser=locate)
-    locate.add_argument('--for', metavar='SECONDS', dest='span', type=checked(duration),
+    locate.add_argument('--for', metavar='TIME', dest='span', type=checked(duration),
                         help='for that many simulated seconds, then compares with the truth; '
                         'otherwise shows a live table')
     locate.add_argument('--world', metavar='FILE', type=Path,

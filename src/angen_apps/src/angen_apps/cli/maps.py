@@ -6,12 +6,13 @@ from pathlib import Path
 from typing import Any
 
 from angen_tools.cli.arguments import at_least, checked
-from angen_tools.cli.parser import add_allow_paths, command
+from angen_tools.cli.parser import add_allow_paths, add_json, command
+from angen_tools.common.output import show_done
 
 
 def run_map(args: argparse.Namespace) -> int:
     from angen_apps.maps.files import save_map
-    print(save_map(args.world, args.floor, args.doors, args.output))
+    show_done(save_map(args.world, args.floor, args.doors, args.output), args.json)
     return 0
 
 
@@ -29,3 +30,4 @@ def add_map(commands: Any) -> None:
     parser.add_argument('-o', '--output', metavar='NAME', type=Path, default=Path('map'),
                         help='writes NAME.pgm and NAME.yaml (map)')
     add_allow_paths(parser)
+    add_json(parser)

@@ -147,7 +147,7 @@ def watch() -> None:
     """Draws the table anew until q or Ctrl-C."""
     from angen_tools.common.terminal import LiveTable
     if not sys.stdin.isatty() or not sys.stdout.isatty():
-        raise Failure('a live table needs a terminal; use --for SECONDS for one table')
+        raise Failure('a live table needs a terminal; use --for TIME for one table')
     locator = Locator(Client())
     with LiveTable() as screen, suppress(KeyboardInterrupt):
         while not screen.closed():

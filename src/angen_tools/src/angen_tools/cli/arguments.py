@@ -8,9 +8,11 @@ import math
 import sys
 from typing import Any, Callable
 
+from angen_tools.common import clock
 from angen_tools.common.verbs import number
 
 LONGEST = sys.float_info.max  # s
+MOST_TURN = 6.3  # rad
 
 
 def checked(check: Callable[[str], Any]) -> Callable[[str], Any]:
@@ -41,26 +43,37 @@ def counts(text: str) -> list[int]:
     return [at_least(0)(word.strip()) for word in text.split(',')]
 
 
-def _within(text: str, low: float, high: float, otherwise: str) -> float:
-    value = number(text)
+def _within(text: str, low: float, high: float, otherwise: str,
+            read: Callable[[str], float] = number) -> float:
+    value = read(text)
     if not low <= value <= high:
         raise ValueError(f"'{text}' is not a valid {otherwise}")
     return value
 
 
+def _in_seconds(text: str) -> float:
+    """Of '90', '90s', '10m', '1h 30min', s; else NaN."""
+    try:
+        return clock.duration(text)
+    except ValueError:
+        return number(text)
+
+
 def window(text: str) -> float:
     """How long to measure: 1 to 3600 s."""
-    return _within(text, 1.0, 3600.0, 'time; give 1 to 3600 s')
+    return _within(text, 1.0, 3600.0, 'time; give 1 to 3600 s', _in_seconds)
 
 
 def duration(text: str) -> float:
-    """A length of time in s, more than 0."""
-    return _within(text, math.ulp(0.0), LONGEST, 'time; give seconds, more than 0')
+    """A length of time in s, more than 0; in seconds or with units."""
+    return _within(text, math.ulp(0.0), LONGEST,
+                   'time; give more than 0 seconds, as 90, 10m or 1h30m', _in_seconds)
 
 
 def moment(text: str) -> float:
     """A time in s, 0 or more."""
-    return _within(text, 0.0, LONGEST, 'time; give seconds, 0 or more')
+    return _within(text, 0.0, LONGEST,
+                   'time; give 0 or more seconds, as 90, 10m or 1h30m', _in_seconds)
 
 
 def rate(text: str) -> float:
@@ -78,7 +91,12 @@ def degrees(text: str) -> float:
 
 def pose(text: str) -> Any:
     from angen_tools.world.sdf import parse_pose
-    return parse_pose(text)
+    numbers = parse_pose(text)
+    for angle in numbers[3:]:
+        if abs(angle) > MOST_TURN:
+            print(f'angen: warning: the angle {angle:g} of the pose is in rad, more than a turn; '
+                  f'{angle:g} degrees are {angle:g}deg', file=sys.stderr)
+    return numbers
 
 
 def new_name(text: str) -> str:

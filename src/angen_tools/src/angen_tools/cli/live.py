@@ -11,26 +11,28 @@ from angen_tools.cli.arguments import checked, link, new_name, pose, setting
 from angen_tools.cli.parser import Parser, add_json, command
 from angen_tools.common import verbs
 from angen_tools.common.catalog import Plugin, has_parameter, kinds
-from angen_tools.common.output import show
+from angen_tools.common.output import show, show_done
 
 
 def run_spawn(args: argparse.Namespace) -> int:
     from angen_tools.live import spawn
     if args.kind == 'model':
-        print(spawn.spawn_model(args.source, args.name, args.pose))
+        done = spawn.spawn_model(args.source, args.name, args.pose)
     elif args.kind == 'sitter':
-        print(spawn.seat_sitter(args.name, args.on))
+        done = spawn.seat_sitter(args.name, args.on)
     else:
         if args.pose is None and not args.on:
             args.parser.error('give --pose "X Y Z" in the world, or --on MODEL::LINK')
-        print(spawn.spawn_sensor(args.kind, args.name, args.pose or (0.0,) * 6, args.on or '',
-                                 args.set))
+        done = spawn.spawn_sensor(args.kind, args.name, args.pose or (0.0,) * 6, args.on or '',
+                                  args.set)
+    show_done(done, args.json)
     return 0
 
 
 def run_delete(args: argparse.Namespace) -> int:
     from angen_tools.live import spawn
-    print(f'deleted {", ".join(spawn.delete(args.names))}')
+    deleted = spawn.delete(args.names)
+    show_done({'deleted': deleted, 'text': f'deleted {", ".join(deleted)}'}, args.json)
     return 0
 
 
@@ -43,7 +45,7 @@ def run_list(args: argparse.Namespace) -> int:
 def run_set(args: argparse.Namespace) -> int:
     from angen_tools.live import control
     try:
-        print(control.set_device(args.kind, args.name, args.values))
+        show_done(control.set_device(args.kind, args.name, args.values), args.json)
     except ValueError as error:
         args.parser.error(str(error))
     return 0
@@ -51,7 +53,7 @@ def run_set(args: argparse.Namespace) -> int:
 
 def run_save(args: argparse.Namespace) -> int:
     from angen_tools.live import spawn
-    print(spawn.save(args.file))
+    show_done(spawn.save(args.file), args.json)
     return 0
 
 
@@ -98,13 +100,16 @@ def add_spawn(commands: Any) -> None:
         'source', metavar='PATH|model://NAME', help='a file or folder, or an '
         'address on ANGEN_MODEL_PATH, GAZEBO_MODEL_PATH or in worlds/models'), complete.sources)
     add_name(model)
-    add_pose(model, required=True)
+    add_json(model)
+    model.add_argument('--pose', metavar='"X Y Z [R P Y]"', type=checked(pose), help='m and rad '
+                       '(or 90deg), in the world; without, a place that is free, which it prints')
     sitter = command(choices, 'sitter', run_spawn, 'seats a person of 75 kg on a chair',
                      'spawn sitter ann --on kitchen_chair0_a')
     add_name(sitter)
     complete.completed_by(sitter.add_argument(
         '--on', metavar='MODEL', required=True,
         help='what has a seat: a chair, a sofa, an armchair'), complete.names_of('model'))
+    add_json(sitter)
 
 
 def add_sensor(choices: Any, kind: Plugin) -> None:
@@ -126,7 +131,9 @@ def add_sensor(choices: Any, kind: Plugin) -> None:
         sensor.add_argument('--set', metavar='KEY=VALUE', action='append', default=[],
                             type=checked(setting), help='a parameter; those below'),
         lambda **_: [f'{param["path"]}=' for param in kind['params']])
-    add_pose(sensor, required=False)
+    sensor.add_argument('--pose', metavar='"X Y Z [R P Y]"', type=checked(pose), help='m and rad '
+                        '(or 90deg), in the world; with --on, in the frame of that link (0 0 0)')
+    add_json(sensor)
 
 
 def lower_first(doc: str) -> str:
@@ -154,17 +161,12 @@ def add_name(parser: Parser) -> None:
                         help='a name that is not in use')
 
 
-def add_pose(parser: Parser, required: bool) -> None:
-    parser.add_argument('--pose', metavar='"X Y Z [R P Y]"', type=checked(pose), required=required,
-                        help='m and rad, in the world' if required else
-                        'm and rad, in the world; with --on, in the frame of that link (0 0 0)')
-
-
 def add_delete(commands: Any) -> None:
     delete = command(commands, 'delete', run_delete, 'takes models and sensors out of the world',
                      'delete p1 chair1')
     complete.completed_by(delete.add_argument('names', metavar='NAME', nargs='+'),
                           complete.names_to_delete)
+    add_json(delete)
 
 
 def add_list(commands: Any) -> None:
@@ -175,6 +177,17 @@ def add_list(commands: Any) -> None:
                            help='only model, or a kind that angen plugins lists'),
         complete.kind_names)
     add_json(lists)
+
+
+def right_order(words: Sequence[str]) -> str:
+    """What was meant where a name comes before its kind, as `set kitchen0 door open`; else ''."""
+    if len(words) < 3 or words[0] not in ('set', 'spawn'):
+        return ''
+    known = {*kinds('device' if words[0] == 'set' else 'sensor'),
+             *(('model', 'sitter') if words[0] == 'spawn' else ())}
+    if words[1] in known or words[2] not in known:
+        return ''
+    return ' '.join([words[0], words[2], words[1], *words[3:]])
 
 
 def add_set(commands: Any) -> None:
@@ -199,12 +212,14 @@ def add_device(choices: Any, kind: Plugin) -> None:
     complete.completed_by(device.add_argument(
         'values', metavar='VALUE', nargs='+', help='; '.join(verbs.forms(kind))),
         lambda **_: [verb['name'].lower() for verb in kind['verbs']])
+    add_json(device)
 
 
 def add_save(commands: Any) -> None:
     save = command(commands, 'save', run_save, 'writes the current world to a file',
                    'save out.world')
     save.add_argument('file', metavar='FILE', type=Path)
+    add_json(save)
 
 
 def add_watch(commands: Any) -> None:

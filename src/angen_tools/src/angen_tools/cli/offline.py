@@ -3,13 +3,15 @@ replay."""
 from __future__ import annotations
 
 import argparse
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from angen_tools.cli.arguments import at_least, checked, duration, moment
 from angen_tools.cli.parser import add_allow_paths, add_json, add_out, add_seed, command
+from angen_tools.common.clock import time_of_day
 from angen_tools.common.files import check_folder
-from angen_tools.common.output import show
+from angen_tools.common.output import as_json, show, show_done
 
 KINDS = ('pir', 'switch', 'luminosity', 'contact')
 MOVERS = ('person', 'robot', 'nobody')
@@ -25,17 +27,21 @@ def run_check(args: argparse.Namespace) -> int:
     import sys
 
     from angen_tools.offline.check import check
-    code = 0
+    code, every = 0, []
     for path in args.paths:
         checked = check(path)
+        code = 1 if checked.wrong else code
+        every.append({'path': path, **asdict(checked)})
+        if args.json:
+            continue
         for line in checked.wrong + [f'warning: {warning}' for warning in checked.warnings]:
             print(line, file=sys.stderr)
         for ignored in checked.ignored:
             print(f'ignored: {ignored}')
-        if checked.wrong:
-            code = 1
-        else:
+        if not checked.wrong:
             print(checked.found)
+    if args.json:
+        print(as_json(every))
     return code
 
 
@@ -57,14 +63,19 @@ def run_world(args: argparse.Namespace) -> int:
     sensors = write_apartment(
         args.output, args.floors, {kind: getattr(args, kind) for kind in KINDS}, args.seed,
         args.elevator, args.mover, args.one_link)
-    print(f'wrote {args.output}: {args.floors} floor{"s"[:args.floors > 1]}, {sensors} sensors')
+    show_done({'file': str(args.output), 'floors': args.floors, 'sensors': sensors,
+               'text': f'wrote {args.output}: {args.floors} floor{"s"[:args.floors > 1]}, '
+                       f'{sensors} sensors'}, args.json)
     return 0
 
 
 def run_fast(args: argparse.Namespace) -> int:
+    from angen_tools.offline.day import read_day
     from angen_tools.offline.fast_run import run
     check_folder(args.out)
-    print(run(args.world, args.span, args.seed, args.out))
+    orders = read_day(args.day, args.starts) if args.day else []
+    done = run(args.world, args.span, args.seed, args.out, orders, args.readings)
+    print(as_json(asdict(done)) if args.json else done.text())
     return 0
 
 
@@ -72,7 +83,7 @@ def run_replay(args: argparse.Namespace) -> int:
     from angen_tools.offline.replay import go_live, replay
     if args.until is not None:
         go_live(args.log, args.until)
-    print(replay(args.log, not args.every_tick))
+    show_done(replay(args.log, not args.every_tick), args.json)
     return 0
 
 
@@ -91,6 +102,7 @@ def add_checks(commands: Any) -> None:
     check.add_argument('paths', metavar='PATH', nargs='+', help='a world, a model (SDF, URDF, or '
                        'its folder), or model://NAME')
     add_allow_paths(check)
+    add_json(check)
     home = command(commands, 'home', run_home,
                    'prints the rooms of a world, its doors and what is in the rooms, and lists '
                    'what is missing or wrong; needs no simulator', 'home worlds/angen.world',
@@ -124,6 +136,7 @@ def add_world(commands: Any) -> None:
     flat.add_argument('--one-link', action='store_true',
                       help='puts all sensors of a kind on one link, not each in its own model; '
                       'contact sensors stay on the furniture')
+    add_json(flat)
     add_seed(flat, 'of the places that are left to chance')
     flat.add_argument('-o', '--output', metavar='FILE', type=Path, required=True)
     world.epilog = flat.format_help()
@@ -134,14 +147,23 @@ def add_run(commands: Any) -> None:
     run = command(commands, 'run', run_fast,
                   'runs a world without ROS, leaping over time in which nothing happens, and '
                   'writes its events to a CSV file; for ROS: ./angen run NAME:=VALUE ...',
-                  'run --fast worlds/angen.world --for 3600')
+                  'run --fast worlds/angen.world --for 1h',
+                  'run --fast worlds/care/ordinary.world --for 24h --day worlds/care/ordinary.csv '
+                  '--starts 6:00')
     run.add_argument('world', metavar='WORLD', help='the SDF file of the building')
     run.add_argument('--fast', action='store_true', required=True,
                      help='as fast as possible; the only way without ROS')
-    run.add_argument('--for', metavar='SECONDS', dest='span', type=checked(duration),
-                     required=True, help='how much time to simulate')
+    run.add_argument('--for', metavar='TIME', dest='span', type=checked(duration),
+                     required=True, help='how much time to simulate: 90 (s), 10m, 24h')
+    run.add_argument('--day', metavar='FILE', type=Path, help='commands to devices at times of '
+                     'day: a CSV file with time,target,command')
+    run.add_argument('--starts', metavar='TIME', type=checked(time_of_day), default=0.0,
+                     help='the time of day at which it begins, for --day (0:00)')
+    run.add_argument('--readings', metavar='FILE', type=Path, help='writes all readings as a long '
+                     'table; its name ends in .csv, .csv.gz or .parquet')
     add_seed(run, 'of all noise')
     add_allow_paths(run)
+    add_json(run)
     add_out(run, 'events.csv')
 
 
@@ -157,3 +179,4 @@ def add_replay(commands: Any) -> None:
     ways.add_argument('--every-tick', action='store_true',
                       help='leaps over nothing; the fingerprints are the same')
     add_allow_paths(parser)
+    add_json(parser)

@@ -40,7 +40,7 @@ def command(commands: Any, name: str, run: Run, summary: str, *examples: str, mo
 
 def add_json(parser: Parser) -> None:
     """The option of every command that prints a table."""
-    parser.add_argument('--json', action='store_true', help='prints JSON instead of a table')
+    parser.add_argument('--json', action='store_true', help='prints JSON')
 
 
 def add_seed(parser: Parser, text: str, default: int = 1) -> None:

@@ -22,8 +22,9 @@ LONGEST = 1 << 20  # bytes of a line
 def writing(path: Path, binary: bool = False, log: bool = False) -> Iterator[IO[Any]]:
     """A file to write, as UTF-8 unless `binary`; missing folders are made.
 
-    A `log` is useful in part: after an error its whole lines stay in NAME.part, and a signal that
-    ends the command ends it, too, so that it gets its name. Failure where it cannot be written.
+    A `log` is useful in part: a signal that ends the command ends it, too, so that it gets its
+    name; after an error the whole lines of a text stay in NAME.part. Failure where it cannot be
+    written.
     """
     target = path.resolve()
     make_folder(target.parent)
@@ -36,7 +37,7 @@ def writing(path: Path, binary: bool = False, log: bool = False) -> Iterator[IO[
     except BrokenPipeError:
         raise
     except OSError as error:
-        rest = f'; what was written before is in {path}.part' if log else ''
+        rest = f'; what was written before is in {path}.part' if log and not binary else ''
         raise Failure(f'{path}: cannot be written: {error.strerror or error}{rest}') from None
 
 
@@ -57,7 +58,7 @@ def _in_part(target: Path, binary: bool, log: bool) -> Iterator[IO[Any]]:
         with suppress(OSError):  # of what could not be written
             file.close()
         with suppress(FileNotFoundError):  # it is finished
-            _cut(part) if log else part.unlink()
+            _cut(part) if log and not binary else part.unlink()
         raise
 
 

@@ -67,6 +67,9 @@ def _with_verb(kind: Plugin, verb: dict[str, Any], rest: Sequence[str]) -> Order
         whole = word.isascii() and word.isdigit()
         if not math.isfinite(value) or (verb['type'] == 'integer' and not whole):
             raise ValueError(f"'{given}' is not a number of {verb['argument']}; {takes}")
+        if verb['unit'] == '%' and 0.0 < value < 1.0 and given == word:
+            raise ValueError(f"'{given}' is {given} percent; give {100 * value:g} for that share "
+                             f'of the whole, or {given}%; {takes}')
         if not _bound(verb['min'], -math.inf) <= value <= _bound(verb['max'], math.inf):
             raise ValueError(f"'{given}' is out of range; {takes}")
     return Order(' '.join([verb['name'], *words]), verb, numbers[0])

@@ -15,8 +15,9 @@ STATE_LIMIT = 0.6  # s of wall time within which a state follows its command
 NEXT_LIMIT = 0.5  # s of wall time after which a device that goes elsewhere takes the command later
 
 
-def set_device(kind_name: str, name: str, words: Sequence[str]) -> str:
-    """Sends the command; returns the device's state in words, and what the command waits for.
+def set_device(kind_name: str, name: str, words: Sequence[str]) -> dict[str, Any]:
+    """Sends the command; returns what was done, its `text` with the device's state in words and
+    what the command waits for.
 
     ValueError where the words are not a command of the kind; Failure where nothing has that name
     or the simulator rejects it.
@@ -35,12 +36,17 @@ def set_device(kind_name: str, name: str, words: Sequence[str]) -> str:
     if name == 'all':
         text = f'all of kind {kind_name}, {len(devices)}: {order.text}'
     else:
-        text = f'{kind_name} {name}: {changed(board, (kind_name, name), state)}'
+        state = changed(board, (kind_name, name), state)
+        text = f'{kind_name} {name}: {state}'
+    done = {'kind': kind_name, 'names': [device.name for device in devices],
+            'command': order.text, 'waits': ''}
     if client.fence() == before and is_paused(client):
-        return f'{text}; {order.text} comes when time goes on: the simulation is paused'
-    if any(comes_later(client, kind, order, device) for device in devices):
-        return f'{text}; {order.text} comes next'
-    return text
+        done['waits'] = 'time goes on: the simulation is paused'
+        text += f'; {order.text} comes when {done["waits"]}'
+    elif any(comes_later(client, kind, order, device) for device in devices):
+        done['waits'] = 'the device has done what it does now'
+        text += f'; {order.text} comes next'
+    return {**done, 'state': state, 'text': text}
 
 
 def changed(board: Board, which: tuple[str, str], state: str) -> str:

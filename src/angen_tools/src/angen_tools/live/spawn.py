@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 import re
 from pathlib import Path
-from typing import Sequence
+from typing import Any, Sequence
 
 from lxml import etree
 
@@ -15,6 +15,7 @@ from angen_tools.common.geometry import quaternion, yaw_of
 from angen_tools.common.nearest import did_you_mean
 from angen_tools.live.client import Client
 from angen_tools.world import models, sdf, sensor
+from angen_tools.world.free_place import free_place
 
 SEAT_AIR = 0.001  # m over the seat, where a sitter comes to be
 LEANS = 0.05  # rad: what leans by more is not a seat
@@ -23,12 +24,20 @@ SITTER_WIDTH = 0.3  # m: nearer than this two do not sit
 
 
 def model_source(what: str) -> str:
-    """A model:// address as it is, a path made absolute; Failure where there cannot be a model."""
+    """A model:// address as it is, of a name alone where a model has it, a path made absolute;
+    Failure where there cannot be a model."""
     if '://' in what:
         if not what.startswith('model://') or what == 'model://':
             raise Failure(f"'{what}' is not a model; give a path or model://NAME")
         return what
     path = Path(what).absolute()
+    if not path.exists():
+        known = models.addresses()
+        if f'model://{what}' in known:
+            return f'model://{what}'
+        if '/' not in what and not path.suffix:
+            raise Failure(f"'{what}' is neither a file nor a model; "
+                          + did_you_mean(f'model://{what}', known))
     if path.is_dir():
         if not any((path / name).exists() for name in ('model.config', 'model.sdf')):
             raise Failure(f'{what}: holds no model.config and no model.sdf')
@@ -37,20 +46,36 @@ def model_source(what: str) -> str:
     return str(path)
 
 
-def spawn_model(source: str, name: str, pose: Sequence[float]) -> str:
-    """Adds a model at `pose` (x y z roll pitch yaw in the world); returns what was done."""
-    source = model_source(source)
+def spawn_model(source: str, name: str, pose: Sequence[float] | None) -> dict[str, Any]:
+    """Adds a model at `pose` (x y z roll pitch yaw in the world), or at a place that is free;
+    returns what was done."""
+    source = _in_order(source, name)
+    client = Client()
+    chosen = pose if pose is not None else free_place(_saved(client))
     try:
-        call_spawn(Client(), name, source, '', pose)
+        call_spawn(client, name, source, '', chosen)
     except Failure as error:
         if not source.startswith('model://') or models.find(source):
             raise
         raise Failure(f'{error}; {did_you_mean(source, models.addresses())}') from None
-    return f'spawned the model {name} from {source}'
+    where = '' if pose is not None else f' at {" ".join(f"{part:g}" for part in chosen[:3])}'
+    return {'name': name, 'kind': 'model', 'source': source, 'pose': list(chosen),
+            'text': f'spawned the model {name} from {source}{where}'}
+
+
+def _in_order(source: str, name: str) -> str:
+    """What to spawn; Failure where source and name are given the wrong way round."""
+    try:
+        return model_source(source)
+    except Failure:
+        if f'model://{name}' not in models.addresses():
+            raise
+        raise Failure(f"'{source}' is not a model; did you mean spawn model {name} {source}?"
+                      ) from None
 
 
 def spawn_sensor(kind: str, name: str, pose: Sequence[float], on: str,
-                 settings: list[tuple[str, str]]) -> str:
+                 settings: list[tuple[str, str]]) -> dict[str, Any]:
     """Adds a sensor on a link, or as a static model of its own; returns what was done.
 
     `pose` is x y z roll pitch yaw in the link's frame, or in the world.
@@ -61,10 +86,11 @@ def spawn_sensor(kind: str, name: str, pose: Sequence[float], on: str,
         _watch_all(client, element, on)
     call_spawn(client, name, sdf.text(element), on, pose)
     topic = next((entity.topic for entity in client.entities(kind) if entity.name == name), '')
-    return f'spawned the {kind} {name}{" on " + on if on else ""}, see {topic}'
+    return {'name': name, 'kind': kind, 'topic': topic, 'on': on, 'pose': list(pose),
+            'text': f'spawned the {kind} {name}{" on " + on if on else ""}, see {topic}'}
 
 
-def seat_sitter(name: str, chair: str) -> str:
+def seat_sitter(name: str, chair: str) -> dict[str, Any]:
     """Seats a person of 75 kg on a model that has a seat and stands; returns what was done."""
     client = Client()
     places = {entity.name: entity.pose for entity in client.entities('model')}
@@ -87,7 +113,8 @@ def seat_sitter(name: str, chair: str) -> str:
         if other != chair and math.dist((x, y, z), (there.x, there.y, there.z)) < SITTER_WIDTH:
             raise Failure(f"on '{chair}' is '{other}'")
     call_spawn(client, name, 'model://sitter', '', (x, y, z, 0.0, 0.0, heading))
-    return f'seated {name}, 75 kg, on {chair}'
+    return {'name': name, 'kind': 'sitter', 'on': chair, 'pose': [x, y, z, 0.0, 0.0, heading],
+            'text': f'seated {name}, 75 kg, on {chair}'}
 
 
 def delete(names: Sequence[str]) -> list[str]:
@@ -120,7 +147,7 @@ def _must_be_there(client: Client, name: str) -> None:
                   + did_you_mean(name, names, 'angen list'))
 
 
-def save(path: Path) -> str:
+def save(path: Path) -> dict[str, Any]:
     """Writes the world as it stands to a file, all of it or nothing; returns what was done."""
     from angen_msgs.srv import Save
     if path.is_dir() or not path.absolute().parent.is_dir():
@@ -132,7 +159,7 @@ def save(path: Path) -> str:
         raise Failure(f'the simulator sent a world that is not XML: {error}') from None
     models = len(root.xpath('world/model | world/include | world/actor'))
     write_text(path, xml)
-    return f'saved {models} models to {path}'
+    return {'file': str(path), 'models': models, 'text': f'saved {models} models to {path}'}
 
 
 def call_spawn(client: Client, name: str, xml: str, on: str, pose: Sequence[float]) -> None:

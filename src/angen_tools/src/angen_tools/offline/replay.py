@@ -4,6 +4,7 @@ from __future__ import annotations
 import os
 import sys
 import time
+from typing import Any
 
 from angen_tools.common.catalog import simulator
 from angen_tools.common.failure import Failure
@@ -13,7 +14,7 @@ from angen_tools.world.models import worlds_models
 SLICE = 1.0  # simulated s between two progress reports
 
 
-def replay(path: str, leap: bool) -> str:
+def replay(path: str, leap: bool) -> dict[str, Any]:
     """What was compared, where all of it was equal; Failure where it was not, or cannot be read."""
     began = time.monotonic()
     with simulator() as angen:
@@ -28,7 +29,9 @@ def replay(path: str, leap: bool) -> str:
     wall = time.monotonic() - began
     found = (f'all {run.compared} fingerprints are equal' if run.compared
              else 'without a fingerprint to compare')
-    return f'{path}: {run.actions} actions in {run.time:g} s, {found}; took {wall:.1f} s'
+    return {'log': path, 'actions': run.actions, 'simulated_s': run.time, 'compared': run.compared,
+            'wall_s': wall, 'text': f'{path}: {run.actions} actions in {run.time:g} s, {found}; '
+                                    f'took {wall:.1f} s'}
 
 
 def go_live(path: str, until: float) -> None:

@@ -11,19 +11,24 @@ from angen_tools.common.failure import Failure
 
 
 def parse_pose(text: str) -> tuple[float, ...]:
-    """The six numbers of "x y z" or "x y z roll pitch yaw"; ValueError says what is wrong."""
+    """The six numbers of "x y z" or "x y z roll pitch yaw", of which angles may be in degrees, as
+    90deg; ValueError says what is wrong."""
     words = text.replace(',', ' ').split()
     if len(words) not in (3, 6):
         raise ValueError(f"the pose '{text}' has {len(words)} numbers; give \"x y z\" or "
                          '"x y z roll pitch yaw" in m and rad')
     numbers = []
-    for word in words:
+    for place, word in enumerate(words):
+        in_degrees = place >= 3 and word.endswith(('deg', '°'))
         try:
-            numbers.append(float(word))
+            numbers.append(float(word.removesuffix('deg').removesuffix('°') if in_degrees
+                                 else word))
         except ValueError:
             raise ValueError(f"the pose holds '{word}', which is not a number") from None
         if not math.isfinite(numbers[-1]):
             raise ValueError(f"the pose holds '{word}', which is not finite")
+        if in_degrees:
+            numbers[-1] = math.radians(numbers[-1])
     return tuple(numbers + [0.0] * (6 - len(numbers)))
 
 

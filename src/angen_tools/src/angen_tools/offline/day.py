@@ -4,9 +4,13 @@ from __future__ import annotations
 import csv
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any, Sequence
 
-from angen_apps.care.clock import DAY, time_of_day
+from angen_tools.common.catalog import kind_of, simulator
+from angen_tools.common.clock import DAY, time_of_day
 from angen_tools.common.failure import Failure
+from angen_tools.common.nearest import did_you_mean
+from angen_tools.common.verbs import parse
 
 COLUMNS = ['time', 'target', 'command']
 
@@ -20,6 +24,25 @@ class Order:
     name: str
     text: str
     where: str  # file:line
+
+    def execute(self, world: Any) -> None:
+        """Commands an angen.World; Failure where it rejects."""
+        with simulator(f'{self.where}: '):
+            world.command(self.kind, self.name, self.text)
+
+
+def check_orders(world: Any, orders: Sequence[Order]) -> None:
+    """Failure where a world has not the device of an order, or that does not take its words."""
+    for order in orders:
+        try:
+            kind = kind_of(order.kind)
+            names = [*world.devices(order.kind), 'all']
+            if order.name not in names:
+                raise Failure(f"no {order.kind} is named '{order.name}'; "
+                              + did_you_mean(order.name, names))
+            parse(kind, order.text.split())
+        except (Failure, ValueError) as error:
+            raise Failure(f'{order.where}: {error}') from None
 
 
 def read_day(path: Path, starts: float) -> list[Order]:

@@ -4,8 +4,8 @@ from __future__ import annotations
 import re
 
 MINUTE, HOUR, DAY = 60.0, 3600.0, 86400.0
-UNITS = {'s': 1.0, 'min': MINUTE, 'h': HOUR, 'd': DAY}
-PART = re.compile(r'(\d+(?:\.\d+)?)\s*(s|min|h|d)')
+UNITS = {'s': 1.0, 'min': MINUTE, 'm': MINUTE, 'h': HOUR, 'd': DAY}
+PART = re.compile(r'(\d+(?:\.\d+)?)\s*(s|min|m|h|d)')
 
 
 def duration(text: str) -> float:
