@@ -3,14 +3,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from angen_apps.cli import (apartment, care, data, imports, locate, maps, patrol, plan,
+from angen_apps.cli import (apartment, care, data, go, imports, locate, maps, patrol, plan,
                             situations, walktest)
 
 
 def add_commands(commands: Any) -> None:
     """Adds each command to the parser of angen."""
-    for add in (maps.add_map, patrol.add_task, walktest.add_walktest, situations.add_situations,
-                care.add_care, locate.add_locate, imports.add_import, plan.add_plan,
+    for add in (maps.add_map, go.add_go, patrol.add_task, walktest.add_walktest,
+                situations.add_situations, care.add_care, locate.add_locate, imports.add_import, plan.add_plan,
                 apartment.add_home,
                 data.add_generate, data.add_validate, data.add_realism):
         add(commands)

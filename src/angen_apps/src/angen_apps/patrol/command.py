@@ -8,7 +8,7 @@ import sys
 import time
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import NoReturn
 
 from angen_apps.maps.gridmap import load_world
 from angen_apps.patrol import scene
@@ -17,7 +17,7 @@ from angen_apps.patrol.figure import draw
 from angen_apps.patrol.lockstep import Lockstep
 from angen_apps.patrol.report import (Figures, Run, make_rows, measure, plans, summary, table_of,
                                       verdict, write_tables)
-from angen_apps.robot.building import Entity
+from angen_apps.robot.building import entity_of
 from angen_apps.robot.interface import BUMPER, CYCLE, bumper
 from angen_apps.robot.route_file import prepare
 from angen_apps.robot.tables import write_figures
@@ -88,6 +88,7 @@ def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, 
     return verdict(found)
 
 
+<<<<<<< HEAD
 def entity_of(message: Any, home: Home) -> Entity:
     """An angen_msgs/Entity."""
     at, turned = message.pose.position, message.pose.orientation
@@ -96,6 +97,8 @@ def entity_of(message: Any, home: Home) -> Entity:
                   home.storey_at(at.z), message.room)
 
 
+=======
+>>>>>>> 4f0d5d7 (Send a robot to a room by angen go; begin with a tutorial)
 def watch(sandbox: Sandbox) -> None:
     """Opens rviz, or prints why there is none."""
     reason = sandbox.display() if os.environ.get('DISPLAY') else 'there is no display'

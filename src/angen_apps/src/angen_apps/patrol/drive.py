@@ -11,6 +11,11 @@ from angen_apps.robot.interface import CYCLE, DoorState, Event, LiftState
 from angen_apps.robot.pilot import Pose
 from angen_apps.robot.route import Action, Drive
 from angen_apps.robot.route_file import Route
+<<<<<<< HEAD
+=======
+from angen_apps.robot.states import door_state, lift_state
+from angen_apps.robot.views import room_of
+>>>>>>> 4f0d5d7 (Send a robot to a room by angen go; begin with a tutorial)
 from angen_tools.common.geometry import yaw_of
 
 PAUSE = 5  # cycles, at most, between two actions
@@ -85,16 +90,10 @@ class RosRobot:
         self._lockstep.send(f'/gazebo/{kind.title()}_controller', String(f'{text}, {name}'))
 
     def door(self, name: str) -> DoorState:
-        state = self._states['door', name]
-        return DoorState(_constant(state, state.mode, ('OPEN', 'CLOSED', 'OPENING', 'CLOSING',
-                                                       'BLOCKED', 'AJAR')))
+        return door_state(self._states['door', name])
 
     def lift(self, name: str) -> LiftState:
-        state = self._states['elevator', name]
-        mode = _constant(state, state.mode, ('IDLE', 'UP', 'DOWN', 'BLOCKED'))
-        door = _constant(state, state.door_mode, ('DOOR_OPEN', 'DOOR_CLOSED', 'DOOR_OPENING',
-                                                  'DOOR_CLOSING', 'DOOR_BLOCKED'))
-        return LiftState(mode, door.removeprefix('DOOR_'), state.target_floor, state.position)
+        return lift_state(self._states['elevator', name])
 
     def odometry(self) -> Pose:
         pose = self._lockstep.latest(self._odometry, self.now).pose.pose
@@ -107,11 +106,6 @@ class RosRobot:
         pose = next(entity.pose for entity in self._lockstep.entities('drive')
                     if entity.name == self._name)
         return pose.position.x, pose.position.y, pose.position.z, yaw_of(pose.orientation)
-
-
-def _constant(message: Any, value: int, names: tuple[str, ...]) -> str:
-    """The name of a message's constant."""
-    return next((name for name in names if getattr(message, name) == value), '')
 
 
 class Patrol:
@@ -158,5 +152,10 @@ class Patrol:
         self._noted_events += len(events)
         names = dict.fromkeys(event.source for event in events
                               if (event.kind, event.event) in DETECTIONS
+<<<<<<< HEAD
                               and self._scene.rooms.get(event.source) == waypoint.split()[0])
         return f'; sensors that reacted: {", ".join(names)}' if names else ''
+=======
+                              and room_of(event.source) == waypoint.split()[0])
+        return f'; reacted to the robot or a door: {", ".join(names)}' if names else ''
+>>>>>>> 4f0d5d7 (Send a robot to a room by angen go; begin with a tutorial)

@@ -42,6 +42,7 @@ class Row:
     kind: str
     sight: float | None
     detection: float | None
+    other: bool = False  # it detected something else: a door
 
     @property
     def delay(self) -> float | None:
@@ -104,7 +105,12 @@ def make_rows(run: Run, world: Path) -> list[Row]:
             here = track[on_floor(run.scene.home, track[:, 3], entity.floor)]
             seen = sight.first(view_of(entity, sensor_element(described, entity)), here)
             first = first_detection(seen, detected, moved)
+<<<<<<< HEAD
         rows.append(Row(run.scene.rooms[entity.name], entity.name, entity.kind, seen, first))
+=======
+        rows.append(Row(room_of(entity.name), entity.name, entity.kind, seen, first,
+                        first is None and bool(detected)))
+>>>>>>> 4f0d5d7 (Send a robot to a room by angen go; begin with a tutorial)
     return sorted(rows, key=lambda row: (row.room[-1:], row.room, row.kind, row.sensor))
 
 
@@ -213,7 +219,8 @@ def table_of(rows: list[Row]) -> Table:
     """The sensors that could notice the robot, of those kinds that did."""
     kinds = {row.kind for row in rows if row.detection is not None}
     return table(('ROOM', 'SENSOR', *TIMES),
-                 [(row.room, row.sensor, sight, detection or 'never', delay)
+                 [(row.room, row.sensor, sight,
+                   detection or ('only a door' if row.other else 'never'), delay)
                   for row in rows if row.kind in kinds
                   for sight, detection, delay in [times(row, '')]], right=TIMES)
 

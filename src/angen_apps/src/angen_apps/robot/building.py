@@ -47,6 +47,13 @@ class Entity:
         return Pose(self.pose[0], self.pose[1], yaw(*self.pose[3:]))
 
 
+def entity_of(message: Any) -> Entity:
+    """An angen_msgs/Entity."""
+    at, turned = message.pose.position, message.pose.orientation
+    return Entity(message.kind, message.name, message.model,
+                  (at.x, at.y, at.z, turned.x, turned.y, turned.z, turned.w), message.topic)
+
+
 class Survey:
     """A world's geometry: its floors' maps with doors open and shut, and its doors.
 

@@ -1,0 +1,59 @@
+"""Where angen go sends a robot."""
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from angen_apps.go.command import goal_of, lift_of
+from angen_apps.maps.gridmap import GridMap
+from angen_apps.robot.planner import Planner
+from angen_tools.common.failure import Failure
+from angen_tools.common.home import Elevator, Home, Landing, Room
+
+WALL, TABLE = 100, (slice(35, 46), slice(15, 26))  # a table in the middle of the room
+
+
+def room(name: str, x: float) -> Room:
+    return Room(name, '', 0, [(x, 0.0), (x + 2.0, 0.0), (x + 2.0, 4.0), (x, 4.0)], [], 0.0, 2.8,
+                8.0, False)
+
+
+@pytest.fixture
+def planners() -> dict[int, Planner]:
+    cells = np.zeros((80, 80), np.int8)
+    cells[TABLE] = WALL
+    return {0: Planner(GridMap(cells, (0.0, 0.0), 0.05, 0), 0.22)}
+
+
+HOME = Home(rooms=[room('kitchen0', 0.0), room('hall0', 2.0)], elevators=[
+    Elevator('lift', (-3.0, 5.0, 0.0, 0.0, 0.0, 0.0, 1.0),
+             [Landing(0, 'hall0', (-1.7, 5.0, 0.0, 0.0)), Landing(1, '', (-1.6, 5.0, 4.0, 0.0))])])
+
+
+def test_a_room_is_its_middle_or_beside_what_is_there(planners: dict[int, Planner]) -> None:
+    assert goal_of(['hall0'], HOME, planners).at == pytest.approx((3.0, 2.0))
+    x, y = goal_of(['kitchen0'], HOME, planners).at
+    assert 0.25 + 0.22 <= max(abs(x - 1.0), abs(y - 2.0)) and math.dist((x, y), (1.0, 2.0)) < 0.6
+
+
+def test_a_place_is_as_given(planners: dict[int, Planner]) -> None:
+    goal = goal_of(['1.5', '3'], HOME, planners)
+    assert (goal.at, goal.floor) == ((1.5, 3.0), 0)
+
+
+@pytest.mark.parametrize('words, part', [
+    (['kitchen'], "did you mean kitchen0 or hall0?"), (['1'], 'neither a room nor X Y'),
+    (['1', '2', '7'], 'there is no floor 7; known are 0'), (['1', 'nan'], 'neither a room')])
+def test_a_wrong_goal_is_named(words: list[str], part: str, planners: dict[int, Planner]) -> None:
+    with pytest.raises(Failure) as caught:
+        goal_of(words, HOME, planners)
+    assert part in str(caught.value)
+
+
+def test_it_waits_for_the_elevator_on_its_own_floor() -> None:
+    for floor, x in ((0, -1.7), (1, -1.6)):
+        lift = lift_of(HOME, floor)
+        assert lift is not None and (lift.cabin, lift.landing) == ((-3.0, 5.0), (x, 5.0))
+    assert lift_of(HOME, 2) is None
