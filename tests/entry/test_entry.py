@@ -8,6 +8,8 @@ import tempfile
 
 import pytest
 
+from angen_tools.cli.main import make_parser
+
 ROOT = Path(__file__).resolve().parents[2]
 DEBIAN_12 = 'ID=debian\nVERSION_ID="12"\n'
 
@@ -92,6 +94,15 @@ def test_no_arguments_print_the_usage(folder):
     result = subprocess.run([ROOT / 'angen'], capture_output=True, text=True)
     assert result.returncode == 0
     assert './angen run' in result.stdout
+
+
+def test_both_helps_name_every_command():
+    usage = subprocess.run([ROOT / 'angen', 'help'], capture_output=True, text=True)
+    same = subprocess.run([ROOT / 'angen', '--help'], capture_output=True, text=True)
+    assert usage.stdout == same.stdout and usage.returncode == 0
+    commands = make_parser()._subparsers._group_actions[0].choices
+    words = set(usage.stdout.split())
+    assert set(commands) <= words, set(commands) - words
 
 
 def test_a_world_that_is_missing_is_named_in_one_line():

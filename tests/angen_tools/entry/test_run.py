@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from angen_tools.entry.run import absolute, with_world
+from angen_tools.entry.run import absolute, help_text, with_world
 
 
 def test_the_rest_of_the_words_stays(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -31,3 +31,11 @@ def test_files_are_those_of_this_folder(tmp_path: Path, monkeypatch: pytest.Monk
     monkeypatch.chdir(tmp_path)
     assert absolute('world:=a.world') == f'world:={tmp_path}/a.world'
     assert absolute('seed:=1') == 'seed:=1' and absolute('--screen') == '--screen'
+
+
+def test_what_to_try_fits_the_world() -> None:
+    angen = Path('/a/angen')
+    assert '"Open, bathroom1"' in help_text(angen, ['gui:=false'])
+    for word in ('world:=/a/flat.world', 'replay:=/a/bug.log'):
+        assert 'bathroom1' not in help_text(angen, [word]) and 'angen list' in help_text(
+            angen, [word])

@@ -5,7 +5,7 @@ from dataclasses import replace
 from fnmatch import fnmatchcase
 from typing import Collection, Iterable, Mapping
 
-from angen_apps.care.clock import time_of_day
+from angen_tools.common.clock import time_of_day
 from angen_apps.care.rules import Rules, Signal
 from angen_tools.common.failure import Failure
 from angen_tools.common.home import Home

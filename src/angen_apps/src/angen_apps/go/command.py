@@ -10,7 +10,7 @@ from typing import Mapping, Sequence
 
 from angen_apps.go.live_robot import LiveRobot
 from angen_apps.maps.gridmap import load_world
-from angen_apps.robot.building import Entity, Start, Survey, entity_of, find_start
+from angen_apps.robot.building import Start, Survey, entity_of, find_start
 from angen_apps.robot.driver import Driver
 from angen_apps.robot.planner import Planner
 from angen_apps.robot.route import Action, Drive, Ride, Router, Turn
@@ -44,15 +44,14 @@ class Arrived:
 def go(words: Sequence[str], robot: str, json: bool) -> int:
     """Drives to a room, or to X Y [FLOOR]; 0 once it is there. Failure says why it is not."""
     client = Client()
-    entities = [entity_of(message) for message in client.entities()]
-    robots = [entity.name for entity in entities if entity.kind == 'drive']
+    robots = [entity.name for entity in client.entities('drive')]
     if not robots:
         raise Failure('the world has no robot; angen spawn model turtlebot turtlebot adds one')
     with tempfile.TemporaryDirectory(prefix='angen_go_') as folder:
-        place = Surveyed(client, Path(folder) / 'now.world', entities)
+        place = Surveyed(client, Path(folder) / 'now.world')
     route = Route(Path('angen go'), [], robot or robots[0], elevator=None,
                   **{key: usual for key, (_, _, usual) in NUMBERS.items()})
-    start = find_start(route, entities, (0.0, 0.0, 0.0))
+    start = find_start(route, place.entities, (0.0, 0.0, 0.0))
     planners = {number: Planner(grid, route.clearance)
                 for number, grid in place.survey.maps.items()}
     goal = goal_of(words, place.home, planners)
@@ -70,7 +69,7 @@ def go(words: Sequence[str], robot: str, json: bool) -> int:
 class Surveyed:
     """The maps and doors of the running world as it is now, and its home."""
 
-    def __init__(self, client: Client, path: Path, entities: list[Entity]) -> None:
+    def __init__(self, client: Client, path: Path) -> None:
         import rospy
         from angen_msgs.srv import Save
         path.write_text(client.call('/angen/save', Save).xml)
@@ -78,12 +77,13 @@ class Surveyed:
         paths = [str(Path(source).parent / 'models'), os.environ.get('ANGEN_MODEL_PATH', '')]
         os.environ['ANGEN_MODEL_PATH'] = ':'.join(filter(None, paths))
         world, shut = load_world(str(path)), load_world(str(path))
-        self.home = Home.of_dict(world.home)
+        self.home = Home.of_world(world)
+        self.entities = [entity_of(message, self.home) for message in client.entities()]
         for one in (world, shut):
-            for entity in entities:
+            for entity in self.entities:
                 if entity.kind == 'drive':
                     one.delete(entity.model)
-        self.survey = Survey(world, shut, entities, None)
+        self.survey = Survey(world, shut, self.entities, None)
 
 
 def goal_of(words: Sequence[str], home: Home, planners: Mapping[int, Planner]) -> Waypoint:
@@ -138,8 +138,8 @@ def drive(client: Client, route: Route, goal: Waypoint, survey: Survey, start: S
             share = number / len(actions)
             driver.do(action)
         took = robot.now - began
-    place = next(entity_of(message) for message in client.entities('drive')
-                 if message.name == route.robot).place
-    return Arrived(goal.name, goal.floor, float(place[0]), float(place[1]), took, length,
+    at = next(message.pose.position for message in client.entities('drive')
+              if message.name == route.robot)
+    return Arrived(goal.name, goal.floor, at.x, at.y, took, length,
                    len(doors), sum(ride.aboard for ride in rides),
-                   math.dist(place[:2], goal.at))
+                   math.dist((at.x, at.y), goal.at))

@@ -88,17 +88,6 @@ def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, 
     return verdict(found)
 
 
-<<<<<<< HEAD
-def entity_of(message: Any, home: Home) -> Entity:
-    """An angen_msgs/Entity."""
-    at, turned = message.pose.position, message.pose.orientation
-    return Entity(message.kind, message.name, message.model,
-                  (at.x, at.y, at.z, turned.x, turned.y, turned.z, turned.w), message.topic,
-                  home.storey_at(at.z), message.room)
-
-
-=======
->>>>>>> 4f0d5d7 (Send a robot to a room by angen go; begin with a tutorial)
 def watch(sandbox: Sandbox) -> None:
     """Opens rviz, or prints why there is none."""
     reason = sandbox.display() if os.environ.get('DISPLAY') else 'there is no display'

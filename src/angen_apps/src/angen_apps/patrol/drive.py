@@ -11,11 +11,7 @@ from angen_apps.robot.interface import CYCLE, DoorState, Event, LiftState
 from angen_apps.robot.pilot import Pose
 from angen_apps.robot.route import Action, Drive
 from angen_apps.robot.route_file import Route
-<<<<<<< HEAD
-=======
 from angen_apps.robot.states import door_state, lift_state
-from angen_apps.robot.views import room_of
->>>>>>> 4f0d5d7 (Send a robot to a room by angen go; begin with a tutorial)
 from angen_tools.common.geometry import yaw_of
 
 PAUSE = 5  # cycles, at most, between two actions
@@ -152,10 +148,5 @@ class Patrol:
         self._noted_events += len(events)
         names = dict.fromkeys(event.source for event in events
                               if (event.kind, event.event) in DETECTIONS
-<<<<<<< HEAD
                               and self._scene.rooms.get(event.source) == waypoint.split()[0])
-        return f'; sensors that reacted: {", ".join(names)}' if names else ''
-=======
-                              and room_of(event.source) == waypoint.split()[0])
         return f'; reacted to the robot or a door: {", ".join(names)}' if names else ''
->>>>>>> 4f0d5d7 (Send a robot to a room by angen go; begin with a tutorial)

@@ -105,12 +105,8 @@ def make_rows(run: Run, world: Path) -> list[Row]:
             here = track[on_floor(run.scene.home, track[:, 3], entity.floor)]
             seen = sight.first(view_of(entity, sensor_element(described, entity)), here)
             first = first_detection(seen, detected, moved)
-<<<<<<< HEAD
-        rows.append(Row(run.scene.rooms[entity.name], entity.name, entity.kind, seen, first))
-=======
-        rows.append(Row(room_of(entity.name), entity.name, entity.kind, seen, first,
+        rows.append(Row(run.scene.rooms[entity.name], entity.name, entity.kind, seen, first,
                         first is None and bool(detected)))
->>>>>>> 4f0d5d7 (Send a robot to a room by angen go; begin with a tutorial)
     return sorted(rows, key=lambda row: (row.room[-1:], row.room, row.kind, row.sensor))
 
 

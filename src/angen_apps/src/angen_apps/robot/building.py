@@ -47,11 +47,12 @@ class Entity:
         return Pose(self.pose[0], self.pose[1], yaw(*self.pose[3:]))
 
 
-def entity_of(message: Any) -> Entity:
+def entity_of(message: Any, home: Home) -> Entity:
     """An angen_msgs/Entity."""
     at, turned = message.pose.position, message.pose.orientation
     return Entity(message.kind, message.name, message.model,
-                  (at.x, at.y, at.z, turned.x, turned.y, turned.z, turned.w), message.topic)
+                  (at.x, at.y, at.z, turned.x, turned.y, turned.z, turned.w), message.topic,
+                  home.storey_at(at.z), message.room)
 
 
 class Survey:

@@ -34,10 +34,12 @@ roslaunch.pmon.printerrlog = lambda text: "exit code 1," in text or say(text)
 roslaunch.main()'''
 OPTIONS = ('--disable-title', '--no-summary', '--skip-log-check', '--sigint-timeout=1.5',
            '--sigterm-timeout=0.5')
-HELP = '''Ctrl-C ends it. To try, in a second terminal, after {angen} shell:
-         rostopic pub -1 /gazebo/Door_controller std_msgs/String "Open, bathroom1"
-         rostopic pub -1 /gazebo/Light_controller std_msgs/String "On, kitchen0"
-         rostopic pub -1 /gazebo/Elevator_controller std_msgs/String "Floor1"'''
+HELP = 'Ctrl-C ends it. To try, in a second terminal, after {angen} shell:'
+BUILDING = (  # of the world without world:=
+    'rostopic pub -1 /gazebo/Door_controller std_msgs/String "Open, bathroom1"',
+    'rostopic pub -1 /gazebo/Light_controller std_msgs/String "On, kitchen0"',
+    'rostopic pub -1 /gazebo/Elevator_controller std_msgs/String "Floor1"')
+ANY = ('angen list', 'angen watch', 'angen set KIND NAME VALUE')
 # A shell's exit codes of what these signals have ended.
 CODES = {signal.SIGINT: 130, signal.SIGQUIT: 130, signal.SIGTERM: 143, signal.SIGHUP: 129}
 
@@ -136,6 +138,12 @@ def absolute(word: str) -> str:
     return f'{name}:={os.path.realpath(value)}' if name in FILES else word
 
 
+def help_text(angen: Path, words: list[str]) -> str:
+    """What can be tried in the world that the words start."""
+    other = any(word.startswith(('world:=', 'replay:=')) for word in words)
+    return '\n         '.join([HELP.format(angen=angen), *(ANY if other else BUILDING)])
+
+
 def run(launch: Path, words: list[str]) -> int:
     """Runs the simulator until it ends; the exit code, which is never 0."""
     from rosgraph import get_master_uri
@@ -148,7 +156,7 @@ def run(launch: Path, words: list[str]) -> int:
     if not hidden and not has_display():
         say('no display, so no rviz; the building runs all the same')
         words.append('gui:=false')
-    say(HELP.format(angen=launch.parent.parent / 'angen'))
+    say(help_text(launch.parent.parent / 'angen', words))
     now, count = words, 1
     with watchdog(), Rescue() as rescue, Session(uri) as session:
         while True:
