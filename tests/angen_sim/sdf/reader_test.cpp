@@ -52,13 +52,18 @@ TEST(Ignored, IsListedWithFileAndLine) {
   EXPECT_EQ(found.size(), expected.size());
 }
 
-TEST(Ignored, OfASensorIsListed) {
-  const std::vector<std::string> found = ignored_in(in_link(
-      "<sensor name='s' "
-      "type='ray'><always_on>true</always_on><update_rate>5</update_rate><ray><scan>"
-      "<horizontal><samples>9</samples><resolution>2</resolution></horizontal></scan><range>"
-      "<min>0.1</min><max>3</max></range></ray><plugin name='p' "
-      "filename='liblidar.so'/></sensor>"));
+std::string lidar(const std::string& always_on, const std::string& resolution) {
+  return in_link("<sensor name='s' type='ray'><always_on>" + always_on +
+                 "</always_on><update_rate>5</update_rate><ray><scan><horizontal>"
+                 "<samples>9</samples><resolution>" +
+                 resolution +
+                 "</resolution></horizontal></scan><range><min>0.1</min><max>3</max></range></ray>"
+                 "<plugin name='p' filename='liblidar.so'/></sensor>");
+}
+
+TEST(Ignored, OfASensorIsListedUnlessItSaysWhatAngenDoes) {
+  EXPECT_TRUE(ignored_in(lidar("true", "1")).empty());
+  const std::vector<std::string> found = ignored_in(lidar("false", "2"));
   EXPECT_EQ(found.size(), 2U);
   EXPECT_TRUE(has(found, "test.world:1: <always_on> in <sensor>"));
   EXPECT_TRUE(has(found, "test.world:1: <resolution> in <horizontal>"));
@@ -88,6 +93,22 @@ TEST(Ignored, OfAModelThatIsIncludedTwiceIsListedOnce) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NE(found[0].find("thing/model.sdf:2: <must_be_base_link> in <link>"), std::string::npos)
       << found[0];
+}
+
+TEST(Ignored, AMisspelledElementIsAnErrorWithTheOneThatIsMeant) {
+  const auto said = [](const std::string& xml) -> std::string {
+    try {
+      SearchPaths strict;
+      world_from_text(xml, "test.world", strict);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(said(in_model("<sttic>true</sttic><link name='l'/>")).find("did you mean <static>?"),
+            std::string::npos);
+  EXPECT_NE(said(in_link("<visaul name='v'/>")).find("did you mean <visual>?"), std::string::npos);
+  EXPECT_EQ(said(in_model("<link name='l'/>")), "");
 }
 
 TEST(Ignored, WrittenIntoAnIncludeIsAWarning) {
