@@ -149,7 +149,15 @@ void Contacts::make_joints() {
   feedback_.assign(found_.size(), dJointFeedback{});
   sum_loads();
   for (const Pair& pair : pairs_) {
-    for (std::size_t i = 0; i < pair.count; ++i) make_joint(pair, pair.begin + i);
+    for (std::size_t i = 0; i < pair.count; ++i) make_joint(pair, pair.begin + i, true);
+  }
+}
+
+void Contacts::make_joints_without_push() {
+  dJointGroupEmpty(group_.get());
+  for (const Pair& pair : pairs_) {
+    if (!pair.first->body->parts && !pair.second->body->parts) continue;
+    for (std::size_t i = 0; i < pair.count; ++i) make_joint(pair, pair.begin + i, false);
   }
 }
 
@@ -218,7 +226,7 @@ void Contacts::sum_loads() {
   pairs_before_.clear();
 }
 
-void Contacts::make_joint(const Pair& pair, std::size_t index) {
+void Contacts::make_joint(const Pair& pair, std::size_t index, bool pushes) {
   const Geom& a = *pair.first;
   const Geom& b = *pair.second;
   dContact contact{};
@@ -236,7 +244,8 @@ void Contacts::make_joint(const Pair& pair, std::size_t index) {
     s.bounce = bounce;
     s.bounce_vel = kBounceSpeed;
   }
-  if (a.stiffness || b.stiffness) {
+  const bool is_soft = a.stiffness || b.stiffness;
+  if (is_soft) {
     const double yield =
         (a.stiffness ? 1.0 / *a.stiffness : 0.0) + (b.stiffness ? 1.0 / *b.stiffness : 0.0);
     const double damping = a.damping.value_or(0.0) + b.damping.value_or(0.0);
@@ -255,6 +264,11 @@ void Contacts::make_joint(const Pair& pair, std::size_t index) {
   if (a.min_depth || b.min_depth) {  // in place of the layer that ODE takes off all depths
     const double depth = std::max(a.min_depth.value_or(0.0), b.min_depth.value_or(0.0));
     contact.geom.depth += surface_layer_ - depth;
+  }
+  if (!is_soft) {
+    const double overlap = contact.geom.depth - surface_layer_;
+    for (Body* body : {a.body, b.body}) body->overlap = std::max(body->overlap, overlap);
+    if (!pushes) contact.geom.depth = std::min(contact.geom.depth, surface_layer_);
   }
   const double deepest = surface_layer_ + fastest * step_ / s.soft_erp;
   contact.geom.depth = std::min(contact.geom.depth, deepest);

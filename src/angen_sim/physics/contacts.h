@@ -44,6 +44,15 @@ class Contacts {
   /// Sorts the pairs by serials and makes ODE's contact joints, in that order.
   void make_joints();
 
+  /// Takes the contact joints away and makes those of the bodies that `parts` anew, without a push
+  /// out of what they overlap.
+  void make_joints_without_push();
+
+  /// m/s, at which deep contacts separate.
+  double fastest() const { return fastest_; }
+  /// m beyond the layer: a deeper contact would push faster.
+  double deep() const { return fastest_ * step_ / erp_; }
+
   /// Reads the forces of the step and takes the contact joints away.
   void finish();
 
@@ -105,7 +114,7 @@ class Contacts {
   void drop_active(const ModelRecord& model);
   std::vector<ContactPoint> points_of(const Pair& pair) const;
   void sum_loads();
-  void make_joint(const Pair& pair, std::size_t index);
+  void make_joint(const Pair& pair, std::size_t index, bool pushes);
   void set_friction(dContact& contact, const Pair& pair) const;
   void align(dContact& contact, const Pair& pair) const;
   void read_forces(const Pair& pair);
@@ -116,7 +125,7 @@ class Contacts {
   double erp_;
   double cfm_;
   double surface_layer_;  // m
-  double fastest_;        // m/s, at which deep contacts separate
+  double fastest_;        // m/s
   ode::JointGroupHandle group_;
   std::size_t most_joints_ = 0;  // that group_ has held
   std::size_t in_meshes_ = 0;    // triangles of meshes that touch each other in this step

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -72,6 +73,8 @@ struct World::Impl {
   void add_lift();
   void set_up_joints();
   void integrate(std::int64_t tick);
+  using Solve = std::function<void(const std::vector<Body*>&)>;
+  void part_bodies(const std::vector<BodyState>& start, const Solve& solve);
   void renew();
   void read_bodies();
 };

@@ -166,6 +166,9 @@ struct Body {
   std::uint64_t collided = 0;    // the last step in which its pairs were tested
   std::uint32_t island = 0;      // scratch
   bool iterated = false;         // in a large island: the last step was by dWorldQuickStep
+  double overlap = 0.0;          // m, of its deepest rigid contact, beyond the layer
+  bool overlaps = false;         // since it was deep in something, until it is out
+  bool parts = false;            // its island has such a body
   std::vector<PairKey> resting;  // contacts kept since it fell asleep
   std::vector<LinkId> links;
   std::vector<Geom*> geoms;

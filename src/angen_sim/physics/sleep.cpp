@@ -19,7 +19,7 @@ constexpr int kJitter = 10;         // idle steps that a fast one undoes, where 
 int idle_steps(const Body& body) {
   const bool slow = body.velocity().squaredNorm() < kSlow * kSlow &&
                     body.spin().squaredNorm() < kSlowTurn * kSlowTurn;
-  if (!body.may_sleep) return 0;
+  if (!body.may_sleep || body.parts) return 0;
   if (slow) return body.idle_steps + 1;
   // The iterated solution of a pile at rest is wrong for a step now and then.
   return body.iterated ? std::max(0, body.idle_steps - kJitter) : 0;

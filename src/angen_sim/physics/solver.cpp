@@ -8,25 +8,14 @@
 
 namespace angen::physics {
 
-namespace {
-
-struct State {
-  Vec3 position;
-  Quat rotation;
-  Vec3 velocity;
-  Vec3 spin;
-  Vec3 force;
-  Vec3 torque;
-};
-
-State state_of(const Body& body) {
+BodyState state_of(const Body& body) {
   dBodyID b = body.ode.get();
   return {ode::vec(dBodyGetPosition(b)),  ode::quat(dBodyGetQuaternion(b)),
           ode::vec(dBodyGetLinearVel(b)), ode::vec(dBodyGetAngularVel(b)),
           ode::vec(dBodyGetForce(b)),     ode::vec(dBodyGetTorque(b))};
 }
 
-void restore(const Body& body, const State& s) {
+void restore(const Body& body, const BodyState& s) {
   dBodyID b = body.ode.get();
   ode::set_pose(b, {s.position, s.rotation});
   dBodySetLinearVel(b, s.velocity.x(), s.velocity.y(), s.velocity.z());
@@ -35,6 +24,8 @@ void restore(const Body& body, const State& s) {
   dBodySetTorque(b, s.torque.x(), s.torque.y(), s.torque.z());
 }
 
+namespace {
+
 std::string too_fast(double speed, const Limit& limit) {
   return "its speed would be " + number_text(speed) + " " + limit.unit + ", more than " +
          number_text(limit.most);
@@ -42,7 +33,7 @@ std::string too_fast(double speed, const Limit& limit) {
 
 // "" where the body is within the limits.
 std::string instability(const Body& body) {
-  const State s = state_of(body);
+  const BodyState s = state_of(body);
   if (!s.velocity.allFinite() || !s.spin.allFinite() || !s.rotation.coeffs().allFinite()) {
     return "its motion has no finite solution";
   }
@@ -62,7 +53,7 @@ void list_unstable(const std::vector<Body*>& bodies, std::vector<Unstable>& unst
 
 bool all_finite(const std::vector<Body*>& bodies) {
   return std::all_of(bodies.begin(), bodies.end(), [](const Body* body) {
-    const State s = state_of(*body);
+    const BodyState s = state_of(*body);
     return s.position.allFinite() && s.rotation.coeffs().allFinite() && s.velocity.allFinite() &&
            s.spin.allFinite();
   });
@@ -92,12 +83,12 @@ void step_by_size(dWorldID world, const std::vector<Body*>& awake, double h, std
 bool solve_step(dWorldID world, const std::vector<Body*>& awake, double h, std::uint64_t seed,
                 std::int64_t tick, const std::function<void(dWorldID, double)>& first_try,
                 Trouble* trouble) {
-  thread_local std::vector<State> start;
+  thread_local std::vector<BodyState> start;
   start.clear();
   for (const Body* body : awake) start.push_back(state_of(*body));
   const auto back = [&](bool forces) {
     for (std::size_t i = 0; i < awake.size(); ++i) {
-      State state = start[i];
+      BodyState state = start[i];
       if (!forces) state.force = state.torque = Vec3::Zero();
       restore(*awake[i], state);
     }

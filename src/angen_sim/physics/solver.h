@@ -9,6 +9,18 @@
 
 namespace angen::physics {
 
+/// How a body moves, and what acts on it in the next step.
+struct BodyState {
+  Vec3 position;
+  Quat rotation;
+  Vec3 velocity;
+  Vec3 spin;
+  Vec3 force;
+  Vec3 torque;
+};
+BodyState state_of(const Body& body);
+void restore(const Body& body, const BodyState& state);
+
 /// A body that a step would take beyond the limits (core/limits.h), and how.
 struct Unstable {
   Body* body = nullptr;

@@ -6,6 +6,7 @@
 #include "physics/insertion.h"
 #include "physics/islands.h"
 #include "physics/joints.h"
+#include "physics/parting.h"
 #include "physics/shapes.h"
 #include "physics/sleep.h"
 #include "physics/solver.h"
@@ -46,6 +47,7 @@ void World::Impl::collide() {
       follow_body(*geom);
       grid.update(*geom);
     }
+    body->overlap = 0.0;
   }
   for (std::size_t i = 0; i < awake.size(); ++i) collide_body(*awake[i]);
   std::sort(awake.begin(), awake.end(), by_serial);
@@ -91,14 +93,34 @@ void World::Impl::set_up_joints() {
   }
 }
 
+// What the first step made of them does not count.
+void World::Impl::part_bodies(const std::vector<BodyState>& start, const Solve& solve) {
+  std::vector<Unstable> others = std::move(trouble.unstable);
+  others.erase(std::remove_if(others.begin(), others.end(),
+                              [](const Unstable& unstable) { return unstable.body->parts; }),
+               others.end());
+  part(awake, start, contacts, h, solve);
+  trouble.unstable.insert(trouble.unstable.end(), others.begin(), others.end());
+}
+
 void World::Impl::integrate(std::int64_t tick) {
   add_lift();
   set_up_joints();
   const bool large = mark_large_islands(awake, contacts.active());
-  const auto first_try = [&](dWorldID ode_world, double step) {
-    large ? step_by_size(ode_world, awake, step, seed, tick) : void(dWorldStep(ode_world, step));
+  const Solve solve = [&](const std::vector<Body*>& bodies) {
+    const auto first_try = [&](dWorldID ode_world, double step) {
+      large ? step_by_size(ode_world, bodies, step, seed, tick) : void(dWorldStep(ode_world, step));
+    };
+    if (!solve_step(world.get(), bodies, h, seed, tick, first_try, &trouble)) ++failed;
   };
-  if (!solve_step(world.get(), awake, h, seed, tick, first_try, &trouble)) ++failed;
+  if (mark_parting(awake, contacts)) {
+    std::vector<BodyState> start;
+    for (const Body* body : awake) start.push_back(state_of(*body));
+    solve(awake);
+    if (!trouble.never) part_bodies(start, solve);
+  } else {
+    solve(awake);
+  }
   contacts.finish();
   contacts.remember(tick);
   if (trouble.broken) renew();

@@ -1,0 +1,90 @@
+#include "physics/parting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "physics/islands.h"
+
+namespace angen::physics {
+
+namespace {
+
+constexpr double kOut = 2e-4;  // m beyond the layer: less is no overlap
+
+// m from its center of mass to the farthest point of its geoms' boxes.
+double radius_of(const Body& body) {
+  double radius = 0.0;
+  for (const Geom* geom : body.geoms) {
+    const Vec3 low = (geom->box.min - body.at.position).cwiseAbs();
+    const Vec3 high = (geom->box.max - body.at.position).cwiseAbs();
+    radius = std::max(radius, low.cwiseMax(high).norm());
+  }
+  return radius;
+}
+
+Quat turned(const Quat& rotation, const Vec3& angle) {
+  const double norm = angle.norm();
+  if (norm < 1e-12) return rotation;
+  return Quat(Eigen::AngleAxisd(norm, angle / norm)) * rotation;
+}
+
+}  // namespace
+
+bool mark_parting(const std::vector<Body*>& awake, const Contacts& contacts) {
+  bool any = false;
+  for (Body* body : awake) {
+    body->parts = false;
+    body->overlaps = body->overlap > (body->overlaps ? kOut : contacts.deep());
+    any = any || body->overlaps;
+  }
+  if (!any) return false;
+  const Islands islands(awake, contacts.active());
+  std::vector<char> parting(awake.size(), 0);
+  for (const Body* body : awake) {
+    if (body->overlaps) parting[islands.of(*body)] = 1;
+  }
+  for (Body* body : awake) body->parts = parting[islands.of(*body)] != 0;
+  return true;
+}
+
+void part(const std::vector<Body*>& awake, const std::vector<BodyState>& start, Contacts& contacts,
+          double h, const std::function<void(const std::vector<Body*>&)>& solve) {
+  struct Pushed {
+    Body* body;
+    const BodyState* start;
+    Vec3 velocity, spin;  // with the push, then by it alone
+  };
+  std::vector<Pushed> pushed;
+  std::vector<Body*> bodies;
+  for (std::size_t i = 0; i < awake.size(); ++i) {
+    if (!awake[i]->parts) {
+      dBodyDisable(awake[i]->ode.get());
+      continue;
+    }
+    pushed.push_back({awake[i], &start[i], awake[i]->velocity(), awake[i]->spin()});
+    bodies.push_back(awake[i]);
+    restore(*awake[i], start[i]);
+  }
+  contacts.make_joints_without_push();
+  solve(bodies);
+  for (const Body* body : awake) dBodyEnable(body->ode.get());
+  std::map<const Mechanism*, double> fastest;  // m/s, of its points, by the push
+  for (Pushed& each : pushed) {
+    each.velocity -= each.body->velocity();
+    each.spin -= each.body->spin();
+    double& most = fastest[each.body->mechanism];
+    most = std::max(most, each.velocity.norm() + each.spin.norm() * radius_of(*each.body));
+  }
+  for (const Pushed& each : pushed) {
+    const double most = fastest[each.body->mechanism];
+    const double share = most > contacts.fastest() ? contacts.fastest() / most : 1.0;
+    const Vec3 velocity = each.body->velocity() + share * each.velocity;
+    const Vec3 spin = each.body->spin() + share * each.spin;
+    if (!velocity.allFinite() || !spin.allFinite()) continue;
+    ode::set_pose(each.body->ode.get(),
+                  {each.start->position + h * velocity, turned(each.start->rotation, h * spin)});
+  }
+}
+
+}  // namespace angen::physics

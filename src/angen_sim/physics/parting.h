@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "physics/contacts.h"
+#include "physics/solver.h"
+
+namespace angen::physics {
+
+/// Finds the bodies that overlap deeply, and all of their islands (`Body::parts`). Such bodies part
+/// without getting speed by it: a step is taken twice, with the contacts' push and without. The
+/// velocities are those without; the poses also follow the difference, by which no mechanism moves
+/// faster than deep contacts separate. Otherwise the pushes of several contacts would add up.
+/// Returns whether there are any.
+bool mark_parting(const std::vector<Body*>& awake, const Contacts& contacts);
+
+/// The second of the two steps, of bodies that were at `start` (as `awake`) before the first one.
+/// `solve` takes a step of those bodies.
+void part(const std::vector<Body*>& awake, const std::vector<BodyState>& start, Contacts& contacts,
+          double h, const std::function<void(const std::vector<Body*>&)>& solve);
+
+}  // namespace angen::physics

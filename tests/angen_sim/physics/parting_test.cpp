@@ -1,0 +1,135 @@
+// Bodies that were put into others come out of them without being thrown.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "angen_sim/physics/models.h"
+#include "core/random.h"
+
+namespace angen::physics::testing {
+namespace {
+
+constexpr double kStep = 0.001;  // s
+
+desc::Collision part(const std::string& name, const Vec3& size, const Vec3& at) {
+  desc::Collision c = collision(box_shape(size), 0.6, {at, Quat::Identity()});
+  c.name = name;
+  return c;
+}
+
+/// A table of a top and four legs.
+desc::Model table(const std::string& name, const Pose& pose, bool is_static) {
+  desc::Link link = box_link("link", 20.0, {1.2, 0.8, 0.7});
+  link.collisions = {part("top", {1.2, 0.8, 0.04}, {0, 0, 0.35})};
+  int leg = 0;
+  for (const double x : {-0.55, 0.55}) {
+    for (const double y : {-0.35, 0.35}) {
+      link.collisions.push_back(part("leg" + std::to_string(leg++), {0.06, 0.06, 0.7}, {x, y, 0}));
+    }
+  }
+  desc::Model model = model_of(name, {link}, pose);
+  model.is_static = is_static;
+  return model;
+}
+
+Pose random_pose(Rng& rng, double reach, double height) {
+  const Vec3 at((2.0 * rng.uniform() - 1.0) * reach, (2.0 * rng.uniform() - 1.0) * reach,
+                height * rng.uniform());
+  return {at, from_rpy(6.28 * rng.uniform(), 6.28 * rng.uniform(), 6.28 * rng.uniform())};
+}
+
+/// Most that a body was faster than what its fall explains, by its speed and by its way.
+struct Watch {
+  World& world;
+  LinkId link;
+  Vec3 last;
+  double top;
+  double excess = 0.0;  // m/s
+
+  Watch(World& of, LinkId id)
+      : world(of), link(id), last(of.link(id).pose.position), top(last.z()) {}
+  void see(double g) {
+    const LinkState now = world.link(link);
+    top = std::max(top, now.pose.position.z());
+    const double fall = std::sqrt(2.0 * g * (top - now.pose.position.z()));
+    const double way = (now.pose.position - last).norm() / kStep;
+    excess = std::max({excess, now.linear_velocity.norm() - fall, way - fall});
+    last = now.pose.position;
+  }
+};
+
+TEST(Parting, APanelAcrossTheCornerOfATableIsNotThrown) {
+  TestWorld world;
+  world.add(floor_model());
+  desc::Model corner = table("table", {{0, 0, 0.35}, Quat::Identity()}, true);
+  world.add(corner);
+  const LinkId panel =
+      world.only_link(world.add(model_of("panel", {box_link("link", 50.0, {0.9, 0.5, 0.03})},
+                                         {{0.55, 0.35, 0.6}, from_rpy(0.4, 0.5, 0.8)})));
+  Watch watch(world, panel);
+  for (int i = 0; i < 1500; ++i) {
+    world.run(kStep);
+    watch.see(9.81);
+  }
+  printf("panel across the corner of a table: %.2f m/s beyond its fall\n", watch.excess);
+  EXPECT_LT(watch.excess, 2.0);
+}
+
+// The push out of an overlap is no force: without gravity nothing gets energy.
+TEST(Parting, WithoutGravityOverlappingBodiesGetNoSpeed) {
+  Rng rng(1, 2, 3);
+  double most = 0.0;
+  double fastest = 0.0;
+  for (int i = 0; i < 15; ++i) {
+    TestWorld world({}, Vec3::Zero());
+    world.add(table("fixed", {{0, 0, 0.35}, Quat::Identity()}, true));
+    std::vector<LinkId> loose;
+    for (int k = 0; k < 3; ++k) {
+      loose.push_back(world.only_link(
+          world.add(table("loose" + std::to_string(k), random_pose(rng, 0.4, 0.7), false))));
+    }
+    std::vector<Watch> watches;
+    for (const LinkId link : loose) watches.emplace_back(world, link);
+    for (int tick = 0; tick < 500; ++tick) {
+      world.run(kStep);
+      double energy = 0.0;  // J, without turning
+      for (Watch& watch : watches) {
+        watch.see(0.0);
+        energy += 10.0 * world.link(watch.link).linear_velocity.squaredNorm();
+        fastest = std::max(fastest, watch.excess);
+      }
+      most = std::max(most, energy);
+    }
+  }
+  printf("four tables in each other, 15 times: at most %.3f J, %.2f m/s\n", most, fastest);
+  EXPECT_LT(most, 0.5 * 60.0 * 0.1 * 0.1);
+  EXPECT_LT(fastest, 1.1);
+}
+
+TEST(Parting, OnAFloorTheyAreNoFasterThanTheirFall) {
+  Rng rng(4, 5, 6);
+  double most = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    TestWorld world;
+    world.add(floor_model());
+    world.add(table("fixed", {{0, 0, 0.35}, Quat::Identity()}, true));
+    std::vector<Watch> watches;
+    for (int k = 0; k < 2; ++k) {
+      watches.emplace_back(
+          world, world.only_link(world.add(
+                     table("loose" + std::to_string(k), random_pose(rng, 0.6, 0.7), false))));
+    }
+    for (int tick = 0; tick < 500; ++tick) {
+      world.run(kStep);
+      for (Watch& watch : watches) watch.see(9.81);
+    }
+    for (const Watch& watch : watches) most = std::max(most, watch.excess);
+    EXPECT_EQ(world.stopped().size(), 0U);
+  }
+  printf("three tables in each other on a floor, 8 times: %.2f m/s beyond their fall\n", most);
+  EXPECT_LT(most, 2.0);
+}
+
+}  // namespace
+}  // namespace angen::physics::testing
