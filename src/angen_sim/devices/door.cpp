@@ -24,6 +24,7 @@ constexpr double kNearError = 0.003;     // rad
 constexpr double kArriveSpeed = 0.02;    // rad/s
 constexpr double kMaxLag = 0.08;         // rad
 constexpr double kStallSpeed = 0.004;    // rad/s
+constexpr double kLoadShare = 4.0;       // of i / p, 1/s, in which it finds its load
 constexpr double kHandForce = 60.0;      // N, at the edge
 constexpr double kUprightAxis = 0.999;   // |z| of the axis of a leaf that stands
 constexpr Nanoseconds kHandleTime = 3 * kSecond;
@@ -113,7 +114,7 @@ void Door::configure(Params& params, Wiring& wiring) {
   servo.arrive_speed = kArriveSpeed;
   servo.near_error = kNearError;
   servo.stall_speed = kStallSpeed;
-  servo.integrate_standing = true;
+  servo.load_rate = servo.gains.p > 0.0 ? kLoadShare * servo.gains.i / servo.gains.p : 0.0;
   servo_ = Servo(servo);
 }
 
@@ -216,17 +217,19 @@ void Door::update(const View& view, Outputs& outputs) {
     resting_ = false;
     hold(false, outputs);
     outputs.motor(hinge_, 0.0, 0.0);
-    servo_.start(hinge.position, hinge.velocity);
+    // A load in its direction may have gone: that it notices once it moves.
+    const bool against = hinge.effort * (target_ - hinge.position) > 0.0;
+    servo_.start(hinge.position, hinge.velocity, against ? -hinge.effort : 0.0);
   }
+  const double most = by_hand_ ? kHandForce * width_ : torque_max_;
   const double torque =
-      servo_.update(target_, hinge.position, hinge.velocity, to_seconds(view.step()));
+      servo_.update(target_, hinge.position, hinge.velocity, to_seconds(view.step()), most);
   if (servo_.arrived() || (by_hand_ && servo_.blocked())) {  // a hand gives up
     if (!servo_.arrived()) show(Mode::kBlocked, hinge, true, outputs);
     rest(hinge, outputs);
     show(mode_at_rest(hinge.position), hinge, true, outputs);
     return;
   }
-  const double most = by_hand_ ? kHandForce * width_ : torque_max_;
   outputs.force(hinge_, std::clamp(torque, -most, most));
   const Mode going = opening_ ? Mode::kOpening : Mode::kClosing;
   show(servo_.blocked() ? Mode::kBlocked : going, hinge, renew, outputs);
@@ -252,7 +255,7 @@ void Door::stay(const View& view, bool renew, Outputs& outputs) {
 }
 
 void Door::rest(const JointView& hinge, Outputs& outputs) {
-  outputs.motor(hinge_, 0.0, brake_torque_);
+  outputs.motor(hinge_, 0.0, brake_torque_ + std::abs(servo_.load()));  // on top of what it bears
   hold(mode_at_rest(hinge.position) == Mode::kClosed, outputs);
   resting_ = true;
 }

@@ -1,12 +1,16 @@
 #include "devices/servo.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace angen::devices {
 
 namespace {
 
 constexpr double kPushedBack = 5.0;  // freed distances
+constexpr double kStanding = 0.25;   // of the rate: what holds it may be an obstacle
+constexpr double kLoadRamp = 250.0;  // per s: a blow is no load
 
 }  // namespace
 
@@ -15,7 +19,10 @@ Servo::Servo(const ServoSettings& settings)
       profile_(settings.max_velocity, settings.max_acceleration),
       pid_(settings.gains) {}
 
-void Servo::start(double position, double velocity) {
+void Servo::start(double position, double velocity, double load) {
+  load_ = steady_load_ = load;
+  acted_ = -load;
+  velocity_ = velocity;
   profile_.start(position, velocity);
   pid_.reset();
   target_ = position;
@@ -25,12 +32,13 @@ void Servo::start(double position, double velocity) {
   arrived_ = false;
 }
 
-double Servo::update(double target, double position, double velocity, double dt) {
+double Servo::update(double target, double position, double velocity, double dt, double most) {
   const bool plain = settings_.controller == Controller::kPid;
   if (plain) {
     if (target != target_) pid_.reset();
     profile_.start(target);
   }
+  if (target != target_ && blocked_) load_ = steady_load_;  // without what blocks it
   target_ = target;
   watch(target, position, velocity, dt);
   if (plain) return pid_.update_plain(target - position, -velocity, dt);
@@ -41,12 +49,23 @@ double Servo::update(double target, double position, double velocity, double dt)
   const bool returns = lag * (target - profile_.position()) < 0.0;
   if (!waits || returns) profile_.advance(target, dt);
   const double error = profile_.position() - position;
-  bool integrate = true;
-  if (settings_.integrate_standing) {
-    integrate = std::abs(velocity) < settings_.arrive_speed;
-    if (error * pid_.integral() < 0.0) pid_.reset();
-  }
-  return pid_.update(error, profile_.velocity() - velocity, feed_forward(), dt, integrate);
+  const double error_rate = profile_.velocity() - velocity;
+  if (settings_.load_rate == 0.0) return pid_.update(error, error_rate, feed_forward(), dt);
+  observe(velocity, dt, most);
+  const double command = pid_.update(error, error_rate, feed_forward() - load_, dt, false);
+  acted_ = std::clamp(command, -most, most);
+  return acted_;
+}
+
+// What the change of its momentum says beyond the last command.
+void Servo::observe(double velocity, double dt, double most) {
+  const double rubs = velocity == 0.0 ? 0.0 : std::copysign(settings_.friction, velocity);
+  const double expected = (acted_ - settings_.damping * velocity - rubs + load_) * dt;
+  const double change = settings_.inertia * (velocity - std::exchange(velocity_, velocity));
+  const bool stands = std::abs(velocity) < settings_.arrive_speed;
+  const double more = (stands ? kStanding : 1.0) * settings_.load_rate * (change - expected);
+  load_ += std::clamp(more, -kLoadRamp * dt, kLoadRamp * dt);
+  load_ = std::clamp(load_, -most, most);
 }
 
 double Servo::feed_forward() const {
@@ -56,7 +75,7 @@ double Servo::feed_forward() const {
 }
 
 void Servo::free(double position, double velocity) {
-  if (settings_.controller == Controller::kProfile) return start(position, velocity);
+  if (settings_.controller == Controller::kProfile) return start(position, velocity, steady_load_);
   blocked_ = false;
   came_to_ = position;
   stalled_ = 0.0;
@@ -81,7 +100,10 @@ void Servo::watch(double target, double position, double velocity, double dt) {
   const bool back = progress < -kPushedBack * settings_.freed_distance;
   const bool comes_on =
       (swings_in ? std::abs(progress) : progress) > settings_.stall_speed * kStallTime || back;
-  if (comes_on) came_to_ = position;
+  if (comes_on) {
+    came_to_ = position;
+    steady_load_ = load_;
+  }
   stalled_ = comes_on || arrived_ ? 0.0 : stalled_ + dt;
   if (stalled_ >= kStallTime) {
     blocked_ = true;

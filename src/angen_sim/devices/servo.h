@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "devices/pid.h"
 #include "devices/profile.h"
 
@@ -19,9 +21,9 @@ struct ServoSettings {
   double arrive_speed = 0.01;    // … and slower than this
   double stall_speed = 0.01;     // less towards the target, in the mean over kStallTime, is none
   double freed_distance = 0.02;  // moved on by this much since it was blocked means freed
-  // The integral is for friction and obstacles: it grows only at rest, and is set to 0 when the
-  // error changes its sign. For gains that would swing otherwise.
-  bool integrate_standing = false;
+  // 1/s: how fast the load is estimated, which the command then carries in place of an integral;
+  // 0: it is not. For gains whose integral would swing.
+  double load_rate = 0.0;
 };
 
 /// A joint led along a profile by a PID, or driven by a plain one, which has only `gains` of its
@@ -36,22 +38,31 @@ class Servo {
   Servo() = default;
   explicit Servo(const ServoSettings& settings);
 
-  /// Takes over a joint at its position and velocity.
-  void start(double position, double velocity);
-  /// The command (unit of gains.cmd_max) for the next dt seconds.
-  double update(double target, double position, double velocity, double dt);
+  /// Takes over a joint at its position and velocity, under a load (of the command's unit) that
+  /// acts on it.
+  void start(double position, double velocity, double load = 0.0);
+  /// The command (unit of gains.cmd_max) for the next dt seconds, of at most `most`.
+  double update(double target, double position, double velocity, double dt,
+                double most = std::numeric_limits<double>::infinity());
+  /// The load that it has found.
+  double load() const { return load_; }
 
   bool arrived() const { return arrived_; }
   bool blocked() const { return blocked_; }
 
  private:
   double feed_forward() const;
+  void observe(double velocity, double dt, double most);
   void free(double position, double velocity);
   void watch(double target, double position, double velocity, double dt);
 
   ServoSettings settings_;
   Profile profile_;
   Pid pid_;
+  double load_ = 0.0;
+  double steady_load_ = 0.0;  // when it last came on
+  double acted_ = 0.0;        // the last command
+  double velocity_ = 0.0;     // then
   double target_ = 0.0;
   double came_to_ = 0.0;     // position, the nearest to the target
   double stalled_ = 0.0;     // s since it came there

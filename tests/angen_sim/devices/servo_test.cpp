@@ -43,7 +43,7 @@ ServoSettings door_settings() {
   settings.arrive_speed = 0.02;
   settings.stall_speed = 0.004;
   settings.near_error = 0.003;
-  settings.integrate_standing = true;
+  settings.load_rate = 11.0;
   return settings;
 }
 
