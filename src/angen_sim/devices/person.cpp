@@ -6,12 +6,23 @@
 #include <vector>
 
 #include "core/text.h"
+#include "plugin/rooms.h"
 
 namespace angen::devices {
 
 namespace {
 
-constexpr double kMouth = 1.5;  // m above the floor, where its sound comes from
+constexpr double kMouth = 1.5;           // m above the floor, where its sound comes from
+constexpr double kCelsiusZero = 273.15;  // K
+constexpr double kMiddle = 0.9;          // m above its feet
+constexpr double kFelt = 0.02;           // K
+constexpr double kRoomAir = 295.15;      // K, at which …
+constexpr double kSkinAtRest = 307.0;    // K … is that of head and hands
+constexpr double kSkinPerKelvin = 0.12;  // of the air
+constexpr double kCoveredSkin = 306.5;   // K, below clothing
+constexpr double kClothingShare = 0.35;  // of the way from the air to that
+constexpr double kBareShare = 0.12;      // of its surface: head and hands
+constexpr Nanoseconds kAirPeriod = 10 * kSecond;
 constexpr Range kSoundPower{-100.0, 200.0};
 
 const char* const kModeEvents[] = {"stands", "walks", "blocked"};
@@ -48,8 +59,12 @@ void Person::configure(Params& params, Wiring& wiring) {
   speech_sound_ = params.number("speech_sound", 68.4, "dB",
                                 "sound power level of its speech, over 1 pW", kSoundPower);
   speaks_ = spoke_ = params.flag("speaking", false, "speaks at the start, as after Speak");
-  params.number("skin_temperature", 307.0, "K", "of head and hands, seen by PIRs", kPositive);
-  params.number("clothing_temperature", 299.0, "K", "of the rest of its surface", kPositive);
+  skin_ = params.number("skin_temperature", 307.0, "K",
+                        "of head and hands, seen by PIRs; follows the air unless given", kPositive);
+  clothing_ = params.number("clothing_temperature", 299.0, "K",
+                            "of the rest of its surface; follows the air unless given", kPositive);
+  follows_air_ = !params.has("skin_temperature") && !params.has("clothing_temperature");
+  surfaces_ = wiring.surfaces("");
   refresh_ = Refresh(params.number(
       "update_rate", 20.0, "Hz", "how often its state is published while it walks", kRefreshRate));
   avoids_ = params.flag(
@@ -106,6 +121,7 @@ void Person::start_anew() {
 void Person::update(const View& view, Outputs& outputs) {
   const bool renew = refresh_.due(view.time(), view.step());
   if (!started_) start(view.link(body_));
+  if (follows_air_) follow_air(view, outputs);
   if (speaks_ != spoke_) outputs.event(speaks_ ? "speaks" : "quiet", "");
   spoke_ = speaks_;
   if (paused_) {
@@ -120,6 +136,23 @@ void Person::update(const View& view, Outputs& outputs) {
     return;
   }
   walk(place, view, renew, outputs);
+}
+
+// Skin and clothing, by the air around; rays meet one surface, which radiates as both do.
+void Person::follow_air(const View& view, Outputs& outputs) {
+  const Nanoseconds now = view.time() / kAirPeriod;
+  if (now == felt_at_) return;
+  felt_at_ = now;
+  const Vec3 middle = view.link(body_).pose.position + kMiddle * Vec3::UnitZ();
+  const double here = air_at(view, middle).temperature + kCelsiusZero;
+  const double air = std::isnan(here) ? view.ambient_temperature() : here;
+  if (std::abs(air - air_) < kFelt) return;
+  air_ = air;
+  skin_ = kSkinAtRest + kSkinPerKelvin * (air - kRoomAir);
+  clothing_ = air + kClothingShare * (kCoveredSkin - air);
+  const double mean =
+      std::pow(kBareShare * std::pow(skin_, 4) + (1.0 - kBareShare) * std::pow(clothing_, 4), 0.25);
+  for (const SurfaceRef surface : surfaces_) outputs.temperature(surface, mean, mean, 0.0);
 }
 
 void Person::start(const LinkView& body) {
@@ -147,6 +180,12 @@ void Person::show(Mode mode, const LinkView& body, bool renew, Outputs& outputs)
 }
 
 Nanoseconds Person::idle_until(const View& view) const {
+  const Nanoseconds needed = rests_until(view);
+  if (!follows_air_ || climates(view).empty()) return needed;
+  return std::min(needed, (view.time() / kAirPeriod + 1) * kAirPeriod);
+}
+
+Nanoseconds Person::rests_until(const View& view) const {
   if (!resting_ || view.time() < away_until_) return 0;
   const bool waits = waits_ || waits_at_door_;
   if (mode_ != Mode::kStanding && !waits) return 0;

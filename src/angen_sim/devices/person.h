@@ -46,6 +46,8 @@ class Person : public Device {
   static Path read_path(Params& params);
   void start(const LinkView& body);
   void start_anew();
+  void follow_air(const View& view, Outputs& outputs);
+  Nanoseconds rests_until(const View& view) const;
   void walk(const Path::Place& place, const View& view, bool renew, Outputs& outputs);
   void go(const View& view, bool renew, Outputs& outputs);
   bool plan(const View& view, const LinkView& body, bool with_seen);
@@ -80,6 +82,12 @@ class Person : public Device {
   LinkRef body_;
   Path path_;
   Refresh refresh_;
+  double skin_ = 0.0;      // K
+  double clothing_ = 0.0;  // K
+  bool follows_air_ = true;
+  double air_ = 0.0;          // K, that they follow
+  Nanoseconds felt_at_ = -1;  // that, as a multiple of a period
+  std::vector<SurfaceRef> surfaces_;
   double force_max_ = 0.0;       // N
   double step_sound_ = 0.0;      // dB over 1 pW
   double speech_sound_ = 0.0;    // dB over 1 pW
