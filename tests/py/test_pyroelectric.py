@@ -71,6 +71,28 @@ def test_the_world_says_how_warm_the_room_is():
     assert fluxes[0] > 1e-7 and fluxes[1] == 0.0
 
 
+def flux_of_a_person(celsius: float) -> float:
+    """Of one who stands before the PIR, in air of that temperature."""
+    w = angen.World.from_text(f'''<sdf version="1.6"><world name="w">
+      <atmosphere type="adiabatic"><temperature>{celsius + 273.15}</temperature></atmosphere>
+      <model name="floor"><static>true</static><link name="l"><collision name="c"><geometry><box>
+        <size>20 20 0.02</size></box></geometry></collision></link></model>
+      {PIR}<actor name="anna"><pose>4 -0.4 0.02 0 0 0</pose></actor></world></sdf>''')
+    w.run(1.0)
+    return w.sensor('pir', 'eye')['flux']
+
+
+@pytest.mark.parametrize('celsius', [10.0, 27.0, 33.0])
+def test_a_person_radiates_by_the_law_of_skin_and_clothing_in_any_air(celsius):
+    def radiance(air: float) -> float:
+        """Over that of the air, up to a factor; docs/situations.md."""
+        skin = 307.0 + 0.12 * (air - 295.15)
+        clothing = air + 0.35 * (306.5 - air)
+        return 0.12 * skin ** 4 + 0.88 * clothing ** 4 - air ** 4
+    ratio = flux_of_a_person(celsius) / flux_of_a_person(18.0)
+    assert ratio == pytest.approx(radiance(celsius + 273.15) / radiance(18.0 + 273.15), rel=0.01)
+
+
 def test_does_not_see_a_turtlebot_a_door_or_a_lamp(world):
     w = world(PIR + model('turtlebot', 'turtlebot', '3 -1 0 0 0 1.57')
               + model('kitchen_door', 'kitchen_door0', '3 1 0 0 0 0')

@@ -1,4 +1,4 @@
-"""Models that are spawned into the furniture of a flat are not thrown: a sample of bench/spawns.py."""
+"""Models spawned into the furniture of a flat are not thrown: a sample of bench/spawns.py."""
 import sys
 from pathlib import Path
 

@@ -38,7 +38,10 @@ double Servo::update(double target, double position, double velocity, double dt,
     if (target != target_) pid_.reset();
     profile_.start(target);
   }
-  if (target != target_ && blocked_) load_ = steady_load_;  // without what blocks it
+  if (target != target_ && blocked_) {                                 // without what blocks it
+    if (steady_load_ * (target - position) > 0.0) steady_load_ = 0.0;  // it may have been that
+    load_ = steady_load_;
+  }
   target_ = target;
   watch(target, position, velocity, dt);
   if (plain) return pid_.update_plain(target - position, -velocity, dt);
