@@ -77,6 +77,7 @@ Node::Node(sim::Simulation& simulation, const Settings& settings)
       frames_(settings.odometry_in_world, tf_prefix_in),
       transforms_(handle_),
       markers_(handle_, readings_),
+      scene_(handle_),
       publishers_(handle_, simulation, settings.topics, readings_),
       joints_(handle_),
       commands_(handle_, inbox_, settings.plugins),
@@ -167,6 +168,7 @@ void Node::publish(const sim::Snapshot& snapshot) {
   performance_.publish(snapshot, now);
   transforms_.publish(snapshot);
   markers_.publish(snapshot, now);
+  scene_.publish(snapshot, now);
   events_.publish(snapshot);
   summary_.publish(snapshot, now);
   stats_.publish(snapshot, now);

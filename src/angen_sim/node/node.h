@@ -21,6 +21,7 @@
 #include "ros/pacer.h"
 #include "ros/readings.h"
 #include "rviz/markers.h"
+#include "scene/scene_topics.h"
 #include "tf/frames.h"
 #include "tf/joints.h"
 #include "tf/tf.h"
@@ -89,6 +90,7 @@ class Node {
   FrameMaker frames_;
   Transforms transforms_;
   Markers markers_;
+  SceneTopics scene_;
   Publishers publishers_;
   JointStates joints_;
   Commands commands_;

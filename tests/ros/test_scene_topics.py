@@ -1,0 +1,119 @@
+"""/angen/scene and /angen/scene_changes against other topics of the node."""
+from __future__ import annotations
+
+import time
+from typing import Any
+
+import pytest
+from angen_msgs.msg import Scene, SceneChanges, Summary
+from angen_msgs.srv import Delete, SendCommand, Spawn
+from gazebo_msgs.msg import LinkStates
+from geometry_msgs.msg import Point, Pose
+from harness import Angen, Inbox, until
+from std_srvs.srv import Empty
+
+from angen_tools.common.catalog import kinds
+
+SCENE, CHANGES = '/angen/scene', '/angen/scene_changes'
+
+
+class Followed:
+    """What a client knows that takes all messages."""
+
+    def __init__(self, scene: Any) -> None:
+        self.scene = scene
+        self.poses = [[link.pose.position.x, link.pose.position.y, link.pose.position.z]
+                      for link in scene.links]
+        self.levels: dict[str, float] = {}
+
+    def take(self, messages: list[Any]) -> None:
+        for message in messages:
+            if message.revision != self.scene.revision:
+                continue
+            for i, link in enumerate(message.links):
+                self.poses[link] = list(message.poses[7 * i:7 * i + 3])
+            for light, level in zip(message.lights, message.levels):
+                self.levels[self.scene.lights[light].name] = level
+
+
+def scene_now() -> Any:
+    with Inbox(SCENE, Scene) as inbox:
+        return inbox.wait(lambda _: True, 'a scene')
+
+
+def command(angen: Angen, target: str, text: str) -> None:
+    answer = angen.call('/angen/command', SendCommand, target=target, text=text)
+    assert answer.success, answer.message
+
+
+def test_poses_are_those_of_link_states(angen: Angen) -> None:
+    followed = Followed(scene_now())
+    with Inbox(CHANGES, SceneChanges) as inbox:
+        inbox.wait(lambda _: True, 'all poses')
+        command(angen, 'door/all', 'Open')
+        time.sleep(2.5)
+        command(angen, 'door/all', 'Close')
+        time.sleep(0.3)
+        angen.call('/gazebo/pause_physics', Empty)
+        time.sleep(0.3)
+        with Inbox('/gazebo/link_states', LinkStates) as states:
+            truth = states.wait(lambda _: True, 'link states')
+        followed.take(list(inbox.messages))
+        angen.call('/gazebo/unpause_physics', Empty)
+    names = [f'{link.model}::{link.name}' for link in followed.scene.links]
+    moving = 0
+    for name, pose in zip(truth.name, truth.pose):
+        at = followed.poses[names.index(name)]
+        true = [pose.position.x, pose.position.y, pose.position.z]
+        assert at == pytest.approx(true, abs=2e-3), name
+        link = followed.scene.links[names.index(name)].pose.position
+        moving += abs(link.x - true[0]) + abs(link.y - true[1]) > 0.05
+    assert moving  # a door was between shut and open
+
+
+def test_levels_are_those_of_lamps(angen: Angen) -> None:
+    followed = Followed(scene_now())
+    lamp = next(light for light in followed.scene.lights if light.model)
+    with Inbox(CHANGES, SceneChanges) as inbox:
+        inbox.wait(lambda _: True, 'all levels')
+        command(angen, 'lamp/all', 'Dim 40')
+
+        def is_dimmed() -> bool:
+            followed.take(list(inbox.messages))
+            return abs(followed.levels.get(lamp.name, 0.0) - 0.4) < 1e-6
+        until(is_dimmed, 'the level')
+    command(angen, 'lamp/all', 'Off')
+
+
+def test_another_scene_comes_when_models_do(angen: Angen) -> None:
+    with Inbox(SCENE, Scene) as scenes, Inbox(CHANGES, SceneChanges) as changes:
+        before = scenes.wait(lambda _: True, 'a scene')
+        changes.wait(lambda _: True, 'its poses')
+        answer = angen.call('/angen/spawn', Spawn, name='seen_pir', xml='model://pir',
+                            pose=Pose(position=Point(1.0, 1.0, 2.0)))
+        assert answer.success, answer.message
+        after = scenes.wait(lambda scene: any(link.model == 'seen_pir' for link in scene.links),
+                            'the scene with it')
+        assert after.revision != before.revision
+        assert any(sensor.kind == 'pir' and sensor.name == 'seen_pir' for sensor in after.sensors)
+        complete = changes.wait(lambda message: message.revision == after.revision, 'its poses')
+        moving = {i for i, link in enumerate(after.links) if link.moves}
+        assert set(complete.links) == moving and len(complete.lights) == len(after.lights)
+        angen.call('/angen/delete', Delete, name='seen_pir')
+        scenes.wait(lambda scene: scene.revision > after.revision and not any(
+            link.model == 'seen_pir' for link in scene.links), 'the scene without it')
+
+
+def test_a_summary_has_the_numbers_of_its_words(angen: Angen) -> None:
+    command(angen, 'lamp/all', 'Dim 40')
+    with Inbox('/angen/summary', Summary) as inbox:
+        entry = until(lambda: next(
+            (e for message in list(inbox.messages) for e in message.entries
+             if e.kind == 'lamp' and '40 %' in e.text), None), 'a dimmed lamp')
+    names = [field['name'] for field in kinds()['lamp']['fields']
+             if field['type'] in ('flag', 'integer', 'number')]
+    assert len(entry.values) == len(names)
+    values = dict(zip(names, entry.values))
+    assert values['on'] == 1.0 and values['level'] == pytest.approx(40.0)
+    assert f"{values['luminous_flux']:.0f} lm" in entry.text
+    command(angen, 'lamp/all', 'Off')
