@@ -1,0 +1,1 @@
+"""Interactive markers of rviz: devices that one clicks."""

@@ -1,0 +1,157 @@
+"""The node of interactive markers: a click switches a device, its menu has all that its kind does.
+
+It follows spawns and deletions only; the state of a device is read when it is clicked.
+"""
+from __future__ import annotations
+
+from typing import Any
+
+import roslib.message
+import rospy
+from angen_msgs.msg import Event, Home, Scene
+from angen_msgs.srv import List, SendCommand
+from geometry_msgs.msg import Pose
+from interactive_markers.interactive_marker_server import InteractiveMarkerServer
+from interactive_markers.menu_handler import MenuHandler
+from visualization_msgs.msg import InteractiveMarker, InteractiveMarkerControl, Marker
+
+from angen_apps.controls.offers import Offer, offers, pair, toggled
+from angen_tools.common.catalog import kinds
+from angen_tools.live.states import states_by_name
+
+SERVER = 'angen_controls'
+HANDLE = 0.16  # m, diameter of a button
+HAND = 1.05  # m over the foot of a door, where its button is
+OVER = {'person': 2.1, 'drive': 0.7}  # m over a mover's origin
+SCENE_LIMIT = 10.0  # s that the scene takes to come
+STATE_LIMIT = 1.0  # s that a latched state takes to come
+COLORS = {'lamp': (1.0, 0.8, 0.2), 'door': (0.06, 0.46, 0.43)}
+OTHER = (0.3, 0.5, 0.9)
+QUIET = 0.3  # s without spawns, and the markers are made anew
+
+
+class Controls:
+    """Serves the markers until ROS ends."""
+
+    def __init__(self) -> None:
+        self._server = InteractiveMarkerServer(SERVER)
+        self._menus: list[MenuHandler] = []  # whose callbacks live with them
+        self._shown: dict[str, Any] = {}
+        self._frames: dict[str, str] = {}
+        self._doors: dict[str, Any] = {}
+        self._list = rospy.ServiceProxy('/angen/list', List)
+        self._command = rospy.ServiceProxy('/angen/command', SendCommand)
+        self._list.wait_for_service()
+        rospy.Subscriber('/angen/events', Event, self._on_event)
+        rospy.Subscriber('/angen/home', Home, self._on_home)
+        self._is_stale = True
+
+    def spin(self) -> None:
+        """Makes markers anew after models have come or gone."""
+        while not rospy.is_shutdown():
+            if self._is_stale:
+                self._is_stale = False
+                try:
+                    self.make()
+                except (rospy.ServiceException, rospy.ROSException):  # it ends, or begins
+                    self._is_stale = True
+            rospy.rostime.wallsleep(QUIET)
+
+    def _on_event(self, event: Any) -> None:
+        self._is_stale = self._is_stale or event.event in ('spawned', 'deleted')
+
+    def _on_home(self, home: Any) -> None:
+        self._doors = {f'{door.kind}/{door.name}': door.pose for door in home.doors}
+        self._is_stale = True
+
+    def make(self) -> None:
+        """A marker for each device that takes commands."""
+        entities = {f'{e.kind}/{e.name}': e for e in self._list('').entities}
+        self._frames = self._moving_frames()
+        wanted = {key: e for key, e in entities.items()
+                  if e.kind in kinds('device') and offers(kinds()[e.kind], self._floors(e))}
+        for key in self._shown.keys() - wanted.keys():
+            self._server.erase(key)
+        self._menus.clear()
+        for key, entity in wanted.items():
+            self._server.insert(self._marker(key, entity), self._on_click)
+            self._menu(entity).apply(self._server, key)
+        self._shown = wanted
+        self._server.applyChanges()
+
+    def _moving_frames(self) -> dict[str, str]:
+        """The frame of each model's first link that moves: a marker in it follows the model."""
+        frames: dict[str, str] = {}
+        for link in rospy.wait_for_message('/angen/scene', Scene, SCENE_LIMIT).links:
+            if link.moves:
+                frames.setdefault(link.model, f'{link.model}/{link.name}')
+        return frames
+
+    def _floors(self, entity: Any) -> list[int]:
+        """The stops of an elevator."""
+        state = self._state(entity) if entity.kind == 'elevator' else None
+        return list(range(state.floors)) if state is not None else []
+
+    def _marker(self, key: str, entity: Any) -> InteractiveMarker:
+        marker = InteractiveMarker()
+        marker.name, marker.description = key, ''
+        marker.scale = HANDLE
+        frame = self._frames.get(entity.model, '') if entity.kind in OVER else ''
+        marker.header.frame_id = frame or 'world'
+        marker.pose = Pose() if frame else self._doors.get(key, entity.pose)
+        marker.pose.orientation.w = marker.pose.orientation.w or 1.0
+        ball = Marker()
+        ball.type = Marker.SPHERE
+        ball.scale.x = ball.scale.y = ball.scale.z = HANDLE
+        ball.pose.orientation.w = 1.0
+        ball.pose.position.z = HAND if key in self._doors else OVER.get(entity.kind, 0.0)
+        ball.color.r, ball.color.g, ball.color.b = COLORS.get(entity.kind, OTHER)
+        ball.color.a = 0.9
+        control = InteractiveMarkerControl()
+        control.interaction_mode = InteractiveMarkerControl.BUTTON
+        control.name = 'button'
+        control.always_visible = True
+        control.markers.append(ball)
+        marker.controls.append(control)
+        return marker
+
+    def _menu(self, entity: Any) -> MenuHandler:
+        menu = MenuHandler()
+        self._menus.append(menu)
+        title = menu.insert(f'{entity.kind} {entity.name}')
+        for offer in offers(kinds()[entity.kind], self._floors(entity)):
+            menu.insert(offer.label, parent=title if offer.inner else None,
+                        callback=lambda _, offer=offer: self._send(entity, offer))
+        return menu
+
+    def _on_click(self, feedback: Any) -> None:
+        entity = self._shown.get(feedback.marker_name)
+        if entity is None or feedback.event_type != feedback.BUTTON_CLICK:
+            return
+        verbs = pair(kinds()[entity.kind])
+        if verbs is None:
+            rospy.loginfo('%s %s: its menu, by the right button, has what it does', entity.kind,
+                          entity.name)
+            return
+        verb = toggled(verbs, self._state(entity))
+        self._send(entity, Offer(verb, verb, False))
+
+    def _state(self, entity: Any) -> Any:
+        """The state of a device as it is now, or None."""
+        kind = roslib.message.get_message_class(entity.type) if entity.topic else None
+        if kind is None:
+            return None
+        try:
+            message = rospy.wait_for_message(entity.topic, kind, STATE_LIMIT)
+        except rospy.ROSException:
+            return None
+        return states_by_name(message).get(entity.name)
+
+    def _send(self, entity: Any, offer: Offer) -> None:
+        try:
+            answer = self._command(f'{entity.kind}/{entity.name}', offer.text)
+        except rospy.ServiceException as error:
+            rospy.logwarn('%s: %s', offer.text, error)
+            return
+        if not answer.success:
+            rospy.logwarn('%s', answer.message)

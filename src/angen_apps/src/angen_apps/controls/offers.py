@@ -1,0 +1,58 @@
+"""What a menu and a click offer, from what a kind says of its verbs."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Sequence
+
+from angen_tools.common.catalog import Plugin
+
+PAIRS = (('On', 'Off'), ('Open', 'Close'))
+PARTS = 5  # choices of a number with limits
+
+
+@dataclass(frozen=True)
+class Offer:
+    """A line of a menu, and the command that it sends."""
+
+    label: str
+    text: str
+    inner: bool
+
+
+def offers(kind: Plugin, floors: Sequence[int] = ()) -> list[Offer]:
+    """Verbs without a number, floors, and some numbers of verbs with limits."""
+    found: list[Offer] = []
+    for verb in kind['verbs']:
+        name = verb['name']
+        if not verb['argument']:
+            found.append(Offer(name, name, False))
+        elif verb['argument'] == 'floor':
+            found += [Offer(f'Floor {floor}', f'{name}{floor}', False) for floor in floors]
+        elif verb['count'] == 1 and verb['unit'] == '%' and verb['max'] is not None:
+            found += [Offer(f'{name} {value:g} {verb["unit"]}', f'{name} {value:g}', True)
+                      for value in parts(verb['min'] or 0.0, verb['max'])]
+    return found
+
+
+def parts(low: float, high: float) -> list[float]:
+    """Evenly spaced, both ends included."""
+    return [low + (high - low) * i / (PARTS - 1) for i in range(PARTS)]
+
+
+def pair(kind: Plugin) -> tuple[str, str] | None:
+    """Two opposite verbs, between which a click changes."""
+    names = [verb['name'] for verb in kind['verbs'] if not verb['argument']]
+    return next(((on, off) for on, off in PAIRS if on in names and off in names), None)
+
+
+def toggled(verbs: tuple[str, str], state: Any) -> str:
+    """The verb of the pair that changes a state."""
+    on, off = verbs
+    if state is None:
+        return on
+    if 'on' in getattr(state, 'names', ()):  # an angen_msgs/Reading
+        return off if state.values[list(state.names).index('on')] else on
+    if hasattr(state, 'on'):
+        return off if state.on else on
+    target = getattr(state, 'target', None)  # of a door, rad: 0 is shut
+    return off if target is not None and abs(target) > 0.1 else on

@@ -1,0 +1,46 @@
+"""Menus and clicks follow what the kinds say of themselves."""
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import pytest
+from angen_apps.controls.offers import offers, pair, toggled
+
+from angen_tools.common.catalog import kinds
+
+
+def texts(kind: str, *floors: int) -> list[str]:
+    return [offer.text for offer in offers(kinds()[kind], floors)]
+
+
+def test_menus_have_verbs_floors_and_percents() -> None:
+    assert texts('lamp') == ['On', 'Off', 'Dim 0', 'Dim 25', 'Dim 50', 'Dim 75', 'Dim 100']
+    assert texts('elevator', 0, 1, 2) == ['Floor0', 'Floor1', 'Floor2']
+    assert texts('door')[:2] == ['Open', 'Close']
+
+
+def test_each_text_is_a_command_of_its_kind() -> None:
+    from angen_tools.common.verbs import parse
+    for kind in kinds('device').values():
+        for offer in offers(kind, [0, 1]):
+            assert parse(kind, offer.text.split()).verb
+
+
+@pytest.mark.parametrize('state, verb', [
+    (SimpleNamespace(target=0.0), 'Open'), (SimpleNamespace(target=-1.57), 'Close'),
+    (SimpleNamespace(target=1.2), 'Close'), (None, 'Open')])
+def test_a_click_on_a_door_changes_it(state: object, verb: str) -> None:
+    assert toggled(pair(kinds()['door']) or ('', ''), state) == verb
+
+
+@pytest.mark.parametrize('state, verb', [
+    (SimpleNamespace(on=True), 'Off'), (SimpleNamespace(on=False), 'On'),
+    (SimpleNamespace(names=['on', 'speed'], values=[1.0, 40.0]), 'Off'),
+    (SimpleNamespace(names=['on'], values=[0.0]), 'On')])
+def test_a_click_on_a_lamp_or_fan_switches_it(state: object, verb: str) -> None:
+    for kind in ('lamp', 'appliance'):
+        assert toggled(pair(kinds()[kind]) or ('', ''), state) == verb
+
+
+def test_kinds_without_opposite_verbs_have_a_menu_only() -> None:
+    assert pair(kinds()['elevator']) is None
