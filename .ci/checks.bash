@@ -30,6 +30,8 @@ check_flake8() { python3 -m flake8; }
 
 check_mypy() { python3 -m mypy; }
 
+check_tsc() { tsc -p src/angen_apps/jsconfig.json; } # types of the page's JavaScript, as its comments say
+
 check_ctest() { # [WORDS]
   local program ran=0 failed=0 filter="*${1:-}*"
   if [[ ! ${1:-} ]]; then

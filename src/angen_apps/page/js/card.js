@@ -1,0 +1,192 @@
+/** The card of one device, sensor or room: its state and what it can do, as its kind says of itself. */
+import { by, el, glyph, words } from './dom.js';
+import { roomText } from './labels.js';
+
+export class Card {
+  /** @param {import('./home.js').Home} home @param {any} page choosePoint, plot, highlight */
+  constructor(home, page) {
+    this.home = home;
+    this.page = page;
+    this.element = by('card');
+    /** @type {any} */
+    this.shown = null;
+    home.on('rows', () => this.refresh());
+    home.on('entities', () => this.again());
+  }
+
+  close() {
+    this.shown = null;
+    this.element.hidden = true;
+    this.from?.focus?.();
+  }
+
+  again() {
+    if (this.shown?.entity) {
+      const { kind, name } = this.shown.entity;
+      const entity = this.home.entities.find((e) => e.kind === kind && e.name === name);
+      if (!entity) this.close();
+    } else if (this.shown) this.showRoom(this.shown.room, this.shown.point);
+  }
+
+  /** @param {string} title @param {string} under @param {any[]} content */
+  open(title, under, content) {
+    if (this.element.hidden) this.from = /** @type {any} */ (document.activeElement);
+    this.element.hidden = false;
+    this.element.setAttribute('aria-label', title);
+    this.element.replaceChildren(el('header', {}, el('div', {}, el('h2', {}, title), el('div', { class: 'soft' }, under)),
+      el('button', { class: 'icon', type: 'button', 'aria-label': 'Close', onclick: () => this.close() }, '✕')), ...content);
+  }
+
+  /** @param {any} entity */
+  show(entity) {
+    this.shown = { entity };
+    const { home } = this, kind = home.kinds[entity.kind];
+    const rooms = home.roomsOf(entity).map(roomText).join(' – ');
+    this.state = el('p', { class: 'state', role: 'status' });
+    const parts = [this.state, ...this.verbs(entity, kind)];
+    if (home.isRobot(entity)) parts.push(el('div', { class: 'verbs' }, el('button', { type: 'button', onclick: () => this.page.robot(entity) }, 'Drive')));
+    if (home.fields(entity.kind).length) {
+      parts.push(el('div', { class: 'verbs' }, el('button', { type: 'button', onclick: () => this.page.plot(entity) }, 'Plot')));
+    }
+    if (kind?.role === 'sensor' && !home.status.replay) {
+      parts.push(el('div', { class: 'verbs' }, el('button', { type: 'button', onclick: () => this.remove(entity) }, 'Delete')));
+    }
+    const beside = home.ofModel(entity.model).filter((e) => e !== entity).slice(0, 12);
+    if (beside.length) parts.push(el('h3', {}, 'Of the same model'), ...beside.map((e) => thingRow(home, e, () => this.show(e))));
+    this.open(entity.name, [words(entity.kind), rooms, kind?.doc].filter(Boolean).join(' · '), parts);
+    this.refresh();
+  }
+
+  /** @param {any} entity @param {any} kind */
+  verbs(entity, kind) {
+    if (this.home.status.replay) return [];
+    const plain = [], rows = [];
+    for (const verb of kind?.verbs ?? []) {
+      const send = (/** @type {string | number} */ value) => this.home.command(entity, value === '' ? verb.name : `${verb.name} ${value}`);
+      if (!verb.argument) plain.push(el('button', { type: 'button', title: verb.doc, 'data-verb': verb.name, onclick: () => send('') }, spaced(verb.name)));
+      else if (verb.type === 'integer' && verb.argument === 'floor') plain.push(...this.floors(send));
+      else if (verb.count === 2 && verb.argument === 'x y') {
+        plain.push(el('button', { type: 'button', title: verb.doc, 'data-verb': verb.name,
+          onclick: () => this.page.choosePoint(`${spaced(verb.name)}: choose a place for ${entity.name}`, (/** @type {number[]} */ p) => send(`${p[0].toFixed(2)} ${p[1].toFixed(2)}`)) }, `${spaced(verb.name)} …`));
+      } else if (verb.count === 1) rows.push(this.slider(entity, verb, send));
+    }
+    return [el('div', { class: 'verbs' }, ...plain), ...(rows.length ? [el('div', { class: 'verbs' }, ...rows)] : [])];
+  }
+
+  /** @param {(value: number) => void} send */
+  floors(send) {
+    return [...this.home.storeys].reverse().map((storey) => el('button', { type: 'button', title: storey.name, onclick: () => send(storey.number) }, `Floor ${storey.number}`));
+  }
+
+  /** @param {any} entity @param {any} verb @param {(value: string | number) => void} send */
+  slider(entity, verb, send) {
+    const value = this.valueOf(entity, verb);
+    if (verb.min === null || verb.max === null || verb.max - verb.min > 1000) {
+      const input = el('input', { type: 'number', step: 'any', min: verb.min, max: verb.max, value: value ?? '' });
+      return el('label', {}, el('span', {}, spaced(verb.name)), input, el('span', { class: 'soft' }, verb.unit),
+        el('button', { type: 'button', onclick: () => input.value !== '' && send(Number(input.value)) }, 'Send'));
+    }
+    const fine = verb.max - verb.min <= 5, output = el('output', { class: 'number' });
+    const input = el('input', { type: 'range', min: verb.min, max: verb.max, step: fine ? 0.01 : 1, 'data-verb': verb.name, value: value ?? verb.min });
+    const say = () => { output.textContent = `${Number(input.value)} ${verb.unit}`; };
+    input.addEventListener('input', say);
+    input.addEventListener('change', () => send(Number(input.value)));
+    say();
+    return el('label', { title: verb.doc }, el('span', {}, spaced(verb.name)), input, output);
+  }
+
+  /**
+   * The field that a verb sets, by its unit: percent, lx, …
+   * @param {any} entity
+   * @param {any} verb
+   */
+  valueOf(entity, verb) {
+    const fields = this.home.fields(entity.kind), at = fields.findIndex((field) => field.unit === verb.unit);
+    return at < 0 ? null : this.home.row(entity)?.values[at] ?? null;
+  }
+
+  /** @param {any} entity */
+  async remove(entity) {
+    const own = this.home.ofModel(entity.model).length === 1;
+    const answer = await this.home.order({ do: 'delete', name: own ? entity.model : entity.name });
+    if (answer.ok) this.close();
+  }
+
+  /** @param {any} room @param {number[]} [point] */
+  showRoom(room, point) {
+    const { home } = this;
+    this.shown = { room, point };
+    this.state = null;
+    const things = home.entities.filter((e) => e.kind !== 'model' && home.roomsOf(e).includes(room));
+    const devices = things.filter((e) => home.kinds[e.kind]?.role === 'device'), sensors = things.filter((e) => home.kinds[e.kind]?.role === 'sensor');
+    const parts = [...devices.map((e) => thingRow(home, e, () => this.show(e)))];
+    if (sensors.length) parts.push(el('h3', {}, 'Sensors'), ...sensors.map((e) => thingRow(home, e, () => this.show(e))));
+    if (point && !home.status.replay) parts.push(el('h3', {}, 'Add a sensor here'), this.adder(room, point));
+    this.open(roomText(room), `${words(room.use)}, floor ${room.storey}, ${room.area.toFixed(1)} m²`, parts);
+  }
+
+  /** @param {any} room @param {number[]} point */
+  adder(room, point) {
+    const { home } = this;
+    const kinds = Object.values(home.kinds).filter((kind) => kind.role === 'sensor' && kind.models.length).map((kind) => kind.kind).sort();
+    const kind = el('select', { 'aria-label': 'Kind' }, ...kinds.map((name) => el('option', { value: name, selected: name === 'pir' }, words(name))));
+    const height = el('input', { type: 'number', value: 1.2, step: 0.1, min: 0, max: 10, 'aria-label': 'Height in m', style: 'width: 80px' });
+    const name = el('input', { type: 'text', 'aria-label': 'Name', style: 'flex: 1 1 120px' });
+    const propose = () => {
+      let n = 1;
+      while (home.entities.some((e) => e.name === `${room.name}_${kind.value}_${n}`)) n++;
+      name.value = `${room.name}_${kind.value}_${n}`;
+    };
+    propose();
+    kind.addEventListener('change', propose);
+    const add = async () => {
+      const pose = { x: point[0], y: point[1], z: room.floor + Number(height.value), roll: 0, pitch: 0, yaw: 0 };
+      const answer = await home.order({ do: 'spawn', kind: kind.value, name: name.value, pose });
+      if (answer.ok) this.page.say(answer.text);
+    };
+    return el('div', { class: 'verbs' }, kind, height, el('span', { class: 'soft' }, 'm high'), name,
+      el('button', { class: 'main', type: 'button', id: 'add', onclick: add }, 'Add'));
+  }
+
+  refresh() {
+    if (this.state && this.shown?.entity) {
+      const row = this.home.row(this.shown.entity);
+      const text = row?.text || 'no reading yet';
+      if (this.state.textContent !== text) this.state.textContent = text;
+      this.state.classList.toggle('alarm', Boolean(row?.alarm));
+    }
+    for (const update of this.element.querySelectorAll('.thing')) /** @type {any} */ (update).refresh?.();
+  }
+}
+
+/**
+ * FrontLeft as "Front left".
+ * @param {string} name
+ */
+const spaced = (name) => words(name.replace(/([a-z])([A-Z])/g, '$1 $2').toLowerCase());
+
+/**
+ * A line of a list: name, state, and a switch where the kind has two opposite verbs.
+ * @param {import('./home.js').Home} home
+ * @param {any} e
+ * @param {() => void} open
+ * @returns {any}
+ */
+export function thingRow(home, e, open) {
+  const state = el('span', { class: 'state number' });
+  const verbs = (home.kinds[e.kind]?.verbs ?? []).filter((/** @type {any} */ v) => !v.argument).map((/** @type {any} */ v) => v.name);
+  const pair = [['On', 'Off'], ['Open', 'Close']].find(([a, b]) => verbs.includes(a) && verbs.includes(b));
+  const toggle = pair && !home.status.replay ? el('button', { type: 'button' }) : null;
+  const row = el('div', { class: 'thing' }, el('span', { class: 'glyph', 'aria-hidden': 'true' }, glyph(e.kind)),
+    el('button', { class: 'name', type: 'button', title: e.name, onclick: open }, `${words(e.kind)} ${e.name}`), state, toggle);
+  row.refresh = () => {
+    const now = home.row(e), text = now?.text ?? '', on = pair && new RegExp(`^${pair[0]}`, 'i').test(text);
+    if (state.textContent !== text) state.textContent = text;
+    row.classList.toggle('on', Boolean(on));
+    row.classList.toggle('alarm', Boolean(now?.alarm));
+    if (toggle && pair) toggle.textContent = on ? pair[1] : pair[0];
+  };
+  toggle?.addEventListener('click', () => home.command(e, toggle.textContent));
+  row.refresh();
+  return row;
+}

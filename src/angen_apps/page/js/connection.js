@@ -1,0 +1,87 @@
+/** The WebSocket: it comes back by itself; each order gets an answer. */
+
+/** @typedef {{ok: boolean, text?: string, xml?: string}} Answer */
+
+const LATER = 1000; // ms between tries
+
+export class Connection {
+  /**
+   * @param {(parts: any) => void} onParts
+   * @param {(blob: ArrayBuffer) => void} onBlob
+   * @param {(open: boolean) => void} onState
+   */
+  constructor(onParts, onBlob, onState) {
+    this.onParts = onParts;
+    this.onBlob = onBlob;
+    this.onState = onState;
+    /** @type {Map<number, (answer: Answer) => void>} */
+    this.waiting = new Map();
+    this.last = 0;
+    /** @type {Map<string, string[]>} */
+    this.wants = new Map();
+    /** @type {WebSocket | null} */
+    this.socket = null;
+    this.open();
+  }
+
+  open() {
+    const socket = new WebSocket(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/socket`);
+    socket.binaryType = 'arraybuffer';
+    this.socket = socket;
+    socket.onopen = () => {
+      this.onState(true);
+      this.sendWants();
+    };
+    socket.onmessage = (event) => {
+      if (typeof event.data !== 'string') {
+        this.onBlob(event.data);
+        return;
+      }
+      const parts = JSON.parse(event.data);
+      for (const answer of parts.answers ?? []) {
+        this.waiting.get(answer.id)?.(answer);
+        this.waiting.delete(answer.id);
+      }
+      this.onParts(parts);
+    };
+    socket.onclose = () => {
+      for (const answer of this.waiting.values()) answer({ ok: false, text: 'The connection to the server was lost.' });
+      this.waiting.clear();
+      this.onState(false);
+      setTimeout(() => this.open(), LATER);
+    };
+  }
+
+  /** @param {any} message */
+  send(message) {
+    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
+  }
+
+  /** @param {any} order @returns {Promise<Answer>} */
+  ask(order) {
+    return new Promise((resolve) => {
+      if (this.socket?.readyState !== WebSocket.OPEN) {
+        resolve({ ok: false, text: 'There is no connection to the server.' });
+        return;
+      }
+      const id = ++this.last;
+      this.waiting.set(id, resolve);
+      this.send({ ...order, id });
+    });
+  }
+
+  /**
+   * Topics that one part of the page shows.
+   * @param {string} who
+   * @param {string[]} topics
+   */
+  want(who, topics) {
+    if (String(this.wants.get(who) ?? []) === String(topics)) return;
+    this.wants.set(who, topics);
+    this.sendWants();
+  }
+
+  sendWants() {
+    this.send({ do: 'want', topics: [...new Set([...this.wants.values()].flat())] });
+  }
+}

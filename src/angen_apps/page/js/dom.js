@@ -1,0 +1,66 @@
+/** Elements, icons and short notices. Text of others becomes text nodes only, never HTML. */
+
+/**
+ * @param {string} tag
+ * @param {Record<string, any>} [attributes] `on…` are listeners, the rest attributes; null: left out
+ * @param {...(Node | string | number | null | undefined | false)} children
+ * @returns {any}
+ */
+export function el(tag, attributes = {}, ...children) {
+  return fill(document.createElement(tag), attributes, children);
+}
+
+/**
+ * @param {string} tag
+ * @param {Record<string, any>} [attributes]
+ * @param {...(Node | string | number | null | undefined | false)} children
+ * @returns {any}
+ */
+export function svg(tag, attributes = {}, ...children) {
+  return fill(document.createElementNS('http://www.w3.org/2000/svg', tag), attributes, children);
+}
+
+/** @param {any} element @param {Record<string, any>} attributes @param {any[]} children */
+function fill(element, attributes, children) {
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === null || value === undefined || value === false) continue;
+    if (name.startsWith('on')) element.addEventListener(name.slice(2), value);
+    else element.setAttribute(name, value === true ? '' : String(value));
+  }
+  for (const child of children) {
+    if (child !== null && child !== undefined && child !== false) element.append(/** @type {any} */ (child));
+  }
+  return element;
+}
+
+/** @param {string} id @returns {any} */
+export const by = (id) => document.getElementById(id);
+
+/** @param {string} text @param {boolean} [bad] */
+export function notice(text, bad = false) {
+  const shown = el('div', { class: bad ? 'notice bad' : 'notice' }, text);
+  by('notices').append(shown);
+  while (by('notices').children.length > 3) by('notices').firstChild.remove();
+  setTimeout(() => shown.remove(), bad ? 7000 : 3500);
+}
+
+/** @param {string} name */
+export const words = (name) => (name ? name[0].toUpperCase() + name.slice(1).replaceAll('_', ' ') : '');
+
+/**
+ * A symbol for a kind, of signs that every font has.
+ * @type {Record<string, string>}
+ */
+const GLYPHS = {
+  lamp: '●', door: '▮', window: '▯', cabinet: '▤', elevator: '↕', person: '☻', drive: '◆', pir: '◉', switch: '→', luminosity: '☼',
+  camera: '▣', depth: '▣', lidar: '✳', stove: '♨', microphone: '♪', doorbell: '♪',
+};
+/** @param {string} kind */
+export const glyph = (kind) => GLYPHS[kind] ?? '•';
+
+/** @param {number} seconds since midnight or the start */
+export function clockText(seconds) {
+  const s = Math.max(0, Math.floor(seconds));
+  const two = (/** @type {number} */ n) => String(n).padStart(2, '0');
+  return `${two(Math.floor(s / 3600))}:${two(Math.floor(s / 60) % 60)}:${two(s % 60)}`;
+}

@@ -1,0 +1,254 @@
+/** The page: what is chosen, the clock, the keys. */
+import { by, clockText, el, notice } from './dom.js';
+import { Card } from './card.js';
+import { Home } from './home.js';
+import { Panels } from './panels.js';
+import { Plan } from './plan.js';
+import { Player } from './player.js';
+import { View3d } from './view3d.js';
+
+const RATES = [0.1, 0.5, 1, 2, 5, 10, 100, 0];
+
+class Page {
+  constructor() {
+    this.home = new Home();
+    this.storey = /** @type {number | null} */ (null);
+    /** @type {((point: number[]) => void) | null} */
+    this.choosing = null;
+    const pick = (/** @type {any} */ hit) => this.pick(hit);
+    this.player = new Player(this.home);
+    this.plan = new Plan(this.home, pick);
+    try {
+      this.view = new View3d(this.home, pick);
+    } catch {
+      this.view = null; // no WebGL: the plan has everything
+    }
+    this.card = new Card(this.home, this);
+    this.panels = new Panels(this.home, this);
+    this.buildBar();
+    this.buildFloors();
+    this.buildLayers();
+    this.home.on('status', () => this.showStatus());
+    this.home.on('stats', () => this.showClock());
+    this.home.on('home', () => this.buildFloors());
+    setInterval(() => this.showClock(), 200);
+    addEventListener('keydown', (e) => this.key(e));
+    addEventListener('hashchange', () => { if (location.hash === '#home') this.whole(); });
+    this.setTheme(localStorage.getItem('theme') ?? (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'));
+    this.setView(this.view && !matchMedia('(max-width: 820px)').matches ? '3d' : 'plan');
+    if (matchMedia('(max-width: 820px)').matches) by('side').classList.add('low');
+    this.home.begin();
+  }
+
+  // --- the bar
+
+  buildBar() {
+    const { home } = this;
+    const ask = (/** @type {string} */ what, more = {}) => () => home.order({ do: what, ...more });
+    this.time = el('time', { class: 'number', role: 'timer', 'aria-label': 'Simulated time' });
+    this.play = el('button', { type: 'button', id: 'play', class: 'icon', onclick: () => home.order({ do: home.stats.paused ? 'resume' : 'pause' }) });
+    this.rate = el('select', { id: 'rate', 'aria-label': 'Speed', onchange: () => home.order({ do: 'rate', rate: Number(this.rate.value) }) },
+      ...RATES.map((rate) => el('option', { value: rate, selected: rate === 1 }, rate ? `${rate}×` : 'max')));
+    this.factor = el('span', { class: 'soft number wide' });
+    by('clock').append(this.time, this.play,
+      el('button', { type: 'button', class: 'wide', title: 'One second on, while paused (.)', onclick: ask('step', { seconds: 1 }) }, '+1 s'), this.rate,
+      el('button', { type: 'button', class: 'wide', title: 'To the start', onclick: ask('reset') }, 'Reset'), this.factor);
+    for (const [id, text] of [['3d', '3D'], ['plan', 'Plan']]) {
+      by('views').append(el('button', { type: 'button', id: `view-${id}`, disabled: id === '3d' && !this.view, onclick: () => this.setView(id) }, text));
+    }
+    by('theme').addEventListener('click', () => this.setTheme(document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark'));
+    by('help').addEventListener('click', () => this.help());
+    this.showStatus();
+  }
+
+  showStatus() {
+    const { home } = this;
+    const text = !home.connected ? 'No connection to the server' : home.status.replay ? 'Recording' : home.status.node ? 'Live' : 'Waiting for the simulator';
+    by('status').textContent = text;
+    by('status').classList.toggle('off', !home.connected || !(home.status.node || home.status.replay));
+    by('clock').classList.toggle('replay', home.status.replay);
+    for (const control of by('clock').querySelectorAll('button, select')) control.disabled = !home.connected || !home.status.node;
+    this.showClock();
+  }
+
+  showClock() {
+    const { stats, described, status } = this.home;
+    if (!this.time) return;
+    const since = Math.min(1.2, (performance.now() - this.home.statsAt) / 1000);
+    const now = stats.time + (stats.paused || !status.node ? 0 : since * stats.factor);
+    const start = /T(\d+):(\d+):(\d+)/.exec(described?.start ?? '');
+    const text = start ? clockText((Number(start[1]) * 3600 + Number(start[2]) * 60 + Number(start[3]) + now) % 86400) : clockText(now);
+    if (this.time.textContent !== text) this.time.textContent = text;
+    this.time.title = `${now.toFixed(1)} s simulated`;
+    const play = stats.paused ? '▶' : '❚❚';
+    if (this.play.textContent !== play) {
+      this.play.textContent = play;
+      this.play.title = stats.paused ? 'Go on (space)' : 'Pause (space)';
+      this.play.setAttribute('aria-label', stats.paused ? 'Go on' : 'Pause');
+    }
+    this.factor.textContent = status.node ? (stats.paused ? 'paused' : `${stats.factor.toFixed(stats.factor < 10 ? 2 : 0)}× real time`) : '';
+  }
+
+  /** @param {string} theme */
+  setTheme(theme) {
+    document.documentElement.dataset.theme = theme;
+    localStorage.setItem('theme', theme);
+    by('theme').textContent = theme === 'dark' ? '☀' : '☾';
+    this.view?.setTheme(theme === 'dark');
+    this.panels.plots.restyle();
+  }
+
+  /** @param {string} id */
+  setView(id) {
+    by('scene').hidden = id !== '3d';
+    by('labels').hidden = id !== '3d';
+    by('plan').hidden = id !== 'plan';
+    for (const other of ['3d', 'plan']) by(`view-${other}`).setAttribute('aria-pressed', String(other === id));
+    if (this.view) this.view.hidden = id !== '3d';
+    this.plan.hidden = id !== 'plan';
+    this.plan.stale = true;
+    this.plan.draw();
+    this.view?.resize();
+    this.buildFloors();
+  }
+
+  // --- floors and layers
+
+  buildFloors() {
+    const { storeys } = this.home, many = storeys.length > 1;
+    const plan = this.plan.hidden === false;
+    const shown = plan && this.storey === null ? storeys[0]?.number : this.storey;
+    const button = (/** @type {number | null} */ number, /** @type {string} */ text) => el('button', { type: 'button', 'aria-pressed': String(shown === number), onclick: () => this.setStorey(number) }, text);
+    by('floors').replaceChildren(...(many ? [...(plan ? [] : [button(null, 'All floors')]), ...[...storeys].reverse().map((s) => button(s.number, s.name || `Floor ${s.number}`))] : []));
+  }
+
+  /** @param {number | null} number */
+  setStorey(number) {
+    this.storey = number;
+    this.view?.setStorey(number);
+    this.plan.setStorey(number);
+    this.buildFloors();
+    this.panels.rebuild();
+  }
+
+  buildLayers() {
+    this.walls = el('select', { 'aria-label': 'Walls', onchange: () => this.view?.setWalls(this.walls.value) },
+      el('option', { value: 'cut' }, 'Low walls'), el('option', { value: 'clear' }, 'See-through walls'), el('option', { value: 'full' }, 'Whole walls'));
+    const fields = el('button', { type: 'button', 'aria-pressed': 'false', title: 'Where sensors detect (F)' }, 'Sensor fields');
+    fields.addEventListener('click', () => {
+      const on = fields.getAttribute('aria-pressed') !== 'true';
+      fields.setAttribute('aria-pressed', String(on));
+      this.view?.setFields(on);
+      this.plan.withFields = on;
+      this.plan.update();
+    });
+    this.fieldsButton = fields;
+    by('layers').append(this.walls, fields, el('button', { type: 'button', title: 'From above (P)', onclick: () => this.view?.look(true) }, 'From above'),
+      el('button', { type: 'button', title: 'The whole home (H)', onclick: () => this.whole() }, 'Whole home'));
+  }
+
+  whole() {
+    this.view?.look();
+  }
+
+  // --- choosing
+
+  /** @param {any} hit */
+  pick(hit) {
+    const { home } = this;
+    if (this.choosing && hit.point) {
+      const choose = this.choosing;
+      this.stopChoosing();
+      choose(hit.point);
+      return;
+    }
+    if (hit.entity) { this.show(hit.entity); return; }
+    const own = hit.model === undefined ? [] : home.ofModel(hit.model);
+    const sensorsOnly = own.filter((e) => home.kinds[e.kind]?.role === 'device');
+    const first = sensorsOnly.find((e) => home.kinds[e.kind].verbs.length) ?? sensorsOnly[0] ?? own[0];
+    if (first && hit.cls !== 'floor' && hit.cls !== 'wall') { this.show(first); return; }
+    const [x, y, z] = hit.point, room = home.roomAt(x, y, z) ?? home.roomAt(x, y, z + 0.2);
+    if (room) this.showRoom(room, hit.point);
+    else this.card.close();
+  }
+
+  /** @param {any} entity */
+  show(entity) {
+    this.card.show(entity);
+  }
+
+  /** @param {any} room @param {number[]} [point] */
+  showRoom(room, point) {
+    this.card.showRoom(room, point);
+  }
+
+  /** @param {string} text @param {(point: number[]) => void} then */
+  choosePoint(text, then) {
+    this.choosing = then;
+    by('hint').textContent = `${text} (Esc ends)`;
+    by('hint').hidden = false;
+  }
+
+  stopChoosing() {
+    this.choosing = null;
+    by('hint').hidden = true;
+  }
+
+  /** @param {any} entity */
+  plot(entity) {
+    this.panels.plots.add(entity.kind, entity.name);
+  }
+
+  /** @param {any} entity */
+  robot(entity) {
+    this.panels.robot.name = entity.name;
+    this.panels.open('robot');
+  }
+
+  rebuild() { this.panels.rebuild(); }
+  panelThings() { this.panels.refreshRooms(); }
+  say(/** @type {string} */ text) { notice(text); }
+
+  async save() {
+    const answer = await this.home.order({ do: 'save' });
+    if (!answer.ok) return;
+    const link = el('a', { href: URL.createObjectURL(new Blob([answer.xml ?? ''], { type: 'application/xml' })), download: 'saved.world' });
+    link.click();
+    URL.revokeObjectURL(link.href);
+  }
+
+  // --- keys
+
+  /** @param {KeyboardEvent} e */
+  key(e) {
+    const target = /** @type {any} */ (e.target);
+    if (e.ctrlKey || e.metaKey || e.altKey || /^(INPUT|SELECT|TEXTAREA)$/.test(target.tagName ?? '')) return;
+    if (e.key === 'Escape') {
+      if (this.choosing) this.stopChoosing();
+      else this.card.close();
+      return;
+    }
+    const { storeys } = this.home;
+    /** @type {Record<string, () => void>} */
+    const keys = {
+      ' ': () => { if (this.home.status.replay) this.player.playing = !this.player.playing; else if (target.tagName !== 'BUTTON' && target.getAttribute?.('role') !== 'button') this.play.click(); },
+      '.': () => this.home.order({ do: 'step', seconds: 1 }), h: () => this.whole(), p: () => this.view?.look(true),
+      f: () => this.fieldsButton.click(), t: () => by('theme').click(), v: () => this.setView(this.plan.hidden ? 'plan' : '3d'),
+      '*': () => this.setStorey(null), '?': () => this.help(),
+    };
+    const storey = /^\d$/.test(e.key) ? storeys.find((s) => s.number === Number(e.key)) : null;
+    if (storey) this.setStorey(storey.number);
+    else keys[e.key.toLowerCase()]?.();
+  }
+
+  help() {
+    const rows = [['Click', 'a door, lamp, person, sensor or floor: what it is and does'], ['Drag', 'turns the view; with the right button or two fingers it moves'], ['Wheel', 'zooms'],
+      ['Space', 'pauses'], ['.', 'one second on, while paused'], ['0 – 9, *', 'a floor, all floors'], ['H, P', 'the whole home, from above'], ['V', '3D or plan'], ['F', 'sensor fields'],
+      ['T', 'light or dark'], ['W A S D', 'drive the robot, in its tab'], ['Esc', 'closes']];
+    by('dialog').replaceChildren(el('h2', {}, 'Keys'), el('dl', {}, ...rows.flatMap(([key, text]) => [el('dt', {}, el('kbd', {}, key)), el('dd', {}, text)])),
+      el('form', { method: 'dialog' }, el('button', { class: 'main' }, 'Close')));
+    by('dialog').showModal();
+  }
+}
+
+/** @type {any} */ (window).angen = new Page(); // for tests and the console

@@ -1,0 +1,34 @@
+/** How the building looks: its colors, and how much effort the drawing takes. */
+import { rotate } from './fields.js';
+
+/** @type {Record<string, number[]>} */
+const FLOORS = { kitchen: [0.86, 0.80, 0.70], bathroom: [0.70, 0.80, 0.84], bedroom: [0.80, 0.68, 0.56], living: [0.78, 0.64, 0.50],
+  hall: [0.80, 0.76, 0.70], work: [0.76, 0.68, 0.58], landing: [0.74, 0.73, 0.71], outdoor: [0.60, 0.72, 0.52], other: [0.78, 0.74, 0.68] };
+
+/**
+ * Colors of the building; those of furniture and devices are the world's.
+ * @param {import('./home.js').Home} home
+ * @param {string} cls
+ * @param {number[]} color
+ * @param {any} link
+ * @param {any} shape
+ */
+export function paint(home, cls, color, link, shape) {
+  const way = rotate(link.pose.slice(3), shape.pose);
+  const room = cls === 'floor' ? home.roomAt(link.pose[0] + way[0], link.pose[1] + way[1], link.pose[2] + way[2]) : null;
+  if (cls === 'wall') return [0.95, 0.94, 0.92];
+  if (cls === 'floor' && room) return FLOORS[room.use] ?? FLOORS.other;
+  if (cls === 'ground') return [1, 1, 1];
+  return color;
+}
+
+/** Whether the processor draws: then without shadows and smooth edges, unless ?quality=high. */
+export function isPlain() {
+  const quality = new URLSearchParams(location.search).get('quality');
+  if (quality) return quality !== 'high';
+  const gl = document.createElement('canvas').getContext('webgl2');
+  const info = gl?.getExtension('WEBGL_debug_renderer_info');
+  const name = gl && info ? String(gl.getParameter(info.UNMASKED_RENDERER_WEBGL)) : '';
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|software/i.test(name);
+}

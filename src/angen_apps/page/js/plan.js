@@ -1,0 +1,217 @@
+/** The plan of one floor, as SVG: large targets, and each item reached by the keyboard. */
+import { by, svg } from './dom.js';
+import { fieldShape } from './fields.js';
+import { middleOf, roomText } from './labels.js';
+
+const SHOWN = new Set(['lamp', 'door', 'window', 'elevator', 'stove', 'heater', 'appliance', 'cabinet']);
+
+export class Plan {
+  /** @param {import('./home.js').Home} home @param {(hit: any) => void} onPick */
+  constructor(home, onPick) {
+    this.home = home;
+    this.onPick = onPick;
+    this.storey = /** @type {number | null} */ (null);
+    this.hidden = true;
+    this.withFields = false;
+    this.stale = true;
+    this.element = by('plan');
+    /** @type {Map<string, any>} */
+    this.items = new Map();
+    for (const topic of ['scene', 'home', 'entities']) home.on(topic, () => { this.stale = true; this.draw(); });
+    home.on('rows', () => this.update());
+    home.on('poses', () => this.later());
+    home.on('scan', (scan) => this.showScan(scan));
+  }
+
+  /** @param {number | null} storey */
+  setStorey(storey) {
+    this.storey = storey;
+    this.stale = true;
+    this.draw();
+  }
+
+  number() {
+    return this.storey ?? this.home.storeys[0]?.number ?? 0;
+  }
+
+  later() {
+    if (this.pending || this.hidden) return;
+    this.pending = setTimeout(() => { this.pending = 0; this.update(); }, 100);
+  }
+
+  /** Anew, when it is seen and something came or went. */
+  draw() {
+    if (this.hidden || !this.stale || !this.home.scene) return;
+    this.stale = false;
+    this.items.clear();
+    const { home } = this, number = this.number();
+    const rooms = home.rooms.filter((room) => room.storey === number);
+    const corners = rooms.flatMap((room) => room.polygon);
+    if (!corners.length) {
+      this.element.replaceChildren(svg('svg', {}, svg('text', { x: 200, y: 60 }, 'This home names no rooms.')));
+      return;
+    }
+    const xs = corners.map(([x]) => x), ys = corners.map(([, y]) => y), margin = 0.6;
+    const left = Math.min(...xs) - margin, top = -Math.max(...ys) - margin;
+    const width = Math.max(...xs) + margin - left, height = -Math.min(...ys) + margin - top;
+    const text = Math.max(0.24, Math.min(0.42, width / 30));
+    this.root = svg('svg', { viewBox: `${left} ${top} ${width} ${height}`, role: 'group', 'aria-label': `Plan of floor ${number}` });
+    this.root.addEventListener('click', (/** @type {MouseEvent} */ e) => this.click(e));
+    const path = (/** @type {number[][]} */ p) => `M${p.map(([x, y]) => `${x.toFixed(3)} ${(-y).toFixed(3)}`).join('L')}Z`;
+    for (const room of rooms) {
+      const shape = svg('path', { class: 'room-shape', d: [room.polygon, ...(room.holes ?? [])].map(path).join(''), 'fill-rule': 'evenodd', 'stroke-width': 0.1 });
+      this.items.set(`room/${room.name}`, shape);
+      this.root.append(shape);
+    }
+    this.root.append(this.furniture(number));
+    this.fields = svg('g');
+    this.scan = svg('g', { class: 'scan' });
+    this.root.append(this.fields);
+    for (const room of rooms) {
+      const [x, y] = middleOf(room.polygon);
+      this.root.append(svg('text', { x, y: -y + text * 2.3, 'font-size': text }, roomText(room)));
+    }
+    for (const door of home.described?.doors ?? []) {
+      const [x, y, z, yaw] = door.pose;
+      if (home.storeyAt(z + 0.2) !== number) continue;
+      const [dx, dy] = [(door.width / 2) * Math.cos(yaw), (door.width / 2) * Math.sin(yaw)];
+      this.root.append(svg('line', { class: 'gap', x1: x - dx, y1: -(y - dy), x2: x + dx, y2: -(y + dy) }));
+    }
+    for (const e of home.entities) this.addItem(e, number, text);
+    this.root.append(this.scan);
+    this.element.replaceChildren(this.root);
+    this.update();
+  }
+
+  /** @param {number} number */
+  furniture(number) {
+    const { home } = this, group = svg('g');
+    for (const thing of home.described?.things ?? []) {
+      if (home.storeyAt(thing.pose[2] + 0.2) !== number || thing.type === 'window' || thing.type === 'lamp') continue;
+      const links = home.linksOf(thing.name);
+      for (const shape of home.scene.shapes) {
+        if (shape.type !== 0 || !links.includes(shape.link) || shape.size[0] * shape.size[1] < 0.03) continue;
+        const link = home.scene.links[shape.link].pose, yaw = 2 * Math.atan2(link[5], link[6]);
+        const [c, s] = [Math.cos(yaw), Math.sin(yaw)], x = link[0] + c * shape.pose[0] - s * shape.pose[1];
+        const y = link[1] + s * shape.pose[0] + c * shape.pose[1], own = yaw + 2 * Math.atan2(shape.pose[5], shape.pose[6]);
+        group.append(svg('rect', { class: 'furniture', x: -shape.size[0] / 2, y: -shape.size[1] / 2, width: shape.size[0], height: shape.size[1],
+          rx: 0.04, transform: `translate(${x} ${-y}) rotate(${(-own * 180) / Math.PI})` }));
+      }
+    }
+    return group;
+  }
+
+  /** @param {any} e @param {number} number @param {number} text */
+  addItem(e, number, text) {
+    const { home } = this, moves = home.isMover(e), sensor = home.kinds[e.kind]?.role === 'sensor';
+    const alarms = home.kinds[e.kind]?.fields.some((/** @type {any} */ f) => f.alarm);
+    if (!moves && !SHOWN.has(e.kind) && !(sensor && alarms)) return;
+    if (sensor && home.scene.links[home.linksOf(e.model)[0]]?.moves) return;
+    const z = home.place(e)[2];
+    if (!moves && home.storeyAt(z) !== number) return;
+    const size = moves ? 0.22 : e.kind === 'lamp' ? 0.2 : sensor ? 0.1 : 0.14;
+    const item = svg('g', { class: `item ${e.kind}${home.isRobot(e) ? ' robot' : ''}`, tabindex: 0, role: 'button' },
+      e.kind === 'door' ? svg('line', { class: 'leaf' }) : null,
+      svg('circle', { class: 'face', r: size, visibility: e.kind === 'door' ? 'hidden' : null }),
+      moves ? svg('path', { class: 'face', d: `M${size * 1.5} 0L${size * 0.7} ${-size * 0.5}V${size * 0.5}Z` }) : null,
+      moves ? svg('text', { y: -size * 1.5, 'font-size': text * 0.8 }, e.name) : null,
+      svg('circle', { class: 'touch', r: Math.max(0.4, size) }));
+    const pick = (/** @type {Event} */ event) => { event.stopPropagation(); this.onPick({ entity: e }); };
+    item.addEventListener('click', pick);
+    item.addEventListener('keydown', (/** @type {KeyboardEvent} */ event) => {
+      if (event.key !== 'Enter' && event.key !== ' ') return;
+      event.preventDefault();
+      pick(event);
+    });
+    this.items.set(`${e.kind}/${e.name}`, item);
+    this.root.append(item);
+  }
+
+  update() {
+    if (this.hidden || !this.root || this.stale) return;
+    const { home } = this, number = this.number();
+    for (const e of home.entities) {
+      const item = this.items.get(`${e.kind}/${e.name}`);
+      if (!item) continue;
+      const row = home.row(e), pose = home.place(e);
+      const moves = home.isMover(e);
+      if (moves) item.style.display = home.storeyAt(pose[2] + 0.2) === number ? '' : 'none';
+      const yaw = Math.atan2(2 * (pose[6] * pose[5] + pose[3] * pose[4]), 1 - 2 * (pose[4] ** 2 + pose[5] ** 2));
+      const door = e.kind === 'door' ? this.door(e) : null;
+      item.setAttribute('transform', door ? `translate(${door.x} ${-door.y})` : `translate(${pose[0]} ${-pose[1]})`);
+      if (moves) item.querySelector('path').setAttribute('transform', `rotate(${(-yaw * 180) / Math.PI})`);
+      if (door) {
+        const leaf = item.querySelector('.leaf');
+        for (const [name, value] of Object.entries({ x1: door.ends[0], y1: -door.ends[1], x2: door.ends[2], y2: -door.ends[3] })) leaf.setAttribute(name, value);
+      }
+      item.classList.toggle('on', isOn(row));
+      item.classList.toggle('alarm', Boolean(row?.alarm));
+      item.setAttribute('aria-label', `${e.kind} ${e.name}: ${row?.text ?? ''}`);
+    }
+    for (const room of home.rooms) {
+      const lit = home.entities.some((e) => e.kind === 'lamp' && isOn(home.row(e)) && home.roomsOf(e)[0]?.name === room.name);
+      this.items.get(`room/${room.name}`)?.classList.toggle('lit', lit);
+    }
+    this.showFields(number);
+  }
+
+  /**
+   * A door's middle, and the ends of its leaf around it.
+   * @param {any} e
+   */
+  door(e) {
+    const { home } = this, described = home.described?.doors?.find((/** @type {any} */ d) => d.name === e.name && d.kind === e.kind);
+    const leaf = home.linksOf(e.model).find((link) => home.scene.links[link].moves);
+    if (!described || leaf === undefined) {
+      const [x, y] = Array.from(e.pose);
+      return { x, y, ends: [-0.4, 0, 0.4, 0] };
+    }
+    const [x, y, , yaw] = described.pose, half = described.width / 2;
+    const box = home.scene.shapes.filter((/** @type {any} */ s) => s.link === leaf && s.type === 0)
+      .sort((/** @type {any} */ a, /** @type {any} */ b) => b.size[0] * b.size[1] * b.size[2] - a.size[0] * a.size[1] * a.size[2])[0];
+    if (!box) return { x, y, ends: [-half * Math.cos(yaw), -half * Math.sin(yaw), half * Math.cos(yaw), half * Math.sin(yaw)] };
+    const p = home.pose(leaf), turn = 2 * Math.atan2(p[5], p[6]), [c, s] = [Math.cos(turn), Math.sin(turn)];
+    const along = box.size[0] > box.size[1] ? [box.size[0] / 2, 0] : [0, box.size[1] / 2];
+    const mx = p[0] + c * box.pose[0] - s * box.pose[1] - x, my = p[1] + s * box.pose[0] + c * box.pose[1] - y;
+    const [dx, dy] = [c * along[0] - s * along[1], s * along[0] + c * along[1]];
+    return { x, y, ends: [mx - dx, my - dy, mx + dx, my + dy] };
+  }
+
+  /** @param {number} number */
+  showFields(number) {
+    this.fields.replaceChildren();
+    for (const sensor of this.home.scene.sensors) {
+      const fires = this.home.rows.get(`${sensor.kind}/${sensor.name}`)?.alarm;
+      if ((!fires && !this.withFields) || this.home.scene.links[sensor.link].moves) continue;
+      const points = fieldShape(this.home, sensor);
+      if (this.home.storeyAt(points[0][2] + 0.2) !== number) continue;
+      this.fields.append(svg('polygon', { class: fires ? 'field alarm' : 'field', points: points.map(([x, y]) => `${x.toFixed(2)},${(-y).toFixed(2)}`).join(' ') }));
+    }
+  }
+
+  /** @param {{name: string, content: ArrayBuffer}} scan */
+  showScan({ name, content }) {
+    if (this.hidden || !this.scan) return;
+    const sensor = this.home.scene.sensors.find((/** @type {any} */ s) => `scan:${s.name}` === name);
+    if (!sensor) return;
+    const [first, step] = new Float32Array(content, 0, 2), ranges = new Float32Array(content, 8), p = this.home.pose(sensor.link);
+    const yaw = 2 * Math.atan2(p[5], p[6]) + 2 * Math.atan2(sensor.pose[5], sensor.pose[6]);
+    this.scan.replaceChildren(...Array.from(ranges).flatMap((range, i) => (i % 2 || !Number.isFinite(range) ? []
+      : [svg('circle', { r: 0.05, cx: p[0] + range * Math.cos(yaw + first + i * step), cy: -(p[1] + range * Math.sin(yaw + first + i * step)) })])));
+  }
+
+  /** @param {MouseEvent} e */
+  click(e) {
+    const at = new DOMPoint(e.clientX, e.clientY).matrixTransform(this.root.getScreenCTM().inverse());
+    const storey = this.home.storeys.find((s) => s.number === this.number());
+    this.onPick({ point: [at.x, -at.y, storey?.elevation ?? 0], cls: 'floor' });
+  }
+}
+
+/**
+ * Whether a device is on: by the field of that name, or by its words.
+ * @param {any} row
+ */
+export function isOn(row) {
+  return /^(on\b|open\b|opening\b)/i.test(row?.text ?? '');
+}

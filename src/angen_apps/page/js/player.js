@@ -1,0 +1,207 @@
+/** Plays a recording: play, scrub, speed, events, and who was in which room. */
+import { by, clockText, el } from './dom.js';
+import { inside } from './home.js';
+
+const SPEEDS = [0.5, 1, 2, 5, 20, 100];
+const COLORS = ['#0f766e', '#b45309', '#7c3aed', '#2563eb', '#be185d', '#4d7c0f', '#0e7490', '#a16207', '#9333ea', '#dc2626', '#475569', '#059669'];
+
+/** What one thing was over time. */
+class Track {
+  constructor() {
+    /** @type {number[]} */
+    this.t = [];
+    /** @type {any[]} */
+    this.v = [];
+    this.at = -1; // of the time that is shown
+  }
+
+  /** @param {number} time @returns {boolean} whether another value holds now */
+  seek(time) {
+    let at = this.at;
+    if (at >= 0 && time < this.t[at]) at = -1;
+    if (at < 0 || (at + 1 < this.t.length && time >= this.t[Math.min(at + 8, this.t.length - 1)])) {
+      let low = 0, high = this.t.length;
+      while (low < high) {
+        const middle = (low + high) >> 1;
+        if (this.t[middle] <= time) low = middle + 1;
+        else high = middle;
+      }
+      at = low - 1;
+    } else {
+      while (at + 1 < this.t.length && this.t[at + 1] <= time) at++;
+    }
+    const changed = at !== this.at;
+    this.at = at;
+    return changed;
+  }
+}
+
+export class Player {
+  /** @param {import('./home.js').Home} home */
+  constructor(home) {
+    this.home = home;
+    this.time = Number(new URLSearchParams(location.search).get('t')) || 0;
+    this.playing = true;
+    this.speed = 1;
+    this.end = 0;
+    this.loaded = 0;
+    /** @type {Map<number, Track>} by id of a link */
+    this.links = new Map();
+    /** @type {Map<number, Track>} */
+    this.lights = new Map();
+    /** @type {Map<string, Track>} */
+    this.rows = new Map();
+    /** @type {any[][]} */
+    this.events = [];
+    this.last = performance.now();
+    home.on('timeline', (entries) => this.take(entries));
+    home.on('line', () => this.onLine());
+    home.on('scene', () => this.onScene());
+  }
+
+  onLine() {
+    const { end, loaded } = this.home.line;
+    this.end = end;
+    this.loaded = loaded;
+    if (!this.bar) this.build();
+    this.slider.max = String(end);
+    this.ribbonStale = true;
+  }
+
+  onScene() {
+    /** @type {Map<number, number>} link by id */
+    this.linkOf = new Map((this.home.scene.ids ?? []).map((/** @type {number} */ id, /** @type {number} */ i) => [id, i]));
+    this.lightOf = new Map((this.home.scene.light_ids ?? []).map((/** @type {number} */ id, /** @type {number} */ i) => [id, i]));
+    this.seek(this.time);
+  }
+
+  /** @param {any[]} entries */
+  take(entries) {
+    const push = (/** @type {Map<any, Track>} */ map, /** @type {any} */ key, /** @type {number} */ t, /** @type {any} */ v) => {
+      let track = map.get(key);
+      if (!track) map.set(key, track = new Track());
+      track.t.push(t);
+      track.v.push(v);
+    };
+    for (const entry of entries) {
+      const [kind, t] = entry;
+      if (kind === 'p') entry[2].forEach((/** @type {number} */ id, /** @type {number} */ i) => push(this.links, id, t, entry[3].slice(7 * i, 7 * i + 7)));
+      else if (kind === 'l') entry[2].forEach((/** @type {number} */ id, /** @type {number} */ i) => push(this.lights, id, t, entry[3][i]));
+      else if (kind === 'r') push(this.rows, `${entry[2]}/${entry[3]}`, t, entry.slice(2));
+      else if (kind === 'e') this.events.push(entry[2]);
+    }
+  }
+
+  build() {
+    this.play = el('button', { type: 'button', class: 'icon main', id: 'replay', 'aria-label': 'Play or pause', onclick: () => { this.playing = !this.playing; } });
+    const speed = el('select', { 'aria-label': 'Speed', onchange: () => { this.speed = Number(speed.value); } }, ...SPEEDS.map((s) => el('option', { value: s, selected: s === 1 }, `${s}×`)));
+    this.slider = el('input', { type: 'range', id: 'moment', min: 0, step: 'any', value: 0, 'aria-label': 'Time', oninput: () => this.seek(Number(this.slider.value)) });
+    this.label = el('span', { class: 'number' });
+    this.ribbon = el('canvas', { height: 26, 'aria-hidden': 'true' });
+    const share = el('button', { type: 'button', title: 'The address of this moment', onclick: () => {
+      const url = new URL(location.href);
+      url.searchParams.set('t', this.time.toFixed(1));
+      history.replaceState(null, '', url);
+      navigator.clipboard?.writeText(url.href);
+    } }, 'Link');
+    this.bar = el('div', { id: 'player', role: 'group', 'aria-label': 'Recording' }, this.play, el('button', { type: 'button', title: 'To the next event', onclick: () => this.next() }, 'Next event'),
+      speed, el('div', { class: 'line' }, this.ribbon, this.slider), this.label, share);
+    by('stage').append(this.bar);
+    by('stage').classList.add('replay');
+    const frame = () => { requestAnimationFrame(frame); this.frame(); };
+    frame();
+  }
+
+  frame() {
+    const now = performance.now(), dt = (now - this.last) / 1000;
+    this.last = now;
+    const playing = this.playing && this.time < this.end;
+    if (playing) this.seek(Math.min(this.time + dt * this.speed, this.loaded), true);
+    this.play.textContent = playing ? '❚❚' : '▶';
+    this.slider.value = String(this.time);
+    const text = `${clockText(this.time)} / ${clockText(this.end)}${this.loaded < this.end ? `, read ${Math.round((100 * this.loaded) / this.end)} %` : ''}`;
+    if (this.label.textContent !== text) this.label.textContent = text;
+    if (this.ribbonStale && now - (this.ribbonAt ?? 0) > 1000) {
+      this.ribbonStale = false;
+      this.ribbonAt = now;
+      this.drawRibbon();
+    }
+  }
+
+  next() {
+    const next = this.events.find(([t]) => t > this.time + 0.01);
+    if (next) this.seek(next[0]);
+  }
+
+  /** @param {number} time @param {boolean} [onwards] */
+  seek(time, onwards = false) {
+    const { home } = this;
+    if (time < this.time) home.series.clear();
+    this.time = time;
+    if (!home.scene || !this.linkOf || !this.lightOf) return;
+    const moved = [];
+    for (const [id, track] of this.links) {
+      const link = this.linkOf.get(id);
+      const changed = track.seek(time);
+      if (link === undefined || track.at < 0) continue;
+      const last = track.at + 1 === track.t.length;
+      if (changed || !last) { home.poses.set(link, between(track, time)); moved.push(link); }
+    }
+    for (const [id, track] of this.lights) {
+      const light = this.lightOf.get(id);
+      if (light !== undefined && (track.seek(time) || !onwards)) home.levels.set(light, track.at < 0 ? 0 : track.v[track.at]);
+    }
+    const rows = [];
+    for (const track of this.rows.values()) if (track.seek(time) && track.at >= 0) rows.push(track.v[track.at]);
+    home.poseScene = home.scene.number;
+    if (moved.length) home.tell('poses', moved);
+    home.tell('levels');
+    if (rows.length) home.takeRows(rows, false);
+    home.stats = { ...home.stats, time, paused: !this.playing, factor: this.speed };
+    home.statsAt = performance.now();
+    const shown = this.events.filter(([t]) => t <= time).slice(-500);
+    if (shown.length !== home.events.length || shown[0] !== home.events[0]) { home.events = shown; home.tell('events', []); }
+  }
+
+  /** Each person's room over time, a line a person. */
+  drawRibbon() {
+    const { home, ribbon } = this;
+    const people = home.entities.filter((e) => e.kind === 'person').slice(0, 4);
+    const width = ribbon.width = ribbon.clientWidth || 600;
+    const context = ribbon.getContext('2d');
+    if (!context || !this.end) return;
+    context.clearRect(0, 0, width, ribbon.height);
+    const height = people.length ? ribbon.height / people.length : 0;
+    people.forEach((e, line) => {
+      const link = home.linksOf(e.model)[0], id = home.scene?.ids?.[link], track = this.links.get(id);
+      if (!track) return;
+      for (let x = 0; x < width; x += 2) {
+        const t = (x / width) * this.end;
+        if (t > this.loaded) break;
+        let low = 0, high = track.t.length;
+        while (low < high) { const m = (low + high) >> 1; if (track.t[m] <= t) low = m + 1; else high = m; }
+        const p = track.v[Math.max(0, low - 1)];
+        const room = home.rooms.findIndex((r) => p[2] > r.floor - 0.5 && p[2] < r.ceiling && inside(r.polygon, p[0], p[1]));
+        if (room < 0) continue;
+        context.fillStyle = COLORS[room % COLORS.length];
+        context.fillRect(x, line * height, 2, height - 2);
+      }
+    });
+    context.fillStyle = getComputedStyle(document.documentElement).getPropertyValue('--ink');
+    for (const [t] of this.events) context.fillRect((t / this.end) * width, ribbon.height - 3, 1, 3);
+  }
+}
+
+/** @param {Track} track @param {number} time @returns {Float32Array} */
+function between(track, time) {
+  const from = track.v[track.at], to = track.v[track.at + 1];
+  if (!to) return Float32Array.from(from);
+  const span = track.t[track.at + 1] - track.t[track.at], part = span > 0 ? Math.min(1, (time - track.t[track.at]) / span) : 1;
+  const far = Math.hypot(to[0] - from[0], to[1] - from[1], to[2] - from[2]);
+  if (far > 4 || span > 3) return Float32Array.from(part < 1 ? from : to); // a rest, or a jump
+  const sign = from[3] * to[3] + from[4] * to[4] + from[5] * to[5] + from[6] * to[6] < 0 ? -1 : 1;
+  const pose = Float32Array.from(from, (value, i) => value + part * ((i < 3 ? 1 : sign) * to[i] - value));
+  const length = Math.hypot(pose[3], pose[4], pose[5], pose[6]) || 1;
+  for (let i = 3; i < 7; i++) pose[i] /= length;
+  return pose;
+}

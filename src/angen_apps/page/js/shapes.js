@@ -1,0 +1,175 @@
+/** The shapes of a scene as instanced meshes: one draw call for all boxes of a class. */
+import * as THREE from '../vendor/three/three.module.min.js';
+
+const BOX = 0, SPHERE = 1, CYLINDER = 2;
+export const CUT = 1.15; // m over the floor, where walls are cut
+const HIDDEN = new THREE.Matrix4().makeScale(0, 0, 0);
+const scratch = new THREE.Matrix4(), place = new THREE.Vector3(), turn = new THREE.Quaternion(), size = new THREE.Vector3();
+
+/** @param {ArrayLike<number>} p x y z and quaternion @param {any} into a Matrix4 */
+export function poseMatrix(p, into) {
+  return into.compose(place.set(p[0], p[1], p[2]), turn.set(p[3], p[4], p[5], p[6]), size.set(1, 1, 1));
+}
+
+/** @param {string} group @returns {string} */
+export function classOf(group) {
+  for (const name of ['wall', 'floor', 'ceiling', 'ground', 'sensor', 'window']) if (group.startsWith(name)) return name;
+  return 'thing';
+}
+
+/** @param {string} group @returns {number | null} */
+function storeyOf(group) {
+  const found = / (-?\d+)$/.exec(group);
+  return found ? Number(found[1]) : null;
+}
+
+/** @param {any} mesh of the scene: arrays in base64 */
+function meshGeometry(mesh) {
+  const bytes = (/** @type {string} */ text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
+  let geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(bytes(mesh.vertices)), 3));
+  geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(bytes(mesh.triangles)), 1));
+  geometry = geometry.toNonIndexed(); // flat faces
+  geometry.computeVertexNormals();
+  return geometry;
+}
+
+/** A box whose upper face is darker, as the section of a wall in a drawing. */
+function wallGeometry() {
+  const geometry = new THREE.BoxGeometry(1, 1, 1);
+  const normal = geometry.getAttribute('normal'), colors = new Float32Array(normal.count * 3);
+  for (let i = 0; i < normal.count; i++) colors.fill(normal.getZ(i) > 0.5 ? 0.24 : 1, 3 * i, 3 * i + 3);
+  geometry.setAttribute('color', new THREE.BufferAttribute(colors, 3));
+  return geometry;
+}
+
+/**
+ * @typedef {{mesh: any, index: number, link: number, local: any, type: number, cls: string, storey: number | null, size: number[],
+ *   extent: number}} Part
+ */
+
+export class Shapes {
+  /**
+   * @param {any} scene as the server sends it
+   * @param {Set<string>} replaced models that something else shows
+   * @param {(cls: string, color: number[], link: any, shape: any) => number[]} paint
+   */
+  constructor(scene, replaced, paint) {
+    this.group = new THREE.Group();
+    /** @type {any[]} */
+    this.meshes = [];
+    /** @type {Part[][]} by link */
+    this.parts = scene.links.map(() => []);
+    /** @type {Part[][]} by mesh and instance */
+    this.instances = [];
+    this.bounds = new THREE.Box3();
+    const geometries = new Map();
+    /** @type {Map<string, any[]>} */
+    const batches = new Map();
+    for (const shape of scene.shapes) {
+      const link = scene.links[shape.link];
+      if (replaced.has(link.model)) continue;
+      const cls = classOf(link.group);
+      const glass = cls === 'window' && shape.size[0] * shape.size[1] * shape.size[2] > 0.002;
+      const clear = glass || (shape.color[3] < 0.99 && cls !== 'wall');
+      const key = `${shape.type}|${shape.type > CYLINDER ? shape.mesh : ''}|${cls}|${clear ? Math.min(glass ? 0.35 : 1, shape.color[3]).toFixed(2) : ''}`;
+      batches.set(key, [...(batches.get(key) ?? []), shape]);
+    }
+    for (const [key, shapes] of batches) this.addBatch(scene, key, shapes, geometries, paint);
+  }
+
+  /** @param {any} scene @param {string} key @param {any[]} shapes @param {Map<string, any>} geometries @param {any} paint */
+  addBatch(scene, key, shapes, geometries, paint) {
+    const [type, mesh, cls, clear] = key.split('|');
+    const shapeKey = cls === 'wall' && type === '0' ? 'wall' : `${type}|${mesh}`;
+    if (!geometries.has(shapeKey)) {
+      geometries.set(shapeKey, shapeKey === 'wall' ? wallGeometry() : type === '0' ? new THREE.BoxGeometry(1, 1, 1)
+        : type === '1' ? new THREE.SphereGeometry(0.5, 20, 14)
+          : type === '2' ? new THREE.CylinderGeometry(0.5, 0.5, 1, 24).rotateX(Math.PI / 2) : meshGeometry(scene.meshes[shapes[0].mesh]));
+    }
+    const material = cls === 'ground' ? new THREE.MeshBasicMaterial() : new THREE.MeshLambertMaterial({ vertexColors: shapeKey === 'wall' });
+    if (clear) Object.assign(material, { transparent: true, opacity: Math.max(0.15, Number(clear)), depthWrite: false });
+    const batch = new THREE.InstancedMesh(geometries.get(shapeKey), material, shapes.length);
+    batch.castShadow = !clear && cls !== 'ground' && cls !== 'ceiling';
+    batch.receiveShadow = true;
+    batch.frustumCulled = false;
+    batch.userData = { cls, links: shapes.map((shape) => shape.link) };
+    const color = new THREE.Color();
+    /** @type {Part[]} */
+    const parts = [];
+    shapes.forEach((shape, index) => {
+      const link = scene.links[shape.link];
+      const scale = type > '2' ? [1, 1, 1] : shape.size;
+      const local = poseMatrix(shape.pose, new THREE.Matrix4()).clone().scale(size.fromArray(scale));
+      const part = { mesh: batch, index, link: shape.link, local, type: shape.type, cls, storey: storeyOf(link.group), size: scale,
+        extent: Math.max(...scale) };
+      this.parts[shape.link].push(part);
+      parts.push(part);
+      const [r, g, b] = paint(cls, shape.color, link, shape);
+      batch.setColorAt(index, color.setRGB(r, g, b, THREE.SRGBColorSpace));
+      if (cls !== 'ground' && part.extent < 60) this.bounds.expandByPoint(place.fromArray(link.pose));
+    });
+    this.instances.push(parts);
+    this.meshes.push(batch);
+    this.group.add(batch);
+  }
+
+  /**
+   * @param {number} link @param {any} matrix of the link
+   * @param {(part: Part, z: number) => number | null} shown the height in the world at which it is cut; NaN: hidden, null: whole
+   */
+  place(link, matrix, shown) {
+    for (const part of this.parts[link]) {
+      scratch.multiplyMatrices(matrix, part.local);
+      const cut = shown(part, scratch.elements[14]);
+      if (cut !== null && (Number.isNaN(cut) || !cutBox(scratch, part, cut))) part.mesh.setMatrixAt(part.index, HIDDEN);
+      else part.mesh.setMatrixAt(part.index, scratch);
+      part.mesh.instanceMatrix.needsUpdate = true;
+    }
+  }
+
+  /** Boxes around instances, for picking. */
+  settle() {
+    for (const mesh of this.meshes) mesh.boundingSphere = null;
+  }
+
+  /**
+   * What of walls lets light through.
+   * @param {boolean} clear
+   */
+  clearWalls(clear) {
+    for (const mesh of this.meshes) {
+      if (mesh.userData.cls !== 'wall') continue;
+      Object.assign(mesh.material, { transparent: clear, opacity: clear ? 0.16 : 1, depthWrite: !clear });
+      mesh.castShadow = !clear;
+      mesh.material.needsUpdate = true;
+    }
+  }
+
+  dispose() {
+    for (const mesh of this.meshes) {
+      mesh.geometry.dispose();
+      mesh.material.dispose();
+      mesh.dispose();
+    }
+  }
+}
+
+/**
+ * Takes off what of an upright box is above `top`.
+ * @param {any} matrix
+ * @param {Part} part
+ * @param {number} top
+ */
+function cutBox(matrix, part, top) {
+  const e = matrix.elements, z = e[14], height = Math.abs(e[10]);
+  const upright = part.type === BOX && Math.abs(e[2]) + Math.abs(e[6]) < 1e-3;
+  const low = z - height / 2, high = z + height / 2;
+  if (low >= top) return false;
+  if (!upright || high <= top) return true;
+  e[10] = top - low;
+  e[14] = (low + top) / 2;
+  return true;
+}
+
+export const SHAPE = { BOX, SPHERE, CYLINDER };

@@ -1,0 +1,41 @@
+"""angen web on the command line."""
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from angen_tools.cli.arguments import checked
+from angen_tools.cli.parser import command
+
+PORT = 8080
+
+
+def port(text: str) -> int:
+    """A port that a user may open."""
+    if text.isascii() and text.isdigit() and 1024 <= int(text) <= 65535:
+        return int(text)
+    raise ValueError(f"'{text}' is not a port; give 1024 to 65535")
+
+
+def run_web(args: argparse.Namespace) -> int:
+    from angen_apps.web.command import web_live, web_recording
+    if args.replay is not None:
+        web_recording(args.replay, args.host, args.port)
+    else:
+        web_live(args.host, args.port)
+    return 0
+
+
+def add_web(commands: Any) -> None:
+    """angen web."""
+    web = command(commands, 'web', run_web,
+                  'serves a page that shows the running building, to watch and control it in a '
+                  'browser', 'web', 'web --port 9000', 'web --host 0.0.0.0', 'web --replay bug.log')
+    web.add_argument('--replay', metavar='FILE', type=Path,
+                     help='plays a run that record:= of ./angen run has recorded, with a time line')
+    web.add_argument('--port', metavar='N', type=checked(port), default=PORT,
+                     help=f'of HTTP ({PORT})')
+    web.add_argument('--host', metavar='ADDRESS', default='127.0.0.1',
+                     help='an address of this machine that other machines reach, or 0.0.0.0: the '
+                     'address that it prints then has a token (127.0.0.1)')

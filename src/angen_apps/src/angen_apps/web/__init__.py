@@ -1,0 +1,1 @@
+"""angen web: the building in a browser."""

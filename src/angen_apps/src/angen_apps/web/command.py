@@ -1,0 +1,94 @@
+"""angen web: starts the server and prints its address."""
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import logging
+import signal
+import socket
+import sys
+from pathlib import Path
+from typing import Any
+
+from angen_apps.web.guard import Guard, is_loopback, url_host
+from angen_apps.web.server import Server, Source, listen
+from angen_tools.common.catalog import kinds
+from angen_tools.common.failure import Failure
+
+KEYS = ('kind', 'doc', 'role', 'verbs', 'values', 'fields', 'models')  # that the page reads
+
+
+def page() -> Path:
+    """The folder of the page's files."""
+    import rospkg
+    return Path(rospkg.RosPack().get_path('angen_apps')) / 'page'
+
+
+def described_kinds() -> dict[str, Any]:
+    """What the kinds say of themselves."""
+    return {name: {key: kind[key] for key in KEYS} for name, kind in kinds().items()}
+
+
+def own_address() -> str:
+    """This machine's address in its network; nothing is sent to find it."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        with contextlib.suppress(OSError):
+            probe.connect(('192.0.2.1', 9))
+            return str(probe.getsockname()[0])
+    return '127.0.0.1'
+
+
+def show_address(url: str, with_code: bool) -> None:
+    print(f'angen web: {url}', flush=True)
+    if with_code:
+        import qrcode
+        code = qrcode.QRCode(border=1)
+        code.add_data(url)
+        code.print_ascii(out=sys.stdout, invert=sys.stdout.isatty())
+        sys.stdout.flush()
+
+
+async def _serve(source: Source, host: str, port: int) -> None:
+    anywhere = host in ('0.0.0.0', '::')
+    shown = own_address() if anywhere else host
+    guard = Guard(host, port, {shown, socket.gethostname()})
+
+    async def started(_: int) -> None:
+        query = f'?token={guard.token}' if guard.token else ''
+        show_address(f'http://{url_host(shown)}:{port}/{query}', bool(guard.token))
+
+    work = asyncio.ensure_future(
+        listen(Server(source, guard, page(), described_kinds()), host, port, started))
+    loop = asyncio.get_running_loop()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        loop.add_signal_handler(number, work.cancel)
+    with contextlib.suppress(asyncio.CancelledError):
+        try:
+            await work
+        except OSError as error:
+            raise Failure(f'{host}:{port} cannot be served: {error.strerror}; choose another with '
+                          '--port, or port:= of ./angen run') from None
+
+
+def serve(source: Source, host: str, port: int) -> None:
+    """Serves until Ctrl-C."""
+    logging.basicConfig(level=logging.WARNING, format='%(message)s')
+    if not is_loopback(host):
+        print('angen web: reachable from other machines; whoever has the address with its token '
+              'controls the building, and nothing is encrypted', file=sys.stderr)
+    asyncio.run(_serve(source, host, port))
+
+
+def web_recording(log: Path, host: str, port: int) -> None:
+    """A recorded run."""
+    from angen_apps.web.recording import Recording
+    with Recording(log) as recording:
+        serve(recording, host, port)
+
+
+def web_live(host: str, port: int) -> None:
+    """A running node, or the one that will run."""
+    from angen_apps.web.feed import Feed
+    from angen_apps.web.node import start_node
+    start_node()
+    serve(Feed(), host, port)

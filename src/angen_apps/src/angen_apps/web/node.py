@@ -1,0 +1,19 @@
+"""This process as a node of ROS that outlives its master."""
+from __future__ import annotations
+
+import time
+
+from angen_apps.web.feed import master_process
+
+
+def start_node() -> None:
+    """Returns when there is a master, and this process is a node of it."""
+    import rospy
+    told = False
+    while not master_process():
+        if not told:
+            print('angen web: waits for a ROS master; start one with ./angen run', flush=True)
+            told = True
+        time.sleep(0.5)
+    rospy.init_node('angen_web', anonymous=True, disable_signals=True, disable_rosout=True,
+                    disable_rostime=True)

@@ -1,0 +1,178 @@
+"""What a page may ask of the simulator; all of it by public services and topics."""
+from __future__ import annotations
+
+import math
+import threading
+from typing import Any, Callable
+
+from angen_apps.web.store import Store
+from angen_tools.common.catalog import kinds
+from angen_tools.common.failure import Failure
+from angen_tools.live.client import Client
+
+LONGEST = 4096  # bytes of a text, as the simulator's own limit
+MOST_STEPS = 10_000_000
+MOST_RATE = 1000.0
+HOLD = 0.7  # s after the last order, and a robot stops
+LIMIT = 15.0  # s that a service may take
+SPEEDS = ['m/s', 'rad/s']  # the values of a robot that cmd_vel drives
+PAUSE, UNPAUSE = '/gazebo/pause_physics', '/gazebo/unpause_physics'
+
+
+class Orders:
+    """Each order is a method; `execute` runs the one that an order names."""
+
+    def __init__(self, store: Store) -> None:
+        self._store = store
+        self._publishers: dict[str, Any] = {}
+        self._stops: dict[str, threading.Timer] = {}
+        self._lock = threading.Lock()  # of these two
+        self._known: dict[str, Callable[[dict[str, Any]], dict[str, Any]]] = {
+            'command': self._command, 'pause': self._pause, 'resume': self._resume,
+            'step': self._step, 'reset': self._reset, 'rate': self._rate, 'spawn': self._spawn,
+            'delete': self._delete, 'save': self._save, 'drive': self._drive, 'goal': self._goal}
+
+    def execute(self, order: dict[str, Any]) -> dict[str, Any]:
+        """The answer; ValueError where the simulator refuses it."""
+        do = self._known.get(str(order.get('do')))
+        if do is None:
+            raise ValueError('unknown order; known are ' + ', '.join(self._known))
+        try:
+            return do(order)
+        except Failure as failure:
+            raise ValueError(str(failure)) from None
+
+    def _command(self, order: dict[str, Any]) -> dict[str, Any]:
+        from angen_msgs.srv import SendCommand
+        target, words = text(order, 'target'), text(order, 'text')
+        answer = Client().call('/angen/command', SendCommand, LIMIT, target=target, text=words)
+        return {'text': answer.state}
+
+    def _pause(self, _: dict[str, Any]) -> dict[str, Any]:
+        return self._empty(PAUSE)
+
+    def _resume(self, _: dict[str, Any]) -> dict[str, Any]:
+        return self._empty(UNPAUSE)
+
+    def _reset(self, _: dict[str, Any]) -> dict[str, Any]:
+        return self._empty('/gazebo/reset_simulation')
+
+    def _empty(self, service: str) -> dict[str, Any]:
+        from std_srvs.srv import Empty
+        Client().call(service, Empty, LIMIT)
+        return {}
+
+    def _step(self, order: dict[str, Any]) -> dict[str, Any]:
+        from angen_msgs.srv import Step
+        stats = self._store.part('stats') or {}
+        step = float(stats.get('step') or 0.001)
+        ticks = round(number(order, 'seconds', step, MOST_STEPS * step) / step)
+        taken = Client().call('/angen/step', Step, 120.0, ticks=ticks).taken
+        return {'text': f'{taken * step:g} s'}
+
+    def _rate(self, order: dict[str, Any]) -> dict[str, Any]:
+        from gazebo_msgs.srv import GetPhysicsProperties, SetPhysicsProperties
+        rate = number(order, 'rate', 0.0, MOST_RATE)
+        client = Client()
+        now = client.call('/gazebo/get_physics_properties', GetPhysicsProperties, LIMIT)
+        client.call('/gazebo/set_physics_properties', SetPhysicsProperties, LIMIT,
+                    time_step=now.time_step, max_update_rate=rate / now.time_step,
+                    gravity=now.gravity, ode_config=now.ode_config)
+        return {}
+
+    def _spawn(self, order: dict[str, Any]) -> dict[str, Any]:
+        from angen_tools.live.spawn import call_spawn
+        from angen_tools.world import sdf, sensor
+        kind, name = text(order, 'kind'), text(order, 'name')
+        if kind not in kinds('sensor'):
+            raise Failure(f"'{kind}' is not a kind of sensor")
+        place = [number(order.get('pose', {}), key, -1e6, 1e6)
+                 for key in ('x', 'y', 'z', 'roll', 'pitch', 'yaw')]
+        element = sensor.build(kind, name, [], False)
+        call_spawn(Client(), name, sdf.text(element), '', place)
+        return {'text': f'spawned the {kind} {name}'}
+
+    def _delete(self, order: dict[str, Any]) -> dict[str, Any]:
+        from angen_msgs.srv import Delete
+        name = text(order, 'name')
+        return {'text': Client().call('/angen/delete', Delete, LIMIT, name=name).message}
+
+    def _save(self, _: dict[str, Any]) -> dict[str, Any]:
+        from angen_msgs.srv import Save
+        return {'xml': Client().call('/angen/save', Save).xml}
+
+    def _drive(self, order: dict[str, Any]) -> dict[str, Any]:
+        from geometry_msgs.msg import Twist
+        name = self._robot(order)
+        twist = Twist()
+        twist.linear.x = number(order, 'speed', -2.0, 2.0)
+        twist.angular.z = number(order, 'turn', -6.0, 6.0)
+        self._publisher(f'/{name}/cmd_vel', Twist).publish(twist)
+        with self._lock:
+            timer = self._stops.pop(name, None)
+            if timer is not None:
+                timer.cancel()
+            if twist.linear.x or twist.angular.z:  # the browser may be gone the next moment
+                self._stops[name] = threading.Timer(HOLD, self._stop, (name,))
+                self._stops[name].daemon = True
+                self._stops[name].start()
+        return {}
+
+    def _stop(self, name: str) -> None:
+        from geometry_msgs.msg import Twist
+        self._publisher(f'/{name}/cmd_vel', Twist).publish(Twist())
+
+    def _robot(self, order: dict[str, Any]) -> str:
+        name = text(order, 'name')
+        robots = {kind['kind'] for kind in kinds('device').values() if kind['values'] == SPEEDS}
+        if not any(e['kind'] in robots and e['name'] == name
+                   for e in self._store.part('entities') or []):
+            raise Failure(f"no robot is named '{name}'")
+        return name
+
+    def _goal(self, order: dict[str, Any]) -> dict[str, Any]:
+        from geometry_msgs.msg import PoseStamped
+        goal = PoseStamped()
+        goal.header.frame_id = 'map'
+        goal.pose.position.x = number(order, 'x', -1e6, 1e6)
+        goal.pose.position.y = number(order, 'y', -1e6, 1e6)
+        goal.pose.orientation.w = 1.0
+        publisher = self._publisher('/move_base_simple/goal', PoseStamped)
+        if publisher.get_num_connections() == 0:
+            raise Failure('no program subscribes to /move_base_simple/goal; navigation is started '
+                          'as docs/navigation.md says')
+        publisher.publish(goal)
+        return {'text': 'the goal is published'}
+
+    def _publisher(self, topic: str, kind: type) -> Any:
+        import rospy
+        with self._lock:
+            if topic not in self._publishers:
+                self._publishers[topic] = rospy.Publisher(topic, kind, queue_size=1)
+                wait_for_subscriber(self._publishers[topic])
+            return self._publishers[topic]
+
+
+def wait_for_subscriber(publisher: Any, limit: float = 1.0) -> None:
+    """Returns when there is one, or after the limit."""
+    import time
+    end = time.monotonic() + limit
+    while publisher.get_num_connections() == 0 and time.monotonic() < end:
+        time.sleep(0.02)
+
+
+def text(order: dict[str, Any], key: str) -> str:
+    """A text of an order; Failure where it is none, or too long."""
+    value = order.get(key)
+    if not isinstance(value, str) or not value or len(value.encode()) > LONGEST:
+        raise Failure(f"'{key}' must be a text of at most {LONGEST} bytes")
+    return value
+
+
+def number(order: Any, key: str, low: float, high: float) -> float:
+    """A number of an order within limits; Failure where it is none."""
+    value = order.get(key, 0.0) if isinstance(order, dict) else None
+    if isinstance(value, bool) or not isinstance(value, (int, float)) \
+            or not math.isfinite(value) or not low <= value <= high:
+        raise Failure(f"'{key}' must be a number from {low:g} to {high:g}")
+    return float(value)

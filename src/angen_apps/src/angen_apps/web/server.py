@@ -1,0 +1,233 @@
+"""The HTTP and WebSocket server of angen web."""
+from __future__ import annotations
+
+import asyncio
+import gzip
+import json
+import logging
+from pathlib import Path
+from typing import Any, Awaitable, Callable, Protocol
+
+from aiohttp import WSMsgType, web
+
+from angen_apps.web.guard import Budget, Guard
+from angen_apps.web.store import Store
+from angen_apps.web.threads import in_thread
+
+MOST_BROWSERS = 40
+LARGEST_MESSAGE = 16 * 1024  # bytes, of a browser
+RATE, BURST = 40.0, 80.0  # messages per second of a browser
+MOST_PENDING = 20  # orders of a browser
+PERIOD = 0.05  # s between updates of a browser
+PULSE = 20.0  # s between pings, which notice a browser that went away
+COST = 'cost'
+log = logging.getLogger('angen.web')
+
+
+class Source(Protocol):
+    """What the pages show: a running node or a recording."""
+
+    store: Store
+
+    async def serve(self) -> None:
+        """Fills the store while `want` says that there are browsers; until cancelled."""
+
+    def want(self, topics: set[str] | None) -> None:
+        """Topics beyond the usual ones that some browser shows; None: there is no browser."""
+
+    async def order(self, order: dict[str, Any]) -> dict[str, Any]:
+        """Executes an order of a browser, which gets the answer; ValueError refuses it."""
+
+    def close(self) -> None:
+        """Ends threads."""
+
+
+class Browser:
+    """One page that is open."""
+
+    def __init__(self, socket: web.WebSocketResponse) -> None:
+        self.socket = socket
+        self.wanted: set[str] = set()
+        self.pending = 0  # orders without an answer so far
+        self.news = asyncio.Event()
+        self.news.set()
+        self.answers: list[dict[str, Any]] = []
+
+    def answer(self, answer: dict[str, Any]) -> None:
+        self.answers.append(answer)
+        self.news.set()
+
+    async def feed(self, store: Store) -> None:
+        """Sends what changed, as fast as the browser takes it."""
+        seen = 0
+        while not self.socket.closed:
+            await self.news.wait()
+            self.news.clear()
+            update = store.since(seen, self.wanted, () if COST in self.wanted else (COST,))
+            seen = update.version
+            if update.more:
+                self.news.set()
+            if self.answers:
+                update.parts['answers'], self.answers = self.answers, []
+            if update.parts:
+                await self.socket.send_str(json.dumps(update.parts, separators=(',', ':')))
+            for blob in update.blobs:
+                await self.socket.send_bytes(blob)
+            if update:
+                await asyncio.sleep(PERIOD)
+
+
+class Server:
+    """The application; `page` is the folder of its files."""
+
+    def __init__(self, source: Source, guard: Guard, page: Path, kinds: dict[str, Any]) -> None:
+        self._source = source
+        self._page = page
+        self._kinds = json.dumps(kinds).encode()
+        self._browsers: set[Browser] = set()
+        self._scene: tuple[int, bytes] = (0, b'')
+        self._tasks: set[asyncio.Task[None]] = set()
+        self.app = web.Application(middlewares=[guard.middleware],
+                                   client_max_size=LARGEST_MESSAGE)
+        self.app.add_routes([web.get('/', self._index), web.get('/socket', self._socket),
+                             web.get('/scene.json', self._get_scene),
+                             web.get('/kinds.json', self._get_kinds),
+                             web.static('/page', page, append_version=False)])
+        self.app.on_startup.append(self._start)
+        self.app.on_shutdown.append(self._stop)
+
+    async def _start(self, _: web.Application) -> None:
+        loop = asyncio.get_running_loop()
+
+        def changed() -> None:
+            if not loop.is_closed():
+                loop.call_soon_threadsafe(self._notify)
+
+        self._source.store.changed = changed
+        self._keep(self._source.serve())
+
+    async def _stop(self, _: web.Application) -> None:
+        self._source.store.changed = lambda: None
+        for browser in list(self._browsers):
+            await browser.socket.close(code=1001, message=b'the server ends')
+        for task in list(self._tasks):
+            task.cancel()
+        self._source.close()
+
+    def _keep(self, work: Any) -> None:
+        task = asyncio.ensure_future(work)
+        self._tasks.add(task)
+        task.add_done_callback(self._done)
+
+    def _done(self, task: asyncio.Task[None]) -> None:
+        self._tasks.discard(task)
+        if not task.cancelled() and task.exception() is not None:
+            log.error('angen web: %s', task.exception())
+
+    def _notify(self) -> None:
+        for browser in self._browsers:
+            browser.news.set()
+
+    def _rewant(self) -> None:
+        topics = {topic for browser in self._browsers for topic in browser.wanted}
+        self._source.want(topics if self._browsers else None)
+
+    async def _index(self, _: web.Request) -> web.StreamResponse:
+        return web.FileResponse(self._page / 'index.html')
+
+    async def _get_kinds(self, _: web.Request) -> web.Response:
+        return web.Response(body=self._kinds, content_type='application/json')
+
+    async def _get_scene(self, _: web.Request) -> web.Response:
+        scene = self._source.store.scene
+        if scene is None:
+            raise web.HTTPNotFound(text='There is no scene yet.\n')
+        if self._scene[0] != scene['number']:
+            packed = await in_thread(pack, scene)
+            self._scene = (scene['number'], packed)
+        return web.Response(body=self._scene[1], content_type='application/json',
+                            headers={'Content-Encoding': 'gzip'})
+
+    async def _socket(self, request: web.Request) -> web.StreamResponse:
+        if request.headers.get('Origin') is None:  # each browser sends it
+            raise web.HTTPForbidden(text='A WebSocket needs an Origin.\n')
+        if len(self._browsers) >= MOST_BROWSERS:
+            raise web.HTTPServiceUnavailable(text='Too many pages are open.\n')
+        socket = web.WebSocketResponse(heartbeat=PULSE, max_msg_size=LARGEST_MESSAGE)
+        await socket.prepare(request)
+        browser = Browser(socket)
+        self._browsers.add(browser)
+        self._rewant()
+        feeder = asyncio.ensure_future(self._feed(browser))
+        try:
+            await self._listen(browser)
+        finally:
+            feeder.cancel()
+            self._browsers.discard(browser)
+            self._rewant()
+        return socket
+
+    async def _feed(self, browser: Browser) -> None:
+        try:
+            await browser.feed(self._source.store)
+        except (ConnectionError, RuntimeError):  # it went away meanwhile
+            await browser.socket.close()
+
+    async def _listen(self, browser: Browser) -> None:
+        budget = Budget(RATE, BURST)
+        async for message in browser.socket:
+            if message.type != WSMsgType.TEXT:
+                break
+            try:
+                order = json.loads(message.data)
+            except (ValueError, RecursionError):
+                order = None
+            if not isinstance(order, dict):
+                browser.answer({'id': 0, 'ok': False, 'text': 'not a JSON object'})
+            elif not budget.take():
+                browser.answer({'id': order.get('id'), 'ok': False,
+                                'text': f'more than {RATE:g} orders per second'})
+            elif order.get('do') == 'want':
+                browser.wanted = wanted(order.get('topics'))
+                self._rewant()
+            elif browser.pending >= MOST_PENDING:
+                browser.answer({'id': order.get('id'), 'ok': False,
+                                'text': 'the simulator has not answered earlier orders yet'})
+            else:
+                self._keep(self._execute(browser, order))
+
+    async def _execute(self, browser: Browser, order: dict[str, Any]) -> None:
+        browser.pending += 1
+        answer: dict[str, Any]
+        try:
+            answer = {'ok': True, **await self._source.order(order)}
+        except ValueError as error:
+            answer = {'ok': False, 'text': str(error)}
+        finally:
+            browser.pending -= 1
+        browser.answer({'id': order.get('id'), **answer})
+
+
+def wanted(topics: Any) -> set[str]:
+    """At most eight names."""
+    if not isinstance(topics, list):
+        return set()
+    return {topic for topic in topics[:8] if isinstance(topic, str) and len(topic) < 300}
+
+
+def pack(scene: dict[str, Any]) -> bytes:
+    return gzip.compress(json.dumps(scene, separators=(',', ':')).encode(), 5)
+
+
+async def listen(server: Server, host: str, port: int,
+                 started: Callable[[int], Awaitable[None]]) -> None:
+    """Serves until cancelled; `started` gets the port."""
+    runner = web.AppRunner(server.app, access_log=None, handle_signals=False)
+    await runner.setup()
+    try:
+        site = web.TCPSite(runner, host, port, shutdown_timeout=1.0)
+        await site.start()
+        await started(port)
+        await asyncio.Event().wait()
+    finally:
+        await runner.cleanup()

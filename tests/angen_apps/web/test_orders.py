@@ -1,0 +1,39 @@
+"""Orders that are malformed are refused before anything is sent."""
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from angen_apps.web.orders import LONGEST, Orders, number, text
+from angen_apps.web.store import Store
+
+from angen_tools.common.failure import Failure
+
+
+@pytest.mark.parametrize('order, reason', [
+    ({}, 'unknown order'), ({'do': 'exec'}, 'unknown order'), ({'do': ['pause']}, 'unknown order'),
+    ({'do': 'command'}, "'target' must be a text"),
+    ({'do': 'command', 'target': 'lamp/all'}, "'text' must be a text"),
+    ({'do': 'command', 'target': 'x' * (LONGEST + 1), 'text': 'On'}, "'target' must be a text"),
+    ({'do': 'rate', 'rate': -1}, "'rate' must be a number from 0 to 1000"),
+    ({'do': 'rate', 'rate': 'fast'}, "'rate' must be a number"),
+    ({'do': 'rate', 'rate': True}, "'rate' must be a number"),
+    ({'do': 'step', 'seconds': 1e300}, "'seconds' must be a number"),
+    ({'do': 'spawn', 'kind': '../../etc', 'name': 'a'}, 'is not a kind of sensor'),
+    ({'do': 'spawn', 'kind': 'lamp', 'name': 'a'}, 'is not a kind of sensor'),
+    ({'do': 'spawn', 'kind': 'pir', 'name': 'a', 'pose': 5}, "'x' must be a number"),
+    ({'do': 'spawn', 'kind': 'pir', 'name': 'a', 'pose': {'z': float('nan')}}, "'z' must be"),
+    ({'do': 'drive', 'name': '../cmd_vel', 'speed': 1, 'turn': 0}, 'no robot is named'),
+    ({'do': 'goal', 'x': float('inf'), 'y': 0}, "'x' must be a number"),
+])
+def test_malformed_orders_are_refused(order: dict[str, Any], reason: str) -> None:
+    with pytest.raises(ValueError, match=reason):
+        Orders(Store()).execute(order)
+
+
+def test_texts_and_numbers_pass() -> None:
+    assert text({'a': 'Küche'}, 'a') == 'Küche'
+    assert number({'a': 3}, 'a', 0, 5) == 3.0
+    for wrong in ('', 5, None, ['a']):
+        with pytest.raises(Failure):
+            text({'a': wrong}, 'a')

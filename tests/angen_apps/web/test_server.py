@@ -1,0 +1,222 @@
+"""The server with a source of the test's own: who gets in, what is served, what orders do."""
+from __future__ import annotations
+
+import asyncio
+import json
+from pathlib import Path
+from typing import Any, Awaitable, Callable
+
+import pytest
+from aiohttp import ClientSession, WSMsgType, WSServerHandshakeError, web
+from angen_apps.web.guard import Budget, Guard, is_loopback
+from angen_apps.web.server import BURST, LARGEST_MESSAGE, Server
+from angen_apps.web.store import Store
+from yarl import URL
+
+PAGE = Path(__file__).resolve().parents[3] / 'src/angen_apps/page'
+
+
+class Source:
+    """A Source that remembers what it was asked."""
+
+    def __init__(self) -> None:
+        self.store = Store()
+        self.orders: list[dict[str, Any]] = []
+        self.wanted: list[set[str] | None] = []
+
+    async def serve(self) -> None:
+        await asyncio.Event().wait()
+
+    def want(self, topics: set[str] | None) -> None:
+        self.wanted.append(topics)
+
+    async def order(self, order: dict[str, Any]) -> dict[str, Any]:
+        self.orders.append(order)
+        if order['do'] == 'bad':
+            raise ValueError('refused')
+        return {'text': 'done'}
+
+    def close(self) -> None:
+        pass
+
+
+class Running:
+    """A server on a free port."""
+
+    def __init__(self, source: Source, guard: Guard, port: int, session: ClientSession) -> None:
+        self.source, self.guard, self.session = source, guard, session
+        self.host = f'127.0.0.1:{port}'
+
+    async def get(self, path: str, **headers: str) -> tuple[int, str]:
+        async with self.session.get(URL(f'http://{self.host}{path}', encoded=True), headers=headers,
+                                    allow_redirects=False) as answer:
+            return answer.status, await answer.text(errors='replace')
+
+    def socket(self, **headers: str) -> Any:
+        return self.session.ws_connect(f'http://{self.host}/socket', max_msg_size=0,
+                                       headers={'Origin': f'http://{self.host}', **headers})
+
+
+def run(test: Callable[[Running], Awaitable[None]], host: str = '127.0.0.1') -> None:
+    async def go() -> None:
+        from socket import socket
+        with socket() as free:
+            free.bind(('127.0.0.1', 0))
+            port = int(free.getsockname()[1])
+        source, guard = Source(), Guard(host, port, set())
+        runner = web.AppRunner(Server(source, guard, PAGE, {'lamp': {}}).app)
+        await runner.setup()
+        await web.TCPSite(runner, '127.0.0.1', port, shutdown_timeout=0.5).start()
+        try:
+            async with ClientSession() as session:
+                await test(Running(source, guard, port, session))
+        finally:
+            await runner.cleanup()
+    asyncio.run(asyncio.wait_for(go(), 30))
+
+
+async def parts(socket: Any, key: str) -> Any:
+    """The next message that has a part."""
+    while True:
+        message = await socket.receive(timeout=10)
+        assert message.type in (WSMsgType.TEXT, WSMsgType.BINARY), message
+        if message.type == WSMsgType.TEXT and key in (found := json.loads(message.data)):
+            return found[key]
+
+
+def test_it_serves_its_own_files_and_no_others() -> None:
+    async def test(server: Running) -> None:
+        status, text = await server.get('/')
+        assert status == 200 and '/page/js/main.js' in text
+        assert (await server.get('/page/js/main.js'))[0] == 200
+        assert json.loads((await server.get('/kinds.json'))[1]) == {'lamp': {}}
+        for path in ('/page/../../package.xml', '/page/%2e%2e/package.xml', '/page//etc/passwd',
+                     '/page/js/..%2f..%2f..%2fpackage.xml', '/etc/passwd', '/page/'):
+            assert (await server.get(path))[0] in (403, 404), path
+    run(test)
+
+
+@pytest.mark.parametrize('host', ['evil.example', '127.0.0.1:1', 'localhost.evil.example:8080', ''])
+def test_other_names_of_this_machine_are_refused(host: str) -> None:
+    async def test(server: Running) -> None:
+        assert (await server.get('/', Host=host))[0] == 403
+        assert (await server.get('/', Host=server.host.replace('127.0.0.1', 'LOCALHOST')))[0] == 200
+    run(test)
+
+
+@pytest.mark.parametrize('origin', ['http://evil.example', 'null', 'https://127.0.0.1', ''])
+def test_pages_of_others_open_no_socket(origin: str) -> None:
+    async def test(server: Running) -> None:
+        with pytest.raises(WSServerHandshakeError) as refused:
+            await server.socket(Origin=origin)
+        assert refused.value.status == 403
+        assert server.source.wanted == []
+    run(test)
+
+
+def test_a_socket_without_an_origin_is_refused() -> None:
+    async def test(server: Running) -> None:
+        assert (await server.get('/socket', Upgrade='websocket', Connection='Upgrade'))[0] == 403
+    run(test)
+
+
+def test_another_address_needs_its_token() -> None:
+    async def test(server: Running) -> None:
+        token = server.guard.token
+        assert len(token) >= 32
+        for path in ('/', '/?token=wrong', '/kinds.json', '/page/js/main.js', '/?token=',
+                     '/?token=%C3%A9'):
+            assert (await server.get(path))[0] == 401, path
+        with pytest.raises(WSServerHandshakeError) as refused:
+            await server.socket()
+        assert refused.value.status == 401
+        async with server.session.get(f'http://{server.host}/?token={token}',
+                                      allow_redirects=False) as answer:
+            assert answer.status == 302 and answer.headers['Location'] == '/'
+            cookie = answer.headers['Set-Cookie']
+            assert 'HttpOnly' in cookie and 'SameSite=Strict' in cookie
+        cookies = {'Cookie': cookie.split(';')[0]}
+        assert (await server.get('/', **cookies))[0] == 200
+        async with server.socket(**cookies) as socket:
+            server.source.store.put('stats', 1)
+            assert await parts(socket, 'stats') == 1
+    run(test, host='192.0.2.7')
+
+
+def test_loopback_addresses() -> None:
+    assert [is_loopback(host) for host in (
+        '127.0.0.1', '127.8.0.1', '::1', 'localhost', '0.0.0.0', '::', '192.168.0.2', 'example')
+    ] == [True] * 4 + [False] * 4
+
+
+def test_orders_are_answered() -> None:
+    async def test(server: Running) -> None:
+        async with server.socket() as socket:
+            await socket.send_str(json.dumps({'do': 'command', 'id': 1}))
+            assert await parts(socket, 'answers') == [{'id': 1, 'ok': True, 'text': 'done'}]
+            await socket.send_str(json.dumps({'do': 'bad', 'id': 2}))
+            assert await parts(socket, 'answers') == [{'id': 2, 'ok': False, 'text': 'refused'}]
+            for broken in ('{', '[]', '"x"', '[' * 9000):
+                await socket.send_str(broken)
+                answer, = await parts(socket, 'answers')
+                assert not answer['ok']
+            assert [order['do'] for order in server.source.orders] == ['command', 'bad']
+    run(test)
+
+
+def test_a_browser_that_floods_is_refused() -> None:
+    async def test(server: Running) -> None:
+        async with server.socket() as socket:
+            for i in range(400):
+                await socket.send_str(json.dumps({'do': 'command', 'id': i}))
+            answers = []
+            while len(answers) < 400:
+                answers += await parts(socket, 'answers')
+            refused = [answer for answer in answers if not answer['ok']]
+            assert len(server.source.orders) == 400 - len(refused)
+            assert len(refused) > 200
+            assert all('per second' in answer['text'] or 'earlier' in answer['text']
+                       for answer in refused)
+        async with server.socket() as socket:
+            await socket.send_str('x' * (LARGEST_MESSAGE + 1))
+            while (message := await socket.receive(timeout=10)).type != WSMsgType.CLOSE:
+                pass
+            assert message.data == 1009  # too big
+    run(test)
+
+
+def test_budget() -> None:
+    budget = Budget(0.001, BURST)
+    assert [budget.take() for _ in range(int(BURST) + 2)] == [True] * int(BURST) + [False] * 2
+
+
+def test_topics_are_wanted_while_a_browser_wants_them() -> None:
+    async def test(server: Running) -> None:
+        wanted = server.source.wanted
+        assert wanted == []
+        async with server.socket() as one:
+            async with server.socket() as other:
+                await one.send_str(json.dumps({'do': 'want', 'topics': ['cost', 5, 'x' * 400]}))
+                await other.send_str(json.dumps({'do': 'want', 'topics': ['picture:a']}))
+                while wanted[-1] != {'cost', 'picture:a'}:
+                    await asyncio.sleep(0.01)
+            while wanted[-1] != {'cost'}:
+                await asyncio.sleep(0.01)
+        while wanted[-1] is not None:
+            await asyncio.sleep(0.01)
+    run(test)
+
+
+def test_twenty_browsers_get_the_newest_state() -> None:
+    async def test(server: Running) -> None:
+        sockets = [await server.socket() for _ in range(20)]
+        for i in range(200):
+            server.source.store.put('stats', i)
+            await asyncio.sleep(0.001)
+        for socket in sockets:
+            count = 1
+            while await parts(socket, 'stats') != 199:
+                count += 1
+            assert count < 100  # they were put into few messages
+            await socket.close()
+    run(test)
