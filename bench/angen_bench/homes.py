@@ -81,8 +81,9 @@ def in_world(imported: Imported) -> dict[str, int]:
     return {'wall': counts['walls'], 'room': counts['rooms'],
             'doorOrWindow': counts['doors'] + counts['windows'] + counts['openings'] - sum(
                 opening.source == 'passage' for opening in imported.plan.all_openings()),
-            'light': counts['lamps'], 'pieceOfFurniture': counts['pieces'],
-            'level': counts['storeys'] if len(imported.plan.storeys) > 1 else 0}
+            'light': counts['lamps'],
+            'level': counts['storeys'] if len(imported.plan.storeys) > 1 else 0,
+            'pieceOfFurniture': counts['pieces']}
 
 
 def areas_in_file(xml: bytes) -> list[float]:
@@ -187,7 +188,8 @@ def _free_map(path: Path, floor: float) -> tuple[np.ndarray, float, float]:
 def _flood(free: np.ndarray, start: tuple[int, int]) -> set[tuple[int, int]]:
     """Cells that are reached from the free cell nearest to the start."""
     cells = np.argwhere(free)
-    nearest = tuple(int(v) for v in cells[np.abs(cells - start).sum(axis=1).argmin()])
+    row, column = cells[np.abs(cells - start).sum(axis=1).argmin()]
+    nearest = (int(row), int(column))
     seen, queue = {nearest}, deque([nearest])
     while queue:
         r, c = queue.popleft()

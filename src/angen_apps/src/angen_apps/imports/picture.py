@@ -190,8 +190,9 @@ def _doors(walls: list[Wall]) -> list[Opening]:
             if run == along:
                 spans.append((low, high, across - half, across + half, True))
             else:
-                ends = sorted((wall.start[1 - along], wall.end[1 - along]))
-                spans.append((wall.start[along] - half, wall.start[along] + half, *ends, False))
+                first, last = sorted((wall.start[1 - along], wall.end[1 - along]))
+                spans.append((wall.start[along] - half, wall.start[along] + half, first, last,
+                              False))
         for low, high, first, last, runs in spans:
             if not runs or last - first > THICKEST:
                 continue

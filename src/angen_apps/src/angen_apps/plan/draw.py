@@ -169,7 +169,7 @@ def _draw_thing(axis: Any, scene: Scene, storey: Storey, thing: Thing) -> None:
         return (thing.pose[0] + points[:, 0] * c - points[:, 1] * s,
                 thing.pose[1] + points[:, 0] * s + points[:, 1] * c)
 
-    outline = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+    outline = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
     if len(parts) == 1 and parts[0].round:
         outline = [(cos(a), sin(a)) for a in np.linspace(0, 2 * pi, 24)]
     axis.fill(*place(outline), edgecolor=INK, lw=THIN, zorder=4, **style)

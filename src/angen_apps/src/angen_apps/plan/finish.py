@@ -39,7 +39,7 @@ def stem(name: str) -> str:
 def room_at(storey: Storey, point: Point) -> Room | None:
     """The smallest room around a point of a storey."""
     around = [room for room in storey.rooms if contains(room.polygon, *point)]
-    return min(around, key=lambda room: area(room.polygon), default=None)
+    return min(around, key=lambda room: area(room.polygon)) if around else None
 
 
 def sides(opening: Opening, storey: Storey) -> tuple[Room | None, Room | None]:

@@ -194,9 +194,9 @@ def steps(deep: float, wide: float, high: float, curved: bool
           ) -> list[tuple[tuple[float, ...], tuple[float, ...]]]:
     """Solid steps that rise from the front to the back; curved: first from right to left."""
     top = high * TREADS
+    found: list[tuple[tuple[float, ...], tuple[float, ...]]] = []
     first = 4 if curved and deep > wide else 0
     turn = wide if first else 0.0
-    found = []
     for i in range(first):
         y = wide / 2 - wide * i / first
         found.append(((deep / 2 - turn, y - wide / first, 0.0),

@@ -12,6 +12,8 @@ from angen_apps.plan.walls import footprint
 
 CELL = 0.05  # m
 CELLS = 4_000_000  # of a storey, at most: 100 m x 100 m
+MOST = 500  # rectangles of a storey; oblique walls need more, so that cells are coarser
+COARSE = 5  # cells
 MARGIN = 0.2  # m around the walls
 Rectangle = tuple[float, float, float, float]  # west, south, east, north
 
@@ -56,11 +58,12 @@ class Raster:
         found[rows, columns] = inside(polygon, self.x[rows, columns], self.y[rows, columns])
         return found
 
-    def cover(self, cells: np.ndarray) -> list[Rectangle]:
-        """The cells as rectangles in m."""
-        return [(round(self.west + column * CELL, 4), round(self.south + row * CELL, 4),
-                 round(self.west + (column + width) * CELL, 4),
-                 round(self.south + (row + height) * CELL, 4))
+    def cover(self, cells: np.ndarray, step: int = 1) -> list[Rectangle]:
+        """The cells, or blocks of step x step of them, as rectangles in m."""
+        side = CELL * step
+        return [(round(self.west + column * side, 4), round(self.south + row * side, 4),
+                 round(self.west + (column + width) * side, 4),
+                 round(self.south + (row + height) * side, 4))
                 for row, column, height, width in rectangles(cells)]
 
 
@@ -75,14 +78,42 @@ def slabs(plan: Plan) -> dict[int, Slabs]:
     for storey in sorted(plan.storeys, key=lambda s: -s.elevation):
         rooms, rest, roofed = _cells(storey, raster)
         made = found[storey.number]
-        for name, cells in [*rooms.items(), ('', rest)]:
-            made.floors[name] = raster.cover(cells)
+        made.floors = _floors(raster, rooms, rest, 1)
         _add_ceilings(made, storey, roofed, above, raster)
+        if sum(map(len, made.floors.values())) + len(made.ceilings) > MOST:
+            made.floors = _floors(raster, rooms, rest, COARSE)
+            made.ceilings = _coarse_ceilings(raster, roofed)
         whole = rest.copy()
         for cells in rooms.values():
             whole |= cells
         above.append((storey.elevation - storey.slab, whole))
     return found
+
+
+def _floors(raster: Raster, rooms: dict[str, np.ndarray], rest: np.ndarray, step: int
+            ) -> dict[str, list[Rectangle]]:
+    found = {}
+    taken = np.zeros_like(_blocks(rest, step))
+    for name, cells in [*rooms.items(), ('', rest)]:
+        blocks = _blocks(cells, step) & ~taken
+        taken |= blocks
+        found[name] = raster.cover(blocks, step)
+    return found
+
+
+def _coarse_ceilings(raster: Raster, roofed: dict[float, np.ndarray]
+                     ) -> list[tuple[float, Rectangle]]:
+    return [(height, box) for height, cells in sorted(roofed.items())
+            for box in raster.cover(_blocks(cells, COARSE), COARSE)]
+
+
+def _blocks(cells: np.ndarray, step: int) -> np.ndarray:
+    """Which blocks of step x step cells contain a true one."""
+    if step == 1:
+        return cells
+    rows, columns = (-size % step for size in cells.shape)
+    padded = np.pad(cells, ((0, rows), (0, columns)))
+    return np.asarray(padded.reshape(padded.shape[0] // step, step, -1, step).any(axis=(1, 3)))
 
 
 def _points(storey: Storey) -> list[Point]:
