@@ -1,0 +1,212 @@
+"""The page of angen web in a real browser, on a real node."""
+from __future__ import annotations
+
+import urllib.error
+import urllib.request
+from pathlib import Path
+from typing import Iterator
+
+import pytest
+from angen_msgs.msg import DoorState, LampState, Stats
+from angen_msgs.srv import Delete, Spawn
+from browser import LIMIT, Page, Server
+from geometry_msgs.msg import Point, Pose
+from harness import Angen, Inbox, Master, end
+from std_srvs.srv import Empty
+
+WORLD = '''<?xml version="1.0"?>
+<sdf version="1.6" xmlns:angen="angen"><world name="home">
+  <angen:storey name="Ground floor" number="0"><angen:elevation>0</angen:elevation>
+    <angen:height>2.7</angen:height></angen:storey>
+  <angen:room name="kitchen0"><angen:use>kitchen</angen:use>
+    <angen:polygon>-4 0  4 0  4 6  -4 6</angen:polygon></angen:room>
+  <angen:room name="hall0"><angen:use>hall</angen:use>
+    <angen:polygon>-4 -5  4 -5  4 0  -4 0</angen:polygon></angen:room>
+  <model name="ground"><static>true</static><link name="link">
+    <collision name="c"><geometry><plane><normal>0 0 1</normal></plane></geometry></collision>
+    <visual name="v"><geometry><plane><normal>0 0 1</normal></plane></geometry></visual>
+  </link></model>
+  <include><uri>model://bathroom_door</uri><name>bathroom_door0</name>
+    <pose>0 0 0.02 0 0 0</pose></include>
+  <include><uri>model://ceiling_lamp</uri><name>kitchen_lamp0</name>
+    <pose>0 3 2.5 0 0 0</pose></include>
+  <include><uri>model://luminosity_sensor</uri><name>kitchen_lux0</name>
+    <pose>0 3 1 0 -1.5708 0</pose></include>
+  <include><uri>model://turtlebot</uri><pose>-2 -3 0.01 0 0 0</pose></include>
+  <plugin name="doors" filename="libdoor_world_plugin.so"/>
+  <plugin name="robots" filename="librobot_controller.so"><wheelSeparation>0.23</wheelSeparation>
+    <wheelDiameter>0.0704</wheelDiameter></plugin>
+</world></sdf>
+'''
+HOSTILE = '<img src=x onerror=alert(1)>'
+DOOR, LAMP = 'bathroom0', 'kitchen0'
+
+
+@pytest.fixture(scope='module')
+def home(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFactory
+         ) -> Iterator[Angen]:
+    """A node with two rooms."""
+    folder = tmp_path_factory.mktemp('home')
+    (folder / 'home.world').write_text(WORLD)
+    node = Angen(master, master.node(folder / 'home.world', folder / 'log'), folder / 'log')
+    yield node
+    end(node.process)
+
+
+@pytest.fixture(scope='module')
+def server(home: Angen, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
+    started = Server(home.master, tmp_path_factory.mktemp('web'))
+    yield started
+    assert started.end() == 0, started.log()
+    assert 'Traceback' not in started.log()
+
+
+@pytest.fixture(scope='module')
+def page(server: Server, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
+    opened = Page(tmp_path_factory.mktemp('browser'), 900, 600)
+    try:
+        opened.open(server.url)
+        yield opened
+        assert opened.errors() == []
+    finally:
+        opened.close()
+
+
+def place(page: Page, model: str) -> list[float]:
+    """Where the middle of the largest moving part of a model is on the screen."""
+    return page.until('''const {home, view} = angen, links = home.linksOf(arguments[0]);
+        const parts = home.scene.shapes.filter((s) => links.includes(s.link));
+        parts.sort((a, b) => b.size[0] * b.size[2] - a.size[0] * a.size[2]);
+        const p = home.pose(parts[0].link), l = parts[0].pose;
+        const yaw = 2 * Math.atan2(p[5], p[6]), c = Math.cos(yaw), s = Math.sin(yaw);
+        return view.frames > 0 && !view.goal && view.screen(
+            [p[0] + c * l[0] - s * l[1], p[1] + s * l[0] + c * l[1], p[2] + l[2]])''', model)
+
+
+def test_a_door_that_is_clicked_in_3d_opens(home: Angen, page: Page) -> None:
+    page.until('return document.querySelector("#panel").textContent.includes("Door bathroom0")')
+    assert page.run('return !!angen.view && angen.view.renderer.getContext().isContextLost()'
+                    ) is False
+    page.click(*place(page, 'bathroom_door0'))
+    page.until('return document.querySelector("#card h2")?.textContent === arguments[0]', DOOR)
+    assert 'CLOSED' in page.text('#card .state')
+    with Inbox(f'/angen/door/{DOOR}', DoorState) as states:
+        page.press('#card [data-verb="Open"]')
+        states.wait(lambda state: state.mode == DoorState.OPEN, 'an open door', LIMIT)
+    page.until('return document.querySelector("#card .state").textContent.startsWith("OPEN")')
+    leaf = page.run('''return angen.home.linksOf("bathroom_door0").map((l) => angen.home.pose(l))
+        .some((p) => Math.abs(2 * Math.atan2(p[5], p[6])) > 1.4)''')
+    assert leaf  # its leaf is seen open
+
+
+def test_light_is_seen_in_its_sensors_plot(home: Angen, page: Page) -> None:
+    page.run('angen.panels.open("sensors"); angen.panels.plots.add("luminosity", "kitchen_lux0")')
+    page.until('return document.querySelectorAll(".plot canvas").length === 1')
+    page.run('angen.show(angen.home.entities.find((e) => e.kind === "lamp"))')
+    page.press('#card [data-verb="On"]')
+    rise = page.until('''const all = [...angen.home.series].find(
+        ([key]) => key.startsWith("luminosity/kitchen_lux0/illuminance"));
+        const v = all?.[1].v ?? []; return v.length > 1 && v[v.length - 1] - v[0] > 5 && v''')
+    shown = page.until('return angen.panels.plots.shown[0].plot.data[1].at(-1) || 0')
+    assert shown == pytest.approx(rise[-1], rel=0.2)
+    assert page.until('return angen.view.glows.meshes.get("kitchen0").visible')
+    assert not page.run('return angen.view.glows.meshes.get("hall0").visible')
+
+
+def test_the_clock_pauses_and_goes_on(home: Angen, page: Page) -> None:
+    with Inbox('/angen/stats', Stats) as stats:
+        for paused in (True, False):
+            page.press('#play')
+            stats.wait(lambda message: message.paused is paused, f'paused: {paused}', LIMIT)
+            page.until('return angen.home.stats.paused === arguments[0]', paused)
+            seen = page.text('#clock time')
+            if not paused:
+                page.until('return document.querySelector("#clock time").textContent '
+                           '!== arguments[0]', seen)
+
+
+def test_hostile_names_are_text(home: Angen, page: Page) -> None:
+    answer = home.call('/angen/spawn', Spawn, name=HOSTILE, xml='model://pir',
+                       pose=Pose(position=Point(1.0, -1.0, 2.0)))
+    if not answer.success:
+        pytest.fail(f'the simulator refuses the name: {answer.message}')
+    page.until('return angen.home.entities.some((e) => e.name === arguments[0])', HOSTILE)
+    page.run('angen.panels.open("sensors")')
+    page.until('return document.querySelector("#panel").textContent.includes(arguments[0])',
+               HOSTILE)
+    page.run('angen.show(angen.home.entities.find((e) => e.name === arguments[0]))', HOSTILE)
+    assert page.text('#card h2') == HOSTILE
+    assert page.run('return document.querySelectorAll("img[src=x]").length') == 0
+    home.call('/angen/delete', Delete, name=HOSTILE)
+
+
+def test_robot_is_driven_and_stops_without_the_page(home: Angen, page: Page) -> None:
+    before = page.until('''const e = angen.home.entities.find((e) => e.kind === "drive");
+        return Array.from(angen.home.place(e)).slice(0, 2)''')
+    page.run('''angen.panels.open("robot");
+        angen.home.connection.ask({do: "drive", name: "turtlebot", speed: 0.3, turn: 0})''')
+    page.until('''const e = angen.home.entities.find((e) => e.kind === "drive");
+        const p = angen.home.place(e); return Math.hypot(p[0] - arguments[0], p[1] - arguments[1])
+        > 0.05''', *before)
+    page.until('return /\\b0\\.00 m\\/s/.test(angen.home.rows.get("drive/turtlebot").text)')
+    page.run('angen.panels.open("rooms")')
+
+
+def test_a_phone_shows_a_plan_to_tap(home: Angen, server: Server, page: Page) -> None:
+    page.driver.set_window_size(390, 844)
+    page.open(server.url)
+    assert page.run('return document.querySelector("#scene").hidden')
+    box = page.until('''const e = document.querySelector("g.item.lamp .touch")
+        ?.getBoundingClientRect(); return e && [e.x + e.width / 2, e.y + e.height / 2, e.width]''')
+    assert box[2] >= 24  # px, the least target of WCAG 2.2
+    page.click(*box[:2])
+    with Inbox(f'/angen/lamp/{LAMP}', LampState) as states:
+        page.press('#card [data-verb="Off"]')
+        states.wait(lambda state: not state.on, 'a dark lamp', LIMIT)
+    page.until('return !document.querySelector("g.item.lamp").classList.contains("on")')
+
+
+def test_a_sensor_is_added_where_one_taps_and_deleted(home: Angen, page: Page) -> None:
+    page.press('#card [aria-label="Close"]')
+    at = page.until('''const r = document.querySelector("#plan svg path").getBoundingClientRect();
+        return [r.x + 0.3 * r.width, r.y + 0.6 * r.height]''')
+    page.click(*at)
+    page.press('#add')
+    found = page.until('return angen.home.entities.find((e) => e.kind === "pir")')
+    assert found['name'] == 'kitchen0_pir_1' and found['pose'][2] == pytest.approx(1.2, abs=0.1)
+    page.run('angen.show(angen.home.entities.find((e) => e.kind === "pir"))')
+    page.press('#card button', 'Delete')
+    page.until('return !angen.home.entities.some((e) => e.kind === "pir")')
+
+
+def status(url: str, **headers: str) -> int:
+    try:
+        with urllib.request.urlopen(urllib.request.Request(url, headers=headers), timeout=10) as a:
+            return int(a.status)
+    except urllib.error.HTTPError as error:
+        return error.code
+
+
+def test_strangers_are_refused(home: Angen, server: Server, tmp_path: Path) -> None:
+    assert status(server.url) == 200
+    assert status(server.url, Origin='http://evil.example') == 403
+    assert status(server.url, Host='evil.example') == 403
+    away = Server(home.master, tmp_path, '--host', '0.0.0.0')
+    try:
+        assert status(f'http://127.0.0.1:{away.port}/?token=wrong') == 401
+    finally:
+        assert away.end() == 0
+
+
+def test_the_page_survives_its_node(home: Angen, page: Page,
+                                    tmp_path_factory: pytest.TempPathFactory) -> None:
+    end(home.process)
+    page.until('return document.querySelector("#status").textContent'
+               ' === "Waiting for the simulator"')
+    home.process = home.master.node(tmp_path_factory.getbasetemp() / 'home0/home.world',
+                                    tmp_path_factory.mktemp('again') / 'log')
+    page.until('return document.querySelector("#status").textContent === "Live"')
+    page.until('return [...angen.home.rows.values()].some((row) => row.kind === "door")')
+    home.call('/gazebo/pause_physics', Empty)
+    page.until('return angen.home.stats.paused')
+    home.call('/gazebo/unpause_physics', Empty)
