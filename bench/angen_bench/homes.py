@@ -19,6 +19,7 @@ from angen_apps.plan.model import Plan
 from angen_apps.plan.shapes import read_shapes
 from angen_apps.plan.writer import write_world
 from angen_tools.common.failure import Failure
+from angen_tools.common.files import writing
 from angen_tools.common.output import table
 
 JAR = Path('/usr/share/sweethome3d/sweethome3d.jar')
@@ -54,7 +55,8 @@ class Imported:
 def import_example(name: str, xml: bytes, folder: Path) -> Imported:
     """Writes NAME.xml and NAME.world into a folder."""
     source, path = folder / f'{name}.xml', folder / f'{name}.world'
-    source.write_bytes(xml)
+    with writing(source, binary=True) as file:
+        file.write(xml)
     begin = time.process_time()
     plan = read_sweethome(source)
     counts = write_world(plan, path, 'seed')

@@ -143,7 +143,10 @@ def box(name: str, middle: str, size: str) -> str:
 def test_a_lit_lamp_lights_the_room_around_it(angen: Angen) -> None:
     parts = box("floor_hall", "0 3 -0.1", "4.1 3.1 0.2") + "".join(
         box(f"wall_{i}", f"{i} 9 1", "0.1 0.1 2") for i in range(10))
-    house = f'<sdf version="1.6"><model name="house"><static>true</static>{parts}</model></sdf>'
+    room = ('<angen:room xmlns:angen="angen" name="hall"><angen:use>hall</angen:use>'
+            '<angen:polygon>-2 1.5 2 1.5 2 4.5 -2 4.5</angen:polygon></angen:room>')
+    house = (f'<sdf version="1.6"><model name="house"><static>true</static>{room}{parts}'
+             '</model></sdf>')
 
     def lit(inbox: Inbox) -> list[Marker]:
         held = keyed(list(inbox.messages))

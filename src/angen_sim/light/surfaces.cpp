@@ -14,12 +14,8 @@ constexpr double kPart = 0.1;       // m, side of the parts of a divided cell
 constexpr int kSitesPerSide = 4;    // of a cell
 constexpr std::size_t kSites = std::size_t{kSitesPerSide} * kSitesPerSide;
 constexpr int kFineSitesPerSide = 2;
-constexpr std::size_t kFineSites = std::size_t{kFineSitesPerSide} * kFineSitesPerSide;
-// m off the surface, for visibility between its sites: also below a door's leaf
-constexpr std::array<double, 2> kSiteLifts = {0.01, 0.05};
-constexpr int kSplinters = 4;  // along each side of a part that is divided again
-constexpr double kOff = 1e-3;  // m: a closer shape covers a surface
-constexpr int kLevels = 3;     // cells, their parts, and the parts' splinters
+constexpr double kSiteLift = 0.01;  // m off the surface, for visibility between its sites
+constexpr double kOff = 1e-3;       // m: a closer shape covers a surface
 constexpr std::uint32_t kDivided = kNoPatch - 1;
 
 bool rounded(Shape::Type type) {
@@ -29,12 +25,6 @@ bool rounded(Shape::Type type) {
 
 double parts_of(double length, double part) {
   return std::max(1.0, std::ceil(length / part - 1e-9));
-}
-
-/// Along a side of a cell, by level.
-Eigen::Array2d parts_at(int level, const Eigen::Array2d& parts) {
-  if (level == 0) return Eigen::Array2d::Ones();
-  return level == 1 ? parts : Eigen::Array2d(kSplinters * parts);
 }
 
 int dominant(const Vec3& v) {
@@ -92,29 +82,26 @@ std::uint32_t Surfaces::at(std::uint32_t shape, const Vec3& point, const Vec3& n
   Key key{static_cast<std::int32_t>(shape), face, depth, static_cast<int>(whole.x()),
           static_cast<int>(whole.y()),      0};
   std::uint32_t patch = make(key);
-  while (patch == kDivided) {
-    ++key[5];
-    const Eigen::Array2d parts = parts_at(key[5], cells.parts);
-    const Eigen::Array2d part = ((cell - whole) * parts).floor().max(0.0).min(parts - 1.0);
-    const Eigen::Array2d all = whole * parts + part;
-    key[3] = static_cast<int>(all.x());
-    key[4] = static_cast<int>(all.y());
-    patch = make(key);
-  }
-  return patch;
+  if (patch != kDivided) return patch;
+  const Eigen::Array2d part =
+      ((cell - whole) * cells.parts).floor().max(0.0).min(cells.parts - 1.0);
+  const Eigen::Array2d all = whole * cells.parts + part;
+  key[3] = static_cast<int>(all.x());
+  key[4] = static_cast<int>(all.y());
+  key[5] = 1;
+  return make(key);
 }
 
 std::uint32_t Surfaces::make(const Key& key) {
   const auto [found, fresh] = known_.try_emplace(key, kNoPatch);
   if (!fresh) return found->second;
   keys_[static_cast<std::uint32_t>(key[0])].push_back(key);
+  const bool fine = key[5] == 1;
   int covered = 0;
-  Patch patch{key, HashKey{}(key),
-              sites(key, key[5] == 0 ? kSitesPerSide : kFineSitesPerSide, covered), serials_ + 1};
-  if (key[5] == 0 && (patch.sites.empty() || covered > kSitesPerSide || faced(patch.sites))) {
-    return found->second = kDivided;
-  }
-  if (key[5] < kLevels - 1 && !patch.sites.empty() && parted(patch.sites)) {
+  Patch patch{key, HashKey{}(key), sites(key, fine ? kFineSitesPerSide : kSitesPerSide, covered),
+              serials_ + 1};
+  if (!fine && (patch.sites.empty() || covered > kSitesPerSide || parted(patch.sites) ||
+                faced(patch.sites))) {
     return found->second = kDivided;
   }
   if (patch.sites.empty()) return kNoPatch;
@@ -133,7 +120,7 @@ std::uint32_t Surfaces::make(const Key& key) {
 /// Also counts the sites that a shape covers.
 std::vector<Site> Surfaces::sites(const Key& key, int per_side, int& covered) const {
   const Lattice cells = lattice(static_cast<std::uint32_t>(key[0]), key[1]);
-  const Eigen::Array2d step = cells.step / parts_at(key[5], cells.parts);
+  const Eigen::Array2d step = key[5] == 1 ? Eigen::Array2d(cells.step / cells.parts) : cells.step;
   std::array<Site, kSites> found;
   std::size_t count = 0;
   for (int i = 0; i < per_side * per_side; ++i) {
@@ -191,18 +178,16 @@ bool Surfaces::parted(const std::vector<Site>& sites) const {
   for (const Site& site : sites) {
     spacing2 = std::max(spacing2, (site.position - sites[0].position).squaredNorm());
   }
-  // Neighbors are a third of the cell's side apart; twice that bridges a covered one. The few of a
-  // part are all neighbors.
-  const double near2 = (sites.size() > kFineSites ? 0.3 : 4.0) * spacing2;
+  // Neighbors are a third of the cell's side apart; twice that bridges a covered one.
+  const double near2 = 0.3 * spacing2;
   for (std::size_t next = 0; next < reached.size(); ++next) {
     const Site& from = sites[reached[next]];
     for (std::size_t i = 0; i < sites.size(); ++i) {
       if (seen[i] || (sites[i].position - from.position).squaredNorm() > near2) continue;
-      const auto blocked_at = [&](double lift) {
-        return scene_.blocked(from.position + lift * from.normal,
-                              sites[i].position + lift * sites[i].normal, 1e-4, kStanding);
-      };
-      if (std::any_of(kSiteLifts.begin(), kSiteLifts.end(), blocked_at)) continue;
+      if (scene_.blocked(from.position + kSiteLift * from.normal,
+                         sites[i].position + kSiteLift * sites[i].normal, 1e-4, kStanding)) {
+        continue;
+      }
       seen[i] = true;
       reached.push_back(i);
     }
@@ -258,7 +243,7 @@ void Surfaces::forget_near(std::uint32_t shape, const Eigen::AlignedBox3d& box,
     for (int side = 0; side < 2; ++side) {
       const int axis = (cells.axis + 1 + side) % 3;
       const int at = key[3 + side];
-      const double cell = std::floor(at / parts_at(key[5], cells.parts)[side]);
+      const double cell = key[5] == 0 ? at : std::floor(at / cells.parts[side]);
       const double low = cells.low[side] + cell * cells.step[side];
       if (local.min()[axis] > low + cells.step[side] || local.max()[axis] < low) return false;
     }

@@ -23,7 +23,7 @@ struct Site {
 };
 
 /// A piece of one side of a shape's surface of about 0.4 m (0.1 m if a shape covers a part of it or
-/// is close in front of it, 2.5 cm where a thin shape parts that), with one illuminance.
+/// is close in front of it), with one illuminance.
 struct Patch {
   std::array<std::int32_t, 6> key;  // shape, face, depth, u, v, level
   std::uint64_t hash = 0;

@@ -87,8 +87,8 @@ def test_without_a_simulator_one_line_says_so(words: list[str], no_master: str) 
     (['spawn', 'pir', 'p1', '--pose', '1 2 3', '--on', 'table'], 'MODEL::LINK'),
     (['spawn', 'contact', 'c1'], '--on'),
     (['spawn', 'reed', 'r1', '--pose', '1 2 3'], '--on'),
-    (['set', 'door', 'kitchen0', 'ajar'], 'open, close, unlatch or radians'),
-    (['set', 'door', 'kitchen0', 'nan'], 'open, close, unlatch or radians'),
+    (['set', 'door', 'kitchen0', 'ajar'], 'closebyhand, unlatch or radians'),
+    (['set', 'door', 'kitchen0', 'nan'], 'closebyhand, unlatch or radians'),
     (['set', 'elevator', 'elevator', '1.5'], 'not a number of floor'),
     (['set', 'lamp', 'kitchen0', '101'], '0 to 100'),
     (['set', 'heater', 'h1', 'warm'], '0 to 100'),
@@ -123,7 +123,7 @@ def completed(line: str) -> list[str]:
 @pytest.mark.parametrize('line, words', [
     ('angen sp', ['spawn']), ('angen spawn press', ['pressure']), ('angen set ele', ['elevator']),
     ('angen list --kind pi', ['pir']), ('angen watch --kind hea', ['heater']),
-    ('angen set door kitchen0 cl', ['close']), ('angen spawn pir p1 --set thr', ['threshold='])])
+    ('angen set door kitchen0 cl', ['close', 'closebyhand']), ('angen spawn pir p1 --set thr', ['threshold='])])
 def test_completion_completes_in_bash(line: str, words: list[str]) -> None:
     assert completed(line) == words
 

@@ -16,6 +16,7 @@ from angen_apps.robot.planner import Planner
 from angen_apps.robot.route import Action, Drive, Ride, Router, Turn
 from angen_apps.robot.route_file import NUMBERS, Lift, Route, Waypoint
 from angen_tools.common.failure import Failure
+from angen_tools.common.files import write_text
 from angen_tools.common.home import Home
 from angen_tools.common.nearest import did_you_mean
 from angen_tools.common.output import as_json
@@ -72,7 +73,7 @@ class Surveyed:
     def __init__(self, client: Client, path: Path) -> None:
         import rospy
         from angen_msgs.srv import Save
-        path.write_text(client.call('/angen/save', Save).xml)
+        write_text(path, client.call('/angen/save', Save).xml)
         source = rospy.get_param('/angen/world', '')
         paths = [str(Path(source).parent / 'models'), os.environ.get('ANGEN_MODEL_PATH', '')]
         os.environ['ANGEN_MODEL_PATH'] = ':'.join(filter(None, paths))

@@ -103,14 +103,14 @@ def search(world: Path, route: Route, home: Home, seed: int, ambient: bool, limi
     found = seeker.run(limit)
     end = simulation.place(f'{name}::body') if name else None
     figures = judge(home, seed, ambient, found, end, seeker.driver.track, simulation,
-                    seeker.began, time.monotonic() - began)
+                    seeker.began, limit, time.monotonic() - began)
     return Outcome(figures, found, seeker.driver.track, person, seeker.goals, simulation.events,
                    beliefs, seeker.began)
 
 
 def judge(home: Home, seed: int, ambient: bool, found: Found | None,
           truth: tuple[float, float, float, float] | None, track: Track, simulation: Simulation,
-          since: float, wall: float) -> Figures:
+          since: float, limit: float, wall: float) -> Figures:
     """The figures of a search; the truth is used only here."""
     line = np.array(track.rows)[:, 1:3]
     distance = float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum())
@@ -122,6 +122,6 @@ def judge(home: Home, seed: int, ambient: bool, found: Found | None,
             error = (math.dist((found.x, found.y), truth[:2]) if floor == found.floor
                      else math.inf)
     return Figures(seed, ambient, found is not None,
-                   found.time if found else simulation.now - since, found.room if found else '',
+                   found.time if found else min(simulation.now - since, limit), found.room if found else '',
                    found.x if found else math.nan, found.y if found else math.nan, error,
                    true_room, distance, len(collisions(simulation.events)), wall)

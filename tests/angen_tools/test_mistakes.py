@@ -11,7 +11,7 @@ import yaml
 
 from angen_tools.cli import main as cli
 
-ROOT = Path(__file__).resolve().parents[3]
+ROOT = Path(__file__).resolve().parents[2]
 MISTAKES: dict[str, list[Any]] = yaml.safe_load(
     (Path(__file__).parent / 'mistakes.yaml').read_text())
 DOOR = '<plugin name="d" filename="libdoor_world_plugin.so"/>' \
