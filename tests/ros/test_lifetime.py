@@ -127,10 +127,12 @@ def test_a_second_node_of_the_name_leaves_the_first_alone(tmp_path: Path) -> Non
         assert first.wait(60) == 0  # the master has told it to end
         first = master.node(world, tmp_path / "log", replace="true")  # and it was replaced in turn
         assert replacing.wait(60) == 0
+        killed = master.api.lookupNode("/test", "/angen")[2]
         first.kill()  # it stays registered, but a node that is gone is in nobody's way
         first.wait()
         first = master.node(world, tmp_path / "again")
-        until(lambda: "; seed " in (tmp_path / "again").read_text(), "it runs")
+        until(lambda: master.api.lookupNode("/test", "/angen")[2] != killed, "it runs")
+        assert first.poll() is None
     finally:
         for process in (first, replacing, master.process):
             if process is not None:

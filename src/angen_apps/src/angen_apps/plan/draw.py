@@ -13,7 +13,7 @@ from angen_apps.plan.shapes import Shape, Shapes, Swing, read_shapes
 from angen_apps.plan.symbols import SYMBOLS
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.failure import Failure
-from angen_tools.common.files import pyplot, writing
+from angen_tools.common.files import pyplot, save_figure
 from angen_tools.common.home import Door, Home, Room, Storey, Thing
 
 CUT = 1.1  # m above a floor at which walls are cut
@@ -77,10 +77,8 @@ def draw(path: Path, output: Path, what: overlays.What) -> str:
             axis.set_title(storey.name, fontsize=9)
         _scale_and_north(axes[0][0], scene.home.north)
         figure.subplots_adjust(0.005, 0.005, 0.995, 1 - 0.35 / (high * inch + 0.6), 0.02)
-        with writing(output, binary=True) as file:
-            metadata = {'Date': None} if kind == 'svg' else {'Software': None}
-            figure.savefig(file, format=kind, dpi=DPI, metadata=metadata)
-        plt.close(figure)
+        metadata = {'Date': None} if kind == 'svg' else {'Software': None}
+        save_figure(figure, output, format=kind, dpi=DPI, metadata=metadata)
     return (f'wrote {output}: {len(storeys)} storey{"s"[:len(storeys) > 1]}, '
             f'{len(scene.home.rooms)} rooms, {len(scene.home.doors)} doors and windows')
 

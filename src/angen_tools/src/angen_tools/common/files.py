@@ -145,7 +145,8 @@ def pyplot() -> Any:
 
 
 def save_figure(figure: Any, path: Path, **options: Any) -> None:
-    """Writes a figure of pyplot as PNG and closes it; `options` as of its savefig."""
+    """Writes a figure of pyplot as PNG, or another `format`, and closes it; `options` as of its
+    savefig."""
     with writing(path, binary=True) as file:
-        figure.savefig(file, format='png', **options)
+        figure.savefig(file, **{'format': 'png', **options})
     pyplot().close(figure)
