@@ -123,7 +123,8 @@ def completed(line: str) -> list[str]:
 @pytest.mark.parametrize('line, words', [
     ('angen sp', ['spawn']), ('angen spawn press', ['pressure']), ('angen set ele', ['elevator']),
     ('angen list --kind pi', ['pir']), ('angen watch --kind hea', ['heater']),
-    ('angen set door kitchen0 cl', ['close', 'closebyhand']), ('angen spawn pir p1 --set thr', ['threshold='])])
+    ('angen set door kitchen0 cl', ['close', 'closebyhand']),
+    ('angen spawn pir p1 --set thr', ['threshold='])])
 def test_completion_completes_in_bash(line: str, words: list[str]) -> None:
     assert completed(line) == words
 

@@ -28,7 +28,8 @@ def test_values_become_commands(kind: str, words: str, text: str | None) -> None
     ('door', 'ajar',
      "'ajar' is not a command of a door, which takes open, close, openbyhand, closebyhand, "
      "unlatch or radians"),
-    ('door', 'nan', 'openbyhand, closebyhand, unlatch or radians'), ('door', 'open 3', 'too much after open'),
+    ('door', 'nan', 'openbyhand, closebyhand, unlatch or radians'),
+    ('door', 'open 3', 'too much after open'),
     ('door', 'set', 'set takes one number of radians'), ('door', 'set x', 'not a number'),
     ('lamp', '101', 'out of range; a lamp takes on, off or 0 to 100 percent'),
     ('lamp', '-1', '0 to 100 percent'), ('lamp', 'dim -1', '0 to 100 percent'),

@@ -122,6 +122,7 @@ def judge(home: Home, seed: int, ambient: bool, found: Found | None,
             error = (math.dist((found.x, found.y), truth[:2]) if floor == found.floor
                      else math.inf)
     return Figures(seed, ambient, found is not None,
-                   found.time if found else min(simulation.now - since, limit), found.room if found else '',
-                   found.x if found else math.nan, found.y if found else math.nan, error,
-                   true_room, distance, len(collisions(simulation.events)), wall)
+                   found.time if found else min(simulation.now - since, limit),
+                   found.room if found else '',
+                   found.x if found else math.nan, found.y if found else math.nan,
+                   error, true_room, distance, len(collisions(simulation.events)), wall)
