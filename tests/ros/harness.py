@@ -183,7 +183,12 @@ class Angen:
     def send(self, topic: str, message: Any) -> None:
         """Publish one message when the node subscribes."""
         publisher = publisher_of(topic, type(message))
-        until(lambda: publisher.get_num_connections() > 0, f"the node subscribes to {topic}")
+
+        def subscribes() -> bool:
+            publisher.impl.check()  # a connection that the node has closed counts until then
+            return bool(publisher.get_num_connections())
+
+        until(subscribes, f"the node subscribes to {topic}")
         publisher.publish(message)
         time.sleep(0.1)
 
