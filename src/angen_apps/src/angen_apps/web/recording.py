@@ -47,7 +47,7 @@ class Recording(Feed):
     def _run(self) -> None:
         try:
             rate = max(LEAST_RATE, self._end / LOADING)
-            self._node = self._sandbox.node(self._log, rate, replay=self._log)
+            self._node = self._sandbox.node(None, rate, replay=self._log)
         except Failure as failure:
             print(f'angen web: {failure}', flush=True)
 

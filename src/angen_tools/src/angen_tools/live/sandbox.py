@@ -8,6 +8,7 @@ import shutil
 import signal
 import socket
 import subprocess
+import threading
 import time
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
@@ -118,15 +119,16 @@ class Sandbox:
             self._all.callback(end, process)
         return process
 
-    def node(self, world: Path, rate: float, **params: Any) -> subprocess.Popen[bytes]:
-        """The node with a world, once it serves; `params` are more of its parameters."""
+    def node(self, world: Path | None, rate: float, **params: Any) -> subprocess.Popen[bytes]:
+        """The node with a world, or none with `replay`, once it serves; `params` are more of its
+        parameters."""
         wait(lambda: not self._names(0, '/angen/ready'), 'the last node has not ended', START_LIMIT)
         self.launched = time.monotonic()
         words = [f'_rate:={rate:g}', *(f'_{key}:={value}' for key, value in params.items())]
         node = built_program('angen_node')
         if node is None:
             raise Failure('angen_node is not found; use ./angen, or source devel/setup.bash')
-        process = self.start([str(node), str(world), *words], 'node')
+        process = self.start([str(node), *([str(world)] if world else []), *words], 'node')
 
         def serves() -> bool:
             if process.poll() is not None:
@@ -176,6 +178,9 @@ class Sandbox:
 @contextmanager
 def uninterrupted() -> Iterator[None]:
     """A signal within it is raised at its end: no process is started and then forgotten."""
+    if threading.current_thread() is not threading.main_thread():
+        yield  # signals interrupt the main thread only
+        return
     raised: list[int] = []
     numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
     before = [signal.signal(number, lambda n, _: raised.append(n)) for number in numbers]
