@@ -27,7 +27,7 @@ pytestmark = pytest.mark.ros
 START = re.compile(r'\./angen run(?! --)((?: \w+:=\S+)*)')
 LEFT_OUT = re.compile('|'.join((
     r'\./angen (shell|demo|build|test|fuzz|coverage|tidy|docs)( [^"]*)?$',  # what CI does anyhow
-    r'(\./)?angen (drive|watch$|care$|replay .*--until)',  # hands, no end
+    r'(\./)?angen (drive|watch$|care$|web|replay .*--until)',  # hands, no end
     r'(\./)?angen (bench|task|situations$|generate|validate out|realism out)',  # minutes
     r'rostopic pub -r', r'roslaunch', r'rosrun (image_view|angen_apps|angen_tools)',  # no end
     r'sudo', r'apt-get', r'docker', r'cd ~/catkin_ws',  # root, network

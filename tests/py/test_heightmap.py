@@ -29,13 +29,14 @@ BALL = '''<model name="ball"><pose>X Y Z 0 0 0</pose><link name="link">
   <inertial><mass>1</mass></inertial><collision name="c"><geometry><sphere><radius>0.5</radius>
   </sphere></geometry></collision></link></model>'''
 
-LOAD = '''
-import resource, sys, time
+LOAD = r'''
+import re, sys, time
 import angen
 start = time.process_time()
 world = angen.World(sys.argv[1])
 world.run(1.0)
-memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+# Not ru_maxrss: exec keeps that of the process which started this one.
+memory = int(re.search(r'VmHWM:\s+(\d+)', open('/proc/self/status').read()).group(1)) / 1024
 print(time.process_time() - start, memory, world.link_poses[world.links.index('ball::link')][2])
 '''
 

@@ -198,13 +198,12 @@ def test_strangers_are_refused(home: Angen, server: Server, tmp_path: Path) -> N
         assert away.end() == 0
 
 
-def test_the_page_survives_its_node(home: Angen, page: Page,
-                                    tmp_path_factory: pytest.TempPathFactory) -> None:
+def test_the_page_survives_its_node(home: Angen, page: Page, tmp_path: Path) -> None:
     end(home.process)
     page.until('return document.querySelector("#status").textContent'
                ' === "Waiting for the simulator"')
-    home.process = home.master.node(tmp_path_factory.getbasetemp() / 'home0/home.world',
-                                    tmp_path_factory.mktemp('again') / 'log')
+    (tmp_path / 'home.world').write_text(WORLD)
+    home.process = home.master.node(tmp_path / 'home.world', tmp_path / 'log')
     page.until('return document.querySelector("#status").textContent === "Live"')
     page.until('return [...angen.home.rows.values()].some((row) => row.kind === "door")')
     home.call('/gazebo/pause_physics', Empty)
