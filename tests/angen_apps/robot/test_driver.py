@@ -56,6 +56,9 @@ class IdealRobot:
         return SimpleNamespace(ranges=[20.0] * 4, angle_min=0.0, angle_increment=1.0,
                                range_min=0.1, range_max=10.0)
 
+    def scanned_at(self) -> Pose:
+        return self.pose
+
     def truth(self) -> tuple[float, float, float, float]:
         return self.pose.x, self.pose.y, 0.0, self.pose.yaw
 

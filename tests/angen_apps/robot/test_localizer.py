@@ -52,3 +52,22 @@ def test_odometry_moves_the_pose_in_its_own_direction() -> None:
 def test_a_scan_of_nothing_changes_nothing() -> None:
     start = Pose(1.0, 1.0, 0.0)
     assert Localizer(box(), start, Pose(0, 0, 0)).see(np.zeros((0, 2))) == start
+
+
+def test_a_lost_robot_finds_itself_in_the_whole_room() -> None:
+    grid, truth = box(), Pose(2.9, 1.1, -2.0)
+    scan = scan_from(grid, truth)
+    localizer = Localizer(grid, Pose(1.0, 2.2, 0.5), Pose(0, 0, 0))
+    assert localizer.share(scan) < 0.5
+    assert localizer.find(scan)
+    pose = localizer.pose
+    assert math.dist((pose.x, pose.y), (truth.x, truth.y)) < 0.05
+    assert abs(math.remainder(pose.yaw - truth.yaw, 2 * math.pi)) < 0.02
+    assert localizer.share(scan) > 0.95
+
+
+def test_a_scan_that_fits_nowhere_leaves_the_pose_as_it_was() -> None:
+    start = Pose(1.0, 2.2, 0.5)
+    localizer = Localizer(box(), start, Pose(0, 0, 0))
+    ring = np.array([(0.9 * math.cos(a), 0.9 * math.sin(a)) for a in np.arange(0, 6.28, 0.05)])
+    assert not localizer.find(ring) and localizer.pose == start

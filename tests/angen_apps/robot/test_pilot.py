@@ -32,3 +32,21 @@ def test_the_pilot_follows_a_line_and_stops_at_its_end() -> None:
     assert aside < 0.1
     assert max(speeds) <= 0.5
     assert np.abs(np.diff(speeds)).max() <= 0.05 + 1e-9
+
+
+def test_the_pilot_arrives_where_its_commands_are_late_and_rare() -> None:
+    points = [(0.05 * i, 0.0) for i in range(41)] + [(2.0, 0.05 * i) for i in range(1, 41)]
+    pilot = Pilot(points, 0.5, 1.5, 0.5)
+    pose, running, aside = Pose(0.0, 0.0, math.pi), (0.0, 0.0), 0.0
+    for _ in range(200):
+        command = pilot.steer(pose, 0.5)
+        if command is None:
+            break
+        for step in range(50):
+            v, w = running if step < 20 else command  # it takes effect 0.2 s after the pose
+            pose = pose.then(Pose(v * 0.01, 0.0, w * 0.01))
+        running = command
+        aside = max(aside, min(math.dist((pose.x, pose.y), point) for point in points))
+    assert command is None
+    assert math.dist((pose.x, pose.y), (2.0, 2.0)) < 0.2
+    assert aside < 0.2

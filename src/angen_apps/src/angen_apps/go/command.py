@@ -4,16 +4,16 @@ from __future__ import annotations
 import math
 import os
 import tempfile
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Mapping, Sequence
 
-from angen_apps.go.live_robot import LiveRobot
+from angen_apps.go.live_robot import LIMIT, LiveRobot
+from angen_apps.go.trip import Goal, Trip
 from angen_apps.maps.gridmap import load_world
-from angen_apps.robot.building import Start, Survey, entity_of, find_start
-from angen_apps.robot.driver import Driver
+from angen_apps.robot.building import Entity, Start, Survey, entity_of, find_start
 from angen_apps.robot.planner import Planner
-from angen_apps.robot.route import Action, Drive, Ride, Router, Turn
+from angen_apps.robot.route import Ride, Turn
 from angen_apps.robot.route_file import NUMBERS, Lift, Route, Waypoint
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_text
@@ -24,6 +24,7 @@ from angen_tools.common.progress import Progress
 from angen_tools.live.client import Client
 
 
+ASTRAY = 0.5  # m from its goal, and it has not arrived
 REACH = 2.0  # m from the middle of a room to where the robot can stand
 
 
@@ -40,6 +41,9 @@ class Arrived:
     doors: int
     rides: int
     error_m: float
+    goal_x_m: float
+    goal_y_m: float
+    tries: int
 
 
 def go(words: Sequence[str], robot: str, json: bool) -> int:
@@ -53,17 +57,16 @@ def go(words: Sequence[str], robot: str, json: bool) -> int:
     route = Route(Path('angen go'), [], robot or robots[0], elevator=None,
                   **{key: usual for key, (_, _, usual) in NUMBERS.items()})
     start = find_start(route, place.entities, (0.0, 0.0, 0.0))
-    planners = {number: Planner(grid, route.clearance)
-                for number, grid in place.survey.maps.items()}
-    goal = goal_of(words, place.home, planners)
-    route = replace(route, elevator=lift_of(place.home, start.floor), waypoints=[goal])
-    actions = Router(route, planners, place.survey.doors).actions((start.pose.x, start.pose.y),
-                                                                  start.floor)
-    arrived = drive(client, route, goal, place.survey, start, actions)
+    arrived = drive(client, route, lambda planners: goal_of(words, place.home, planners), place,
+                    start)
+    if arrived.error_m > ASTRAY:
+        raise Failure(f'{route.robot} is at {arrived.x_m:.2f}, {arrived.y_m:.2f}, '
+                      f'{arrived.error_m:.2f} m from {arrived.goal}, and believes to be there')
     print(as_json(asdict(arrived)) if json else
           f'{route.robot} is in {arrived.goal}: {arrived.distance_m:.1f} m in '
           f'{arrived.time_s:.1f} s, {arrived.doors} doors, {arrived.rides} rides, '
-          f'{100 * arrived.error_m:.0f} cm from {goal.at[0]:.2f}, {goal.at[1]:.2f}')
+          f'{100 * arrived.error_m:.0f} cm from {arrived.goal_x_m:.2f}, {arrived.goal_y_m:.2f}'
+          + (f'; {arrived.tries} tries' if arrived.tries > 1 else ''))
     return 0
 
 
@@ -120,27 +123,36 @@ def lift_of(home: Home, floor: int) -> Lift | None:
     return None
 
 
-def drive(client: Client, route: Route, goal: Waypoint, survey: Survey, start: Start,
-          actions: list[Action]) -> Arrived:
-    """Does the actions in the time of the running simulator."""
-    doors = sorted({action.door for action in actions if isinstance(action, Turn)})
-    devices = [('door', name) for name in doors]
-    rides = [action for action in actions if isinstance(action, Ride)]
-    if rides and route.elevator:
-        devices.append(('elevator', route.elevator.name))
-    length = sum(math.dist(a, b) for action in actions if isinstance(action, Drive)
-                 for a, b in zip(action.points, action.points[1:]))
+def drive(client: Client, route: Route, goal: Goal, place: Surveyed, start: Start) -> Arrived:
+    """Drives to a goal in the time of the running simulator."""
+    devices = [('door', door.name) for doors in place.survey.doors.values() for door in doors]
+    devices += [('elevator', lift.name) for lift in place.home.elevators]
     with LiveRobot(client, start, devices) as robot, Progress('go') as progress:
-        driver = Driver(robot, route, survey.landmarks, start.mount,
-                        lambda: progress.update(share, driver.text))
-        share, began = 0.0, robot.now
-        driver.begin(start.pose, start.floor)
-        for number, action in enumerate(actions):
-            share = number / len(actions)
-            driver.do(action)
+        began = robot.now
+        trip = Trip(robot, route, place.survey, start, goal,
+                    lambda floor: lift_of(place.home, floor),
+                    lambda line: progress.note(f'go: {line}'), progress.update)
+        try:
+            reached = trip.run()
+        except Failure as problem:
+            raise Failure(f'{problem}{empty(client, route.robot, place.entities)}') from None
         took = robot.now - began
     at = next(message.pose.position for message in client.entities('drive')
               if message.name == route.robot)
-    return Arrived(goal.name, goal.floor, at.x, at.y, took, length,
-                   len(doors), sum(ride.aboard for ride in rides),
-                   math.dist((at.x, at.y), goal.at))
+    return Arrived(reached.name, reached.floor, at.x, at.y, took, trip.distance,
+                   len({action.door for action in trip.done if isinstance(action, Turn)}),
+                   sum(isinstance(action, Ride) and action.aboard for action in trip.done),
+                   math.dist((at.x, at.y), reached.at), *reached.at, trip.tries)
+
+
+def empty(client: Client, robot: str, entities: Sequence[Entity]) -> str:
+    """What to add to a failure where the robot's battery is empty."""
+    import rospy
+    from sensor_msgs.msg import BatteryState
+    models = [entity.model for entity in entities if (entity.kind, entity.name) == ('drive', robot)]
+    for battery in entities:
+        if battery.kind == 'battery' and battery.model in models:
+            state = rospy.wait_for_message(battery.topic, BatteryState, LIMIT)
+            if state.percentage <= 0.0:
+                return f'; its battery is empty: angen set battery {battery.name} charge 100'
+    return ''

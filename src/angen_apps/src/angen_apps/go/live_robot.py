@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 import threading
 import time
+from collections import deque
 from typing import Any
 
 from angen_apps.robot.building import Start
@@ -17,6 +18,8 @@ from angen_tools.live.client import Client
 from angen_tools.live.states import states_by_name
 
 LIMIT = 10.0  # s of wall time for any message
+TRAIL = 200  # messages of odometry that are kept
+BUFFER = 1 << 20  # bytes: more than any of its messages
 
 
 class LiveRobot:
@@ -31,13 +34,16 @@ class LiveRobot:
         self._client, self._name = client, start.robot.name
         self._news = threading.Condition()
         self._latest: dict[str, Any] = {}
+        self._trail: deque[tuple[float, Pose]] = deque(maxlen=TRAIL)  # times and odometry
         self._odometry, self._scan = start.robot.topic, start.laser.topic
         client.join()
         self._wheels = client.publisher(f'/{self._name}/cmd_vel', Twist)
         self._states: dict[tuple[str, str], Any] = {}
         self.events: list[Event] = []
         for topic, kind in ((self._odometry, Odometry), (self._scan, LaserScan)):
-            rospy.Subscriber(topic, kind, lambda message, topic=topic: self._take(topic, message))
+            # On a slow machine it skips messages rather than being behind.
+            rospy.Subscriber(topic, kind, lambda message, topic=topic: self._take(topic, message),
+                             queue_size=1, buff_size=BUFFER, tcp_nodelay=True)
             wait(lambda: topic in self._latest, f'no message on {topic}', LIMIT)
         self._follow(devices)
 
@@ -65,6 +71,8 @@ class LiveRobot:
 
     def _take(self, topic: str, message: Any) -> None:
         with self._news:
+            if topic == self._odometry:
+                self._trail.append((message.header.stamp.to_sec(), pose_of(message)))
             self._latest[topic] = message
             self._news.notify_all()
 
@@ -94,12 +102,22 @@ class LiveRobot:
         return lift_state(self._states['elevator', name])
 
     def odometry(self) -> Pose:
-        pose = self._latest[self._odometry].pose.pose
-        return Pose(pose.position.x, pose.position.y, yaw_of(pose.orientation))
+        return pose_of(self._latest[self._odometry])
 
     def scan(self) -> Any:
         return self._latest[self._scan]
 
+    def scanned_at(self) -> Pose:
+        at = self._latest[self._scan].header.stamp.to_sec()
+        with self._news:
+            return min(self._trail, key=lambda known: abs(known[0] - at))[1]
+
     def truth(self) -> tuple[float, float, float, float]:
         """Not known; nothing judges this run while it drives."""
         return (math.nan, math.nan, math.nan, math.nan)
+
+
+def pose_of(message: Any) -> Pose:
+    """Of a nav_msgs/Odometry."""
+    pose = message.pose.pose
+    return Pose(pose.position.x, pose.position.y, yaw_of(pose.orientation))

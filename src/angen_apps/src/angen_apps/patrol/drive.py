@@ -98,6 +98,9 @@ class RosRobot:
     def scan(self) -> Any:
         return self._lockstep.latest(self._scan, self.now - CYCLE / 2)
 
+    def scanned_at(self) -> Pose:
+        return self.odometry()  # both are of the end of the cycle
+
     def truth(self) -> tuple[float, float, float, float]:
         pose = next(entity.pose for entity in self._lockstep.entities('drive')
                     if entity.name == self._name)

@@ -3,13 +3,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Callable
+from typing import Any, Callable
 
 import numpy as np
 
 from angen_apps.maps.gridmap import GridMap
 from angen_apps.robot.interface import CYCLE, Robot, collisions
-from angen_apps.robot.localizer import EVERY, Localizer, returns_of
+from angen_apps.robot.localizer import (EVERY, SHARE, Localizer, returns_of, to_world,
+                                        unexplained)
 from angen_apps.robot.pilot import Pilot, Pose
 from angen_apps.robot.route import Action, Drive, Ride, Turn
 from angen_apps.robot.route_file import Route
@@ -43,9 +44,14 @@ class Driver:
     def __init__(self, robot: Robot, route: Route, landmarks: dict[int, GridMap], mount: Pose,
                  watch: Callable[[], None], may_go: Callable[[], bool] = lambda: True,
                  give_up: Callable[[], bool] = lambda: False) -> None:
-        self._robot, self._route, self._landmarks = robot, route, landmarks
+        self._robot, self.route, self._landmarks = robot, route, landmarks
         self._mount, self._watch = mount, watch
         self._may_go, self._give_up = may_go, give_up
+        self._dt = CYCLE
+        self._used: Any = None  # the latest scan by which it has localized itself
+        self._seen: Any = None  # the latest scan, and where the wheels were when it was read
+        self._seen_at: Pose | None = None
+        self._found = np.zeros((0, 2))
         self.text = ''
         self.floor = 0
         self.left: list[tuple[float, float]] = []  # of the line that it drives
@@ -62,20 +68,54 @@ class Driver:
         self._origin = start.then(odometry.inverse())
         self._localizer = Localizer(self._landmarks[floor], start, odometry)
         self.floor = floor
+        self._settle()
+
+    def _settle(self) -> None:
         for _ in range(SETTLE):
             self.cycle()
             self._localizer.see(self._returns())
 
     def _returns(self) -> np.ndarray:
-        return returns_of(self._robot.scan(), self._mount, EVERY)[0]
+        """Of the latest scan, as the robot would see them where it is now."""
+        scan = self._robot.scan()
+        if scan is self._seen and self._seen_at is self._odometry:
+            return self._found
+        self._seen, self._seen_at = scan, self._odometry
+        self._found = returns_of(scan, self._mount, EVERY)[0]
+        then = self._robot.scanned_at()
+        if then != self._odometry:
+            self._found = to_world(self._found, self._odometry.inverse().then(then))
+        return self._found
+
+    @property
+    def foreign(self) -> np.ndarray:
+        """What the latest scan shows that is not on the map: points (n, 2) in the world, m."""
+        points = to_world(self._returns(), self.pose)
+        return points[unexplained(points, self._localizer.field)]
+
+    @property
+    def share(self) -> float:
+        """The part of the latest scan that is where the map has something."""
+        return self._localizer.share(self._returns())
+
+    def localize(self) -> bool:
+        """Stops, and searches its floor where its scan does not fit; whether it does then."""
+        self._settle()
+        returns = self._returns()
+        return self._localizer.share(returns) >= SHARE or self._localizer.find(returns)
 
     def cycle(self, v: float = 0.0, w: float = 0.0) -> Pose:
         """Commands the wheels for a cycle; the estimated pose after it."""
+        before = self._robot.now
         self._robot.cycle(v, w)
-        odometry = self._robot.odometry()
+        took = self._robot.now - before  # more than a cycle where messages are late
+        self._dt = took if took > 1.01 * CYCLE else CYCLE
+        self._odometry = odometry = self._robot.odometry()
         pose = self._localizer.move(odometry)
-        if v or w:  # while it waits, doors turn, which are not on the map
+        # While it waits, doors turn, which are not on the map.
+        if (v or w) and self._robot.scan() is not self._used:
             pose = self._localizer.see(self._returns())
+            self._used = self._seen
         wheels = self._origin.then(odometry)
         self.track.rows.append((self._robot.now, *self._robot.truth()))
         self.track.believed.append((pose.x, pose.y))
@@ -95,16 +135,16 @@ class Driver:
 
     def _drive(self, drive: Drive) -> bool:
         length = sum(math.dist(a, b) for a, b in zip(drive.points, drive.points[1:]))
-        limit = self._robot.now + DRIVE_SLACK + 3 * length / self._route.speed
-        pilot = Pilot(drive.points, self._route.speed, self._route.turn, self._route.acceleration)
+        limit = self._robot.now + DRIVE_SLACK + 3 * length / self.route.speed
+        pilot = Pilot(drive.points, self.route.speed, self.route.turn, self.route.acceleration)
         self.text = f'to {drive.name}' if drive.name else 'driving'
         pose = self.cycle()
         arrived = True
         while True:
             self.left = pilot.left
             arrived = arrived and not self._give_up()
-            command = (pilot.steer(pose, CYCLE) if arrived and self._may_go()
-                       else pilot.stop(CYCLE))
+            command = (pilot.steer(pose, self._dt) if arrived and self._may_go()
+                       else pilot.stop(self._dt))
             if command is None:
                 if pilot.arrived or not arrived:
                     return arrived
@@ -126,9 +166,9 @@ class Driver:
                       lambda: self._robot.door(turn.door).mode == mode)
 
     def _ride(self, ride: Ride) -> None:
-        if self._route.elevator is None:
-            raise Failure(f'{self._route.path}: names no elevator')
-        name = self._route.elevator.name
+        if self.route.elevator is None:
+            raise Failure(f'{self.route.path}: names no elevator')
+        name = self.route.elevator.name
         level = self._landmarks[ride.floor].height
         self._command('elevator', name, f'Floor{ride.floor}',
                       lambda: self._robot.lift(name).stands_open(ride.floor, level))

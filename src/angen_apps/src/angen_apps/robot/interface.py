@@ -76,6 +76,9 @@ class Robot(Protocol):
     def scan(self) -> Any:
         """The latest scan; has the fields of sensor_msgs/LaserScan."""
 
+    def scanned_at(self) -> Pose:
+        """The odometry at the time of the latest scan."""
+
     def truth(self) -> tuple[float, float, float, float]:
         """x, y, z (m), yaw (rad), to record and judge a run; no program may steer by it."""
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.ndimage import distance_transform_edt
 
-from angen_apps.maps.gridmap import OCCUPIED, GridMap
+from angen_apps.maps.gridmap import FREE, OCCUPIED, GridMap
 from angen_apps.robot.pilot import Pose
 
 GATE = 0.25  # m: a return that is farther from everything on the map is of a door or a person
@@ -15,6 +15,12 @@ ROUNDS = 10
 ENOUGH = 0.0005  # m, rad: a round that moves it less is the last
 EVERY = 3  # of a scan's returns one is taken
 FEWEST = 30  # returns below which a scan is not used
+UNEXPLAINED = 0.15  # m: a return at this distance from all cells of the map is of something else
+# The search for a pose over a whole floor:
+FITS, SHARE = 0.1, 0.7  # m from the map; the part of a scan's returns that do not lie farther
+EACH, TURNS, RAYS = 4, 48, 60  # of the free cells one of so many; directions; returns
+BEST = 8  # places that are looked at closely
+NEAR_FIRST = 0.002  # m of misfit that a meter from the previous pose counts as
 # How odometry is weighed against a scan: standard deviations since the last one, and of a return.
 PLACE, TURN, RANGE = 0.02, 0.02, 0.05
 
@@ -42,6 +48,26 @@ class Field:
         return ((cells[:, row, column] * (1 - x) + cells[:, row, column + 1] * x) * (1 - y)
                 + (cells[:, row + 1, column] * (1 - x) + cells[:, row + 1, column + 1] * x) * y)
 
+    def near(self, cells: np.ndarray, most: float) -> np.ndarray:
+        """Meters (...) from cells (..., 2: column, row) to the map, cut at `most`, as off the map.
+        """
+        rows, columns = self._grid.cells.shape
+        row, column = cells[..., 1], cells[..., 0]
+        on = (row >= 0) & (row < rows) & (column >= 0) & (column < columns)
+        far = self._layers[0][np.where(on, row, 0), np.where(on, column, 0)]
+        return np.where(on, np.minimum(far, most), most)
+
+
+def to_world(points: np.ndarray, pose: Pose) -> np.ndarray:
+    """Points (n, 2) of a frame in the world."""
+    c, s = math.cos(pose.yaw), math.sin(pose.yaw)
+    return points @ np.array([[c, s], [-s, c]]) + [pose.x, pose.y]
+
+
+def unexplained(points: np.ndarray, field: Field) -> np.ndarray:
+    """Which points (n, 2) in the world the map has nothing near."""
+    return np.asarray(field.at(points)[0] > UNEXPLAINED)
+
 
 class Localizer:
     """Keeps a pose in the world, from odometry and laser scans."""
@@ -49,11 +75,61 @@ class Localizer:
     def __init__(self, grid: GridMap, start: Pose, odometry: Pose) -> None:
         self.pose = start
         self._odometry = odometry
-        self._field = Field(grid)
+        self.enter(grid)
 
     def enter(self, grid: GridMap) -> None:
         """Continues on another map: of the floor where an elevator has taken it."""
-        self._field = Field(grid)
+        self._grid, self._field = grid, Field(grid)
+
+    @property
+    def field(self) -> Field:
+        """Of the map that it is on."""
+        return self._field
+
+    def share(self, returns: np.ndarray) -> float:
+        """The part of a scan's returns (n, 2) that lie on the map; 1 of too few."""
+        if len(returns) < FEWEST:
+            return 1.0
+        cells = (to_world(returns, self.pose) - self._grid.origin) / self._grid.resolution
+        return float((self._field.near(np.floor(cells).astype(int), GATE) < FITS).mean())
+
+    def find(self, returns: np.ndarray) -> bool:
+        """Searches the floor for the pose that a scan fits best; whether it fits there. Keeps its
+        pose otherwise."""
+        if len(returns) < FEWEST:
+            return False
+        before, best, share = self.pose, self.pose, 0.0
+        for pose in self._candidates(returns[::max(1, len(returns) // RAYS)]):
+            self.pose = pose
+            for _ in range(ROUNDS):
+                self.see(returns)
+            here = self.share(returns)
+            if here > share + 0.02:
+                best, share = self.pose, here
+        self.pose = best if share >= SHARE else before
+        return share >= SHARE
+
+    def _candidates(self, returns: np.ndarray) -> list[Pose]:
+        """The poses on free cells where the returns are nearest to the map, the best first."""
+        grid = self._grid
+        rows, columns = (axis[::EACH] for axis in np.nonzero(grid.cells == FREE))
+        places = np.stack([columns, rows], axis=1)
+        away = (places + 0.5) * grid.resolution + grid.origin - (self.pose.x, self.pose.y)
+        cost = NEAR_FIRST * np.hypot(*away.T)
+        found: list[tuple[float, Pose]] = []
+        for turn in range(TURNS):
+            yaw = 2 * math.pi * turn / TURNS
+            ends = np.rint(to_world(returns, Pose(0.0, 0.0, yaw)) / grid.resolution).astype(int)
+            miss = cost + self._field.near(places[:, None] + ends, GATE).mean(axis=1)
+            for i in np.argsort(miss)[:BEST]:
+                x, y = grid.point(int(rows[i]), int(columns[i]))
+                found.append((float(miss[i]), Pose(x, y, math.remainder(yaw, 2 * math.pi))))
+        kept: list[Pose] = []
+        for _, pose in sorted(found, key=lambda each: each[0]):
+            if all(math.dist((pose.x, pose.y), (other.x, other.y)) > 2 * GATE or
+                   abs(math.remainder(pose.yaw - other.yaw, 2 * math.pi)) > 0.3 for other in kept):
+                kept.append(pose)
+        return kept[:BEST]
 
     def move(self, odometry: Pose) -> Pose:
         """Adds the change of the odometry since the last call."""

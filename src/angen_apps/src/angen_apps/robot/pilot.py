@@ -10,6 +10,7 @@ LOOK_AHEAD = 0.30  # m
 TURN_FIRST = 0.5  # rad: with a greater error it turns on the spot
 ARRIVED = 0.03  # m
 FINE_TURN = 3.0  # rad/s a rad
+LATE_TURN, LATE_WAY = 0.5, 0.2  # of an error in one command; m by one command: where they are rare
 
 
 @dataclass(frozen=True)
@@ -67,10 +68,11 @@ class Pilot:
         target = self._target(pose)
         error = self._bearing(pose, target)
         if abs(error) > TURN_FIRST or (self._v == 0.0 and abs(error) > 0.1):
-            turn = math.copysign(min(self._turn, FINE_TURN * abs(error)), error)
+            gain = min(FINE_TURN, LATE_TURN / dt)
+            turn = math.copysign(min(self._turn, gain * abs(error)), error)
             return self._ramp(0.0, turn if self._v < 0.05 else 0.0, dt)
         speed = min(self._speed, math.sqrt(2 * 0.7 * self._acceleration * left), 1.5 * left + 0.02)
-        speed *= max(0.25, math.cos(2 * error))
+        speed = min(speed * max(0.25, math.cos(2 * error)), LATE_WAY / dt)
         far = max(math.dist((pose.x, pose.y), target), 0.1)
         turn = 2 * speed * math.sin(error) / far
         return self._ramp(speed, max(-self._turn, min(self._turn, turn)), dt)

@@ -7,10 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from angen_apps.robot.localizer import Field, returns_of
+from angen_apps.robot.localizer import Field, returns_of, to_world, unexplained
 from angen_apps.robot.pilot import Pose
 
-UNEXPLAINED = 0.15  # m: a return at this distance from all cells of the map is of something else
 GAP = 0.15  # m between two returns of the same thing
 FEWEST = 6  # returns of a person
 RADIUS = (0.15, 0.36)  # m, of a body at the height of the laser
@@ -40,17 +39,6 @@ class Arc:
     @property
     def at(self) -> tuple[float, float]:
         return self.x, self.y
-
-
-def to_world(points: np.ndarray, pose: Pose) -> np.ndarray:
-    """Points (n, 2) of a frame in the world."""
-    c, s = math.cos(pose.yaw), math.sin(pose.yaw)
-    return points @ np.array([[c, s], [-s, c]]) + [pose.x, pose.y]
-
-
-def unexplained(points: np.ndarray, field: Field) -> np.ndarray:
-    """Which points (n, 2) in the world the map has nothing near."""
-    return np.asarray(field.at(points)[0] > UNEXPLAINED)
 
 
 def find_arcs(scan: Any, mount: Pose, pose: Pose, field: Field) -> list[Arc]:

@@ -9,14 +9,14 @@ import numpy as np
 
 from angen_apps.robot.driver import Driver
 from angen_apps.robot.interface import CYCLE, Event
-from angen_apps.robot.localizer import Field, returns_of
+from angen_apps.robot.localizer import Field, returns_of, to_world, unexplained
 from angen_apps.robot.pilot import wrapped
 from angen_apps.robot.planner import Door, Planner, Point
 from angen_apps.robot.route import Action, Drive, Router, Turn
 from angen_apps.robot.route_file import Route, Waypoint
 from angen_apps.seek.ambient import Ambient, RobotNow
 from angen_apps.seek.belief import ARC, STEP, Belief
-from angen_apps.seek.detector import Arc, Figure, find_arcs, find_figure, to_world, unexplained
+from angen_apps.seek.detector import Arc, Figure, find_arcs, find_figure
 from angen_apps.seek.home import SEES, Home, doors_between
 from angen_apps.seek.simulation import Simulation
 from angen_tools.common.failure import Failure

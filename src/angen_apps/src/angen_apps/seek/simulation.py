@@ -92,6 +92,9 @@ class Simulation:
     def scan(self) -> Any:
         return SimpleNamespace(**self.world.sensor('lidar', self._lidar))
 
+    def scanned_at(self) -> Pose:
+        return self.odometry()
+
     def depth(self) -> Any | None:
         """The latest depth image, as angen has it; None before the first, and without a camera."""
         if not self._depth:

@@ -1,0 +1,142 @@
+"""A drive to a goal: where it is held up, the robot finds out where it is and plans anew."""
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Callable, Mapping
+
+import numpy as np
+
+from angen_apps.go.guard import Guard
+from angen_apps.maps.gridmap import OCCUPIED, GridMap
+from angen_apps.robot.building import Start, Survey
+from angen_apps.robot.driver import Driver, Stuck
+from angen_apps.robot.interface import CYCLE, Robot
+from angen_apps.robot.planner import Door, Planner, Point
+from angen_apps.robot.route import Action, Router
+from angen_apps.robot.route_file import Lift, Route, Waypoint
+from angen_tools.common.failure import Failure
+
+TRIES = 8
+WAIT = 5.0  # s before a further try
+AROUND = 3.0  # m around the robot: things that it sees there are in the way
+ASIDE = 0.6  # m from the robot to the next place that is free
+MISSED = 0.15  # m from the goal
+
+Goal = Callable[[Mapping[int, Planner]], Waypoint]
+
+
+class Held(Failure):
+    """It cannot drive on, or does not know how."""
+
+
+class Trip:
+    """`goal` names it by what is free; `lift` is the elevator and where it is on a floor; `note`
+    takes a line for the user; `watch` the share of the actions that is done, and the present one.
+    """
+
+    def __init__(self, robot: Robot, route: Route, survey: Survey, start: Start, goal: Goal,
+                 lift: Callable[[int], Lift | None], note: Callable[[str], None],
+                 watch: Callable[[float, str], None]) -> None:
+        self._robot, self._route, self._survey = robot, route, survey
+        self._goal, self._lift, self._note = goal, lift, note
+        self._planners = {number: Planner(grid, route.clearance)
+                          for number, grid in survey.maps.items()}
+        self._guard = Guard(route.clearance)
+        self._share = 0.0
+        self._driver = Driver(robot, route, survey.landmarks, start.mount,
+                              lambda: watch(self._share, self._driver.text),
+                              self._guard.may_go, self._guard.give_up)
+        self._guard.driver = self._driver
+        self._start = start
+        self.done: list[Action] = []
+        self.tries = 0
+
+    def run(self) -> Waypoint:
+        """Drives to the goal, which it returns; Failure after the last try."""
+        start = self._start
+        goal, actions = self.plan((start.pose.x, start.pose.y), start.floor)
+        self._driver.begin(start.pose, start.floor)
+        problem = Failure()
+        for self.tries in range(1, TRIES + 1):
+            try:
+                if self.tries > 1:
+                    goal, actions = self._recover()
+                self._do(actions)
+                self._check(goal)
+                return goal
+            except (Held, Stuck) as held:
+                problem = held
+                self._note(f'{problem}' + ('; stops, waits, and plans its way anew'
+                                           if self.tries < TRIES else ''))
+        raise Failure(f'{problem}; gave up after {TRIES} tries')
+
+    def plan(self, at: Point, floor: int, foreign: np.ndarray | None = None
+             ) -> tuple[Waypoint, list[Action]]:
+        """The goal and the actions from a place, around what is `foreign` to the map."""
+        planners, doors = dict(self._planners), dict(self._survey.doors)
+        if foreign is not None and len(foreign):
+            grid = with_points(self._survey.maps[floor], foreign)
+            planners[floor] = Planner(grid, self._route.clearance)
+        free = planners[floor].nearest(at, ASIDE)
+        if free is None:
+            raise Failure(f'the robot finds no free floor around {at[0]:.2f}, {at[1]:.2f}')
+        doors[floor] = [door for door in doors[floor] if not self._holds_open(door, free)]
+        goal = self._goal(planners)
+        route = replace(self._route, elevator=self._lift(floor), waypoints=[goal])
+        actions = Router(route, planners, doors).actions(free, floor)
+        self._driver.route = route
+        return goal, actions
+
+    def _holds_open(self, door: Door, at: Point) -> bool:
+        """Whether the robot is in the swing of a door that is open: it drives on through it."""
+        return (self.tries > 0 and door.room_for(at) < self._route.door_room
+                and self._robot.door(door.name).mode == 'OPEN')
+
+    def _do(self, actions: list[Action]) -> None:
+        for number, action in enumerate(actions):
+            self._share = number / len(actions)
+            self._guard.begin()
+            if not self._driver.do(action):
+                raise Held(f'{self._guard.reason} on floor {self._driver.floor}')
+            self.done.append(action)
+
+    def _check(self, goal: Waypoint) -> None:
+        """Held where it turns out not to be at the goal."""
+        if not self._driver.localize():
+            raise Held('the robot does not know where it is')
+        pose = self._driver.pose
+        away = math.dist((pose.x, pose.y), goal.at)
+        if away > MISSED:
+            raise Held(f'the robot is {away:.2f} m from its goal')
+
+    def _recover(self) -> tuple[Waypoint, list[Action]]:
+        """The goal and a new plan from where the robot is; Held where there is none yet."""
+        driver = self._driver
+        driver.text = 'waits'
+        for _ in range(int(WAIT / CYCLE)):
+            driver.cycle()
+        if not driver.localize():
+            raise Held('the robot does not know where it is')
+        at = driver.pose.x, driver.pose.y
+        foreign = driver.foreign
+        try:
+            return self.plan(at, driver.floor, foreign[np.hypot(*(foreign - at).T) < AROUND])
+        except Failure as problem:
+            raise Held(str(problem)) from None
+
+    @property
+    def distance(self) -> float:
+        """Meters that the wheels have driven."""
+        track = self._driver.track.odometry
+        return sum(math.dist(a, b) for a, b in zip(track, track[1:]))
+
+
+def with_points(grid: GridMap, points: np.ndarray) -> GridMap:
+    """A map on which the cells at points (n, 2) are occupied."""
+    cells = grid.cells.copy()
+    for x, y in points:
+        row, column = grid.cell(x, y)
+        if 0 <= row < cells.shape[0] and 0 <= column < cells.shape[1]:
+            cells[row, column] = OCCUPIED
+    return replace(grid, cells=cells)
