@@ -49,8 +49,8 @@ check_ctest() { # [WORDS]
 
 check_pytest() { # [WORDS]
   local code=0
-  # A file's tests share a ROS master and a node; files are independent. Most of them wait for wall time.
-  timeout $((2400 * slowness)) env ${preloaded:+"LD_PRELOAD=$preloaded"} python3 -m pytest -q -n "$(nproc)" --dist loadfile ${1:+-k "$1"} "${pytest_arguments[@]}" || code=$?
+  # Many tests wait for wall time: more workers than processors. tests/conftest.py says what runs on one worker.
+  timeout $((2400 * slowness)) env ${preloaded:+"LD_PRELOAD=$preloaded"} python3 -m pytest -q -n $(($(nproc) + extra_workers)) --dist loadfile ${1:+-k "$1"} "${pytest_arguments[@]}" || code=$?
   if ((code != 5)); then
     matched=1
   elif [[ ${1:-} ]]; then
@@ -59,6 +59,7 @@ check_pytest() { # [WORDS]
   return $code
 }
 pytest_arguments=(tests)
+extra_workers=2
 preloaded= # libraries, before Python's own
 slowness=1 # by which a build of its own multiplies limits of time
 
@@ -146,7 +147,7 @@ check_asan() { # [WORDS]
 
 # The C++ tests, and the node and `import angen` in those of Python. Python itself is not instrumented.
 run_sanitized() { # asan|tsan WORDS [SUITE...]
-  local tree=build-$1 name chosen=("${@:3}") slowness=4
+  local tree=build-$1 name chosen=("${@:3}") slowness=4 extra_workers=0
   ((${#chosen[@]})) || chosen=(ctest pytest)
   install test
   prepare

@@ -1,25 +1,52 @@
-"""How pytest runs all tests: the longest files first, and Ctrl-C ends what tests start."""
+"""How pytest runs all tests: in units, the longest first; Ctrl-C ends everything that tests start."""
 from __future__ import annotations
 
+import re
 import signal
-from pathlib import Path
+from typing import Any
 
 import pytest
 
-# By CPU time, the longest first: a file runs on one worker, and should not begin last. Without
-# an entry a file runs after these.
-LONG = ('docs/test_commands.py', 'docs/test_thesis.py', 'ros/test_cli.py', 'ros/test_soak.py',
-        'ros/test_patrol_run.py', 'ros/test_replay_run.py', 'ros/test_traffic.py',
-        'angen_apps/walktest/test_command.py', 'angen_apps/seek/test_command.py',
-        'py/test_replay.py', 'ros/test_rmf.py', 'worlds/test_world_geometry.py')
-TESTS = Path(__file__).parent
-ORDER = {TESTS / name: place for place, name in enumerate(LONG)}
+# Parts of tests' names, the longest units first: a unit runs on one worker, and should not begin
+# last. Without an entry a test runs after these.
+LONG = ('[docs/robot.md]', '[docs/tutorial.md]', 'ros/test_bench.py', 'docs/test_commands.py',
+        'docs/test_thesis.py', 'ros/test_soak.py', 'ros/test_patrol_run.py', 'py/test_limits.py',
+        'ros/test_cli.py', 'ros/test_replay_run.py', 'ros/test_web.py', 'ros/test_traffic.py',
+        'ros/test_rmf.py', 'ros/test_lifetime.py', 'walktest/test_command.py',
+        'seek/test_command.py', 'py/test_replay.py', 'py/test_simulation.py',
+        'worlds/test_world_geometry.py')
+PAGES = re.compile(r'docs/test_commands\.py::.*\[docs/(robot|tutorial|devices/|sensors/)')
 
 # A shell ignores SIGINT in a process that it starts by &, and children inherit that.
 if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
+def unit(name: str) -> str:
+    """The unit of a test: tests of a file share a master and a node; pages need not share theirs."""
+    pages = PAGES.search(name)
+    return pages.group() if pages else name.partition('::')[0]
+
+
+def place(name: str) -> int:
+    """When a test runs, of all."""
+    return next((at for at, part in enumerate(LONG) if part in name), len(LONG))
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Keeps the order within a file."""
-    items.sort(key=lambda item: ORDER.get(item.path, len(ORDER)))
+    """Keeps the order within a unit."""
+    items.sort(key=lambda item: place(item.nodeid))
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """With --dist loadfile: a worker gets one unit after the other."""
+    if config.getoption('dist') != 'loadfile':
+        return None
+    from xdist.scheduler import LoadScopeScheduling
+
+    class Units(LoadScopeScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            return unit(nodeid)
+
+    return Units(config, log)
