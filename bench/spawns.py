@@ -3,7 +3,7 @@
 
     ./angen shell -c 'python3 bench/spawns.py --count 1000'
 
-Each loose model of worlds/models in turn goes to a random place in the lower flat of
+Each loose model of worlds/models in turn is spawned at a random place in the lower flat of
 worlds/angen.world, for half a second. Ends with exit code 1 if one is too fast.
 """
 from __future__ import annotations

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws figures of the thesis as they are here, and what opens besides: pictures and diagrams.
+"""Draws figures of the thesis as they are here, and of further openings: pictures and diagrams.
 
     ./angen shell
     python3 docs/thesis_figures.py [-o FOLDER] [NAME ...]     # all of them into docs/images/thesis

@@ -1,4 +1,4 @@
-"""How pytest runs all tests: in units, the longest first; Ctrl-C ends everything that tests start."""
+"""Runs all tests in units, the longest first; Ctrl-C ends all processes that tests start."""
 from __future__ import annotations
 
 import re
@@ -23,7 +23,7 @@ if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
 
 
 def unit(name: str) -> str:
-    """The unit of a test: tests of a file share a master and a node; pages need not share theirs."""
+    """The unit of a test: tests of a file share a master and a node; pages need not."""
     pages = PAGES.search(name)
     return pages.group() if pages else name.partition('::')[0]
 

@@ -122,5 +122,5 @@ def add_commands(commands: Any) -> None:
                        'sweethome3d and examines them: counts, areas, doors, rays, rooms reached',
                        'bench homes', 'bench homes --seeds 200')
     imported.add_argument('--seeds', metavar='N', type=checked(at_least(1)), default=0,
-                          help='examines so many homes of angen world home instead')
+                          help='examines this number of homes of angen world home instead')
     add_out(imported, 'the worlds')

@@ -64,7 +64,7 @@ def import_example(name: str, xml: bytes, folder: Path) -> Imported:
 
 
 def in_file(xml: bytes) -> dict[str, int]:
-    """What a home's file says there is of what; what has no size is not built."""
+    """The numbers of parts in a home's file; parts without a size are not built."""
     root = etree.fromstring(xml)
 
     def has_size(element: etree._Element) -> bool:
@@ -296,7 +296,7 @@ def examine_seed(seed: int, folder: Path) -> list[str]:
 
 
 def measure_seeds(count: int, folder: Path) -> list[dict[str, Any]]:
-    """A row for each of so many seeds that has something wrong, and one for all."""
+    """A row for each of these seeds that has an error, and one for all."""
     rows = []
     for seed in range(count):
         wrong = examine_seed(seed, folder)

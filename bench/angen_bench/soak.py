@@ -1,4 +1,4 @@
-"""angen bench soak: spawns and deletes everything again and again, and shows what remains."""
+"""angen bench soak: spawns and deletes everything again and again, and shows leaks."""
 from __future__ import annotations
 
 import gc
@@ -154,7 +154,7 @@ class Node:
         self._client = Client()
         self._client.join()
         self._subscribers: dict[str, Any] = {}
-        self._met: set[str] = set()  # kinds whose topics are subscribed to
+        self._known: set[str] = set()  # kinds whose topics are subscribed to
         call_spawn(self._client, 'anchor', ANCHOR, '', FAR)
         call_spawn(self._client, ROBOT, f'model://{ROBOT}', '', (0.5, 0.5, 0.01, 0.0, 0.0, 0.0))
         self._drive = self._client.publisher('/cmd_vel', Twist)
@@ -169,8 +169,8 @@ class Node:
 
     def spawn(self, thing: Thing, name: str) -> None:
         call_spawn(self._client, name, thing.what, thing.on, ON_ANCHOR if thing.on else FAR)
-        if thing.kind not in self._met:  # its topics have the same names the next time
-            self._met.add(thing.kind)
+        if thing.kind not in self._known:  # its topics have the same names the next time
+            self._known.add(thing.kind)
             self._subscribe()
 
     def delete(self, name: str) -> None:

@@ -1,4 +1,4 @@
-"""Mistakes that people make, and what is said of each: a line, an exit code, no traceback."""
+"""Mistakes that people make, and the answer to each: a line, an exit code, no traceback."""
 from __future__ import annotations
 
 import shlex

@@ -72,7 +72,7 @@ def test_the_world_says_how_warm_the_room_is():
 
 
 def flux_of_a_person(celsius: float) -> float:
-    """Of one who stands before the PIR, in air of that temperature."""
+    """For a person before the PIR, in air of that temperature."""
     w = angen.World.from_text(f'''<sdf version="1.6"><world name="w">
       <atmosphere type="adiabatic"><temperature>{celsius + 273.15}</temperature></atmosphere>
       <model name="floor"><static>true</static><link name="l"><collision name="c"><geometry><box>

@@ -1,4 +1,4 @@
-"""Limits on what a client may send: checked before time and memory are spent on it."""
+"""Limits of requests: checked before time and memory are spent on them."""
 import multiprocessing
 import resource
 import subprocess
@@ -63,7 +63,7 @@ def spend(text: str, queue) -> None:
     start = time.process_time()
     try:
         world.spawn(text)
-        answer = ' '.join(event[4] for event in world.events())  # what a tolerant model lacks
+        answer = ' '.join(event[4] for event in world.events())  # with the omissions of a model
     except Exception as error:
         answer = str(error)
     spent = time.process_time() - start

@@ -75,9 +75,9 @@ def test_he_is_found_behind_a_door(tmp_path: Path) -> None:
 def test_a_world_without_people_has_nobody_to_find(tmp_path: Path) -> None:
     done = seek(tmp_path, '--limit', '40', person=False)
     assert done.returncode == 1, done.stdout + done.stderr
-    assert done.stdout.startswith('nobody was found within 40 s; most probable is ')
+    assert done.stdout.startswith('no person was found within 40 s; most probable is ')
     assert 'collisions: 0' in done.stdout
-    assert done.stderr.splitlines()[-1] == 'angen: nobody was found within 40 s'
+    assert done.stderr.splitlines()[-1] == 'angen: no person was found within 40 s'
     opened = [e['event'] for e in events(tmp_path)
               if (e['source'], e['kind']) == ('kitchen0', 'door')]
     assert opened[:2] == ['opening', 'opened']  # it has looked there

@@ -1,4 +1,4 @@
-"""Surfaces whose temperature changes: a pyroelectric PIR's reports of them, and what heats them.
+"""Surfaces whose temperature changes: a pyroelectric PIR's reports of them, and their heating.
 
 The oracle is the filter's differential equation in continuous time, by Runge-Kutta in numpy; the
 simulator has it as a recursion at 100 Hz.

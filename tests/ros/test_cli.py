@@ -132,10 +132,10 @@ def test_what_an_accepted_command_waits_for(cli: Cli, angen: Angen, spawned: lis
     try:
         angen.call('/angen/step', Step, ticks=6000)
         assert cli.does('set', 'elevator', 'cli_lift', '1').endswith(
-            'Floor 1 comes when time goes on: the simulation is paused')
+            'Floor 1 is executed when the simulation is no longer paused')
     finally:
         angen.call('/gazebo/unpause_physics', Empty)
-    assert cli.does('set', 'elevator', 'cli_lift', '0').endswith('; Floor 0 comes next')
+    assert cli.does('set', 'elevator', 'cli_lift', '0').endswith('; Floor 0 is executed next')
     assert 'Floor0 to Floor1' in cli.fails('set', 'elevator', 'cli_lift', '2')
 
 

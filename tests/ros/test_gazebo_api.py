@@ -314,7 +314,7 @@ def test_physics_is_answered_as_it_was_set(gazebo: Gazebo) -> None:
 def test_the_update_rate_is_the_rate_of_time(gazebo: Gazebo) -> None:
     now = gazebo.call("get_physics_properties")
     fields = {"time_step": 0.001, "gravity": now.gravity, "ode_config": now.ode_config}
-    gazebo.call("set_physics_properties", max_update_rate=0.0, **fields)  # as fast as it goes
+    gazebo.call("set_physics_properties", max_update_rate=0.0, **fields)  # as fast as possible
     gazebo.unpause()
     start, wall = gazebo.call("get_world_properties").sim_time, time.monotonic()
     until(lambda: gazebo.call("get_world_properties").sim_time - start > 3 * (

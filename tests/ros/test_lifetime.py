@@ -1,4 +1,4 @@
-"""How the node begins and ends, and what it leaves behind."""
+"""The begin and the end of the node, and its remains."""
 
 from __future__ import annotations
 
@@ -116,9 +116,9 @@ def test_a_second_node_of_the_name_leaves_the_first_alone(tmp_path: Path) -> Non
     first = master.node(world, tmp_path / "log")
     replacing = None
     try:
-        refused = second()
-        _, said = refused.communicate(timeout=60)
-        assert refused.returncode == 1, said
+        rejected = second()
+        _, said = rejected.communicate(timeout=60)
+        assert rejected.returncode == 1, said
         line = said.splitlines()[-1]
         assert line.startswith("a node /angen runs already at http://")
         assert "_replace:=true" in line
@@ -128,7 +128,7 @@ def test_a_second_node_of_the_name_leaves_the_first_alone(tmp_path: Path) -> Non
         first = master.node(world, tmp_path / "log", replace="true")  # and it was replaced in turn
         assert replacing.wait(60) == 0
         killed = master.api.lookupNode("/test", "/angen")[2]
-        first.kill()  # it stays registered, but a node that is gone is in nobody's way
+        first.kill()  # it stays registered, but a dead node hinders no other
         first.wait()
         first = master.node(world, tmp_path / "again")
         until(lambda: master.api.lookupNode("/test", "/angen")[2] != killed, "it runs")

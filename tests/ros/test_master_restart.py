@@ -1,4 +1,4 @@
-"""The node when its master ends, or is started anew."""
+"""The node when its master ends, or is restarted."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ BALL = """<model name="ball"><pose>1 1 9 0 0 0</pose><link name="link">
 
 @pytest.fixture
 def master(tmp_path: Path) -> Iterator[Master]:
-    with watchdog():  # ends what a test that fails leaves
+    with watchdog():  # ends the processes that a failed test leaves
         started = Master(tmp_path)
         yield started
         if started.process.poll() is None:
@@ -56,7 +56,7 @@ def test_it_ends_with_its_world_saved(master: Master, tmp_path: Path) -> None:
         assert str(saved) in text
         assert saved.stat().st_mode & 0o777 == 0o600
         assert [path.name for path in tmp_path.glob("saved*")] == ["saved.world"]
-        end(anew.node(saved, tmp_path / "second"))  # a node goes on with what was saved
+        end(anew.node(saved, tmp_path / "second"))  # a node continues the saved world
         height = float(saved.read_text().split('name="ball"')[1].split("<pose>")[1].split()[2])
         assert height == pytest.approx(0.1, abs=0.01)  # it fell from 9 m in the meantime
     finally:

@@ -30,7 +30,7 @@ class Piece:
 
 def legs(x: float, y: float, side: float, top: float, mass: float,
          color: Color) -> tuple[Part, ...]:
-    """Returns four square legs whose outer corners stand at (+-x, +-y)."""
+    """Returns four square legs whose outer corners are at (+-x, +-y)."""
     half = side / 2
     return tuple(
         spanned(f"leg_{name}", (sx * (x - half) - half, sy * (y - half) - half, 0.0),
@@ -252,7 +252,7 @@ def _stand(x: float, y: float = 0.0) -> Place:
     return Place("stand", x, y, 0.0, pi)
 
 
-# piece: what it is, and the places at which one uses it
+# piece: its thing, and the places at which people use it
 THINGS: dict[str, tuple[str, tuple[Place, ...]]] = {
     "armchair": ("armchair", (Place("sit", 0.1, 0.0, 0.45, 0.0),)),
     "bathtub": ("bathtub", (Place("lie", 0.0, 0.0, 0.16, pi / 2), _stand(0.75))),

@@ -1,6 +1,6 @@
-"""The flat as numbers: rooms, openings, doors, and what stands where. Metres and radians.
+"""The flat as numbers: rooms, openings, doors, and the places of things. Meters and radians.
 
-Every pose holds for floor 0; the same things stand STOREY higher on each further floor.
+Every pose is for floor 0; the same things are STOREY higher on each further floor.
 """
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ ROOMS = {
     "workroom": (6.8, 4.0, 10.0, 9.6),
     "bathroom": (4.0, 6.0, 6.8, 9.6),
 }
-# what each is used for
+# the use of each
 USES = {"entrance": "hall", "kitchen": "kitchen", "livingroom": "living", "bedroom": "bedroom",
         "workroom": "work", "bathroom": "bathroom", "landing": "landing"}
 LANDING = (-2.7, 3.3, 0.0, 6.7)
@@ -104,7 +104,7 @@ SASHES = {
     "workroom": Sash("wall_east", "window_workroom", 8.4, 0.8, 0.9, 2.1),
 }
 
-# A door's frame stands on the hinge at floor level: x along the shut leaf, it opens to -y.
+# A door's frame is at the hinge at floor level: x along the shut leaf, it opens to -y.
 # hinge x, y, yaw
 DOORS = {
     "entrance": (0.06, 4.505, pi / 2),
@@ -244,7 +244,7 @@ RECEIVERS = {
     "workroom": (9.95, 5.5, pi),
     "bathroom": (6.75, 7.5, pi),
 }
-# what carries a transmitter: x, y, z of its antenna in its own frame
+# things with a transmitter: x, y, z of its antenna in the frame of the thing
 TRANSMITTERS = {"turtlebot": (0.0, 0.0, 0.45), "person": (0.26, 0.0, 1.1)}
 RAISED = {"chair", "kitchen_table", "table", "desk"}     # dynamic pieces start 1 mm up
 

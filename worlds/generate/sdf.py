@@ -117,7 +117,7 @@ def add_home(parent: etree._Element, tag: str, text: object = None, **attributes
 
 @dataclass(frozen=True)
 class Place:
-    """Where one stands, sits or lies, in the model's frame: feet, seat or middle; m, rad."""
+    """The position of a user in the model's frame: feet, seat or middle; m, rad."""
     posture: str
     x: float
     y: float
@@ -126,7 +126,7 @@ class Place:
 
 
 def add_thing(model: etree._Element, thing: str, *places: Place) -> None:
-    """Says what a model is, and where one uses it."""
+    """Marks a model as a thing, with the places at which people use it."""
     add_home(model, "thing", thing)
     for place in places:
         add_home(model, "place", numbers(place.x, place.y, place.z, round(place.yaw, 5)),

@@ -59,7 +59,7 @@ def write_weighing_table(models: Path) -> None:
     add_plugin(sensor, "load_cells", "libload_cells.so", tare=TABLE_MASS, noise_stddev=CELL_NOISE)
     add_thing(model, "table")
     write_model(root, models, "Weighing table",
-                "A side table of 6 kg on four load cells: the weight of what stands on it, and "
+                "A side table of 6 kg on four load cells: the weight of the things on it, and "
                 "where. Served by libload_cells.so.")
 
 

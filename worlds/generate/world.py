@@ -65,13 +65,13 @@ def include(world: etree._Element, model: str, name: str, pose: Pose) -> etree._
 
 
 def door_pose(room: str, floor: int) -> Pose:
-    """Returns where a room's door stands on a floor."""
+    """Returns the pose of a room's door on a floor."""
     x, y, yaw = plan.DOORS[room]
     return (x, y, floor * plan.STOREY, 0.0, 0.0, yaw)
 
 
 def switch_pose(room: str, floor: int) -> Pose:
-    """Returns where the optical switch of a room's door stands."""
+    """Returns the pose of the optical switch of a room's door."""
     x, y, yaw = plan.DOORS[room]
     u, v, z = plan.SWITCH_IN_DOOR
     return (x + u * cos(yaw) - v * sin(yaw), y + u * sin(yaw) + v * cos(yaw),
@@ -200,7 +200,7 @@ def add_person(world: etree._Element) -> etree._Element:
 
 
 def add_state(world: etree._Element, name: str, doors: Sequence[str] = plan.OPEN_DOORS) -> None:
-    """Appends the doors that stand open at the start."""
+    """Appends the doors that are open at the start."""
     state = add(world, "state", world_name=name)
     for door in doors:
         model = add(state, "model", name=door)
@@ -216,7 +216,7 @@ def comment(world: etree._Element, text: str) -> None:
 
 
 def write_angen(folder: Path) -> None:
-    """Writes angen.world: two storeys with all that stands in them."""
+    """Writes angen.world: two storeys with all their contents."""
     root, world = new_world("angen")
     add_world_plugins(world)
     add_home_site(world)

@@ -46,7 +46,7 @@ def test_a_repeated_request_is_one_command() -> None:
     assert door.request(OPEN) == ''
     door.take(State(mode=State.OPEN))
     assert door.request(OPEN) == ''
-    door.take(State(mode=State.CLOSING))  # somebody else's command
+    door.take(State(mode=State.CLOSING))  # another client's command
     assert door.request(OPEN) == 'Open'
 
 

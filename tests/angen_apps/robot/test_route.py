@@ -56,8 +56,8 @@ def test_another_floor_is_reached_by_the_elevator(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize('point, part', [
-    ('{name: far, floor: 0, at: [9, 9]}', 'cannot stand at 9, 9'),
-    ('{name: far, floor: 0, at: [2.0, 0.1]}', 'cannot stand'),
+    ('{name: far, floor: 0, at: [9, 9]}', 'cannot be at 9, 9'),
+    ('{name: far, floor: 0, at: [2.0, 0.1]}', 'cannot be at'),
     ('{name: far, floor: 3, at: [1, 1]}', 'no floor 3; known are 0'),
     ('{name: far, floor: 0, at: [1.8, 1.0]}', 'within the swing of door d'),
 ])

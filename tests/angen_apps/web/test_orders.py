@@ -1,4 +1,4 @@
-"""Orders that are malformed are refused before anything is sent."""
+"""Malformed orders are rejected before anything is sent."""
 from __future__ import annotations
 
 from typing import Any

@@ -80,7 +80,7 @@ def test_a_device_without_space_is_named(tmp_path: Path) -> None:
 def test_the_whole_lines_of_a_log_stay(tmp_path: Path) -> None:
     path = tmp_path / 'events.csv'
     path.write_text('of the last run\n')
-    with limited(10_000), pytest.raises(Failure, match=f'before is in {path}.part') as failed:
+    with limited(10_000), pytest.raises(Failure, match=f'before are in {path}.part') as failed:
         with writing(path, log=True) as file:
             for i in range(10_000):
                 file.write(f'{i:06d},something happened\n')

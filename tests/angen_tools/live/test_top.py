@@ -27,7 +27,7 @@ def test_the_title_has_the_whole_and_what_is_left_of_it() -> None:
     # 200 µs a simulated second, 2 simulated seconds a second: 0.04 % of a processor
     assert 'at 0.0 % of a processor' in title and title.endswith('network 15, the rest 5')
     assert 'at 40.0 %' in top.title(cost(process=200_000.0))
-    assert 'time stands still' in top.title(cost(simulated=0.0))
+    assert 'has not advanced for' in top.title(cost(simulated=0.0))
 
 
 def test_json_has_each_part_and_instance() -> None:

@@ -1,4 +1,4 @@
-"""The output of angen watch, and what is missing in it."""
+"""The output of angen watch, and its missing rows."""
 from __future__ import annotations
 
 import subprocess

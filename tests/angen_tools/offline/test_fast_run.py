@@ -106,8 +106,8 @@ def test_a_full_disk_leaves_whole_lines(world: Path, tmp_path: Path) -> None:
         resource.RLIMIT_FSIZE, (3000, 3000)))
     assert (done.returncode, done.stdout) == (1, '')
     line, = done.stderr.splitlines()
-    assert line == (f'angen: {tmp_path}/events.csv: cannot be written: File too large; what was '
-                    f'written before is in {tmp_path}/events.csv.part')
+    assert line == (f'angen: {tmp_path}/events.csv: cannot be written: File too large; the lines '
+                    f'written before are in {tmp_path}/events.csv.part')
     assert [path.name for path in tmp_path.glob('events*')] == ['events.csv.part']
     with (tmp_path / 'events.csv.part').open() as file:
         assert {len(row) for row in csv.reader(file)} == {8}

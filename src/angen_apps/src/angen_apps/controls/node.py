@@ -27,7 +27,7 @@ SCENE_LIMIT = 10.0  # s that the scene takes to come
 STATE_LIMIT = 1.0  # s that a latched state takes to come
 COLORS = {'lamp': (1.0, 0.8, 0.2), 'door': (0.06, 0.46, 0.43)}
 OTHER = (0.3, 0.5, 0.9)
-QUIET = 0.3  # s without spawns, and the markers are made anew
+QUIET = 0.3  # s without spawns, after which the markers are made again
 
 
 class Controls:
@@ -47,7 +47,7 @@ class Controls:
         self._is_stale = True
 
     def spin(self) -> None:
-        """Makes markers anew after models have come or gone."""
+        """Makes the markers again after models were spawned or deleted."""
         while not rospy.is_shutdown():
             if self._is_stale:
                 self._is_stale = False
@@ -68,15 +68,15 @@ class Controls:
         """A marker for each device that takes commands."""
         entities = {f'{e.kind}/{e.name}': e for e in self._list('').entities}
         self._frames = self._moving_frames()
-        wanted = {key: e for key, e in entities.items()
-                  if e.kind in kinds('device') and offers(kinds()[e.kind], self._floors(e))}
-        for key in self._shown.keys() - wanted.keys():
+        offering = {key: e for key, e in entities.items()
+                    if e.kind in kinds('device') and offers(kinds()[e.kind], self._floors(e))}
+        for key in self._shown.keys() - offering.keys():
             self._server.erase(key)
         self._menus.clear()
-        for key, entity in wanted.items():
+        for key, entity in offering.items():
             self._server.insert(self._marker(key, entity), self._on_click)
             self._menu(entity).apply(self._server, key)
-        self._shown = wanted
+        self._shown = offering
         self._server.applyChanges()
 
     def _moving_frames(self) -> dict[str, str]:
@@ -130,7 +130,7 @@ class Controls:
             return
         verbs = pair(kinds()[entity.kind])
         if verbs is None:
-            rospy.loginfo('%s %s: its menu, by the right button, has what it does', entity.kind,
+            rospy.loginfo('%s %s: the right button opens the menu of its commands', entity.kind,
                           entity.name)
             return
         verb = toggled(verbs, self._state(entity))

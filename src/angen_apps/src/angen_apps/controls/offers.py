@@ -1,4 +1,4 @@
-"""What a menu and a click offer, from what a kind says of its verbs."""
+"""The entries of a menu and the command of a click, by the verbs of a kind."""
 from __future__ import annotations
 
 from dataclasses import dataclass

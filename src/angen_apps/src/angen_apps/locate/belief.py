@@ -15,14 +15,14 @@ STEP = 0.5  # s between two updates
 class Model:
     """What is assumed of people and sensors; all are shares of 1, but rates."""
 
-    leaves: float = 0.15          # 1/s: how often somebody leaves a room by an open way
+    leaves: float = 0.15          # 1/s: how often a person leaves a room by an open way
     through_shut: float = 0.001   # of that, through a shut door: it may have opened since
-    seen: float = 0.5             # a PIR fires in a step while somebody is in its room
+    seen: float = 0.5             # a PIR fires in a step while a person is in its room
     stray: float = 0.2            # and while no tag is: through a doorway, or by a stranger
-    explains: float = 0.95        # what fires in the room of another tag is because of that one
+    explains: float = 0.95        # the other tag in a room explains a sensor that fires there
     weight_of_motion: float = 0.5   # as an exponent: steps in a row say much the same
-    weight_of_silence: float = 0.2  # somebody who sits still stays silent
-    pressed: float = 0.3          # a mat is pressed while somebody is in its room
+    weight_of_silence: float = 0.2  # no PIR detects a person who sits still
+    pressed: float = 0.3          # a mat is pressed while a person is in its room
     press_stray: float = 0.002
     read: float = 0.9             # a tag that is read is in the reader's room, or is seen
     #                               through a door
@@ -69,7 +69,7 @@ class Belief:
         self._places: dict[str, tuple[int, np.ndarray]] = {}  # of the last distance: room, x y
 
     def step(self, evidence: Evidence, seconds: float = STEP) -> None:
-        """Takes what was said during so many seconds."""
+        """Takes the evidence of the last `seconds`."""
         for tags in evidence.reads.values():
             for tag in tags:
                 self.chances.setdefault(tag, np.full(len(self.site.rooms),
@@ -114,7 +114,7 @@ class Belief:
         return share * (1.0 - stay)[:, None] + np.diag(stay)
 
     def _explained(self, others: list[np.ndarray], stray: float) -> np.ndarray:
-        """The chance that what a sensor in each room says is not because of this tag."""
+        """The chance that a sensor in each room fires for another reason than this tag."""
         unexplained = np.full(len(self.site.rooms), 1.0 - stray)
         for other in others:
             unexplained *= 1.0 - self.model.explains * other
@@ -139,7 +139,7 @@ class Belief:
 
     def _of_rooms(self, fired: Mapping[int, bool], explained: np.ndarray, rate: float,
                   weight_of_motion: float, weight_of_silence: float) -> np.ndarray:
-        """Likelihoods of what fired in rooms and what was silent, with these exponents."""
+        """Likelihoods of rooms whose sensors fired or did not, with these exponents."""
         likely = np.ones(len(self.site.rooms))
         for room, fires in fired.items():
             without = explained[room]

@@ -21,18 +21,18 @@ SENSORS = ('pir', 'rfid', 'pressure')
 KINDS = (*SENSORS, 'door')
 HEAD = ('TAG', 'ROOM', 'CHANCE', 'X', 'Y', 'Z')
 REFRESH = 0.5    # s of wall time between two pictures
-SILENCE = 30.0   # s of wall time without a message after which the simulator is taken for ended
+SILENCE = 30.0   # s of wall time without a message after which the simulator counts as ended
 
 
 class Locator:
-    """Listens to what locates, and keeps a belief; time goes by the messages' stamps."""
+    """Subscribes to sensors and keeps a belief; its time is that of the messages' stamps."""
 
     def __init__(self, client: Client) -> None:
         self.client = client
         entities = client.entities()
         self.site = self._site(entities)
         if not self.site.of_kind('rfid'):
-            raise Failure('there is no RFID reader in a room: nobody can be told from another')
+            raise Failure('no room has an RFID reader: people cannot be told apart')
         self.belief = Belief(self.site)
         self.time = 0.0
         self._evidence = Evidence()
@@ -115,7 +115,7 @@ def _cells(answer: Answer) -> list[str]:
 
 def locate_for(seconds: float, report: Callable[[float], None]
                ) -> tuple[list[Row], Site, list[Answer]]:
-    """Locates for so many simulated seconds; answers beside the truth, about once a second."""
+    """Locates for `seconds` of simulated time; answers beside the truth, about once a second."""
     locator = Locator(Client())
     carriers = locator.carriers()
     rows: list[Row] = []
@@ -124,7 +124,7 @@ def locate_for(seconds: float, report: Callable[[float], None]
         if locator.receive(REFRESH):
             heard = time.monotonic()
         elif time.monotonic() > heard + SILENCE:
-            raise Failure('the sensors have fallen silent; is the simulation paused?')
+            raise Failure('no readings received; is the simulation paused?')
         if start < 0.0 < locator.time:
             start = locator.time
         if locator.time >= compared + 1.0:
@@ -144,7 +144,7 @@ def answers_table(answers: list[Answer], json: bool) -> RenderableType:
 
 
 def watch() -> None:
-    """Draws the table anew until q or Ctrl-C."""
+    """Draws the table again and again until q or Ctrl-C."""
     from angen_tools.common.terminal import LiveTable
     if not sys.stdin.isatty() or not sys.stdout.isatty():
         raise Failure('a live table needs a terminal; use --for TIME for one table')
@@ -152,7 +152,7 @@ def watch() -> None:
     with LiveTable() as screen, suppress(KeyboardInterrupt):
         while not screen.closed():
             answers = locator.belief.answers()
-            title = (f'{locator.time:.1f} s simulated, {len(answers)} tags read so far, '
+            title = (f'{locator.time:.1f} s simulated, {len(answers)} tags read, '
                      f'{sum(bool(a.room) for a in answers)} located')
             screen.draw(title, HEAD, list(map(_cells, answers)), right=HEAD[2:])
             locator.receive(REFRESH)

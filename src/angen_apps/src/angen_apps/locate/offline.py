@@ -31,7 +31,7 @@ def _thing(kind: str, name: str, pose: Any) -> Thing:
 
 def run(path: str, seconds: float, seed: int, drive: Callable[[Any], None] | None = None
         ) -> tuple[list[Row], Site, list[Answer]]:
-    """Locates in a world file for so many simulated seconds; `drive` is called ten times a second.
+    """Locates in a world file for `seconds` of simulated time; calls `drive` ten times a second.
 
     Failure where the world does not load, has no rooms or no reader.
     """
@@ -39,7 +39,7 @@ def run(path: str, seconds: float, seed: int, drive: Callable[[Any], None] | Non
     world.run(SAMPLE)  # until all have reported
     site = site_of(world)
     if not site.of_kind('rfid'):
-        raise Failure('the world has no RFID reader in a room: nobody can be told from another')
+        raise Failure('no room of the world has an RFID reader: people cannot be told apart')
     belief, rows = Belief(site), []
     carriers = _carriers(world)
     with Progress('locate') as progress:
@@ -58,7 +58,7 @@ def run(path: str, seconds: float, seed: int, drive: Callable[[Any], None] | Non
 
 
 def _take(world: Any, evidence: Evidence) -> None:
-    """Adds what sensors and doors say now, as their topics would."""
+    """Adds the current readings and states, as their topics would."""
     for name in world.sensors('pir'):
         evidence.add_motion(name, bool(world.sensor('pir', name)['motion']))
     for name in world.sensors('rfid'):

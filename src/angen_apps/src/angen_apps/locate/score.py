@@ -84,7 +84,7 @@ def write_csv(path: Path, rows: Iterable[Row]) -> None:
 
 
 def draw(path: Path, rows: Sequence[Row], site: Site) -> None:
-    """Rooms over time, the truth and what was taken for it, a part for each tag."""
+    """Rooms over time, true and estimated, a part for each tag."""
     tags = sorted({row.answer.tag for row in rows})
     seen = {row.true_room for row in rows} | {row.answer.room for row in rows}
     names = ['unknown'] + [room.name for room in site.rooms if room.name in seen]

@@ -1,4 +1,4 @@
-"""Rooms, what joins them, and which sensor is in which: what locating knows of a home."""
+"""Knowledge of a home for locating: rooms, the openings between them, and their sensors."""
 from __future__ import annotations
 
 import math

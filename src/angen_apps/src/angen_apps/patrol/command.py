@@ -159,7 +159,7 @@ class Bag:
         why = f'the disk has {free // 1_000_000} MB left; ' if free < FEW else ''
         why += lines[-1] if lines else f'rosbag ended with {self._process.returncode}'
         active = self._path.with_name(self._path.name + '.active')
-        kept = (f'; rosbag reindex makes {active} readable, which has what was recorded before'
+        kept = (f'; rosbag reindex makes {active} readable, which has the messages before that'
                 if active.exists() else '')
         raise Failure(f'{self._path}: cannot be written: {why}{kept}')
 

@@ -43,7 +43,7 @@ class Scene:
 
     start: Start
     maps: dict[int, GridMap]  # of floors, with doors open
-    landmarks: dict[int, GridMap]  # what a laser may hit: leaves both open and shut
+    landmarks: dict[int, GridMap]  # all that a laser may hit: leaves both open and shut
     doors: dict[int, list[Door]]
     beams: dict[str, float]  # of a switch: rad of its door from shut at which its beam is free
     body: np.ndarray  # (n, 3) points of the robot's surface, m

@@ -52,7 +52,7 @@ class Router:
                 raise self._route.wrong(goal, f'there is no floor {goal.floor}; known are {known}')
             if not self._planners[goal.floor].is_free(goal.at):
                 raise self._route.wrong(
-                    goal, f'the robot cannot stand at {goal.at[0]:g}, {goal.at[1]:g} on floor '
+                    goal, f'the robot cannot be at {goal.at[0]:g}, {goal.at[1]:g} on floor '
                     f'{goal.floor}: no floor there, or something nearer than '
                     f'{self._route.clearance:g} m')
             if goal.floor != floor:

@@ -28,7 +28,7 @@ HOME_SHARE = 0.05  # of the progress: the survey
 
 def seek(route_file: Path | None, world: Path | None, seed: int, ambient: bool, limit: float,
          out: Path, json: bool) -> int:
-    """Searches once; 0, or 1 where nobody was found or the robot touched something."""
+    """Searches once; 0, or 1 where it found no person or the robot touched something."""
     route, world = prepare(route_file, world, out)
     with Progress('seek', 0.1) as progress:
         home, route = survey(world, route, out)
@@ -48,14 +48,14 @@ def seek(route_file: Path | None, world: Path | None, seed: int, ambient: bool, 
         print(f'wrote {out}/search.csv, track.csv, person.csv, goals.csv, events.csv, search.png, '
               'seek.world')
     if outcome.found is None:
-        print(f'angen: nobody was found within {outcome.figures.time_s:.0f} s', file=sys.stderr)
+        print(f'angen: no person was found within {outcome.figures.time_s:.0f} s', file=sys.stderr)
     return verdict(outcome.figures)
 
 
 def seek_seeds(route_file: Path | None, world: Path | None, seeds: range, limit: float, out: Path,
                json: bool) -> int:
     """Searches with each seed, with and without ambient sensors, on all cores; a table and a
-    figure. 0, or 1 where one did not find anybody or touched something."""
+    figure. 0, or 1 where one found no person or touched something."""
     route, world = prepare(route_file, world, out)
     # By processes that end: this one, which they are made from, has no world and no threads.
     with multiprocessing.get_context('fork').Pool(1, _begin, (os.getpid(),)) as pool:
@@ -84,7 +84,7 @@ def seek_seeds(route_file: Path | None, world: Path | None, seeds: range, limit:
 def _line(figures: Figures) -> str:
     how = 'with ambient sensors' if figures.ambient else 'without'
     return (f'seed {figures.seed} {how}: {figures.time_s:.0f} s, '
-            + (f'{figures.room}' if figures.found else 'nobody found'))
+            + (f'{figures.room}' if figures.found else 'no person found'))
 
 
 def _one(job: tuple[Path, Route, Home, int, bool, float, Path]) -> Figures:

@@ -20,8 +20,8 @@ from angen_tools.common.home import Home as DescribedHome
 from angen_tools.world import sdf
 
 CELL = 0.5  # m
-BODY = 0.3  # m: what a person keeps from everything
-TALL = 1.8  # m: what a person can meet
+BODY = 0.3  # m: a person's distance from everything
+TALL = 1.8  # m: obstacles of a person are below
 PERSON_HEIGHTS = (0.4, 1.0, 1.5)  # m: a person is in view where one of these is
 LASER = 0.44  # m
 SEES = 4.0  # m: how far a look from a viewpoint counts
@@ -36,7 +36,7 @@ class Pir:
     name: str
     sees: np.ndarray  # (n,) bool
     through_doors: np.ndarray
-    memory: float  # s: a PIR that nods compares with what it saw so long ago
+    memory: float  # s: age of the scan with which a nodding PIR compares
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class Home:
     edge_door: list[str]  # the door between them, or nothing
     pirs: list[Pir]
     viewpoints: np.ndarray  # (k,) cells
-    views: np.ndarray  # (k, n) bool: what a viewpoint sees
+    views: np.ndarray  # (k, n) bool: cells in view of a viewpoint
     by_lift: np.ndarray  # (n,) bool
 
     def cell_at(self, x: float, y: float, floor: int) -> int:
@@ -90,7 +90,7 @@ class Home:
 
 def make_home(route: Route, path: Path, entities: list[Entity],
               offset: tuple[float, float, float]) -> Home:
-    """Surveys the building of a world's file, which has nobody in it but the robot."""
+    """Surveys the building of a world's file, in which the robot is alone."""
     start = find_start(route, entities, offset)
     world, shut = load_world(str(path)), load_world(str(path))
     survey = Survey(world, shut, entities, None)
@@ -134,7 +134,7 @@ class Rooms:
 
 
 def _largest(mask: np.ndarray) -> np.ndarray:
-    """The largest connected part of a mask: the rest is niches that nobody can reach."""
+    """The largest connected part of a mask: the rest is niches that are out of reach."""
     parts, count = label(mask, np.ones((3, 3)))
     return np.asarray(parts == 1 + np.bincount(parts.ravel())[1:].argmax()) if count else mask
 
@@ -217,7 +217,7 @@ class _Sight:
 
 def find_viewpoints(at: np.ndarray, floor: np.ndarray, planners: dict[int, Planner],
                     doors: dict[int, list[Door]], route: Route) -> np.ndarray:
-    """Cells APART m from each other where the robot can stand and no leaf swings."""
+    """Cells APART m from each other that are free for the robot and where no leaf swings."""
     found: list[int] = []
     for i, (place, number) in enumerate(zip(at, floor)):
         point = (float(place[0]), float(place[1]))

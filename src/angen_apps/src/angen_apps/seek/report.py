@@ -33,12 +33,12 @@ def write_outcome(outcome: Outcome, home: Home, out: Path) -> None:
 
 
 def summary(outcome: Outcome, home: Home) -> str:
-    """What happened in one search."""
+    """The events of one search."""
     figures, found = outcome.figures, outcome.found
     if found is None:
         rooms = home.room_sums(outcome.beliefs[-1][1])
         best = max(rooms, key=lambda room: rooms[room])
-        first = (f'nobody was found within {figures.time_s:.0f} s; most probable is {best} with '
+        first = (f'no person was found within {figures.time_s:.0f} s; most probable is {best} with '
                  f'{100 * rooms[best]:.0f} %')
     else:
         first = (f'found after {found.time:.1f} s in {found.room}, at {found.x:.2f}, {found.y:.2f}'
@@ -54,7 +54,7 @@ def summary(outcome: Outcome, home: Home) -> str:
 
 
 def verdict(figures: Figures) -> int:
-    """0, or 1 where nobody was found or the robot touched something."""
+    """0, or 1 where no person was found or the robot touched something."""
     return 0 if figures.found and not figures.collisions else 1
 
 

@@ -61,7 +61,7 @@ def plan_walk(home: Home, route: Route, seed: int, seconds: float) -> Itinerary:
                 for floor, grid in home.walkable.items()}
     places = [i for i in range(len(home.at)) if _can_stay(home, i, route)]
     if not places:
-        raise Failure('the building has no place for a person to stand')
+        raise Failure('the building has no free place for a person')
     here = _choose(home, places, chance, None, route)
     (x, y), floor = home.point(here), int(home.floor[here])
     waypoints, gates = [(0.0, x, y)], [_stay(home, here, chance)]

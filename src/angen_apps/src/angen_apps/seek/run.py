@@ -22,7 +22,7 @@ from angen_apps.seek.simulation import Simulation
 from angen_tools.common.files import write_text
 from angen_tools.world import sdf
 
-NOBODY = ''  # the room of somebody who is not there
+NO_PERSON = ''  # the name and the room of a person in a world without people
 
 
 @dataclass(frozen=True)
@@ -64,8 +64,8 @@ def write_world(world: Path, route: Route, home: Home | None, seed: int, limit: 
                 ) -> str:
     """Writes the world of a search; the name of the person in it, or nothing.
 
-    The first person of the world walks by the seed; without `home` nobody is there, and the robot
-    stands at its place.
+    The first person of the world walks by the seed; without `home` there are no people, and the
+    robot is at its place in the file.
     """
     root: etree._Element = sdf.read(world)
     people = remove_actors(root)
@@ -74,7 +74,7 @@ def write_world(world: Path, route: Route, home: Home | None, seed: int, limit: 
         if people:
             add_actor(root, people[0], plan_walk(home, route, seed, LEAD + limit), home)
     write_text(to, sdf.text(root))
-    return people[0] if people and home is not None else NOBODY
+    return people[0] if people and home is not None else NO_PERSON
 
 
 def search(world: Path, route: Route, home: Home, seed: int, ambient: bool, limit: float,
@@ -114,7 +114,7 @@ def judge(home: Home, seed: int, ambient: bool, found: Found | None,
     """The figures of a search; the truth is used only here."""
     line = np.array(track.rows)[:, 1:3]
     distance = float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum())
-    error, true_room = math.nan, NOBODY
+    error, true_room = math.nan, NO_PERSON
     if truth is not None:
         floor = home.described.storey_at(truth[2])
         true_room = home.room_at(truth[0], truth[1], floor)

@@ -73,7 +73,7 @@ class Simulation:
         self.order(kind, name, text)
 
     def order(self, kind: str, name: str, text: str) -> None:
-        """Commands a device for somebody else than the robot."""
+        """Commands a device, but not for the robot."""
         with simulator():
             self.world.command(kind, name, text)
 

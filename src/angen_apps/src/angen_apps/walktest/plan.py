@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any, Iterator, Mapping
 
 TRANSIT = 1.0   # m/s, between probes
-BLIND = 0.5     # m: no one stands nearer to the detector
+BLIND = 0.5     # m: no probe is nearer to the detector
 
 
 @dataclass(frozen=True)

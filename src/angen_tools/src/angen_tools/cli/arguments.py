@@ -1,5 +1,5 @@
-"""Values of the command line: each function returns what a word means, or ValueError says what is
-wrong and what would be right.
+"""Values of the command line: each function returns the meaning of a word, or a ValueError with the
+error and what would be right.
 """
 from __future__ import annotations
 

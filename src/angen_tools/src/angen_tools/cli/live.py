@@ -108,7 +108,7 @@ def add_spawn(commands: Any) -> None:
     add_name(sitter)
     complete.completed_by(sitter.add_argument(
         '--on', metavar='MODEL', required=True,
-        help='what has a seat: a chair, a sofa, an armchair'), complete.names_of('model'))
+        help='a model with a seat: a chair, a sofa, an armchair'), complete.names_of('model'))
     add_json(sitter)
 
 
@@ -170,7 +170,7 @@ def add_delete(commands: Any) -> None:
 
 
 def add_list(commands: Any) -> None:
-    lists = command(commands, 'list', run_list, 'lists what is in the world',
+    lists = command(commands, 'list', run_list, 'lists the contents of the world',
                     'list --kind door', 'list --json')
     complete.completed_by(
         lists.add_argument('--kind', metavar='KIND', default='',
@@ -237,8 +237,8 @@ def add_watch(commands: Any) -> None:
     watch.add_argument('--room', metavar='WORD', default='',
                        help='only those with this word in the name of their room, or '
                        'in their own')
-    watch.add_argument('--active', action='store_true', help='leaves out what detects nothing '
-                       'and, where a kind does not detect, what has not changed for 5 s')
+    watch.add_argument('--active', action='store_true', help='only sensors that detect something '
+                       'and, of kinds that do not detect, those that changed within 5 s')
     watch.add_argument('--once', action='store_true',
                        help="prints one table, after each sensor's first reading; ends with 1 "
                        'if one is missing')
@@ -247,7 +247,7 @@ def add_watch(commands: Any) -> None:
 
 def add_top(commands: Any) -> None:
     top = command(commands, 'top', run_top,
-                  'shows live what each device and sensor costs; space turns the page, q quits',
+                  'shows the costs of each device and sensor, live; space turns the page, q quits',
                   'top', 'top --once')
     top.add_argument('--once', action='store_true', help='prints one table')
     top.add_argument('--json', action='store_true', help='prints one table as JSON')

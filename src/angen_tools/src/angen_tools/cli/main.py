@@ -46,7 +46,7 @@ def make_parser() -> Parser:
                 applications.add_commands):
         add(commands)
     completion = command(commands, 'completion', run_completion,
-                         'prints what makes a shell complete angen',
+                         'prints the script by which a shell completes angen',
                          'completion bash >> ~/.bash_completion')
     completion.add_argument('shell', choices=['bash'])
     return parser
@@ -66,7 +66,7 @@ def run(arguments: Sequence[str]) -> int:
         parser.error(f"'{arguments[1]}' is not a kind; did you mean {meant}?")
     try:
         args = parser.parse_args(straightened(arguments))
-        if getattr(args, 'allow_paths', False):  # also for what this process starts
+        if getattr(args, 'allow_paths', False):  # also for the processes that this one starts
             os.environ['ANGEN_ALLOW_PATHS'] = 'true'
         code: int = args.run(args)
         sys.stdout.flush()
@@ -90,7 +90,7 @@ def _has_other_bytes(word: str) -> bool:
 
 
 def stop(number: int, _: Any) -> NoReturn:
-    """At a signal: what was started is ended on the way out."""
+    """At a signal: started processes are ended on the way out."""
     sys.exit(128 + number)  # a shell's exit code of a command that a signal ended
 
 

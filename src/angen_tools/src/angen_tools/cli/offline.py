@@ -96,7 +96,7 @@ def add_plugins(commands: Any) -> None:
 def add_checks(commands: Any) -> None:
     """angen check, angen home, angen luxcheck."""
     check = command(commands, 'check', run_check,
-                    'reports what is wrong with files of worlds, models and robots; needs no '
+                    'reports errors in files of worlds, models and robots; needs no '
                     'simulator', 'check worlds/angen.world',
                     'check my_models/shelf robot.urdf model://bath_door0')
     check.add_argument('paths', metavar='PATH', nargs='+', help='a world, a model (SDF, URDF, or '
@@ -104,8 +104,8 @@ def add_checks(commands: Any) -> None:
     add_allow_paths(check)
     add_json(check)
     home = command(commands, 'home', run_home,
-                   'prints the rooms of a world, its doors and what is in the rooms, and lists '
-                   'what is missing or wrong; needs no simulator', 'home worlds/angen.world',
+                   'prints the rooms of a world, its doors and the contents of the rooms, and '
+                   'lists missing and wrong parts; needs no simulator', 'home worlds/angen.world',
                    'home worlds/angen.world --json')
     home.add_argument('world', metavar='FILE.world', help='the SDF file of the world')
     add_json(home)
@@ -174,7 +174,7 @@ def add_replay(commands: Any) -> None:
                      'second; needs no simulator', 'replay bug.log', 'replay bug.log --until 41.5')
     parser.add_argument('log', metavar='FILE', help='the log of ./angen run record:=FILE')
     ways = parser.add_mutually_exclusive_group()
-    ways.add_argument('--until', metavar='SECONDS', type=checked(moment), help='goes on live in '
+    ways.add_argument('--until', metavar='SECONDS', type=checked(moment), help='continues live in '
                       'ROS from that simulated time')
     ways.add_argument('--every-tick', action='store_true',
                       help='leaps over nothing; the fingerprints are the same')

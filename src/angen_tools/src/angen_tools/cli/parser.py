@@ -8,11 +8,11 @@ from typing import Any, Callable, NoReturn
 from angen_tools.cli.arguments import at_least, checked
 from angen_tools.common.nearest import did_you_mean
 
-Run = Callable[[argparse.Namespace], int]  # does what the words say; returns the exit code
+Run = Callable[[argparse.Namespace], int]  # executes the command; returns the exit code
 
 
 class Parser(argparse.ArgumentParser):
-    """Reports in one line what is wrong with the words."""
+    """Reports an error in the words in one line."""
 
     kinds: Any = None  # the subcommands to which other packages add
 

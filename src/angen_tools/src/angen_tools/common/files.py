@@ -1,5 +1,5 @@
 """Files that commands write. A file has its name only when all of it is written: before, it is
-NAME.part beside it. After an error, a full disk or SIGKILL, what had the name before still has it.
+NAME.part beside it. After an error, a full disk or SIGKILL, an older file of the name is unchanged.
 """
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def writing(path: Path, binary: bool = False, log: bool = False) -> Iterator[IO[
     except BrokenPipeError:
         raise
     except OSError as error:
-        rest = f'; what was written before is in {path}.part' if log and not binary else ''
+        rest = f'; the lines written before are in {path}.part' if log and not binary else ''
         raise Failure(f'{path}: cannot be written: {error.strerror or error}{rest}') from None
 
 

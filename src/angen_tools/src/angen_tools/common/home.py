@@ -1,4 +1,4 @@
-"""A home as the simulator describes it: rooms, what is in them, and what joins them (docs/home.md).
+"""A home as the simulator describes it: rooms, their contents and connections (docs/home.md).
 
 Lengths in m, angles in rad, in the world."""
 from __future__ import annotations
@@ -11,7 +11,7 @@ from angen_tools.common.geometry import yaw as yaw_of
 
 STOREY = 4.0  # m from a floor to the next where a world describes none
 ON_FLOOR = 0.5  # m below its floor that belong to a storey
-IN_WALL = 0.1  # m: what is in a wall, floor or ceiling is in the room
+IN_WALL = 0.1  # m: a thing in a wall, floor or ceiling is in the room
 Point = tuple[float, float]
 FloorPose = tuple[float, float, float, float]  # x y z yaw
 Pose = tuple[float, float, float, float, float, float, float]  # x y z and quaternion x y z w
@@ -77,7 +77,7 @@ class Room:
 
 @dataclass(frozen=True)
 class Place:
-    """Where one stands, sits or lies to use a thing: `pose` of the feet, the seat or the middle."""
+    """The position of a person who uses a thing: `pose` of the feet, the seat or the middle."""
 
     posture: str
     pose: FloorPose

@@ -64,11 +64,11 @@ def as_json(value: Any) -> str:
 
 
 def show_done(done: dict[str, Any], json: bool) -> None:
-    """Prints what a command has done: its `text`, or as JSON all but that."""
+    """Prints the result of a command: its `text`, or as JSON all but that."""
     print(as_json({key: value for key, value in done.items() if key != 'text'}) if json
           else done['text'])
 
 
 def number(value: float, places: int = 2) -> str:
-    """The number with so many places, never as -0."""
+    """The number with this many places, never as -0."""
     return f'{round(value, places) + 0.0:.{places}f}'

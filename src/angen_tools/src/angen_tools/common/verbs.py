@@ -1,4 +1,4 @@
-"""Commands to devices in the words of their kind: what the catalog says of its verbs."""
+"""Commands to devices in the words of their kind: its verbs in the catalog."""
 from __future__ import annotations
 
 import math
@@ -59,8 +59,8 @@ def _with_verb(kind: Plugin, verb: dict[str, Any], rest: Sequence[str]) -> Order
         return Order(verb['name'], verb)
     count = verb.get('count', 1)
     if len(rest) != count:
-        wanted = 'one number of' if count == 1 else f'{count} numbers,'
-        raise ValueError(f'{verb["name"].lower()} takes {wanted} {verb["argument"]}; {takes}')
+        numbers_of = 'one number of' if count == 1 else f'{count} numbers,'
+        raise ValueError(f'{verb["name"].lower()} takes {numbers_of} {verb["argument"]}; {takes}')
     words = [word.removesuffix(verb['unit']) if verb['unit'] == '%' else word for word in rest]
     numbers = [number(word) for word in words]
     for given, word, value in zip(rest, words, numbers):

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from angen_tools.common.failure import Failure
 
-MOST, SPAN = 3, 60.0  # restarts in so many s
+MOST, SPAN = 3, 60.0  # restarts within a time, s
 
 
 def own_folder() -> Path:

@@ -1,5 +1,5 @@
 """./angen run: a ROS master where none runs, and the launch file. Ends all that it has started, and
-starts both anew where the master was lost.
+restarts both where the master was lost.
 """
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def say(text: str) -> None:
 
 
 def stop(number: int, _: Any) -> NoReturn:
-    """At a signal; what comes after it changes nothing any more."""
+    """At a signal; later ones change nothing."""
     for other in CODES:
         signal.signal(other, signal.SIG_IGN)
     sys.exit(CODES[signal.Signals(number)])
@@ -73,7 +73,7 @@ class Session:
                 try:
                     process.wait(END_LIMIT)
                 except subprocess.TimeoutExpired:
-                    process.kill()  # the watchdog ends what it has left
+                    process.kill()  # the watchdog ends its remaining children
 
     def launch(self, launch: Path, words: list[str]) -> int:
         """Runs the launch file to its end; roslaunch's exit code."""

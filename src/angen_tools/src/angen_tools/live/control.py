@@ -12,14 +12,14 @@ from angen_tools.live.states import states_by_name
 from angen_tools.live.summary import Board
 
 STATE_LIMIT = 0.6  # s of wall time within which a state follows its command
-NEXT_LIMIT = 0.5  # s of wall time after which a device that goes elsewhere takes the command later
+NEXT_LIMIT = 0.5  # s of wall time after which a busy device executes the command later
 
 
 def set_device(kind_name: str, name: str, words: Sequence[str]) -> dict[str, Any]:
-    """Sends the command; returns what was done, its `text` with the device's state in words and
-    what the command waits for.
+    """Sends the command; returns the result, whose `text` has the device's state in words, and
+    for which event the command waits.
 
-    ValueError where the words are not a command of the kind; Failure where nothing has that name
+    ValueError where the words are not a command of the kind; Failure where no device has that name
     or the simulator rejects it.
     """
     from angen_msgs.srv import SendCommand
@@ -41,16 +41,16 @@ def set_device(kind_name: str, name: str, words: Sequence[str]) -> dict[str, Any
     done = {'kind': kind_name, 'names': [device.name for device in devices],
             'command': order.text, 'waits': ''}
     if client.fence() == before and is_paused(client):
-        done['waits'] = 'time goes on: the simulation is paused'
-        text += f'; {order.text} comes when {done["waits"]}'
+        done['waits'] = 'the simulation is no longer paused'
+        text += f'; {order.text} is executed when {done["waits"]}'
     elif any(comes_later(client, kind, order, device) for device in devices):
-        done['waits'] = 'the device has done what it does now'
-        text += f'; {order.text} comes next'
+        done['waits'] = 'the device has finished its current command'
+        text += f'; {order.text} is executed next'
     return {**done, 'state': state, 'text': text}
 
 
 def changed(board: Board, which: tuple[str, str], state: str) -> str:
-    """The state of a device once it is not what it was; as it is where it stays the same."""
+    """The state of a device after its next change; the same state where it does not change."""
     row = board.rows.get(which)
     end = time.monotonic() + STATE_LIMIT
     while row is not None and state == row.text and (left := end - time.monotonic()) > 0:
@@ -60,7 +60,7 @@ def changed(board: Board, which: tuple[str, str], state: str) -> str:
 
 
 def is_paused(client: Client) -> bool:
-    """Whether time stands still, as /angen/stats says."""
+    """Whether the simulation is paused, by /angen/stats."""
     from angen_msgs.msg import Stats
     mail = Mailbox(client)
     mail.subscribe('/angen/stats', Stats)
@@ -71,7 +71,7 @@ def is_paused(client: Client) -> bool:
 def comes_later(client: Client, kind: Plugin, order: Order, device: Any) -> bool:
     """Whether a device does something else first, as an elevator on its way does.
 
-    Of a verb with the argument X and a state with the field target_X, which shows what it does.
+    For a verb with the argument X and a state with the field target_X, the current target.
     """
     target = f'target_{order.verb.get("argument", "")}'
     if all(field['name'] != target for field in kind['fields']) or not device.topic:

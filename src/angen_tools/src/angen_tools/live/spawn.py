@@ -1,4 +1,4 @@
-"""angen spawn, delete, save: what is in the world."""
+"""angen spawn, delete, save: the contents of the world."""
 from __future__ import annotations
 
 import math
@@ -18,7 +18,7 @@ from angen_tools.world import models, sdf, sensor
 from angen_tools.world.free_place import free_place
 
 SEAT_AIR = 0.001  # m over the seat, where a sitter comes to be
-LEANS = 0.05  # rad: what leans by more is not a seat
+LEANS = 0.05  # rad: a model that leans by more is not a seat
 SHANKS = 0.31  # m ahead of a sitter's middle: they hang before the seat
 SITTER_WIDTH = 0.3  # m: nearer than this two do not sit
 
@@ -48,7 +48,7 @@ def model_source(what: str) -> str:
 
 def spawn_model(source: str, name: str, pose: Sequence[float] | None) -> dict[str, Any]:
     """Adds a model at `pose` (x y z roll pitch yaw in the world), or at a place that is free;
-    returns what was done."""
+    returns the result."""
     source = _in_order(source, name)
     client = Client()
     chosen = pose if pose is not None else free_place(_saved(client))
@@ -76,7 +76,7 @@ def _in_order(source: str, name: str) -> str:
 
 def spawn_sensor(kind: str, name: str, pose: Sequence[float], on: str,
                  settings: list[tuple[str, str]]) -> dict[str, Any]:
-    """Adds a sensor on a link, or as a static model of its own; returns what was done.
+    """Adds a sensor on a link, or as a static model of its own; returns the result.
 
     `pose` is x y z roll pitch yaw in the link's frame, or in the world.
     """
@@ -91,7 +91,7 @@ def spawn_sensor(kind: str, name: str, pose: Sequence[float], on: str,
 
 
 def seat_sitter(name: str, chair: str) -> dict[str, Any]:
-    """Seats a person of 75 kg on a model that has a seat and stands; returns what was done."""
+    """Seats a person of 75 kg on an upright model with a seat; returns the result."""
     client = Client()
     places = {entity.name: entity.pose for entity in client.entities('model')}
     if chair not in places:
@@ -102,7 +102,7 @@ def seat_sitter(name: str, chair: str) -> dict[str, Any]:
         raise Failure(f"'{chair}' has no box seat_collision to sit on, as a chair or a sofa has")
     at, turn = places[chair].position, places[chair].orientation
     if 1 - 2 * (turn.x * turn.x + turn.y * turn.y) < math.cos(LEANS):
-        raise Failure(f"'{chair}' does not stand upright")
+        raise Failure(f"'{chair}' is not upright")
     heading = yaw_of(turn)
     ahead = seat[0] + max(0.0, seat[3] / 2 - SHANKS)
     x = at.x + ahead * math.cos(heading) - seat[1] * math.sin(heading)
@@ -148,7 +148,7 @@ def _must_be_there(client: Client, name: str) -> None:
 
 
 def save(path: Path) -> dict[str, Any]:
-    """Writes the world as it stands to a file, all of it or nothing; returns what was done."""
+    """Writes the current world to a file, all of it or nothing; returns the result."""
     from angen_msgs.srv import Save
     if path.is_dir() or not path.absolute().parent.is_dir():
         raise Failure(f'{path}: cannot be written; give a file in a folder that exists')
@@ -163,7 +163,7 @@ def save(path: Path) -> dict[str, Any]:
 
 
 def call_spawn(client: Client, name: str, xml: str, on: str, pose: Sequence[float]) -> None:
-    """Calls /angen/spawn; pose is x y z roll pitch yaw (m, rad). Raises Failure if it refuses."""
+    """Calls /angen/spawn; pose is x y z roll pitch yaw (m, rad). Failure if it is rejected."""
     from geometry_msgs.msg import Point, Pose, Quaternion
 
     from angen_msgs.srv import Spawn
@@ -184,6 +184,6 @@ def _watch_all(client: Client, element: etree._Element, on: str) -> None:
     contact = element.find('contact')
     if contact is None:
         contact = etree.SubElement(element, 'contact')
-    # Where there are none, the simulator reports what is wrong with `on`.
+    # Where there are none, the simulator reports the error in `on`.
     for name in models.collisions(_saved(client), on):
         etree.SubElement(contact, 'collision').text = name

@@ -1,4 +1,4 @@
-"""angen top: what each device and sensor costs, live."""
+"""angen top: the costs of each device and sensor, live."""
 from __future__ import annotations
 
 import sys
@@ -22,7 +22,7 @@ HEAD = ('KIND', 'NAME', 'µs/s', 'SHARE')
 def title(cost: Any) -> str:
     """The costs of the whole node in an angen_msgs/Cost."""
     if cost.simulated <= 0:
-        return f'time stands still, for {cost.elapsed:.1f} s now\n'
+        return f'the simulation has not advanced for {cost.elapsed:.1f} s\n'
     core = 100 * cost.process * 1e-6 * cost.simulated / cost.elapsed
     other = max(0.0, cost.process - sum(getattr(cost, part) for part in PARTS))
     parts = ', '.join(f'{part} {getattr(cost, part):.0f}' for part in PARTS)
@@ -76,7 +76,7 @@ def top_once(json: bool = False) -> RenderableType:
 
 
 def top() -> None:
-    """Draws the costs anew until q or Ctrl-C, space turns the page; one table where stdout is not
+    """Draws the costs until q or Ctrl-C, space turns the page; one table where stdout is not
     a terminal."""
     from angen_tools.common.terminal import LiveTable
     if not sys.stdin.isatty() or not sys.stdout.isatty():

@@ -21,7 +21,7 @@ SHOWN = 8  # names of a model's devices and sensors
 
 @dataclass(frozen=True)
 class Checked:
-    """What is to be said of a file: `found` is what is in it, where nothing is wrong."""
+    """The findings about a file: `found` counts its contents, where there is no error."""
     wrong: list[str] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
     ignored: list[str] = field(default_factory=list)
@@ -80,7 +80,7 @@ def _checked_model(angen: Any, path: str) -> Checked:
 
 
 def _right(path: str, found: str, world: Any, around: Collection[str] = ()) -> Checked:
-    """`around`: what is ignored of the world that a model was loaded into."""
+    """`around`: the ignored elements of the world that a model was loaded into."""
     wrong = [meant for line in world.warnings if (meant := misspelled(line))]
     warnings = [line for line in world.warnings if not misspelled(line)]
     state = f'loads with {_counted(len(warnings), "warning")}' if warnings else 'nothing is wrong'

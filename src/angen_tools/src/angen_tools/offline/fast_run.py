@@ -41,11 +41,11 @@ class Done:
 
 def run(path: str, span: float, seed: int, out: Path, orders: Sequence[Order] = (),
         readings: Path | None = None) -> Done:
-    """Runs a world file for `span` simulated seconds and writes OUT/events.csv as it goes, and all
-    readings into the file `readings`, if any. `orders` are carried out at their times.
+    """Runs a world file for `span` simulated seconds; writes OUT/events.csv meanwhile, and all
+    readings into the file `readings`, if any. `orders` are executed at their times.
 
     Failure where the world does not load, an order is wrong, or a file cannot be written. Ctrl-C
-    keeps what is written, and prints where it is.
+    keeps the written files, and prints their paths.
     """
     if readings:
         check_name(readings)

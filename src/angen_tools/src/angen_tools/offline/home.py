@@ -1,4 +1,4 @@
-"""angen home: the description of a world's home, and what is missing or wrong in it."""
+"""angen home: the description of a world's home, and its missing and wrong parts."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any

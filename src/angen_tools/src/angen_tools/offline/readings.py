@@ -17,7 +17,7 @@ LEVEL = 3  # of gzip: twice as quick as its default, and a tenth larger
 
 
 class Writer(Protocol):
-    """Writes what a world has kept since the last call."""
+    """Writes the readings that a world has kept since the last call."""
 
     def write(self, world: Any) -> int: ...
 

@@ -35,7 +35,7 @@ def replay(path: str, leap: bool) -> dict[str, Any]:
 
 
 def go_live(path: str, until: float) -> None:
-    """Replaces this process by the building in ROS, as it was at that time; it goes on live."""
+    """Replaces this process by the building in ROS, as it was at that time; it continues live."""
     launch = worlds_models().parent.parent / 'launch/angen.launch'
     os.execv(sys.executable, [sys.executable, '-m', 'angen_tools.entry.run', str(launch.resolve()),
                               f'replay:={path}', f'until:={until:.9g}'])

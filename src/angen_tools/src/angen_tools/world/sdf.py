@@ -12,7 +12,7 @@ from angen_tools.common.failure import Failure
 
 def parse_pose(text: str) -> tuple[float, ...]:
     """The six numbers of "x y z" or "x y z roll pitch yaw", of which angles may be in degrees, as
-    90deg; ValueError says what is wrong."""
+    90deg; ValueError names the error."""
     words = text.replace(',', ' ').split()
     if len(words) not in (3, 6):
         raise ValueError(f"the pose '{text}' has {len(words)} numbers; give \"x y z\" or "
