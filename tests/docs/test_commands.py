@@ -91,7 +91,7 @@ class Terminal:
         self.process = subprocess.Popen(
             f'exec ./angen run headless:=true {arguments}', shell=True, cwd=self.folder,
             env=self.environment, stdout=log, stderr=log)
-        end = time.monotonic() + 60.0
+        end = time.monotonic() + 180.0
         while not self.is_ready():
             assert time.monotonic() < end, (self.folder / 'home/run.log').read_text()
             time.sleep(0.1)
@@ -121,7 +121,7 @@ class Terminal:
     def end(self) -> None:
         if self.process:
             self.process.send_signal(signal.SIGINT)
-            self.process.wait(20)
+            self.process.wait(60)
         self.process = self.arguments = None
 
 
