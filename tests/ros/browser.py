@@ -15,9 +15,10 @@ from selenium.webdriver.common.action_chains import ActionChains
 
 ROOT = Path(__file__).resolve().parents[2]
 SERVER = ROOT / 'src/angen_apps/scripts/web'
-LIMIT = 90.0 * SLOWNESS  # s of wall time; the processor draws the page
+LIMIT = 180.0 * SLOWNESS  # s of wall time; the processor draws the page
 OPTIONS = ('--headless=new', '--no-sandbox', '--disable-dev-shm-usage', '--no-first-run',
-           '--enable-unsafe-swiftshader', '--use-angle=swiftshader', '--disable-extensions')
+           '--enable-unsafe-swiftshader', '--use-angle=swiftshader', '--disable-extensions',
+           '--disable-gpu-watchdog')  # it ends a renderer that waits for 10 s on a busy machine
 
 
 class Server:
@@ -31,13 +32,21 @@ class Server:
             self.process = subprocess.Popen(
                 ['/usr/bin/python3', '-u', str(SERVER), '--port', str(self.port), *options],
                 env=master.environment, text=True, stdout=out, stderr=out)
-        until(lambda: f':{self.port}/' in self.log(), 'the address', LIMIT)
+        try:
+            until(self._serves, 'the address', LIMIT)
+        except BaseException:
+            self.end()
+            raise
+
+    def _serves(self) -> bool:
+        assert self.process.poll() is None, self.log()
+        return f':{self.port}/' in self.log()
 
     def log(self) -> str:
         return self._log.read_text()
 
     def end(self) -> int:
-        return end(self.process, 5.0)
+        return end(self.process, LIMIT)
 
 
 class Page:
@@ -62,6 +71,10 @@ class Page:
     def until(self, script: str, *arguments: Any) -> Any:
         """What a script returns once it is true."""
         return until(lambda: self.run(script, *arguments), script, LIMIT)
+
+    def first_view(self) -> None:
+        """Returns when the whole home is drawn, and the camera rests."""
+        self.until('return angen.view.framed && !angen.view.goal && angen.view.frames > 0')
 
     def click(self, x: float, y: float) -> None:
         """At a place of the window, as a mouse does."""
