@@ -25,6 +25,9 @@ from angen_tools.common.failure import Failure
     ({'do': 'spawn', 'kind': 'pir', 'name': 'a', 'pose': {'z': float('nan')}}, "'z' must be"),
     ({'do': 'drive', 'name': '../cmd_vel', 'speed': 1, 'turn': 0}, 'no robot is named'),
     ({'do': 'goal', 'x': float('inf'), 'y': 0}, "'x' must be a number"),
+    ({'do': 'goal', 'x': 10 ** 400, 'y': 0}, "'x' must be a number"),
+    ({'do': 'goal', 'x': 0, 'y': 0, 'yaw': 7}, "'yaw' must be a number"),
+    ({'do': 'command', 'target': '\ud800', 'text': 'On'}, "'target' must be a text"),
 ])
 def test_malformed_orders_are_refused(order: dict[str, Any], reason: str) -> None:
     with pytest.raises(ValueError, match=reason):

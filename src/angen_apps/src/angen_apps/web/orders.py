@@ -136,7 +136,8 @@ class Orders:
         goal.header.frame_id = 'map'
         goal.pose.position.x = number(order, 'x', -1e6, 1e6)
         goal.pose.position.y = number(order, 'y', -1e6, 1e6)
-        goal.pose.orientation.w = 1.0
+        yaw = number(order, 'yaw', -math.tau, math.tau)
+        goal.pose.orientation.z, goal.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
         publisher = self._publisher('/move_base_simple/goal', PoseStamped)
         if publisher.get_num_connections() == 0:
             raise Failure('no program subscribes to /move_base_simple/goal; navigation is started '
@@ -164,7 +165,8 @@ def wait_for_subscriber(publisher: Any, limit: float = 1.0) -> None:
 def text(order: dict[str, Any], key: str) -> str:
     """A text of an order; Failure where it is none, or too long."""
     value = order.get(key)
-    if not isinstance(value, str) or not value or len(value.encode()) > LONGEST:
+    if not isinstance(value, str) or not 0 < len(value.encode(errors='replace')) <= LONGEST \
+            or any('\ud800' <= c <= '\udfff' for c in value):
         raise Failure(f"'{key}' must be a text of at most {LONGEST} bytes")
     return value
 
@@ -172,7 +174,6 @@ def text(order: dict[str, Any], key: str) -> str:
 def number(order: Any, key: str, low: float, high: float) -> float:
     """A number of an order within limits; Failure where it is none."""
     value = order.get(key, 0.0) if isinstance(order, dict) else None
-    if isinstance(value, bool) or not isinstance(value, (int, float)) \
-            or not math.isfinite(value) or not low <= value <= high:
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not low <= value <= high:
         raise Failure(f"'{key}' must be a number from {low:g} to {high:g}")
     return float(value)

@@ -182,8 +182,9 @@ class Server:
                 order = json.loads(message.data)
             except (ValueError, RecursionError):
                 order = None
-            if not isinstance(order, dict):
-                browser.answer({'id': 0, 'ok': False, 'text': 'not a JSON object'})
+            if not isinstance(order, dict) or not isinstance(order.get('id', 0), int):
+                browser.answer({'id': 0, 'ok': False,
+                                'text': 'not a JSON object whose id is an integer'})
             elif not budget.take():
                 browser.answer({'id': order.get('id'), 'ok': False,
                                 'text': f'more than {RATE:g} orders per second'})
@@ -203,6 +204,9 @@ class Server:
             answer = {'ok': True, **await self._source.order(order)}
         except ValueError as error:
             answer = {'ok': False, 'text': str(error)}
+        except Exception as error:  # a mistake of ours: the browser does not wait for ever
+            log.error('angen web: %s: %r', order.get('do'), error)
+            answer = {'ok': False, 'text': 'the server failed; its output says why'}
         finally:
             browser.pending -= 1
         browser.answer({'id': order.get('id'), **answer})
