@@ -2,7 +2,9 @@
 import { by, clockText, el } from './dom.js';
 import { inside } from './home.js';
 
-const SPEEDS = [0.5, 1, 2, 5, 20, 100];
+const SPEEDS = [0.5, 1, 2, 5, 20, 100, 1000];
+const LINE = 14; // px of a person's line
+const NAMES = 44; // px of their names
 const COLORS = ['#0f766e', '#b45309', '#7c3aed', '#2563eb', '#be185d', '#4d7c0f', '#0e7490', '#a16207', '#9333ea', '#dc2626', '#475569', '#059669'];
 
 /** What one thing was over time. */
@@ -53,6 +55,10 @@ export class Player {
     this.rows = new Map();
     /** @type {any[][]} */
     this.events = [];
+    /** @type {Map<string, string> | null} */
+    this.colors = null;
+    /** @type {{name: string, spans: any[][]}[]} */
+    this.drawn = [];
     this.last = performance.now();
     home.on('timeline', (entries) => this.take(entries));
     home.on('line', () => this.onLine());
@@ -90,6 +96,7 @@ export class Player {
       else if (kind === 'r') push(this.rows, `${entry[2]}/${entry[3]}`, t, entry.slice(2));
       else if (kind === 'e') this.events.push(entry[2]);
     }
+    this.events.sort((a, b) => a[0] - b[0]);
   }
 
   build() {
@@ -97,7 +104,9 @@ export class Player {
     const speed = el('select', { 'aria-label': 'Speed', onchange: () => { this.speed = Number(speed.value); } }, ...SPEEDS.map((s) => el('option', { value: s, selected: s === 1 }, `${s}×`)));
     this.slider = el('input', { type: 'range', id: 'moment', min: 0, step: 'any', value: 0, 'aria-label': 'Time', oninput: () => this.seek(Number(this.slider.value)) });
     this.label = el('span', { class: 'number' });
-    this.ribbon = el('canvas', { height: 26, 'aria-hidden': 'true' });
+    this.ribbon = el('canvas', { role: 'img', 'aria-label': 'What each person did, or the room that each was in' });
+    this.ribbon.addEventListener('pointermove', (/** @type {PointerEvent} */ e) => { this.ribbon.title = this.textAt(e); });
+    this.ribbon.addEventListener('click', (/** @type {PointerEvent} */ e) => this.seek(this.timeAt(e)));
     const share = el('button', { type: 'button', title: 'The address of this moment', onclick: () => {
       const url = new URL(location.href);
       url.searchParams.set('t', this.time.toFixed(1));
@@ -159,36 +168,87 @@ export class Player {
     if (rows.length) home.takeRows(rows, false);
     home.stats = { ...home.stats, time, paused: !this.playing, factor: this.speed };
     home.statsAt = performance.now();
+    home.tell('stats');
     const shown = this.events.filter(([t]) => t <= time).slice(-500);
     if (shown.length !== home.events.length || shown[0] !== home.events[0]) { home.events = shown; home.tell('events', []); }
   }
 
-  /** Each person's room over time, a line a person. */
-  drawRibbon() {
-    const { home, ribbon } = this;
-    const people = home.entities.filter((e) => e.kind === 'person').slice(0, 4);
-    const width = ribbon.width = ribbon.clientWidth || 600;
-    const context = ribbon.getContext('2d');
-    if (!context || !this.end) return;
-    context.clearRect(0, 0, width, ribbon.height);
-    const height = people.length ? ribbon.height / people.length : 0;
-    people.forEach((e, line) => {
-      const link = home.linksOf(e.model)[0], id = home.scene?.ids?.[link], track = this.links.get(id);
-      if (!track) return;
-      for (let x = 0; x < width; x += 2) {
-        const t = (x / width) * this.end;
-        if (t > this.loaded) break;
-        let low = 0, high = track.t.length;
-        while (low < high) { const m = (low + high) >> 1; if (track.t[m] <= t) low = m + 1; else high = m; }
-        const p = track.v[Math.max(0, low - 1)];
-        const room = home.rooms.findIndex((r) => p[2] > r.floor - 0.5 && p[2] < r.ceiling && inside(r.polygon, p[0], p[1]));
-        if (room < 0) continue;
-        context.fillStyle = COLORS[room % COLORS.length];
-        context.fillRect(x, line * height, 2, height - 2);
-      }
+  /**
+   * Spans of each person: activities where the recording has them, else rooms.
+   * @returns {{name: string, spans: any[][]}[]} start, end, text of each span
+   */
+  people() {
+    const { home } = this;
+    if (home.line.ribbon) return home.line.ribbon.map((/** @type {any} */ [name, spans]) => ({ name, spans }));
+    return home.entities.filter((e) => e.kind === 'person').slice(0, 6).map((e) => ({ name: e.name, spans: this.roomsOf(e) }));
+  }
+
+  /** @param {import('./home.js').Entity} e @returns {any[][]} */
+  roomsOf(e) {
+    const { home } = this, link = home.linksOf(e.model)[0], track = this.links.get(home.scene?.ids?.[link]);
+    /** @type {any[][]} */
+    const spans = [];
+    track?.t.forEach((t, i) => {
+      const [x, y, z] = track.v[i], room = home.rooms.find((r) => z > r.floor - 0.5 && z < r.ceiling && inside(r.polygon, x, y))?.name ?? '';
+      const last = spans[spans.length - 1], end = track.t[i + 1] ?? this.loaded;
+      if (last && last[2] === room) last[1] = end;
+      else spans.push([t, end, room]);
     });
-    context.fillStyle = getComputedStyle(document.documentElement).getPropertyValue('--ink');
-    for (const [t] of this.events) context.fillRect((t / this.end) * width, ribbon.height - 3, 1, 3);
+    return spans;
+  }
+
+  /** A line a person, below it marks of events. */
+  drawRibbon() {
+    const { ribbon } = this, people = this.drawn = this.people(), sharp = Math.min(2, devicePixelRatio);
+    const width = ribbon.clientWidth || 600, height = Math.max(1, people.length) * LINE + 4;
+    ribbon.style.height = `${height}px`;
+    ribbon.width = width * sharp;
+    ribbon.height = height * sharp;
+    const context = ribbon.getContext('2d'), style = getComputedStyle(document.documentElement);
+    if (!context || !this.end) return;
+    context.scale(sharp, sharp);
+    context.font = '11px system-ui';
+    context.textBaseline = 'middle';
+    people.forEach(({ name, spans }, line) => {
+      for (const [start, end, text] of spans) {
+        if (!text) continue;
+        const x = NAMES + (start / this.end) * (width - NAMES), wide = ((end - start) / this.end) * (width - NAMES);
+        context.fillStyle = this.color(text);
+        context.fillRect(x, line * LINE, Math.max(0.5, wide), LINE - 2);
+        if (wide > 7 * text.length + 6) {
+          context.fillStyle = '#fff';
+          context.fillText(text.replaceAll('_', ' '), x + 4, line * LINE + LINE / 2 - 0.5);
+        }
+      }
+      context.fillStyle = style.getPropertyValue('--ink');
+      context.fillText(name, 0, line * LINE + LINE / 2 - 0.5, NAMES - 4);
+    });
+    for (const [t] of this.events) context.fillRect(NAMES + (t / this.end) * (width - NAMES), height - 3, 1, 3);
+  }
+
+  /** @param {string} text @returns {string} the same for the same activity or room */
+  color(text) {
+    this.colors ??= new Map();
+    if (!this.colors.has(text)) this.colors.set(text, COLORS[this.colors.size % COLORS.length]);
+    return this.colors.get(text) ?? COLORS[0];
+  }
+
+  /** @param {PointerEvent} e */
+  timeAt(e) {
+    return Math.min(this.loaded, Math.max(0, ((e.offsetX - NAMES) / (this.ribbon.clientWidth - NAMES)) * this.end));
+  }
+
+  /** @param {PointerEvent} e */
+  textAt(e) {
+    const person = this.drawn?.[Math.floor(e.offsetY / LINE)], time = this.timeAt(e);
+    const span = person?.spans.find(([start, end]) => time >= start && time < end);
+    return span ? `${person?.name}: ${span[2].replaceAll('_', ' ')}, ${clockText(time + this.midnight())}` : '';
+  }
+
+  /** s of the day at which the recording begins */
+  midnight() {
+    const start = /T(\d+):(\d+):(\d+)/.exec(this.home.described?.start ?? '');
+    return start ? Number(start[1]) * 3600 + Number(start[2]) * 60 + Number(start[3]) : 0;
   }
 }
 

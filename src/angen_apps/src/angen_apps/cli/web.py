@@ -21,7 +21,7 @@ def port(text: str) -> int:
 def run_web(args: argparse.Namespace) -> int:
     from angen_apps.web.command import web_live, web_recording
     if args.replay is not None:
-        web_recording(args.replay, args.host, args.port)
+        web_recording(args.replay, args.world, args.host, args.port)
     else:
         web_live(args.host, args.port)
     return 0
@@ -31,9 +31,13 @@ def add_web(commands: Any) -> None:
     """angen web."""
     web = command(commands, 'web', run_web,
                   'serves a page that shows the running building, to watch and control it in a '
-                  'browser', 'web', 'web --port 9000', 'web --host 0.0.0.0', 'web --replay bug.log')
+                  'browser', 'web', 'web --port 9000', 'web --host 0.0.0.0',
+                  'web --replay bug.log', 'web --replay out')
     web.add_argument('--replay', metavar='FILE', type=Path,
-                     help='plays a run that record:= of ./angen run has recorded, with a time line')
+                     help='plays a run that record:= of ./angen run has recorded, or a home of '
+                     'angen generate, with a time line')
+    web.add_argument('--world', metavar='FILE', type=Path,
+                     help='the world of --replay, where a home of your own was generated')
     web.add_argument('--port', metavar='N', type=checked(port), default=PORT,
                      help=f'of HTTP ({PORT})')
     web.add_argument('--host', metavar='ADDRESS', default='127.0.0.1',

@@ -79,11 +79,16 @@ def serve(source: Source, host: str, port: int) -> None:
     asyncio.run(_serve(source, host, port))
 
 
-def web_recording(log: Path, host: str, port: int) -> None:
-    """A recorded run."""
-    from angen_apps.web.recording import Recording
-    with Recording(log) as recording:
-        serve(recording, host, port)
+def web_recording(path: Path, world: Path | None, host: str, port: int) -> None:
+    """A recorded run, or a folder of angen generate."""
+    if path.is_dir():
+        from angen_apps.web.day import Day
+        played: Any = Day(path, world)
+    else:
+        from angen_apps.web.recording import Recording
+        played = Recording(path)
+    with played:
+        serve(played, host, port)
 
 
 def web_live(host: str, port: int) -> None:

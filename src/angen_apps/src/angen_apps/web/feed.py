@@ -80,7 +80,8 @@ class Feed:
         alive = scene_topic is not None and scene_topic.get_num_connections() > 0
         before = self.store.part('status') or {}
         if alive != before.get('node'):
-            self.store.put('status', {'node': alive, 'replay': False})
+            self.store.put('status', {'node': alive, 'replay': False,
+                                      **({'seed': seed()} if alive else {})})
             self._listed = -1
         number = self.store.part('scene') or 0
         if alive and self._listed != number:
@@ -205,6 +206,12 @@ def row_of(entry: Any) -> Row:
     """A SummaryEntry; JSON has no NaN."""
     values = [value if value - value == 0.0 else None for value in entry.values]
     return (entry.kind, entry.name, entry.text, bool(entry.alarm), entry.stamp.to_sec(), values)
+
+
+def seed() -> int:
+    """Of the noise of the run."""
+    import rospy
+    return int(rospy.get_param('/angen/seed', 1))
 
 
 def master_process() -> int:

@@ -1,0 +1,248 @@
+"""A generated day as the source of pages: what angen generate wrote, in the home that it is of."""
+from __future__ import annotations
+
+import datetime
+import json
+import math
+from collections import defaultdict
+from pathlib import Path
+from typing import Any, Iterator, NamedTuple
+
+import numpy as np
+
+from angen_apps.data.generate import HOME, sha256
+from angen_apps.data.site import Site, apartment
+from angen_apps.data.validate import homes, rows
+from angen_apps.residents.figures import walker
+from angen_apps.web.feed import row_of
+from angen_apps.web.played import Played
+from angen_tools.common.catalog import simulator
+from angen_tools.common.failure import Failure
+from angen_tools.common.files import write_text
+from angen_tools.common.wait import wait
+
+DAY = 86400.0  # s
+RATE = 20.0  # simulated s per s, while leaves are measured
+LIMIT = 120.0  # s of wall time, for the node to serve what is read of it
+POSTURES = {'stand': 'standing', 'sit': 'sitting', 'lie': 'lying'}
+LEAVES = ('door', 'window', 'cabinet')
+WORDS = {'motion': ('MOTION', 'still'), 'area': ('MOTION', 'still'), 'door': ('open', 'closed'),
+         'item': ('pressed', 'free'), 'power': ('on', 'off')}  # as summaries have them
+FIRST = ('ON', 'OPEN', 'PRESENT')
+UNITS = {'temperature': ('temperature', '°C'), 'light': ('illuminance', 'lx')}
+
+
+class Moment(NamedTuple):
+    """Where a resident is at a time; `text` and `speed` where another phase begins."""
+
+    time: float
+    rank: int
+    x: float
+    y: float
+    yaw: float | None = None
+    text: str = ''
+    speed: float = 0.0
+
+
+def moment_of(row: dict[str, str], things: dict[str, Any]) -> Moment:
+    """The start of an interval of the truth."""
+    start, x, y = float(row['start']), float(row['x']), float(row['y'])
+    doing = row['activity'].replace('_', ' ')
+    if row['phase'] == 'away':
+        return Moment(start, 0, x, y, 0.0, f'away · {doing}')
+    if row['phase'] == 'goes':
+        return Moment(start, 0, x, y, None, f'walking · {doing}', 1.0)
+    text, posture, yaw = f'{POSTURES[row["posture"]]} · {doing}', row['posture'], None
+    places = [place['pose'] for place in things.get(row['thing'], {'places': []})['places']
+              if place['posture'] == posture != 'stand']
+    if places:
+        x, y, _, yaw = min(places, key=lambda at: math.dist(at[:2], (x, y)))
+        yaw += math.pi if posture == 'lie' else 0.0  # a figure that lies has its feet ahead
+    return Moment(start, 0, x, y, yaw, text)
+
+
+def read(folder: Path, name: str) -> Any:
+    """A JSON file of the folder."""
+    try:
+        return json.loads((folder / name).read_text(encoding='utf-8'))
+    except (OSError, ValueError) as error:
+        raise Failure(f'{folder / name}: cannot be read: {error}') from None
+
+
+class Day(Played):
+    """A Source, see server.py. A context: its end ends the node."""
+
+    def __init__(self, folder: Path, world: Path | None) -> None:
+        found = homes(folder)
+        if found != [folder]:
+            raise Failure(f'{folder}: has several homes; give one, such as {found[0]}')
+        self._data, self._layout = folder, read(folder, 'layout.json')
+        self._settings = read(folder, HOME)['settings']
+        self._start = datetime.datetime.fromisoformat(self._layout['start'])
+        self._people = [resident['name'] for resident in self._layout['residents']]
+        self._poses: dict[int, Any] = {}  # by link, as the node has them
+        self._has_rows = False
+        super().__init__(self._layout['days'] * DAY, folder.name)
+        self._write_world(world)
+
+    def _write_world(self, given: Path | None) -> None:
+        path = self._folder / 'home.world'
+        wanted = self._settings['world']
+        if not wanted:
+            apartment(path)
+        elif given is None or sha256(given) != wanted:
+            raise Failure(f'{self._data}: is of a world of your own; give the same file by --world')
+        site = Site(given if wanted and given else path, self._settings['seed'],
+                    not self._settings['own_sensors'], self._settings['light'])
+        for resident in self._layout['residents']:
+            first = next(r for r in self._truth() if r['resident'] == resident['name'])
+            room = site.home.room(first['room']) if first['room'] else site.home.rooms[0]
+            with simulator(f'{resident["name"]}: '):
+                site.world.spawn(walker(resident['name'], resident['speed'], 'person'),
+                                 resident['name'], [*room.center, room.floor, 0.0, 0.0, 0.0])
+        self._sources = {name: (kind, model) for kind, name, model, _ in site.world.entities()}
+        write_text(path, site.world.save())
+
+    def _truth(self) -> Iterator[dict[str, str]]:
+        return rows(self._data / 'truth.csv.gz')
+
+    # --- what the node is needed for: the scene, and how far leaves open
+
+    def _run(self) -> None:
+        self._node = self._sandbox.node(self._folder / 'home.world', RATE)
+        wait(lambda: (self.store.part('scene') and self.store.part('home') and self._poses
+                      and self._has_rows), 'the node has not described the home', LIMIT)
+        self._survey()
+        closed = dict(self._poses)
+        self._open_leaves()
+        self._unsubscribe_all()
+        self._end_node()
+        self._play(closed, dict(self._poses))
+        self._finish()
+
+    def _on_changes(self, message: Any) -> None:
+        for link, pose in zip(message.links, np.reshape(message.poses, (-1, 7))):
+            self._poses[int(link)] = pose.copy()
+
+    def _on_home(self, message: Any) -> None:
+        super()._on_home(message)
+        home = {**self.store.part('home'), 'start': self._start.isoformat()}
+        self.store.put('home', home)
+
+    def _on_summary(self, message: Any) -> None:
+        if self._has_rows:
+            return
+        self.store.put_rows([(*row[:4], 0.0, row[5]) for row in map(row_of, message.entries)], True)
+        self._has_rows = bool(message.complete)
+
+    def _on_stats(self, message: Any) -> None:
+        self._now = message.sim_time.to_sec()
+
+    def _on_event(self, _: Any) -> None:
+        pass
+
+    def _open_leaves(self) -> None:
+        listed = {e['kind'] for e in self.store.part('entities')}
+        for kind in LEAVES:
+            if kind in listed:
+                self._orders.execute({'do': 'command', 'target': f'{kind}/all', 'text': 'Open'})
+        until = self._now + 6.0
+        wait(lambda: self._now > until, 'the leaves do not open', LIMIT)
+
+    # --- what the files say
+
+    def _play(self, closed: dict[int, Any], opened: dict[int, Any]) -> None:
+        self._links: dict[str, list[int]] = defaultdict(list)
+        scene: dict[str, Any] = self.store.scene or {}
+        self._revision = int(scene['revision'])
+        for i, link in enumerate(scene['links']):
+            if link['moves']:
+                self._links[link['model']].append(i)
+        self._closed, self._opened = closed, opened
+        for link, pose in closed.items():
+            self._place(0.0, link, pose)
+        self._play_residents()
+        self._play_events()
+        ribbon = [[name, [[float(r['start']), float(r['end']), r['activity']]
+                          for r in self._truth() if r['resident'] == name]]
+                  for name in self._people]
+        self._line['ribbon'] = ribbon
+
+    def _place(self, time: float, link: int, pose: Any) -> None:
+        none = np.zeros(0, np.uint32)
+        self.store.put_changes(self._revision, np.array([link], np.uint32),
+                               np.asarray(pose, np.float32), none, none.astype(np.float32), time)
+
+    def _play_residents(self) -> None:
+        things = {thing['name']: thing for thing in self.store.part('home')['things']}
+        moments: dict[str, list[Moment]] = defaultdict(list)
+        for row in self._truth():
+            moments[row['resident']].append(moment_of(row, things))
+            self.store.add_event([float(row['start']), 'resident', row['resident'], row['phase'],
+                                  ' '.join(filter(None, (row['activity'], row['room'])))])
+        for step in rows(self._data / 'track.csv.gz'):
+            moments[step['resident']].append(
+                Moment(float(step['time']), 1, float(step['x']), float(step['y'])))
+        for name in self._people:
+            self._walk(name, sorted(moments[name], key=lambda m: (m.time, m.rank)))
+
+    def _walk(self, name: str, moments: list[Moment]) -> None:
+        """Poses and texts of a resident; who walks faces ahead."""
+        link = self._links[name][0]
+        height = float(self._closed[link][2])
+        at, yaw = (0.0, 0.0), 0.0
+        for m in moments:
+            if math.isnan(m.x):  # away
+                m = m._replace(x=at[0], y=at[1])
+            if m.yaw is not None:
+                yaw = m.yaw
+            elif math.dist((m.x, m.y), at) > 0.02:
+                yaw = math.atan2(m.y - at[1], m.x - at[0])
+            at = (m.x, m.y)
+            self._place(m.time, link, (m.x, m.y, height, 0, 0, math.sin(yaw / 2),
+                                       math.cos(yaw / 2)))
+            if m.text:
+                self.store.put_rows([('person', name, m.text, False, m.time,
+                                      self._values('person', 'speed', m.speed))], False)
+
+    def _play_events(self) -> None:
+        sensors = {sensor['id']: sensor for sensor in self._layout['sensors']}
+        entities = self.store.part('entities')
+        leaves = {e['model']: e for e in entities if e['kind'] in LEAVES}
+        names = {(e['kind'], e['model']): e['name'] for e in entities}
+        names.update({(e['kind'], e['name']): e['name'] for e in entities})
+        for event in rows(self._data / 'events.csv.gz'):
+            time = (datetime.datetime.fromisoformat(event['time']) - self._start).total_seconds()
+            sensor = sensors[event['sensor']]
+            kind, (source, model) = sensor['kind'], self._sources.get(sensor['name'], ('', ''))
+            # a saved world may name what was spawned on a model as the model
+            name = names.get((source, sensor['name'])) or names.get((source, model))
+            if name is None:
+                continue
+            if kind in UNITS:
+                field, unit = UNITS[kind]
+                value = float(event['value'])
+                self.store.put_rows([(source, name, f'{value:g} {unit}', False, time,
+                                      self._values(source, field, value))], False)
+                continue
+            is_on, moves = event['value'] in FIRST, kind in ('motion', 'area')
+            word = WORDS[kind][0 if is_on else 1]
+            self.store.put_rows([(source, name, word, is_on and moves, time, [])], False)
+            if kind == 'door':
+                self._turn(time, leaves.get(model), is_on)
+            if not moves:
+                self.store.add_event([time, kind, name, word, event['resident']])
+
+    def _turn(self, time: float, leaf: dict[str, Any] | None, is_open: bool) -> None:
+        if leaf is None:
+            return
+        poses = self._opened if is_open else self._closed
+        for link in self._links[leaf['model']]:
+            if link in poses:
+                self._place(time, link, poses[link])
+        self.store.put_rows([(leaf['kind'], leaf['name'], 'OPEN' if is_open else 'CLOSED', False,
+                              time, [])], False)
+
+    def _values(self, kind: str, name: str, value: float) -> list[float | None]:
+        """As the fields of a summary, of which one is known."""
+        return [value if field == name else None for field in self._fields(kind)]

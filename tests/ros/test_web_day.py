@@ -1,0 +1,112 @@
+"""angen web --replay of a generated day: residents, leaves and sensors are as its files say."""
+from __future__ import annotations
+
+import asyncio
+import gzip
+import json
+import math
+from pathlib import Path
+from typing import Any, Iterator
+
+import pytest
+from aiohttp import ClientSession, WSMsgType
+from browser import LIMIT, Server
+from harness import Cli, Master
+
+TRUTH = '''start,end,resident,activity,cause,phase,room,thing,posture,x,y,note
+0.000,100.000,anna,sleep,scheduled,does,bedroom0,bedroom_bed0,lie,1.990,8.450,
+100.000,110.000,anna,wash,free,goes,bedroom0,,stand,1.990,8.450,
+110.000,200.000,anna,wash,free,does,bathroom0,bathroom_washbasin0,stand,4.900,7.000,
+200.000,86400.000,anna,work,scheduled,away,,,stand,nan,nan,
+'''
+TRACK = 'time,resident,x,y\n101.0,anna,2.500,8.450\n102.0,anna,2.500,7.450\n'
+EVENTS = '''time,sensor,kind,room,value,resident,activity,cause
+2026-03-21 00:01:41.000000,D001,door,bathroom0,OPEN,anna,wash,hand
+2026-03-21 00:01:45.000000,D001,door,bathroom0,CLOSE,anna,wash,hand
+2026-03-21 00:05:00.000000,T001,temperature,bathroom0,19.5,,,air
+'''
+SENSORS = [{'id': 'D001', 'kind': 'door', 'name': 'bathroom0_contact', 'room': 'bathroom0'},
+           {'id': 'T001', 'kind': 'temperature', 'name': 'bathroom0_temperature',
+            'room': 'bathroom0'}]
+
+
+@pytest.fixture
+def day(tmp_path: Path) -> Path:
+    folder = tmp_path / 'out'
+    folder.mkdir()
+    for name, text in (('truth', TRUTH), ('track', TRACK), ('events', EVENTS)):
+        with gzip.open(folder / f'{name}.csv.gz', 'wt', encoding='utf-8') as file:
+            file.write(text)
+    (folder / 'layout.json').write_text(json.dumps({
+        'start': '2026-03-21T00:00:00', 'days': 1, 'sensors': SENSORS,
+        'residents': [{'name': 'anna', 'profile': 'worker', 'speed': 1.0}]}))
+    (folder / 'home.json').write_text(json.dumps({'settings': {
+        'world': '', 'seed': 1, 'own_sensors': False, 'light': False}}))
+    return folder
+
+
+async def played(port: int) -> tuple[dict[str, Any], list[Any]]:
+    """The parts and the entries of a time line, once it is whole, and the scene."""
+    url, found, entries = f'http://127.0.0.1:{port}', dict[str, Any](), list[Any]()
+    async with ClientSession() as session:
+        async with session.ws_connect(f'{url}/socket', headers={'Origin': url},
+                                      max_msg_size=0) as socket:
+            while found.get('line', {}).get('loaded') != 86400.0:
+                message = await socket.receive(timeout=LIMIT)
+                assert message.type == WSMsgType.TEXT, message
+                parts = json.loads(message.data)
+                entries += parts.pop('timeline', [])
+                found.update(parts)
+        async with session.get(f'{url}/scene.json') as answer:
+            found['scene'] = await answer.json()
+    return found, entries
+
+
+@pytest.fixture
+def server(master: Master, tmp_path: Path, day: Path) -> Iterator[Server]:
+    started = Server(master, tmp_path, '--replay', str(day))
+    yield started
+    assert started.end() == 0, started.log()
+    assert 'Traceback' not in started.log()
+
+
+def test_a_day_is_played(server: Server) -> None:
+    found, entries = asyncio.run(played(server.port))
+    scene = found['scene']
+    ids = {f'{link["model"]}::{link["name"]}': number
+           for number, link in zip(scene['ids'], scene['links'])}
+
+    def poses(model: str) -> list[tuple[float, list[float]]]:
+        wanted = {number for name, number in ids.items() if name.startswith(f'{model}::')}
+        return [(e[1], e[3][:7]) for e in entries if e[0] == 'p' and wanted & set(e[2])]
+
+    anna = {time: pose for time, pose in poses('anna')}
+    assert anna[110.0][:2] == [4.9, 7.0] and anna[200.0][:2] == [4.9, 7.0]  # away: as it was
+    assert math.hypot(anna[0.0][0] - 1.99, anna[0.0][1] - 8.45) < 0.7  # on the bed's place
+    ahead = 2 * math.atan2(anna[102.0][5], anna[102.0][6])
+    assert ahead == pytest.approx(-math.pi / 2, abs=0.01)  # the way from the step before
+    door = next(e['model'] for e in found['entities'] if (e['kind'], e['name']) == (
+        'door', 'bathroom0'))
+    turns = {time: 2 * math.atan2(pose[5], pose[6]) for time, pose in poses(door)}
+    assert abs(turns[101.0] - turns[0.0]) == pytest.approx(1.57, abs=0.05)
+    assert turns[105.0] == pytest.approx(turns[0.0], abs=1e-3)
+    rows = [e[2:] for e in entries if e[0] == 'r']
+    assert [(row[2], row[4]) for row in rows if row[:2] == ['person', 'anna']][1:] == [
+        ('lying · sleep', 0.0), ('walking · wash', 100.0), ('standing · wash', 110.0),
+        ('away · work', 200.0)]
+    assert [row[2] for row in rows if row[1] == 'bathroom0_temperature'][-1] == '19.5 °C'
+    assert found['line']['ribbon'] == [['anna', [
+        [0.0, 100.0, 'sleep'], [100.0, 110.0, 'wash'], [110.0, 200.0, 'wash'],
+        [200.0, 86400.0, 'work']]]]
+    assert found['home']['start'] == '2026-03-21T00:00:00'
+
+
+def test_folders_without_a_day_are_refused(master: Master, tmp_path: Path, day: Path) -> None:
+    cli = Cli(master)
+    empty = tmp_path / 'empty'
+    empty.mkdir()
+    assert 'has no data of angen generate' in cli.fails('web', '--replay', str(empty))
+    settings = json.loads((day / 'home.json').read_text())
+    settings['settings']['world'] = 'f' * 64
+    (day / 'home.json').write_text(json.dumps(settings))
+    assert 'give the same file by --world' in cli.fails('web', '--replay', str(day))
