@@ -166,6 +166,12 @@ export class Card {
 const spaced = (name) => words(name.replace(/([a-z])([A-Z])/g, '$1 $2').toLowerCase());
 
 /**
+ * "ON 40 % 320 lm" as "on 40 %": beside a switch that is enough.
+ * @param {string} text @param {boolean} on
+ */
+const shortState = (text, on) => `${text.split(' ')[0].toLowerCase()}${on ? / \d+ %/.exec(text)?.[0] ?? '' : ''}`;
+
+/**
  * A line of a list: name, state, and a switch where the kind has two opposite verbs.
  * @param {import('./home.js').Home} home
  * @param {any} e
@@ -181,7 +187,8 @@ export function thingRow(home, e, open) {
     el('button', { class: 'name', type: 'button', title: e.name, onclick: open }, `${words(e.kind)} ${e.name}`), state, toggle);
   row.refresh = () => {
     const now = home.row(e), text = now?.text ?? '', on = pair && new RegExp(`^${pair[0]}`, 'i').test(text);
-    if (state.textContent !== text) state.textContent = text;
+    const shown = pair ? shortState(text, Boolean(on)) : text;
+    if (state.textContent !== shown) { state.textContent = shown; state.title = text; }
     row.classList.toggle('on', Boolean(on));
     row.classList.toggle('alarm', Boolean(now?.alarm));
     if (toggle && pair) toggle.textContent = on ? pair[1] : pair[0];

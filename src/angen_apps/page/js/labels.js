@@ -1,6 +1,7 @@
 /** Names of rooms and people over the 3D view. */
 import * as THREE from '../vendor/three/three.module.min.js';
 import { by, el } from './dom.js';
+import { inside } from './home.js';
 
 const MOST = 26; // rooms with a label
 
@@ -16,17 +17,19 @@ export class Labels {
    */
   place(view) {
     const wanted = new Map();
-    const { home } = view;
-    for (const [model, { figure }] of view.people.all) {
+    const { home } = view, floors = view.storey === null ? home.rooms : []; // what may be before a label
+    for (const [model, { figure, text: doing }] of view.people.all) {
       const p = figure.group.position;
-      if (figure.group.visible) wanted.set(`person ${model}`, { at: [p.x, p.y, p.z + 2], text: model, person: true });
+      if (figure.group.visible) wanted.set(`person ${model}`, { at: [p.x, p.y, p.z + 2], text: model, person: true, small: doing, behind: isBehind(view, floors, [p.x, p.y, p.z + 0.9]) });
     }
     const rooms = home.rooms.filter((room) => view.showsStorey(room.storey)).sort((a, b) => b.floor - a.floor); // the upper ones first
     if (rooms.length <= MOST) {
       for (const room of rooms) {
-        const at = middleOf(room.polygon), lit = view.glows.meshes.get(room.name)?.userData.lit;
+        const middle = middleOf(room.polygon), at = [...middle, room.floor + 0.3];
+        if (isBehind(view, floors, at)) continue;
+        const lit = view.glows.meshes.get(room.name)?.userData.lit;
         const lux = view.lux(room);
-        wanted.set(`room ${room.name}`, { at: [at[0], at[1], room.floor + 0.3], text: roomText(room), lit, small: lux === null ? '' : `${Math.round(lux)} lx` });
+        wanted.set(`room ${room.name}`, { at, text: roomText(room), lit, small: lux === null ? '' : `${Math.round(lux)} lx` });
       }
     }
     const { clientWidth: width, clientHeight: height } = view.element, point = new THREE.Vector3();
@@ -35,23 +38,40 @@ export class Labels {
     }
     /** @type {number[][]} */
     const taken = [];
-    for (const [key, { at, text, lit, person, small }] of wanted) {
+    for (const [key, { at, text, lit, person, small, behind }] of wanted) {
       let label = this.shown.get(key);
       if (!label) {
         label = el('div', { class: person ? 'label person' : 'label' }, text, el('small'));
         this.shown.set(key, label);
         by('labels').append(label);
       }
-      if (label.lastChild.textContent !== (small ?? '')) label.lastChild.textContent = small ?? '';
+      if (!label.half || label.lastChild.textContent !== (small ?? '')) {
+        label.lastChild.textContent = small ?? '';
+        label.half = label.offsetWidth / 2;
+      }
       label.classList.toggle('lit', Boolean(lit));
+      label.classList.toggle('behind', Boolean(behind));
       point.fromArray(at).project(view.camera);
-      const x = ((point.x + 1) / 2) * width, y = ((1 - point.y) / 2) * height, half = label.offsetWidth / 2 || 40;
+      const x = ((point.x + 1) / 2) * width, y = ((1 - point.y) / 2) * height, half = label.half || 40;
       const free = point.z < 1 && !taken.some(([u, v, w]) => Math.abs(u - x) < half + w + 4 && Math.abs(v - y) < 24);
       if (free) taken.push([x, y, half]);
       label.style.visibility = free ? '' : 'hidden';
       label.style.transform = `translate(${x}px, ${y}px) translate(-50%, -50%)`;
     }
   }
+}
+
+/**
+ * Whether the floor of a room above hides a place.
+ * @param {import('./view3d.js').View3d} view @param {any[]} rooms @param {number[]} at
+ */
+function isBehind(view, rooms, at) {
+  const eye = view.camera.position;
+  return rooms.some((room) => {
+    if (room.floor < at[2] + 1 || eye.z < room.floor) return false;
+    const part = (room.floor - at[2]) / (eye.z - at[2]);
+    return inside(room.polygon, at[0] + part * (eye.x - at[0]), at[1] + part * (eye.y - at[1]));
+  });
 }
 
 /** @param {number[][]} polygon @returns {number[]} */

@@ -86,7 +86,7 @@ class Page {
       this.play.title = stats.paused ? 'Go on (space)' : 'Pause (space)';
       this.play.setAttribute('aria-label', stats.paused ? 'Go on' : 'Pause');
     }
-    this.factor.textContent = status.node ? (stats.paused ? 'paused' : `${stats.factor.toFixed(stats.factor < 10 ? 2 : 0)}× real time`) : '';
+    this.factor.textContent = status.node ? `${stats.paused ? 'paused' : `${stats.factor.toFixed(stats.factor < 10 ? 2 : 0)}× real time`}${status.seed === undefined ? '' : `, seed ${status.seed}`}` : '';
   }
 
   /** @param {string} theme */
@@ -134,11 +134,13 @@ class Page {
   buildLayers() {
     this.walls = el('select', { 'aria-label': 'Walls', onchange: () => this.view?.setWalls(this.walls.value) },
       el('option', { value: 'cut' }, 'Low walls'), el('option', { value: 'clear' }, 'See-through walls'), el('option', { value: 'full' }, 'Whole walls'));
-    const fields = el('button', { type: 'button', 'aria-pressed': 'false', title: 'Where sensors detect (F)' }, 'Sensor fields');
+    const fields = el('button', { type: 'button', 'aria-pressed': 'false', title: 'Where sensors detect, and what lidars measure (F)' }, 'Sensor fields');
     fields.addEventListener('click', () => {
       const on = fields.getAttribute('aria-pressed') !== 'true';
       fields.setAttribute('aria-pressed', String(on));
       this.view?.setFields(on);
+      const lidars = this.home.entities.filter((e) => e.type === 'sensor_msgs/LaserScan' && e.topic);
+      this.home.connection.want('fields', on ? lidars.slice(0, 4).map((e) => `scan:${e.name}`) : []);
       this.plan.withFields = on;
       this.plan.update();
     });

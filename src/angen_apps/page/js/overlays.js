@@ -1,8 +1,12 @@
 /** Bulbs of lamps, and the fields of sensors on the floor: one draw call each. */
 import * as THREE from '../vendor/three/three.module.min.js';
 import { fieldShape } from './fields.js';
+import { poseMatrix } from './shapes.js';
 
 const matrix = new THREE.Matrix4(), color = new THREE.Color();
+const MOTION = 0x2f7df6, ALARM = 0xe5484d, QUIET = 0x0f9f8f;
+const MOVES = new Set(['pir', 'switch', 'proximity']); // what they report is no fault
+const FLASH = 0.9; // s in which a field that fires gets calm
 
 export class Bulbs {
   /** @param {import('./home.js').Home} home */
@@ -48,11 +52,13 @@ export class Fields {
   constructor(home) {
     this.home = home;
     this.group = new THREE.Group();
-    /** @type {{key: string, storey: number, first: number, count: number}[]} */
+    /** @type {{key: string, kind: string, storey: number, first: number, count: number}[]} */
     this.all = [];
     this.state = '';
     /** @type {any} */
     this.shownOf = null;
+    /** @type {Map<string, number>} s since a sensor began to fire, while it flashes */
+    this.flashes = new Map();
   }
 
   build() {
@@ -67,7 +73,7 @@ export class Fields {
       for (let i = 1; i + 1 < points.length; i++) { // a fan, seen from its first corner
         for (const [x, y, z] of [points[0], points[i], points[i + 1]]) positions.push(x, y, z + 0.03);
       }
-      this.all.push({ key: `${sensor.kind}/${sensor.name}`, storey: this.home.storeyAt(points[0][2] + 0.1), first, count: positions.length / 3 - first });
+      this.all.push({ key: `${sensor.kind}/${sensor.name}`, kind: sensor.kind, storey: this.home.storeyAt(points[0][2] + 0.1), first, count: positions.length / 3 - first });
     }
     this.geometry = new THREE.BufferGeometry();
     this.geometry.setAttribute('position', new THREE.Float32BufferAttribute(positions, 3));
@@ -89,21 +95,99 @@ export class Fields {
     const shown = this.all.map(({ key, storey }) => (shows(storey) ? (this.home.rows.get(key)?.alarm ? 2 : all ? 1 : 0) : 0));
     const state = shown.join('');
     if (state === this.state && this.shownOf === this.geometry) return false;
+    const fresh = this.shownOf !== this.geometry;
+    this.all.forEach(({ key }, i) => {
+      if (shown[i] !== 2) this.flashes.delete(key);
+      else if (!fresh && this.state[i] !== '2') this.flashes.set(key, 0);
+    });
     this.state = state;
     this.shownOf = this.geometry;
     /** @type {number[]} */
     const index = [];
-    const colors = this.geometry.getAttribute('color');
     this.all.forEach(({ first, count }, i) => {
-      if (!shown[i]) return;
-      color.set(shown[i] === 2 ? 0xe5484d : 0x0f9f8f);
-      for (let v = first; v < first + count; v++) {
-        index.push(v);
-        colors.setXYZW(v, color.r, color.g, color.b, shown[i] === 2 ? 0.34 : 0.13);
-      }
+      if (shown[i]) for (let v = first; v < first + count; v++) index.push(v);
     });
     this.geometry.setIndex(index);
-    colors.needsUpdate = true;
+    this.color();
     return true;
   }
+
+  color() {
+    const colors = this.geometry.getAttribute('color');
+    this.all.forEach(({ key, kind, first, count }, i) => {
+      if (this.state[i] === '0') return;
+      const fires = this.state[i] === '2', bright = 1 - (this.flashes.get(key) ?? FLASH) / FLASH;
+      color.set(!fires ? QUIET : MOVES.has(kind) ? MOTION : ALARM);
+      for (let v = first; v < first + count; v++) colors.setXYZW(v, color.r, color.g, color.b, fires ? 0.26 + 0.4 * bright : 0.13);
+    });
+    colors.needsUpdate = true;
+  }
+
+  /**
+   * @param {number} dt s
+   * @returns {boolean} whether any flashes
+   */
+  animate(dt) {
+    if (!this.flashes.size) return false;
+    for (const [key, time] of this.flashes) {
+      if (time + dt < FLASH) this.flashes.set(key, time + dt);
+      else this.flashes.delete(key);
+    }
+    this.color();
+    return true;
+  }
+}
+
+/** What lidars measured last, as points. */
+export class Scans {
+  /** @param {import('./home.js').Home} home */
+  constructor(home) {
+    this.home = home;
+    this.group = new THREE.Group();
+    /** @type {Map<string, any>} */
+    this.clouds = new Map();
+    this.material = new THREE.PointsMaterial({ color: 0xe8590c, size: 4, sizeAttenuation: false });
+  }
+
+  /** @param {{name: string, content: ArrayBuffer}} scan @returns {boolean} whether it is one of a sensor in the scene */
+  put({ name, content }) {
+    const points = scanPoints(this.home, name, content);
+    if (!points) return false;
+    let cloud = this.clouds.get(name);
+    if (!cloud) {
+      this.clouds.set(name, cloud = new THREE.Points(new THREE.BufferGeometry(), this.material));
+      cloud.frustumCulled = false;
+      this.group.add(cloud);
+    }
+    cloud.geometry.dispose();
+    cloud.geometry = new THREE.BufferGeometry();
+    cloud.geometry.setAttribute('position', new THREE.Float32BufferAttribute(points.flat(), 3));
+    return true;
+  }
+
+  clear() {
+    for (const cloud of this.clouds.values()) cloud.geometry.dispose();
+    this.clouds.clear();
+    this.group.clear();
+  }
+}
+
+/**
+ * The places that a lidar hit.
+ * @param {import('./home.js').Home} home @param {string} name as it was wanted @param {ArrayBuffer} content
+ * @returns {number[][] | null} x y z each; null where there is no such sensor
+ */
+export function scanPoints(home, name, content) {
+  const sensor = home.scene?.sensors.find((/** @type {any} */ s) => `scan:${s.name}` === name);
+  if (!sensor) return null;
+  const [first, step] = new Float32Array(content, 0, 2), ranges = new Float32Array(content, 8);
+  const at = poseMatrix(home.pose(sensor.link), new THREE.Matrix4()).multiply(poseMatrix(sensor.pose, matrix)), hit = new THREE.Vector3();
+  /** @type {number[][]} */
+  const points = [];
+  ranges.forEach((range, i) => {
+    if (!Number.isFinite(range) || range > sensor.range) return;
+    const angle = first + i * step;
+    points.push(hit.set(range * Math.cos(angle), range * Math.sin(angle), 0).applyMatrix4(at).toArray());
+  });
+  return points;
 }

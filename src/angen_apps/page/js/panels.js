@@ -105,12 +105,9 @@ export class Panels {
     const { home } = this;
     if (home.status.replay || !home.status.node) return [];
     const all = (/** @type {string} */ kind, /** @type {string} */ verb) => () => home.order({ do: 'command', target: `${kind}/all`, text: verb });
-    const has = (/** @type {string} */ kind) => home.entities.some((e) => e.kind === kind);
-    return [el('div', { class: 'tools' },
-      has('lamp') && el('button', { type: 'button', onclick: all('lamp', 'On') }, 'All lamps on'),
-      has('lamp') && el('button', { type: 'button', onclick: all('lamp', 'Off') }, 'Off'),
-      has('door') && el('button', { type: 'button', onclick: all('door', 'Open') }, 'Open doors'),
-      has('door') && el('button', { type: 'button', onclick: all('door', 'Close') }, 'Close'))];
+    const pair = (/** @type {string} */ kind, /** @type {string} */ text, /** @type {string[]} */ ...verbs) => (home.entities.some((e) => e.kind === kind)
+      ? el('span', { class: 'pair', role: 'group', 'aria-label': text }, el('span', { class: 'soft' }, text), ...verbs.map((verb) => el('button', { type: 'button', onclick: all(kind, verb) }, verb))) : null);
+    return [el('div', { class: 'tools' }, pair('lamp', 'Lamps', 'On', 'Off'), pair('door', 'Doors', 'Open', 'Close'))];
   }
 
   /** @param {any} room @param {any[]} things */

@@ -7,7 +7,7 @@ export class People {
   constructor(home) {
     this.home = home;
     this.group = new THREE.Group();
-    /** @type {Map<string, {figure: Figure, link: number, low: number}>} by model */
+    /** @type {Map<string, {figure: Figure, link: number, low: number, text: string}>} by model */
     this.all = new Map();
   }
 
@@ -28,7 +28,7 @@ export class People {
     const heights = parts.flatMap((/** @type {any} */ s) => [s.pose[2] - s.size[2] / 2, s.pose[2] + s.size[2] / 2]);
     const low = heights.length ? Math.min(...heights) : -0.875, high = heights.length ? Math.max(...heights) : 0.875;
     const figure = new Figure(number, Math.max(1, high - low));
-    const entry = { figure, link: links[0], low };
+    const entry = { figure, link: links[0], low, text: '' };
     figure.group.userData.link = links[0];
     figure.group.traverse((/** @type {any} */ part) => { part.userData.link = links[0]; });
     this.all.set(model, entry);
@@ -41,7 +41,8 @@ export class People {
     const entry = this.all.get(model), person = this.home.entities.find((e) => e.kind === 'person' && e.model === model);
     if (!entry || !person) return;
     const row = this.home.row(person), text = row?.text ?? '';
-    entry.figure.posture = /\bsit/i.test(text) ? 'sit' : /\b(lie|lying)/i.test(text) ? 'lie' : 'stand';
+    entry.figure.posture = /\bsit/i.test(text) ? 'sit' : /\b(lie|lying)/i.test(text) ? 'lie' : /^away\b/i.test(text) ? 'away' : 'stand';
+    entry.text = / · (.*)/.exec(text)?.[1] ?? '';
     const at = this.home.fields('person').findIndex((field) => field.name === 'speed');
     entry.figure.speed = row?.values[at] ?? 0;
   }
@@ -56,7 +57,7 @@ export class People {
       if (own !== link) continue;
       figure.group.position.set(pose[0], pose[1], pose[2] + low);
       figure.group.rotation.z = Math.atan2(2 * (pose[6] * pose[5] + pose[3] * pose[4]), 1 - 2 * (pose[4] ** 2 + pose[5] ** 2));
-      figure.group.visible = shows(this.home.storeyAt(pose[2] + low + 0.3));
+      figure.group.visible = figure.posture !== 'away' && shows(this.home.storeyAt(pose[2] + low + 0.3));
     }
   }
 

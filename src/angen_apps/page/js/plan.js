@@ -2,6 +2,7 @@
 import { by, svg } from './dom.js';
 import { fieldShape } from './fields.js';
 import { middleOf, roomText } from './labels.js';
+import { scanPoints } from './overlays.js';
 
 const SHOWN = new Set(['lamp', 'door', 'window', 'elevator', 'stove', 'heater', 'appliance', 'cabinet']);
 
@@ -148,10 +149,8 @@ export class Plan {
       item.classList.toggle('alarm', Boolean(row?.alarm));
       item.setAttribute('aria-label', `${e.kind} ${e.name}: ${row?.text ?? ''}`);
     }
-    for (const room of home.rooms) {
-      const lit = home.entities.some((e) => e.kind === 'lamp' && isOn(home.row(e)) && home.roomsOf(e)[0]?.name === room.name);
-      this.items.get(`room/${room.name}`)?.classList.toggle('lit', lit);
-    }
+    const lit = new Set(home.entities.filter((e) => e.kind === 'lamp' && isOn(home.row(e))).map((e) => home.roomsOf(e)[0]?.name));
+    for (const room of home.rooms) this.items.get(`room/${room.name}`)?.classList.toggle('lit', lit.has(room.name));
     this.showFields(number);
   }
 
@@ -192,12 +191,8 @@ export class Plan {
   /** @param {{name: string, content: ArrayBuffer}} scan */
   showScan({ name, content }) {
     if (this.hidden || !this.scan) return;
-    const sensor = this.home.scene.sensors.find((/** @type {any} */ s) => `scan:${s.name}` === name);
-    if (!sensor) return;
-    const [first, step] = new Float32Array(content, 0, 2), ranges = new Float32Array(content, 8), p = this.home.pose(sensor.link);
-    const yaw = 2 * Math.atan2(p[5], p[6]) + 2 * Math.atan2(sensor.pose[5], sensor.pose[6]);
-    this.scan.replaceChildren(...Array.from(ranges).flatMap((range, i) => (i % 2 || !Number.isFinite(range) ? []
-      : [svg('circle', { r: 0.05, cx: p[0] + range * Math.cos(yaw + first + i * step), cy: -(p[1] + range * Math.sin(yaw + first + i * step)) })])));
+    const points = scanPoints(this.home, name, content) ?? [];
+    this.scan.replaceChildren(...points.filter((_, i) => i % 2 === 0).map(([x, y]) => svg('circle', { r: 0.05, cx: x.toFixed(2), cy: (-y).toFixed(2) })));
   }
 
   /** @param {MouseEvent} e */

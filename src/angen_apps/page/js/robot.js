@@ -1,6 +1,7 @@
 /** Robots: drive by keys or a stick, the camera's picture, a goal. */
 import { el } from './dom.js';
 import { thingRow } from './card.js';
+import { RobotMap } from './robotmap.js';
 
 const SPEED = 0.35, TURN = 1.4; // m/s, rad/s, at the end of the stick
 const PERIOD = 100; // ms between orders while it is driven
@@ -18,6 +19,7 @@ export class RobotPanel {
     /** @type {Set<string>} */
     this.keys = new Set();
     this.camera = false;
+    this.map = new RobotMap(home, (x, y, yaw) => this.setGoal(x, y, yaw));
     home.on('picture', ({ name, content }) => this.onPicture(name, content));
     addEventListener('keydown', (e) => this.key(e, true));
     addEventListener('keyup', (e) => this.key(e, false));
@@ -52,8 +54,9 @@ export class RobotPanel {
     this.want();
     return [el('div', { class: 'tools' }, choose, this.cameras.length && !home.status.replay ? shown : null,
       !home.status.replay && el('button', { type: 'button', onclick: () => this.goal(robot) }, 'Set goal …')),
-    thingRow(home, robot, () => this.page.show(robot)), this.picture,
-    ...(home.status.replay ? [] : [this.stick, el('p', { class: 'soft', style: 'text-align: center' }, 'Drag the stick, or hold W A S D.')])];
+    thingRow(home, robot, () => this.page.show(robot)), this.picture, this.map.show(robot, this.lidar ? `scan:${this.lidar.name}` : ''),
+    ...(home.status.replay ? [] : [el('p', { class: 'soft', style: 'text-align: center' }, 'Drag on the map: a goal and its direction.'),
+      this.stick, el('p', { class: 'soft', style: 'text-align: center' }, 'Drag the stick, or hold W A S D.')])];
   }
 
   want() {
@@ -83,10 +86,18 @@ export class RobotPanel {
 
   /** @param {any} robot */
   goal(robot) {
-    this.page.choosePoint(`Choose the goal of ${robot.name}`, async (/** @type {number[]} */ p) => {
-      const answer = await this.home.order({ do: 'goal', x: p[0], y: p[1] });
-      if (answer.ok) this.page.say(answer.text);
+    this.page.choosePoint(`Choose the goal of ${robot.name}`, (/** @type {number[]} */ p) => {
+      this.map.goal = [p[0], p[1], 0];
+      this.setGoal(p[0], p[1], 0);
     });
+  }
+
+  /** @param {number} x @param {number} y @param {number} yaw */
+  async setGoal(x, y, yaw) {
+    const answer = await this.home.order({ do: 'goal', x, y, yaw });
+    if (answer.ok) this.page.say(answer.text);
+    else this.map.goal = null;
+    this.map.later();
   }
 
   /** @param {KeyboardEvent} e @param {boolean} down */

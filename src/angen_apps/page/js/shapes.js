@@ -3,8 +3,8 @@ import * as THREE from '../vendor/three/three.module.min.js';
 
 const BOX = 0, SPHERE = 1, CYLINDER = 2;
 export const CUT = 1.15; // m over the floor, where walls are cut
-const HIDDEN = new THREE.Matrix4().makeScale(0, 0, 0);
-const scratch = new THREE.Matrix4(), place = new THREE.Vector3(), turn = new THREE.Quaternion(), size = new THREE.Vector3();
+const FINE = 1e-5, COARSE = 0.035; // m: corners of a mesh that are nearer are one; coarse where the processor draws
+const scratch = new THREE.Matrix4(), moved = new THREE.Matrix4(), place = new THREE.Vector3(), turn = new THREE.Quaternion(), size = new THREE.Vector3();
 
 /** @param {ArrayLike<number>} p x y z and quaternion @param {any} into a Matrix4 */
 export function poseMatrix(p, into) {
@@ -23,15 +23,48 @@ function storeyOf(group) {
   return found ? Number(found[1]) : null;
 }
 
-/** @param {any} mesh of the scene: arrays in base64 */
-function meshGeometry(mesh) {
+/**
+ * With each corner once, which is then computed once.
+ * @param {any} mesh of the scene: arrays in base64 @param {number} cell m: corners in one become one
+ */
+function meshGeometry(mesh, cell) {
   const bytes = (/** @type {string} */ text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
-  let geometry = new THREE.BufferGeometry();
-  geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(bytes(mesh.vertices)), 3));
-  geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(bytes(mesh.triangles)), 1));
-  geometry = geometry.toNonIndexed(); // flat faces
+  const all = new Float32Array(bytes(mesh.vertices)), triangles = new Uint32Array(bytes(mesh.triangles));
+  /** @type {Map<string, number>} */
+  const known = new Map();
+  /** @type {number[]} */
+  const corners = [];
+  const welded = triangles.map((vertex) => {
+    const corner = Array.from(all.subarray(3 * vertex, 3 * vertex + 3)), key = corner.map((x) => Math.round(x / cell)).join();
+    let at = known.get(key);
+    if (at === undefined) {
+      known.set(key, at = known.size);
+      corners.push(...corner);
+    }
+    return at;
+  });
+  /** @type {number[]} */
+  const index = [];
+  for (let i = 0; i + 2 < welded.length; i += 3) {
+    const [a, b, c] = welded.subarray(i, i + 3);
+    if (a !== b && b !== c && c !== a) index.push(a, b, c);
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.Float32BufferAttribute(corners, 3));
+  geometry.setIndex(index);
   geometry.computeVertexNormals();
   return geometry;
+}
+
+/**
+ * @param {string} type @param {string} cls
+ * @param {boolean} plain few faces, for what is small and where the processor draws
+ */
+function geometryOf(type, cls, plain) {
+  const few = plain || cls === 'sensor';
+  if (type === '0') return cls === 'wall' ? wallGeometry() : new THREE.BoxGeometry(1, 1, 1);
+  if (type === '1') return few ? new THREE.SphereGeometry(0.5, 8, 6) : new THREE.SphereGeometry(0.5, 20, 14);
+  return new THREE.CylinderGeometry(0.5, 0.5, 1, few ? 10 : 24).rotateX(Math.PI / 2);
 }
 
 /** A box whose upper face is darker, as the section of a wall in a drawing. */
@@ -44,8 +77,8 @@ function wallGeometry() {
 }
 
 /**
- * @typedef {{mesh: any, index: number, link: number, local: any, type: number, cls: string, storey: number | null, size: number[],
- *   extent: number}} Part
+ * @typedef {{mesh: any, slot: number, color: any, link: number, local: any, type: number, cls: string, storey: number | null,
+ *   size: number[], extent: number}} Part
  */
 
 export class Shapes {
@@ -53,15 +86,15 @@ export class Shapes {
    * @param {any} scene as the server sends it
    * @param {Set<string>} replaced models that something else shows
    * @param {(cls: string, color: number[], link: any, shape: any) => number[]} paint
+   * @param {boolean} plain
    */
-  constructor(scene, replaced, paint) {
+  constructor(scene, replaced, paint, plain) {
+    this.plain = plain;
     this.group = new THREE.Group();
     /** @type {any[]} */
     this.meshes = [];
     /** @type {Part[][]} by link */
     this.parts = scene.links.map(() => []);
-    /** @type {Part[][]} by mesh and instance */
-    this.instances = [];
     this.bounds = new THREE.Box3();
     const geometries = new Map();
     /** @type {Map<string, any[]>} */
@@ -72,8 +105,9 @@ export class Shapes {
       const cls = classOf(link.group);
       const glass = cls === 'window' && shape.size[0] * shape.size[1] * shape.size[2] > 0.002;
       const clear = glass || (shape.color[3] < 0.99 && cls !== 'wall');
-      const key = `${shape.type}|${shape.type > CYLINDER ? shape.mesh : ''}|${cls}|${clear ? Math.min(glass ? 0.35 : 1, shape.color[3]).toFixed(2) : ''}`;
-      batches.set(key, [...(batches.get(key) ?? []), shape]);
+      const key = `${shape.type}|${shape.type > CYLINDER ? shape.mesh : ''}|${cls}|${clear ? Math.min(glass ? 0.35 : 1, shape.color[3]).toFixed(2) : ''}|${link.moves}`;
+      if (!batches.has(key)) batches.set(key, []);
+      batches.get(key)?.push(shape);
     }
     for (const [key, shapes] of batches) this.addBatch(scene, key, shapes, geometries, paint);
   }
@@ -81,35 +115,27 @@ export class Shapes {
   /** @param {any} scene @param {string} key @param {any[]} shapes @param {Map<string, any>} geometries @param {any} paint */
   addBatch(scene, key, shapes, geometries, paint) {
     const [type, mesh, cls, clear] = key.split('|');
-    const shapeKey = cls === 'wall' && type === '0' ? 'wall' : `${type}|${mesh}`;
-    if (!geometries.has(shapeKey)) {
-      geometries.set(shapeKey, shapeKey === 'wall' ? wallGeometry() : type === '0' ? new THREE.BoxGeometry(1, 1, 1)
-        : type === '1' ? new THREE.SphereGeometry(0.5, 20, 14)
-          : type === '2' ? new THREE.CylinderGeometry(0.5, 0.5, 1, 24).rotateX(Math.PI / 2) : meshGeometry(scene.meshes[shapes[0].mesh]));
-    }
-    const material = cls === 'ground' ? new THREE.MeshBasicMaterial() : new THREE.MeshLambertMaterial({ vertexColors: shapeKey === 'wall' });
+    const isMesh = Number(type) > CYLINDER, isWall = cls === 'wall' && type === '0';
+    const shapeKey = isMesh ? `mesh ${mesh}` : `${type} ${cls}`;
+    if (!geometries.has(shapeKey)) geometries.set(shapeKey, isMesh ? meshGeometry(scene.meshes[shapes[0].mesh], this.plain ? COARSE : FINE) : geometryOf(type, cls, this.plain));
+    const material = cls === 'ground' ? new THREE.MeshBasicMaterial() : new THREE.MeshLambertMaterial({ vertexColors: isWall, flatShading: isMesh });
     if (clear) Object.assign(material, { transparent: true, opacity: Math.max(0.15, Number(clear)), depthWrite: false });
     const batch = new THREE.InstancedMesh(geometries.get(shapeKey), material, shapes.length);
     batch.castShadow = !clear && cls !== 'ground' && cls !== 'ceiling';
     batch.receiveShadow = true;
     batch.frustumCulled = false;
-    batch.userData = { cls, links: shapes.map((shape) => shape.link) };
-    const color = new THREE.Color();
-    /** @type {Part[]} */
-    const parts = [];
-    shapes.forEach((shape, index) => {
+    batch.userData = { cls, parts: [] };
+    batch.count = 0;
+    for (const shape of shapes) {
       const link = scene.links[shape.link];
       const scale = type > '2' ? [1, 1, 1] : shape.size;
       const local = poseMatrix(shape.pose, new THREE.Matrix4()).clone().scale(size.fromArray(scale));
-      const part = { mesh: batch, index, link: shape.link, local, type: shape.type, cls, storey: storeyOf(link.group), size: scale,
-        extent: Math.max(...scale) };
-      this.parts[shape.link].push(part);
-      parts.push(part);
       const [r, g, b] = paint(cls, shape.color, link, shape);
-      batch.setColorAt(index, color.setRGB(r, g, b, THREE.SRGBColorSpace));
+      const part = { mesh: batch, slot: -1, color: new THREE.Color().setRGB(r, g, b, THREE.SRGBColorSpace), link: shape.link, local,
+        type: shape.type, cls, storey: storeyOf(link.group), size: scale, extent: type > '2' ? 1 : Math.max(...scale) };
+      this.parts[shape.link].push(part);
       if (cls !== 'ground' && part.extent < 60) this.bounds.expandByPoint(place.fromArray(link.pose));
-    });
-    this.instances.push(parts);
+    }
     this.meshes.push(batch);
     this.group.add(batch);
   }
@@ -122,9 +148,8 @@ export class Shapes {
     for (const part of this.parts[link]) {
       scratch.multiplyMatrices(matrix, part.local);
       const cut = shown(part, scratch.elements[14]);
-      if (cut !== null && (Number.isNaN(cut) || !cutBox(scratch, part, cut))) part.mesh.setMatrixAt(part.index, HIDDEN);
-      else part.mesh.setMatrixAt(part.index, scratch);
-      part.mesh.instanceMatrix.needsUpdate = true;
+      if (cut !== null && (Number.isNaN(cut) || !cutBox(scratch, part, cut))) hide(part);
+      else show(part, scratch);
     }
   }
 
@@ -153,6 +178,41 @@ export class Shapes {
       mesh.dispose();
     }
   }
+}
+
+/**
+ * Instances that are seen come first: those that are not cost nothing.
+ * @param {Part} part @param {any} matrix
+ */
+function show(part, matrix) {
+  if (part.slot < 0) {
+    put(part, part.mesh.count++, matrix);
+    return;
+  }
+  part.mesh.setMatrixAt(part.slot, matrix);
+  part.mesh.instanceMatrix.needsUpdate = true;
+}
+
+/** @param {Part} part */
+function hide(part) {
+  const { mesh, slot } = part;
+  if (slot < 0) return;
+  part.slot = -1;
+  const last = mesh.userData.parts[--mesh.count];
+  if (last === part) return;
+  mesh.getMatrixAt(mesh.count, moved);
+  put(last, slot, moved);
+}
+
+/** @param {Part} part @param {number} slot @param {any} matrix */
+function put(part, slot, matrix) {
+  const { mesh, color } = part;
+  part.slot = slot;
+  mesh.userData.parts[slot] = part;
+  mesh.setColorAt(slot, color);
+  mesh.setMatrixAt(slot, matrix);
+  mesh.instanceColor.needsUpdate = true;
+  mesh.instanceMatrix.needsUpdate = true;
 }
 
 /**

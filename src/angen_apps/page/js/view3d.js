@@ -1,16 +1,21 @@
 /** The home in 3D: drawn again only when something changed. */
 import * as THREE from '../vendor/three/three.module.min.js';
 import { OrbitControls } from '../vendor/three/OrbitControls.js';
+import { Sky } from './daylight.js';
 import { by } from './dom.js';
 import { Glows } from './glow.js';
 import { Labels } from './labels.js';
-import { Bulbs, Fields } from './overlays.js';
+import { Bulbs, Fields, Scans } from './overlays.js';
 import { isPlain, paint } from './paint.js';
 import { People } from './people.js';
 import { CUT, Shapes, poseMatrix } from './shapes.js';
 
 const EASE = 12; // 1/s, with which shown poses follow those that were sent
 const PLAIN_PERIOD = 80; // ms between frames where the processor draws
+const PLAIN_PIXELS = 4.5e5;
+const TOWER = 3; // floors: of more, those below the top one show no small things while all are shown
+const SMALL = 0.3; // m
+
 export class View3d {
   /** @param {import('./home.js').Home} home @param {(hit: any) => void} onPick */
   constructor(home, onPick) {
@@ -40,17 +45,13 @@ export class View3d {
     this.controls.addEventListener('start', () => { this.goal = null; });
     this.controls.addEventListener('change', () => { this.dirty = true; });
     this.controls.listenToKeyEvents(this.element);
-    this.sky = new THREE.HemisphereLight(0xffffff, 0xb9b0a4, 1.5);
-    this.sun = new THREE.DirectionalLight(0xffffff, 1.6);
-    this.sun.castShadow = true;
-    this.sun.shadow.mapSize.set(2048, 2048);
-    this.sun.shadow.bias = -0.0006;
-    this.sun.shadow.normalBias = 0.03;
-    this.scene.add(this.sky, this.sun, this.sun.target);
+    this.sky = new Sky();
+    this.scene.add(this.sky.group);
     this.glows = new Glows();
     this.bulbs = new Bulbs(home);
     this.fields = new Fields(home);
-    this.scene.add(this.glows.group, this.bulbs.group, this.fields.group);
+    this.scans = new Scans(home);
+    this.scene.add(this.glows.group, this.bulbs.group, this.fields.group, this.scans.group);
     /** @type {Shapes | null} */
     this.shapes = null;
     /** @type {Map<number, {now: Float32Array, to: ArrayLike<number>}>} links on their way */
@@ -74,6 +75,9 @@ export class View3d {
     for (const topic of ['scene', 'home', 'entities']) home.on(topic, () => this.buildSoon());
     home.on('poses', (links) => this.follow(links));
     home.on('levels', () => this.relight());
+    home.on('stats', () => this.shine());
+    home.on('scan', (scan) => { if (!this.hidden && this.shapes && this.scans.put(scan)) this.dirty = true; });
+    this.renderer.domElement.addEventListener('webglcontextrestored', () => this.build());
     home.on('rows', ({ changed }) => this.onRows(changed));
     new ResizeObserver(() => this.resize()).observe(this.element);
     let down = [0, 0, 0];
@@ -99,7 +103,10 @@ export class View3d {
     }
     this.moving.clear();
     this.drawn.clear();
-    this.shapes = new Shapes(home.scene, this.people.build(), (cls, color, link, shape) => paint(home, cls, color, link, shape));
+    this.findLux();
+    this.isTower = home.storeys.length > TOWER;
+    this.top = home.storeys[home.storeys.length - 1]?.number ?? 0;
+    this.shapes = new Shapes(home.scene, this.people.build(), (cls, color, link, shape) => paint(home, cls, color, link, shape), this.plain);
     this.scene.add(this.shapes.group);
     this.glows.build(home.rooms);
     this.bulbs.build();
@@ -118,8 +125,8 @@ export class View3d {
     if (part.cls === 'ceiling' && this.walls !== 'full') return NaN;
     if (part.cls === 'ground') return null;
     const storey = part.storey ?? this.home.storeyAt(z);
-    if (this.storey !== null && storey !== this.storey) return NaN;
-    const cutting = this.walls === 'cut' && part.cls === 'wall';
+    if (this.storey !== null ? storey !== this.storey : this.isTower && storey !== this.top && (part.extent < SMALL || part.type > 2)) return NaN;
+    const cutting = this.walls === 'cut' && (part.cls === 'wall' || part.cls === 'window');
     if (!cutting) return this.walls === 'full' || part.cls !== 'ceiling' ? null : NaN;
     const base = this.home.storeys.find((s) => s.number === storey)?.elevation;
     return (base ?? Math.floor((z + 0.3) / 4) * 4) + CUT;
@@ -173,15 +180,21 @@ export class View3d {
     this.show();
   }
 
+  /** The first luminosity sensor of each room. */
+  findLux() {
+    /** @type {Map<string, import('./home.js').Entity>} */
+    this.luxOf = new Map();
+    for (const e of this.home.entities) {
+      const room = e.kind === 'luminosity' ? this.home.roomsOf(e)[0] : null;
+      if (room && !this.luxOf.has(room.name)) this.luxOf.set(room.name, e);
+    }
+    this.luxField = Math.max(0, this.home.fields('luminosity').findIndex((field) => field.name === 'illuminance'));
+  }
+
   /** @param {any} room @returns {number | null} */
   lux(room) {
-    for (const e of this.home.entities) {
-      if (e.kind !== 'luminosity' || this.home.roomsOf(e)[0]?.name !== room.name) continue;
-      const at = this.home.fields('luminosity').findIndex((field) => field.name === 'illuminance');
-      const value = this.home.row(e)?.values[Math.max(0, at)];
-      if (value !== undefined) return value;
-    }
-    return null;
+    const sensor = this.luxOf?.get(room.name);
+    return (sensor && this.home.row(sensor)?.values[this.luxField ?? 0]) ?? null;
   }
 
   /** @param {any[]} rows */
@@ -193,8 +206,14 @@ export class View3d {
     for (const row of rows) {
       if (row.kind !== 'person') continue;
       const person = this.home.entities.find((e) => e.kind === 'person' && e.name === row.name);
-      if (person) { this.people.setPosture(person.model); this.dirty = true; }
+      if (person) { this.people.setPosture(person.model); this.placePerson(person.model); }
     }
+  }
+
+  /** @param {string} model */
+  placePerson(model) {
+    const link = this.home.linksOf(model)[0];
+    if (link !== undefined) this.placeLink(link, this.drawn.get(link) ?? this.home.pose(link));
   }
 
   /** @param {Uint32Array} links */
@@ -227,6 +246,7 @@ export class View3d {
       this.placeLink(link, way.now);
     }
     if (this.people.animate(dt)) this.dirty = true;
+    if (this.fields.animate(dt)) this.dirty = true;
     this.glide(dt);
     this.controls.update(dt);
     if (!this.dirty || (this.plain && now - this.drawnAt < PLAIN_PERIOD)) return;
@@ -241,7 +261,7 @@ export class View3d {
   resize() {
     const { clientWidth: width, clientHeight: height } = this.element;
     if (!width || !height) return;
-    this.renderer.setPixelRatio(this.plain ? Math.min(1, Math.sqrt(6e5 / (width * height))) : Math.min(2, devicePixelRatio));
+    this.renderer.setPixelRatio(this.plain ? Math.min(1, Math.sqrt(PLAIN_PIXELS / (width * height))) : Math.min(2, devicePixelRatio));
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
@@ -274,11 +294,7 @@ export class View3d {
     const radius = 0.5 * Math.hypot(size.x, size.y, size.z), distance = this.distance(box, middle, way);
     this.goal = { at: middle.clone().addScaledVector(way, distance), target: middle };
     if (!this.looked || matchMedia('(prefers-reduced-motion: reduce)').matches) { this.glide(100); this.looked = true; }
-    this.sun.target.position.copy(middle);
-    this.sun.position.copy(middle).add(new THREE.Vector3(-0.35 * radius, -0.75 * radius, 1.6 * radius));
-    const { camera } = this.sun.shadow;
-    Object.assign(camera, { left: -radius, right: radius, top: radius, bottom: -radius, near: 0.1, far: 4 * radius });
-    camera.updateProjectionMatrix();
+    this.sky.cover(middle, radius);
     this.shadowsAt = 0;
     this.dirty = true;
   }
@@ -338,7 +354,7 @@ export class View3d {
     this.raycaster.setFromCamera(new THREE.Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2), this.camera);
     const hits = this.raycaster.intersectObjects([...this.shapes.meshes, this.bulbs.mesh, ...this.people.seen()], true);
     for (const { object, instanceId, point } of hits) {
-      const { cls = 'thing', links, link = links?.[instanceId] } = object.userData;
+      const { cls = 'thing', links, parts, link = links?.[instanceId] ?? parts?.[instanceId]?.link } = object.userData;
       if (link === undefined || (cls === 'wall' && this.walls === 'clear')) continue;
       return { model: this.home.scene.links[link].model, link, cls, point: point.toArray() };
     }
@@ -371,17 +387,21 @@ export class View3d {
   setTheme(dark) {
     const changed = dark !== this.dark;
     this.dark = dark;
-    const background = new THREE.Color(dark ? 0x0d1218 : 0xe9edf1);
+    this.sky.way = null;
+    this.shine();
+    if (changed) this.build();
+    this.dirty = true;
+  }
+
+  /** By the home's clock. */
+  shine() {
+    const background = this.sky.shine(this.home, this.dark);
+    if (!background) return;
     this.scene.background = background;
     for (const mesh of this.shapes?.meshes ?? []) { // the ground has no edge
-      if (mesh.userData.cls === 'ground') mesh.material.color.set(background);
+      if (mesh.userData.cls === 'ground') mesh.material.color.copy(background);
     }
-    this.sky.intensity = dark ? 0.75 : 1.9;
-    this.sky.color.set(dark ? 0xaec4dd : 0xffffff);
-    this.sky.groundColor.set(dark ? 0x30363f : 0xd6d2cc);
-    this.sun.intensity = dark ? 0.5 : 1.7;
-    this.sun.color.set(dark ? 0xb9cdf0 : 0xfff6e8);
-    if (changed) this.build();
+    this.shadowsAt = 0;
     this.dirty = true;
   }
 }
