@@ -1,4 +1,4 @@
-"""The search: the next viewpoint, observations on the way, and the decision that he is found."""
+"""The search: the next viewpoint, observations on the way, and when the person is found."""
 from __future__ import annotations
 
 import math
@@ -17,12 +17,13 @@ from angen_apps.robot.route_file import Route, Waypoint
 from angen_apps.seek.ambient import Ambient, RobotNow
 from angen_apps.seek.belief import ARC, STEP, Belief
 from angen_apps.seek.detector import Arc, Figure, find_arcs, find_figure
-from angen_apps.seek.home import SEES, Home, doors_between
+from angen_apps.seek.home import SEES, Home
 from angen_apps.seek.simulation import Simulation
+from angen_apps.seek.ways import Ways
 from angen_tools.common.failure import Failure
 
 LEAD = 60.0  # s before the search begins
-DOOR_TIME, LIFT_TIME, LOOK_TIME = 5.0, 25.0, 3.0  # s
+LOOK_TIME = 3.0  # s
 BETTER = 2.0  # times the score of the goal: a goal of a higher score is taken instead
 REPLAN = 3.0  # s between two comparisons
 SAME = 0.6  # m between two scans' arcs of the same thing
@@ -33,7 +34,7 @@ KNOWN, ELSEWHERE = 0.5, 0.8  # m around a rejected thing; it is examined again f
 FORGETS = 60.0  # s
 IN_WAY, AHEAD = 0.30, 14  # m beside the line; points of the line, 0.05 m apart
 HELD = 5.0  # s that it waits for something in its way
-AVOIDS = 20.0  # s that it does not try again what could not be reached
+AVOIDS = 20.0  # s before it tries an unreachable viewpoint again
 TURN = 1.2  # rad/s
 
 
@@ -78,7 +79,7 @@ class Search:
         self._fields = {floor: Field(grid) for floor, grid in home.landmarks.items()}
         self._driver = Driver(simulation, route, home.landmarks, home.start.mount, self._watch,
                               self._may_go, self._give_up)
-        self._lift_costs: dict[int, np.ndarray] = {}
+        self._ways = Ways(home, route, self._planners)
         self._sighting: Sighting | None = None
         # s, floor, place of a thing that was not a person, and from where that was seen
         self._known: list[tuple[float, int, Point, Point]] = []
@@ -177,7 +178,7 @@ class Search:
     # --- while it drives
 
     def _may_go(self) -> bool:
-        """Whether nothing that is not on the map blocks its way."""
+        """Whether its way is free of things that the map does not show."""
         ahead = np.array(self._driver.left[:AHEAD]).reshape(-1, 2)
         foreign = self._foreign
         if not len(ahead) or not len(foreign):
@@ -191,7 +192,7 @@ class Search:
         return free
 
     def _give_up(self) -> bool:
-        """Whether to stop on the way: it sees something, cannot go on, or knows better."""
+        """Whether to stop on the way: it sees something, is blocked, or has a better goal."""
         now = self._simulation.now
         if self._sighting is not None and self._sighting.count >= 2 or now > self.limit:
             return True
@@ -217,48 +218,16 @@ class Search:
     # --- goals
 
     def _scores(self) -> np.ndarray:
-        """Of each viewpoint: the probability to see him there, by the time until then."""
-        home, floor = self._home, self._driver.floor
-        time = np.full(len(home.viewpoints), np.inf)
+        """Of each viewpoint: the probability to see the person there, by the time until then."""
         pose = self._driver.pose
-        here = self._planners[floor].nearest((pose.x, pose.y), 0.5)
-        if here is None:
-            return np.zeros(len(time))
-        costs = self._planners[floor].costs(here)
-        shut = {door.name for _, door in home.all_doors()
+        shut = {door.name for _, door in self._home.all_doors()
                 if self._simulation.door(door.name).mode != 'OPEN'}
-        room = int(home.room[home.cell_at(pose.x, pose.y, floor)])
-        self._add_times(time, costs, 0.0, floor, doors_between(home, room, shut))
-        lift = self._route.elevator
-        if lift is not None:
-            to_lift = self._cost_at(costs, floor, lift.landing)
-            for other in self._planners:
-                if other != floor:
-                    landing = int(home.room[home.cell_at(*lift.landing, other)])
-                    if other not in self._lift_costs:
-                        self._lift_costs[other] = self._planners[other].costs(lift.landing)
-                    ready = to_lift / self._route.speed + LIFT_TIME + DOOR_TIME * float(
-                        doors_between(home, room, shut)[
-                            home.room[home.cell_at(*lift.landing, floor)]])
-                    self._add_times(time, self._lift_costs[other], ready, other,
-                                    doors_between(home, landing, shut))
+        times = self._ways.times((pose.x, pose.y), self._driver.floor, shut)
         gain = self._views @ self.belief.cells
         for cell, when in self._avoid.items():
             if self._simulation.now - when < AVOIDS:
                 gain[cell] = 0.0
-        return np.asarray(gain / (time + LOOK_TIME))
-
-    def _add_times(self, time: np.ndarray, costs: np.ndarray, ready: float, floor: int,
-                   doors: np.ndarray) -> None:
-        home = self._home
-        for k, cell in enumerate(home.viewpoints):
-            if home.floor[cell] == floor:
-                way = self._cost_at(costs, floor, home.point(cell))
-                time[k] = ready + way / self._route.speed + DOOR_TIME * doors[home.room[cell]]
-
-    def _cost_at(self, costs: np.ndarray, floor: int, point: Point) -> float:
-        row, column = self._planners[floor].grid.cell(*point)
-        return float(costs[row, column])
+        return np.asarray(gain / (times + LOOK_TIME))
 
     # --- the whole
 
@@ -316,14 +285,14 @@ class Search:
         self.goals.append((now, cell))
 
     def _said(self) -> str:
-        """Which ambient sensor was the last to say something of him, and when."""
+        """The last ambient sensor that detected the person, and when."""
         if not self._ambient or not self._ambient.last:
             return ''
         name, time = self._ambient.last
         return f'{name} at {time - self.began:.0f} s'
 
     def _do(self, action: Action) -> bool:
-        """Does an action of a way; whether to go on with the next."""
+        """Does an action of a way; whether to continue with the next."""
         if isinstance(action, Drive) or self._sighting is None or self._in_lift():
             return self._driver.do(action) and self._simulation.now < self.limit
         return False
