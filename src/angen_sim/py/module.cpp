@@ -10,6 +10,7 @@
 #include "plugin/json.h"
 #include "py/edits.h"
 #include "py/home.h"
+#include "py/replay.h"
 #include "py/subclass.h"
 #include "py/world.h"
 
@@ -275,58 +276,6 @@ void bind_world(pyb::module_& module) {
           "Of the readings that are kept: (kind, name, field, unit, type).");
 }
 
-// Until the end, or `seconds` further; true while something is left.
-bool advance_replay(record::Replay& replay, double seconds) {
-  const Nanoseconds end = replay.simulation().snapshot()->time + duration(seconds);
-  while (!replay.done() && replay.simulation().snapshot()->time < end) {
-    {
-      const pyb::gil_scoped_release release;
-      replay.advance(end);
-    }
-    if (PyErr_CheckSignals() != 0) throw pyb::error_already_set();
-  }
-  return !replay.done();
-}
-
-double time_of_end(const record::Log& log) {
-  const auto& entries = log.entries;
-  return entries.empty() ? 0.0 : to_seconds(entries.back().tick * log.header.step);
-}
-
-void bind_replay(pyb::module_& module) {
-  using record::Replay;
-  pyb::class_<Replay>(module, "Replay", "A recorded run, run again; see docs/replay.md.")
-      .def(pyb::init([](const std::string& path, bool leap) {
-             return std::make_unique<Replay>(record::read_log(path), catalog(allow_paths()),
-                                             record::ReplaySettings{leap, true});
-           }),
-           pyb::arg("path"), pyb::arg("leap") = true,
-           "Reads a log and builds its world. Without leap, each tick is taken.")
-      .def("advance", &advance_replay, pyb::arg("seconds"),
-           "Goes on by simulated seconds, to the end at most; True while something is left.")
-      .def(
-          "world",
-          [](Replay& replay) {
-            const std::string models = replay.log().header.models;
-            return std::make_unique<World>(replay.take_simulation(), models);
-          },
-          "The world as it stands, to go on with. The replay ends.")
-      .def_property_readonly(
-          "time", [](Replay& r) { return to_seconds(r.simulation().snapshot()->time); }, "s")
-      .def_property_readonly(
-          "end", [](const Replay& r) { return time_of_end(r.log()); }, "of the log, s")
-      .def_property_readonly("actions", &Replay::actions, "that were carried out")
-      .def_property_readonly("compared", &Replay::compared, "fingerprints that were equal")
-      .def_property_readonly("mismatch", &Replay::mismatch,
-                             "the first fingerprint that differed; '' where all were equal")
-      .def_property_readonly(
-          "truncated", [](const Replay& r) { return r.log().truncated; },
-          "what is missing at the log's end; '' where nothing is")
-      .def_property_readonly("seed", [](const Replay& r) { return r.log().header.seed; })
-      .def_property_readonly(
-          "path", [](const Replay& r) { return r.log().header.world; }, "of the world's file");
-}
-
 // Pure-Python bases with answers that do nothing, to be overridden.
 void bind_bases(pyb::module_& module) {
   pyb::exec(R"(
@@ -426,7 +375,7 @@ PYBIND11_MODULE(angen, module) {
   bind_plugin_types(module);
   bind_bases(module);
   bind_world(module);
-  bind_replay(module);
+  bind_replay(module, catalog);
   bind_catalog(module);
   bind_names(module);
   bind_limits(module);
