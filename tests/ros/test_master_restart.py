@@ -52,7 +52,7 @@ def test_it_ends_with_its_world_saved(master: Master, tmp_path: Path) -> None:
         assert process.wait(20) == 75, log.read_text()
         text = log.read_text()
         assert "does not answer; the simulation continues" in text
-        assert "was started anew and does not know this node; the world as of" in text
+        assert "was restarted and does not know this node; the world as of" in text
         assert str(saved) in text
         assert saved.stat().st_mode & 0o777 == 0o600
         assert [path.name for path in tmp_path.glob("saved*")] == ["saved.world"]

@@ -51,7 +51,7 @@ std::string read_small(const std::string& path, const std::string& what, const S
 
 // An earlier answer of angen_mesh to the same request.
 struct KeptAnswer {
-  std::string head;  // what the file's bytes begin with
+  std::string head;  // the first bytes of the file
   std::string file;  // empty where there is no cache
 };
 

@@ -16,7 +16,7 @@ constexpr double kSample = 0.1;      // m between the points at which rooms are 
 constexpr double kHalfWall = 0.06;   // m: edges may be in the middle of a wall
 constexpr double kOverlap = 0.2;     // m^2 that two rooms may have in common
 constexpr double kInto = 0.03;       // m that a thing may be in a wall
-constexpr double kOverFloor = 0.05;  // m: what stands on a floor touches it
+constexpr double kOverFloor = 0.05;  // m: things on a floor touch it
 
 std::string quoted(const std::string& name) { return "'" + printable(name) + "'"; }
 

@@ -167,7 +167,7 @@ std::vector<Polygon> outlines_of(const LabelGrid& grid, std::int32_t label, doub
       outline.push_back(grid.origin + grid.side * Point2(edge.from.first, edge.from.second));
       const auto& [dx, dy] = kNeighbors[static_cast<std::size_t>(edge.way)];
       const Corner end{edge.from.first + dx, edge.from.second + dy};
-      // Where two squares touch at a corner, the outline turns left: they are apart.
+      // The outline turns left at a corner where two squares touch: they are apart.
       std::size_t next = edges.size();
       for (const std::size_t i : from[key(end)]) {
         if (edges[i].used && i != start) continue;

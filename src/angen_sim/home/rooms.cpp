@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSquare = 0.05;        // m
 constexpr double kMostSquares = 4e6;    // of a plan
-constexpr double kWallHeight = 1.0;     // m: what is lower is furniture
+constexpr double kWallHeight = 1.0;     // m: lower shapes are furniture
 constexpr double kFloorsApart = 1.0;    // m: floors that differ by more are on different storeys
 constexpr double kSmallestRoom = 1.0;   // m^2
 constexpr double kPassage = 0.55;       // m, half the width of the widest gap between two rooms
@@ -58,7 +58,7 @@ std::vector<Solid> solids_of(const HomeSurvey& survey) {
 
 bool is_wall(const Solid& solid) { return solid.bounds.sizes().z() >= kWallHeight; }
 
-// The floor that walls stand on: the top of the widest slab or plane near their feet.
+// The floor below walls: the top of the widest slab or plane near their feet.
 std::vector<double> floors_of(const HomeSurvey& survey, const std::vector<Solid>& solids) {
   std::vector<double> feet;
   for (const Solid& solid : solids) {
@@ -185,8 +185,8 @@ class Plan {
     }
   }
 
-  // Doorways as high as their walls connect rooms with each other and with the outside: parts are
-  // what is left without narrow gaps.
+  // Doorways as high as their walls connect rooms with each other and with the outside: parts
+  // remain when narrow gaps are closed.
   void split_at_gaps() {
     LabelGrid wide = grid_;
     for (std::size_t i = 0; i < wide.labels.size(); ++i) {
@@ -247,7 +247,7 @@ class Plan {
   std::vector<double> away_;  // m from each square to a wall
 };
 
-// The underside of what is over a room's corners.
+// The underside of the shapes over a room's corners.
 double ceiling_over(const Room& room, const std::vector<Solid>& solids, double floor) {
   double ceiling = floor + kUsualCeiling;
   double lowest = floor + 6.0;

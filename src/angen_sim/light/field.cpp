@@ -94,7 +94,7 @@ const std::vector<Field::Link>& Field::links(std::uint32_t patch) {
                 "a growing vector would copy all lists");
   if (patch_links_.size() <= patch)
     patch_links_.resize(std::max<std::size_t>(patch + 1, surfaces_.size()));
-  // What nobody was counted for leaves no trace: while shapes change it is found anew.
+  // Links that are not counted are not kept: while shapes change they are found again.
   const PatchLinks& known = patch_links_[patch];
   if (!known.links.empty() && (known.counted || !in_flux() || known.scene == scene_.revision())) {
     return known.links;
@@ -147,7 +147,7 @@ std::int64_t Field::start(Unfinished& work, std::int64_t rays) {
   return cost;
 }
 
-/// Follows the light from patch to patch, as far as kReach and kDark allow.
+/// Follows the light from patch to patch, within kReach and kDark.
 std::int64_t Field::spread(Unfinished& work, std::int64_t rays) {
   std::int64_t cost = 0;
   for (; work.followed < work.solution.patches.size() && cost < rays; ++work.followed) {

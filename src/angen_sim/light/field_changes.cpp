@@ -139,8 +139,8 @@ std::int64_t Field::update(std::int64_t rays) {
   for (const std::uint32_t patch : releasing_) {
     if (patch < patch_links_.size()) patch_links_[patch] = {};
   }
-  const auto gone = [&](std::uint32_t patch) { return !counted(patch); };
-  counted_.erase(std::remove_if(counted_.begin(), counted_.end(), gone), counted_.end());
+  const auto removed = [&](std::uint32_t patch) { return !counted(patch); };
+  counted_.erase(std::remove_if(counted_.begin(), counted_.end(), removed), counted_.end());
   surfaces_.release(releasing_);
   releasing_.clear();
   return cost;

@@ -203,7 +203,7 @@ bool Surfaces::faced(const std::vector<Site>& sites) const {
 }
 
 template <class Meets>
-void Surfaces::forget_if(std::uint32_t shape, std::vector<std::uint32_t>& gone, Meets&& meets) {
+void Surfaces::forget_if(std::uint32_t shape, std::vector<std::uint32_t>& removed, Meets&& meets) {
   const auto found = keys_.find(shape);
   if (found == keys_.end()) return;
   std::vector<Key>& keys = found->second;
@@ -212,7 +212,7 @@ void Surfaces::forget_if(std::uint32_t shape, std::vector<std::uint32_t>& gone, 
     const auto entry = known_.find(key);
     if (entry->second < kDivided) {
       patches_[entry->second].alive = false;
-      gone.push_back(entry->second);
+      removed.push_back(entry->second);
     }
     known_.erase(entry);
     return true;
@@ -221,13 +221,13 @@ void Surfaces::forget_if(std::uint32_t shape, std::vector<std::uint32_t>& gone, 
   if (keys.empty()) keys_.erase(found);
 }
 
-void Surfaces::forget(std::uint32_t shape, std::vector<std::uint32_t>& gone) {
-  forget_if(shape, gone, [](const Key&) { return true; });
+void Surfaces::forget(std::uint32_t shape, std::vector<std::uint32_t>& removed) {
+  forget_if(shape, removed, [](const Key&) { return true; });
 }
 
 /// By whole cells: whether a cell is divided depends on all of it.
 void Surfaces::forget_near(std::uint32_t shape, const Eigen::AlignedBox3d& box,
-                           std::vector<std::uint32_t>& gone) {
+                           std::vector<std::uint32_t>& removed) {
   if (keys_.count(shape) == 0) return;
   std::array<Lattice, 6> faces;
   for (int face = 0; face < 6; ++face) faces[static_cast<std::size_t>(face)] = lattice(shape, face);
@@ -237,7 +237,7 @@ void Surfaces::forget_near(std::uint32_t shape, const Eigen::AlignedBox3d& box,
   for (int corner = 0; corner < 8 && !endless; ++corner) {
     local.extend(back * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
   }
-  forget_if(shape, gone, [&](const Key& key) {
+  forget_if(shape, removed, [&](const Key& key) {
     if (endless) return true;
     const Lattice& cells = faces[static_cast<std::size_t>(key[1])];
     for (int side = 0; side < 2; ++side) {
@@ -254,8 +254,8 @@ void Surfaces::forget_near(std::uint32_t shape, const Eigen::AlignedBox3d& box,
   });
 }
 
-void Surfaces::release(const std::vector<std::uint32_t>& gone) {
-  free_.insert(free_.end(), gone.begin(), gone.end());
+void Surfaces::release(const std::vector<std::uint32_t>& removed) {
+  free_.insert(free_.end(), removed.begin(), removed.end());
 }
 
 }  // namespace angen::light

@@ -134,7 +134,7 @@ Value param_or(const std::string& name, Value fallback) {
   return fallback;
 }
 
-// The ~memory_limit that the command line gives, as far as it is known without ROS.
+// The ~memory_limit of the command line, without ROS.
 void limit_memory_by(const std::vector<std::string>& words) {
   constexpr char kLimit[] = "_memory_limit:=";
   for (const std::string& word : words) {
@@ -144,7 +144,7 @@ void limit_memory_by(const std::vector<std::string>& words) {
   }
 }
 
-// The ~seed that the command line gives, as far as it is known without ROS.
+// The ~seed of the command line, without ROS.
 std::uint64_t seed_in(const std::vector<std::string>& words) {
   constexpr char kSeed[] = "_seed:=";
   for (const std::string& word : words) {
@@ -236,8 +236,8 @@ void set_strict_by_param() {
 int save_and_end(Simulation& simulation, const std::string& path) {
   angen::node::rescue(simulation, path);
   std::fprintf(stderr,
-               "angen_node: the ROS master at %s was started anew and does not know this node; the "
-               "world as of %.3f s is saved in %s: start a node anew with it\n",
+               "angen_node: the ROS master at %s was restarted and does not know this node; the "
+               "world as of %.3f s is saved in %s: start a node with it\n",
                ros::master::getURI().c_str(), angen::to_seconds(simulation.snapshot()->time),
                path.c_str());
   ros::shutdown();

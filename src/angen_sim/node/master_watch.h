@@ -7,7 +7,7 @@
 
 namespace angen::node {
 
-/// Notices that the ROS master was started anew. It then knows none of this node's topics and
+/// Notices that the ROS master was restarted. It then knows none of this node's topics and
 /// services, and roscpp does not register them again.
 class MasterWatch {
  public:

@@ -23,7 +23,7 @@ constexpr std::uint32_t kSubscriberThreads = 2;  // of subscribers, which never 
 constexpr std::chrono::milliseconds kPausedNap(20);
 constexpr std::chrono::milliseconds kLongestNap(100);  // Ctrl-C is seen that soon
 
-constexpr Nanoseconds kLongestLeap = 10 * kSecond;  // so far may /clock jump
+constexpr Nanoseconds kLongestLeap = 10 * kSecond;  // the longest jump of /clock
 
 /// The parameter tf_prefix of a namespace or of one above it, as robot_state_publisher reads it.
 std::string tf_prefix_in(const std::string& space) {

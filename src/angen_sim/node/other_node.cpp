@@ -36,7 +36,7 @@ bool connects(const addrinfo& address) {
   return connected;
 }
 
-/// Whether anybody serves at the address of a node.
+/// Whether a process serves at the address of a node.
 bool answers(const std::string& uri) {
   std::string host;
   std::uint32_t port = 0;

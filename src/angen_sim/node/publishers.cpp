@@ -12,7 +12,7 @@
 namespace angen::node {
 namespace {
 
-constexpr Nanoseconds kOdometryPeriod = kSecond / 10;  // of a robot that stands still
+constexpr Nanoseconds kOdometryPeriod = kSecond / 10;  // of a robot at rest
 
 // The part of a robot that its sensors' topics depend on.
 std::string space_of(const Robot* robot) {
@@ -59,7 +59,7 @@ void Publishers::follow_sensors(const sim::Structure& structure, const FrameTree
   while (kept < numbers.before.size() && numbers.before[kept] == kept) ++kept;
   std::vector<Source> others(std::make_move_iterator(sensors_.begin() + kept),
                              std::make_move_iterator(sensors_.end()));
-  std::vector<Source> gone;
+  std::vector<Source> removed;
   sensors_.resize(structure.sensors.size());
   for (std::uint32_t i = 0; i < structure.sensors.size(); ++i) {
     const sim::SensorEntry& entry = structure.sensors[i];
@@ -70,7 +70,7 @@ void Publishers::follow_sensors(const sim::Structure& structure, const FrameTree
     Source& source = sensors_[i];
     if (i >= kept && before != Numbers::kNone) source = std::move(others[before - kept]);
     if (before == Numbers::kNone || source.robot != space_of(robot)) {
-      gone.push_back(std::exchange(source, sensor_source(entry, {name, frame}, robot)));
+      removed.push_back(std::exchange(source, sensor_source(entry, {name, frame}, robot)));
     } else if (source.label->frame != frame) {
       source.label = std::make_shared<const Label>(Label{name, frame});
     }
@@ -145,7 +145,7 @@ void Publishers::list_on_demand(const sim::Structure& structure) {
   }
 }
 
-// A sensor that samples on demand does so while anybody subscribes.
+// A sensor that samples on demand does so while its topic has subscribers.
 void Publishers::request(const sim::Structure& structure) {
   for (OnDemand& sensor : on_demand_) {
     const std::vector<std::shared_ptr<Channel>>& channels = sensors_[sensor.sensor].channels;

@@ -61,7 +61,7 @@ class Reads {
     get(key, value);
     return *this;
   }
-  /// Of its text, which has the pose rounded.
+  /// Reads it from its text, whose pose is rounded.
   static void read_light(sim::AddLight& edit) {
     const Pose pose = edit.light.pose;
     edit.light = load::light(edit.sdf, edit.light.name, {});

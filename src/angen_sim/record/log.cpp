@@ -54,7 +54,7 @@ LogHeader header_in(const LineReader& line, const Source& at) {
 LogEntry entry_in(const LineReader& line, int number, Nanoseconds step) {
   const std::uint64_t tick = line.whole("tick");
   if (tick > static_cast<std::uint64_t>(std::numeric_limits<Nanoseconds>::max() / step)) {
-    line.fail("'tick' is later than time goes");
+    line.fail("'tick' exceeds the largest time");
   }
   LogEntry entry{number, static_cast<std::int64_t>(tick), 0, read_content(line)};
   if (entry.is_action()) entry.batch = line.whole("batch");

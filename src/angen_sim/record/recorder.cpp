@@ -137,7 +137,7 @@ void Recorder::write(LineWriter& line) {
     return;
   }
   error_ = path_ + ": cannot be written any more: " + std::strerror(errno) +
-           "; what was recorded before can be replayed";
+           "; the actions before that can be replayed";
   if (ftruncate(file_, static_cast<off_t>(written_)) != 0) error_ += ", but for its last line";
 }
 

@@ -83,7 +83,7 @@ std::shared_ptr<const sim::Snapshot> Replay::advance(Nanoseconds until) {
   } else if (next().tick <= here->tick || !simulation_->running()) {
     throw Error(source(next()),
                 "belongs to tick " + std::to_string(next().tick) + ", but the replay " +
-                    (simulation_->running() ? "is at tick " : "stands still at tick ") +
+                    (simulation_->running() ? "is at tick " : "has ended at tick ") +
                     std::to_string(here->tick) + ": the log does not fit this build");
   } else if (settings_.leap) {
     until = std::min({until, next().tick * here->step, stop_.value_or(kForever)});

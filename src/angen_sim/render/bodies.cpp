@@ -172,14 +172,14 @@ Eigen::Vector3f Patch::color(const Facet& facet, float u, float v) const {
   return finish.texture->at(w * at[0] + u * at[2] + v * at[4], w * at[1] + u * at[3] + v * at[5]);
 }
 
-Stand::Stand() : seen_(rtcNewScene(rays::device())), opaque_(rtcNewScene(rays::device())) {
+Instances::Instances() : seen_(rtcNewScene(rays::device())), opaque_(rtcNewScene(rays::device())) {
   for (const RTCScene scene : {seen_.get(), opaque_.get()}) {
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     rtcCommitScene(scene);
   }
 }
 
-std::uint32_t Stand::add(std::unique_ptr<Patch> patch, const Pose& pose, bool throws_shadows) {
+std::uint32_t Instances::add(std::unique_ptr<Patch> patch, const Pose& pose, bool throws_shadows) {
   const auto number = static_cast<std::uint32_t>(placed_.size());
   Placed placed;
   placed.instance.reset(rtcNewGeometry(rays::device(), RTC_GEOMETRY_TYPE_INSTANCE));
@@ -193,7 +193,7 @@ std::uint32_t Stand::add(std::unique_ptr<Patch> patch, const Pose& pose, bool th
   return number;
 }
 
-void Stand::place(std::uint32_t number, const Pose& pose) {
+void Instances::place(std::uint32_t number, const Pose& pose) {
   Placed& placed = placed_[number];
   Eigen::Matrix<float, 3, 4> transform;
   transform.leftCols<3>() = pose.rotation.normalized().toRotationMatrix().cast<float>();
@@ -204,7 +204,7 @@ void Stand::place(std::uint32_t number, const Pose& pose) {
   rtcCommitGeometry(placed.instance.get());
 }
 
-void Stand::clear() {
+void Instances::clear() {
   for (std::uint32_t i = 0; i < placed_.size(); ++i) {
     rtcDetachGeometry(seen_.get(), i);
     if (!placed_[i].shines_through) rtcDetachGeometry(opaque_.get(), i);
@@ -212,7 +212,7 @@ void Stand::clear() {
   placed_.clear();
 }
 
-void Stand::commit() {
+void Instances::commit() {
   rtcCommitScene(seen_.get());
   rtcCommitScene(opaque_.get());
 }

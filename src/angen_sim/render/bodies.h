@@ -70,9 +70,9 @@ struct Placed {
 };
 
 /// All patches, in two hierarchies: visible ones, and those that throw shadows.
-class Stand {
+class Instances {
  public:
-  Stand();
+  Instances();
 
   /// Adds a patch; returns its number, which is the instance's in both hierarchies.
   std::uint32_t add(std::unique_ptr<Patch> patch, const Pose& pose, bool throws_shadows);

@@ -18,7 +18,7 @@ constexpr int kMaxWalls = 8;
 
 struct Entry {
   Body body;
-  std::uint32_t number = 0;  // in the stand, of a body with its own patch
+  std::uint32_t number = 0;  // in the instances, of a body with its own patch
   bool moved = false;
 };
 
@@ -116,14 +116,14 @@ Facet facet_of(const RTCRayHit16& rays, int i, const Placed& placed) {
 
 /// Continues rays that have hit a near surface from behind: many cameras are inside their own
 /// housing, which renderers that cull back faces do not show.
-void leave_housing(const Stand& stand, float far, const int* valid, RTCRayHit16& rays) {
+void leave_housing(const Instances& instances, float far, const int* valid, RTCRayHit16& rays) {
   alignas(64) int inside[kLanes];
   for (int walls = 0; walls < kMaxWalls; ++walls) {
     bool any = false;
     for (int i = 0; i < kLanes; ++i) {
       inside[i] = 0;
       if (valid[i] == 0 || !met(rays, i) || rays.ray.tfar[i] > kHousing) continue;
-      const Placed& placed = stand[rays.hit.instID[0][i]];
+      const Placed& placed = instances[rays.hit.instID[0][i]];
       const Eigen::Vector3f normal = placed.rotation * facet_of(rays, i, placed).normal;
       if (normal.dot(direction_of(rays.ray, i)) <= 0.0F) continue;
       inside[i] = -1;
@@ -136,13 +136,14 @@ void leave_housing(const Stand& stand, float far, const int* valid, RTCRayHit16&
     if (!any) return;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    rtcIntersect16(inside, stand.seen(), &context, &rays);
+    rtcIntersect16(inside, instances.seen(), &context, &rays);
   }
 }
 
 /// Calls visit(column, row, valid, rays) for each tile, traced.
 template <class Visit>
-void trace(const PinholeCamera& camera, const Pose& pose, const Stand& stand, Visit&& visit) {
+void trace(const PinholeCamera& camera, const Pose& pose, const Instances& instances,
+           Visit&& visit) {
   const Eye eye(camera, pose);
   alignas(64) int valid[kLanes];
   alignas(64) RTCRayHit16 rays;
@@ -153,8 +154,8 @@ void trace(const PinholeCamera& camera, const Pose& pose, const Stand& stand, Vi
       RTCIntersectContext context;
       rtcInitIntersectContext(&context);
       context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-      rtcIntersect16(valid, stand.seen(), &context, &rays);
-      leave_housing(stand, static_cast<float>(camera.far), valid, rays);
+      rtcIntersect16(valid, instances.seen(), &context, &rays);
+      leave_housing(instances, static_cast<float>(camera.far), valid, rays);
       visit(column, row, valid, rays);
     }
   }
@@ -169,12 +170,12 @@ Eigen::AlignedBox3f bounds_of(const Tile& tile) {
   return box;
 }
 
-void gather(const Stand& stand, const int* valid, const RTCRayHit16& rays,
+void gather(const Instances& instances, const int* valid, const RTCRayHit16& rays,
             const Eigen::Vector3f& ambient, Tile& tile) {
   for (int i = 0; i < kLanes; ++i) {
     tile.valid[i] = valid[i] != 0 && met(rays, i) ? -1 : 0;
     if (tile.valid[i] == 0) continue;
-    const Placed& placed = stand[rays.hit.instID[0][i]];
+    const Placed& placed = instances[rays.hit.instID[0][i]];
     const Facet facet = facet_of(rays, i, placed);
     const Eigen::Vector3f direction = direction_of(rays.ray, i);
     const Eigen::Vector3f origin(rays.ray.org_x[i], rays.ray.org_y[i], rays.ray.org_z[i]);
@@ -200,14 +201,14 @@ void show(const Tile& tile, int i, std::uint8_t* pixel) {
 
 struct Scene::Impl {
   Slots<Entry, BodyTag> entries;
-  Stand stand;
+  Instances instances;
   Reaches reaches;      // of lamps among the bodies that do not move
   bool new_set = true;  // bodies were added or removed
   bool moved = false;
   LastPicture last;
 
   void rebuild() {
-    stand.clear();
+    instances.clear();
     std::vector<std::pair<const Body*, Pose>> still;
     entries.each([&](BodyId, Entry& entry) {
       entry.moved = false;
@@ -216,11 +217,11 @@ struct Scene::Impl {
       } else {
         auto patch = std::make_unique<Patch>(
             std::vector<std::pair<const Body*, Pose>>{{&entry.body, Pose{}}});
-        entry.number = stand.add(std::move(patch), entry.body.pose, !entry.body.holds_lamp);
+        entry.number = instances.add(std::move(patch), entry.body.pose, !entry.body.holds_lamp);
       }
     });
-    const std::uint32_t fixed = stand.add(std::make_unique<Patch>(still), Pose{}, true);
-    reaches.start(stand[fixed].patch->scene());
+    const std::uint32_t fixed = instances.add(std::make_unique<Patch>(still), Pose{}, true);
+    reaches.start(instances[fixed].patch->scene());
   }
 
   void prepare() {
@@ -230,10 +231,10 @@ struct Scene::Impl {
       rebuild();
     } else {
       entries.each([&](BodyId, Entry& entry) {
-        if (std::exchange(entry.moved, false)) stand.place(entry.number, entry.body.pose);
+        if (std::exchange(entry.moved, false)) instances.place(entry.number, entry.body.pose);
       });
     }
-    stand.commit();
+    instances.commit();
     new_set = moved = false;
   }
 };
@@ -263,7 +264,7 @@ std::vector<std::uint8_t> Scene::colors(const PinholeCamera& camera, const Pose&
                                         const std::vector<light::Lit>& lamps,
                                         const Ambience& ambience) const {
   impl_->prepare();
-  const Stand& stand = impl_->stand;
+  const Instances& instances = impl_->instances;
   const Eigen::Vector3f ambient = kAmbientIlluminance * ambience.ambient;
   std::vector<std::uint8_t> pixels(3U * static_cast<std::size_t>(camera.width) * camera.height);
   std::vector<Eigen::AlignedBox3f> reaches;
@@ -272,31 +273,32 @@ std::vector<std::uint8_t> Scene::colors(const PinholeCamera& camera, const Pose&
   std::optional<light::ReflectedLookup> reflected;
   if (ambience.reflected) {
     reflected.emplace(*ambience.reflected, [&](const auto& from, const auto* to, int count) {
-      return seen_from(from, to, count, stand.opaque());
+      return seen_from(from, to, count, instances.opaque());
     });
   }
   Tile tile;
   impl_->last = {camera, pose, no_depths(camera)};
   std::vector<float>& depths = impl_->last.depths;
-  trace(camera, pose, stand, [&](int column, int row, const int* valid, const RTCRayHit16& rays) {
-    gather(stand, valid, rays, ambient, tile);
-    if (reflected) shine(*reflected, tile);
-    const Eigen::AlignedBox3f seen = bounds_of(tile);
-    for (std::size_t i = 0; i < lamps.size(); ++i) {
-      if (reaches[i].intersects(seen)) shine(lamps[i], stand.opaque(), tile);
-    }
-    for (int i = 0; i < kLanes; ++i) {
-      if (valid[i] == 0) continue;
-      const std::size_t at =
-          static_cast<std::size_t>(row + i / kTile) * camera.width + column + i % kTile;
-      if (tile.valid[i] != 0) {
-        depths[at] = rays.ray.tfar[i];
-        show(tile, i, &pixels[3 * at]);
-      } else {
-        for (int c = 0; c < 3; ++c) pixels[3 * at + c] = shown_as_is(ambience.background[c]);
-      }
-    }
-  });
+  trace(camera, pose, instances,
+        [&](int column, int row, const int* valid, const RTCRayHit16& rays) {
+          gather(instances, valid, rays, ambient, tile);
+          if (reflected) shine(*reflected, tile);
+          const Eigen::AlignedBox3f seen = bounds_of(tile);
+          for (std::size_t i = 0; i < lamps.size(); ++i) {
+            if (reaches[i].intersects(seen)) shine(lamps[i], instances.opaque(), tile);
+          }
+          for (int i = 0; i < kLanes; ++i) {
+            if (valid[i] == 0) continue;
+            const std::size_t at =
+                static_cast<std::size_t>(row + i / kTile) * camera.width + column + i % kTile;
+            if (tile.valid[i] != 0) {
+              depths[at] = rays.ray.tfar[i];
+              show(tile, i, &pixels[3 * at]);
+            } else {
+              for (int c = 0; c < 3; ++c) pixels[3 * at + c] = shown_as_is(ambience.background[c]);
+            }
+          }
+        });
   return pixels;
 }
 
@@ -305,7 +307,7 @@ std::vector<float> Scene::depths(const PinholeCamera& camera, const Pose& pose) 
   const LastPicture& last = impl_->last;
   if (!last.depths.empty() && equal(last.camera, camera) && last.pose == pose) return last.depths;
   std::vector<float> values = no_depths(camera);
-  trace(camera, pose, impl_->stand,
+  trace(camera, pose, impl_->instances,
         [&](int column, int row, const int* valid, const RTCRayHit16& rays) {
           for (int i = 0; i < kLanes; ++i) {
             if (valid[i] == 0 || !met(rays, i)) continue;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kMin = 0.1F;      // lx; less is not worth a shadow ray
 constexpr float kLift = 1e-3F;    // m off the surface that a shadow ray starts
-constexpr float kFarAway = 1e4F;  // m, as far as anything stands before a directional lamp
+constexpr float kFarAway = 1e4F;  // m, the farthest shadow of a directional lamp
 // Points of a tile so near and alike get the same reflected light, which varies over decimeters.
 constexpr float kSamePlace = 0.1F;  // m
 constexpr float kSameWay = 0.98F;   // cosine between normals

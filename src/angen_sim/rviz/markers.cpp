@@ -30,8 +30,8 @@ void Markers::draw_models(const sim::Structure& structure, const Changes& change
       if (before == Numbers::kNone) mark(static_cast<std::uint32_t>(links_.size() - 1));
     }
   }
-  for (const DrawnModel& gone : old) {  // those that stay have been moved out
-    for (const std::vector<Drawing>& link : gone.links) {
+  for (const DrawnModel& removed : old) {  // those that stay have been moved out
+    for (const std::vector<Drawing>& link : removed.links) {
       for (const Drawing& drawing : link) gone_.markers.push_back(drawing.marker);
     }
   }

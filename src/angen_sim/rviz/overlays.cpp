@@ -216,14 +216,14 @@ void Overlays::add_room_labels() {
   }
 }
 
-void Overlays::drop(Named& all, Array& gone) {
+void Overlays::drop(Named& all, Array& removed) {
   for (auto& [name, overlay] : all) {
-    if (!overlay.marker.ns.empty()) gone.markers.push_back(std::move(overlay.marker));
+    if (!overlay.marker.ns.empty()) removed.markers.push_back(std::move(overlay.marker));
   }
   all.clear();
 }
 
-void Overlays::keep(Named& all, const Changes& changes, Array& gone) {
+void Overlays::keep(Named& all, const Changes& changes, Array& removed) {
   for (auto at = all.begin(); at != all.end();) {
     Overlay& overlay = at->second;
     const Numbers& numbers = overlay.of == Of::kLight    ? changes.lights
@@ -231,7 +231,7 @@ void Overlays::keep(Named& all, const Changes& changes, Array& gone) {
                                                          : changes.devices;
     overlay.index = numbers.after[overlay.index];
     if (overlay.index == Numbers::kNone) {
-      if (!overlay.marker.ns.empty()) gone.markers.push_back(std::move(overlay.marker));
+      if (!overlay.marker.ns.empty()) removed.markers.push_back(std::move(overlay.marker));
       at = all.erase(at);
       continue;
     }
@@ -240,15 +240,16 @@ void Overlays::keep(Named& all, const Changes& changes, Array& gone) {
   }
 }
 
-void Overlays::on_structure(const sim::Structure& structure, const Changes& changes, Array& gone) {
+void Overlays::on_structure(const sim::Structure& structure, const Changes& changes,
+                            Array& removed) {
   const bool other_rooms = home_ != structure.home;
   if (other_rooms) {
     home_ = structure.home;
-    drop(room_labels_, gone);
-    drop(glows_, gone);
+    drop(room_labels_, removed);
+    drop(glows_, removed);
     add_room_labels();
   }
-  for (Named* all : {&lamps_, &glows_, &beams_, &captions_, &labels_}) keep(*all, changes, gone);
+  for (Named* all : {&lamps_, &glows_, &beams_, &captions_, &labels_}) keep(*all, changes, removed);
   const auto is_new = [](const Numbers& numbers, std::uint32_t i) {
     return numbers.before[i] == Numbers::kNone;
   };

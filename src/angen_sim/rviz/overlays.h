@@ -25,8 +25,8 @@ class Overlays {
   Overlays(std::int32_t& next_id, Readings& readings) : next_id_(next_id), readings_(readings) {}
 
   /// Makes overlays of entries that are new since the last call; those of removed entries are
-  /// added to `gone`, to be deleted.
-  void on_structure(const sim::Structure& structure, const Changes& changes, Array& gone);
+  /// added to `removed`, to be deleted.
+  void on_structure(const sim::Structure& structure, const Changes& changes, Array& removed);
 
   /// Appends markers that differ from the last call's; with `all` every marker.
   void append(const sim::Snapshot& snapshot, bool all, Array& array);
@@ -58,9 +58,9 @@ class Overlays {
   void add_device(const sim::Structure& structure, std::uint32_t device);
   void add_label(const sim::Structure& structure, std::uint32_t device);
   void add_room_labels();
-  /// Updates the indices of overlays; those of removed entries are added to `gone`.
-  static void keep(Named& all, const Changes& changes, Array& gone);
-  static void drop(Named& all, Array& gone);
+  /// Updates the indices of overlays; those of removed entries are added to `removed`.
+  static void keep(Named& all, const Changes& changes, Array& removed);
+  static void drop(Named& all, Array& removed);
   /// Sets the marker of an overlay. With another namespace than before, or an empty one,
   /// the marker before is deleted.
   void show(Overlay& overlay, visualization_msgs::Marker marker, const std::string& group);

@@ -186,7 +186,7 @@ TEST(Log, WhatIsMissingOrOfAnotherTypeIsAnError) {
         << wrong_with(bad);
   }
   for (const auto& [from, to, why] : std::vector<std::array<std::string, 3>>{
-           {"\"tick\":0", "\"tick\":18446744073709551615", "'tick' is later than time goes"},
+           {"\"tick\":0", "\"tick\":18446744073709551615", "'tick' exceeds the largest time"},
            {"\"tick\":0", "\"tick\":-1", "'tick' is missing, or not a whole number"},
            {"\"do\":\"delete\"", "\"do\":\"explode\"",
             "'explode' is not something that a log does"},
@@ -227,7 +227,7 @@ TEST(Log, ActionsThatCannotBeAreErrorsWithTheirLine) {
   expect("<model name=\\\"one\\\"", "<modle name=\\\"one\\\"", "run.log:2: cannot be replayed: ");
   expect("\"tick\":501", "\"tick\":300", "belongs to tick 300, but the replay is at tick 501");
   expect("\"tick\":500,\"batch\":1", "\"tick\":900,\"batch\":1",
-         "run.log:4: belongs to tick 900, but the replay stands still at tick 500");
+         "run.log:4: belongs to tick 900, but the replay has ended at tick 500");
   expect("\"tick\":500", "\"tick\":500000000",
          "'tick' is more than a second later than in the line before");
 }
