@@ -63,7 +63,7 @@ if floor != target:
     call_elevator(cabin.name, floor)
     go('cabin', at.x, at.y, out)
     call_elevator(cabin.name, target)
-    rospy.ServiceProxy('/change_map', LoadMap)(f'floor{target}')  # amcl goes on from its last pose
+    rospy.ServiceProxy('/change_map', LoadMap)(f'floor{target}')  # amcl keeps its last pose
     rospy.sleep(1.0)
     rospy.ServiceProxy('/move_base/clear_costmaps', Empty)()
     go('out', at.x + LANDING * math.cos(out), at.y + LANDING * math.sin(out), out)

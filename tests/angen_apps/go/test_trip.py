@@ -1,4 +1,4 @@
-"""A drive where somebody is in the way, with a robot on a map."""
+"""A drive with a person in the way, with a robot on a map."""
 from __future__ import annotations
 
 import math

@@ -1,4 +1,4 @@
-"""The nine homes of Debian's package sweethome3d, and small homes for what they do not have."""
+"""The nine homes of Debian's package sweethome3d, and small homes with further features."""
 from __future__ import annotations
 
 from math import hypot, pi
@@ -48,7 +48,7 @@ def is_filled(plan: Plan, frame: Opening) -> bool:
 
 
 def small(tmp_path: Path, *parts: str) -> Path:
-    """A room of 4 x 3 m with walls of 20 cm, and what is added to it."""
+    """A room of 4 x 3 m with walls of 20 cm, and further elements."""
     ends = [(0, 0), (400, 0), (400, 300), (0, 300)]
     walls = ''.join(f'<wall id="w{i}" xStart="{a[0]}" yStart="{a[1]}" xEnd="{b[0]}" yEnd="{b[1]}" '
                     'height="250" thickness="20"/>\n'

@@ -1,4 +1,4 @@
-"""The server with a source of the test's own: who gets in, what is served, what orders do."""
+"""The server with a source of the test's own: access, files, orders."""
 from __future__ import annotations
 
 import asyncio
@@ -20,7 +20,7 @@ PAGE = Path(__file__).resolve().parents[3] / 'src/angen_apps/page'
 
 
 class Source:
-    """A Source that remembers what it was asked."""
+    """A Source that records its calls."""
 
     def __init__(self) -> None:
         self.store = Store()

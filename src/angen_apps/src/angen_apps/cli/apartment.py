@@ -30,5 +30,5 @@ def add_home(commands: Any) -> None:
                       help='1, or 2 with an elevator (1)')
     home.add_argument('--sensors', choices=SENSORS, default='seed',
                       help='as of angen import (seed)')
-    add_seed(home, 'of the plan and of what is in it')
+    add_seed(home, 'of the plan and of its contents')
     home.add_argument('-o', '--output', metavar='FILE', type=Path, required=True)

@@ -46,6 +46,6 @@ def add_import(commands: Any) -> None:
                         'seats; casas: a PIR of the CASAS flats on each ceiling and reed contacts '
                         '(seed)')
     parser.add_argument('--things', metavar='FILE', type=Path,
-                        help='a table of furniture that goes before the built-in one')
+                        help='a table of furniture that precedes the built-in one')
     parser.add_argument('-o', '--output', metavar='FILE', type=Path, required=True,
                         help='the world that is written')

@@ -22,7 +22,7 @@ def add_plan(commands: Any) -> None:
                      'plan home.world -o plan.svg', 'plan home.world --sensors -o plan.png')
     parser.add_argument('world', metavar='WORLD', type=Path, help='the SDF file of the building')
     parser.add_argument('--sensors', action='store_true',
-                        help='with sensors, their names and what they see')
+                        help='with sensors, their names and fields of view')
     parser.add_argument('--events', metavar='FILE', type=Path, help='with how often each sensor '
                         'and device is in the column source of a CSV file, as in events.csv')
     parser.add_argument('--track', metavar='FILE', type=Path, help='with ways, from the columns '

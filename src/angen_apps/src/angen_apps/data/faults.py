@@ -1,4 +1,4 @@
-"""Faults of sensors and of what carries their events, each written down."""
+"""Faults of sensors and of the way of their events, each written down."""
 from __future__ import annotations
 
 import math
@@ -44,7 +44,7 @@ class Happened(NamedTuple):
 
 
 def read(path: Path) -> list[Fault]:
-    """The faults of a YAML file; Failure says file and line of what is wrong."""
+    """The faults of a YAML file; Failure has file and line of an error."""
     file = YamlFile(path)
     root = file.entries(file.root, 'the file', ('faults',), ('faults',))
     return [_fault(file, node) for node in file.list(root['faults'], 'faults')]

@@ -152,7 +152,7 @@ def jensen_shannon(a: np.ndarray, b: np.ndarray) -> float:
 
 
 def compare(stream: Stream, reference: Stream | None) -> list[tuple[str, float, str, str]]:
-    """Measure, value, reference and verdict; what is outside comes first."""
+    """Measure, value, reference and verdict; values outside come first."""
     own = measures(stream)
     found = []
     if reference is None:

@@ -11,8 +11,8 @@ from angen_apps.robot.interface import CYCLE
 BESIDE = 0.02  # m: things nearer to the line than the clearance less this are in the way
 AHEAD, NEAR = 14, 1.2  # points of the line that are looked at, 0.05 m apart; m around the robot
 HELD = 5.0  # s that it waits for something in its way
-STILL, STEP = 10.0, 0.1  # s without coming nearer by so many m
-LOST, UNSURE = 0.5, 1.5  # a smaller part of a scan on the map, for so many s: it is lost
+STILL, STEP = 10.0, 0.1  # s without coming nearer by STEP m
+LOST, UNSURE = 0.5, 1.5  # a smaller part of a scan on the map, for UNSURE s: it is lost
 
 
 class Guard:

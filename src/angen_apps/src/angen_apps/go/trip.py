@@ -1,4 +1,4 @@
-"""A drive to a goal: where it is held up, the robot finds out where it is and plans anew."""
+"""A drive to a goal: where it is blocked, the robot finds its pose and plans again."""
 from __future__ import annotations
 
 import math

@@ -27,7 +27,7 @@ def read_plan(path: Path, args: argparse.Namespace) -> Plan:
 
 
 def import_home(path: Path, output: Path, args: argparse.Namespace) -> str:
-    """Writes the world; returns what is to print: counts, and what was not read as it is."""
+    """Writes the world; returns the text to print: counts, and remarks."""
     plan = read_plan(path, args)
     counts = write_world(plan, output, args.sensors)
     words = ', '.join(f'{number} {name if number != 1 else name[:-1]}'

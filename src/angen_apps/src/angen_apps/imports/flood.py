@@ -66,7 +66,7 @@ def _thick_enough(corners: list[Point], thickness: float) -> list[Point]:
 
 
 def regions(free: np.ndarray, raster: Raster) -> list[_Region]:
-    """The connected free cells that do not reach the edge, largest first as they are met."""
+    """The connected free cells that do not reach the edge, in the order of the scan."""
     labels, count = label(free)
     outside = set(np.unique(np.concatenate([labels[0], labels[-1], labels[:, 0], labels[:, -1]])))
     sizes = np.bincount(labels.ravel(), minlength=count + 1) * CELL * CELL

@@ -76,7 +76,7 @@ def _dark(path: Path, threshold: float, negate: bool = False, smooth: bool = Fal
             if picture.width * picture.height > PIXELS:
                 raise Failure(f'{path}: has {picture.width} x {picture.height} pixels, at most '
                               f'{PIXELS // 1_000_000} million are read')
-            if picture.mode in ('RGBA', 'LA', 'P'):  # what is transparent is paper
+            if picture.mode in ('RGBA', 'LA', 'P'):  # transparent pixels are paper
                 picture = picture.convert('RGBA')
                 paper = Image.new('RGBA', picture.size, (255, 255, 255, 255))
                 picture = Image.alpha_composite(paper, picture)

@@ -20,9 +20,9 @@ from angen_apps.plan.walls import arc
 FLUX = 1600.0  # lm of a light of full power; 0.5, the default, is a bulb of 800 lm
 DEFAULT_HEIGHT = 2.5  # m
 SAME_LEVEL = 0.01  # m
-SILL = 0.4  # m: what begins lower and has no leaf is a passage
+SILL = 0.4  # m: a lower opening without a leaf is a passage
 THRESHOLD = 0.3  # m: a glazed door's sill is below this
-WALKABLE = 1.8  # m, height of what one walks through
+WALKABLE = 1.8  # m, height of openings that people walk through
 FRAME = 0.02  # m of a window's frame above and below its sashes
 ROOM_LIMIT = 2000  # corners of a room
 LIMITS = {'wall': 5000, 'room': 1000, 'doorOrWindow': 2000, 'level': 50}
@@ -264,7 +264,7 @@ class _Home:
             self._cut_floor(storey, piece)
 
     def _cut_floor(self, storey: Storey, piece: Piece) -> None:
-        """A staircase goes through the floor above the middle of its height."""
+        """A staircase passes the floor that is above the middle of its height."""
         above = [s for s in self.storeys.values()
                  if storey.elevation + 0.5 < s.elevation <= piece.z + piece.height]
         c, s = cos(piece.yaw), sin(piece.yaw)

@@ -49,7 +49,7 @@ def _entry(file: YamlFile, node: object) -> Entry:
 
 
 def what_is(entries: tuple[Entry, ...], catalog: str, name: str) -> Entry | None:
-    """The first entry that fits a piece; its name goes before its catalog id."""
+    """The first entry that fits a piece, by its name, then by its catalog id."""
     name, catalog = name.lower().strip(), catalog.lower().rpartition('#')[2]
     for text in (name, catalog):
         for entry in entries:

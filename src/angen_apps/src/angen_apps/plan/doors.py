@@ -81,7 +81,7 @@ class Hung:
 
 def hang(storey: Storey, walls: Sequence[Box], furniture: Sequence[Obstacle], plan: Plan
          ) -> list[Hung]:
-    """The leaves of a storey; each opens as far as nothing is in its way."""
+    """The leaves of a storey; each opens until an obstacle."""
     solid = [Obstacle('a wall', box.corners(), box.low[2], box.high[2]) for box in walls]
     found: list[Hung] = []
     for opening in storey.openings:
@@ -115,7 +115,7 @@ def _sided(opening: Opening, leaf: Leaf, index: int) -> str:
 
 
 def _free_turn(hung: Hung, obstacles: Sequence[Obstacle]) -> tuple[float, str]:
-    """How far a leaf turns without touching, and what stops it."""
+    """The angle of a leaf without a touch, and the obstacle that stops it."""
     bottom, top = hung.heights
     x, y = hung.hinge
     reach = hung.width + 0.1
@@ -185,7 +185,7 @@ def model_name(hung: Hung) -> str:
 
 
 def _frame(width: float, thick: float, height: float) -> object:
-    """What carries the reed contact; it is in nobody's way."""
+    """The body that carries the reed contact; it hinders no one."""
     low, high = sorted((thick, thick + (0.006 if thick > 0 else -0.006)))
     return generator('sdf').spanned('reed', (width - 0.07, low, height - 0.056),
                                     (width - 0.03, high, height - 0.044), mass=0.01,

@@ -127,7 +127,7 @@ def _is_on(z: float, storey: Storey) -> bool:
 
 
 def _draw_solid(axis: Any, scene: Scene, storey: Storey, shape: Shape) -> None:
-    """Walls are black, what is lower is an outline; things have symbols of their own."""
+    """Walls are black, lower shapes are outlines; things have symbols of their own."""
     thing = scene.things.get(shape.model)
     cut = storey.elevation + CUT
     is_building = shape.model not in scene.shapes.moving and thing is None

@@ -1,4 +1,4 @@
-"""Completes a plan that was read: names, what rooms are for, and the main entrance."""
+"""Completes a plan that was read: names, uses of rooms, and the main entrance."""
 from __future__ import annotations
 
 import re

@@ -119,7 +119,7 @@ def _scale(element: etree._Element, scale: np.ndarray) -> None:
         values[:3] = list(np.array(values[:3]) * scale)
     elif name == 'place' and len(text) == 4:
         values = [float(v) for v in text]
-        # what is before the front stays as far before it
+        # a place before the front stays as far before it
         values[:3] = list(np.array(values[:3]) * (scale if element.get('posture') != 'stand'
                                                   else np.array([1, scale[1], 1])))
     elif name == 'size' and len(text) == 3:
@@ -239,7 +239,7 @@ STANDS = ('desk', 'table', 'stove', 'sink', 'fridge', 'washing_machine', 'tv', '
 
 
 def _add_thing(model: etree._Element, piece: Piece) -> None:
-    """Says what a model is and how it is used, unless the model's own file does."""
+    """Marks a model as a thing with its places, unless the model's own file does."""
     def angen(tag: str) -> etree._Element:
         return etree.SubElement(model, f'{{{ANGEN}}}{tag}', nsmap={'angen': ANGEN})
 

@@ -36,7 +36,7 @@ TRIES = 60
 
 
 def furnish(storey: Storey, dice: Random) -> None:
-    """Places what each room has; a piece that has no place is left out."""
+    """Places the pieces of each room; a piece without room is left out."""
     names = Names()
     swings = [_kept_free(opening) for opening in storey.openings]
     for room in storey.rooms:
@@ -57,7 +57,7 @@ def furnish(storey: Storey, dice: Random) -> None:
 
 
 def _kept_free(opening: Opening) -> list[tuple[float, float]]:
-    """A rectangle on both sides of an opening in which nothing stands."""
+    """A rectangle on both sides of an opening that stays free."""
     reach = opening.width + 0.1 if opening.kind != 'window' else opening.width + 0.05
     return rectangle(opening.x, opening.y, opening.yaw,
                      (-opening.width / 2 - 0.1, opening.band[0] - reach),

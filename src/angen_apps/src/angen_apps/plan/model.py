@@ -1,4 +1,4 @@
-"""A floor plan: what importers and generators make, and what the writer of worlds reads.
+"""A floor plan, which importers and generators make and the writer of worlds reads.
 
 Lengths in m, angles in rad, x to the right and y up on the page; heights z are of the world.
 """
@@ -49,7 +49,7 @@ class Leaf:
 class Opening:
     """A hole in a wall: a door, a window, or a passage without a leaf (kind `opening`).
 
-    The pose is the middle at the foot of the hole; `band` is what is cut across the wall, in the
+    The pose is the middle at the foot of the hole; `band` is the cut across the wall, in the
     opening's frame.
     """
 
@@ -154,7 +154,7 @@ class Storey:
 
 @dataclass
 class Plan:
-    """A home. `remarks` say what was not read, changed or guessed."""
+    """A home. `remarks` list omissions, changes and guesses."""
 
     name: str
     storeys: list[Storey]

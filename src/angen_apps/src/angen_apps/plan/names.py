@@ -1,4 +1,4 @@
-"""Names of rooms and models from the texts of a plan, and what a room is for."""
+"""Names of rooms and models from the texts of a plan, and the uses of rooms."""
 from __future__ import annotations
 
 import re
@@ -19,7 +19,7 @@ USES = (
     ('landing', ('landing', 'stair', 'lobby', 'elevator', 'lift')),
     ('hall', ('hall', 'corridor', 'entr', 'flur', 'couloir', 'foyer', 'passage', 'vestib')),
 )
-# what a room without a name is for, by what is in it; the first that is there
+# the use of a room without a name, by its contents; the first that it has
 BY_THINGS = (
     ('bathroom', ('toilet', 'shower', 'bathtub')),
     ('kitchen', ('stove', 'fridge')),
@@ -41,7 +41,7 @@ def slug(text: str, otherwise: str = 'room') -> str:
 
 
 def plain_name(text: str, otherwise: str) -> str:
-    """A name as it is, but for what a model's name may not contain."""
+    """A name without the characters that a model's name may not contain."""
     return re.sub(r'[^A-Za-z0-9_. -]', '_', text).strip()[:LONGEST] or otherwise
 
 

@@ -103,7 +103,7 @@ def draw(axis: Any, scene: Any, storey: Storey, data: Data, what: What) -> None:
 
 
 def _walls(scene: Any, storey: Storey) -> np.ndarray:
-    """Edges (n, 4) of what is as high as a wall: x0 y0 x1 y1."""
+    """Edges (n, 4) of shapes as high as a wall: x0 y0 x1 y1."""
     edges = []
     for shape in scene.shapes.solids:
         if shape.top > storey.elevation + 1.7 and shape.bottom < storey.elevation + 1.1 \

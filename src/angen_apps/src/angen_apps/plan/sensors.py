@@ -1,4 +1,4 @@
-"""Sensors of a home by rules: what is in each room, and at what height."""
+"""Sensors of a home by rules: the sensors of each room, and their heights."""
 from __future__ import annotations
 
 from math import atan2, cos, hypot, pi, sin

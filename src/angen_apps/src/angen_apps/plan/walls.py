@@ -210,7 +210,7 @@ def cuts_wall(opening: Opening, wall: Wall) -> bool:
 
 def _cuts(wall: Wall, yaw: float, openings: Sequence[Opening]
           ) -> list[tuple[tuple[float, ...], tuple[float, ...]]]:
-    """Low and high corners, in a frame, of what openings cut out of a wall."""
+    """Low and high corners, in a frame, of the holes of openings in a wall."""
     heading = direction(wall)
     found = []
     for opening in openings:
@@ -218,7 +218,7 @@ def _cuts(wall: Wall, yaw: float, openings: Sequence[Opening]
             continue
         away = (heading - opening.yaw + pi / 2) % pi - pi / 2
         u, v = local(wall.start, heading, (opening.x, opening.y))
-        # along an oblique wall: what the hole covers of its center line, wider on one face
+        # along an oblique wall: the part of its center line in the hole, wider on one face
         middle = u - v * tan(away)
         half = opening.width / 2 / cos(away) + wall.thickness / 2 * abs(tan(away))
         ends = [local((0, 0), yaw, (wall.start[0] + w * cos(heading),

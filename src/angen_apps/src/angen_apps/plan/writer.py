@@ -133,7 +133,7 @@ def _add_storey(world: etree._Element, plan: Plan, storey: Storey, made: Slabs, 
 
 def _add_building(world: etree._Element, plan: Plan, storey: Storey, made: Slabs,
                   walls: list[Box], leaves: list[Hung]) -> None:
-    """The model of a level: rooms, floors, walls, ceilings, and what does not open."""
+    """The model of a level: rooms, floors, walls, ceilings, and fixed panes."""
     blocks = generator('sdf')
     model = blocks.add(world, 'model', name=f'building{storey.number}')
     blocks.add(model, 'static', 'true')

@@ -34,7 +34,7 @@ class Step:
 
 @dataclass(frozen=True)
 class Activity:
-    """One that residents do. `alone`: the use of a room that nobody shares meanwhile."""
+    """One that residents do. `alone`: the use of a room that is not shared meanwhile."""
 
     name: str
     steps: tuple[Step, ...]
@@ -52,7 +52,7 @@ class Activity:
         return numbers[min(part, len(numbers) - 1)]
 
     def times(self, seconds: float) -> list[float]:
-        """How long each step takes, of so many seconds in all."""
+        """The duration of each step, of the seconds in all."""
         fixed = sum(60 * step.minutes for step in self.steps if step.minutes is not None)
         shares = sum(step.share for step in self.steps if step.minutes is None)
         scale = min(1.0, seconds / fixed) if fixed and shares == 0 else 1.0

@@ -1,4 +1,4 @@
-"""A resident's day: what is scheduled, a semi-Markov chain between, and what interrupts.
+"""A resident's day: scheduled items, a semi-Markov chain between, and interruptions.
 
 A day begins when the resident gets up and ends when the resident gets up again. It depends on the
 seed, the resident, the date and the household's meals only, so that it can be planned alone.
@@ -18,7 +18,7 @@ from angen_apps.residents.profiles import DAY, Profile, Scheduled, Span
 SHORTEST = 90.0  # s: a gap that is shorter is not filled
 AGAIN = 0.3  # how likely an activity follows itself, compared with others
 PAUSE = 5.0  # s after an interruption
-CLEAR = 60.0  # s between the begin of an activity and what interrupts it
+CLEAR = 60.0  # s between the begin of an activity and its interruption
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class Planner:
         return self._time(day, 'wakes', self.profile.wakes[day.kind])
 
     def sleeps(self, day: Day) -> float:
-        """When the resident goes to bed after that, s after the same midnight."""
+        """The time of going to bed after that, s after the same midnight."""
         when = self._time(day, 'sleeps', self.profile.sleeps[day.kind])
         wakes = self.wakes(day)
         while when < wakes + 6 * 3600.0:
@@ -90,7 +90,7 @@ class Planner:
         return around(self._draw(day, what), span.low, span.high)
 
     def _scheduled(self, day: Day, wakes: float, sleeps: float) -> list[tuple[float, float, str]]:
-        """Begin, end and name of what is scheduled between getting up and going to bed."""
+        """Begin, end and name of scheduled items between getting up and going to bed."""
         found: list[tuple[float, list[tuple[str, float]]]] = []
         if self.profile.lives and self.profile.body == 'person':
             found.append((wakes, self._lengths(day, 'morning', self._morning(day))))
@@ -136,7 +136,7 @@ class Planner:
         return found
 
     def _fill(self, day: Day, items: list[Item], until: float, done: dict[str, int]) -> None:
-        """The chain: what comes next depends on the hour and on what was done."""
+        """The chain: the next activity depends on the hour and on the last one."""
         while until - items[-1].end > SHORTEST:
             start = items[-1].end
             draw = self._draw(day, 'free', round(start))
@@ -157,7 +157,7 @@ class Planner:
         return 'relax' if self.profile.body == 'person' else 'nap'
 
     def _interrupted(self, day: Day, items: list[Item]) -> list[Item]:
-        """The items with what interrupts them between their parts."""
+        """The items with their interruptions between their parts."""
         moments = sorted(self._moments(day, items))
         result: list[Item] = []
         waiting = list(items)

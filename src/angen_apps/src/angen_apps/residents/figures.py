@@ -8,7 +8,7 @@ MASS = 70.0  # kg
 COLORS = ('0.20 0.36 0.60', '0.55 0.25 0.22', '0.24 0.45 0.30', '0.50 0.42 0.20', '0.42 0.28 0.52')
 FLESH, TROUSERS = '0.85 0.65 0.53', '0.22 0.22 0.26'
 
-# name: shape and its size, x y z of its middle, pitch; z from what carries the figure, x ahead
+# name: shape and its size, x y z of its middle, pitch; z from the seat or bed, x ahead
 Part = tuple[str, str, tuple[float, ...], tuple[float, float, float], float]
 SITTING: tuple[Part, ...] = (
     ('thighs', 'box', (0.54, 0.34, 0.14), (0.15, 0.0, 0.07), 0.0),

@@ -1,4 +1,4 @@
-"""Residents of one home, each a process that says when it continues, and what they share."""
+"""Residents of one home, each a process that says when it continues, and their shared state."""
 from __future__ import annotations
 
 import datetime
@@ -15,7 +15,7 @@ from angen_tools.common.home import Home
 Process = Iterator[float]  # yields when it continues, s
 LIT = 100.0  # lx of a lamp, in rooms without a sensor
 LATITUDE = 48.0  # degrees, of homes that do not say theirs
-CLEAR = 1.2  # m: a door with somebody so near is not shut
+CLEAR = 1.2  # m: a door with a person nearer is not shut
 
 
 class Household:
@@ -75,7 +75,7 @@ class Household:
             self.heard()
 
     def close(self) -> None:
-        """Ends what residents do."""
+        """Ends the activities of residents."""
         for _, _, process in self._queue:
             getattr(process, 'close', lambda: None)()
         for resident in self.residents:
@@ -113,11 +113,11 @@ class Household:
         return ('cabinet', near[0][1]) if near and near[0][0] < 0.8 else None
 
     def others_in(self, room: str, who: str) -> bool:
-        """Whether somebody else is awake in a room."""
+        """Whether another person is awake in a room."""
         return any(r.room == room and r.name != who and not r.away for r in self.residents)
 
     def doorway_free(self, x: float, y: float, who: str) -> bool:
-        """Whether nobody else is where a leaf swings."""
+        """Whether no other person is where a leaf swings."""
         return all((r.at[0] - x) ** 2 + (r.at[1] - y) ** 2 > CLEAR ** 2
                    for r in self.residents if r.name != who and not r.away)
 

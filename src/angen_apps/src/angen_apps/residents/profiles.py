@@ -55,7 +55,7 @@ class Free:
 
 @dataclass(frozen=True)
 class Need:
-    """What interrupts: again and again, `every` so many s while awake, or in some of the nights."""
+    """An interruption: every `every` s while awake, or in some of the nights."""
 
     every: tuple[float, float] | None
     per_day: float
@@ -87,7 +87,7 @@ def names() -> list[str]:
 
 
 def read(name: str) -> Profile:
-    """A shipped profile, or that of a file; Failure says file and line of what is wrong."""
+    """A shipped profile, or that of a file; Failure has file and line of an error."""
     path = Path(name)
     if path.suffix not in ('.yaml', '.yml'):
         path = FOLDER / f'{name}.yaml'

@@ -18,7 +18,7 @@ FEWEST = 30  # returns below which a scan is not used
 UNEXPLAINED = 0.15  # m: a return at this distance from all cells of the map is of something else
 # The search for a pose over a whole floor:
 FITS, SHARE = 0.1, 0.7  # m from the map; the part of a scan's returns that do not lie farther
-EACH, TURNS, RAYS = 4, 48, 60  # of the free cells one of so many; directions; returns
+EACH, TURNS, RAYS = 4, 48, 60  # one of EACH free cells; directions; returns
 BEST = 8  # places that are looked at closely
 NEAR_FIRST = 0.002  # m of misfit that a meter from the previous pose counts as
 # How odometry is weighed against a scan: standard deviations since the last one, and of a return.

@@ -58,7 +58,7 @@ KEYS = ('robot', *NUMBERS, 'elevator', 'waypoints')
 
 
 def read_route(path: Path) -> Route:
-    """The route of a file; Failure says file, line, what is wrong and what would be right."""
+    """The route of a file; Failure has the file, the line, the error and what would be right."""
     return _Reader(path).route()
 
 

@@ -20,7 +20,7 @@ from angen_tools.common.home import Home
 from angen_tools.live.client import Client
 
 WATCH = 0.5  # s between looks at the master and the node
-LINGER = 5.0  # s for which topics stay subscribed after the last browser has gone
+LINGER = 5.0  # s for which topics stay subscribed after the last browser has left
 PICTURE_PERIOD = 0.2  # s between two pictures of a camera
 COST = 'cost'
 
@@ -64,7 +64,7 @@ class Feed:
     # --- the master and the node
 
     def _follow(self, wanted: set[str]) -> None:
-        """Subscribes what is wanted of the node that is there now."""
+        """Subscribes the requested topics of the present node."""
         master = master_process()
         if master != self._master:  # topics of a master that ended are lost
             self._unsubscribe_all()
@@ -89,7 +89,7 @@ class Feed:
             self._survey()
 
     def _survey(self) -> None:
-        """What /angen/list says, after models have come or gone."""
+        """The answer of /angen/list, after models were spawned or deleted."""
         try:
             entities = Client().entities()
         except Failure:

@@ -46,7 +46,7 @@ class Guard:
 
     @web.middleware
     async def middleware(self, request: web.Request, handler: Handler) -> web.StreamResponse:
-        """Refuses what is not from a page of this server."""
+        """Rejects requests that are not from a page of this server."""
         host = request.headers.get('Host', '').lower()
         if host not in self._hosts:
             raise web.HTTPForbidden(text='This server does not have that name.\n')

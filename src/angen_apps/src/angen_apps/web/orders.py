@@ -112,7 +112,7 @@ class Orders:
             timer = self._stops.pop(name, None)
             if timer is not None:
                 timer.cancel()
-            if twist.linear.x or twist.angular.z:  # the browser may be gone the next moment
+            if twist.linear.x or twist.angular.z:  # the browser may close the next moment
                 self._stops[name] = threading.Timer(HOLD, self._stop, (name,))
                 self._stops[name].daemon = True
                 self._stops[name].start()

@@ -48,7 +48,7 @@ class Browser:
     def __init__(self, socket: web.WebSocketResponse) -> None:
         self.socket = socket
         self.wanted: set[str] = set()
-        self.pending = 0  # orders without an answer so far
+        self.pending = 0  # orders without an answer
         self.news = asyncio.Event()
         self.news.set()
         self.answers: list[dict[str, Any]] = []

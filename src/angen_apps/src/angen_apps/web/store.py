@@ -75,7 +75,7 @@ class Store:
         self._version = 0
         self._parts: dict[str, tuple[int, Any]] = {}
         self._rows: dict[tuple[str, str], tuple[int, Row]] = {}  # in the order of their changes
-        self._whole = 0  # the version at which the rows began anew
+        self._whole = 0  # the version at which the rows were last replaced
         self._events: deque[tuple[int, Any]] = deque(maxlen=EVENTS)
         self._named: dict[str, tuple[int, bytes]] = {}  # pictures and scans
         self._scene: dict[str, Any] | None = None

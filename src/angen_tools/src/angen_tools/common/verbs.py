@@ -18,7 +18,7 @@ class Order:
 
 
 def parse(kind: Plugin, words: Sequence[str]) -> Order:
-    """The command that `words` mean to a device of a kind; ValueError says what is right.
+    """The command that `words` mean to a device of a kind; ValueError lists the right ones.
 
     A verb in upper or lower case; its number after it, or alone where one verb takes a number; or
     the numbers of a kind that takes numbers alone.

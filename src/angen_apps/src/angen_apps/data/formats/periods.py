@@ -30,7 +30,7 @@ class Period:
 
 
 def periods(data: Data) -> list[Period]:
-    """What residents do, one thing after another, each as long as it goes on."""
+    """The activities of residents one after the other, with their durations."""
     found: list[Period] = []
     for resident, _ in data.residents:
         own: list[Period] = []
