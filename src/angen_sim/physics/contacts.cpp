@@ -22,7 +22,7 @@ constexpr double kStopSteps =
 constexpr double kMinSlip = 1e-6;              // m/s
 constexpr double kMinLoad = 1e-6;              // N
 constexpr std::size_t kMaxInStep = 20000;      // points
-constexpr std::size_t kMaxInMeshes = 400'000;  // triangles, about 0.1 s
+constexpr std::size_t kMaxInMeshes = 500'000;  // tests, some tenths of a second
 constexpr double kPush =
     50.0;  // m/s^2, at which a soft contact lifts a body that is deep in the floor
 
@@ -34,7 +34,11 @@ bool joined(const Body& a, const Body& b) {
   });
 }
 
-std::size_t triangles_of(const Geom& geom) { return geom.mesh->mesh->triangles.size(); }
+const MeshBoxes& boxes_of(const Geom& geom) {
+  std::optional<MeshBoxes>& boxes = geom.mesh->boxes;
+  if (!boxes) boxes.emplace(*geom.mesh->mesh);
+  return *boxes;
+}
 
 double usable_mu(double mu) { return mu >= kStickMu ? dInfinity : std::max(0.0, mu); }
 
@@ -76,17 +80,6 @@ void keep_direction(dContact& contact, const Geom& a, const Geom& b) {
   if (along.norm() > 1e-6) set_direction(contact, along.normalized());
 }
 
-/// Turned so that `geom`, one of the two, is the first.
-ContactPair seen_from(const Geom& geom, const Geom& first, const Geom& second,
-                      std::vector<ContactPoint> points) {
-  if (&first == &geom) return {first.name, second.name, std::move(points)};
-  for (ContactPoint& point : points) {
-    point.normal = -point.normal;
-    point.force = -point.force;
-  }
-  return {second.name, first.name, std::move(points)};
-}
-
 }  // namespace
 
 bool may_touch(const Geom& a, const Geom& b) {
@@ -124,17 +117,32 @@ void Contacts::start() {
   found_.clear();
   points_.clear();
   in_meshes_ = 0;
+  tangled_ = false;
 }
 
 bool Contacts::full() const { return found_.size() >= kMaxInStep || in_meshes_ >= kMaxInMeshes; }
+
+// Whether two meshes would take more than is left of this step's tests.
+bool Contacts::is_tangle(const Geom& a, const Geom& b) {
+  if (!a.mesh || !b.mesh) return false;
+  const std::size_t left = kMaxInMeshes - std::min(kMaxInMeshes, in_meshes_);
+  const std::size_t tests = MeshBoxes::tests(boxes_of(a), a.body->at * a.in_body, boxes_of(b),
+                                             b.body->at * b.in_body, left);
+  in_meshes_ += tests;
+  if (tests < left) return false;
+  tangled_ = true;
+  return true;
+}
 
 bool Contacts::collide(Geom& a, Geom& b) {
   Geom& first = a.serial < b.serial ? a : b;
   Geom& second = a.serial < b.serial ? b : a;
   std::array<dContactGeom, kMaxFound> found;
-  const std::size_t n = touching_points(first, second, found.data());
+  const bool tangle = is_tangle(first, second);
+  if (tangle && a.body->dynamic() && b.body->dynamic()) return false;
+  const std::size_t n = tangle ? touching_box(first, second, found.data())
+                               : touching_points(first, second, found.data());
   if (n == 0) return false;
-  if (first.mesh && second.mesh) in_meshes_ += triangles_of(first) + triangles_of(second);
   std::size_t kept = reduce_points(found.data(), n);
   if (first.body->upright && second.body->upright) kept = reduce_upright(found.data(), kept);
   note_change(first, second);
@@ -305,119 +313,6 @@ void Contacts::finish() {
   } else {
     dJointGroupEmpty(group_.get());
   }
-}
-
-void Contacts::remember(std::int64_t tick) {
-  for (const Pair& pair : pairs_) {
-    for (auto [one, other] :
-         {std::pair(pair.first, pair.second), std::pair(pair.second, pair.first)}) {
-      if (!one->watched) continue;
-      one->recent[other->serial] = {tick,
-                                    seen_from(*one, *pair.first, *pair.second, points_of(pair))};
-    }
-  }
-}
-
-std::vector<ContactPair> Contacts::with_recent(Geom& geom, std::int64_t first,
-                                               std::vector<ContactPair> now) {
-  geom.watched = true;
-  const std::size_t current = now.size();
-  for (auto at = geom.recent.begin(); at != geom.recent.end();) {
-    if (at->second.tick < first) {
-      at = geom.recent.erase(at);
-      continue;
-    }
-    const ContactPair& pair = (at++)->second.pair;
-    const auto end = now.begin() + static_cast<std::ptrdiff_t>(current);
-    const bool touches = std::any_of(
-        now.begin(), end, [&](const ContactPair& each) { return each.second == pair.second; });
-    if (!touches) now.push_back(pair);
-  }
-  return now;
-}
-
-void Contacts::put_to_rest() {
-  const auto asleep = [](const Pair& pair) {
-    return !pair.first->body->awake && !pair.second->body->awake;
-  };
-  for (const Pair& pair : pairs_) {
-    if (!asleep(pair)) continue;
-    const PairKey key{pair.first->serial, pair.second->serial};
-    resting_[key] = {pair.first, pair.second, points_of(pair)};
-    with_smaller_.emplace(key.second, key.first);
-    for (Body* body : {pair.first->body, pair.second->body}) {
-      if (body->dynamic()) body->resting.push_back(key);
-    }
-  }
-  pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), asleep), pairs_.end());
-}
-
-void Contacts::forget(Body& body) {
-  for (const PairKey& key : body.resting) {
-    const auto pair = resting_.find(key);
-    if (pair == resting_.end()) continue;
-    note_change(*pair->second.first, *pair->second.second);
-    resting_.erase(pair);
-    with_smaller_.erase({key.second, key.first});
-  }
-  body.resting.clear();
-}
-
-void Contacts::drop_active(const ModelRecord& model) {
-  const auto gone = [&](const Pair& pair) {
-    if (pair.first->body->model != &model && pair.second->body->model != &model) return false;
-    note_change(*pair.first, *pair.second);
-    return true;
-  };
-  pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), gone), pairs_.end());
-}
-
-std::vector<ContactPoint> Contacts::points_of(const Pair& pair) const {
-  const auto begin = points_.begin() + static_cast<std::ptrdiff_t>(pair.begin);
-  return {begin, begin + static_cast<std::ptrdiff_t>(pair.count)};
-}
-
-std::vector<ContactPair> Contacts::of(const Geom& geom) const {
-  std::map<std::uint64_t, ContactPair> found;  // by the other's serial
-  const auto add = [&](const Geom& first, const Geom& second, std::vector<ContactPoint> points) {
-    found[&first == &geom ? second.serial : first.serial] =
-        seen_from(geom, first, second, std::move(points));
-  };
-  for (const Pair& pair : pairs_) {
-    if (pair.first == &geom || pair.second == &geom)
-      add(*pair.first, *pair.second, points_of(pair));
-  }
-  const auto add_resting = [&](const Resting& r) { add(*r.first, *r.second, r.points); };
-  const PairKey start{geom.serial, 0};
-  for (auto at = resting_.lower_bound(start);
-       at != resting_.end() && at->first.first == geom.serial; ++at) {
-    add_resting(at->second);
-  }
-  for (auto at = with_smaller_.lower_bound(start);
-       at != with_smaller_.end() && at->first == geom.serial; ++at) {
-    add_resting(resting_.at({at->second, at->first}));
-  }
-  std::vector<ContactPair> all;
-  all.reserve(found.size());
-  for (auto& [serial, pair] : found) all.push_back(std::move(pair));
-  return all;
-}
-
-std::vector<ContactPair> Contacts::list() const {
-  std::vector<ContactPair> all;
-  all.reserve(pairs_.size() + resting_.size());
-  auto sleeping = resting_.begin();
-  const auto take_sleeping = [&] {
-    const Resting& r = (sleeping++)->second;
-    all.push_back({r.first->name, r.second->name, r.points});
-  };
-  for (const Pair& pair : pairs_) {
-    const PairKey key{pair.first->serial, pair.second->serial};
-    while (sleeping != resting_.end() && sleeping->first < key) take_sleeping();
-    all.push_back({pair.first->name, pair.second->name, points_of(pair)});
-  }
-  while (sleeping != resting_.end()) take_sleeping();
-  return all;
 }
 
 }  // namespace angen::physics

@@ -33,10 +33,12 @@ class Contacts {
   /// Sets the world of contact joints; it may change between finish() and make_joints().
   void use(dWorldID world);
 
-  /// True if there are too many contact points, or meshes in each other took too long, and those of
+  /// True if there are too many contact points, or meshes in each other take too long, and those of
   /// two moving bodies are skipped: bodies that were put in one place would take all memory and
   /// time.
   bool full() const;
+  /// Whether contacts of this step were simplified for that reason.
+  bool tangled() const { return tangled_; }
 
   /// Narrow phase; true when the geoms touch.
   bool collide(Geom& a, Geom& b);
@@ -111,6 +113,7 @@ class Contacts {
     ++first.contacts_revision;
     ++second.contacts_revision;
   }
+  bool is_tangle(const Geom& a, const Geom& b);
   void drop_active(const ModelRecord& model);
   std::vector<ContactPoint> points_of(const Pair& pair) const;
   void sum_loads();
@@ -128,7 +131,8 @@ class Contacts {
   double fastest_;        // m/s
   ode::JointGroupHandle group_;
   std::size_t most_joints_ = 0;  // that group_ has held
-  std::size_t in_meshes_ = 0;    // triangles of meshes that touch each other in this step
+  std::size_t in_meshes_ = 0;    // tests of meshes against each other in this step
+  bool tangled_ = false;
   std::vector<Pair> pairs_;
   std::vector<dContactGeom> found_;
   std::vector<ContactPoint> points_;

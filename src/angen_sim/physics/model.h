@@ -12,6 +12,7 @@
 
 #include "desc/world.h"
 #include "physics/height_tiles.h"
+#include "physics/mesh_boxes.h"
 #include "physics/ode.h"
 #include "physics/world.h"
 
@@ -41,6 +42,7 @@ struct MeshData {
   std::shared_ptr<const TriangleMesh> mesh;
   Eigen::Matrix3Xd corners;  // m, of its triangles, each once; none where nothing of it moves
   ode::MeshHandle data;
+  mutable std::optional<MeshBoxes> boxes;  // once it has met another mesh
 };
 
 struct alignas(64) Geom {

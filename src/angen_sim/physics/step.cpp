@@ -50,6 +50,7 @@ void World::Impl::collide() {
     body->overlap = 0.0;
   }
   for (std::size_t i = 0; i < awake.size(); ++i) collide_body(*awake[i]);
+  crowded = crowded || contacts.tangled();
   std::sort(awake.begin(), awake.end(), by_serial);
   for (Body* body : awake) give_to_ode(*body);
   contacts.make_joints();

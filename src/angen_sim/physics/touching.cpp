@@ -11,7 +11,8 @@ namespace angen::physics {
 
 namespace {
 
-constexpr double kApart = 1e-9;  // m, centers that are less apart coincide
+constexpr double kThinnest = 1e-3;  // m, of a box in place of a mesh
+constexpr double kApart = 1e-9;     // m, centers that are less apart coincide
 
 // ODE's cylinders have no normal (NaN) where a center lies on an axis or two stand exactly side by
 // side: they are parted along the line between them, else the moving one upward.
@@ -113,6 +114,24 @@ std::size_t touching_points(const Geom& first, const Geom& second, dContactGeom*
     n = collide_ground(b, first, false, points);
   } else {
     n = collide_geoms(a, b, kMaxFound, points);
+  }
+  fix_normals(first, second, points, n);
+  return n;
+}
+
+std::size_t touching_box(const Geom& first, const Geom& second, dContactGeom* points) {
+  const bool first_moves = first.body->dynamic();
+  const Geom& moving = first_moves ? first : second;
+  const Eigen::AlignedBox3d bounds = moving.mesh->boxes->bounds();
+  const Vec3 size = bounds.sizes().cwiseMax(kThinnest);
+  const ode::GeomHandle box(dCreateBox(nullptr, size.x(), size.y(), size.z()));
+  ode::set_pose(box.get(),
+                moving.body->at * moving.in_body * Pose{bounds.center(), Quat::Identity()});
+  const std::size_t n = first_moves ? collide_geoms(box.get(), second.ode.get(), kMaxFound, points)
+                                    : collide_geoms(first.ode.get(), box.get(), kMaxFound, points);
+  for (std::size_t i = 0; i < n; ++i) {
+    points[i].g1 = first.ode.get();
+    points[i].g2 = second.ode.get();
   }
   fix_normals(first, second, points, n);
   return n;
