@@ -24,6 +24,10 @@ struct LeafKind {
   std::vector<const char*> models;  // of worlds/models; the first is the default
 };
 
+inline constexpr const char* kLeafModes[] = {"CLOSED",  "OPEN",    "OPENING",
+                                             "CLOSING", "BLOCKED", "AJAR"};
+inline constexpr char kLeafJointDoc[] = "a leaf's, besides those that are found";
+
 /// A leaf on a revolute or prismatic joint: a PID drives it, a brake holds it, and a latch where it
 /// is shut, until it is commanded, its handle is turned, or something breaks it open.
 class Door : public Device {

@@ -280,17 +280,16 @@ void apply_motor(const Joint& joint) {
   const bool on = joint.motor_force > 0.0;
   const Bounds speeds = on ? velocity_bounds(joint) : Bounds{};
   const double velocity = std::clamp(on ? joint.motor_velocity : 0.0, speeds.low, speeds.high);
-  double force = on ? joint.motor_force : joint.axes[0].friction;
-  if (joint.latched && std::isfinite(joint.latch_force)) force = joint.latch_force;
+  const double force = on ? joint.motor_force : joint.axes[0].friction;
   const int group = joint.type == Type::kUniversal ? universal_group(joint, 0) : 0;
   set_motor_param(joint, dParamVel + group, velocity);
   set_motor_param(joint, dParamFMax + group, force);
 }
 
-// Two stops in one place hold against any force, a brake against a limited one.
+// Two stops in one place hold against any force.
 void apply_latch(const Joint& joint) {
   const Axis& axis = joint.axes[0];
-  const bool stuck = joint.latched && !std::isfinite(joint.latch_force);
+  const bool stuck = joint.latched && !joint.latch_broken;
   set_range(joint, stuck ? joint.latch_at : axis.lower, stuck ? joint.latch_at : axis.upper, 0);
   apply_motor(joint);
 }
@@ -299,7 +298,7 @@ double ode_position(const Joint& joint) {
   return turns(joint) ? read_angle(joint) : dJointGetSliderPosition(joint.main.get());
 }
 
-void update_joint(Joint& joint) {
+void update_joint(Joint& joint, double h) {
   joint.pushed = std::exchange(joint.pushes, 0.0);
   if (joint.first == nullptr || joint.type == Type::kBall) return;
   const Pose& at = joint.first->at;
@@ -319,6 +318,7 @@ void update_joint(Joint& joint) {
     joint.position = dJointGetSliderPosition(joint.main.get());
     joint.effort = axis.dot(ode::vec(main.f1) + ode::vec(motor.f1)) + joint.spring_effort;
   }
+  watch_latch(joint, h);
 }
 
 Wrench joint_wrench(const Joint& joint) {

@@ -34,6 +34,9 @@ void apply_motor(const Joint& joint);
 
 /// Sets stops and motor of a latched joint that ODE has, or gives it its own again.
 void apply_latch(const Joint& joint);
+/// Breaks a latch whose force, averaged over 0.1 s, is too much; peaks count as ten times what
+/// breaks it at most. A broken one catches the joint where it stands once that force has gone.
+void watch_latch(Joint& joint, double h);
 
 /// The position that ODE measures, rad in [-pi, pi] or m.
 double ode_position(const Joint& joint);
@@ -42,7 +45,7 @@ double ode_position(const Joint& joint);
 void apply_spring(Joint& joint, double h);
 
 /// Reads position and effort after a step.
-void update_joint(Joint& joint);
+void update_joint(Joint& joint, double h);
 
 /// Force and torque of the child on the parent in the last step.
 Wrench joint_wrench(const Joint& joint);

@@ -112,7 +112,9 @@ struct Joint {
   double motor_velocity = 0.0;
   double motor_force = 0.0;
   bool latched = false;
+  bool latch_broken = false;   // until the force that broke it has gone
   double latch_force = 0.0;    // N m or N, infinite: nothing breaks it
+  double latch_strain = 0.0;   // N m or N, that it bears, averaged over some time
   double latch_at = 0.0;       // rad or m, as ODE measures it
   double inertia = 0.0;        // least that moves about or along the first axis, kg m^2 or kg
   double spring_effort = 0.0;  // in the last step, where no row of `motor` gave it

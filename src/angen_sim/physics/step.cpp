@@ -170,7 +170,7 @@ void World::Impl::read_bodies() {
   }
   for (Body* body : awake) {
     for (Joint* joint : body->joints) {
-      if (joint->first == body) update_joint(*joint);
+      if (joint->first == body) update_joint(*joint, h);
     }
   }
 }

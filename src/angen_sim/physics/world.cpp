@@ -232,6 +232,8 @@ void World::latch(JointId id, double break_force) {
   if (!joint.first->awake) return;  // it has been stopped
   impl_->give_to_ode(*joint.first);
   joint.latched = true;
+  joint.latch_broken = false;
+  joint.latch_strain = 0.0;
   joint.latch_force = break_force;
   joint.latch_at = ode_position(joint);
   apply_latch(joint);

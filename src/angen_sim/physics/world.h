@@ -83,8 +83,8 @@ class World {
   void set_motor(JointId joint, double velocity, double max_force);
 
   /// Holds a revolute or prismatic joint where it is, whatever its axis' limit of effort, against
-  /// less than `break_force` (N m or N; infinite: against anything), until unlatch(). Wakes bodies
-  /// when it changes.
+  /// less than `break_force` (N m or N, averaged over 0.1 s; infinite: against anything), until
+  /// unlatch(). Wakes bodies when it changes.
   void latch(JointId joint, double break_force);
   void unlatch(JointId joint);
 

@@ -351,6 +351,60 @@ TEST(Door, ALatchThatCanBreakDoesSoAtItsTorque) {
   }
 }
 
+/// Whether a person of 70 kg who bumps into a latched leaf at a speed (m/s), and goes on pushing
+/// with a torque (N m), opens it.
+bool bump_opens(const char* latch_torque, double speed, double torque) {
+  constexpr double kArm = 0.7;  // m
+  Bench bench;
+  bench.add(ground());
+  Rig& leaf = add_door(bench, {}, {{"latch_torque", latch_torque}});
+  bench.run(0.2);
+  const physics::LinkId body = bench.world.links(bench.add(person({kArm, 0.4, 0.001})))[0];
+  for (int i = 0; i < 50; ++i) {  // it has its speed when it meets the leaf
+    bench.world.drive(body, {0, -speed, 0}, 0.0, 1e4);
+    bench.tick();
+  }
+  bench.run(0.4 / speed + 2.0, [&] {
+    bench.world.drive(body, {0, -speed, 0}, 0.0, torque / kArm);
+  });
+  return angle(leaf) < -0.05;
+}
+
+TEST(Door, ABumpBreaksNoLatchThatTheirPushDoesNot) {
+  for (const double speed : {0.1, 0.3, 0.6}) {
+    EXPECT_FALSE(bump_opens("110", speed, 105.0)) << speed;
+    EXPECT_TRUE(bump_opens("110", speed, 125.0)) << speed;
+  }
+}
+
+// The magnet of a fridge; the brake of its drive would hold twice as much.
+TEST(Door, ALatchWeakerThanTheBrakeBreaksAtItsOwnTorque) {
+  for (const double torque : {8.0, 13.0}) {
+    Bench bench;
+    Rig& door = add_door(bench, {}, {{"latch_torque", "10"}});
+    bench.run(0.2);
+    const physics::JointId hinge = bench.world.joints(door.id())[1];
+    bench.run(3.0, [&] { bench.world.add_force(hinge, -torque); });
+    printf("a latch of 10 N m under %.0f N m: %.3f rad\n", torque, angle(door));
+    EXPECT_EQ(angle(door) < -0.3, torque > 10.0);
+  }
+}
+
+TEST(Door, ALatchThatNearlyBrokeHoldsAgain) {
+  Bench bench;
+  Rig& door = add_door(bench, {}, {{"latch_torque", "50"}, {"brake_torque", "40"}});
+  bench.run(0.2);
+  const physics::JointId hinge = bench.world.joints(door.id())[1];
+  for (int i = 0; i < 20 && angle(door) > -1e-4; ++i) {
+    bench.run(0.02, [&] { bench.world.add_force(hinge, -80.0); });
+  }
+  EXPECT_GT(angle(door), -0.009) << "not yet out of the latch's reach";
+  bench.run(1.0);
+  const double rests = angle(door);
+  bench.run(2.0, [&] { bench.world.add_force(hinge, -45.0); });
+  EXPECT_NEAR(angle(door), rests, 1e-4);
+}
+
 TEST(Door, WithoutALatchItsBrakeHoldsIt) {
   Bench bench;
   Rig& door = add_door(bench, {}, {{"latch_torque", "0"}});
