@@ -16,6 +16,14 @@ constexpr double kStallSpeed = 0.005;   // m/s
 constexpr double kObstacleTime = 0.2;   // s without motion while shutting
 constexpr double kBlockedTime = 0.6;    // s without motion while opening
 
+// The light curtain, from 0.05 to 1.6 m above the sill of a leaf of 2 m (EN 81-20, 5.3.6.2.2.1).
+constexpr int kBeams = 17;
+constexpr double kLowestBeam = -0.95;  // m from the middle of a leaf
+constexpr double kBetweenBeams = 0.1;  // m
+constexpr double kNarrowest = 0.03;    // m between the leaves: less is not watched
+constexpr double kBeamSkin = 0.005;    // m before a leaf's edge
+constexpr Nanoseconds kBeamPeriod = kSecond / 50;
+
 }  // namespace
 
 Doorway::Doorway(double max_velocity, double max_force)
@@ -76,7 +84,7 @@ bool Doorway::update(const View& view, Outputs& outputs) {
     return false;
   }
   stalled_ = fastest < kStallSpeed ? stalled_ + dt : 0.0;
-  if (!opening_ && (lag > kMaxLag || stalled_ > kObstacleTime)) {
+  if (!opening_ && (lag > kMaxLag || stalled_ > kObstacleTime || curtain_broken(view))) {
     go(true, view);
     return true;
   }
@@ -88,6 +96,38 @@ bool Doorway::update(const View& view, Outputs& outputs) {
     const double wanted = scale * profile_.velocity() + kFollowGain * behind;
     const double limit = 1.2 * max_velocity_;
     outputs.motor(leaf.joint, std::clamp(wanted, -limit, limit), max_force_);
+  }
+  return false;
+}
+
+bool Doorway::curtain_broken(const View& view) {
+  const Nanoseconds now = view.time() / kBeamPeriod;
+  if (now == scanned_at_) return false;
+  scanned_at_ = now;
+  for (std::size_t i = 1; i < leaves_.size(); ++i) {
+    const Leaf& one = leaves_[i - 1];
+    if (one.row == leaves_[i].row && is_between(one, leaves_[i], view)) return true;
+  }
+  return false;
+}
+
+// The edges of two leaves are half of the distance of their middles apart from these when shut.
+bool Doorway::is_between(const Leaf& one, const Leaf& other, const View& view) {
+  const auto middle = [&](const Leaf& leaf) { return view.link(leaf.link).pose * leaf.center; };
+  const auto travel = [&](const Leaf& leaf) {
+    return Vec3(view.joint(leaf.joint).position * (view.pose().rotation * leaf.axis));
+  };
+  const Vec3 from = middle(one);
+  const Vec3 to = middle(other);
+  const double edge = 0.5 * ((to - travel(other)) - (from - travel(one))).norm() + kBeamSkin;
+  const double length = (to - from).norm();
+  if (length - 2.0 * edge < kNarrowest) return false;
+  for (int i = 0; i < kBeams; ++i) {
+    const Vec3 height = (kLowestBeam + i * kBetweenBeams) * Vec3::UnitZ();
+    for (const rays::Crossing& each : view.crossings(from + height, to + height)) {
+      const bool is_around = each.enter <= 0.0 || each.leave >= length;  // a leaf or the floor
+      if (!is_around && each.leave > edge && each.enter < length - edge) return true;
+    }
   }
   return false;
 }

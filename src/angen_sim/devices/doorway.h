@@ -8,13 +8,18 @@
 namespace angen::devices {
 
 /// Sliding leaves that open and shut together, each shut at 0. Force-limited motors move them along
-/// one profile; an obstacle between closing leaves makes them open again.
+/// one profile. They open again where a light curtain from leaf to leaf finds something between
+/// them, or where something holds them.
 class Doorway {
  public:
   enum class Mode { kClosed, kOpen, kOpening, kClosing, kBlocked };
   struct Leaf {
     JointRef joint;
     double open = 0.0;  // m, open position
+    LinkRef link;
+    Vec3 center = Vec3::Zero();  // m, of its mass, in the link's frame
+    Vec3 axis = Vec3::UnitX();   // of its joint, in the model's frame
+    int row = 0;                 // leaves of one row close towards each other
   };
 
   Doorway() = default;
@@ -35,14 +40,17 @@ class Doorway {
 
  private:
   double share(const View& view) const;  // 0 shut, 1 open: mean of the leaves
+  bool curtain_broken(const View& view);
+  static bool is_between(const Leaf& one, const Leaf& other, const View& view);
   void go(bool opening, const View& view);
 
   std::vector<Leaf> leaves_;
   Profile profile_;  // of the widest leaf, m
   double max_velocity_ = 0.5;
   double max_force_ = 100.0;
-  double travel_ = 0.0;   // m, of the widest leaf
-  double stalled_ = 0.0;  // s
+  double travel_ = 0.0;          // m, of the widest leaf
+  double stalled_ = 0.0;         // s
+  Nanoseconds scanned_at_ = -1;  // by the curtain, as a multiple of its period
   bool moving_ = false;
   bool opening_ = false;
   Mode mode_ = Mode::kClosed;

@@ -13,16 +13,23 @@ namespace angen::devices {
 namespace {
 
 constexpr char kTopic[] = "/gazebo/Elevator_controller";
-constexpr double kLevelWithin = 0.005;    // m
-constexpr double kArriveError = 0.0005;   // m
-constexpr double kNearError = 0.002;      // m
-constexpr double kArriveSpeed = 0.002;    // m/s
-constexpr double kMaxLag = 0.02;          // m
-constexpr double kStallSpeed = 0.005;     // m/s
-constexpr double kWeighShare = 0.2;       // of each new weighing, at the rate of telling
-constexpr double kUnlimited = 1e9;        // m, of a joint's travel
-constexpr double kGreatestLoad = 2000.0;  // kg
-constexpr Nanoseconds kDwell = kSecond;   // between the doors' opening and their shutting
+constexpr double kLevelWithin = 0.005;     // m
+constexpr double kArriveError = 0.0005;    // m
+constexpr double kNearError = 0.002;       // m
+constexpr double kArriveSpeed = 0.002;     // m/s
+constexpr double kMaxLag = 0.02;           // m
+constexpr double kStallSpeed = 0.005;      // m/s
+constexpr double kWeighShare = 0.2;        // of each new weighing, at the rate of telling
+constexpr double kUnlimited = 1e9;         // m, of a joint's travel
+constexpr double kStandardGravity = 9.81;  // m/s^2
+constexpr double kGreatestLoad = 2000.0;   // kg
+constexpr Nanoseconds kDwell = kSecond;    // between the doors' opening and their shutting
+
+// An overload is more than the rated load by 10 %, and by 75 kg at least (EN 81-20, 5.12.1.2).
+constexpr double kRatedLoad = 630.0;  // kg, eight persons
+constexpr double kOverShare = 0.1;
+constexpr double kLeastOver = 75.0;                    // kg
+constexpr Nanoseconds kWeighingSettles = kSecond / 2;  // what comes aboard drops on the floor
 
 // Gains and limits are times the moving mass; the limits exclude the weight.
 constexpr PidGains kGains{200.0, 200.0, 25.0, 5.0, -5.0, 5.0, -5.0};
@@ -37,8 +44,8 @@ constexpr double kUpwards = 0.999;  // z of an axis that points up
 
 bool rises(const ModelInfo::Joint& joint) { return joint.axis.z() > kUpwards; }
 
-const char* const kModes[] = {"IDLE", "UP", "DOWN", "BLOCKED"};
-const char* const kModeEvents[] = {"idle", "up", "down", "blocked"};
+const char* const kModes[] = {"IDLE", "UP", "DOWN", "BLOCKED", "OVERLOADED"};
+const char* const kModeEvents[] = {"idle", "up", "down", "blocked", "overloaded"};
 const char* const kDoorModes[] = {"CLOSED", "OPEN", "OPENING", "CLOSING", "BLOCKED"};
 const char* const kDoorEvents[] = {"doors closed", "doors opened", "doors opening", "doors closing",
                                    "doors blocked"};
@@ -66,6 +73,10 @@ void Elevator::configure(Params& params, Wiring& wiring) {
   floors_ = params.integer("floors", 2, "", "number of floors", {1, 1000});
   brake_force_ =
       params.number("brake_force", 30000.0, "N", "brake of the standing cabin", kPositive);
+  rated_load_ = params.number("rated_load", kRatedLoad, "kg",
+                              "it stays, with open doors, under more than this by 10 % (by 75 kg "
+                              "at least)",
+                              kPositive);
   const double door_speed =
       params.number("door_max_velocity", 0.5, "m/s", "speed of a door leaf", kPositive);
   door_force_ =
@@ -88,6 +99,15 @@ void Elevator::configure(Params& params, Wiring& wiring) {
     stops_.push_back(static_cast<int>(floor));
   }
   wire(params, wiring);
+  warn_of_effort(params);
+}
+
+void Elevator::warn_of_effort(Params& params) const {
+  const double needed = (own_mass_ + rated_load_) * kStandardGravity;
+  if (!params.has("rated_load") || needed <= limits_.effort) return;
+  params.warn("rated_load", "<rated_load> and cabin weigh " + number_text(needed) +
+                                " N, but the <effort> of joint '" + lift_name_ + "' allows " +
+                                number_text(limits_.effort) + " N, which is all that lifts them");
 }
 
 void Elevator::wire(Params& params, Wiring& wiring) {
@@ -106,23 +126,24 @@ void Elevator::wire(Params& params, Wiring& wiring) {
   }
   own_mass_ = wiring.mass(wiring.link(wiring.child_of(lift_)));
   // A leaf's open position is the limit further from 0.
-  const auto add = [&wiring](const std::string& name, std::vector<Doorway::Leaf>& leaves) {
+  const auto add = [&wiring](const std::string& name, int row, std::vector<Doorway::Leaf>& leaves) {
     if (!wiring.has_joint(name)) return false;
     const JointRef joint = wiring.joint(name);
     const JointLimits limits = wiring.limits(joint);
     const double open = limits.upper > -limits.lower ? limits.upper : limits.lower;
     if (open == 0.0 || std::abs(open) > 100.0) return false;
-    leaves.push_back({joint, open});
+    const LinkRef link = wiring.link(wiring.child_of(joint));
+    leaves.push_back({joint, open, link, wiring.center(link), wiring.axis(joint), row});
     return true;
   };
   for (const char* side : {"left", "right"}) {
-    if (!add(std::string("cabin_door_") + side, cabin_leaves_)) continue;
-    own_mass_ += wiring.mass(wiring.link(wiring.child_of(cabin_leaves_.back().joint)));
+    if (!add(std::string("cabin_door_") + side, 0, cabin_leaves_)) continue;
+    own_mass_ += wiring.mass(cabin_leaves_.back().link);
   }
   landing_leaves_.resize(static_cast<std::size_t>(floors_));
   for (int floor = 0; floor < floors_; ++floor) {
     for (const char* side : {"left", "right"}) {
-      add("landing_door_" + std::to_string(floor) + "_" + side,
+      add("landing_door_" + std::to_string(floor) + "_" + side, 1,
           landing_leaves_[static_cast<std::size_t>(floor)]);
     }
   }
@@ -175,15 +196,17 @@ void Elevator::stay_at(int floor, const View& view) {
 
 void Elevator::update(const View& view, Outputs& outputs) {
   if (!started_) start(view, outputs);
+  watch_load(view);
   if (phase_ == Phase::kStanding) {
     stand(view, outputs);
   } else if (phase_ == Phase::kShutting) {
-    if (doorway_.update(view, outputs)) {
-      // An obstacle is in the door: it opens, and the stop is tried again.
-      outputs.event("obstacle", "door");
+    const bool obstacle = doorway_.update(view, outputs);
+    if (obstacle || overloaded_) {
+      // With an obstacle in the door, or an overload, it opens, and the stop is tried again.
+      if (obstacle) outputs.event("obstacle", "door");
       stops_.push_front(target_);
       phase_ = Phase::kStanding;
-    } else if (!doorway_.moving()) {
+    } else if (!doorway_.moving() && !is_heavy()) {
       outputs.motor(lift_, 0.0, 0.0);
       const JointView lift = view.joint(lift_);
       servo_.start(lift.position, lift.velocity);
@@ -197,7 +220,9 @@ void Elevator::update(const View& view, Outputs& outputs) {
 
 void Elevator::stand(const View& view, Outputs& outputs) {
   doorway_.update(view, outputs);
-  if (doorway_.moving()) ready_at_ = view.time() + kDwell;
+  const bool held_open = overloaded_ && floor_at(view.joint(lift_).position) >= 0;
+  if (held_open) doorway_.open(view);
+  if (doorway_.moving() || overloaded_) ready_at_ = view.time() + kDwell;
   if (stops_.empty() || view.time() < ready_at_) return;
   serve_next_stop(view, outputs);
 }
@@ -235,13 +260,22 @@ double Elevator::weigh(const JointView& lift, const View& view) const {
   return mass_ + kWeighShare * (felt - mass_);
 }
 
+bool Elevator::is_heavy() const {
+  return mass_ - own_mass_ > rated_load_ + std::max(kOverShare * rated_load_, kLeastOver);
+}
+
+void Elevator::watch_load(const View& view) {
+  if (is_heavy() == overloaded_) load_since_ = view.time();
+  if (view.time() - load_since_ >= kWeighingSettles) overloaded_ = is_heavy();
+}
+
 Nanoseconds Elevator::idle_until(const View& view) const {
   if (phase_ != Phase::kStanding || !stops_.empty() || doorway_.moving()) return 0;
   const JointView lift = view.joint(lift_);
-  const bool told = lift.position == shown_.lift.position &&
-                    lift.velocity == shown_.lift.velocity &&
-                    doorway_.position(view) == shown_.door_position && mode() == shown_mode_ &&
-                    doorway_.mode() == shown_door_ && weigh(lift, view) == mass_;
+  const bool told =
+      lift.position == shown_.lift.position && lift.velocity == shown_.lift.velocity &&
+      doorway_.position(view) == shown_.door_position && mode() == shown_mode_ &&
+      doorway_.mode() == shown_door_ && weigh(lift, view) == mass_ && is_heavy() == overloaded_;
   return told ? kForever : refresh_.next(view.time());
 }
 
@@ -252,7 +286,7 @@ int Elevator::floor_at(double position) const {
 }
 
 Elevator::Mode Elevator::mode() const {
-  if (phase_ != Phase::kMoving) return Mode::kIdle;
+  if (phase_ != Phase::kMoving) return overloaded_ ? Mode::kOverloaded : Mode::kIdle;
   if (servo_.blocked()) return Mode::kBlocked;
   return rises_ ? Mode::kUp : Mode::kDown;
 }
@@ -262,7 +296,7 @@ void Elevator::show(const View& view, Outputs& outputs) {
   if (renew) mass_ = weigh(view.joint(lift_), view);
   const Mode now = mode();
   if (now != shown_mode_) {
-    outputs.event(kModeEvents[static_cast<int>(now)], "floor " + std::to_string(target_));
+    outputs.event(kModeEvents[static_cast<int>(now)], detail_of(now));
     shown_mode_ = now;
     renew = true;
   }
@@ -272,6 +306,11 @@ void Elevator::show(const View& view, Outputs& outputs) {
     renew = true;
   }
   if (renew) shown_ = {view.joint(lift_), doorway_.position(view)};
+}
+
+std::string Elevator::detail_of(Mode mode) const {
+  if (mode != Mode::kOverloaded) return "floor " + std::to_string(target_);
+  return number_text(std::round(mass_ - own_mass_)) + " kg of " + number_text(rated_load_) + " kg";
 }
 
 std::vector<double> Elevator::stops() const {
@@ -295,6 +334,7 @@ void Elevator::report(const View& view, Reading& state) const {
   state.set("floor", floor_at(lift.position));
   state.set("target_floor", target_);
   state.set("floors", floors_);
+  state.set("load", std::max(0.0, mass_ - own_mass_));
   state.set("door_mode", choice_of(shown_door_, kDoorModes));
   state.set("door_position", shown_.door_position);
 }
@@ -307,8 +347,9 @@ const Kind& ElevatorPlugin::kind() const {
           .example("set elevator elevator 1")
           .command_topic(kTopic)
           .counted_verb("Floor", "floor", {0.0, 999.0}, "rides there, after its present target")
-          .choice("mode", {std::begin(kModes), std::end(kModes)},
-                  "of the cabin; BLOCKED: something holds it")
+          .choice(
+              "mode", {std::begin(kModes), std::end(kModes)},
+              "of the cabin; BLOCKED: something holds it; OVERLOADED: it stays, with open doors")
           .shown()
           .number("position", "m", "of the cabin above floor 0")
           .shown(2)
@@ -317,6 +358,7 @@ const Kind& ElevatorPlugin::kind() const {
           .integer("floor", "", "where it is within 5 mm, otherwise -1")
           .integer("target_floor", "", "target")
           .integer("floors", "", "how many it serves")
+          .number("load", "kg", "in the cabin, by the force on its brake")
           .choice("door_mode", {std::begin(kDoorModes), std::end(kDoorModes)},
                   "BLOCKED: an obstacle is between the leaves")
           .number("door_position", "m", "travel of a door's leaf, 0 shut");

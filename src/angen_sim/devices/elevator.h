@@ -16,6 +16,7 @@ namespace angen::devices {
 
 /// A cabin on a prismatic joint with sliding doors, and a landing door on each floor. It serves
 /// stops in the order in which they were called; doors are shut while it moves, open where it is.
+/// With an overload it stays, with open doors.
 class Elevator : public Device {
  public:
   explicit Elevator(std::string lift) : lift_name_(std::move(lift)) {}
@@ -29,7 +30,7 @@ class Elevator : public Device {
 
  private:
   enum class Phase { kStanding, kShutting, kMoving };
-  enum class Mode { kIdle, kUp, kDown, kBlocked };
+  enum class Mode { kIdle, kUp, kDown, kBlocked, kOverloaded };
   struct Shown {
     JointView lift;
     double door_position = 0.0;
@@ -42,6 +43,10 @@ class Elevator : public Device {
   void serve_next_stop(const View& view, Outputs& outputs);
   void move(const View& view, Outputs& outputs);
   double weigh(const JointView& lift, const View& view) const;
+  bool is_heavy() const;
+  void watch_load(const View& view);
+  void warn_of_effort(Params& params) const;
+  std::string detail_of(Mode mode) const;
   int floor_at(double position) const;  // -1 between floors
   void stay_at(int floor, const View& view);
   Mode mode() const;
@@ -58,10 +63,13 @@ class Elevator : public Device {
   Refresh refresh_;
   double floor_height_ = kStoreyHeight;
   int floors_ = 2;
-  double own_mass_ = 0.0;     // kg, cabin with its doors
-  double mass_ = 0.0;         // kg, with its load
-  double brake_force_ = 0.0;  // N
-  double door_force_ = 0.0;   // N
+  double own_mass_ = 0.0;    // kg, cabin with its doors
+  double mass_ = 0.0;        // kg, with its load
+  double rated_load_ = 0.0;  // kg
+  bool overloaded_ = false;
+  Nanoseconds load_since_ = 0;  // the last time when is_heavy() agreed with that
+  double brake_force_ = 0.0;    // N
+  double door_force_ = 0.0;     // N
 
   Phase phase_ = Phase::kStanding;
   std::deque<int> stops_;

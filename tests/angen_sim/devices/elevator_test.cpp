@@ -185,6 +185,75 @@ TEST(Elevator, ItsDoorReopensOnAnObstacleAndShutsWhenItIsGone) {
   EXPECT_GT(bench.run_until(15.0, [&] { return standing_open(rig, 1); }), 0.0);
 }
 
+// EN 81-20, 5.12.1.2: the rated load and a tenth of it, 75 kg at least.
+TEST(Elevator, WithAnOverloadItStaysWithOpenDoorsUntilSomethingIsTakenOut) {
+  struct Case {
+    const char* rated;
+    double load;  // kg
+    bool leaves;
+  };
+  for (const Case& c : {Case{"630", 690.0, true}, Case{"630", 720.0, false},
+                        Case{"1000", 1085.0, true}, Case{"1000", 1115.0, false}}) {
+    Bench bench;
+    Rig& rig = add_elevator(bench, 400.0, {{"rated_load", c.rated}});
+    const physics::ModelId load = bench.add(box("load", {0.2, 0.1, 0.21}, {0.4, 0.4, 0.4}, c.load));
+    bench.run(4.0);
+    EXPECT_NEAR(rig.state().get<double>("load"), c.load, 0.01 * c.load);
+    ASSERT_TRUE(rig.command("Floor1").accepted);
+    double took = bench.run_until(15.0, [&] { return standing_open(rig, 1); });
+    printf("rated %s kg, %.0f kg aboard: %s, events %td\n", c.rated, c.load, rig.mode().c_str(),
+           rig.count("overloaded"));
+    EXPECT_EQ(took > 0.0, c.leaves) << c.load;
+    EXPECT_EQ(rig.count("overloaded"), c.leaves ? 0 : 1);
+    if (c.leaves) continue;
+    EXPECT_EQ(rig.mode(), "OVERLOADED");
+    EXPECT_EQ(door_mode(rig), "OPEN");
+    EXPECT_NEAR(height(rig), 0.0, 1e-3);
+    bench.world.remove(load);
+    took = bench.run_until(15.0, [&] { return standing_open(rig, 1); });
+    EXPECT_GT(took, 0.0) << "its call waits";
+  }
+}
+
+TEST(Elevator, WhoComesAboardWhileItsDoorsShutOpensThemByTheirWeight) {
+  Bench bench;
+  Rig& rig = add_elevator(bench);
+  bench.add(box("load", {0.2, 0.1, 0.21}, {0.4, 0.4, 0.4}, 680.0));
+  bench.run(4.0);
+  rig.command("Floor1");
+  bench.run(0.6);
+  ASSERT_EQ(door_mode(rig), "CLOSING");
+  bench.add(box("more", {-0.4, 0.1, 0.21}, {0.4, 0.4, 0.4}, 60.0));
+  bench.run(5.0);
+  EXPECT_EQ(rig.mode(), "OVERLOADED");
+  EXPECT_EQ(door_mode(rig), "OPEN");
+  EXPECT_NEAR(height(rig), 0.0, 1e-3);
+}
+
+// EN 81-20, 5.3.6.2.2.1: its doors close with 150 N at most, and open again before they touch.
+TEST(Elevator, ItsLeavesDoNotHurtAPersonInTheDoor) {
+  for (const double x : {0.0, 0.12, -0.16}) {
+    Bench bench;
+    bench.add(ground(-0.1));
+    Rig& rig = add_elevator(bench);
+    bench.add(box("sill", {0.0, -2.0, -0.05}, {2.0, 2.5, 0.1}));
+    ASSERT_GT(bench.run_until(4.0, [&] { return standing_open(rig, 0); }), 0.0);
+    bench.run(1.5);
+    bench.add(person({x, -0.77, 0.001}));
+    rig.command("Floor1");
+    double worst = 0.0;
+    bench.run(8.0, [&] {
+      for (const char* leaf : {"elevator::cabin_door", "elevator::landing_door"}) {
+        worst = std::max(worst, bench.contact_force("person", leaf).norm());
+      }
+    });
+    printf("a person at %.2f m in the door: leaves press with at most %.0f N\n", x, worst);
+    EXPECT_LT(worst, 150.0) << x;
+    EXPECT_LT(height(rig), 0.001);
+    EXPECT_GT(rig.count("obstacle"), 0);
+  }
+}
+
 TEST(Elevator, HeldItIsBlockedAndGoesOnWhenFreed) {
   Bench bench;
   Rig& rig = add_elevator(bench);

@@ -24,7 +24,7 @@ void Bench::show(const desc::Model& model, physics::ModelId id) {
   }
 }
 
-void Bench::cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) {
+void Bench::move_shapes() {
   for (auto shape = shown_.begin(); shape != shown_.end();) {
     try {
       rays_.move(shape->shape, world.link(shape->link).pose * shape->in_link);
@@ -35,7 +35,17 @@ void Bench::cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hit
     }
   }
   rays_.commit();
+}
+
+void Bench::cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) {
+  move_shapes();
   rays_.cast(rays, hits);
+}
+
+std::vector<rays::Crossing> Bench::crossings(const Vec3& from, const Vec3& to,
+                                             rays::Mobilities among) {
+  move_shapes();
+  return rays_.crossings(from, to, among);
 }
 
 Rig& Bench::add(const desc::Model& model, const std::string& library, const std::string& kind,
@@ -128,6 +138,7 @@ void Rig::describe(const desc::Model& model) {
     fake.child = joint.child;
     fake.anchor = joint.anchor;
     if (!joint.axes.empty()) {
+      fake.axis = joint.axes[0].xyz;
       fake.limits = limits_of(joint, model.links.at(index(links, joint.child)));
     }
     joints.emplace_back(joint.name, fake);

@@ -32,6 +32,7 @@ class Bench {
   /// Makes rays meet a model.
   void show(const desc::Model& model, physics::ModelId id);
   void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits);
+  std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to, rays::Mobilities among);
 
   void tick();
   /// Ticks for that many seconds; `each` is called after every tick.
@@ -60,6 +61,8 @@ class Bench {
     Pose in_link;
     rays::ShapeId shape;
   };
+  void move_shapes();
+
   rays::Scene rays_;
   std::vector<Shown> shown_;
   Catalog catalog_;
@@ -93,6 +96,11 @@ class Rig : public FakeWorld {
   LinkView link(LinkRef link) const override;
   void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override {
     bench_.cast(rays, hits);
+  }
+  using View::crossings;
+  std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to,
+                                        rays::Mobilities among) const override {
+    return bench_.crossings(from, to, among);
   }
   void force(JointRef joint, double force) override;
   void motor(JointRef joint, double velocity, double max_force) override;

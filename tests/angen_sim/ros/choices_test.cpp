@@ -46,7 +46,8 @@ TEST(Choices, OfDoorsWindowsAndCabinets) {
 TEST(Choices, OfAnElevatorAndItsDoors) {
   using State = angen_msgs::ElevatorState;
   const std::vector<std::string> cabin = words_of("elevator", "mode");
-  ASSERT_EQ(cabin.size(), 4U);
+  ASSERT_EQ(cabin.size(), 5U);
+  EXPECT_EQ(cabin[State::OVERLOADED], "OVERLOADED");
   EXPECT_EQ(cabin[State::IDLE], "IDLE");
   EXPECT_EQ(cabin[State::UP], "UP");
   EXPECT_EQ(cabin[State::DOWN], "DOWN");

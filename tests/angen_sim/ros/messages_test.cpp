@@ -154,6 +154,7 @@ TEST(Messages, Elevator) {
   state.set("floors", 3);
   state.set("door_mode", Choice{4, "BLOCKED"});
   state.set("door_position", 0.3);
+  state.set("load", 75.0);
   angen_msgs::ElevatorState message;
   fill("elevator", state, {"elevator", "world"}, message);
   EXPECT_EQ(message.mode, angen_msgs::ElevatorState::DOWN);
@@ -162,6 +163,7 @@ TEST(Messages, Elevator) {
   EXPECT_EQ(message.floors, 3);
   EXPECT_EQ(message.door_mode, angen_msgs::ElevatorState::DOOR_BLOCKED);
   EXPECT_EQ(message.door_position, 0.3);
+  EXPECT_EQ(message.load, 75.0);
 }
 
 TEST(Messages, PersonAndOdometryStandWhereTheyAre) {

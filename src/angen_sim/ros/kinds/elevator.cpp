@@ -16,6 +16,7 @@ void fill(const Reading& state, const Label& label, angen_msgs::ElevatorState& m
   message.floor = static_cast<std::int32_t>(state.get<std::int64_t>("floor"));
   message.target_floor = static_cast<std::int32_t>(state.get<std::int64_t>("target_floor"));
   message.floors = static_cast<std::int32_t>(state.get<std::int64_t>("floors"));
+  message.load = state.get<double>("load");
   message.door_mode = constant_of(state, "door_mode");
   message.door_position = state.get<double>("door_position");
 }

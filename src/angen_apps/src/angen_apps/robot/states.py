@@ -6,7 +6,7 @@ from typing import Any
 from angen_apps.robot.interface import DoorState, LiftState
 
 DOOR = ('OPEN', 'CLOSED', 'OPENING', 'CLOSING', 'BLOCKED', 'AJAR')
-LIFT = ('IDLE', 'UP', 'DOWN', 'BLOCKED')
+LIFT = ('IDLE', 'UP', 'DOWN', 'BLOCKED', 'OVERLOADED')
 LIFT_DOOR = ('DOOR_OPEN', 'DOOR_CLOSED', 'DOOR_OPENING', 'DOOR_CLOSING', 'DOOR_BLOCKED')
 
 
