@@ -6,7 +6,7 @@ from math import exp, tan
 import numpy as np
 import pytest
 
-from sdf_text import box
+from sdf_text import box, rooms
 
 AMBIENT = 22.0     # °C, of a world without a climate
 CUP_HEAT, WATER_HEAT, HEAT_LOSS = 300.0, 4.186, 0.7   # J/K, J/(ml K), W/K
@@ -35,6 +35,17 @@ def test_a_cup_cools_by_newtons_law(world):
         w.run(600)
         expected = AMBIENT + (hot - AMBIENT) * exp(-(w.time - start) * HEAT_LOSS / capacity)
         assert w.device('cup', 'c')['temperature'] == pytest.approx(expected, abs=0.3)
+
+
+@pytest.mark.parametrize('first', ['flat', 'cup'])
+def test_an_empty_cup_starts_as_warm_as_its_room(world, first):
+    flat = ('<model name="flat"><static>true</static><link name="l"/>' + rooms('-2 -2 0 2 2 2.5')
+            + '<plugin name="air" filename="libroom_climate.so"><temperature>27</temperature>'
+            '</plugin></model>')
+    cup = block('cup', 'c', '0 0 0 0 0 0')
+    w = world(flat + cup if first == 'flat' else cup + flat)
+    w.run(0.1)
+    assert w.device('cup', 'c')['temperature'] == pytest.approx(27.0, abs=0.05)
 
 
 def held(tilt: float) -> float:

@@ -68,7 +68,11 @@ void Cup::configure(Params& params, Wiring& wiring) {
                                      "of cup and drink at the start; as fill_temperature where "
                                      "there is a drink, as the air where there is none",
                                      {-50.0, 100.0});
-  if (content_ > 0.0 || params.has("temperature")) temperature_ = start;
+  if (content_ > 0.0 || params.has("temperature")) {
+    temperature_ = start;
+  } else {
+    unknown_air_ = 2;
+  }
   poured_ = params.number("poured", 0.0, "ml", "that have run out before the start", kNotNegative);
   body_ = wiring.link(params.text("link", "body", "the link that is the cup, origin at its foot"));
   mass_ = wiring.mass(body_);
@@ -88,6 +92,7 @@ Verdict Cup::fill(double volume, const View& view) {
     temperature_ = (heat_capacity() * *temperature_ + kHeat * volume * fill_temperature_) /
                    (heat_capacity() + kHeat * volume);
     content_ += volume;
+    unknown_air_ = 0;
     changed_ = true;
   });
 }
@@ -127,6 +132,10 @@ Verdict Cup::command(const Command& command, const View& view) {
 
 void Cup::update(const View& view, Outputs& outputs) {
   const LinkView body = view.link(body_);
+  if (unknown_air_ > 0) {
+    --unknown_air_;
+    temperature_.reset();
+  }
   if (!temperature_ || due_.due(view.time(), view.step()) || changed_) {
     cool(view.time(), air(view));
   }
@@ -227,7 +236,7 @@ void Cup::save(SavedParams& params) const {
 }
 
 Nanoseconds Cup::idle_until(const View& view) const {
-  if (pours_ || changed_) return 0;
+  if (pours_ || changed_ || unknown_air_ > 0) return 0;
   if (grasp_ && !(lift_.at(grasp_->height) && turn_.at(grasp_->tilt))) return 0;
   const double around = air(view);
   const bool cold = temperature_ && std::abs(*temperature_ - around) < kSameTemperature;

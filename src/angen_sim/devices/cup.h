@@ -53,6 +53,7 @@ class Cup : public Device {
   double content_ = 0.0;  // ml
   double poured_ = 0.0;   // ml, since the start
   std::optional<double> temperature_;
+  int unknown_air_ = 0;  // updates, until a climate has reported the air that it starts at
   bool pours_ = false;
   bool changed_ = false;  // its weight did, while it may have been asleep
   Nanoseconds cooled_at_ = -1;
