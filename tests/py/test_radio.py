@@ -113,3 +113,29 @@ def test_a_robot_carries_a_transmitter(world):
              '<position>0 0 0.6</position></plugin></include>')
     w = world(robot + receiver('4 0 0.6 0 0 0'))
     assert heard(w)['robot-7'] == pytest.approx(free(3), abs=0.1)
+
+
+def test_a_signal_at_the_edge_is_not_received_and_lost_again_and_again(world):
+    """A wall of 3.4 dB swings in and out; without it the signal is 1 dB above the sensitivity."""
+    edge = free(4) - 1.0
+    counts = {}
+    for hysteresis in (0.0, 6.0):
+        w = world(beacon('0 0 1 0 0 0') + receiver(
+            '4 0 1 0 0 0', f'<sensitivity>{edge}</sensitivity>'
+            f'<hysteresis>{hysteresis}</hysteresis>'))
+        w.run(1.0)
+        for i in range(5):
+            w.spawn(box('wall', '0 0 0 0 0 0', '0.1 1 1', static=True), 'wall', [2, 0, 1, 0, 0, 0])
+            w.run(1.0)
+            w.delete('wall')
+            w.run(1.0)
+        counts[hysteresis] = sum(e[3] in ('received', 'lost') for e in w.events())
+    assert counts == {0.0: 11, 6.0: 1}
+
+
+def test_a_signal_below_the_hysteresis_is_lost(world):
+    w = world(beacon('0 0 1 0 0 0') + receiver('4 0 1 0 0 0', f'<sensitivity>{free(4) - 0.5}'
+                                               '</sensitivity><hysteresis>2</hysteresis>'))
+    assert heard(w)
+    w.spawn(box('wall', '0 0 0 0 0 0', '0.1 1 1', static=True), 'wall', [2, 0, 1, 0, 0, 0])
+    assert not heard(w), '2.9 dB below the sensitivity'

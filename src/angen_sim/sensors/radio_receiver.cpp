@@ -1,6 +1,7 @@
 // libradio_receiver.so
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "plugin/register.h"
 #include "sensors/id_changes.h"
@@ -19,6 +20,10 @@ class RadioReceiver : public Sensor {
  public:
   void configure(Params& params, Wiring&) override {
     sensitivity_ = params.number("sensitivity", -90.0, "dBm", "weaker signals are not received");
+    hysteresis_ = params.number("hysteresis", 6.0, "dB",
+                                "so much weaker is a signal that it received before, when it loses "
+                                "it",
+                                kNotNegative);
     gain_ = params.number("gain", 0.0, "dBi", "of its antenna");
     losses_.light_wall =
         params.number("light_wall_loss", losses_.light_wall, "dB",
@@ -36,9 +41,11 @@ class RadioReceiver : public Sensor {
     std::map<std::string, double> received;  // by id
     for (const DeviceView& device : view.devices("tx_power")) {
       if (device.kind != "transmitter" || !device.state.get<bool>("on")) continue;
-      const double rssi = strength(device, view);
-      if (rssi < sensitivity_) continue;
-      const auto [entry, is_new] = received.emplace(device.state.get<std::string>("id"), rssi);
+      const auto id = device.state.get<std::string>("id");
+      const double least = sensitivity_ - (received_.count(id) > 0 ? hysteresis_ : 0.0);
+      const double rssi = strength(device, least, view);
+      if (rssi < least) continue;
+      const auto [entry, is_new] = received.emplace(id, rssi);
       if (!is_new && rssi > entry->second) entry->second = rssi;
     }
     std::vector<std::string> ids;
@@ -47,6 +54,7 @@ class RadioReceiver : public Sensor {
       ids.push_back(id);
       strengths.push_back(rssi);
     }
+    received_ = {ids.begin(), ids.end()};
     changes_.note(ids, reading);
     reading.set("ids", std::move(ids));
     reading.set("rssi", std::move(strengths));
@@ -55,8 +63,8 @@ class RadioReceiver : public Sensor {
   bool steady() const override { return true; }
 
  private:
-  // dBm
-  double strength(const DeviceView& transmitter, const View& view) const {
+  // dBm; without obstacles if it is below `needed` anyway.
+  double strength(const DeviceView& transmitter, double needed, const View& view) const {
     const auto place = transmitter.state.get<std::vector<double>>("position");
     if (place.size() != 3) return -HUGE_VAL;
     const Vec3 from = transmitter.pose * Vec3::Map(place.data());
@@ -64,15 +72,17 @@ class RadioReceiver : public Sensor {
     const double distance = way.norm();
     const double loss = free_space_loss(distance, transmitter.state.get<double>("frequency"));
     const double least = transmitter.state.get<double>("tx_power") + gain_ - loss;
-    if (least < sensitivity_ || distance <= 2.0 * kSkin) return least;
+    if (least < needed || distance <= 2.0 * kSkin) return least;
     const Vec3 ahead = way / distance;
     const Vec3 skin = kSkin * ahead;
     const auto crossings = view.crossings(from + skin, view.pose().position - skin);
     return least - loss_of(obstacles_on(crossings, ahead), losses_);
   }
 
-  double sensitivity_ = 0.0;  // dBm
-  double gain_ = 0.0;         // dBi
+  double sensitivity_ = 0.0;        // dBm
+  double hysteresis_ = 0.0;         // dB
+  std::set<std::string> received_;  // ids, at the last sample
+  double gain_ = 0.0;               // dBi
   PathLoss losses_;
   IdChanges changes_{"received", "lost"};
 };
