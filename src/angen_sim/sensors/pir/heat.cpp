@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plugin/rooms.h"
+
 namespace angen::sensors {
 
 namespace {
@@ -14,7 +16,9 @@ constexpr double kCellWidth = 0.012;                 // rad: a third of a zone o
 constexpr double kCellHeight = 0.024;
 constexpr int kFewest = 12;  // cells on a side
 constexpr int kMaxCells = 64;
-constexpr int kWaits = 4;  // samples left out while all surfaces are hidden
+constexpr double kSameAir = 0.01;        // K
+constexpr double kZeroCelsius = 273.15;  // K
+constexpr int kWaits = 4;                // samples left out while all surfaces are hidden
 
 double azimuth_of(const Vec3& p) { return std::atan2(p.y(), p.x()); }
 
@@ -61,8 +65,13 @@ void Heat::aim(const View& view, RayBatch& rays) {
   sampled_ = false;
   const bool as_warm = view.surface_revision() == surface_revision_;
   const bool still = view.scene_revision() == revision_ && pose == pose_;
-  if (still && (as_warm || reheat(view))) return;
+  if (still && as_warm) return;
+  if (still) {
+    follow_air(view);
+    if (reheat(view)) return;
+  }
   if (unseen_lately()) return;
+  follow_air(view);
   sampled_ = true;
   revision_ = view.scene_revision();
   surface_revision_ = view.surface_revision();
@@ -70,9 +79,8 @@ void Heat::aim(const View& view, RayBatch& rays) {
   surfaces_.clear();
   samples_.clear();
   for (const rays::WarmShape& shape : view.warm_shapes()) {
-    const double radiance = radiance_over(view.ambient_temperature(), shape.temperature);
-    if (radiance == 0.0) continue;
-    surfaces_.push_back({shape.shape, radiance});
+    if (shape.temperature == air_) continue;
+    surfaces_.push_back({shape.shape, shape.temperature});
     aim_at(shape.box, pose, rays);
   }
 }
@@ -82,10 +90,9 @@ void Heat::aim(const View& view, RayBatch& rays) {
 bool Heat::reheat(const View& view) {
   std::size_t next = 0;
   for (const rays::WarmShape& shape : view.warm_shapes()) {  // surfaces_ has some, in this order
-    const double radiance = radiance_over(view.ambient_temperature(), shape.temperature);
     if (next < surfaces_.size() && surfaces_[next].shape == shape.shape) {
-      surfaces_[next++].radiance = radiance;
-    } else if (radiance != 0.0) {
+      surfaces_[next++].temperature = shape.temperature;
+    } else if (shape.temperature != air_) {
       return false;
     }
   }
@@ -96,7 +103,23 @@ bool Heat::reheat(const View& view) {
 
 void Heat::sum_up() {
   flux_ = 0.0;
-  for (const Surface& surface : surfaces_) flux_ += surface.radiance * surface.factor;
+  for (const Surface& surface : surfaces_) {
+    flux_ += radiance_over(air_, surface.temperature) * surface.factor;
+  }
+}
+
+// Of its room, or the world's where that has no climate.
+void Heat::follow_air(const View& view) {
+  const Nanoseconds now = view.time() / kSecond;
+  if (now == felt_at_) return;
+  felt_at_ = now;
+  const double here = air_at(view, view.pose().position).temperature + kZeroCelsius;
+  const double air = std::isnan(here) ? view.ambient_temperature() : here;
+  if (std::abs(air - air_) < kSameAir) return;
+  const double before = flux_;
+  air_ = air;
+  sum_up();
+  drift_ += flux_ - before;
 }
 
 // Surfaces behind a wall are sampled less often.

@@ -8,7 +8,8 @@
 
 namespace angen::sensors {
 
-/// Heat radiation on a detector's elements, from surfaces that are warmer or colder than the air.
+/// Heat radiation on a detector's elements, from surfaces that are warmer or colder than the air
+/// around the detector.
 class Heat {
  public:
   Heat() = default;
@@ -22,6 +23,9 @@ class Heat {
 
   /// Flux on the positive element less that on the negative one, in W.
   double flux(Hits hits);
+
+  /// The part of its changes that the air around caused, in W: too slow for a detector to pass.
+  double drift() const { return drift_; }
 
   /// Whether it has yet to sample moved surfaces.
   bool pending() const { return waits_ > 0; }
@@ -38,7 +42,7 @@ class Heat {
   /// A surface that radiates more or less than the air.
   struct Surface {
     std::uint32_t shape;
-    double radiance;      // W/(m^2 sr) more than the air
+    double temperature;   // K
     double factor = 0.0;  // m^2 sr: W on the elements' difference for a radiance of 1
   };
 
@@ -46,6 +50,7 @@ class Heat {
   void scan(const Window& seen, const Pose& pose, RayBatch& rays);
   bool unseen_lately();
   bool reheat(const View& view);
+  void follow_air(const View& view);
   void sum_up();
 
   FresnelLens lens_;
@@ -59,6 +64,9 @@ class Heat {
   bool sampled_ = false;  // whether aim() has requested rays
   int waits_ = 0;         // samples left out since the last one
   double flux_ = 0.0;
+  double air_ = 0.0;  // K
+  double drift_ = 0.0;
+  Nanoseconds felt_at_ = -1;  // that air, in whole seconds
 };
 
 }  // namespace angen::sensors

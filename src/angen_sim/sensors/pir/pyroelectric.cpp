@@ -103,12 +103,12 @@ void Pyroelectric::read(const View& view, Hits hits, Rng& rng, Reading& reading)
   const double flux = heat_.flux(hits);
   if (last_time_ < 0 || view.time() < last_time_) {
     trigger_ = Trigger(times_, view.time());
-    band_.settle(flux);
+    band_.settle(flux - heat_.drift());
     asleep_ = true;
-    flux_ = flux;
+    flux_ = flux - heat_.drift();
   }
   last_time_ = view.time();
-  const double signal = filter(flux, rng);
+  const double signal = filter(flux - heat_.drift(), rng);
   const bool was_on = trigger_.on();
   const bool alarm = false_alarm(rng);
   const bool motion = trigger_.step(view.time(), std::abs(signal) > threshold_ || alarm);

@@ -33,7 +33,7 @@ class Pyroelectric : public Sensor {
   double rest_ = 0.0;              // V
   double false_alarm_rate_ = 0.0;  // 1/h
   Nanoseconds last_time_ = -1;
-  double flux_ = 0.0;  // W, of the last sample
+  double flux_ = 0.0;  // W, of the last sample, without drift
   bool asleep_ = false;
 };
 
