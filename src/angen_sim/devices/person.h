@@ -66,8 +66,9 @@ class Person : public Device {
   bool is_freed(const LinkView& body, const View& view);
   void go_round(const LinkView& body, const View& view, bool renew, Outputs& outputs);
   Scan scan_surroundings(const LinkView& body, const View& view);
-  void find_rejoin(const Vec2& at);
-  std::optional<Vec2> way_for(const Vec2& at, const Vec2& to) const;
+  void find_rejoin(const LinkView& body, const View& view);
+  std::optional<Vec2> way_for(const LinkView& body, const View& view, const Vec2& to) const;
+  std::optional<Vec2> way_past(const LinkView& body, const View& view, const Vec2& to) const;
   Vec2 steer(const LinkView& body, const Vec2& to, double fastest);
   double slowed(const Vec2& at, const Vec2& direction, double speed);
   void head_for(const Vec2& velocity, double turn, Outputs& outputs);

@@ -50,7 +50,7 @@ bool Person::plan(const View& view, const LinkView& body, bool with_seen) {
     map.add_toll(door.hinge, door.edge(), opens_doors_ ? kOpenToll : kWaitToll);
   }
   std::optional<std::vector<Vec2>> way = map.way(view, at, order_->to, kNearGoal);
-  if (!way) return false;
+  if (!way) return !with_seen && Surroundings::is_walkable(view, body.pose.position, order_->to);
   route_.emplace(std::move(map), std::move(*way));
   return true;
 }
@@ -76,7 +76,7 @@ void Person::go(const View& view, bool renew, Outputs& outputs) {
   if (scan != Scan::kNone || !target_) target_ = route_ ? route_->follow(at) : order_->to;
   if (uses_door(body, view, *target_, scan != Scan::kNone, renew, outputs)) return;
   if (scan == Scan::kPlans && !seen_.empty()) explore(view, body);
-  if (scan == Scan::kPlans) aim_ = way_for(at, *target_);
+  if (scan == Scan::kPlans) aim_ = way_for(body, view, *target_);
   const double left = way_left(at);
   const bool nearer = came_left_ - left > kProgress;
   if (nearer) came_left_ = left;
@@ -121,7 +121,7 @@ bool Person::uses_door(const LinkView& body, const View& view, const Vec2& to, b
   if (advice.step == Step::kStand) {
     head_for(Vec2::Zero(), turn_to(advice.to - at, body), outputs);
   } else {
-    if (looks) aim_ = way_for(at, advice.to);
+    if (looks) aim_ = way_for(body, view, advice.to);
     const Vec2 velocity = steer(body, advice.to, order_ ? speed_ : kReturnSpeed);
     head_for(velocity, turn_to(velocity, body), outputs);
   }

@@ -19,6 +19,8 @@ constexpr Nanoseconds kFreed = kSecond;  // of its path, that it comes on after 
 constexpr int kScansPerPlan = 3;
 constexpr double kNearRejoin = 0.3;  // m
 constexpr double kPushSpeed = 0.3;   // m/s, against a thing that it shall push
+constexpr double kOwnPlace = 0.1;    // m: nearer is the person itself
+constexpr double kTowards = 0.7;     // cosine, of one who comes towards it
 constexpr Nanoseconds kRejoinWithin = 6 * kSecond;
 
 }  // namespace
@@ -40,9 +42,9 @@ void Person::walk(const Path::Place& place, const View& view, bool renew, Output
     scan = scan_surroundings(body, view);
     if (scan == Scan::kPlans && rejoin_) {
       const Path::Place end = path_.at(*rejoin_);
-      aim_ = way_for(at, {end.x, end.y});
+      aim_ = way_for(body, view, {end.x, end.y});
     }
-    if (scan != Scan::kNone) find_rejoin(at);
+    if (scan != Scan::kNone) find_rejoin(body, view);
   }
   const Path::Place ahead = path_.at(clock_ + kPathAhead);
   const bool looks = scan != Scan::kNone;
@@ -104,13 +106,39 @@ Person::Scan Person::scan_surroundings(const LinkView& body, const View& view) {
   return plans ? Scan::kPlans : Scan::kScanned;
 }
 
-std::optional<Person::Vec2> Person::way_for(const Vec2& at, const Vec2& to) const {
+std::optional<Person::Vec2> Person::way_for(const LinkView& body, const View& view,
+                                            const Vec2& to) const {
+  const Vec2 at = body.pose.position.head<2>();
   if ((order_ && order_->pushes) || surroundings_.is_free(at, to)) return std::nullopt;
-  return surroundings_.way_round(at, to);
+  return way_past(body, view, to);
+}
+
+// Round what is in the way. Where that is one who comes towards it, and there is no room: aside, as
+// the other does.
+std::optional<Person::Vec2> Person::way_past(const LinkView& body, const View& view,
+                                             const Vec2& to) const {
+  const Vec2 at = body.pose.position.head<2>();
+  const std::optional<Vec2> round = surroundings_.way_round(at, to);
+  if (round) return round;
+  const Vec2 ahead = (to - at).normalized();
+  for (const DeviceView& other : view.devices("unreachable")) {
+    if (other.state.get<std::string>("mode") == kPersonModes[0]) continue;
+    const Vec2 there(other.state.get<double>("x"), other.state.get<double>("y"));
+    const double height = other.state.get<double>("z") - body.pose.position.z();
+    const double distance = (there - at).norm();
+    if (distance < kOwnPlace || distance > Surroundings::kSight || std::abs(height) > 1.0) continue;
+    const double yaw = other.state.get<double>("yaw");
+    const bool comes = ahead.dot(Vec2(std::cos(yaw), std::sin(yaw))) < -kTowards;
+    if (comes && ahead.dot(there - at) > kTowards * distance) {
+      return surroundings_.way_aside(at, to);
+    }
+  }
+  return std::nullopt;
 }
 
 // If an obstacle is on the path ahead, or on the way to it: the first place behind the obstacle.
-void Person::find_rejoin(const Vec2& at) {
+void Person::find_rejoin(const LinkView& body, const View& view) {
+  const Vec2 at = body.pose.position.head<2>();
   const auto place_at = [&](Nanoseconds time) {
     const Path::Place place = path_.at(time);
     return Vec2(place.x, place.y);
@@ -130,7 +158,7 @@ void Person::find_rejoin(const Vec2& at) {
     if (surroundings_.is_occupied(place)) {
       behind = true;
     } else if (behind || !surroundings_.is_free(at, place)) {
-      aim_ = surroundings_.way_round(at, place);
+      aim_ = way_past(body, view, place);
       if (aim_) rejoin_ = clock_ + t;
       return;
     }

@@ -21,6 +21,12 @@ constexpr double kBeyond = 0.1;                  // m
 constexpr double kGraze = 1e-3;                  // m
 constexpr double kOwn = 0.255;                   // m, up to the person's own surface
 
+constexpr float kSlope = 0.94F;      // cosine of 20 degrees: a less steep surface is walked up
+constexpr double kStride = 0.1;      // m, in which a slope is looked at …
+constexpr double kRise = 0.05;       // m … and rises or falls at most
+constexpr double kStepAhead = 0.35;  // m, of a step aside
+constexpr double kStepAside = 0.6;   // m, at most
+
 // The way round is looked for on a grid around the person.
 constexpr double kCell = 0.1;  // m
 constexpr int kHalf = 30;      // cells from the middle to the edge
@@ -34,6 +40,8 @@ constexpr double kStuck = 0.15;   // m around the person that it may leave in an
 constexpr double kNearer = 0.3;   // m, at least, that a way must lead nearer
 constexpr double kLongest = 3.0;  // times the straight way …
 constexpr double kExtra = 2.0;    // … and these meters more
+
+bool is_obstacle(const rays::Hit& hit) { return hit.hit() && hit.normal.z() < kSlope; }
 
 class Grid {
  public:
@@ -143,7 +151,7 @@ void Surroundings::scan(const View& view, const Vec3& feet) {
   view.cast(rays_, hits_);
   std::vector<Vec2> seen;
   for (std::size_t i = 0; i < rays_.size(); ++i) {
-    if (!hits_[i].hit()) continue;
+    if (!is_obstacle(hits_[i])) continue;
     seen.emplace_back((rays_[i].origin + hits_[i].range * rays_[i].direction).head<2>());
   }
   fresh_ = seen.size();
@@ -166,7 +174,7 @@ void Surroundings::remove_gone(const View& view, const Vec3& feet, std::vector<V
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto first = hits.begin() + static_cast<std::ptrdiff_t>(i * kRays);
     const bool stays = (points[i] - feet.head<2>()).norm() > kSight ||
-                       std::any_of(first, first + kRays, [](const auto& hit) { return hit.hit(); });
+                       std::any_of(first, first + kRays, is_obstacle);
     if (stays) points[kept++] = points[i];
   }
   points.resize(kept);
@@ -202,6 +210,39 @@ bool Surroundings::reaches(const Vec2& from, const Vec2& to) const {
   Grid grid(from, points_, kBody);
   grid.spread({0.0, 0.0});
   return (grid.place(grid.best(to)) - to).norm() < 2.0 * kCell;
+}
+
+Surroundings::Vec2 Surroundings::way_aside(const Vec2& from, const Vec2& to) const {
+  const Vec2 ahead = (to - from).normalized();
+  const Vec2 right(ahead.y(), -ahead.x());
+  for (double aside = kStepAside; aside > -1e-9; aside -= 0.5 * kCell) {
+    const Vec2 place = from + kStepAhead * ahead + aside * right;
+    if (is_free(from, place)) return place;
+  }
+  return from;
+}
+
+bool Surroundings::is_walkable(const View& view, const Vec3& feet, const Vec2& to) {
+  const auto crossed = [&](const Vec3& from, const Vec3& end) {
+    return view.crossings(from, end, rays::only(rays::Mobility::kStatic));
+  };
+  const Vec2 way = to - feet.head<2>();
+  const int steps = static_cast<int>(std::ceil(way.norm() / kStride));
+  Vec3 last = feet;
+  for (int i = 1; i <= steps; ++i) {
+    const Vec2 place = feet.head<2>() + (static_cast<double>(i) / steps) * way;
+    const Vec3 above(place.x(), place.y(), last.z() + 2.0 * kRise);
+    const auto below = crossed(above, above - 4.0 * kRise * Vec3::UnitZ());
+    if (below.empty() || below[0].normal.z() < kSlope) return false;
+    const Vec3 next = above - below[0].enter * Vec3::UnitZ();
+    if (std::abs(next.z() - last.z()) > kRise) return false;
+    for (const double height : {kHeights[1], kHeights[2]}) {
+      const Vec3 up = height * Vec3::UnitZ();
+      if (!crossed(last + up, next + up).empty()) return false;
+    }
+    last = next;
+  }
+  return true;
 }
 
 // At a distance from seen points, as it sees no more of an obstacle; close if there is no other

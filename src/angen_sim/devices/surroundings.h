@@ -9,7 +9,7 @@
 namespace angen::devices {
 
 /// A person's surroundings: surfaces between shin and chest height, up to kSight away. Hidden
-/// places count as free.
+/// places count as free, and so do slopes that a person walks up.
 class Surroundings {
  public:
   using Vec2 = Eigen::Vector2d;
@@ -33,6 +33,14 @@ class Surroundings {
   /// The first place on a way round obstacles; none where no way is seen that leads nearer to `to`.
   /// Prefers to pass on the right.
   std::optional<Vec2> way_round(const Vec2& from, const Vec2& to) const;
+
+  /// For two who approach each other where neither sees a way past: as far to the right as it is
+  /// free, and ahead; `from` where that is not.
+  Vec2 way_aside(const Vec2& from, const Vec2& to) const;
+
+  /// Whether a person at `feet` can walk straight to `to` on the static shapes below, up and down
+  /// slopes, past all others.
+  static bool is_walkable(const View& view, const Vec3& feet, const Vec2& to);
 
   /// Removes the points that a person at `feet` now sees past.
   static void remove_gone(const View& view, const Vec3& feet, std::vector<Vec2>& points);
