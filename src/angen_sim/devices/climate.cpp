@@ -11,15 +11,16 @@ namespace angen::devices {
 
 namespace {
 
-constexpr double kRate = 1.0;        // Hz: rooms take minutes
-constexpr double kWall = 0.05;       // m: a thing in a wall is near the room
-constexpr double kWidestLeaf = 3.0;  // m, from its hinge
+constexpr double kRate = 1.0;                // Hz: rooms take minutes
+constexpr double kWall = 0.05;               // m: a thing in a wall is near the room
+constexpr double kWidestLeaf = 3.0;          // m, from its hinge
+constexpr double kKilogram = 1e-3 / 3600.0;  // a second, for a g/h
 constexpr Range kCelsius{-60.0, 60.0};
 
 }  // namespace
 
-/// The air in the rooms of a model. A device that reports a `power` heats its room, by
-/// its `heat` where that is another;
+/// The air in the rooms of a model. A device that reports a `power` heats its room, by its `heat`
+/// where that is another; one that reports `vapor`, such as a person, by its `heat` and vapor;
 /// whatever reports a `gap` lets air through between the rooms on its two sides.
 class Climate : public Device {
  public:
@@ -84,18 +85,27 @@ class Climate : public Device {
     const RoomPlan plan = room_plan(view, model_);
     const Eigen::AlignedBox3d around = surroundings(plan);
     std::vector<double> heat(air_.rooms().size(), 0.0);
+    std::vector<double> vapor(air_.rooms().size(), 0.0);
     for (const DeviceView& device : view.devices("power", around)) {
       const int room = plan.at(device.pose.position);
       if (room == RoomPlan::kOutside) continue;
       const auto power = device.state.get<double>("power");
       heat[static_cast<std::size_t>(room)] += device.state.get<double>("heat", power);
     }
+    for (const DeviceView& device : view.devices("vapor", around)) {
+      const int room = plan.at(device.pose.position);
+      if (room == RoomPlan::kOutside) continue;
+      if (device.state.find("power") == nullptr) {
+        heat[static_cast<std::size_t>(room)] += device.state.get<double>("heat");
+      }
+      vapor[static_cast<std::size_t>(room)] += kKilogram * device.state.get<double>("vapor");
+    }
     std::vector<Opening> openings;
     for (const RoomOpening& opening : room_openings(view, plan, around)) {
       if (!(opening.gap > 0.0)) continue;
       openings.push_back({opening.first, opening.second, opening.gap, opening.height});
     }
-    air_.step(to_seconds(stepped_at_ - before), outside_, heat, openings);
+    air_.step(to_seconds(stepped_at_ - before), outside_, heat, openings, vapor);
   }
 
   Nanoseconds idle_until(const View& view) const override { return due_.next(view.time()); }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/text.h"
+#include "devices/metabolism.h"
 #include "plugin/rooms.h"
 
 namespace angen::devices {
@@ -16,6 +17,8 @@ constexpr double kMouth = 1.5;           // m above the floor, where its sound c
 constexpr double kCelsiusZero = 273.15;  // K
 constexpr double kMiddle = 0.9;          // m above its feet
 constexpr double kFelt = 0.02;           // K
+constexpr double kFeltHumidity = 0.5;    // percent
+constexpr double kUsualHumidity = 50.0;  // percent, where the world has no climate
 constexpr double kRoomAir = 295.15;      // K, at which …
 constexpr double kSkinAtRest = 307.0;    // K … is that of head and hands
 constexpr double kSkinPerKelvin = 0.12;  // of the air
@@ -121,7 +124,7 @@ void Person::start_anew() {
 void Person::update(const View& view, Outputs& outputs) {
   const bool renew = refresh_.due(view.time(), view.step());
   if (!started_) start(view.link(body_));
-  if (follows_air_) follow_air(view, outputs);
+  feel_air(view, outputs);
   if (speaks_ != spoke_) outputs.event(speaks_ ? "speaks" : "quiet", "");
   spoke_ = speaks_;
   if (paused_) {
@@ -138,16 +141,20 @@ void Person::update(const View& view, Outputs& outputs) {
   walk(place, view, renew, outputs);
 }
 
-// Skin and clothing, by the air around; rays meet one surface, which radiates as both do.
-void Person::follow_air(const View& view, Outputs& outputs) {
+// Skin and clothing follow the air around; rays meet one surface, which radiates as both do.
+void Person::feel_air(const View& view, Outputs& outputs) {
   const Nanoseconds now = view.time() / kAirPeriod;
   if (now == felt_at_) return;
   felt_at_ = now;
   const Vec3 middle = view.link(body_).pose.position + kMiddle * Vec3::UnitZ();
-  const double here = air_at(view, middle).temperature + kCelsiusZero;
-  const double air = std::isnan(here) ? view.ambient_temperature() : here;
-  if (std::abs(air - air_) < kFelt) return;
+  const AirHere here = air_at(view, middle);
+  const bool known = !std::isnan(here.temperature);
+  const double air = known ? here.temperature + kCelsiusZero : view.ambient_temperature();
+  const double humidity = known ? here.humidity : kUsualHumidity;
+  if (std::abs(air - air_) < kFelt && std::abs(humidity - humidity_) < kFeltHumidity) return;
+  humidity_ = humidity;
   air_ = air;
+  if (!follows_air_) return;
   skin_ = kSkinAtRest + kSkinPerKelvin * (air - kRoomAir);
   clothing_ = air + kClothingShare * (kCoveredSkin - air);
   const double mean =
@@ -181,7 +188,7 @@ void Person::show(Mode mode, const LinkView& body, bool renew, Outputs& outputs)
 
 Nanoseconds Person::idle_until(const View& view) const {
   const Nanoseconds needed = rests_until(view);
-  if (!follows_air_ || climates(view).empty()) return needed;
+  if (climates(view).empty()) return needed;
   return std::min(needed, (view.time() / kAirPeriod + 1) * kAirPeriod);
 }
 
@@ -235,6 +242,16 @@ void Person::report(const View& view, Reading& state) const {
   state.set("speaking", speaks_);
   state.set("sound_power_level", sound());
   state.set("position", std::vector<double>{0.0, 0.0, kMouth});
+  const double air = air_ > 0.0 ? air_ : view.ambient_temperature();
+  const Metabolism given = metabolism(activity(), air - kCelsiusZero, humidity_);
+  state.set("heat", given.heat);
+  state.set("vapor", given.vapor);
+}
+
+// W/m^2 of its body.
+double Person::activity() const {
+  const double speed = shown_.linear_velocity.head<2>().norm();
+  return metabolic_rate(mode_ == Mode::kWalking ? speed : 0.0);
 }
 
 // dB over 1 pW, of steps and speech together.

@@ -46,7 +46,8 @@ class Person : public Device {
   static Path read_path(Params& params);
   void start(const LinkView& body);
   void start_anew();
-  void follow_air(const View& view, Outputs& outputs);
+  void feel_air(const View& view, Outputs& outputs);
+  double activity() const;
   Nanoseconds rests_until(const View& view) const;
   void walk(const Path::Place& place, const View& view, bool renew, Outputs& outputs);
   void go(const View& view, bool renew, Outputs& outputs);
@@ -86,7 +87,8 @@ class Person : public Device {
   double skin_ = 0.0;      // K
   double clothing_ = 0.0;  // K
   bool follows_air_ = true;
-  double air_ = 0.0;          // K, that they follow
+  double air_ = 0.0;          // K, around it, which they follow
+  double humidity_ = 50.0;    // percent, of that
   Nanoseconds felt_at_ = -1;  // that, as a multiple of a period
   std::vector<SurfaceRef> surfaces_;
   double force_max_ = 0.0;       // N

@@ -32,6 +32,8 @@ const Kind& PersonPlugin::kind() const {
           .flag("speaking", "whether the person speaks")
           .number("sound_power_level", "dB",
                   "of steps and speech, over 1 pW; minus infinity: silent")
+          .number("heat", "W", "that it gives to the air of its room")
+          .number("vapor", "g/h", "of its breath and skin, that it gives to that air")
           .numbers("position", "m", "of the mouth, in the model's frame");
   return kind;
 }

@@ -26,8 +26,12 @@ double buoyant(const Air& air) { return (air.temperature + kKelvin) * (1.0 + 0.6
 
 }  // namespace
 
+double vapor_pressure(double temperature, double humidity) {
+  return humidity / 100.0 * saturation(temperature);
+}
+
 double moisture_of(double temperature, double humidity) {
-  const double vapor = humidity / 100.0 * saturation(temperature);
+  const double vapor = vapor_pressure(temperature, humidity);
   return kVapor * vapor / (kPressure - vapor);
 }
 
@@ -47,12 +51,13 @@ RoomAir::RoomAir(const Settings& settings, std::vector<double> volumes, const Ai
     : settings_(settings), volumes_(std::move(volumes)), rooms_(volumes_.size(), air) {}
 
 void RoomAir::step(double seconds, const Air& outside, const std::vector<double>& heat,
-                   const std::vector<Opening>& openings) {
+                   const std::vector<Opening>& openings, const std::vector<double>& source) {
   const auto at = [&](int room) -> const Air& {
     return room < 0 ? outside : rooms_[static_cast<std::size_t>(room)];
   };
   std::vector<double> power = heat;               // W
   std::vector<double> vapor(rooms_.size(), 0.0);  // m^3/s times kg/kg
+  for (std::size_t i = 0; i < source.size(); ++i) vapor[i] = source[i] / kDensity;
   for (std::size_t i = 0; i < rooms_.size(); ++i) {
     const double leak = settings_.air_change * volumes_[i];
     const double loss = settings_.heat_loss * volumes_[i] + kDensity * kHeat * leak;

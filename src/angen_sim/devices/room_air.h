@@ -14,6 +14,8 @@ struct Air {
 
 /// Vapor in air of a temperature (degrees Celsius) and relative humidity (percent), kg/kg.
 double moisture_of(double temperature, double humidity);
+/// Pa of vapor in such air.
+double vapor_pressure(double temperature, double humidity);
 /// Relative humidity in percent of air, at most 100.
 double humidity_of(const Air& air);
 
@@ -38,9 +40,9 @@ class RoomAir {
   /// `volumes` in m^3, all full of `air`.
   RoomAir(const Settings& settings, std::vector<double> volumes, const Air& air);
 
-  /// By `seconds`, with `heat` (W) in each room.
+  /// By `seconds`, with `heat` (W) and, where given, `vapor` (kg/s) in each room.
   void step(double seconds, const Air& outside, const std::vector<double>& heat,
-            const std::vector<Opening>& openings);
+            const std::vector<Opening>& openings, const std::vector<double>& vapor = {});
 
   /// Replaces the air of one room.
   void fill(std::size_t room, const Air& air) { rooms_.at(room) = air; }
