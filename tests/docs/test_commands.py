@@ -71,7 +71,8 @@ class Terminal:
             os.environ, HOME=str(home), ROS_HOME=str(home / '.ros'),
             ROS_MASTER_URI=uri, ROS_IP='127.0.0.1',
             ANGEN_MODEL_PATH=str(home / 'my_models'),
-            ANGEN_PLUGIN_PATH=str(home / 'tape_measure/devel/lib'))
+            ANGEN_PLUGIN_PATH=f"{home / 'tape_measure/devel/lib'}:"
+                              f"{ROOT / 'tests/examples/rangefinder'}")
         self.arguments: str | None = None
         self.process: subprocess.Popen[str] | None = None
 

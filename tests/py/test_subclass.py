@@ -186,7 +186,7 @@ def test_python_device_moves_its_joint_by_newtons_law(world):
 def test_an_exception_reaches_the_caller_and_stops_its_sensor_alone(world):
     ranger = RANGE.format(yaw=0, extra='')
     w = world(ranger + ranger.replace('ranger"', 'broken"').replace('rangefinder', 'broken'))
-    with pytest.raises(angen.Error, match="broken 'broken' has failed: ZeroDivisionError"):
+    with pytest.raises(angen.Error, match=r"broken .broken. has failed: .*:\d+: ZeroDivision"):
         w.step(1000)
     w.step(1000)
     assert w.time == pytest.approx(2.0)

@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <atomic>
 #include <class_loader/class_loader.hpp>
 #include <filesystem>
 #include <fstream>
@@ -57,6 +58,15 @@ bool registers_plugins(const fs::path& file) {
          bytes.find("N5angen6PluginE") != std::string::npos;
 }
 
+bool is_script(const fs::path& file) { return file.extension() == ".py"; }
+
+// The same of a file of Python, by its text.
+bool registers_scripts(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  return text.find("angen.register(") != std::string::npos;
+}
+
 // A second name of a library, in the same folder; libX.so of libX.so.1 is none.
 bool is_alias(const fs::path& file) {
   std::error_code ignored;
@@ -82,9 +92,17 @@ bool is_elf(const fs::path& file) {
 }
 
 [[noreturn]] void holds_none(const std::string& file) {
+  if (is_script(file)) {
+    throw Error("no Angen plug-in in " + file + "; a file of Python registers one with " +
+                "angen.register('" + fs::path(file).filename().string() + "', 'KIND', CLASS)");
+  }
   if (!is_elf(file)) throw Error(file + " is not a shared library");
   throw Error("no Angen plug-in in " + file +
               "; a plug-in library registers one with ANGEN_REGISTER_PLUGIN");
+}
+
+bool registers(const fs::path& file) {
+  return is_script(file) ? registers_scripts(file) : registers_plugins(file);
 }
 
 // Whether a path names something directly in one of the folders that are searched.
@@ -110,7 +128,7 @@ fs::path locate(const std::string& filename, bool any_path) {
     if (!is_plain_file(filename)) {
       throw Error("there is no plug-in library " + printable(filename, 300));
     }
-    if (!registers_plugins(filename)) holds_none(filename);
+    if (!registers(filename)) holds_none(filename);
     return fs::absolute(filename);
   }
   fs::path unsuitable;
@@ -119,7 +137,7 @@ fs::path locate(const std::string& filename, bool any_path) {
     fs::path candidate = directory / filename;
     searched.push_back(directory.string());
     if (!is_plain_file(candidate)) continue;
-    if (registers_plugins(candidate)) return candidate;
+    if (registers(candidate)) return candidate;
     if (unsuitable.empty()) unsuitable = candidate;
   }
   if (!unsuitable.empty()) holds_none(unsuitable);
@@ -147,6 +165,26 @@ Plugins load(const std::string& file) {
   return plugins;
 }
 
+std::atomic<ScriptLoader> script_loader{nullptr};
+
+// Starts Python in this program, whose module angen calls set_script_loader().
+ScriptLoader started_loader() {
+  static std::mutex mutex;
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (script_loader == nullptr) {
+    const std::string host = own_library().parent_path() / "libangen_script.so";
+    // Global: modules of Python that are libraries do not name the library of the interpreter.
+    void* handle = dlopen(host.c_str(), RTLD_NOW | RTLD_GLOBAL);
+    if (handle == nullptr) throw Error(std::string("Python does not start: ") + dlerror());
+    const auto start =
+        reinterpret_cast<void (*)(std::string&)>(dlsym(handle, "angen_start_python"));
+    std::string problem = "libangen_script.so is of another version";
+    if (start != nullptr) start(problem);
+    if (script_loader == nullptr) throw Error("Python does not start: " + problem);
+  }
+  return script_loader;
+}
+
 const Plugins& loaded(const std::string& file) {
   static std::mutex mutex;
   static auto* const all = new std::map<std::string, Plugins>;  // never destroyed, see load()
@@ -155,7 +193,23 @@ const Plugins& loaded(const std::string& file) {
   return known != all->end() ? known->second : all->emplace(file, load(file)).first->second;
 }
 
+// The same of a file of Python. No lock is held while it runs: it may use Angen itself.
+const Plugins& loaded_script(const std::string& file) {
+  static std::mutex mutex;
+  static auto* const all = new std::map<std::string, Plugins>;
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (const auto known = all->find(file); known != all->end()) return known->second;
+  }
+  Plugins plugins = started_loader()(file);
+  if (plugins.empty()) holds_none(file);
+  const std::lock_guard<std::mutex> lock(mutex);
+  return all->emplace(file, std::move(plugins)).first->second;
+}
+
 }  // namespace
+
+void set_script_loader(ScriptLoader loader) { script_loader = loader; }
 
 std::string find_library(const std::string& filename) {
   if (filename.find('/') != std::string::npos) {
@@ -183,12 +237,16 @@ Catalog::Catalog(bool any_path) : impl_(std::make_unique<Impl>(any_path)) {}
 Catalog::~Catalog() = default;
 
 const Plugins& Catalog::library(const std::string& filename) {
-  const std::lock_guard<std::mutex> lock(impl_->mutex);
-  const auto known = impl_->libraries.find(filename);
-  if (known != impl_->libraries.end()) return known->second;
+  {
+    const std::lock_guard<std::mutex> lock(impl_->mutex);
+    const auto known = impl_->libraries.find(filename);
+    if (known != impl_->libraries.end()) return known->second;
+  }
   if (filename.empty()) throw Error("a plug-in has no filename, must be lib….so");
   const fs::path file = locate(filename, impl_->any_path);
-  const Plugins& plugins = loaded(fs::weakly_canonical(file));
+  const std::string real = fs::weakly_canonical(file);
+  const Plugins& plugins = is_script(file) ? loaded_script(real) : loaded(real);
+  const std::lock_guard<std::mutex> lock(impl_->mutex);
   if (is_alias(file)) impl_->aliases.insert(filename);
   return impl_->libraries.emplace(filename, plugins).first->second;
 }
@@ -237,9 +295,9 @@ std::vector<std::string> Catalog::available() {
     std::error_code ignored;
     for (const fs::directory_entry& entry : fs::directory_iterator(directory, ignored)) {
       const std::string name = entry.path().filename();
-      if (entry.path().extension() == ".so" && names.count(name) == 0 &&
-          entry.is_regular_file(ignored) && !is_alias(entry.path()) &&
-          registers_plugins(entry.path())) {
+      const fs::path extension = entry.path().extension();
+      if ((extension == ".so" || extension == ".py") && names.count(name) == 0 &&
+          entry.is_regular_file(ignored) && !is_alias(entry.path()) && registers(entry.path())) {
         names.insert(name);
       }
     }

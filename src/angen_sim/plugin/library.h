@@ -9,12 +9,12 @@
 
 namespace angen {
 
-/// The plug-ins of each requested library, by file name. Searches ANGEN_PLUGIN_PATH,
-/// GAZEBO_PLUGIN_PATH, in `lib` of each catkin workspace that is sourced (CMAKE_PREFIX_PATH), then
-/// beside Angen's own libraries; a library of that name that holds no Angen plug-in (Gazebo's own,
-/// say) is skipped. Libraries in other folders are not loaded, nor are those that register no
-/// plug-in: loading runs code. A library stays loaded until the process ends: objects that it made
-/// may outlive the catalog. Calls from several threads are safe.
+/// The plug-ins of each requested library, or file of Python, by file name. Searches
+/// ANGEN_PLUGIN_PATH, GAZEBO_PLUGIN_PATH, in `lib` of each catkin workspace that is sourced
+/// (CMAKE_PREFIX_PATH), then beside Angen's own libraries; a library of that name that holds no
+/// Angen plug-in (Gazebo's own, say) is skipped. Libraries in other folders are not loaded, nor are
+/// those that register no plug-in: loading runs code. A library stays loaded until the process
+/// ends: objects that it made may outlive the catalog. Calls from several threads are safe.
 class Catalog {
  public:
   Catalog();
@@ -48,6 +48,13 @@ class Catalog {
 /// The path of a library on the plug-in path, empty where there is none of that name; of a path,
 /// where its folder is on it.
 std::string find_library(const std::string& filename);
+
+/// The plug-ins that a file of Python registers; throws Error with file and line.
+using ScriptLoader = std::vector<std::shared_ptr<const Plugin>> (*)(const std::string& file);
+
+/// Sets what loads files that end in `.py`. Python's module `angen` does; in a program that is not
+/// Python, the catalog loads libangen_script.so at the first such file, which starts Python.
+void set_script_loader(ScriptLoader loader);
 
 struct PluginDoc {
   std::string library;

@@ -336,18 +336,7 @@ void bind_names(pyb::module_& module) {
 }
 
 void bind_catalog(pyb::module_& module) {
-  module.def(
-      "register",
-      [](const std::string& filename, const std::string& kind, const pyb::object& type) {
-        const bool sensor =
-            PyObject_IsSubclass(type.ptr(), pyb::module_::import("angen").attr("Sensor").ptr()) ==
-            1;
-        const std::shared_ptr<const Plugin> plugin =
-            sensor ? python_sensor(kind, type) : python_device(kind, type);
-        for (const bool any_path : {false, true}) catalog(any_path)->add(filename, plugin);
-      },
-      pyb::arg("filename"), pyb::arg("kind"), pyb::arg("type"),
-      "Makes a Python subclass of Sensor or Device a plug-in: <plugin filename=\"FILENAME\">.");
+  bind_scripts(module, {catalog(false), catalog(true)});
   module.def(
       "plugins",
       [] {

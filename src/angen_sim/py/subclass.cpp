@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/text.h"
+#include "py/python_error.h"
 
 namespace angen::py {
 
@@ -43,7 +44,7 @@ auto with_python(F&& call) {
     return call();
   } catch (pyb::error_already_set& error) {
     if (error.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();  // raised when step() ends
-    throw Error(error.what());
+    throw Error(one_line(error));
   }
 }
 

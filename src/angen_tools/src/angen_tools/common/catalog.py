@@ -22,6 +22,7 @@ KEYS = ('library', 'kind', 'doc', 'role', 'rate', 'models', 'sensor_type', 'exam
         'values', 'fields', 'params')  # that are read here
 # in the file of a library that registers a plug-in with class_loader
 MARKS = (b'N12class_loader4impl10MetaObjectI', b'N5angen6PluginE')
+SCRIPT = b'angen.register('  # in a file of Python that registers one
 LOADER = 'libangen_plugin.so'  # holds these words as it searches for them
 
 
@@ -79,7 +80,8 @@ def plugins() -> list[Plugin]:
 
 
 def _libraries() -> list[Path]:
-    return [library for directory in directories() for library in sorted(directory.glob('lib*.so'))
+    return [library for directory in directories()
+            for library in (*sorted(directory.glob('lib*.so')), *sorted(directory.glob('*.py')))
             if library.is_file() and not _is_alias(library)]
 
 
@@ -113,7 +115,8 @@ def _registers_plugins(library: Path) -> bool:
     try:
         with library.open('rb') as file, \
                 mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content:
-            return all(content.find(mark) >= 0 for mark in MARKS)
+            marks = (SCRIPT,) if library.suffix == '.py' else MARKS
+            return all(content.find(mark) >= 0 for mark in marks)
     except (OSError, ValueError):  # it cannot be read, or is empty
         return False
 
