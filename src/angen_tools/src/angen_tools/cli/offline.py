@@ -9,7 +9,6 @@ from typing import Any
 
 from angen_tools.cli.arguments import at_least, checked, duration, moment
 from angen_tools.cli.parser import add_allow_paths, add_json, add_out, add_seed, command
-from angen_tools.common.clock import time_of_day
 from angen_tools.common.files import check_folder
 from angen_tools.common.output import as_json, show, show_done
 
@@ -70,11 +69,9 @@ def run_world(args: argparse.Namespace) -> int:
 
 
 def run_fast(args: argparse.Namespace) -> int:
-    from angen_tools.offline.day import read_day
     from angen_tools.offline.fast_run import run
     check_folder(args.out)
-    orders = read_day(args.day, args.starts) if args.day else []
-    done = run(args.world, args.span, args.seed, args.out, orders, args.readings)
+    done = run(args.world, args.span, args.seed, args.out, args.day, args.readings)
     print(as_json(asdict(done)) if args.json else done.text())
     return 0
 
@@ -148,17 +145,16 @@ def add_run(commands: Any) -> None:
                   'runs a world without ROS, leaping over time in which nothing happens, and '
                   'writes its events to a CSV file; for ROS: ./angen run NAME:=VALUE ...',
                   'run --fast worlds/angen.world --for 1h',
-                  'run --fast worlds/care/ordinary.world --for 24h --day worlds/care/ordinary.csv '
-                  '--starts 6:00')
+                  'run --fast worlds/care/ordinary.world --for 24h --day '
+                  'worlds/care/ordinary.csv')
     run.add_argument('world', metavar='WORLD', help='the SDF file of the building')
     run.add_argument('--fast', action='store_true', required=True,
                      help='as fast as possible; the only way without ROS')
     run.add_argument('--for', metavar='TIME', dest='span', type=checked(duration),
                      required=True, help='how much time to simulate: 90 (s), 10m, 24h')
     run.add_argument('--day', metavar='FILE', type=Path, help='commands to devices at times of '
-                     'day: a CSV file with time,target,command')
-    run.add_argument('--starts', metavar='TIME', type=checked(time_of_day), default=0.0,
-                     help='the time of day at which it begins, for --day (0:00)')
+                     'day: a CSV file with time,target,command; the run begins at the time of day '
+                     'of the world, or at 0:00')
     run.add_argument('--readings', metavar='FILE', type=Path, help='writes all readings as a long '
                      'table; its name ends in .csv, .csv.gz or .parquet')
     add_seed(run, 'of all noise')

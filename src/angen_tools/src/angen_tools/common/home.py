@@ -7,6 +7,7 @@ import math
 from dataclasses import dataclass, field
 from typing import Any, Mapping, Sequence
 
+from angen_tools.common.clock import time_of_day
 from angen_tools.common.geometry import yaw as yaw_of
 
 STOREY = 4.0  # m from a floor to the next where a world describes none
@@ -196,6 +197,11 @@ class Home:
     def described(self) -> bool:
         """Whether its world says which rooms there are; else they were found between walls."""
         return any(not room.guessed for room in self.rooms)
+
+    @property
+    def time_of_day(self) -> float:
+        """At simulated time 0, in s since midnight; 0 where the world does not say."""
+        return time_of_day(self.start.partition('T')[2] or '0:00')
 
     def storey(self, number: int) -> Storey | None:
         return next((storey for storey in self.storeys if storey.number == number), None)

@@ -12,8 +12,9 @@ from typing import IO, Any, Sequence
 
 from angen_tools.common.catalog import simulator
 from angen_tools.common.files import writing
+from angen_tools.common.home import Home
 from angen_tools.common.progress import Progress
-from angen_tools.offline.day import Order, check_orders
+from angen_tools.offline.day import Order, check_orders, read_day
 from angen_tools.offline.events import COLUMNS, row
 from angen_tools.offline.readings import Writer, check_name, reading_table
 
@@ -39,10 +40,11 @@ class Done:
                 f'{table}, {self.events} events in {self.events_file}')
 
 
-def run(path: str, span: float, seed: int, out: Path, orders: Sequence[Order] = (),
+def run(path: str, span: float, seed: int, out: Path, day: Path | None = None,
         readings: Path | None = None) -> Done:
     """Runs a world file for `span` simulated seconds; writes OUT/events.csv meanwhile, and all
-    readings into the file `readings`, if any. `orders` are executed at their times.
+    readings into the file `readings`, if any. `day` has commands, which are executed at their
+    times of day; time 0 is the time of day that the world gives.
 
     Failure where the world does not load, an order is wrong, or a file cannot be written. Ctrl-C
     keeps the written files, and prints their paths.
@@ -51,6 +53,7 @@ def run(path: str, span: float, seed: int, out: Path, orders: Sequence[Order] = 
         check_name(readings)
     with simulator() as angen:
         world = angen.World(path, seed=seed)
+    orders = read_day(day, Home.of_world(world).time_of_day) if day else []
     check_orders(world, orders)
     log = out / 'events.csv'
     began = time.monotonic()
