@@ -6,12 +6,15 @@ from typing import Any, Sequence
 
 from angen_tools.common.catalog import Plugin, kind_of
 from angen_tools.common.failure import Failure
+from angen_tools.common.shown import BETWEEN, values_of
 from angen_tools.common.verbs import Order, parse
 from angen_tools.live.client import CONNECT_LIMIT, Client, Mailbox
 from angen_tools.live.states import states_by_name
 from angen_tools.live.summary import Board
 
 STATE_LIMIT = 0.6  # s of wall time within which a state follows its command
+WAYS = ('GoTo', 'PushTo')
+AROUND = 20.0  # m around all rooms where people can go
 NEXT_LIMIT = 0.5  # s of wall time after which a busy device executes the command later
 
 
@@ -29,14 +32,19 @@ def set_device(kind_name: str, name: str, words: Sequence[str]) -> dict[str, Any
     devices = [entity for entity in client.entities(kind_name) if name in ('all', entity.name)]
     if name == 'all' and not devices:
         raise Failure(f'the world has no {kind_name}')
+    if kind_name == 'person' and order.verb['name'] in WAYS:
+        check_place(client, order)
     board = Board(client)
     before = client.fence()
     state = client.call('/angen/command', SendCommand, target=f'{kind_name}/{name}',
                         text=order.text).state
+    values: dict[str, Any] = {}
     if name == 'all':
         text = f'all of kind {kind_name}, {len(devices)}: {order.text}'
     else:
         state = changed(board, (kind_name, name), state)
+        values = values_of(kind, state)
+        state = state.replace(BETWEEN, ', ')
         text = f'{kind_name} {name}: {state}'
     done = {'kind': kind_name, 'names': [device.name for device in devices],
             'command': order.text, 'waits': ''}
@@ -46,7 +54,9 @@ def set_device(kind_name: str, name: str, words: Sequence[str]) -> dict[str, Any
     elif any(comes_later(client, kind, order, device) for device in devices):
         done['waits'] = 'the device has finished its current command'
         text += f'; {order.text} is executed next'
-    return {**done, 'state': state, 'text': text}
+    elif has_target(kind, order):
+        text += f'; its target is {order.verb["argument"]} {order.number:g}'
+    return {**done, 'state': state, 'values': values, 'text': text}
 
 
 def changed(board: Board, which: tuple[str, str], state: str) -> str:
@@ -56,7 +66,7 @@ def changed(board: Board, which: tuple[str, str], state: str) -> str:
     while row is not None and state == row.text and (left := end - time.monotonic()) > 0:
         board.receive(left)
         state = board.rows[which].text if which in board.rows else state
-    return state.replace('  ', ', ')
+    return state
 
 
 def is_paused(client: Client) -> bool:
@@ -68,13 +78,36 @@ def is_paused(client: Client) -> bool:
     return received is not None and bool(received[1].paused)
 
 
+def target_of(order: Order) -> str:
+    return f'target_{order.verb.get("argument", "")}'
+
+
+def has_target(kind: Plugin, order: Order) -> bool:
+    """Whether the state of the kind shows what the number of an order asks for."""
+    return any(field['name'] == target_of(order) for field in kind['fields'])
+
+
+def check_place(client: Client, order: Order) -> None:
+    """Failure where an order sends somebody out of the home and its surroundings."""
+    place = [float(word) for word in order.text.split()[1:]]
+    rooms = client.home().rooms
+    if len(place) != 2 or not rooms:
+        return
+    edges = [room.bounds for room in rooms]
+    west, south = (min(edge[i] for edge in edges) - AROUND for i in (0, 1))
+    east, north = (max(edge[i] for edge in edges) + AROUND for i in (2, 3))
+    if not (west <= place[0] <= east and south <= place[1] <= north):
+        raise Failure(f'{place[0]:g} {place[1]:g} is outside of the world; x is {west:.0f} to '
+                      f'{east:.0f}, y {south:.0f} to {north:.0f} m')
+
+
 def comes_later(client: Client, kind: Plugin, order: Order, device: Any) -> bool:
     """Whether a device does something else first, as an elevator on its way does.
 
     For a verb with the argument X and a state with the field target_X, the current target.
     """
-    target = f'target_{order.verb.get("argument", "")}'
-    if all(field['name'] != target for field in kind['fields']) or not device.topic:
+    target = target_of(order)
+    if not has_target(kind, order) or not device.topic:
         return False
     mail = Mailbox(client)
     mail.subscribe(device.topic, device.type)

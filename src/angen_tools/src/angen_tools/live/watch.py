@@ -10,6 +10,7 @@ from angen_tools.common.catalog import kinds
 from angen_tools.common.failure import Failure
 from angen_tools.common.nearest import did_you_mean
 from angen_tools.common.output import as_json, table
+from angen_tools.common.shown import values_of
 from angen_tools.live.client import Client
 from angen_tools.live.summary import Board, Filter, Row
 
@@ -78,7 +79,8 @@ def _cells(row: Row) -> list[str]:
 
 
 def _as_dict(row: Row) -> dict[str, object]:
-    return {'kind': row.kind, 'name': row.name, 'value': row.text, 'alarm': row.alarm,
+    return {'kind': row.kind, 'name': row.name, 'value': row.text,
+            'values': values_of(kinds().get(row.kind), row.text), 'alarm': row.alarm,
             'time': row.stamp if row.text else None}
 
 
