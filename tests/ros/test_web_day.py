@@ -10,7 +10,7 @@ from typing import Any, Iterator
 
 import pytest
 from aiohttp import ClientSession, WSMsgType
-from browser import LIMIT, Server
+from browser import LIMIT, Page, Server
 from harness import Cli, Master
 
 TRUTH = '''start,end,resident,activity,cause,phase,room,thing,posture,x,y,note
@@ -99,6 +99,18 @@ def test_a_day_is_played(server: Server) -> None:
         [0.0, 100.0, 'sleep'], [100.0, 110.0, 'wash'], [110.0, 200.0, 'wash'],
         [200.0, 86400.0, 'work']]]]
     assert found['home']['start'] == '2026-03-21T00:00:00'
+
+
+def test_a_link_opens_at_its_time(server: Server, tmp_path: Path) -> None:
+    page = Page(tmp_path, 500, 400)  # opened before the day is read
+    try:
+        page.driver.get(f'{server.url}?t=105')
+        page.until('return window.angen?.player.loaded === 86400')
+        page.until('return angen.home.rows.get("person/anna")?.text.endsWith("· wash")')
+        assert page.run('return angen.player.time') >= 105
+        assert page.errors() == []
+    finally:
+        page.close()
 
 
 def test_folders_without_a_day_are_refused(master: Master, tmp_path: Path, day: Path) -> None:

@@ -66,9 +66,10 @@ export class Player {
   }
 
   onLine() {
-    const { end, loaded } = this.home.line;
+    const { end, loaded } = this.home.line, before = this.loaded;
     this.end = end;
     this.loaded = loaded;
+    if (before < this.time && loaded >= this.time) this.seek(this.time);
     if (!this.bar) this.build();
     this.slider.max = String(end);
     this.ribbonStale = true;
@@ -125,7 +126,8 @@ export class Player {
     const now = performance.now(), dt = (now - this.last) / 1000;
     this.last = now;
     const playing = this.playing && this.time < this.end;
-    if (playing) this.seek(Math.min(this.time + dt * this.speed, this.loaded), true);
+    const next = Math.min(this.time + dt * this.speed, this.loaded);
+    if (playing && next > this.time) this.seek(next, true); // what is not read yet is waited for
     this.play.textContent = playing ? '❚❚' : '▶';
     this.slider.value = String(this.time);
     const text = `${clockText(this.time)} / ${clockText(this.end)}${this.loaded < this.end ? `, read ${Math.round((100 * this.loaded) / this.end)} %` : ''}`;
