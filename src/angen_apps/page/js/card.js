@@ -10,6 +10,8 @@ export class Card {
     this.element = by('card');
     /** @type {any} */
     this.shown = null;
+    /** @type {(() => void)[]} of sliders, which follow the state while nobody holds them */
+    this.follow = [];
     home.on('rows', () => this.refresh());
     home.on('entities', () => this.again());
   }
@@ -40,6 +42,7 @@ export class Card {
   /** @param {any} entity */
   show(entity) {
     this.shown = { entity };
+    this.follow = [];
     const { home } = this, kind = home.kinds[entity.kind];
     const rooms = home.roomsOf(entity).map(roomText).join(' – ');
     this.state = el('p', { class: 'state', role: 'status' });
@@ -92,6 +95,12 @@ export class Card {
     input.addEventListener('input', say);
     input.addEventListener('change', () => send(Number(input.value)));
     say();
+    this.follow.push(() => {
+      const now = this.valueOf(entity, verb);
+      if (now === null || input === document.activeElement || Number(input.value) === now) return;
+      input.value = String(now);
+      say();
+    });
     return el('label', { title: verb.doc }, el('span', {}, spaced(verb.name)), input, output);
   }
 
@@ -154,6 +163,7 @@ export class Card {
       const text = row?.text || 'no reading yet';
       if (this.state.textContent !== text) this.state.textContent = text;
       this.state.classList.toggle('alarm', Boolean(row?.alarm));
+      for (const follow of this.follow) follow();
     }
     for (const update of this.element.querySelectorAll('.thing')) /** @type {any} */ (update).refresh?.();
   }

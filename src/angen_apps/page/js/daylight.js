@@ -50,11 +50,11 @@ export class Sky {
     this.way = way ?? USUAL;
     const day = Math.min(1, Math.max(0, (this.way[2] + 0.1) / 0.4)), low = Math.min(1, Math.max(0, 1 - this.way[2] / 0.5));
     const mix = (/** @type {number} */ night, /** @type {number} */ noon, part = day) => new THREE.Color(night).lerp(new THREE.Color(noon), part);
-    this.sky.intensity = dark ? 0.6 + 0.3 * day : 1.15 + 0.75 * day;
+    this.sky.intensity = dark ? 0.6 + 0.3 * day : 1.4 + 0.5 * day;
     this.sky.color.copy(dark ? mix(0xaec4dd, 0xd4deea) : mix(0xc3d0ea, 0xffffff));
     this.sky.groundColor.set(dark ? 0x30363f : 0xd6d2cc);
     this.sun.intensity = dark ? 0.4 + 0.3 * day : 0.5 + 1.2 * day;
-    this.sun.color.copy(dark ? mix(0xb9cdf0, 0xf2e6d2) : mix(0xfff6e8, 0xffc98f, low * day));
+    this.sun.color.copy(dark ? mix(0xb9cdf0, 0xf2e6d2) : mix(0xfff6e8, 0xffd9ae, low * day));
     this.aim();
     return dark ? mix(0x0d1218, 0x141c26) : mix(0xcdd5e1, 0xe9edf1);
   }

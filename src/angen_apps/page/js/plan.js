@@ -2,7 +2,7 @@
 import { by, svg } from './dom.js';
 import { fieldShape } from './fields.js';
 import { middleOf, roomText } from './labels.js';
-import { scanPoints } from './overlays.js';
+import { MOVES, scanPoints } from './overlays.js';
 
 const SHOWN = new Set(['lamp', 'door', 'window', 'elevator', 'stove', 'heater', 'appliance', 'cabinet']);
 
@@ -111,7 +111,7 @@ export class Plan {
     const z = home.place(e)[2];
     if (!moves && home.storeyAt(z) !== number) return;
     const size = moves ? 0.22 : e.kind === 'lamp' ? 0.2 : sensor ? 0.1 : 0.14;
-    const item = svg('g', { class: `item ${e.kind}${home.isRobot(e) ? ' robot' : ''}`, tabindex: 0, role: 'button' },
+    const item = svg('g', { class: `item ${e.kind}${home.isRobot(e) ? ' robot' : ''}${MOVES.has(e.kind) ? ' moves' : ''}`, tabindex: 0, role: 'button' },
       e.kind === 'door' ? svg('line', { class: 'leaf' }) : null,
       svg('circle', { class: 'face', r: size, visibility: e.kind === 'door' ? 'hidden' : null }),
       moves ? svg('path', { class: 'face', d: `M${size * 1.5} 0L${size * 0.7} ${-size * 0.5}V${size * 0.5}Z` }) : null,
@@ -178,13 +178,17 @@ export class Plan {
 
   /** @param {number} number */
   showFields(number) {
+    const { home } = this, fires = (/** @type {any} */ s) => Boolean(home.rows.get(`${s.kind}/${s.name}`)?.alarm);
+    const shown = home.scene.sensors.filter((/** @type {any} */ s) => (this.withFields || fires(s)) && !home.scene.links[s.link].moves);
+    const state = shown.map((/** @type {any} */ s) => `${s.name} ${fires(s)}`).join();
+    if (state === this.fieldState && this.fieldsOf === this.fields) return; // what flashes is not begun anew
+    this.fieldState = state;
+    this.fieldsOf = this.fields;
     this.fields.replaceChildren();
-    for (const sensor of this.home.scene.sensors) {
-      const fires = this.home.rows.get(`${sensor.kind}/${sensor.name}`)?.alarm;
-      if ((!fires && !this.withFields) || this.home.scene.links[sensor.link].moves) continue;
-      const points = fieldShape(this.home, sensor);
-      if (this.home.storeyAt(points[0][2] + 0.2) !== number) continue;
-      this.fields.append(svg('polygon', { class: fires ? 'field alarm' : 'field', points: points.map(([x, y]) => `${x.toFixed(2)},${(-y).toFixed(2)}`).join(' ') }));
+    for (const sensor of shown) {
+      const points = fieldShape(home, sensor), cls = !fires(sensor) ? '' : MOVES.has(sensor.kind) ? ' motion' : ' alarm';
+      if (home.storeyAt(points[0][2] + 0.2) !== number) continue;
+      this.fields.append(svg('polygon', { class: `field${cls}`, points: points.map(([x, y]) => `${x.toFixed(2)},${(-y).toFixed(2)}`).join(' ') }));
     }
   }
 

@@ -12,6 +12,7 @@ import { CUT, Shapes, poseMatrix } from './shapes.js';
 
 const EASE = 12; // 1/s, with which shown poses follow those that were sent
 const PLAIN_PERIOD = 80; // ms between frames where the processor draws
+const SHARE = 1.3; // of the time that a frame took, until the next one: buttons need some too
 const PLAIN_PIXELS = 4.5e5;
 const TOWER = 3; // floors: of more, those below the top one show no small things while all are shown
 const SMALL = 0.3; // m
@@ -28,6 +29,7 @@ export class View3d {
     this.dirty = true;
     this.frames = 0;
     this.drawnAt = 0;
+    this.pause = PLAIN_PERIOD; // ms
     this.hidden = false;
     this.element = by('scene');
     this.plain = isPlain();
@@ -231,6 +233,7 @@ export class View3d {
   frame() {
     requestAnimationFrame(() => this.frame());
     const now = performance.now(), dt = Math.min(0.1, (now - this.last) / 1000);
+    if (this.drawnAt === this.last) this.pause = Math.max(PLAIN_PERIOD, SHARE * (now - this.last));
     this.last = now;
     if (this.hidden || !this.shapes) return;
     const part = 1 - Math.exp(-EASE * dt);
@@ -249,7 +252,7 @@ export class View3d {
     if (this.fields.animate(dt)) this.dirty = true;
     this.glide(dt);
     this.controls.update(dt);
-    if (!this.dirty || (this.plain && now - this.drawnAt < PLAIN_PERIOD)) return;
+    if (!this.dirty || (this.plain && now - this.drawnAt < this.pause)) return;
     this.drawnAt = now;
     if (now - this.shadowsAt > 400) { this.renderer.shadowMap.needsUpdate = true; this.shadowsAt = now; }
     this.dirty = false;
