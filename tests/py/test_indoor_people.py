@@ -98,8 +98,9 @@ def corridor(width: float) -> str:
                    for side in (-1, 1))
 
 
-def test_two_sent_people_pass_each_other_in_a_corridor(world):
-    w = world(corridor(1.4) + person('ann', '-4 0 0 0 0 0') + person('bob', '4 0 0 0 0 3.14'))
+@pytest.mark.parametrize('width', [1.2, 1.4])
+def test_two_sent_people_pass_each_other_in_a_corridor(world, width):
+    w = world(corridor(width) + person('ann', '-4 0 0 0 0 0') + person('bob', '4 0 0 0 0 3.14'))
     w.command('person', 'ann', 'GoTo 4 0')
     w.command('person', 'bob', 'GoTo -4 0')
     nearest = 9.0

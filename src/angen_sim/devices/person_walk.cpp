@@ -113,13 +113,10 @@ std::optional<Person::Vec2> Person::way_for(const LinkView& body, const View& vi
   return way_past(body, view, to);
 }
 
-// Round what is in the way. Where that is one who comes towards it, and there is no room: aside, as
-// the other does.
+// Round what is in the way. Who comes towards it, and does not wait, keeps to the right as it does.
 std::optional<Person::Vec2> Person::way_past(const LinkView& body, const View& view,
                                              const Vec2& to) const {
   const Vec2 at = body.pose.position.head<2>();
-  const std::optional<Vec2> round = surroundings_.way_round(at, to);
-  if (round) return round;
   const Vec2 ahead = (to - at).normalized();
   for (const DeviceView& other : view.devices("unreachable")) {
     if (other.state.get<std::string>("mode") == kPersonModes[0]) continue;
@@ -133,7 +130,7 @@ std::optional<Person::Vec2> Person::way_past(const LinkView& body, const View& v
       return surroundings_.way_aside(at, to);
     }
   }
-  return std::nullopt;
+  return surroundings_.way_round(at, to);
 }
 
 // If an obstacle is on the path ahead, or on the way to it: the first place behind the obstacle.

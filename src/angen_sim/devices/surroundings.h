@@ -34,8 +34,8 @@ class Surroundings {
   /// Prefers to pass on the right.
   std::optional<Vec2> way_round(const Vec2& from, const Vec2& to) const;
 
-  /// For two who approach each other where neither sees a way past: as far to the right as it is
-  /// free, and ahead; `from` where that is not.
+  /// For two who approach each other: as far to the right as it is free, and ahead; `from` where
+  /// that is not.
   Vec2 way_aside(const Vec2& from, const Vec2& to) const;
 
   /// Whether a person at `feet` can walk straight to `to` on the static shapes below, up and down
