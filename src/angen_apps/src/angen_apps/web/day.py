@@ -96,7 +96,7 @@ class Day(Played):
                     not self._settings['own_sensors'], self._settings['light'])
         for resident in self._layout['residents']:
             first = next(r for r in self._truth() if r['resident'] == resident['name'])
-            room = site.home.room(first['room']) if first['room'] else site.home.rooms[0]
+            room = site.home.room(first['room']) or site.home.rooms[0]
             with simulator(f'{resident["name"]}: '):
                 site.world.spawn(walker(resident['name'], resident['speed'], 'person'),
                                  resident['name'], [*room.center, room.floor, 0.0, 0.0, 0.0])
@@ -110,8 +110,9 @@ class Day(Played):
 
     def _run(self) -> None:
         self._node = self._sandbox.node(self._folder / 'home.world', RATE)
-        wait(lambda: (self.store.part('scene') and self.store.part('home') and self._poses
-                      and self._has_rows), 'the node has not described the home', LIMIT)
+        wait(lambda: self._has_rows and all((
+            self.store.part('scene'), self.store.part('home'), self._poses)),
+            'the node has not described the home', LIMIT)
         self._survey()
         closed = dict(self._poses)
         self._open_leaves()
