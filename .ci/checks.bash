@@ -50,7 +50,7 @@ check_ctest() { # [WORDS]
 check_pytest() { # [WORDS]
   local code=0
   # Many tests wait for wall time: more workers than processors. tests/conftest.py says what runs on one worker.
-  timeout $((2400 * slowness)) env ${preloaded:+"LD_PRELOAD=$preloaded"} python3 -m pytest -q -n $(($(nproc) + extra_workers)) --dist loadfile ${1:+-k "$1"} "${pytest_arguments[@]}" || code=$?
+  timeout $((2400 * slowness)) env ${preloaded:+"LD_PRELOAD=$preloaded"} python3 -m pytest -q -n $(($(nproc) + extra_workers)) --dist loadfile --durations=10 ${1:+-k "$1"} "${pytest_arguments[@]}" || code=$?
   if ((code != 5)); then
     matched=1
   elif [[ ${1:-} ]]; then
