@@ -23,8 +23,8 @@ struct ReadMesh {
   std::shared_ptr<const MeshLook> look;
 };
 
-/// A COLLADA, STL or OBJ file as triangles in meters, z up, times the scale. Shared while it is in
-/// use and the file does not change. Throws Error at `at`.
+/// A COLLADA, STL or OBJ file as triangles in meters, in its own axes, times the scale. Shared
+/// while it is in use and the file does not change. Throws Error at `at`.
 ReadMesh read_mesh(const MeshSource& source, const Source& at);
 /// The name of an OBJ's file of materials, "" where it names none.
 std::string materials_of(const std::string& path);

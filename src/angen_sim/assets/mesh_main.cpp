@@ -83,12 +83,6 @@ class OneFile : public Assimp::IOSystem {
   const MeshRequest& request_;
 };
 
-// assimp turns COLLADA to y up, whatever axis the file says; this turns it to z up.
-aiMatrix4x4 to_z_up() {
-  aiMatrix4x4 turn;
-  return aiMatrix4x4::RotationX(static_cast<ai_real>(M_PI / 2), turn);
-}
-
 MeshPart part_of(const aiScene& scene, const aiMesh& mesh) {
   MeshPart part;
   const aiMaterial& material = *scene.mMaterials[mesh.mMaterialIndex];
@@ -195,6 +189,8 @@ void prepare(Assimp::Importer& importer, const MeshRequest& request, unsigned ke
     other->GetExtensionList(extensions);
     if (extensions.count(request.extension) == 0) importer.UnregisterLoader(other);
   }
+  // As Gazebo does: MeshLab, for one, writes Y_UP whatever the file has.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const unsigned removed = aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
@@ -266,7 +262,7 @@ Mesh mesh_of(MeshRequest request) {
   aiMatrix4x4::Scaling({scale.x(), scale.y(), scale.z()}, size);
   Mesh made;
   Expander expander(scene, unjoined, request.submesh, made);
-  expander.add(*scene.mRootNode, request.extension == "dae" ? size * to_z_up() : size);
+  expander.add(*scene.mRootNode, size);
   if (made.look.parts.empty() && !request.submesh.empty()) {
     no_submesh(request.submesh, expander.names());
   }
