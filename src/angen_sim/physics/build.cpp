@@ -11,6 +11,7 @@
 #include "physics/insertion.h"
 #include "physics/joints.h"
 #include "physics/shapes.h"
+#include "physics/wheel_line.h"
 
 namespace angen::physics {
 
@@ -37,6 +38,7 @@ class Builder {
     make_bodies();
     make_geoms();
     for (const desc::Joint& joint : model_.joints) make_joint(joint);
+    mark_wheels(*record_);
     make_mechanisms();
     return std::move(record_);
   }

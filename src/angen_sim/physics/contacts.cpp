@@ -115,6 +115,7 @@ void Contacts::start() {
   points_before_.swap(points_);
   pairs_.clear();
   found_.clear();
+  shares_.clear();
   points_.clear();
   in_meshes_ = 0;
   tangled_ = false;
@@ -145,9 +146,13 @@ bool Contacts::collide(Geom& a, Geom& b) {
   if (n == 0) return false;
   std::size_t kept = reduce_points(found.data(), n);
   if (first.body->upright && second.body->upright) kept = reduce_upright(found.data(), kept);
+  std::array<PointShare, kMaxFound> shares;
+  kept = add_middles(first, second, found.data(), kept, shares.data());
   note_change(first, second);
   pairs_.push_back({&first, &second, found_.size(), kept});
-  found_.insert(found_.end(), found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept));
+  const auto end = static_cast<std::ptrdiff_t>(kept);
+  found_.insert(found_.end(), found.begin(), found.begin() + end);
+  shares_.insert(shares_.end(), shares.begin(), shares.begin() + end);
   return true;
 }
 
@@ -169,16 +174,16 @@ void Contacts::make_joints_without_push() {
   }
 }
 
-void Contacts::set_friction(dContact& contact, const Pair& pair) const {
+void Contacts::set_friction(dContact& contact, const Pair& pair, const PointShare& share) const {
   const Geom& a = *pair.first;
   const Geom& b = *pair.second;
   dSurfaceParameters& s = contact.surface;
   s.mode |= dContactApprox1;
-  s.mu = usable_mu(std::min(a.friction.mu, b.friction.mu));
-  s.mu2 = usable_mu(std::min(a.friction.mu2, b.friction.mu2));
+  s.mu = share.friction * usable_mu(std::min(a.friction.mu, b.friction.mu));
+  s.mu2 = share.friction * usable_mu(std::min(a.friction.mu2, b.friction.mu2));
   if (s.mu2 != s.mu) s.mode |= dContactMu2;
-  s.slip1 = a.friction.slip1 + b.friction.slip1;
-  s.slip2 = a.friction.slip2 + b.friction.slip2;
+  s.slip1 = (a.friction.slip1 + b.friction.slip1) / share.stiffness;
+  s.slip2 = (a.friction.slip2 + b.friction.slip2) / share.stiffness;
   if (s.slip1 > 0.0) s.mode |= dContactSlip1;
   if (s.slip2 > 0.0) s.mode |= dContactSlip2;
   if (s.mu != s.mu2 || s.slip1 != s.slip2) {
@@ -242,8 +247,9 @@ void Contacts::make_joint(const Pair& pair, std::size_t index, bool pushes) {
   dSurfaceParameters& s = contact.surface;
   s.mode = dContactSoftERP | dContactSoftCFM;
   s.soft_erp = erp_;
-  s.soft_cfm = cfm_;
-  set_friction(contact, pair);
+  const PointShare& share = shares_[index];
+  s.soft_cfm = cfm_ / share.stiffness;
+  set_friction(contact, pair, share);
   double fastest = fastest_;
   const double parts_at = std::min(a.fastest, b.fastest);
   const double bounce = std::min(a.restitution, b.restitution);
@@ -255,16 +261,17 @@ void Contacts::make_joint(const Pair& pair, std::size_t index, bool pushes) {
   const bool is_soft = a.stiffness || b.stiffness;
   if (is_soft) {
     const double yield =
-        (a.stiffness ? 1.0 / *a.stiffness : 0.0) + (b.stiffness ? 1.0 / *b.stiffness : 0.0);
-    const double damping = a.damping.value_or(0.0) + b.damping.value_or(0.0);
+        ((a.stiffness ? 1.0 / *a.stiffness : 0.0) + (b.stiffness ? 1.0 / *b.stiffness : 0.0)) /
+        share.stiffness;
+    const double damping = share.stiffness * (a.damping.value_or(0.0) + b.damping.value_or(0.0));
     s.soft_erp = step_ / (step_ + damping * yield);
     s.soft_cfm = std::max(kSoftest, 1.0 / (step_ / yield + damping));
     // In a step it gains this share of the speed of parting: a soft spring pushes as deep as it is.
-    const double share = step_ / s.soft_cfm * (inverse_mass(*a.body) + inverse_mass(*b.body));
-    fastest *= 1.0 + 1.0 / share;
+    const double gained = step_ / s.soft_cfm * (inverse_mass(*a.body) + inverse_mass(*b.body));
+    fastest *= 1.0 + 1.0 / gained;
     if (std::isfinite(parts_at)) {
       const bool parts = parting_speed(a, b, contact.geom) >= parts_at;
-      fastest = parts ? 0.0 : std::min(fastest, kPush * step_ * (1.0 + 1.0 / share));
+      fastest = parts ? 0.0 : std::min(fastest, kPush * step_ * (1.0 + 1.0 / gained));
     }
   } else {
     fastest = std::min(fastest, parts_at);

@@ -6,6 +6,7 @@
 
 #include "core/contact.h"
 #include "physics/model.h"
+#include "physics/wheel_line.h"
 
 namespace angen::physics {
 
@@ -118,7 +119,7 @@ class Contacts {
   std::vector<ContactPoint> points_of(const Pair& pair) const;
   void sum_loads();
   void make_joint(const Pair& pair, std::size_t index, bool pushes);
-  void set_friction(dContact& contact, const Pair& pair) const;
+  void set_friction(dContact& contact, const Pair& pair, const PointShare& share) const;
   void align(dContact& contact, const Pair& pair) const;
   void read_forces(const Pair& pair);
 
@@ -135,6 +136,7 @@ class Contacts {
   bool tangled_ = false;
   std::vector<Pair> pairs_;
   std::vector<dContactGeom> found_;
+  std::vector<PointShare> shares_;  // as found_
   std::vector<ContactPoint> points_;
   std::map<std::pair<const Mechanism*, const Mechanism*>, Load> loads_;
   std::vector<Pair> pairs_before_;  // of the step before this one

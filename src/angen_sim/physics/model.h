@@ -64,6 +64,7 @@ struct alignas(64) Geom {
   ode::GeomHandle ode;                 // of a heightmap: the box around it
   ode::GeomHandle tile;                // takes the mesh of one tile after the other
   bool is_plane = false;
+  bool is_wheel = false;                                // a cylinder that turns about its own axis
   std::array<int, 6> cells{};                           // the grid's, first and last in x, y, z
   std::vector<const std::vector<Geom*>*> shared_cells;  // the geoms in each of them, for queries
   bool in_grid = false;

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+
+#include "physics/model.h"
+
+namespace angen::physics {
+
+/// What one contact point does.
+struct PointShare {
+  double stiffness = 1.0;  // of a point's
+  double friction = 1.0;   // of a point's
+};
+
+/// Marks cylinders that turn about their own axis, by a joint of their body: wheels.
+void mark_wheels(const ModelRecord& record);
+
+/// A wheel touches a surface along a line, of which ODE finds the ends. Two ends with friction
+/// would slip against each other in each turn, so the line gets a point in its middle that has all
+/// the friction and nearly all the load, as a disc has, and its ends only keep it from tilting.
+/// Writes a share for each of n points and of those that it adds, and returns their number.
+std::size_t add_middles(const Geom& first, const Geom& second, dContactGeom* points, std::size_t n,
+                        PointShare* shares);
+
+}  // namespace angen::physics
