@@ -236,7 +236,37 @@ void print(const Element& element, int indent, std::string& out, std::vector<Sou
   end_line();
 }
 
+// Without margins: each element begins in its line of `file`.
+void print_in_place(const Element& element, const std::string& file, int& line, std::string& out) {
+  for (; element.source.file == file && line < element.source.line; ++line) out += '\n';
+  out += "<" + element.name;
+  for (const auto& [key, value] : element.attributes) {
+    out += " " + key + "=\"" + escaped(value) + "\"";
+  }
+  out += ">" + escaped(element.text);
+  for (const Element& child : element.children) print_in_place(child, file, line, out);
+  out += "</" + element.name + ">";
+}
+
 }  // namespace
+
+std::string without_late_declaration(const std::string& text) {
+  std::string out = text;
+  bool first = true;
+  for (std::size_t at = out.find('<'); at != std::string::npos; at = out.find('<', at)) {
+    const std::size_t after = after_aside(out, at);
+    if (after == at) break;
+    if (!first && out.compare(at, 5, "<?xml") == 0) {
+      const auto end = out.begin() + static_cast<std::ptrdiff_t>(std::min(after + 1, out.size()));
+      std::replace_if(
+          out.begin() + static_cast<std::ptrdiff_t>(at), end, [](char c) { return c != '\n'; },
+          ' ');
+    }
+    first = false;
+    at = after;
+  }
+  return out;
+}
 
 Element parse_xml(const std::string& text, const std::string& file) {
   if (text.size() > kMaxFileBytes)
@@ -250,7 +280,8 @@ Element parse_xml(const std::string& text, const std::string& file) {
   }
   check_counts(text, file);
   tinyxml2::XMLDocument document;
-  document.Parse(text.data(), text.size());
+  const std::string given = without_late_declaration(text);
+  document.Parse(given.data(), given.size());
   if (document.Error()) throw syntax_error(text, file, document);
   const tinyxml2::XMLElement* root = document.RootElement();
   if (root == nullptr) throw Error({file, 1}, "no element in it; it needs an <sdf> element");
@@ -287,6 +318,13 @@ std::string read_file(const std::string& path) {
 std::string print_xml(const Element& element, int indent, std::vector<Source>* lines) {
   std::string out;
   print(element, indent, out, lines);
+  return out;
+}
+
+std::string print_xml_in_place(const Element& element) {
+  std::string out;
+  int line = 1;
+  print_in_place(element, element.source.file, line, out);
   return out;
 }
 

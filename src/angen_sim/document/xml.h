@@ -26,6 +26,13 @@ std::string read_file(const std::string& path);
 /// One element a line, indented. `lines` gets the source of each printed line, from line 1.
 std::string print_xml(const Element& element, int indent = 0, std::vector<Source>* lines = nullptr);
 
+/// Each element in its own line, where that is known: messages about the text name the same lines.
+std::string print_xml_in_place(const Element& element);
+
+/// TinyXML, which Gazebo has, takes an XML declaration anywhere before the root: one after a
+/// comment is blanked.
+std::string without_late_declaration(const std::string& text);
+
 std::size_t count_elements(const Element& element);
 
 Element* find_child(Element& element, const std::string& name);

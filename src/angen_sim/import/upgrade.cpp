@@ -1,6 +1,7 @@
 #include "import/upgrade.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -10,6 +11,8 @@
 namespace angen::load {
 
 namespace {
+
+constexpr const char* kUnlimited = "1e9";  // of friction: nothing slides
 
 bool truthy(const std::string& text) {
   return text == "true" || text == "1" || text == "True" || text == "TRUE";
@@ -34,32 +37,48 @@ void fill_pose(Element& pose, Session& session) {
   pose.text += " 0 0 0";
 }
 
-bool joins(const std::string& name) { return name.find("::") != std::string::npos; }
-
-std::string with_underscores(std::string name) {
-  for (std::size_t at; (at = name.find("::")) != std::string::npos;) name.replace(at, 2, "_");
+std::string with_underscores(std::string name, const std::string& separator) {
+  for (std::size_t at; (at = name.find(separator)) != std::string::npos;) {
+    name.replace(at, separator.size(), "_");
+  }
   return name;
 }
 
-// Until 1.7 a name could hold "::", as those of models that Gazebo once saved flat.
-void split_names(Element& element, std::set<std::string>& found, Session& session) {
-  static const std::set<std::string> named = {"link", "joint", "collision", "visual", "sensor"};
-  std::string name = named.count(element.name) != 0 ? name_of(element) : "";
-  if (joins(name)) {
-    set_attribute(element, "name", with_underscores(name));
-    session.warn_or_throw(Error(element.source, tag_of(element) + ": names hold no '::'; it is '" +
-                                                    name_of(element) + "' here"));
-    found.insert(std::move(name));
+// Until 1.7 a name could hold "::", as those of models that Gazebo once saved flat. A '/' Gazebo
+// takes in every version.
+void split_names(Element& element, const std::string& separator,
+                 std::map<std::string, std::string>& found, Session& session) {
+  static const std::set<std::string> named = {"link",   "joint", "collision", "visual",
+                                              "sensor", "light", "frame"};
+  const std::string name = named.count(element.name) != 0 ? name_of(element) : "";
+  if (name.find(separator) != std::string::npos) {
+    set_attribute(element, "name", with_underscores(name, separator));
+    session.warn_or_throw(Error(element.source, tag_of(element) + ": names hold no '" + separator +
+                                                    "'; it is '" + name_of(element) + "' here"));
+    found[name] = name_of(element);
   }
   for (Element& child : element.children) {
-    if (child.name != "plugin") split_names(child, found, session);
+    if (child.name != "plugin") split_names(child, separator, found, session);
   }
 }
 
-void name_anew(Element& element, const std::set<std::string>& found) {
-  const bool refers = element.name == "parent" || element.name == "child";
-  if (refers && found.count(element.text) != 0) element.text = with_underscores(element.text);
+// What refers to a renamed part, also a parameter of a plug-in.
+void name_anew(Element& element, const std::map<std::string, std::string>& found) {
+  const auto replace = [&](std::string& text) {
+    const auto other = found.find(text);
+    if (other != found.end()) text = other->second;
+  };
+  replace(element.text);
+  for (auto& [key, value] : element.attributes) {
+    if (key == "relative_to" || key == "expressed_in" || key == "attached_to") replace(value);
+  }
   for (Element& child : element.children) name_anew(child, found);
+}
+
+void rename_separated(Element& sdf, const std::string& separator, Session& session) {
+  std::map<std::string, std::string> found;
+  split_names(sdf, separator, found, session);
+  if (!found.empty()) name_anew(sdf, found);
 }
 
 using Name = std::pair<std::string, std::string>;  // what shares it, and the name
@@ -99,9 +118,58 @@ void rename_duplicates(Element& element, Session& session) {
   }
 }
 
+// Gazebo takes what is negative or infinite as without a limit.
+void read_unlimited(Element& friction) {
+  const Numbers found = numbers_in(friction.text);
+  const bool unlimited = found.bad.empty() && found.values.size() == 1 &&
+                         (found.values[0] < 0.0 || std::isinf(found.values[0]));
+  if (unlimited) friction.text = kUnlimited;
+}
+
+// Two axes that cross, as those of a car's front wheel: in ODE the same.
+void read_joint_type(Element& joint) {
+  const std::string* type = joint.attribute("type");
+  if (type != nullptr && *type == "revolute2") set_attribute(joint, "type", "universal");
+}
+
+// Gazebo reads the first shape; of polylines all count.
+void keep_one_shape(Element& geometry, Session& session) {
+  auto& all = geometry.children;
+  if (all.size() < 2 || all[0].name == "polyline") return;
+  session.warn_or_throw(Error(all[1].source, "a second shape in one <geometry>; keep one: <" +
+                                                 all[0].name + "> is taken, <" + all[1].name +
+                                                 "> is left out"));
+  all.erase(all.begin() + 1, all.end());
+}
+
+// SDF 1.3 named the step and the rate otherwise.
+void upgrade_physics(Element& physics) {
+  const auto move = [&](const Element* from, const char* to) {
+    if (from != nullptr && physics.child(to) == nullptr) {
+      const std::string text = from->text;
+      set_child(physics, to, text);
+    }
+  };
+  move(physics.child("update_rate"), "real_time_update_rate");
+  remove_children(physics, "update_rate");
+  Element* ode = find_child(physics, "ode");
+  Element* solver = ode == nullptr ? nullptr : find_child(*ode, "solver");
+  if (solver == nullptr) return;
+  const Element* step = solver->child("dt");
+  const std::string text = step == nullptr ? "" : step->text;
+  remove_children(*solver, "dt");
+  if (!text.empty() && physics.child("max_step_size") == nullptr) {
+    set_child(physics, "max_step_size", text);
+  }
+}
+
 void upgrade_element(Element& element, int version, Session& session) {
   if (element.name == "plugin") return;
   if (element.name == "pose") fill_pose(element, session);
+  if (element.name == "mu" || element.name == "mu2") read_unlimited(element);
+  if (element.name == "joint") read_joint_type(element);
+  if (element.name == "geometry") keep_one_shape(element, session);
+  if (element.name == "physics" && version < 104) upgrade_physics(element);
   if (element.name == "joint" && version < 107) {
     for (Element& child : element.children) {
       if (child.name == "axis" || child.name == "axis2") upgrade_axis(child, version);
@@ -135,10 +203,9 @@ void upgrade_element(Element& element, int version, Session& session) {
 
 void upgrade(Element& sdf, int version, Session& session) {
   upgrade_element(sdf, version, session);
-  if (version < 108 && session.tolerant) {
-    std::set<std::string> found;
-    split_names(sdf, found, session);
-    if (!found.empty()) name_anew(sdf, found);
+  if (session.tolerant) {
+    if (version < 108) rename_separated(sdf, "::", session);
+    rename_separated(sdf, "/", session);
     if (version < 107) rename_duplicates(sdf, session);
   }
   set_attribute(sdf, "version", "1.9");

@@ -6,7 +6,7 @@
 
 namespace angen::load {
 
-/// Rewrites a tree of an older version (104..108) as SDF 1.9.
+/// Rewrites a tree of an older version (102..108) as SDF 1.9.
 void upgrade(Element& sdf, int version, Session& session);
 
 /// Whose names must differ from those of `child` among its siblings: all with the same answer.

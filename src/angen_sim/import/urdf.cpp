@@ -111,16 +111,54 @@ void check_robot(const Element& robot) {
   check_chains(robot, links.size());
 }
 
-// Elements that libsdformat made keep the place of the URDF element of the same kind and name.
-void place(Element& element, const Element& robot, const Source& around) {
-  element.source = around;
-  for (const Element& original : robot.children) {
-    if (original.name == element.name && !name_of(original).empty() &&
-        name_of(original) == name_of(element)) {
-      element.source = original.source;
+const Element* nth_child(const Element& parent, const std::string& name, std::size_t number) {
+  for (const Element& child : parent.children) {
+    if (child.name == name && number-- == 0) return &child;
+  }
+  return nullptr;
+}
+
+// A link or joint of the robot, or what a <gazebo> element has.
+const Element* named_part(const Element& robot, const Element& made) {
+  const auto is_it = [&](const Element& given) {
+    return given.name == made.name && name_of(given) == name_of(made);
+  };
+  for (const Element& part : robot.children) {
+    if (is_it(part)) return &part;
+    if (part.name != "gazebo") continue;
+    for (const Element& child : part.children) {
+      if (is_it(child)) return &child;
     }
   }
-  for (Element& child : element.children) place(child, robot, element.source);
+  return nullptr;
+}
+
+// BASE_fixed_joint_lump__LINK_collision, in a link that others were made one with.
+const Element* lumped_part(const Element& robot, const Element& made) {
+  static const std::string kLump = "_fixed_joint_lump__";
+  const std::string name = name_of(made);
+  const std::size_t at = name.find(kLump);
+  if (at == std::string::npos) return nullptr;
+  const std::string part = name.substr(at + kLump.size());
+  for (const Element& link : robot.children) {
+    const std::string start = name_of(link) + "_" + made.name;
+    if (link.name == "link" && part.rfind(start, 0) == 0) return nth_child(link, made.name, 0);
+  }
+  return nullptr;
+}
+
+// Elements that libsdformat made keep the place of what they were made of.
+void place(Element& made, const Element* original, const Element& robot, const Source& around) {
+  made.source = original == nullptr ? around : original->source;
+  std::map<std::string, std::size_t> seen;
+  for (Element& child : made.children) {
+    const Element* from = name_of(child).empty() ? nullptr : named_part(robot, child);
+    if (from == nullptr) from = lumped_part(robot, child);
+    if (from == nullptr && original != nullptr) {
+      from = nth_child(*original, child.name, seen[child.name]++);
+    }
+    place(child, from, robot, made.source);
+  }
 }
 
 // libsdformat drops <safety_controller>: its attributes become children of the joint's <axis>.
@@ -215,6 +253,23 @@ void fix_plugins(const Element& robot, Element& root) {
         fix_offset(given, robot, made);
       }
     }
+  }
+}
+
+// Whether a <gazebo> element of that link, and not of one that was made one with it, turns it off.
+bool turns_gravity_off(const Element& robot, const std::string& link) {
+  return std::any_of(robot.children.begin(), robot.children.end(), [&](const Element& extension) {
+    const std::string* of = extension.attribute("reference");
+    return extension.name == "gazebo" && of != nullptr && *of == link &&
+           (extension.child("turnGravityOff") != nullptr || extension.child("gravity") != nullptr);
+  });
+}
+
+// libsdformat takes the gravity of a whole robot if a sensor that is fixed to it has none.
+void keep_gravity(const Element& robot, Element& model) {
+  for (Element& link : model.children) {
+    if (link.name != "link" || turns_gravity_off(robot, name_of(link))) continue;
+    remove_children(link, "gravity");
   }
 }
 
@@ -338,12 +393,13 @@ Element convert_urdf(const std::string& text, const Element& robot) {
     throw Error(robot.source, "this URDF cannot be converted to SDF: " + why.substr(0, 300));
   }
   Element root = parse_xml(document->Root()->ToString(""), robot.source.file);
-  place(root, robot, robot.source);
+  place(root, &robot, robot, robot.source);
   for (const Element& child : robot.children) {
     if (child.name == "joint") keep_safety(child, root);
   }
   fix_plugins(robot, root);
   if (Element* model = find_child(root, "model")) {
+    keep_gravity(robot, *model);
     keep_transmissions(robot, *model);
     keep_mimics(robot, *model);
   }

@@ -1,5 +1,6 @@
 #include "sdf/check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -24,6 +25,7 @@ namespace {
 
 const std::set<std::string> kJoints = {"fixed",     "revolute", "continuous",
                                        "prismatic", "ball",     "universal"};
+const std::set<std::string> kOthersJoints = {"gearbox", "screw"};  // of Gazebo, not of ours
 const std::set<std::string> kLights = {"point", "spot", "directional"};
 
 std::string listed(const std::set<std::string>& names) {
@@ -158,7 +160,23 @@ void check_joint(Element& joint, const std::set<std::string>& known, Session& se
   check_axes(joint, session);
 }
 
+// Where tolerant, a joint of a type that only Gazebo has is left out.
+void leave_out_joints(Element& model, Session& session) {
+  auto& all = model.children;
+  const auto is_left_out = [&](const Element& joint) {
+    const std::string* type = joint.name == "joint" ? joint.attribute("type") : nullptr;
+    if (type == nullptr || kOthersJoints.count(*type) == 0) return false;
+    session.warn_or_throw(Error(joint.source, "unknown joint type '" + *type + "'; known are " +
+                                                  listed(kJoints) + "; " + tag_of(joint) +
+                                                  " is left out"));
+    return true;
+  };
+  if (!session.tolerant) return;
+  all.erase(std::remove_if(all.begin(), all.end(), is_left_out), all.end());
+}
+
 void check_model_parts(Element& model, Session& session) {
+  leave_out_joints(model, session);
   if (!has_link(model)) throw Error(model.source, tag_of(model) + " has no <link>; give it one");
   check_children_names(model);
   std::set<std::string> known;

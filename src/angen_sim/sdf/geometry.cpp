@@ -15,7 +15,9 @@ namespace angen::load {
 
 namespace {
 
-constexpr char kShapes[] = "box, capsule, cylinder, empty, heightmap, image, mesh, plane, sphere";
+constexpr char kShapes[] =
+    "box, capsule, cylinder, empty, heightmap, image, mesh, plane, polyline, "
+    "sphere";
 
 Shape plane(const Reader& element, Pose& pose) {
   Shape shape;
@@ -143,7 +145,8 @@ const Element& shape_in(const Reader& part) {
   if (geometry == nullptr) {
     throw Error(element.source, tag_of(element) + " has no <geometry>; give it one, such as <box>");
   }
-  if (geometry->children.size() > 1) {
+  const bool single = geometry->children.empty() || geometry->children[0].name != "polyline";
+  if (single && geometry->children.size() > 1) {
     throw Error(geometry->children[1].source, "a second shape in one <geometry>; keep one");
   }
   if (geometry->children.empty()) {
@@ -161,6 +164,8 @@ std::vector<PlacedShape> shapes_of(const Reader& part, const Pose& pose, Session
   std::vector<PlacedShape> placed;
   if (element.name == "image") {
     placed = image_boxes(reader, pose, session);
+  } else if (element.name == "polyline") {
+    placed.push_back({polyline_prism(part.block("geometry"), session), pose});
   } else if (element.name == "mesh") {
     placed.push_back(mesh(reader, pose, session));
   } else {

@@ -22,4 +22,8 @@ std::vector<PlacedShape> shapes_of(const Reader& part, const Pose& pose, Session
 /// up. Few: neighbors are one box.
 std::vector<PlacedShape> image_boxes(const Reader& image, const Pose& pose, Session& session);
 
+/// The outlines of all <polyline>s of a <geometry>, extruded from z = 0 up; one in another is a
+/// hole.
+Shape polyline_prism(const Reader& geometry, Session& session);
+
 }  // namespace angen::load

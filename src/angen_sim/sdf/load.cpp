@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "core/alike.h"
 #include "core/limits.h"
 #include "core/names.h"
 #include "document/search.h"
@@ -130,7 +131,7 @@ desc::Model model(const std::string& what, const std::string& name, const Pose& 
   }
   desc::Model model = std::move(describe_entries(entries, session).front());
   if (entry.expanded.name == "model") model.pose = pose;
-  model.warnings = session.warnings;
+  model.warnings = merge_alike(session.warnings);
   model.ignored = session.ignored;
   return model;
 }

@@ -55,6 +55,8 @@ desc::Sensor sensor(const std::string& what, const std::string& name, const Pose
 
 /// True when `what` is a lone <light> element (or an <sdf> around one) for light().
 bool is_light(const std::string& what);
+/// The <light> of a text that only includes one, as one for `sun`; else "".
+std::string included_light(const std::string& what, const SearchPaths& paths);
 
 /// A <light> element as a light of the world's own, with `pose` before its own; `name` replaces its
 /// own unless empty. It is a lamp.

@@ -46,6 +46,24 @@ bool is_light(const std::string& what) {
   }
 }
 
+std::string included_light(const std::string& what, const SearchPaths& paths) {
+  if (what.find("<include") == std::string::npos) return "";
+  try {
+    const Element root = parse_xml(what, kLightText);
+    const Element* holder = &root;
+    if (root.name == "sdf" && root.children.size() == 1) {
+      holder = root.children[0].name == "world" ? &root.children[0] : &root;
+    }
+    if (holder->children.size() != 1 || holder->children[0].name != "include") return "";
+    Session session{paths};
+    session.tolerant = true;
+    const Element included = expand_include(holder->children[0], session);
+    return included.name == "light" ? print_xml(included) : "";
+  } catch (const Error&) {
+    return "";  // reading it as a model says what is wrong
+  }
+}
+
 desc::Light light(const std::string& what, const std::string& name, const Pose& pose) {
   if (!name.empty()) check_name(name, "the light", {});
   if (const std::string problem = pose_problem(pose); !problem.empty()) throw Error(problem);

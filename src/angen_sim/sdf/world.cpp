@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <map>
 
+#include "core/alike.h"
 #include "core/names.h"
 #include "document/search.h"
 #include "document/tolerance.h"
@@ -185,7 +186,7 @@ desc::World describe_world(const Element& sdf, Session& session) {
     apply_state(state, world, session);
     note_ignored(state, session);
   }
-  world.warnings = session.warnings;
+  world.warnings = merge_alike(session.warnings);
   world.ignored = session.ignored;
   return world;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/alike.h"
 #include "core/nearest.h"
 #include "core/text.h"
 #include "sim/home.h"
@@ -350,6 +351,8 @@ void Building::reset(Nanoseconds now) {
   warnings_.clear();
 }
 
-std::vector<std::string> Building::take_warnings() { return std::exchange(warnings_, {}); }
+std::vector<std::string> Building::take_warnings() {
+  return merge_alike(std::exchange(warnings_, {}));
+}
 
 }  // namespace angen::sim

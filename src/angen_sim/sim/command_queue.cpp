@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/alike.h"
 #include "core/nearest.h"
 #include "core/text.h"
 #include "sim/guard.h"
@@ -295,8 +296,10 @@ Outcome CommandQueue::execute(const Action& action, Building& building, Instance
       building.add(spawn->model, clock.time);
       events.push_back(world_event(clock.time, spawn->model.name, "spawned"));
       outcome.message = "spawned " + spawn->model.name;
-      for (std::size_t i = before; i < building.warnings().size(); ++i) {
-        outcome.message += "\nwarning: " + building.warnings()[i];
+      const std::vector<std::string> all = building.warnings();
+      const auto first = all.begin() + static_cast<std::ptrdiff_t>(before);
+      for (const std::string& warning : merge_alike(std::vector<std::string>(first, all.end()))) {
+        outcome.message += "\nwarning: " + warning;
       }
     } else if (const auto* attach = std::get_if<Attach>(&action)) {
       building.attach(attach->sensor, attach->link, clock.time);

@@ -68,5 +68,22 @@ TEST(Xml, CharactersThatXmlDoesNotAllowAreErrors) {
   read(in_world("<gui>&#9;&#xE9;\t&#x1F600;</gui>"));
 }
 
+TEST(Xml, PrintedInPlaceEachElementKeepsItsLine) {
+  const std::string text = "<a>\n<!-- two\nlines --><b c='1'\n d='&lt;'>\n\ntext</b>\n<e/></a>";
+  const Element first = parse_xml(text, "f");
+  const Element second = parse_xml(print_xml_in_place(first), "f");
+  ASSERT_EQ(second.children.size(), 2U);
+  EXPECT_EQ(second.children[0].source.line, first.children[0].source.line);
+  EXPECT_EQ(second.children[1].source.line, first.children[1].source.line);
+  EXPECT_EQ(second.children[0].text, "text");
+  EXPECT_EQ(*second.children[0].attribute("d"), "<");
+}
+
+TEST(Xml, ADeclarationAfterAComment) {
+  EXPECT_EQ(parse_xml("<!-- a\n b -->\n<?xml version=\"1.0\"?>\n<sdf/>", "f").source.line, 4);
+  const std::string usual = "<?xml version='1.0'?><!-- <?xml?> --><sdf/>";
+  EXPECT_EQ(without_late_declaration(usual), usual);
+}
+
 }  // namespace
 }  // namespace angen::load

@@ -17,8 +17,8 @@ const Broken kBroken[] = {
     {"empty", "", "w.world:1: ", "empty"},
     {"not_sdf", "<html>\n</html>", "w.world:1: ", "it must begin with <sdf>"},
     {"no_version", "<sdf>\n</sdf>", "w.world:1: ", "no version"},
-    {"old_version", "<sdf version='1.2'/>", "w.world:1: ", "versions 1.4 to 1.9"},
-    {"future_version", "<sdf version='1.99'/>", "w.world:1: ", "versions 1.4 to 1.9"},
+    {"old_version", "<sdf version='1.0'/>", "w.world:1: ", "versions 1.2 to 1.9"},
+    {"future_version", "<sdf version='1.99'/>", "w.world:1: ", "versions 1.2 to 1.9"},
     {"no_world", "<sdf version='1.6'>\n</sdf>", "w.world:1: ", "no <world>"},
     {"two_worlds", "<sdf version='1.6'>\n<world name='a'/>\n<world name='b'/></sdf>",
      "w.world:3: ", "second <world>"},
@@ -121,9 +121,9 @@ const Broken kBroken[] = {
      "w.world:3: ", "unknown link 'c'; known are a, b, j"},
     {"unknown_joint_type",
      "<sdf version='1.6'><world name='w'><model name='m'><link name='a'/><link name='b'/>\n"
-     "<joint name='j' type='gearbox'><parent>a</parent><child>b</child></joint></model></world>"
+     "<joint name='j' type='spiral'><parent>a</parent><child>b</child></joint></model></world>"
      "</sdf>",
-     "w.world:2: ", "unknown joint type 'gearbox'; known are ball, continuous, fixed"},
+     "w.world:2: ", "unknown joint type 'spiral'; known are ball, continuous, fixed"},
     {"joined_to_itself",
      "<sdf version='1.6'><world name='w'><model name='m'><link name='a'/><link name='b'/>\n"
      "<joint name='j' "
