@@ -305,8 +305,12 @@ def test_physics_is_answered_as_it_was_set(gazebo: Gazebo) -> None:
     fallen = gazebo.call("get_model_state", model_name="falls")
     assert fallen.twist.linear.z == pytest.approx(-1.62, rel=1e-6)
     gazebo.call("delete_model", model_name="falls")
-    rejected = gazebo.ask("set_physics_properties", ode_config=ode, **{**given, "time_step": 0.01})
-    assert not rejected.success and "<max_step_size>" in rejected.status_message
+    kept = gazebo.call("set_physics_properties", ode_config=ode, **{**given, "time_step": 0.01})
+    assert "time_step stays the 0.001 s" in kept.status_message
+    assert gazebo.call("get_physics_properties").time_step == 0.001
+    # A client that sets gravity alone leaves the rest at 0.
+    gazebo.call("set_physics_properties", gravity=Vector3(0, 0, -1.0))
+    assert gazebo.call("get_physics_properties").gravity.z == -1.0
     gazebo.call("set_physics_properties", time_step=0.001, max_update_rate=1000.0,
                 gravity=Vector3(0, 0, -9.8), ode_config=first.ode_config)
 
@@ -346,6 +350,8 @@ def test_lights_come_change_and_go(gazebo: Gazebo) -> None:
     gazebo.spawn("bulb", LAMP, at(1, 0, 0))
     light = gazebo.call("get_light_properties", light_name="bulb")
     assert (light.diffuse.r, light.diffuse.g) == (0.5, 0.25)
+    assert (light.attenuation_constant, light.attenuation_linear,
+            light.attenuation_quadratic) == (0.3, 0.2, 0.1)
     done = gazebo.call("set_light_properties", light_name="bulb",
                        diffuse=ColorRGBA(0.25, 0.5, 0.75, 0.5), attenuation_linear=0.7,
                        pose=at(0, 0, 3), direction=Vector3(0, 0, -1))
@@ -358,6 +364,35 @@ def test_lights_come_change_and_go(gazebo: Gazebo) -> None:
     assert deleted.status_message == "DeleteLight: bulb successfully deleted"
     kept = gazebo.ask("delete_light", light_name="kitchen_lamp0::bulb")
     assert not kept.success and "is a part of model" in kept.status_message
+
+
+def test_a_file_with_a_light_alone_is_spawned_as_one(gazebo: Gazebo) -> None:
+    gazebo.spawn("sun2", '<sdf version="1.6"><world name="default"><include><uri>model://sun</uri>'
+                         '</include></world></sdf>')
+    assert gazebo.call("get_light_properties", light_name="sun2").diffuse.r > 0
+    gazebo.call("delete_light", light_name="sun2")
+
+
+def test_a_urdf_of_an_unknown_package_is_not_spawned(gazebo: Gazebo) -> None:
+    xml = SLIDE.replace('<link name="car">', '<link name="car"><visual><geometry><mesh filename='
+                        '"package://no_such_package/a.dae"/></geometry></visual>')
+    answer = gazebo.ask("spawn_urdf_model", model_name="slide2", model_xml=xml)
+    assert (answer.success, answer.status_message) == (
+        False, "urdf reference package name does not exist: no_such_package")
+
+
+def test_unknown_joints_of_a_configuration_are_passed_over(gazebo: Gazebo) -> None:
+    done = gazebo.call("set_model_configuration", model_name="slide",
+                       joint_names=["none", "along"], joint_positions=[0.5, 0.25])
+    assert done.status_message == "SetModelConfiguration: success"
+    assert gazebo.call("get_joint_properties", joint_name="slide::along").position == near([0.25])
+
+
+def test_lines_of_a_namespaced_robot_are_those_of_its_text(gazebo: Gazebo) -> None:
+    xml = ('<sdf version="1.6">\n<model name="m">\n<plugin name="p" filename="libgazebo_ros_p3d.so"/>'
+           '\n\n<link name="l">\n<inertial>\n<mass>0</mass></inertial></link></model></sdf>')
+    answer = gazebo.ask("spawn_sdf_model", model_name="m", model_xml=xml, robot_namespace="/ns")
+    assert not answer.success and "(text):7: " in answer.status_message
 
 
 def test_a_spawned_light_is_a_lamp(gazebo: Gazebo, angen: Angen) -> None:

@@ -83,7 +83,8 @@ ROBOT = f"""<robot name="bot">{link('body', 0.3, 20.0)}{arm('left', 0.3)}
           '<topicName>sonar/front</topicName><frameId>sonar_link</frameId>')}
   {plugin('gps', 'hector_gazebo_ros_gps', '<bodyName>body</bodyName><frameId>gps_link</frameId>')}
   {plugin('imu', 'hector_gazebo_ros_imu', '<bodyName>body</bodyName><topicName>raw_imu</topicName>'
-          '<updateRate>100</updateRate>')}
+          '<updateRate>100</updateRate><rateGaussianNoise>0.1 0.2 0.3</rateGaussianNoise>'
+          '<accelGaussianNoise>0.5</accelGaussianNoise><yawGaussianNoise>0.02</yawGaussianNoise>')}
   {plugin('push', 'gazebo_ros_force', '<bodyName>third</bodyName><topicName>push</topicName>')}
   {plugin('ft', 'gazebo_ros_ft_sensor', '<jointName>third_joint</jointName>'
           '<topicName>ft</topicName><updateRate>50</updateRate>')}
@@ -194,6 +195,20 @@ def test_the_gps_stands_at_its_reference(bot: Angen) -> None:
     fix = bot.wait('/bot/fix', NavSatFix)
     assert fix.latitude == pytest.approx(49.9, abs=1e-5)
     assert fix.longitude == pytest.approx(8.9, abs=1e-5)
+
+
+def test_the_imu_says_how_large_its_errors_are(bot: Angen) -> None:
+    said = bot.wait('/bot/raw_imu', Imu)
+    assert said.angular_velocity_covariance == pytest.approx(
+        (0.01, 0, 0, 0, 0.04, 0, 0, 0, 0.09))
+    assert said.linear_acceleration_covariance == pytest.approx((0.25, 0, 0, 0, 0.25, 0, 0, 0, 0.25))
+    assert said.orientation_covariance == pytest.approx((0, 0, 0, 0, 0, 0, 0, 0, 4e-4))
+    with Inbox('/bot/raw_imu', Imu) as box:
+        until(lambda: len(box.messages) > 300, 'readings')
+        rates = [each.angular_velocity.z for each in box.messages]
+    mean = sum(rates) / len(rates)
+    variance = sum((rate - mean) ** 2 for rate in rates) / (len(rates) - 1)
+    assert variance == pytest.approx(said.angular_velocity_covariance[8], rel=0.3)
 
 
 def test_forces_are_felt(bot: Angen) -> None:

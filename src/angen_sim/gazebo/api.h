@@ -19,9 +19,9 @@ class Api {
 
  private:
   Server server_;
+  Lights lights_;
   Spawner spawner_;
   PhysicsProperties physics_;
-  Lights lights_;
   Reconfigure reconfigure_;
 };
 

@@ -127,7 +127,7 @@ bool has_joint_control(const std::string& library) { return maker_of(library) !=
 
 std::string control_space(const Element& plugin, const std::string& model) {
   const Element* space = plugin.child("robotNamespace");
-  return "/" + (space == nullptr || space->text.empty() ? model : space->text);
+  return "/" + (space == nullptr ? model : space->text);
 }
 
 std::vector<ControlledJoint> driven_joints(const Element& plugin) {

@@ -69,12 +69,24 @@ Lights::Unused Lights::unused_of(const sim::Structure& structure, const sim::Lig
   if (text.empty()) return unused;
   const Element root = load::parse_xml(text, light.name);
   const Element* element = find_light(root, light.light.name);
-  const Element* attenuation = element == nullptr ? nullptr : element->child("attenuation");
-  if (attenuation == nullptr) return unused;
-  unused.constant = number_in(*attenuation, "constant", unused.constant);
-  unused.linear = number_in(*attenuation, "linear", unused.linear);
-  unused.quadratic = number_in(*attenuation, "quadratic", unused.quadratic);
+  if (element != nullptr) read_attenuation(*element, unused);
   return unused;
+}
+
+void Lights::read_attenuation(const Element& light, Unused& to) {
+  const Element* attenuation = light.child("attenuation");
+  if (attenuation == nullptr) return;
+  to.constant = number_in(*attenuation, "constant", to.constant);
+  to.linear = number_in(*attenuation, "linear", to.linear);
+  to.quadratic = number_in(*attenuation, "quadratic", to.quadratic);
+}
+
+void Lights::note_spawned(const std::string& name, const std::string& sdf) {
+  Unused unused;
+  const Element root = load::parse_xml(sdf, name);
+  read_attenuation(root.name == "sdf" && !root.children.empty() ? root.children[0] : root, unused);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  unused_[name] = unused;
 }
 
 Lights::Lights(Server& server, Inbox& inbox) : inbox_(inbox) {

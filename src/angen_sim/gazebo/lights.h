@@ -14,6 +14,8 @@ namespace angen::node::gazebo {
 class Lights {
  public:
   Lights(Server& server, Inbox& inbox);
+  /// A light was spawned from this SDF.
+  void note_spawned(const std::string& name, const std::string& sdf);
 
  private:
   struct Unused {
@@ -22,7 +24,8 @@ class Lights {
     double linear = 1.0;
     double quadratic = 0.0;
   };
-  /// As it was set; else as the light's SDF says.
+  static void read_attenuation(const Element& light, Unused& to);
+  /// As it was set or spawned; else as the light's SDF says.
   Unused unused_of(const sim::Structure& structure, const sim::LightEntry& light);
 
   Inbox& inbox_;

@@ -72,7 +72,7 @@ ModelText model_text(const std::string& xml, const std::string& robot_namespace)
   const Element* entity = entity_in(root);
   // A light's own pose is read with it.
   if (entity != nullptr && entity->name != "light") text.own_pose = load::child_pose(*entity);
-  text.xml = changed ? load::print_xml(root) : xml;
+  text.xml = changed ? load::print_xml_in_place(root) : xml;
   return text;
 }
 

@@ -6,11 +6,13 @@
 #include <gazebo_msgs/GetWorldProperties.h>
 #include <gazebo_msgs/SetModelConfiguration.h>
 #include <gazebo_msgs/SetModelState.h>
+#include <ros/console.h>
 
 #include <algorithm>
 #include <map>
 #include <mutex>
 
+#include "core/text.h"
 #include "gazebo/names.h"
 #include "gazebo/states.h"
 #include "ros/convert.h"
@@ -77,11 +79,26 @@ std::string get_world(Inbox& inbox, gazebo_msgs::GetWorldProperties::Response& r
 }
 
 std::string configure(Inbox& inbox, const gazebo_msgs::SetModelConfiguration::Request& request) {
-  model_named(*structure_of(inbox), request.model_name);
   if (request.joint_names.size() != request.joint_positions.size()) {
     throw Error("joint name and position list have different lengths");
   }
-  edit(inbox, sim::SetJoints{request.model_name, request.joint_names, request.joint_positions});
+  // As in Gazebo, names that the model lacks are passed over.
+  const auto structure = structure_of(inbox);
+  const desc::Model& model = *structure->models[model_named(*structure, request.model_name)];
+  sim::SetJoints to{request.model_name, {}, {}};
+  for (std::size_t i = 0; i < request.joint_names.size(); ++i) {
+    const bool known =
+        std::any_of(model.joints.begin(), model.joints.end(),
+                    [&](const auto& joint) { return joint.name == request.joint_names[i]; });
+    if (!known) {
+      ROS_WARN("set_model_configuration: %s has no joint '%s'", request.model_name.c_str(),
+               printable(request.joint_names[i]).c_str());
+      continue;
+    }
+    to.joints.push_back(request.joint_names[i]);
+    to.positions.push_back(request.joint_positions[i]);
+  }
+  edit(inbox, to);
   return "SetModelConfiguration: success";
 }
 

@@ -27,10 +27,8 @@ double rate_of(double update_rate, double step) {
   return std::max(0.0, update_rate * step);
 }
 
-void check_step(double wanted, double step) {
-  if (std::abs(wanted - step) < 1e-9 * step) return;
-  throw Error("time_step is " + number_text(wanted) + " s, but the world's <max_step_size> of " +
-              number_text(step) + " s holds while it runs; give that");
+bool is_other_step(double wanted, double step) {
+  return wanted != 0.0 && std::abs(wanted - step) > 1e-9 * step;
 }
 
 }  // namespace
@@ -42,11 +40,9 @@ PhysicsProperties::PhysicsProperties(Server& server, Inbox& inbox, std::atomic<d
                                                     response = get();
                                                     return "GetPhysicsProperties: got properties";
                                                   });
-  server.serve<gazebo_msgs::SetPhysicsProperties>("set_physics_properties", "SetPhysicsProperties",
-                                                  [this](const auto& request, auto&) {
-                                                    set(request);
-                                                    return "physics engine updated";
-                                                  });
+  server.serve<gazebo_msgs::SetPhysicsProperties>(
+      "set_physics_properties", "SetPhysicsProperties",
+      [this](const auto& request, auto&) { return "physics engine updated" + set(request); });
 }
 
 gazebo_msgs::GetPhysicsProperties::Response PhysicsProperties::get() {
@@ -72,17 +68,19 @@ gazebo_msgs::GetPhysicsProperties::Response PhysicsProperties::get() {
   return response;
 }
 
-void PhysicsProperties::set(const gazebo_msgs::SetPhysicsProperties::Request& request) {
+std::string PhysicsProperties::set(const gazebo_msgs::SetPhysicsProperties::Request& request) {
   const auto snapshot = inbox_.simulation().snapshot();
   const gazebo_msgs::ODEPhysics& ode = request.ode_config;
   const double step = to_seconds(snapshot->step);
-  check_step(request.time_step, step);
+  if (!(request.time_step >= 0.0 && request.time_step <= 1.0)) {
+    throw Error("time_step is " + number_text(request.time_step) + " s; it must be 0 to 1");
+  }
   const double rate = rate_of(request.max_update_rate, step);
   if (!std::isfinite(ode.sor_pgs_w) || !std::isfinite(ode.sor_pgs_rms_error_tol)) {
     throw Error("sor_pgs_w and sor_pgs_rms_error_tol must be finite");
   }
   sim::SetPhysics to{snapshot->structure->physics, vector_of(request.gravity)};
-  to.physics.iterations = static_cast<int>(std::min(ode.sor_pgs_iters, kMaxIterations));
+  to.physics.iterations = static_cast<int>(std::clamp(ode.sor_pgs_iters, 1U, kMaxIterations));
   to.physics.contact_surface_layer = ode.contact_surface_layer;
   to.physics.contact_max_correcting_vel = ode.contact_max_correcting_vel;
   to.physics.cfm = ode.cfm;
@@ -95,6 +93,9 @@ void PhysicsProperties::set(const gazebo_msgs::SetPhysicsProperties::Request& re
                ode.sor_pgs_rms_error_tol, ode.max_contacts};
   }
   if (changed_) changed_();
+  // Clients that set gravity alone leave it at 0.
+  if (!is_other_step(request.time_step, step)) return "";
+  return "; time_step stays the " + number_text(step) + " s of the world's <max_step_size>";
 }
 
 }  // namespace angen::node::gazebo

@@ -3,9 +3,11 @@
 #include <gazebo_msgs/SpawnModel.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "core/names.h"
 #include "core/text.h"
+#include "document/packages.h"
 #include "document/xml.h"
 #include "gazebo/model_text.h"
 #include "gazebo/names.h"
@@ -32,10 +34,26 @@ void check_format(const std::string& xml, bool urdf_only) {
   }
 }
 
+// As gazebo_ros does: a robot without its meshes is none.
+void check_packages(const std::string& urdf, const load::SearchPaths& paths) {
+  static const std::string kScheme = "package://";
+  std::optional<load::Packages> known;
+  for (std::size_t at = urdf.find(kScheme); at != std::string::npos;
+       at = urdf.find(kScheme, at + 1)) {
+    const std::size_t begin = at + kScheme.size();
+    const std::size_t end = std::min(urdf.find_first_of("/\"'<> \t\r\n", begin), urdf.size());
+    const std::string name = urdf.substr(begin, end - begin);
+    if (!known) known.emplace(paths.packages);
+    if (known->folder(name)) continue;
+    throw Failed("urdf reference package name does not exist: " + printable(name));
+  }
+}
+
 }  // namespace
 
-Spawner::Spawner(Server& server, Inbox& inbox, const load::SearchPaths& paths, Topics topics)
-    : inbox_(inbox), paths_(paths), topics_(topics) {
+Spawner::Spawner(Server& server, Inbox& inbox, const load::SearchPaths& paths, Topics topics,
+                 Lights& lights)
+    : inbox_(inbox), paths_(paths), topics_(topics), lights_(lights) {
   for (const bool urdf_only : {true, false}) {
     const char* name = urdf_only ? "spawn_urdf_model" : "spawn_sdf_model";
     server.serve<gazebo_msgs::SpawnModel>(
@@ -43,22 +61,26 @@ Spawner::Spawner(Server& server, Inbox& inbox, const load::SearchPaths& paths, T
           const auto structure = structure_of(inbox_);
           check_name(request.model_name);
           check_format(request.model_xml, urdf_only);
+          if (urdf_only) check_packages(request.model_xml, paths_);
           const std::string frame =
               frame_named(*structure, request.reference_frame,
                           "reference reference_frame not found, did you forget to scope the link "
                           "by model name?");
           const auto taken = [&](const auto& model) { return model->name == request.model_name; };
-          const bool light = load::is_light(request.model_xml);
+          const std::string included = load::included_light(request.model_xml, paths_);
+          const std::string& xml = included.empty() ? request.model_xml : included;
+          const bool light = load::is_light(xml);
           if (light ? has_light(*structure, request.model_name)
                     : std::any_of(structure->models.begin(), structure->models.end(), taken)) {
             throw Failed(kExists);
           }
-          const ModelText text = model_text(request.model_xml, request.robot_namespace);
+          const ModelText text = model_text(xml, request.robot_namespace);
           const Pose given = pose_of(request.initial_pose);
           const Pose at = frame.empty() ? Pose() : observe(inbox_, {{frame}, {}}).entities[0].pose;
           const sim::Outcome outcome =
               inbox_.call(action_of(text.xml, request.model_name, at * given * text.own_pose));
           if (!outcome.ok) throw Error(outcome.message);
+          if (light) lights_.note_spawned(request.model_name, text.xml);
           return "SpawnModel: Successfully spawned entity";
         });
   }

@@ -2,6 +2,7 @@
 
 #include <mutex>
 
+#include "gazebo/lights.h"
 #include "gazebo/server.h"
 #include "plugin/library.h"
 #include "ros/inbox.h"
@@ -13,7 +14,8 @@ namespace angen::node::gazebo {
 /// spawn_urdf_model, spawn_sdf_model.
 class Spawner {
  public:
-  Spawner(Server& server, Inbox& inbox, const load::SearchPaths& paths, Topics topics);
+  Spawner(Server& server, Inbox& inbox, const load::SearchPaths& paths, Topics topics,
+          Lights& lights);
 
  private:
   sim::Action action_of(const std::string& xml, const std::string& name, const Pose& pose);
@@ -21,6 +23,7 @@ class Spawner {
   Inbox& inbox_;
   const load::SearchPaths& paths_;
   Topics topics_;
+  Lights& lights_;
   std::mutex mutex_;  // of the next
   Catalog catalog_;   // to know the kinds of new sensors by
 };

@@ -87,14 +87,26 @@ Kind inertia_kind(std::string name, std::string doc, double rate) {
       .numbers("angular_velocity", "rad/s", "about its x, y, z")
       .shown(2)
       .numbers("acceleration", "m/s^2", "along its x, y, z; at rest g upwards")
-      .shown(2);
+      .shown(2)
+      .numbers("variances", "", "of orientation (rad^2), turning and acceleration, about x, y, z");
 }
 
 void InertialUnit::configure(Params& params, Wiring& wiring) {
   const double stddev =
       params.number("gaussianNoise", 0.0, "", "standard deviation of each number", kNotNegative);
   add_noise(params, {"angular_velocity", "acceleration"}, stddev);
+  // As Gazebo's plug-in publishes it, though it adds no noise to the orientation.
+  const Vec3 all = Vec3::Constant(stddev);
+  set_deviations(all, all, all);
   inertia_.configure(wiring.link(""));
+}
+
+void InertialUnit::set_deviations(const Vec3& orientation, const Vec3& turning,
+                                  const Vec3& acceleration) {
+  variances_.clear();
+  for (const Vec3& each : {orientation, turning, acceleration}) {
+    for (int axis = 0; axis < 3; ++axis) variances_.push_back(each[axis] * each[axis]);
+  }
 }
 
 void InertialUnit::add_noise(Params& params, std::initializer_list<const char*> fields,

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "plugin/plugin.h"
 
@@ -84,15 +85,20 @@ class InertialUnit : public Sensor {
   void configure(Params& params, Wiring& wiring) override;
   void read(const View& view, Hits, Rng&, Reading& reading) override {
     inertia_.read(view, reading);
+    reading.set("variances", variances_);
   }
   bool steady() const override { return inertia_.rests(); }
 
  protected:
+  /// Of the orientation (rad), the turning (rad/s) and the acceleration (m/s^2), about or along x,
+  /// y, z.
+  void set_deviations(const Vec3& orientation, const Vec3& turning, const Vec3& acceleration);
   /// Noise of that standard deviation in those fields.
   static void add_noise(Params& params, std::initializer_list<const char*> fields, double stddev);
 
  private:
   Inertia inertia_;
+  std::vector<double> variances_ = std::vector<double>(9, 0.0);
 };
 
 /// The plug-in of a sensor class with a static function describe(): its kind. It is in a model,

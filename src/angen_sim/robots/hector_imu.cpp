@@ -19,6 +19,7 @@ class HectorImu : public InertialUnit {
         three_numbers(params, "rateGaussianNoise", "rad/s", "standard deviation of the turning");
     heading_error_ = params.number("yawGaussianNoise", 0.0, "rad",
                                    "standard deviation of the heading", kNotNegative);
+    set_deviations(heading_error_ * Vec3::UnitZ(), turn_error_, acceleration_error_);
     params.text("frameId", "", "frame_id of its messages; none: bodyName");
     for (const char* path :
          {"accelDrift", "accelDriftFrequency", "accelOffset", "accelScaleError", "rateDrift",

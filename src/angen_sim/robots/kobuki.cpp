@@ -1,4 +1,6 @@
 // libgazebo_ros_kobuki.so
+#include <cmath>
+
 #include "plugin/register.h"
 #include "robots/joint_states.h"
 #include "robots/wheels.h"
@@ -77,6 +79,9 @@ class KobukiImu : public InertialUnit {
   void configure(Params& params, Wiring& wiring) override {
     read_kobuki(params);
     InertialUnit::configure(params, wiring);
+    // Its gyro measures the heading alone: of the rest nothing is known.
+    const Vec3 deviation(1e3, 1e3, std::sqrt(0.05));
+    set_deviations(deviation, deviation, Vec3::Zero());
   }
 };
 

@@ -19,6 +19,13 @@ void fill(const Reading& reading, const Label&, sensor_msgs::Imu& message) {
   };
   set("angular_velocity", message.angular_velocity);
   set("acceleration", message.linear_acceleration);
+  auto variances = reading.get<std::vector<double>>("variances");
+  variances.resize(9, 0.0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    message.orientation_covariance[4 * i] = variances[i];
+    message.angular_velocity_covariance[4 * i] = variances[3 + i];
+    message.linear_acceleration_covariance[4 * i] = variances[6 + i];
+  }
 }
 
 std::string frame_of_body(const sim::SensorEntry& sensor) {

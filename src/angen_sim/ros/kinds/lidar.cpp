@@ -17,6 +17,7 @@ void fill(const Reading& reading, const Label&, sensor_msgs::LaserScan& message)
   message.range_max = number("range_max");
   const auto ranges = reading.get<std::vector<double>>("ranges");
   message.ranges.assign(ranges.begin(), ranges.end());
+  message.intensities.assign(ranges.size(), 0.0F);  // no surface has a <laser_retro> here
 }
 
 ANGEN_REGISTER_ROS_KIND({"lidar"}, RosKindBuilder().message<sensor_msgs::LaserScan>(&fill));

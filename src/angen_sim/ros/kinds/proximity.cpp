@@ -1,12 +1,15 @@
 #include <sensor_msgs/Range.h>
 
+#include <algorithm>
+
 #include "ros/convert.h"
 #include "ros/kinds/frames.h"
 
 namespace angen::node {
 namespace {
 
-/// Infinite where nothing is in reach (REP 117).
+/// As gazebo_ros_range has it: max_range where nothing is in reach, as range_sensor_layer drops
+/// what is infinite.
 void fill(const Reading& reading, const Label&, sensor_msgs::Range& message) {
   const auto number = [&](const char* name) {
     return static_cast<float>(reading.get<double>(name));
@@ -16,7 +19,7 @@ void fill(const Reading& reading, const Label&, sensor_msgs::Range& message) {
   message.field_of_view = number("field_of_view");
   message.min_range = number("min_range");
   message.max_range = number("max_range");
-  message.range = number("range");
+  message.range = std::min(number("range"), message.max_range);
 }
 
 ANGEN_REGISTER_ROS_KIND({"proximity"}, RosKindBuilder().message<sensor_msgs::Range>(&fill).rays(
