@@ -5,6 +5,7 @@ import io
 import math
 from pathlib import Path
 
+import angen
 import pytest
 from gazebo_ros import server, spawn
 
@@ -23,13 +24,19 @@ def test_gzserver_starts_the_node_with_the_world_below_the_resource_path(
                  'worlds/hall.world', '__name:=gazebo')
     assert made[0].endswith('angen_node')
     assert made[1:] == [str(world), '_odom_parent:=none', '_strict:=false', '_paused:=true',
-                        '_seed:=7', '__name:=gazebo']
+                        '_seed:=7', '_record:=', '__name:=gazebo']
 
 
-def test_gzserver_has_a_world_of_its_own_and_names_one_that_is_missing() -> None:
-    assert Path(words()[1]).name == 'empty.world'
-    with pytest.raises(server.Failure, match='no world worlds/missing.world; searched'):
-        words('worlds/missing.world')
+def test_gzserver_overrides_what_one_before_left_on_the_master() -> None:
+    assert words()[4:] == ['_paused:=false', '_seed:=1', '_record:=']
+
+
+def test_gzserver_has_an_empty_world_also_in_place_of_one_that_is_missing(
+        capsys: pytest.CaptureFixture[str]) -> None:
+    own = words()[1]
+    assert Path(own).name == 'empty.world' and Path(own).is_file()
+    assert words('worlds/missing.world')[1] == own
+    assert 'no world worlds/missing.world; searched' in capsys.readouterr().err
 
 
 def test_an_unknown_option_and_engine_are_left_out(capsys: pytest.CaptureFixture[str]) -> None:
@@ -78,3 +85,18 @@ def test_spawn_model_says_what_is_wrong_with_a_file(tmp_path: Path, text: str, s
         spawn.read_xml(options('-sdf', '-file', str(file)))
     with pytest.raises(spawn.Failure, match='No such file'):
         spawn.read_xml(options('-sdf', '-file', str(tmp_path / 'missing')))
+
+
+@pytest.mark.parametrize('name', ['shapes', 'willowgarage', 'rubble', 'mud', 'range', 'elevator'])
+def test_gazebos_worlds_exist_by_their_names(name: str) -> None:
+    world = angen.World(words(f'worlds/{name}.world')[1])
+    world.run(1.0)
+    assert world.warnings == [] and len(world.models) > 1
+    launch = server.own_folder() / 'launch' / f'{name}_world.launch'
+    assert f'worlds/{name}.world' in launch.read_text()
+
+
+def test_a_declaration_after_a_comment_is_taken_out(tmp_path: Path) -> None:
+    file = tmp_path / 'a.sdf'
+    file.write_text('<!-- by\nhand -->\n<?xml version="1.0"?>\n<sdf version="1.6"/>')
+    assert spawn.read_xml(options('-sdf', '-file', str(file))).count('\n') == 3

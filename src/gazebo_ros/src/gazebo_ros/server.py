@@ -11,6 +11,9 @@ from roslib.packages import find_node
 from rospkg import RosPack
 
 
+EMPTY_WORLD = 'worlds/empty.world'
+
+
 class Failure(Exception):
     """What the user is told in one line."""
 
@@ -22,7 +25,7 @@ def parser() -> argparse.ArgumentParser:
     made.add_argument('-u', '--pause', action='store_true', help='start paused')
     made.add_argument('-r', '--record', action='store_true', help='record the run')
     made.add_argument('--record_path', metavar='FOLDER', help='where to record it')
-    made.add_argument('--seed', type=int, help='of all noise')
+    made.add_argument('--seed', type=int, default=1, help='of all noise')
     made.add_argument('-e', '--physics', default='ode', help='ode')
     made.add_argument('--verbose', action='store_true', help='not used')
     for option in ('-s', '--server-plugin', '-g', '--gui-plugin', '--gui-client-plugin', '-o',
@@ -31,25 +34,32 @@ def parser() -> argparse.ArgumentParser:
         made.add_argument(option, action='append', help='not used')
     for option in ('-q', '--quiet', '--lockstep', '--minimal_comms', '--record_resources'):
         made.add_argument(option, action='store_true', help='not used')
-    made.add_argument('world', nargs='?', default='worlds/empty.world',
+    made.add_argument('world', nargs='?', default=EMPTY_WORLD,
                       help='SDF file, also below GAZEBO_RESOURCE_PATH')
     return made
+
+
+def own_folder() -> Path:
+    """That of the package gazebo_ros."""
+    return Path(RosPack().get_path('gazebo_ros'))
 
 
 def resource_folders() -> list[Path]:
     """Where a world that is not a path is searched: the last is our own."""
     given = os.environ.get('GAZEBO_RESOURCE_PATH', '').split(':')
-    return [Path(folder) for folder in given if folder] + [Path(RosPack().get_path('gazebo_ros'))]
+    return [Path(folder) for folder in given if folder] + [own_folder()]
 
 
 def find_world(name: str) -> str:
-    """The file that a world's name stands for."""
+    """The file that a world's name stands for; the empty world if there is none, as in Gazebo."""
     tried = [Path(name)] + [folder / name for folder in resource_folders()]
     for path in tried:
         if path.is_file():
             return str(path.resolve())
     places = ', '.join(str(path.parent) for path in tried[1:])
-    raise Failure(f'no world {name}; searched the current folder, {places}')
+    print(f'gzserver: no world {name}; searched the current folder, {places}: '
+          f'starts {EMPTY_WORLD} in its place', file=sys.stderr)
+    return str((own_folder() / EMPTY_WORLD).resolve())
 
 
 def node_words(words: list[str]) -> list[str]:
@@ -66,12 +76,10 @@ def node_words(words: list[str]) -> list[str]:
     made = [found[0], find_world(options.world), '_odom_parent:=none']
     if not any(word.startswith('_strict:=') for word in remappings):
         made.append('_strict:=false')
-    if options.pause:
-        made.append('_paused:=true')
-    if options.seed is not None:
-        made.append(f'_seed:={options.seed}')
-    if options.record:
-        made.append(f'_record:={record_file(options.record_path)}')
+    # Each always, because a master that lives on keeps the parameters of the node before.
+    record = record_file(options.record_path) if options.record else ''
+    made += [f'_paused:={str(options.pause).lower()}', f'_seed:={options.seed}',
+             f'_record:={record}']
     return made + remappings
 
 

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import re
 import sys
 from pathlib import Path
 from xml.etree import ElementTree
@@ -77,6 +78,12 @@ def pose_of(options: argparse.Namespace) -> Pose:
     return pose
 
 
+def without_late_declaration(text: str) -> str:
+    """The text without an XML declaration after a comment, which Gazebo takes."""
+    comments = re.match(r'(\s*<!--.*?-->)+\s*(<\?xml.*?\?>)', text, re.DOTALL)
+    return text if comments is None else text[:comments.start(2)] + text[comments.end(2):]
+
+
 def read_xml(options: argparse.Namespace) -> str:
     """The model's text, from where the options say."""
     if options.file:
@@ -94,6 +101,7 @@ def read_xml(options: argparse.Namespace) -> str:
         text = sys.stdin.read()
     if not text.strip():
         raise Failure('the XML is empty')
+    text = without_late_declaration(text)
     try:
         root = ElementTree.fromstring(text)
     except ElementTree.ParseError as problem:
