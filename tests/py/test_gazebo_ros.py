@@ -32,7 +32,9 @@ def test_gzserver_overrides_what_one_before_left_on_the_master() -> None:
 
 
 def test_gzserver_has_an_empty_world_also_in_place_of_one_that_is_missing(
+        tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
         capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.chdir(tmp_path)
     own = words()[1]
     assert Path(own).name == 'empty.world' and Path(own).is_file()
     assert words('worlds/missing.world')[1] == own

@@ -389,10 +389,12 @@ def test_unknown_joints_of_a_configuration_are_passed_over(gazebo: Gazebo) -> No
 
 
 def test_lines_of_a_namespaced_robot_are_those_of_its_text(gazebo: Gazebo) -> None:
-    xml = ('<sdf version="1.6">\n<model name="m">\n<plugin name="p" filename="libgazebo_ros_p3d.so"/>'
-           '\n\n<link name="l">\n<inertial>\n<mass>0</mass></inertial></link></model></sdf>')
+    xml = ('<sdf version="1.6">\n<model name="m">\n'
+           '<plugin name="p" filename="libgazebo_ros_p3d.so"/>\n\n'
+           '<link name="l"/>\n<joint name="j" type="fixed">\n<parent>l</parent>\n'
+           '<child>none</child></joint></model></sdf>')
     answer = gazebo.ask("spawn_sdf_model", model_name="m", model_xml=xml, robot_namespace="/ns")
-    assert not answer.success and "(text):7: " in answer.status_message
+    assert not answer.success and "(text):8: " in answer.status_message
 
 
 def test_a_spawned_light_is_a_lamp(gazebo: Gazebo, angen: Angen) -> None:

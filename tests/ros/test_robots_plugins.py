@@ -201,7 +201,8 @@ def test_the_imu_says_how_large_its_errors_are(bot: Angen) -> None:
     said = bot.wait('/bot/raw_imu', Imu)
     assert said.angular_velocity_covariance == pytest.approx(
         (0.01, 0, 0, 0, 0.04, 0, 0, 0, 0.09))
-    assert said.linear_acceleration_covariance == pytest.approx((0.25, 0, 0, 0, 0.25, 0, 0, 0, 0.25))
+    assert said.linear_acceleration_covariance == pytest.approx(
+        (0.25, 0, 0, 0, 0.25, 0, 0, 0, 0.25))
     assert said.orientation_covariance == pytest.approx((0, 0, 0, 0, 0, 0, 0, 0, 4e-4))
     with Inbox('/bot/raw_imu', Imu) as box:
         until(lambda: len(box.messages) > 300, 'readings')
