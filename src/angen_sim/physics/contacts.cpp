@@ -248,7 +248,7 @@ void Contacts::make_joint(const Pair& pair, std::size_t index, bool pushes) {
   s.mode = dContactSoftERP | dContactSoftCFM;
   s.soft_erp = erp_;
   const PointShare& share = shares_[index];
-  s.soft_cfm = cfm_ / share.stiffness;
+  s.soft_cfm = std::max(cfm_ / share.stiffness, share.least_cfm);
   set_friction(contact, pair, share);
   double fastest = fastest_;
   const double parts_at = std::min(a.fastest, b.fastest);

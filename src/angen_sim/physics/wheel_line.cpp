@@ -16,7 +16,9 @@ constexpr double kConcentric = 0.1;        // of the radius, from the joint's ax
 constexpr double kOnMantle = 0.2;          // most cosine between the axis and a point's normal
 constexpr double kOneNormal = 1.0 - 1e-6;  // least cosine between normals of one line
 constexpr double kShortest = 1e-6;         // m, of a line
-constexpr double kEndStiffness = 0.01;     // of a point
+constexpr double kEndStiffness = 1e-3;     // of a point
+// An axis that is corrected by some 1e-6 rad in a step must not press an end.
+constexpr double kEndCfm = 1e-4;
 
 bool turns_about_itself(const Geom& geom) {
   const Body& body = *geom.body;
@@ -71,10 +73,9 @@ std::size_t add_middles(const Geom& first, const Geom& second, dContactGeom* poi
         line.begin(), line.end(), [&](auto a, auto b) { return along(a) < along(b); });
     if (along(*high) - along(*low) < kShortest) continue;
     const auto ends = static_cast<double>(line.size());
-    for (const std::size_t k : line) shares[k] = {kEndStiffness, 0.0};
+    for (const std::size_t k : line) shares[k] = {kEndStiffness, kEndCfm, 0.0};
     points[count] = middle_of(points[*low], points[*high]);
-    // The ends carry a hundredth of the load, the friction is that of all of it.
-    shares[count++] = {ends, 1.0 + kEndStiffness};
+    shares[count++] = {ends, 0.0, 1.0};
   }
   return count;
 }

@@ -9,6 +9,7 @@ namespace angen::physics {
 /// What one contact point does.
 struct PointShare {
   double stiffness = 1.0;  // of a point's
+  double least_cfm = 0.0;  // m/s per N
   double friction = 1.0;   // of a point's
 };
 
