@@ -163,6 +163,17 @@ void upgrade_physics(Element& physics) {
   }
 }
 
+// SDF 1.3 named the file of a mesh otherwise, and the collision of a contact sensor by an
+// attribute.
+void name_old_parts(Element& element) {
+  for (Element& child : element.children) {
+    if (element.name == "mesh" && child.name == "filename") child.name = "uri";
+    if (element.name != "contact" || child.name != "collision" || !child.text.empty()) continue;
+    child.text = name_of(child);
+    child.attributes.clear();
+  }
+}
+
 void upgrade_element(Element& element, int version, Session& session) {
   if (element.name == "plugin") return;
   if (element.name == "pose") fill_pose(element, session);
@@ -170,6 +181,7 @@ void upgrade_element(Element& element, int version, Session& session) {
   if (element.name == "joint") read_joint_type(element);
   if (element.name == "geometry") keep_one_shape(element, session);
   if (element.name == "physics" && version < 104) upgrade_physics(element);
+  if (version < 104) name_old_parts(element);
   if (element.name == "joint" && version < 107) {
     for (Element& child : element.children) {
       if (child.name == "axis" || child.name == "axis2") upgrade_axis(child, version);

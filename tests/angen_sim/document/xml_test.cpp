@@ -1,3 +1,5 @@
+#include "document/xml.h"
+
 #include "angen_sim/sdf/texts.h"
 
 namespace angen::load {
