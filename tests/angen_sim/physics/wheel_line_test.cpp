@@ -86,8 +86,8 @@ desc::Model plane_floor(double mu) {
 TEST(WheelLine, ARobotOfTwoWheelsTurnsAsDiscsDoAtAnyWidth) {
   constexpr double kApart = 0.4;  // m
   const std::vector<WheelAt> wheels = {{0.0, kApart / 2}, {0.0, -kApart / 2}};
-  for (const double mu : {0.5, 1.0, 10.0, 1e14}) {
-    for (const double width : {0.001, 0.02, 0.05, 0.1, 0.2}) {
+  for (const double mu : {0.5, 1.0, 1e14}) {
+    for (const double width : {0.001, 0.05, 0.2}) {
       for (const desc::Model& floor : {plane_floor(mu), floor_model(mu)}) {
         const Turn turn = turn_on_the_spot(wheels, width, mu, floor);
         const double exact = (turn.right - turn.left) * kRadius / kApart;
@@ -130,8 +130,8 @@ TEST(WheelLine, AWideWheelSlipsAsANarrowOneDoes) {
     turned.push_back(yaw_of(world.link(world.links(id)[0]).pose.rotation));
   }
   EXPECT_LT(turned[0], -0.003);
-  EXPECT_NEAR(turned[1], turned[0], 0.03 * std::abs(turned[0]));
-  EXPECT_NEAR(turned[2], turned[0], 0.03 * std::abs(turned[0]));
+  EXPECT_NEAR(turned[1], turned[0], 0.002);  // 2 mm a meter
+  EXPECT_NEAR(turned[2], turned[0], 0.002);
 }
 
 // A roller with its load beside its middle stands on all of its width, though it is a wheel.
