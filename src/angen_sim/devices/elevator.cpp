@@ -23,7 +23,8 @@ constexpr double kWeighShare = 0.2;        // of each new weighing, at the rate 
 constexpr double kUnlimited = 1e9;         // m, of a joint's travel
 constexpr double kStandardGravity = 9.81;  // m/s^2
 constexpr double kGreatestLoad = 2000.0;   // kg
-constexpr Nanoseconds kDwell = kSecond;    // between the doors' opening and their shutting
+constexpr int kMostFloors = 1000;
+constexpr Nanoseconds kDwell = kSecond;  // between the doors' opening and their shutting
 
 // An overload is more than the rated load by 10 %, and by 75 kg at least (EN 81-20, 5.12.1.2).
 constexpr double kRatedLoad = 630.0;  // kg, eight persons
@@ -68,9 +69,7 @@ void Elevator::configure(Params& params, Wiring& wiring) {
   servo.near_error = kNearError;
   servo.stall_speed = kStallSpeed;
   servo_ = Servo(servo);
-  floor_height_ =
-      params.number("floor_height", kStoreyHeight, "m", "from one floor to the next", kPositive);
-  floors_ = params.integer("floors", 2, "", "number of floors", {1, 1000});
+  read_floors(params);
   brake_force_ =
       params.number("brake_force", 30000.0, "N", "brake of the standing cabin", kPositive);
   rated_load_ = params.number("rated_load", kRatedLoad, "kg",
@@ -92,9 +91,9 @@ void Elevator::configure(Params& params, Wiring& wiring) {
   for (const std::vector<double>& call :
        params.rows("call", 1, "", "floor that it is called to at the start")) {
     const double floor = call.front();
-    if (!(floor >= 0.0 && floor < floors_) || floor != std::floor(floor)) {
+    if (!(floor >= 0.0 && floor < floors()) || floor != std::floor(floor)) {
       throw params.error("call", "a <call> is not the number of a floor; give 0 to " +
-                                     std::to_string(floors_ - 1));
+                                     std::to_string(floors() - 1));
     }
     stops_.push_back(static_cast<int>(floor));
   }
@@ -110,10 +109,31 @@ void Elevator::warn_of_effort(Params& params) const {
                                 number_text(limits_.effort) + " N, which is all that lifts them");
 }
 
+void Elevator::read_floors(Params& params) {
+  const double height =
+      params.number("floor_height", kStoreyHeight, "m", "from one floor to the next", kPositive);
+  const int count = params.integer("floors", 2, "", "number of floors", {1, kMostFloors});
+  for (const std::vector<double>& stop :
+       params.rows("stop", 1, "m",
+                   "height of a floor over floor 0, one for each floor from below; "
+                   "instead of floor_height and floors")) {
+    const bool fits = heights_.empty() ? stop.front() == 0.0 : stop.front() > heights_.back();
+    if (!fits || floors() >= kMostFloors) {
+      throw params.error("stop", "the <stop> of floor " + std::to_string(heights_.size()) +
+                                     (heights_.empty() ? " must be 0"
+                                                       : " must be above the one before it; at "
+                                                         "most 1000 are served"));
+    }
+    heights_.push_back(stop.front());
+  }
+  if (!heights_.empty()) return;
+  for (int floor = 0; floor < count; ++floor) heights_.push_back(floor * height);
+}
+
 void Elevator::wire(Params& params, Wiring& wiring) {
   lift_ = wiring.joint(lift_name_);
   limits_ = wiring.limits(lift_);
-  const double highest = (floors_ - 1) * floor_height_;
+  const double highest = heights_.back();
   if (limits_.lower < limits_.upper && highest > limits_.upper + kLevelWithin) {
     throw params.error("floors", "the highest floor is at " + number_text(highest) +
                                      " m, the joint " + lift_name_ + " ends at " +
@@ -140,8 +160,8 @@ void Elevator::wire(Params& params, Wiring& wiring) {
     if (!add(std::string("cabin_door_") + side, 0, cabin_leaves_)) continue;
     own_mass_ += wiring.mass(cabin_leaves_.back().link);
   }
-  landing_leaves_.resize(static_cast<std::size_t>(floors_));
-  for (int floor = 0; floor < floors_; ++floor) {
+  landing_leaves_.resize(heights_.size());
+  for (int floor = 0; floor < floors(); ++floor) {
     for (const char* side : {"left", "right"}) {
       add("landing_door_" + std::to_string(floor) + "_" + side, 1,
           landing_leaves_[static_cast<std::size_t>(floor)]);
@@ -152,9 +172,9 @@ void Elevator::wire(Params& params, Wiring& wiring) {
 
 Verdict Elevator::command(const Command& command, const View&) {
   const int floor = static_cast<int>(command.number);
-  if (floor >= floors_) {
+  if (floor >= floors()) {
     return Verdict::reject("there is no floor " + std::to_string(floor) +
-                           ", it serves Floor0 to Floor" + std::to_string(floors_ - 1));
+                           ", it serves Floor0 to Floor" + std::to_string(floors() - 1));
   }
   return Verdict::accept([this, floor] { call(floor); });
 }
@@ -175,9 +195,7 @@ void Elevator::start(const View& view, Outputs& outputs) {
   }
   const double position = view.joint(lift_).position;
   const int floor = floor_at(position);
-  target_ = floor >= 0 ? floor
-                       : std::clamp(static_cast<int>(std::lround(position / floor_height_)), 0,
-                                    floors_ - 1);
+  target_ = nearest(position);
   stay_at(floor, view);
   shown_ = {view.joint(lift_), doorway_.position(view)};
   shown_mode_ = mode();
@@ -210,7 +228,7 @@ void Elevator::update(const View& view, Outputs& outputs) {
       outputs.motor(lift_, 0.0, 0.0);
       const JointView lift = view.joint(lift_);
       servo_.start(lift.position, lift.velocity);
-      rises_ = target_ * floor_height_ > lift.position;
+      rises_ = height_of(target_) > lift.position;
       phase_ = Phase::kMoving;
     }
   }
@@ -241,7 +259,7 @@ void Elevator::serve_next_stop(const View& view, Outputs& outputs) {
 void Elevator::move(const View& view, Outputs& outputs) {
   const JointView lift = view.joint(lift_);
   const double command =
-      servo_.update(target_ * floor_height_, lift.position, lift.velocity, to_seconds(view.step()));
+      servo_.update(height_of(target_), lift.position, lift.velocity, to_seconds(view.step()));
   if (!servo_.arrived()) {
     outputs.force(lift_, plain_ ? command : mass_ * (command - view.gravity().z()));
     return;
@@ -279,10 +297,17 @@ Nanoseconds Elevator::idle_until(const View& view) const {
   return told ? kForever : refresh_.next(view.time());
 }
 
+int Elevator::nearest(double position) const {
+  const auto above = std::lower_bound(heights_.begin(), heights_.end(), position);
+  const auto floor = static_cast<int>(above - heights_.begin());
+  if (floor == 0) return 0;
+  if (floor == floors()) return floor - 1;
+  return position - height_of(floor - 1) < height_of(floor) - position ? floor - 1 : floor;
+}
+
 int Elevator::floor_at(double position) const {
-  const int nearest = static_cast<int>(std::lround(position / floor_height_));
-  const bool level = std::abs(position - nearest * floor_height_) < kLevelWithin;
-  return level && nearest >= 0 && nearest < floors_ ? nearest : -1;
+  const int floor = nearest(position);
+  return std::abs(position - height_of(floor)) < kLevelWithin ? floor : -1;
 }
 
 Elevator::Mode Elevator::mode() const {
@@ -313,11 +338,7 @@ std::string Elevator::detail_of(Mode mode) const {
   return number_text(std::round(mass_ - own_mass_)) + " kg of " + number_text(rated_load_) + " kg";
 }
 
-std::vector<double> Elevator::stops() const {
-  std::vector<double> heights;
-  for (int floor = 0; floor < floors_; ++floor) heights.push_back(floor * floor_height_);
-  return heights;
-}
+std::vector<double> Elevator::stops() const { return heights_; }
 
 void Elevator::save(SavedParams& params) const {
   params.unset("call");
@@ -330,10 +351,10 @@ void Elevator::report(const View& view, Reading& state) const {
   state.set("mode", choice_of(shown_mode_, kModes));
   state.set("position", lift.position);
   state.set("velocity", lift.velocity);
-  state.set("target", target_ * floor_height_);
+  state.set("target", height_of(target_));
   state.set("floor", floor_at(lift.position));
   state.set("target_floor", target_);
-  state.set("floors", floors_);
+  state.set("floors", floors());
   state.set("load", std::max(0.0, mass_ - own_mass_));
   state.set("door_mode", choice_of(shown_door_, kDoorModes));
   state.set("door_position", shown_.door_position);

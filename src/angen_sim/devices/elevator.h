@@ -47,6 +47,10 @@ class Elevator : public Device {
   void watch_load(const View& view);
   void warn_of_effort(Params& params) const;
   std::string detail_of(Mode mode) const;
+  void read_floors(Params& params);
+  int floors() const { return static_cast<int>(heights_.size()); }
+  double height_of(int floor) const { return heights_[static_cast<std::size_t>(floor)]; }
+  int nearest(double position) const;
   int floor_at(double position) const;  // -1 between floors
   void stay_at(int floor, const View& view);
   Mode mode() const;
@@ -61,11 +65,10 @@ class Elevator : public Device {
   bool plain_ = false;  // the controller is a plain PID, which lifts the weight too
   Doorway doorway_;
   Refresh refresh_;
-  double floor_height_ = kStoreyHeight;
-  int floors_ = 2;
-  double own_mass_ = 0.0;    // kg, cabin with its doors
-  double mass_ = 0.0;        // kg, with its load
-  double rated_load_ = 0.0;  // kg
+  std::vector<double> heights_;  // m, of the floors over floor 0
+  double own_mass_ = 0.0;        // kg, cabin with its doors
+  double mass_ = 0.0;            // kg, with its load
+  double rated_load_ = 0.0;      // kg
   bool overloaded_ = false;
   Nanoseconds load_since_ = 0;  // the last time when is_heavy() agreed with that
   double brake_force_ = 0.0;    // N
