@@ -14,7 +14,7 @@ from lxml import etree
 from scipy.ndimage import distance_transform_edt
 
 from angen_apps.imports.sweethome import read_sweethome
-from angen_apps.plan.doors import LEAST_TURN
+from angen_apps.plan.travel import LEAST_TURN
 from angen_apps.plan.model import Plan
 from angen_apps.plan.shapes import read_shapes
 from angen_apps.plan.writer import write_world
@@ -152,7 +152,7 @@ def reached(path: Path, home: Mapping[str, Any]) -> tuple[set[str], set[str]]:
     here = {name: room for name, room in rooms.items() if abs(room['floor'] - floor) < 0.3}
     joined = {name for door in home['doors'] if door['kind'] != 'window'
               for name in door['rooms'] if name in here}
-    free, west, south = _free_map(path, floor)
+    free, west, south = free_map(path, floor)
     start = _cell(entrance['pose'], west, south)
     seen = _flood(free, start)
     found = set()
@@ -168,7 +168,7 @@ def _cell(pose: Any, west: float, south: float) -> tuple[int, int]:
     return int((pose[1] - south) / CELL), int((pose[0] - west) / CELL)
 
 
-def _free_map(path: Path, floor: float) -> tuple[np.ndarray, float, float]:
+def free_map(path: Path, floor: float) -> tuple[np.ndarray, float, float]:
     shapes = read_shapes(path)
     solids = [s for s in shapes.solids if s.model not in shapes.moving and len(s.corners) > 2
               and s.bottom < floor + TALL and s.top > floor + STEP_OVER]

@@ -6,7 +6,7 @@ from math import hypot
 from typing import Sequence
 
 import numpy as np
-from scipy.ndimage import label
+from scipy.ndimage import find_objects, label
 
 from angen_apps.plan.model import Point, Room, Storey
 from angen_apps.plan.names import use_of
@@ -34,13 +34,13 @@ def rooms_of(storey: Storey, ceiling: float, labels: Sequence[tuple[Point, str]]
         return []
     solid = np.zeros(raster.x.shape, bool)
     for wall in storey.walls:
-        solid |= raster.filled(_thick_enough(footprint(wall), wall.thickness))
+        raster.mark(solid, _thick_enough(footprint(wall), wall.thickness))
     for opening in storey.openings:
         half = opening.width / 2 + CLOSED
         low, high = opening.band
         wider = max(0.0, 2 * CELL - (high - low)) / 2
-        solid |= raster.filled(rectangle(opening.x, opening.y, opening.yaw,
-                                         (-half, low - wider), (half, high + wider)))
+        raster.mark(solid, rectangle(opening.x, opening.y, opening.yaw,
+                                     (-half, low - wider), (half, high + wider)))
     floor = storey.elevation
     rooms = []
     for region in regions(~solid, raster):
@@ -71,10 +71,12 @@ def regions(free: np.ndarray, raster: Raster) -> list[_Region]:
     outside = set(np.unique(np.concatenate([labels[0], labels[-1], labels[:, 0], labels[:, -1]])))
     sizes = np.bincount(labels.ravel(), minlength=count + 1) * CELL * CELL
     found = []
-    for index in range(1, count + 1):
+    for index, where in enumerate(find_objects(labels), 1):
         if index in outside or sizes[index] < LEAST:
             continue
-        loops = [_in_meters(loop, raster) for loop in outlines(labels == index)]
+        south, west = where[0].start, where[1].start
+        loops = [_in_meters([(r + south, c + west) for r, c in loop], raster)
+                 for loop in outlines(labels[where] == index)]
         loops.sort(key=area, reverse=True)
         holes = [loop for loop in loops[1:] if area(loop) > 0.05]
         found.append(_Region(loops[0], holes))
@@ -94,7 +96,10 @@ def outlines(cells: np.ndarray) -> list[list[Corner]]:
     def edge(a: Corner, b: Corner) -> None:
         after.setdefault(a, []).append(b)
 
-    for row, column in zip(*np.nonzero(padded)):
+    inner = padded.copy()
+    inner[1:-1, 1:-1] &= (padded[:-2, 1:-1] & padded[2:, 1:-1] & padded[1:-1, :-2]
+                          & padded[1:-1, 2:])
+    for row, column in zip(*np.nonzero(padded & ~inner)):
         r, c = int(row) - 1, int(column) - 1
         if not padded[row - 1, column]:
             edge((r, c), (r, c + 1))

@@ -2,19 +2,22 @@
 """
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import atan2, cos, hypot, pi, sin
+from dataclasses import dataclass, replace
+from math import atan2, hypot, pi, sin
 from pathlib import Path
 from statistics import median
-from typing import Any
+from typing import Any, Sequence
 
 import yaml
 
 from angen_apps.imports.flood import rooms_of
 from angen_apps.imports.source import FARTHEST, read_bytes
+from angen_apps.plan.doors import LEAF_THICK
 from angen_apps.plan.finish import finish
-from angen_apps.plan.model import Leaf, Lift, Opening, Plan, Point, Storey, Wall
+from angen_apps.plan.lifts import fitted, shaft
+from angen_apps.plan.model import Leaf, Lift, Opening, Plan, Point, Storey, Wall, local, turned
 from angen_apps.plan.names import plain_name, slug
+from angen_apps.plan.walls import SLOPE, direction, footprint
 from angen_tools.common.failure import Failure
 from angen_tools.common.yaml_file import YamlFile, line_of
 
@@ -22,9 +25,11 @@ THICK = 0.1  # m of a wall, as the editor builds it
 HEIGHT = 2.5  # m of a wall, unless the file says
 SLAB = 0.2  # m
 DOOR_HEIGHT = 2.1  # m
+LAP = 0.03  # m of a leaf before the jamb, where it slides before the wall
 LIMIT = 20_000  # entries of a list
 READ = ('vertices', 'walls', 'doors', 'measurements', 'fiducials', 'elevation', 'drawing')
 ALIASES = 100
+LEAST_CABIN = 0.6  # m
 
 
 @dataclass
@@ -84,7 +89,7 @@ class _Building:
             storey.rooms = rooms_of(storey, HEIGHT, labels)
             for lift in plan.lifts:
                 if lift.stops[0] <= storey.number <= lift.stops[-1]:
-                    storey.cutouts.append(_shaft(lift))
+                    storey.cutouts.append(shaft(lift))
         self._say_what_is_not_read()
         return finish(plan)
 
@@ -209,8 +214,10 @@ class _Building:
                 self.remarks.append(f'{self.path}:{line_of(item)}: a door of {width:.2f} m is '
                                     'left out')
                 continue
-            leaves = self._leaves(item, kind, width, texts)
             yaw = atan2(end[1] - start[1], end[0] - start[0])
+            start, width = _clear(storey.walls, start, yaw, width)
+            end = turned(start, yaw, width, 0.0)
+            leaves = self._leaves(item, kind, width, texts)
             name = plain_name(self.file.text(texts['name'], 'name'), '') \
                 if 'name' in texts else ''
             storey.openings.append(Opening(
@@ -238,12 +245,12 @@ class _Building:
             return (Leaf((-half + 0.005, 0.0), left - 0.01, 0.0, turn),
                     Leaf((half - 0.005, 0.0), width - left - 0.01, pi, -turn))
         v = THICK / 2 + 0.01  # it slides along the wall's face
+        left = Leaf((-half - LAP, v), (width if kind == 'sliding' else half) + LAP, 0.0, 0.0)
+        right = Leaf((half + LAP, v + LEAF_THICK), left.width, pi, 0.0)
         if kind == 'sliding':
-            u = half if at_end else -half
-            return (Leaf((u, v), width, pi if at_end else 0.0, 0.0, -width + 0.02),)
+            return (replace(right if at_end else left, slide=-width),)
         if kind == 'double_sliding':
-            return (Leaf((-half, v), half, 0.0, 0.0, -half + 0.02),
-                    Leaf((half, v), half, pi, 0.0, -half + 0.02))
+            return replace(left, slide=-half), replace(right, slide=-half)
         raise self.file.fail(item, f'the door is {kind}; hinged, double_hinged, sliding and '
                              'double_sliding are known')
 
@@ -272,7 +279,18 @@ class _Building:
                 continue
             at = (number['x'], number['y'])
             x, y = self._meters(levels[numbers[reference]], at)
-            plan.lifts.append(self._lift(name, node, (x, y, yaw), number, doors, stops))
+            lift = self._lift(name, node, (x, y, yaw), number, doors, stops)
+            around = [wall for storey in plan.storeys if stops[0] <= storey.number <= stops[-1]
+                      for wall in storey.walls]
+            fit = fitted(lift, around)
+            if min(fit.width, fit.depth) < LEAST_CABIN:
+                raise self.file.fail(node, f'the lift {name} has walls in its cabin')
+            if (fit.width, fit.depth) != (lift.width, lift.depth):
+                self.remarks.append(
+                    f'{self.path}:{line_of(node)}: the cabin of {name} is {fit.width:.2f} x '
+                    f'{fit.depth:.2f} m, as its shaft has no room for {lift.width:g} x '
+                    f'{lift.depth:g} m and doors')
+            plan.lifts.append(fit)
 
     def _stops(self, values: dict[str, Any], node: Any, name: str) -> list[str]:
         if 'level_doors' in values:
@@ -283,7 +301,7 @@ class _Building:
 
     def _lift(self, name: str, node: Any, place: tuple[float, float, float],
               number: dict[str, float], doors: list[Any], stops: list[int]) -> Lift:
-        if not (0.6 <= number['width'] <= 20 and 0.6 <= number['depth'] <= 20):
+        if not (LEAST_CABIN <= number['width'] <= 20 and LEAST_CABIN <= number['depth'] <= 20):
             raise self.file.fail(node, f'the lift {name} has a width or depth beyond 0.6 to 20 m')
         door = self._mapping(doors[0], 'a door of a lift')
         u = self.file.number(door['x'], 'x', -50, 50) if 'x' in door else 0.0
@@ -298,7 +316,8 @@ class _Building:
         else:
             heading = yaw + (0.0 if u > 0 else pi)
             wide, deep = number['depth'], number['width']
-        return Lift(plain_name(name, 'lift'), x, y, heading, wide, deep, tuple(stops))
+        doorway = self.file.number(door['width'], 'width', 0.3, 20) if 'width' in door else 1.2
+        return Lift(plain_name(name, 'lift'), x, y, heading, wide, deep, tuple(stops), doorway)
 
     def _say_what_is_not_read(self) -> None:
         skipped: dict[str, int] = {}
@@ -314,9 +333,36 @@ class _Building:
                             'name gives its room that name')
 
 
+def _clear(walls: Sequence[Wall], start: Point, yaw: float, width: float) -> tuple[Point, float]:
+    """A doorway from its start, less what walls across it that end there take of it."""
+    low, high = 0.0, width
+    for wall in walls:
+        if abs(sin(direction(wall) - yaw)) < sin(SLOPE):  # the doorway is cut into it
+            continue
+        within = _within([local(start, yaw, corner) for corner in footprint(wall)])
+        if not within:
+            continue
+        first, last = min(within), max(within)
+        if first < 0.01 < last < width / 3:
+            low = max(low, last)
+        elif width * 2 / 3 < first < width - 0.01 < last:
+            high = min(high, first)
+    return turned(start, yaw, low, 0.0), high - low
+
+
+def _within(corners: Sequence[Point]) -> list[float]:
+    """Where, along a doorway, a wall's outline is within it or crosses its faces."""
+    half = THICK / 2
+    found = [u for u, v in corners if abs(v) <= half]
+    for (u0, v0), (u1, v1) in zip(corners, [*corners[1:], corners[0]]):
+        found += [u0 + (u1 - u0) * (face - v0) / (v1 - v0) for face in (-half, half)
+                  if (v0 - face) * (v1 - face) < 0]
+    return found
+
+
 def _refuse_aliases(path: Path, data: bytes) -> None:
     count = 0
-    for event in yaml.parse(data, yaml.SafeLoader):
+    for event in yaml.parse(data, yaml.CSafeLoader):
         count += isinstance(event, yaml.AliasEvent)
         if count > ALIASES:
             raise Failure(f'{path}:{event.start_mark.line + 1}: has more than {ALIASES} aliases')
@@ -331,12 +377,3 @@ def _align(levels: list[_Level], fiducials: list[dict[str, Point]]) -> None:
                     for name in common]
             level.offset = (sum(x for x, _ in away) / len(away),
                             sum(y for _, y in away) / len(away))
-
-
-def _shaft(lift: Lift) -> tuple[Point, ...]:
-    """The hole in a floor for a lift's cabin and its doors."""
-    c, s = cos(lift.yaw), sin(lift.yaw)
-    half_x, half_y = lift.depth / 2, lift.width / 2
-    return tuple((lift.x + u * c - v * s, lift.y + u * s + v * c)
-                 for u, v in ((-half_x - 0.03, -half_y - 0.03), (half_x + 0.1, -half_y - 0.03),
-                              (half_x + 0.1, half_y + 0.03), (-half_x - 0.03, half_y + 0.03)))

@@ -12,6 +12,7 @@ from random import Random
 
 from angen_apps.plan.finish import finish
 from angen_apps.plan.furnished import furnish
+from angen_apps.plan.lifts import shaft
 from angen_apps.plan.model import Lamp, Leaf, Lift, Opening, Plan, Room, Storey, Wall
 
 OUTER, INNER = 0.2, 0.1  # m, walls
@@ -48,12 +49,9 @@ def apartment(rooms: int, storeys: int, seed: int) -> Plan:
     if storeys > 1:
         x = -LANDING - OUTER / 2 - SHAFT[0] / 2 - 0.15
         plan.lifts.append(Lift('elevator', x, HALL / 2, 0.0, SHAFT[1] - 0.12, SHAFT[0] - 0.2,
-                               tuple(range(storeys))))
+                               tuple(range(storeys)), front=-LANDING - 0.12 - x))
         for storey in made:
-            low = -SHAFT[0] - 0.2 + x + SHAFT[0] / 2
-            storey.cutouts.append(((low, HALL / 2 - SHAFT[1] / 2), (-LANDING - 0.12, HALL / 2
-                                  - SHAFT[1] / 2), (-LANDING - 0.12, HALL / 2 + SHAFT[1] / 2),
-                                   (low, HALL / 2 + SHAFT[1] / 2)))
+            storey.cutouts.append(shaft(plan.lifts[0]))
     plan = finish(plan)
     for storey in plan.storeys:
         furnish(storey, Random(f'{seed} furniture {storey.number}'))

@@ -1,15 +1,13 @@
 """Leaves of doors and sashes of windows: how far they open, and their models."""
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from math import cos, degrees, pi, sin
-from typing import Sequence
+from dataclasses import dataclass
+from math import cos, sin
 
 from lxml import etree
 
-from angen_apps.plan.model import Leaf, Opening, Plan, Storey, local, turned
-from angen_apps.plan.polygons import overlap, rectangle
-from angen_apps.plan.walls import Box
+from angen_apps.plan.model import Leaf, Opening, local, turned
+from angen_apps.plan.polygons import rectangle
 from angen_tools.world.placing import generator
 
 LEAF_THICK = 0.04  # m
@@ -19,24 +17,10 @@ SASH_GAP = 0.004
 EDGE = 0.004  # m from a leaf's far edge to its jamb
 DOOR_MASS = 10.0  # kg/m2
 SASH_MASS = 20.0  # kg/m2: two panes of 3 mm and the frame
-STEP = pi / 60  # between the angles at which a leaf is tried
-LEAST_TURN = 0.15  # rad: a leaf that opens less is fixed
-TOUCH = 0.001  # m of overlap that is not a touch
-CLOSE = 0.002  # m above or below a leaf is in its way
 OAK = (0.62, 0.45, 0.28)
 GLASS = (0.55, 0.68, 0.8)
 # gains in those of a PID for a leaf of 1 kg m2: of 1 Hz, damped
 GAIN = {'p': 40.0, 'i': 40.0, 'd': 8.0}
-
-
-@dataclass(frozen=True)
-class Obstacle:
-    """Something that a leaf may meet: corners seen from above, and its heights."""
-
-    name: str
-    corners: list[tuple[float, float]]
-    bottom: float
-    top: float
 
 
 @dataclass(frozen=True)
@@ -73,68 +57,10 @@ class Hung:
         gap = SASH_GAP if self.opening.kind == 'window' else UNDER
         return self.opening.bottom + gap, self.opening.top - gap
 
-    def corners(self, angle: float) -> list[tuple[float, float]]:
-        """The leaf seen from above, turned by an angle."""
+    def corners(self, angle: float, way: float = 0.0) -> list[tuple[float, float]]:
+        """The leaf seen from above, turned by an angle, or moved along itself."""
         low, high = (0.0, self.thick) if self.turn <= 0 else (-self.thick, 0.0)
-        return rectangle(*self.hinge, self.yaw + angle, (0.0, low), (self.width, high))
-
-
-def hang(storey: Storey, walls: Sequence[Box], furniture: Sequence[Obstacle], plan: Plan
-         ) -> list[Hung]:
-    """The leaves of a storey; each opens until an obstacle."""
-    solid = [Obstacle('a wall', box.corners(), box.low[2], box.high[2]) for box in walls]
-    found: list[Hung] = []
-    for opening in storey.openings:
-        for i, leaf in enumerate(opening.leaves):
-            name = opening.name
-            if len(opening.leaves) > 1:
-                name = _sided(opening, leaf, i)
-            found.append(Hung(name, opening, leaf, leaf.turn))
-    shut = [Obstacle(f'the leaf {hung.name}', hung.corners(0.0), *hung.heights) for hung in found]
-    for i, hung in enumerate(found):
-        others = [other for k, other in enumerate(shut) if k != i]
-        if hung.leaf.slide:
-            continue
-        turn, why = _free_turn(hung, [*solid, *furniture, *others])
-        if abs(turn) < abs(hung.leaf.turn) - 1e-6:
-            opens = f'opens by {degrees(abs(turn)):.0f} degrees only' if abs(turn) >= LEAST_TURN \
-                else 'does not open'
-            plan.remarks.append(f'{hung.opening.kind} {hung.name} {opens}: {why} is in its way')
-            found[i] = replace(hung, turn=turn if abs(turn) >= LEAST_TURN else 0.0)
-    return found
-
-
-def _sided(opening: Opening, leaf: Leaf, index: int) -> str:
-    """The name of one of two leaves; a number at its end stays there."""
-    side = ('left' if leaf.hinge[0] < 0 else 'right') if len(opening.leaves) == 2 else f'n{index}'
-    if opening.name == opening.source:
-        return f'{opening.name}_{side}'
-    stem = opening.name.rstrip('0123456789')
-    joint = '' if stem.endswith('_') else '_'
-    return f'{stem}{joint}{side}{opening.name[len(stem):]}'
-
-
-def _free_turn(hung: Hung, obstacles: Sequence[Obstacle]) -> tuple[float, str]:
-    """The angle of a leaf without a touch, and the obstacle that stops it."""
-    bottom, top = hung.heights
-    x, y = hung.hinge
-    reach = hung.width + 0.1
-    near = [o for o in obstacles if o.bottom < top + CLOSE and o.top > bottom - CLOSE
-            and min(c[0] for c in o.corners) < x + reach
-            and max(c[0] for c in o.corners) > x - reach
-            and min(c[1] for c in o.corners) < y + reach
-            and max(c[1] for c in o.corners) > y - reach]
-    sign = -1.0 if hung.turn < 0 else 1.0
-    count = max(1, round(abs(hung.turn) / STEP))
-    free = 0.0
-    for i in range(count + 1):
-        angle = hung.turn * i / count
-        corners = hung.corners(angle)
-        for o in near:
-            if overlap(corners, o.corners) > TOUCH:
-                return sign * max(0.0, abs(free) - STEP / 2), o.name
-        free = angle
-    return hung.turn, ''
+        return rectangle(*self.hinge, self.yaw + angle, (way, low), (self.width + way, high))
 
 
 def leaf_model(hung: Hung, base_z: float, reed: bool) -> etree._Element:

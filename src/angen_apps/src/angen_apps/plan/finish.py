@@ -4,12 +4,18 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 from math import cos, sin
+from typing import Sequence
 
-from angen_apps.plan.model import Lamp, Opening, Piece, Plan, Point, Room, Storey
+import numpy as np
+
+from angen_apps.plan.model import Lamp, Opening, Piece, Plan, Point, Room, Storey, local
 from angen_apps.plan.names import Names, slug, use_by_things, use_of
 from angen_apps.plan.passages import passages
-from angen_apps.plan.polygons import area, contains
+from angen_apps.plan.polygons import area, contains, overlap, rectangle
+from angen_apps.plan.travel import sided
+from angen_apps.plan.walls import cuts_wall
 
+WHOLE = 0.9  # of an opening's width and height: a piece that fills it closes it
 BESIDE = 0.15  # m from the face of a wall to the room beside it
 TO_PASS = ('hall', 'landing', 'outdoor', '')
 
@@ -20,10 +26,12 @@ def finish(plan: Plan) -> Plan:
     for storey in plan.storeys:
         _name_rooms(storey, rooms)
     for storey in plan.storeys:
+        storey.openings = _apart(storey, plan)
         storey.openings += passages(storey)
         storey.openings = [_named_opening(
             opening, storey, windows if opening.kind == 'window' else doors)
             for opening in storey.openings]
+        storey.openings = [_filled(opening, storey, plan) for opening in storey.openings]
         storey.pieces = [_named_piece(piece, storey, pieces) for piece in storey.pieces]
         storey.lamps = [_named_lamp(lamp, storey, lamps) for lamp in storey.lamps]
     if not plan.entrance:
@@ -66,6 +74,61 @@ def _name_rooms(storey: Storey, names: Names) -> None:
         storey.rooms[storey.rooms.index(room)] = made
 
 
+def _apart(storey: Storey, plan: Plan) -> list[Opening]:
+    """The openings without those that are drawn over another one; says which are in no wall."""
+    found: list[Opening] = []
+    for opening in storey.openings:
+        what = f'the {opening.kind} "{opening.source}" at {opening.x:.2f} {opening.y:.2f}'
+        if any(_is_over(opening, other) for other in found):
+            plan.remarks.append(f'{what} is drawn over another one and is left out')
+            continue
+        if not any(cuts_wall(opening, wall) for wall in storey.walls):
+            plan.remarks.append(f'{what} is in no wall')
+        found.append(opening)
+    return found
+
+
+def _is_over(opening: Opening, other: Opening) -> bool:
+    """Whether the leaves of two openings are in one place: half of the narrower is in the other."""
+    if not (opening.leaves and other.leaves):
+        return False
+    u, v = local((other.x, other.y), other.yaw, (opening.x, opening.y))
+    narrow = min(opening.width, other.width)
+    shared = (opening.width + other.width) / 2 - abs(u)
+    return (shared > narrow / 2 and abs(v) < 0.1 and abs(sin(opening.yaw - other.yaw)) < 0.2
+            and opening.bottom < other.top and other.bottom < opening.top)
+
+
+def _filled(opening: Opening, storey: Storey, plan: Plan) -> Opening:
+    """An opening is no way through if a piece of furniture, such as a drawn gate, closes it."""
+    if opening.kind != 'opening':
+        return opening
+    half = WHOLE * opening.width / 2
+    across = rectangle(opening.x, opening.y, opening.yaw, (-half, opening.band[0]),
+                       (half, opening.band[1]))
+    middle = sum(opening.band) / 2
+    ends = [opening.point(sign * half, middle) for sign in (-1, 0, 1)]
+    for piece in storey.pieces:
+        outline = rectangle(piece.x, piece.y, piece.yaw, (-piece.depth / 2, -piece.width / 2),
+                            (piece.depth / 2, piece.width / 2))
+        tall = min(2.0, opening.top - opening.bottom)
+        stands = piece.z < opening.bottom + 0.3 and piece.height > WHOLE * tall
+        spans = overlap(across, outline) > 0 and all(
+            _is_across(opening, end, outline) for end in ends)
+        if stands and spans and not any(piece.tilt):
+            plan.remarks.append(f'the opening {opening.name} is closed by the piece '
+                                f'"{piece.source or piece.name}"')
+            return replace(opening, filled=True)
+    return opening
+
+
+def _is_across(opening: Opening, point: Point, outline: Sequence[Point]) -> bool:
+    """Whether a line through the wall at a point meets an outline."""
+    u, _ = local((opening.x, opening.y), opening.yaw, point)
+    return any(contains(outline, *opening.point(u, v)) for v in np.arange(
+        opening.band[0], opening.band[1] + 0.01, 0.01))
+
+
 def _named_opening(opening: Opening, storey: Storey, names: Names) -> Opening:
     """Named after the room to which it leads: not a hall, if it joins one with another room."""
     if opening.name:  # a name that other programs use
@@ -91,7 +154,6 @@ def _named_lamp(lamp: Lamp, storey: Storey, names: Names) -> Lamp:
 
 def _entrance(plan: Plan) -> str:
     """The name of the main entrance's leaf: a door to the outside, best one called so."""
-    from angen_apps.plan.doors import _sided
     best: tuple[tuple[bool, bool, float, int], Opening] | None = None
     for storey in plan.storeys:
         for i, opening in enumerate(storey.openings):
@@ -111,7 +173,7 @@ def _entrance(plan: Plan) -> str:
         return ''
     opening = best[1]
     if len(opening.leaves) > 1:
-        return _sided(opening, opening.leaves[0], 0)
+        return sided(opening, opening.leaves[0], 0)
     return opening.name
 
 

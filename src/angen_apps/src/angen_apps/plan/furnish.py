@@ -9,7 +9,7 @@ from typing import Sequence
 import numpy as np
 from lxml import etree
 
-from angen_apps.plan.doors import Obstacle
+from angen_apps.plan.travel import Obstacle
 from angen_apps.plan.model import Piece
 from angen_apps.plan.polygons import rectangle
 from angen_tools.world import sdf

@@ -1,47 +1,111 @@
 """Lifts: cabin, shaft doors and stops as a model with Angen's elevator plug-in."""
 from __future__ import annotations
 
+from dataclasses import replace
+from math import sin
+from typing import Sequence
+
 from lxml import etree
 
-from angen_apps.plan.model import Lift, Plan
+from angen_apps.plan.model import Lift, Plan, Point, Wall, local, turned
+from angen_apps.plan.walls import direction, footprint
 from angen_tools.world.placing import generator
 
 STEEL = (0.7, 0.72, 0.75)
 CLEAR = 2.1  # m, height of the doorway
+TOP = 2.29  # m, of the cabin
 GAP = 0.002
-MASS = 1.0  # kg/kg: scales nothing, the cabin's own masses are below
+CABIN_SILL = 0.04  # m that the cabin's floor reaches before the cabin, under its doors
+LANDING_DOOR = 0.06  # m before the cabin
+BESIDE = 0.03  # m between the cabin and the floors beside it
+FRONT = 0.1  # m before the cabin at which a landing's floor begins
+DOORS = 0.12  # m before the cabin for its doors and those of the landings
+ASKEW = 0.2  # sine of twice the angle at which a wall is not along or across a cabin
+
+
+def shaft(lift: Lift) -> tuple[Point, ...]:
+    """The hole in floors and ceilings for the cabin and its doors."""
+    half_x, half_y = lift.depth / 2 + BESIDE, lift.width / 2 + BESIDE
+    front = front_of(lift)
+    return tuple(turned((lift.x, lift.y), lift.yaw, u, v)
+                 for u, v in ((-half_x, -half_y), (front, -half_y), (front, half_y),
+                              (-half_x, half_y)))
+
+
+def front_of(lift: Lift) -> float:
+    """How far before the cabin's middle the floor of a landing begins."""
+    return max(lift.front, lift.depth / 2 + FRONT)
+
+
+def fitted(lift: Lift, walls: Sequence[Wall]) -> Lift:
+    """The lift with a cabin that is as small as the walls of its shaft ask for."""
+    half_x, half_y = lift.depth / 2, lift.width / 2
+    front, back, left, right = half_x, -half_x, half_y, -half_y
+    for wall in walls:
+        if abs(sin(2 * (direction(wall) - lift.yaw))) > ASKEW:
+            continue
+        corners = [local((lift.x, lift.y), lift.yaw, corner) for corner in footprint(wall)]
+        (low_u, high_u), (low_v, high_v) = ((min(c), max(c)) for c in zip(*corners))
+        if low_v < half_y and high_v > -half_y:
+            if low_u > half_x / 3:
+                front = min(front, low_u - DOORS)
+            elif high_u < -half_x / 3:
+                back = max(back, high_u + BESIDE)
+        if low_u < half_x and high_u > -half_x:
+            if low_v > half_y / 3:
+                left = min(left, low_v - BESIDE)
+            elif high_v < -half_y / 3:
+                right = max(right, high_v + BESIDE)
+    x, y = turned((lift.x, lift.y), lift.yaw, (front + back) / 2, (left + right) / 2)
+    return replace(lift, x=x, y=y, depth=front - back, width=left - right)
 
 
 def add_lift(world: etree._Element, plan: Plan, lift: Lift) -> None:
     """Appends the model of a lift, its cabin at rest at its lowest stop."""
     blocks = generator('sdf')
     heights = [next(s.elevation for s in plan.storeys if s.number == stop) for stop in lift.stops]
+    rises = [round(height - heights[0], 4) for height in heights]
     root, model = blocks.new_model(lift.name)
     blocks.add_pose(model, (round(lift.x, 4), round(lift.y, 4), round(heights[0], 4)),
                     (0, 0, round(lift.yaw, 6)))
     half_x, half_y = lift.depth / 2, lift.width / 2
-    top = heights[-1] - heights[0]
-    roof = blocks.spanned('shaft_roof', (-half_x, -half_y, top + 2.7),
-                          (half_x, half_y, top + 2.78), mass=50.0, collide=False)
-    blocks.add_link(model, 'base', [roof])
+    doorway = min(lift.doorway, half_y - 0.02)  # half of it on each side, and room to slide
+    roof = blocks.spanned('shaft_roof', (-half_x, -half_y, rises[-1] + 2.7),
+                          (half_x, half_y, rises[-1] + 2.78), mass=50.0, collide=False)
+    fixed = [part for i, rise in enumerate(rises) for part in _landing(lift, i, rise, doorway)]
+    blocks.add_link(model, 'base', [roof, *fixed])
     blocks.add_fixed(model, 'base_to_world', 'world', 'base')
     blocks.add_link(model, 'cabin', _cabin(half_x, half_y))
     blocks.add_joint(model, 'lift', 'prismatic', 'base', 'cabin', (0, 0, 1),
-                     limits={'lower': 0, 'upper': round(max(top, 0.01), 4), 'effort': 20000,
+                     limits={'lower': 0, 'upper': max(rises[-1], 0.01), 'effort': 20000,
                              'velocity': 2}, dynamics={'damping': 10, 'friction': 0})
-    doorway = min(lift.width - 0.2, 1.2)
     for side, sign in (('left', 1), ('right', -1)):
         _slider(model, f'cabin_door_{side}', 'cabin', sign, doorway, half_x + 0.005, 0.0)
-    for i, height in enumerate(heights):
+    for i, rise in enumerate(rises):
         for side, sign in (('left', 1), ('right', -1)):
-            _slider(model, f'landing_door_{i}_{side}', 'base', sign, doorway, half_x + 0.06,
-                    height - heights[0])
-    steps = [b - a for a, b in zip(heights, heights[1:])]
-    blocks.add_plugin(model, 'elevator_controller', 'libros_plugin.so', p=200, i=200, d=25,
-                      floor_height=round(sum(steps) / len(steps), 4) if steps else 3,
-                      floors=len(lift.stops), max_velocity=1.0, max_acceleration=0.5)
+            _slider(model, f'landing_door_{i}_{side}', 'base', sign, doorway,
+                    half_x + LANDING_DOOR, rise)
+    plugin = blocks.add_plugin(model, 'elevator_controller', 'libros_plugin.so', p=200, i=200,
+                               d=25, max_velocity=1.0, max_acceleration=0.5)
+    for rise in rises:
+        blocks.add(plugin, 'stop', rise)
     root.remove(model)
     world.append(model)
+
+
+def _landing(lift: Lift, index: int, rise: float, doorway: float) -> list[object]:
+    """A sill up to the landing's floor, and what closes the shaft around the doorway."""
+    box = generator('sdf').spanned
+    half_x, half_y, front = lift.depth / 2, lift.width / 2, front_of(lift)
+    face, edge = half_x + LANDING_DOOR + 0.035, doorway / 2 + 0.01
+    found = [box(f'sill_{index}', (half_x + CABIN_SILL + 0.012, -half_y, rise - 0.06),
+                 (front, half_y, rise), material=STEEL, mass=20.0)]
+    for side, low, high in (('left', edge, half_y), ('right', -half_y, -edge)):
+        found.append(box(f'jamb_{side}_{index}', (face, low, rise), (face + 0.02, high, rise + TOP),
+                         material=STEEL, mass=10.0))
+    found.append(box(f'lintel_{index}', (face, -edge, rise + CLEAR),
+                     (face + 0.02, edge, rise + TOP), material=STEEL, mass=5.0))
+    return found
 
 
 def _cabin(half_x: float, half_y: float) -> list[object]:
@@ -49,25 +113,25 @@ def _cabin(half_x: float, half_y: float) -> list[object]:
     box = generator('sdf').spanned
     wall = 0.03
     return [
-        box('floor', (-half_x, -half_y, -0.06), (half_x, half_y, 0.0), mass=40.0),
+        box('floor', (-half_x, -half_y, -0.06), (half_x + CABIN_SILL, half_y, 0.0), mass=40.0),
         box('back', (-half_x, -half_y, 0.0), (-half_x + wall, half_y, 2.25), mass=12.0,
             material=STEEL),
         box('side_left', (-half_x + wall, half_y - wall, 0.0), (half_x, half_y, 2.25), mass=12.0,
             material=STEEL),
         box('side_right', (-half_x + wall, -half_y, 0.0), (half_x, -half_y + wall, 2.25),
             mass=12.0, material=STEEL),
-        box('roof', (-half_x, -half_y, 2.25), (half_x, half_y, 2.29), mass=14.0),
+        box('roof', (-half_x, -half_y, 2.25), (half_x, half_y, TOP), mass=14.0),
     ]
 
 
 def _slider(model: etree._Element, name: str, parent: str, sign: int, doorway: float, x: float,
-            height: float) -> None:
+            rise: float) -> None:
     blocks = generator('sdf')
-    far = doorway / 2 + 0.02
+    far = round(doorway / 2 + 0.02, 4)
     low, high = sorted((sign * GAP, sign * far))
     panel = blocks.spanned('panel', (x, low, 0.008), (x + 0.03, high, CLEAR + 0.03),
                            material=STEEL, mass=8.0)
-    blocks.add_link(model, f'{name}_panel', [panel], at=(0, 0, round(height, 4)))
+    blocks.add_link(model, f'{name}_panel', [panel], at=(0, 0, rise))
     blocks.add_joint(model, name, 'prismatic', parent, f'{name}_panel', (0, sign, 0),
-                     limits={'lower': 0, 'upper': round(far, 4), 'effort': 100, 'velocity': 1},
+                     limits={'lower': 0, 'upper': far, 'effort': 100, 'velocity': 1},
                      dynamics={'damping': 2, 'friction': 0.5})

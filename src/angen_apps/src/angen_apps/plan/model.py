@@ -65,6 +65,7 @@ class Opening:
     glass: bool = False  # a fixed pane fills it
     glazed: bool = False  # its leaves are of glass
     ajar: bool = False  # open at the start
+    filled: bool = False  # a piece of furniture closes it
     name: str = ''
     source: str = ''  # its name in the file
 
@@ -133,6 +134,8 @@ class Lift:
     width: float
     depth: float
     stops: tuple[int, ...]  # numbers of storeys
+    doorway: float = 1.2  # m wide
+    front: float = 0.0  # m from the cabin's middle to the floors of its landings, if it is far
 
 
 @dataclass

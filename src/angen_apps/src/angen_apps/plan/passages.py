@@ -26,10 +26,10 @@ def passages(storey: Storey) -> list[Opening]:
     blocked = np.zeros(raster.x.shape, bool)
     for wall in storey.walls:
         if wall.top > storey.elevation + 0.3:
-            blocked |= raster.filled(footprint(wall))
+            raster.mark(blocked, footprint(wall))
     for opening in storey.openings:
         half = opening.width / 2 + 0.05
-        blocked |= raster.filled(rectangle(
+        raster.mark(blocked, rectangle(
             opening.x, opening.y, opening.yaw, (-half, opening.band[0] - 0.1),
             (half, opening.band[1] + 0.1)))
     rooms = np.zeros(raster.x.shape, int)
@@ -46,21 +46,20 @@ def _along(storey: Storey, raster: Raster, rooms: np.ndarray, blocked: np.ndarra
            pairs: set[tuple[int, int]]) -> list[Opening]:
     """Passages across an axis of the cells: 0 from south to north, 1 from west to east."""
     cells, walls = (rooms, blocked) if axis == 0 else (rooms.T, blocked.T)
-    met: dict[tuple[int, int], np.ndarray] = {}
+    met: dict[tuple[int, int], list[np.ndarray]] = {}  # rows and columns of cells
     for gap in range(1, NEAR):
         before, after = cells[:-gap], cells[gap:]
         touch = (before != after) & (before > 0) & (after > 0)
         for k in range(1, gap):  # nothing between them
             touch &= (cells[k:k - gap] == 0) & ~walls[k:k - gap]
-        for a, b in {(min(p), max(p)) for p in zip(before[touch], after[touch])}:
-            both = touch & (((before == a) & (after == b)) | ((before == b) & (after == a)))
-            at = met.setdefault((int(a), int(b)), np.zeros(cells.shape, bool))
-            at[:-gap] |= both
+        rows, columns = np.nonzero(touch)
+        ends = np.sort([before[rows, columns], after[rows, columns]], axis=0)
+        for a, b in np.unique(ends, axis=1).T if len(rows) else ():
+            here = (ends[0] == a) & (ends[1] == b)
+            met.setdefault((int(a), int(b)), []).append(np.array([rows[here], columns[here]]))
     found = []
-    for pair, at in sorted(met.items()):
-        spread, count = label(at, structure=np.ones((3, 3)))
-        best = max(range(1, count + 1), key=lambda i: int((spread == i).any(axis=0).sum()))
-        rows, columns = np.nonzero(spread == best)
+    for pair, places in sorted(met.items()):
+        rows, columns = _largest(np.concatenate(places, axis=1))
         width = (columns.max() - columns.min() + 1) * CELL
         if width < LEAST or pair in pairs:
             continue
@@ -73,3 +72,14 @@ def _along(storey: Storey, raster: Raster, rooms: np.ndarray, blocked: np.ndarra
                              round(width, 3), storey.elevation, storey.elevation + HEIGHT,
                              (-THIN / 2, THIN / 2), source='passage'))
     return found
+
+
+def _largest(cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Rows and columns of the widest group of cells that are beside each other."""
+    low = cells.min(axis=1)
+    at = np.zeros(cells.max(axis=1) - low + 1, bool)
+    at[tuple(cells - low[:, None])] = True
+    spread, count = label(at, structure=np.ones((3, 3)))
+    best = max(range(1, count + 1), key=lambda i: int((spread == i).any(axis=0).sum()))
+    rows, columns = np.nonzero(spread == best)
+    return rows + low[0], columns + low[1]

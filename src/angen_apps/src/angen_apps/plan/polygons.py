@@ -169,16 +169,20 @@ def bounds(points: Iterable[Point]) -> tuple[float, float, float, float]:
 def rectangles(cells: np.ndarray) -> list[tuple[int, int, int, int]]:
     """Covers the true cells by rectangles without overlap: (row, column, rows, columns) each."""
     left = cells.copy()
+    flat = left.ravel()
     found: list[tuple[int, int, int, int]] = []
-    while True:
-        rows, columns = np.nonzero(left)
-        if not len(rows):
-            return found
-        row, column = int(rows[0]), int(columns[0])
+    at = 0
+    while at < flat.size:
+        at += int(flat[at:].argmax())
+        if not flat[at]:
+            break
+        row, column = divmod(at, left.shape[1])
         run = left[row, column:]
         width = int(np.argmin(run)) if not run.all() else len(run)
-        height = 1
-        while row + height < left.shape[0] and left[row + height, column:column + width].all():
-            height += 1
+        height, rows = 1, np.ones(1, bool)
+        while len(rows) and rows.all():  # some rows at a time
+            rows = left[row + height:row + height + 64, column:column + width].all(axis=1)
+            height += len(rows) if rows.all() else int(rows.argmin())
         left[row:row + height, column:column + width] = False
         found.append((row, column, height, width))
+    return found

@@ -5,9 +5,9 @@ from math import atan2, cos, hypot, pi, sin
 
 from lxml import etree
 
-from angen_apps.plan.doors import Obstacle
+from angen_apps.plan.travel import Obstacle
 from angen_apps.plan.model import Point, Room
-from angen_apps.plan.polygons import center, contains, signed_area
+from angen_apps.plan.polygons import bounds, center, contains, signed_area
 from angen_tools.world.placing import generator
 
 PIR_HEIGHT = 2.2
@@ -93,10 +93,12 @@ def _sight(points: list[Point], x: float, y: float, yaw: float) -> float:
 def _opposite(room: Room, solids: list[Obstacle], z: float
               ) -> list[tuple[float, float, float]]:
     """Two corners far apart from which the room is in sight; one if there is no second."""
+    solids = [o for o in solids if o.bottom < z < o.top and _is_near(o, bounds(room.polygon))]
+
     def is_free(x: float, y: float, yaw: float) -> bool:
         for ahead in (0.0, 0.1, 0.3, 0.6, SIGHT):
             px, py = x + ahead * cos(yaw), y + ahead * sin(yaw)
-            if any(o.bottom < z < o.top and contains(o.corners, px, py) for o in solids):
+            if any(contains(o.corners, px, py) for o in solids):
                 return False
         return True
 
@@ -108,6 +110,13 @@ def _opposite(room: Room, solids: list[Obstacle], z: float
              for j, b in enumerate(spots) if i < j]
     _, i, j = max(pairs)
     return [spots[-i][:3], spots[-j][:3]]
+
+
+def _is_near(obstacle: Obstacle, area: tuple[float, float, float, float]) -> bool:
+    """Whether something is within the sight of a sensor from an area."""
+    x, y = zip(*obstacle.corners)
+    return (min(x) < area[2] + SIGHT and max(x) > area[0] - SIGHT
+            and min(y) < area[3] + SIGHT and max(y) > area[1] - SIGHT)
 
 
 def _size(room: Room) -> float:

@@ -7,7 +7,7 @@ from math import ceil, floor
 import numpy as np
 
 from angen_apps.plan.model import Plan, Point, Storey
-from angen_apps.plan.polygons import bounds, inside, rectangle, rectangles
+from angen_apps.plan.polygons import bounds, rectangle, rectangles
 from angen_apps.plan.walls import footprint
 
 CELL = 0.05  # m
@@ -15,6 +15,7 @@ CELLS = 4_000_000  # of a storey, at most: 100 m x 100 m
 MOST = 500  # rectangles of a storey; oblique walls need more, so that cells are coarser
 COARSE = 5  # cells
 MARGIN = 0.2  # m around the walls
+APART = 0.5  # m between the floors of levels that are not the same
 Rectangle = tuple[float, float, float, float]  # west, south, east, north
 
 
@@ -50,13 +51,25 @@ class Raster:
     def filled(self, polygon: list[Point] | tuple[Point, ...]) -> np.ndarray:
         """Which cells' middles a polygon contains."""
         found = np.zeros(self.x.shape, bool)
+        self.mark(found, polygon)
+        return found
+
+    def mark(self, cells: np.ndarray, polygon: list[Point] | tuple[Point, ...]) -> None:
+        """Sets the cells whose middles a polygon contains: an odd number of edges right of them."""
         west, south, east, north = bounds(polygon)
         rows = slice(max(0, int((south - self.south) / CELL) - 1),
                      max(0, int((north - self.south) / CELL) + 2))
         columns = slice(max(0, int((west - self.west) / CELL) - 1),
                         max(0, int((east - self.west) / CELL) + 2))
-        found[rows, columns] = inside(polygon, self.x[rows, columns], self.y[rows, columns])
-        return found
+        x, y = self.x[0, columns], self.y[rows, 0]
+        flips = np.zeros((len(y), len(x) + 1), int)
+        for (x0, y0), (x1, y1) in zip(polygon, [*polygon[1:], polygon[0]]):
+            at = np.nonzero((y0 > y) != (y1 > y))[0]
+            if len(at):
+                crossing = (x1 - x0) * (y[at] - y0) / (y1 - y0) + x0
+                flips[at, np.searchsorted(x, crossing)] += 1
+        right = flips.sum(axis=1, keepdims=True) - flips.cumsum(axis=1)[:, :-1]
+        cells[rows, columns] |= right % 2 == 1
 
     def cover(self, cells: np.ndarray, step: int = 1) -> list[Rectangle]:
         """The cells, or blocks of step x step of them, as rectangles in m."""
@@ -65,6 +78,22 @@ class Raster:
                  round(self.west + (column + width) * side, 4),
                  round(self.south + (row + height) * side, 4))
                 for row, column, height, width in rectangles(cells)]
+
+    def thrifty(self, cells: np.ndarray, holes: np.ndarray, most: int) -> list[Rectangle]:
+        """The same, by blocks of cells if there are more than `most`; holes stay as they are."""
+        found = self.cover(cells)
+        if len(found) <= most:
+            return found
+        fine = _blocks(holes).repeat(COARSE, 0).repeat(COARSE, 1)[:cells.shape[0], :cells.shape[1]]
+        return self.cover(_blocks(cells & ~fine), COARSE) + self.cover(cells & fine)
+
+
+def _blocks(cells: np.ndarray) -> np.ndarray:
+    """Which blocks of cells contain a true one."""
+    rows, columns = (-size % COARSE for size in cells.shape)
+    padded = np.pad(cells, ((0, rows), (0, columns)))
+    return np.asarray(padded.reshape(padded.shape[0] // COARSE, COARSE, -1, COARSE).any(
+        axis=(1, 3)))
 
 
 def slabs(plan: Plan) -> dict[int, Slabs]:
@@ -76,44 +105,33 @@ def slabs(plan: Plan) -> dict[int, Slabs]:
         return found
     above: list[tuple[float, np.ndarray]] = []  # undersides of floors and their cells
     for storey in sorted(plan.storeys, key=lambda s: -s.elevation):
-        rooms, rest, roofed = _cells(storey, raster)
+        holes = np.zeros(raster.x.shape, bool)
+        for cutout in storey.cutouts:
+            raster.mark(holes, cutout)
+        rooms, rest, roofed = _cells(storey, holes, raster)
+        through = _through(storey, plan, raster)
         made = found[storey.number]
-        made.floors = _floors(raster, rooms, rest, 1)
-        _add_ceilings(made, storey, roofed, above, raster)
-        if sum(map(len, made.floors.values())) + len(made.ceilings) > MOST:
-            made.floors = _floors(raster, rooms, rest, COARSE)
-            made.ceilings = _coarse_ceilings(raster, roofed)
-        whole = rest.copy()
-        for cells in rooms.values():
-            whole |= cells
-        above.append((storey.elevation - storey.slab, whole))
+        _add_ceilings(made, roofed, through, above, raster)
+        made.floors = {name: raster.cover(cells) for name, cells in [*rooms.items(), ('', rest)]}
+        if sum(map(len, made.floors.values())) > MOST:
+            made.floors = {'': raster.thrifty(_union([*rooms.values(), rest]), holes, MOST)}
+        above.append((storey.elevation - storey.slab, _union([*rooms.values(), rest])))
     return found
 
 
-def _floors(raster: Raster, rooms: dict[str, np.ndarray], rest: np.ndarray, step: int
-            ) -> dict[str, list[Rectangle]]:
-    found = {}
-    taken = np.zeros_like(_blocks(rest, step))
-    for name, cells in [*rooms.items(), ('', rest)]:
-        blocks = _blocks(cells, step) & ~taken
-        taken |= blocks
-        found[name] = raster.cover(blocks, step)
-    return found
+def _through(storey: Storey, plan: Plan, raster: Raster) -> np.ndarray:
+    """The holes in the floor of the next level above: shafts and stairs have no ceiling."""
+    cells = np.zeros(raster.x.shape, bool)
+    higher = [s.elevation for s in plan.storeys if s.elevation > storey.elevation + APART]
+    for other in plan.storeys:
+        if higher and abs(other.elevation - min(higher)) < APART:
+            for cutout in other.cutouts:
+                raster.mark(cells, cutout)
+    return cells
 
 
-def _coarse_ceilings(raster: Raster, roofed: dict[float, np.ndarray]
-                     ) -> list[tuple[float, Rectangle]]:
-    return [(height, box) for height, cells in sorted(roofed.items())
-            for box in raster.cover(_blocks(cells, COARSE), COARSE)]
-
-
-def _blocks(cells: np.ndarray, step: int) -> np.ndarray:
-    """Which blocks of step x step cells contain a true one."""
-    if step == 1:
-        return cells
-    rows, columns = (-size % step for size in cells.shape)
-    padded = np.pad(cells, ((0, rows), (0, columns)))
-    return np.asarray(padded.reshape(padded.shape[0] // step, step, -1, step).any(axis=(1, 3)))
+def _union(parts: list[np.ndarray]) -> np.ndarray:
+    return np.asarray(np.logical_or.reduce(parts))
 
 
 def _points(storey: Storey) -> list[Point]:
@@ -121,13 +139,10 @@ def _points(storey: Storey) -> list[Point]:
     return found + [corner for wall in storey.walls for corner in footprint(wall)]
 
 
-def _cells(storey: Storey, raster: Raster
+def _cells(storey: Storey, holes: np.ndarray, raster: Raster
            ) -> tuple[dict[str, np.ndarray], np.ndarray, dict[float, np.ndarray]]:
     """Cells of each room's floor, of walls and thresholds, and of ceilings by their height."""
     taken = np.zeros(raster.x.shape, bool)
-    holes = taken.copy()
-    for cutout in storey.cutouts:
-        holes |= raster.filled(cutout)
     rooms: dict[str, np.ndarray] = {}
     roofed: dict[float, np.ndarray] = {}
     for room in storey.rooms:
@@ -143,12 +158,12 @@ def _cells(storey: Storey, raster: Raster
     rest = np.zeros(raster.x.shape, bool)
     for wall in storey.walls:
         if wall.bottom < storey.elevation + 0.1:
-            rest |= raster.filled(footprint(wall))
+            raster.mark(rest, footprint(wall))
     for opening in storey.openings:
         half = opening.width / 2 + CELL
-        rest |= raster.filled(rectangle(opening.x, opening.y, opening.yaw,
-                                        (-half, opening.band[0] - CELL),
-                                        (half, opening.band[1] + CELL)))
+        raster.mark(rest, rectangle(opening.x, opening.y, opening.yaw,
+                                    (-half, opening.band[0] - CELL),
+                                    (half, opening.band[1] + CELL)))
     walls = rest.copy()
     rest &= ~taken & ~holes
     if roofed:
@@ -165,12 +180,12 @@ def _grown(cells: np.ndarray, steps: int) -> np.ndarray:
     return np.asarray(binary_dilation(cells, iterations=steps))
 
 
-def _add_ceilings(made: Slabs, storey: Storey, roofed: dict[float, np.ndarray],
+def _add_ceilings(made: Slabs, roofed: dict[float, np.ndarray], through: np.ndarray,
                   above: list[tuple[float, np.ndarray]], raster: Raster) -> None:
     """Ceilings where no floor of a storey above closes the room within 0.6 m over it."""
     for height, cells in sorted(roofed.items()):
-        open_cells = cells.copy()
+        open_cells = cells & ~through
         for underside, floors in above:
             if -0.2 < underside - height < 0.6:
                 open_cells &= ~floors
-        made.ceilings += [(height, box) for box in raster.cover(open_cells)]
+        made.ceilings += [(height, box) for box in raster.thrifty(open_cells, through, MOST // 2)]

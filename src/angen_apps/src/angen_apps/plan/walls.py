@@ -3,7 +3,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import atan2, ceil, cos, degrees, hypot, pi, radians, sin, tan
-from typing import Iterable, Sequence
+from typing import Callable, Iterable, Sequence
+
+import numpy as np
 
 from angen_apps.plan.model import Color, Opening, Point, Wall, local
 from angen_apps.plan.polygons import overlap, rectangle
@@ -79,9 +81,10 @@ def boxes(walls: Sequence[Wall], openings: Sequence[Opening], sunk: float) -> li
     placed: dict[float, list[Box]] = {}
     found: list[Box] = []
     names = sorted(set(frames))
+    near = _neighbors(walls)
     for i in order:
         lower = LOWER * (names.index(frames[i]) % 8)
-        extended = _extended(walls[i], [wall for k, wall in enumerate(walls) if k != i])
+        extended = _extended(walls[i], [walls[k] for k in near(i)])
         solids = _solids(extended, frames[i], sunk, lower)
         others = placed.setdefault(frames[i], [])
         pieces = [piece for solid in solids for piece in _without(solid, others)]
@@ -90,6 +93,22 @@ def boxes(walls: Sequence[Wall], openings: Sequence[Opening], sunk: float) -> li
             pieces = [rest for piece in pieces for rest in _cut(piece, low, high)]
         found += [piece for piece in pieces if min(piece.size) > LEAST]
     return found
+
+
+def _neighbors(walls: Sequence[Wall]) -> Callable[[int], list[int]]:
+    """Which walls are near enough to an end of wall i to be joined to it."""
+    ends = np.array([(*wall.start, *wall.end) for wall in walls]).reshape(-1, 4)
+    low, high = np.minimum(ends[:, :2], ends[:, 2:]), np.maximum(ends[:, :2], ends[:, 2:])
+    reach = (np.array([wall.thickness for wall in walls]) / 2 + REACH)[:, None] * 2
+
+    def near(i: int) -> list[int]:
+        beside = np.zeros(len(walls), bool)
+        for point in (ends[i, :2], ends[i, 2:]):
+            beside |= ((point > low - reach) & (point < high + reach)).all(axis=1)
+        beside[i] = False
+        return [int(k) for k in np.nonzero(beside)[0]]
+
+    return near
 
 
 def _frames(walls: Sequence[Wall]) -> list[float]:

@@ -8,13 +8,14 @@ from typing import Iterable
 from lxml import etree
 
 from angen_apps.plan import sensors as rules
-from angen_apps.plan.doors import GLASS, OAK, Hung, Obstacle, hang, leaf_model
+from angen_apps.plan.doors import GLASS, OAK, Hung, leaf_model
 from angen_apps.plan.finish import beside_box, sides, stem
 from angen_apps.plan.furnish import obstacles, piece_model
 from angen_apps.plan.lifts import add_lift
 from angen_apps.plan.names import with_number
 from angen_apps.plan.model import Lamp, Opening, Plan, Room, Storey
 from angen_apps.plan.slabs import Slabs, slabs
+from angen_apps.plan.travel import Obstacle, hang
 from angen_apps.plan.walls import Box, boxes
 from angen_tools.common.files import write_text
 from angen_tools.world import sdf
@@ -144,7 +145,7 @@ def _add_building(world: etree._Element, plan: Plan, storey: Storey, made: Slabs
     for room in storey.rooms:
         _add_room(model, room)
     for opening in storey.openings:
-        if opening.kind == 'opening':
+        if opening.kind == 'opening' and not opening.filled:
             _add_passage(model, storey, opening)
     lowest = storey.elevation <= min(s.elevation for s in plan.storeys) + 1e-6
     thick = FLOOR_THICK if lowest else storey.slab

@@ -10,6 +10,8 @@ import yaml
 from angen_tools.common.failure import Failure
 from angen_tools.common.nearest import did_you_mean
 
+DEEPEST = 100  # levels of lists in lists: the composer of libyaml calls itself for each
+
 
 class YamlFile:
     """A file's nodes, taken apart; scalars are texts as they are written."""
@@ -21,12 +23,15 @@ class YamlFile:
         except (OSError, UnicodeDecodeError) as error:
             raise Failure(f'{path}: cannot be read: {getattr(error, "strerror", error)}') from None
         try:
-            self.root = yaml.compose(text, yaml.SafeLoader)
+            deepest = _deeper_than(text, DEEPEST)
+            self.root = None if deepest else yaml.compose(text, yaml.CSafeLoader)
         except yaml.YAMLError as error:
             mark = getattr(error, 'problem_mark', None)
             line = mark.line + 1 if mark else 1
             raise Failure(f'{path}:{line}: is not YAML: {getattr(error, "problem", error)}'
                           ) from None
+        if deepest:
+            raise Failure(f'{path}:{deepest}: is nested deeper than {DEEPEST} levels')
 
     def fail(self, node: Any, what: str) -> Failure:
         """The error at a node."""
@@ -83,6 +88,19 @@ class YamlFile:
         if not (math.isfinite(value) and low <= value <= high):
             raise self.fail(node, f'{what} is {text}, must be {low:g} to {high:g}')
         return value
+
+
+def _deeper_than(text: str, most: int) -> int:
+    """The line at which a document is nested deeper; 0 where it is not."""
+    depth = 0
+    for event in yaml.parse(text, yaml.CSafeLoader):
+        if isinstance(event, yaml.CollectionStartEvent):
+            depth += 1
+            if depth > most:
+                return int(event.start_mark.line) + 1
+        elif isinstance(event, yaml.CollectionEndEvent):
+            depth -= 1
+    return 0
 
 
 def line_of(node: Any) -> int:
