@@ -2,6 +2,8 @@
 from __future__ import annotations
 
 import math
+import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -11,7 +13,7 @@ from angen_apps.care.rules import Rules
 from angen_apps.care.rules_file import read_rules
 from angen_apps.care.sources import at_home, check_sources
 from angen_tools.common.failure import Failure
-from angen_tools.common.home import Home, Room
+from angen_tools.common.home import Home, Room, Thing
 
 ROOT = Path(__file__).resolve().parents[3]
 RIGHT = '''starts: 6:00
@@ -115,7 +117,7 @@ ROOMS = {'pir/p1': 'a', 'pir/p2': 'b', 'pir/p3': 'c', 'rfid/r': 'a'}
 def by_room(folder: Path, room: str) -> Rules:
     text = f"signals:\n  moves: {{of: pir/*, in: {room}, is: motion}}\nrules:\n" \
         "  - {name: r, reason: x, when: [moves]}\n"
-    return at_home(rules_of(folder, text), HOME, ROOMS)
+    return at_home(rules_of(folder, text), HOME, ROOMS, ROOMS)
 
 
 @pytest.mark.parametrize('room, of', [('kitchen', ('pir/p1', 'pir/p2')), ('c', ('pir/p3',)),
@@ -127,7 +129,30 @@ def test_a_signal_means_the_sensors_in_rooms_of_a_name_or_use(tmp_path: Path, ro
 
 def test_the_home_says_when_the_day_begins_unless_the_rules_do(tmp_path: Path) -> None:
     assert by_room(tmp_path, 'a').starts == 7.5 * 3600
-    assert at_home(rules_of(tmp_path, RIGHT), HOME, ROOMS).starts == 6 * 3600
+    assert at_home(rules_of(tmp_path, RIGHT), HOME, ROOMS, ROOMS).starts == 6 * 3600
+
+
+@pytest.mark.parametrize('signal, why', [
+    ('{of: pir/*, in: hall, is: motion}', 'the home has no hall'),
+    ('{of: stove/*, is: on}', r'the home has no stove/\*'),
+    ("{of: 'door/{entrance}', is: open}", 'the home has no main entrance')])
+def test_a_rule_is_left_out_where_the_home_has_nothing_for_it(
+        tmp_path: Path, signal: str, why: str) -> None:
+    text = f"signals:\n  moves: {{of: pir/*, is: motion}}\n  other: {signal}\nrules:\n" \
+        "  - {name: r, reason: x, when: [moves]}\n  - {name: q, reason: x, when: [other]}\n"
+    rules = at_home(rules_of(tmp_path, text), HOME, ROOMS, ROOMS)
+    assert [rule.name for rule in rules.rules] == ['r']
+    assert re.search(f'my.yaml:6: rule q is left out: {why}', rules.left_out[0])
+
+
+def test_the_entrance_and_a_place_by_its_type(tmp_path: Path) -> None:
+    text = "signals:\n  opened: {of: 'door/{entrance}', is: open}\nrules:\n" \
+        "  - {name: r, reason: x, at: fridge, when: [opened]}\n"
+    fridge = Thing('cooler3', 'fridge', 'a', [0.0] * 7, [])
+    home = replace(HOME, entrance='front', things=[fridge])
+    rules = at_home(rules_of(tmp_path, text), home, {}, {'door/front', 'door/back'})
+    assert rules.signals['opened'].of == ('door/front',)
+    assert rules.rules[0].at == 'cooler3'
 
 
 def test_a_room_that_there_is_not_is_refused(tmp_path: Path) -> None:

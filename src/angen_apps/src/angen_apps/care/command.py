@@ -17,8 +17,10 @@ def care_live(path: Path | None, out: Path) -> int:
     from angen_apps.care.live import Live
     rules = read_rules(path or shipped('care.yaml'))
     live = Live(rules, lambda change, starts: print(line_of(change, starts), flush=True))
-    print(f'angen: {len(rules.rules)} rules of {rules.path}; warnings are on /angen/warnings; '
-          'Ctrl-C ends', file=sys.stderr)
+    for why in live.left_out:
+        print(f'angen: {why}', file=sys.stderr)
+    print(f'angen: {len(rules.rules) - len(live.left_out)} rules of {rules.path}; warnings are on '
+          '/angen/warnings; Ctrl-C ends', file=sys.stderr)
     with suppress(KeyboardInterrupt):
         while True:
             live.follow()
@@ -36,6 +38,8 @@ def care_offline(path: Path | None, world: Path, seconds: float, day: Path | Non
     rules = read_rules(path or shipped('care.yaml'))
     began = time.monotonic()
     watched = Watched(rules, world, seed)
+    for why in watched.rules.left_out:
+        print(f'angen: {why}', file=sys.stderr)
     starts = watched.engine.starts
     orders = read_day(day, starts) if day else []
     watched.run(seconds, orders)
@@ -48,7 +52,7 @@ def care_offline(path: Path | None, world: Path, seconds: float, day: Path | Non
         return 0
     if warnings:
         show(table_of(warnings, starts))
-    print(f'{len(warnings)} warnings of {len(rules.rules)} rules, {len(watched.events)} events '
-          f'in {watched.time:g} s, simulated in {wall:.1f} s; see {out}/care.png, warnings.csv, '
-          'events.csv')
+    print(f'{len(warnings)} warnings of {len(watched.rules.rules)} rules, '
+          f'{len(watched.events)} events in {watched.time:g} s, simulated in {wall:.1f} s; see '
+          f'{out}/care.png, warnings.csv, events.csv')
     return 0

@@ -56,7 +56,7 @@ class Live:
     def __init__(self, rules: Rules, tell: Callable[[Change, float], None]) -> None:
         from angen_msgs.msg import Event as Message
         from std_msgs.msg import String
-        self._rules, self._tell = rules, tell
+        self._written, self._rules, self._tell = rules, rules, tell
         self._client = Client()
         self._mail = Mailbox(self._client)
         self._mail.subscribe(EVENTS, Message)
@@ -85,7 +85,7 @@ class Live:
         self._mail.unsubscribe(SUMMARY)
         summaries = {f'{entry.kind}/{entry.name}': entry.text for entry in found[0].entries}
         rooms = {f'{entity.kind}/{entity.name}': entity.room for entity in entities}
-        self._rules = at_home(self._rules, self._client.home(), rooms)
+        self._rules = at_home(self._written, self._client.home(), rooms, summaries)
         check_sources(self._rules, summaries, {entity.name for entity in entities})
         self._start = found[0].header.stamp.to_sec()
         self.engine = Engine(self._rules, summaries, summaries, self._start)
@@ -93,6 +93,11 @@ class Live:
         self._publisher.publish(self.engine, [])
         for mail in kept:
             self._take(*mail)
+
+    @property
+    def left_out(self) -> tuple[str, ...]:
+        """Why some rules have nothing to watch in this home."""
+        return self._rules.left_out
 
     def follow(self) -> None:
         """Handles the messages of a moment."""

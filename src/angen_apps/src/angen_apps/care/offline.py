@@ -24,7 +24,7 @@ class Watched:
         with simulator() as angen:
             self._world = angen.World(str(world), seed=seed)
         existing = set(_existing(self._world))
-        rules = at_home(rules, Home.of_world(self._world), _rooms(self._world))
+        rules = at_home(rules, Home.of_world(self._world), _rooms(self._world), existing)
         names = {key.split('/', 1)[1] for key in existing}
         check_sources(rules, existing, names | set(self._world.models))
         self.rules = rules

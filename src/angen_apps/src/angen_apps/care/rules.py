@@ -44,7 +44,7 @@ class Rule:
     product: bool  # degrees multiply; otherwise the least counts
     threshold: float
     reason: str
-    at: str        # a model, sensor or device: where the warning is shown; '' at the first source
+    at: str        # a model, sensor, device or type of thing that is warned at; '' first source
     line: int
 
 
@@ -56,3 +56,4 @@ class Rules:
     starts: float | None  # time of day at simulated time 0, s; None: as the home says
     signals: dict[str, Signal]
     rules: tuple[Rule, ...]
+    left_out: tuple[str, ...] = ()  # why the home has nothing for some rules

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fnmatch import fnmatchcase
+from pathlib import Path
 from typing import Collection, Iterable, Mapping
 
 from angen_tools.common.clock import time_of_day
@@ -12,6 +13,8 @@ from angen_tools.common.home import Home
 from angen_tools.common.nearest import did_you_mean
 
 LISTED = 'angen watch --once'
+ENTRANCE = '{entrance}'
+USES = ('kitchen', 'bedroom', 'bathroom', 'living', 'hall', 'work', 'landing', 'outdoor')
 
 
 def chosen(patterns: Iterable[str], existing: Collection[str]) -> set[str]:
@@ -20,32 +23,68 @@ def chosen(patterns: Iterable[str], existing: Collection[str]) -> set[str]:
             if any(fnmatchcase(source, pattern) for pattern in patterns)}
 
 
-def at_home(rules: Rules, home: Home, rooms: Mapping[str, str]) -> Rules:
-    """The rules with the sources that signals have by their rooms, and with the home's start.
+def at_home(rules: Rules, home: Home, rooms: Mapping[str, str], existing: Collection[str]) -> Rules:
+    """The rules with their sources and places in a home, and with the home's start.
 
-    `rooms`: the room of each KIND/NAME. Failure where a signal names an unknown room.
+    `rooms`: the room of each KIND/NAME that is in one. What is chosen by kind, use or the entrance
+    may be missing: rules that ask for it are left out. Failure where something named is missing.
     """
-    uses = {room.name: room.use for room in home.rooms}
-    known = {*uses.values(), *uses}
-    signals = {}
+    signals: dict[str, Signal] = {}
+    missing: dict[str, str] = {}
     for name, signal in rules.signals.items():
-        for room in signal.rooms:
-            if room not in known:
-                raise Failure(f"{rules.path}:{signal.line}: signal '{name}': the home has no room "
-                              f"'{room}'; {did_you_mean(room, known, 'angen home FILE.world')}")
-        if signal.rooms:
-            inside = {source for source, room in rooms.items()
-                      if room in signal.rooms or uses.get(room) in signal.rooms}
-            of = tuple(sorted(chosen(signal.of, inside)))
-            if not of:
-                raise Failure(f"{rules.path}:{signal.line}: signal '{name}': no "
-                              f"{' or '.join(signal.of)} is in {' or '.join(signal.rooms)}")
-            signal = replace(signal, of=of)
-        signals[name] = signal
+        of = _entrance(signal.of, home)
+        why = '' if of else 'the home has no main entrance'
+        if of and signal.rooms:
+            why = _check_rooms(rules.path, signal, home)
+            of = tuple(sorted(chosen(of, _inside(signal, home, rooms))))
+            why = why or ('' if of else f'no {" or ".join(signal.of)} is in '
+                                        f'{" or ".join(signal.rooms)}')
+        elif of and any('*' in pattern for pattern in of) and not chosen(of, existing):
+            why = f'the home has no {" or ".join(signal.of)}'
+        if why:
+            missing[name] = why
+        else:
+            signals[name] = replace(signal, of=of)
+    kept, left_out = [], []
+    for rule in rules.rules:
+        whys = [missing[part.signal] for part in rule.when if part.signal in missing]
+        if whys:
+            left_out.append(f'{rules.path}:{rule.line}: rule {rule.name} is left out: {whys[0]}')
+        else:
+            kept.append(replace(rule, at=_place(rule.at, home)))
     starts = rules.starts
     if starts is None:
         starts = time_of_day(home.start[11:]) if home.start else 0.0
-    return replace(rules, starts=starts, signals=signals)
+    return replace(rules, starts=starts, signals=signals, rules=tuple(kept),
+                   left_out=tuple(left_out))
+
+
+def _entrance(patterns: Iterable[str], home: Home) -> tuple[str, ...]:
+    """The patterns with the name of the main entrance; none where the home has none."""
+    if not home.entrance:
+        return tuple(pattern for pattern in patterns if ENTRANCE not in pattern)
+    return tuple(pattern.replace(ENTRANCE, home.entrance) for pattern in patterns)
+
+
+def _check_rooms(path: Path, signal: Signal, home: Home) -> str:
+    """Why no room of a known use is there; Failure where a room is not known at all."""
+    known = {name for room in home.rooms for name in (room.use, room.name)}
+    for room in signal.rooms:
+        if room not in known | set(USES):
+            raise Failure(f"{path}:{signal.line}: signal '{signal.name}': the home has no room "
+                          f"'{room}'; {did_you_mean(room, known, 'angen home FILE.world')}")
+    return '' if known & set(signal.rooms) else f'the home has no {" or ".join(signal.rooms)}'
+
+
+def _inside(signal: Signal, home: Home, rooms: Mapping[str, str]) -> set[str]:
+    uses = {room.name: room.use for room in home.rooms}
+    return {source for source, room in rooms.items()
+            if room in signal.rooms or uses.get(room) in signal.rooms}
+
+
+def _place(at: str, home: Home) -> str:
+    """The first thing of a type; other places are names."""
+    return next((thing.name for thing in home.things if thing.type == at), at)
 
 
 def check_sources(rules: Rules, existing: Collection[str], places: Collection[str]) -> None:
