@@ -7,7 +7,7 @@ import angen
 import pytest
 
 from angen_apps.robot.building import Survey
-from angen_apps.seek.simulation import entities_of
+from angen_apps.robot.building import entities_of
 
 WALLS = {'south': (3, -0.06, 6.24, 0.12), 'north': (3, 3.06, 6.24, 0.12),
          'west': (-0.06, 1.5, 0.12, 3), 'east': (6.06, 1.5, 0.12, 3),

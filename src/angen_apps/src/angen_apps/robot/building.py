@@ -55,6 +55,17 @@ def entity_of(message: Any, home: Home) -> Entity:
                   home.storey_at(at.z), message.room)
 
 
+def entities_of(world: Any) -> list[Entity]:
+    """All devices and sensors of an angen.World."""
+    home, found = Home.of_world(world), []
+    for kind, name, model, pose in world.entities():
+        x, y, z, *turned = (float(value) for value in pose)
+        room = home.room_at(x, y, z)
+        found.append(Entity(kind, name, model, (x, y, z, *turned), floor=home.storey_at(z),
+                            room=room.name if room else ''))
+    return found
+
+
 class Survey:
     """A world's geometry: its floors' maps with doors open and shut, and its doors.
 

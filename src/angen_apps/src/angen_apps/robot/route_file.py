@@ -67,14 +67,20 @@ def default_route() -> Path:
     return shipped('patrol.yaml')
 
 
-def prepare(route_file: Path | None, world: Path | None, out: Path) -> tuple[Route, Path]:
+def prepare(route_file: Path | None, world: Path | None, out: Path, visits: bool = True
+            ) -> tuple[Route, Path]:
     """The route and the world of a task, or the default ones. Makes the folder `out`, and lets the
-    world include the models beside it."""
+    world include the models beside it. In another world the default route visits its rooms, and
+    the robot and the person that are missing are added; without `visits` only that."""
+    from angen_apps.robot.rooms_route import by_rooms, has_all
     route = read_route(route_file or default_route())
+    other = route_file is None and world is not None and world.resolve() != building().resolve()
     world = (world or building()).absolute()
     make_folder(out)
     paths = [str(world.parent / 'models'), os.environ.get('ANGEN_MODEL_PATH', '')]
     os.environ['ANGEN_MODEL_PATH'] = ':'.join(path for path in paths if path)
+    if other and (visits or not has_all(world, route)):
+        route, world = by_rooms(route, world, out / 'home.world')
     return route, world
 
 

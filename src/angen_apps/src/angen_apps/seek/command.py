@@ -10,7 +10,7 @@ from dataclasses import asdict, replace
 from pathlib import Path
 
 from angen_apps.maps.gridmap import load_world
-from angen_apps.robot.building import Entity
+from angen_apps.robot.building import Entity, entities_of
 from angen_apps.robot.route_file import Route, default_route, prepare
 from angen_apps.robot.tables import write_figures
 from angen_apps.seek import run
@@ -18,7 +18,6 @@ from angen_apps.seek.figure import draw_search, draw_times
 from angen_apps.seek.home import Home, make_home
 from angen_apps.seek.report import compare, summary, table_of, verdict, write_outcome
 from angen_apps.seek.run import Figures
-from angen_apps.seek.simulation import entities_of
 from angen_tools.common.output import as_json, show
 from angen_tools.common.progress import Progress
 from angen_tools.common.watchdog import end_with_parent
@@ -29,7 +28,7 @@ HOME_SHARE = 0.05  # of the progress: the survey
 def seek(route_file: Path | None, world: Path | None, seed: int, ambient: bool, limit: float,
          out: Path, json: bool) -> int:
     """Searches once; 0, or 1 where it found no person or the robot touched something."""
-    route, world = prepare(route_file, world, out)
+    route, world = prepare(route_file, world, out, visits=False)
     with Progress('seek', 0.1) as progress:
         home, route = survey(world, route, out)
         progress.update(HOME_SHARE, 'the building is surveyed')
@@ -56,7 +55,7 @@ def seek_seeds(route_file: Path | None, world: Path | None, seeds: range, limit:
                json: bool) -> int:
     """Searches with each seed, with and without ambient sensors, on all cores; a table and a
     figure. 0, or 1 where one found no person or touched something."""
-    route, world = prepare(route_file, world, out)
+    route, world = prepare(route_file, world, out, visits=False)
     # By processes that end: this one, which they are made from, has no world and no threads.
     with multiprocessing.get_context('fork').Pool(1, _begin, (os.getpid(),)) as pool:
         home, route = pool.apply(survey, (world, route, out))

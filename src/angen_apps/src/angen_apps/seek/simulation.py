@@ -11,23 +11,11 @@ from typing import Any, Callable
 
 import numpy as np
 
-from angen_apps.robot.building import Entity, Start
+from angen_apps.robot.building import Start, entities_of
 from angen_apps.robot.interface import BASE, BUMPER, CYCLE, DoorState, Event, LiftState, bumper
 from angen_apps.robot.pilot import Pose
 from angen_tools.common.catalog import angen_module, simulator
 from angen_tools.common.geometry import yaw
-from angen_tools.common.home import Home
-
-
-def entities_of(world: Any) -> list[Entity]:
-    """All devices and sensors of an angen.World."""
-    home, found = Home.of_world(world), []
-    for kind, name, model, pose in world.entities():
-        x, y, z, *turned = (float(value) for value in pose)
-        room = home.room_at(x, y, z)
-        found.append(Entity(kind, name, model, (x, y, z, *turned), floor=home.storey_at(z),
-                            room=room.name if room else ''))
-    return found
 
 
 class Simulation:

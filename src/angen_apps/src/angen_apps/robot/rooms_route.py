@@ -1,0 +1,170 @@
+"""A route through the rooms of any home, and the home with a robot and a person in it."""
+from __future__ import annotations
+
+import sys
+from dataclasses import replace
+from math import cos, hypot, sin
+from pathlib import Path
+
+import numpy as np
+from lxml import etree
+
+from angen_apps.maps.gridmap import load_world
+from angen_apps.robot.building import Entity, Survey, entities_of
+from angen_apps.robot.planner import Planner, Point, distances
+from angen_apps.robot.route_file import Lift, Route, Waypoint
+from angen_tools.common.failure import Failure
+from angen_tools.common.files import write_text
+from angen_tools.common.home import Home, Room
+from angen_tools.world import sdf
+
+INSIDE = 1.0  # m from the main entrance to where the robot starts
+REACH = 2.0  # m around that
+CENTRAL = 0.6  # m from everything that is far enough
+OUTSIDE = ('outdoor',)
+
+
+def has_all(world: Path, route: Route) -> bool:
+    """Whether a world has the route's robot and a person."""
+    robots = [e for e in load_world(str(world)).entities() if e[:2] == ('drive', route.robot)]
+    return bool(robots) and sdf.read(world).find('.//actor') is not None
+
+
+def by_rooms(route: Route, world: Path, to: Path) -> tuple[Route, Path]:
+    """The route with a waypoint in each room that the robot reaches, and the world; with a robot
+    at the main entrance and a person in the last room in `to`, where the world has none."""
+    shut = load_world(str(world))
+    entities = entities_of(shut)
+    survey = Survey(load_world(str(world)), shut, entities, None)
+    planners = {floor: Planner(grid, route.clearance) for floor, grid in survey.maps.items()}
+    start, floor, heading = _start(route, survey, planners, entities, world)
+    lift = _lift(survey.home, planners, floor, route)
+    waypoints = _visits(route, survey, planners, start, floor, lift)
+    if not waypoints:
+        raise Failure(f'{world}: the robot reaches no room from {start[0]:.2f}, {start[1]:.2f}')
+    made = replace(route, waypoints=waypoints, elevator=lift if any(
+        waypoint.floor != floor for waypoint in waypoints) else None)
+    return made, _peopled(made, survey, entities, (start, floor, heading), world, to)
+
+
+def _start(route: Route, survey: Survey, planners: dict[int, Planner], entities: list[Entity],
+           world: Path) -> tuple[Point, int, float]:
+    """Where the robot is, or where it fits behind the main entrance: x, y, floor, yaw."""
+    for entity in entities:
+        if (entity.kind, entity.name) == ('drive', route.robot):
+            return (entity.pose[0], entity.pose[1]), entity.floor, entity.flat.yaw
+    home = survey.home
+    door = next((door for door in home.doors if door.name == home.entrance), None)
+    if door is None:
+        raise Failure(f'{world}: has no robot {route.robot} and no main entrance, behind which '
+                      'one could start; include model://turtlebot in it')
+    inside = [room for name in door.rooms if (room := home.room(name)) and room.use not in OUTSIDE]
+    room = inside[0]
+    x, y, _, yaw = door.pose
+    sides = [(x - side * INSIDE * sin(yaw), y + side * INSIDE * cos(yaw)) for side in (-1, 1)]
+    wish = min(sides, key=lambda point: (not room.contains(*point), point))
+    planner = planners[room.storey]
+    place = _clear_of_doors(wish, survey, planner, room.storey, route)
+    if place is None:
+        raise Failure(f'{world}: the robot has no room within {REACH:g} m of the main entrance '
+                      f'{home.entrance}')
+    return place, room.storey, np.arctan2(wish[1] - y, wish[0] - x)
+
+
+def _clear_of_doors(wish: Point, survey: Survey, planner: Planner, floor: int, route: Route
+                    ) -> Point | None:
+    rows, columns = np.nonzero(planner.passable)
+    points = [planner.grid.point(int(r), int(c)) for r, c in zip(rows, columns)]
+    near = sorted((hypot(p[0] - wish[0], p[1] - wish[1]), p) for p in points
+                  if hypot(p[0] - wish[0], p[1] - wish[1]) < REACH)
+    return next((p for _, p in near if _keeps_off(p, survey, floor, route)), None)
+
+
+def _keeps_off(point: Point, survey: Survey, floor: int, route: Route) -> bool:
+    return all(door.room_for(point) >= route.door_room for door in survey.doors[floor])
+
+
+def _lift(home: Home, planners: dict[int, Planner], floor: int, route: Route) -> Lift | None:
+    """The first elevator with a landing on the robot's floor."""
+    for elevator in home.elevators:
+        landing = next((each for each in elevator.landings if each.storey == floor), None)
+        if landing is None:
+            continue
+        cabin = planners[floor].nearest((elevator.pose[0], elevator.pose[1]), 0.5)
+        away = hypot(landing.pose[0] - elevator.pose[0], landing.pose[1] - elevator.pose[1]) or 1.0
+        more = 1 + 0.6 / away  # m farther from the cabin: its doors need no room there
+        before = planners[floor].nearest(
+            (elevator.pose[0] + (landing.pose[0] - elevator.pose[0]) * more,
+             elevator.pose[1] + (landing.pose[1] - elevator.pose[1]) * more), 0.6)
+        if cabin and before:
+            return Lift(elevator.name, cabin, before)
+    return None
+
+
+def _visits(route: Route, survey: Survey, planners: dict[int, Planner], start: Point, floor: int,
+            lift: Lift | None) -> list[Waypoint]:
+    """A place in each room, the nearest first, floor by floor."""
+    found: list[Waypoint] = []
+    numbers = sorted(planners, key=lambda number: (number != floor, number))
+    for number in numbers:
+        rooms = [room for room in survey.home.rooms
+                 if room.storey == number and room.use not in OUTSIDE]
+        if number == floor:
+            origin: Point | None = start
+        else:
+            origin = lift.cabin if lift and planners[number].is_free(lift.cabin) else None
+        reached = []
+        costs = planners[number].costs(origin) if origin else None
+        for room in rooms:
+            place = _place(room, survey, planners[number], costs, number, route)
+            if place is None:
+                print(f'angen: the robot does not reach {room.name}', file=sys.stderr)
+            else:
+                reached.append((place[0], Waypoint(room.name, number, place[1], 0)))
+        found += [waypoint for _, waypoint in sorted(reached, key=lambda each: each[0])]
+    return found
+
+
+def _place(room: Room, survey: Survey, planner: Planner, costs: np.ndarray | None, floor: int,
+           route: Route) -> tuple[float, Point] | None:
+    """The cost of the way to the most central place of a room, and the place."""
+    if costs is None:
+        return None
+    clear = distances(planner.grid, CENTRAL)
+    rows, columns = np.nonzero(planner.passable & np.isfinite(costs))
+    order = np.lexsort((costs[rows, columns], -clear[rows, columns]))
+    for i in order:
+        point = planner.grid.point(int(rows[i]), int(columns[i]))
+        if room.contains(*point) and _keeps_off(point, survey, floor, route):
+            return float(costs[rows[i], columns[i]]), point
+    return None
+
+
+def _peopled(route: Route, survey: Survey, entities: list[Entity],
+             start: tuple[Point, int, float], world: Path, to: Path) -> Path:
+    """The world, or a copy with the robot and the person that it lacks."""
+    root = sdf.read(world)
+    inside = root.find('world')
+    (x, y), floor, yaw = start
+    has_robot = any((e.kind, e.name) == ('drive', route.robot) for e in entities)
+    has_person = root.find('.//actor') is not None
+    if has_robot and has_person:
+        return world
+    if not has_robot:
+        block = etree.SubElement(inside, 'include')
+        etree.SubElement(block, 'name').text = route.robot
+        etree.SubElement(block, 'pose').text = \
+            f'{x:.4f} {y:.4f} {survey.home.elevation(floor):.4f} 0 0 {yaw:.4f}'
+        etree.SubElement(block, 'uri').text = 'model://turtlebot'
+    if not has_person:
+        last = [waypoint for waypoint in route.waypoints if waypoint.floor == floor][-1]
+        actor = etree.SubElement(inside, 'actor', name='person')
+        place = f'{last.at[0]:.4f} {last.at[1]:.4f} {survey.home.elevation(floor):.4f} 0 0 0'
+        etree.SubElement(actor, 'pose').text = place
+        trajectory = etree.SubElement(etree.SubElement(actor, 'script'), 'trajectory', id='0',
+                                      type='walking')
+        waypoint = etree.SubElement(trajectory, 'waypoint')
+        etree.SubElement(waypoint, 'time').text = '0'
+        etree.SubElement(waypoint, 'pose').text = place
+    write_text(to, sdf.text(root))
+    return to
