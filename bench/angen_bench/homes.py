@@ -223,6 +223,8 @@ def moved(world: Any, seconds: float) -> tuple[str, float]:
 def measure(folder: Path) -> list[dict[str, Any]]:
     """A row for each of the nine homes."""
     import angen
+
+    from angen_bench.walks import walk
     rows = []
     for name, xml in examples().items():
         imported = import_example(name, xml, folder)
@@ -237,6 +239,8 @@ def measure(folder: Path) -> list[dict[str, Any]]:
         opened = sum(mode == 'OPEN' for mode, _, _ in states.values())
         free = through(world, imported.plan)
         joined, found = reached(imported.path, home)
+        walked, stopped = walk(imported.path, home)
+        print('\n'.join(f'{name}: {what}' for what in stopped))
         rows.append({
             'home': name, 'in file': '/'.join(map(str, said.values())),
             'in world': '/'.join(map(str, made.values())), 'equal': said == made,
@@ -244,6 +248,7 @@ def measure(folder: Path) -> list[dict[str, Any]]:
             'fixed': sum(len(o.leaves) for o in imported.plan.all_openings()) - len(states),
             'shut stops rays': sum(not v for v in shut.values()),
             'open lets rays': sum(free.values()), 'reached': f'{len(found & joined)}/{len(joined)}',
+            'walked': f'{walked}/{walked + len(stopped)}',
             'moved': away, 'import': imported.seconds, 'factor': speed(imported.path, home)})
     return rows
 

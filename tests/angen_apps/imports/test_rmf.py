@@ -4,11 +4,13 @@ from __future__ import annotations
 from math import pi
 from pathlib import Path
 
+import angen
 import pytest
 
 from angen_apps.imports.rmf import read_rmf
 from angen_apps.plan.polygons import area
-from angen_apps.plan.writer import world_of
+from angen_apps.plan.writer import world_of, write_world
+from angen_bench import homes
 from angen_tools.common.failure import Failure
 
 # 0.05 m a pixel: two rooms of 5 x 4 m on L1, with y down; L2 is 3 m higher, drawn 20 pixels lower
@@ -89,3 +91,69 @@ def test_measurements_that_are_missing_are_an_error(tmp_path: Path) -> None:
     path.write_text(path.read_text().replace('measurements', 'guesses'))
     with pytest.raises(Failure, match=r'yaml:4: the level L1 has no measurements'):
         read_rmf(path)
+
+
+def test_a_lift_serves_levels_of_unequal_height_through_their_ceilings(tmp_path: Path) -> None:
+    """The shaft is in a room: its ceilings at 2.5 m and the floors above must leave it free."""
+    levels = ''.join(f'''  L{i}:
+    elevation: {z}
+    measurements: [[0, 1, {{distance: [3, 10.0]}}]]
+    vertices: [[0, 0, 0, ""], [200, 0, 0, ""], [200, 160, 0, ""], [0, 160, 0, ""]]
+    walls: [[0, 1, {{}}], [1, 2, {{}}], [2, 3, {{}}], [3, 0, {{}}]]
+''' for i, z in enumerate((0.0, 4.0, 7.5)))
+    path = tmp_path / 'three.building.yaml'
+    path.write_text(f'''levels:
+{levels}lifts:
+  Lift1: {{x: 100, y: 80, yaw: 0.3, width: 2.0, depth: 1.8, reference_floor_name: L0,
+          level_doors: {{L0: [d], L1: [d], L2: [d]}},
+          doors: {{d: {{door_type: 2, width: 0.9, x: 0, y: 1.0}}}}}}
+''')
+    write_world(read_rmf(path), tmp_path / 'three.world', 'none')
+    world = angen.World(str(tmp_path / 'three.world'))
+    for floor, height in ((2, 7.5), (1, 4.0)):
+        world.command('elevator', 'Lift1', f'Floor{floor}')
+        world.run(20.0)
+        state = world.device('elevator', 'Lift1')
+        assert (state['mode'], state['door_mode']) == ('IDLE', 'OPEN')
+        assert state['position'] == pytest.approx(height, abs=0.005)
+
+
+def test_a_cabin_fits_its_shaft(tmp_path: Path) -> None:
+    path = tmp_path / 'tight.building.yaml'
+    path.write_text('''levels:
+  L1:
+    elevation: 0
+    measurements: [[0, 1, {distance: [3, 10.0]}]]
+    vertices: [[0, 0, 0, ""], [200, 0, 0, ""], [200, 160, 0, ""], [0, 160, 0, ""],
+               [80, 60, 0, ""], [120, 60, 0, ""], [120, 100, 0, ""], [80, 100, 0, ""],
+               [90, 100, 0, ""], [110, 100, 0, ""]]
+    walls: [[0, 1, {}], [1, 2, {}], [2, 3, {}], [3, 0, {}],
+            [4, 5, {}], [5, 6, {}], [7, 4, {}], [7, 8, {}], [9, 6, {}]]
+lifts:
+  Lift1: {x: 100, y: 80, yaw: 0, width: 2.0, depth: 2.0, reference_floor_name: L1,
+          level_doors: {L1: [d]}, doors: {d: {door_type: 2, width: 0.9, x: 0, y: -1.0}}}
+''')
+    plan = read_rmf(path)
+    # the shaft's walls are 2 m apart and 0.1 m thick
+    assert plan.lifts[0].width < 1.9 and plan.lifts[0].depth < 1.9
+    assert any('the cabin of Lift1' in remark for remark in plan.remarks)
+
+
+def test_leaves_slide_where_their_wall_is_askew_and_turn_beside_its_end(tmp_path: Path) -> None:
+    path = tmp_path / 'askew.building.yaml'
+    path.write_text('''levels:
+  L1:
+    elevation: 0
+    measurements: [[0, 1, {distance: [3, 10.0]}]]
+    vertices: [[0, 0, 0, ""], [200, 0, 0, ""], [200, 160, 0, ""], [0, 160, 0, ""],
+               [0, 82, 0, ""], [80, 80, 0, ""], [120, 80, 0, ""], [200, 78, 0, ""],
+               [100, 160, 0, ""], [100, 100, 0, ""], [100, 80, 0, ""], [160, 79, 0, ""]]
+    walls: [[0, 1, {}], [1, 2, {}], [2, 8, {}], [8, 3, {}], [3, 0, {}], [4, 5, {}], [6, 7, {}],
+            [8, 9, {}]]
+    doors: [[5, 6, {type: [1, double_sliding], name: [1, slider]}],
+            [9, 10, {type: [1, hinged], name: [1, turner]}]]
+''')
+    write_world(read_rmf(path), tmp_path / 'askew.world', 'none')
+    states = homes.open_all(angen.World(str(tmp_path / 'askew.world')))
+    assert {name for _, name in states} == {'slider_left', 'slider_right', 'turner'}
+    assert {mode for mode, _, _ in states.values()} == {'OPEN'}

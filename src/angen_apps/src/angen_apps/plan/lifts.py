@@ -17,7 +17,8 @@ TOP = 2.29  # m, of the cabin
 GAP = 0.002
 CABIN_SILL = 0.04  # m that the cabin's floor reaches before the cabin, under its doors
 LANDING_DOOR = 0.06  # m before the cabin
-BESIDE = 0.03  # m between the cabin and the floors beside it
+BESIDE = 0.03  # m between the cabin and the walls beside it
+HOLE = 0.06  # m between the cabin and the floors beside it, whose edges are in cells of 5 cm
 FRONT = 0.1  # m before the cabin at which a landing's floor begins
 DOORS = 0.12  # m before the cabin for its doors and those of the landings
 ASKEW = 0.2  # sine of twice the angle at which a wall is not along or across a cabin
@@ -25,7 +26,7 @@ ASKEW = 0.2  # sine of twice the angle at which a wall is not along or across a 
 
 def shaft(lift: Lift) -> tuple[Point, ...]:
     """The hole in floors and ceilings for the cabin and its doors."""
-    half_x, half_y = lift.depth / 2 + BESIDE, lift.width / 2 + BESIDE
+    half_x, half_y = lift.depth / 2 + HOLE, lift.width / 2 + HOLE
     front = front_of(lift)
     return tuple(turned((lift.x, lift.y), lift.yaw, u, v)
                  for u, v in ((-half_x, -half_y), (front, -half_y), (front, half_y),

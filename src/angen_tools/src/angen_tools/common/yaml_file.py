@@ -25,10 +25,11 @@ class YamlFile:
         try:
             deepest = _deeper_than(text, DEEPEST)
             self.root = None if deepest else yaml.compose(text, yaml.CSafeLoader)
-        except yaml.YAMLError as error:
-            mark = getattr(error, 'problem_mark', None)
+        except yaml.YAMLError as short:
+            told = _explained(text, short)
+            mark = getattr(told, 'problem_mark', None)
             line = mark.line + 1 if mark else 1
-            raise Failure(f'{path}:{line}: is not YAML: {getattr(error, "problem", error)}'
+            raise Failure(f'{path}:{line}: is not YAML: {getattr(told, "problem", told)}'
                           ) from None
         if deepest:
             raise Failure(f'{path}:{deepest}: is nested deeper than {DEEPEST} levels')
@@ -88,6 +89,16 @@ class YamlFile:
         if not (math.isfinite(value) and low <= value <= high):
             raise self.fail(node, f'{what} is {text}, must be {low:g} to {high:g}')
         return value
+
+
+def _explained(text: str, error: yaml.YAMLError) -> yaml.YAMLError:
+    """The same error by the parser that tells it best."""
+    try:
+        for _ in yaml.parse(text, yaml.SafeLoader):
+            pass
+    except yaml.YAMLError as better:
+        return better
+    return error
 
 
 def _deeper_than(text: str, most: int) -> int:

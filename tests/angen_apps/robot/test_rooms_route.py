@@ -1,0 +1,25 @@
+"""A route through the rooms of a home that has neither robot nor person."""
+from __future__ import annotations
+
+from pathlib import Path
+
+import angen
+
+from angen_apps.plan.apartment import apartment
+from angen_apps.plan.writer import write_world
+from angen_apps.robot.route_file import default_route, prepare, read_route
+from angen_tools.common.home import Home
+
+
+def test_a_home_by_seed_gets_a_waypoint_in_each_room_a_robot_and_a_person(tmp_path: Path) -> None:
+    path = tmp_path / 'home.world'
+    write_world(apartment(1, 1, 3), path, 'none')
+    route, world = prepare(None, path, tmp_path / 'out')
+    home = Home.of_world(angen.World(str(path)))
+    assert sorted(w.name for w in route.waypoints) == sorted(room.name for room in home.rooms)
+    for waypoint in route.waypoints:
+        room = home.room_at(*waypoint.at, 0.5)
+        assert room is not None and room.name == waypoint.name
+    kinds = {kind for kind, *_ in angen.World(str(world)).entities()}
+    assert {'drive', 'person'} <= kinds and route.elevator is None
+    assert route.speed == read_route(default_route()).speed
