@@ -1,4 +1,4 @@
-"""A client with random actions, until a simulated time; the argument is SECONDS.
+"""A client with random actions, each at least once, until a simulated time: NAME SECONDS.
 
 Prints how often it did each.
 """
@@ -71,6 +71,9 @@ class Client:
             ["Open, bathroom0", "Close, bathroom0", "Set, bathroom0, -0.7", "Fly, bathroom0",
              "Open, "]))
 
+    def mistake(self) -> None:
+        self.doors.publish("Fly, bathroom0")
+
     def lamp(self) -> None:
         self.lamps.publish(f"Dim, kitchen0, {self.random.randrange(101)}")
 
@@ -118,8 +121,8 @@ class Client:
             self.spawn, self.delete, self.door, self.lamp, self.command, self.call, self.note,
             self.drive]
         rarely: list[Callable[[], None]] = [self.step, self.listen, self.reset]
-        first = [*often, *rarely]  # each once, however few there is time for
-        while rospy.get_time() < seconds and not rospy.is_shutdown():
+        first = [*often, *rarely, self.mistake]  # each once, however late the client starts
+        while (first or rospy.get_time() < seconds) and not rospy.is_shutdown():
             act = first.pop() if first else self.random.choice(often * 6 + rarely)
             try:
                 act()
