@@ -7,16 +7,13 @@ import time
 from typing import Any, Iterator
 
 import pytest
-from angen_msgs.msg import LampState
-from angen_msgs.srv import List, SendCommand
 from dynamic_reconfigure.msg import Config, ConfigDescription
 from gazebo_msgs.msg import LinkState, LinkStates, ModelState, ModelStates, ODEJointProperties
 from gazebo_msgs.msg import PerformanceMetrics
-from gazebo_scene import CRATE, LAMP, SLIDE, Gazebo, at
+from gazebo_scene import CRATE, SLIDE, Gazebo, at
 from geometry_msgs.msg import Point, Pose, Quaternion, Twist, Vector3, Wrench
 from harness import Angen, Inbox, until
 from rospy import Duration, Time
-from std_msgs.msg import ColorRGBA
 
 SERVICES = {
     "apply_body_wrench": "ApplyBodyWrench", "apply_joint_effort": "ApplyJointEffort",
@@ -103,22 +100,6 @@ def test_a_model_comes_while_time_stands_still_and_goes(node: Gazebo) -> None:
     assert deleted.status_message == "DeleteModel: successfully deleted model"
     missing = node.ask("delete_model", model_name="box")
     assert not missing.success and missing.status_message == "DeleteModel: model does not exist"
-
-
-def test_texts_of_clients(node: Gazebo) -> None:
-    for name, fields, text in (
-            ("get_model_state", dict(model_name="x"), "GetModelState: model does not exist"),
-            ("set_model_state", dict(model_state=ModelState(model_name="x")),
-             "SetModelState: model does not exist"),
-            ("get_link_state", dict(link_name="x"),
-             "GetLinkState: link not found, did you forget to scope the link by model name?"),
-            ("get_joint_properties", dict(joint_name="x"), "GetJointProperties: joint not found"),
-            ("apply_body_wrench", dict(body_name="x"), "ApplyBodyWrench: body does not exist"),
-            ("apply_joint_effort", dict(joint_name="x"), "ApplyJointEffort: joint not found"),
-            ("get_light_properties", dict(light_name="x"),
-             "getLightProperties: Requested light x not found!")):
-        answer = node.ask(name, **fields)
-        assert (answer.success, answer.status_message) == (False, text)
 
 
 def test_a_pose_is_in_its_reference_frame_before_the_model_s_own(gazebo: Gazebo) -> None:
@@ -346,67 +327,11 @@ def test_parameters_of_dynamic_reconfigure(gazebo: Gazebo, angen: Angen) -> None
     assert gazebo.call("get_physics_properties").gravity.x == 0.0
 
 
-def test_lights_come_change_and_go(gazebo: Gazebo) -> None:
-    gazebo.spawn("bulb", LAMP, at(1, 0, 0))
-    light = gazebo.call("get_light_properties", light_name="bulb")
-    assert (light.diffuse.r, light.diffuse.g) == (0.5, 0.25)
-    assert (light.attenuation_constant, light.attenuation_linear,
-            light.attenuation_quadratic) == (0.3, 0.2, 0.1)
-    done = gazebo.call("set_light_properties", light_name="bulb",
-                       diffuse=ColorRGBA(0.25, 0.5, 0.75, 0.5), attenuation_linear=0.7,
-                       pose=at(0, 0, 3), direction=Vector3(0, 0, -1))
-    assert done.status_message == ""
-    light = gazebo.call("get_light_properties", light_name="bulb")
-    assert (light.diffuse.b, light.diffuse.a, light.attenuation_linear) == (0.75, 0.5, 0.7)
-    again = gazebo.ask("spawn_sdf_model", model_name="bulb", model_xml=LAMP)
-    assert again.status_message == "SpawnModel: Failure - entity already exists."
-    deleted = gazebo.call("delete_light", light_name="bulb")
-    assert deleted.status_message == "DeleteLight: bulb successfully deleted"
-    kept = gazebo.ask("delete_light", light_name="kitchen_lamp0::bulb")
-    assert not kept.success and "is a part of model" in kept.status_message
-
-
-def test_a_file_with_a_light_alone_is_spawned_as_one(gazebo: Gazebo) -> None:
-    gazebo.spawn("sun2", '<sdf version="1.6"><world name="default"><include><uri>model://sun</uri>'
-                         '</include></world></sdf>')
-    assert gazebo.call("get_light_properties", light_name="sun2").diffuse.r > 0
-    gazebo.call("delete_light", light_name="sun2")
-
-
-def test_a_urdf_of_an_unknown_package_is_not_spawned(gazebo: Gazebo) -> None:
-    xml = SLIDE.replace('<link name="car">', '<link name="car"><visual><geometry><mesh filename='
-                        '"package://no_such_package/a.dae"/></geometry></visual>')
-    answer = gazebo.ask("spawn_urdf_model", model_name="slide2", model_xml=xml)
-    assert (answer.success, answer.status_message) == (
-        False, "urdf reference package name does not exist: no_such_package")
-
-
 def test_unknown_joints_of_a_configuration_are_passed_over(gazebo: Gazebo) -> None:
     done = gazebo.call("set_model_configuration", model_name="slide",
                        joint_names=["none", "along"], joint_positions=[0.5, 0.25])
     assert done.status_message == "SetModelConfiguration: success"
     assert gazebo.call("get_joint_properties", joint_name="slide::along").position == near([0.25])
-
-
-def test_lines_of_a_namespaced_robot_are_those_of_its_text(gazebo: Gazebo) -> None:
-    xml = ('<sdf version="1.6">\n<model name="m">\n'
-           '<plugin name="p" filename="libgazebo_ros_p3d.so"/>\n\n'
-           '<link name="l"/>\n<joint name="j" type="fixed">\n<parent>l</parent>\n'
-           '<child>none</child></joint></model></sdf>')
-    answer = gazebo.ask("spawn_sdf_model", model_name="m", model_xml=xml, robot_namespace="/ns")
-    assert not answer.success and "(text):8: " in answer.status_message
-
-
-def test_a_spawned_light_is_a_lamp(gazebo: Gazebo, angen: Angen) -> None:
-    gazebo.spawn("bulb", LAMP, at(1, 0, 0))
-    assert angen.call("/angen/command", SendCommand, target="bulb", text="Dim 30").success
-    gazebo.step(50)
-    state = angen.wait("/angen/lamp/bulb", LampState)
-    assert (state.level, state.luminous_flux) == (30.0, 240.0)  # 800 lm at its brightest color
-    bulb, = (e for e in angen.call("/angen/list", List, kind="lamp").entities if e.name == "bulb")
-    assert (bulb.topic, bulb.model, bulb.pose.position.z) == ("/angen/lamp/bulb", "", 2.0)
-    gazebo.call("delete_light", light_name="bulb")
-    assert not angen.call("/angen/command", SendCommand, target="bulb", text="On").success
 
 
 def test_topics_have_the_rate_that_was_set(gazebo: Gazebo) -> None:
