@@ -27,7 +27,7 @@ double cross2(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 
 }  // namespace
 
-FloorMap::FloorMap(const View& view, const Vec3& feet, const Vec2& to) {
+FloorMap::FloorMap(const View& view, const Vec3& feet, const Vec2& to, Extent extent) {
   const Vec2 from = feet.head<2>();
   floor_ = feet.z();
   Eigen::AlignedBox2d ends(from);
@@ -45,11 +45,17 @@ FloorMap::FloorMap(const View& view, const Vec3& feet, const Vec2& to) {
   box = box.isEmpty() ? ends : box.merged(ends);
   if (box.volume() > kMostCells * kCell * kCell) return;
   corner_ = box.min();
+  if (extent == Extent::kStraight) {  // some of the same cells
+    const Eigen::AlignedBox2d part = ends.intersection(box);
+    const Vec2 skipped = ((part.min() - corner_) / kCell).array().floor();
+    box = {corner_ + kCell * skipped, part.max()};
+    corner_ = box.min();
+  }
   columns_ = static_cast<int>(std::ceil(box.sizes().x() / kCell)) + 1;
   rows_ = static_cast<int>(std::ceil(box.sizes().y() / kCell)) + 1;
-  gaps_.assign(static_cast<std::size_t>(columns_) * rows_, kRoomyMap);
-  toll_.assign(gaps_.size(), 0.0F);
-  known_.assign(gaps_.size(), 0);
+  squares_.assign(static_cast<std::size_t>(columns_) * rows_, kRoomyMap * kRoomyMap);
+  toll_.assign(squares_.size(), 0.0F);
+  known_.assign(squares_.size(), 0);
   for (const double height : kScanHeights) {
     for (const int axis : {0, 1}) scan_lines(view, feet.z() + height, axis);
   }
@@ -78,7 +84,7 @@ void FloorMap::add_span(const Vec2& enter, const Vec2& leave) {
     if (std::min(at, length - at) < kInside) {
       add_point(enter + at * ahead);
     } else if (const std::optional<int> cell = cell_at(enter + at * ahead)) {
-      gaps_[*cell] = 0.0F;
+      squares_[*cell] = 0.0;
     }
   }
   add_point(leave);
@@ -92,12 +98,15 @@ void FloorMap::add_point(const Vec2& point) {
   const int reach = static_cast<int>(kRoomyMap / kCell) + 1;
   const int middle_x = column(point.x());
   const int middle_y = row(point.y());
+  const int first = std::max(0, middle_x - reach);
+  const int last = std::min(columns_ - 1, middle_x + reach);
   for (int y = std::max(0, middle_y - reach); y <= std::min(rows_ - 1, middle_y + reach); ++y) {
-    for (int x = std::max(0, middle_x - reach); x <= std::min(columns_ - 1, middle_x + reach);
-         ++x) {
-      const int cell = y * columns_ + x;
-      const auto distance = static_cast<float>((place(cell) - point).norm());
-      gaps_[cell] = std::min(gaps_[cell], distance);
+    const double away = corner_.y() + kCell * y - point.y();
+    const double start = corner_.x() - point.x();
+    double* row = squares_.data() + static_cast<std::size_t>(y) * columns_;
+    for (int x = first; x <= last; ++x) {  // the compiler makes vectors of it
+      const double aside = start + kCell * x;
+      row[x] = std::min(row[x], aside * aside + away * away);
     }
   }
 }
@@ -140,7 +149,7 @@ FloorMap::Vec2 FloorMap::place(int cell) const {
 
 bool FloorMap::is_free(const Vec2& place) const {
   const std::optional<int> cell = cell_at(place);
-  return !cell || gaps_[*cell] >= kClearance;
+  return !cell || gap(*cell) >= kClearance;
 }
 
 bool FloorMap::is_clear(const Vec2& from, const Vec2& to) const {
@@ -161,7 +170,7 @@ std::optional<int> FloorMap::free_cell(const Vec2& near, double reach) const {
       if (x < 0 || y < 0 || x >= columns_ || y >= rows_) continue;
       const int cell = y * columns_ + x;
       const double away = (place(cell) - near).norm();
-      if (gaps_[cell] < kClearance || away >= least) continue;
+      if (away >= least || gap(cell) < kClearance) continue;
       least = away;
       best = cell;
     }
@@ -171,17 +180,19 @@ std::optional<int> FloorMap::free_cell(const Vec2& near, double reach) const {
 
 // Of the cost of a meter's way.
 double FloorMap::rate(int cell) const {
-  return 1.0 + kTightMap * std::max(0.0, kRoomyMap - static_cast<double>(gaps_[cell]));
+  return 1.0 + kTightMap * std::max(0.0, kRoomyMap - static_cast<double>(gap(cell)));
 }
+
+float FloorMap::gap(int cell) const { return static_cast<float>(std::sqrt(squares_[cell])); }
 
 // Where there is no floor, no way leads.
 bool FloorMap::can_stand(const View& view, int cell) {
-  if (gaps_[cell] < kClearance) return false;
+  if (gap(cell) < kClearance) return false;
   if (std::exchange(known_[cell], 1) != 0) return true;
   const Vec2 at = place(cell);
   static thread_local std::vector<rays::Hit> hits;
   view.cast({{Vec3(at.x(), at.y(), floor_ + kStep), -Vec3::UnitZ(), 0.0, 2.0 * kStep}}, hits);
-  if (!hits[0].hit()) gaps_[cell] = 0.0F;
+  if (!hits[0].hit()) squares_[cell] = 0.0;
   return hits[0].hit();
 }
 
@@ -212,11 +223,11 @@ struct FloorMap::Search {
 
 std::optional<std::vector<FloorMap::Vec2>> FloorMap::way(const View& view, const Vec2& from,
                                                          const Vec2& to, double tolerance) {
-  if (gaps_.empty()) return std::vector<Vec2>{to};  // too far for a map: it tries
+  if (squares_.empty()) return std::vector<Vec2>{to};  // too far for a map: it tries
   const std::optional<int> start = free_cell(from, kStartAway);
   const std::optional<int> goal = free_cell(to, tolerance);
   if (!start || !goal) return std::nullopt;
-  Search search(gaps_.size());
+  Search search(squares_.size());
   const auto rest = [&](int cell) { return (place(cell) - place(*goal)).norm(); };
   search.reach(*start, 0.0, -1, rest(*start));
   while (!search.open.empty()) {

@@ -17,8 +17,11 @@ class FloorMap {
   static constexpr double kCell = 0.05;       // m
   static constexpr double kClearance = 0.25;  // m, half a person's width
 
-  /// Around both places, for a person whose feet are at `feet` (world, m).
-  FloorMap(const View& view, const Vec3& feet, const Vec2& to);
+  enum class Extent { kStorey, kStraight };
+
+  /// Around both places, for a person whose feet are at `feet` (world, m): all of the storey, or
+  /// only what is_clear() between them needs.
+  FloorMap(const View& view, const Vec3& feet, const Vec2& to, Extent extent = Extent::kStorey);
 
   /// Obstacles that were seen, m.
   void add_points(const std::vector<Vec2>& points);
@@ -48,15 +51,17 @@ class FloorMap {
   /// The free cell next to a place, at most `reach` (m) away.
   std::optional<int> free_cell(const Vec2& near, double reach) const;
   double rate(int cell) const;
+  /// m to the next obstacle, at most kRoomyMap.
+  float gap(int cell) const;
   bool can_stand(const View& view, int cell);
 
   Vec2 corner_ = Vec2::Zero();  // m, of the first cell
   double floor_ = 0.0;          // m
   int columns_ = 0;
   int rows_ = 0;
-  std::vector<float> gaps_;  // m from each cell to the next obstacle, at most kRoomy
-  std::vector<float> toll_;  // m, added to a way through the cell
-  std::vector<char> known_;  // whether its floor was looked at
+  std::vector<double> squares_;  // m^2, of each cell's gap
+  std::vector<float> toll_;      // m, added to a way through the cell
+  std::vector<char> known_;      // whether its floor was looked at
 };
 
 }  // namespace angen::devices

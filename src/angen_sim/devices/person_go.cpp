@@ -38,13 +38,14 @@ bool Person::plan(const View& view, const LinkView& body, bool with_seen) {
   order_->planned = true;
   route_.reset();
   if (order_->pushes) return true;
-  FloorMap map(view, body.pose.position, order_->to);
-  const std::vector<DoorSeen> doors = doors_seen(view, body.pose.position.z());
-  if (with_seen) {
-    map.add_points(seen_);
-  } else if (map.is_clear(at, order_->to) && !door_on_way(doors, at, order_->to)) {
+  const Vec3& feet = body.pose.position;
+  const std::vector<DoorSeen> doors = doors_seen(view, feet.z());
+  if (!with_seen && !door_on_way(doors, at, order_->to) &&
+      FloorMap(view, feet, order_->to, FloorMap::Extent::kStraight).is_clear(at, order_->to)) {
     return true;
   }
+  FloorMap map(view, feet, order_->to);
+  if (with_seen) map.add_points(seen_);
   for (const DoorSeen& door : doors) {
     if (door.is_passable()) continue;
     map.add_toll(door.hinge, door.edge(), opens_doors_ ? kOpenToll : kWaitToll);
