@@ -57,6 +57,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
 
   Nanoseconds now = 0;
   Nanoseconds dt = 1'000'000;
+  const rays::Scene* scene = nullptr;  // none: rays hit nothing
   Pose at;
   std::string instance = "it";
   std::string model_name = "model";
@@ -137,6 +138,10 @@ class FakeWorld : public View, public Wiring, public Outputs {
   const Home& home() const override { return described; }
   void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override {
     hits.assign(rays.size(), {});
+    if (scene != nullptr) scene->cast(rays, hits);
+  }
+  bool meets(std::uint32_t shape, const rays::Ray& ray) const override {
+    return scene == nullptr || scene->cast_at(shape, ray).hit();
   }
   light::Sample illuminance(light::Probe& probe, const Pose& pose) const override {
     return light_at ? light_at(probe, pose) : light::Sample{};

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -101,6 +102,8 @@ class View {
   virtual const Home& home() const = 0;
   /// Nearest hits: hits[i] answers rays[i].
   virtual void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const = 0;
+  /// Whether a ray meets this shape, as if there were no others.
+  virtual bool meets(std::uint32_t shape, const rays::Ray& ray) const = 0;
   /// The albedo, r g b, 0 to 1, of a shape that a ray hit.
   virtual Eigen::Vector3f reflectance(std::uint32_t shape) const = 0;
   /// Light at a place; see light::Lighting::measure. The first query in a world finds the light of
@@ -113,6 +116,11 @@ class View {
   virtual const std::vector<rays::WarmShape>& warm_shapes() const = 0;
   /// Grows when shapes come, go or move: where it is the same, rays get the same answers.
   virtual std::uint64_t scene_revision() const = 0;
+  /// To a sensor that calls it before those two, only shapes near some rays matter: those that
+  /// make() returns (world), where they run between static shapes.
+  virtual void watch(const std::function<std::vector<rays::Ray>()>& make) const {
+    static_cast<void>(make);
+  }
   /// Grows while temperatures of warm_shapes() change.
   virtual std::uint64_t surface_revision() const = 0;
   /// The shapes of these mobilities on the segment between two points (world, m), in the order in

@@ -140,6 +140,7 @@ bool DueSensors::unchanged(const Engines& engines, const Entry& entry) {
       !queries_unchanged(engines, *entry.live, sensor)) {
     return false;
   }
+  if (sensor.near != nullptr && sensor.near->region.changed_since(sensor.seen)) return false;
   return std::none_of(sensor.scans.begin(), sensor.scans.end(), [&](const auto& scan) {
     return scan != nullptr && scan->region.changed_since(sensor.seen);
   });

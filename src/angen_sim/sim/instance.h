@@ -62,6 +62,12 @@ struct WatchedLight {
   MoverIndex::Moment sampled;      // changes before it are in the sample
 };
 
+/// The region of rays that a sensor has named in place of all shapes.
+struct WatchedRays {
+  MoverIndex::WatchRegion region;
+  std::uint64_t revision;  // grows when something in it changes
+};
+
 /// Which parts of the world an instance queried besides rays, the time and its own pose.
 struct Queried {
   bool contacts = false;
@@ -93,6 +99,7 @@ struct SensorInstance : SensorInfo {
   // in the CPU's cache.
   std::vector<std::unique_ptr<CachedScan>> scans;  // by ray set
   std::unique_ptr<WatchedLight> light;             // null where light may come from anywhere
+  std::unique_ptr<WatchedRays> near;               // null where all shapes matter
   MoverIndex::Moment seen = 0;                     // its last sample has all changes before
   SensorActivity activity;
   Queried queried{false, false, false, true, 0, false, false};  // for its reading

@@ -201,7 +201,8 @@ void SensorSystem::note_sampled(const Engines& engines, const Sample& sample,
   sensor.activity.sampled(steady, steady && sensor.varies(), as_published(sensor));
   sensor.queried = sample.queried | queried;
   const bool light_twice = sample.queried.light && queried.light;
-  sensor.queried.other = sensor.queried.other || light_twice || sample.ray_count > 0;
+  sensor.queried.other =
+      sensor.queried.other || light_twice || (sample.ray_count > 0 && sensor.near == nullptr);
   if (sensor.queried.contacts) sensor.contacts_seen = contacts_revision(engines, sensor);
   if (sensor.queried.light) sensor.light_seen = engines.light.lit_revision();
 }

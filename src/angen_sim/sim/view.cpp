@@ -6,6 +6,8 @@ namespace angen::sim {
 
 namespace {
 
+constexpr double kBetweenRays = 0.05;  // m beside those that are watched
+
 template <class Ref>
 std::size_t at(Ref ref) {
   return static_cast<std::size_t>(ref.index);
@@ -68,7 +70,7 @@ const Home& InstanceView::home() const {
 }
 
 void InstanceView::cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const {
-  queried_.other = true;
+  queried_.other = queried_.other || !watches();
   engines_.rays.commit();
   engines_.rays.cast(rays, hits);
 }
@@ -103,13 +105,37 @@ void InstanceView::expect_light(light::Probe& probe, const Pose& pose) const {
 }
 
 const std::vector<rays::WarmShape>& InstanceView::warm_shapes() const {
-  queried_.other = queried_.heat = true;
+  queried_.heat = true;
+  queried_.other = queried_.other || !watches();
   engines_.surfaces.advance(clock_.time, engines_.movers.now());
   engines_.rays.commit();
   return engines_.rays.warm_shapes();
 }
 
+bool InstanceView::watches() const { return sensor_ != nullptr && sensor_->near != nullptr; }
+
+void InstanceView::watch(const std::function<std::vector<rays::Ray>()>& make) const {
+  if (sensor_ == nullptr || sensor_->link_moves) return;
+  std::unique_ptr<WatchedRays>& near = sensor_->near;
+  if (near != nullptr && !near->region.take_static_change()) return;
+  engines_.rays.commit();
+  Eigen::AlignedBox3d reach = rays::RayCache(make(), engines_.rays).reach();
+  reach.min().array() -= kBetweenRays;
+  reach.max().array() += kBetweenRays;
+  if (near == nullptr) {
+    near.reset(new WatchedRays{{engines_.movers, reach}, 0});
+  } else {
+    near->region.resize(reach);
+  }
+  ++near->revision;
+}
+
 std::uint64_t InstanceView::scene_revision() const {
+  if (watches()) {
+    WatchedRays& near = *sensor_->near;
+    if (near.region.changed_since(sensor_->seen)) ++near.revision;
+    return near.revision;
+  }
   queried_.other = true;
   engines_.rays.commit();
   return engines_.rays.revision();

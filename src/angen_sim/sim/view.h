@@ -39,6 +39,9 @@ class InstanceView : public View {
                                   const Eigen::AlignedBox3d& within) const override;
   const Home& home() const override;
   void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override;
+  bool meets(std::uint32_t shape, const rays::Ray& ray) const override {
+    return engines_.rays.cast_at(shape, ray).hit();
+  }
   Eigen::Vector3f reflectance(std::uint32_t shape) const override {
     return engines_.rays.reflectance(shape);
   }
@@ -47,6 +50,7 @@ class InstanceView : public View {
   double ambient_temperature() const override { return engines_.ambient_temperature; }
   const std::vector<rays::WarmShape>& warm_shapes() const override;
   std::uint64_t scene_revision() const override;
+  void watch(const std::function<std::vector<rays::Ray>()>& make) const override;
   std::uint64_t surface_revision() const override;
   using View::crossings;
   std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to,
@@ -59,6 +63,8 @@ class InstanceView : public View {
   const Queried& queried() const { return queried_; }
 
  private:
+  bool watches() const;
+
   Building& building_;
   Engines& engines_;
   const LiveModel& live_;

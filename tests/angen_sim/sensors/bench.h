@@ -61,6 +61,7 @@ class Bench {
     scene.commit();
     if (!own_warmth) world.warm = scene.warm_shapes();
     world.revision = scene.revision() + moves;
+    world.scene = &scene;
     RayBatch batch;
     sensor_->ray_set(world);
     sensor_->aim(world, batch);

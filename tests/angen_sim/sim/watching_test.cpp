@@ -37,6 +37,9 @@ class Forgetful : public View {
   void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override {
     view_.cast(rays, hits);
   }
+  bool meets(std::uint32_t shape, const rays::Ray& ray) const override {
+    return view_.meets(shape, ray);
+  }
   Eigen::Vector3f reflectance(std::uint32_t shape) const override {
     return view_.reflectance(shape);
   }

@@ -79,6 +79,18 @@ double FresnelLens::sensitivity(double azimuth, double elevation) const {
   return sum;
 }
 
+double FresnelLens::narrowest() const {
+  double least = 2.0 * M_PI;
+  for (const Zones& row : rows_) least = std::min(least, 0.25 * row.width);  // and gaps as wide
+  return least;
+}
+
+double FresnelLens::lowest() const {
+  double least = M_PI;
+  for (const Zones& row : rows_) least = std::min(least, row.window.high - row.window.low);
+  return least;
+}
+
 std::vector<std::string> lens_names() {
   std::vector<std::string> names;
   for_each_lens_row([&](const std::string& name, const FresnelLens::Row&) {

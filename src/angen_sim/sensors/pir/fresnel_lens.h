@@ -33,6 +33,10 @@ class FresnelLens {
   /// negative one. The edges of a zone are soft.
   double sensitivity(double azimuth, double elevation) const;
 
+  /// rad: of the narrowest zone, and of the lowest row.
+  double narrowest() const;
+  double lowest() const;
+
   /// All that the zones see, taped or not.
   const Window& window() const { return window_; }
 

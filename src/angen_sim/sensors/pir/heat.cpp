@@ -12,13 +12,17 @@ namespace {
 constexpr double kTurn = 2.0 * M_PI;
 constexpr double kStefanBoltzmann = 5.670374419e-8;  // W/m^2 K^4, CODATA 2018
 constexpr double kHousing = 0.05;                    // m: the detector's own housing is not seen
-constexpr double kCellWidth = 0.012;                 // rad: a third of a zone of a wide lens
+constexpr double kCellWidth = 0.012;                 // rad, at least: a third of a zone
 constexpr double kCellHeight = 0.024;
+constexpr double kZoneCells = 3.0;
 constexpr int kFewest = 12;  // cells on a side
 constexpr int kMaxCells = 64;
-constexpr double kSameAir = 0.01;        // K
-constexpr double kZeroCelsius = 273.15;  // K
-constexpr int kWaits = 4;                // samples left out while all surfaces are hidden
+constexpr double kSameAir = 0.01;                    // K
+constexpr double kZeroCelsius = 273.15;              // K
+constexpr double kWatchCell = 0.02;                  // rad between rays that bound what it sees
+constexpr std::size_t kEach = 4;                     // of the rays to a surface, one is probed
+constexpr std::size_t kFewProbed = 24;               // of fewer rays all are cast
+constexpr Nanoseconds kHiddenPeriod = kSecond / 20;  // while all surfaces are hidden
 
 double azimuth_of(const Vec3& p) { return std::atan2(p.y(), p.x()); }
 
@@ -49,6 +53,11 @@ Window common(const Window& a, const Window& b, double turn) {
           std::max(a.low, b.low), std::min(a.high, b.high)};
 }
 
+Vec3 direction_to(double azimuth, double elevation) {
+  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+          std::sin(elevation)};
+}
+
 /// W/(m^2 sr) that a surface of that temperature (K) sends out more than the air.
 double radiance_over(double air, double temperature) {
   return kStefanBoltzmann / M_PI * (std::pow(temperature, 4) - std::pow(air, 4));
@@ -60,8 +69,17 @@ int cells(double angle, double size) {
 
 }  // namespace
 
+Heat::Heat(FresnelLens lens, double range, double opening, Nanoseconds period)
+    : lens_(std::move(lens)),
+      cell_width_(std::max(kCellWidth, lens_.narrowest() / kZoneCells)),
+      cell_height_(std::max(kCellHeight, lens_.lowest() / kZoneCells)),
+      range_(range),
+      opening_(opening),
+      period_(period) {}
+
 void Heat::aim(const View& view, RayBatch& rays) {
   const Pose pose = view.pose();
+  view.watch([&] { return all_rays(pose); });
   sampled_ = false;
   const bool as_warm = view.surface_revision() == surface_revision_;
   const bool still = view.scene_revision() == revision_ && pose == pose_;
@@ -70,7 +88,8 @@ void Heat::aim(const View& view, RayBatch& rays) {
     follow_air(view);
     if (reheat(view)) return;
   }
-  if (unseen_lately()) return;
+  pending_ = waits(view.time());
+  if (pending_) return;
   follow_air(view);
   sampled_ = true;
   revision_ = view.scene_revision();
@@ -78,10 +97,11 @@ void Heat::aim(const View& view, RayBatch& rays) {
   pose_ = pose;
   surfaces_.clear();
   samples_.clear();
+  near_ = false;
   for (const rays::WarmShape& shape : view.warm_shapes()) {
     if (shape.temperature == air_) continue;
     surfaces_.push_back({shape.shape, shape.temperature});
-    aim_at(shape.box, pose, rays);
+    aim_at(shape.box, pose, view, rays);
   }
 }
 
@@ -122,47 +142,106 @@ void Heat::follow_air(const View& view) {
   drift_ += flux_ - before;
 }
 
-// Surfaces behind a wall are sampled less often.
-bool Heat::unseen_lately() {
-  const bool hidden = !samples_.empty() && flux_ == 0.0;
-  if (hidden && waits_ < kWaits) {
-    ++waits_;
-    return true;
-  }
-  waits_ = 0;
-  return false;
+// Surfaces behind something are sampled less often, whenever they were sampled before.
+bool Heat::waits(Nanoseconds now) const {
+  return near_ && flux_ == 0.0 && now / kHiddenPeriod == (now - period_) / kHiddenPeriod;
 }
 
-void Heat::aim_at(const Eigen::AlignedBox3d& box, const Pose& pose, RayBatch& rays) {
+std::vector<rays::Ray> Heat::all_rays(const Pose& pose) const {
+  const Window& window = lens_.window();
+  const int columns = std::max(1, static_cast<int>((window.left - window.right) / kWatchCell));
+  const int rows = std::max(1, static_cast<int>((window.high - window.low) / kWatchCell));
+  std::vector<rays::Ray> rays;
+  for (int row = 0; row <= rows; ++row) {
+    const double elevation = window.low + (window.high - window.low) * row / rows;
+    for (int column = 0; column <= columns; ++column) {
+      const double azimuth = window.right + (window.left - window.right) * column / columns;
+      rays.push_back(
+          {pose.position, pose.rotation * direction_to(azimuth, elevation), 0.0, range_});
+    }
+  }
+  return rays;
+}
+
+// False only where the ball around the box is beside the cone around the window.
+bool Heat::sees(const Eigen::AlignedBox3d& box, const Pose& pose) const {
+  const Window& window = lens_.window();
+  const double cone = 0.5 * std::hypot(window.left - window.right, window.high - window.low);
+  const Vec3 way = box.center() - pose.position;
+  const double away = way.norm();
+  const double radius = 0.5 * box.sizes().norm();
+  if (away <= radius || cone >= M_PI_2) return true;
+  const Vec3 axis = pose.rotation * direction_to(0.5 * (window.left + window.right),
+                                                 0.5 * (window.low + window.high));
+  const double angle = std::acos(std::clamp(axis.dot(way) / away, -1.0, 1.0));
+  return angle <= cone + std::asin(radius / away);
+}
+
+void Heat::aim_at(const Eigen::AlignedBox3d& box, const Pose& pose, const View& view,
+                  RayBatch& rays) {
   if (box.isEmpty() || box.exteriorDistance(pose.position) > range_) return;
+  if (!sees(box, pose)) return;
   const Window around = window_of(box, pose, lens_.window());
   for (const double turn : {0.0, kTurn, -kTurn}) {
     const Window seen = common(lens_.window(), around, turn);
-    if (seen.right < seen.left && seen.low < seen.high) scan(seen, pose, rays);
+    if (seen.right >= seen.left || seen.low >= seen.high) continue;
+    near_ = true;
+    const std::size_t first = samples_.size();
+    scan(seen, pose, view, rays);
+    take_visible(first, view, rays);
   }
 }
 
 // A grid of rays that moves with the shape, so that its outline makes no noise.
-void Heat::scan(const Window& seen, const Pose& pose, RayBatch& rays) {
-  const int columns = cells(seen.left - seen.right, kCellWidth);
-  const int rows = cells(seen.high - seen.low, kCellHeight);
+void Heat::scan(const Window& seen, const Pose& pose, const View& view, RayBatch& rays) {
+  const int columns = cells(seen.left - seen.right, cell_width_);
+  const int rows = cells(seen.high - seen.low, cell_height_);
   const double width = (seen.left - seen.right) / columns;
   const double height = (seen.high - seen.low) / rows;
   const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
   for (int row = 0; row < rows; ++row) {
     const double elevation = seen.low + (row + 0.5) * height;
     const double shift = std::fmod(0.5 + row * 0.6180339887498949, 1.0);  // no edge falls on all
-    for (int column = 0; column < columns; ++column) {
+    const auto ray_to = [&](int column) {
+      const double azimuth = seen.right + (column + shift) * width;
+      const Vec3 direction = (rotation * direction_to(azimuth, elevation)).normalized();
+      return rays::Ray{pose.position, direction, kHousing, range_};
+    };
+    const auto misses = [&](int column) {
+      return !view.meets(surfaces_.back().shape, ray_to(column));
+    };
+    int first = 0;
+    while (first < columns && misses(first)) ++first;
+    int last = columns - 1;
+    while (last > first && misses(last)) --last;
+    for (int column = first; column <= last; ++column) {  // a convex shape fills the row between
       const double azimuth = seen.right + (column + shift) * width;
       const double sensitivity = lens_.sensitivity(azimuth, elevation);
       if (sensitivity == 0.0) continue;
-      const Vec3 direction(std::cos(elevation) * std::cos(azimuth),
-                           std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
       const double solid_angle = width * height * std::cos(elevation);
-      rays.push_back({pose.position, (rotation * direction).normalized(), kHousing, range_});
+      rays.push_back(ray_to(column));
       samples_.push_back({surfaces_.size() - 1, solid_angle * sensitivity * opening_});
     }
   }
+}
+
+// Mostly all or nothing of a surface is in sight: some of its rays tell that, and save the others.
+void Heat::take_visible(std::size_t first, const View& view, RayBatch& rays) {
+  const std::size_t count = samples_.size() - first;
+  if (count < kFewProbed) return;
+  const std::size_t begin = rays.size() - count;
+  probes_.clear();
+  for (std::size_t i = 0; i < count; i += kEach) probes_.push_back(rays[begin + i]);
+  view.cast(probes_, probed_);
+  Surface& surface = surfaces_.back();
+  const auto seen = std::count_if(probed_.begin(), probed_.end(),
+                                  [&](const rays::Hit& hit) { return hit.shape == surface.shape; });
+  if (seen != 0 && seen != static_cast<std::ptrdiff_t>(probes_.size())) return;
+  for (std::size_t i = first; seen != 0 && i < samples_.size(); ++i) {
+    surface.factor += samples_[i].factor;
+  }
+  samples_.resize(first);
+  rays.resize(begin);
 }
 
 double Heat::flux(Hits hits) {

@@ -13,10 +13,9 @@ namespace angen::sensors {
 class Heat {
  public:
   Heat() = default;
-  /// Sees to `range` in m. `opening` in m^2 is the area of a facet times what the lens and the
-  /// detector's window let through.
-  Heat(FresnelLens lens, double range, double opening)
-      : lens_(std::move(lens)), range_(range), opening_(opening) {}
+  /// Sees to `range` in m, every `period`. `opening` in m^2 is the area of a facet times what the
+  /// lens and the detector's window let through.
+  Heat(FresnelLens lens, double range, double opening, Nanoseconds period);
 
   /// Requests rays towards every such surface; none where nothing moved since the last time.
   void aim(const View& view, RayBatch& rays);
@@ -28,7 +27,7 @@ class Heat {
   double drift() const { return drift_; }
 
   /// Whether it has yet to sample moved surfaces.
-  bool pending() const { return waits_ > 0; }
+  bool pending() const { return pending_; }
 
   /// Samples all surfaces at the next aim().
   void forget() { revision_ = UINT64_MAX; }
@@ -46,23 +45,32 @@ class Heat {
     double factor = 0.0;  // m^2 sr: W on the elements' difference for a radiance of 1
   };
 
-  void aim_at(const Eigen::AlignedBox3d& box, const Pose& pose, RayBatch& rays);
-  void scan(const Window& seen, const Pose& pose, RayBatch& rays);
-  bool unseen_lately();
+  std::vector<rays::Ray> all_rays(const Pose& pose) const;
+  bool sees(const Eigen::AlignedBox3d& box, const Pose& pose) const;
+  void aim_at(const Eigen::AlignedBox3d& box, const Pose& pose, const View& view, RayBatch& rays);
+  void scan(const Window& seen, const Pose& pose, const View& view, RayBatch& rays);
+  void take_visible(std::size_t first, const View& view, RayBatch& rays);
+  bool waits(Nanoseconds now) const;
   bool reheat(const View& view);
   void follow_air(const View& view);
   void sum_up();
 
   FresnelLens lens_;
+  double cell_width_ = 0.0;   // rad, of the solid angle of a ray
+  double cell_height_ = 0.0;  // rad
   double range_ = 0.0;
   double opening_ = 0.0;
+  Nanoseconds period_ = 0;
   std::vector<Surface> surfaces_;
   std::vector<Sample> samples_;
   std::uint64_t revision_ = UINT64_MAX;
   std::uint64_t surface_revision_ = UINT64_MAX;
   Pose pose_;
+  bool near_ = false;  // whether a surface is where the lens looks
+  std::vector<rays::Ray> probes_;
+  std::vector<rays::Hit> probed_;
   bool sampled_ = false;  // whether aim() has requested rays
-  int waits_ = 0;         // samples left out since the last one
+  bool pending_ = false;  // something has moved since
   double flux_ = 0.0;
   double air_ = 0.0;  // K
   double drift_ = 0.0;

@@ -10,6 +10,7 @@ namespace angen::sensors {
 namespace {
 
 constexpr Range kAngles{-M_PI, M_PI};
+constexpr double kSamplesPerCutoff = 2.0;
 constexpr Trigger::Times kTimes{kSecond * 5 / 4, kSecond * 5 / 2, 60 * kSecond, true};
 
 Window window_of(const std::vector<double>& row, std::size_t first, const char* key,
@@ -77,11 +78,14 @@ void Pyroelectric::configure(Params& params, Wiring&) {
       params.number("facet_area", 3e-5, "m^2", "of the lens, for one zone pair", kPositive);
   const double passes = params.number("transmission", 0.4, "",
                                       "of lens and window, of all heat radiation", {1e-6, 1.0});
-  heat_ = Heat(std::move(lens), rays_.max, facet * passes);
   const double rate =
-      params.number("sample_rate", 100.0, "Hz", "how often it samples", {50.0, 1000.0});
+      params.number("sample_rate", 100.0, "Hz", "how often it samples", {20.0, 1000.0});
   period_ = from_seconds(1.0 / rate);
+  heat_ = Heat(std::move(lens), rays_.max, facet * passes, period_);
   const BandPass::Corners corners = read_corners(params);
+  if (rate <= kSamplesPerCutoff * corners.high) {
+    throw params.error("sample_rate", "<sample_rate> must be more than twice <high_cutoff>");
+  }
   const double responsivity =
       params.number("responsivity", 3300.0, "V/W", "of the elements, at 1 Hz", kPositive);
   band_ = BandPass(corners, responsivity, to_seconds(period_));
