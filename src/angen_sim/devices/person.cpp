@@ -13,6 +13,7 @@ namespace angen::devices {
 
 namespace {
 
+constexpr double kUsualStep = 1e-3;      // s
 constexpr double kMouth = 1.5;           // m above the floor, where its sound comes from
 constexpr double kCelsiusZero = 273.15;  // K
 constexpr double kMiddle = 0.9;          // m above its feet
@@ -123,6 +124,7 @@ void Person::start_anew() {
 
 void Person::update(const View& view, Outputs& outputs) {
   const bool renew = refresh_.due(view.time(), view.step());
+  late_ = std::max(0.0, 0.5 * (to_seconds(view.step()) - kUsualStep));
   if (!started_) start(view.link(body_));
   feel_air(view, outputs);
   if (speaks_ != spoke_) outputs.event(speaks_ ? "speaks" : "quiet", "");

@@ -127,7 +127,8 @@ class Person : public Device {
   std::optional<Vec2> target_;  // on that
   Nanoseconds came_clock_ = 0;  // on its path: the most so far
   double came_left_ = std::numeric_limits<double>::infinity();  // m of the way, the least so far
-  double speed_ = 1.0;                                          // m/s, on an order
+  double late_ = 0.0;   // s, of its speed in longer steps: on average it is that old
+  double speed_ = 1.0;  // m/s, on an order
   bool avoids_ = true;
   Surroundings surroundings_;
   Nanoseconds scanned_at_ = -1;        // that, as a multiple of kScanPeriod

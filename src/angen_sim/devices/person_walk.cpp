@@ -169,7 +169,7 @@ Person::Vec2 Person::steer(const LinkView& body, const Vec2& to, double fastest)
   const double length = way.norm();
   if (length < 1e-9) return Vec2::Zero();
   const Vec2 direction = way / length;
-  double speed = aim_ ? fastest : std::min(fastest, length / kAhead);
+  double speed = aim_ ? fastest : std::min(fastest, length / (kAhead + late_));
   if (avoids_ || order_) speed = slowed(at, direction, speed);
   return speed * direction;
 }

@@ -23,6 +23,7 @@ constexpr double kMinSlip = 1e-6;              // m/s
 constexpr double kMinLoad = 1e-6;              // N
 constexpr std::size_t kMaxInStep = 20000;      // points
 constexpr std::size_t kMaxInMeshes = 500'000;  // tests, some tenths of a second
+constexpr double kUp = 0.9;                    // of a unit normal: on a floor
 constexpr double kPush =
     50.0;  // m/s^2, at which a soft contact lifts a body that is deep in the floor
 
@@ -307,6 +308,15 @@ void Contacts::read_forces(const Pair& pair) {
     if (!force.allFinite()) force = Vec3::Zero();  // of a step that found no motion
     points_[i] = {ode::vec(found.pos), ode::vec(found.normal), found.depth, force};
   }
+}
+
+bool Contacts::only_stand() const {
+  return std::all_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
+    if (pair.first->body->dynamic() && pair.second->body->dynamic()) return false;
+    const auto first = points_.begin() + static_cast<std::ptrdiff_t>(pair.begin);
+    return std::all_of(first, first + static_cast<std::ptrdiff_t>(pair.count),
+                       [](const ContactPoint& at) { return std::abs(at.normal.z()) > kUp; });
+  });
 }
 
 void Contacts::finish() {

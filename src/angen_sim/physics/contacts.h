@@ -28,6 +28,12 @@ class Contacts {
 
   void set(const desc::Physics& settings, const Vec3& gravity);
 
+  /// s, of the steps from now on.
+  void set_step(double step) { step_ = step; }
+
+  /// Whether in the last step everything that touched something stood on what is static.
+  bool only_stand() const;
+
   /// Forgets the pairs of the last step.
   void start();
 

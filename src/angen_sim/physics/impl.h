@@ -22,7 +22,8 @@ struct World::Impl {
 
   ModelId add(const desc::Model& model);
   void remove(ModelId id);
-  void take_step(std::int64_t tick);
+  /// A step of `count` times h.
+  void take_step(std::int64_t tick, std::int64_t count);
   void wake(Body& body);
   void wake_joint(const Joint& joint);
   /// Wakes sleeping bodies whose boxes overlap those of a model that came, left or moved.
@@ -71,12 +72,14 @@ struct World::Impl {
   void collide();
   void collide_body(Body& body);
   void add_lift();
-  void set_up_joints();
-  void integrate(std::int64_t tick);
+  void set_up_joints(double step);
+  void integrate(std::int64_t tick, double step);
   using Solve = std::function<void(const std::vector<Body*>&)>;
-  void part_bodies(const std::vector<BodyState>& start, const Solve& solve);
+  void part_bodies(const std::vector<BodyState>& start, double step, const Solve& solve);
   void renew();
   void read_bodies();
+  /// Takes back what a long step walks too far: all of it at the speed that it ends with.
+  void take_back(const std::vector<Vec3>& before, double step);
 };
 
 }  // namespace angen::physics

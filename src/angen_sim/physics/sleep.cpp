@@ -16,11 +16,11 @@ constexpr double kSlowTurn = 0.01;  // rad/s
 constexpr double kIdleTime = 0.5;   // s
 constexpr int kJitter = 10;         // idle steps that a fast one undoes, where steps are iterated
 
-int idle_steps(const Body& body) {
+int idle_steps(const Body& body, int count) {
   const bool slow = body.velocity().squaredNorm() < kSlow * kSlow &&
                     body.spin().squaredNorm() < kSlowTurn * kSlowTurn;
   if (!body.may_sleep || body.parts) return 0;
-  if (slow) return body.idle_steps + 1;
+  if (slow) return body.idle_steps + count;
   // The iterated solution of a pile at rest is wrong for a step now and then.
   return body.iterated ? std::max(0, body.idle_steps - kJitter) : 0;
 }
@@ -59,11 +59,11 @@ void stop(Mechanism& mechanism, std::vector<Body*>& awake) {
               awake.end());
 }
 
-bool let_sleep(std::vector<Body*>& awake, const Contacts& contacts, double h) {
+bool let_sleep(std::vector<Body*>& awake, const Contacts& contacts, double h, int count) {
   const int long_enough = static_cast<int>(std::ceil(kIdleTime / h));
   bool any_idle = false;
   for (Body* body : awake) {
-    body->idle_steps = idle_steps(*body);
+    body->idle_steps = idle_steps(*body, count);
     any_idle = any_idle || body->idle_steps >= long_enough;
   }
   if (!any_idle) return false;

@@ -13,7 +13,8 @@ void stop(Mechanism& mechanism, std::vector<Body*>& awake);
 
 /// Puts whole islands to sleep (bodies that touch or are jointed) when each of their bodies has
 /// been slower than 0.01 m/s and 0.01 rad/s for half a second and no motor turns. Takes them out of
-/// `awake`; returns true when something fell asleep. Must follow each step of h seconds.
-bool let_sleep(std::vector<Body*>& awake, const Contacts& contacts, double h);
+/// `awake`; returns true when something fell asleep. Must follow each step, of `count` times h
+/// seconds.
+bool let_sleep(std::vector<Body*>& awake, const Contacts& contacts, double h, int count);
 
 }  // namespace angen::physics

@@ -19,7 +19,7 @@ bool by_serial(const Body* a, const Body* b) { return a->serial < b->serial; }
 
 }  // namespace
 
-void World::Impl::take_step(std::int64_t tick) {
+void World::Impl::take_step(std::int64_t tick, std::int64_t count) {
   ode::prepare_thread();
   ++steps;
   moved.clear();
@@ -27,10 +27,17 @@ void World::Impl::take_step(std::int64_t tick) {
   stopped.clear();
   crowded = false;
   if (!awake.empty()) {
+    const double step = h * static_cast<double>(count);
+    contacts.set_step(step);
     collide();
-    integrate(tick);
+    std::vector<Vec3> before;
+    for (const Body* body : awake) {
+      if (count > 1) before.push_back(body->velocity());
+    }
+    integrate(tick, step);
+    if (count > 1) take_back(before, step);
     read_bodies();
-    const bool slept = let_sleep(awake, contacts, h);
+    const bool slept = let_sleep(awake, contacts, h, static_cast<int>(count));
     if (slept || !stopped.empty()) contacts.put_to_rest();
     list_is_old = true;
   }
@@ -83,42 +90,43 @@ void World::Impl::add_lift() {
 }
 
 // Updates that depend on poses and joint positions: springs, speed bounds, directions of drives.
-void World::Impl::set_up_joints() {
+void World::Impl::set_up_joints(double step) {
   for (Body* body : awake) {
-    if (body->drive) aim_drive(*body, h);
+    if (body->drive) aim_drive(*body, step);
     for (Joint* joint : body->joints) {
       if (joint->first != body || joint->axes.empty()) continue;
-      if (joint->axes[0].stiffness > 0.0) apply_spring(*joint, h);
+      if (joint->axes[0].stiffness > 0.0) apply_spring(*joint, step);
       if (joint->motor_force > 0.0 && joint->axes[0].safety) apply_motor(*joint);
     }
   }
 }
 
 // What the first step made of them does not count.
-void World::Impl::part_bodies(const std::vector<BodyState>& start, const Solve& solve) {
+void World::Impl::part_bodies(const std::vector<BodyState>& start, double step,
+                              const Solve& solve) {
   std::vector<Unstable> others = std::move(trouble.unstable);
   others.erase(std::remove_if(others.begin(), others.end(),
                               [](const Unstable& unstable) { return unstable.body->parts; }),
                others.end());
-  part(awake, start, contacts, h, solve);
+  part(awake, start, contacts, step, solve);
   trouble.unstable.insert(trouble.unstable.end(), others.begin(), others.end());
 }
 
-void World::Impl::integrate(std::int64_t tick) {
+void World::Impl::integrate(std::int64_t tick, double step) {
   add_lift();
-  set_up_joints();
+  set_up_joints(step);
   const bool large = mark_large_islands(awake, contacts.active());
   const Solve solve = [&](const std::vector<Body*>& bodies) {
-    const auto first_try = [&](dWorldID ode_world, double step) {
-      large ? step_by_size(ode_world, bodies, step, seed, tick) : void(dWorldStep(ode_world, step));
+    const auto first_try = [&](dWorldID ode_world, double part) {
+      large ? step_by_size(ode_world, bodies, part, seed, tick) : void(dWorldStep(ode_world, part));
     };
-    if (!solve_step(world.get(), bodies, h, seed, tick, first_try, &trouble)) ++failed;
+    if (!solve_step(world.get(), bodies, step, seed, tick, first_try, &trouble)) ++failed;
   };
   if (mark_parting(awake, contacts)) {
     std::vector<BodyState> start;
     for (const Body* body : awake) start.push_back(state_of(*body));
     solve(awake);
-    if (!trouble.never) part_bodies(start, solve);
+    if (!trouble.never) part_bodies(start, step, solve);
   } else {
     solve(awake);
   }
@@ -156,6 +164,16 @@ void World::Impl::renew() {
     const auto& [v, w] = motions[i];
     dBodySetLinearVel(awake[i]->ode.get(), v.x(), v.y(), v.z());
     dBodySetAngularVel(awake[i]->ode.get(), w.x(), w.y(), w.z());
+  }
+}
+
+void World::Impl::take_back(const std::vector<Vec3>& before, double step) {
+  if (awake.size() != before.size()) return;  // some were stopped
+  for (std::size_t i = 0; i < awake.size(); ++i) {
+    dBodyID ode = awake[i]->ode.get();
+    const Vec3 back = 0.5 * (step - h) * (awake[i]->velocity() - before[i]);
+    const Vec3 at = ode::vec(dBodyGetPosition(ode)) - Vec3(back.x(), back.y(), 0.0);
+    dBodySetPosition(ode, at.x(), at.y(), at.z());
   }
 }
 

@@ -282,7 +282,13 @@ void World::place(ModelId id, const Pose& pose) {
   w.note_placed(model);
 }
 
-void World::step(std::int64_t tick) { impl_->take_step(tick); }
+void World::step(std::int64_t tick, std::int64_t count) { impl_->take_step(tick, count); }
+
+bool World::walks_only() const {
+  const auto walks = [](const Body* body) { return body->upright && body->joints.empty(); };
+  return std::all_of(impl_->awake.begin(), impl_->awake.end(), walks) &&
+         impl_->contacts.only_stand();
+}
 
 const std::vector<Stopped>& World::stopped() const { return impl_->stopped; }
 

@@ -121,7 +121,12 @@ class World {
 
   /// Collides and integrates one step of settings.step. `tick` keys the random numbers that the
   /// solver needs.
-  void step(std::int64_t tick);
+  void step(std::int64_t tick) { step(tick, 1); }
+  /// The same in one step that is `count` times as long; for walks_only().
+  void step(std::int64_t tick, std::int64_t count);
+
+  /// Whether all awake bodies are upright, as people are, and touch nothing but what they stand on.
+  bool walks_only() const;
 
   /// Links that the last step stopped: they stay at their poses before the step, like static
   /// bodies, until their model is placed again.

@@ -90,13 +90,14 @@ std::vector<pyb::tuple> entities(const World& world, const std::string& kind) {
 }
 
 // In slices so that Ctrl-C ends a long run.
-void advance(World& world, std::uint64_t ticks, void (World::*advance)(std::uint64_t)) {
+template <class F>
+void advance(std::uint64_t ticks, F&& take) {
   constexpr std::uint64_t kSlice = 10000;
   while (ticks > 0) {
     const std::uint64_t slice = std::min(ticks, kSlice);
     {
       const pyb::gil_scoped_release release;
-      (world.*advance)(slice);
+      take(slice);
     }
     ticks -= slice;
     if (PyErr_CheckSignals() != 0) throw pyb::error_already_set();
@@ -145,12 +146,20 @@ void bind_world(pyb::module_& module) {
           pyb::arg("text"), pyb::arg("seed") = 0, pyb::arg("allow_paths") = false,
           pyb::arg("memory_limit") = pyb::none(), "Loads a world from SDF text.")
       .def(
-          "step", [](World& w, std::uint64_t ticks) { advance(w, ticks, &World::step); },
+          "step",
+          [](World& w, std::uint64_t ticks) {
+            advance(ticks, [&](std::uint64_t n) { w.step(n); });
+          },
           pyb::arg("ticks") = 1, "Advances by ticks, each of them taken.")
       .def(
-          "run", [](World& w, double seconds) { advance(w, w.ticks_in(seconds), &World::run); },
-          pyb::arg("seconds"),
-          "Advances by simulated seconds; ticks in which nothing happens are leapt over.")
+          "run",
+          [](World& w, double seconds, bool long_steps) {
+            advance(w.ticks_in(seconds), [&](std::uint64_t n) { w.run(n, long_steps); });
+          },
+          pyb::arg("seconds"), pyb::arg("long_steps") = false,
+          "Advances by simulated seconds; ticks in which nothing happens are leapt over. With "
+          "long_steps ticks are up to 20 ms long while nothing moves but people who walk free of "
+          "contact.")
       .def("command", &World::command, pyb::arg("kind"), pyb::arg("name"), pyb::arg("text") = "",
            pyb::arg("values") = std::vector<double>{},
            "Commands a device, e.g. ('door', 'bathroom1', 'Open'); ('drive', 'turtlebot', "

@@ -126,11 +126,13 @@ void World::step(std::uint64_t ticks) {
   raise_failure();
 }
 
-void World::run(std::uint64_t ticks) {
+void World::run(std::uint64_t ticks, bool long_steps) {
   if (ticks == 0) return;
+  if (long_steps && recorder_) throw Error("long steps cannot be recorded: a replay has none");
   const std::future<sim::Outcome> done = simulation_.post(sim::Step{ticks});
   const std::int64_t last = snapshot_->tick + static_cast<std::int64_t>(ticks);
-  while (snapshot_->tick < last) take(simulation_.leap(leap_limit(last * snapshot_->step)));
+  while (snapshot_->tick < last)
+    take(simulation_.leap(leap_limit(last * snapshot_->step), long_steps));
   raise_failure();
 }
 

@@ -33,8 +33,9 @@ class World {
   World(std::unique_ptr<sim::Simulation> simulation, const std::string& models);
 
   void step(std::uint64_t ticks);
-  /// The same, leaping over ticks without a change.
-  void run(std::uint64_t ticks);
+  /// The same, leaping over ticks without a change; for `long_steps` see Simulation::leap.
+  void run(std::uint64_t ticks) { run(ticks, false); }
+  void run(std::uint64_t ticks, bool long_steps);
   std::uint64_t ticks_in(double seconds) const;
 
   /// These throw Error when the simulator rejects the action.

@@ -12,6 +12,10 @@ namespace {
 
 constexpr Nanoseconds kReportPeriod = kSecond / 50;
 
+bool is_person(const LiveModel& live) {
+  return !live.desc->links.empty() && live.desc->links.front().upright;
+}
+
 // A body that fell asleep in the last tick was awake in it.
 bool is_idle(const LiveModel& live, const DeviceInstance& device, InstanceView::Clock clock) {
   if (!device.error.empty()) return true;
@@ -67,7 +71,7 @@ void DeviceSystem::fail(DeviceInstance& device, const std::string& error, Nanose
   events.push_back({now, device.name, device.kind, "failed", error});
 }
 
-void DeviceSystem::update(Building& building, InstanceView::Clock clock,
+void DeviceSystem::update(Building& building, InstanceView::Clock clock, Nanoseconds last,
                           std::vector<Event>& events) {
   if (outdated_) list(building);
   activate_due(clock.time);
@@ -84,10 +88,11 @@ void DeviceSystem::update(Building& building, InstanceView::Clock clock,
     }
     active_[kept++] = i;
     meter_.rest.devices += meter_.watch.lap();
-    const InstanceView view(building, live, clock);
+    const InstanceView::Clock own{clock.time, is_person(live) ? last : clock.step};
+    const InstanceView view(building, live, own);
     InstanceOutputs outputs(building.engines(), live, device, clock.time, events, commands_);
     const std::string thrown = thrown_by([&] {
-      device.catch_up(clock.time, clock.step);
+      device.catch_up(own.time, own.step);
       device.device->update(view, outputs);
       device.updated = clock.time;
       device.idle_until = device.device->idle_until(view);
@@ -120,10 +125,11 @@ void DeviceSystem::execute_commands(Building& building, InstanceView::Clock cloc
   activate_all();
 }
 
-std::int64_t DeviceSystem::next_tick(Building& building, InstanceView::Clock clock) {
+std::int64_t DeviceSystem::next_tick(Building& building, InstanceView::Clock clock, bool walks) {
   if (outdated_) list(building);
   Nanoseconds first = kForever - clock.step;
   for (const std::uint32_t i : active_) {
+    if (walks && is_person(*entries_[i].live)) continue;
     if (!is_idle(*entries_[i].live, *entries_[i].device, clock)) return clock.time / clock.step;
     first = std::min(first, entries_[i].device->idle_until);
   }
@@ -131,7 +137,7 @@ std::int64_t DeviceSystem::next_tick(Building& building, InstanceView::Clock clo
   std::int64_t tick = (first + clock.step - 1) / clock.step;
   if (!to_report_.empty()) {  // the next report is at the end of the tick before
     const Nanoseconds report = (clock.time / kReportPeriod + 1) * kReportPeriod;
-    tick = std::min(tick, (report + clock.step - 1) / clock.step - 1);
+    tick = std::min(tick, (report + clock.step - 1) / clock.step - (walks ? 0 : 1));
   }
   return tick;
 }

@@ -16,7 +16,9 @@ class DeviceSystem {
   explicit DeviceSystem(Meter& meter) : meter_(meter) {}
 
   /// Updates every device that is not idle, in the order in which they came into the world.
-  void update(Building& building, InstanceView::Clock clock, std::vector<Event>& events);
+  /// `last`: how long the last tick was, for those of people.
+  void update(Building& building, InstanceView::Clock clock, Nanoseconds last,
+              std::vector<Event>& events);
 
   /// The devices of a model that is awake are not idle.
   void note_awake(const LiveModel& live);
@@ -25,8 +27,9 @@ class DeviceSystem {
   /// once, the others 50 times a second.
   void report(Building& building, InstanceView::Clock clock, Snapshot& next);
 
-  /// The tick that devices need next, while no body is awake.
-  std::int64_t next_tick(Building& building, InstanceView::Clock clock);
+  /// The tick that devices need next, while no body is awake; `walks`: while only people are, whose
+  /// own devices are left out.
+  std::int64_t next_tick(Building& building, InstanceView::Clock clock, bool walks = false);
 
   bool lights_changed() const { return lights_changed_; }
 

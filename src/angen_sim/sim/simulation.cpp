@@ -11,6 +11,12 @@
 
 namespace angen::sim {
 
+namespace {
+
+constexpr Nanoseconds kLongStep = kSecond / 50;
+
+}  // namespace
+
 struct Simulation::Impl {
   Impl(desc::World described, std::uint64_t seed_, std::shared_ptr<Catalog> catalog)
       : world(std::move(described)),
@@ -80,18 +86,36 @@ struct Simulation::Impl {
     next.time = tick * next.step;
   }
 
-  std::shared_ptr<const Snapshot> take_tick(Nanoseconds until) {
+  /// The end of the next tick. A longer one ends where anything but a person's device or a sensor
+  /// needs one.
+  std::int64_t next_end(Nanoseconds until, bool long_steps) {
+    const std::int64_t here = next.tick;
+    const Engines& engines = building.engines();
+    if (!long_steps || engines.physics.awake_count() == 0 || !engines.physics.walks_only()) {
+      return here + 1;
+    }
+    std::int64_t end = std::min((next.time / kLongStep + 1) * kLongStep, until) / next.step;
+    const Nanoseconds push = std::min(building.pushes().next(next.time), kForever - next.step);
+    end = std::min({end, engines.next_rest() / next.step, push / next.step,
+                    devices.next_tick(building, clock(), true)});
+    if (commands.ticks_to_go() < end - here) end = here + commands.ticks_to_go();
+    if (end <= here + 1) return here + 1;
+    return sensors.due().next_tick(building, clock(), end - 1) + 1;
+  }
+
+  std::shared_ptr<const Snapshot> take_tick(Nanoseconds until, bool long_steps = false) {
     meter.watch.start(meter.on);
     drain();
     meter.rest.commands += meter.watch.lap();
     if (commands.running()) {
       const Nanoseconds from = next.time;
       leap(until);
+      const std::int64_t end = next_end(until, long_steps);
       act();
-      move();
+      move(end);
       meter.rest.physics += meter.watch.lap();
       observe();
-      commands.ticks_done(1);
+      commands.ticks_done(last_ticks);
       if (meter.on) meter.rest.simulated += next.time - from;
     }
     std::shared_ptr<const Snapshot> made = publish();
@@ -101,15 +125,20 @@ struct Simulation::Impl {
   }
 
   void act() {
-    devices.update(building, clock(), next.events);
+    devices.update(building, clock(), last_ticks * next.step, next.events);
     building.pushes().apply(building.engines(), next.time, next.step);
   }
 
-  void move() {
+  void move(std::int64_t end) {
     Engines& engines = building.engines();
     const bool was_awake = engines.physics.awake_count() > 0;
     const bool was_crowded = engines.physics.crowded();
-    engines.physics.step(next.tick);
+    last_ticks = end - next.tick;
+    if (last_ticks > 1) {
+      sensors.due().skip_to(clock(), end - 1, next);
+      next.tick = end - 1;
+    }
+    engines.physics.step(next.tick, last_ticks);
     if (was_awake || !engines.physics.moved().empty()) engines.note_change();
     ++next.tick;
     for (const LiveModel* live : building.note_awake(next.tick)) {
@@ -235,6 +264,7 @@ struct Simulation::Impl {
     next.light_levels = std::make_shared<const std::vector<double>>(building.light_levels());
   }
 
+  std::int64_t last_ticks = 1;  // the length of the last tick
   desc::World world;
   std::uint64_t seed;
   Building building;
@@ -259,8 +289,8 @@ std::future<Outcome> Simulation::post(Action action, std::shared_ptr<Ticket> tic
 
 std::shared_ptr<const Snapshot> Simulation::tick() { return impl_->take_tick(0); }
 
-std::shared_ptr<const Snapshot> Simulation::leap(Nanoseconds until) {
-  return impl_->take_tick(until);
+std::shared_ptr<const Snapshot> Simulation::leap(Nanoseconds until, bool long_steps) {
+  return impl_->take_tick(until, long_steps);
 }
 
 std::shared_ptr<const Snapshot> Simulation::snapshot() const {

@@ -37,7 +37,10 @@ class Simulation {
   /// waits, and devices and sensors would only publish their last readings again, or the
   /// same but for noise. The snapshot is bit for bit that after as many calls of tick().
   /// Its tick ends at `until` at the latest, unless that has passed.
-  std::shared_ptr<const Snapshot> leap(Nanoseconds until);
+  std::shared_ptr<const Snapshot> leap(Nanoseconds until) { return leap(until, false); }
+  /// With `long_steps` ticks are up to 20 ms long while no other bodies are awake than people who
+  /// touch nothing but the floor: they walk within a millimeter of where they would be.
+  std::shared_ptr<const Snapshot> leap(Nanoseconds until, bool long_steps);
 
   /// The latest snapshot; never null.
   std::shared_ptr<const Snapshot> snapshot() const;

@@ -28,6 +28,40 @@ TEST(Drive, PersonWalksAtItsSpeedAndPushesAWallWithAtMostItsForce) {
   EXPECT_EQ(world.failed_steps(), 0U);
 }
 
+TEST(Drive, LongStepsWalkAsFarAsShortOnes) {
+  TestWorld one, twenty;
+  std::vector<LinkState> ends;
+  for (TestWorld* world : {&one, &twenty}) {
+    world->add(floor_model());
+    const LinkId body = world->only_link(world->add(person_model("person", {0, 0, 0.001})));
+    world->run(0.1);
+    ASSERT_TRUE(world->walks_only());
+    for (const double speed : {1.0, -0.5, 0.0}) {
+      world->drive(body, {speed, 0.3 * speed, 0}, 0.0, 150.0);
+      for (int i = 0; i < 50; ++i) {
+        if (world == &one) world->run(20 * kStep);
+        if (world == &twenty) world->step(100 + 20 * i, 20);
+      }
+    }
+    ends.push_back(world->link(body));
+  }
+  EXPECT_GT(ends[0].pose.position.x(), 0.2);
+  EXPECT_LT((ends[1].pose.position - ends[0].pose.position).norm(), 1e-3);
+  EXPECT_LT((ends[1].linear_velocity - ends[0].linear_velocity).norm(), 1e-3);
+}
+
+TEST(Drive, WhoTouchesAWallOrAThingDoesMoreThanWalk) {
+  TestWorld world;
+  world.add(floor_model());
+  world.add(static_box("wall", {0.1, 4, 2}, {1.0, 0, 1}));
+  const LinkId body = world.only_link(world.add(person_model("person", {0, 0, 0.001})));
+  world.drive(body, {1.0, 0, 0}, 0.0, 150.0);
+  world.run(0.5);
+  EXPECT_TRUE(world.walks_only());
+  world.run(1.5);
+  EXPECT_FALSE(world.walks_only());
+}
+
 TEST(Drive, ForceIsLimitedInEachDirection) {
   TestWorld world({}, Vec3::Zero());
   const LinkId body = world.only_link(world.add(person_model("person", Vec3::Zero())));

@@ -1,0 +1,89 @@
+"""Long steps of people who walk free of contact: the same readings, to a sample, as by 1 ms."""
+from __future__ import annotations
+
+import math
+from typing import Callable
+
+import pytest
+
+import angen
+from sdf_text import box, sdf_world
+
+World = Callable[..., angen.World]
+
+SAMPLE = 0.02  # s
+SENSORS = ''.join(
+    f'<include><uri>model://{model}</uri><name>{name}</name><pose>{pose}</pose></include>'
+    for model, name, pose in (('pir_casas', 'cell', f'2 0 2.4 0 {math.pi / 2} 0'),
+                              ('pir_casas', 'corner', f'4 3 2.4 0 {math.pi / 2} 0'),
+                              ('pir_pyroelectric', 'area', '6 -3 2.2 0 0 2.4')))
+ANN = '''<actor name="ann"><pose>0 0 0 0 0 0</pose>
+    <plugin name="person" filename="libperson_controller.so"/></actor>'''
+WALL = box('wall', '0 4 1.2 0 0 0', '12 0.2 2.4', True)
+
+
+def walk(world: angen.World, long_steps: bool) -> tuple[list[tuple[float, str, str]], list[float]]:
+    """Events of the sensors, and where the walk ended."""
+    world.run(70.0, long_steps=long_steps)
+    for goal in ('4 0.4', '4 3', '-1 1'):
+        world.command('person', 'ann', f'GoTo {goal}')
+        world.run(8.0, long_steps=long_steps)
+    state = world.device('person', 'ann')
+    events = [(at, source, event) for at, source, _, event, _ in world.events() if source != 'ann']
+    return events, [state['x'], state['y']]
+
+
+def test_events_are_equal_to_a_sample_and_places_to_a_centimeter(world: World) -> None:
+    content = SENSORS + ANN + WALL
+    (fast, at), (exact, there) = walk(world(content), True), walk(world(content), False)
+    assert math.dist(at, there) < 0.01
+    assert len(exact) >= 6 and {source for _, source, _ in exact} == {'cell', 'corner', 'area'}
+    assert sorted(e[1:] for e in fast) == sorted(e[1:] for e in exact)
+    for name in ('cell', 'corner', 'area'):
+        pairs = zip(*([at for at, source, _ in events if source == name]
+                      for events in (fast, exact)))
+        assert all(abs(a - b) <= SAMPLE + 1e-6 for a, b in pairs)
+
+
+def test_the_same_walk_has_the_same_bytes(world: World) -> None:
+    worlds = [world(SENSORS + ANN) for _ in range(2)]
+    assert walk(worlds[0], True) == walk(worlds[1], True)
+    assert worlds[0].fingerprint == worlds[1].fingerprint
+
+
+def test_what_else_moves_takes_each_tick(world: World) -> None:
+    """A ball rolls while somebody walks: both are where they are without long steps."""
+    ball = '''<model name="ball"><pose>-3 -3 0.1 0 0 0</pose><link name="link">
+        <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
+        </link></model>'''
+    ends = []
+    for long_steps in (True, False):
+        w = world(ANN + ball)
+        w.command('person', 'ann', 'GoTo 3 0')
+        w.set_state('ball', [-3, -3, 0.1, 0, 0, 0], [1.0, 0.0, 0.0], [0.0, 10.0, 0.0])
+        w.run(2.0, long_steps=long_steps)
+        ends.append((w.motion('ball')[0].tolist(), w.motion('ann')[0].tolist()))
+    assert ends[0] == ends[1]
+
+
+def test_who_walks_against_a_wall_stops_there(world: World) -> None:
+    ends = []
+    for long_steps in (True, False):
+        w = world(ANN + box('wall', '2 0 1.2 0 0 0', '0.2 3 2.4', True))
+        w.command('person', 'ann', 'PushTo 4 0')
+        farthest = 0.0
+        for _ in range(30):
+            w.run(0.2, long_steps=long_steps)
+            farthest = max(farthest, float(w.motion('ann')[0][0]))
+        ends.append(farthest)
+    assert ends[0] == pytest.approx(ends[1], abs=5e-3)
+    assert 1.6 < ends[0] < 1.66  # the wall's face is at 1.9 m, a person is 0.25 m deep
+
+
+def test_long_steps_are_not_recorded(tmp_path) -> None:
+    path = tmp_path / 'ann.world'
+    path.write_text(sdf_world(ANN, ''))
+    w = angen.World(str(path), record=str(tmp_path / 'ann.log'))
+    with pytest.raises(angen.Error, match='long steps cannot be recorded'):
+        w.run(1.0, long_steps=True)
+    assert w.time == 0.0
