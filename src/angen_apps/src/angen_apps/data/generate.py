@@ -186,7 +186,7 @@ def write_truth(folder: Path, data: run.Data, happened: list[faults.Happened]) -
                     for s in data.sensors]}
     with zipped(paths[4]) as file:
         file.write('time,resident,x,y\n')
-        file.writelines(f'{t:.1f},{who},{x:.3f},{y:.3f}\n' for t, who, x, y in data.track)
+        file.writelines(f'{t:.3f},{who},{x:.3f},{y:.3f}\n' for t, who, x, y in data.track)
     write_text(paths[3], json.dumps(_rounded(layout), indent=1) + '\n')
     return paths
 

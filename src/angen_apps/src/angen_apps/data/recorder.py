@@ -5,6 +5,8 @@ import math
 from dataclasses import dataclass
 from typing import Any, Iterator, NamedTuple
 
+import numpy as np
+
 from angen_apps.data.site import Sensor, Site
 from angen_apps.residents.household import Household
 
@@ -76,8 +78,9 @@ class Recorder:
         self._loads = [(kind, name) for kind, name, _, _ in site.world.entities()
                        if kind in ('lamp', 'stove', 'appliance', 'heater')]
         self._acted = -1
-        self._over: dict[tuple[str, str], float] = {}
+        self._over: dict[tuple[int, str], tuple[float, float]] = {}  # a cell: first and last time
         self._cells = [s for s in site.sensors if s.kind == 'motion' and s.name.startswith('cell')]
+        self._middles = np.array([(s.x, s.y) for s in self._cells]).reshape(-1, 2)
         self._left: list[Missed] = []
         self._stepped: dict[str, float] = {}
 
@@ -160,16 +163,18 @@ class Recorder:
     def _follow(self, resident: Any) -> None:
         """Notes over which cells a resident walks, and which of these saw nothing."""
         now = self.household.now
-        for sensor in self._cells:
-            key = (sensor.id, resident.name)
-            inside = math.dist(resident.at, (sensor.x, sensor.y)) < CELL
-            if inside:
-                self._over.setdefault(key, now)
-            elif key in self._over:
-                since = self._over.pop(key)
-                if now - since >= LEAST and sensor.id not in self._on \
-                        and self._last_on.get(sensor.id, -math.inf) < since - HOLD:
-                    self._left.append(Missed(since, now, sensor.id, resident.name))
+        away = ((self._middles - resident.at) ** 2).sum(axis=1)
+        inside = {(int(i), resident.name) for i in np.nonzero(away < CELL ** 2)[0]}
+        for key in sorted(key for key in self._over if key[1] == resident.name):
+            if key in inside:
+                continue
+            since, last = self._over.pop(key)
+            sensor = self._cells[key[0]].id
+            if last - since >= LEAST and sensor not in self._on \
+                    and self._last_on.get(sensor, -math.inf) < since - HOLD:
+                self._left.append(Missed(since, last, sensor, resident.name))
+        for key in inside:
+            self._over[key] = (self._over[key][0] if key in self._over else now, now)
         due = [m for m in self._left if m.end + HOLD < now]
         for missed in due:
             self._left.remove(missed)

@@ -23,6 +23,7 @@ MARGIN = 1.5  # m around the rooms
 DEEP = 0.35  # m to both sides of a door's middle that belong to its opening
 PORCH = 1.2  # m outside the entrance where people come and go
 SWING = 1.25  # m from a door's middle that its leaf does not reach
+GOALS = 64  # to which ways are kept
 REACH = 1.1  # m from where one stands to what one uses
 
 
@@ -47,6 +48,8 @@ class Ground:
         lives = self.storey_at(entrance.pose[2]) if entrance else min(r.storey for r in home.rooms)
         self.planners = {storey: Planner(self._grid(storey), BODY) for storey in (lives,)}
         self.free = {storey: self._largest(planner) for storey, planner in self.planners.items()}
+        self._toward: dict[tuple[int, tuple[int, int]], np.ndarray] = {}  # the last used at the end
+        self._names: dict[tuple[int, int, int], str] = {}  # of rooms, by storey, row and column
 
     def support(self, place: Place) -> float:
         """z of what carries one who sits or lies at a place, m."""
@@ -67,6 +70,17 @@ class Ground:
 
     def elevation(self, storey: int) -> float:
         return float(next(s.elevation for s in self.home.storeys if s.number == storey))
+
+    def room_name(self, x: float, y: float, storey: int) -> str:
+        """The room at a place on the floor, to a cell of the map; '' outside."""
+        grid = self.planners[storey].grid
+        key = (storey, math.floor((y - grid.origin[1]) / grid.resolution),
+               math.floor((x - grid.origin[0]) / grid.resolution))
+        name = self._names.get(key)
+        if name is None:
+            room = self.home.room_at(*grid.point(*key[1:]), self.elevation(storey) + 0.5)
+            name = self._names[key] = room.name if room else ''
+        return name
 
     def near(self, x: float, y: float, z: float, reach: float = REACH) -> Point | None:
         """The place nearest to a point, in its room, where a person can stand."""
@@ -130,7 +144,7 @@ class Ground:
         """Legs from a place to another on a storey; None where there is no way."""
         planner = self.planners[storey]
         begin = self.near(*start, self.elevation(storey), 0.8) or planner.nearest(start, 0.8)
-        points = begin and planner.way(begin, goal)
+        points = begin and planner.along(self._following(planner, goal, storey), begin, goal)
         if not points:
             return None
         doors = [d for d in self.home.doors if d.kind == 'door'
@@ -144,6 +158,17 @@ class Ground:
             first, door = before, crossed
         legs.append(Leg(self._corners(planner, points[first:]), door))
         return legs
+
+    def _following(self, planner: Planner, goal: Point, storey: int) -> np.ndarray:
+        """Planner.toward(), of few goals again and again."""
+        key = (storey, planner.grid.cell(*goal))
+        found = self._toward.pop(key, None)
+        if found is None:
+            found = planner.toward(goal)
+            if len(self._toward) >= GOALS:
+                del self._toward[next(iter(self._toward))]
+        self._toward[key] = found
+        return found
 
     def _corners(self, planner: Planner, points: Sequence[Point]) -> tuple[Point, ...]:
         """The few points of a way between which one walks straight."""
@@ -160,8 +185,11 @@ class Ground:
     @staticmethod
     def _straight(planner: Planner, a: Point, b: Point) -> bool:
         count = max(int(math.dist(a, b) / RESOLUTION), 1)
-        return all(planner.is_free((a[0] + (b[0] - a[0]) * k / count, a[1] + (b[1] - a[1]) * k
-                                   / count)) for k in range(1, count))
+        share = np.arange(1, count) / count
+        grid = planner.grid
+        row = ((a[1] - grid.origin[1] + (b[1] - a[1]) * share) / grid.resolution).astype(int)
+        column = ((a[0] - grid.origin[0] + (b[0] - a[0]) * share) / grid.resolution).astype(int)
+        return bool(planner.passable[row, column].all())
 
     def _largest(self, planner: Planner) -> np.ndarray:
         """The largest connected part (rows, columns) of where a person can stand."""

@@ -7,13 +7,12 @@ from angen_tools.common.home import Home, Place
 
 
 class Body(NamedTuple):
-    """Where a resident is: m and rad in the world, and WALKING, STANDING or BLOCKED."""
+    """Where a resident is: m and rad in the world."""
 
     x: float
     y: float
     z: float
     yaw: float
-    mode: str
 
 
 class Refused(Exception):

@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import json
-import math
 import time
 from typing import Any
 
@@ -17,7 +16,6 @@ ABOVE = 0.002  # m over what carries a figure, when it comes there
 LOOK = 0.02  # s of wall time between two looks at the clock
 SILENCE = 10.0  # s of wall time without a clock: the simulator has ended
 TRUTH = '/angen/residents'
-PERSON = ('STANDING', 'WALKING', 'BLOCKED')
 
 
 class Live:
@@ -131,8 +129,7 @@ class Live:
         answer = self._call('/gazebo/get_model_state', GetModelState, model_name=name,
                             relative_entity_name='')
         at = answer.pose.position
-        moves = math.hypot(answer.twist.linear.x, answer.twist.linear.y) > 0.05
-        return Body(at.x, at.y, at.z, yaw_of(answer.pose.orientation), PERSON[moves])
+        return Body(at.x, at.y, at.z, yaw_of(answer.pose.orientation))
 
     def _call(self, service: str, kind: type, **fields: Any) -> Any:
         try:

@@ -12,7 +12,7 @@ from angen_apps.residents.profiles import Profile
 from angen_apps.robot.planner import Point
 from angen_tools.common.home import Door
 
-POLL = 0.1  # s between two looks at where one is
+POLL = (0.1, 0.5)  # s between two looks at where one is, at least and at most
 PASSED, THERE = 0.35, 0.12  # m from a corner of the way, and from its end
 STALLED = 7.0  # s without coming nearer, after which another way is tried
 TRIES = 3
@@ -53,8 +53,7 @@ class Mover:
         if math.dist(self.at, (body.x, body.y)) > 0.02:
             self.moved = self.now
         self.at = (body.x, body.y)
-        room = self.ground.home.room_at(body.x, body.y, self.ground.elevation(self.storey) + 0.5)
-        self.room = room.name if room else ''
+        self.room = self.ground.room_name(body.x, body.y, self.storey)
 
     def enter(self, spot: Spot) -> None:
         """Comes to be at a place, standing: outside the entrance, or where a run begins."""
@@ -179,7 +178,8 @@ class Mover:
             if held and math.dist(self.at, held.pose[:2]) > SWING and self._behind(held, point):
                 self._let_go(held)
                 held = None
-            yield self.now + POLL
+            least, most = POLL
+            yield self.now + min(max((away - near) / self.profile.speed, least), most)
 
     def _behind(self, door: Door, point: Point) -> bool:
         """Whether a door lies behind, on the way to a point."""
@@ -195,7 +195,7 @@ class Mover:
             yield self.now + 0.5
         state = self.simulator.state('door', door.name)
         if state.get('mode') != 'OPEN' and self.profile.body == 'person':
-            self.household.do(self.name, 'door', door.name, 'Open')
+            self.household.do(self.name, 'door', door.name, 'OpenByHand')
         while state and state.get('mode') != 'OPEN':
             if self.now - since > OPENS_IN + DOOR_WAIT or self.profile.body != 'person':
                 self.household.leave(key, self.name)
@@ -215,7 +215,7 @@ class Mover:
         beyond = math.dist(self.at, door.pose[:2]) > SWING - 0.3
         if shuts and beyond and self.profile.body == 'person' \
                 and self.household.doorway_free(door.pose[0], door.pose[1], self.name):
-            self.household.do(self.name, 'door', door.name, 'Close')
+            self.household.do(self.name, 'door', door.name, 'CloseByHand')
 
     def _aside(self, attempt: int) -> Process:
         """Makes room before another try."""

@@ -235,7 +235,7 @@ class Resident(Mover):
                 self._note('away', 'leave')
                 entrance = self.ground.entrance()
                 if entrance is not None:  # it falls shut behind
-                    self.household.do(self.name, 'door', entrance.name, 'Close')
+                    self.household.do(self.name, 'door', entrance.name, 'CloseByHand')
             else:
                 self.diary.note('gave up the way out')
         if until > self.now:
@@ -280,8 +280,8 @@ class Resident(Mover):
         thing = next((t for t in self.ground.home.things if t.name == spot.thing), None)
         if step.opens == 'entrance':
             entrance = self.ground.entrance()
-            if entrance and household.do(self.name, 'door', entrance.name, 'Open'):
-                return [('door', entrance.name, 'Close')]
+            if entrance and household.do(self.name, 'door', entrance.name, 'OpenByHand'):
+                return [('door', entrance.name, 'CloseByHand')]
         elif step.opens and thing is not None:
             front = household.front(thing)
             if front and household.do(self.name, *front, 'Open'):

@@ -24,7 +24,7 @@ class Simulated:
         return float(self.world.time)
 
     def run(self, seconds: float) -> None:
-        self.world.run(seconds)
+        self.world.run(seconds, long_steps=True)
 
     def devices(self) -> list[tuple[str, str, str, tuple[float, ...]]]:
         return [(kind, name, model, tuple(float(v) for v in pose))
@@ -74,5 +74,4 @@ class Simulated:
     def body(self, name: str) -> Body:
         pose, _, _ = self.world.motion(name)
         x, y, z = (float(value) for value in pose[:3])
-        mode = self.state('person', name).get('mode', 'STANDING')
-        return Body(x, y, z, yaw_of(*pose[3:]), mode)
+        return Body(x, y, z, yaw_of(*pose[3:]))

@@ -80,6 +80,29 @@ class Planner:
         points = [start, *(self.grid.point(*cell) for cell in cells[1:-1]), goal]
         return smooth(points)
 
+    def toward(self, goal: Point) -> np.ndarray:
+        """The cell that follows each cell on the way to a goal, below 0 where there is none. Cells
+        are counted row by row."""
+        columns = self._passable.shape[1]
+        row, column = self.grid.cell(*goal)
+        return np.asarray(dijkstra(self._graph.T, indices=row * columns + column,
+                                   return_predecessors=True)[1])
+
+    def along(self, following: np.ndarray, start: Point, goal: Point) -> list[Point] | None:
+        """As way(), not smoothed; `following`: toward() the goal."""
+        if not (self.is_free(start) and self.is_free(goal)):
+            return None
+        columns = self._passable.shape[1]
+        here, end = (row * columns + column
+                     for row, column in (self.grid.cell(*start), self.grid.cell(*goal)))
+        points = [start]
+        while here != end:
+            here = int(following[here])
+            if here < 0:
+                return None
+            points.append(self.grid.point(*divmod(here, columns)))
+        return [*points[:-1], goal] if len(points) > 1 else [start, goal]
+
     def _search(self, start: tuple[int, int], goal: tuple[int, int]
                 ) -> list[tuple[int, int]] | None:
         """Cells from start to goal."""

@@ -1,0 +1,130 @@
+"""Homes by one process, by two of which one dies, and by a cluster one of whose workers dies: the
+same bytes. A carer visits each for a part of a day, and nobody else lives there."""
+from __future__ import annotations
+
+import json
+import multiprocessing
+import os
+import shutil
+import signal
+import subprocess
+import threading
+import time
+from pathlib import Path
+from typing import Any, Callable, Iterator
+
+import pytest
+
+from angen_apps.data.generate import MANIFEST, Job, generate
+from angen_apps.data.validate import homes, validate
+from angen_tools.common.failure import Failure
+
+HOMES = 2
+STARTS = 60.0  # s of wall time, at most, until a worker is there
+
+
+def job(folder: Path) -> Job:
+    return Job(str(folder), 'home', 11, 1, ('carer',), ('casas', 'openshs', 'aras', 'csv', 'xes'))
+
+
+def hashes(folder: Path) -> dict[str, Any]:
+    """Of each file, by home."""
+    manifest = json.loads((folder / MANIFEST).read_text())
+    return {home['name']: home['files'] for home in manifest['homes']}
+
+
+@pytest.fixture(scope='module')
+def made(tmp_path_factory) -> Path:
+    """Homes by one process."""
+    folder = tmp_path_factory.mktemp('made')
+    generate(job(folder), HOMES, 1)
+    return folder
+
+
+def kill_soon(folder: Path, victims: Callable[[], list[int]]) -> threading.Thread:
+    """Kills one of the processes once a home is begun."""
+    def run() -> None:
+        end = time.monotonic() + STARTS
+        while time.monotonic() < end:
+            pids = victims()
+            if pids and any(folder.glob('*.part')):
+                os.kill(pids[0], signal.SIGKILL)
+                return
+            time.sleep(0.1)
+    thread = threading.Thread(target=run)
+    thread.start()
+    return thread
+
+
+def test_each_home_is_valid(made):
+    for home in homes(made):
+        findings = validate(home)
+        assert findings.wrong and findings.count == 0, findings.wrong
+        assert findings.checked['nobody crossed a wall'] >= 5
+        assert findings.checked['each event has a cause or is noise'] >= 100
+
+
+def test_two_processes_of_which_one_dies_make_the_same_bytes(made, tmp_path):
+    killer = kill_soon(tmp_path, lambda: [p.pid for p in multiprocessing.active_children()
+                                          if p.pid is not None])
+    generate(job(tmp_path), HOMES, 2)
+    killer.join()
+    assert hashes(tmp_path) == hashes(made)
+
+
+def test_a_torn_home_is_made_again_and_a_finished_one_is_not(made, tmp_path):
+    folder = tmp_path / 'again'
+    shutil.copytree(made, folder)
+    (folder / MANIFEST).unlink()
+    torn, kept = folder / 'home_00001', folder / 'home_00002'
+    torn.rename(folder / 'home_00001.part')
+    (folder / 'home_00001.part' / 'events.csv.gz').write_bytes(b'torn')
+    before = (kept / 'home.json').stat().st_mtime_ns
+    generate(job(folder), HOMES, 1)
+    assert hashes(folder) == hashes(made)
+    assert (kept / 'home.json').stat().st_mtime_ns == before
+    assert not list(folder.glob('*.part'))
+
+
+@pytest.fixture
+def cluster(tmp_path) -> Iterator[tuple[str, list[subprocess.Popen[bytes]]]]:
+    """A scheduler's address, and its two workers."""
+    pytest.importorskip('distributed')
+    where = tmp_path / 'scheduler.json'
+    log = (tmp_path / 'dask.log').open('wb')
+
+    def start(*args: str) -> subprocess.Popen[bytes]:
+        return subprocess.Popen(['python3', '-m', 'distributed.cli.' + args[0], *args[1:]],
+                                cwd=tmp_path, stdout=log, stderr=log)
+
+    running = [start('dask_scheduler', '--host', '127.0.0.1', '--port', '0', '--no-dashboard',
+                     '--scheduler-file', str(where))]
+    try:
+        end = time.monotonic() + STARTS
+        while not where.is_file() and time.monotonic() < end:
+            time.sleep(0.2)
+        running += [start('dask_worker', '--scheduler-file', str(where), '--nthreads', '1',
+                          '--no-nanny', '--no-dashboard', '--host', '127.0.0.1',
+                          '--local-directory', str(tmp_path / f'w{i}')) for i in range(2)]
+        yield json.loads(where.read_text())['address'], running[1:]
+    finally:
+        for process in running[::-1]:
+            process.terminate()
+            process.wait()
+        log.close()
+
+
+def test_a_cluster_of_which_a_worker_dies_makes_the_same_bytes(made, cluster, tmp_path):
+    address, workers = cluster
+    folder = tmp_path / 'out'
+    killer = kill_soon(folder, lambda: [workers[0].pid])
+    generate(job(folder), HOMES, 1, address)
+    killer.join()
+    assert workers[0].poll() is not None
+    assert hashes(folder) == hashes(made)
+
+
+def test_a_scheduler_that_is_not_there_is_told(tmp_path):
+    pytest.importorskip('distributed')
+    with pytest.raises(Failure, match='no scheduler at tcp://127.0.0.1:9'):
+        generate(job(tmp_path), 1, 1, 'tcp://127.0.0.1:9')
