@@ -265,7 +265,7 @@ def _on_cluster(todo: list[Job], scheduler: str) -> Iterator[dict[str, Any]]:
     except ImportError:
         raise Failure('--scheduler needs Dask; install python3-distributed') from None
     try:
-        client = Client(scheduler, timeout=10, set_as_default=False)
+        client = Client(scheduler, timeout=10)
     except (OSError, ValueError, TimeoutError) as error:
         raise Failure(f'no scheduler at {scheduler}: {error}') from None
     with client:

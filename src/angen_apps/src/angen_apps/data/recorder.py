@@ -91,13 +91,12 @@ class Recorder:
         self.heard()
 
     def heard(self) -> None:
-        now = self.household.now
         for resident in self.household.residents:
             if resident.walks:
                 self._follow(resident)
-                if now - self._stepped.get(resident.name, -math.inf) >= STRIDE:
-                    self._stepped[resident.name] = now
-                    self.recording.track.append(Step(now, resident.name, *resident.at))
+                if resident.looked - self._stepped.get(resident.name, -math.inf) >= STRIDE:
+                    self._stepped[resident.name] = resident.looked
+                    self.recording.track.append(Step(resident.looked, resident.name, *resident.at))
         for time, source, kind, event, _ in self.site.world.events():
             sensor = self._by_name.get((kind, source))
             if sensor is not None:
@@ -162,7 +161,7 @@ class Recorder:
 
     def _follow(self, resident: Any) -> None:
         """Notes over which cells a resident walks, and which of these saw nothing."""
-        now = self.household.now
+        now = resident.looked
         away = ((self._middles - resident.at) ** 2).sum(axis=1)
         inside = {(int(i), resident.name) for i in np.nonzero(away < CELL ** 2)[0]}
         for key in sorted(key for key in self._over if key[1] == resident.name):

@@ -79,4 +79,4 @@ def live(world: Path, name: str, days: int, who: list[tuple[str, Profile]], seed
     left = recorder.recording
     return Data(datetime.datetime.combine(first, datetime.time()), days, seed,
                 [(resident, profile.name) for resident, profile in who], site.home, site.sensors,
-                events, truth, left.missed, left.power, left.track)
+                events, truth, left.missed, left.power, sorted(left.track))

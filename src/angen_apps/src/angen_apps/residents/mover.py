@@ -38,6 +38,7 @@ class Mover:
         self.room = ''
         self.at: tuple[float, float] = (math.inf, math.inf)
         self.storey = 0
+        self.looked = -math.inf  # s: when it was at `at`
         self.moved = -math.inf  # s: when it last moved
         self._habits = Random(0)
 
@@ -52,7 +53,7 @@ class Mover:
         body = self.simulator.body(self.name)
         if math.dist(self.at, (body.x, body.y)) > 0.02:
             self.moved = self.now
-        self.at = (body.x, body.y)
+        self.at, self.looked = (body.x, body.y), self.now
         self.room = self.ground.room_name(body.x, body.y, self.storey)
 
     def enter(self, spot: Spot) -> None:
