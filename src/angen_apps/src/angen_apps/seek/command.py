@@ -28,7 +28,7 @@ HOME_SHARE = 0.05  # of the progress: the survey
 def seek(route_file: Path | None, world: Path | None, seed: int, ambient: bool, limit: float,
          out: Path, json: bool) -> int:
     """Searches once; 0, or 1 where it found no person or the robot touched something."""
-    route, world = prepare(route_file, world, out, visits=False)
+    route, world = prepare(route_file, world, out, False)
     with Progress('seek', 0.1) as progress:
         home, route = survey(world, route, out)
         progress.update(HOME_SHARE, 'the building is surveyed')
@@ -55,7 +55,7 @@ def seek_seeds(route_file: Path | None, world: Path | None, seeds: range, limit:
                json: bool) -> int:
     """Searches with each seed, with and without ambient sensors, on all cores; a table and a
     figure. 0, or 1 where one found no person or touched something."""
-    route, world = prepare(route_file, world, out, visits=False)
+    route, world = prepare(route_file, world, out, False)
     # By processes that end: this one, which they are made from, has no world and no threads.
     with multiprocessing.get_context('fork').Pool(1, _begin, (os.getpid(),)) as pool:
         home, route = pool.apply(survey, (world, route, out))
