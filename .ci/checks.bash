@@ -265,6 +265,10 @@ run_tidy() { # [FILE...]
 
 run_docs() {
   cd "$root" || exit
+  if [[ ${1:-} == --pictures ]]; then
+    prepare
+    exec python3 docs/pictures.py "${@:2}"
+  fi
   install dev
   mkdir -p build
   (cat Doxyfile && printf 'PROJECT_NUMBER = %s\n' "$(version)") | doxygen - >build/doxygen.log || die "doxygen failed; see build/doxygen.log"
