@@ -13,13 +13,14 @@ from angen_apps.robot.building import Start, Survey
 from angen_apps.robot.driver import Driver, Stuck
 from angen_apps.robot.interface import CYCLE, Robot
 from angen_apps.robot.planner import Door, Planner, Point
-from angen_apps.robot.route import Action, Router
+from angen_apps.robot.route import Action, Drive, Router
 from angen_apps.robot.route_file import Lift, Route, Waypoint
 from angen_tools.common.failure import Failure
 
-TRIES = 8
+TRIES = 10
 WAIT = 5.0  # s before a further try
 AROUND = 3.0  # m around the robot: things that it sees there are in the way
+YIELDS, ROOM = 1.5, 0.5  # m that it drives out of the way at most; farther from things it sees
 ASIDE = 0.6  # m from the robot to the next place that is free
 MISSED = 0.15  # m from the goal
 
@@ -120,16 +121,42 @@ class Trip:
             raise Held('the robot does not know where it is')
         at = driver.pose.x, driver.pose.y
         foreign = driver.foreign
+        foreign = foreign[np.hypot(*(foreign - at).T) < AROUND]
         try:
-            return self.plan(at, driver.floor, foreign[np.hypot(*(foreign - at).T) < AROUND])
+            return self.plan(at, driver.floor, foreign)
         except Failure as problem:
+            self._yield_to(foreign)
             raise Held(str(problem)) from None
+
+    def _yield_to(self, foreign: np.ndarray) -> None:
+        """Drives away from what it sees: a person may wait for the robot to leave."""
+        floor, at = self._driver.floor, (self._driver.pose.x, self._driver.pose.y)
+        grid = self._survey.maps[floor]
+        planner = Planner(with_points(grid, foreign), self._route.clearance)
+        start = planner.nearest(at, ASIDE)
+        if start is None or not len(foreign):
+            return
+        places = np.argwhere(planner.costs(start) < YIELDS)
+        points = np.array([grid.point(int(row), int(column)) for row, column in places])
+        gaps = np.hypot(*(points[:, None] - foreign).transpose(2, 0, 1)).min(axis=1)
+        best = int(gaps.argmax())
+        here = float(np.hypot(*(foreign - start).T).min())
+        way = planner.way(start, (float(points[best, 0]), float(points[best, 1])))
+        if way is None or gaps[best] < here + ROOM or crosses(way, self._survey.doors[floor]):
+            return
+        self._guard.begin()
+        self._driver.do(Drive(way, floor))
 
     @property
     def distance(self) -> float:
         """Meters that the wheels have driven."""
         track = self._driver.track.odometry
         return sum(math.dist(a, b) for a, b in zip(track, track[1:]))
+
+
+def crosses(way: list[Point], doors: list[Door]) -> bool:
+    """Whether a way leads through a door."""
+    return any(door.crosses(a, b) for a, b in zip(way, way[1:]) for door in doors)
 
 
 def with_points(grid: GridMap, points: np.ndarray) -> GridMap:
