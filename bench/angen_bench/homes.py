@@ -11,12 +11,12 @@ from typing import Any, Mapping
 
 import numpy as np
 from lxml import etree
-from scipy.ndimage import distance_transform_edt
 
+from angen_bench.free_map import CELL, free_map
+from angen_bench.walks import walk
 from angen_apps.imports.sweethome import read_sweethome
 from angen_apps.plan.travel import LEAST_TURN
 from angen_apps.plan.model import Plan
-from angen_apps.plan.shapes import read_shapes
 from angen_apps.plan.writer import write_world
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import writing
@@ -24,10 +24,6 @@ from angen_tools.common.output import table
 
 JAR = Path('/usr/share/sweethome3d/sweethome3d.jar')
 FOLDER = 'com/eteks/sweethome3d/io/resources/examples/'
-CELL = 0.05  # m of the map on which a person's ways are found
-BODY = 0.22  # m, radius of a person
-STEP_OVER = 0.12  # m that is not in a person's way
-TALL = 1.75  # m
 OPENING = 8.0  # s for all leaves to open
 
 
@@ -168,25 +164,6 @@ def _cell(pose: Any, west: float, south: float) -> tuple[int, int]:
     return int((pose[1] - south) / CELL), int((pose[0] - west) / CELL)
 
 
-def free_map(path: Path, floor: float) -> tuple[np.ndarray, float, float]:
-    shapes = read_shapes(path)
-    solids = [s for s in shapes.solids if s.model not in shapes.moving and len(s.corners) > 2
-              and s.bottom < floor + TALL and s.top > floor + STEP_OVER]
-    points = np.array([p for s in solids for p in s.corners])
-    west, south = points.min(axis=0) - 1
-    columns, rows = (np.ceil((points.max(axis=0) + 1 - (west, south)) / CELL)).astype(int)
-    x = west + (np.arange(columns) + 0.5) * CELL
-    y = south + (np.arange(rows) + 0.5) * CELL
-    solid = np.zeros((rows, columns), bool)
-    for shape in solids:
-        corners = np.array(shape.corners)
-        inside = np.ones((rows, columns), bool)
-        for (ax, ay), (bx, by) in zip(corners, np.roll(corners, -1, axis=0)):
-            inside &= (bx - ax) * (y[:, None] - ay) - (by - ay) * (x[None] - ax) > -1e-9
-        solid |= inside
-    return distance_transform_edt(~solid) * CELL > BODY, float(west), float(south)
-
-
 def _flood(free: np.ndarray, start: tuple[int, int]) -> set[tuple[int, int]]:
     """Cells that are reached from the free cell nearest to the start."""
     cells = np.argwhere(free)
@@ -224,7 +201,6 @@ def measure(folder: Path) -> list[dict[str, Any]]:
     """A row for each of the nine homes."""
     import angen
 
-    from angen_bench.walks import walk
     rows = []
     for name, xml in examples().items():
         imported = import_example(name, xml, folder)

@@ -9,7 +9,7 @@ from typing import Any, Mapping
 import numpy as np
 from scipy.ndimage import label
 
-from angen_bench.homes import CELL, free_map
+from angen_bench.free_map import CELL, free_map
 
 BESIDE = (0.7, 1.0, 1.4, 0.5)  # m from a door to where the person is sent
 LIMIT = 60.0  # s for a way

@@ -153,6 +153,8 @@ def test_the_entrance_and_a_place_by_its_type(tmp_path: Path) -> None:
     rules = at_home(rules_of(tmp_path, text), home, {}, {'door/front', 'door/back'})
     assert rules.signals['opened'].of == ('door/front',)
     assert rules.rules[0].at == 'cooler3'
+    archway = at_home(rules_of(tmp_path, text), home, {}, {'door/back'})
+    assert 'rule r is left out: the main entrance front is no device' in archway.left_out[0]
 
 
 def test_a_room_that_there_is_not_is_refused(tmp_path: Path) -> None:

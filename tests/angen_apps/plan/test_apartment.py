@@ -36,3 +36,10 @@ def test_the_same_seed_gives_the_same_bytes_and_another_one_another_home() -> No
 def test_a_home_has_no_finding_its_doors_open_and_its_rooms_are_reached(seed: int, tmp_path: Path
                                                                         ) -> None:
     assert homes.examine_seed(seed, tmp_path) == []
+
+
+@pytest.mark.parametrize('storeys', [1, 2])
+def test_the_main_entrance_is_a_door(storeys: int) -> None:
+    plan = apartment(3, storeys, 7)
+    doors = {opening.name for opening in plan.all_openings() if opening.leaves}
+    assert plan.entrance in doors  # and not the way into the elevator's shaft

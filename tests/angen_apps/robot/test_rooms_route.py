@@ -7,7 +7,8 @@ import angen
 
 from angen_apps.plan.apartment import apartment
 from angen_apps.plan.writer import write_world
-from angen_apps.robot.route_file import default_route, prepare, read_route
+from angen_apps.robot.rooms_route import prepare
+from angen_apps.robot.route_file import default_route, read_route
 from angen_tools.common.home import Home
 
 

@@ -39,6 +39,8 @@ def at_home(rules: Rules, home: Home, rooms: Mapping[str, str], existing: Collec
             of = tuple(sorted(chosen(of, _inside(signal, home, rooms))))
             why = why or ('' if of else f'no {" or ".join(signal.of)} is in '
                                         f'{" or ".join(signal.rooms)}')
+        elif ENTRANCE in ' '.join(signal.of) and of and not chosen(of, existing):
+            why = f'the main entrance {home.entrance} is no device'
         elif of and any('*' in pattern for pattern in of) and not chosen(of, existing):
             why = f'the home has no {" or ".join(signal.of)}'
         if why:

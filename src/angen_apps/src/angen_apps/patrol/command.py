@@ -19,7 +19,7 @@ from angen_apps.patrol.report import (Figures, Run, make_rows, measure, plans, s
                                       verdict, write_tables)
 from angen_apps.robot.building import entity_of
 from angen_apps.robot.interface import BUMPER, CYCLE, bumper
-from angen_apps.robot.route_file import prepare
+from angen_apps.robot.rooms_route import prepare
 from angen_apps.robot.tables import write_figures
 from angen_tools.common.failure import Failure
 from angen_tools.common.home import Home

@@ -154,10 +154,11 @@ def _named_lamp(lamp: Lamp, storey: Storey, names: Names) -> Lamp:
 
 def _entrance(plan: Plan) -> str:
     """The name of the main entrance's leaf: a door to the outside, best one called so."""
-    best: tuple[tuple[bool, bool, float, int], Opening] | None = None
+    best: tuple[tuple[bool, bool, bool, float, int], Opening] | None = None
     for storey in plan.storeys:
         for i, opening in enumerate(storey.openings):
-            if opening.kind == 'window' or opening.bottom > storey.elevation + 0.35:
+            if (opening.kind == 'window' or opening.filled
+                    or opening.bottom > storey.elevation + 0.35):
                 continue
             beside = sides(opening, storey)
             outside = any(room is None or room.use == 'outdoor' for room in beside)
@@ -166,7 +167,8 @@ def _entrance(plan: Plan) -> str:
                 continue
             called = bool(re.search('front|entr|main|haus', opening.source.lower()))
             hall = any(room.use in ('hall', 'landing') for room in inside)
-            rank = (not called, not hall, abs(storey.elevation), i)
+            open_way = not opening.leaves  # also that of an elevator's shaft
+            rank = (open_way, not called, not hall, abs(storey.elevation), i)
             if best is None or rank < best[0]:
                 best = (rank, opening)
     if best is None:

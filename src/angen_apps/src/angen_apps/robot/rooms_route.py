@@ -1,6 +1,7 @@
 """A route through the rooms of any home, and the home with a robot and a person in it."""
 from __future__ import annotations
 
+import os
 import sys
 from dataclasses import replace
 from math import cos, hypot, sin
@@ -12,16 +13,33 @@ from lxml import etree
 from angen_apps.maps.gridmap import load_world
 from angen_apps.robot.building import Entity, Survey, entities_of
 from angen_apps.robot.planner import Planner, Point, distances
-from angen_apps.robot.route_file import Lift, Route, Waypoint
+from angen_apps.robot.route_file import Lift, Route, Waypoint, default_route, read_route
 from angen_tools.common.failure import Failure
-from angen_tools.common.files import write_text
+from angen_tools.common.files import make_folder, write_text
 from angen_tools.common.home import Home, Room
 from angen_tools.world import sdf
+from angen_tools.world.models import building
 
 INSIDE = 1.0  # m from the main entrance to where the robot starts
 REACH = 2.0  # m around that
 CENTRAL = 0.6  # m from everything that is far enough
 OUTSIDE = ('outdoor',)
+
+
+def prepare(route_file: Path | None, world: Path | None, out: Path, visits: bool = True
+            ) -> tuple[Route, Path]:
+    """The route and the world of a task, or the default ones. Makes the folder `out`, and lets the
+    world include the models beside it. In another world the default route visits its rooms, and
+    the robot and the person that are missing are added; without `visits` only that."""
+    route = read_route(route_file or default_route())
+    other = route_file is None and world is not None and world.resolve() != building().resolve()
+    world = (world or building()).absolute()
+    make_folder(out)
+    paths = [str(world.parent / 'models'), os.environ.get('ANGEN_MODEL_PATH', '')]
+    os.environ['ANGEN_MODEL_PATH'] = ':'.join(path for path in paths if path)
+    if other and (visits or not has_all(world, route)):
+        route, world = by_rooms(route, world, out / 'home.world')
+    return route, world
 
 
 def has_all(world: Path, route: Route) -> bool:

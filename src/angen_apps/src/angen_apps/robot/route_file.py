@@ -1,7 +1,6 @@
 """A patrol's route, read from its YAML file: where to go, and how fast."""
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -9,9 +8,7 @@ from typing import Any
 from angen_apps.robot.planner import Point
 from angen_apps.shipped import shipped
 from angen_tools.common.failure import Failure
-from angen_tools.common.files import make_folder
 from angen_tools.common.yaml_file import YamlFile, is_list, line_of
-from angen_tools.world.models import building
 
 
 @dataclass(frozen=True)
@@ -65,23 +62,6 @@ def read_route(path: Path) -> Route:
 def default_route() -> Path:
     """The route of this package."""
     return shipped('patrol.yaml')
-
-
-def prepare(route_file: Path | None, world: Path | None, out: Path, visits: bool = True
-            ) -> tuple[Route, Path]:
-    """The route and the world of a task, or the default ones. Makes the folder `out`, and lets the
-    world include the models beside it. In another world the default route visits its rooms, and
-    the robot and the person that are missing are added; without `visits` only that."""
-    from angen_apps.robot.rooms_route import by_rooms, has_all
-    route = read_route(route_file or default_route())
-    other = route_file is None and world is not None and world.resolve() != building().resolve()
-    world = (world or building()).absolute()
-    make_folder(out)
-    paths = [str(world.parent / 'models'), os.environ.get('ANGEN_MODEL_PATH', '')]
-    os.environ['ANGEN_MODEL_PATH'] = ':'.join(path for path in paths if path)
-    if other and (visits or not has_all(world, route)):
-        route, world = by_rooms(route, world, out / 'home.world')
-    return route, world
 
 
 class _Reader(YamlFile):

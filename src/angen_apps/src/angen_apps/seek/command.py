@@ -11,7 +11,8 @@ from pathlib import Path
 
 from angen_apps.maps.gridmap import load_world
 from angen_apps.robot.building import Entity, entities_of
-from angen_apps.robot.route_file import Route, default_route, prepare
+from angen_apps.robot.rooms_route import prepare
+from angen_apps.robot.route_file import Route, default_route
 from angen_apps.robot.tables import write_figures
 from angen_apps.seek import run
 from angen_apps.seek.figure import draw_search, draw_times

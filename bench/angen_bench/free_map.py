@@ -1,0 +1,33 @@
+"""Where the middle of a person may be on a storey of a world file."""
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from scipy.ndimage import distance_transform_edt
+
+from angen_apps.plan.shapes import read_shapes
+
+CELL = 0.05  # m of the map on which a person's ways are found
+BODY = 0.22  # m, radius of a person
+STEP_OVER = 0.12  # m that is not in a person's way
+TALL = 1.75  # m
+
+
+def free_map(path: Path, floor: float) -> tuple[np.ndarray, float, float]:
+    shapes = read_shapes(path)
+    solids = [s for s in shapes.solids if s.model not in shapes.moving and len(s.corners) > 2
+              and s.bottom < floor + TALL and s.top > floor + STEP_OVER]
+    points = np.array([p for s in solids for p in s.corners])
+    west, south = points.min(axis=0) - 1
+    columns, rows = (np.ceil((points.max(axis=0) + 1 - (west, south)) / CELL)).astype(int)
+    x = west + (np.arange(columns) + 0.5) * CELL
+    y = south + (np.arange(rows) + 0.5) * CELL
+    solid = np.zeros((rows, columns), bool)
+    for shape in solids:
+        corners = np.array(shape.corners)
+        inside = np.ones((rows, columns), bool)
+        for (ax, ay), (bx, by) in zip(corners, np.roll(corners, -1, axis=0)):
+            inside &= (bx - ax) * (y[:, None] - ay) - (by - ay) * (x[None] - ax) > -1e-9
+        solid |= inside
+    return distance_transform_edt(~solid) * CELL > BODY, float(west), float(south)
