@@ -1,4 +1,6 @@
 """A sensor in Python: the distance straight ahead. See docs/plugins.md."""
+from typing import Any
+
 import angen
 import numpy as np
 
@@ -9,13 +11,14 @@ class Rangefinder(angen.Sensor):
     fields = {'range': 'number m'}  # type and unit of what read() returns
     rate = 20.0  # readings per second, unless the SDF has an <update_rate>
 
-    def configure(self, params, wiring):
+    def configure(self, params: Any, wiring: Any) -> None:
         self.reach = params.number('reach', 5.0, 'm', 'farther is not seen', min=0.0)
 
-    def aim(self, view):  # rows of origin, direction, least and greatest range, in the world
+    # Rows of origin, direction, least and greatest range, in the world.
+    def aim(self, view: Any) -> np.ndarray:
         return np.hstack([view.pose[:3], view.rotation[:, 0], [0.0, self.reach]])[None]
 
-    def read(self, view, ranges, rng):
+    def read(self, view: Any, ranges: np.ndarray, rng: Any) -> dict[str, float]:
         return {'range': min(ranges[0], self.reach)}
 
 

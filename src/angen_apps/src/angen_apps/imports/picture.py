@@ -36,7 +36,7 @@ def read_picture(path: Path, scale: float, with_doors: bool) -> Plan:
 def read_map(path: Path, with_doors: bool) -> Plan:
     """The plan of a map of map_server: its picture, resolution, origin and thresholds."""
     file = YamlFile(path)
-    if not hasattr(file.root, 'value'):
+    if file.root is None or not hasattr(file.root, 'value'):
         raise file.fail(file.root, 'is not a map: it needs image, resolution and origin')
     values = {key.value: node for key, node in file.root.value if hasattr(key, 'value')}
     for key in ('image', 'resolution', 'origin'):

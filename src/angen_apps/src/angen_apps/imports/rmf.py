@@ -245,12 +245,12 @@ class _Building:
             return (Leaf((-half + 0.005, 0.0), left - 0.01, 0.0, turn),
                     Leaf((half - 0.005, 0.0), width - left - 0.01, pi, -turn))
         v = THICK / 2 + 0.01  # it slides along the wall's face
-        left = Leaf((-half - LAP, v), (width if kind == 'sliding' else half) + LAP, 0.0, 0.0)
-        right = Leaf((half + LAP, v + LEAF_THICK), left.width, pi, 0.0)
+        west = Leaf((-half - LAP, v), (width if kind == 'sliding' else half) + LAP, 0.0, 0.0)
+        east = Leaf((half + LAP, v + LEAF_THICK), west.width, pi, 0.0)
         if kind == 'sliding':
-            return (replace(right if at_end else left, slide=-width),)
+            return (replace(east if at_end else west, slide=-width),)
         if kind == 'double_sliding':
-            return replace(left, slide=-half), replace(right, slide=-half)
+            return replace(west, slide=-half), replace(east, slide=-half)
         raise self.file.fail(item, f'the door is {kind}; hinged, double_hinged, sliding and '
                              'double_sliding are known')
 

@@ -76,11 +76,14 @@ def _start(route: Route, survey: Survey, planners: dict[int, Planner], entities:
     if door is None:
         raise Failure(f'{world}: has no robot {route.robot} and no main entrance, behind which '
                       'one could start; include model://turtlebot in it')
-    inside = [room for name in door.rooms if (room := home.room(name)) and room.use not in OUTSIDE]
-    room = inside[0]
+    room = next((room for room in map(home.room, door.rooms)
+                 if room and room.use not in OUTSIDE), None)
+    if room is None:
+        raise Failure(f'{world}: the main entrance {home.entrance} leads into no room')
     x, y, _, yaw = door.pose
+    behind = room
     sides = [(x - side * INSIDE * sin(yaw), y + side * INSIDE * cos(yaw)) for side in (-1, 1)]
-    wish = min(sides, key=lambda point: (not room.contains(*point), point))
+    wish = min(sides, key=lambda point: (not behind.contains(*point), point))
     planner = planners[room.storey]
     place = _clear_of_doors(wish, survey, planner, room.storey, route)
     if place is None:
