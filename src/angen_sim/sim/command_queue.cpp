@@ -296,7 +296,7 @@ Outcome CommandQueue::execute(const Action& action, Building& building, Instance
       building.add(spawn->model, clock.time);
       events.push_back(world_event(clock.time, spawn->model.name, "spawned"));
       outcome.message = "spawned " + spawn->model.name;
-      const std::vector<std::string> all = building.warnings();
+      const std::vector<std::string>& all = building.warnings();
       const auto first = all.begin() + static_cast<std::ptrdiff_t>(before);
       for (const std::string& warning : merge_alike(std::vector<std::string>(first, all.end()))) {
         outcome.message += "\nwarning: " + warning;
