@@ -30,7 +30,7 @@ class Check:
     name: str
     measured: float
     unit: str
-    tolerance: float  # |measured - expected| may be so large
+    tolerance: float  # the largest allowed |measured - expected|
     expected: float = 0.0
 
     @property
@@ -205,7 +205,7 @@ def profile(t: np.ndarray, way: float, speed: float, acceleration: float) -> np.
 
 
 def settling(t: np.ndarray, x: np.ndarray, target: float, band: float) -> float:
-    """From when on x stays within `band` of the target, s; infinite when it does not."""
+    """The time from which x stays within `band` of the target, s; infinite if it does not."""
     outside = np.nonzero(np.abs(x - target) > band)[0]
     if len(outside) == 0:
         return 0.0

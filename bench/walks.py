@@ -3,7 +3,7 @@
 
     python3 bench/walks.py --walks 200
 
-A person walks between places of the apartment whose doors stand open, in two worlds with the
+A person walks between places of the apartment whose doors are open, in two worlds with the
 sensors of `angen generate`. An event is equal if the other world has it within a sample (40 ms).
 """
 from __future__ import annotations

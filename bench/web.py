@@ -1,4 +1,4 @@
-"""What the page of angen web costs and how fast it is: docs/web.md, Figures.
+"""Measures the cost and the speed of the page of angen web: docs/web.md, Figures.
 
     python3 bench/web.py [--world FILE] [--seconds 20] [--browser]
 
@@ -57,7 +57,7 @@ class Sockets:
             self.bytes += len(message.data)
 
     async def hold(self, count: int, seconds: float, pids: dict[str, int]) -> dict[str, float]:
-        """% of a core of each process while so many are open."""
+        """% of a core of each process with this many open pages."""
         async with ClientSession() as session:
             sockets = [await self.open(session) for _ in range(count)]
             readers = [asyncio.ensure_future(self._read(socket)) for socket in sockets]

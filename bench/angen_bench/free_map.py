@@ -10,7 +10,7 @@ from angen_apps.plan.shapes import read_shapes
 
 CELL = 0.05  # m of the map on which a person's ways are found
 BODY = 0.22  # m, radius of a person
-STEP_OVER = 0.12  # m that is not in a person's way
+STEP_OVER = 0.12  # m: a person steps over lower things
 TALL = 1.75  # m
 
 

@@ -108,7 +108,7 @@ class Gazebo:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._process.kill()  # it has nothing to lose, and is slow to end
+        self._process.kill()  # it has no state to save, and is slow to end
         self._process.wait()
 
     def _listen(self) -> None:

@@ -130,7 +130,7 @@ def open_all(world: Any) -> dict[tuple[str, str], tuple[str, float, float]]:
 
 
 def turns(plan: Plan) -> int:
-    """How many leaves a plan has that open at all."""
+    """The number of leaves of a plan that open."""
     return sum(abs(leaf.turn) >= LEAST_TURN or leaf.slide != 0
                for opening in plan.all_openings() for leaf in opening.leaves)
 
@@ -256,7 +256,7 @@ def show_table(rows: list[dict[str, Any]]) -> Any:
 
 
 def examine_seed(seed: int, folder: Path) -> list[str]:
-    """What is wrong with the home of a seed: findings, shut doors, rooms that are not reached."""
+    """The errors in the home of a seed: findings, shut doors, unreachable rooms."""
     from angen_apps.plan.apartment import apartment
     rooms, storeys = 1 + seed % 5, 1 + (seed % 4 == 3)
     path = folder / f'home{seed}.world'

@@ -141,7 +141,7 @@ class Callers:
     _threads: list[threading.Thread] = field(default_factory=list)
 
     def start(self, rate: float, call: Callable[[], Any]) -> None:
-        """Calls `call` so often a second, or as often as it is answered."""
+        """Calls `call` at a rate per second, or as often as it is answered."""
         thread = threading.Thread(target=self._run, args=(1.0 / rate, call), daemon=True)
         self._threads.append(thread)
         thread.start()

@@ -40,7 +40,7 @@ ROBOT = 'turtlebot'
 # Of the robot: 30 a second would take most of the time, and cameras come and go too.
 PICTURES = ('/camera/', f'/{ROBOT}/camera/')
 FAR = (60.0, 0.0, 0.05, 0.0, 0.0, 0.0)  # from the apartment: the pose of spawned models
-# Parameters without which there is none.
+# Parameters that these kinds require.
 NEEDS = {'accelerometer': [('link', 'link')], 'reed': [('magnet_link', 'link')],
          'joint_states': [('jointName', 'left_joint')], 'ft_sensor': [('jointName', 'left_joint')]}
 ON_ANCHOR = (0.0, 0.0, 0.1, 0.0, 0.0, 0.0)

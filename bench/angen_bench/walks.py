@@ -57,7 +57,7 @@ def spots(floor: Floor, door: Mapping[str, Any]) -> tuple[Spot, Spot] | None:
 
 
 def walk(path: Path, home: Mapping[str, Any]) -> tuple[int, list[str]]:
-    """How many doors a person has walked through both ways, and what was wrong with others."""
+    """The number of doors that a person passed both ways, and the problems with the others."""
     import angen
     floors = {storey['number']: Floor.of(path, storey['elevation']) for storey in home['storeys']}
     rooms = {room['name']: room for room in home['rooms']}
@@ -97,7 +97,7 @@ def _actor(number: int, x: float, y: float, z: float) -> str:
 
 
 def _send(world: Any, person: str, goal: Spot, seen: list[Spot] | None = None) -> str:
-    """Sends a person; '' when it has come, else what it does instead."""
+    """Sends a person; '' once it has arrived, else the state that it ended in."""
     world.command('person', person, f'GoTo {goal[0]:.3f} {goal[1]:.3f}')
     end = world.time + LIMIT
     while world.time < end:

@@ -58,7 +58,7 @@ def test_residents_who_eat_together_begin_together():
 @pytest.mark.parametrize('change, message', [
     (('watch_tv', 'watch_telly'), r"mine\.yaml:\d+: 'watch_telly' is not an activity; did you"),
     (("{weekday: '6:15-7:00'", "{weekday: '6:15-27:00'"), r'must be two times of day'),
-    (('lasts: 8.5-10 h', 'lasts: 20-26 h'), r'on a weekday takes 2\d\.\d h, but mine is awake'),
+    (('lasts: 8.5-10 h', 'lasts: 20-26 h'), r'of a weekday take 2\d\.\d h, but mine is awake'),
     (('speed: 1.1', 'sped: 1.1'), r"'sped' is not known in a profile; did you mean"),
 ])
 def test_what_is_wrong_with_a_profile_is_said_with_its_line(tmp_path, change, message):

@@ -31,7 +31,7 @@ class CareWarning:
 
 @dataclass(frozen=True)
 class Change:
-    """What became of a warning."""
+    """A change of a warning's state."""
 
     time: float
     event: str  # RAISED, ACKNOWLEDGED or ENDED

@@ -18,7 +18,7 @@ DEGREE, WARNED, SEEN = '#5b8db8', '#c8372d', '#e8a33d'  # SEEN: acknowledged
 SIGNAL, AGAINST, NIGHT = '#3f5566', '#a9bac6', '#8577b0'
 LANE = 0.26     # height of a signal's lane; the degree's is 1
 WIDTH = 12.0    # in
-LEAST = 1 / 800  # of the whole time: a shorter warning is drawn as long as that
+LEAST = 1 / 800  # share of the whole time: the shortest length that a warning is drawn with
 STEPS = (MINUTE, 5 * MINUTE, 10 * MINUTE, 30 * MINUTE, HOUR, 2 * HOUR, 3 * HOUR, 6 * HOUR,
          12 * HOUR, DAY)
 

@@ -1,4 +1,4 @@
-"""Faults of sensors and of the way of their events, each written down."""
+"""Faults of sensors and of the transport of their events; each effect is logged."""
 from __future__ import annotations
 
 import math
@@ -35,7 +35,7 @@ class Fault:
 
 
 class Happened(NamedTuple):
-    """What a fault did to one event."""
+    """The effect of a fault on one event."""
 
     time: float
     sensor: str
@@ -69,7 +69,7 @@ def _fault(file: YamlFile, node: Any) -> Fault:
 
 
 def apply(data: Data, faults: list[Fault]) -> tuple[Data, list[Happened]]:
-    """The data as they arrive, and what happened to which event."""
+    """The data with the faults applied, and the effect on each changed event."""
     events, happened = list(data.events), []
     for number, fault in enumerate(faults):
         kept: list[Event] = []

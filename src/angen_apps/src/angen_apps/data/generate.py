@@ -28,7 +28,7 @@ from angen_tools.common.files import check_folder, make_folder, write_csv, write
 from angen_tools.common.progress import Progress
 
 MANIFEST, HOME = 'manifest.json', 'home.json'
-AGAIN = 5  # times that the pool is made anew, after processes of it have died
+AGAIN = 5  # times that the pool is made again after its processes died
 MIXED = ('worker', 'retired', 'student', 'night_shift_worker', 'elder_with_dementia')
 
 
@@ -52,7 +52,7 @@ class Job:
     def settings(self) -> dict[str, Any]:
         found = asdict(self)
         del found['folder']
-        for key in ('world', 'faults'):  # their content counts, not where they are
+        for key in ('world', 'faults'):  # the files' contents count, not their paths
             if found[key]:
                 found[key] = hashlib.sha256(Path(found[key]).read_bytes()).hexdigest()
         return {key: list(value) if isinstance(value, tuple) else value
@@ -60,7 +60,7 @@ class Job:
 
 
 def jobs(job: Job, homes: int) -> list[Job]:
-    """The jobs of so many homes, which differ by seed and, if only a number of residents is
+    """The jobs of `homes` homes, which differ by seed and, if only a number of residents is
     given, in who lives there."""
     if homes == 1:
         return [job]
@@ -78,7 +78,7 @@ def jobs(job: Job, homes: int) -> list[Job]:
 
 
 def check(job: Job) -> None:
-    """Failure about what is wrong with the settings, before any work."""
+    """Raises Failure for invalid settings, before any work."""
     check_folder(Path(job.folder))
     who = run.residents_of(list(job.residents))
     if not who:
@@ -144,7 +144,7 @@ def _live(job: Job, progress: Callable[[float], None]) -> run.Data:
 
 
 def finished(job: Job) -> dict[str, Any] | None:
-    """What the manifest says of a home that is complete; Failure where it is another one."""
+    """The manifest's entry of a complete home; Failure if the folder holds another home."""
     path = Path(job.folder) / HOME
     if not path.is_file():
         return None
@@ -211,7 +211,7 @@ def sha256(path: Path) -> str:
 
 
 def generate(job: Job, homes: int, processes: int, scheduler: str = '') -> list[dict[str, Any]]:
-    """Makes all homes and their manifest; what it says of each."""
+    """Makes all homes and their manifest; returns the entry of each home."""
     check(job)
     todo = jobs(job, homes)
     made: dict[str, dict[str, Any]] = {}
@@ -237,7 +237,7 @@ def _left(share: float, begun: float) -> str:
 
 
 def _on_processes(todo: list[Job], processes: int) -> Iterator[dict[str, Any]]:
-    """Results as they come. If a process is killed, what it has not finished is made again."""
+    """Yields results as they arrive; makes the unfinished homes of a killed process again."""
     waiting = {job.name: job for job in todo}
     for attempt in range(AGAIN):
         context = multiprocessing.get_context('spawn')

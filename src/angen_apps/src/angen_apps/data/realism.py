@@ -1,4 +1,4 @@
-"""How data compare with real homes: distributions, and their distances from a reference."""
+"""Compares data with real homes: distributions, and their distances from a reference."""
 from __future__ import annotations
 
 import datetime

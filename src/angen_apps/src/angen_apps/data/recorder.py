@@ -1,4 +1,4 @@
-"""What a home's sensors report while residents live there, and what each event came from."""
+"""Records the reports of a home's sensors while residents live there, and the cause of each."""
 from __future__ import annotations
 
 import math
@@ -16,11 +16,11 @@ VALUES = {'motion': ('ON', 'OFF'), 'area': ('ON', 'OFF'), 'door': ('OPEN', 'CLOS
           'item': ('PRESENT', 'ABSENT'), 'power': ('ON', 'OFF')}
 AIR = 300.0  # s between two looks at the temperature
 DEGREES = 0.5  # of a step of temperature
-RECENT = 3.0  # s: who moved no longer ago may have caused motion
-HAND = 30.0  # s: who commanded a device no longer ago has moved it
-NEAR = 1.5  # m: who is no farther may have sat down there
-CELL = 0.4  # m around the middle of a cell, where a sensor has to see who moves
-LEAST = 1.0  # s: for so long
+RECENT = 3.0  # s: a resident who moved within this time may have caused motion
+HAND = 30.0  # s: a resident who commanded a device within this time has moved it
+NEAR = 1.5  # m: a resident within this distance may have sat down there
+CELL = 0.4  # m around the middle of a cell: a sensor must detect motion there
+LEAST = 1.0  # s: the resident must move there this long
 STRIDE = 0.3  # s between two places of a track
 HOLD = 2.5  # s before and after, within which an event counts
 
@@ -37,7 +37,7 @@ class Event(NamedTuple):
 
 
 class Missed(NamedTuple):
-    """A resident moved over a sensor's cell, and no event came."""
+    """A resident moved over a sensor's cell without an event."""
 
     start: float
     end: float
@@ -46,7 +46,7 @@ class Missed(NamedTuple):
 
 
 class Step(NamedTuple):
-    """Where a resident was on foot."""
+    """The place of a walking resident."""
 
     time: float
     resident: str
@@ -56,7 +56,7 @@ class Step(NamedTuple):
 
 @dataclass
 class Recording:
-    """All that a run has left."""
+    """The results of a run."""
 
     events: list[Event]
     missed: list[Missed]
@@ -85,7 +85,7 @@ class Recorder:
         self._stepped: dict[str, float] = {}
 
     def start(self) -> None:
-        """Begins: what the sensors report at the start of a run."""
+        """Records the sensors' reports at the start of a run."""
         self.household.heard = self.heard
         self.household.add(self._air_process())
         self.heard()
@@ -141,7 +141,7 @@ class Recorder:
         return '', '', 'noise'
 
     def _hand(self, time: float, sensor: Sensor) -> str:
-        """Who last commanded what a contact or a plug belongs to."""
+        """The resident who last commanded the device of a contact or plug."""
         words = {sensor.name, sensor.name.removesuffix('_contact'),
                  sensor.name.removesuffix('_plug')}
         models = {f'{kind}/{name}': model for kind, name, model, _ in self.household.devices}
@@ -160,7 +160,7 @@ class Recorder:
         return '', '', 'light'
 
     def _follow(self, resident: Any) -> None:
-        """Notes over which cells a resident walks, and which of these saw nothing."""
+        """Records the cells that a resident walks over, and those whose sensor detected nothing."""
         now = resident.looked
         away = ((self._middles - resident.at) ** 2).sum(axis=1)
         inside = {(int(i), resident.name) for i in np.nonzero(away < CELL ** 2)[0]}
@@ -181,7 +181,7 @@ class Recorder:
                 self.recording.missed.append(missed)
 
     def _note_power(self) -> None:
-        """The power of what was switched."""
+        """Records the power of a switched device."""
         if self.household.count == self._acted:
             return
         self._acted = self.household.count

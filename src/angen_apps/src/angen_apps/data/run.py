@@ -1,4 +1,4 @@
-"""One home, lived in for some days: the data of a run."""
+"""Simulates residents in one home for some days: the data of a run."""
 from __future__ import annotations
 
 import datetime
@@ -22,7 +22,7 @@ SLICE = 900.0  # s between two reports of progress
 
 @dataclass(frozen=True)
 class Data:
-    """What a run has left; times in s since `start`, a midnight."""
+    """The results of a run; times in s since `start`, a midnight."""
 
     start: datetime.datetime
     days: int

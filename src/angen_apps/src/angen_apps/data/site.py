@@ -111,7 +111,7 @@ class Site:
 
 
 def _sampled(model: str) -> str:
-    """A motion sensor that samples less often than it could, which costs less."""
+    """A motion sensor with a low sample rate, which costs less."""
     path = find(f'model://{model}')
     if path is None:
         raise Failure(f'model://{model} is not found')
@@ -122,7 +122,7 @@ def _sampled(model: str) -> str:
 
 
 class _Placer:
-    """Sensors by rule: over what is used and behind doors, at doors, in rooms, at the mains."""
+    """Places sensors by rule: over things and behind doors, at doors, in rooms, at the mains."""
 
     def __init__(self, site: Site, light: bool) -> None:
         self.site, self.light, self.world, self.home = site, light, site.world, site.home
@@ -159,7 +159,7 @@ class _Placer:
             self.world.spawn(what, name, [x, y, z, 0.0, pitch, yaw])
 
     def _cells(self, room: Room) -> None:
-        """Motion sensors at the ceiling, each over a cell of the floor where people come to be."""
+        """Motion sensors at the ceiling, each over a cell of the floor that people use."""
         wanted = [place.pose[:2] for thing in self.home.things if thing.room == room.name
                   for place in thing.places]
         for door in self.home.doors:
@@ -211,7 +211,7 @@ class _Placer:
                              on=f'{model}::base')
 
     def _plug(self, thing: str) -> None:
-        """A smart plug that feeds what uses power there."""
+        """A smart plug that feeds the appliance there."""
         load = next((f'{kind}/{name}' for kind, name, model, _ in self.world.entities()
                      if model == thing and kind in ('stove', 'appliance', 'heater')), '')
         if load:

@@ -23,7 +23,7 @@ SHOWN = 3  # findings of a kind that are listed
 
 @dataclass
 class Findings:
-    """What is wrong, by check, and how much was checked."""
+    """Errors by check, and the number of checked items."""
 
     wrong: dict[str, list[str]] = field(default_factory=dict)
     checked: Counter[str] = field(default_factory=Counter)
@@ -96,7 +96,7 @@ def _times(findings: Findings, layout: Any, truth: list[dict[str, str]]) -> None
 
 
 def _walls(findings: Findings, layout: Any, folder: Path) -> None:
-    """Nobody is faster than it can be, or changes rooms but through a door or opening."""
+    """No resident exceeds its speed, or changes rooms except through a door or opening."""
     speeds = {r['name']: FASTER * r['speed'] for r in layout['residents']}
     last: dict[str, tuple[float, float, float]] = {}
     for row in rows(folder / 'track.csv.gz'):

@@ -24,8 +24,8 @@ from angen_tools.common.progress import Progress
 from angen_tools.live.client import Client
 
 
-ASTRAY = 0.5  # m from its goal, and it has not arrived
-REACH = 2.0  # m from the middle of a room to where the robot can stand
+ASTRAY = 0.5  # m: a robot farther from its goal has not arrived
+REACH = 2.0  # m from the middle of a room to the nearest free place for the robot
 
 
 @dataclass(frozen=True)
@@ -146,7 +146,7 @@ def drive(client: Client, route: Route, goal: Goal, place: Surveyed, start: Star
 
 
 def empty(client: Client, robot: str, entities: Sequence[Entity]) -> str:
-    """What to add to a failure where the robot's battery is empty."""
+    """The text to add to a failure if the robot's battery is empty."""
     import rospy
     from sensor_msgs.msg import BatteryState
     models = [entity.model for entity in entities if (entity.kind, entity.name) == ('drive', robot)]

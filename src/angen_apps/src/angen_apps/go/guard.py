@@ -1,4 +1,4 @@
-"""Whether a robot may drive on: whether its way is free, it comes on, and knows where it is."""
+"""Whether a robot may drive on: its way is free, it makes progress, and it is localized."""
 from __future__ import annotations
 
 import math
@@ -12,7 +12,7 @@ BESIDE = 0.02  # m: things nearer to the line than the clearance less this are i
 AHEAD, NEAR = 14, 1.2  # points of the line that are looked at, 0.05 m apart; m around the robot
 HELD = 5.0  # s that it waits for something in its way
 STILL, STEP = 10.0, 0.1  # s without coming nearer by STEP m
-LOST, UNSURE = 0.5, 1.5  # a smaller part of a scan on the map, for UNSURE s: it is lost
+LOST, UNSURE = 0.5, 1.5  # share of a scan on the map: less for UNSURE s means that it is lost
 
 
 class Guard:
@@ -30,7 +30,7 @@ class Guard:
         self._left = math.inf  # m
 
     def may_go(self) -> bool:
-        """Whether nothing that is not on the map is in its way."""
+        """Whether its way is free of things that are not on the map."""
         assert self.driver is not None
         pose = np.array([self.driver.pose.x, self.driver.pose.y])
         ahead = np.array([pose, *self.driver.left[:AHEAD]])
@@ -49,7 +49,7 @@ class Guard:
         assert self.driver is not None
         self._unsure = self._unsure + CYCLE if self.driver.share < LOST else 0.0
         if self._unsure > UNSURE:
-            self.reason = 'its lidar does not see what the map shows'
+            self.reason = 'its lidar scan does not fit the map'
         left = sum(math.dist(a, b) for a, b in zip(self.driver.left, self.driver.left[1:]))
         if left < self._left - STEP or self._held:
             self._left, self._still = left, 0.0

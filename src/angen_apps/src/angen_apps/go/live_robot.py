@@ -41,7 +41,7 @@ class LiveRobot:
         self._states: dict[tuple[str, str], Any] = {}
         self.events: list[Event] = []
         for topic, kind in ((self._odometry, Odometry), (self._scan, LaserScan)):
-            # On a slow machine it skips messages rather than being behind.
+            # On a slow machine it skips messages and does not fall behind.
             rospy.Subscriber(topic, kind, lambda message, topic=topic: self._take(topic, message),
                              queue_size=1, buff_size=BUFFER, tcp_nodelay=True)
             wait(lambda: topic in self._latest, f'no message on {topic}', LIMIT)
@@ -88,7 +88,7 @@ class LiveRobot:
         self._wheels.publish(twist)
         with self._news:
             if not self._news.wait_for(lambda: self.now >= until - 1e-6, LIMIT):
-                raise Failure('time stands still; rosservice call /gazebo/unpause_physics '
+                raise Failure('the simulation is paused; rosservice call /gazebo/unpause_physics '
                               'continues it')
 
     def command(self, kind: str, name: str, text: str) -> None:

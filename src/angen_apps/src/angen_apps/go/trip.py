@@ -28,7 +28,7 @@ Goal = Callable[[Mapping[int, Planner]], Waypoint]
 
 
 class Held(Failure):
-    """It cannot drive on, or does not know how."""
+    """The robot is blocked, or finds no way."""
 
 
 class Trip:
@@ -68,7 +68,7 @@ class Trip:
                 return goal
             except (Held, Stuck) as held:
                 problem = held
-                self._note(f'{problem}' + ('; stops, waits, and plans its way anew'
+                self._note(f'{problem}' + ('; stops, waits, and plans its way again'
                                            if self.tries < TRIES else ''))
         raise Failure(f'{problem}; gave up after {TRIES} tries')
 
@@ -103,7 +103,7 @@ class Trip:
             self.done.append(action)
 
     def _check(self, goal: Waypoint) -> None:
-        """Held where it turns out not to be at the goal."""
+        """Raises Held if it is not at the goal."""
         if not self._driver.localize():
             raise Held('the robot does not know where it is')
         pose = self._driver.pose
@@ -112,7 +112,7 @@ class Trip:
             raise Held(f'the robot is {away:.2f} m from its goal')
 
     def _recover(self) -> tuple[Waypoint, list[Action]]:
-        """The goal and a new plan from where the robot is; Held where there is none yet."""
+        """The goal and a new plan from the robot's place; Held if there is none yet."""
         driver = self._driver
         driver.text = 'waits'
         for _ in range(int(WAIT / CYCLE)):
@@ -129,7 +129,7 @@ class Trip:
             raise Held(str(problem)) from None
 
     def _yield_to(self, foreign: np.ndarray) -> None:
-        """Drives away from what it sees: a person may wait for the robot to leave."""
+        """Drives away from things that it sees: a person may wait for the robot to leave."""
         floor, at = self._driver.floor, (self._driver.pose.x, self._driver.pose.y)
         grid = self._survey.maps[floor]
         planner = Planner(with_points(grid, foreign), self._route.clearance)

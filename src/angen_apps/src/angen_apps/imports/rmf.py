@@ -42,7 +42,7 @@ class _Level:
     elevation: float
     points: list[tuple[float, float]]  # pixels
     called: list[str]
-    offset: Point = (0.0, 0.0)  # m, to the frame of the first level
+    offset: Point = (0.0, 0.0)  # m, translation to the frame of the first level
 
 
 def read_rmf(path: Path) -> Plan:
@@ -334,7 +334,7 @@ class _Building:
 
 
 def _clear(walls: Sequence[Wall], start: Point, yaw: float, width: float) -> tuple[Point, float]:
-    """A doorway from its start, less what walls across it that end there take of it."""
+    """The part of a doorway that is free of crossing walls which end in it."""
     low, high = 0.0, width
     for wall in walls:
         if abs(sin(direction(wall) - yaw)) < sin(SLOPE):  # the doorway is cut into it

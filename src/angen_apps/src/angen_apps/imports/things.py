@@ -1,4 +1,4 @@
-"""Which thing, model and shape a piece of furniture is, by words in its name."""
+"""Finds the thing, model and shape of a piece of furniture by words in its name."""
 from __future__ import annotations
 
 from dataclasses import dataclass

@@ -13,14 +13,14 @@ STEP = 0.5  # s between two updates
 
 @dataclass(frozen=True)
 class Model:
-    """What is assumed of people and sensors; all are shares of 1, but rates."""
+    """Assumptions about people and sensors; all are probabilities except rates."""
 
     leaves: float = 0.15          # 1/s: how often a person leaves a room by an open way
     through_shut: float = 0.001   # of that, through a shut door: it may have opened since
     seen: float = 0.5             # a PIR fires in a step while a person is in its room
     stray: float = 0.2            # and while no tag is: through a doorway, or by a stranger
     explains: float = 0.95        # the other tag in a room explains a sensor that fires there
-    weight_of_motion: float = 0.5   # as an exponent: steps in a row say much the same
+    weight_of_motion: float = 0.5   # exponent of a likelihood: successive steps are correlated
     weight_of_silence: float = 0.2  # no PIR detects a person who sits still
     pressed: float = 0.3          # a mat is pressed while a person is in its room
     press_stray: float = 0.002
@@ -34,7 +34,7 @@ class Model:
 
 @dataclass
 class Evidence:
-    """What public topics said during a step."""
+    """The messages of public topics during a step."""
 
     reads: dict[str, dict[str, float]] = field(default_factory=dict)  # reader: tag: m
     motion: dict[str, bool] = field(default_factory=dict)             # PIR: fired in this step
@@ -51,7 +51,7 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Answer:
-    """Where a tag is taken to be; `room` is '' where that is unknown."""
+    """The estimated place of a tag; `room` is '' if it is unknown."""
 
     tag: str
     room: str
@@ -87,7 +87,7 @@ class Belief:
             self.chances[tag] = likely / total if total > 0.0 else chances
 
     def answers(self) -> list[Answer]:
-        """Where each tag is taken to be now, by tag."""
+        """The present estimate for each tag."""
         return [self._answer(tag) for tag in sorted(self.chances)]
 
     def _answer(self, tag: str) -> Answer:

@@ -1,4 +1,4 @@
-"""angen locate: who is where in the running simulator, by its public topics."""
+"""angen locate: estimates the rooms of tags in the running simulator, by its public topics."""
 from __future__ import annotations
 
 import sys

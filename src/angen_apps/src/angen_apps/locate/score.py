@@ -1,4 +1,4 @@
-"""How right the answers were: a table, a CSV file and a figure."""
+"""Reports the accuracy of the answers: a table, a CSV file and a figure."""
 from __future__ import annotations
 
 import math

@@ -145,7 +145,7 @@ def models_with(world: Any, joint: str) -> list[str]:
 
 
 def _prepare(world: Any, floor: int, doors: str) -> None:
-    """Removes everything that no map shows, and moves doors and elevators as the map shows them."""
+    """Removes everything that no map shows, and moves doors and elevators to their mapped state."""
     leave_out = world.devices('person') + models_with(world, 'left_wheel_joint')
     if doors == 'away':
         leave_out += models_with(world, 'hinge')
@@ -178,7 +178,7 @@ def reached(seeds: np.ndarray, within: np.ndarray) -> np.ndarray:
 
 
 def _shrunk(mask: np.ndarray, radius: float) -> np.ndarray:
-    """Where a circle of that radius (m) lies wholly in the mask, beyond whose edge is nothing."""
+    """The cells whose circle of that radius (m) lies wholly in the mask; outside is false."""
     steps = int(radius / RESOLUTION)
     return distance_transform_edt(np.pad(mask, 1))[1:-1, 1:-1] > steps
 

@@ -95,7 +95,7 @@ def _scaled(template: tuple[etree._Element, np.ndarray, np.ndarray], piece: Piec
 
 
 def _freeze(model: etree._Element, seat_sensor: bool) -> None:
-    """Makes a model static, without what only makes sense where it moves or is needed twice."""
+    """Makes a model static, and removes the elements that only a moving model needs."""
     for static in model.findall('static'):
         model.remove(static)
     static = etree.Element('static')
@@ -210,7 +210,7 @@ def steps(deep: float, wide: float, high: float, curved: bool
 
 
 def obstacles(model: etree._Element, name: str) -> list[Obstacle]:
-    """What a leaf may meet of a model: its collisions, seen from above."""
+    """The obstacles to a leaf in a model: its collisions, seen from above."""
     at = np.array(sdf.parse_pose(model.findtext('pose', '0 0 0')))
     turn = generator('sdf').rotation(at[3:])
     found = []
@@ -234,8 +234,8 @@ def obstacles(model: etree._Element, name: str) -> list[Obstacle]:
 
 # seat height as a share of the height of a thing that has no model
 SEATS = {'chair': 0.5, 'armchair': 0.5, 'sofa': 0.5, 'toilet': 0.6, 'bed': 0.55, 'bathtub': 0.4}
-STANDS = ('desk', 'table', 'stove', 'sink', 'fridge', 'washing_machine', 'tv', 'wardrobe',
-          'bookshelf', 'cabinet')
+STANDING = ('desk', 'table', 'stove', 'sink', 'fridge', 'washing_machine', 'tv', 'wardrobe',
+            'bookshelf', 'cabinet')
 
 
 def _add_thing(model: etree._Element, piece: Piece) -> None:
@@ -256,7 +256,7 @@ def _add_thing(model: etree._Element, piece: Piece) -> None:
         place = angen('place')
         place.set('posture', 'sit')
         place.text = numbers(0, 0, round(seat, 3), 0)
-    elif piece.thing in STANDS and not piece.model:
+    elif piece.thing in STANDING and not piece.model:
         place = angen('place')
         place.set('posture', 'stand')
         place.text = numbers(round(piece.depth / 2 + 0.35, 3), 0, 0, pi)

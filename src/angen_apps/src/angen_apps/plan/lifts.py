@@ -34,12 +34,12 @@ def shaft(lift: Lift) -> tuple[Point, ...]:
 
 
 def front_of(lift: Lift) -> float:
-    """How far before the cabin's middle the floor of a landing begins."""
+    """The distance from the cabin's middle to the floor of a landing."""
     return max(lift.front, lift.depth / 2 + FRONT)
 
 
 def fitted(lift: Lift, walls: Sequence[Wall]) -> Lift:
-    """The lift with a cabin that is as small as the walls of its shaft ask for."""
+    """The lift with its cabin shrunk to fit between the walls of its shaft."""
     half_x, half_y = lift.depth / 2, lift.width / 2
     front, back, left, right = half_x, -half_x, half_y, -half_y
     for wall in walls:
@@ -95,7 +95,7 @@ def add_lift(world: etree._Element, plan: Plan, lift: Lift) -> None:
 
 
 def _landing(lift: Lift, index: int, rise: float, doorway: float) -> list[object]:
-    """A sill up to the landing's floor, and what closes the shaft around the doorway."""
+    """A sill up to the landing's floor, and the walls that close the shaft around the doorway."""
     box = generator('sdf').spanned
     half_x, half_y, front = lift.depth / 2, lift.width / 2, front_of(lift)
     face, edge = half_x + LANDING_DOOR + 0.035, doorway / 2 + 0.01

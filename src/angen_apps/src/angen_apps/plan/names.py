@@ -46,7 +46,7 @@ def plain_name(text: str, otherwise: str) -> str:
 
 
 def use_of(name: str) -> str:
-    """What a room of that name is for; '' where the name does not say."""
+    """The use of a room by its name; '' if the name does not tell it."""
     plain = unicodedata.normalize('NFKD', name).encode('ascii', 'ignore').decode().lower()
     for use, words in USES:
         if any(word in plain for word in words):
@@ -55,7 +55,7 @@ def use_of(name: str) -> str:
 
 
 def use_by_things(things: set[str]) -> str:
-    """What a room with those things is for."""
+    """The use of a room by its things."""
     for use, typical in BY_THINGS:
         if things & set(typical):
             return use
@@ -63,7 +63,7 @@ def use_by_things(things: set[str]) -> str:
 
 
 class Names:
-    """Hands out names once each: NAME, or with a letter NAME_b, and the storey's number last."""
+    """Allocates unique names: NAME, or with a letter NAME_b, and the storey's number last."""
 
     def __init__(self) -> None:
         self._taken: set[str] = set()

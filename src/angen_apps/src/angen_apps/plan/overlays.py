@@ -1,4 +1,4 @@
-"""What is drawn over a plan: sensors with their fields of view, events, and tracks."""
+"""Draws over a plan: sensors with their fields of view, events, and tracks."""
 from __future__ import annotations
 
 import csv
@@ -25,7 +25,7 @@ TRACKS = ('#c0392b', '#1f77b4', '#2ca02c', '#9467bd', '#ff7f0e', '#17becf')
 
 @dataclass(frozen=True)
 class What:
-    """What the command line asks for."""
+    """The requested overlays."""
 
     sensors: bool = False
     events: Path | None = None
@@ -82,7 +82,7 @@ def _rows(path: Path, needed: tuple[str, ...]) -> Iterable[tuple[int, dict[str, 
 
 
 def draw(axis: Any, scene: Any, storey: Storey, data: Data, what: What) -> None:
-    """Draws all that was asked for on a storey."""
+    """Draws the requested overlays of a storey."""
     here = [(kind, name, model, pose) for kind, name, model, pose in scene.entities
             if storey.elevation - 0.2 <= pose[2] < storey.elevation + storey.height]
     if what.sensors:
@@ -114,7 +114,7 @@ def _walls(scene: Any, storey: Storey) -> np.ndarray:
 
 
 def reach_of(x: float, y: float, yaw: float, walls: np.ndarray, far: float) -> float:
-    """How far it is from a point along a direction to the nearest edge, at most `far`."""
+    """The distance from a point along a direction to the nearest edge, at most `far`."""
     if not len(walls):
         return far
     dx, dy = cos(yaw), sin(yaw)

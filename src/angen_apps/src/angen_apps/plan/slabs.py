@@ -79,8 +79,8 @@ class Raster:
                  round(self.south + (row + height) * side, 4))
                 for row, column, height, width in rectangles(cells)]
 
-    def thrifty(self, cells: np.ndarray, holes: np.ndarray, most: int) -> list[Rectangle]:
-        """The same, by blocks of cells if there are more than `most`; holes stay as they are."""
+    def cover_within(self, cells: np.ndarray, holes: np.ndarray, most: int) -> list[Rectangle]:
+        """Like cover(), by blocks of cells for more than `most` rectangles; holes stay."""
         found = self.cover(cells)
         if len(found) <= most:
             return found
@@ -114,7 +114,7 @@ def slabs(plan: Plan) -> dict[int, Slabs]:
         _add_ceilings(made, roofed, through, above, raster)
         made.floors = {name: raster.cover(cells) for name, cells in [*rooms.items(), ('', rest)]}
         if sum(map(len, made.floors.values())) > MOST:
-            made.floors = {'': raster.thrifty(_union([*rooms.values(), rest]), holes, MOST)}
+            made.floors = {'': raster.cover_within(_union([*rooms.values(), rest]), holes, MOST)}
         above.append((storey.elevation - storey.slab, _union([*rooms.values(), rest])))
     return found
 
@@ -188,4 +188,5 @@ def _add_ceilings(made: Slabs, roofed: dict[float, np.ndarray], through: np.ndar
         for underside, floors in above:
             if -0.2 < underside - height < 0.6:
                 open_cells &= ~floors
-        made.ceilings += [(height, box) for box in raster.thrifty(open_cells, through, MOST // 2)]
+        boxes = raster.cover_within(open_cells, through, MOST // 2)
+        made.ceilings += [(height, box) for box in boxes]

@@ -1,4 +1,4 @@
-"""How far the leaves of a storey open: until they touch a wall, a thing or another leaf."""
+"""Opens the leaves of a storey until they touch a wall, a thing or another leaf."""
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
@@ -15,8 +15,8 @@ SLIDE_STEP = 0.04  # m between the places at which a leaf that slides is tried
 LEAST_TURN = 0.15  # rad: a leaf that opens less is fixed
 LEAST_WAY = 0.1  # m, the same of a leaf that slides
 GAPS = (0.01, 0.03, 0.06, 0.1)  # m from a wall to a leaf that slides before it
-TOUCH = 0.001  # m of overlap that is not a touch
-CLOSE = 0.002  # m above or below a leaf is in its way
+TOUCH = 0.001  # m of overlap that does not count as contact
+CLOSE = 0.002  # m: obstacles this close above or below a leaf block it
 
 
 @dataclass(frozen=True)
@@ -57,9 +57,9 @@ def hang(storey: Storey, walls: Sequence[Box], furniture: Sequence[Obstacle], pl
 
 def _turned(hung: Hung, obstacles: Sequence[Obstacle], opened: Sequence[Obstacle]
             ) -> tuple[Hung, str]:
-    """A leaf with the angle by which it turns, and what stops it before.
+    """A leaf with the angle by which it turns, and the obstacle that stops it.
 
-    It may pass where a leaf is that is open, but does not stay there.
+    It may pass through the place of an open leaf, but does not stop there.
     """
     turn, why = _free_turn(hung, obstacles)
     opened = _near(hung, opened, hung.width)
@@ -74,7 +74,7 @@ def _turned(hung: Hung, obstacles: Sequence[Obstacle], opened: Sequence[Obstacle
 
 
 def _slid(hung: Hung, obstacles: Sequence[Obstacle]) -> tuple[Hung, str]:
-    """A leaf with the way by which it slides: before that face of the wall where it is longest."""
+    """A leaf with the distance by which it slides, before the face of the wall with more room."""
     best, most, stopped = hung, -1.0, ''
     for leaf in _beside_wall(hung):
         tried = replace(hung, leaf=leaf)
@@ -116,7 +116,7 @@ def _free_way(hung: Hung, obstacles: Sequence[Obstacle]) -> tuple[float, str]:
 
 
 def _near(hung: Hung, obstacles: Sequence[Obstacle], reach: float) -> list[Obstacle]:
-    """What is within reach of a hinge, at the heights of its leaf."""
+    """The obstacles within reach of a hinge, at the heights of its leaf."""
     bottom, top = hung.heights
     x, y = hung.hinge
     reach += 0.1

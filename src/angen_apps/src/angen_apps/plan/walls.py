@@ -129,7 +129,7 @@ def _frames(walls: Sequence[Wall]) -> list[float]:
 
 
 def _extended(wall: Wall, others: Sequence[Wall]) -> Wall:
-    """The wall with its ends drawn to the outer corners of its joints."""
+    """The wall with its ends extended to the outer corners of its joints."""
     yaw = direction(wall)
     ends = []
     for point, sign in ((wall.start, -1.0), (wall.end, 1.0)):
@@ -142,7 +142,7 @@ def _extended(wall: Wall, others: Sequence[Wall]) -> Wall:
 
 
 def _extension(wall: Wall, point: Point, outward: float, other: Wall) -> float:
-    """How far an end is drawn on to close its joint with another wall; 0 where there is none."""
+    """The extension of an end that closes its joint with another wall; 0 without a joint."""
     if other.bottom > wall.top or other.top < wall.bottom:
         return 0.0
     heading = direction(other)

@@ -35,7 +35,7 @@ SEATS = ('chair', 'sofa', 'armchair', 'bed')
 
 
 def write_world(plan: Plan, path: Path, sensors: str = 'seed') -> dict[str, int]:
-    """Writes the world; returns how many there are of what."""
+    """Writes the world; returns counts of its parts."""
     root, counts = world_of(plan, sensors)
     write_text(path, f'<?xml version="1.0"?>\n{sdf.text(root)}')
     return counts
@@ -64,7 +64,7 @@ def world_of(plan: Plan, sensors: str) -> tuple[etree._Element, dict[str, int]]:
 
 
 def _with_namespace(root: etree._Element) -> tuple[etree._Element, etree._Element]:
-    """The same with xmlns:angen declared once, at <sdf>."""
+    """The document with xmlns:angen declared once, at <sdf>."""
     made = etree.Element(root.tag, dict(root.attrib), nsmap={'angen': ANGEN})
     made.set('version', '1.9')
     made.extend(list(root))

@@ -1,4 +1,4 @@
-"""What residents can do: the catalog in activities.yaml."""
+"""The catalog of activities in activities.yaml."""
 from __future__ import annotations
 
 import re

@@ -9,7 +9,7 @@ from typing import Sequence, TypeVar
 Choice = TypeVar('Choice')
 
 QUANTILE = 1.2816  # of the normal distribution, at 10 % and 90 %
-WIDEST = 1.5  # times the range given, which values never leave
+WIDEST = 1.5  # times the given range: values are clipped to it
 
 
 def chance(*keys: object) -> Random:

@@ -1,4 +1,4 @@
-"""Bodies of residents as SDF: who walks is an actor, who sits or lies a figure of a few parts."""
+"""Bodies of residents as SDF: an actor who walks, or a figure of a few parts who sits or lies."""
 from __future__ import annotations
 
 from typing import Sequence
@@ -31,11 +31,11 @@ CAT: tuple[Part, ...] = (
     ('head', 'sphere', (0.06,), (0.20, 0.0, 0.27), 0.0),
     ('legs', 'box', (0.26, 0.10, 0.12), (0.0, 0.0, 0.06), 0.0),
 )
-NAKED = ('head', 'arm_left', 'arm_right')  # as much skin as head and hands have
+NAKED = ('head', 'arm_left', 'arm_right')  # area of skin, that of head and hands
 
 
 def walker(name: str, speed: float, body: str) -> str:
-    """One who walks: the simulator's person."""
+    """The actor that walks: the simulator's person."""
     plugin = ('<plugin name="person" filename="libperson_controller.so">'
               f'<speed>{speed:g}</speed></plugin>')
     if body == 'person':
@@ -49,7 +49,7 @@ def walker(name: str, speed: float, body: str) -> str:
 
 
 def figure(name: str, posture: str, number: int) -> str:
-    """One who sits or lies; `number`: of the resident, for the color of the clothes."""
+    """The figure that sits or lies; the resident's `number` chooses the color of the clothes."""
     shirt = COLORS[number % len(COLORS)]
     parts = ''
     for part in SITTING if posture == 'sit' else LYING:

@@ -1,4 +1,4 @@
-"""Where people can walk in a home, and ways there through its doors."""
+"""The walkable floor of a home, and ways over it through doors."""
 from __future__ import annotations
 
 import math
@@ -13,18 +13,18 @@ from angen_apps.maps.rays import Caster
 from angen_apps.robot.planner import Planner, Point
 from angen_tools.common.home import Door, Home, Place
 
-BODY = 0.3  # m from a person's middle to what is beside
-TALL = 2.0  # m: what hangs higher is in nobody's way
+BODY = 0.3  # m: half the width of a person, with a margin
+TALL = 2.0  # m: higher things are not obstacles
 STEP = 0.06  # m: a higher thing on the floor is an obstacle
-DROP = 0.3  # m: ground that lies deeper is none
+DROP = 0.3  # m: deeper ground is not walkable
 HEIGHTS = (0.2, 1.0, 1.8)  # m above the floor where walls are looked for
-PAST = 1e-4  # m beyond a surface, to meet the next
+PAST = 1e-4  # m beyond a surface: the start of the next ray
 MARGIN = 1.5  # m around the rooms
 DEEP = 0.35  # m to both sides of a door's middle that belong to its opening
 PORCH = 1.2  # m outside the entrance where people come and go
-SWING = 1.25  # m from a door's middle that its leaf does not reach
-GOALS = 64  # to which ways are kept
-REACH = 1.1  # m from where one stands to what one uses
+SWING = 1.25  # m from a door's middle: its leaf does not reach farther
+GOALS = 64  # goals whose ways are cached
+REACH = 1.1  # m from a person to the thing that the person uses
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class Ground:
         self._names: dict[tuple[int, int, int], str] = {}  # of rooms, by storey, row and column
 
     def support(self, place: Place) -> float:
-        """z of what carries one who sits or lies at a place, m."""
+        """z of the surface under a sitting or lying person, m."""
         x, y, z, yaw = place.pose
         c, s = math.cos(yaw), math.sin(yaw)
         along = np.linspace(-0.7, 0.4, 12) if place.posture == 'lie' else np.linspace(-0.1, 0.1, 3)
@@ -83,7 +83,7 @@ class Ground:
         return name
 
     def near(self, x: float, y: float, z: float, reach: float = REACH) -> Point | None:
-        """The place nearest to a point, in its room, where a person can stand."""
+        """The free place nearest to a point, in its room."""
         room = self.home.room_at(x, y, z + 0.1)
         planner = self.planners.get(self.storey_at(z))
         if planner is None or room is None:
@@ -119,7 +119,7 @@ class Ground:
         return []
 
     def porch(self) -> tuple[Point, int] | None:
-        """Where people stand before the main entrance, outside, and the storey; None without."""
+        """The free place outside the main entrance, and its storey; None if there is none."""
         door = self.entrance()
         if door is None:
             return None
@@ -160,7 +160,7 @@ class Ground:
         return legs
 
     def _following(self, planner: Planner, goal: Point, storey: int) -> np.ndarray:
-        """Planner.toward(), of few goals again and again."""
+        """Planner.toward() with a cache of the last goals."""
         key = (storey, planner.grid.cell(*goal))
         found = self._toward.pop(key, None)
         if found is None:
@@ -171,7 +171,7 @@ class Ground:
         return found
 
     def _corners(self, planner: Planner, points: Sequence[Point]) -> tuple[Point, ...]:
-        """The few points of a way between which one walks straight."""
+        """Reduces a way to the corners of straight segments."""
         kept = [points[0]]
         i = 0
         while i < len(points) - 1:
@@ -192,7 +192,7 @@ class Ground:
         return bool(planner.passable[row, column].all())
 
     def _largest(self, planner: Planner) -> np.ndarray:
-        """The largest connected part (rows, columns) of where a person can stand."""
+        """The largest connected part (rows, columns) of the free cells."""
         parts, _ = label(planner.passable, np.ones((3, 3), int))
         return np.asarray(parts == 1 + int(np.argmax(np.bincount(parts.ravel())[1:])))
 
@@ -222,7 +222,7 @@ class Ground:
         return grid
 
     def _clear(self, x: np.ndarray, y: np.ndarray, floor: float) -> np.ndarray:
-        """Where nothing but the floor is below TALL, by rays from above."""
+        """The cells with only floor below TALL, by rays from above."""
         origins = np.column_stack([x, y, np.full(len(x), floor + TALL)])
         down = np.broadcast_to([0.0, 0.0, -1.0], origins.shape)
         ranges = self._caster.cast(origins, down, TALL + DROP + 0.01)
@@ -230,7 +230,7 @@ class Ground:
 
     def _surfaces(self, grid: GridMap, floor: float) -> np.ndarray:
         """Which cells (rows, columns) hold an upright surface, as of a wall, by level rays: those
-        from above begin inside of what is as high as a wall."""
+        from above begin inside shapes as high as a wall."""
         found = np.zeros(grid.cells.shape, bool)
         for axis, count in ((0, grid.cells.shape[0]), (1, grid.cells.shape[1])):
             across = grid.origin[1 - axis] + (np.arange(count) + 0.5) * RESOLUTION

@@ -14,7 +14,7 @@ from angen_tools.common.home import Home
 
 Process = Iterator[float]  # yields when it continues, s
 LIT = 100.0  # lx of a lamp, in rooms without a sensor
-LATITUDE = 48.0  # degrees, of homes that do not say theirs
+LATITUDE = 48.0  # degrees, of homes without a latitude of their own
 CLEAR = 1.2  # m: a door with a person nearer is not shut
 
 
@@ -28,8 +28,8 @@ class Household:
         self.places = Places(ground)
         self.first, self.since = day, since
         self.residents: list[Any] = []  # of resident.Resident
-        self.held: dict[Any, str] = {}  # a door, place or room, by who has it
-        self.acts: dict[tuple[str, str], tuple[float, str]] = {}  # when and who commanded a device
+        self.held: dict[Any, str] = {}  # who has a door, place or room
+        self.acts: dict[tuple[str, str], tuple[float, str]] = {}  # time and resident
         self.count = 0  # of commands to devices
         self.heard: Callable[[], None] = lambda: None  # after each part of time
         self._queue: list[tuple[float, int, Process]] = []
@@ -82,7 +82,7 @@ class Household:
             resident.diary.end(self.now)
 
     def take(self, what: Any, who: str) -> bool:
-        """Whether `who` has it now: a door, a place, a room."""
+        """Reserves a door, place or room; returns whether `who` has it now."""
         return self.held.setdefault(what, who) == who
 
     def leave(self, what: Any, who: str) -> None:
@@ -117,12 +117,12 @@ class Household:
         return any(r.room == room and r.name != who and not r.away for r in self.residents)
 
     def doorway_free(self, x: float, y: float, who: str) -> bool:
-        """Whether no other person is where a leaf swings."""
+        """Whether no other person is in the swing of a leaf."""
         return all((r.at[0] - x) ** 2 + (r.at[1] - y) ** 2 > CLEAR ** 2
                    for r in self.residents if r.name != who and not r.away)
 
     def lux(self, room: str) -> float:
-        """How light it is in a room: by its sensor, or else by its lamps and the sun."""
+        """The illuminance in a room: by its sensor, or else by its lamps and the sun."""
         if room in self._lux:
             reading = self.simulator.state('luminosity', self._lux[room])
             if 'illuminance' in reading:

@@ -1,4 +1,4 @@
-"""What residents need of a simulator: of this process (simulated.py) or the node (live.py)."""
+"""The simulator's interface to residents: in this process (simulated.py) or ROS (live.py)."""
 from __future__ import annotations
 
 from typing import Any, NamedTuple, Protocol
@@ -16,7 +16,7 @@ class Body(NamedTuple):
 
 
 class Refused(Exception):
-    """The simulator did not do what it was asked for."""
+    """The simulator rejected a command."""
 
 
 class Simulator(Protocol):
@@ -42,16 +42,16 @@ class Simulator(Protocol):
 
     def appear(self, name: str, x: float, y: float, z: float, yaw: float, speed: float, body: str
                ) -> None:
-        """Puts a resident on its feet there, whatever its posture was."""
+        """Places a standing resident there, whatever its posture was."""
 
     def settle(self, name: str, place: Place, number: int) -> None:
-        """Has a resident sit or lie at a place."""
+        """Makes a resident sit or lie at a place."""
 
     def vanish(self, name: str) -> None:
-        """Takes a resident out of the home."""
+        """Removes a resident from the home."""
 
     def fidget(self, name: str, turn: float) -> None:
-        """One who sits or lies moves a little: turned by so many rad."""
+        """Turns a sitting or lying resident by some rad."""
 
     def body(self, name: str) -> Body:
         """Where a resident is."""

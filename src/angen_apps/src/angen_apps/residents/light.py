@@ -1,4 +1,4 @@
-"""How light it is in a room by day: the sky over its window."""
+"""The illuminance in a room by daylight through its window."""
 from __future__ import annotations
 
 import datetime
@@ -9,7 +9,7 @@ TILT = 23.44  # degrees, of the earth's axis
 
 
 def elevation(day: datetime.date, seconds: float, latitude: float) -> float:
-    """Of the sun in rad; the clock is taken as solar time, so summer time shifts it by an hour."""
+    """The sun's elevation in rad; the clock is taken as solar time."""
     turn = 2 * math.pi * (day.timetuple().tm_yday - 81) / 365.0
     declination = math.radians(TILT) * math.sin(turn)
     hour = math.radians((seconds / 3600.0 - 12.0) * 15.0)

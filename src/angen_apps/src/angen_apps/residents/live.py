@@ -12,7 +12,7 @@ from angen_tools.common.geometry import quaternion, yaw_of
 from angen_tools.common.home import Home, Place
 from angen_tools.live.client import CONNECT_LIMIT, Client
 
-ABOVE = 0.002  # m over what carries a figure, when it comes there
+ABOVE = 0.002  # m between the support and a placed figure
 LOOK = 0.02  # s of wall time between two looks at the clock
 SILENCE = 10.0  # s of wall time without a clock: the simulator has ended
 TRUTH = '/angen/residents'
@@ -56,7 +56,7 @@ class Live:
                 raise Failure('the simulator has ended')
 
     def publish(self, row: dict[str, Any]) -> None:
-        """Tells what is true of a resident now."""
+        """Publishes the true state of a resident."""
         self._truth.publish(json.dumps(row))
 
     def devices(self) -> list[tuple[str, str, str, tuple[float, ...]]]:

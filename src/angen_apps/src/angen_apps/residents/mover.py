@@ -16,11 +16,11 @@ POLL = (0.1, 0.5)  # s between two looks at where one is, at least and at most
 PASSED, THERE = 0.35, 0.12  # m from a corner of the way, and from its end
 STALLED = 7.0  # s without coming nearer, after which another way is tried
 TRIES = 3
-DOOR_WAIT = 20.0  # s for somebody else in a doorway
+DOOR_WAIT = 20.0  # s to wait for another person in a doorway
 OPENS_IN = 12.0  # s
 ASIDE = 0.55  # m between the middles of two people
 NEARER = 0.05  # m
-SLOWS = 0.4  # s in which it walks the rest of its way
+SLOWS = 0.4  # s, in which it walks the rest of its way
 
 Process = Iterator[float]
 
@@ -57,7 +57,7 @@ class Mover:
         self.room = self.ground.room_name(body.x, body.y, self.storey)
 
     def enter(self, spot: Spot) -> None:
-        """Comes to be at a place, standing: outside the entrance, or where a run begins."""
+        """Appears standing at a place: outside the entrance, or at the start of a run."""
         self.storey, self.spot = spot.storey, spot
         point = self._free(spot.stand) or spot.stand
         yaw = self._habits.uniform(-math.pi, math.pi)
@@ -76,7 +76,7 @@ class Mover:
         self.look()
 
     def rise(self) -> Process:
-        """Gets up, when nobody stands before the seat."""
+        """Gets up, once the place before the seat is free."""
         if self.posture == 'stand' or self.spot is None:
             return
         point = self._free(self.spot.stand)
@@ -93,7 +93,7 @@ class Mover:
         yield self.now + 0.3
 
     def vanish(self) -> None:
-        """Is out of the home."""
+        """Leaves the simulation."""
         self.simulator.vanish(self.name)
         self.away, self.room, self.at = True, '', (math.inf, math.inf)
 
@@ -112,7 +112,7 @@ class Mover:
         return None
 
     def go(self, goal: Point, storey: int) -> Iterator[float]:
-        """Walks there; `self.arrived` says whether it came there."""
+        """Walks there; `self.arrived` says whether it succeeded."""
         self.arrived = False
         yield from self.rise()
         for attempt in range(TRIES):
@@ -155,12 +155,12 @@ class Mover:
                 self._let_go(held)
 
     def halt(self) -> None:
-        """Stands still where it is: it would go on trying to come the last centimeters nearer."""
+        """Stops here: otherwise it would keep trying to reach the exact point."""
         if not self.away and self.posture == 'stand':
             self.household.do(self.name, 'person', self.name, 'Stop')
 
     def _walk(self, point: Point, near: float, held: Door | None) -> Process:
-        """Straight to a point; `self._came` says whether it came so near."""
+        """Walks straight to a point; `self._came` says whether it came near enough."""
         self._came = False
         if not self.household.do(self.name, 'person', self.name,
                                  f'GoTo {point[0]:.3f} {point[1]:.3f}'):
@@ -187,7 +187,7 @@ class Mover:
         return math.dist(self.at, point) < math.dist(door.pose[:2], point)
 
     def _open(self, door: Door) -> Process:
-        """Has a door open; `self._opened` says whether it is. The door is held until let go."""
+        """Opens and reserves a door; `self._opened` says whether it is open."""
         self._opened = False
         key, since = ('door', door.name), self.now
         while not self.household.take(key, self.name):
@@ -206,7 +206,7 @@ class Mover:
         self._opened = True
 
     def _let_go(self, door: Door) -> None:
-        """Leaves a door behind, and shuts it by habit; the entrance always."""
+        """Releases a door, and shuts it by habit; the entrance always."""
         key = ('door', door.name)
         if self.household.held.get(key) != self.name:
             return
@@ -219,7 +219,7 @@ class Mover:
             self.household.do(self.name, 'door', door.name, 'CloseByHand')
 
     def _aside(self, attempt: int) -> Process:
-        """Makes room before another try."""
+        """Steps aside before another try."""
         planner = self.ground.planners[self.storey]
         for _ in range(12):
             turn = self._habits.uniform(-math.pi, math.pi)

@@ -1,4 +1,4 @@
-"""Where activities happen in a home: things and rooms as spots to stand, sit or lie at."""
+"""Finds places for activities in a home: things and rooms as spots to stand, sit or lie at."""
 from __future__ import annotations
 
 import math
@@ -10,14 +10,14 @@ from angen_apps.residents.ground import Ground
 from angen_apps.robot.planner import Point
 from angen_tools.common.home import Place, Room, Thing
 
-FAR = 1.9  # m from where one stands to the middle of a bed
-TOWARDS = 0.62  # m from the middle of a thing without places to where one stands
+FAR = 1.9  # m from a standing person to the middle of a bed
+TOWARDS = 0.62  # m from the middle of a thing without places to its user
 OUTSIDE, ENTRANCE = 'outside', 'entrance'
 
 
 @dataclass(frozen=True)
 class Spot:
-    """Where a resident stands, and the place of a thing at which it then sits or lies."""
+    """The floor point of a resident, and the place of a thing at which it then sits or lies."""
 
     stand: Point
     storey: int
@@ -28,7 +28,7 @@ class Spot:
 
     @property
     def key(self) -> tuple[str, float, float]:
-        """One resident at a time is there."""
+        """The key under which one resident reserves it."""
         at = self.place.pose[:2] if self.place else self.stand
         return self.thing or self.room, round(at[0], 2), round(at[1], 2)
 
@@ -42,7 +42,7 @@ class Places:
         self._spots: dict[tuple[str, str], list[Spot]] = {}
 
     def use(self, room: str) -> str:
-        """What a room is for."""
+        """The use of a room."""
         return self._rooms[room].use if room in self._rooms else 'outdoor'
 
     def rooms_of(self, use: str) -> list[Room]:
@@ -50,7 +50,7 @@ class Places:
                 and room.storey in self.ground.planners]
 
     def spots(self, step: Step) -> list[Spot]:
-        """Where a step can be done, the best first; empty where no thing and no room serves."""
+        """The spots for a step, the best first; empty if no thing and no room serves."""
         posture = 'stand' if step.posture == 'roam' else step.posture
         found = [spot for what in step.at for spot in self._of(what, posture)]
         if not found and step.room:

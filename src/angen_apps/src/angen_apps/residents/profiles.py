@@ -1,4 +1,4 @@
-"""Who lives in a home: habits of a kind of person, in profiles/*.yaml or a file of one's own."""
+"""Habits of a kind of resident, in profiles/*.yaml or a user's own file."""
 from __future__ import annotations
 
 import re
@@ -193,7 +193,7 @@ class _Reader:
         return Span(low, high if high >= low else high + DAY)
 
     def check_time(self, profile: Profile, entry: dict[str, Any]) -> None:
-        """What is scheduled fits into the time awake, if all takes its usual time."""
+        """Checks that scheduled items fit into the time awake, at their usual durations."""
         for day in DAYS[1:]:
             sleeps, wakes = profile.sleeps[day], profile.wakes[day]
             awake = (sleeps.low + sleeps.high - wakes.low - wakes.high) / 2 % DAY
@@ -204,6 +204,6 @@ class _Reader:
                              for i, name in enumerate(part.do)]
                     taken += part.chance * sum((low * high) ** 0.5 for low, high in times)
             if taken > awake:
-                raise self.file.fail(entry['scheduled'], f'what is scheduled on a {day} takes '
+                raise self.file.fail(entry['scheduled'], f'the scheduled items of a {day} take '
                                      f'{taken / 3600:.1f} h, but {profile.name} is awake for '
                                      f'{awake / 3600:.1f} h')

@@ -1,4 +1,4 @@
-"""A resident: does what the agenda says, and uses the home by its habits."""
+"""A resident, who follows the agenda and uses the home by habit."""
 from __future__ import annotations
 
 from typing import Any, Generator, Iterator
@@ -17,9 +17,9 @@ from angen_tools.common.failure import Failure
 DARK = 50.0  # lx: with less, lamps are switched on
 LATE = 20.0  # s: an activity that would be shorter is left out
 FIDGETS = {'sit': 150.0, 'lie': 1500.0}  # s on average between two movements
-SHUFFLES = 25.0  # s on average between two steps of one who stands
+SHUFFLES = 25.0  # s on average between two steps of a standing resident
 ROAMS = (15.0, 45.0)  # s at a place
-OPEN_FOR = 20.0  # s that a fridge stands open, at most
+OPEN_FOR = 20.0  # s that a fridge is open, at most
 QUEUE, PATIENCE = 10.0, 900.0  # s between two tries at a room, and until it is given up
 OUT_BETWEEN = 900.0  # s: a visitor with less to wait stays
 
@@ -56,7 +56,7 @@ class Resident(Mover):
         return found
 
     def live(self) -> Process:
-        """Day after day."""
+        """Lives day after day."""
         number = 0
         household = self.household
         midnight = -household.since
@@ -76,7 +76,7 @@ class Resident(Mover):
             number += 1
 
     def _begin(self, items: list[Item]) -> None:
-        """Is where the first item has it, or out of the home."""
+        """Starts at the place of the first item, or out of the home."""
         self._note('away', '')
         now = self.now + self.household.since
         first = next((item for item in items if item.end > now), None)
@@ -176,7 +176,7 @@ class Resident(Mover):
             yield until
 
     def _shuffle(self, spot: Spot) -> Process:
-        """A step aside, along what one stands at."""
+        """Steps aside, along the front of the thing in use."""
         for _ in range(4):
             point = (spot.stand[0] + self._habits.uniform(-0.3, 0.3),
                      spot.stand[1] + self._habits.uniform(-0.3, 0.3))
@@ -189,7 +189,7 @@ class Resident(Mover):
         self.look()
 
     def _roam(self, activity: Activity, step: Step, end: float) -> Process:
-        """Goes about in a room."""
+        """Walks around in a room."""
         tries = 0
         while self.now < end - 5.0 and tries < 40:
             tries += 1
@@ -205,7 +205,7 @@ class Resident(Mover):
             yield from self._stay(min(self.now + self._habits.uniform(*ROAMS), end), step, 0)
 
     def _queue(self, activity: Activity, item: Item) -> Generator[float, None, bool]:
-        """Waits until rooms for one are free; whether they are."""
+        """Waits for rooms that one resident uses at a time; returns whether they are free."""
         rooms = [room.name for room in self.household.places.rooms_of(activity.alone)]
         since = self.now
         while rooms:
@@ -234,7 +234,7 @@ class Resident(Mover):
                 self.vanish()
                 self._note('away', 'leave')
                 entrance = self.ground.entrance()
-                if entrance is not None:  # it falls shut behind
+                if entrance is not None:  # it closes by itself
                     self.household.do(self.name, 'door', entrance.name, 'CloseByHand')
             else:
                 self.diary.note('gave up the way out')
@@ -273,7 +273,7 @@ class Resident(Mover):
             del held[key]
 
     def _use(self, step: Step, spot: Spot) -> list[tuple[str, str, str]] | None:
-        """Opens or switches on what a step needs; how to undo it."""
+        """Opens or switches on the devices of a step; returns how to undo it."""
         if self.profile.body != 'person':
             return None
         household = self.household

@@ -9,7 +9,7 @@ from angen_tools.common.catalog import angen_module
 from angen_tools.common.geometry import yaw as yaw_of
 from angen_tools.common.home import Home, Place
 
-ABOVE = 0.002  # m over what carries a figure, when it comes there
+ABOVE = 0.002  # m between the support and a placed figure
 
 
 class Simulated:

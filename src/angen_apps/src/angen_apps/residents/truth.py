@@ -1,4 +1,4 @@
-"""What is true of residents: where each was and did what, without gaps."""
+"""The ground truth of residents: place and activity of each, without gaps."""
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
@@ -9,8 +9,8 @@ HEAD = ('start', 'end', 'resident', 'activity', 'cause', 'phase', 'room', 'thing
 
 @dataclass(frozen=True)
 class Interval:
-    """A resident in one phase of an activity. Phases: goes, does, waits, away. `note`: what did not
-    go as planned."""
+    """A resident in one phase of an activity. Phases: goes, does, waits, away. `note`: failures
+    of the plan."""
 
     start: float
     end: float
@@ -50,6 +50,6 @@ class Diary:
         self.now = None
 
     def note(self, text: str) -> None:
-        """Says what did not go as planned, in the present phase."""
+        """Records a failure of the plan in the present phase."""
         if self.now is not None:
             self.now = replace(self.now, note=f'{self.now.note}; {text}'.strip('; '))

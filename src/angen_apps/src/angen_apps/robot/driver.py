@@ -89,7 +89,7 @@ class Driver:
 
     @property
     def foreign(self) -> np.ndarray:
-        """What the latest scan shows that is not on the map: points (n, 2) in the world, m."""
+        """The points of the latest scan that are not on the map: (n, 2) in the world, m."""
         points = to_world(self._returns(), self.pose)
         return points[unexplained(points, self._localizer.field)]
 
@@ -99,7 +99,7 @@ class Driver:
         return self._localizer.share(self._returns())
 
     def localize(self) -> bool:
-        """Stops, and searches its floor where its scan does not fit; whether it does then."""
+        """Stops, and searches its floor if its scan does not fit; returns whether it fits then."""
         self._settle()
         returns = self._returns()
         return self._localizer.share(returns) >= SHARE or self._localizer.find(returns)
@@ -124,7 +124,7 @@ class Driver:
         return pose
 
     def do(self, action: Action) -> bool:
-        """Does it; whether to its end. Failure where that does not happen."""
+        """Executes an action; returns whether it was completed. Failure if it is impossible."""
         if isinstance(action, Drive):
             return self._drive(action)
         if isinstance(action, Turn):

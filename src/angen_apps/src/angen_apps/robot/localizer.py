@@ -1,4 +1,4 @@
-"""Where a robot is: its odometry, put right by laser scans against the map."""
+"""Localizes a robot: its odometry, corrected by laser scans against the map."""
 from __future__ import annotations
 
 import math

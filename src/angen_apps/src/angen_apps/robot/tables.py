@@ -1,4 +1,4 @@
-"""What every task of a robot leaves: events.csv, track.csv and a table of figures."""
+"""Files of every task of a robot: events.csv, track.csv and a table of figures."""
 from __future__ import annotations
 
 from dataclasses import astuple, fields

@@ -11,7 +11,7 @@ SPEED = 0.8  # m/s
 SETS_OUT, SETTLES = 1 / 50, 1 / 10  # 1/s: a standing person starts to walk; a walking one stops
 LIFT = 0.01  # share of those who walk beside the elevator that come out on another floor, per STEP
 UNKNOWN_DOOR = 0.3  # the share that passes a door of unknown state
-LEAST = 1e-7  # of a cell: whatever was observed may have been wrong
+LEAST = 1e-7  # least probability of a cell: any observation may be wrong
 
 # Probabilities of `motion` within a STEP:
 SEEN, GLIMPSED, AFTER, FALSE = 0.6, 0.25, 0.03, 0.005

@@ -1,4 +1,4 @@
-"""What a search knows of the building: rooms, cells, who can be seen from where, the sensors."""
+"""A search's knowledge of the building: rooms, cells, visibility between them, the sensors."""
 from __future__ import annotations
 
 from collections import deque

@@ -174,7 +174,7 @@ class Resident:
         self._lit = ''
 
     def act(self) -> None:
-        """What he does before each cycle."""
+        """His actions before each cycle."""
         x, y, z, yaw = self._simulation.place(f'{self._name}::body')
         robot = self._simulation.truth()
         if self._next < len(self._gates) and self._at(self._gates[self._next], x, y, z):

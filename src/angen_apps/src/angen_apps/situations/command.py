@@ -17,7 +17,7 @@ MODELS = ('pyroelectric', 'range_difference')
 
 
 def sources() -> dict[str, str]:
-    """The things that rows name."""
+    """The entries that rows name."""
     return _read()['sources']
 
 

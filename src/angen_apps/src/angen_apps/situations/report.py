@@ -1,4 +1,4 @@
-"""What came of the situations: a table for the terminal, for a page, and JSON."""
+"""Reports the outcomes of the situations: a table for the terminal or a page, and JSON."""
 from __future__ import annotations
 
 import re

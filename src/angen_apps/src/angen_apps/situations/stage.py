@@ -13,7 +13,7 @@ from angen_tools.common.catalog import angen_module
 
 STEP = 0.005       # s, of the physics
 SAMPLE = 0.02      # s between two readings
-ARRIVES = 1.0      # s: then everything is in its place, and the detector starts
+ARRIVES = 1.0      # s: everything is in its place by then, and the detector starts
 LAG = 1.0          # s after the end within which it may still report
 ROOM = (12.0, 4.0)  # m: depth from the detector's wall, half of the width
 AIR = 22.0         # degrees Celsius where a row does not say otherwise
@@ -34,7 +34,7 @@ class Row:
     why: str
     source: str                # a key of the sources
     cast: tuple[Mapping[str, Any], ...]
-    expect_range: str = ''     # of range differences, where it means something
+    expect_range: str = ''     # of range differences, if that is defined
     mount: str = 'wall'
     air: float = AIR           # degrees Celsius
     settings: tuple[tuple[str, str], ...] = ()
@@ -47,7 +47,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of a row with one model of a PIR."""
+    """The outcome of a row with one model of a PIR."""
     row: Row
     model: str
     got: str       # motion, still, early: it fired before anything moved

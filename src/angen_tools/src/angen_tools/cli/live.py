@@ -180,7 +180,7 @@ def add_list(commands: Any) -> None:
 
 
 def right_order(words: Sequence[str]) -> str:
-    """What was meant where a name comes before its kind, as `set kitchen0 door open`; else ''."""
+    """The corrected command for a name before its kind, as `set kitchen0 door open`; else ''."""
     if len(words) < 3 or words[0] not in ('set', 'spawn'):
         return ''
     known = {*kinds('device' if words[0] == 'set' else 'sensor'),

@@ -1,4 +1,4 @@
-"""What a command prints: tables and JSON. In a terminal tables are rich's and fit its width;
+"""Prints results of commands: tables, JSON. In a terminal tables are rich's and fit its width;
 elsewhere a row is one plain line, never cut or wrapped, for grep and the like.
 """
 from __future__ import annotations

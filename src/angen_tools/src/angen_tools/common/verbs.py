@@ -88,7 +88,7 @@ def number(word: str) -> float:
 
 
 def argument(verb: dict[str, Any]) -> str:
-    """What the number of a verb is: "0 to 100 percent", "radians (rad)"."""
+    """Describes the number of a verb: "0 to 100 percent", "radians (rad)"."""
     text: str = verb['argument']
     if verb['min'] is not None and verb['max'] is not None:
         text = f'{verb["min"]:g} to {verb["max"]:g} {text}'

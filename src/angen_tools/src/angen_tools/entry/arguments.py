@@ -81,7 +81,7 @@ CHECKS: dict[str, Callable[[str], str]] = {
 
 
 def check_roslaunch(launch: str) -> None:
-    """What the launch file of that path calls while roslaunch reads it, for the words given to
+    """Called by the launch file of that path while roslaunch reads it, for the words given to
     roslaunch itself; another launch file that includes it has its own."""
     words = sys.argv[1:]
     if Path(sys.argv[0]).name == 'roslaunch' and any(

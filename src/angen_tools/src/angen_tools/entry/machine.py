@@ -1,4 +1,4 @@
-"""What ./angen run finds on its machine: a display, and who may reach its ROS master."""
+"""The machine of ./angen run: its display, and the access to its ROS master."""
 from __future__ import annotations
 
 import os

@@ -20,7 +20,7 @@ PORT = 11311
 
 
 class Limited(Transport):
-    """XML-RPC that does not wait for ever."""
+    """XML-RPC with a timeout."""
 
     def make_connection(self, host: Any) -> http.client.HTTPConnection:
         connection = super().make_connection(host)

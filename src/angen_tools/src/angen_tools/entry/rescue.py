@@ -1,4 +1,4 @@
-"""The world that the node saves when it loses the ROS master, and how often it is taken up."""
+"""Keeps the world that the node saves when it loses the ROS master, for the next node."""
 from __future__ import annotations
 
 import os
@@ -57,7 +57,7 @@ class Rescue:
                 path.unlink(missing_ok=True)
 
     def take(self) -> Path | None:
-        """The world that the node has left, for the next one; None where it left none. Failure
+        """The world that the node has saved, for the next one; None if it saved none. Failure
         where that happens too often."""
         if not self.path.exists():
             return None

@@ -116,7 +116,7 @@ def with_world(words: list[str], world: Path) -> list[str]:
     are; it is recorded into a file of its own."""
     given = dict(word.split(':=', 1) for word in words if ':=' in word)
     if 'world' in given:
-        folder = Path(given['world']).parent  # whose files it may go on to name
+        folder = Path(given['world']).parent  # it may still name its files
         for variable, first in (('ANGEN_MODEL_PATH', folder / 'models'),
                                 ('GAZEBO_RESOURCE_PATH', folder)):
             path = [str(first), *filter(None, os.environ.get(variable, '').split(':'))]
@@ -139,7 +139,7 @@ def absolute(word: str) -> str:
 
 
 def help_text(angen: Path, words: list[str]) -> str:
-    """What can be tried in the world that the words start."""
+    """The commands to try in the world that the words start."""
     other = any(word.startswith(('world:=', 'replay:=')) for word in words)
     return '\n         '.join([HELP.format(angen=angen), *(ANY if other else BUILDING)])
 

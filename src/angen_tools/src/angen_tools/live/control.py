@@ -88,7 +88,7 @@ def has_target(kind: Plugin, order: Order) -> bool:
 
 
 def check_place(client: Client, order: Order) -> None:
-    """Failure where an order sends somebody out of the home and its surroundings."""
+    """Raises Failure if an order sends a person out of the home and its surroundings."""
     place = [float(word) for word in order.text.split()[1:]]
     rooms = client.home().rooms
     if len(place) != 2 or not rooms:

@@ -90,7 +90,7 @@ def _right(path: str, found: str, world: Any, around: Collection[str] = ()) -> C
 
 
 def misspelled(warning: str) -> str:
-    """What was meant, where a warning of a tolerant world is about a misspelled element; else
+    """The correct spelling, if a warning of a tolerant world is about a misspelled element; else
     ''."""
     if MISSPELLED.search(warning):
         return warning

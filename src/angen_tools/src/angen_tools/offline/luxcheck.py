@@ -1,4 +1,4 @@
-"""angen luxcheck: what photometry has closed forms for, measured in small worlds by luminosity
+"""angen luxcheck: compares closed forms of photometry with small worlds, measured by luminosity
 sensors, as any world's are.
 """
 from __future__ import annotations
@@ -182,7 +182,7 @@ def crate(static: bool, yaw: float = 0.0, joint: str = '') -> str:
 
 
 def furniture_cases() -> Iterator[Case]:
-    """Things that could move and do not, against the same ones that cannot."""
+    """Loose and hinged things at rest, against the same things as static ones."""
     hinge = ('<joint name="hinge" type="revolute"><parent>world</parent><child>link</child>'
              '<axis><xyz>0 0 1</xyz></axis></joint>')
     places = [Place((-1.99, -1.0, 0.0), 0, 1), Place((0.5, 0.5, -1.9)),

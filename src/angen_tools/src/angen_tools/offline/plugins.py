@@ -26,7 +26,7 @@ def list_plugins(json: bool) -> RenderableType:
 
 
 def _tables(plugin: Plugin) -> Iterator[RenderableType]:
-    """What there is of verbs, fields and parameters, a table each."""
+    """Verbs, fields and parameters, a table for each that exists."""
     if plugin['verbs'] or plugin['values']:
         yield table(('  COMMAND', 'MEANING'), [('  ' + form, doc)
                                                for form, doc in described_forms(plugin)])

@@ -15,7 +15,7 @@ SLICE = 1.0  # simulated s between two progress reports
 
 
 def replay(path: str, leap: bool) -> dict[str, Any]:
-    """What was compared, where all of it was equal; Failure where it was not, or cannot be read."""
+    """A report of the comparison, if all is equal; Failure if it is not, or cannot be read."""
     began = time.monotonic()
     with simulator() as angen:
         run = angen.Replay(path, leap=leap)

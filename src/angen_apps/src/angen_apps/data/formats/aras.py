@@ -53,7 +53,7 @@ def columns(data: Data) -> list[Sensor]:
 
 
 def _lines(cells: np.ndarray) -> str:
-    """A line a second; equal lines after one another are made once."""
+    """A line for each second; a run of equal lines is formatted once."""
     changes = np.flatnonzero((cells[1:] != cells[:-1]).any(axis=1)) + 1
     edges = [0, *changes.tolist(), len(cells)]
     return ''.join((' '.join(map(str, cells[a].tolist())) + '\n') * (b - a)

@@ -14,7 +14,7 @@ TYPES = {'motion': 'Control4-Motion', 'area': 'Control4-MotionArea', 'door': 'Co
          'item': 'Control4-Item', 'power': 'Control4-Power',
          'temperature': 'Control4-Temperature', 'light': 'Control4-LightSensor'}
 ENTER = 'Enter_Home'
-ENTERING = 60.0  # s at most, of those who come home
+ENTERING = 60.0  # s: the longest time in which a resident comes home
 
 
 def write(folder: Path, data: Data) -> list[Path]:
