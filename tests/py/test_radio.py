@@ -1,7 +1,7 @@
 """Radio: signal strength in free space, behind walls, doors, floors and bodies."""
 from __future__ import annotations
 
-from math import log10
+from math import ceil, log10
 
 import pytest
 
@@ -91,6 +91,7 @@ def test_a_weak_or_silent_transmitter_is_not_received(world):
     assert set(heard(w)) == {'near'}
     w.command('transmitter', 'near_transmitter', 'Off')
     assert heard(w) == {}
+    w.run(10.0)
     w.command('transmitter', 'near_transmitter', 'On')
     assert set(heard(w)) == {'near'}
     words = [(event, detail) for _, source, _, event, detail in w.events() if source == 'r']
@@ -122,7 +123,7 @@ def test_a_signal_at_the_edge_is_not_received_and_lost_again_and_again(world):
     for hysteresis in (0.0, 6.0):
         w = world(beacon('0 0 1 0 0 0') + receiver(
             '4 0 1 0 0 0', f'<sensitivity>{edge}</sensitivity>'
-            f'<hysteresis>{hysteresis}</hysteresis>'))
+            f'<hysteresis>{hysteresis}</hysteresis><lost_after>0</lost_after>'))
         w.run(1.0)
         for i in range(5):
             w.spawn(box('wall', '0 0 0 0 0 0', '0.1 1 1', static=True), 'wall', [2, 0, 1, 0, 0, 0])
@@ -139,3 +140,60 @@ def test_a_signal_below_the_hysteresis_is_lost(world):
     assert heard(w)
     w.spawn(box('wall', '0 0 0 0 0 0', '0.1 1 1', static=True), 'wall', [2, 0, 1, 0, 0, 0])
     assert not heard(w), '2.9 dB below the sensitivity'
+
+
+def changes(w: angen.World) -> list[tuple[float, str, str]]:
+    return [(time, event, detail) for time, _, _, event, detail in w.events()
+            if event in ('received', 'lost')]
+
+
+@pytest.mark.parametrize('silence, lost', [(2.0, False), (4.9, False), (5.4, True), (9.0, True)])
+def test_a_transmitter_is_lost_after_a_time_without_reception(world, silence, lost):
+    """Sampled at 2 Hz: the first sample without it is at 1.5 s."""
+    w = world(beacon('0 0 1 0 0 0') + receiver('2 0 1 0 0 0', '<lost_after>5</lost_after>'))
+    w.run(1.25)  # steady for two samples
+    w.command('transmitter', 'b_transmitter', 'Off')
+    w.run(0.5)
+    assert w.sensor('receiver', 'r')['ids'] == [], 'the reading says what is received now'
+    w.run(silence - 0.5)
+    w.command('transmitter', 'b_transmitter', 'On')
+    w.run(2.0)
+    assert [(round(at, 2), event) for at, event, _ in changes(w)] == [(0.0, 'received')] + (
+        [(6.5, 'lost'), (ceil(2 * (1.25 + silence)) / 2, 'received')] if lost else [])
+
+
+def test_each_transmitter_has_its_events_when_one_is_lost_as_another_comes(world):
+    w = world(beacon('0 0 1 0 0 0', 'a') + beacon('0 1 1 0 0 0', 'b') + receiver(
+        '2 0 1 0 0 0', '<lost_after>0</lost_after>'))
+    w.command('transmitter', 'b_transmitter', 'Off')
+    w.run(2.0)
+    w.command('transmitter', 'a_transmitter', 'Off')
+    w.command('transmitter', 'b_transmitter', 'On')
+    w.run(2.0)
+    assert [what for _, *what in changes(w)[-2:]] == [['received', 'b'], ['lost', 'a']]
+
+
+def test_a_person_who_walks_through_the_building_is_seldom_lost(building):
+    """Counted again from the readings, which say what is received at each second."""
+    w = angen.World(building, seed=3)
+    reported: set[tuple[str, str]] = set()
+    silent: dict[tuple[str, str], int] = {}
+    expected = set()
+    for second in range(180):
+        w.run(0.5 if second == 0 else 1.0)
+        heard_now = {(name, id_) for name in w.sensors('receiver')
+                     for id_ in w.sensor('receiver', name)['ids']}
+        for pair in heard_now:
+            silent.pop(pair, None)
+        for pair in reported - heard_now:
+            silent.setdefault(pair, second)
+        lost = {pair for pair, since in silent.items() if second - since >= 10}
+        for pair in lost:
+            del silent[pair]
+        expected |= {(second, name, 'received') for name, _ in heard_now - reported}
+        expected |= {(second, name, 'lost') for name, _ in lost}
+        reported = (reported | heard_now) - lost
+    counted = {(round(time), source, event) for time, source, _, event, _ in w.events()
+               if source in w.sensors('receiver') and event in ('received', 'lost')}
+    assert counted == expected
+    assert len([e for e in counted if e[0] > 0]) <= 3 * 5, 'five a minute, ten receivers'

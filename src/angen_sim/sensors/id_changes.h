@@ -7,18 +7,21 @@
 
 namespace angen::sensors {
 
-/// Which ids a reader had in its last sample, and the events when they change.
+/// The ids that a reader has reported, and the events when they change.
 class IdChanges {
  public:
   IdChanges(const char* came, const char* gone) : came_(came), gone_(gone) {}
 
   /// One event per sample: new ids, or if there are none, removed ids. `ids` are sorted.
   void note(const std::vector<std::string>& ids, Reading& reading);
+  /// Whether ids were removed by the sample that had new ones: the next sample reports them.
+  bool pending() const { return pending_; }
 
  private:
   const char* came_;
   const char* gone_;
-  std::vector<std::string> last_;
+  std::vector<std::string> last_;  // as reported
+  bool pending_ = false;
 };
 
 }  // namespace angen::sensors

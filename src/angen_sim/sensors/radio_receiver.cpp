@@ -24,6 +24,10 @@ class RadioReceiver : public Sensor {
                                 "so much weaker is a signal that it received before, when it loses "
                                 "it",
                                 kNotNegative);
+    const double lost_after = params.number(
+        "lost_after", 10.0, "s",
+        "so long it receives nothing of a transmitter before it reports the loss", {0.0, 1e6});
+    lost_after_ = from_seconds(lost_after);
     gain_ = params.number("gain", 0.0, "dBi", "of its antenna");
     losses_.light_wall =
         params.number("light_wall_loss", losses_.light_wall, "dB",
@@ -54,15 +58,29 @@ class RadioReceiver : public Sensor {
       ids.push_back(id);
       strengths.push_back(rssi);
     }
-    received_ = {ids.begin(), ids.end()};
-    changes_.note(ids, reading);
+    changes_.note(present({ids.begin(), ids.end()}, view.time()), reading);
     reading.set("ids", std::move(ids));
     reading.set("rssi", std::move(strengths));
   }
 
-  bool steady() const override { return true; }
+  bool steady() const override { return silent_since_.empty() && !changes_.pending(); }
 
  private:
+  // The ids that it receives, and those that were silent for less than `lost_after`.
+  std::vector<std::string> present(std::set<std::string> ids, Nanoseconds now) {
+    for (const std::string& id : received_) {
+      if (ids.count(id) == 0) silent_since_.emplace(id, now);
+    }
+    received_ = ids;
+    for (auto entry = silent_since_.begin(); entry != silent_since_.end();) {
+      const auto& [id, since] = *entry;
+      const bool over = received_.count(id) > 0 || now - since >= lost_after_;
+      if (!over) ids.insert(id);
+      entry = over ? silent_since_.erase(entry) : std::next(entry);
+    }
+    return {ids.begin(), ids.end()};
+  }
+
   // dBm; without obstacles if it is below `needed` anyway.
   double strength(const DeviceView& transmitter, double needed, const View& view) const {
     const auto place = transmitter.state.get<std::vector<double>>("position");
@@ -79,10 +97,12 @@ class RadioReceiver : public Sensor {
     return least - loss_of(obstacles_on(crossings, ahead), losses_);
   }
 
-  double sensitivity_ = 0.0;        // dBm
-  double hysteresis_ = 0.0;         // dB
-  std::set<std::string> received_;  // ids, at the last sample
-  double gain_ = 0.0;               // dBi
+  double sensitivity_ = 0.0;  // dBm
+  double hysteresis_ = 0.0;   // dB
+  Nanoseconds lost_after_ = 0;
+  std::set<std::string> received_;                   // ids, at the last sample
+  std::map<std::string, Nanoseconds> silent_since_;  // of ids: their first sample without them
+  double gain_ = 0.0;                                // dBi
   PathLoss losses_;
   IdChanges changes_{"received", "lost"};
 };

@@ -56,7 +56,7 @@ class RfidReader : public Sensor {
     reading.set("distances", std::move(distances));
   }
 
-  bool steady() const override { return true; }
+  bool steady() const override { return !changes_.pending(); }
 
  private:
   struct Candidate {
