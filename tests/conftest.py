@@ -9,13 +9,15 @@ import pytest
 
 # Parts of tests' names, the longest units first: a unit runs on one worker, and should not begin
 # last. Without an entry a test runs after these.
-LONG = ('[docs/robot.md]', '[docs/tutorial.md]', 'ros/test_bench.py', 'docs/test_commands.py',
+LONG = ('[docs/tutorial.md]', '[docs/robot.md]', '[docs/build_apartment.md]',
+        '[docs/spawn_and_delete.md]', 'ros/test_bench.py', 'docs/test_commands.py',
         'docs/test_thesis.py', 'ros/test_soak.py', 'ros/test_patrol_run.py', 'py/test_limits.py',
         'ros/test_cli.py', 'ros/test_replay_run.py', 'ros/test_web.py', 'ros/test_traffic.py',
         'ros/test_rmf.py', 'ros/test_lifetime.py', 'walktest/test_command.py',
         'seek/test_command.py', 'py/test_replay.py', 'py/test_simulation.py',
         'worlds/test_world_geometry.py')
-PAGES = re.compile(r'docs/test_commands\.py::.*\[docs/(robot|tutorial|devices/|sensors/)')
+PAGES = re.compile(r'docs/test_commands\.py::.*\[docs/('
+                   r'build_apartment|robot|run|spawn_and_delete|tutorial|devices/|sensors/)')
 
 # A shell ignores SIGINT in a process that it starts by &, and children inherit that.
 if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
