@@ -77,9 +77,9 @@ def run_fast(args: argparse.Namespace) -> int:
 
 
 def run_replay(args: argparse.Namespace) -> int:
-    from angen_tools.offline.replay import go_live, replay
+    from angen_tools.offline.replay import continue_in_ros, replay
     if args.until is not None:
-        go_live(args.log, args.until)
+        continue_in_ros(args.log, args.until)
     show_done(replay(args.log, not args.every_tick), args.json)
     return 0
 

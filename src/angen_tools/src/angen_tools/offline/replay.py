@@ -34,7 +34,7 @@ def replay(path: str, leap: bool) -> dict[str, Any]:
                                     f'took {wall:.1f} s'}
 
 
-def go_live(path: str, until: float) -> None:
+def continue_in_ros(path: str, until: float) -> None:
     """Replaces this process by the building in ROS, as it was at that time; it continues live."""
     launch = worlds_models().parent.parent / 'launch/angen.launch'
     os.execv(sys.executable, [sys.executable, '-m', 'angen_tools.entry.run', str(launch.resolve()),
