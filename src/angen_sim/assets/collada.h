@@ -11,10 +11,10 @@ struct Refused : std::runtime_error {
 };
 
 /// Throws Refused for a COLLADA text whose instances end nowhere or make too many nodes, or with a
-/// count of what it cannot hold: assimp would expand them until memory ends.
+/// wrong count of elements: assimp would expand them until memory ends.
 void check_collada(const std::string& text);
 
-/// Takes out the blanks that stand before the numbers of colors, where assimp accepts none.
+/// Removes blanks before the numbers of colors, where assimp accepts none.
 void trim_colors(std::string& text);
 
 }  // namespace angen::load

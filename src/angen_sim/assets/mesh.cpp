@@ -50,12 +50,12 @@ std::string read_small(const std::string& path, const std::string& what, const S
 }
 
 // An earlier answer of angen_mesh to the same request.
-struct KeptAnswer {
+struct CachedAnswer {
   std::string head;  // the first bytes of the file
   std::string file;  // empty where there is no cache
 };
 
-KeptAnswer kept_answer(const std::string& key) {
+CachedAnswer cached_answer(const std::string& key) {
   const std::string library = library_state(reinterpret_cast<const void*>(&read_mesh));
   const std::string program = file_state(mesh_program());
   if (library.empty() || program.empty()) return {};
@@ -63,9 +63,9 @@ KeptAnswer kept_answer(const std::string& key) {
   return {head, cache_file(head, ".mesh")};
 }
 
-std::optional<std::string> recall(const std::string& key) {
+std::optional<std::string> load_answer(const std::string& key) {
   try {
-    const KeptAnswer kept = kept_answer(key);
+    const CachedAnswer kept = cached_answer(key);
     if (kept.file.empty()) return std::nullopt;
     const std::optional<std::string> bytes = read_cache_file(kept.file);
     if (!bytes || bytes->compare(0, kept.head.size(), kept.head) != 0) return std::nullopt;
@@ -75,9 +75,9 @@ std::optional<std::string> recall(const std::string& key) {
   }
 }
 
-void keep(const std::string& key, const std::string& answer) {
+void store_answer(const std::string& key, const std::string& answer) {
   try {
-    const KeptAnswer kept = kept_answer(key);
+    const CachedAnswer kept = cached_answer(key);
     if (!kept.file.empty()) write_cache_file(kept.file, kept.head + answer);
   } catch (const std::exception&) {
     return;  // it will be converted again
@@ -103,10 +103,10 @@ Mesh import(const MeshSource& source, const Source& at) {
     const std::string key = request.extension + "|" + scale_text(source.scale) + "|" +
                             mark(request.bytes) + "|" + mark(request.materials) + "|" +
                             (request.center ? "centered " : "") + request.submesh;
-    if (const std::optional<std::string> kept = recall(key)) return decode_mesh(*kept);
+    if (const std::optional<std::string> kept = load_answer(key)) return decode_mesh(*kept);
     const std::string answer = convert_mesh(program, request);
     Mesh mesh = decode_mesh(answer);
-    keep(key, answer);
+    store_answer(key, answer);
     return mesh;
   } catch (const Error& problem) {
     throw Error(at, "mesh " + source.path + " " + problem.what());
@@ -118,10 +118,10 @@ Texture import_texture(const std::string& path) {
   const std::string key =
       "texture|" + std::to_string(bytes.size()) + "|" + std::to_string(hash_bytes(bytes));
   try {
-    if (const std::optional<std::string> kept = recall(key)) return decode_texture(*kept);
+    if (const std::optional<std::string> kept = load_answer(key)) return decode_texture(*kept);
     const std::string answer = convert_texture(mesh_program(), bytes);
     Texture texture = decode_texture(answer);
-    keep(key, answer);
+    store_answer(key, answer);
     return texture;
   } catch (const Error& problem) {
     throw Error("texture " + path + " " + problem.what());

@@ -10,7 +10,7 @@ namespace angen {
 /// Messages about one file that differ in their lines, in quoted names and in numbers alone are one
 /// from the fourth on: the first, with their number and the last line. Keeps the order.
 std::vector<Diagnostic> merge_alike(const std::vector<Diagnostic>& all);
-/// The same for texts that begin with FILE:LINE.
+/// merge_alike() for texts that begin with FILE:LINE.
 std::vector<std::string> merge_alike(const std::vector<std::string>& all);
 
 }  // namespace angen

@@ -4,7 +4,7 @@
 
 namespace angen {
 
-/// How far from the origin, in cells along each axis, cells have keys of their own.
+/// Cells up to this distance from the origin, in cells along each axis, have unique keys.
 constexpr int kCellLimit = 1 << 20;
 
 /// A cell of a regular lattice as one number.

@@ -16,7 +16,7 @@ struct Diagnostic {
   enum class Severity { kWarning, kError };
   Severity severity = Severity::kError;
   Source source;
-  std::string message;  // what is wrong, what would be right
+  std::string message;  // the error, and the correct form
 
   std::string text() const;  // "file:line: message", or only the message without a file
 };

@@ -7,7 +7,7 @@
 #include "core/polygon.h"
 #include "core/pose.h"
 
-/// What a home is: its rooms, what is in them, and what joins them. Lengths in m, angles in rad, in
+/// The data of a home: its rooms, their contents and connections. Lengths in m, angles in rad, in
 /// the world. docs/home.md has the elements of SDF that describe it; module `home` derives it.
 namespace angen {
 
@@ -46,7 +46,7 @@ struct FloorPose {
   double yaw = 0.0;
 };
 
-/// Where one stands, sits or lies to use a thing.
+/// The position of a person who stands, sits or lies to use a thing.
 struct Place {
   std::string posture;  // stand, sit or lie
   FloorPose pose;       // of the feet, the seat, or the middle of the one who lies, head ahead

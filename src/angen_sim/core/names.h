@@ -19,7 +19,7 @@ std::string name_problem(const std::string& name);
 /// of <plugin>s, where "::" and '/' are common): as for names, with any other characters allowed.
 std::string label_problem(const std::string& label);
 
-/// Throws Error at `at` unless the name is valid; `what` is what has it ("<model>").
+/// Throws Error at `at` unless the name is valid; `what` names its owner ("<model>").
 void check_name(const std::string& name, const std::string& what = "", const Source& at = {});
 
 }  // namespace angen

@@ -29,11 +29,11 @@ std::size_t edits(const std::string& a, const std::string& b) {
 std::vector<std::string> nearest_names(const std::string& name, std::vector<std::string> known,
                                        std::size_t count) {
   constexpr std::size_t kLongest = 256;  // longer names are compared up to here
-  const std::string wanted = name.substr(0, kLongest);
+  const std::string given = name.substr(0, kLongest);
   std::vector<std::pair<std::size_t, std::string>> ranked;
   ranked.reserve(known.size());
   for (std::string& each : known) {
-    ranked.emplace_back(edits(wanted, each.substr(0, kLongest)), std::move(each));
+    ranked.emplace_back(edits(given, each.substr(0, kLongest)), std::move(each));
   }
   std::sort(ranked.begin(), ranked.end());
   if (ranked.size() > count) ranked.resize(count);

@@ -9,7 +9,7 @@ namespace angen {
 std::string state_folder();
 
 /// Makes a folder that this user alone may use, and its missing parents. Throws Error where it is a
-/// link or somebody else's.
+/// link or belongs to another user.
 void make_private_folder(const std::string& folder);
 
 /// Replaces a file by one of these bytes that this user alone may read, all of it or nothing. Links

@@ -20,7 +20,7 @@ Stopwatch::Clocks Stopwatch::system_clocks() {
           [] { return read_clock(CLOCK_THREAD_CPUTIME_ID); }};
 }
 
-// Whatever the thread was away since the clocks were compared, it was away in this long lap: the
+// All absence of the thread since the clocks were compared lies in this long lap: the
 // others were too short to hold it.
 Nanoseconds Stopwatch::without_absence(Nanoseconds spent, Nanoseconds now) {
   const Nanoseconds wall = now - wall_then_;

@@ -17,13 +17,13 @@ std::string trimmed(const std::string& text);
 /// part of a character, and its length: "Open, kitch… (1000000 bytes)".
 std::string shortened(const std::string& text, std::size_t limit);
 
-/// The same, fit for a log line: control characters and invalid UTF-8 as `?`.
+/// The text for a log line: shortened, control characters and invalid UTF-8 as `?`.
 std::string printable(const std::string& text, std::size_t limit = 80);
 
 /// The whole text as a number in the C locale, which may be infinite or NaN; a leading + is
 /// allowed.
 std::optional<double> parse_number(const std::string& text);
-/// The same, but none for infinity and NaN.
+/// parse_number(), but none for infinity and NaN.
 std::optional<double> parse_finite(const std::string& text);
 std::optional<int> parse_integer(const std::string& text);
 

@@ -7,7 +7,7 @@
 
 namespace angen {
 
-/// Of an sRGB byte, 0..1 (IEC 61966-2-1).
+/// The linear value of an sRGB byte, 0..1 (IEC 61966-2-1).
 float linear(std::uint8_t srgb);
 /// The sRGB byte of a linear value; values outside 0..1 are clamped.
 std::uint8_t srgb(double linear_value);

@@ -7,7 +7,7 @@
 #include "core/diagnostics.h"
 #include "core/home.h"
 
-/// What a world or a model says of a home, in its own frame.
+/// The parts of a home that a world or a model describes, in its own frame.
 namespace angen::desc {
 
 struct Storey {
@@ -19,7 +19,7 @@ struct Storey {
 };
 
 struct Room {
-  std::string name;  // "{storey}" in it stands for the storey's number
+  std::string name;  // "{storey}" in it is replaced by the storey's number
   std::string use = "other";
   Polygon outline;
   std::vector<Polygon> holes;
@@ -41,7 +41,7 @@ struct HomeParts {
   std::vector<Storey> storeys;
   std::vector<Room> rooms;
   std::vector<Opening> openings;
-  std::string thing;  // what the model is, "" = nothing that is used
+  std::string thing;  // type of thing of the model, "" = none
   std::vector<Place> places;
 
   bool empty() const {
@@ -49,7 +49,7 @@ struct HomeParts {
   }
 };
 
-/// What there is one of in a world.
+/// The facts about a home that a world has once.
 struct HomeSite {
   std::string entrance;
   std::optional<double> north;     // rad

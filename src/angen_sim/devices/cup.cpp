@@ -19,7 +19,7 @@ constexpr double kKelvin = 273.15;
 constexpr double kStiffness = 400.0;       // 1/s^2 of the hand's grip, 20 rad/s and damped
 constexpr double kDamping = 40.0;          // 1/s
 constexpr double kNoDrop = 0.01;           // ml: less is no spill
-constexpr double kFreeToTilt = 0.05;       // m over where it stood
+constexpr double kFreeToTilt = 0.05;       // m over its support
 constexpr double kSameTemperature = 0.01;  // K
 constexpr Nanoseconds kPourEnds = kSecond / 2;
 
@@ -179,7 +179,7 @@ void Cup::spill(double tilt, Outputs& outputs) {
   changed_ = true;
 }
 
-// The hand's grip is a damped spring to the place and turn where it wants the cup; it carries the
+// The hand's grip is a damped spring to the target pose of the cup; it carries the
 // weight of cup and drink.
 void Cup::carry(const View& view, const LinkView& body, Outputs& outputs) {
   const double dt = to_seconds(view.step());
@@ -195,16 +195,16 @@ void Cup::carry(const View& view, const LinkView& body, Outputs& outputs) {
   }
   const bool still = lift_.at(grasp.height) && turn_.at(grasp.tilt);
   if (still && !body.awake) return;  // a sleeping cup in a hand is held
-  const Pose wanted{grasp.pose.position + lift_.position() * Vec3::UnitZ(),
+  const Pose target{grasp.pose.position + lift_.position() * Vec3::UnitZ(),
                     grasp.pose.rotation * Quat(Eigen::AngleAxisd(turn_.position(), Vec3::UnitY()))};
   const Vec3 middle(0.0, 0.0, center_);
   const Vec3 arm = body.pose.rotation * middle;
   const Vec3 velocity = body.linear_velocity + body.angular_velocity.cross(arm);
-  const Vec3 lag = wanted * middle - body.pose * middle;
+  const Vec3 lag = target * middle - body.pose * middle;
   const Vec3 rise = lift_.velocity() * Vec3::UnitZ();
   Vec3 force = mass_ * (kStiffness * lag + kDamping * (rise - velocity) - view.gravity());
   force *= std::min(1.0, hand_force_ / std::max(force.norm(), 1e-9));
-  const Eigen::AngleAxisd turn((wanted.rotation * body.pose.rotation.conjugate()).normalized());
+  const Eigen::AngleAxisd turn((target.rotation * body.pose.rotation.conjugate()).normalized());
   const double angle = std::remainder(turn.angle(), 2.0 * M_PI);
   const double moment = mass_ * (3.0 * radius_ * radius_ + height_ * height_) / 12.0;
   const Vec3 torque =
@@ -249,7 +249,7 @@ ANGEN_REGISTER_DEVICE(
              .example("set cup cup1 fill 200")
              .verb("Fill", "milliliters", "ml", {0.0, 1e5}, "adds a drink of fill_temperature")
              .verb("Empty", "takes the drink out")
-             .verb("Lift", "height", "m", {0.0, 2.0}, "a hand lifts it over where it stood")
+             .verb("Lift", "height", "m", {0.0, 2.0}, "a hand lifts it over its support")
              .verb("Tilt", "angle", "rad", {0.0, M_PI}, "the hand tilts it towards its x axis")
              .verb("Put", "the hand puts it back upright and lets it go")
              .number("content", "ml", "that is in it")

@@ -23,7 +23,7 @@ constexpr double kMaxLag = 0.08;         // rad
 constexpr double kStallSpeed = 0.004;    // rad/s
 constexpr double kLoadShare = 4.0;       // of i / p, 1/s, in which it finds its load
 constexpr double kHandForce = 60.0;      // N, at the edge
-constexpr double kUprightAxis = 0.999;   // |z| of the axis of a leaf that stands
+constexpr double kUprightAxis = 0.999;   // |z| of the axis of an upright leaf
 constexpr Nanoseconds kHandleTime = 3 * kSecond;
 
 constexpr PidGains kGains{70.0, 200.0, 25.0, 100.0, -100.0, 120.0, -120.0};
@@ -192,7 +192,7 @@ void Door::update(const View& view, Outputs& outputs) {
     resting_ = false;
     hold(false, outputs);
     outputs.motor(hinge_, 0.0, 0.0);
-    // A load in its direction may have gone: that it notices once it moves.
+    // A load in its direction may have ended: the servo notices that once the leaf moves.
     const bool against = hinge.effort * (target_ - hinge.position) > 0.0;
     servo_.start(hinge.position, hinge.velocity, against ? -hinge.effort : 0.0);
   }
@@ -230,7 +230,7 @@ void Door::stay(const View& view, bool renew, Outputs& outputs) {
 }
 
 void Door::rest(const JointView& hinge, Outputs& outputs) {
-  outputs.motor(hinge_, 0.0, brake_torque_ + std::abs(servo_.load()));  // on top of what it bears
+  outputs.motor(hinge_, 0.0, brake_torque_ + std::abs(servo_.load()));  // besides its load
   hold(mode_at_rest(hinge.position) == Mode::kClosed, outputs);
   resting_ = true;
 }

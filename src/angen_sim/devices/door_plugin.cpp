@@ -21,7 +21,7 @@ bool turns_or_slides(const ModelInfo::Joint& joint) {
   return joint.type == "revolute" || joint.type == "prismatic";
 }
 
-// A leaf of any name on a frame that is fixed to the world, whose name says what it is: an arm's
+// A leaf on a frame that is fixed to the world and named as a door, window or cabinet: an arm's
 // first joint may turn as a door does.
 bool is_framed(const ModelInfo::Joint& joint, const ModelInfo& model, const LeafKind& leaf) {
   if (!leaf.any_joint || joint.type != "revolute" || !joint.on_world || !joint.vertical()) {
@@ -112,7 +112,7 @@ std::vector<Mount> LeafPlugin::mounts(const ModelInfo& model, Params& params) co
   return mounts;
 }
 
-// The model's only leaf is named after it, if it says what it is; others after their links.
+// The model's only leaf is named after it, if its name has the kind; others after their links.
 std::string LeafPlugin::name_of(const ModelInfo::Joint& leaf, const ModelInfo& model,
                                 bool only) const {
   std::string of_model = command_name(model, kind_.name);

@@ -27,7 +27,7 @@ double cross_of(const Surroundings::Vec2& a, const Surroundings::Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Where two segments meet, as a share of the first; none where they do not.
+/// The intersection of two segments, as a share of the first; none if there is none.
 std::optional<double> meeting(const Surroundings::Vec2& a, const Surroundings::Vec2& b,
                               const Surroundings::Vec2& c, const Surroundings::Vec2& d) {
   const double turned = cross_of(b - a, d - c);
@@ -147,7 +147,7 @@ DoorUse::Advice DoorUse::approach(const Vec2& at, Nanoseconds now, Outputs& outp
     enter(Phase::kPassing, now);
     return {};
   }
-  if (door_.mode == "OPENING") {  // somebody else opens it
+  if (door_.mode == "OPENING") {  // another person opens it
     enter(Phase::kOpening, now);
     return {Advice::Step::kStand, handle()};
   }

@@ -32,16 +32,16 @@ std::vector<DoorSeen> doors_seen(const View& view, double z);
 std::optional<DoorSeen> door_on_way(const std::vector<DoorSeen>& doors,
                                     const Surroundings::Vec2& at, const Surroundings::Vec2& to);
 
-/// How a person passes shut doors: it goes to the handle, opens the door by hand, from out of the
+/// Takes a person through shut doors: it goes to the handle, opens the door by hand, out of the
 /// leaf's way, walks through, and may close it.
 class DoorUse {
  public:
   using Vec2 = Surroundings::Vec2;
 
   struct Advice {
-    // kWait: until somebody opens the door; kFailed: in this step it found that it cannot open it.
+    // kWait: until another opens the door; kFailed: it cannot open the door, as this step showed.
     enum class Step { kWalk, kGo, kStand, kWait, kFailed } step = Step::kWalk;
-    Vec2 to = Vec2::Zero();  // of kGo; otherwise what it looks at
+    Vec2 to = Vec2::Zero();  // destination of kGo; otherwise the point that it looks at
   };
 
   DoorUse() = default;

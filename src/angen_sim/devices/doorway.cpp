@@ -93,9 +93,9 @@ bool Doorway::update(const View& view, Outputs& outputs) {
   for (const Leaf& leaf : leaves_) {
     const double scale = leaf.open / travel_;
     const double behind = scale * profile_.position() - view.joint(leaf.joint).position;
-    const double wanted = scale * profile_.velocity() + kFollowGain * behind;
+    const double target = scale * profile_.velocity() + kFollowGain * behind;
     const double limit = 1.2 * max_velocity_;
-    outputs.motor(leaf.joint, std::clamp(wanted, -limit, limit), max_force_);
+    outputs.motor(leaf.joint, std::clamp(target, -limit, limit), max_force_);
   }
   return false;
 }

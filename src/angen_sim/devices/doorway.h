@@ -26,7 +26,7 @@ class Doorway {
   /// Limits in m/s and N.
   Doorway(double max_velocity, double max_force);
 
-  /// Which leaves move from now on. Their brakes must hold; the mode follows from where they stand.
+  /// Which leaves move from now on. Their brakes must hold; the mode follows from their positions.
   void select(std::vector<Leaf> leaves, const View& view);
   void open(const View& view);
   void close(const View& view);

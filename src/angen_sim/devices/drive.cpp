@@ -99,13 +99,13 @@ bool Drive::powered(const View& view) const {
 }
 
 // True when the wheel is commanded to stop and is at rest.
-bool Drive::lead(Wheel& wheel, double wanted, double step, Outputs& outputs) {
-  const double next = std::clamp(wanted, wheel.speed - step, wheel.speed + step);
+bool Drive::lead(Wheel& wheel, double target, double step, Outputs& outputs) {
+  const double next = std::clamp(target, wheel.speed - step, wheel.speed + step);
   if (next != wheel.speed) {
     wheel.speed = next;
     outputs.motor(wheel.joint, next / radius_, torque_);
   }
-  return wheel.speed == 0.0 && wanted == 0.0 && std::abs(wheel.velocity) < kRestSpeed;
+  return wheel.speed == 0.0 && target == 0.0 && std::abs(wheel.velocity) < kRestSpeed;
 }
 
 double Drive::measure(Wheel& wheel, const View& view) const {

@@ -41,7 +41,7 @@ class Drive : public Device {
   double measure(Wheel& wheel, const View& view) const;  // m it rolled since the last call
   void count(const View& view);
   bool powered(const View& view) const;
-  bool lead(Wheel& wheel, double wanted, double step, Outputs& outputs);
+  bool lead(Wheel& wheel, double target, double step, Outputs& outputs);
 
   Wheel left_;
   Wheel right_;

@@ -23,14 +23,14 @@ constexpr double kWeighShare = 0.2;        // of each new weighing, at the rate 
 constexpr double kUnlimited = 1e9;         // m, of a joint's travel
 constexpr double kStandardGravity = 9.81;  // m/s^2
 constexpr double kGreatestLoad = 2000.0;   // kg
-constexpr int kMostFloors = 1000;
+constexpr int kMaxFloors = 1000;
 constexpr Nanoseconds kDwell = kSecond;  // between the doors' opening and their shutting
 
 // An overload is more than the rated load by 10 %, and by 75 kg at least (EN 81-20, 5.12.1.2).
 constexpr double kRatedLoad = 630.0;  // kg, eight persons
 constexpr double kOverShare = 0.1;
 constexpr double kLeastOver = 75.0;                    // kg
-constexpr Nanoseconds kWeighingSettles = kSecond / 2;  // what comes aboard drops on the floor
+constexpr Nanoseconds kWeighingSettles = kSecond / 2;  // boarding loads drop on the floor
 
 // Gains and limits are times the moving mass; the limits exclude the weight.
 constexpr PidGains kGains{200.0, 200.0, 25.0, 5.0, -5.0, 5.0, -5.0};
@@ -112,13 +112,13 @@ void Elevator::warn_of_effort(Params& params) const {
 void Elevator::read_floors(Params& params) {
   const double height =
       params.number("floor_height", kStoreyHeight, "m", "from one floor to the next", kPositive);
-  const int count = params.integer("floors", 2, "", "number of floors", {1, kMostFloors});
+  const int count = params.integer("floors", 2, "", "number of floors", {1, kMaxFloors});
   for (const std::vector<double>& stop :
        params.rows("stop", 1, "m",
                    "height of a floor over floor 0, one for each floor from below; "
                    "instead of floor_height and floors")) {
     const bool fits = heights_.empty() ? stop.front() == 0.0 : stop.front() > heights_.back();
-    if (!fits || floors() >= kMostFloors) {
+    if (!fits || floors() >= kMaxFloors) {
       throw params.error("stop", "the <stop> of floor " + std::to_string(heights_.size()) +
                                      (heights_.empty() ? " must be 0"
                                                        : " must be above the one before it; at "

@@ -14,7 +14,7 @@ namespace {
 constexpr double kScanHeights[] = {0.15, 0.5, 1.2};  // m, as a person sees
 constexpr double kDetour = 20.0;                     // m around both places
 constexpr double kBorder = 1.0;                      // m around the static shapes
-constexpr double kMostCells = 4e6;
+constexpr double kMaxMapCells = 4e6;
 constexpr double kRoomyMap = 0.5;   // m: nearer to something costs more …
 constexpr double kTightMap = 3.0;   // … per meter nearer than that
 constexpr double kInside = 0.3;     // m from the surface: deeper places need no distances
@@ -43,7 +43,7 @@ FloorMap::FloorMap(const View& view, const Vec3& feet, const Vec2& to, Extent ex
   box = box.intersection(standing);
   ends = {ends.min() - Vec2::Constant(kBorder), ends.max() + Vec2::Constant(kBorder)};
   box = box.isEmpty() ? ends : box.merged(ends);
-  if (box.volume() > kMostCells * kCell * kCell) return;
+  if (box.volume() > kMaxMapCells * kCell * kCell) return;
   corner_ = box.min();
   if (extent == Extent::kStraight) {  // some of the same cells
     const Eigen::AlignedBox2d part = ends.intersection(box);
@@ -178,14 +178,14 @@ std::optional<int> FloorMap::free_cell(const Vec2& near, double reach) const {
   return best;
 }
 
-// Of the cost of a meter's way.
+// The cost of a meter of way through the cell.
 double FloorMap::rate(int cell) const {
   return 1.0 + kTightMap * std::max(0.0, kRoomyMap - static_cast<double>(gap(cell)));
 }
 
 float FloorMap::gap(int cell) const { return static_cast<float>(std::sqrt(squares_[cell])); }
 
-// Where there is no floor, no way leads.
+// Ways lead over floor only.
 bool FloorMap::can_stand(const View& view, int cell) {
   if (gap(cell) < kClearance) return false;
   if (std::exchange(known_[cell], 1) != 0) return true;

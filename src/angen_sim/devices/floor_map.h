@@ -8,7 +8,7 @@
 
 namespace angen::devices {
 
-/// Where a person can stand between the static shapes of a storey, in cells of 5 cm. Everything
+/// The cells of 5 cm where a person fits between the static shapes of a storey. Everything
 /// that can move, such as doors and chairs, is left out of it unless it is added.
 class FloorMap {
  public:

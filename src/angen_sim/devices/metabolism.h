@@ -2,7 +2,7 @@
 
 namespace angen::devices {
 
-/// What a person gives to the air of a room.
+/// Heat and vapor that a person gives to the air of a room.
 struct Metabolism {
   double heat = 0.0;   // W, dry
   double vapor = 0.0;  // g/h, of breath and skin

@@ -63,7 +63,7 @@ class Person : public Device {
   void wait(const LinkView& body, const View& view);
   void note_held(const Vec2& at);
   bool gives_way(const LinkView& body, const View& view, bool renew, Outputs& outputs);
-  bool loses_patience(Nanoseconds now) const;
+  bool must_give_up(Nanoseconds now) const;
   bool is_freed(const LinkView& body, const View& view);
   void go_round(const LinkView& body, const View& view, bool renew, Outputs& outputs);
   Scan scan_surroundings(const LinkView& body, const View& view);
@@ -104,7 +104,7 @@ class Person : public Device {
   double held_left_ = 0.0;       // m of the way to its goal then
   int tries_ = 0;                // while it is held
   int errors_ = 0;               // of these, when it saw a free way that was none
-  bool waits_at_door_ = false;   // until somebody opens it
+  bool waits_at_door_ = false;   // until another opens it
   bool waits_ = false;           // until it sees a free way
   Nanoseconds waits_since_ = 0;  // that
   Nanoseconds away_until_ = 0;   // of stepping back
@@ -125,8 +125,8 @@ class Person : public Device {
   std::optional<Route> route_;  // to its goal; none: straight
   std::vector<Vec2> seen_;      // of obstacles that have held it on the way there
   std::optional<Vec2> target_;  // on that
-  Nanoseconds came_clock_ = 0;  // on its path: the most so far
-  double came_left_ = std::numeric_limits<double>::infinity();  // m of the way, the least so far
+  Nanoseconds came_clock_ = 0;  // on its path: its maximum
+  double came_left_ = std::numeric_limits<double>::infinity();  // m of the way, its minimum
   double late_ = 0.0;   // s, of its speed in longer steps: on average it is that old
   double speed_ = 1.0;  // m/s, on an order
   bool avoids_ = true;

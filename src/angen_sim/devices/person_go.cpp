@@ -1,4 +1,4 @@
-// A person's orders, doors on its way, and what it does where something holds it.
+// A person's orders, doors on its way, and its behavior when an obstacle holds it.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -14,7 +14,7 @@ constexpr double kArrived = 0.03;   // m: nearer than this an order is carried o
 constexpr double kNearGoal = 0.06;  // m from its goal, where it fits in place of it
 constexpr double kOpenToll = 3.0;   // m that a door which it can open counts
 constexpr double kWaitToll = 30.0;  // m that another shut door counts
-constexpr double kOnWay = 0.3;      // m: what was held has come on
+constexpr double kOnWay = 0.3;      // m: a person that moved this far is no longer held
 constexpr double kAround = 0.3;     // m: farther than this is progress on a way round
 constexpr double kSeenCell = 0.02;  // m
 constexpr double kUnseen = 0.3;     // m to an obstacle that it does not see
@@ -31,7 +31,7 @@ constexpr int kMaxDoublings = 8;
 
 }  // namespace
 
-// On a map of what cannot move, and of what it has seen where `with_seen`. False if no way leads
+// On a map of the static shapes and, if `with_seen`, of seen obstacles. False if no way leads
 // there.
 bool Person::plan(const View& view, const LinkView& body, bool with_seen) {
   const Vec2 at = body.pose.position.head<2>();
@@ -131,7 +131,7 @@ bool Person::uses_door(const LinkView& body, const View& view, const Vec2& to, b
 }
 
 // A door that opens towards a person before it needs room: the person steps back the way it came,
-// stands there, and goes on when it sees a free way. Rarely it tries without seeing one.
+// waits there, and continues when it sees a free way. Rarely it tries without seeing one.
 // In place of the one through a door that does not open.
 void Person::take_other_way(const LinkView& body, const View& view, Outputs& outputs) {
   const DoorSeen& door = doors_.door();
@@ -170,7 +170,7 @@ bool Person::gives_way(const LinkView& body, const View& view, bool renew, Outpu
       came_to_ = at;
       return false;
     }
-    if (loses_patience(view.time())) {
+    if (must_give_up(view.time())) {
       give_up(outputs);
       return false;
     }
@@ -180,7 +180,7 @@ bool Person::gives_way(const LinkView& body, const View& view, bool renew, Outpu
   return true;
 }
 
-bool Person::loses_patience(Nanoseconds now) const {
+bool Person::must_give_up(Nanoseconds now) const {
   return order_ && !order_->pushes && now - waits_since_ > kGivesUp;
 }
 
@@ -205,7 +205,7 @@ bool Person::is_freed(const LinkView& body, const View& view) {
   return true;
 }
 
-// What it sees is added to what it knows, and what is no longer there is forgotten.
+// Adds seen points to the known ones, and removes those that are no longer there.
 void Person::learn(const View& view, const Vec3& feet) {
   Surroundings::remove_gone(view, feet, seen_);
   for (const Vec2& point : surroundings_.points()) {
@@ -218,7 +218,7 @@ void Person::learn(const View& view, const Vec3& feet) {
   seen_.erase(std::unique(seen_.begin(), seen_.end()), seen_.end());
 }
 
-// Once something has held it on its way, it plans anew with all that it sees.
+// Once an obstacle has held it on its way, it plans again with all that it sees.
 void Person::explore(const View& view, const LinkView& body) {
   learn(view, body.pose.position);
   if (!plan(view, body, true)) return wait(body, view);
@@ -227,7 +227,7 @@ void Person::explore(const View& view, const LinkView& body) {
   target_ = route_->follow(at);
 }
 
-// What it sees, and what it does not see but what holds it.
+// Adds the obstacles that it sees, and one ahead if it is held by something unseen.
 void Person::note_obstacle(const View& view, const LinkView& body) {
   learn(view, body.pose.position);
   const Vec2 at = body.pose.position.head<2>();

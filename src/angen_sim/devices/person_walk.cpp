@@ -113,7 +113,7 @@ std::optional<Person::Vec2> Person::way_for(const LinkView& body, const View& vi
   return way_past(body, view, to);
 }
 
-// Round what is in the way. Who comes towards it, and does not wait, keeps to the right as it does.
+// Around an obstacle. It passes an approaching person on the right, who does the same.
 std::optional<Person::Vec2> Person::way_past(const LinkView& body, const View& view,
                                              const Vec2& to) const {
   const Vec2 at = body.pose.position.head<2>();
@@ -141,11 +141,11 @@ void Person::find_rejoin(const LinkView& body, const View& view) {
     return Vec2(place.x, place.y);
   };
   const Nanoseconds ahead = from_seconds(kAhead);
-  bool met = !surroundings_.is_free(at, place_at(clock_ + ahead));
+  bool blocked = !surroundings_.is_free(at, place_at(clock_ + ahead));
   for (Nanoseconds t = ahead; t <= kPathAhead; t += ahead) {
-    met = met || surroundings_.is_occupied(place_at(clock_ + t));
+    blocked = blocked || surroundings_.is_occupied(place_at(clock_ + t));
   }
-  if (!met) return rejoin_.reset();
+  if (!blocked) return rejoin_.reset();
   if (rejoin_ && !surroundings_.is_occupied(place_at(*rejoin_))) return;
   rejoin_.reset();
   bool behind = false;

@@ -48,9 +48,9 @@ class Pid {
     const double more = integrate ? gains_.i * error * dt : 0.0;
     const double grown = std::clamp(integral_ + more, gains_.i_min, gains_.i_max);
     const double rest = gains_.p * error + gains_.d * error_rate + feed_forward;
-    const double wanted = rest + grown;
-    const bool winds_up = (wanted > gains_.cmd_max && grown > integral_) ||
-                          (wanted < gains_.cmd_min && grown < integral_);
+    const double unlimited = rest + grown;
+    const bool winds_up = (unlimited > gains_.cmd_max && grown > integral_) ||
+                          (unlimited < gains_.cmd_min && grown < integral_);
     if (!winds_up) integral_ = grown;
     return std::clamp(rest + integral_, gains_.cmd_min, gains_.cmd_max);
   }

@@ -60,7 +60,7 @@ double Servo::update(double target, double position, double velocity, double dt,
   return acted_;
 }
 
-// What the change of its momentum says beyond the last command.
+// The load is the change of its momentum less the last command.
 void Servo::observe(double velocity, double dt, double most) {
   const double rubs = velocity == 0.0 ? 0.0 : std::copysign(settings_.friction, velocity);
   const double expected = (acted_ - settings_.damping * velocity - rubs + load_) * dt;
@@ -96,8 +96,8 @@ void Servo::watch(double target, double position, double velocity, double dt) {
     if (arrived_) blocked_ = false;
     return;
   }
-  // What bounces off an obstacle comes no further; what is pushed well back starts anew; what has
-  // reached its target may swing about it.
+  // A joint that bounces off an obstacle gets no further; one pushed well back starts again; one
+  // that reached its target may swing about it.
   const double progress = ahead * (position - came_to_);
   const bool swings_in = std::abs(to_go) < settings_.freed_distance;
   const bool back = progress < -kPushedBack * settings_.freed_distance;

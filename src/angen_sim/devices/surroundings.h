@@ -27,7 +27,7 @@ class Surroundings {
   bool is_occupied(const Vec2& place) const;
   /// Whether it sees a free way, straight or round obstacles, all the way.
   bool reaches(const Vec2& from, const Vec2& to) const;
-  /// Of the last two scans, m.
+  /// Hits of the last two scans, m.
   const std::vector<Vec2>& points() const { return points_; }
 
   /// The first place on a way round obstacles; none where no way is seen that leads nearer to `to`.
@@ -42,7 +42,7 @@ class Surroundings {
   /// slopes, past all others.
   static bool is_walkable(const View& view, const Vec3& feet, const Vec2& to);
 
-  /// Removes the points that a person at `feet` now sees past.
+  /// Removes the points that rays of a person at `feet` now pass.
   static void remove_gone(const View& view, const Vec3& feet, std::vector<Vec2>& points);
 
  private:

@@ -10,7 +10,7 @@ namespace angen::load {
 
 /// The files that a document may name: those of the model and resource paths, of packages on
 /// ROS_PACKAGE_PATH, and in its own folder, wherever symbolic links lead. A folder of a path, or
-/// what is directly in it, may itself be a link.
+/// an entry of it, may itself be a link.
 class AllowedFiles {
  public:
   explicit AllowedFiles(const SearchPaths& paths) : paths_(paths) {}
@@ -26,7 +26,7 @@ class AllowedFiles {
   const SearchPaths& paths_;
   bool resolved_ = false;
   std::vector<std::string> folders_;   // real paths
-  std::vector<std::string> packages_;  // of these only what is in a package
+  std::vector<std::string> packages_;  // of these only files in a package
   std::set<std::string> files_;        // real paths
 };
 

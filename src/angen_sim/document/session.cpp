@@ -6,7 +6,7 @@ namespace angen::load {
 
 void Session::warn(const Source& source, const std::string& message) {
   if (!warned_places.insert(place_of(source, message)).second) return;
-  constexpr std::size_t kMaxBytes = 4000;  // it may repeat what a user gave
+  constexpr std::size_t kMaxBytes = 4000;  // it may repeat a user's input
   warnings.push_back({Diagnostic::Severity::kWarning, source,
                       message.size() <= kMaxBytes ? message : printable(message, kMaxBytes)});
 }

@@ -25,18 +25,18 @@ struct Session {
   AllowedFiles allowed{paths};
   Sources sources{};
   std::vector<Diagnostic> warnings{};
-  std::vector<Diagnostic> ignored{};       // elements that nothing reads
-  std::set<std::string> warned_places{};   // of `warnings`, with their text
-  std::set<std::string> ignored_places{};  // of `ignored`, as well
-  std::set<std::string> converted{};       // URDF files: what nothing reads is libsdformat's doing
-  std::size_t elements = 0;                // of all documents so far
+  std::vector<Diagnostic> ignored{};           // elements that nothing reads
+  std::set<std::string> warned_places{};       // of `warnings`, with their text
+  std::set<std::string> ignored_places{};      // of `ignored`, as well
+  std::set<std::string> converted{};           // URDF files: unread elements come from libsdformat
+  std::size_t elements = 0;                    // elements of all documents
   std::optional<std::size_t> include_start{};  // `elements` before the outermost include
-  double bytes = 0.0;                          // of memory that what was expanded will take, about
+  double bytes = 0.0;                          // estimated memory of the expanded elements
   std::set<std::string> counted_files{};       // files of meshes that are counted in it
   std::vector<std::string> open{};             // documents being read, outermost first
   std::optional<Packages> packages{};          // once something was searched there
   bool tolerant = false;                       // as far as it is known; see decide()
-  bool guessed = false;            // by what a world holds: its author may have misspelled
+  bool guessed = false;            // by a world's contents: its author may have misspelled
   std::vector<Error> tolerated{};  // errors that did not stop the load
   std::unordered_map<const Element*, Mark> read{};
   std::set<std::pair<const Element*, std::string>> read_attributes{};
@@ -44,7 +44,7 @@ struct Session {
   /// Once for each place: a file that is included ten times warns as often as if it were once.
   void warn(const Source& source, const std::string& message);
   void ignore(const Source& source, const std::string& what);
-  /// Where tolerant, adds a warning in place of the error. Throws the error otherwise.
+  /// Adds a warning if the document is tolerant, and throws the error otherwise.
   void warn_or_throw(const Error& error);
   /// Sets whether the document is tolerant; a strict one throws the first error that was tolerated.
   void decide(bool is_tolerant);

@@ -31,7 +31,7 @@ Numbers numbers_in(const std::string& text) {
 
 namespace {
 
-// The first character of a text that ASCII lacks, as "U+00AD": what a PDF gives may be invisible.
+// The first character of a text that ASCII lacks, as "U+00AD": one from a PDF may be invisible.
 std::string odd_character(const std::string& text) {
   const auto not_ascii = [](char c) { return static_cast<unsigned char>(c) >= 0x80; };
   const auto at = std::find_if(text.begin(), text.end(), not_ascii);

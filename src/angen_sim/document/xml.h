@@ -13,7 +13,7 @@ constexpr std::size_t kMaxTextBytes = 4U << 20U;  // of a text that a client sen
 constexpr std::size_t kMaxElements = 100'000;
 constexpr std::size_t kMaxAttributes = 100;  // of one element
 
-/// The root element of a document; `file` stands for it in messages. Throws Error for text that is
+/// The root element of a document; `file` names it in messages. Throws Error for text that is
 /// not well-formed, not UTF-8, or too large.
 Element parse_xml(const std::string& text, const std::string& file);
 

@@ -27,8 +27,8 @@ double rate_of(double update_rate, double step) {
   return std::max(0.0, update_rate * step);
 }
 
-bool is_other_step(double wanted, double step) {
-  return wanted != 0.0 && std::abs(wanted - step) > 1e-9 * step;
+bool is_other_step(double requested, double step) {
+  return requested != 0.0 && std::abs(requested - step) > 1e-9 * step;
 }
 
 }  // namespace

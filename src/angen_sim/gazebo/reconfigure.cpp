@@ -164,17 +164,18 @@ void Reconfigure::publish() {
 }
 
 // Missing parameters keep their values. The reply type has no field for an error message: roscpp
-// logs what is thrown, and sends its text to the client.
+// logs exceptions, and sends its text to the client.
 bool Reconfigure::set(Call::Request& request, Call::Response& response) {
   try {
-    Request wanted = request_of(physics_.get());
-    for (const auto& p : request.config.bools) set_in(wanted, p.name, "bool", p.value != 0 ? 1 : 0);
-    for (const auto& p : request.config.ints) set_in(wanted, p.name, "int", p.value);
-    for (const auto& p : request.config.doubles) set_in(wanted, p.name, "double", p.value);
+    Request changed = request_of(physics_.get());
+    for (const auto& p : request.config.bools)
+      set_in(changed, p.name, "bool", p.value != 0 ? 1 : 0);
+    for (const auto& p : request.config.ints) set_in(changed, p.name, "int", p.value);
+    for (const auto& p : request.config.doubles) set_in(changed, p.name, "double", p.value);
     if (!request.config.strs.empty()) {
       throw Error("there is no parameter '" + printable(request.config.strs[0].name) + "'");
     }
-    physics_.set(wanted);
+    physics_.set(changed);
     response.config = config_of_now(physics_);
   } catch (const std::exception& problem) {
     throw Error("/gazebo/set_parameters: " + printable(problem.what(), 2000));

@@ -106,9 +106,9 @@ void StateTopics::fill(std::uint32_t link) {
 }
 
 void StateTopics::update(const sim::Snapshot& snapshot, std::uint32_t link, bool is_new) {
-  const bool stands = !structure_->links[link].moves &&
-                      link_states_.pose[link] == to_ros(snapshot.link_poses[link]);
-  if (is_new || !stands) fill(link);
+  const bool is_fixed = !structure_->links[link].moves &&
+                        link_states_.pose[link] == to_ros(snapshot.link_poses[link]);
+  if (is_new || !is_fixed) fill(link);
 }
 
 void StateTopics::update(const sim::Snapshot& snapshot) {
@@ -122,8 +122,8 @@ void StateTopics::update(const sim::Snapshot& snapshot) {
 void StateTopics::publish(const sim::Snapshot& snapshot, Pacer::Clock::time_point now) {
   if (!models_.has_subscribers() && !links_.has_subscribers()) return;
   const Nanoseconds slot = snapshot.time / period_;
-  const bool stands = snapshot.time == sent_time_ && now - sent_ >= kStandingPeriod;
-  if (slot == slot_ && !stands) return;
+  const bool is_due = snapshot.time == sent_time_ && now - sent_ >= kStandingPeriod;
+  if (slot == slot_ && !is_due) return;
   slot_ = slot;
   sent_ = now;
   sent_time_ = snapshot.time;

@@ -13,7 +13,7 @@ namespace angen {
 namespace {
 
 constexpr double kSquare = 0.05;        // m
-constexpr double kMostSquares = 4e6;    // of a plan
+constexpr double kMaxSquares = 4e6;     // of a plan
 constexpr double kWallHeight = 1.0;     // m: lower shapes are furniture
 constexpr double kFloorsApart = 1.0;    // m: floors that differ by more are on different storeys
 constexpr double kSmallestRoom = 1.0;   // m^2
@@ -103,8 +103,8 @@ class Plan {
     }
     if (around.isEmpty()) return;
     const Point2 size = around.sizes();
-    grid_.side = std::max(kSquare, std::sqrt(size.x() * size.y() / kMostSquares));
-    if (size.maxCoeff() / grid_.side > kMostSquares / 100) return;  // a wall of kilometers
+    grid_.side = std::max(kSquare, std::sqrt(size.x() * size.y() / kMaxSquares));
+    if (size.maxCoeff() / grid_.side > kMaxSquares / 100) return;  // a wall of kilometers
     const int margin = 2 + static_cast<int>(3 * kPassage / grid_.side);
     grid_.origin = around.min() - Point2::Constant(margin * grid_.side);
     grid_.columns = static_cast<int>(std::ceil(size.x() / grid_.side)) + 2 * margin;

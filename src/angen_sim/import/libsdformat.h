@@ -29,7 +29,7 @@ class SilenceConsole {
 /// Adds the names of an element and of all below it.
 void collect_names(const Element& element, std::set<std::string>& names);
 
-/// The schema with what is required or has one of `names`, and nothing else. Under a
+/// The schema with the required elements and those of `names`, and no others. Under a
 /// SilenceConsole's lock.
 sdf::SDFPtr empty_document(const std::set<std::string>& names);
 

@@ -62,8 +62,8 @@ void split_names(Element& element, const std::string& separator,
   }
 }
 
-// What refers to a renamed part, also a parameter of a plug-in.
-void name_anew(Element& element, const std::map<std::string, std::string>& found) {
+// Renames references to a renamed part, also in parameters of plug-ins.
+void rename_references(Element& element, const std::map<std::string, std::string>& found) {
   const auto replace = [&](std::string& text) {
     const auto other = found.find(text);
     if (other != found.end()) text = other->second;
@@ -72,13 +72,13 @@ void name_anew(Element& element, const std::map<std::string, std::string>& found
   for (auto& [key, value] : element.attributes) {
     if (key == "relative_to" || key == "expressed_in" || key == "attached_to") replace(value);
   }
-  for (Element& child : element.children) name_anew(child, found);
+  for (Element& child : element.children) rename_references(child, found);
 }
 
 void rename_separated(Element& sdf, const std::string& separator, Session& session) {
   std::map<std::string, std::string> found;
   split_names(sdf, separator, found, session);
-  if (!found.empty()) name_anew(sdf, found);
+  if (!found.empty()) rename_references(sdf, found);
 }
 
 using Name = std::pair<std::string, std::string>;  // what shares it, and the name
@@ -118,7 +118,7 @@ void rename_duplicates(Element& element, Session& session) {
   }
 }
 
-// Gazebo takes what is negative or infinite as without a limit.
+// Gazebo takes a negative or infinite value as no limit.
 void read_unlimited(Element& friction) {
   const Numbers found = numbers_in(friction.text);
   const bool unlimited = found.bad.empty() && found.values.size() == 1 &&

@@ -9,7 +9,7 @@ namespace angen::load {
 /// Rewrites a tree of an older version (102..108) as SDF 1.9.
 void upgrade(Element& sdf, int version, Session& session);
 
-/// Whose names must differ from those of `child` among its siblings: all with the same answer.
+/// The group of siblings whose names must differ from that of `child`: all with this answer.
 /// Links, joints, frames and models share theirs; "" where any name will do.
 std::string names_shared_by(const Element& child);
 

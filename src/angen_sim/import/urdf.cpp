@@ -118,7 +118,7 @@ const Element* nth_child(const Element& parent, const std::string& name, std::si
   return nullptr;
 }
 
-// A link or joint of the robot, or what a <gazebo> element has.
+// A link or joint of the robot, or of a <gazebo> element.
 const Element* named_part(const Element& robot, const Element& made) {
   const auto is_it = [&](const Element& given) {
     return given.name == made.name && name_of(given) == name_of(made);
@@ -147,7 +147,7 @@ const Element* lumped_part(const Element& robot, const Element& made) {
   return nullptr;
 }
 
-// Elements that libsdformat made keep the place of what they were made of.
+// Elements that libsdformat made get the file and line of their originals.
 void place(Element& made, const Element* original, const Element& robot, const Source& around) {
   made.source = original == nullptr ? around : original->source;
   std::map<std::string, std::size_t> seen;

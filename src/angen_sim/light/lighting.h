@@ -67,7 +67,7 @@ class Lighting {
   void pace();
   /// Activates advance(), so that less is left for pace().
   void prepare();
-  /// The same for a later query of that probe.
+  /// Prepares a later query of that probe likewise.
   void expect(Probe& probe, const Pose& pose);
   /// Begins a tick: resets the budget of measure().
   void begin_tick() { budget_ = kMeasureRays; }

@@ -80,7 +80,7 @@ void Lighting::queue_all(LampId lamp) const {
 void Lighting::drop_near(const Eigen::AlignedBox3d& box) const {
   for (const std::weak_ptr<Receiver>& each : receivers_) {
     const std::shared_ptr<Receiver> receiver = each.lock();
-    if (!receiver || !receiver->meets(box)) continue;
+    if (!receiver || !receiver->intersects(box)) continue;
     const bool saw = receiver->gather != nullptr;
     receiver->drop();
     if (saw && receiver->ahead) deliveries_.push_back({each, std::nullopt});

@@ -33,7 +33,7 @@ void Receiver::drop() {
   for (Known& each : known) each.scene = kNever;
 }
 
-bool Receiver::meets(const Eigen::AlignedBox3d& box) const {
+bool Receiver::intersects(const Eigen::AlignedBox3d& box) const {
   if (gather && gather->may_see(box)) return true;
   return std::any_of(known.begin(), known.end(), [&](const Known& each) {
     return each.found && each.transport.reach.intersects(box);

@@ -38,7 +38,7 @@ struct Receiver {
   /// Forgets the surfaces around it; known light is used until it is computed again.
   void drop();
   /// Whether a change of static shapes in the box (m, world) affects it.
-  bool meets(const Eigen::AlignedBox3d& box) const;
+  bool intersects(const Eigen::AlignedBox3d& box) const;
 
   Pose pose;
   bool ahead = false;    // see Probe

@@ -49,7 +49,7 @@ class ReflectedLight {
 class ReflectedLookup {
  public:
   static constexpr int kMax = 16;  // pieces that count at one place
-  /// Of `count` places of pieces, those that can be seen from a point: bit i for to[i].
+  /// Which of `count` places of pieces are visible from a point: bit i for to[i].
   using Visible = std::function<std::uint32_t(const Eigen::Vector3f& from,
                                               const Eigen::Vector3f* to, int count)>;
 

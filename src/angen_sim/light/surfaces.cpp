@@ -202,13 +202,14 @@ bool Surfaces::faced(const std::vector<Site>& sites) const {
   });
 }
 
-template <class Meets>
-void Surfaces::forget_if(std::uint32_t shape, std::vector<std::uint32_t>& removed, Meets&& meets) {
+template <class Matches>
+void Surfaces::forget_if(std::uint32_t shape, std::vector<std::uint32_t>& removed,
+                         Matches&& matches) {
   const auto found = keys_.find(shape);
   if (found == keys_.end()) return;
   std::vector<Key>& keys = found->second;
   const auto forgotten = std::remove_if(keys.begin(), keys.end(), [&](const Key& key) {
-    if (!meets(key)) return false;
+    if (!matches(key)) return false;
     const auto entry = known_.find(key);
     if (entry->second < kDivided) {
       patches_[entry->second].alive = false;

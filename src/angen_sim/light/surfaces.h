@@ -44,16 +44,16 @@ class Surfaces {
   std::uint32_t at(std::uint32_t shape, const Vec3& point, const Vec3& normal);
 
   const Patch& operator[](std::uint32_t patch) const { return patches_[patch]; }
-  std::uint64_t serials() const { return serials_; }    // given so far, from 1 on
-  std::size_t size() const { return patches_.size(); }  // numbers given so far, removed or not
+  std::uint64_t serials() const { return serials_; }    // last number given, from 1 on
+  std::size_t size() const { return patches_.size(); }  // count of numbers given, removed or not
 
   /// Forgets the patches of one shape, or those of it that may intersect a box (m, world). Appends
-  /// their numbers to `gone`; they can be read until release().
-  void forget(std::uint32_t shape, std::vector<std::uint32_t>& gone);
+  /// their numbers to `removed`; they can be read until release().
+  void forget(std::uint32_t shape, std::vector<std::uint32_t>& removed);
   void forget_near(std::uint32_t shape, const Eigen::AlignedBox3d& box,
-                   std::vector<std::uint32_t>& gone);
+                   std::vector<std::uint32_t>& removed);
   /// Frees the numbers of forgotten patches.
-  void release(const std::vector<std::uint32_t>& gone);
+  void release(const std::vector<std::uint32_t>& removed);
 
  private:
   using Key = std::array<std::int32_t, 6>;
@@ -74,8 +74,8 @@ class Surfaces {
   bool site(const Lattice& lattice, const Key& key, double u, double v, Site& out) const;
   bool parted(const std::vector<Site>& sites) const;
   bool faced(const std::vector<Site>& sites) const;
-  template <class Meets>
-  void forget_if(std::uint32_t shape, std::vector<std::uint32_t>& gone, Meets&& meets);
+  template <class Matches>
+  void forget_if(std::uint32_t shape, std::vector<std::uint32_t>& removed, Matches&& matches);
 
   const rays::Scene& scene_;
   std::unordered_map<Key, std::uint32_t, HashKey> known_;     // looked up, never iterated

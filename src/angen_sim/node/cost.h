@@ -18,7 +18,7 @@ struct Spent {
   Nanoseconds elapsed = 0;  // wall time
 };
 
-/// The same per simulated second; the caller fills the header.
+/// The costs per simulated second; the caller fills the header.
 angen_msgs::Cost to_message(const Spent& spent);
 
 /// The time at which costs are published: after a second of wall time and one of simulated time.

@@ -62,7 +62,7 @@ std::vector<angen_msgs::Entity> entities(const sim::Snapshot& snapshot,
     const RosKind& its = ros_kind(device);
     if (entity == nullptr || its.is_robot) continue;
     const Format& format = its.formats.front();
-    const bool together = goes_with_its_kind(topics, format, nullptr);
+    const bool together = is_on_topic_of_kind(topics, format, nullptr);
     entity->topic = together ? kind_topic(device.kind) : topic_of(device.kind, device.name);
     entity->type = together ? format.array_type : format.type;
   }
@@ -81,7 +81,7 @@ std::vector<angen_msgs::Entity> entities(const sim::Snapshot& snapshot,
     if (entity == nullptr) continue;
     const Format& format = ros_kind(sensor).formats.front();
     const Robot* robot = robot_in(robots, sensor.model);
-    const bool together = goes_with_its_kind(topics, format, robot);
+    const bool together = is_on_topic_of_kind(topics, format, robot);
     entity->topic = together ? kind_topic(sensor.kind)
                              : ros::names::resolve(sensor_topics(sensor, format, robot).front());
     entity->type = together ? format.array_type : format.type;

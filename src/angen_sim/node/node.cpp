@@ -127,14 +127,14 @@ std::shared_ptr<const sim::Snapshot> Node::simulate() {
   if (recorder_ != nullptr) until = std::min(until, recorder_->leap_limit(*here));
   if (replaying()) {
     std::shared_ptr<const sim::Snapshot> snapshot = replay_->advance(until);
-    if (replay_->done()) go_live();
+    if (replay_->done()) end_replay();
     return snapshot;
   }
   return fast_ && pacer_.rate() == 0.0 && controls_.empty() ? simulation_.leap(until)
                                                             : simulation_.tick();
 }
 
-void Node::go_live() {
+void Node::end_replay() {
   const std::string& path = replay_->log().path;
   if (!replay_->log().truncated.empty()) ROS_WARN("%s", replay_->log().truncated.c_str());
   if (!replay_->mismatch().empty()) ROS_ERROR("%s", replay_->mismatch().c_str());

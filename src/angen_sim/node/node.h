@@ -66,7 +66,7 @@ class Node {
 
   std::shared_ptr<const sim::Snapshot> simulate();
   bool replaying() const { return replay_ != nullptr && !replay_->done(); }
-  void go_live();
+  void end_replay();
 
   sim::Simulation& simulation_;
   bool fast_;

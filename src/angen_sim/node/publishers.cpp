@@ -42,7 +42,7 @@ Publishers::Source Publishers::sensor_source(const sim::SensorEntry& entry, cons
   const RosKind& kind = ros_kind(entry);
   if (kind.published_elsewhere && kind.published_elsewhere(entry)) return source;
   for (const Format& format : kind.formats) {
-    if (goes_with_its_kind(topics_, format, robot)) {
+    if (is_on_topic_of_kind(topics_, format, robot)) {
       attach(source, format.array_type, format.array, kind_topic(entry.kind));
       continue;
     }
@@ -81,7 +81,7 @@ Publishers::Source Publishers::device_source(const sim::DeviceEntry& entry) {
   Source source{std::make_shared<const Label>(Label{entry.name, kWorldFrame}), {}, ""};
   const RosKind& kind = ros_kind(entry);
   const Format& format = kind.formats.front();
-  if (goes_with_its_kind(topics_, format, nullptr)) {
+  if (is_on_topic_of_kind(topics_, format, nullptr)) {
     attach(source, format.array_type, format.latched_array, kind_topic(entry.kind));
   } else if (!kind.is_robot) {
     attach(source, format.type, format.latched, topic_of(entry.kind, entry.name));

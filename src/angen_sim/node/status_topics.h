@@ -53,7 +53,7 @@ class Events {
  public:
   explicit Events(ros::NodeHandle& node);
   void publish(const sim::Snapshot& snapshot);
-  /// The number of events so far, with subscribers or without.
+  /// The number of published events, with subscribers or without.
   std::uint64_t count() const { return count_; }
 
  private:

@@ -5,10 +5,10 @@
 
 namespace angen::physics {
 
-/// Makes bodies, geoms and joints of a model that stands nowhere yet. Links that fixed joints hold
+/// Makes bodies, geoms and joints of a model that has no pose yet. Links that fixed joints hold
 /// together become one body, so that they never sag; one fixed to the world is static, and so are
 /// kinematic links, which nothing but place() moves. Serials count on from `serial`.
-/// Throws Error for what no body can be made of.
+/// Throws Error for a model without a valid body.
 std::unique_ptr<ModelRecord> build_model(const desc::Model& model, ShapeFactory& shapes,
                                          std::uint64_t& serial);
 

@@ -31,7 +31,7 @@ class Contacts {
   /// s, of the steps from now on.
   void set_step(double step) { step_ = step; }
 
-  /// Whether in the last step everything that touched something stood on what is static.
+  /// Whether all contacts of the last step were those of bodies on top of static shapes.
   bool only_stand() const;
 
   /// Forgets the pairs of the last step.
@@ -53,8 +53,8 @@ class Contacts {
   /// Sorts the pairs by serials and makes ODE's contact joints, in that order.
   void make_joints();
 
-  /// Takes the contact joints away and makes those of the bodies that `parts` anew, without a push
-  /// out of what they overlap.
+  /// Replaces the contact joints by those of the bodies that `parts`, without the push that
+  /// separates overlapping bodies.
   void make_joints_without_push();
 
   /// m/s, at which deep contacts separate.

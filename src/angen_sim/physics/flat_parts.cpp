@@ -103,7 +103,7 @@ std::vector<dContactGeom> mended(const FlatPart& part, dGeomID mesh, dGeomID sol
     out.push_back(point);
   }
   if (!out.empty() && out.size() == n) return out;
-  // The solid stands beyond the last triangle: on its edge, of which ODE knows.
+  // The solid extends beyond the last triangle, over its edge: ODE reports contacts there.
   std::copy(part.on_faces.begin(), part.on_faces.end(), std::back_inserter(out));
   std::copy_if(part.on_edges.begin(), part.on_edges.end(), std::back_inserter(out),
                [&](const dContactGeom& point) { return !part.within(point); });

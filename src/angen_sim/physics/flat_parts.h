@@ -12,7 +12,7 @@ namespace angen::physics {
 /// kMaxOnPlane points with normals towards the solid, and returns how many.
 using OnPlane = std::function<std::size_t(const Vec3& normal, double offset, dContactGeom* points)>;
 
-/// Contacts of a mesh and a solid, n of at most `most`: where the solid stands on triangles that
+/// Contacts of a mesh and a solid, n of at most `most`: where the solid rests on triangles that
 /// lie in one plane, those with that plane take their place. ODE's normals lean at the edges
 /// between such triangles, even as far as to the side, and it also reports where a wheel's round
 /// dips into the next one, which brakes it. `mesh_first`: the mesh is the contacts' first geom.

@@ -10,8 +10,8 @@
 
 namespace angen::physics {
 
-/// A heightmap as ODE meets it: meshes of small tiles, made when something comes near them. What
-/// touches does not depend on which tiles there are.
+/// A heightmap for ODE: meshes of small tiles, made when a body comes near them. The contacts
+/// do not depend on which tiles exist.
 class HeightTiles {
  public:
   explicit HeightTiles(std::shared_ptr<const HeightGrid> grid);

@@ -78,7 +78,7 @@ struct World::Impl {
   void part_bodies(const std::vector<BodyState>& start, double step, const Solve& solve);
   void renew();
   void read_bodies();
-  /// Takes back what a long step walks too far: all of it at the speed that it ends with.
+  /// Corrects positions after a long step, which moves bodies at their final speed all along.
   void take_back(const std::vector<Vec3>& before, double step);
 };
 

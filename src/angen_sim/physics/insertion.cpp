@@ -7,7 +7,7 @@ namespace angen::physics {
 
 namespace {
 
-// So much inertia about x and y that no contact tilts a link that stays upright (kg m^2).
+// Inertia about x and y that keeps any contact from tilting an upright link (kg m^2).
 constexpr double kUprightMoment = 1e8;
 
 void set_mass(const Body& body) {

@@ -22,11 +22,11 @@ struct Bounds {
   double high = 0.0;
 };
 
-/// What limits and <safety_controller> leave of the first axis' speed where it stands, rad/s or
+/// Bounds of the first axis' speed at its position by limits and <safety_controller>, rad/s or
 /// m/s.
 Bounds velocity_bounds(const Joint& joint);
 
-/// The same for a force that is added at that speed, N m or N.
+/// Bounds of a force that is added at that speed, N m or N.
 Bounds effort_bounds(const Joint& joint, double velocity);
 
 /// Sets motor, or dry friction where there is none, of a joint that ODE has.
@@ -35,7 +35,7 @@ void apply_motor(const Joint& joint);
 /// Sets stops and motor of a latched joint that ODE has, or gives it its own again.
 void apply_latch(const Joint& joint);
 /// Breaks a latch whose force, averaged over 0.1 s, is too much; peaks count as ten times what
-/// breaks it at most. A broken one catches the joint where it stands once that force has gone.
+/// breaks it at most. A broken one catches the joint at its position once that force has ended.
 void watch_latch(Joint& joint, double h);
 
 /// The position that ODE measures, rad in [-pi, pi] or m.

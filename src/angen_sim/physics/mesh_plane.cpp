@@ -16,7 +16,7 @@ struct Extreme {
   double reach = -dInfinity;
   Eigen::Index corner = -1;
 
-  void meet(Eigen::Index i, const Vec3& at) {
+  void update(Eigen::Index i, const Vec3& at) {
     const double along = direction.dot(at);
     if (along <= reach) return;
     reach = along;
@@ -50,7 +50,7 @@ std::size_t collide_mesh_plane(const Geom& mesh, const Vec3& normal, double offs
   std::array<Extreme, kMaxOnPlane> extremes = extremes_of(own_normal);
   for (Eigen::Index i = 0; i < corners.cols(); ++i) {
     if (heights[i] + height >= 0.0) continue;
-    for (Extreme& extreme : extremes) extreme.meet(i, corners.col(i));
+    for (Extreme& extreme : extremes) extreme.update(i, corners.col(i));
   }
   std::size_t found = 0;
   std::array<Eigen::Index, kMaxOnPlane> seen{};

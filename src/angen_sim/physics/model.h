@@ -42,7 +42,7 @@ struct MeshData {
   std::shared_ptr<const TriangleMesh> mesh;
   Eigen::Matrix3Xd corners;  // m, of its triangles, each once; none where nothing of it moves
   ode::MeshHandle data;
-  mutable std::optional<MeshBoxes> boxes;  // once it has met another mesh
+  mutable std::optional<MeshBoxes> boxes;  // once it has collided with another mesh
 };
 
 struct alignas(64) Geom {
@@ -113,7 +113,7 @@ struct Joint {
   double motor_velocity = 0.0;
   double motor_force = 0.0;
   bool latched = false;
-  bool latch_broken = false;   // until the force that broke it has gone
+  bool latch_broken = false;   // until the force that broke it has ended
   double latch_force = 0.0;    // N m or N, infinite: nothing breaks it
   double latch_strain = 0.0;   // N m or N, that it bears, averaged over some time
   double latch_at = 0.0;       // rad or m, as ODE measures it

@@ -20,7 +20,7 @@ struct Motion {
 
 Motion motion_of(const Body& body) { return {body.velocity(), body.spin()}; }
 
-// Of a body that goes with another one as if both were one.
+// The motion of a body that is carried by another one as if both were one.
 Motion carried(const Motion& by, const Pose& other, const Pose& body) {
   return {by.velocity + by.spin.cross(body.position - other.position), by.spin};
 }
@@ -60,7 +60,7 @@ class Arrangement {
   }
 
   struct Placed {
-    Pose moved;  // from where it stands, in the world
+    Pose moved;  // from its place, in the world
     Motion motion;
   };
   const Placed& of(Body* body) const { return placed_.at(body); }

@@ -19,7 +19,7 @@ bool one_above_the_other(const dContactGeom& a, const dContactGeom& b) {
          ode::vec(a.normal).dot(ode::vec(b.normal)) > kSameNormal;
 }
 
-// Of two points that are `twins` the deeper one stays.
+// Keeps the deeper one of two points that are `twins`.
 template <class Twins>
 std::size_t remove_doubles(dContactGeom* points, std::size_t n, Twins&& twins) {
   std::size_t kept = 0;

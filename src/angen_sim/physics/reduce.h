@@ -13,8 +13,8 @@ constexpr std::size_t kMaxPoints = 8;
 /// time the one farthest from those kept; doubles go. Returns how many are left.
 std::size_t reduce_points(dContactGeom* points, std::size_t n);
 
-/// Of points one above the other with one normal the deepest stays, as between two bodies of which
-/// none can tilt: there they do the same, and the exact solver fails at what is redundant.
+/// Keeps the deepest of points one above the other with one normal, as between two bodies of which
+/// none can tilt: the others are redundant there, and the exact solver fails at them.
 std::size_t reduce_upright(dContactGeom* points, std::size_t n);
 
 }  // namespace angen::physics

@@ -9,7 +9,7 @@
 
 namespace angen::physics {
 
-/// How a body moves, and what acts on it in the next step.
+/// The motion of a body, and the forces on it in the next step.
 struct BodyState {
   Vec3 position;
   Quat rotation;

@@ -45,7 +45,7 @@ void World::Impl::take_step(std::int64_t tick, std::int64_t count) {
   moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
 }
 
-// Whatever an awake body touches is awake too, and has its own pairs tested:
+// Each body that an awake body touches is awake too, and has its own pairs tested:
 // `awake` grows during the loop.
 void World::Impl::collide() {
   contacts.start();
@@ -101,7 +101,7 @@ void World::Impl::set_up_joints(double step) {
   }
 }
 
-// What the first step made of them does not count.
+// The results of the first step are discarded.
 void World::Impl::part_bodies(const std::vector<BodyState>& start, double step,
                               const Solve& solve) {
   std::vector<Unstable> others = std::move(trouble.unstable);

@@ -45,7 +45,7 @@ std::size_t collide_geoms(dGeomID a, dGeomID b, std::size_t most, dContactGeom* 
   }
 }
 
-/// The same for a mesh or a heightmap's tile, `ground`, and another geom.
+/// Contact points of a mesh or a heightmap's tile, `ground`, and another geom.
 std::size_t collide_ground(dGeomID ground, const Geom& other, bool ground_first,
                            dContactGeom* points) {
   dGeomID solid = other.ode.get();

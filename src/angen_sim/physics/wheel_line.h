@@ -6,7 +6,7 @@
 
 namespace angen::physics {
 
-/// What one contact point does.
+/// The part of one contact point in load and friction.
 struct PointShare {
   double stiffness = 1.0;  // of a point's
   double least_cfm = 0.0;  // m/s per N

@@ -104,10 +104,10 @@ class World {
   /// Moves a whole model, also a static one, by a displacement in the world; joints keep their
   /// positions; it is at rest then. Throws Error for a place beyond the limits.
   void move(ModelId model, const Pose& by);
-  /// The same of a link and what is joined to it. Throws Error where a joint holds it to something
+  /// Moves a link and all that is joined to it. Throws Error where a joint holds it to something
   /// static.
   void move(LinkId link, const Pose& by);
-  /// Of a link's origin, and of what is fixed to it; wakes it.
+  /// Sets the velocity of a link's origin, and of links fixed to it; wakes it.
   void set_velocity(LinkId link, const Vec3& linear, const Vec3& angular);
   /// Puts joints where they have a position, within their limits (rad or m, as ids from joints());
   /// child links move along, and have the velocity of their parent then. Throws Error for a joint
@@ -122,10 +122,10 @@ class World {
   /// Collides and integrates one step of settings.step. `tick` keys the random numbers that the
   /// solver needs.
   void step(std::int64_t tick) { step(tick, 1); }
-  /// The same in one step that is `count` times as long; for walks_only().
+  /// Collides and integrates one step that is `count` times as long; for walks_only().
   void step(std::int64_t tick, std::int64_t count);
 
-  /// Whether all awake bodies are upright, as people are, and touch nothing but what they stand on.
+  /// Whether all awake bodies are upright, as people are, and touch only the ground below them.
   bool walks_only() const;
 
   /// Links that the last step stopped: they stay at their poses before the step, like static
@@ -145,7 +145,7 @@ class World {
   CollisionId collision(const std::string& name) const;
   /// The contacts of this collision, turned so that it is the first.
   std::vector<ContactPair> contacts(CollisionId collision) const;
-  /// The same, and its last contact with each collision that touched it since tick `first`,
+  /// Its contacts, and its last contact with each collision that touched it since tick `first`,
   /// counted from the first call on.
   std::vector<ContactPair> contacts_since(CollisionId collision, std::int64_t first);
   /// Grows whenever contacts() may have changed.

@@ -13,15 +13,15 @@ namespace angen {
 /// an empty list of numbers. A kind that declares no fields has any.
 void check_fields(const Kind& kind, Reading& reading);
 
-/// The same where a reading has other fields than the `checked` of its instance's last one: names
-/// and types of fields stay.
+/// check_fields() if a reading has other fields than the `checked` of its instance's last one:
+/// names and types of fields stay.
 inline void check_new_fields(const Kind& kind, Reading& reading, std::size_t& checked) {
   if (reading.fields.size() == checked) return;
   check_fields(kind, reading);
   checked = reading.fields.size();
 }
 
-/// The same for fields that have noise: they are numbers.
+/// Checks the fields that have noise: they must be numbers.
 void check_noise(const Kind& kind, const std::vector<Noise>& noise);
 
 }  // namespace angen

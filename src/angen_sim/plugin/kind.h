@@ -43,7 +43,7 @@ const char* name_of(Field::Type type);  // "flag", "number", …
 /// command topics, `angen plugins`, rviz's captions and the tables of docs/ come from it.
 class Kind {
  public:
-  /// What a device is in the description of the home: a leaf on a hinge, or an elevator.
+  /// The role of a device in the description of the home: a leaf on a hinge, or an elevator.
   enum class Passage { kNone, kDoor, kWindow, kElevator };
 
   /// A model of worlds/models that holds one; used where `parameter` (if any) is set to `value`.
@@ -71,7 +71,7 @@ class Kind {
   const std::string& example() const { return example_; }
   /// std_msgs/String "VERB, NAME[, NUMBER]"; empty: /angen/command only.
   const std::string& command_topic() const { return command_topic_; }
-  /// Of numbers that are a command without a verb: "m/s", "rad/s".
+  /// Units of the numbers of a command without a verb: "m/s", "rad/s".
   const std::vector<std::string>& value_units() const { return value_units_; }
   /// "r g b a", 0 to 1, in which rviz draws Sensor::rays(), as long as the field `ranges` says;
   /// <color> overrides it. Empty: it draws none.
@@ -107,18 +107,18 @@ class Kind {
   Kind& texts(std::string name, std::string doc);
   Kind& image(std::string name, std::string doc);
 
-  /// Of the field that was added last: it exists where this parameter has this value. Another field
+  /// The field that was added last exists only if this parameter has this value. Another field
   /// may have the same name with another value.
   Kind& with(const std::string& parameter, const std::string& value);
-  /// Of the field that was added last: the summary shows it, a number with this number of decimals.
+  /// The summary shows the field that was added last, a number with this number of decimals.
   Kind& shown(int decimals = 0);
-  /// The same for numbers, each after its text in the field `names`.
+  /// Shows numbers, each after its text in the field `names`.
   Kind& shown_by_name(std::string names, int decimals = 0);
-  /// The same for a share of 1, as a percentage.
+  /// Shows a share of 1 as a percentage.
   Kind& shown_as_percent(int decimals = 0);
-  /// The same for a flag, by these words.
+  /// Shows a flag by these words.
   Kind& shown_as(std::string yes, std::string no);
-  /// The same, and it is an alarm: shown in red in rviz while it is yes.
+  /// Shows a flag that is an alarm: red in rviz while it is yes.
   Kind& alarm(std::string yes, std::string no);
 
  private:

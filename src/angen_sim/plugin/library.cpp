@@ -60,7 +60,7 @@ bool registers_plugins(const fs::path& file) {
 
 bool is_script(const fs::path& file) { return file.extension() == ".py"; }
 
-// The same of a file of Python, by its text.
+// Whether a file of Python registers plug-ins, by its text.
 bool registers_scripts(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
@@ -193,7 +193,7 @@ const Plugins& loaded(const std::string& file) {
   return known != all->end() ? known->second : all->emplace(file, load(file)).first->second;
 }
 
-// The same of a file of Python. No lock is held while it runs: it may use Angen itself.
+// The plug-ins of a file of Python. No lock is held while it runs: it may use Angen itself.
 const Plugins& loaded_script(const std::string& file) {
   static std::mutex mutex;
   static auto* const all = new std::map<std::string, Plugins>;

@@ -67,7 +67,7 @@ struct PluginDoc {
 /// library that does not load has an entry whose kind has no name and the reason as its doc.
 std::vector<PluginDoc> describe(Catalog& catalog);
 
-/// The same of one library; throws Error where it does not load. `library` in what it returns is
+/// Describes one library; throws Error where it does not load. `library` in the result is
 /// the file's name without its folder.
 std::vector<PluginDoc> describe(Catalog& catalog, const std::string& library);
 

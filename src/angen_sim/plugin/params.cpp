@@ -30,7 +30,7 @@ std::string with_unit(const std::string& text, const std::string& unit) {
   return unit.empty() ? text : text + " " + unit;
 }
 
-// Of a number that fits.
+// The integer of a number without a fraction that fits.
 std::optional<int> whole_part(const std::string& text) {
   constexpr double kLargest = std::numeric_limits<int>::max();
   const std::optional<double> value = parse_finite(text);

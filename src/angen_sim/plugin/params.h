@@ -58,7 +58,7 @@ class Params {
   /// Reads <noise_stddev>, returns it, and gives that field of the sensor's readings such noise.
   double noise(const std::string& field, const std::string& unit, const std::string& doc,
                bool relative = false);
-  /// The same for a noise that was read otherwise.
+  /// Adds a noise that was read otherwise.
   void noise(Noise noise) { noise_.push_back(std::move(noise)); }
   /// All that noise() was given: the simulator adds it to the sensor's readings.
   const std::vector<Noise>& all_noise() const { return noise_; }
@@ -96,7 +96,7 @@ class Params {
   std::vector<Diagnostic> warnings_;
 };
 
-/// Of each device: the name that commands use.
+/// Reads the name that commands use, of each device.
 inline std::string read_device_name(Params& params, const std::string& fallback) {
   return params.text("device_name", fallback, "the name that commands use");
 }

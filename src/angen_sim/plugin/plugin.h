@@ -49,7 +49,7 @@ class Device {
   /// Parameters with which a device that starts in this state continues as this one would; the
   /// others stay as they were given. Poses and joint positions are saved with the model.
   virtual void save(SavedParams&) const {}
-  /// Of an elevator: the positions (m) of its joint at which it stops, the lowest first.
+  /// The positions (m) of an elevator's joint at which it stops, the lowest first.
   virtual std::vector<double> stops() const { return {}; }
 };
 constexpr Nanoseconds kForever = INT64_MAX;
@@ -95,16 +95,16 @@ class LazyReading {
 class NoisySensor {
  public:
   virtual ~NoisySensor() = default;
-  /// Of a steady sensor: whether its readings differ from sample to sample.
+  /// Whether readings of a steady sensor differ from sample to sample.
   virtual bool varies() const = 0;
-  /// Where the first uniform() of a sample's random numbers is below this, the sample has no event
+  /// If the first uniform() of a sample's random numbers is below this, the sample has no event
   /// and is not urgent while the sensor is steady.
   virtual double no_event_probability() const = 0;
   /// On how many earlier samples a reading depends.
   virtual int memory() const = 0;
   /// Makes its readings while nothing changes.
   virtual std::shared_ptr<const LazyReading> lazy_reading() const = 0;
-  /// Called before the sample after those that its lazy reading stood for, the last of them at
+  /// Called before the sample after those that its lazy reading replaced, the last of them at
   /// `time`: the sensor's state is to be as if it had read them. `draws` are of that last one.
   virtual void resume(Nanoseconds time, const Draws& draws) = 0;
 };

@@ -24,7 +24,7 @@ struct RayGeometry {
   /// Unit vectors, row after row from below, all of them tilted upwards by `tilt` rad.
   std::vector<Vec3> directions(double tilt = 0.0) const;
 
-  /// Of the sample that `samples` others precede.
+  /// The tilt of sample number `samples`, from 0.
   double tilt(std::int64_t samples) const {
     if (tilts.empty() || samples < 0) return 0.0;
     return tilts[static_cast<std::size_t>(samples) % tilts.size()];

@@ -92,7 +92,7 @@ struct Reading {
     if (value == nullptr) throw_missing(name);
     return value_as<T>(name, *value);
   }
-  /// The same, but `fallback` where it is missing.
+  /// The field's value, or `fallback` if it is missing.
   template <class T>
   T get(const std::string& name, T fallback) const {
     const Value* value = find(name);

@@ -34,7 +34,7 @@
   };                                                                            \
   ANGEN_REGISTER_PLUGIN(Type##Plugin)
 
-/// The same of a device that any model may have.
+/// Registers a device that any model may have.
 #define ANGEN_REGISTER_DEVICE(Type, ...)                                 \
   struct Type##Plugin : angen::Plugin {                                  \
     const angen::Kind& kind() const override {                           \

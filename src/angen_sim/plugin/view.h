@@ -60,7 +60,7 @@ struct JointLimits {
   double upper = 0.0;
   double damping = 0.0;   // N m s/rad or N s/m
   double friction = 0.0;  // N m or N
-  double inertia = 0.0;   // kg m^2 about the axis, or kg: of the child and what is fixed to it
+  double inertia = 0.0;   // kg m^2 about the axis, or kg: of the child and all that is fixed to it
   double effort = std::numeric_limits<double>::infinity();  // N m or N, most that a motor gives
 };
 
@@ -86,14 +86,14 @@ class View {
   virtual LinkView link(LinkRef link) const = 0;
   /// Pairs that the wired collision takes part in; it is `first` in each.
   virtual std::vector<ContactPair> contacts(ContactRef collision) const = 0;
-  /// The same, and those that touched at any time in the last `period` (ns), as they last did.
+  /// Contacts now, and the last ones of those that touched at any time in the last `period` (ns).
   virtual std::vector<ContactPair> contacts_within(ContactRef collision,
                                                    Nanoseconds period) const = 0;
   /// The devices whose state has a field of that name and whose models stand in `within` (world,
   /// m), in the order in which they came into the world.
   virtual std::vector<DeviceView> devices(const std::string& field,
                                           const Eigen::AlignedBox3d& within) const = 0;
-  /// The same, wherever they stand.
+  /// Devices with that field anywhere in the world.
   std::vector<DeviceView> devices(const std::string& field) const {
     const Vec3 far = Vec3::Constant(std::numeric_limits<double>::infinity());
     return devices(field, {-far, far});
@@ -102,7 +102,7 @@ class View {
   virtual const Home& home() const = 0;
   /// Nearest hits: hits[i] answers rays[i].
   virtual void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const = 0;
-  /// Whether a ray meets this shape, as if there were no others.
+  /// Whether a ray hits this shape, as if there were no others.
   virtual bool meets(std::uint32_t shape, const rays::Ray& ray) const = 0;
   /// The albedo, r g b, 0 to 1, of a shape that a ray hit.
   virtual Eigen::Vector3f reflectance(std::uint32_t shape) const = 0;

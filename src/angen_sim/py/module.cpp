@@ -20,7 +20,7 @@ namespace {
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>;
 
-// Of worlds whose models may name libraries anywhere, or on the plug-in path only.
+// The catalog of worlds whose models may name libraries anywhere, or on the plug-in path only.
 std::shared_ptr<Catalog> catalog(bool any_path) {
   static const auto bound = std::make_shared<Catalog>(false);
   static const auto free = std::make_shared<Catalog>(true);
@@ -61,7 +61,7 @@ Eigen::VectorXd joint_positions(const World& world) {
   return all;
 }
 
-// Where its model's first link is, that model's pose in the file where it has none, or its light.
+// The pose of its model's first link; of a model without links its pose in the file, or its light.
 Pose place_of(const sim::Snapshot& snapshot, const sim::DeviceEntry& device) {
   if (device.light != UINT32_MAX) return snapshot.structure->lights[device.light].light.pose;
   const std::uint32_t model = device.model;

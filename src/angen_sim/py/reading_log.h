@@ -25,7 +25,7 @@ class ReadingLog {
     std::vector<std::pair<std::size_t, std::string>> texts;  // row, text or name of a choice
   };
 
-  /// Takes what was published after `before`, up to `now`.
+  /// Adds the readings that were published after `before`, up to `now`.
   void add(const sim::Snapshot& before, const sim::Snapshot& now);
   const std::vector<Series>& series() const { return series_; }
   /// The rows since the last call.

@@ -1,4 +1,4 @@
-// Plug-ins in files of Python: what a file registers while it is loaded.
+// Plug-ins in files of Python, which a file registers while it is loaded.
 #include <filesystem>
 
 #include "core/text.h"

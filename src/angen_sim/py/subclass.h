@@ -13,7 +13,7 @@ namespace angen::py {
 std::shared_ptr<const Plugin> python_sensor(const std::string& kind, pyb::object type);
 std::shared_ptr<const Plugin> python_device(const std::string& kind, pyb::object type);
 
-/// Binds register(FILENAME, KIND, CLASS). It adds to `catalogs`, or to what a file registers that
+/// Binds register(FILENAME, KIND, CLASS). It adds to `catalogs`, or to the plug-ins of a file that
 /// is being loaded: from here on, files of Python on the plug-in path are loaded.
 void bind_scripts(pyb::module_& module, std::vector<std::shared_ptr<Catalog>> catalogs);
 

@@ -16,7 +16,7 @@
 
 namespace angen::py {
 
-/// Of seconds that Python gives; Error where they are negative, not finite, or beyond the limit.
+/// Converts seconds from Python; Error if they are negative, not finite, or beyond the limit.
 Nanoseconds duration(double seconds);
 
 /// A simulation as Python sees it: loads, steps, commands, reads. Not shared between threads.
@@ -33,7 +33,7 @@ class World {
   World(std::unique_ptr<sim::Simulation> simulation, const std::string& models);
 
   void step(std::uint64_t ticks);
-  /// The same, leaping over ticks without a change; for `long_steps` see Simulation::leap.
+  /// Runs ticks, leaping over those without a change; for `long_steps` see Simulation::leap.
   void run(std::uint64_t ticks) { run(ticks, false); }
   void run(std::uint64_t ticks, bool long_steps);
   std::uint64_t ticks_in(double seconds) const;
@@ -45,7 +45,7 @@ class World {
              const std::string& on);
   void remove(const std::string& name);
   void edit(sim::Edit edit);
-  /// Of a model, link or collision, now.
+  /// The present motion of a model, link or collision.
   sim::Motion motion(const std::string& entity) const;
   void request(const std::string& kind, const std::string& name, bool wanted);
   void reset();
@@ -60,9 +60,9 @@ class World {
   std::vector<sim::Event> take_events();
   /// Keeps the readings of all sensors from now on.
   void keep_readings() { readings_.emplace(); }
-  /// What is kept; throws Error where keep_readings() was not called.
+  /// The kept readings; throws Error if keep_readings() was not called.
   ReadingLog& readings();
-  /// Of all that was loaded so far, as "file:line: what".
+  /// Warnings of all loaded files, as "file:line: text".
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// Elements of those files that are not read, as "file:line: what".
   const std::vector<std::string>& ignored() const { return ignored_; }

@@ -41,8 +41,8 @@ struct HeightTree::Query {
   void test(const HeightTree& tree, std::uint32_t number) {
     const HeightGrid::Triangle t = tree.grid_->triangle(number);
     double found = 0.0;
-    if (!meet_triangle(tree.corner(t[0]), tree.corner(t[1]), tree.corner(t[2]), origin, direction,
-                       found)) {
+    if (!intersect_triangle(tree.corner(t[0]), tree.corner(t[1]), tree.corner(t[2]), origin,
+                            direction, found)) {
       return;
     }
     if (found < min || found > range || (found == range && number >= triangle)) return;
@@ -157,8 +157,8 @@ void HeightTree::visit_cells(std::uint32_t column, std::uint32_t row, Query& q) 
   }
 }
 
-bool HeightTree::meet(const Vec3& origin, const Vec3& direction, double min, double max,
-                      double& range, std::uint32_t& triangle) const {
+bool HeightTree::find_hit(const Vec3& origin, const Vec3& direction, double min, double max,
+                          double& range, std::uint32_t& triangle) const {
   Query q{origin, direction, min, max, UINT32_MAX};
   visit(levels_.size() - 1, 0, 0, q);
   range = q.range;

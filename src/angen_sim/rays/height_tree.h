@@ -17,8 +17,8 @@ class HeightTree : public TriangleTree {
   /// The shared tree of a grid, kept while it is used; null if the grid has no heights.
   static std::shared_ptr<const HeightTree> of(const std::shared_ptr<const HeightGrid>& grid);
 
-  bool meet(const Vec3& origin, const Vec3& direction, double min, double max, double& range,
-            std::uint32_t& triangle) const override;
+  bool find_hit(const Vec3& origin, const Vec3& direction, double min, double max, double& range,
+                std::uint32_t& triangle) const override;
   Vec3 normal(std::uint32_t triangle) const override;
 
  private:

@@ -27,9 +27,9 @@ void occluded(const RTCOccludedFunctionNArguments* args) {
   if (!args->valid[0]) return;
   auto& q = *reinterpret_cast<SceneQuery*>(args->context);
   const Solid& solid = static_cast<const Solid*>(args->geometryUserPtr)[args->primID];
-  Meeting found;
+  Intersection found;
   if (!q.wants(solid, fixed)) return;
-  if (!meet(solid, q.origin, q.direction, q.min, q.best.range, found)) return;
+  if (!find_hit(solid, q.origin, q.direction, q.min, q.best.range, found)) return;
   q.solid = &solid;
   reinterpret_cast<RTCRay*>(args->ray)->tfar = -std::numeric_limits<float>::infinity();
 }
@@ -72,9 +72,9 @@ bool SceneQuery::prepare(const Vec3& from, const Vec3& towards, double nearest, 
 }
 
 bool SceneQuery::try_solid(const Solid& candidate, bool fixed) {
-  Meeting found;
+  Intersection found;
   if (!wants(candidate, fixed)) return false;
-  if (!meet(candidate, origin, direction, min, best.range, found)) return false;
+  if (!find_hit(candidate, origin, direction, min, best.range, found)) return false;
   const std::uint64_t found_rank = rank_of(candidate.slot, fixed);
   if (found.range == best.range && found_rank >= rank) return false;
   best = found;
@@ -117,9 +117,10 @@ void Layer::nearest(SceneQuery& q) const {
 }
 
 bool Layer::any(SceneQuery& q) const {
-  Meeting found;
+  Intersection found;
   for (const Solid& plane : planes) {
-    if (q.wants(plane, fixed) && meet(plane, q.origin, q.direction, q.min, q.best.range, found)) {
+    if (q.wants(plane, fixed) &&
+        find_hit(plane, q.origin, q.direction, q.min, q.best.range, found)) {
       return true;
     }
   }

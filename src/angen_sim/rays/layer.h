@@ -11,13 +11,13 @@
 
 namespace angen::rays {
 
-/// One ray, and its nearest hit so far.
+/// One ray, and the nearest hit found.
 struct SceneQuery {
   RTCIntersectContext context;  // first member: Embree returns its address
   Vec3 origin, direction;
   double min;
-  Meeting best;        // range starts at the ray's max
-  std::uint64_t rank;  // of the best so far; the lower wins a tie
+  Intersection best;   // range starts at the ray's max
+  std::uint64_t rank;  // of the nearest hit; the lower wins a tie
   const Solid* solid;
   bool anchored, moving;  // which of the movable shapes it can hit
 

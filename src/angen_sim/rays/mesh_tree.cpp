@@ -34,7 +34,7 @@ void box_of_triangle(const RTCBoundsFunctionArguments* args) {
 bool nearer(Query& q, std::uint32_t triangle) {
   double range = 0.0;
   const Corners t = corners(*q.mesh, triangle);
-  if (!meet_triangle(t.a, t.b, t.c, q.origin, q.direction, range)) return false;
+  if (!intersect_triangle(t.a, t.b, t.c, q.origin, q.direction, range)) return false;
   if (range < q.min || range > q.range) return false;
   if (range == q.range && triangle >= q.triangle) return false;
   q.range = range;
@@ -60,8 +60,8 @@ MeshTree::MeshTree(std::shared_ptr<const TriangleMesh> mesh)
   tree_.build(mesh_.get(), mesh_->triangles.size());
 }
 
-bool MeshTree::meet(const Vec3& origin, const Vec3& direction, double min, double max,
-                    double& range, std::uint32_t& triangle) const {
+bool MeshTree::find_hit(const Vec3& origin, const Vec3& direction, double min, double max,
+                        double& range, std::uint32_t& triangle) const {
   Query q{};
   rtcInitIntersectContext(&q.context);
   q.mesh = mesh_.get();

@@ -13,8 +13,8 @@ class MeshTree : public TriangleTree {
  public:
   explicit MeshTree(std::shared_ptr<const TriangleMesh> mesh);
 
-  bool meet(const Vec3& origin, const Vec3& direction, double min, double max, double& range,
-            std::uint32_t& triangle) const override;
+  bool find_hit(const Vec3& origin, const Vec3& direction, double min, double max, double& range,
+                std::uint32_t& triangle) const override;
   Vec3 normal(std::uint32_t triangle) const override;
 
  private:

@@ -97,18 +97,18 @@ bool RayCache::cast(const Scene& scene, const std::vector<ShapeId>& movers, Hit*
 
 bool RayCache::cast_against(const Scene& scene, const std::vector<ShapeId>& movers,
                             Hit* hits) const {
-  bool met = false;
+  bool hit = false;
   for (const ShapeId mover : movers) {
     const Eigen::AlignedBox3d box = scene.bounds(mover);
-    if (reach_.intersects(box)) met = cast_mover(scene, mover, box, hits) || met;
+    if (reach_.intersects(box)) hit = cast_mover(scene, mover, box, hits) || hit;
   }
-  return met;
+  return hit;
 }
 
 // Slab test (Kay and Kajiya 1986), on boxes padded as for Embree.
 bool RayCache::cast_mover(const Scene& scene, ShapeId mover, const Eigen::AlignedBox3d& box,
                           Hit* hits) const {
-  bool met = false;
+  bool hit = false;
   const RTCBounds slab = padded(box);
   const float low[3] = {slab.lower_x, slab.lower_y, slab.lower_z};
   const float high[3] = {slab.upper_x, slab.upper_y, slab.upper_z};
@@ -128,10 +128,10 @@ bool RayCache::cast_mover(const Scene& scene, ShapeId mover, const Eigen::Aligne
       if (in[lane] > out[lane] || i >= rays_.size()) continue;
       const std::uint32_t before = hits[i].shape;
       scene.better(mover, rays_[i], hits[i]);
-      met = met || hits[i].shape != before;
+      hit = hit || hits[i].shape != before;
     }
   }
-  return met;
+  return hit;
 }
 
 }  // namespace angen::rays

@@ -300,10 +300,10 @@ std::vector<Crossing> Scene::crossings(const Vec3& from, const Vec3& to, Mobilit
   const double length = (to - from).norm();
   if (!(length > 0.0)) return found;
   Ray ray{from, (to - from) / length, 0.0, length};
-  std::set<std::uint32_t> met;
+  std::set<std::uint32_t> hit_shapes;
   Hit hit;
   for (cast(&ray, &hit, 1, among); hit.hit(); cast(&ray, &hit, 1, among)) {
-    if (met.insert(hit.shape).second) {
+    if (hit_shapes.insert(hit.shape).second) {
       add_insides(*this, hit.shape, from, ray.direction, found);
     }
     ray.min = hit.range + kPast;

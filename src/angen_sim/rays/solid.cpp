@@ -203,11 +203,11 @@ bool contains(const Solid& solid, const Vec3& point) {
   }
 }
 
-bool meet(const Solid& solid, const Vec3& origin, const Vec3& direction, double min, double max,
-          Meeting& out) {
+bool find_hit(const Solid& solid, const Vec3& origin, const Vec3& direction, double min, double max,
+              Intersection& out) {
   const LocalRay ray = to_local(solid, origin, direction);
   if (solid.type == Shape::Type::kMesh) {
-    return solid.mesh->meet(ray.origin, ray.direction, min, max, out.range, out.feature);
+    return solid.mesh->find_hit(ray.origin, ray.direction, min, max, out.range, out.feature);
   }
   if (solid.type == Shape::Type::kPlane) {
     out = {-ray.origin.z() / ray.direction.z(), 0};
@@ -215,25 +215,25 @@ bool meet(const Solid& solid, const Vec3& origin, const Vec3& direction, double 
   }
   const Span span = span_of(solid, ray);
   if (span.empty()) return false;
-  out = span.enter >= min ? Meeting{span.enter, span.enter_feature}
-                          : Meeting{span.leave, span.leave_feature};
+  out = span.enter >= min ? Intersection{span.enter, span.enter_feature}
+                          : Intersection{span.leave, span.leave_feature};
   return std::isfinite(out.range) && within(out.range, min, max);
 }
 
 Vec3 normal_at(const Solid& solid, const Vec3& origin, const Vec3& direction,
-               const Meeting& meeting) {
+               const Intersection& hit) {
   const LocalRay ray = to_local(solid, origin, direction);
-  const Vec3 point = ray.origin + meeting.range * ray.direction;
+  const Vec3 point = ray.origin + hit.range * ray.direction;
   Vec3 normal = Vec3::UnitZ();
   switch (solid.type) {
     case Shape::Type::kBox:
-      normal = Vec3::Unit(meeting.feature);
+      normal = Vec3::Unit(hit.feature);
       break;
     case Shape::Type::kSphere:
       normal = point.normalized();
       break;
     case Shape::Type::kCylinder:
-      if (meeting.feature == 0) normal = Vec3(point.x(), point.y(), 0).normalized();
+      if (hit.feature == 0) normal = Vec3(point.x(), point.y(), 0).normalized();
       break;
     case Shape::Type::kCapsule: {
       const double along = std::max(-solid.half.z(), std::min(solid.half.z(), point.z()));
@@ -241,7 +241,7 @@ Vec3 normal_at(const Solid& solid, const Vec3& origin, const Vec3& direction,
       break;
     }
     case Shape::Type::kMesh:
-      normal = solid.mesh->normal(meeting.feature);
+      normal = solid.mesh->normal(hit.feature);
       break;
     default:
       break;

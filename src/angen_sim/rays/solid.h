@@ -28,7 +28,7 @@ struct Solid {
 
 /// The first surface of one solid at or beyond `min`. `feature` is the face: a box's axis, a
 /// cylinder's wall (0) or end (1), a mesh's triangle.
-struct Meeting {
+struct Intersection {
   double range = std::numeric_limits<double>::infinity();
   std::uint32_t feature = 0;
 };
@@ -41,11 +41,11 @@ bool contains(const Solid& solid, const Vec3& point);
 
 /// Whether a ray hits the solid in [min, max]; all in double. The direction need not be unit:
 /// ranges are multiples of its length. The hit does not depend on max.
-bool meet(const Solid& solid, const Vec3& origin, const Vec3& direction, double min, double max,
-          Meeting& out);
+bool find_hit(const Solid& solid, const Vec3& origin, const Vec3& direction, double min, double max,
+              Intersection& out);
 
-/// Unit normal (world) at the hit that `meet` found, on the side of the ray's origin.
+/// Unit normal (world) at the hit that `find_hit` found, on the side of the ray's origin.
 Vec3 normal_at(const Solid& solid, const Vec3& origin, const Vec3& direction,
-               const Meeting& meeting);
+               const Intersection& hit);
 
 }  // namespace angen::rays

@@ -8,8 +8,8 @@ namespace angen::rays {
 
 /// Intersects the line of a ray with the triangle from both sides; false without a hit. Plücker's
 /// test: neighbors compute bit-equal opposites for a shared edge, so no ray passes between them.
-inline bool meet_triangle(const Vec3& corner0, const Vec3& corner1, const Vec3& corner2,
-                          const Vec3& origin, const Vec3& direction, double& range) {
+inline bool intersect_triangle(const Vec3& corner0, const Vec3& corner1, const Vec3& corner2,
+                               const Vec3& origin, const Vec3& direction, double& range) {
   const Vec3 a = corner0 - origin, b = corner1 - origin, c = corner2 - origin;
   const Vec3 ca = c - a, ab = a - b, bc = b - c;
   const double u = ca.cross(c + a).dot(direction);

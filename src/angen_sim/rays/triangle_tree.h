@@ -13,8 +13,8 @@ class TriangleTree {
 
   /// Nearest triangle in [min, max], from both sides; the lowest number on a tie. False without a
   /// hit.
-  virtual bool meet(const Vec3& origin, const Vec3& direction, double min, double max,
-                    double& range, std::uint32_t& triangle) const = 0;
+  virtual bool find_hit(const Vec3& origin, const Vec3& direction, double min, double max,
+                        double& range, std::uint32_t& triangle) const = 0;
   virtual Vec3 normal(std::uint32_t triangle) const = 0;
   const Eigen::AlignedBox3d& bounds() const { return bounds_; }
 

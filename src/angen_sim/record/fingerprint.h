@@ -27,7 +27,7 @@ class RunFingerprint {
   std::shared_ptr<const std::vector<double>> light_levels_;
 };
 
-/// The same with all that a snapshot holds: equal for runs whose snapshots are equal, bit for bit.
+/// A hash of all contents of snapshots: equal for runs with equal snapshots, bit for bit.
 class Fingerprint {
  public:
   void add(const sim::Snapshot& snapshot);

@@ -20,7 +20,7 @@ struct Origin {
   std::string models;
 };
 
-/// Of a world's file; `allow_any` as in load::SearchPaths.
+/// The origin of a world's file; `allow_any` as in load::SearchPaths.
 Origin origin_of(const std::string& world, bool allow_any = false);
 
 /// Writes the log of a simulation, each line at once: however the process ends, all that was
@@ -35,7 +35,7 @@ class Recorder {
 
   /// Each snapshot after the first, in the thread that ticks.
   void add(const sim::Snapshot& snapshot);
-  /// How far a leap from this snapshot may go: to the next fingerprint.
+  /// The limit of a leap from this snapshot: the next fingerprint.
   Nanoseconds leap_limit(const sim::Snapshot& snapshot) const;
   /// Why it does not write any more, empty while it does.
   const std::string& error() const { return error_; }
@@ -69,10 +69,10 @@ class Recorder {
   std::vector<ReadingRequest> requests_;
 };
 
-/// Where a world's or spawned model's text says that files are; "" where it cannot be read.
+/// The hash of a file that a log names; "" if it cannot be read.
 std::string file_hash(const std::string& path);
 
-/// Where models of a log are searched besides the usual folders.
+/// Search paths of a log's models, besides the usual folders.
 load::SearchPaths paths_of(const std::string& models);
 
 }  // namespace angen::record

@@ -28,7 +28,7 @@ class Replay {
   std::shared_ptr<const sim::Snapshot> advance(Nanoseconds until = kForever);
   /// Everything in the log has taken place, or the time of stop_at() is reached.
   bool done() const { return done_; }
-  /// Where the log's time starts again, the first moment of that time.
+  /// Ends the replay at this time; if the log's time starts again, at its first occurrence.
   void stop_at(Nanoseconds time);
 
   const Log& log() const { return log_; }
@@ -40,7 +40,7 @@ class Replay {
 
   std::size_t actions() const { return actions_; }    // executed
   std::size_t compared() const { return compared_; }  // fingerprints that were equal
-  /// The first fingerprint that differed, as file:line: what; empty where all were equal so far.
+  /// The first fingerprint that differed, as file:line: text; empty while all are equal.
   const std::string& mismatch() const { return mismatch_; }
 
  private:

@@ -26,16 +26,16 @@ void bound(const RTCBoundsFunctionArguments* args) {
       rays::padded(bounds_of(*static_cast<const PlacedHeightmap*>(args->geometryUserPtr)));
 }
 
-bool meet(const PlacedHeightmap& heightmap, RTCRayN* rays, unsigned count, unsigned i,
-          double& range, std::uint32_t& triangle) {
+bool find_hit(const PlacedHeightmap& heightmap, RTCRayN* rays, unsigned count, unsigned i,
+              double& range, std::uint32_t& triangle) {
   const Vec3 origin(RTCRayN_org_x(rays, count, i), RTCRayN_org_y(rays, count, i),
                     RTCRayN_org_z(rays, count, i));
   const Vec3 direction(RTCRayN_dir_x(rays, count, i), RTCRayN_dir_y(rays, count, i),
                        RTCRayN_dir_z(rays, count, i));
   const Eigen::Matrix3d back = heightmap.rotation.transpose();
-  return heightmap.tree->meet(back * (origin - heightmap.position), back * direction,
-                              RTCRayN_tnear(rays, count, i), RTCRayN_tfar(rays, count, i), range,
-                              triangle);
+  return heightmap.tree->find_hit(back * (origin - heightmap.position), back * direction,
+                                  RTCRayN_tnear(rays, count, i), RTCRayN_tfar(rays, count, i),
+                                  range, triangle);
 }
 
 void intersect(const RTCIntersectFunctionNArguments* args) {
@@ -45,7 +45,7 @@ void intersect(const RTCIntersectFunctionNArguments* args) {
   for (unsigned i = 0; i < args->N; ++i) {
     double range = 0.0;
     std::uint32_t triangle = 0;
-    if (args->valid[i] == 0 || !meet(heightmap, rays, args->N, i, range, triangle)) continue;
+    if (args->valid[i] == 0 || !find_hit(heightmap, rays, args->N, i, range, triangle)) continue;
     RTCRayN_tfar(rays, args->N, i) = static_cast<float>(range);
     RTCHitN_primID(hits, args->N, i) = triangle;
     RTCHitN_geomID(hits, args->N, i) = args->geomID;
@@ -58,7 +58,8 @@ void occlude(const RTCOccludedFunctionNArguments* args) {
   for (unsigned i = 0; i < args->N; ++i) {
     double range = 0.0;
     std::uint32_t triangle = 0;
-    if (args->valid[i] == 0 || !meet(heightmap, args->ray, args->N, i, range, triangle)) continue;
+    if (args->valid[i] == 0 || !find_hit(heightmap, args->ray, args->N, i, range, triangle))
+      continue;
     RTCRayN_tfar(args->ray, args->N, i) = -std::numeric_limits<float>::infinity();
   }
 }

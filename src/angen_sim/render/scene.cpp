@@ -83,7 +83,9 @@ class Eye {
   std::vector<Vec3> columns_;  // the directions at the height of the axis
 };
 
-bool met(const RTCRayHit16& rays, int i) { return rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID; }
+bool has_hit(const RTCRayHit16& rays, int i) {
+  return rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
+}
 
 Eigen::Vector3f direction_of(const RTCRay16& ray, int i) {
   return {ray.dir_x[i], ray.dir_y[i], ray.dir_z[i]};
@@ -122,7 +124,7 @@ void leave_housing(const Instances& instances, float far, const int* valid, RTCR
     bool any = false;
     for (int i = 0; i < kLanes; ++i) {
       inside[i] = 0;
-      if (valid[i] == 0 || !met(rays, i) || rays.ray.tfar[i] > kHousing) continue;
+      if (valid[i] == 0 || !has_hit(rays, i) || rays.ray.tfar[i] > kHousing) continue;
       const Placed& placed = instances[rays.hit.instID[0][i]];
       const Eigen::Vector3f normal = placed.rotation * facet_of(rays, i, placed).normal;
       if (normal.dot(direction_of(rays.ray, i)) <= 0.0F) continue;
@@ -173,7 +175,7 @@ Eigen::AlignedBox3f bounds_of(const Tile& tile) {
 void gather(const Instances& instances, const int* valid, const RTCRayHit16& rays,
             const Eigen::Vector3f& ambient, Tile& tile) {
   for (int i = 0; i < kLanes; ++i) {
-    tile.valid[i] = valid[i] != 0 && met(rays, i) ? -1 : 0;
+    tile.valid[i] = valid[i] != 0 && has_hit(rays, i) ? -1 : 0;
     if (tile.valid[i] == 0) continue;
     const Placed& placed = instances[rays.hit.instID[0][i]];
     const Facet facet = facet_of(rays, i, placed);
@@ -310,7 +312,7 @@ std::vector<float> Scene::depths(const PinholeCamera& camera, const Pose& pose) 
   trace(camera, pose, impl_->instances,
         [&](int column, int row, const int* valid, const RTCRayHit16& rays) {
           for (int i = 0; i < kLanes; ++i) {
-            if (valid[i] == 0 || !met(rays, i)) continue;
+            if (valid[i] == 0 || !has_hit(rays, i)) continue;
             values[static_cast<std::size_t>(row + i / kTile) * camera.width + column + i % kTile] =
                 rays.ray.tfar[i];
           }

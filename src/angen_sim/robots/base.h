@@ -30,7 +30,7 @@ class Base {
   void read(const Pose& pose, const Vec3& velocity, double yaw_rate, Reading& reading) const;
   /// The fields by the true pose in the world.
   void read_true(const View& view, Reading& reading);
-  /// Whether it stood at the last read_true().
+  /// Whether it was at rest at the last read_true().
   bool rests() const { return rests_; }
 
  private:
@@ -90,7 +90,7 @@ class InertialUnit : public Sensor {
   bool steady() const override { return inertia_.rests(); }
 
  protected:
-  /// Of the orientation (rad), the turning (rad/s) and the acceleration (m/s^2), about or along x,
+  /// Errors of the orientation (rad), turn rate (rad/s) and acceleration (m/s^2), about or along x,
   /// y, z.
   void set_deviations(const Vec3& orientation, const Vec3& turning, const Vec3& acceleration);
   /// Noise of that standard deviation in those fields.

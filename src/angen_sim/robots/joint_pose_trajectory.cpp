@@ -68,9 +68,9 @@ class JointPoseTrajectory : public Device {
     if (began_.size() != joints_.size() || time <= 0.0) note_begin(view);
     const bool done = time > points_.back().time + kSettles;
     for (std::size_t i = 0; i < joints_.size(); ++i) {
-      const double wanted = position_at(time, i);
-      const double ahead = (position_at(time + step, i) - wanted) / step;
-      const double left = wanted - view.joint(joints_[i]).position;
+      const double target = position_at(time, i);
+      const double ahead = (position_at(time + step, i) - target) / step;
+      const double left = target - view.joint(joints_[i]).position;
       outputs.motor(joints_[i], done ? 0.0 : ahead + left / kResponse, kMax);
     }
     if (done) points_.clear();

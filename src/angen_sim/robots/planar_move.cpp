@@ -57,7 +57,7 @@ class PlanarMove : public Device {
     }
     const double yaw = to_rpy(view.link(link_).pose.rotation).z();
     outputs.drive(link_, Eigen::AngleAxisd(yaw, Vec3::UnitZ()) * velocity_, turn_, force_);
-    released_ = stands();
+    released_ = is_stopped();
   }
 
   Nanoseconds idle_until(const View&) const override { return released_ ? kForever : 0; }
@@ -69,7 +69,7 @@ class PlanarMove : public Device {
   }
 
  private:
-  bool stands() const { return velocity_.isZero(0.0) && turn_ == 0.0; }
+  bool is_stopped() const { return velocity_.isZero(0.0) && turn_ == 0.0; }
 
   LinkRef link_;
   double force_ = 0.0;  // N

@@ -39,16 +39,16 @@ void Wheels::update(const View& view, Outputs& outputs) {
 }
 
 // True when the motors have the commanded speed.
-bool Wheels::lead(Side& side, double wanted, double step, Outputs& outputs) const {
+bool Wheels::lead(Side& side, double target, double step, Outputs& outputs) const {
   const double next =
-      step > 0.0 ? std::clamp(wanted, side.speed - step, side.speed + step) : wanted;
+      step > 0.0 ? std::clamp(target, side.speed - step, side.speed + step) : target;
   if (next != side.speed || !started_) {
     side.speed = next;
     for (const JointRef joint : side.joints) {
       outputs.motor(joint, next / settings_.radius, settings_.torque);
     }
   }
-  return next == wanted;
+  return next == target;
 }
 
 void Wheels::report(const View&, Reading& state) const {

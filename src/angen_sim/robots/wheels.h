@@ -37,7 +37,7 @@ class Wheels : public Device {
     std::vector<JointRef> joints;
     double speed = 0.0;  // m/s at the rim, as the motors are commanded
   };
-  bool lead(Side& side, double wanted, double step, Outputs& outputs) const;
+  bool lead(Side& side, double target, double step, Outputs& outputs) const;
 
   WheelSettings settings_;
   Side left_;

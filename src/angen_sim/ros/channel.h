@@ -63,7 +63,7 @@ Message to_message(const StampedReading& reading, Fill<Message> fill) {
   return message;
 }
 
-/// So many messages wait for a slow subscriber. Pictures, of megabytes each, are fewer.
+/// The number of messages that wait for a slow subscriber; fewer for pictures, of megabytes each.
 template <class Message>
 std::uint32_t queue_length() {
   const std::string type = ros::message_traits::datatype<Message>();

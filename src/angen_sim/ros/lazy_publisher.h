@@ -80,8 +80,8 @@ class LazyPublisher {
   ros::Publisher publisher_;
 };
 
-/// A latched topic: each newcomer gets the last message. It is made when there is somebody to get
-/// it, where roscpp's own latch would have it made each time.
+/// A latched topic: each newcomer gets the last message. It is made for the first
+/// subscriber; with roscpp's own latch it would be made at each change.
 template <class Message>
 class LatchedLazyPublisher {
  public:

@@ -24,7 +24,7 @@ class Pacer {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::nanoseconds kMaxLag = std::chrono::seconds(1);
-  /// Ticks are taken ahead of the schedule for so long, and then slept for together: waking for
+  /// Ticks are taken this far ahead of the schedule, followed by one sleep: waking for
   /// each of them costs more than most of them do.
   static constexpr std::chrono::nanoseconds kBatch = std::chrono::milliseconds(10);
 

@@ -35,7 +35,7 @@ struct Format {
   std::string array_type;       // angen_msgs/PirArray, or empty: there is none
   Open array;                   // one message for all readings between two flushes
   Open latched_array;           // the same for states; a newcomer gets the last of each device
-  /// Fills in a message of that type: for tests, and for what is no topic.
+  /// Fills in a message of that type: for tests, and for uses without a topic.
   std::function<void(const Reading&, const Label&, void* message)> fill;
 };
 
@@ -50,7 +50,7 @@ struct ModelStyle {
   std::string group;        // rviz namespace of its visuals; empty: KIND + "s"
   std::string label;        // rviz namespace of a label with its name; empty: none
   bool is_carried = false;  // its carrier is shown as without it
-  bool travels = false;     // through the building; its label goes with it
+  bool travels = false;     // through the building; its label moves along
   bool is_on_floor = true;  // false: it changes storeys, its groups are of none
 };
 

@@ -64,7 +64,7 @@ void check_topics(const std::vector<NewSensor>& sensors, Catalog& catalog, Topic
     if (entry.topic.empty()) entry.topic = described.plugin_element.child_text("bumperTopicName");
     entry.desc = std::shared_ptr<const desc::Sensor>(std::shared_ptr<void>(), &described);
     for (const Format& format : ros_kind(entry.kind, described.plugin).formats) {
-      if (goes_with_its_kind(topics, format, nullptr)) continue;
+      if (is_on_topic_of_kind(topics, format, nullptr)) continue;
       for (const std::string& topic : sensor_topics(entry, format, nullptr)) {
         if (topic.front() != '/') continue;
         std::string taken = carried(topic);

@@ -53,7 +53,7 @@ Topics topics_named(const std::string& word) {
   throw Error("~topics is '" + word + "', must be sensor or kind");
 }
 
-bool goes_with_its_kind(Topics topics, const Format& format, const Robot* robot) {
+bool is_on_topic_of_kind(Topics topics, const Format& format, const Robot* robot) {
   return topics == Topics::kKind && !format.array_type.empty() && robot == nullptr;
 }
 

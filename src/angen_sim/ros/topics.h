@@ -28,7 +28,7 @@ std::vector<std::string> sensor_topics(const sim::SensorEntry& sensor, const For
 std::string below_namespace(const Element& plugin, const std::string& topic);
 
 /// Whether that message is published on the topic of its kind.
-bool goes_with_its_kind(Topics topics, const Format& format, const Robot* robot);
+bool is_on_topic_of_kind(Topics topics, const Format& format, const Robot* robot);
 std::string kind_topic(const std::string& kind);
 
 }  // namespace angen::node

@@ -34,7 +34,7 @@ class SceneMeshes {
     return at->second;
   }
 
-  /// Of the triangles of a marker.
+  /// The color of a marker's triangles.
   std::uint32_t of(const Marker& list) {
     angen_msgs::SceneMesh& made = out_.emplace_back();
     for (const geometry_msgs::Point& p : list.points) {

@@ -4,7 +4,7 @@
 
 namespace {
 
-// What the present exception says, in one line.
+// The message of the present exception, in one line.
 std::string problem_of_python() {
   PyObject *type = nullptr, *value = nullptr, *trace = nullptr;
   PyErr_Fetch(&type, &value, &trace);

@@ -216,7 +216,7 @@ void note_resolution(const Reader& axis) {
 // The values that Angen's own plug-ins read of SDF's blocks; those of others may read more.
 void check_blocks(const Reader& sensor, Session& session) {
   sensor.leave_to_others();
-  const Element* always_on = sensor.element().child("always_on");  // which is what it is
+  const Element* always_on = sensor.element().child("always_on");  // the default
   (always_on != nullptr && flag_of(*always_on) ? sensor : sensor.unused()).flag("always_on", false);
   sensor.unused().child("enable_metrics");
   const auto check = [](const Reader& block, std::initializer_list<const char*> keys,

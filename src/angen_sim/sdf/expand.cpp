@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kMaxDepth = 16;
 constexpr std::size_t kMaxExpanded = 400'000;
-constexpr std::size_t kMaxIncluded = 20'000;  // what a model may have, and what includes drop
+constexpr std::size_t kMaxIncluded = 20'000;  // elements of a model, or dropped by includes
 
 int version_of(const Element& sdf) {
   const std::string* text = sdf.attribute("version");

@@ -113,7 +113,7 @@ std::string Frames::key(const std::string& name, const std::string& scope,
 }
 
 const Pose& Frames::pose(const std::string& name) {
-  std::vector<Node*> way;  // what is not known yet, each relative to the next
+  std::vector<Node*> way;  // frames with unknown poses, each relative to the next
   Node* node = &nodes_.at(key(name, "", *nodes_.at("").element));
   while (!node->known) {
     if (node->visited) {

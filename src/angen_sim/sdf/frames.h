@@ -18,7 +18,7 @@ class Frames {
   explicit Frames(const Element& root);
 
   /// The pose of the link, joint, frame or model `name` ("a::b" in a nested model) in the root's.
-  /// Throws Error where it, or what it is relative to, does not exist or is relative to itself.
+  /// Throws Error where it, or a frame below it, does not exist or is relative to itself.
   const Pose& pose(const std::string& name);
 
   /// The pose of a part of a link (or of the root, with link "") in that link. `scope` is the

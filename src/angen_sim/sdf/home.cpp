@@ -17,7 +17,7 @@ namespace angen::load {
 namespace {
 
 constexpr double kSmallestRoom = 0.01;  // m^2
-constexpr std::size_t kMostCorners = 10'000;
+constexpr std::size_t kMaxRoomCorners = 10'000;
 
 const std::string kRoom = "angen:room";
 const std::string kStorey = "angen:storey";
@@ -60,7 +60,7 @@ Polygon polygon_of(const Element& element, const std::string& room) {
                                     "', which is not a number; write x y of each corner");
   }
   const std::size_t count = found.values.size();
-  if (count % 2 != 0 || count < 6 || count > 2 * kMostCorners) {
+  if (count % 2 != 0 || count < 6 || count > 2 * kMaxRoomCorners) {
     throw Error(element.source, what + " has " + std::to_string(count) +
                                     " numbers; write x y of three corners or more");
   }

@@ -3,13 +3,13 @@
 #include "desc/home.h"
 #include "sdf/reader.h"
 
-/// What worlds and models say of a home, in elements of the namespace angen: docs/home.md.
+/// Reads the elements of the namespace angen that describe a home: docs/home.md.
 namespace angen::load {
 
 /// Whether an element of that name belongs to the description of a home.
 bool is_of_home(const std::string& element);
 
-/// Adds what a <world> or <model> says; `frame` is the element's frame in that of `to`. Throws
+/// Adds the parts of a <world> or <model>; `frame` is the element's frame in that of `to`. Throws
 /// Error.
 void read_home_parts(const Reader& parent, const Pose& frame, desc::HomeParts& to,
                      Session& session);

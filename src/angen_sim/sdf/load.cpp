@@ -143,7 +143,7 @@ bool is_sensor(const std::string& what) {
     const auto accepts = [](const Element& e) { return e.name == "sensor"; };
     return accepts(root) || (root.name == "sdf" && lone_child(root, accepts) != nullptr);
   } catch (const Error&) {
-    return false;  // reading it as a model says what is wrong
+    return false;  // reading it as a model reports the error
   }
 }
 

@@ -12,7 +12,7 @@
 namespace angen::load {
 
 /// The most memory, in MB, that a world or a model may be estimated to take: the environment's
-/// ANGEN_MEMORY_LIMIT, 4096 without it, or what was set for this process.
+/// ANGEN_MEMORY_LIMIT, 4096 without it, or the value set for this process.
 double memory_limit();
 void set_memory_limit(double megabytes);
 

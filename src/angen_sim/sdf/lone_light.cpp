@@ -42,7 +42,7 @@ bool is_light(const std::string& what) {
   try {
     return light_in(parse_xml(what, kLightText)) != nullptr;
   } catch (const Error&) {
-    return false;  // reading it as a model says what is wrong
+    return false;  // reading it as a model reports the error
   }
 }
 
@@ -60,7 +60,7 @@ std::string included_light(const std::string& what, const SearchPaths& paths) {
     const Element included = expand_include(holder->children[0], session);
     return included.name == "light" ? print_xml(included) : "";
   } catch (const Error&) {
-    return "";  // reading it as a model says what is wrong
+    return "";  // reading it as a model reports the error
   }
 }
 

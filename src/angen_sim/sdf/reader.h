@@ -84,8 +84,9 @@ class Reader {
   Session::Mark mark_ = Session::Mark::kRead;  // of its children
 };
 
-/// Notes in the session what was not read of an element and of all below it that was: elements and
-/// attributes, each once for its place. A <pose>, a name and what is in a <plugin> count as read.
+/// Notes in the session the unread parts of an element and of all read ones below: elements and
+/// attributes, each once for its place. A <pose>, a name and the contents of a <plugin> count as
+/// read.
 void note_ignored(const Element& element, Session& session);
 
 }  // namespace angen::load

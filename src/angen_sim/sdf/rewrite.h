@@ -14,7 +14,7 @@ Element element_of(const std::string& name, const std::string& text = "");
 Element* find_part(Element& model, const std::string& element, const std::string& name);
 
 /// Inertials, gravity and lights of links, and damping and limits of joints, where `now` differs
-/// from what was `read`.
+/// from `read`.
 void write_changes(const desc::Model& read, const desc::Model& now, Element& model);
 
 /// Parameters of a light's own lamp, into that light of an element.

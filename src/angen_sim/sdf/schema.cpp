@@ -15,8 +15,8 @@ namespace angen::load {
 
 namespace {
 
-// libsdformat need not see plug-ins, which check their own parameters, what a later version of SDF
-// dropped, and values that a Reader checks otherwise.
+// libsdformat need not see plug-ins, which check their own parameters, elements that a later
+// version of SDF dropped, and values that a Reader checks otherwise.
 bool hidden(const Element& element, const std::string& parent) {
   static const std::set<std::string> names = {"plugin",
                                               "state",
@@ -106,7 +106,7 @@ Source source_of(const sdf::Error& error, const std::vector<Source>& lines) {
   return lines.empty() ? Source{} : lines.front();
 }
 
-// For errors without a line libsdformat names what it means in brackets, "link with name[a] … in
+// In errors without a line libsdformat names the element in brackets, "link with name[a] … in
 // model with name[m]": the model is found first, then the part of it.
 Source named_in(const std::string& message, const Element& world) {
   std::vector<std::string> names;

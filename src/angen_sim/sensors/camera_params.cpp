@@ -9,8 +9,8 @@ namespace angen::sensors {
 namespace {
 
 constexpr Range kPixels{1.0, 4096.0};
-constexpr double kMostPixels = 3840.0 * 2160.0;
-constexpr double kMostPixelsPerSecond = 30.0 * kMostPixels;
+constexpr double kMaxPixels = 3840.0 * 2160.0;
+constexpr double kMaxPixelsPerSecond = 30.0 * kMaxPixels;
 constexpr Range kAngle{1e-3, 3.1};
 constexpr Range kCoefficient{-100.0, 100.0};
 
@@ -50,14 +50,14 @@ std::string whole_text(double number) { return std::to_string(std::llround(numbe
 // The thread that renders an image answers no call meanwhile.
 void check_pixels(const render::PinholeCamera& camera, Params& params) {
   const double pixels = static_cast<double>(camera.width) * camera.height;
-  if (pixels > kMostPixels) {
+  if (pixels > kMaxPixels) {
     throw params.error("camera/image", "an image of " + whole_text(pixels) +
                                            " pixels, must have at most 3840 x 2160");
   }
   const double rate = pixels / to_seconds(params.update_period());
-  if (rate > kMostPixelsPerSecond) {
+  if (rate > kMaxPixelsPerSecond) {
     throw params.error("camera/image", whole_text(rate) + " pixels a second, must be at most " +
-                                           whole_text(kMostPixelsPerSecond) +
+                                           whole_text(kMaxPixelsPerSecond) +
                                            ": a smaller image, or a lower update_rate");
   }
 }

@@ -26,7 +26,7 @@ struct Fan : RayGeometry {
   /// A scan with noise where a ray hit something. Noise takes no range below `min` or above `max`.
   Ranges with_noise(Ranges ranges, Rng rng) const;
 
-  /// The same noise for a reading's field of ranges that are infinite without a hit: the
+  /// Declares the noise of a reading's field of ranges that are infinite without a hit: the
   /// simulator adds it, ray after ray.
   void declare_noise(const std::string& field, Params& params) const {
     params.noise({field, noise_mean, noise_stddev, {min, max}, false});
@@ -38,7 +38,7 @@ struct Fan : RayGeometry {
   /// of its random numbers is below this.
   double no_event_probability(double limit) const { return no_event_probability(limit, size()); }
 
-  /// The same for a scan of `rays` rays.
+  /// That probability for a scan of `rays` rays.
   double no_event_probability(double limit, std::size_t rays) const {
     return noise_stddev > 0.0 ? chance_within(rays, limit / noise_stddev) : 1.0;
   }

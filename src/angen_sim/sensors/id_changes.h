@@ -10,7 +10,7 @@ namespace angen::sensors {
 /// The ids that a reader has reported, and the events when they change.
 class IdChanges {
  public:
-  IdChanges(const char* came, const char* gone) : came_(came), gone_(gone) {}
+  IdChanges(const char* added, const char* removed) : added_(added), removed_(removed) {}
 
   /// One event per sample: new ids, or if there are none, removed ids. `ids` are sorted.
   void note(const std::vector<std::string>& ids, Reading& reading);
@@ -18,8 +18,8 @@ class IdChanges {
   bool pending() const { return pending_; }
 
  private:
-  const char* came_;
-  const char* gone_;
+  const char* added_;
+  const char* removed_;
   std::vector<std::string> last_;  // as reported
   bool pending_ = false;
 };

@@ -35,8 +35,8 @@ class PressureMat : public Sensor {
 
   void read(const View& view, Hits, Rng& rng, Reading& reading) override {
     const double load = load_on(view) + (noise_stddev_ > 0.0 ? noise_stddev_ * rng.gaussian() : 0);
-    const bool wanted = pressed_ ? load > release_ : load > threshold_;
-    if (settled(wanted, view.time())) {
+    const bool loaded = pressed_ ? load > release_ : load > threshold_;
+    if (settled(loaded, view.time())) {
       std::ostringstream detail;
       detail << "load " << load << " kg";
       reading.event = pressed_ ? "pressed" : "released";
@@ -53,15 +53,15 @@ class PressureMat : public Sensor {
 
  private:
   // True when a change that began a debounce ago or earlier has lasted until now.
-  bool settled(bool wanted, Nanoseconds now) {
-    if (wanted == pressed_) {
+  bool settled(bool loaded, Nanoseconds now) {
+    if (loaded == pressed_) {
       changed_at_.reset();
       return false;
     }
     if (!changed_at_) changed_at_ = now;
     if (now - *changed_at_ < debounce_) return false;
     changed_at_.reset();
-    pressed_ = wanted;
+    pressed_ = loaded;
     return true;
   }
 

@@ -8,7 +8,7 @@
 namespace angen::sensors {
 
 /// A reed contact: it closes when the magnet on another link of its model comes near, and opens
-/// when that has gone a little farther.
+/// when it is a little farther away.
 class Reed : public Sensor {
  public:
   Nanoseconds sample_period() const override { return sample_period_; }

@@ -30,7 +30,7 @@ void SoundField::pass(int first, int second, double area) {
   balance_(second, first) -= area;
 }
 
-// Of a source's power, 1 - absorption is left after the first reflection and feeds the diffuse
+// After the first reflection 1 - absorption of a source's power is left and feeds the diffuse
 // field. The balance is symmetric, so one solution serves for sources in all rooms.
 std::vector<double> SoundField::gains(int room) const {
   Eigen::VectorXd unit = Eigen::VectorXd::Zero(balance_.rows());

@@ -40,7 +40,7 @@ class Building {
   };
   Owner owner(physics::LinkId link) const { return owners_[link.index]; }
 
-  /// Where a model's frame is.
+  /// The pose of a model's frame.
   Pose pose_of(const LiveModel& live) const;
 
   struct FoundDevice {
@@ -49,7 +49,7 @@ class Building {
     Pose pose;
     std::size_t order;
   };
-  /// The devices whose last state has a field of that name and whose models stand in `within`, in
+  /// The devices whose last state has a field of that name and whose models are in `within`, in
   /// the order of the models.
   std::vector<FoundDevice> find_devices(const std::string& field,
                                         const Eigen::AlignedBox3d& within) const;
@@ -128,12 +128,12 @@ class Building {
 
   /// Warnings of the last add or of construction.
   const std::vector<std::string>& warnings() const { return warnings_; }
-  /// The same, taken out.
+  /// Returns and clears those warnings.
   std::vector<std::string> take_warnings();
 
  private:
   struct WorldLight {
-    std::unique_ptr<LiveModel> live;  // stands for it, with its lamp
+    std::unique_ptr<LiveModel> live;  // an instance for it, with its lamp
     std::string sdf;                  // that it was spawned from, "" for one of the world's text
 
     const desc::Light& light() const { return live->desc->links[0].lights[0]; }
@@ -198,7 +198,7 @@ class Building {
     std::vector<FoundDevice> movable;
   };
   const DevicesByField& devices_by_field(const std::string& field) const;
-  // What was queried for since something came or went.
+  // The queried fields since the last change of the structure.
   mutable std::unordered_map<std::string, DevicesByField> by_field_;
 };
 

@@ -51,7 +51,7 @@ class CommandQueue {
 
   bool paused() const { return paused_; }
   bool running() const { return !paused_ || !steps_.empty(); }
-  /// How many ticks may take place before a step is to be answered.
+  /// The number of ticks until the next step is to be answered.
   std::int64_t ticks_to_go() const;
   /// Counts ticks that took place.
   void ticks_done(std::int64_t count);

@@ -179,7 +179,7 @@ class DeviceMaker {
     return true;
   }
 
-  // Of "link" or "model::link"; the first for "".
+  // The index of "link" or "model::link"; the first for "".
   std::uint32_t link_index(const std::string& name) const {
     if (name.empty()) return 0;
     const std::string prefix = model_.name + "::";
@@ -256,14 +256,14 @@ class DeviceMaker {
   }
 
   Error serves_nothing(const desc::Plugin& described) const {
-    std::string wanted;
+    std::string needs;
     for (const auto& plugin : library(described)) {
       if (plugin->needs().empty()) continue;
-      wanted += "; " + plugin->kind().name + " needs " + plugin->needs();
+      needs += "; " + plugin->kind().name + " needs " + plugin->needs();
     }
-    if (wanted.empty()) wanted = ": it lacks the joints or lights of one";
+    if (needs.empty()) needs = ": it lacks the joints or lights of one";
     return Error(described.source, described.filename + " has nothing that serves model '" +
-                                       model_.name + "'" + wanted);
+                                       model_.name + "'" + needs);
   }
 
   bool would_drive(const Plugin& plugin, const ModelInfo::Joint& joint) const {

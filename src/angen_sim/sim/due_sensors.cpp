@@ -121,7 +121,7 @@ DueSensors::Visit DueSensors::visit(const Engines& engines, std::uint32_t index,
   return needs_no_sample(sensor, clock) ? Visit::kPublish : Visit::kSample;
 }
 
-/// Of a sensor for which nothing has changed.
+/// Whether a sensor for which nothing has changed can do without a sample.
 bool DueSensors::needs_no_sample(SensorInstance& sensor, InstanceView::Clock clock) const {
   const SensorActivity& activity = sensor.activity;
   if (activity.steady()) return true;

@@ -55,7 +55,7 @@ class DueSensors {
   void activate(const Engines& engines, SensorScheduler::Group& group, InstanceView::Clock clock);
   void activate_changed(const Engines& engines, const SensorScheduler::Group& group);
   void activate_for_events(SensorScheduler::Group& group, InstanceView::Clock clock);
-  /// Whether the noise of a sample lets the sensor's lazy reading stand for it.
+  /// Whether the noise of a sample lets the sensor's lazy reading replace it.
   bool has_no_event(const SensorInstance& sensor, InstanceView::Clock clock) const {
     const double probability = sensor.forecast.no_event_probability;
     return probability >= 1.0 ||

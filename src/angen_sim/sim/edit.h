@@ -20,7 +20,7 @@ struct StateIn {
   Vec3 angular = Vec3::Zero();  // rad/s
 };
 
-/// A whole model, joints as they stand; it moves as one rigid body then.
+/// A whole model with its present joint positions; it moves as one rigid body then.
 struct SetModelState {
   std::string model;
   StateIn state;

@@ -158,8 +158,8 @@ Parts::Lamp Engines::add_light(const desc::Light& described, const Pose& pose) {
 }
 
 void Engines::note_standing(const Parts& parts, const Parts::Shape& shape) {
-  const bool stands = rays.mobility(shape.id.index) != rays::Mobility::kMoving;
-  if (parts.is_static || stands) standing_changed_ = movers.now();
+  const bool standing = rays.mobility(shape.id.index) != rays::Mobility::kMoving;
+  if (parts.is_static || standing) standing_changed_ = movers.now();
 }
 
 void Engines::show(const Parts& parts, const Parts::Shape& shape) {
@@ -171,11 +171,11 @@ void Engines::show(const Parts& parts, const Parts::Shape& shape) {
   }
 }
 
-void Engines::set_standing(Resting::Body body, bool stands) {
+void Engines::set_standing(Resting::Body body, bool standing) {
   note_change();
   standing_changed_ = movers.now();
   for (const rays::ShapeId shape : loose.shapes(body)) {
-    rays.set_anchored(shape, stands);
+    rays.set_anchored(shape, standing);
     movers.put(shape, rays.bounds(shape));
   }
 }

@@ -54,8 +54,8 @@ class Engines {
   /// Shapes and lamps of `link` follow its body.
   void follow(const Parts& parts, std::uint32_t link);
 
-  /// To be called once a tick, when all that moved has been followed: what has come to rest counts
-  /// among what stands.
+  /// To be called once a tick, when all motion has been followed: bodies that came to rest become
+  /// standing shapes.
   void note_rest(Nanoseconds now);
   /// When something will have come to rest, at the earliest.
   Nanoseconds next_rest() const { return loose.next(); }
@@ -78,13 +78,13 @@ class Engines {
   /// Something that sensors may query besides rays has changed: a pose, a light, a contact.
   void note_change() { changed_ = movers.now(); }
   MoverIndex::Moment changed() const { return changed_; }  // when last
-  /// The same of static shapes, those that are joined to them, as doors are, and those that rest.
+  /// The last change of standing shapes: static, anchored, such as doors, or resting.
   MoverIndex::Moment standing_changed() const { return standing_changed_; }
 
  private:
   void show(const Parts& parts, const Parts::Shape& shape);
   void note_standing(const Parts& parts, const Parts::Shape& shape);
-  void set_standing(Resting::Body body, bool stands);
+  void set_standing(Resting::Body body, bool standing);
   bool light_lags() const { return standing_changed_ >= light_followed_; }
 
   MoverIndex::Moment changed_ = 0;

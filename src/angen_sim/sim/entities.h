@@ -37,7 +37,7 @@ struct FoundJoint {
 FoundJoint find_joint(const Building& building, const std::string& name);  // model::joint
 
 Motion motion_of(const Building& building, const Entity& entity);
-/// Of the world for "".
+/// The motion of an entity, that of the world for "".
 Motion motion_of(const Building& building, const std::string& name);
 
 /// The answer to a query of the thread that ticks.

@@ -7,7 +7,7 @@
 
 namespace angen::sim {
 
-/// Calls a plug-in, which may throw anything. Returns the text of what it threw, on one line; ""
+/// Calls a plug-in, which may throw anything. Returns the text of the exception, on one line; ""
 /// where it did not throw.
 template <class F>
 std::string thrown_by(F&& call) {

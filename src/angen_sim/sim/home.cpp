@@ -16,7 +16,7 @@ constexpr double kSlabArea = 1.0;    // m^2
 
 Passage passage_of(const DeviceInstance& device) { return device.plugin->kind().passage(); }
 
-// As what the home module takes for one: the sensors and furniture that are spawned are not.
+// Whether the home module may take it for a wall: spawned sensors and furniture are none.
 bool may_be_wall(const desc::Model& model) {
   if (!model.is_static) return false;
   for (const desc::Link& link : model.links) {

@@ -56,7 +56,7 @@ class CleanWithNoise : public LazyReading {
   std::vector<Noise> noise_;
 };
 
-// Where a sensor that is a model's plug-in sits on its link.
+// The pose on its link of a sensor that is a model's plug-in.
 Pose offset_in(Params& params) {
   Pose offset;
   const auto vector = [&](const char* name, const char* unit, const char* doc) {
@@ -151,13 +151,13 @@ ModelInfo info_of(const desc::Model& model) {
 SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
                            std::shared_ptr<const desc::Sensor> shared, const std::string& name,
                            Catalog& catalog, std::vector<std::string>& warnings,
-                           const Plugin* wanted) {
+                           const Plugin* only) {
   const desc::Sensor& described = *shared;
   return with_source(described.source, [&] {
     SensorInstance instance;
     std::optional<Params> read;
     for (const auto& plugin : catalog.library(described.plugin)) {
-      if (wanted != nullptr && plugin.get() != wanted) continue;
+      if (only != nullptr && plugin.get() != only) continue;
       read.emplace(described.plugin_element, &described.element, plugin->kind().rate());
       if (live.desc->tolerant) read->take_first();
       instance.sensor = plugin->make_sensor(*read);
@@ -186,7 +186,7 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
     ModelWiring wiring(*live.desc, name, live.desc->links[link].name);
     instance.sensor->configure(params, wiring);
     instance.plugin->link_of(params);
-    if (wanted != nullptr) instance.pose = instance.pose * offset_in(params);
+    if (only != nullptr) instance.pose = instance.pose * offset_in(params);
     if (live.desc->tolerant) {
       for (const Diagnostic& each : params.unread()) warnings.push_back(each.text() + " (ignored)");
     } else {

@@ -164,11 +164,11 @@ ModelInfo info_of(const desc::Model& model);  // `taken` is left out
 void make_instances(LiveModel& live, const std::vector<desc::Plugin>& world_plugins,
                     Catalog& catalog, std::vector<std::string>& warnings);
 
-/// A sensor of `live`, on its link number `link`; shares its description. `wanted`: of a model's
+/// A sensor of `live`, on its link number `link`; shares its description. `only`: of a model's
 /// own plug-in, the one of its library.
 SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
                            std::shared_ptr<const desc::Sensor> shared, const std::string& name,
                            Catalog& catalog, std::vector<std::string>& warnings,
-                           const Plugin* wanted = nullptr);
+                           const Plugin* only = nullptr);
 
 }  // namespace angen::sim

@@ -89,7 +89,7 @@ class MoverIndex {
     std::uint64_t visited = 0;
     Box box;
   };
-  // What is checked first of a region; stored apart from the rest, which would cause a cache miss
+  // The part of a region that is checked first; apart from the rest, which would cause a cache miss
   // for each of many regions.
   struct RegionState {
     Moment left = 0;              // when a mover was last removed from its list
@@ -131,7 +131,7 @@ class MoverIndex {
   std::map<CellList, std::uint32_t> cell_list_numbers_;
   std::vector<std::uint32_t> free_;
   std::vector<Mover> movers_;  // by index of the shape; one without an id is none
-  std::vector<Moment> moved_;  // as movers_, which are too large to be gone through for it
+  std::vector<Moment> moved_;  // as movers_, which are too large for this search
   std::unordered_map<std::uint64_t, std::uint32_t> cell_numbers_;  // by packed cell coordinates
   std::vector<Cell> cells_;
   std::uint32_t latest_ = UINT32_MAX;  // the head of their list

@@ -9,8 +9,8 @@ namespace angen::sim {
 namespace {
 
 template <class T, class F>
-void erase_if(std::vector<T>& all, F&& gone) {
-  all.erase(std::remove_if(all.begin(), all.end(), gone), all.end());
+void erase_if(std::vector<T>& all, F&& matches) {
+  all.erase(std::remove_if(all.begin(), all.end(), matches), all.end());
 }
 
 }  // namespace

@@ -20,24 +20,24 @@ class RequestedSensors {
     observer_ = std::move(observer);
   }
 
-  void set(const std::string& kind, const std::string& name, bool wanted) {
+  void set(const std::string& kind, const std::string& name, bool requested) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (observer_) observer_(kind, name, wanted);
-    if (wanted) {
-      wanted_.emplace(kind, name);
+    if (observer_) observer_(kind, name, requested);
+    if (requested) {
+      requested_.emplace(kind, name);
     } else {
-      wanted_.erase({kind, name});
+      requested_.erase({kind, name});
     }
   }
 
   bool has(const std::string& kind, const std::string& name) const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return wanted_.count({kind, name}) > 0;
+    return requested_.count({kind, name}) > 0;
   }
 
  private:
   mutable std::mutex mutex_;
-  std::set<std::pair<std::string, std::string>> wanted_;
+  std::set<std::pair<std::string, std::string>> requested_;
   Observer observer_;
 };
 

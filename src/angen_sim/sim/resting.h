@@ -9,22 +9,22 @@
 
 namespace angen::sim {
 
-/// Which loose bodies stand still: those that have for 5 s, and from the start. Light counts them
-/// among what stands.
+/// The resting loose bodies: those that have not moved for 5 s, or since the start. Light treats
+/// their shapes as standing.
 class Resting {
  public:
   using Body = std::uint32_t;
   static constexpr Body kNone = UINT32_MAX;
 
-  /// It stands still.
+  /// Adds a body at rest.
   Body add(const Pose& pose);
   void add_shape(Body body, rays::ShapeId shape) { bodies_[body].shapes.push_back(shape); }
   void remove(Body body);
 
   bool rests(Body body) const { return bodies_[body].still; }
-  /// It is there now. True when it has stood still and does no longer.
+  /// Records the present pose. True if it was resting until now.
   bool move(Body body, const Pose& pose);
-  /// Calls visit(body) for those that stand still from now on. To be called once a tick.
+  /// Calls visit(body) for those that begin to rest. To be called once a tick.
   template <class F>
   void update(Nanoseconds now, F&& visit) {
     for (std::size_t i = 0; i < moving_.size();) {

@@ -27,7 +27,7 @@ struct Schedule {
   /// The tick that a due time falls on.
   Nanoseconds tick_of(Nanoseconds due) const { return start + up(due - start, step); }
 
-  /// How many samples there were before the one at `time` (>= start).
+  /// The number of samples before the one at `time` (>= start).
   std::int64_t samples_before(Nanoseconds time) const { return (time - start) / sample; }
 
   /// The tick of the last sample at or before `time`; before `start` when there was none.
@@ -47,7 +47,7 @@ struct Schedule {
     return tick_of(start + (time - start) / sample * sample);
   }
 
-  /// How many publications there were at or before `time`, when each is at the first sample.
+  /// The number of publications at or before `time`, each at its first sample.
   std::int64_t publications(Nanoseconds time) const {
     if (time < start) return 0;
     const Nanoseconds slower = std::max(sample, publish);

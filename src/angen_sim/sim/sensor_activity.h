@@ -44,7 +44,7 @@ class SensorActivity {
   /// `memory` samples before it.
   bool settled(int memory) const { return unchanged_ > memory; }
   void become_lazy() { state_ = State::kLazy; }
-  /// It samples again, after its lazy reading stood for it.
+  /// It samples again, after its lazy reading replaced its samples.
   void resume() { state_ = State::kVarying; }
 
  private:

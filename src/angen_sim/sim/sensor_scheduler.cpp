@@ -11,13 +11,13 @@ namespace {
 
 using Sensors = std::vector<std::uint32_t>;
 
-/// Removes those for which `wanted` is true.
+/// Removes and returns those for which `matches` is true.
 template <class F>
-Sensors take(Sensors& from, F&& wanted) {
-  const auto gone = std::stable_partition(from.begin(), from.end(),
-                                          [&](std::uint32_t sensor) { return !wanted(sensor); });
-  Sensors taken(gone, from.end());
-  from.erase(gone, from.end());
+Sensors take(Sensors& from, F&& matches) {
+  const auto removed = std::stable_partition(
+      from.begin(), from.end(), [&](std::uint32_t sensor) { return !matches(sensor); });
+  Sensors taken(removed, from.end());
+  from.erase(removed, from.end());
   return taken;
 }
 

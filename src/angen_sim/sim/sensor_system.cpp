@@ -19,7 +19,7 @@ bool publishes(const SensorInstance& sensor, InstanceView::Clock clock) {
          sensor.schedule.last_publication(clock.time) > clock.time - clock.step;
 }
 
-/// Whether it is where it was at its last sample; otherwise its cached scans are dropped.
+/// Whether it has not moved since its last sample; otherwise drops its cached scans.
 bool stands_still(const Engines& engines, const LiveModel& live, SensorInstance& sensor) {
   if (!sensor.link_moves) return true;
   const Pose pose = pose_of(engines, live, sensor);
@@ -184,7 +184,7 @@ Queried SensorSystem::measure(Building& building, const Sample& sample, Hits hit
   reading.urgent = false;
   reading.event.clear();
   reading.event_detail.clear();
-  // Where the engine draws noise by the sensor's key, the sensor's own numbers have another.
+  // If the engine draws noise by the sensor's key, the sensor's own numbers have another key.
   Rng rng(seed_, has_noise ? sensor.key ^ kOwnDraws : sensor.key, tick);
   const InstanceView view(building, *due_[sample.index].live, clock, &sensor);
   sensor.sensor->read(view, hits, rng, reading);
@@ -223,7 +223,7 @@ void SensorSystem::repeat(std::uint32_t index, Snapshot& next) {
   ++next.counts.readings;
 }
 
-/// Ends the time in which the sensor's lazy reading stood for its samples.
+/// Ends the time in which the sensor's lazy reading replaced its samples.
 void SensorSystem::resume(std::uint32_t index, InstanceView::Clock clock, Snapshot& next) {
   SensorInstance& sensor = *due_[index].sensor;
   sensor.activity.resume();

@@ -298,8 +298,8 @@ std::shared_ptr<const Snapshot> Simulation::snapshot() const {
   return impl_->latest;
 }
 
-void Simulation::request(const std::string& kind, const std::string& name, bool wanted) {
-  impl_->requested.set(kind, name, wanted);
+void Simulation::request(const std::string& kind, const std::string& name, bool requested) {
+  impl_->requested.set(kind, name, requested);
 }
 
 bool Simulation::requested(const std::string& kind, const std::string& name) const {

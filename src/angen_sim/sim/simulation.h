@@ -47,7 +47,7 @@ class Simulation {
 
   /// Requests this sensor's readings, or ends that; matters to those that sample on demand
   /// only. The sensor need not exist yet. Any thread.
-  void request(const std::string& kind, const std::string& name, bool wanted);
+  void request(const std::string& kind, const std::string& name, bool requested);
   bool requested(const std::string& kind, const std::string& name) const;
 
   /// `actions` sees each action before it is executed, `requests` each call of request().

@@ -154,11 +154,11 @@ std::vector<SurfaceRef> ModelWiring::surfaces(const std::string& visual) {
   std::vector<std::string> known;
   int first = 0;
   for (const desc::Link& link : model_.links) {
-    std::set<int> met;  // by rays
+    std::set<int> visible;  // to rays
     for (const desc::Collision& collision : link.collisions)
-      met.insert(like_visual(link, collision));
-    met.erase(-1);
-    for (const int number : met) {
+      visible.insert(like_visual(link, collision));
+    visible.erase(-1);
+    for (const int number : visible) {
       const std::string& name = link.visuals[number].name;
       known.push_back(name);
       if (visual.empty() || visual == name || visual == link.name + "/" + name) {

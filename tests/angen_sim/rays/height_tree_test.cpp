@@ -39,8 +39,8 @@ void expect_same(const TriangleTree& one, const TriangleTree& other, const Vec3&
                  const Vec3& direction, int& hits) {
   double range[2] = {0, 0};
   std::uint32_t triangle[2] = {0, 0};
-  const bool hit = one.meet(origin, direction, 0.01, 20.0, range[0], triangle[0]);
-  ASSERT_EQ(hit, other.meet(origin, direction, 0.01, 20.0, range[1], triangle[1]));
+  const bool hit = one.find_hit(origin, direction, 0.01, 20.0, range[0], triangle[0]);
+  ASSERT_EQ(hit, other.find_hit(origin, direction, 0.01, 20.0, range[1], triangle[1]));
   if (!hit) return;
   ++hits;
   ASSERT_EQ(range[0], range[1]);

@@ -17,8 +17,8 @@ using Names = std::vector<std::string>;
 
 TEST(Topics, KindsOfWhichThereMayBeManyShareTheirs) {
   for (const char* kind : {"pir", "switch", "luminosity", "contact", "smoke"}) {
-    EXPECT_TRUE(goes_with_its_kind(Topics::kKind, format_of(kind), nullptr)) << kind;
-    EXPECT_FALSE(goes_with_its_kind(Topics::kSensor, format_of(kind), nullptr)) << kind;
+    EXPECT_TRUE(is_on_topic_of_kind(Topics::kKind, format_of(kind), nullptr)) << kind;
+    EXPECT_FALSE(is_on_topic_of_kind(Topics::kSensor, format_of(kind), nullptr)) << kind;
   }
   EXPECT_EQ(format_of("pir").array_type, "angen_msgs/PirArray");
   EXPECT_EQ(format_of("smoke").array_type, "angen_msgs/ReadingArray");
@@ -27,10 +27,10 @@ TEST(Topics, KindsOfWhichThereMayBeManyShareTheirs) {
 
 TEST(Topics, PicturesScansAndWhatARobotCarriesKeepTheirOwn) {
   const Robot robot;
-  EXPECT_FALSE(goes_with_its_kind(Topics::kKind, format_of("contact"), &robot));
-  EXPECT_FALSE(goes_with_its_kind(Topics::kKind, format_of("lidar"), nullptr));
+  EXPECT_FALSE(is_on_topic_of_kind(Topics::kKind, format_of("contact"), &robot));
+  EXPECT_FALSE(is_on_topic_of_kind(Topics::kKind, format_of("lidar"), nullptr));
   for (const Format& format : formats_of("depth")) {
-    EXPECT_FALSE(goes_with_its_kind(Topics::kKind, format, nullptr)) << format.type;
+    EXPECT_FALSE(is_on_topic_of_kind(Topics::kKind, format, nullptr)) << format.type;
   }
 }
 

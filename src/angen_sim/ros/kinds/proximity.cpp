@@ -9,7 +9,7 @@ namespace angen::node {
 namespace {
 
 /// As gazebo_ros_range has it: max_range where nothing is in reach, as range_sensor_layer drops
-/// what is infinite.
+/// infinite ranges.
 void fill(const Reading& reading, const Label&, sensor_msgs::Range& message) {
   const auto number = [&](const char* name) {
     return static_cast<float>(reading.get<double>(name));

@@ -19,7 +19,7 @@ constexpr int kFewest = 12;  // cells on a side
 constexpr int kMaxCells = 64;
 constexpr double kSameAir = 0.01;                    // K
 constexpr double kZeroCelsius = 273.15;              // K
-constexpr double kWatchCell = 0.02;                  // rad between rays that bound what it sees
+constexpr double kWatchCell = 0.02;                  // rad between the rays that bound its view
 constexpr std::size_t kEach = 4;                     // of the rays to a surface, one is probed
 constexpr std::size_t kFewProbed = 24;               // of fewer rays all are cast
 constexpr Nanoseconds kHiddenPeriod = kSecond / 20;  // while all surfaces are hidden
@@ -128,7 +128,7 @@ void Heat::sum_up() {
   }
 }
 
-// Of its room, or the world's where that has no climate.
+// Follows the air of its room, or the world's if the room has no climate.
 void Heat::follow_air(const View& view) {
   const Nanoseconds now = view.time() / kSecond;
   if (now == felt_at_) return;

@@ -13,8 +13,8 @@ namespace angen::sensors {
 class Heat {
  public:
   Heat() = default;
-  /// Sees to `range` in m, every `period`. `opening` in m^2 is the area of a facet times what the
-  /// lens and the detector's window let through.
+  /// Sees to `range` in m, every `period`. `opening` in m^2 is the area of a facet times the
+  /// transmittance of the lens and the detector's window.
   Heat(FresnelLens lens, double range, double opening, Nanoseconds period);
 
   /// Requests rays towards every such surface; none where nothing moved since the last time.
