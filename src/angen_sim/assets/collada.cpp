@@ -38,7 +38,7 @@ class Nodes {
       const long long number = std::strtoll(count, &end, 10);
       if (number < 0 || static_cast<std::size_t>(number) > bytes_) {
         reject(element, "<" + name + " count=\"" + std::string(count).substr(0, 40) +
-                            "\"> is not the number of what it holds");
+                            "\"> is not the number of its elements");
       }
     }
     if (name == "node") {

@@ -71,7 +71,7 @@ void Elevator::configure(Params& params, Wiring& wiring) {
   servo_ = Servo(servo);
   read_floors(params);
   brake_force_ =
-      params.number("brake_force", 30000.0, "N", "brake of the standing cabin", kPositive);
+      params.number("brake_force", 30000.0, "N", "brake of the cabin at rest", kPositive);
   rated_load_ = params.number("rated_load", kRatedLoad, "kg",
                               "it stays, with open doors, under more than this by 10 % (by 75 kg "
                               "at least)",

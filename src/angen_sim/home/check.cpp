@@ -173,7 +173,7 @@ class Checks {
     }
     for (const Room& room : home_.rooms) {
       if (reached.count(room.name) != 0) continue;
-      contradict("nobody can reach room " + quoted(room.name) +
+      contradict("no person can reach room " + quoted(room.name) +
                  ": no door, <angen:opening> or elevator leads there");
     }
   }

@@ -27,7 +27,7 @@ void bind_edits(pyb::class_<World>& world) {
           },
           pyb::arg("model"), pyb::arg("pose"), pyb::arg("linear") = none,
           pyb::arg("angular") = none, pyb::arg("frame") = "",
-          "Puts a model somewhere, its joints as they stand; pose is x y z roll pitch yaw.")
+          "Puts a model somewhere, with its present joint positions; pose is x y z roll pitch yaw.")
       .def(
           "set_joints",
           [](World& w, const std::string& model, const std::map<std::string, double>& positions) {

@@ -173,7 +173,7 @@ void bind_world(pyb::module_& module) {
            pyb::arg("wanted") = true,
            "Sensors that sample on demand (lidar, camera, depth) do so while they are requested.")
       .def("reset", &World::reset, "Everything back to its start, the time to 0.")
-      .def("save", &World::save, "The world as it stands, as SDF text.")
+      .def("save", &World::save, "The present world as SDF text.")
       .def(
           "sensor",
           [](const World& w, const std::string& kind, const std::string& name) {
@@ -252,10 +252,10 @@ void bind_world(pyb::module_& module) {
                              "a hash of every snapshot since the start or the last reset")
       .def_property_readonly(
           "warnings", [](const World& w) { return w.warnings(); },
-          "what was wrong with files that were loaded all the same: 'file:line: what'")
+          "warnings about the loaded files: 'file:line: text'")
       .def_property_readonly(
           "ignored", [](const World& w) { return w.ignored(); },
-          "what nothing reads of the files that were loaded: 'file:line: <element> in <parent>'")
+          "unread elements of the loaded files: 'file:line: <element> in <parent>'")
       .def(
           "events",
           [](World& w) {

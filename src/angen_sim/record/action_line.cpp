@@ -283,7 +283,7 @@ LogContent read_content(const LineReader& line) {
   LogContent content;
   const bool known = std::apply(
       [&](const auto&... each) { return (read_as(each, what, line, content) || ...); }, kEntries);
-  if (!known) line.fail("'" + what + "' is not something that a log does");
+  if (!known) line.fail("'" + what + "' is not an action of a log");
   return content;
 }
 

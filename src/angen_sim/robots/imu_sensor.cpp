@@ -10,7 +10,8 @@ class ImuSensor : public InertialUnit {
   void configure(Params& params, Wiring& wiring) override {
     InertialUnit::configure(params, wiring);
     params.text("bodyName", "", "not used: it sits on the sensor's link");
-    params.flag("initialOrientationAsReference", false, "not used: the world is, as REP 145 wants");
+    params.flag("initialOrientationAsReference", false,
+                "not used: the world is, as REP 145 requires");
     params.rows("xyzOffset", 3, "m", "not used, as in Gazebo");
     params.rows("rpyOffset", 3, "rad", "not used: give the sensor a <pose>");
   }

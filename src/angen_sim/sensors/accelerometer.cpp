@@ -25,11 +25,11 @@ class Accelerometer : public Sensor {
     const double sample_rate =
         params.number("sample_rate", 100.0, "Hz", "how often it samples", {1.0, 1e4});
     sample_period_ = from_seconds(1.0 / sample_rate);
-    activity_ =
-        params.number("activity_threshold", 0.5, "m/s^2",
-                      "it is moved when its acceleration is so far from gravity's", kPositive);
-    quiet_ = from_seconds(
-        params.number("inactivity_time", 0.5, "s", "and at rest after so long below", kPositive));
+    activity_ = params.number("activity_threshold", 0.5, "m/s^2",
+                              "difference of its acceleration from gravity's that counts as motion",
+                              kPositive);
+    quiet_ = from_seconds(params.number("inactivity_time", 0.5, "s",
+                                        "time below the threshold until it is at rest", kPositive));
     tilt_threshold_ =
         params.number("tilt_threshold", 0.35, "rad",
                       "it is tilted beyond this angle from how it was mounted", {1e-3, M_PI});

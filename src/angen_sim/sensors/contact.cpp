@@ -51,7 +51,7 @@ class Contact : public Sensor {
   void configure(Params& params, Wiring& wiring) override {
     params.noise("forces", "N", "of each component of a force");
     debounce_ = from_seconds(params.number(
-        "debounce", 0.0, "s", "touch and release count once they have lasted so long", {0.0, 1e6}));
+        "debounce", 0.0, "s", "least duration of a touch or release that counts", {0.0, 1e6}));
     const double sample_rate = params.number("sample_rate", 100.0, "Hz",
                                              "how often it samples, given a debounce", {1e-3, 1e6});
     sample_period_ = from_seconds(1.0 / sample_rate);

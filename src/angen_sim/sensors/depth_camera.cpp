@@ -11,6 +11,6 @@ struct DepthCamera : Depth {
 };
 
 ANGEN_REGISTER_SENSOR(DepthCamera, depth_kind(Kind("depth_camera",
-                                                   "A depth camera that sees as far as its lens.")))
+                                                   "A depth camera with the range of its lens.")))
 
 }  // namespace angen::sensors

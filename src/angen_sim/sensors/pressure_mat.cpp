@@ -27,8 +27,8 @@ class PressureMat : public Sensor {
     const double sample_rate =
         params.number("sample_rate", 100.0, "Hz", "how often it samples", {1e-3, 1e6});
     sample_period_ = from_seconds(1.0 / sample_rate);
-    debounce_ = from_seconds(params.number(
-        "debounce", 0.05, "s", "a load counts when it has been there so long", kNotNegative));
+    debounce_ = from_seconds(
+        params.number("debounce", 0.05, "s", "least duration of a load that counts", kNotNegative));
     noise_stddev_ = params.number("noise_stddev", 0.0, "kg", "of a load", kNotNegative);
     collisions_ = read_watched(params, wiring, "a pressure mat");
   }

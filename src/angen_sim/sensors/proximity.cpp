@@ -33,10 +33,10 @@ void Proximity::read_rays(Params& params) {
 void Proximity::configure(Params& params, Wiring&) {
   read_rays(params);
   infrared_ = params.choice("radiation", "ultrasound", {"ultrasound", "infrared"},
-                            "what its message says that it sends out") == "infrared";
+                            "radiation type in its message") == "infrared";
   field_of_view_ =
       params.number("fov", field_of_view_, "rad",
-                    "what its message says; the cone is as wide as its rays", {0.0, 7.0});
+                    "field of view in its message; the cone is as wide as its rays", {0.0, 7.0});
 }
 
 void Proximity::read(const View&, Hits hits, Rng&, Reading& reading) {

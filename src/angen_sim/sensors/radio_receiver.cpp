@@ -20,13 +20,12 @@ class RadioReceiver : public Sensor {
  public:
   void configure(Params& params, Wiring&) override {
     sensitivity_ = params.number("sensitivity", -90.0, "dBm", "weaker signals are not received");
-    hysteresis_ = params.number("hysteresis", 6.0, "dB",
-                                "so much weaker is a signal that it received before, when it loses "
-                                "it",
-                                kNotNegative);
-    const double lost_after = params.number(
-        "lost_after", 10.0, "s",
-        "so long it receives nothing of a transmitter before it reports the loss", {0.0, 1e6});
+    hysteresis_ =
+        params.number("hysteresis", 6.0, "dB",
+                      "a received signal is lost this far below the sensitivity", kNotNegative);
+    const double lost_after =
+        params.number("lost_after", 10.0, "s",
+                      "time without reception from a transmitter until it is lost", {0.0, 1e6});
     lost_after_ = from_seconds(lost_after);
     gain_ = params.number("gain", 0.0, "dBi", "of its antenna");
     losses_.light_wall =

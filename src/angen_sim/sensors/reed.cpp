@@ -68,7 +68,7 @@ class Reed : public Sensor {
 };
 
 ANGEN_REGISTER_SENSOR(
-    Reed, Kind("reed", "A reed contact and its magnet on what opens.")
+    Reed, Kind("reed", "A reed contact and its magnet on the part that opens.")
               .rate(1.0)
               .sensor_type("custom")
               .example("spawn reed r1 --on kitchen_door0::base --pose \"0.93 -0.015 2.09\" --set "

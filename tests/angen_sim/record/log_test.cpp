@@ -188,8 +188,7 @@ TEST(Log, WhatIsMissingOrOfAnotherTypeIsAnError) {
   for (const auto& [from, to, why] : std::vector<std::array<std::string, 3>>{
            {"\"tick\":0", "\"tick\":18446744073709551615", "'tick' exceeds the largest time"},
            {"\"tick\":0", "\"tick\":-1", "'tick' is missing, or not a whole number"},
-           {"\"do\":\"delete\"", "\"do\":\"explode\"",
-            "'explode' is not something that a log does"},
+           {"\"do\":\"delete\"", "\"do\":\"explode\"", "'explode' is not an action of a log"},
            {"\"step\":1000000", "\"step\":0", "'step' is not 1 ns to 1 s"},
            {"\"pose\":[", "\"pose\":[1,", "'pose' has not 7 numbers"}}) {
     write_all(bad, forged(whole, from, to));
@@ -247,7 +246,7 @@ TEST(Log, OfAFullDiskCanBeReplayed) {
   EXPECT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
   std::signal(SIGXFSZ, old);
   EXPECT_NE(session.recorder->error().find("cannot be written any more"), std::string::npos);
-  EXPECT_EQ((*session).snapshot()->time, from_seconds(5.5)) << "the run goes on";
+  EXPECT_EQ((*session).snapshot()->time, from_seconds(5.5)) << "the run continues";
   session.end();
   const Replay replay = replayed(folder.log());
   EXPECT_EQ(replay.log().truncated, "");

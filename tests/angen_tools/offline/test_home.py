@@ -43,7 +43,7 @@ def test_findings_are_listed(tmp_path: Path) -> None:
                    + ROOM.format('b', '3 0 8 0 8 3 3 3'))
     text = home_text(*load_home(path))
     assert re.search(r"contradicting: rooms 'a' and 'b' overlap by 2\.\d\d m\^2", text)
-    assert "contradicting: nobody can reach room 'b'" in text
+    assert "contradicting: no person can reach room 'b'" in text
     assert 'guessed: no <angen:latitude> is given' in text
 
 

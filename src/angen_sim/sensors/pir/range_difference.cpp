@@ -58,8 +58,8 @@ void RangeDifference::configure(Params& params, Wiring&) {
   fan_ = read_fan(params, pir_fan());
   threshold_ =
       params.number("threshold", 0.1, "m", "a range that differs by more is motion", kPositive);
-  const double amplitude =
-      params.number("nod_amplitude", 0.0, "rad", "nods so far up and down", {0.0, M_PI_2});
+  const double amplitude = params.number("nod_amplitude", 0.0, "rad",
+                                         "amplitude of the nodding, up and down", {0.0, M_PI_2});
   const double nod_period = params.number("nod_period", 0.0, "s", "of a whole nod", kNotNegative);
   nod_.period = params.update_period();
   nod_.phases = amplitude > 0.0 ? count_phases(params, nod_period) : 1;

@@ -11,11 +11,11 @@ Trigger::Times read_times(Params& params, const Trigger::Times& fallback) {
   };
   Trigger::Times times;
   times.hold = time("hold_time", fallback.hold,
-                    "motion lasts so long after its last detection; pyroelectric: 1.25");
+                    "duration of motion after its last detection; pyroelectric: 1.25");
   times.lockout = time("lockout_time", fallback.lockout,
-                       "and nothing is detected for so long after it; pyroelectric: 2.5");
-  times.warm_up =
-      time("warm_up", fallback.warm_up, "nor for so long after the start; pyroelectric: 60");
+                       "time without detections after motion; pyroelectric: 2.5");
+  times.warm_up = time("warm_up", fallback.warm_up,
+                       "time without detections after the start; pyroelectric: 60");
   times.retrigger = params.flag("retrigger", fallback.retrigger,
                                 "whether each detection prolongs motion by the hold time");
   return times;
