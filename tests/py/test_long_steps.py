@@ -52,7 +52,7 @@ def test_the_same_walk_has_the_same_bytes(world: World) -> None:
 
 
 def test_what_else_moves_takes_each_tick(world: World) -> None:
-    """A ball rolls while somebody walks: both are where they are without long steps."""
+    """A ball rolls while a person walks: both end at the same places as without long steps."""
     ball = '''<model name="ball"><pose>-3 -3 0.1 0 0 0</pose><link name="link">
         <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
         </link></model>'''

@@ -57,7 +57,7 @@ TEXTS = {
 
 
 def spend(text: str, queue) -> None:
-    """What a spawn answers, its CPU time (s), and the memory that it took at most (MB)."""
+    """The answer to a spawn, its CPU time (s), and its peak memory (MB)."""
     world = angen.World.from_text(sdf_world(''))
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     start = time.process_time()

@@ -1,4 +1,4 @@
-"""Plug-ins in files of Python on the plug-in path, which nobody has registered before."""
+"""Plug-ins in files of Python on the plug-in path, which no program has registered."""
 from __future__ import annotations
 
 import subprocess

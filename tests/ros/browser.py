@@ -69,7 +69,7 @@ class Page:
         self.until('return window.angen?.home.entities.length > 0 && !!window.angen.home.scene')
 
     def until(self, script: str, *arguments: Any) -> Any:
-        """What a script returns once it is true."""
+        """Returns the value of a script once it is true."""
         return until(lambda: self.run(script, *arguments), script, LIMIT)
 
     def first_view(self) -> None:
@@ -96,7 +96,7 @@ class Page:
                             selector))
 
     def errors(self) -> list[str]:
-        """What the console has of errors of the page."""
+        """The errors of the page in the console."""
         return [entry['message'] for entry in self.driver.get_log('browser')
                 if entry['level'] == 'SEVERE' and 'WebSocket connection' not in entry['message']]
 

@@ -35,7 +35,7 @@ def world_file(folder: Path) -> Path:
     return path
 
 
-def killed_and_started_anew(master: Master, folder: Path) -> Master:
+def killed_and_restarted(master: Master, folder: Path) -> Master:
     master.process.kill()
     master.process.wait()
     time.sleep(2.5)  # the node must outlive that
@@ -46,7 +46,7 @@ def test_it_ends_with_its_world_saved(master: Master, tmp_path: Path) -> None:
     log, saved = tmp_path / "log", tmp_path / "saved.world"
     process = master.node(world_file(tmp_path), log, rescue=saved)
     until(lambda: "/angen/stats" in master.topics(), "it runs")
-    anew = killed_and_started_anew(master, tmp_path)
+    restarted = killed_and_restarted(master, tmp_path)
     try:
         assert process.poll() is None, log.read_text()
         assert process.wait(20) == 75, log.read_text()
@@ -56,11 +56,11 @@ def test_it_ends_with_its_world_saved(master: Master, tmp_path: Path) -> None:
         assert str(saved) in text
         assert saved.stat().st_mode & 0o777 == 0o600
         assert [path.name for path in tmp_path.glob("saved*")] == ["saved.world"]
-        end(anew.node(saved, tmp_path / "second"))  # a node continues the saved world
+        end(restarted.node(saved, tmp_path / "second"))  # a node continues the saved world
         height = float(saved.read_text().split('name="ball"')[1].split("<pose>")[1].split()[2])
         assert height == pytest.approx(0.1, abs=0.01)  # it fell from 9 m in the meantime
     finally:
-        end(anew.process)
+        end(restarted.process)
 
 
 def test_the_default_place_is_the_users_own(master: Master, tmp_path: Path) -> None:
@@ -71,7 +71,7 @@ def test_the_default_place_is_the_users_own(master: Master, tmp_path: Path) -> N
     (state / "angen" / "rescue.world").symlink_to(kept)
     master.environment["XDG_STATE_HOME"] = str(state)
     process = master.node(world_file(tmp_path), tmp_path / "log")
-    anew = killed_and_started_anew(master, tmp_path)
+    restarted = killed_and_restarted(master, tmp_path)
     try:
         assert process.wait(20) == 75
         saved = state / "angen" / "rescue.world"
@@ -79,18 +79,18 @@ def test_the_default_place_is_the_users_own(master: Master, tmp_path: Path) -> N
         assert saved.stat().st_mode & 0o777 == 0o600
         assert (state / "angen").stat().st_mode & 0o777 == 0o700
     finally:
-        end(anew.process)
+        end(restarted.process)
 
 
 def test_a_world_that_cannot_be_saved_is_an_error(master: Master, tmp_path: Path) -> None:
     log = tmp_path / "log"
     process = master.node(world_file(tmp_path), log, rescue=tmp_path / "none" / "saved.world")
-    anew = killed_and_started_anew(master, tmp_path)
+    restarted = killed_and_restarted(master, tmp_path)
     try:
         assert process.wait(20) == 1
         assert "cannot be saved in" in log.read_text()
     finally:
-        end(anew.process)
+        end(restarted.process)
 
 
 def test_a_master_that_only_sleeps_is_waited_for(master: Master, tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ SENSOR = ROOT / 'tests/examples/rangefinder/rangefinder.py'
 DEVICE = '''import angen
 
 class Counter(angen.Device):
-    """Counts what it is told; divides by it."""
+    """Counts its commands; divides by their numbers."""
     fields = {'count': 'integer', 'share': 'number'}
 
     @staticmethod

@@ -18,7 +18,7 @@ SCENE, CHANGES = '/angen/scene', '/angen/scene_changes'
 
 
 class Followed:
-    """What a client knows that takes all messages."""
+    """The state of a client that takes all messages."""
 
     def __init__(self, scene: Any) -> None:
         self.scene = scene

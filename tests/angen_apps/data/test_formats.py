@@ -1,4 +1,4 @@
-"""What is written is read by readers that follow the published formats and share no code."""
+"""Reads written data by readers that follow the published formats and share no code."""
 import csv
 import datetime
 import gzip

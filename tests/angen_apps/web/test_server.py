@@ -195,7 +195,7 @@ def test_a_browser_that_floods_is_refused(monkeypatch: pytest.MonkeyPatch) -> No
 
 
 def noise(rng: random.Random) -> str:
-    """What a program that means harm could send."""
+    """Messages that a hostile program could send."""
     value: Any = rng.choice([None, True, -1, 1e308, '', '\ud800', '\x00<img onerror=…>', [], {}])
     for _ in range(rng.randrange(4)):
         value = rng.choice([[value] * 3, {'do': value}, {'topics': value}, {'id': value}])

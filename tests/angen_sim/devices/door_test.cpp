@@ -351,7 +351,7 @@ TEST(Door, ALatchThatCanBreakDoesSoAtItsTorque) {
   }
 }
 
-/// Whether a person of 70 kg who bumps into a latched leaf at a speed (m/s), and goes on pushing
+/// Whether a person of 70 kg who bumps into a latched leaf at a speed (m/s), and continues to push
 /// with a torque (N m), opens it.
 bool bump_opens(const char* latch_torque, double speed, double torque) {
   constexpr double kArm = 0.7;  // m

@@ -172,7 +172,7 @@ TEST(Shadow, APersonNearAWindow) {
     Dark dark;
     dark.add(Vec3(x, 1.4, 0.85), Vec3(0.3, 0.5, 1.7));
     const double measured = dark.at(window, facing(Vec3(2.5, 1.6, 1.0), -Vec3::UnitX()));
-    // The same turned by the window's rotation, in which the lamp shines down.
+    // The direction turned by the window's rotation, in which the lamp shines down.
     rays::Scene turned;
     const Quat back = window.pose.rotation.conjugate();
     turned.add(box(Vec3(0.3, 0.5, 1.7)), {back * (Vec3(x, 1.4, 0.85) - window.pose.position), back},

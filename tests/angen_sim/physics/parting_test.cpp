@@ -39,7 +39,7 @@ Pose random_pose(Rng& rng, double reach, double height) {
   return {at, from_rpy(6.28 * rng.uniform(), 6.28 * rng.uniform(), 6.28 * rng.uniform())};
 }
 
-/// Most that a body was faster than what its fall explains, by its speed and by its way.
+/// The largest excess over the speed of a free fall, by a body's speed and by its way.
 struct Watch {
   World& world;
   LinkId link;

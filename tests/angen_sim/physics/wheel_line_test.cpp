@@ -43,7 +43,7 @@ desc::Model cart(const std::vector<WheelAt>& wheels, double width, double mu) {
 
 double yaw_of(const Quat& q) { return to_rpy(q).z(); }
 
-/// How far the base turns in a second, and how far its right and its left wheels do, rad.
+/// The angles by which the base and its right and left wheels turn in a second, rad.
 struct Turn {
   double base = 0.0, right = 0.0, left = 0.0;
 };

@@ -65,7 +65,7 @@ TEST(WorldFile, KeepsWhatDevicesAreSetTo) {
   command(*before, "battery", "stove_battery", "Charge 50");
   command(*before, "climate", "flat", "Outside -10");
   command(*before, "door", "hall0", "Open");
-  run(*before, 60.5);  // not just before what is published once a second is
+  run(*before, 60.5);  // not just before the messages of each second
   const auto after = loaded(saved(*before));
   after->tick();
   for (const auto& [kind, field, tolerance] :
@@ -173,7 +173,7 @@ TEST(WorldFile, KeepsWhereAnElevatorGoes) {
   EXPECT_EQ(state_of(*after, "elevator").get<std::int64_t>("floor"), 0);
 }
 
-// What comes, goes and is changed in the tick of a save has other numbers than before.
+// Entities added, removed and changed in the tick of a save get other numbers.
 TEST(WorldFile, IsOfTheMomentAfterAllThatIsCarriedOutWithIt) {
   const auto world = loaded(
       "<sdf version='1.6'><world name='w'><model name='a'><link name='l'/></model><model name='b'>"

@@ -3,7 +3,7 @@
 #include "angen_sim/sdf/texts.h"
 #include "core/limits.h"
 
-// What Gazebo reads and SDF 1.9 or we do not have: served, or left out with one warning.
+// Elements that Gazebo reads and SDF 1.9 or Angen lacks: served, or left out with one warning.
 namespace angen::load {
 namespace {
 

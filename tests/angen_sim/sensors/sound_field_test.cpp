@@ -36,7 +36,7 @@ TEST(SoundField, RoomsWithALargeOpeningAreOne) {
   EXPECT_NEAR(field.gains(0)[1], whole, 1e-6);
 }
 
-// Of two watts, the absorbed and the leaving parts make up the power that came in.
+// The absorbed and the leaving parts of two watts add up to the emitted power.
 TEST(SoundField, PowerIsBalanced) {
   SoundField field({80.0, 50.0, 60.0}, kAbsorption);
   field.pass(0, 1, 1.5);

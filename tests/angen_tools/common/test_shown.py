@@ -38,7 +38,7 @@ def test_each_field_has_its_value_and_unit(fields: list[dict[str, Any]], text: s
 
 
 def test_the_values_are_those_of_the_states() -> None:
-    """Of each device of the building: what is shown, against what it reports."""
+    """Compares the shown values of each device of the building with its state."""
     from tests.docs.pages import ROOT
     world = angen.World(str(ROOT / 'worlds/angen.world'))
     world.run(2.0)

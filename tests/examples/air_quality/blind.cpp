@@ -64,16 +64,17 @@ class Blind : public angen::Device {
 class BlindPlugin : public angen::Plugin {
  public:
   const angen::Kind& kind() const override {
-    static const angen::Kind kind = angen::Kind("blind", "A roller blind.")
-                                        .example("set blind blind0 down")
-                                        .verb("Up", "all the way")
-                                        .verb("Down", "all the way")
-                                        .verb("Set", "percent", "%", {0.0, 100.0}, "so far down")
-                                        .flag("moving", "whether it moves")
-                                        .shown_as("moving", "still")
-                                        .number("position", "%", "0 up, 100 down")
-                                        .shown()
-                                        .number("target", "%", "where it goes");
+    static const angen::Kind kind =
+        angen::Kind("blind", "A roller blind.")
+            .example("set blind blind0 down")
+            .verb("Up", "all the way")
+            .verb("Down", "all the way")
+            .verb("Set", "percent", "%", {0.0, 100.0}, "share of the window that it covers")
+            .flag("moving", "whether it moves")
+            .shown_as("moving", "still")
+            .number("position", "%", "0 up, 100 down")
+            .shown()
+            .number("target", "%", "commanded position");
     return kind;
   }
   bool serves(const angen::ModelInfo& model) const override {

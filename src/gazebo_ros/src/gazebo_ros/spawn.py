@@ -146,7 +146,7 @@ def delete(name: str, namespace: str) -> None:
 
 
 def spawn(options: argparse.Namespace) -> None:
-    """Do what the options say; Failure where something does not work."""
+    """Execute the options; raise Failure if one fails."""
     joints = joint_positions(options.joints)
     namespace = options.gazebo_namespace.rstrip('/')
     if options.wait:

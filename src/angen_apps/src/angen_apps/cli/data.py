@@ -126,7 +126,7 @@ def add_validate(commands: Any) -> None:
     made = command(commands, 'validate', run_validate,
                    'checks the data of angen generate against walls, rooms, seats and causes',
                    'validate out')
-    made.add_argument('folder', metavar='DIR', type=Path, help='what angen generate has written')
+    made.add_argument('folder', metavar='DIR', type=Path, help='output folder of angen generate')
     add_json(made)
 
 
@@ -136,7 +136,7 @@ def add_realism(commands: Any) -> None:
                    'compares data with figures of real homes, or with a file of CASAS',
                    'realism out', 'realism out --against aruba.txt --figure realism.png')
     made.add_argument('folder', metavar='DIR', type=Path,
-                      help='what angen generate has written, or a file of CASAS')
+                      help='output folder of angen generate, or a file of CASAS')
     made.add_argument('--against', metavar='FILE', type=Path, help='a reference: such a file')
     made.add_argument('--figure', metavar='FILE', type=Path, help='also draws it')
     add_json(made)

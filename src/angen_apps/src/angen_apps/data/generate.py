@@ -82,7 +82,7 @@ def check(job: Job) -> None:
     check_folder(Path(job.folder))
     who = run.residents_of(list(job.residents))
     if not who:
-        raise Failure('--residents names nobody; give a number or profiles of '
+        raise Failure('--residents names no resident; give a number or profiles of '
                       + ', '.join(names()))
     if 'aras' in job.formats and len(who) > 2:
         raise Failure(f'aras has 2 residents, not {len(who)}; leave aras out of --format')
@@ -93,8 +93,8 @@ def check(job: Job) -> None:
 
 
 def make(job: Job, progress: Callable[[float], None] = lambda _: None) -> dict[str, Any]:
-    """Makes a home's files in its folder, which gets its name when it is complete; what the
-    manifest says of it."""
+    """Makes a home's files in its folder, which gets its name when it is complete; returns its
+    entry of the manifest."""
     folder = Path(job.folder)
     made = finished(job)
     if made is not None:

@@ -122,7 +122,7 @@ class Recorder:
         self.recording.events.append(Event(time, sensor.id, value, *whose))
 
     def _cause(self, time: float, sensor: Sensor) -> tuple[str, str, str]:
-        """Resident, activity and cause of what a sensor has detected."""
+        """Resident, activity and cause of a sensor's detection."""
         residents = [r for r in self.household.residents if not r.away]
         if sensor.kind in ('door', 'power'):
             who = self._hand(time, sensor)

@@ -90,7 +90,7 @@ class _Building:
             for lift in plan.lifts:
                 if lift.stops[0] <= storey.number <= lift.stops[-1]:
                     storey.cutouts.append(shaft(lift))
-        self._say_what_is_not_read()
+        self._report_unread()
         return finish(plan)
 
     def _mapping(self, node: Any, what: str) -> dict[str, Any]:
@@ -319,7 +319,7 @@ class _Building:
         doorway = self.file.number(door['width'], 'width', 0.3, 20) if 'width' in door else 1.2
         return Lift(plain_name(name, 'lift'), x, y, heading, wide, deep, tuple(stops), doorway)
 
-    def _say_what_is_not_read(self) -> None:
+    def _report_unread(self) -> None:
         skipped: dict[str, int] = {}
         for node in self._mapping(self.root['levels'], 'levels').values():
             for key, value in self._mapping(node, 'a level').items():

@@ -46,7 +46,7 @@ def _along(storey: Storey, raster: Raster, rooms: np.ndarray, blocked: np.ndarra
            pairs: set[tuple[int, int]]) -> list[Opening]:
     """Passages across an axis of the cells: 0 from south to north, 1 from west to east."""
     cells, walls = (rooms, blocked) if axis == 0 else (rooms.T, blocked.T)
-    met: dict[tuple[int, int], list[np.ndarray]] = {}  # rows and columns of cells
+    adjacent: dict[tuple[int, int], list[np.ndarray]] = {}  # rows and columns of cells
     for gap in range(1, NEAR):
         before, after = cells[:-gap], cells[gap:]
         touch = (before != after) & (before > 0) & (after > 0)
@@ -56,9 +56,9 @@ def _along(storey: Storey, raster: Raster, rooms: np.ndarray, blocked: np.ndarra
         ends = np.sort([before[rows, columns], after[rows, columns]], axis=0)
         for a, b in np.unique(ends, axis=1).T if len(rows) else ():
             here = (ends[0] == a) & (ends[1] == b)
-            met.setdefault((int(a), int(b)), []).append(np.array([rows[here], columns[here]]))
+            adjacent.setdefault((int(a), int(b)), []).append(np.array([rows[here], columns[here]]))
     found = []
-    for pair, places in sorted(met.items()):
+    for pair, places in sorted(adjacent.items()):
         rows, columns = _largest(np.concatenate(places, axis=1))
         width = (columns.max() - columns.min() + 1) * CELL
         if width < LEAST or pair in pairs:

@@ -25,7 +25,7 @@ def page() -> Path:
 
 
 def described_kinds() -> dict[str, Any]:
-    """What the kinds say of themselves."""
+    """The descriptions of the kinds."""
     return {name: {key: kind[key] for key in KEYS} for name, kind in kinds().items()}
 
 

@@ -1,4 +1,4 @@
-"""What is played with a time line: a source that a node of its own fills, once."""
+"""A source that is played with a time line, and filled once by a node of its own."""
 from __future__ import annotations
 
 import asyncio

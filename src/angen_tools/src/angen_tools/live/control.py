@@ -83,7 +83,7 @@ def target_of(order: Order) -> str:
 
 
 def has_target(kind: Plugin, order: Order) -> bool:
-    """Whether the state of the kind shows what the number of an order asks for."""
+    """Whether the state of the kind has the target that the number of an order sets."""
     return any(field['name'] == target_of(order) for field in kind['fields'])
 
 

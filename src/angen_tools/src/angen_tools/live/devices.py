@@ -61,7 +61,7 @@ class Devices(Generic[Thing]):
             self._renew(thing, found[stays])
         for which, entity in found.items():  # in the world's order
             if which not in self._things:
-                self._meet(which, self._make(entity))
+                self._add(which, self._make(entity))
         topics = {entity.topic: entity for entity in found.values()}
         for topic in self._subscribers.keys() - topics.keys():
             self._subscribers.pop(topic).unregister()
@@ -72,7 +72,7 @@ class Devices(Generic[Thing]):
                 topic, roslib.message.get_message_class(entity.type), self._on_message,
                 entity.kind, topic)
 
-    def _meet(self, which: tuple[str, str, str], thing: Thing) -> None:
+    def _add(self, which: tuple[str, str, str], thing: Thing) -> None:
         with self._lock:
             self._things[which] = thing
             early = self._early.pop(which[:2], None)
