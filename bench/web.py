@@ -1,6 +1,6 @@
 """Measures the cost and the speed of the page of angen web: docs/web.md, Figures.
 
-    python3 bench/web.py [--world FILE] [--seconds 20] [--browser]
+    python3 bench/web.py [--world FILE --door NAME] [--seconds 20] [--browser]
 
 in ./angen shell. CPU times say more than times on a busy machine; the load is printed.
 """
@@ -27,7 +27,6 @@ from harness import Master, end  # noqa: E402
 
 TICKS = os.sysconf('SC_CLK_TCK')
 POSES = 1
-DOOR = 'bathroom0'
 
 
 def cpu(pid: int) -> float:
@@ -76,7 +75,7 @@ class Sockets:
         return await session.ws_connect(f'{self.url}/socket', headers={'Origin': self.url},
                                         max_msg_size=0)
 
-    async def clicks(self, count: int) -> list[float]:
+    async def clicks(self, door: str, count: int) -> list[float]:
         """ms from an order to the first pose of the door's leaf that differs."""
         async with ClientSession() as session:
             socket = await self.open(session)
@@ -85,12 +84,12 @@ class Sockets:
             async with session.get(f'{self.url}/scene.json') as answer:
                 scene = await answer.json()
             leaves = {i for i, link in enumerate(scene['links'])
-                      if link['moves'] and link['model'] == f'{DOOR[:-1]}_door{DOOR[-1]}'}
+                      if link['moves'] and link['model'] == f'{door[:-1]}_door{door[-1]}'}
             for i in range(count):
                 await self._quiet(socket, 3.0)
                 began = time.monotonic()
                 await socket.send_str(json.dumps({
-                    'do': 'command', 'id': i, 'target': f'door/{DOOR}',
+                    'do': 'command', 'id': i, 'target': f'door/{door}',
                     'text': 'Close' if i % 2 else 'Open'}))
                 while not moves(await socket.receive(), leaves):
                     pass
@@ -142,6 +141,7 @@ def show(url: str, folder: Path, seconds: float) -> None:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--world', type=Path, default=ROOT / 'worlds/angen.world')
+    parser.add_argument('--door', default='bathroom0')
     parser.add_argument('--seconds', type=float, default=20.0)
     parser.add_argument('--pages', type=int, nargs='*', default=[0, 1, 0, 20])
     parser.add_argument('--browser', action='store_true')
@@ -162,7 +162,7 @@ def main() -> None:
                 used = asyncio.run(sockets.hold(count, args.seconds, pids))
                 print(f'{count} pages:', ', '.join(f'{key} {value:.2f}' + (
                     ' %' if key in pids else '') for key, value in used.items()), flush=True)
-            times = asyncio.run(sockets.clicks(10))
+            times = asyncio.run(sockets.clicks(args.door, 10))
             print(f'click to moving door: median {statistics.median(times):.0f} ms, '
                   f'longest {max(times):.0f} ms')
             if args.browser:

@@ -153,10 +153,14 @@ std::size_t after_tag(const std::string& text, std::size_t at, std::size_t& attr
   return at;
 }
 
+// Only a file can be longer than kMaxTextBytes: its elements are bounded with its bytes.
+constexpr std::size_t kMaxElementsOfLong = 4 * kMaxElements;
+
 // Before the parser: it takes memory for all nodes, and compares each attribute of an element with
 // all others.
 void check_counts(const std::string& text, const std::string& file) {
   std::size_t elements = 0, asides = 0, all_attributes = 0;
+  const std::size_t most = text.size() > kMaxTextBytes ? kMaxElementsOfLong : kMaxElements;
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
     const std::size_t after = after_aside(text, at);
     std::size_t attributes = 0;
@@ -176,8 +180,8 @@ void check_counts(const std::string& text, const std::string& file) {
                                                     std::to_string(kMaxAttributes) +
                                                     " attributes; give it elements instead");
     }
-    if (elements > kMaxElements || asides > kMaxElements || all_attributes > 2 * kMaxElements) {
-      throw Error({file, line_at(text, begin)}, "more than " + std::to_string(kMaxElements) +
+    if (elements > most || asides > most || all_attributes > 2 * most) {
+      throw Error({file, line_at(text, begin)}, "more than " + std::to_string(most) +
                                                     " elements or comments, or twice as many "
                                                     "attributes; split the file into models");
     }

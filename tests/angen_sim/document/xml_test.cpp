@@ -25,6 +25,11 @@ TEST(Xml, ElementsAreBounded) {
   std::string many;
   for (int i = 0; i < 100'001; ++i) many += "<x/>";
   EXPECT_NE(error_of(in_world(many)).find("more than 100000 elements"), std::string::npos);
+  const std::string spaces(kMaxTextBytes, ' ');  // as an apartment building has
+  parse_xml(in_world(many + spaces), "w.world");
+  for (int i = 0; i < 300'000; ++i) many += "<x/>";
+  EXPECT_NE(error_of(in_world(many + spaces)).find("more than 400000 elements"),
+            std::string::npos);
 }
 
 // The parser would compare each attribute with all before it: 20,000 took 5 s.

@@ -10,9 +10,10 @@ from angen_tools.cli.parser import add_seed, command
 
 
 def run_home(args: argparse.Namespace) -> int:
-    from angen_apps.plan.apartment import apartment
+    from angen_apps.plan.tower import building
     from angen_apps.plan.writer import write_world
-    counts = write_world(apartment(args.rooms, args.storeys, args.seed), args.output, args.sensors)
+    counts = write_world(building(args.rooms, args.storeys, args.apartments, args.seed),
+                         args.output, args.sensors)
     print(f'wrote {args.output}: ' + ', '.join(
         f'{number} {name if number != 1 else name[:-1]}' for name, number in counts.items()
         if number))
@@ -22,12 +23,14 @@ def run_home(args: argparse.Namespace) -> int:
 def add_home(commands: Any) -> None:
     """angen world home."""
     home = command(commands.choices['world'].kinds, 'home', run_home,
-                   'writes a home of one of many plans, with furniture and sensors',
+                   'writes a home or building of one of many plans, with furniture and sensors',
                    'world home --rooms 3 --storeys 2 --seed 7 -o home.world')
     home.add_argument('--rooms', metavar='N', type=int, choices=range(1, 6), default=2,
-                      help='1 to 5, besides kitchen, bathroom and hall, on each storey (2)')
-    home.add_argument('--storeys', metavar='N', type=int, choices=(1, 2), default=1,
-                      help='1, or 2 with an elevator (1)')
+                      help='1 to 5, besides kitchen, bathroom and hall, in each apartment (2)')
+    home.add_argument('--storeys', metavar='N', type=int, choices=range(1, 11), default=1,
+                      help='1 to 10; an elevator serves all of several (1)')
+    home.add_argument('--apartments', metavar='N', type=int, choices=range(1, 7), default=1,
+                      help='1 to 6 on each storey; a corridor joins several (1)')
     home.add_argument('--sensors', choices=SENSORS, default='seed',
                       help='as of angen import (seed)')
     add_seed(home, 'of the plan and of its contents')

@@ -1,4 +1,4 @@
-"""Homes by seed: rooms on both sides of a hall, one or two storeys with a lift between them.
+"""Homes by seed: rooms on both sides of a hall, on storeys with an elevator between them.
 
 Bedrooms have at least 11.5 m2 and 2.75 m (the first) or 7.5 m2 and 2.15 m, ceilings 2.5 m: the
 Nationally Described Space Standard (England, 2015) asks for that and for 2.3 m. Leaves are 0.86 m
@@ -13,7 +13,8 @@ from random import Random
 from angen_apps.plan.finish import finish
 from angen_apps.plan.furnished import furnish
 from angen_apps.plan.lifts import shaft
-from angen_apps.plan.model import Lamp, Leaf, Lift, Opening, Plan, Room, Storey, Wall
+from angen_apps.plan.model import (
+    Lamp, Leaf, Lift, Opening, Plan, Point, Room, Storey, Wall, turned)
 
 OUTER, INNER = 0.2, 0.1  # m, walls
 CEILING, RISE = 2.5, 3.0  # m
@@ -26,6 +27,7 @@ SIZES = {'living': (16.0, 3.2, 10.0), 'kitchen': (8.0, 2.4, 5.0), 'bathroom': (4
          'bedroom': (11.5, 2.75, 5.0), 'bedroom_small': (7.5, 2.15, 4.0), 'work': (7.5, 2.15, 4.0)}
 OTHERS = ('bedroom', 'living', 'bedroom_small', 'work', 'bedroom_small')
 LANDING = 2.4  # m
+LANDING_SIDE = 1.3  # m from its middle to the middle of a wall beside it
 SHAFT = (1.7, 1.7)  # m, inner depth and width
 
 
@@ -44,14 +46,15 @@ def apartment(rooms: int, storeys: int, seed: int) -> Plan:
     widths = Random(f'{seed} widths').uniform(0.0, 1.0)
     for number in range(storeys):
         dice = Random(f'{seed} {number}')
-        made.append(_storey(number, rooms, storeys > 1, dice, widths))
+        depths = [3.6 + 0.6 * widths, 3.5 + 0.6 * widths] if storeys > 1 else None
+        storey = wing(number, rooms, dice, depths)[0]
+        if storeys > 1:
+            _landing(storey)
+        made.append(storey)
     plan = Plan('apartment', made, latitude=51.5)
     if storeys > 1:
-        x = -LANDING - OUTER / 2 - SHAFT[0] / 2 - 0.15
-        plan.lifts.append(Lift('elevator', x, HALL / 2, 0.0, SHAFT[1] - 0.12, SHAFT[0] - 0.2,
-                               tuple(range(storeys)), front=-LANDING - 0.12 - x))
-        for storey in made:
-            storey.cutouts.append(shaft(plan.lifts[0]))
+        add_elevator(plan, (-LANDING, HALL / 2), 0.0)
+        door(made[0], -LANDING / 2, HALL / 2 - LANDING_SIDE, 0.0, OUTER, True, True, 'house door')
     plan = finish(plan)
     for storey in plan.storeys:
         furnish(storey, Random(f'{seed} furniture {storey.number}'))
@@ -70,14 +73,17 @@ def _rows(rooms: int, dice: Random) -> tuple[list[str], list[str]]:
     return rows
 
 
-def _storey(number: int, rooms: int, is_tower: bool, dice: Random, share: float) -> Storey:
+def wing(number: int, rooms: int, dice: Random, depths: list[float] | None
+         ) -> tuple[Storey, float, list[float]]:
+    """An apartment on a storey, its length and the depths of its rows: north and south of its hall.
+
+    With `depths`, for apartments above each other, its outline depends on them and `rooms` alone.
+    """
     z = number * RISE
     storey = Storey(number, f'Floor {number}', z, RISE, RISE - CEILING - 0.01)
     rows = _rows(rooms, dice)
-    depths = [dice.uniform(3.3, 4.3) for _ in rows]
-    # towers have the same outline on each storey
-    if is_tower:
-        depths = [3.6 + 0.6 * share, 3.5 + 0.6 * share]
+    free = [dice.uniform(3.3, 4.3) for _ in rows]
+    is_tower, depths = depths is not None, depths or free
     needed = [sum(max(SIZES[kind][1], (SIZES[kind][0] + dice.uniform(0, SIZES[kind][2]))
                       / (depth - 0.15)) + INNER for kind in row)
               for row, depth in zip(rows, depths)]
@@ -87,8 +93,8 @@ def _storey(number: int, rooms: int, is_tower: bool, dice: Random, share: float)
     _hall(storey, length)
     for row, depth, south in zip(rows, depths, (False, True)):
         _row(storey, row, depth, south, length, dice)
-    _outside(storey, length, depths, is_tower)
-    return storey
+    _outside(storey, length, depths)
+    return storey, length, depths
 
 
 def _row(storey: Storey, kinds: list[str], depth: float, south: bool, length: float, dice: Random
@@ -113,14 +119,14 @@ def _row(storey: Storey, kinds: list[str], depth: float, south: bool, length: fl
         if i:
             storey.walls.append(Wall((west, wall), (west, far), INNER, z, z + CEILING))
         at = dice.uniform(low + LEAF / 2 + 0.25, high - LEAF / 2 - 0.25)
-        _door(storey, at, wall, 0.0, INNER, sign > 0, dice.random() < 0.5)
+        door(storey, at, wall, 0.0, INNER, sign > 0, dice.random() < 0.5)
         _window(storey, (low + high) / 2, far, min(1.2, high - low - 0.8), sign > 0)
         storey.lamps.append(Lamp('', (low + high) / 2, (near + end) / 2, z + CEILING - 0.3, 800.0))
         west = east
 
 
-def _door(storey: Storey, x: float, y: float, yaw: float, thick: float, into_y: bool,
-          hinge_left: bool, source: str = 'door') -> None:
+def door(storey: Storey, x: float, y: float, yaw: float, thick: float, into_y: bool,
+         hinge_left: bool, source: str = 'door') -> None:
     """A door whose leaf opens toward the +y or -y of its opening."""
     half, z = LEAF / 2 + 0.005, storey.elevation
     face = thick / 2 if into_y else -thick / 2
@@ -149,31 +155,45 @@ def _hall(storey: Storey, length: float) -> None:
     storey.lamps.append(Lamp('', length / 2, HALL / 2, z + CEILING - 0.3, 800.0))
 
 
-def _outside(storey: Storey, length: float, depths: list[float], is_tower: bool) -> None:
-    """The outer walls, the entrance, and in towers the landing with its shaft."""
+def _outside(storey: Storey, length: float, depths: list[float]) -> None:
+    """The outer walls and the entrance."""
     z = storey.elevation
     north, south = HALL + depths[0], -depths[1]
     corners = [(0.0, south), (length, south), (length, north), (0.0, north)]
     storey.walls += [Wall(a, b, OUTER, z, z + CEILING)
                      for a, b in zip(corners, corners[1:] + corners[:1])]
-    _door(storey, 0.0, HALL / 2, -pi / 2, OUTER, True, True, 'front door')
-    if not is_tower:
-        return
-    west, half = -LANDING, 1.2
-    middle = HALL / 2
-    a, b = OUTER / 2, half + OUTER / 2
+    door(storey, 0.0, HALL / 2, -pi / 2, OUTER, True, True, 'front door')
+
+
+def _landing(storey: Storey) -> None:
+    """The landing before the entrance."""
+    z = storey.elevation
+    west, middle = -LANDING, HALL / 2
+    a, b = OUTER / 2, LANDING_SIDE
+    half = b - a
     storey.rooms.append(Room('', 'landing', ((west + a, middle - half), (-a, middle - half),
                                              (-a, middle + half), (west + a, middle + half)), z,
                              CEILING))
     storey.walls += [Wall((0.0, y), (west, y), OUTER, z, z + CEILING)
                      for y in (middle - b, middle + b)]
     storey.walls.append(Wall((west, middle - b), (west, middle + b), OUTER, z, z + CEILING))
-    storey.openings.append(Opening('opening', west, middle, pi / 2, 1.16, z, z + 2.12,
-                                   (-OUTER / 2, OUTER / 2), source='shaft'))
-    end, side = west - SHAFT[0] - 0.3, SHAFT[1] / 2 + OUTER / 2
-    storey.walls += [Wall((west, middle - side), (end, middle - side), OUTER, z, z + CEILING),
-                     Wall((west, middle + side), (end, middle + side), OUTER, z, z + CEILING),
-                     Wall((end, middle - side), (end, middle + side), OUTER, z, z + CEILING)]
     storey.lamps.append(Lamp('', west / 2, middle, z + CEILING - 0.3, 800.0))
-    if storey.number == 0:
-        _door(storey, west / 2, middle - b, 0.0, OUTER, True, True, 'house door')
+
+
+def add_elevator(plan: Plan, at: Point, yaw: float) -> None:
+    """An elevator that stops on all storeys: its doorway is in the wall at a point and opens to
+    the direction `yaw`; its shaft is behind that wall."""
+    back = -(OUTER / 2 + SHAFT[0] / 2 + 0.15)  # of the cabin's middle
+    x, y = turned(at, yaw, back, 0.0)
+    plan.lifts.append(Lift('elevator', x, y, yaw, SHAFT[1] - 0.12, SHAFT[0] - 0.2,
+                           tuple(storey.number for storey in plan.storeys), front=-0.12 - back))
+    end, side = -SHAFT[0] - 0.3, SHAFT[1] / 2 + OUTER / 2
+    right, left, back_right, back_left = (turned(at, yaw, u, v) for u in (0.0, end)
+                                          for v in (-side, side))
+    for storey in plan.storeys:
+        z = storey.elevation
+        storey.openings.append(Opening('opening', *at, yaw + pi / 2, 1.16, z, z + 2.12,
+                                       (-OUTER / 2, OUTER / 2), source='shaft'))
+        storey.walls += [Wall(a, b, OUTER, z, z + CEILING) for a, b in (
+            (right, back_right), (left, back_left), (back_right, back_left))]
+        storey.cutouts.append(shaft(plan.lifts[0]))
