@@ -32,11 +32,13 @@ export class Card {
 
   /** @param {string} title @param {string} under @param {any[]} content */
   open(title, under, content) {
-    if (this.element.hidden) this.from = /** @type {any} */ (document.activeElement);
+    const active = /** @type {any} */ (document.activeElement), byKey = active?.matches(':focus-visible') ?? false;
+    if (this.element.hidden) this.from = active;
     this.element.hidden = false;
     this.element.setAttribute('aria-label', title);
     this.element.replaceChildren(el('header', {}, el('div', {}, el('h2', {}, title), el('div', { class: 'soft' }, under)),
       el('button', { class: 'icon', type: 'button', 'aria-label': 'Close', onclick: () => this.close() }, '✕')), ...content);
+    if (byKey && !this.element.contains(active)) this.element.focus(); // the next Tab is in the card
   }
 
   /** @param {any} entity */

@@ -22,10 +22,8 @@ export class Bulbs {
     this.group.clear();
     this.mesh?.dispose();
     this.lights = lights.flatMap((/** @type {any} */ light, /** @type {number} */ i) => (light.sun || !light.model ? [] : [i]));
-    this.mesh = new THREE.InstancedMesh(new THREE.SphereGeometry(0.09, 14, 10), new THREE.MeshBasicMaterial(), Math.max(1, this.lights.length));
-    this.mesh.count = this.lights.length;
+    this.mesh = new THREE.InstancedMesh(new THREE.SphereGeometry(0.09, 10, 7), new THREE.MeshBasicMaterial(), Math.max(1, this.lights.length));
     this.mesh.frustumCulled = false;
-    this.mesh.userData.links = this.lights.map((i) => lights[i].link);
     this.group.add(this.mesh);
   }
 
@@ -35,12 +33,17 @@ export class Bulbs {
    * @param {boolean} dark
    */
   show(placeOf, shows, dark) {
-    this.lights.forEach((light, i) => {
-      const at = placeOf(this.home.scene.lights[light]), level = this.home.levels.get(light) ?? 0;
-      const size = shows(this.home.storeyAt(at[2])) ? (level > 0.003 ? 1 + 0.5 * Math.sqrt(level) : 0.8) : 0;
+    /** @type {number[]} */
+    const links = [];
+    for (const light of this.lights) {
+      const lamp = this.home.scene.lights[light], at = placeOf(lamp), level = this.home.levels.get(light) ?? 0;
+      if (!shows(this.home.storeyAt(at[2]))) continue;
+      const size = level > 0.003 ? 1 + 0.5 * Math.sqrt(level) : 0.8, i = links.push(lamp.link) - 1;
       this.mesh.setMatrixAt(i, matrix.makeScale(size, size, size).setPosition(at[0], at[1], at[2]));
       this.mesh.setColorAt(i, color.set(level > 0.003 ? 0xffd45e : dark ? 0x46525e : 0xb7bfc7));
-    });
+    }
+    this.mesh.count = links.length;
+    this.mesh.userData.links = links;
     this.mesh.instanceMatrix.needsUpdate = true;
     if (this.mesh.instanceColor) this.mesh.instanceColor.needsUpdate = true;
     this.mesh.boundingSphere = null;

@@ -188,7 +188,7 @@ class Server:
             elif not budget.take():
                 browser.answer({'id': order.get('id'), 'ok': False,
                                 'text': f'more than {RATE:g} orders per second'})
-            elif order.get('do') == 'want':
+            elif order.get('do') == 'want' and isinstance(order.get('topics'), list):
                 browser.wanted = wanted(order.get('topics'))
                 self._rewant()
             elif browser.pending >= MOST_PENDING:
@@ -212,10 +212,8 @@ class Server:
         browser.answer({'id': order.get('id'), **answer})
 
 
-def wanted(topics: Any) -> set[str]:
+def wanted(topics: list[Any]) -> set[str]:
     """At most eight names."""
-    if not isinstance(topics, list):
-        return set()
     return {topic for topic in topics[:8] if isinstance(topic, str) and len(topic) < 300}
 
 
