@@ -6,9 +6,10 @@ import math
 import numpy as np
 import pytest
 
-from angen_apps.go.command import goal_of, lift_of
+from angen_apps.go.command import goal_of
 from angen_apps.maps.gridmap import GridMap
 from angen_apps.robot.planner import Planner
+from angen_apps.robot.rooms_route import lift_of
 from angen_tools.common.failure import Failure
 from angen_tools.common.home import Elevator, Home, Landing, Room
 
@@ -52,8 +53,15 @@ def test_a_wrong_goal_is_named(words: list[str], part: str, planners: dict[int, 
     assert part in str(caught.value)
 
 
-def test_it_waits_for_the_elevator_on_its_own_floor() -> None:
+def test_it_waits_before_the_doors_of_the_elevator_on_its_own_floor() -> None:
+    planner = Planner(GridMap(np.zeros((80, 120), np.int8), (-5.0, 3.0), 0.05, 0), 0.22)
     for floor, x in ((0, -1.7), (1, -1.6)):
-        lift = lift_of(HOME, floor)
-        assert lift is not None and (lift.cabin, lift.landing) == ((-3.0, 5.0), (x, 5.0))
-    assert lift_of(HOME, 2) is None
+        lift = lift_of(HOME, planner, floor)
+        assert lift is not None and math.dist(lift.cabin, (-3.0, 5.0)) < 0.1
+        assert math.dist(lift.landing, (x + 0.6, 5.0)) < 0.1
+    assert lift_of(HOME, planner, 2) is None
+
+
+def test_an_elevator_that_the_robot_cannot_enter_is_none() -> None:
+    cells = np.full((80, 120), WALL, np.int8)
+    assert lift_of(HOME, Planner(GridMap(cells, (-5.0, 3.0), 0.05, 0), 0.22), 0) is None

@@ -102,7 +102,7 @@ def drive(width: float, person: Person, believed: Pose | None = None
     survey: Any = SimpleNamespace(maps={0: grid}, landmarks={0: grid}, doors={0: []})
     at: Any = SimpleNamespace(pose=believed or start, floor=0, mount=Pose(0, 0, 0))
     trip = Trip(robot, ROUTE, survey, at, lambda _: Waypoint('end', 0, (5.0, width / 2), 1),
-                lambda _: None, notes.append, lambda *_: None)
+                lambda _floor, _planner: None, notes.append, lambda *_: None)
     return robot, trip.run, notes
 
 

@@ -21,6 +21,8 @@ def test_a_home_by_seed_gets_a_waypoint_in_each_room_a_robot_and_a_person(tmp_pa
     for waypoint in route.waypoints:
         room = home.room_at(*waypoint.at, 0.5)
         assert room is not None and room.name == waypoint.name
-    kinds = {kind for kind, *_ in angen.World(str(world)).entities()}
-    assert {'drive', 'person'} <= kinds and route.elevator is None
+    poses = {kind: pose for kind, _, _, pose in angen.World(str(world)).entities()}
+    assert 'drive' in poses and route.elevator is None
+    person = home.room_at(*poses['person'][:2], 0.5)
+    assert person is not None and person.name == route.waypoints[-1].name
     assert route.speed == read_route(default_route()).speed

@@ -14,7 +14,8 @@ from angen_apps.maps.gridmap import load_world
 from angen_apps.robot.building import Entity, Start, Survey, entity_of, find_start
 from angen_apps.robot.planner import Planner
 from angen_apps.robot.route import Ride, Turn
-from angen_apps.robot.route_file import NUMBERS, Lift, Route, Waypoint
+from angen_apps.robot.rooms_route import lift_of
+from angen_apps.robot.route_file import NUMBERS, Route, Waypoint
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_text
 from angen_tools.common.home import Home
@@ -114,15 +115,6 @@ def goal_of(words: Sequence[str], home: Home, planners: Mapping[int, Planner]) -
     return Waypoint(f'{numbers[0]:g} {numbers[1]:g}', int(floor), (numbers[0], numbers[1]), 1)
 
 
-def lift_of(home: Home, floor: int) -> Lift | None:
-    """The first elevator, and where the robot waits for it on its floor."""
-    for lift in home.elevators:
-        for landing in lift.landings:
-            if landing.storey == floor:
-                return Lift(lift.name, lift.pose[:2], landing.pose[:2])
-    return None
-
-
 def drive(client: Client, route: Route, goal: Goal, place: Surveyed, start: Start) -> Arrived:
     """Drives to a goal in the time of the running simulator."""
     devices = [('door', door.name) for doors in place.survey.doors.values() for door in doors]
@@ -130,7 +122,7 @@ def drive(client: Client, route: Route, goal: Goal, place: Surveyed, start: Star
     with LiveRobot(client, start, devices) as robot, Progress('go') as progress:
         began = robot.now
         trip = Trip(robot, route, place.survey, start, goal,
-                    lambda floor: lift_of(place.home, floor),
+                    lambda floor, planner: lift_of(place.home, planner, floor),
                     lambda line: progress.note(f'go: {line}'), progress.update)
         try:
             reached = trip.run()

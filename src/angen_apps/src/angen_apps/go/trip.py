@@ -32,12 +32,12 @@ class Held(Failure):
 
 
 class Trip:
-    """`goal` names it by what is free; `lift` is the elevator and where it is on a floor; `note`
+    """`goal` names it by what is free; `lift` is the elevator that it enters on a floor; `note`
     takes a line for the user; `watch` the share of the actions that is done, and the present one.
     """
 
     def __init__(self, robot: Robot, route: Route, survey: Survey, start: Start, goal: Goal,
-                 lift: Callable[[int], Lift | None], note: Callable[[str], None],
+                 lift: Callable[[int, Planner], Lift | None], note: Callable[[str], None],
                  watch: Callable[[float, str], None]) -> None:
         self._robot, self._route, self._survey = robot, route, survey
         self._goal, self._lift, self._note = goal, lift, note
@@ -84,7 +84,8 @@ class Trip:
             raise Failure(f'the robot finds no free floor around {at[0]:.2f}, {at[1]:.2f}')
         doors[floor] = [door for door in doors[floor] if not self._holds_open(door, free)]
         goal = self._goal(planners)
-        route = replace(self._route, elevator=self._lift(floor), waypoints=[goal])
+        route = replace(self._route, elevator=self._lift(floor, planners[floor]),
+                        waypoints=[goal])
         actions = Router(route, planners, doors).actions(free, floor)
         self._driver.route = route
         return goal, actions

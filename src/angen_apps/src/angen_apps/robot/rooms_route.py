@@ -56,7 +56,7 @@ def by_rooms(route: Route, world: Path, to: Path) -> tuple[Route, Path]:
     survey = Survey(load_world(str(world)), shut, entities, None)
     planners = {floor: Planner(grid, route.clearance) for floor, grid in survey.maps.items()}
     start, floor, heading = _start(route, survey, planners, entities, world)
-    lift = _lift(survey.home, planners, floor, route)
+    lift = lift_of(survey.home, planners[floor], floor)
     waypoints = _visits(route, survey, planners, start, floor, lift)
     if not waypoints:
         raise Failure(f'{world}: the robot reaches no room from {start[0]:.2f}, {start[1]:.2f}')
@@ -105,16 +105,16 @@ def _keeps_off(point: Point, survey: Survey, floor: int, route: Route) -> bool:
     return all(door.room_for(point) >= route.door_room for door in survey.doors[floor])
 
 
-def _lift(home: Home, planners: dict[int, Planner], floor: int, route: Route) -> Lift | None:
-    """The first elevator with a landing on the robot's floor."""
+def lift_of(home: Home, planner: Planner, floor: int) -> Lift | None:
+    """The first elevator that the robot can enter on its floor, and where it waits for it."""
     for elevator in home.elevators:
         landing = next((each for each in elevator.landings if each.storey == floor), None)
         if landing is None:
             continue
-        cabin = planners[floor].nearest((elevator.pose[0], elevator.pose[1]), 0.5)
+        cabin = planner.nearest((elevator.pose[0], elevator.pose[1]), 0.5)
         away = hypot(landing.pose[0] - elevator.pose[0], landing.pose[1] - elevator.pose[1]) or 1.0
         more = 1 + 0.6 / away  # m farther from the cabin: its doors need no room there
-        before = planners[floor].nearest(
+        before = planner.nearest(
             (elevator.pose[0] + (landing.pose[0] - elevator.pose[0]) * more,
              elevator.pose[1] + (landing.pose[1] - elevator.pose[1]) * more), 0.6)
         if cabin and before:
@@ -180,12 +180,11 @@ def _peopled(route: Route, survey: Survey, entities: list[Entity],
     if not has_person:
         last = [waypoint for waypoint in route.waypoints if waypoint.floor == floor][-1]
         actor = etree.SubElement(inside, 'actor', name='person')
-        place = f'{last.at[0]:.4f} {last.at[1]:.4f} {survey.home.elevation(floor):.4f} 0 0 0'
-        etree.SubElement(actor, 'pose').text = place
         trajectory = etree.SubElement(etree.SubElement(actor, 'script'), 'trajectory', id='0',
                                       type='walking')
         waypoint = etree.SubElement(trajectory, 'waypoint')
         etree.SubElement(waypoint, 'time').text = '0'
-        etree.SubElement(waypoint, 'pose').text = place
+        etree.SubElement(waypoint, 'pose').text = \
+            f'{last.at[0]:.4f} {last.at[1]:.4f} {survey.home.elevation(floor):.4f} 0 0 0'
     write_text(to, sdf.text(root))
     return to
