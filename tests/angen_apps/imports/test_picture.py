@@ -2,13 +2,17 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
+import angen
 import numpy as np
 import pytest
 from PIL import Image
 
 from angen_apps.imports.picture import read_map, read_picture
+from angen_apps.plan.model import Plan
 from angen_apps.plan.polygons import area
+from angen_apps.plan.writer import write_world
 from angen_tools.cli import main as cli
 
 SCALE = 0.025  # m a pixel
@@ -57,10 +61,90 @@ def test_a_map_has_its_origin_and_resolution(tmp_path: Path) -> None:
     assert {opening.kind for opening in plan.all_openings()} == {'opening'}
 
 
+def write_map(folder: Path, gray: np.ndarray, image: str, more: str) -> Path:
+    Image.fromarray(gray).save(folder / image)
+    path = folder / 'map.yaml'
+    path.write_text(f'image: {image}\nresolution: 0.025\nfree_thresh: 0.196\n{more}')
+    return path
+
+
+def corners(plan: Plan) -> np.ndarray:
+    return np.array(sorted(p for room in plan.all_rooms() for p in room.polygon))
+
+
+def test_a_map_that_is_turned_has_its_rooms_turned(tmp_path: Path) -> None:
+    path = write_map(tmp_path, picture(0.0), 'map.pgm', 'origin: [-3.0, -2.0, 0.5]\n')
+    straight = read_picture(tmp_path / 'map.pgm', 0.025, True)
+    plan = read_map(path, True)
+    turn = np.array([[np.cos(0.5), -np.sin(0.5)], [np.sin(0.5), np.cos(0.5)]])
+    expected = corners(straight) @ turn.T + (-3.0, -2.0)
+    assert np.array(sorted(map(tuple, expected))) == pytest.approx(corners(plan), abs=0.02)
+    doors = {o.name: o for o in straight.all_openings()}
+    for door in plan.all_openings():
+        before = doors[door.name]
+        assert turn @ (before.x, before.y) + (-3.0, -2.0) == pytest.approx((door.x, door.y))
+        assert door.yaw == pytest.approx(before.yaw + 0.5)
+    out = tmp_path / 'home.world'
+    write_world(plan, out, 'none')
+    world = angen.World(str(out))
+    assert not [text for kind, text in world.home_findings() if kind == 'contradicting']
+    world.command('door', 'all', 'Open')
+    world.run(8)
+    assert {world.device('door', name)['mode'] for name in world.devices('door')} == {'OPEN'}
+
+
+@pytest.mark.parametrize('image, more, change', [
+    ('map.png', 'negate: 1\n', lambda gray: 255 - gray),
+    ('map.png', 'mode: scale\noccupied_thresh: 0.5\n', lambda gray: np.where(
+        gray < 128, 120, gray).astype(np.uint8)),
+    ('map.png', 'mode: raw\n', lambda gray: np.where(gray < 128, 100, 0).astype(np.uint8)),
+    ('map.png', '', lambda gray: gray.astype(np.uint16) * 257),
+    ('map.pgm', 'occupied_thresh: 0.9\n', lambda gray: np.where(
+        gray < 128, 0, np.where(np.arange(gray.shape[1]) % 9 == 4, 100, gray)).astype(np.uint8))])
+def test_a_map_is_the_same_in_all_encodings(image: str, more: str, change: Any, tmp_path: Path
+                                            ) -> None:
+    gray = picture(0.0)
+    plain = read_map(write_map(tmp_path, gray, 'map.pgm', 'origin: [0, 0, 0]\n'), True)
+    path = write_map(tmp_path, change(gray), image, 'origin: [0, 0, 0]\n' + more)
+    assert corners(read_map(path, True)) == pytest.approx(corners(plain), abs=1e-9)
+
+
+def test_a_gap_beside_furniture_is_no_door(tmp_path: Path) -> None:
+    gray = picture(0.0)
+    for x in (1.0, 2.1):  # two sideboards, 0.8 m apart, in the room of 4 m x 3 m
+        rows, columns = slice(-80, -72), slice(round(x / SCALE), round((x + 0.3) / SCALE))
+        gray[rows, columns] = 20
+    Image.fromarray(gray).save(tmp_path / 'scan.png')
+    plan = read_picture(tmp_path / 'scan.png', SCALE, True)
+    assert len(plan.all_rooms()) == 3
+    assert sorted(o.width for o in plan.all_openings()) == pytest.approx([0.8, 0.9, 1.0], abs=0.08)
+    assert any('from a room into itself' in remark for remark in plan.remarks)
+
+
+def test_rooms_of_a_map_end_where_it_is_unknown(tmp_path: Path) -> None:
+    gray = picture(0.0)
+    gray[gray > 128] = 254
+    inside = read_map(write_map(tmp_path, gray, 'map.pgm', 'origin: [0, 0, 0]\n'), True)
+    gray[:, :12], gray[:, -12:], gray[-12:] = 205, 205, 205  # what the robot has not seen
+    gray[-60:-40, :22] = 205  # no wall there: it was not seen either
+    seen = read_map(write_map(tmp_path, gray, 'map.pgm', 'origin: [0, 0, 0]\n'), True)
+    before, after = (sorted(area(room.polygon) for room in plan.all_rooms())
+                     for plan in (inside, seen))
+    assert after == pytest.approx(before, abs=0.2)
+
+
+def test_a_map_of_another_machine_names_a_picture_beside_it(tmp_path: Path) -> None:
+    path = write_map(tmp_path, picture(0.0), 'map.pgm', 'origin: [0, 0, 0]\n')
+    path.write_text(path.read_text().replace('map.pgm', '/home/somebody/maps/map.pgm'))
+    assert len(read_map(path, True).all_rooms()) == 3
+
+
 @pytest.mark.parametrize('text, what', [
     ('image: ../map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n', 'not in the folder'),
     ('resolution: 0.05\norigin: [0, 0, 0]\n', 'has no image'),
-    ('image: map.pgm\nresolution: nan\norigin: [0, 0, 0]\n', 'resolution is nan')])
+    ('image: map.pgm\nresolution: nan\norigin: [0, 0, 0]\n', 'resolution is nan'),
+    ('image: map.pgm\nresolution: 0.05\norigin: [0, 0]\n', 'must be [x, y, yaw]'),
+    ('image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nmode: gray\n', 'map.yaml:4: mode')])
 def test_maps_that_are_refused(text: str, what: str, tmp_path: Path,
                                capsys: pytest.CaptureFixture[str]) -> None:
     path, out = tmp_path / 'map.yaml', tmp_path / 'home.world'

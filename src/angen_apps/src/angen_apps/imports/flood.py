@@ -26,8 +26,10 @@ class _Region:
     holes: list[list[Point]]
 
 
-def rooms_of(storey: Storey, ceiling: float, labels: Sequence[tuple[Point, str]]) -> list[Room]:
-    """The rooms of a storey between its walls; a label inside names one."""
+def rooms_of(storey: Storey, ceiling: float, labels: Sequence[tuple[Point, str]],
+             known: tuple[np.ndarray, float] | None = None) -> list[Room]:
+    """The rooms of a storey between its walls; a label inside names one. `known`: pixels that may
+    be in a room, from the origin, and their size."""
     points = [corner for wall in storey.walls for corner in footprint(wall)]
     raster = Raster.of(points) if points else None
     if raster is None:
@@ -41,6 +43,11 @@ def rooms_of(storey: Storey, ceiling: float, labels: Sequence[tuple[Point, str]]
         wider = max(0.0, 2 * CELL - (high - low)) / 2
         raster.mark(solid, rectangle(opening.x, opening.y, opening.yaw,
                                      (-half, low - wider), (half, high + wider)))
+    if known is not None:
+        rows, columns = (raster.y / known[1]).astype(int), (raster.x / known[1]).astype(int)
+        high, wide = known[0].shape
+        inside = (raster.x >= 0) & (raster.y >= 0) & (rows < high) & (columns < wide)
+        solid |= inside & ~known[0][np.clip(rows, 0, high - 1), np.clip(columns, 0, wide - 1)]
     floor = storey.elevation
     rooms = []
     for region in regions(~solid, raster):

@@ -6,12 +6,13 @@ from math import pi
 from pathlib import Path
 
 import numpy as np
+import yaml
 from scipy.ndimage import binary_closing, binary_opening, label, median_filter
 
 from angen_apps.imports.flood import rooms_of
 from angen_apps.imports.source import FARTHEST, read_bytes
-from angen_apps.plan.finish import finish
-from angen_apps.plan.model import Leaf, Opening, Plan, Storey, Wall
+from angen_apps.plan.finish import finish, sides
+from angen_apps.plan.model import Leaf, Opening, Plan, Point, Storey, Wall, turned
 from angen_apps.plan.names import slug
 from angen_apps.plan.polygons import rectangles
 from angen_tools.common.failure import Failure
@@ -22,15 +23,18 @@ DOOR_TOP = 2.1  # m
 NARROW, WIDE = 0.7, 1.1  # m: gaps that are doors
 THICKEST = 0.45  # m of a wall across
 LEAST_WALL = 0.25  # m of a wall along: shorter dark spots are text and dirt
+SPECK = 0.3  # m of a map that are unknown: smaller specks are in a room
 FINE = 0.035  # m a pixel: thin walls have several pixels across
 PIXELS = 20_000_000
 WALLS = 20_000
+MODES = ('trinary', 'scale', 'raw')  # of map_server; walls are the same in the first two
 ENDINGS = ('.png', '.pgm', '.jpg', '.jpeg')
 
 
 def read_picture(path: Path, scale: float, with_doors: bool) -> Plan:
     """The plan of a picture whose pixels are `scale` m wide; dark is wall."""
-    return _plan(path, _dark(path, 0.5, smooth=scale < FINE), scale, (0.0, 0.0), with_doors)
+    dark = np.asarray(_darkness(path, smooth=scale < FINE) > 0.5)
+    return _plan(path, dark, np.ones(dark.shape, bool), scale, (0.0, 0.0, 0.0), with_doors)
 
 
 def read_map(path: Path, with_doors: bool) -> Plan:
@@ -42,20 +46,37 @@ def read_map(path: Path, with_doors: bool) -> Plan:
     for key in ('image', 'resolution', 'origin'):
         if key not in values:
             raise file.fail(file.root, f'has no {key}; a map needs image, resolution and origin')
-    image = file.text(values['image'], 'image')
-    picture = (path.parent / image).resolve()
-    if path.parent.resolve() not in picture.parents:
-        raise file.fail(values['image'], f'the image "{image}" is not in the folder of the map')
+    picture = _image(file, values['image'])
     scale = file.number(values['resolution'], 'resolution', 1e-4, 10.0)
     origin = [file.number(node, 'origin', -FARTHEST, FARTHEST)
               for node in file.list(values['origin'], 'origin')]
-    if len(origin) != 3 or abs(origin[2]) > 1e-6:
-        raise file.fail(values['origin'], 'origin must be [x, y, 0]')
+    if len(origin) != 3:
+        raise file.fail(values['origin'], 'origin must be [x, y, yaw]')
     threshold = file.number(values['occupied_thresh'], 'occupied_thresh', 0.0, 1.0) \
         if 'occupied_thresh' in values else 0.65
     negate = 'negate' in values and file.number(values['negate'], 'negate', 0, 1) == 1
-    return _plan(path, _dark(picture, threshold, negate), scale, (origin[0], origin[1]),
-                 with_doors)
+    mode = file.choice(values['mode'], 'mode', MODES) if 'mode' in values else MODES[0]
+    dark = _darkness(picture)
+    if negate:
+        dark = 1 - dark
+    if mode == 'raw':  # a value is the occupancy in percent, above 100 it is unknown
+        value = np.round(255 * (1 - dark))
+        dark = np.where(value <= 100, value / 100, 0.0)
+    free = file.number(values['free_thresh'], 'free_thresh', 0.0, 1.0) \
+        if 'free_thresh' in values else 0.196
+    across = max(1, round(SPECK / scale))
+    unknown = binary_opening((dark >= free) & (dark <= threshold), np.ones((across, across)))
+    return _plan(path, np.asarray(dark > threshold), ~unknown, scale,
+                 (origin[0], origin[1], origin[2]), with_doors)
+
+
+def _image(file: YamlFile, node: yaml.Node) -> Path:
+    """The picture of a map, in its folder; there also if it names one of another machine."""
+    text, folder = file.text(node, 'image'), file.path.parent
+    picture = folder / (Path(text).name if Path(text).is_absolute() else text)
+    if folder.resolve() not in picture.resolve().parents:
+        raise file.fail(node, f'the image "{text}" is not in the folder of the map')
+    return picture
 
 
 def is_map(path: Path) -> bool:
@@ -64,9 +85,8 @@ def is_map(path: Path) -> bool:
     return any(line.startswith(b'resolution:') for line in lines)
 
 
-def _dark(path: Path, threshold: float, negate: bool = False, smooth: bool = False
-          ) -> np.ndarray:
-    """Which pixels are darker than a threshold of 0 (white) to 1 (black); row 0 is the lowest."""
+def _darkness(path: Path, smooth: bool = False) -> np.ndarray:
+    """The pixels from 0 (white) to 1 (black); row 0 is the lowest."""
     import io
 
     from PIL import Image
@@ -80,19 +100,23 @@ def _dark(path: Path, threshold: float, negate: bool = False, smooth: bool = Fal
                 picture = picture.convert('RGBA')
                 paper = Image.new('RGBA', picture.size, (255, 255, 255, 255))
                 picture = Image.alpha_composite(paper, picture)
-            gray = np.asarray(picture.convert('L'), float)
+            if picture.mode.startswith('I'):  # 16 bits
+                gray = np.asarray(picture, float) / 257
+            else:
+                gray = np.asarray(picture.convert('L'), float)
     except Failure:
         raise
     except Exception as error:  # Pillow raises many kinds for damaged pictures
         raise Failure(f'{path}: is not a picture that can be read: {error}') from None
-    dark = gray / 255 if negate else 1 - gray / 255
+    dark = 1 - gray / 255
     if smooth:  # a median of 3 x 3, twice, takes the noise of a scan away
         dark = median_filter(median_filter(dark, 3), 3)
-    return np.asarray(dark[::-1] > threshold)
+    return np.asarray(dark[::-1])
 
 
-def _plan(path: Path, dark: np.ndarray, scale: float, origin: tuple[float, float],
-          with_doors: bool) -> Plan:
+def _plan(path: Path, dark: np.ndarray, known: np.ndarray, scale: float,
+          origin: tuple[float, float, float], with_doors: bool) -> Plan:
+    """Rooms are where it is known. `origin`: x, y and yaw of the picture's lower left corner."""
     if max(dark.shape) * scale > FARTHEST:
         raise Failure(f'{path}: is {max(dark.shape) * scale:.0f} m wide at {scale:g} m a pixel, '
                       f'at most {FARTHEST:g} m are read')
@@ -104,14 +128,38 @@ def _plan(path: Path, dark: np.ndarray, scale: float, origin: tuple[float, float
         raise Failure(f'{path}: has more than {WALLS} walls; it is not a floor plan')
     storey = Storey(0, 'Ground floor', 0.0, HEIGHT)
     for west, south, east, north in boxes:
-        storey.walls.append(_wall(west * scale + origin[0], south * scale + origin[1],
-                                  east * scale + origin[0], north * scale + origin[1]))
+        storey.walls.append(_wall(west * scale, south * scale, east * scale, north * scale))
     gaps = _doors(storey.walls)
     storey.openings = gaps if with_doors else [
         replace(gap, kind='opening', leaves=()) for gap in gaps]
+    storey.rooms = rooms_of(storey, HEIGHT, (), (known, scale))
+    remarks = []
+    parting = [o for o in storey.openings if len(set(map(id, sides(o, storey)))) > 1]
+    if len(parting) < len(storey.openings):
+        remarks.append(f'{path}: {len(storey.openings) - len(parting)} gaps of {NARROW:g} to '
+                       f'{WIDE:g} m lead from a room into itself and are no doors')
+        storey.openings = parting
+        storey.rooms = rooms_of(storey, HEIGHT, (), (known, scale))
     storey.walls += [_over(opening) for opening in storey.openings]
-    storey.rooms = rooms_of(storey, HEIGHT, ())
-    return finish(Plan(slug(path.name.partition('.')[0], 'plan'), [storey]))
+    _move(storey, origin)
+    return finish(Plan(slug(path.name.partition('.')[0], 'plan'), [storey], remarks=remarks))
+
+
+def _move(storey: Storey, origin: tuple[float, float, float]) -> None:
+    """Turns and shifts a storey that was read in the picture's frame."""
+    x, y, yaw = origin
+
+    def moved(point: Point) -> Point:
+        return turned((x, y), yaw, *point)
+
+    storey.walls = [replace(wall, start=moved(wall.start), end=moved(wall.end))
+                    for wall in storey.walls]
+    for i, opening in enumerate(storey.openings):
+        at = moved((opening.x, opening.y))
+        storey.openings[i] = replace(opening, x=at[0], y=at[1], yaw=opening.yaw + yaw)
+    storey.rooms = [replace(room, polygon=tuple(map(moved, room.polygon)),
+                            holes=tuple(tuple(map(moved, hole)) for hole in room.holes))
+                    for room in storey.rooms]
 
 
 def cleaned_walls(dark: np.ndarray, scale: float) -> np.ndarray:
@@ -137,15 +185,15 @@ def straight_walls(dark: np.ndarray, scale: float) -> list[tuple[int, int, int, 
     found = []
     left = dark.copy()
     least = max(2, round(LEAST_WALL / scale))
-    for turned in (False, True):
-        cells = left.T if turned else left
+    for upright in (False, True):
+        cells = left.T if upright else left
         runs = binary_opening(cells, np.ones((1, least)))
         labels, count = label(runs)
         for k, where in enumerate(_slices(labels, count), 1):
             part = labels[where] == k
             for row, column, high, wide in _bands(part):
                 south, west = where[0].start + row, where[1].start + column
-                found.append((south, west, south + high, west + wide) if turned
+                found.append((south, west, south + high, west + wide) if upright
                              else (west, south, west + wide, south + high))
         cells &= ~runs
     for row, column, high, wide in rectangles(left):
