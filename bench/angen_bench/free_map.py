@@ -14,11 +14,12 @@ STEP_OVER = 0.12  # m: a person steps over lower things
 TALL = 1.75  # m
 
 
-def free_map(path: Path, floor: float) -> tuple[np.ndarray, float, float]:
+def free_map(path: Path, floor: float, body: float = BODY
+             ) -> tuple[np.ndarray, float, float]:
     shapes = read_shapes(path)
     solids = [s for s in shapes.solids if s.model not in shapes.moving and len(s.corners) > 2
               and s.bottom < floor + TALL and s.top > floor + STEP_OVER]
-    points = np.array([p for s in solids for p in s.corners])
+    points = np.array([p for s in solids for p in s.corners] or [(0.0, 0.0)])
     west, south = points.min(axis=0) - 1
     columns, rows = (np.ceil((points.max(axis=0) + 1 - (west, south)) / CELL)).astype(int)
     x = west + (np.arange(columns) + 0.5) * CELL
@@ -30,4 +31,4 @@ def free_map(path: Path, floor: float) -> tuple[np.ndarray, float, float]:
         for (ax, ay), (bx, by) in zip(corners, np.roll(corners, -1, axis=0)):
             inside &= (bx - ax) * (y[:, None] - ay) - (by - ay) * (x[None] - ax) > -1e-9
         solid |= inside
-    return distance_transform_edt(~solid) * CELL > BODY, float(west), float(south)
+    return distance_transform_edt(~solid) * CELL > body, float(west), float(south)
