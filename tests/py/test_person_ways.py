@@ -121,6 +121,16 @@ def test_a_person_opens_a_shut_door_by_hand(world, start, goal, closes):
     assert events.get('closes', []) == (['kitchen0'] if closes else [])
 
 
+def test_a_person_in_a_narrow_corridor_is_not_in_the_way_of_the_door_that_it_pulls(world):
+    corridor = box('corridor', '0 -1.1 1.2 0 0 0', '12 0.1 2.4', True)  # 1.05 m wide
+    w = world(WALL + DOOR + corridor + person('2.5 -0.6 0 0 0 0'), DOORS)
+    w.run(0.1)
+    w.command('person', 'ann', 'GoTo 0.5 2')
+    w.run(20)
+    assert np.hypot(*(place(w) - (0.5, 2.0))) < 0.1
+    assert w.device('door', 'kitchen0')['mode'] == 'OPEN'
+
+
 def test_a_person_who_opens_no_doors_waits_and_tells_it_once(world):
     w = world(WALL + DOOR + person('0.5 -2 0 0 0 0', '<opens_doors>false</opens_doors>'), DOORS)
     w.run(0.5)

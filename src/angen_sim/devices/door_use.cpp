@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "devices/floor_map.h"
+
 namespace angen::devices {
 
 namespace {
@@ -22,6 +24,9 @@ constexpr Nanoseconds kRefresh = kSecond / 50;    // of a door's state
 constexpr Nanoseconds kStarts = kSecond / 5;      // until the door's state shows the hand
 constexpr Nanoseconds kRests = 30 * kSecond;      // after a door that did not open, then twice that
 constexpr int kRestDoublings = 7;
+
+// deg from the shut leaf to where it stands to pull it, the best first
+constexpr double kSpots[] = {45.0, 35.0, 55.0, 25.0, 65.0, 15.0};
 
 double cross_of(const Surroundings::Vec2& a, const Surroundings::Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -90,6 +95,7 @@ void DoorUse::look(const View& view, const Vec3& feet, const Vec2& to) {
   if (phase_ == Phase::kPassing && next->name == door_.name) return;
   door_ = *next;
   side_ = door_.into.dot(at - door_.hinge) > 0.0 ? 1.0 : -1.0;
+  spot_ = free_spot(view, feet);
   enter(Phase::kApproach, view.time());
 }
 
@@ -102,10 +108,20 @@ bool DoorUse::refresh(const View& view, double z) {
   return false;
 }
 
-// To pull: at arm's length from the handle, out of the leaf's way. To push: close.
-DoorUse::Vec2 DoorUse::spot() const {
+// To push: close. To pull: at arm's length from the handle, out of the leaf's way, where a wall
+// leaves it room.
+DoorUse::Vec2 DoorUse::free_spot(const View& view, const Vec3& feet) const {
   if (side_ < 0.0) return handle() - kBeforeHandle * door_.into;
-  return door_.hinge + (door_.width + kOutOfSwing) * (door_.along + door_.into).normalized();
+  const auto at = [&](double degrees) -> Vec2 {
+    const double angle = degrees * M_PI / 180.0;
+    const Vec2 away = std::cos(angle) * door_.along + std::sin(angle) * door_.into;
+    return door_.hinge + (door_.width + kOutOfSwing) * away;
+  };
+  for (const double degrees : kSpots) {
+    const Vec2 place = at(degrees);
+    if (FloorMap(view, feet, place, FloorMap::Extent::kStraight).is_free(place)) return place;
+  }
+  return at(kSpots[0]);
 }
 
 DoorUse::Advice DoorUse::update(const View& view, const Vec3& feet, const Vec2& to, bool looks,
@@ -153,7 +169,7 @@ DoorUse::Advice DoorUse::approach(const Vec2& at, Nanoseconds now, Outputs& outp
   }
   const Nanoseconds time = now - since_;
   const bool reaches = time > kNearEnough && (at - handle()).norm() < kReach;
-  if ((at - spot()).norm() < kAtSpot || reaches) {
+  if ((at - spot_).norm() < kAtSpot || reaches) {
     if (!opens_) {
       enter(Phase::kWaiting, now);
       return {Advice::Step::kWait, handle()};
@@ -164,7 +180,7 @@ DoorUse::Advice DoorUse::approach(const Vec2& at, Nanoseconds now, Outputs& outp
     return {Advice::Step::kStand, handle()};
   }
   if (time > kLongest) return fail(now);
-  return {Advice::Step::kGo, spot()};
+  return {Advice::Step::kGo, spot_};
 }
 
 DoorUse::Advice DoorUse::wait_until_open(Nanoseconds now) {

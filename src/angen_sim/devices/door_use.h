@@ -63,7 +63,8 @@ class DoorUse {
   Advice fail(Nanoseconds now);
   Advice pass(const Vec2& at, Nanoseconds now, Outputs& outputs);
   Vec2 handle() const { return door_.hinge + (door_.width - 0.07) * door_.along; }
-  Vec2 spot() const;
+  /// Where it stands to open the door.
+  Vec2 free_spot(const View& view, const Vec3& feet) const;
   bool refresh(const View& view, double z);
   void enter(Phase phase, Nanoseconds now);
 
@@ -72,6 +73,7 @@ class DoorUse {
   Phase phase_ = Phase::kNone;
   DoorSeen door_;
   Nanoseconds refreshed_ = 0;
+  Vec2 spot_ = Vec2::Zero();
   double side_ = 1.0;         // where it came from: 1 = the side that the leaf opens to
   Nanoseconds since_ = 0;     // of this phase
   int failures_ = 0;          // one after the other
