@@ -104,7 +104,9 @@ struct Scene::Impl {
     warm.clear();
     for (const auto& [id, shape] : warmed) {
       warm.push_back(shape);
-      warm.back().box = solid(id.index).box;
+      const Solid& placed = solid(id.index);
+      warm.back().box = placed.box;
+      warm.back().rotation = placed.rotation;
     }
   }
 

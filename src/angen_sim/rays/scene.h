@@ -56,9 +56,10 @@ struct Placement {
 
 /// A shape with its own surface temperature; all others have the temperature of the air.
 struct WarmShape {
-  std::uint32_t shape = UINT32_MAX;  // index of its ShapeId, as in Hit
-  double temperature = 0.0;          // K
-  Eigen::AlignedBox3d box;           // m, world, around it
+  std::uint32_t shape = UINT32_MAX;                        // index of its ShapeId, as in Hit
+  double temperature = 0.0;                                // K
+  Eigen::AlignedBox3d box;                                 // m, world, around it
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  // own frame to world
 };
 
 /// A static or anchored shape that casts may hit.

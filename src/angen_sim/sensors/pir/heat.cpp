@@ -23,6 +23,7 @@ constexpr double kWatchCell = 0.02;                  // rad between the rays tha
 constexpr std::size_t kEach = 4;                     // of the rays to a surface, one is probed
 constexpr std::size_t kFewProbed = 24;               // of fewer rays all are cast
 constexpr Nanoseconds kHiddenPeriod = kSecond / 20;  // while all surfaces are hidden
+constexpr std::size_t kMostScans = 64;
 
 double azimuth_of(const Vec3& p) { return std::atan2(p.y(), p.x()); }
 
@@ -58,11 +59,6 @@ Vec3 direction_to(double azimuth, double elevation) {
           std::sin(elevation)};
 }
 
-/// W/(m^2 sr) that a surface of that temperature (K) sends out more than the air.
-double radiance_over(double air, double temperature) {
-  return kStefanBoltzmann / M_PI * (std::pow(temperature, 4) - std::pow(air, 4));
-}
-
 int cells(double angle, double size) {
   return std::clamp(static_cast<int>(std::ceil(angle / size)), kFewest, kMaxCells);
 }
@@ -94,6 +90,7 @@ void Heat::aim(const View& view, RayBatch& rays) {
   sampled_ = true;
   revision_ = view.scene_revision();
   surface_revision_ = view.surface_revision();
+  if (!(pose == pose_)) scans_.clear();
   pose_ = pose;
   surfaces_.clear();
   samples_.clear();
@@ -101,7 +98,7 @@ void Heat::aim(const View& view, RayBatch& rays) {
   for (const rays::WarmShape& shape : view.warm_shapes()) {
     if (shape.temperature == air_) continue;
     surfaces_.push_back({shape.shape, shape.temperature});
-    aim_at(shape.box, pose, view, rays);
+    aim_at(shape, pose, view, rays);
   }
 }
 
@@ -121,10 +118,19 @@ bool Heat::reheat(const View& view) {
   return true;
 }
 
+/// W/(m^2 sr) that a surface of that temperature (K) sends out more than the air.
+double Heat::radiance(double temperature) {
+  if (temperature != warm_) {
+    warm_ = temperature;
+    warm_fourth_ = std::pow(temperature, 4);
+  }
+  return kStefanBoltzmann / M_PI * (warm_fourth_ - air_fourth_);
+}
+
 void Heat::sum_up() {
   flux_ = 0.0;
   for (const Surface& surface : surfaces_) {
-    flux_ += radiance_over(air_, surface.temperature) * surface.factor;
+    flux_ += radiance(surface.temperature) * surface.factor;
   }
 }
 
@@ -138,6 +144,7 @@ void Heat::follow_air(const View& view) {
   if (std::abs(air - air_) < kSameAir) return;
   const double before = flux_;
   air_ = air;
+  air_fourth_ = std::pow(air, 4);
   sum_up();
   drift_ += flux_ - before;
 }
@@ -177,23 +184,44 @@ bool Heat::sees(const Eigen::AlignedBox3d& box, const Pose& pose) const {
   return angle <= cone + std::asin(radius / away);
 }
 
-void Heat::aim_at(const Eigen::AlignedBox3d& box, const Pose& pose, const View& view,
+void Heat::aim_at(const rays::WarmShape& shape, const Pose& pose, const View& view,
                   RayBatch& rays) {
-  if (box.isEmpty() || box.exteriorDistance(pose.position) > range_) return;
-  if (!sees(box, pose)) return;
-  const Window around = window_of(box, pose, lens_.window());
-  for (const double turn : {0.0, kTurn, -kTurn}) {
-    const Window seen = common(lens_.window(), around, turn);
-    if (seen.right >= seen.left || seen.low >= seen.high) continue;
-    near_ = true;
+  if (shape.box.isEmpty() || shape.box.exteriorDistance(pose.position) > range_) return;
+  if (!sees(shape.box, pose)) return;
+  if (scans_.size() > kMostScans) scans_.clear();
+  const auto [at, is_new] = scans_.try_emplace(shape.shape);
+  Scan& found = at->second;
+  if (is_new || found.box.min() != shape.box.min() || found.box.max() != shape.box.max() ||
+      found.rotation != shape.rotation) {
+    scan_all(shape, pose, view, found);
+  }
+  near_ = near_ || found.near;
+  for (std::size_t part = 0; part < found.parts.size(); ++part) {
+    const std::size_t end =
+        part + 1 < found.parts.size() ? found.parts[part + 1] : found.rays.size();
     const std::size_t first = samples_.size();
-    scan(seen, pose, view, rays);
+    for (std::size_t i = found.parts[part]; i < end; ++i) {
+      rays.push_back(found.rays[i]);
+      samples_.push_back({surfaces_.size() - 1, found.factors[i]});
+    }
     take_visible(first, view, rays);
   }
 }
 
+void Heat::scan_all(const rays::WarmShape& shape, const Pose& pose, const View& view, Scan& found) {
+  found = {shape.box, shape.rotation, false, {}, {}, {}};
+  const Window around = window_of(shape.box, pose, lens_.window());
+  for (const double turn : {0.0, kTurn, -kTurn}) {
+    const Window seen = common(lens_.window(), around, turn);
+    if (seen.right >= seen.left || seen.low >= seen.high) continue;
+    found.near = true;
+    found.parts.push_back(found.rays.size());
+    scan(seen, pose, view, found);
+  }
+}
+
 // A grid of rays that moves with the shape, so that its outline makes no noise.
-void Heat::scan(const Window& seen, const Pose& pose, const View& view, RayBatch& rays) {
+void Heat::scan(const Window& seen, const Pose& pose, const View& view, Scan& found) {
   const int columns = cells(seen.left - seen.right, cell_width_);
   const int rows = cells(seen.high - seen.low, cell_height_);
   const double width = (seen.left - seen.right) / columns;
@@ -201,11 +229,13 @@ void Heat::scan(const Window& seen, const Pose& pose, const View& view, RayBatch
   const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
   for (int row = 0; row < rows; ++row) {
     const double elevation = seen.low + (row + 0.5) * height;
+    const double level = std::cos(elevation);
+    const double up = std::sin(elevation);
     const double shift = std::fmod(0.5 + row * 0.6180339887498949, 1.0);  // no edge falls on all
     const auto ray_to = [&](int column) {
       const double azimuth = seen.right + (column + shift) * width;
-      const Vec3 direction = (rotation * direction_to(azimuth, elevation)).normalized();
-      return rays::Ray{pose.position, direction, kHousing, range_};
+      const Vec3 way(level * std::cos(azimuth), level * std::sin(azimuth), up);
+      return rays::Ray{pose.position, (rotation * way).normalized(), kHousing, range_};
     };
     const auto misses = [&](int column) {
       return !view.meets(surfaces_.back().shape, ray_to(column));
@@ -218,9 +248,9 @@ void Heat::scan(const Window& seen, const Pose& pose, const View& view, RayBatch
       const double azimuth = seen.right + (column + shift) * width;
       const double sensitivity = lens_.sensitivity(azimuth, elevation);
       if (sensitivity == 0.0) continue;
-      const double solid_angle = width * height * std::cos(elevation);
-      rays.push_back(ray_to(column));
-      samples_.push_back({surfaces_.size() - 1, solid_angle * sensitivity * opening_});
+      const double solid_angle = width * height * level;
+      found.rays.push_back(ray_to(column));
+      found.factors.push_back(solid_angle * sensitivity * opening_);
     }
   }
 }

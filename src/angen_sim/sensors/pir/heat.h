@@ -1,5 +1,6 @@
 #pragma once
 
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -45,10 +46,22 @@ class Heat {
     double factor = 0.0;  // m^2 sr: W on the elements' difference for a radiance of 1
   };
 
+  /// The rays to a shape that stays where it is, and what each counts.
+  struct Scan {
+    Eigen::AlignedBox3d box;  // the shape's
+    Eigen::Matrix3d rotation;
+    bool near = false;
+    std::vector<rays::Ray> rays;
+    std::vector<double> factors;     // as in Sample
+    std::vector<std::size_t> parts;  // where each window begins
+  };
+
+  double radiance(double temperature);
   std::vector<rays::Ray> all_rays(const Pose& pose) const;
   bool sees(const Eigen::AlignedBox3d& box, const Pose& pose) const;
-  void aim_at(const Eigen::AlignedBox3d& box, const Pose& pose, const View& view, RayBatch& rays);
-  void scan(const Window& seen, const Pose& pose, const View& view, RayBatch& rays);
+  void aim_at(const rays::WarmShape& shape, const Pose& pose, const View& view, RayBatch& rays);
+  void scan_all(const rays::WarmShape& shape, const Pose& pose, const View& view, Scan& found);
+  void scan(const Window& seen, const Pose& pose, const View& view, Scan& found);
   void take_visible(std::size_t first, const View& view, RayBatch& rays);
   bool waits(Nanoseconds now) const;
   bool reheat(const View& view);
@@ -66,7 +79,11 @@ class Heat {
   std::uint64_t revision_ = UINT64_MAX;
   std::uint64_t surface_revision_ = UINT64_MAX;
   Pose pose_;
-  bool near_ = false;  // whether a surface is where the lens looks
+  bool near_ = false;                              // whether a surface is where the lens looks
+  std::unordered_map<std::uint32_t, Scan> scans_;  // by shape, from pose_
+  double warm_ = 0.0;                              // K, whose fourth power is known
+  double warm_fourth_ = 0.0;
+  double air_fourth_ = 0.0;  // K^4
   std::vector<rays::Ray> probes_;
   std::vector<rays::Hit> probed_;
   bool sampled_ = false;  // whether aim() has requested rays
