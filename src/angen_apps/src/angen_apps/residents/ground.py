@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Sequence
 
 import numpy as np
@@ -11,6 +11,7 @@ from scipy.ndimage import label
 from angen_apps.maps.gridmap import FREE, OCCUPIED, RESOLUTION, GridMap
 from angen_apps.maps.rays import Caster
 from angen_apps.robot.planner import Planner, Point
+from angen_tools.common.catalog import angen_module
 from angen_tools.common.home import Door, Home, Place
 
 BODY = 0.3  # m: half the width of a person, with a margin
@@ -23,6 +24,8 @@ MARGIN = 1.5  # m around the rooms
 DEEP = 0.35  # m to both sides of a door's middle that belong to its opening
 PORCH = 1.2  # m outside the entrance where people come and go
 SWING = 1.25  # m from a door's middle: its leaf does not reach farther
+OPENS_IN = 20.0  # s, at most
+LEAF = 0.2  # m beyond a door's width from its middle: the farthest end of its leaf
 GOALS = 64  # goals whose ways are cached
 REACH = 1.1  # m from a person to the thing that the person uses
 
@@ -35,21 +38,54 @@ class Leg:
     door: Door | None = None
 
 
+@dataclass(frozen=True)
+class Ride:
+    """An elevator: its cabin, and where one waits before and gets out after a ride."""
+
+    name: str
+    cabin: Point
+    waits: Point
+    leaves: Point
+
+
 class Ground:
     """The floors of a home. `world` is one of its own, from which people and leaves are removed."""
 
     def __init__(self, world: Any, home: Home) -> None:
         self.home = home
-        for kind, _, model, _ in list(world.entities()):
-            if kind in ('person', 'door', 'drive') and model in world.models:
-                world.delete(model)
+        _delete(world, 'person', 'drive')
         self._caster = Caster(world)
         entrance = self.entrance()
         lives = self.storey_at(entrance.pose[2]) if entrance else min(r.storey for r in home.rooms)
-        self.planners = {storey: Planner(self._grid(storey), BODY) for storey in (lives,)}
+        _open_all(world, home)
+        leaves = {storey: self._grid(storey) for storey in self._storeys(lives)}
+        _delete(world, 'door')
+        self.planners = {storey: self._planner(self._grid(storey), opened)
+                         for storey, opened in leaves.items()}
         self.free = {storey: self._largest(planner) for storey, planner in self.planners.items()}
         self._toward: dict[tuple[int, tuple[int, int]], np.ndarray] = {}  # the last used at the end
         self._names: dict[tuple[int, int, int], str] = {}  # of rooms, by storey, row and column
+
+    def _storeys(self, lives: int) -> list[int]:
+        """That of the main entrance, and those that elevators reach from there."""
+        found = {lives}
+        for lift in self.home.elevators:
+            landings = {landing.storey for landing in lift.landings}
+            if lives in landings:
+                found |= landings
+        return sorted(storey for storey in found
+                      if any(room.storey == storey for room in self.home.rooms))
+
+    def lift(self, storey: int, other: int) -> Ride | None:
+        """The first elevator between two storeys."""
+        for lift in self.home.elevators:
+            landings = {landing.storey: landing for landing in lift.landings}
+            if storey in landings and other in landings:
+                points = [self.near(*landings[s].pose[:2], self.elevation(s))
+                          for s in (storey, other)]
+                if points[0] and points[1]:
+                    return Ride(lift.name, lift.pose[:2], points[0], points[1])
+        return None
 
     def support(self, place: Place) -> float:
         """z of the surface under a sitting or lying person, m."""
@@ -191,6 +227,29 @@ class Ground:
         column = ((a[0] - grid.origin[0] + (b[0] - a[0]) * share) / grid.resolution).astype(int)
         return bool(planner.passable[row, column].all())
 
+    def _planner(self, grid: GridMap, opened: GridMap) -> Planner:
+        """Of a storey whose doors stand open: their leaves are in the way, but for those without
+        which a room could not be reached. `grid` is without leaves."""
+        planner = Planner(grid, BODY)
+        rows, columns = np.indices(grid.cells.shape)
+        x, y = self._middles(grid, rows, columns)
+        leaves = (grid.cells == FREE) & (opened.cells != FREE)
+        for door in self.home.doors:
+            near = np.hypot(x - door.pose[0], y - door.pose[1]) < door.width + LEAF
+            if door.kind != 'door' or not (leaves & near).any():
+                continue
+            cells = np.where(leaves & near, OCCUPIED, planner.grid.cells).astype(np.int8)
+            tried = Planner(replace(grid, cells=cells), BODY)
+            if self._reached(tried, x, y) == self._reached(planner, x, y):
+                planner = tried
+        return planner
+
+    def _reached(self, planner: Planner, x: np.ndarray, y: np.ndarray) -> set[str]:
+        """The rooms that the largest connected part has a place in."""
+        free = self._largest(planner)
+        return {room.name for room in self.home.rooms if room.storey == planner.grid.floor
+                and (free & in_polygon(x, y, room.polygon)).any()}
+
     def _largest(self, planner: Planner) -> np.ndarray:
         """The largest connected part (rows, columns) of the free cells."""
         parts, _ = label(planner.passable, np.ones((3, 3), int))
@@ -253,6 +312,27 @@ class Ground:
                  ) -> tuple[np.ndarray, np.ndarray]:
         return (grid.origin[0] + (columns + 0.5) * grid.resolution,
                 grid.origin[1] + (rows + 0.5) * grid.resolution)
+
+
+def _delete(world: Any, *kinds: str) -> None:
+    for kind, _, model, _ in list(world.entities()):
+        if kind in kinds and model in world.models:
+            world.delete(model)
+
+
+def _open_all(world: Any, home: Home) -> None:
+    """Has all doors stand open."""
+    doors = [door.name for door in home.doors
+             if door.kind == 'door' and door.name in world.devices('door')]
+    for door in doors:
+        try:
+            world.command('door', door, 'Open')
+        except angen_module().Error:
+            continue  # it is locked, or has no drive
+    end = world.time + OPENS_IN
+    while doors and world.time < end:
+        world.run(0.5)
+        doors = [door for door in doors if world.device('door', door)['mode'] != 'OPEN']
 
 
 def in_polygon(x: np.ndarray, y: np.ndarray, corners: Sequence[Sequence[float]]) -> np.ndarray:

@@ -116,10 +116,10 @@ class Household:
         """Whether another person is awake in a room."""
         return any(r.room == room and r.name != who and not r.away for r in self.residents)
 
-    def doorway_free(self, x: float, y: float, who: str) -> bool:
+    def doorway_free(self, x: float, y: float, storey: int, who: str) -> bool:
         """Whether no other person is in the swing of a leaf."""
         return all((r.at[0] - x) ** 2 + (r.at[1] - y) ** 2 > CLEAR ** 2
-                   for r in self.residents if r.name != who and not r.away)
+                   for r in self.residents if r.name != who and not r.away and r.storey == storey)
 
     def lux(self, room: str) -> float:
         """The illuminance in a room: by its sensor, or else by its lamps and the sun."""

@@ -18,6 +18,7 @@ STALLED = 7.0  # s without coming nearer, after which another way is tried
 TRIES = 3
 DOOR_WAIT = 20.0  # s to wait for another person in a doorway
 OPENS_IN = 12.0  # s
+LIFT_WAIT = 90.0  # s for an elevator, or for somebody else in it
 ASIDE = 0.55  # m between the middles of two people
 NEARER = 0.05  # m
 SLOWS = 0.4  # s, in which it walks the rest of its way
@@ -99,7 +100,8 @@ class Mover:
 
     def _free(self, point: Point) -> Point | None:
         """The point, or one beside it, that no other resident is at."""
-        others = [r.at for r in self.household.residents if r is not self and not r.away]
+        others = [r.at for r in self.household.residents if r is not self and not r.away
+                  and r.storey == self.storey]
         planner = self.ground.planners[self.storey]
         around = [(0.0, 0.0)] + [(d * math.cos(k * math.pi / 4), d * math.sin(k * math.pi / 4))
                                  for d in (0.4, 0.7, 1.0) for k in range(8)]
@@ -115,8 +117,16 @@ class Mover:
         """Walks there; `self.arrived` says whether it succeeded."""
         self.arrived = False
         yield from self.rise()
+        if storey != self.storey:
+            yield from self._ride(storey)
+            if storey != self.storey:
+                return
+        yield from self._reach_on_foot(goal, storey)
+
+    def _reach_on_foot(self, goal: Point, storey: int) -> Process:
+        self.arrived = False
         for attempt in range(TRIES):
-            legs = self.ground.way(self.at, goal, storey) if storey == self.storey else None
+            legs = self.ground.way(self.at, goal, storey)
             if legs is None:
                 return
             yield from self._follow(legs)
@@ -124,6 +134,50 @@ class Mover:
                 return
             if attempt + 1 < TRIES:
                 yield from self._aside(attempt)
+
+    def _ride(self, storey: int) -> Process:
+        """Takes the elevator to another storey, one person at a time."""
+        ride = self.ground.lift(self.storey, storey)
+        key, since = ('lift', ride.name if ride else ''), self.now
+        if ride is None:
+            return
+        while not self.household.take(key, self.name):
+            if self.now - since > LIFT_WAIT:
+                return
+            yield self.now + 1.0
+        try:
+            yield from self._reach_on_foot(ride.waits, self.storey)
+            if not self.arrived:
+                return
+            self.walks = True
+            yield from self._call(ride.name, self.storey)
+            if self._opened:
+                yield from self._walk(ride.cabin, PASSED, None)
+                self.halt()
+            if not self._opened or not self._came:
+                return
+            yield from self._call(ride.name, storey)
+            if self._opened:
+                self.storey = storey
+                self.look()
+                yield from self._walk(ride.leaves, PASSED, None)
+        finally:
+            self.walks = False
+            self.halt()
+            self.household.leave(key, self.name)
+
+    def _call(self, lift: str, storey: int) -> Process:
+        """Has an elevator at a storey with open doors; `self._opened` says whether it is."""
+        self._opened = False
+        since = self.now
+        self.household.do(self.name, 'elevator', lift, f'Floor{storey}')
+        while self.now - since < LIFT_WAIT:
+            yield self.now + 0.5
+            state = self.simulator.state('elevator', lift)
+            if (state.get('mode'), state.get('door_mode')) == ('IDLE', 'OPEN') \
+                    and state.get('target_floor') == storey:
+                self._opened = True
+                return
 
     def _follow(self, legs: list[Leg]) -> Process:
         self.walks = True
@@ -215,7 +269,7 @@ class Mover:
                  or self._habits.random() < self.profile.closes_doors)
         beyond = math.dist(self.at, door.pose[:2]) > SWING - 0.3
         if shuts and beyond and self.profile.body == 'person' \
-                and self.household.doorway_free(door.pose[0], door.pose[1], self.name):
+                and self.household.doorway_free(*door.pose[:2], self.storey, self.name):
             self.household.do(self.name, 'door', door.name, 'CloseByHand')
 
     def _aside(self, attempt: int) -> Process:
