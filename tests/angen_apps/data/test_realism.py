@@ -1,4 +1,6 @@
 """Distances and figures, against closed forms."""
+import gzip
+
 import numpy as np
 import pytest
 
@@ -37,3 +39,15 @@ def test_what_is_outside_comes_first():
     stream = realism.Stream(time, ['M001'] * len(time), values, ['kitchen'] * len(time), [])
     verdicts = [row[3] for row in realism.compare(stream, None)]
     assert verdicts[0] != 'within' and verdicts == sorted(verdicts, key=lambda v: v == 'within')
+
+
+def test_an_activity_lasts_from_its_first_place_to_its_last(tmp_path):
+    lines = ['start,end,resident,activity,phase', '0,10,anna,cook,goes', '10,40,anna,cook,does',
+             '20,90,bert,cook,does', '40,45,anna,cook,goes', '45,100,anna,cook,does',
+             '100,130,anna,eat,goes', '90,95,bert,read,does']
+    with gzip.open(tmp_path / 'truth.csv.gz', 'wt') as file:
+        file.write('\n'.join(lines) + '\n')
+    (tmp_path / 'events.csv.gz').write_bytes(gzip.compress(b'time,sensor,value,room\n'))
+    lasted = realism.durations(realism.read(tmp_path))
+    assert {name: sorted(times) for name, times in lasted.items()} == {
+        'cook': [70.0, 90.0], 'read': [5.0]}

@@ -82,9 +82,29 @@ def _own(folder: Path) -> Stream:
         sensors.append(row['sensor'])
         values.append(row['value'])
         places.append(row['room'])
-    labels = [(float(row[edge]), row['activity'], turn) for row in rows(folder / 'truth.csv.gz')
-              for edge, turn in (('start', 'begin'), ('end', 'end')) if row['phase'] == 'does']
-    return Stream(np.array(times), sensors, values, places, labels)
+    return Stream(np.array(times), sensors, values, places, _labels(folder / 'truth.csv.gz'))
+
+
+def _labels(path: Path) -> list[tuple[float, str, str]]:
+    """Begin and end of each activity, with the ways between its places, one resident after the
+    other: from where it is first done to where it is last done."""
+    found: list[tuple[float, str, str]] = []
+    doing: dict[str, tuple[str, float, float]] = {}  # activity, begin, end, by resident
+
+    def close(who: str) -> None:
+        if who in doing:
+            name, begin, end = doing.pop(who)
+            found.extend([(begin, name, 'begin'), (end, name, 'end')])
+    for row in rows(path):
+        who, name = row['resident'], row['activity']
+        if who in doing and doing[who][0] != name:
+            close(who)
+        if row['phase'] == 'does':
+            begin = doing[who][1] if who in doing else float(row['start'])
+            doing[who] = (name, begin, float(row['end']))
+    for who in sorted(doing):
+        close(who)
+    return found
 
 
 def on_times(stream: Stream) -> np.ndarray:
