@@ -32,7 +32,8 @@ Building::Building(const desc::World& world, std::uint64_t seed, std::shared_ptr
       physics_(world.physics),
       gravity_(world.gravity),
       seed_(seed),
-      catalog_(std::move(catalog)) {
+      catalog_(std::move(catalog)),
+      faults_(seed) {
   for (const desc::Light& light : world.lights) lights_.push_back(world_light(light, ""));
   make_engines();
   for (const desc::Plugin& plugin : world_.plugins) {
@@ -291,6 +292,20 @@ void Building::attach(const desc::Sensor& sensor, const std::string& link, Nanos
   note_change(number_of(*live));
 }
 
+void Building::displace(const std::string& kind, const std::string& name, const Pose& by) {
+  const auto at = sensors_.find(kind + "/" + name);
+  if (at == sensors_.end()) return;
+  for (SensorInstance& sensor : at->second->sensors) {
+    if (sensor.kind != kind || sensor.name != name) continue;
+    sensor.pose = sensor.pose * by;
+    sensor.scans.clear();
+    sensor.light.reset();
+    sensor.near.reset();
+    sensor.activity = {};
+  }
+  note_change(number_of(*at->second));
+}
+
 void Building::erase(const std::string& name) {
   const auto model = std::find_if(models_.begin(), models_.end(),
                                   [&](const auto& live) { return live->desc->name == name; });
@@ -327,6 +342,7 @@ void Building::erase(const std::string& name) {
 void Building::reset(Nanoseconds now) {
   std::vector<std::unique_ptr<LiveModel>> old;
   old.swap(models_);
+  faults_.reset();
   for (auto* names : {&by_name_, &devices_, &sensors_}) names->clear();
   with_device_.clear();
   for (const auto& live : old) {

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "sim/faults.h"
 #include "sim/instance.h"
 #include "sim/pushes.h"
 #include "sim/saved.h"
@@ -23,6 +24,8 @@ class Building {
   void add(desc::Model model, Nanoseconds now);
   /// Puts a sensor on `link` (model::link), or throws Error and changes nothing.
   void attach(const desc::Sensor& sensor, const std::string& link, Nanoseconds now);
+  /// Moves a sensor on its link, `by` in its own frame.
+  void displace(const std::string& kind, const std::string& name, const Pose& by);
   /// Removes the model or attached sensor called `name`, or throws Error.
   void erase(const std::string& name);
   /// Everything that is there back to where and how it was when it was added.
@@ -74,6 +77,7 @@ class Building {
   std::vector<std::string> model_names() const;
 
   Pushes& pushes() { return pushes_; }
+  Faults& faults() { return faults_; }
 
   /// The model was put elsewhere between ticks.
   void note_placed(LiveModel& live);
@@ -181,6 +185,7 @@ class Building {
   std::unordered_map<std::string, LiveModel*> sensors_;                   // as well
   std::vector<WorldLight> lights_;
   Pushes pushes_;
+  Faults faults_;
   std::vector<LiveModel*> placed_;
   std::vector<physics::LinkId> awake_links_;
   std::vector<LiveModel*> awake_;

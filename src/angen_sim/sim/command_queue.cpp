@@ -58,6 +58,10 @@ std::string prepare(const Building::Target& target, const Command& command, Buil
 
 Outcome to_device(const ToDevice& given, Building& building, InstanceView::Clock clock) {
   ToDevice action = with_kind(given);
+  if (action.kind == "fault") {
+    building.faults().give(action.name, action.command.text, clock.time);
+    return {true, ""};
+  }
   if (action.name.empty() && !action.kind.empty()) {  // the only one of a kind needs no name
     const std::vector<std::string> names = building.device_names(action.kind);
     if (names.empty()) return {false, "there is no " + printable(action.kind)};

@@ -180,6 +180,7 @@ SensorInstance make_sensor(const LiveModel& live, std::uint32_t link,
       instance.topic = params.text("bumperTopicName", "", "the same, in a contact sensor");
     }
     instance.frame = params.text("frameName", "", "frame of its header, instead of its name");
+    instance.faults = parse_faults(params.text("fault", "", "what goes wrong with it"));
     if (!instance.plugin->kind().ray_color().empty()) {
       read_ray_color(params, instance.plugin->kind());
     }

@@ -40,6 +40,9 @@ struct Simulation::Impl {
       next.time = 0;
       next.counts.readings = 0;
     }
+    for (const Faults::Move& move : building.faults().moves(next.time)) {
+      building.displace(move.kind, move.name, move.by);
+    }
     restructure();
     follow_placed();
     for (const std::shared_ptr<SavedState>& into : effects.saves) *into = saved();
@@ -75,6 +78,7 @@ struct Simulation::Impl {
     tick = std::min(tick, devices.next_tick(building, clock()));
     const Nanoseconds push = std::min(building.pushes().next(next.time), kForever - next.step);
     tick = std::min(tick, (push + next.step - 1) / next.step);
+    tick = std::min(tick, fault_tick() - 1);
     const std::int64_t most = commands.ticks_to_go() - 1;
     if (most < tick - next.tick) tick = next.tick + most;
     if (tick <= next.tick) return;
@@ -84,6 +88,12 @@ struct Simulation::Impl {
     commands.ticks_done(tick - next.tick);
     next.tick = tick;
     next.time = tick * next.step;
+  }
+
+  /// The tick at whose end a fault shows something that no sensor sends.
+  std::int64_t fault_tick() {
+    const Nanoseconds time = building.faults().next();
+    return time > kForever - next.step ? kForever : (time + next.step - 1) / next.step;
   }
 
   /// The end of the next tick. A longer one ends where anything but a person's device or a sensor
@@ -96,7 +106,7 @@ struct Simulation::Impl {
     }
     std::int64_t end = std::min((next.time / kLongStep + 1) * kLongStep, until) / next.step;
     const Nanoseconds push = std::min(building.pushes().next(next.time), kForever - next.step);
-    end = std::min({end, engines.next_rest() / next.step, push / next.step,
+    end = std::min({end, engines.next_rest() / next.step, push / next.step, fault_tick(),
                     devices.next_tick(building, clock(), true)});
     if (commands.ticks_to_go() < end - here) end = here + commands.ticks_to_go();
     if (end <= here + 1) return here + 1;
@@ -183,7 +193,8 @@ struct Simulation::Impl {
     next.paused = commands.paused();
     next.counts.awake_bodies = static_cast<std::uint32_t>(building.engines().physics.awake_count());
     next.counts.failed_steps = building.engines().physics.failed_steps();
-    auto made = std::make_shared<const Snapshot>(next);
+    auto made = std::make_shared<Snapshot>(next);
+    building.faults().pass(*made);
     next.moved_links.clear();
     next.new_readings.clear();
     next.new_states.clear();
@@ -215,6 +226,7 @@ struct Simulation::Impl {
     const std::size_t from = next.structure ? building.renumbered_from() : 0;
     const Numbering kept = building.numbering(from);
     next.structure = building.structure();
+    building.faults().follow(next.structure, next.time);
     devices.invalidate();
     sensors.due().invalidate();
     next.link_poses.truncate(kept.link);

@@ -5,6 +5,7 @@
 namespace angen::sim {
 
 Nanoseconds Snapshot::stamp(std::size_t sensor) const {
+  if (sensors[sensor].stamp >= 0) return sensors[sensor].stamp;
   const SensorEntry& entry = structure->sensors[sensor];
   const Nanoseconds made = sensors[sensor].reading->stamp;
   return entry.on_demand() ? made : std::max(made, entry.schedule.last_publication(time));

@@ -8,6 +8,7 @@
 #include "desc/world.h"
 #include "home/survey.h"
 #include "plugin/plugin.h"
+#include "sim/fault.h"
 #include "sim/schedule.h"
 #include "sim/shared_array.h"
 
@@ -62,6 +63,7 @@ struct SensorInfo {
   std::shared_ptr<const RayGeometry> rays;  // null: it has no grid of rays
   std::shared_ptr<const Plugin> plugin;     // describes the kind, and keeps its library loaded
   Schedule schedule;                        // of all its due times
+  std::vector<Fault> faults;                // that its SDF names
 
   /// Samples only while requested, see Simulation::request.
   bool on_demand() const { return plugin->kind().is_on_demand; }
@@ -106,6 +108,7 @@ struct Counts {
 struct PublishedReading {
   std::shared_ptr<const Reading> reading;   // null before the first
   std::shared_ptr<const LazyReading> lazy;  // null where it is the reading itself
+  Nanoseconds stamp = -1;                   // of one with faults; else by its schedule
 };
 
 /// The world after a tick. Shared and immutable; parts that did not change are shared with the

@@ -1,60 +1,61 @@
-"""Faults happen as often as they are asked for, and each is written down."""
-from dataclasses import replace
+"""Faults of a YAML file: in the home's sensors, and each in the truth. tests/py/test_faults.py has
+what each does."""
+from collections import Counter
 
 import pytest
 
-from angen_apps.data.faults import apply, read
-from angen_apps.data.recorder import Event
+from angen_apps.data.faults import give, read
+from angen_apps.data.site import Site, apartment
+from angen_apps.data.recorder import Recorder
+from angen_apps.residents.household import Household
 from angen_tools.common.failure import Failure
-from tests.angen_apps.data.synthetic import data
-
-COUNT = 4000
+import datetime
 
 
-def many():
-    events = [Event(20.0 * i, 'M001', 'OFF' if i % 2 else 'ON', 'anna', 'eat', 'motion')
-              for i in range(COUNT)]
-    return replace(data(), events=events)
-
-
-def given(tmp_path, text):
+def given(tmp_path, *texts):
     file = tmp_path / 'faults.yaml'
-    file.write_text(f'faults:\n  - {text}\n')
+    file.write_text('faults:\n' + ''.join(f'  - {text}\n' for text in texts))
     return read(file)
 
 
-def test_drop_outs_are_binomial_and_in_the_truth(tmp_path):
-    after, happened = apply(many(), given(tmp_path, '{fault: dropout, share: 0.1, sensors: M*}'))
-    lost = COUNT - len(after.events)
-    assert lost == len(happened)
-    assert abs(lost - 0.1 * COUNT) < 2.58 * (COUNT * 0.1 * 0.9) ** 0.5  # 99 %
+@pytest.fixture(name='site')
+def home_site(tmp_path):
+    apartment(tmp_path / 'home.world')
+    return Site(tmp_path / 'home.world', 7)
 
 
-def test_a_clock_runs_ahead_and_a_battery_fades(tmp_path):
-    after, _ = apply(many(), given(tmp_path, '{fault: clock, seconds_per_day: 8.64}'))
-    assert after.events[1000].time == pytest.approx(20000 * (1 + 1e-4))
-    after, happened = apply(many(), given(tmp_path, '{fault: battery, from: 10 h, lasts: 5 h}'))
-    assert min(h.time for h in happened) >= 36000
-    assert max(e.time for e in after.events) < 15 * 3600
+def recorded(site, seconds):
+    """What is recorded while nobody is at home and the doors of two rooms move."""
+    household = Household(site.simulator, site.ground, 7, 'home', datetime.date(2026, 3, 23))
+    recorder = Recorder(site, household)
+    recorder.start()
+    for door in ('Open', 'Close'):
+        for room in ('kitchen0', 'bathroom0'):
+            site.world.command('door', room, door)
+        household.run(household.now + 10.0)
+    household.run(seconds)
+    return recorder.recording
 
 
-def test_stuck_sensors_send_nothing_and_duplicates_twice(tmp_path):
-    after, _ = apply(many(), given(tmp_path, '{fault: stuck, from: 1 h, lasts: 2 h}'))
-    assert not [e for e in after.events if 3600 <= e.time < 3 * 3600]
-    after, happened = apply(many(), given(tmp_path, '{fault: duplicate, share: 1}'))
-    assert len(after.events) == 2 * COUNT == 2 * len(happened)
+def test_faults_reach_the_data_and_the_truth(site, tmp_path):
+    give(site, given(tmp_path, '{fault: false_alarm, per_day: 400, sensors: M001}',
+                     '{fault: delay, by: 2-2 min, sensors: D*}',
+                     '{fault: moved, from: 0.1 h, yaw: 0.3, sensors: M002}'))
+    left = recorded(site, 7200.0)
+    doors = [e for e in left.events if e.sensor[0] == 'D' and e.time > 60.0]
+    late = [h for h in left.faults if h.fault == 'delay']
+    assert len(doors) == len(late) == 4
+    assert sorted(e.time for e in doors) == pytest.approx(sorted(h.time + 120.0 for h in late))
+    alarms = [e for e in left.events if e.sensor == 'M001' and e.value == 'ON']
+    count = Counter(h.fault for h in left.faults)
+    assert count['false_alarm'] == len(alarms) and 15 < len(alarms) < 55  # 33.3
+    assert {e.cause for e in alarms} == {'noise'} and count['moved'] == 1
 
 
-def test_false_alarms_have_no_resident(tmp_path):
-    after, happened = apply(data(), given(tmp_path, '{fault: false_alarm, per_day: 200, '
-                                                    'sensors: M001}'))
-    alarms = [e for e in after.events if e.cause == 'noise']
-    assert len(alarms) == 2 * len(happened) and not any(e.resident for e in alarms)
-    assert 150 < len(happened) < 250
-
-
-def test_what_is_wrong_is_said_with_its_line(tmp_path):
+def test_what_is_wrong_is_said_with_its_line(site, tmp_path):
     with pytest.raises(Failure, match=r"faults\.yaml:2: .*did you mean dropout"):
         given(tmp_path, '{fault: dropouts, share: 0.1}')
     with pytest.raises(Failure, match=r'faults\.yaml:2: dropout has no share'):
         given(tmp_path, '{fault: dropout}')
+    with pytest.raises(Failure, match=r"faults\.yaml:2: no sensor with this fault matches 'X'"):
+        give(site, given(tmp_path, '{fault: dropout, share: 0.1, sensors: X}'))

@@ -61,7 +61,7 @@ def test_who_comes_home_walks_in_and_is_detected(lived, tmp_path):
     assert len(seen) >= 3
     FORMATS['csv'](tmp_path, lived)
     FORMATS['casas'](tmp_path, lived)
-    write_truth(tmp_path, lived, [])
+    write_truth(tmp_path, lived)
     findings = validate(tmp_path)
     ends = [line for line in findings.wrong['no gap in the truth'] if 'ends at' not in line]
     assert not ends  # the day is not over
@@ -78,11 +78,11 @@ def test_the_same_morning_has_the_same_bytes(lived, home):
 
 def test_validate_finds_walls_and_seats(lived, tmp_path):
     FORMATS['csv'](tmp_path, lived)
-    write_truth(tmp_path, lived, [])
+    write_truth(tmp_path, lived)
     track = tmp_path / 'track.csv.gz'
     with gzip.open(track, 'rt') as file:
         lines = file.read().splitlines()
-    lines += ['5000.0,anna,3.900,2.000', '5000.4,anna,4.100,2.000']  # kitchen to living room
+    lines += ['5000.0,anna,3.900,2.000,0', '5000.4,anna,4.100,2.000,0']  # kitchen to living room
     with gzip.open(track, 'wt') as file:
         file.write('\n'.join(lines) + '\n')
     assert len(validate(tmp_path).wrong['nobody crossed a wall']) == 1

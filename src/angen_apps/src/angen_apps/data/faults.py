@@ -1,41 +1,36 @@
-"""Faults of sensors and of the transport of their events; each effect is logged."""
+"""Faults of sensors, of a YAML file: the simulator has them, and says what each has done."""
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from pathlib import Path
-from random import Random
 from typing import Any, NamedTuple
 
-from angen_apps.data.recorder import VALUES, Event
-from angen_apps.data.run import Data
+from angen_apps.data.site import Site
 from angen_apps.residents.activities import span
-from angen_apps.residents.chance import chance, spread
-from angen_apps.residents.profiles import DAY
-from angen_tools.common.yaml_file import YamlFile
+from angen_tools.common.catalog import simulator
+from angen_tools.common.failure import Failure
+from angen_tools.common.yaml_file import YamlFile, line_of
 
+PLACE = ('x', 'y', 'z', 'roll', 'pitch', 'yaw')  # m and rad
 KINDS = {'dropout': ('share',), 'stuck': ('from', 'lasts'), 'false_alarm': ('per_day',),
          'delay': ('by',), 'duplicate': ('share',), 'clock': ('seconds_per_day',),
-         'battery': ('from', 'lasts')}
-PULSE = (1.25, 6.0)  # s that a false alarm lasts
-ECHO = 0.05  # s between an event and its duplicate
+         'battery': ('from', 'lasts'), 'moved': ('from',)}
+LIMITS = {'share': (0.0, 1.0), 'per_day': (0.0, 1e6), 'seconds_per_day': (-1e4, 1e4)}
 
 
 @dataclass(frozen=True)
 class Fault:
-    """One of some sensors. `start` and `lasts` in s, `by` in s, other numbers as they are given."""
+    """One of the sensors whose id matches; `text`: as the simulator takes it."""
 
-    kind: str
     sensors: str
-    number: float = 0.0
-    start: float = 0.0
-    lasts: float = math.inf
-    by: tuple[float, float] = (0.0, 0.0)
+    text: str
+    source: str  # file:line
 
 
 class Happened(NamedTuple):
-    """The effect of a fault on one event."""
+    """What a fault did."""
 
     time: float
     sensor: str
@@ -51,95 +46,35 @@ def read(path: Path) -> list[Fault]:
 
 
 def _fault(file: YamlFile, node: Any) -> Fault:
-    known = ('fault', 'sensors', *sorted({key for keys in KINDS.values() for key in keys}))
+    known = ('fault', 'sensors', *sorted({key for keys in KINDS.values() for key in keys}), *PLACE)
     entry = file.entries(node, 'a fault', known, ('fault',))
     kind = file.choice(entry['fault'], 'fault', KINDS)
-    file.entries(node, kind, ('fault', 'sensors', *KINDS[kind]), KINDS[kind])
-    made = Fault(kind, file.text(entry['sensors'], 'sensors') if 'sensors' in entry else '*')
-    for key in KINDS[kind]:
-        if key == 'share':
-            made = replace(made, number=file.number(entry[key], key, 0.0, 1.0))
-        elif key in ('per_day', 'seconds_per_day'):
-            made = replace(made, number=file.number(entry[key], key, -1e4, 1e4))
+    places = PLACE if kind == 'moved' else ()
+    file.entries(node, kind, ('fault', 'sensors', *KINDS[kind], *places), KINDS[kind])
+    words = [kind]
+    for key in (*KINDS[kind], *places):
+        if key in LIMITS:
+            words.append(f'{key}={file.number(entry[key], key, *LIMITS[key]):g}')
+        elif key in PLACE:
+            if key in entry:
+                far = math.tau if key in PLACE[3:] else 100.0
+                words.append(f'{key}={file.number(entry[key], key, -far, far):g}')
         else:
-            value = span(file, entry[key], key)
-            made = replace(made, by=value) if key == 'by' else \
-                replace(made, start=value[0]) if key == 'from' else replace(made, lasts=value[1])
-    return made
+            least, most = span(file, entry[key], key)
+            words.append(f'{key}={least:g}-{most:g}' if key == 'by' else f'{key}={least:g}')
+    sensors = file.text(entry['sensors'], 'sensors') if 'sensors' in entry else '*'
+    return Fault(sensors, ' '.join(words), f'{file.path}:{line_of(node)}')
 
 
-def apply(data: Data, faults: list[Fault]) -> tuple[Data, list[Happened]]:
-    """The data with the faults applied, and the effect on each changed event."""
-    events, happened = list(data.events), []
-    for number, fault in enumerate(faults):
-        kept: list[Event] = []
-        for sensor in data.sensors:
-            if fnmatchcase(sensor.id, fault.sensors):
-                own = [event for event in events if event.sensor == sensor.id]
-                numbers = chance(data.seed, 'fault', number, sensor.id)
-                after = _Sensor(fault, sensor.id, sensor.kind, data.days * DAY, numbers)
-                kept += after.through(own)
-                happened += after.happened
-            else:
-                kept += [event for event in events if event.sensor == sensor.id]
-        events = sorted(kept, key=lambda e: (e.time, e.sensor))
-    return replace(data, events=events), sorted(happened)
-
-
-class _Sensor:
-    """One fault at one sensor."""
-
-    def __init__(self, fault: Fault, sensor: str, kind: str, ends: float, numbers: Random) -> None:
-        self.fault, self.sensor, self.kind, self.ends = fault, sensor, kind, ends
-        self.numbers = numbers
-        self.happened: list[Happened] = []
-
-    def through(self, events: list[Event]) -> list[Event]:
-        """The events that arrive."""
-        found: list[Event] = []
-        for event in events:
-            found += self._one(event)
-        return found + (self._alarms() if self.fault.kind == 'false_alarm' else [])
-
-    def _one(self, event: Event) -> list[Event]:
-        fault = self.fault
-        inside = fault.start <= event.time < fault.start + fault.lasts
-        if fault.kind == 'dropout' and self.numbers.random() < fault.number:
-            return self._lost(event)
-        if fault.kind == 'stuck' and inside:
-            return self._lost(event)
-        if fault.kind == 'battery' and event.time >= fault.start \
-                and self.numbers.random() < min((event.time - fault.start) / fault.lasts, 1.0):
-            return self._lost(event)
-        if fault.kind == 'delay':
-            return [self._moved(event, spread(self.numbers, *fault.by))]
-        if fault.kind == 'clock':
-            return [self._moved(event, fault.number * event.time / DAY)]
-        if fault.kind == 'duplicate' and self.numbers.random() < fault.number:
-            self._note(event.time, f'{event.value} twice')
-            return [event, event._replace(time=event.time + ECHO)]
-        return [event]
-
-    def _lost(self, event: Event) -> list[Event]:
-        self._note(event.time, f'{event.value} lost')
-        return []
-
-    def _moved(self, event: Event, by: float) -> Event:
-        self._note(event.time, f'{event.value} by {by:.3f} s')
-        return event._replace(time=min(max(event.time + by, 0.0), self.ends))
-
-    def _alarms(self) -> list[Event]:
-        """Of sensors with two values."""
-        found: list[Event] = []
-        on, off = VALUES.get(self.kind, ('', ''))
-        time = self.numbers.expovariate(self.fault.number / DAY) if self.fault.number > 0 else DAY
-        while on and self.fault.number > 0 and time < self.ends:
-            found.append(Event(time, self.sensor, on, '', '', 'noise'))
-            found.append(Event(min(time + self.numbers.uniform(*PULSE), self.ends), self.sensor,
-                               off, '', '', 'noise'))
-            self._note(time, f'{on} for {found[-1].time - time:.2f} s')
-            time += self.numbers.expovariate(self.fault.number / DAY)
-        return found
-
-    def _note(self, time: float, detail: str) -> None:
-        self.happened.append(Happened(round(time, 6), self.sensor, self.fault.kind, detail))
+def give(site: Site, faults: list[Fault]) -> None:
+    """Gives faults to a home's sensors; false alarms to those that raise alarms."""
+    for fault in faults:
+        found = [s for s in site.sensors if fnmatchcase(s.id, fault.sensors)
+                 and (not fault.text.startswith('false_alarm')
+                      or s.kind in ('motion', 'area', 'door', 'item'))]
+        if not found:
+            raise Failure(f"{fault.source}: no sensor with this fault matches '{fault.sensors}'; "
+                          f'ids begin with {", ".join(sorted({s.id[0] for s in site.sensors}))}')
+        for sensor in found:
+            with simulator(f'{fault.source}: '):
+                site.world.command('fault', f'{sensor.source}/{sensor.name}', fault.text)

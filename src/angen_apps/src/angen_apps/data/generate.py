@@ -104,16 +104,13 @@ def make(job: Job, progress: Callable[[float], None] = lambda _: None) -> dict[s
         shutil.rmtree(part)  # torn
     make_folder(part)
     data = _live(job, progress)
-    happened: list[faults.Happened] = []
-    if job.faults:
-        data, happened = faults.apply(data, faults.read(Path(job.faults)))
     paths = [path for name in dict.fromkeys((*job.formats, 'csv'))
              for path in FORMATS[name](part, data)]
-    paths += write_truth(part, data, happened)
+    paths += write_truth(part, data)
     entry = {
         'name': job.name, 'settings': job.settings,
         'residents': [list(pair) for pair in data.residents], 'sensors': len(data.sensors),
-        'events': len(data.events), 'missed': len(data.missed), 'faults': len(happened),
+        'events': len(data.events), 'missed': len(data.missed), 'faults': len(data.faults),
         'files': {str(path.relative_to(part)): sha256(path) for path in sorted(paths)}}
     write_text(part / HOME, json.dumps(entry, indent=1, sort_keys=True) + '\n')
     _put(part, folder)
@@ -140,7 +137,8 @@ def _live(job: Job, progress: Callable[[float], None]) -> run.Data:
         if not job.world:
             site.apartment(world)
         return run.live(world, job.name, job.days, run.residents_of(list(job.residents)), job.seed,
-                        start, not job.own_sensors, job.light, progress)
+                        start, not job.own_sensors, job.light,
+                        faults.read(Path(job.faults)) if job.faults else [], progress)
 
 
 def finished(job: Job) -> dict[str, Any] | None:
@@ -160,7 +158,7 @@ def finished(job: Job) -> dict[str, Any] | None:
     return entry
 
 
-def write_truth(folder: Path, data: run.Data, happened: list[faults.Happened]) -> list[Path]:
+def write_truth(folder: Path, data: run.Data) -> list[Path]:
     """truth.csv.gz, missed.csv, faults.csv, layout.json and track.csv.gz."""
     paths = [folder / 'truth.csv.gz', folder / 'missed.csv', folder / 'faults.csv',
              folder / 'layout.json', folder / 'track.csv.gz']
@@ -170,13 +168,14 @@ def write_truth(folder: Path, data: run.Data, happened: list[faults.Happened]) -
         writer.writerows(interval.row() for interval in data.truth)
     write_csv(paths[1], ('start', 'end', 'sensor', 'resident'),
               [(f'{m.start:.3f}', f'{m.end:.3f}', m.sensor, m.resident) for m in data.missed])
-    write_csv(paths[2], ('time', 'sensor', 'fault', 'detail'), happened)
+    write_csv(paths[2], faults.Happened._fields, data.faults)
     home = data.home
     layout = {
         'start': data.start.isoformat(), 'days': data.days,
         'residents': [{'name': name, 'profile': profile, 'speed': read(profile).speed}
                       for name, profile in data.residents],
-        'rooms': [{'name': r.name, 'use': r.use, 'polygon': r.polygon, 'area': r.area}
+        'rooms': [{'name': r.name, 'use': r.use, 'storey': r.storey,
+                   'polygon': r.polygon, 'area': r.area}
                   for r in home.rooms],
         'doors': [{'name': d.name, 'kind': d.kind, 'rooms': list(d.rooms), 'pose': list(d.pose),
                    'width': d.width} for d in home.doors],
@@ -185,8 +184,9 @@ def write_truth(folder: Path, data: run.Data, happened: list[faults.Happened]) -
         'sensors': [{key: value for key, value in asdict(s).items() if key != 'source'}
                     for s in data.sensors]}
     with zipped(paths[4]) as file:
-        file.write('time,resident,x,y\n')
-        file.writelines(f'{t:.3f},{who},{x:.3f},{y:.3f}\n' for t, who, x, y in data.track)
+        file.write('time,resident,x,y,storey\n')
+        file.writelines(f'{t:.3f},{who},{x:.3f},{y:.3f},{storey}\n'
+                        for t, who, x, y, storey in data.track)
     write_text(paths[3], json.dumps(_rounded(layout), indent=1) + '\n')
     return paths
 

@@ -7,6 +7,7 @@ from typing import Any, Iterator, NamedTuple
 
 import numpy as np
 
+from angen_apps.data.faults import Happened
 from angen_apps.data.site import Sensor, Site
 from angen_apps.residents.household import Household
 
@@ -22,6 +23,8 @@ NEAR = 1.5  # m: a resident within this distance may have sat down there
 CELL = 0.4  # m around the middle of a cell: a sensor must detect motion there
 LEAST = 1.0  # s: the resident must move there this long
 STRIDE = 0.3  # s between two places of a track
+FALSE = 'false alarm'  # detail of its events
+NOISE = ('', '', 'noise')  # whose it is
 HOLD = 2.5  # s before and after, within which an event counts
 
 
@@ -52,6 +55,7 @@ class Step(NamedTuple):
     resident: str
     x: float
     y: float
+    storey: int
 
 
 @dataclass
@@ -62,6 +66,7 @@ class Recording:
     missed: list[Missed]
     power: dict[str, list[tuple[float, float]]]  # W from a time on, by device
     track: list[Step]
+    faults: list[Happened]
 
 
 class Recorder:
@@ -69,8 +74,9 @@ class Recorder:
 
     def __init__(self, site: Site, household: Household) -> None:
         self.site, self.household = site, household
-        self.recording = Recording([], [], {}, [])
+        self.recording = Recording([], [], {}, [], [])
         self._by_name = {(s.source, s.name): s for s in site.sensors}
+        self._storeys = {s.id: site.home.storey_at(s.z) for s in site.sensors}
         self._on: dict[str, float] = {}  # when sensors came on
         self._last_on: dict[str, float] = {}
         self._whose: dict[str, tuple[str, str, str]] = {}
@@ -83,6 +89,7 @@ class Recorder:
         self._middles = np.array([(s.x, s.y) for s in self._cells]).reshape(-1, 2)
         self._left: list[Missed] = []
         self._stepped: dict[str, float] = {}
+        self._late: dict[tuple[str, str], list[tuple[str, str, str]]] = {}  # whose delayed are
 
     def start(self) -> None:
         """Records the sensors' reports at the start of a run."""
@@ -96,15 +103,34 @@ class Recorder:
                 self._follow(resident)
                 if resident.looked - self._stepped.get(resident.name, -math.inf) >= STRIDE:
                     self._stepped[resident.name] = resident.looked
-                    self.recording.track.append(Step(resident.looked, resident.name, *resident.at))
-        for time, source, kind, event, _ in self.site.world.events():
+                    self.recording.track.append(Step(resident.looked, resident.name, *resident.at,
+                                                     resident.storey))
+        for time, source, kind, event, detail in self.site.world.events():
+            if kind == 'fault':
+                self._note_fault(float(time), source, event, detail)
             sensor = self._by_name.get((kind, source))
             if sensor is not None:
-                self._note(float(time), sensor, event)
+                self._note(float(time), sensor, event, detail == FALSE)
         self._note_power()
 
-    def _note(self, time: float, sensor: Sensor, event: str) -> None:
-        if sensor.kind == 'light' and event == 'changed':
+    def _note_fault(self, time: float, source: str, fault: str, detail: str) -> None:
+        kind, _, what = detail.partition(': ')
+        sensor = self._by_name.get((kind, source))
+        if sensor is None:
+            return
+        self.recording.faults.append(Happened(time, sensor.id, fault, what))
+        if fault == 'delay':  # who is there when it comes is not who caused it
+            for event in what.rpartition(' by ')[0].split(', '):
+                if event in ON or event in OFF:
+                    self._late.setdefault((sensor.id, event), []).append(self._cause(time, sensor))
+
+    def _note(self, time: float, sensor: Sensor, event: str, false: bool) -> None:
+        late = self._late.get((sensor.id, event))
+        if false:
+            self._add(time, sensor, VALUES[sensor.kind][0 if event in ON else 1], NOISE)
+        elif late:
+            self._add(time, sensor, VALUES[sensor.kind][0 if event in ON else 1], late.pop(0))
+        elif sensor.kind == 'light' and event == 'changed':
             lux = self.site.world.sensor('luminosity', sensor.name)['illuminance']
             self._add(time, sensor, f'{min(100, round(lux))}', self._lit(sensor))
         elif event in ON:
@@ -115,7 +141,7 @@ class Recorder:
         elif event in OFF and sensor.kind in VALUES:
             self._on.pop(sensor.id, None)
             whose = self._cause(time, sensor) if sensor.kind in ('door', 'power') \
-                else self._whose.get(sensor.id, ('', '', 'noise'))
+                else self._whose.get(sensor.id, NOISE)
             self._add(time, sensor, VALUES[sensor.kind][1], whose)
 
     def _add(self, time: float, sensor: Sensor, value: str, whose: tuple[str, str, str]) -> None:
@@ -123,7 +149,8 @@ class Recorder:
 
     def _cause(self, time: float, sensor: Sensor) -> tuple[str, str, str]:
         """Resident, activity and cause of a sensor's detection."""
-        residents = [r for r in self.household.residents if not r.away]
+        residents = [r for r in self.household.residents if not r.away
+                     and r.storey == self._storeys[sensor.id]]
         if sensor.kind in ('door', 'power'):
             who = self._hand(time, sensor)
             resident = next((r for r in self.household.residents if r.name == who), None)
@@ -163,7 +190,8 @@ class Recorder:
         """Records the cells that a resident walks over, and those whose sensor detected nothing."""
         now = resident.looked
         away = ((self._middles - resident.at) ** 2).sum(axis=1)
-        inside = {(int(i), resident.name) for i in np.nonzero(away < CELL ** 2)[0]}
+        inside = {(int(i), resident.name) for i in np.nonzero(away < CELL ** 2)[0]
+                  if self._storeys[self._cells[i].id] == resident.storey}
         for key in sorted(key for key in self._over if key[1] == resident.name):
             if key in inside:
                 continue

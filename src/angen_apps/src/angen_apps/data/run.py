@@ -5,8 +5,9 @@ import datetime
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Callable
+from typing import Callable, Sequence
 
+from angen_apps.data import faults
 from angen_apps.data.recorder import Event, Missed, Recorder, Step
 from angen_apps.data.site import Sensor, Site
 from angen_apps.residents.household import Household
@@ -35,6 +36,7 @@ class Data:
     missed: list[Missed]
     power: dict[str, list[tuple[float, float]]]
     track: list[Step]
+    faults: list[faults.Happened]
 
     def intervals(self, resident: str) -> list[Interval]:
         return [interval for interval in self.truth if interval.resident == resident]
@@ -59,9 +61,11 @@ def residents_of(words: list[str]) -> list[tuple[str, Profile]]:
 
 def live(world: Path, name: str, days: int, who: list[tuple[str, Profile]], seed: int,
          start: datetime.date | None = None, placed: bool = True, light: bool = False,
+         faulty: Sequence[faults.Fault] = (),
          progress: Callable[[float], None] = lambda _: None) -> Data:
     """Has residents live in the home of a world's file."""
     site = Site(world, seed, placed, light)
+    faults.give(site, list(faulty))
     first = start or datetime.date.fromisoformat((site.home.start or '2026-03-23')[:10])
     household = Household(site.simulator, site.ground, seed, name, first)
     make(household, who)
@@ -79,4 +83,5 @@ def live(world: Path, name: str, days: int, who: list[tuple[str, Profile]], seed
     left = recorder.recording
     return Data(datetime.datetime.combine(first, datetime.time()), days, seed,
                 [(resident, profile.name) for resident, profile in who], site.home, site.sensors,
-                events, truth, left.missed, left.power, sorted(left.track))
+                events, truth, left.missed, left.power, sorted(left.track),
+                sorted(left.faults))

@@ -98,17 +98,18 @@ def _times(findings: Findings, layout: Any, truth: list[dict[str, str]]) -> None
 def _walls(findings: Findings, layout: Any, folder: Path) -> None:
     """No resident exceeds its speed, or changes rooms except through a door or opening."""
     speeds = {r['name']: FASTER * r['speed'] for r in layout['residents']}
-    last: dict[str, tuple[float, float, float]] = {}
+    last: dict[str, tuple[float, float, float, int]] = {}
     for row in rows(folder / 'track.csv.gz'):
         who, time, x, y = row['resident'], float(row['time']), float(row['x']), float(row['y'])
         before = last.get(who)
-        last[who] = (time, x, y)
-        if before is None or time - before[0] > 0.65:
+        storey = int(row['storey'])
+        last[who] = (time, x, y, storey)
+        if before is None or time - before[0] > 0.65 or storey != before[3]:
             continue
-        way = math.dist(before[1:], (x, y))
+        way = math.dist(before[1:3], (x, y))
         findings.say('no speed above their own', way <= speeds[who] * (time - before[0]) + 0.06,
                      f'{who} at {time}: {way:.2f} m in {time - before[0]:.2f} s')
-        rooms = [_room(layout, *before[1:]), _room(layout, x, y)]
+        rooms = [_room(layout, *before[1:]), _room(layout, x, y, storey)]
         if rooms[0] != rooms[1]:
             middle = ((before[1] + x) / 2, (before[2] + y) / 2)
             near = any(_in_opening(door, middle) for door in layout['doors'])
@@ -116,9 +117,10 @@ def _walls(findings: Findings, layout: Any, folder: Path) -> None:
                          f'{who} at {time}: from {rooms[0]} to {rooms[1]} at {middle}')
 
 
-def _room(layout: Any, x: float, y: float) -> str:
+def _room(layout: Any, x: float, y: float, storey: int) -> str:
     return next((str(room['name']) for room in layout['rooms']
-                 if in_polygon(x, y, room['polygon'])), '')  # type: ignore[arg-type]
+                 if room['storey'] == storey
+                 and in_polygon(x, y, room['polygon'])), '')  # type: ignore[arg-type]
 
 
 def _in_opening(door: Any, at: tuple[float, float]) -> bool:
