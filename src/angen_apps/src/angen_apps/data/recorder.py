@@ -103,8 +103,9 @@ class Recorder:
                 self._follow(resident)
                 if resident.looked - self._stepped.get(resident.name, -math.inf) >= STRIDE:
                     self._stepped[resident.name] = resident.looked
-                    self.recording.track.append(Step(resident.looked, resident.name, *resident.at,
-                                                     resident.storey))
+                    x, y = resident.at
+                    self.recording.track.append(
+                        Step(resident.looked, resident.name, x, y, resident.storey))
         for time, source, kind, event, detail in self.site.world.events():
             if kind == 'fault':
                 self._note_fault(float(time), source, event, detail)
