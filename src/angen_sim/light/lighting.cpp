@@ -44,7 +44,12 @@ Lighting::~Lighting() = default;
 void Lighting::count(double before, double after) {
   if (before > 0.0) --lit_count_;
   if (after > 0.0) ++lit_count_;
-  if (before > 0.0 || after > 0.0) ++lit_revision_;
+  if (before > 0.0 || after > 0.0) note_solved();
+}
+
+void Lighting::note_solved() {
+  ++lit_revision_;
+  ++solved_revision_;
 }
 
 LampId Lighting::add(const Lamp& lamp, double level) {
@@ -94,7 +99,9 @@ std::vector<Lit> Lighting::lit() const {
 }
 
 std::shared_ptr<const ReflectedLight> Lighting::reflected() const {
-  if (reflected_ && reflected_revision_ == lit_revision_) return reflected_;
+  // New patches have none: they are in no solution.
+  const std::pair now(solved_revision_, field_->forgotten());
+  if (reflected_ && reflected_revision_ == now) return reflected_;
   std::vector<Rgb> light;
   lamps_.each([&](LampId, const Entry& entry) {
     if (!(entry.level > 0.0) || !entry.solution) return;
@@ -103,7 +110,7 @@ std::shared_ptr<const ReflectedLight> Lighting::reflected() const {
     field_->add_reflected(*entry.solution, factor, light);
   });
   reflected_ = std::make_shared<const ReflectedLight>(field_->pieces(light));
-  reflected_revision_ = lit_revision_;
+  reflected_revision_ = now;
   return reflected_;
 }
 
@@ -244,7 +251,7 @@ void Lighting::outline_new(std::int64_t& left) {
     if (left <= 0 || !(entry.level > 0.0) || entry.solution) return;
     entry.solution = std::make_shared<const Solution>(field_->outline(entry.lamp, left));
     entry.stale = true;
-    ++lit_revision_;
+    note_solved();
     queue_all(id);
   });
 }
@@ -268,7 +275,7 @@ void Lighting::publish() {
   entry.solution = std::make_shared<const Solution>(std::move(work_->solution));
   entry.stale = work_moved_ || field_->outdated_in(entry.solution->bounds);
   entry.due = false;
-  ++lit_revision_;
+  note_solved();
   work_.reset();
   queue_all(worked_on_);
 }

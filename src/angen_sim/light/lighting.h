@@ -112,6 +112,7 @@ class Lighting {
   std::optional<LampId> next() const;
   bool missing() const;
   void count(double before, double after);
+  void note_solved();
 
   Receiver& receiver(Probe& probe, const Pose& pose) const;
   template <class F>
@@ -149,8 +150,10 @@ class Lighting {
   std::uint64_t id_;                      // unique
   std::size_t lit_count_ = 0;
   mutable std::shared_ptr<const ReflectedLight> reflected_;  // null until it is queried
-  mutable std::uint64_t reflected_revision_ = 0;             // the lit_revision_ of `reflected_`
+  // The solved_revision_, and the patches forgotten before, of `reflected_`.
+  mutable std::pair<std::uint64_t, std::uint64_t> reflected_revision_{0, 0};
   std::uint64_t lit_revision_ = 0;
+  std::uint64_t solved_revision_ = 0;  // grows with levels and solutions of lamps
 };
 
 }  // namespace angen::light

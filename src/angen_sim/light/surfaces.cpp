@@ -213,6 +213,7 @@ void Surfaces::forget_if(std::uint32_t shape, std::vector<std::uint32_t>& remove
     const auto entry = known_.find(key);
     if (entry->second < kDivided) {
       patches_[entry->second].alive = false;
+      ++forgotten_;
       removed.push_back(entry->second);
     }
     known_.erase(entry);

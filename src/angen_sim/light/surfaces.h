@@ -47,6 +47,8 @@ class Surfaces {
   std::uint64_t serials() const { return serials_; }    // last number given, from 1 on
   std::size_t size() const { return patches_.size(); }  // count of numbers given, removed or not
 
+  std::uint64_t forgotten() const { return forgotten_; }  // patches, so far
+
   /// Forgets the patches of one shape, or those of it that may intersect a box (m, world). Appends
   /// their numbers to `removed`; they can be read until release().
   void forget(std::uint32_t shape, std::vector<std::uint32_t>& removed);
@@ -83,6 +85,7 @@ class Surfaces {
   std::vector<Patch> patches_;
   std::vector<std::uint32_t> free_;
   std::uint64_t serials_ = 0;
+  std::uint64_t forgotten_ = 0;
 };
 
 }  // namespace angen::light

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -95,6 +96,31 @@ TEST(ReflectedLight, DimmingIsLinear) {
   EXPECT_FLOAT_EQ(estimate(room, {2.0, 1.0, 0.0}, Vec3::UnitZ()), 0.25 * full);
   room.lighting.set_level(room.lamp, 0.0);
   EXPECT_EQ(estimate(room, {2.0, 1.0, 0.0}, Vec3::UnitZ()), 0.0);
+}
+
+/// A door opens, and patches near it are found anew while pictures are made.
+TEST(ReflectedLight, IsThatOfNowWhoeverQueriedBefore) {
+  TwoRooms often;
+  often.lighting.pace();
+  often.open();
+  std::shared_ptr<const ReflectedLight> known;
+  int made = 0, tick = 0;
+  for (const int until : {1, 60, 101, 103, 106, 112, 130, 200, 400}) {
+    TwoRooms once;
+    once.lighting.pace();
+    once.open();
+    for (int i = 1; i <= until; ++i) once.lighting.advance(i * kSecond / 1000);
+    while (tick < until) {
+      often.lighting.advance(++tick * kSecond / 1000);
+      if (std::exchange(known, often.lighting.reflected()) != often.lighting.reflected()) ++made;
+    }
+    for (const Vec3& point : {Vec3(0.5, 0.5, 0.0), Vec3(2.0, 3.5, 0.0), Vec3(3.9, 2.0, 0.0)}) {
+      EXPECT_EQ(estimate(often, point, Vec3::UnitZ()), estimate(once, point, Vec3::UnitZ()))
+          << until;
+    }
+  }
+  EXPECT_GT(made, 1);
+  EXPECT_LT(made, 20);  // not in each tick in which patches are found
 }
 
 }  // namespace
