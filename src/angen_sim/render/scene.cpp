@@ -1,10 +1,12 @@
 #include "render/scene.h"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <tuple>
 #include <utility>
 
+#include "core/parallel.h"
 #include "core/slots.h"
 #include "render/reach.h"
 #include "render/shade.h"
@@ -15,6 +17,7 @@ namespace {
 constexpr float kHousing = 0.5F;    // m, in depth: largest distance of a housing's walls
 constexpr float kPastWall = 1e-5F;  // m
 constexpr int kMaxWalls = 8;
+constexpr int kPixelsOfAThread = 1 << 13;  // fewer are not worth its start
 
 struct Entry {
   Body body;
@@ -142,25 +145,32 @@ void leave_housing(const Instances& instances, float far, const int* valid, RTCR
   }
 }
 
-/// Calls visit(column, row, valid, rays) for each tile, traced.
-template <class Visit>
-void trace(const PinholeCamera& camera, const Pose& pose, const Instances& instances,
-           Visit&& visit) {
+/// Traces all tiles, a strip of them at a time, on several threads. Each thread makes its own
+/// visitor with `make`; it is called as visit(strip) before a strip's tiles, and as
+/// visit(column, row, valid, rays) for each tile.
+template <class Make>
+void trace(const PinholeCamera& camera, const Pose& pose, const Instances& instances, int threads,
+           const Make& make) {
   const Eye eye(camera, pose);
-  alignas(64) int valid[kLanes];
-  alignas(64) RTCRayHit16 rays;
-  eye.begin(rays);
-  for (int row = 0; row < camera.height; row += kTile) {
-    for (int column = 0; column < camera.width; column += kTile) {
-      eye.aim(column, row, valid, rays);
-      RTCIntersectContext context;
-      rtcInitIntersectContext(&context);
-      context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-      rtcIntersect16(valid, instances.seen(), &context, &rays);
-      leave_housing(instances, static_cast<float>(camera.far), valid, rays);
-      visit(column, row, valid, rays);
-    }
-  }
+  const int worth = 1 + camera.width * camera.height / kPixelsOfAThread;
+  const int strips = (camera.height + kTile - 1) / kTile;
+  parallel(strips, std::min(threads, worth), [&]() -> std::function<void(int)> {
+    return [&, visit = make()](int strip) mutable {
+      alignas(64) int valid[kLanes];
+      alignas(64) RTCRayHit16 rays;
+      eye.begin(rays);
+      visit(strip);
+      for (int column = 0; column < camera.width; column += kTile) {
+        eye.aim(column, strip * kTile, valid, rays);
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+        rtcIntersect16(valid, instances.seen(), &context, &rays);
+        leave_housing(instances, static_cast<float>(camera.far), valid, rays);
+        visit(column, strip * kTile, valid, rays);
+      }
+    };
+  });
 }
 
 /// Box around the hits of a tile; empty without hits.
@@ -199,9 +209,76 @@ void show(const Tile& tile, int i, std::uint8_t* pixel) {
   }
 }
 
+std::size_t index_of(const PinholeCamera& camera, int column, int row, int lane) {
+  return static_cast<std::size_t>(row + lane / kTile) * camera.width + column + lane % kTile;
+}
+
+/// Writes the depths of tiles.
+struct DepthWriter {
+  void operator()(int) const {}
+  void operator()(int column, int row, const int* valid, const RTCRayHit16& rays) const {
+    for (int i = 0; i < kLanes; ++i) {
+      if (valid[i] == 0 || !has_hit(rays, i)) continue;
+      depths[index_of(camera, column, row, i)] = rays.ray.tfar[i];
+    }
+  }
+
+  const PinholeCamera& camera;
+  float* depths;
+};
+
+/// The light of an image.
+struct Illumination {
+  const std::vector<light::Lit>& lamps;
+  const std::vector<Eigen::AlignedBox3f>& reaches;  // of the lamps
+  const Ambience& ambience;
+};
+
+/// Writes the colors of tiles, and their depths.
+class ColorWriter {
+ public:
+  ColorWriter(const Instances& instances, const Illumination& by, const DepthWriter& depths,
+              std::uint8_t* pixels)
+      : instances_(instances), by_(by), depths_(depths), pixels_(pixels) {
+    if (!by.ambience.reflected) return;
+    reflected_.emplace(*by.ambience.reflected, instances.opaque());
+  }
+
+  void operator()(int) {
+    if (reflected_) reflected_->start();
+  }
+  void operator()(int column, int row, const int* valid, const RTCRayHit16& rays) {
+    Tile tile;
+    gather(instances_, valid, rays, kAmbientIlluminance * by_.ambience.ambient, tile);
+    if (reflected_) reflected_->shine(tile);
+    const Eigen::AlignedBox3f seen = bounds_of(tile);
+    for (std::size_t i = 0; i < by_.lamps.size(); ++i) {
+      if (by_.reaches[i].intersects(seen)) shine(by_.lamps[i], instances_.opaque(), tile);
+    }
+    for (int i = 0; i < kLanes; ++i) {
+      if (valid[i] == 0) continue;
+      std::uint8_t* pixel = pixels_ + 3 * index_of(depths_.camera, column, row, i);
+      if (tile.valid[i] != 0) {
+        show(tile, i, pixel);
+      } else {
+        for (int c = 0; c < 3; ++c) pixel[c] = shown_as_is(by_.ambience.background[c]);
+      }
+    }
+    depths_(column, row, valid, rays);
+  }
+
+ private:
+  const Instances& instances_;
+  const Illumination& by_;
+  DepthWriter depths_;
+  std::uint8_t* pixels_;
+  std::optional<Reflections> reflected_;
+};
+
 }  // namespace
 
 struct Scene::Impl {
+  int threads;
   Slots<Entry, BodyTag> entries;
   Instances instances;
   Reaches reaches;      // of lamps among the bodies that do not move
@@ -241,7 +318,9 @@ struct Scene::Impl {
   }
 };
 
-Scene::Scene() : impl_(std::make_unique<Impl>()) {}
+Scene::Scene(int threads) : impl_(std::make_unique<Impl>()) {
+  impl_->threads = threads > 0 ? threads : processors();
+}
 Scene::~Scene() = default;
 
 BodyId Scene::add(Body body) {
@@ -266,41 +345,15 @@ std::vector<std::uint8_t> Scene::colors(const PinholeCamera& camera, const Pose&
                                         const std::vector<light::Lit>& lamps,
                                         const Ambience& ambience) const {
   impl_->prepare();
-  const Instances& instances = impl_->instances;
-  const Eigen::Vector3f ambient = kAmbientIlluminance * ambience.ambient;
   std::vector<std::uint8_t> pixels(3U * static_cast<std::size_t>(camera.width) * camera.height);
   std::vector<Eigen::AlignedBox3f> reaches;
   reaches.reserve(lamps.size());
   for (const light::Lit& lit : lamps) reaches.push_back(impl_->reaches.of(lit.lamp));
-  std::optional<light::ReflectedLookup> reflected;
-  if (ambience.reflected) {
-    reflected.emplace(*ambience.reflected, [&](const auto& from, const auto* to, int count) {
-      return seen_from(from, to, count, instances.opaque());
-    });
-  }
-  Tile tile;
+  const Illumination by{lamps, reaches, ambience};
   impl_->last = {camera, pose, no_depths(camera)};
-  std::vector<float>& depths = impl_->last.depths;
-  trace(camera, pose, instances,
-        [&](int column, int row, const int* valid, const RTCRayHit16& rays) {
-          gather(instances, valid, rays, ambient, tile);
-          if (reflected) shine(*reflected, tile);
-          const Eigen::AlignedBox3f seen = bounds_of(tile);
-          for (std::size_t i = 0; i < lamps.size(); ++i) {
-            if (reaches[i].intersects(seen)) shine(lamps[i], instances.opaque(), tile);
-          }
-          for (int i = 0; i < kLanes; ++i) {
-            if (valid[i] == 0) continue;
-            const std::size_t at =
-                static_cast<std::size_t>(row + i / kTile) * camera.width + column + i % kTile;
-            if (tile.valid[i] != 0) {
-              depths[at] = rays.ray.tfar[i];
-              show(tile, i, &pixels[3 * at]);
-            } else {
-              for (int c = 0; c < 3; ++c) pixels[3 * at + c] = shown_as_is(ambience.background[c]);
-            }
-          }
-        });
+  const DepthWriter depths{camera, impl_->last.depths.data()};
+  trace(camera, pose, impl_->instances, impl_->threads,
+        [&] { return ColorWriter(impl_->instances, by, depths, pixels.data()); });
   return pixels;
 }
 
@@ -309,14 +362,9 @@ std::vector<float> Scene::depths(const PinholeCamera& camera, const Pose& pose) 
   const LastPicture& last = impl_->last;
   if (!last.depths.empty() && equal(last.camera, camera) && last.pose == pose) return last.depths;
   std::vector<float> values = no_depths(camera);
-  trace(camera, pose, impl_->instances,
-        [&](int column, int row, const int* valid, const RTCRayHit16& rays) {
-          for (int i = 0; i < kLanes; ++i) {
-            if (valid[i] == 0 || !has_hit(rays, i)) continue;
-            values[static_cast<std::size_t>(row + i / kTile) * camera.width + column + i % kTile] =
-                rays.ray.tfar[i];
-          }
-        });
+  trace(camera, pose, impl_->instances, impl_->threads, [&] {
+    return DepthWriter{camera, values.data()};
+  });
   return values;
 }
 

@@ -52,10 +52,11 @@ struct Ambience {
 };
 
 /// Bodies and their images. Adding and moving cost little; the next image builds the hierarchies.
-/// One thread at a time. Same scene, same lamps, same pose: same bits.
+/// One thread at a time calls it; it renders on `threads` threads, with 0 on one for each
+/// processor. Same scene, same lamps, same pose: same bits, on however many threads.
 class Scene {
  public:
-  Scene();
+  explicit Scene(int threads = 0);
   ~Scene();
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;

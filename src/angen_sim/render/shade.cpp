@@ -10,11 +10,10 @@
 namespace angen::render {
 namespace {
 
-constexpr float kMin = 0.1F;      // lx; less is not worth a shadow ray
-constexpr float kLift = 1e-3F;    // m off the surface that a shadow ray starts
-constexpr float kFarAway = 1e4F;  // m, the farthest shadow of a directional lamp
-// Points of a tile so near and alike get the same reflected light, which varies over decimeters.
-constexpr float kSamePlace = 0.1F;  // m
+constexpr float kMin = 0.1F;        // lx; less is not worth a shadow ray
+constexpr float kLift = 1e-3F;      // m off the surface that a shadow ray starts
+constexpr float kFarAway = 1e4F;    // m, the farthest shadow of a directional lamp
+constexpr float kSamePlace = 0.1F;  // m; reflected light is that of patches of 0.4 m
 constexpr float kSameWay = 0.98F;   // cosine between normals
 constexpr int kCodes = 1 << 14;
 
@@ -78,10 +77,7 @@ void find_occluded(const int* wanted, RTCScene opaque, RTCRay16& rays) {
   rtcOccluded16(wanted, opaque, &context, &rays);
 }
 
-}  // namespace
-
-static_assert(light::ReflectedLookup::kMax == kLanes);
-
+/// Which points are visible from another, as bits; see light::ReflectedLookup.
 std::uint32_t seen_from(const Eigen::Vector3f& from, const Eigen::Vector3f* to, int count,
                         RTCScene opaque) {
   alignas(64) int wanted[kLanes] = {};
@@ -97,6 +93,10 @@ std::uint32_t seen_from(const Eigen::Vector3f& from, const Eigen::Vector3f* to, 
   }
   return seen;
 }
+
+}  // namespace
+
+static_assert(light::ReflectedLookup::kMax == kLanes);
 
 void shine(const light::Lit& lit, RTCScene opaque, Tile& tile) {
   const Source source(lit);
@@ -126,30 +126,45 @@ void shine(const light::Lit& lit, RTCScene opaque, Tile& tile) {
   }
 }
 
-void shine(light::ReflectedLookup& reflected, Tile& tile) {
-  Eigen::Vector3f found[kLanes];
-  int of[kLanes];  // lanes with a value in `found`
+Reflections::Reflections(const light::ReflectedLight& light, RTCScene opaque)
+    : lookup_(light, [opaque](const auto& from, const auto* to, int count) {
+        return seen_from(from, to, count, opaque);
+      }) {}
+
+const Reflections::Known* Reflections::find(const Some& all, int count,
+                                            const Eigen::Vector3f& point,
+                                            const Eigen::Vector3f& normal) {
+  const auto end = all.begin() + count;
+  const auto found = std::find_if(all.begin(), end, [&](const Known& known) {
+    return normal.dot(known.normal) > kSameWay &&
+           (point - known.point).squaredNorm() < kSamePlace * kSamePlace;
+  });
+  return found == end ? nullptr : &*found;
+}
+
+void Reflections::shine(Tile& tile) {
+  Some now;
   int count = 0;
   for (int i = 0; i < kLanes; ++i) {
     if (tile.valid[i] == 0) continue;
-    const int* known = std::find_if(of, of + count, [&](int j) {
-      return tile.normal[i].dot(tile.normal[j]) > kSameWay &&
-             (tile.point[i] - tile.point[j]).squaredNorm() < kSamePlace * kSamePlace;
-    });
-    if (known == of + count) {
-      of[count++] = i;
-      found[i] = reflected.at(tile.point[i], tile.normal[i]);
-    } else {
-      found[i] = found[*known];
+    const Eigen::Vector3f& point = tile.point[i];
+    const Eigen::Vector3f& normal = tile.normal[i];
+    const Known* known = find(now, count, point, normal);
+    if (known == nullptr) {
+      const Known* before = find(last_, last_count_, point, normal);
+      now[count] = before != nullptr ? *before : Known{point, normal, lookup_.at(point, normal)};
+      known = &now[count++];
     }
-    tile.light[i] += found[i];
+    tile.light[i] += known->light;
   }
+  std::copy_n(now.begin(), count, last_.begin());
+  last_count_ = count;
 }
 
 std::uint8_t shown(float luminance) {
   static const std::array<std::uint8_t, kCodes + 1> codes = make_codes();
   const float value = std::max(0.0F, luminance) / (std::max(0.0F, luminance) + kMiddleLuminance);
-  return codes[static_cast<std::size_t>(std::lround(value * kCodes))];
+  return codes[static_cast<std::size_t>(value * kCodes + 0.5F)];
 }
 
 std::uint8_t shown_as_is(float value) {

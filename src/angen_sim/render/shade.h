@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "light/reflected_light.h"
@@ -25,11 +26,31 @@ struct alignas(64) Tile {
 /// Adds the direct light of one lamp to each point.
 void shine(const light::Lit& lit, RTCScene opaque, Tile& tile);
 
-/// Adds reflected light to each point.
-void shine(light::ReflectedLookup& reflected, Tile& tile);
-/// Which points are visible from another, as bits; see light::ReflectedLookup.
-std::uint32_t seen_from(const Eigen::Vector3f& from, const Eigen::Vector3f* to, int count,
-                        RTCScene opaque);
+/// Reflected light on tiles. It varies over decimeters: near points that face the same way get the
+/// same, as the last tile's do. Tiles of a strip come from left to right, so that images do not
+/// depend on which thread has which strip.
+class Reflections {
+ public:
+  Reflections(const light::ReflectedLight& light, RTCScene opaque);
+
+  /// Begins a strip of tiles.
+  void start() { last_count_ = 0; }
+  /// Adds reflected light to each point.
+  void shine(Tile& tile);
+
+ private:
+  struct Known {
+    Eigen::Vector3f point, normal, light;
+  };
+  using Some = std::array<Known, kLanes>;
+
+  static const Known* find(const Some& all, int count, const Eigen::Vector3f& point,
+                           const Eigen::Vector3f& normal);
+
+  light::ReflectedLookup lookup_;
+  Some last_;  // of the last tile
+  int last_count_ = 0;
+};
 
 /// sRGB byte of a luminance in cd/m^2.
 std::uint8_t shown(float luminance);

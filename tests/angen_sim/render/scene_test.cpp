@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -277,6 +278,71 @@ TEST(Picture, WhatSurfacesReflectIsAddedToWhatLampsGive) {
     EXPECT_NEAR(color.x(), expected_byte(0.6, 32.5), 1);
     EXPECT_NEAR(color.y(), expected_byte(0.3, 22.5), 1);
     EXPECT_NEAR(color.z(), expected_byte(0.1, 12.5), 1);
+  }
+}
+
+/// Pieces on the floor, each 0.2 m, that reflect 20 lx and 8 lx more for each meter along x.
+std::shared_ptr<const light::ReflectedLight> rising_light() {
+  std::vector<light::ReflectedLight::Piece> pieces;
+  for (int x = -30; x <= 30; ++x) {
+    for (int y = -30; y <= 30; ++y) {
+      const Eigen::Vector3f place(0.2F * static_cast<float>(x), 0.2F * static_cast<float>(y), 0.0F);
+      const Eigen::Vector3f light = Eigen::Vector3f::Constant(20.0F + 8.0F * place.x());
+      pieces.push_back({place, Eigen::Vector3f::UnitZ(), light});
+    }
+  }
+  return std::make_shared<const light::ReflectedLight>(pieces);
+}
+
+TEST(Picture, ReflectedLightIsThatOfAPlaceWithinADecimeter) {
+  View view;
+  view.pinhole.width = 640;
+  view.pinhole.height = 480;
+  view.camera = {{0.0, 0.0, 2.0}, from_rpy(0.0, M_PI_2, 0.0)};
+  view.scene.add(body(box(50.0, 50.0, 1.0), at(0.0, 0.0, -0.5), {0.6F, 0.6F, 0.6F}));
+  Ambience ambience = kDark;
+  ambience.reflected = rising_light();
+  const std::vector<std::uint8_t> all = view.scene.colors(view.pinhole, view.camera, {}, ambience);
+  for (int row = 0; row < 480; row += 7) {
+    const double x = 2.0 * (view.pinhole.center_y() - row) / view.pinhole.focal();
+    for (int column = 0; column < 640; column += 7) {
+      const int shown = all[static_cast<std::size_t>(3 * (row * 640 + column))];
+      EXPECT_GE(shown, expected_byte(0.6, 20.0 + 8.0 * (x - 0.1)) - 1) << row << ' ' << column;
+      EXPECT_LE(shown, expected_byte(0.6, 20.0 + 8.0 * (x + 0.1)) + 1) << row << ' ' << column;
+    }
+  }
+}
+
+TEST(Picture, IsTheSameOnAnyNumberOfThreads) {
+  std::vector<std::uint8_t> colors;
+  std::vector<float> depths;
+  Ambience ambience = kDim;
+  ambience.reflected = rising_light();
+  for (const int threads : {1, 2, 3, 8}) {
+    Scene scene(threads);
+    scene.add(body(box(50.0, 50.0, 1.0), at(0.0, 0.0, -0.5)));
+    for (int i = 0; i < 9; ++i) {
+      Body ball = body(round(Shape::Type::kSphere, 0.3), at(0.5 * i, 0.7 * (i % 3) - 0.7, 0.3));
+      ball.moves = i % 2 == 0;
+      scene.add(ball);
+    }
+    const std::vector<light::Lit> lamps{lamp({1.0, 1.0, 2.0}, 800.0),
+                                        lamp({3.0, -2.0, 1.0}, 500.0)};
+    PinholeCamera pinhole;
+    pinhole.height = 239;
+    const Pose camera{{-1.5, 0.0, 1.5}, from_rpy(0.0, 0.5, 0.1)};
+    const std::vector<float> alone = scene.depths(pinhole, camera);
+    const std::vector<std::uint8_t> now = scene.colors(pinhole, camera, lamps, ambience);
+    if (threads == 1) {
+      colors = now;
+      depths = alone;
+    }
+    const auto equal = [](const auto& a, const auto& b) {
+      return std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
+    };
+    EXPECT_TRUE(equal(now, colors)) << threads;
+    EXPECT_TRUE(equal(alone, depths)) << threads;
+    EXPECT_TRUE(equal(scene.depths(pinhole, camera), depths)) << threads;
   }
 }
 
