@@ -165,3 +165,30 @@ def test_a_door_that_does_not_open_is_given_up(world):
     while not state(w)['unreachable'] and w.time < start + 120:
         w.run(0.5)
     assert state(w)['unreachable'] and state(w)['mode'] == 'STANDING'
+
+
+ROOM = '''<model name="hall" xmlns:angen="angen"><static>true</static><link name="l"/>
+<angen:room name="hall"><angen:polygon>0 0 8 0 8 6 0 6</angen:polygon>
+<angen:ceiling>2.8</angen:ceiling></angen:room></model>'''
+
+
+@pytest.mark.parametrize('order, right', [
+    ('GoTo 6 3', True), ('GoTo -20 25', True), ('GoTo 500 3', False), ('PushTo 6 -21', False)])
+def test_nobody_is_sent_out_of_the_world(world: World, order: str, right: bool) -> None:
+    w = world(ROOM + person('1 1 0 0 0 0'))
+    w.run(0.1)
+    if right:
+        w.command('person', 'ann', order)
+    else:
+        with pytest.raises(angen.Error, match='outside of the world; x is -20 to 28, y -20 to 26'):
+            w.command('person', 'ann', order)
+    w.run(1.0)
+    assert (state(w)['mode'] == 'WALKING') == right
+
+
+def test_where_no_room_is_known_every_place_is_one(world: World) -> None:
+    w = world(person('1 1 0 0 0 0'))
+    w.run(0.1)
+    w.command('person', 'ann', 'GoTo 500 3')
+    w.run(1.0)
+    assert state(w)['mode'] == 'WALKING'

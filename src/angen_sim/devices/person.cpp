@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
+#include <utility>
 #include <vector>
 
 #include "core/text.h"
@@ -26,10 +28,28 @@ constexpr double kSkinPerKelvin = 0.12;  // of the air
 constexpr double kCoveredSkin = 306.5;   // K, below clothing
 constexpr double kClothingShare = 0.35;  // of the way from the air to that
 constexpr double kBareShare = 0.12;      // of its surface: head and hands
+constexpr double kGrounds = 20.0;        // m around all rooms, where people go
 constexpr Nanoseconds kAirPeriod = 10 * kSecond;
 constexpr Range kSoundPower{-100.0, 200.0};
 
 const char* const kModeEvents[] = {"stands", "walks", "blocked"};
+
+// Why a place is none to go to; empty where it is one.
+std::string why_not(const Point2& place, const Home& home) {
+  Eigen::AlignedBox2d grounds;
+  for (const Room& room : home.rooms) {
+    for (const Point2& corner : room.outline) grounds.extend(corner);
+  }
+  if (grounds.isEmpty()) return "";
+  const Point2 low = grounds.min().array() - kGrounds;
+  const Point2 high = grounds.max().array() + kGrounds;
+  if (Eigen::AlignedBox2d(low, high).contains(place)) return "";
+  std::ostringstream why;
+  why << place.x() << ' ' << place.y() << " is outside of the world; x is " << std::round(low.x())
+      << " to " << std::round(high.x()) << ", y " << std::round(low.y()) << " to "
+      << std::round(high.y()) << " m";
+  return why.str();
+}
 
 }  // namespace
 
@@ -88,12 +108,15 @@ void Person::configure(Params& params, Wiring& wiring) {
   body_ = wiring.link("body");
 }
 
-Verdict Person::command(const Command& command, const View&) {
+Verdict Person::command(const Command& command, const View& view) {
   if (command.verb == "Speak" || command.verb == "Quiet") {
     return Verdict::accept([this, speaks = command.verb == "Speak"] { speaks_ = speaks; });
   }
   if (command.verb == "GoTo" || command.verb == "PushTo") {
     const Order order{{command.values.at(0), command.values.at(1)}, command.verb == "PushTo"};
+    if (std::string why = why_not(order.to, view.home()); !why.empty()) {
+      return Verdict::reject(std::move(why));
+    }
     return Verdict::accept([this, order] {
       order_ = order;
       paused_ = false;

@@ -1,15 +1,12 @@
 """When a command waits for others."""
 from __future__ import annotations
 
-from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
 from angen_msgs.msg import ElevatorState, ElevatorStateArray, Entity
 from angen_tools.common.catalog import kind_of
-from angen_tools.common.failure import Failure
-from angen_tools.common.home import Home, Room
 from angen_tools.common.verbs import parse
 from angen_tools.live import control
 
@@ -50,18 +47,3 @@ def test_a_lamp_never_comes_later(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(control, 'Mailbox', Mail)
     kind = kind_of('lamp')
     assert not control.comes_later(object(), kind, parse(kind, ['on']), LIFT)
-
-
-@pytest.mark.parametrize('words, right', [
-    (['goto', '6', '3'], True), (['goto', '-20', '25'], True), (['goto', '500', '3'], False),
-    (['pushto', '6', '-21'], False)])
-def test_nobody_is_sent_out_of_the_world(words: list[str], right: bool) -> None:
-    room = Room('hall', '', 0, [(0.0, 0.0), (8.0, 0.0), (8.0, 6.0), (0.0, 6.0)], [], 0.0, 2.8,
-                48.0, False)
-    client: Any = SimpleNamespace(home=lambda: Home(rooms=[room]))
-    order = parse(kind_of('person'), words)
-    if right:
-        control.check_place(client, order)
-    else:
-        with pytest.raises(Failure, match='is outside of the world; x is -20 to 28, y -20 to 26 m'):
-            control.check_place(client, order)

@@ -13,8 +13,6 @@ from angen_tools.live.states import states_by_name
 from angen_tools.live.summary import Board
 
 STATE_LIMIT = 0.6  # s of wall time within which a state follows its command
-WAYS = ('GoTo', 'PushTo')
-AROUND = 20.0  # m around all rooms where people can go
 NEXT_LIMIT = 0.5  # s of wall time after which a busy device executes the command later
 
 
@@ -32,8 +30,6 @@ def set_device(kind_name: str, name: str, words: Sequence[str]) -> dict[str, Any
     devices = [entity for entity in client.entities(kind_name) if name in ('all', entity.name)]
     if name == 'all' and not devices:
         raise Failure(f'the world has no {kind_name}')
-    if kind_name == 'person' and order.verb['name'] in WAYS:
-        check_place(client, order)
     board = Board(client)
     before = client.fence()
     state = client.call('/angen/command', SendCommand, target=f'{kind_name}/{name}',
@@ -85,20 +81,6 @@ def target_of(order: Order) -> str:
 def has_target(kind: Plugin, order: Order) -> bool:
     """Whether the state of the kind has the target that the number of an order sets."""
     return any(field['name'] == target_of(order) for field in kind['fields'])
-
-
-def check_place(client: Client, order: Order) -> None:
-    """Raises Failure if an order sends a person out of the home and its surroundings."""
-    place = [float(word) for word in order.text.split()[1:]]
-    rooms = client.home().rooms
-    if len(place) != 2 or not rooms:
-        return
-    edges = [room.bounds for room in rooms]
-    west, south = (min(edge[i] for edge in edges) - AROUND for i in (0, 1))
-    east, north = (max(edge[i] for edge in edges) + AROUND for i in (2, 3))
-    if not (west <= place[0] <= east and south <= place[1] <= north):
-        raise Failure(f'{place[0]:g} {place[1]:g} is outside of the world; x is {west:.0f} to '
-                      f'{east:.0f}, y {south:.0f} to {north:.0f} m')
 
 
 def comes_later(client: Client, kind: Plugin, order: Order, device: Any) -> bool:
