@@ -44,6 +44,17 @@ def usage_error(words: list[str], capsys: pytest.CaptureFixture[str]) -> str:
     return line
 
 
+@pytest.mark.parametrize('words', ['', 'spawn', 'set door'])
+def test_help_is_a_command_too(words: str, capsys: pytest.CaptureFixture[str]) -> None:
+    pages = []
+    for given in (['help', *words.split()], [*words.split(), '--help']):
+        with pytest.raises(SystemExit) as end:
+            cli.run(given)
+        assert end.value.code == 0
+        pages.append(capsys.readouterr().out)
+    assert pages[0] == pages[1] and 'example' in pages[0]
+
+
 @pytest.mark.parametrize('words', COMMANDS)
 def test_help_has_an_example_that_parses(words: str, capsys: pytest.CaptureFixture[str]) -> None:
     import shlex

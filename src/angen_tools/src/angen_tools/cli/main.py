@@ -61,6 +61,10 @@ def run(arguments: Sequence[str]) -> int:
     for word in arguments:
         if _has_other_bytes(word):
             parser.error(f'{ascii(word)} is not text in UTF-8')
+    if arguments and arguments[0] == 'help':
+        arguments = [*arguments[1:], '--help']
+    if arguments and arguments[0] == 'run' and any(':=' in word for word in arguments):
+        parser.error('NAME:=VALUE is for ./angen run, which runs ROS; angen run takes --fast')
     meant = live.right_order(arguments)
     if meant:
         parser.error(f"'{arguments[1]}' is not a kind; did you mean {meant}?")

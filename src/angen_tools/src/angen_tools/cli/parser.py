@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 from pathlib import Path
 from typing import Any, Callable, NoReturn
 
@@ -9,6 +10,11 @@ from angen_tools.cli.arguments import at_least, checked
 from angen_tools.common.nearest import did_you_mean
 
 Run = Callable[[argparse.Namespace], int]  # executes the command; returns the exit code
+# Other words for kinds, which no likeness of letters finds.
+MEANT = {'light': 'lamp', 'bulb': 'lamp', 'lift': 'elevator', 'oven': 'stove', 'cooker': 'stove',
+         'radiator': 'heater', 'robot': 'drive', 'human': 'person', 'motion': 'pir',
+         'lux': 'luminosity', 'touch': 'contact'}
+NEGATIVE = re.compile(r'-\.?\d.*')  # -1.57 and -90deg are values, no options
 
 
 class Parser(argparse.ArgumentParser):
@@ -16,11 +22,24 @@ class Parser(argparse.ArgumentParser):
 
     kinds: Any = None  # the subcommands to which other packages add
 
+    def __init__(self, *args: Any, **options: Any) -> None:
+        super().__init__(*args, **options)
+        self._negative_number_matcher = NEGATIVE
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """Reports words that are too many with the subcommand that they follow."""
+        found, extra = super().parse_known_args(args, namespace)
+        if extra:
+            self.error(f'unrecognized arguments: {" ".join(extra)}')
+        return found, extra
+
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         """argparse's own check, which lists every choice there is."""
         if action.choices is not None and value not in action.choices:
-            raise argparse.ArgumentError(
-                action, f"'{value}' is not known; {did_you_mean(str(value), action.choices)}")
+            meant = MEANT.get(str(value), '')
+            question = (f'did you mean {meant}?' if meant in action.choices
+                        else did_you_mean(str(value), action.choices))
+            raise argparse.ArgumentError(action, f"'{value}' is not known; {question}")
 
     def error(self, message: str) -> NoReturn:
         self.exit(2, f'{self.prog}: {message}; see {self.prog} --help\n')
