@@ -8,7 +8,8 @@
 namespace angen::node {
 namespace {
 
-constexpr float kWallAlpha = 0.3F;  // rooms are seen through walls
+constexpr char kWindow[] = "window";  // a kind: it is hidden with its wall
+constexpr float kWallAlpha = 0.3F;    // rooms are seen through walls
 
 bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
@@ -17,6 +18,8 @@ bool is_ground(const desc::Link& link) {
     return visual.shape.type == Shape::Type::kPlane;
   });
 }
+
+std::string with_side(const std::string& side) { return side.empty() ? "" : " " + side; }
 
 float strongest_alpha(const std::string& group) {
   return group.rfind("walls", 0) == 0 ? kWallAlpha : 1.0F;
@@ -35,13 +38,14 @@ std::string marker_group(const sim::Structure& structure, std::uint32_t link) {
     if (device.model != entry.model) continue;
     const ModelStyle& style = ros_kind(device).model;
     if (style.is_carried) continue;
-    return (style.group.empty() ? device.kind + "s" : style.group) + storey;
+    const std::string side = device.kind == kWindow ? outer_side(structure, model) : "";
+    return (style.group.empty() ? device.kind + "s" : style.group) + with_side(side) + storey;
   }
   if (is_building(model)) {
     if (has(described.name, "ceiling")) return "ceilings" + storey;
     if (has(described.name, "floor")) return "floors" + storey;
     const std::string side = outer_side(model, described);
-    return (side.empty() ? "walls" : "walls " + side) + storey;
+    return "walls" + with_side(side) + storey;
   }
   const bool senses = model.is_static && !described.sensors.empty();
   return (senses ? "sensors" : "furniture") + storey;

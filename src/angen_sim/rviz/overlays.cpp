@@ -50,8 +50,7 @@ visualization_msgs::Marker text_marker(std::string text, double height,
 }
 
 /// The summary over a sensor or device, red during an alarm; empty where there is no reading yet.
-visualization_msgs::Marker draw_caption(const Kind& kind, const Reading* reading) {
-  const bool alarm = reading != nullptr && alarms(kind, *reading);
+visualization_msgs::Marker draw_caption(const Kind& kind, const Reading* reading, bool alarm) {
   return text_marker(reading != nullptr ? summary(kind, *reading) : "", kTextHeight,
                      alarm ? color(0.85F, 0.1F, 0.1F, 1.0F) : color(0.75F, 0.88F, 1.0F, 1.0F));
 }
@@ -369,9 +368,10 @@ bool Overlays::rewrite(const sim::Snapshot& snapshot, Overlay& caption) {
   const sim::Structure& structure = *snapshot.structure;
   const std::shared_ptr<const Plugin>& plugin =
       is_device ? structure.devices[index].plugin : structure.sensors[index].plugin;
-  visualization_msgs::Marker marker = draw_caption(plugin->kind(), reading.get());
+  const bool alarm = reading != nullptr && alarms(plugin->kind(), *reading);
+  visualization_msgs::Marker marker = draw_caption(plugin->kind(), reading.get(), alarm);
   if (marker.text == caption.marker.text && marker.color == caption.marker.color) return false;
-  show(caption, std::move(marker), "readings" + caption.storey);
+  show(caption, std::move(marker), (alarm ? "alarms" : "readings") + caption.storey);
   return true;
 }
 

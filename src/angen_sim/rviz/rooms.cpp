@@ -13,16 +13,31 @@ constexpr double kWallMargin = 0.2;  // m: an outermost wall ends that far insid
 
 using Extent = Eigen::AlignedBox3d;
 
-/// Around a link's boxes, in the model's frame.
-Extent box_around(const desc::Link& link) {
+/// Around a link's boxes, in the frame in which its model is at `model`.
+Extent box_around(const desc::Link& link, const Pose& model = Pose()) {
   Extent box;
   for (const desc::Visual& visual : link.visuals) {
     if (visual.shape.type != Shape::Type::kBox) continue;
-    const Pose pose = link.pose * visual.pose;
+    const Pose pose = model * link.pose * visual.pose;
     const Vec3 half = pose.rotation.toRotationMatrix().cwiseAbs() * visual.shape.size / 2;
     box.extend(Extent(pose.position - half, pose.position + half));
   }
   return box;
+}
+
+Extent box_around(const desc::Model& model, const Pose& at = Pose()) {
+  Extent box;
+  for (const desc::Link& link : model.links) box.extend(box_around(link, at));
+  return box;
+}
+
+std::string side_of(const Extent& all, const Extent& box) {
+  if (box.isEmpty()) return "";
+  if (box.max().y() < all.min().y() + kWallMargin) return "south";
+  if (box.min().y() > all.max().y() - kWallMargin) return "north";
+  if (box.max().x() < all.min().x() + kWallMargin) return "west";
+  if (box.min().x() > all.max().x() - kWallMargin) return "east";
+  return "";
 }
 
 }  // namespace
@@ -39,14 +54,17 @@ std::string storey_suffix(const sim::Structure& structure, std::uint32_t model, 
 }
 
 std::string outer_side(const desc::Model& building, const desc::Link& link) {
-  Extent all;
-  for (const desc::Link& other : building.links) all.extend(box_around(other));
-  const Extent box = box_around(link);
-  if (box.isEmpty()) return "";
-  if (box.max().y() < all.min().y() + kWallMargin) return "south";
-  if (box.min().y() > all.max().y() - kWallMargin) return "north";
-  if (box.max().x() < all.min().x() + kWallMargin) return "west";
-  if (box.min().x() > all.max().x() - kWallMargin) return "east";
+  return side_of(box_around(building), box_around(link));
+}
+
+std::string outer_side(const sim::Structure& structure, const desc::Model& window) {
+  for (const std::shared_ptr<const desc::Model>& building : structure.models) {
+    if (!is_building(*building)) continue;
+    const Extent all = box_around(*building);
+    const Vec3 middle = box_around(window, building->pose.inverse() * window.pose).center();
+    if (!all.contains(middle)) continue;
+    return side_of(all, Extent(middle, middle));
+  }
   return "";
 }
 

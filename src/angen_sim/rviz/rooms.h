@@ -18,4 +18,7 @@ std::string storey_suffix(const sim::Structure& structure, std::uint32_t model, 
 /// west, north and east; empty for all others.
 std::string outer_side(const desc::Model& building, const desc::Link& link);
 
+/// The same of a model in the wall of the building around it, such as a window.
+std::string outer_side(const sim::Structure& structure, const desc::Model& window);
+
 }  // namespace angen::node

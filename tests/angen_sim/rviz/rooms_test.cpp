@@ -73,6 +73,25 @@ TEST(Groups, HaveTheStoreyOfTheirModelUnlessItTravels) {
   EXPECT_EQ(marker_group(structure, 3), "people");
 }
 
+TEST(Groups, OfAWindowHaveTheSideOfTheWallThatItIsIn) {
+  desc::Model window;
+  window.links.push_back(box_link("pane", {0.5, 0.03, 0.5}, {1.0, 0.02, 1.0}));
+  std::vector<desc::Model> models{house(4.0)};
+  for (const Vec3& place : {Vec3(1, 0, 5), Vec3(1, 2.97, 5), Vec3(1, 1.5, 5), Vec3(1, 0, 1)}) {
+    models.push_back(window);
+    models.back().pose.position = place;
+  }
+  sim::Structure structure = structure_of(models);
+  for (std::uint32_t i = 1; i < models.size(); ++i) {
+    structure.devices.push_back({{"window", "w", nullptr, ""}, i});
+  }
+  const auto first = static_cast<std::uint32_t>(models[0].links.size());
+  EXPECT_EQ(marker_group(structure, first), "windows south 1");
+  EXPECT_EQ(marker_group(structure, first + 1), "windows north 1");
+  EXPECT_EQ(marker_group(structure, first + 2), "windows 1");
+  EXPECT_EQ(marker_group(structure, first + 3), "windows 0");  // of no building
+}
+
 /// The greatest alpha on the floor, and on the wall at the greatest y.
 std::pair<float, float> strongest(const visualization_msgs::Marker& glow, double floor) {
   std::pair<float, float> found{0.0F, 0.0F};

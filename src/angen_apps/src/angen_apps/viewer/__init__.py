@@ -1,0 +1,1 @@
+"""rviz, with views of the world at hand."""

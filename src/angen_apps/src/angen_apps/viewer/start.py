@@ -1,0 +1,44 @@
+"""The node that starts rviz with views of the world at hand, and becomes it."""
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import Any
+
+import rospkg
+import yaml
+
+from angen_apps.viewer.bounds import bounds
+from angen_apps.viewer.views import framed
+
+LIMIT = 20.0  # s that scene and home take to come
+
+
+def received(config: dict[str, Any]) -> dict[str, Any]:
+    """A configuration of rviz with views of the running world; this process is a node."""
+    import rospy
+    from angen_msgs.msg import Home, Scene
+    scene = rospy.wait_for_message('/angen/scene', Scene, LIMIT)
+    home = rospy.wait_for_message('/angen/home', Home, LIMIT)
+    return framed(config, bounds(scene), home.storeys)
+
+
+def main() -> None:
+    """FILE.rviz: the node rviz."""
+    import rospy
+    words = rospy.myargv()[1:]
+    if len(words) != 1:
+        sys.exit('usage: viewer FILE.rviz')
+    config, own = Path(words[0]), Path(rospkg.get_ros_home()) / 'angen.rviz'
+    rospy.init_node('rviz')
+    try:
+        own.write_text(yaml.safe_dump(received(yaml.safe_load(config.read_text()))))
+        config = own
+    except rospy.ROSInterruptException:
+        return
+    except (rospy.ROSException, OSError) as error:
+        rospy.logwarn('rviz opens with the views of %s: %s', config, error)
+    rospy.signal_shutdown('rviz takes its name')
+    mapped = [word for word in sys.argv[1:] if ':=' in word]
+    os.execvp('rviz', ['rviz', '-d', str(config), *mapped])
