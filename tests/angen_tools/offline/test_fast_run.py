@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import angen
+import pandas
 import pytest
 
 from angen_tools.offline import events
@@ -169,6 +170,20 @@ def test_readings_are_those_that_each_tick_would_publish(tmp_path: Path) -> None
         for time, name, field, value in sorted(expected)]
     units = {(row['field'], row['unit']) for row in table(readings)}
     assert ('illuminance', 'lx') in units
+
+
+def test_pandas_reads_the_readings_with_types(tmp_path: Path) -> None:
+    path, readings = tmp_path / 'flat.world', tmp_path / 'r.csv.gz'
+    path.write_text(FLAT)
+    assert run(path, '--for', '50', '--readings', readings, '-o', tmp_path).returncode == 0
+    day, rows = pandas.read_csv(readings), table(readings)
+    assert len(day) == len(rows) > 1000
+    assert [str(day[name].dtype) for name in ('time', 'value', 'name')] == [
+        'float64', 'float64', 'object']
+    motion = day[(day.name == 'eye') & (day.field == 'motion')].set_index('time').value
+    assert list(motion) == [float(row['value']) for row in rows
+                            if row['name'] == 'eye' and row['field'] == 'motion']
+    assert motion[:39].max() == 0 and motion[40:45].max() == 1  # she walks by from 40 to 44 s
 
 
 @pytest.mark.parametrize('line, part', [

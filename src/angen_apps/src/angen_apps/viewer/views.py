@@ -36,7 +36,7 @@ def framed(config: dict[str, Any], box: np.ndarray, storeys: Sequence[Any]) -> d
     views = manager['Views']
     whole = orbit(views['Current'], box)
     views['Current'] = whole
-    views['Saved'] = [{**whole, 'Name': 'Whole building'}] + _floors(box, storeys)
+    views['Saved'] = [{**copy.deepcopy(whole), 'Name': 'Whole building'}] + _floors(box, storeys)
     return config
 
 
