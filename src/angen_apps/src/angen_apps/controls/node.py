@@ -87,6 +87,13 @@ class Controls:
                 frames.setdefault(link.model, f'{link.model}/{link.name}')
         return frames
 
+    def _frame(self, entity: Any) -> str:
+        """The frame of a mover; rviz shows no marker while one is in a frame that TF lacks."""
+        if entity.type != 'nav_msgs/Odometry':
+            return self._frames.get(entity.model, '')
+        odometry = self._message(entity)
+        return odometry.child_frame_id if odometry is not None else ''
+
     def _floors(self, entity: Any) -> list[int]:
         """The stops of an elevator."""
         state = self._state(entity) if entity.kind == 'elevator' else None
@@ -96,7 +103,7 @@ class Controls:
         marker = InteractiveMarker()
         marker.name, marker.description = key, ''
         marker.scale = HANDLE
-        frame = self._frames.get(entity.model, '') if entity.kind in OVER else ''
+        frame = self._frame(entity) if entity.kind in OVER else ''
         marker.header.frame_id = frame or 'world'
         marker.pose = Pose() if frame else self._doors.get(key, entity.pose)
         marker.pose.orientation.w = marker.pose.orientation.w or 1.0
@@ -138,14 +145,18 @@ class Controls:
 
     def _state(self, entity: Any) -> Any:
         """The state of a device as it is now, or None."""
+        message = self._message(entity)
+        return None if message is None else states_by_name(message).get(entity.name)
+
+    def _message(self, entity: Any) -> Any:
+        """The next or latched message of an entity, or None."""
         kind = roslib.message.get_message_class(entity.type) if entity.topic else None
         if kind is None:
             return None
         try:
-            message = rospy.wait_for_message(entity.topic, kind, STATE_LIMIT)
+            return rospy.wait_for_message(entity.topic, kind, STATE_LIMIT)
         except rospy.ROSException:
             return None
-        return states_by_name(message).get(entity.name)
 
     def _send(self, entity: Any, offer: Offer) -> None:
         try:
