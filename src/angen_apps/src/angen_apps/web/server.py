@@ -188,8 +188,8 @@ class Server:
             elif not budget.take():
                 browser.answer({'id': order.get('id'), 'ok': False,
                                 'text': f'more than {RATE:g} orders per second'})
-            elif order.get('do') == 'want' and isinstance(order.get('topics'), list):
-                browser.wanted = wanted(order.get('topics'))
+            elif order.get('do') == 'want' and isinstance(topics := order.get('topics'), list):
+                browser.wanted = wanted(topics)
                 self._rewant()
             elif browser.pending >= MOST_PENDING:
                 browser.answer({'id': order.get('id'), 'ok': False,
