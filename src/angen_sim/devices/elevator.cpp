@@ -13,24 +13,15 @@ namespace angen::devices {
 namespace {
 
 constexpr char kTopic[] = "/gazebo/Elevator_controller";
-constexpr double kLevelWithin = 0.005;     // m
-constexpr double kArriveError = 0.0005;    // m
-constexpr double kNearError = 0.002;       // m
-constexpr double kArriveSpeed = 0.002;     // m/s
-constexpr double kMaxLag = 0.02;           // m
-constexpr double kStallSpeed = 0.005;      // m/s
-constexpr double kWeighShare = 0.2;        // of each new weighing, at the rate of telling
-constexpr double kUnlimited = 1e9;         // m, of a joint's travel
-constexpr double kStandardGravity = 9.81;  // m/s^2
-constexpr double kGreatestLoad = 2000.0;   // kg
+constexpr double kLevelWithin = 0.005;   // m
+constexpr double kArriveError = 0.0005;  // m
+constexpr double kNearError = 0.002;     // m
+constexpr double kArriveSpeed = 0.002;   // m/s
+constexpr double kMaxLag = 0.02;         // m
+constexpr double kStallSpeed = 0.005;    // m/s
+constexpr double kUnlimited = 1e9;       // m, of a joint's travel
 constexpr int kMaxFloors = 1000;
 constexpr Nanoseconds kDwell = kSecond;  // between the doors' opening and their shutting
-
-// An overload is more than the rated load by 10 %, and by 75 kg at least (EN 81-20, 5.12.1.2).
-constexpr double kRatedLoad = 630.0;  // kg, eight persons
-constexpr double kOverShare = 0.1;
-constexpr double kLeastOver = 75.0;                    // kg
-constexpr Nanoseconds kWeighingSettles = kSecond / 2;  // boarding loads drop on the floor
 
 // Gains and limits are times the moving mass; the limits exclude the weight.
 constexpr PidGains kGains{200.0, 200.0, 25.0, 5.0, -5.0, 5.0, -5.0};
@@ -72,10 +63,7 @@ void Elevator::configure(Params& params, Wiring& wiring) {
   read_floors(params);
   brake_force_ =
       params.number("brake_force", 30000.0, "N", "brake of the cabin at rest", kPositive);
-  rated_load_ = params.number("rated_load", kRatedLoad, "kg",
-                              "it stays, with open doors, under more than this by 10 % (by 75 kg "
-                              "at least)",
-                              kPositive);
+  weighing_.configure(params);
   const double door_speed =
       params.number("door_max_velocity", 0.5, "m/s", "speed of a door leaf", kPositive);
   door_force_ =
@@ -98,15 +86,7 @@ void Elevator::configure(Params& params, Wiring& wiring) {
     stops_.push_back(static_cast<int>(floor));
   }
   wire(params, wiring);
-  warn_of_effort(params);
-}
-
-void Elevator::warn_of_effort(Params& params) const {
-  const double needed = (own_mass_ + rated_load_) * kStandardGravity;
-  if (!params.has("rated_load") || needed <= limits_.effort) return;
-  params.warn("rated_load", "<rated_load> and cabin weigh " + number_text(needed) +
-                                " N, but the <effort> of joint '" + lift_name_ + "' allows " +
-                                number_text(limits_.effort) + " N, which is all that lifts them");
+  weighing_.warn_of_effort(params, limits_.effort, lift_name_);
 }
 
 void Elevator::read_floors(Params& params) {
@@ -144,7 +124,7 @@ void Elevator::wire(Params& params, Wiring& wiring) {
                                     number_text(limits_.lower) +
                                     " m, floor 0 is at 0 m; give it a <lower> of 0");
   }
-  own_mass_ = wiring.mass(wiring.link(wiring.child_of(lift_)));
+  double own_mass = wiring.mass(wiring.link(wiring.child_of(lift_)));
   // A leaf's open position is the limit further from 0.
   const auto add = [&wiring](const std::string& name, int row, std::vector<Doorway::Leaf>& leaves) {
     if (!wiring.has_joint(name)) return false;
@@ -158,7 +138,7 @@ void Elevator::wire(Params& params, Wiring& wiring) {
   };
   for (const char* side : {"left", "right"}) {
     if (!add(std::string("cabin_door_") + side, 0, cabin_leaves_)) continue;
-    own_mass_ += wiring.mass(cabin_leaves_.back().link);
+    own_mass += wiring.mass(cabin_leaves_.back().link);
   }
   landing_leaves_.resize(heights_.size());
   for (int floor = 0; floor < floors(); ++floor) {
@@ -167,7 +147,7 @@ void Elevator::wire(Params& params, Wiring& wiring) {
           landing_leaves_[static_cast<std::size_t>(floor)]);
     }
   }
-  mass_ = own_mass_;
+  weighing_.set_own_mass(own_mass);
 }
 
 Verdict Elevator::command(const Command& command, const View&) {
@@ -214,17 +194,17 @@ void Elevator::stay_at(int floor, const View& view) {
 
 void Elevator::update(const View& view, Outputs& outputs) {
   if (!started_) start(view, outputs);
-  watch_load(view);
+  weighing_.watch(view);
   if (phase_ == Phase::kStanding) {
     stand(view, outputs);
   } else if (phase_ == Phase::kShutting) {
     const bool obstacle = doorway_.update(view, outputs);
-    if (obstacle || overloaded_) {
+    if (obstacle || weighing_.overloaded()) {
       // With an obstacle in the door, or an overload, it opens, and the stop is tried again.
       if (obstacle) outputs.event("obstacle", "door");
       stops_.push_front(target_);
       phase_ = Phase::kStanding;
-    } else if (!doorway_.moving() && !is_heavy()) {
+    } else if (!doorway_.moving() && !weighing_.is_heavy()) {
       outputs.motor(lift_, 0.0, 0.0);
       const JointView lift = view.joint(lift_);
       servo_.start(lift.position, lift.velocity);
@@ -238,9 +218,9 @@ void Elevator::update(const View& view, Outputs& outputs) {
 
 void Elevator::stand(const View& view, Outputs& outputs) {
   doorway_.update(view, outputs);
-  const bool held_open = overloaded_ && floor_at(view.joint(lift_).position) >= 0;
+  const bool held_open = weighing_.overloaded() && floor_at(view.joint(lift_).position) >= 0;
   if (held_open) doorway_.open(view);
-  if (doorway_.moving() || overloaded_) ready_at_ = view.time() + kDwell;
+  if (doorway_.moving() || weighing_.overloaded()) ready_at_ = view.time() + kDwell;
   if (stops_.empty() || view.time() < ready_at_) return;
   serve_next_stop(view, outputs);
 }
@@ -261,7 +241,7 @@ void Elevator::move(const View& view, Outputs& outputs) {
   const double command =
       servo_.update(height_of(target_), lift.position, lift.velocity, to_seconds(view.step()));
   if (!servo_.arrived()) {
-    outputs.force(lift_, plain_ ? command : mass_ * (command - view.gravity().z()));
+    outputs.force(lift_, plain_ ? command : weighing_.mass() * (command - view.gravity().z()));
     return;
   }
   outputs.motor(lift_, 0.0, brake_force_);
@@ -270,30 +250,18 @@ void Elevator::move(const View& view, Outputs& outputs) {
   outputs.event("arrived", "floor " + std::to_string(target_));
 }
 
-// The brake carries cabin and load, so its force gives the load.
 double Elevator::weigh(const JointView& lift, const View& view) const {
-  const double gravity = -view.gravity().z();
-  if (phase_ == Phase::kMoving || gravity <= 0.0) return mass_;
-  const double felt = std::clamp(lift.effort / gravity, own_mass_, own_mass_ + kGreatestLoad);
-  return mass_ + kWeighShare * (felt - mass_);
-}
-
-bool Elevator::is_heavy() const {
-  return mass_ - own_mass_ > rated_load_ + std::max(kOverShare * rated_load_, kLeastOver);
-}
-
-void Elevator::watch_load(const View& view) {
-  if (is_heavy() == overloaded_) load_since_ = view.time();
-  if (view.time() - load_since_ >= kWeighingSettles) overloaded_ = is_heavy();
+  return phase_ == Phase::kMoving ? weighing_.mass() : weighing_.weigh(lift, view);
 }
 
 Nanoseconds Elevator::idle_until(const View& view) const {
   if (phase_ != Phase::kStanding || !stops_.empty() || doorway_.moving()) return 0;
   const JointView lift = view.joint(lift_);
-  const bool told =
-      lift.position == shown_.lift.position && lift.velocity == shown_.lift.velocity &&
-      doorway_.position(view) == shown_.door_position && mode() == shown_mode_ &&
-      doorway_.mode() == shown_door_ && weigh(lift, view) == mass_ && is_heavy() == overloaded_;
+  const bool told = lift.position == shown_.lift.position &&
+                    lift.velocity == shown_.lift.velocity &&
+                    doorway_.position(view) == shown_.door_position && mode() == shown_mode_ &&
+                    doorway_.mode() == shown_door_ && weigh(lift, view) == weighing_.mass() &&
+                    weighing_.is_heavy() == weighing_.overloaded();
   return told ? kForever : refresh_.next(view.time());
 }
 
@@ -311,14 +279,14 @@ int Elevator::floor_at(double position) const {
 }
 
 Elevator::Mode Elevator::mode() const {
-  if (phase_ != Phase::kMoving) return overloaded_ ? Mode::kOverloaded : Mode::kIdle;
+  if (phase_ != Phase::kMoving) return weighing_.overloaded() ? Mode::kOverloaded : Mode::kIdle;
   if (servo_.blocked()) return Mode::kBlocked;
   return rises_ ? Mode::kUp : Mode::kDown;
 }
 
 void Elevator::show(const View& view, Outputs& outputs) {
   bool renew = refresh_.due(view.time(), view.step());
-  if (renew) mass_ = weigh(view.joint(lift_), view);
+  if (renew) weighing_.take(weigh(view.joint(lift_), view));
   const Mode now = mode();
   if (now != shown_mode_) {
     outputs.event(kModeEvents[static_cast<int>(now)], detail_of(now));
@@ -335,7 +303,7 @@ void Elevator::show(const View& view, Outputs& outputs) {
 
 std::string Elevator::detail_of(Mode mode) const {
   if (mode != Mode::kOverloaded) return "floor " + std::to_string(target_);
-  return number_text(std::round(mass_ - own_mass_)) + " kg of " + number_text(rated_load_) + " kg";
+  return weighing_.detail();
 }
 
 std::vector<double> Elevator::stops() const { return heights_; }
@@ -355,7 +323,7 @@ void Elevator::report(const View& view, Reading& state) const {
   state.set("floor", floor_at(lift.position));
   state.set("target_floor", target_);
   state.set("floors", floors());
-  state.set("load", std::max(0.0, mass_ - own_mass_));
+  state.set("load", weighing_.load());
   state.set("door_mode", choice_of(shown_door_, kDoorModes));
   state.set("door_position", shown_.door_position);
 }

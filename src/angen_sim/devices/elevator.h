@@ -10,6 +10,7 @@
 #include "devices/refresh.h"
 #include "devices/servo.h"
 #include "devices/storeys.h"
+#include "devices/weighing.h"
 #include "plugin/plugin.h"
 
 namespace angen::devices {
@@ -43,9 +44,6 @@ class Elevator : public Device {
   void serve_next_stop(const View& view, Outputs& outputs);
   void move(const View& view, Outputs& outputs);
   double weigh(const JointView& lift, const View& view) const;
-  bool is_heavy() const;
-  void watch_load(const View& view);
-  void warn_of_effort(Params& params) const;
   std::string detail_of(Mode mode) const;
   void read_floors(Params& params);
   int floors() const { return static_cast<int>(heights_.size()); }
@@ -66,13 +64,9 @@ class Elevator : public Device {
   Doorway doorway_;
   Refresh refresh_;
   std::vector<double> heights_;  // m, of the floors over floor 0
-  double own_mass_ = 0.0;        // kg, cabin with its doors
-  double mass_ = 0.0;            // kg, with its load
-  double rated_load_ = 0.0;      // kg
-  bool overloaded_ = false;
-  Nanoseconds load_since_ = 0;  // the last time when is_heavy() agreed with that
-  double brake_force_ = 0.0;    // N
-  double door_force_ = 0.0;     // N
+  Weighing weighing_;
+  double brake_force_ = 0.0;  // N
+  double door_force_ = 0.0;   // N
 
   Phase phase_ = Phase::kStanding;
   std::deque<int> stops_;
