@@ -36,3 +36,18 @@ def test_a_world_that_was_saved_and_loaded_is_saved_the_same(building: str) -> N
     text = first.save()
     assert angen.World.from_text(text).save() == angen.World.from_text(
         angen.World.from_text(text).save()).save()
+
+
+def test_sensors_spawned_on_a_model_keep_their_names_and_leave_others_theirs() -> None:
+    model = ('<model name="shelf"><static>true</static><link name="l"><sensor name="own" '
+             'type="ray"><plugin name="p" filename="libpir_controller.so"/></sensor></link>'
+             '</model>')
+    world = angen.World.from_text(f'<sdf version="1.9"><world name="w">{model}</world></sdf>')
+    assert [name for kind, name, *_ in world.entities() if kind == 'pir'] == ['shelf']
+    for name in ('p1', 'p2'):
+        world.spawn('<sensor name="s" type="ray"><plugin name="p" filename="libpir_controller.so"/>'
+                    '</sensor>', name, on='shelf::l')
+    for _ in range(2):
+        world = angen.World.from_text(world.save())
+        names = {name for kind, name, *_ in world.entities() if kind == 'pir'}
+        assert names == {'shelf', 'p1', 'p2'}

@@ -19,6 +19,7 @@ void attach(Element& model, const AttachedSensor& attached) {
   }
   Element sensor = attached.sensor.element;
   set_attribute(sensor, "name", attached.sensor.name);
+  set_attribute(sensor, "angen:name", attached.sensor.name);  // without the model's before it
   set_child(sensor, "pose", pose_text(attached.sensor.pose));
   link->children.push_back(std::move(sensor));
 }

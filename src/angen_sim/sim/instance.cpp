@@ -69,9 +69,16 @@ Pose offset_in(Params& params) {
   return offset;
 }
 
-std::size_t sensor_count(const desc::Model& model) {
+// The name of a sensor that was spawned on a model, in a saved world; null for a model's own.
+const std::string* kept_name(const desc::Sensor& sensor) {
+  return sensor.element.attribute("angen:name");
+}
+
+std::size_t own_sensors(const desc::Model& model) {
   std::size_t count = 0;
-  for (const desc::Link& link : model.links) count += link.sensors.size();
+  for (const desc::Link& link : model.links) {
+    for (const desc::Sensor& sensor : link.sensors) count += kept_name(sensor) == nullptr ? 1 : 0;
+  }
   return count;
 }
 
@@ -211,7 +218,7 @@ void make_instances(LiveModel& live, const std::vector<desc::Plugin>& world_plug
                     Catalog& catalog, std::vector<std::string>& warnings) {
   make_devices(live, world_plugins, catalog, warnings);
   const desc::Model& model = *live.desc;
-  const bool alone = sensor_count(model) == 1;
+  const bool alone = own_sensors(model) == 1;
   for (std::uint32_t i = 0; i < model.links.size(); ++i) {
     for (const desc::Sensor& described : model.links[i].sensors) {
       if (described.plugin.empty()) {
@@ -221,7 +228,10 @@ void make_instances(LiveModel& live, const std::vector<desc::Plugin>& world_plug
                                .text());
         continue;
       }
-      const std::string name = alone ? model.name : model.name + "_" + described.name;
+      const std::string* kept = kept_name(described);
+      const std::string name = kept != nullptr ? *kept
+                               : alone         ? model.name
+                                               : model.name + "_" + described.name;
       try {
         live.sensors.push_back(
             make_sensor(live, i, {live.desc, &described}, name, catalog, warnings));
