@@ -8,8 +8,7 @@
 namespace angen::node {
 namespace {
 
-constexpr char kWindow[] = "window";  // a kind: it is hidden with its wall
-constexpr float kWallAlpha = 0.3F;    // rooms are seen through walls
+constexpr float kWallAlpha = 0.3F;  // rooms are seen through walls
 
 bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
@@ -38,7 +37,8 @@ std::string marker_group(const sim::Structure& structure, std::uint32_t link) {
     if (device.model != entry.model) continue;
     const ModelStyle& style = ros_kind(device).model;
     if (style.is_carried) continue;
-    const std::string side = device.kind == kWindow ? outer_side(structure, model) : "";
+    const bool is_window = device.plugin->kind().passage() == Passage::kWindow;
+    const std::string side = is_window ? outer_side(structure, model) : "";  // hidden with its wall
     return (style.group.empty() ? device.kind + "s" : style.group) + with_side(side) + storey;
   }
   if (is_building(model)) {
