@@ -11,6 +11,8 @@ import yaml
 
 from angen_apps.viewer.bounds import bounds
 from angen_apps.viewer.views import framed
+from angen_tools.common.failure import Failure
+from angen_tools.common.files import write_text
 
 LIMIT = 20.0  # s that scene and home take to come
 
@@ -33,11 +35,11 @@ def main() -> None:
     config, own = Path(words[0]), Path(rospkg.get_ros_home()) / 'angen.rviz'
     rospy.init_node('rviz')
     try:
-        own.write_text(yaml.safe_dump(received(yaml.safe_load(config.read_text()))))
+        write_text(own, yaml.safe_dump(received(yaml.safe_load(config.read_text()))))
         config = own
     except rospy.ROSInterruptException:
         return
-    except (rospy.ROSException, OSError) as error:
+    except (rospy.ROSException, Failure) as error:
         rospy.logwarn('rviz opens with the views of %s: %s', config, error)
     rospy.signal_shutdown('rviz takes its name')
     mapped = [word for word in sys.argv[1:] if ':=' in word]
