@@ -34,7 +34,8 @@ def test_a_pipe_gets_each_row_whole_on_a_line_of_its_own(environment: dict[str, 
     assert '\x1b' not in printed.stdout
 
 
-def test_a_terminal_gets_its_width_and_loses_nothing() -> None:
+def test_a_terminal_gets_its_width_and_loses_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv('TERM', 'xterm')  # a dumb one has 80 columns
     text = io.StringIO()
     console(text, width=60, force_terminal=True, color_system=None).print(
         table(('A', 'B'), [('a', 'x' * 200)]))
