@@ -28,8 +28,7 @@ TEST(Xml, ElementsAreBounded) {
   const std::string spaces(kMaxTextBytes, ' ');  // as an apartment building has
   parse_xml(in_world(many + spaces), "w.world");
   for (int i = 0; i < 300'000; ++i) many += "<x/>";
-  EXPECT_NE(error_of(in_world(many + spaces)).find("more than 400000 elements"),
-            std::string::npos);
+  EXPECT_NE(error_of(in_world(many + spaces)).find("more than 400000 elements"), std::string::npos);
 }
 
 // The parser would compare each attribute with all before it: 20,000 took 5 s.
