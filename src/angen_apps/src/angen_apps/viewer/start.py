@@ -39,7 +39,7 @@ def main() -> None:
         config = own
     except rospy.ROSInterruptException:
         return
-    except (rospy.ROSException, Failure) as error:
+    except (rospy.ROSException, OSError, Failure) as error:
         rospy.logwarn('rviz opens with the views of %s: %s', config, error)
     rospy.signal_shutdown('rviz takes its name')
     mapped = [word for word in sys.argv[1:] if ':=' in word]
