@@ -17,7 +17,7 @@ constexpr double kShortest = 1.25;  // s that a false alarm lasts
 constexpr double kLongest = 6.0;
 constexpr Nanoseconds kEcho = kSecond / 20;  // between a message and its duplicate
 
-/// How a kind of sensor tells of its target: a flag, and the events of its changes.
+/// The field of a reading that is an alarm, and the events of its changes.
 struct Alarm {
   const char* kind;
   const char* flag;
