@@ -52,6 +52,7 @@ struct ModelStyle {
   bool is_carried = false;  // its carrier is shown as without it
   bool travels = false;     // through the building; its label moves along
   bool is_on_floor = true;  // false: it changes storeys, its groups are of none
+  bool is_in_wall = false;  // it is hidden with the side of the building whose wall it is in
 };
 
 struct RosKind {
@@ -183,6 +184,11 @@ class RosKindBuilder {
   }
   RosKindBuilder& changes_storeys() {
     kind_.model.is_on_floor = false;
+    return *this;
+  }
+  /// Its model is part of a wall, and is hidden with it.
+  RosKindBuilder& in_wall() {
+    kind_.model.is_in_wall = true;
     return *this;
   }
   /// Its model moves through the building, and its label with it.

@@ -37,8 +37,7 @@ std::string marker_group(const sim::Structure& structure, std::uint32_t link) {
     if (device.model != entry.model) continue;
     const ModelStyle& style = ros_kind(device).model;
     if (style.is_carried) continue;
-    const bool is_window = device.plugin->kind().passage() == Kind::Passage::kWindow;
-    const std::string side = is_window ? outer_side(structure, model) : "";  // hidden with its wall
+    const std::string side = style.is_in_wall ? outer_side(structure, model) : "";
     return (style.group.empty() ? device.kind + "s" : style.group) + with_side(side) + storey;
   }
   if (is_building(model)) {

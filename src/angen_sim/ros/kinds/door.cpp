@@ -15,13 +15,14 @@ void fill(const Reading& state, const Label& label, angen_msgs::DoorState& messa
   message.target = state.get<double>("target");
 }
 
-ANGEN_REGISTER_ROS_KIND(
-    {"door"}, RosKindBuilder()
-                  .message_with_array<angen_msgs::DoorState, angen_msgs::DoorStateArray>(&fill)
-                  .label("door labels"));
-ANGEN_REGISTER_ROS_KIND(
-    {"window", "cabinet"},
-    RosKindBuilder().message_with_array<angen_msgs::DoorState, angen_msgs::DoorStateArray>(&fill));
+RosKindBuilder leaf() {
+  return RosKindBuilder().message_with_array<angen_msgs::DoorState, angen_msgs::DoorStateArray>(
+      &fill);
+}
+
+ANGEN_REGISTER_ROS_KIND({"door"}, leaf().label("door labels"));
+ANGEN_REGISTER_ROS_KIND({"window"}, leaf().in_wall());
+ANGEN_REGISTER_ROS_KIND({"cabinet"}, leaf());
 
 }  // namespace
 }  // namespace angen::node
