@@ -121,6 +121,45 @@ def test_a_gap_beside_furniture_is_no_door(tmp_path: Path) -> None:
     assert any('from a room into itself' in remark for remark in plan.remarks)
 
 
+def test_what_touches_no_wall_is_furniture(tmp_path: Path) -> None:
+    gray = picture(0.0)
+
+    def outline(x0: float, y0: float, x1: float, y1: float) -> None:
+        """Of a thing in m from the plan's lower left, as a robot or a drawing shows it."""
+        rows = slice(gray.shape[0] - 12 - round(y1 / SCALE), gray.shape[0] - 12 - round(y0 / SCALE))
+        columns = slice(12 + round(x0 / SCALE), 12 + round(x1 / SCALE))
+        inside = gray[rows, columns]
+        inside[:2], inside[-2:], inside[:, :2], inside[:, -2:] = 20, 20, 20, 20
+
+    outline(1.0, 1.2, 2.8, 2.1)  # a table of 1.8 m x 0.9 m
+    outline(1.3, 1.5, 1.6, 1.8)  # with a plate
+    outline(7.2, 3.35, 8.0, 4.35)  # a cupboard at two walls
+    outline(-0.3, 2.0, -0.05, 2.6)  # a letter beside the plan
+    Image.fromarray(gray).save(tmp_path / 'scan.png')
+    plan = read_picture(tmp_path / 'scan.png', SCALE, True)
+    (table,) = plan.storeys[0].pieces
+    assert (table.depth, table.width) == pytest.approx((1.8, 0.9), abs=0.051)
+    assert (table.x, table.y) == pytest.approx((1.9 + 12 * SCALE, 1.65 + 12 * SCALE), abs=0.026)
+    made = sorted(area(room.polygon) for room in plan.all_rooms())
+    assert made[-2:] == pytest.approx([12.0, 14.8], rel=0.05)  # the cupboard is wall
+    assert not any(room.holes for room in plan.all_rooms())
+    assert 'furniture' in plan.remarks[-1]
+    out = tmp_path / 'home.world'
+    write_world(plan, out, 'none')
+    assert [name for name in angen.World(str(out)).models if 'furniture' in name]
+
+
+def test_a_wall_between_two_doors_is_no_furniture(tmp_path: Path) -> None:
+    gray = picture(0.0)
+    for x in (3.3, 0.6):  # beside the door at 2.0: what is left between two is a pier
+        columns = slice(12 + round(x / SCALE), 12 + round((x + 0.9) / SCALE))
+        gray[gray.shape[0] - 12 - round(3.35 / SCALE):gray.shape[0] - 12 - round(3.2 / SCALE),
+             columns] = 235
+    Image.fromarray(gray).save(tmp_path / 'scan.png')
+    plan = read_picture(tmp_path / 'scan.png', SCALE, True)
+    assert len(plan.all_rooms()) == 3 and not plan.storeys[0].pieces
+
+
 def test_rooms_of_a_map_end_where_it_is_unknown(tmp_path: Path) -> None:
     gray = picture(0.0)
     gray[gray > 128] = 254

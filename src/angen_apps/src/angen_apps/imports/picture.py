@@ -11,8 +11,8 @@ from scipy.ndimage import binary_closing, binary_opening, label, median_filter
 
 from angen_apps.imports.flood import rooms_of
 from angen_apps.imports.source import FARTHEST, read_bytes
-from angen_apps.plan.finish import finish, sides
-from angen_apps.plan.model import Leaf, Opening, Plan, Point, Storey, Wall, turned
+from angen_apps.plan.finish import finish, room_at, sides
+from angen_apps.plan.model import Leaf, Opening, Piece, Plan, Point, Storey, Wall, turned
 from angen_apps.plan.names import slug
 from angen_apps.plan.polygons import rectangles
 from angen_tools.common.failure import Failure
@@ -23,11 +23,16 @@ DOOR_TOP = 2.1  # m
 NARROW, WIDE = 0.7, 1.1  # m: gaps that are doors
 THICKEST = 0.45  # m of a wall across
 LEAST_WALL = 0.25  # m of a wall along: shorter dark spots are text and dirt
+FURNITURE = 0.4, 3.0  # m of the longer side: smaller things are text and pillars
+LONGEST_THIN = 1.0  # m of a thing thinner than LEAST_WALL: a longer one is a wall that stands free
+FURNITURE_HEIGHT = 0.75  # m
+BESIDE = 0.15  # m from a doorway to the wall that ends at it
 SPECK = 0.3  # m of a map that are unknown: smaller specks are in a room
 FINE = 0.035  # m a pixel: thin walls have several pixels across
 PIXELS = 20_000_000
 WALLS = 20_000
 MODES = ('trinary', 'scale', 'raw')  # of map_server; walls are the same in the first two
+Island = tuple[slice, slice]  # rows and columns
 ENDINGS = ('.png', '.pgm', '.jpg', '.jpeg')
 
 
@@ -120,7 +125,32 @@ def _plan(path: Path, dark: np.ndarray, known: np.ndarray, scale: float,
     if max(dark.shape) * scale > FARTHEST:
         raise Failure(f'{path}: is {max(dark.shape) * scale:.0f} m wide at {scale:g} m a pixel, '
                       f'at most {FARTHEST:g} m are read')
-    boxes = straight_walls(cleaned_walls(dark, scale), scale)
+    walls = cleaned_walls(dark, scale)
+    remarks: list[str] = []
+    storey = _storey(path, walls, known, scale, with_doors, remarks)
+    islands: list[Island] = []
+    for thin in (False, True):  # a gap beside a table is no door that would make a chair a wall
+        found = find_islands(walls, scale, storey, thin)
+        for rows, columns in found:
+            walls[rows, columns] = False
+        if found:
+            remarks.clear()
+            storey = _storey(path, walls, known, scale, with_doors, remarks)
+        islands += found
+    pieces = [_piece(rows, columns, scale) for rows, columns in islands]
+    storey.pieces = [piece for piece in pieces if room_at(storey, (piece.x, piece.y))]
+    if storey.pieces:
+        remarks.append(f'{path}: {len(storey.pieces)} things that touch no wall are furniture, '
+                       f'boxes {FURNITURE_HEIGHT:g} m high')
+    storey.walls += [_over(opening) for opening in storey.openings]
+    _move(storey, origin)
+    return finish(Plan(slug(path.name.partition('.')[0], 'plan'), [storey], remarks=remarks))
+
+
+def _storey(path: Path, dark: np.ndarray, known: np.ndarray, scale: float, with_doors: bool,
+            remarks: list[str]) -> Storey:
+    """Walls, openings and rooms between dark pixels."""
+    boxes = straight_walls(dark, scale)
     if not boxes:
         raise Failure(f'{path}: has no walls: nothing dark is {LEAST_WALL:g} m long; check the '
                       'scale')
@@ -133,16 +163,52 @@ def _plan(path: Path, dark: np.ndarray, known: np.ndarray, scale: float,
     storey.openings = gaps if with_doors else [
         replace(gap, kind='opening', leaves=()) for gap in gaps]
     storey.rooms = rooms_of(storey, HEIGHT, (), (known, scale))
-    remarks = []
     parting = [o for o in storey.openings if len(set(map(id, sides(o, storey)))) > 1]
     if len(parting) < len(storey.openings):
         remarks.append(f'{path}: {len(storey.openings) - len(parting)} gaps of {NARROW:g} to '
                        f'{WIDE:g} m lead from a room into itself and are no doors')
         storey.openings = parting
         storey.rooms = rooms_of(storey, HEIGHT, (), (known, scale))
-    storey.walls += [_over(opening) for opening in storey.openings]
-    _move(storey, origin)
-    return finish(Plan(slug(path.name.partition('.')[0], 'plan'), [storey], remarks=remarks))
+    return storey
+
+
+def find_islands(dark: np.ndarray, scale: float, storey: Storey, thin: bool) -> list[Island]:
+    """The rows and columns of dark things that are as large as furniture and touch no wall; of one
+    in another one only the outer. A room with a door of its own is none, nor is a `thin` thing
+    at a door: that is a wall between two."""
+    labels, count = label(dark, np.ones((3, 3)))
+    is_wall = np.zeros(count + 1, bool)
+    for opening in storey.openings:
+        ends = [_labels_at(labels, opening.point(u, 0.0), scale)
+                for u in (-opening.width / 2, opening.width / 2)]
+        is_wall[list(ends[0] | ends[1] if thin else ends[0] & ends[1])] = True
+    found: list[Island] = []
+    for number, (rows, columns) in enumerate(_slices(labels, count), 1):
+        low, high = sorted((s.stop - s.start) * scale for s in (rows, columns))
+        is_wall[number] |= high > FURNITURE[1] or (low < LEAST_WALL and high > LONGEST_THIN)
+        if not is_wall[number] and high >= FURNITURE[0] and (low <= THICKEST) == thin:
+            found.append((rows, columns))
+    apart = [each for each in found if not is_wall[np.unique(labels[each])].any()]
+    return [each for each in apart if not any(_is_within(each, other) for other in apart)]
+
+
+def _labels_at(labels: np.ndarray, point: Point, scale: float) -> set[int]:
+    """What is within BESIDE of a point."""
+    columns, rows = (slice(max(0, int((v - BESIDE) / scale)), int((v + BESIDE) / scale) + 1)
+                     for v in point)
+    return set(np.unique(labels[rows, columns]).tolist()) - {0}
+
+
+def _is_within(inner: Island, outer: Island) -> bool:
+    return inner != outer and all(o.start <= i.start and i.stop <= o.stop
+                                  for i, o in zip(inner, outer))
+
+
+def _piece(rows: slice, columns: slice, scale: float) -> Piece:
+    return Piece('furniture', (columns.start + columns.stop) / 2 * scale,
+                 (rows.start + rows.stop) / 2 * scale, 0.0, 0.0,
+                 (rows.stop - rows.start) * scale, (columns.stop - columns.start) * scale,
+                 FURNITURE_HEIGHT)
 
 
 def _move(storey: Storey, origin: tuple[float, float, float]) -> None:
@@ -157,6 +223,9 @@ def _move(storey: Storey, origin: tuple[float, float, float]) -> None:
     for i, opening in enumerate(storey.openings):
         at = moved((opening.x, opening.y))
         storey.openings[i] = replace(opening, x=at[0], y=at[1], yaw=opening.yaw + yaw)
+    for i, piece in enumerate(storey.pieces):
+        at = moved((piece.x, piece.y))
+        storey.pieces[i] = replace(piece, x=at[0], y=at[1], yaw=piece.yaw + yaw)
     storey.rooms = [replace(room, polygon=tuple(map(moved, room.polygon)),
                             holes=tuple(tuple(map(moved, hole)) for hole in room.holes))
                     for room in storey.rooms]
