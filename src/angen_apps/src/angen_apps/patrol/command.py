@@ -17,6 +17,7 @@ from angen_apps.patrol.figure import draw
 from angen_apps.patrol.lockstep import Lockstep
 from angen_apps.patrol.report import (Figures, Run, make_rows, measure, plans, summary, table_of,
                                       verdict, write_tables)
+from angen_apps.plan.draw import read_scene
 from angen_apps.robot.building import entity_of
 from angen_apps.robot.interface import BUMPER, CYCLE, bumper
 from angen_apps.robot.rooms_route import prepare
@@ -77,8 +78,9 @@ def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, 
               [e for e in entities if e.kind in SENSORS], robot.door_angles())
     rows, found = make_rows(run, own_world), measure(run, seed, took)
     write_tables(run, rows, out)
+    plan = read_scene(own_world)
     for floor, name in zip(sorted(place.maps), plans(run)):
-        draw(run, rows, route, floor, out / name)
+        draw(run, rows, plan, floor, out / name)
     write_figures(Figures, [found], out / 'summary.csv')
     if json:
         print(as_json({**asdict(found), 'sensors': [asdict(row) for row in rows]}))

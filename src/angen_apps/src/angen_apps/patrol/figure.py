@@ -6,29 +6,31 @@ from typing import Any
 
 import numpy as np
 
-from angen_apps.maps.gridmap import FREE, OCCUPIED, on_floor
+from angen_apps.maps.gridmap import on_floor
 from angen_apps.patrol.report import Row, Run, begun, moving
+from angen_apps.plan.draw import Scene, draw_storey, extent
 from angen_apps.robot.building import Entity
-from angen_apps.robot.route_file import Route
 from angen_tools.common.files import pyplot, save_figure
 
-TRACK, SWITCH, NEUTRAL, TEXT = '#1f6fb4', '#2a8c3c', '#505050', '#303030'
+TRACK, SWITCH, NEUTRAL = '#1f6fb4', '#2a8c3c', '#505050'
 # for the PIRs of a floor, neighbors far apart
 PIRS = ('#e6194b', '#f58231', '#911eb4', '#808000', '#f032e6', '#9a6324', '#008080', '#c71585',
         '#b8860b', '#6a5acd', '#a52a2a', '#d2691e', '#8b008b', '#556b2f')
-GRAYS = {FREE: 1.0, OCCUPIED: 0.35}
-UNKNOWN_GRAY = 0.88
+WIDE = 10.0  # inches of paper
 INWARD = 0.42  # m from a sensor to its label
 
 
-def draw(run: Run, rows: list[Row], route: Route, floor: int, path: Path) -> None:
+def draw(run: Run, rows: list[Row], plan: Scene, floor: int, path: Path) -> None:
     """Writes the figure of one floor."""
-    figure, axes = pyplot().subplots(figsize=(10, 7.1), dpi=150)
-    plan(axes, run, floor)
+    storey = next(each for each in plan.drawn() if each.number == floor)
+    west, east, south, north = extent(plan, storey)
+    inch = WIDE / (east - west)
+    figure, axes = pyplot().subplots(figsize=(WIDE, (north - south) * inch + 0.9), dpi=150)
+    draw_storey(axes, plan, storey, inch)
     track = np.array(run.track.rows)
     here = on_floor(run.scene.home, track[:, 3], floor)
     line = np.where(here[:, None], track[:, 1:3], np.nan)
-    axes.plot(line[:, 0], line[:, 1], color=TRACK, linewidth=1.2, zorder=3)
+    axes.plot(line[:, 0], line[:, 1], color=TRACK, linewidth=1.2, zorder=8)
     entities = {entity.name: entity for entity in run.sensors}
     shown = [row for row in rows if row.kind in ('pir', 'switch')
              and entities[row.sensor].floor == floor]
@@ -37,12 +39,9 @@ def draw(run: Run, rows: list[Row], route: Route, floor: int, path: Path) -> Non
     for i, name in enumerate(pirs):
         seen = np.where(noticed(run, name, track)[:, None], line, np.nan)
         axes.plot(seen[:, 0], seen[:, 1], 'o', color=colors[name], markersize=(10, 6)[i % 2],
-                  alpha=0.3, zorder=2 + i % 2 / 2, markeredgewidth=0)
+                  alpha=0.3, zorder=7 + i % 2 / 2, markeredgewidth=0)
     for row in shown:
         mark(axes, row, entities[row.sensor], track, colors.get(row.sensor, SWITCH))
-    name_rooms(axes, route, floor)
-    axes.set_xlabel('x (m)')
-    axes.set_ylabel('y (m)')
     axes.set_title(f'Floor {floor}: first detection of the robot, and its delay after the first '
                    'line of sight', fontsize=10)
     figure.legend(handles=legend(), loc='lower center', ncols=4, fontsize=8, frameon=False,
@@ -81,39 +80,10 @@ def noticed(run: Run, sensor: str, track: np.ndarray) -> np.ndarray:
     return found & np.isin(times, moving(track))
 
 
-def name_rooms(axes: Any, route: Route, floor: int) -> None:
-    """The waypoints' names; of two that lie beside each other the first one's."""
-    named: list[tuple[float, float]] = []
-    for point in route.waypoints:
-        if point.floor != floor or any(np.hypot(*np.subtract(point.at, at)) < 1.0 for at in named):
-            continue
-        named.append(point.at)
-        axes.annotate(point.name, point.at, fontsize=9, color=TEXT, ha='center', va='top',
-                      xytext=(0, -7), textcoords='offset points', style='italic',
-                      bbox={'facecolor': 'white', 'alpha': 0.75, 'pad': 1, 'edgecolor': 'none'})
-
-
-def plan(axes: Any, run: Run, floor: int) -> None:
-    """The rooms, as the map of the floor has them with doors open."""
-    grid = run.scene.maps[floor]
-    shade = np.full(grid.cells.shape, UNKNOWN_GRAY)
-    for value, gray in GRAYS.items():
-        shade[grid.cells == value] = gray
-    rows, columns = np.nonzero(grid.cells != -1)
-    west, south = grid.origin
-    axes.imshow(shade, origin='lower', cmap='gray', vmin=0, vmax=1, zorder=0,
-                extent=grid.extent)
-    margin = 4
-    axes.set_xlim(west + (columns.min() - margin) * grid.resolution,
-                  west + (columns.max() + margin) * grid.resolution)
-    axes.set_ylim(south + (rows.min() - margin) * grid.resolution,
-                  south + (rows.max() + margin) * grid.resolution)
-
-
 def mark(axes: Any, row: Row, entity: Entity, track: np.ndarray, color: str) -> None:
     """A sensor, its label, and where the robot was when it first detected it."""
     place = entity.place[:2]
-    axes.plot(*place, '^' if row.kind == 'pir' else 's', color=color, markersize=7, zorder=4,
+    axes.plot(*place, '^' if row.kind == 'pir' else 's', color=color, markersize=7, zorder=10,
               markeredgecolor='black', markeredgewidth=0.6, linestyle='none')
     if row.kind == 'pir':
         ahead = entity.rotation[:2, 0]
@@ -123,9 +93,9 @@ def mark(axes: Any, row: Row, entity: Entity, track: np.ndarray, color: str) -> 
     text = f'{row.delay:.1f} s' if row.delay is not None else 'never'
     if row.detection is not None:
         at = track[min(int(np.searchsorted(track[:, 0], row.detection)), len(track) - 1), 1:3]
-        axes.plot(*at, 'o', color=color, markersize=4.5, markeredgecolor='white', zorder=5,
+        axes.plot(*at, 'o', color=color, markersize=4.5, markeredgecolor='white', zorder=11,
                   markeredgewidth=0.5, linestyle='none')
-        axes.plot([place[0], at[0]], [place[1], at[1]], ':', color=color, linewidth=0.8, zorder=3)
+        axes.plot([place[0], at[0]], [place[1], at[1]], ':', color=color, linewidth=0.8, zorder=8)
     axes.annotate(text, place + INWARD * ahead, fontsize=7.5, color=color, ha='center',
-                  va='center', zorder=6,
+                  va='center', zorder=12,
                   bbox={'facecolor': 'white', 'alpha': 0.8, 'pad': 1, 'edgecolor': 'none'})

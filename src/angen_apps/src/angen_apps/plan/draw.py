@@ -37,6 +37,11 @@ class Scene:
     entities: list[Any]
     things: dict[str, Thing] = field(default_factory=dict)
 
+    def drawn(self) -> list[Storey]:
+        """The storeys that have rooms."""
+        return [storey for storey in self.home.storeys
+                if any(room.storey == storey.number for room in self.home.rooms)]
+
 
 def read_scene(path: Path) -> Scene:
     """Loads a world; Failure where it cannot be loaded or has no room."""
@@ -60,19 +65,18 @@ def draw(path: Path, output: Path, what: overlays.What) -> str:
     scene = read_scene(path)
     data = overlays.read(what, scene.entities)
     plt = pyplot()
-    storeys = [s for s in scene.home.storeys if any(r.storey == s.number for r in scene.home.rooms)]
-    extents = [_extent(scene, storey) for storey in storeys]
+    storeys = scene.drawn()
+    extents = [extent(scene, storey) for storey in storeys]
     widths = [e[1] - e[0] for e in extents]
     high = max(e[3] - e[2] for e in extents)
     inch = min(INCH, WIDEST / sum(widths))
     with plt.rc_context({'svg.hashsalt': 'angen', 'svg.fonttype': 'none', 'font.size': 8}):
         figure, axes = plt.subplots(1, len(storeys), squeeze=False, width_ratios=widths, figsize=(
             sum(widths) * inch, high * inch + 0.6))
-        for axis, storey, extent in zip(axes[0], storeys, extents):
-            middle = (extent[2] + extent[3]) / 2
-            axis.set_xlim(extent[0], extent[1])
+        for axis, storey, each in zip(axes[0], storeys, extents):
+            middle = (each[2] + each[3]) / 2
+            draw_storey(axis, scene, storey, inch)
             axis.set_ylim(middle - high / 2, middle + high / 2)
-            _draw_storey(axis, scene, storey, inch)
             overlays.draw(axis, scene, storey, data, what)
             axis.set_title(storey.name, fontsize=9)
         _scale_and_north(axes[0][0], scene.home.north)
@@ -83,7 +87,8 @@ def draw(path: Path, output: Path, what: overlays.What) -> str:
             f'{len(scene.home.rooms)} rooms, {len(scene.home.doors)} doors and windows')
 
 
-def _extent(scene: Scene, storey: Storey) -> tuple[float, float, float, float]:
+def extent(scene: Scene, storey: Storey) -> tuple[float, float, float, float]:
+    """West, east, south and north edge of a storey's drawing, m."""
     points = np.array([p for room in scene.home.rooms if room.storey == storey.number
                        for p in room.polygon])
     for elevator in scene.home.elevators:
@@ -94,12 +99,19 @@ def _extent(scene: Scene, storey: Storey) -> tuple[float, float, float, float]:
     return float(west), float(east), float(south), float(north)
 
 
-def _draw_storey(axis: Any, scene: Scene, storey: Storey, inch: float) -> None:
+def draw_storey(axis: Any, scene: Scene, storey: Storey, inch: float | None) -> None:
+    """Draws a storey on axes; without `inch` of paper for a meter its rooms have no names and no
+    tints, so that a tool can draw a map of its own under its walls (zorder 2 and less)."""
+    west, east, south, north = extent(scene, storey)
+    axis.set_xlim(west, east)
+    axis.set_ylim(south, north)
     axis.set_aspect('equal')
     axis.axis('off')
     rooms = [room for room in scene.home.rooms if room.storey == storey.number]
-    for room in rooms:
+    for room in rooms if inch else ():
         axis.fill(*zip(*room.polygon), color=TINTS.get(room.use, '#f6f6f6'), lw=0, zorder=1)
+    if scene.shapes.unread:
+        _draw_section(axis, scene, storey)
     swings = [s for s in scene.shapes.swings if _is_on(s.bottom, storey)]
     leaves = {swing.model for swing in swings}
     for shape in scene.shapes.solids:
@@ -112,14 +124,27 @@ def _draw_storey(axis: Any, scene: Scene, storey: Storey, inch: float) -> None:
             _draw_window(axis, door)
     for swing in swings:
         _draw_swing(axis, swing)
-    for room in rooms:
-        _label(axis, room, inch)
+    if inch:
+        for room in rooms:
+            _label(axis, room, inch)
     for elevator in scene.home.elevators:
         for landing in elevator.landings:
             if landing.storey == storey.number:
                 x, y = elevator.pose[:2]
                 axis.plot([x - .7, x + .7], [y - .7, y + .7], color=GRAY, lw=THIN, zorder=5)
                 axis.plot([x - .7, x + .7], [y + .7, y - .7], color=GRAY, lw=THIN, zorder=5)
+
+
+def _draw_section(axis: Any, scene: Scene, storey: Storey) -> None:
+    """What rays meet on a storey: the outline of shapes that are not boxes, such as meshes."""
+    from angen_apps.maps.gridmap import OCCUPIED, load_world, make_map
+    grid = make_map(load_world(str(scene.path)), storey.number)
+    shade = np.zeros((*grid.cells.shape, 4))
+    shade[grid.cells == OCCUPIED] = (0.3, 0.3, 0.3, 1.0)
+    limits = axis.get_xlim(), axis.get_ylim()
+    axis.imshow(shade, origin='lower', extent=grid.extent, zorder=2.5, interpolation='none')
+    axis.set_xlim(*limits[0])
+    axis.set_ylim(*limits[1])
 
 
 def _is_on(z: float, storey: Storey) -> bool:

@@ -47,6 +47,7 @@ class Shapes:
     swings: list[Swing] = field(default_factory=list)
     sensors: dict[str, list[etree._Element]] = field(default_factory=dict)
     moving: set[str] = field(default_factory=set)
+    unread: set[str] = field(default_factory=set)  # models with meshes and other shapes
 
 
 def read_shapes(path: Path) -> Shapes:
@@ -93,6 +94,8 @@ def _add_model(made: Shapes, element: etree._Element, frame: np.ndarray, outer: 
             shape = _shape(top, link.get('name', ''), collision, at)
             if shape is not None:
                 made.solids.append(shape)
+            elif collision.find('geometry/plane') is None:
+                made.unread.add(top)
         if link.find('sensor') is not None:
             made.sensors.setdefault(top, []).extend(link.findall('sensor'))
     if element.findtext('static') not in ('true', '1'):

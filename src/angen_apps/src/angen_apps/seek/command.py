@@ -10,6 +10,7 @@ from dataclasses import asdict, replace
 from pathlib import Path
 
 from angen_apps.maps.gridmap import load_world
+from angen_apps.plan.draw import read_scene
 from angen_apps.robot.building import Entity, entities_of
 from angen_apps.robot.rooms_route import prepare
 from angen_apps.robot.route_file import Route, default_route
@@ -40,7 +41,7 @@ def seek(route_file: Path | None, world: Path | None, seed: int, ambient: bool, 
 
         outcome = run.search(world, route, home, seed, ambient, limit, out / 'seek.world', note)
     write_outcome(outcome, home, out)
-    draw_search(home, outcome, out / 'search.png')
+    draw_search(home, outcome, read_scene(out / 'seek.world'), out / 'search.png')
     if json:
         print(as_json(asdict(outcome.figures)))
     else:

@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from angen_apps.maps.gridmap import OCCUPIED, on_floor
+from angen_apps.maps.gridmap import on_floor
+from angen_apps.plan.draw import Scene, draw_storey, extent
 from angen_apps.seek.home import CELL, Home
 from angen_apps.seek.report import pairs
 from angen_apps.seek.run import Figures, Outcome
@@ -19,12 +20,14 @@ MOMENTS = 4
 RECENT = 5.0  # s
 
 
-def draw_search(home: Home, outcome: Outcome, path: Path) -> None:
+def draw_search(home: Home, outcome: Outcome, plan: Scene, path: Path) -> None:
     """Draws, floor by floor at MOMENTS, the belief, the robot's way until then, and the person."""
-    floors = sorted(home.maps)
+    storeys = {storey.number: storey for storey in plan.drawn()}
+    floors = sorted(home.maps.keys() & storeys.keys())
     end = outcome.figures.time_s
     moments = outcome.began + np.linspace(0.0, end, MOMENTS)
-    wide, high = _size(home, floors[0])
+    west, east, south, north = extent(plan, storeys[floors[0]])
+    wide, high = east - west, north - south
     figure, axes = pyplot().subplots(len(floors), MOMENTS, squeeze=False, dpi=130, figsize=(
         3.3 * MOMENTS, 3.15 * high / wide * len(floors) + 0.75), constrained_layout=True)
     for column, moment in enumerate(moments):
@@ -32,7 +35,8 @@ def draw_search(home: Home, outcome: Outcome, path: Path) -> None:
         belief = outcome.beliefs[max(0, int(np.searchsorted(times, moment, side='right')) - 1)][1]
         for row, floor in enumerate(floors[::-1]):
             ax = axes[row][column]
-            shade = _plan(ax, home, floor, belief)
+            shade = _shade(ax, home, floor, belief)
+            draw_storey(ax, plan, storeys[floor], None)
             _detections(ax, home, outcome, floor, moment)
             _walks(ax, home, outcome, floor, moment)
             share = belief[home.floor == floor].sum()
@@ -58,24 +62,17 @@ def _legend() -> list[Any]:
             Line2D([], [], color=PERSON, marker='*', ls='none', ms=9, label='the person')]
 
 
-def _size(home: Home, floor: int) -> tuple[float, float]:
-    rows, columns = np.nonzero(home.maps[floor].cells == OCCUPIED)
-    return float(np.ptp(columns) + 1), float(np.ptp(rows) + 1)
-
-
 def _from_white() -> Any:
     from matplotlib.colors import LinearSegmentedColormap
     return LinearSegmentedColormap.from_list('belief', ('#ffffff', '#d3eeea', '#72c5bd', '#1d8a8a',
                                                         '#0b4f63', '#06283d'))
 
 
-def _plan(ax: Any, home: Home, floor: int, belief: np.ndarray) -> Any:
-    """The walls of a floor, and the belief in its cells."""
+def _shade(ax: Any, home: Home, floor: int, belief: np.ndarray) -> Any:
+    """The belief in the cells of a floor."""
     from matplotlib.colors import PowerNorm
     from scipy.spatial import cKDTree
     grid = home.maps[floor]
-    rows, columns = np.nonzero(grid.cells == OCCUPIED)
-    west, south = grid.origin
     squares = np.full(grid.cells.shape, np.nan)
     fine = np.argwhere(home.walkable[floor].cells == 0)
     here = np.nonzero(home.floor == floor)[0]
@@ -87,18 +84,8 @@ def _plan(ax: Any, home: Home, floor: int, belief: np.ndarray) -> Any:
         row, column = grid.cell(x, y)
         if 0 <= row < squares.shape[0] and 0 <= column < squares.shape[1]:
             squares[row, column] = 100 * belief[cell]
-    shade = ax.imshow(squares, origin='lower', extent=grid.extent, cmap=_from_white(),
-                      norm=PowerNorm(0.4, 0.0, 10.0))
-    walls = np.full((*grid.cells.shape, 4), 0.0)
-    walls[grid.cells == OCCUPIED] = (0.29, 0.29, 0.29, 1.0)
-    ax.imshow(walls, origin='lower', extent=grid.extent)
-    ax.set_xlim(west + (columns.min() - 3) * grid.resolution,
-                west + (columns.max() + 4) * grid.resolution)
-    ax.set_ylim(south + (rows.min() - 3) * grid.resolution,
-                south + (rows.max() + 4) * grid.resolution)
-    ax.set_xticks([])
-    ax.set_yticks([])
-    return shade
+    return ax.imshow(squares, origin='lower', extent=grid.extent, cmap=_from_white(),
+                     norm=PowerNorm(0.4, 0.0, 10.0), zorder=1.5)
 
 
 def _walks(ax: Any, home: Home, outcome: Outcome, floor: int, moment: float) -> None:
@@ -121,7 +108,7 @@ def _detections(ax: Any, home: Home, outcome: Outcome, floor: int, moment: float
     for entity in home.entities:
         if entity.kind == 'pir' and entity.floor == floor:
             recent = moment - began.get(entity.name, -1e9) < RECENT
-            ax.plot(*entity.place[:2], '^', ms=6 if recent else 4, mec='white', mew=0.4, zorder=4,
+            ax.plot(*entity.place[:2], '^', ms=6 if recent else 4, mec='white', mew=0.4, zorder=8,
                     color=PIR if recent else '#9a9a9a')
 
 
@@ -131,9 +118,9 @@ def _line(ax: Any, home: Home, rows: np.ndarray, floor: int, color: str, style: 
         return
     here = on_floor(home.described, rows[:, 3], floor)
     places = np.where(here[:, None], rows[:, 1:3], np.nan)
-    ax.plot(places[:, 0], places[:, 1], style, color=color, lw=width)
+    ax.plot(places[:, 0], places[:, 1], style, color=color, lw=width, zorder=8)
     if here[-1]:
-        ax.plot(*places[-1], mark, color=color, ms=size, mec='white', mew=0.7, zorder=5)
+        ax.plot(*places[-1], mark, color=color, ms=size, mec='white', mew=0.7, zorder=9)
 
 
 def draw_times(found: list[Figures], limit: float, path: Path) -> None:
