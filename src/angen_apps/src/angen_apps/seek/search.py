@@ -36,6 +36,8 @@ IN_WAY, AHEAD = 0.30, 14  # m beside the line; points of the line, 0.05 m apart
 HELD = 5.0  # s that it waits for something in its way
 AVOIDS = 20.0  # s before it tries an unreachable viewpoint again
 TURN = 1.2  # rad/s
+CAMERA_NEEDS = 0.75  # m to a figure
+BEHIND, BACK_SPEED = 0.1, 0.1  # m, m/s
 
 
 @dataclass(frozen=True)
@@ -326,7 +328,8 @@ class Search:
         try:
             while self._sighting is not None and self._simulation.now < min(end, self.limit):
                 sighting = self._sighting
-                self._driver.cycle(0.0, self._turn_to(sighting.latest))
+                self._driver.cycle(self._back_from(sighting.latest),
+                                   self._turn_to(sighting.latest))
                 if self._sighting is sighting and self._is_person(sighting):
                     return
             if self._sighting is not None:
@@ -337,6 +340,15 @@ class Search:
         finally:
             self._simulation.request_depth(False)
             self._driver.cycle()
+
+    def _back_from(self, arc: Arc) -> float:
+        """Its speed: backwards where the thing is too near for the camera, as far as it has room.
+        """
+        pose = self._driver.pose
+        behind = (pose.x - BEHIND * math.cos(pose.yaw), pose.y - BEHIND * math.sin(pose.yaw))
+        near = np.hypot(*(self._foreign - behind).T) if len(self._foreign) else np.array([np.inf])
+        free = self._planners[self._driver.floor].is_free(behind) and near.min() > IN_WAY
+        return -BACK_SPEED if arc.far < CAMERA_NEEDS and free else 0.0
 
     def _turn_to(self, arc: Arc) -> float:
         pose = self._driver.pose
