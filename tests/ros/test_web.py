@@ -80,7 +80,7 @@ def place(page: Page, model: str) -> list[float]:
         parts.sort((a, b) => b.size[0] * b.size[2] - a.size[0] * a.size[2]);
         const p = home.pose(parts[0].link), l = parts[0].pose;
         const yaw = 2 * Math.atan2(p[5], p[6]), c = Math.cos(yaw), s = Math.sin(yaw);
-        return view.screen(
+        return view.viewpoint.screen(
             [p[0] + c * l[0] - s * l[1], p[1] + s * l[0] + c * l[1], p[2] + l[2]])''', model)
 
 

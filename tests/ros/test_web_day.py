@@ -77,8 +77,8 @@ def test_a_day_is_played(server: Server) -> None:
            for number, link in zip(scene['ids'], scene['links'])}
 
     def poses(model: str) -> list[tuple[float, list[float]]]:
-        wanted = {number for name, number in ids.items() if name.startswith(f'{model}::')}
-        return [(e[1], e[3][:7]) for e in entries if e[0] == 'p' and wanted & set(e[2])]
+        links = {number for name, number in ids.items() if name.startswith(f'{model}::')}
+        return [(e[1], e[3][:7]) for e in entries if e[0] == 'p' and links & set(e[2])]
 
     anna = {time: pose for time, pose in poses('anna')}
     assert anna[110.0][:2] == [4.9, 7.0] and anna[200.0][:2] == [4.9, 7.0]  # away: as it was

@@ -23,7 +23,7 @@ VALUES = (None, True, -1, 0, 1e308, -1e308, 10 ** 300, '', 'x' * 4097, '\ud800',
 TARGETS = ('door/bathroom0', 'lamp/all', 'lamp/kitchen0', 'pir/eye', 'door/', '/', 'person/nobody')
 KEYS = ('target', 'text', 'kind', 'name', 'rate', 'seconds', 'speed', 'turn', 'pose', 'x', 'yaw')
 ORDERS = ('command', 'pause', 'resume', 'step', 'rate', 'spawn', 'delete', 'save', 'drive', 'goal',
-          'reset', 'want', 'eval', '__init__', '')
+          'reset', 'subscribe', 'eval', '__init__', '')
 
 
 def order(rng: random.Random, number: int) -> tuple[str, int]:

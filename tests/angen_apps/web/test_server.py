@@ -25,13 +25,13 @@ class Source:
     def __init__(self) -> None:
         self.store = Store()
         self.orders: list[dict[str, Any]] = []
-        self.wanted: list[set[str] | None] = []
+        self.requested: list[set[str] | None] = []
 
     async def serve(self) -> None:
         await asyncio.Event().wait()
 
-    def want(self, topics: set[str] | None) -> None:
-        self.wanted.append(topics)
+    def request(self, topics: set[str] | None) -> None:
+        self.requested.append(topics)
 
     async def order(self, order: dict[str, Any]) -> dict[str, Any]:
         self.orders.append(order)
@@ -115,7 +115,7 @@ def test_pages_of_others_open_no_socket(origin: str) -> None:
         with pytest.raises(WSServerHandshakeError) as refused:
             await server.socket(Origin=origin)
         assert refused.value.status == 403
-        assert server.source.wanted == []
+        assert server.source.requested == []
     run(test)
 
 
@@ -199,7 +199,7 @@ def noise(rng: random.Random) -> str:
     value: Any = rng.choice([None, True, -1, 1e308, '', '\ud800', '\x00<img onerror=…>', [], {}])
     for _ in range(rng.randrange(4)):
         value = rng.choice([[value] * 3, {'do': value}, {'topics': value}, {'id': value}])
-    do = rng.choice(['want', 'command', 5, value])
+    do = rng.choice(['subscribe', 'command', 5, value])
     message = json.dumps({'do': do, 'id': 1, 'topics': value})
     cut = message[:rng.randrange(len(message) + 1)]
     return rng.choice([message, message, cut, cut + chr(rng.randrange(0x250)) * rng.randrange(200),
@@ -229,19 +229,20 @@ def test_budget() -> None:
     assert [budget.take() for _ in range(int(BURST) + 2)] == [True] * int(BURST) + [False] * 2
 
 
-def test_topics_are_wanted_while_a_browser_wants_them() -> None:
+def test_topics_are_requested_while_a_browser_shows_them() -> None:
     async def test(server: Running) -> None:
-        wanted = server.source.wanted
-        assert wanted == []
+        requested = server.source.requested
+        assert requested == []
         async with server.socket() as one:
             async with server.socket() as other:
-                await one.send_str(json.dumps({'do': 'want', 'topics': ['cost', 5, 'x' * 400]}))
-                await other.send_str(json.dumps({'do': 'want', 'topics': ['picture:a']}))
-                while wanted[-1] != {'cost', 'picture:a'}:
+                await one.send_str(json.dumps(
+                    {'do': 'subscribe', 'topics': ['cost', 5, 'x' * 400]}))
+                await other.send_str(json.dumps({'do': 'subscribe', 'topics': ['picture:a']}))
+                while requested[-1] != {'cost', 'picture:a'}:
                     await asyncio.sleep(0.01)
-            while wanted[-1] != {'cost'}:
+            while requested[-1] != {'cost'}:
                 await asyncio.sleep(0.01)
-        while wanted[-1] is not None:
+        while requested[-1] is not None:
             await asyncio.sleep(0.01)
     run(test)
 

@@ -18,7 +18,7 @@ export class Connection {
     this.waiting = new Map();
     this.last = 0;
     /** @type {Map<string, string[]>} */
-    this.wants = new Map();
+    this.topics = new Map();
     /** @type {WebSocket | null} */
     this.socket = null;
     this.open();
@@ -30,7 +30,7 @@ export class Connection {
     this.socket = socket;
     socket.onopen = () => {
       this.onState(true);
-      this.sendWants();
+      this.sendTopics();
     };
     socket.onmessage = (event) => {
       if (typeof event.data !== 'string') {
@@ -75,13 +75,13 @@ export class Connection {
    * @param {string} who
    * @param {string[]} topics
    */
-  want(who, topics) {
-    if (String(this.wants.get(who) ?? []) === String(topics)) return;
-    this.wants.set(who, topics);
-    this.sendWants();
+  subscribe(who, topics) {
+    if (String(this.topics.get(who) ?? []) === String(topics)) return;
+    this.topics.set(who, topics);
+    this.sendTopics();
   }
 
-  sendWants() {
-    this.send({ do: 'want', topics: [...new Set([...this.wants.values()].flat())] });
+  sendTopics() {
+    this.send({ do: 'subscribe', topics: [...new Set([...this.topics.values()].flat())] });
   }
 }

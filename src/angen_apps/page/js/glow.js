@@ -3,6 +3,7 @@ import * as THREE from '../vendor/three/three.module.min.js';
 import { CUT } from './shapes.js';
 
 const MOST = 6; // lamps of a room
+const SEEN = 0.01; // of the strength of light
 const VERTEX = `
 varying vec3 at; varying vec3 facing;
 void main() { at = position; facing = normal; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }`;
@@ -101,9 +102,21 @@ export class Glows {
       at.set(lamp.at[0], lamp.at[1], lamp.at[2], Math.sqrt(lamp.level));
       uniforms.colors.value[i].set(lamp.color[0], 0.84 * lamp.color[1], 0.5 * lamp.color[2]);
     });
-    const tone = lux === null ? 0.8 : Math.min(1.1, 0.35 + 0.3 * Math.log10(1 + lux));
-    uniforms.strength.value = tone * (dark ? 0.75 : 0.8);
+    this.tone(room, lux, dark);
     mesh.material.blending = dark ? THREE.AdditiveBlending : THREE.NormalBlending;
+  }
+
+  /**
+   * @param {string} room @param {number | null} lux @param {boolean} dark
+   * @returns {boolean} whether one sees it
+   */
+  tone(room, lux, dark) {
+    const mesh = this.meshes.get(room);
+    if (!mesh) return false;
+    const { strength } = mesh.material.uniforms, tone = lux === null ? 0.8 : Math.min(1.1, 0.35 + 0.3 * Math.log10(1 + lux));
+    const value = tone * (dark ? 0.75 : 0.8), seen = Boolean(mesh.userData.lit) && Math.abs(value - strength.value) > SEEN;
+    if (seen || !mesh.userData.lit) strength.value = value;
+    return seen;
   }
 
   /** @param {(storey: number) => boolean} shows */

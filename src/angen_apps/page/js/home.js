@@ -208,10 +208,10 @@ export class Home {
     return this.entities.filter((e) => e.model === model && e.kind !== 'model');
   }
 
-  /** @param {number} z */
-  storeyAt(z) {
+  /** @param {number} z @param {number} [below] m below a floor's elevation, which still count */
+  storeyAt(z, below = 0.3) {
     let found = this.storeys[0]?.number ?? 0;
-    for (const storey of this.storeys) if (z >= storey.elevation - 0.3) found = storey.number;
+    for (const storey of this.storeys) if (z >= storey.elevation - below) found = storey.number;
     return found;
   }
 

@@ -16,11 +16,11 @@ export class Labels {
    * @param {import('./view3d.js').View3d} view
    */
   place(view) {
-    const wanted = new Map();
+    const due = new Map();
     const { home } = view, floors = view.storey === null ? home.rooms : []; // what may be before a label
     for (const [model, { figure, text: doing }] of view.people.all) {
       const p = figure.group.position;
-      if (figure.group.visible) wanted.set(`person ${model}`, { at: [p.x, p.y, p.z + 2], text: model, person: true, small: doing, behind: isBehind(view, floors, [p.x, p.y, p.z + 0.9]) });
+      if (figure.group.visible) due.set(`person ${model}`, { at: [p.x, p.y, p.z + 2], text: model, person: true, small: doing, behind: isBehind(view, floors, [p.x, p.y, p.z + 0.9]) });
     }
     const rooms = home.rooms.filter((room) => view.showsStorey(room.storey)).sort((a, b) => b.floor - a.floor); // the upper ones first
     if (rooms.length <= MOST) {
@@ -28,17 +28,17 @@ export class Labels {
         const middle = middleOf(room.polygon), at = [...middle, room.floor + 0.3];
         if (isBehind(view, floors, at)) continue;
         const lit = view.glows.meshes.get(room.name)?.userData.lit;
-        const lux = view.lux(room);
-        wanted.set(`room ${room.name}`, { at, text: roomText(room), lit, small: lux === null ? '' : `${Math.round(lux)} lx` });
+        const lux = view.lights.lux(room);
+        due.set(`room ${room.name}`, { at, text: roomText(room), lit, small: lux === null ? '' : `${Math.round(lux)} lx` });
       }
     }
     const { clientWidth: width, clientHeight: height } = view.element, point = new THREE.Vector3();
     for (const [key, label] of this.shown) {
-      if (!wanted.has(key)) { label.remove(); this.shown.delete(key); }
+      if (!due.has(key)) { label.remove(); this.shown.delete(key); }
     }
     /** @type {number[][]} */
     const taken = [];
-    for (const [key, { at, text, lit, person, small, behind }] of wanted) {
+    for (const [key, { at, text, lit, person, small, behind }] of due) {
       let label = this.shown.get(key);
       if (!label) {
         label = el('div', { class: person ? 'label person' : 'label' }, text, el('small'));
@@ -51,7 +51,7 @@ export class Labels {
       }
       label.classList.toggle('lit', Boolean(lit));
       label.classList.toggle('behind', Boolean(behind));
-      point.fromArray(at).project(view.camera);
+      point.fromArray(at).project(view.viewpoint.camera);
       const x = ((point.x + 1) / 2) * width, y = ((1 - point.y) / 2) * height, half = label.half || 40;
       const free = point.z < 1 && !taken.some(([u, v, w]) => Math.abs(u - x) < half + w + 4 && Math.abs(v - y) < 24);
       if (free) taken.push([x, y, half]);
@@ -66,7 +66,7 @@ export class Labels {
  * @param {import('./view3d.js').View3d} view @param {any[]} rooms @param {number[]} at
  */
 function isBehind(view, rooms, at) {
-  const eye = view.camera.position;
+  const eye = view.viewpoint.camera.position;
   return rooms.some((room) => {
     if (room.floor < at[2] + 1 || eye.z < room.floor) return false;
     const part = (room.floor - at[2]) / (eye.z - at[2]);

@@ -140,7 +140,7 @@ class Page {
       fields.setAttribute('aria-pressed', String(on));
       this.view?.setFields(on);
       const lidars = this.home.entities.filter((e) => e.type === 'sensor_msgs/LaserScan' && e.topic);
-      this.home.connection.want('fields', on ? lidars.slice(0, 4).map((e) => `scan:${e.name}`) : []);
+      this.home.connection.subscribe('fields', on ? lidars.slice(0, 4).map((e) => `scan:${e.name}`) : []);
       this.plan.withFields = on;
       this.plan.update();
     });

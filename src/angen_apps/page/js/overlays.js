@@ -9,9 +9,10 @@ export const MOVES = new Set(['pir', 'switch', 'proximity']); // what they repor
 const FLASH = 0.9; // s in which a field that fires gets calm
 
 export class Bulbs {
-  /** @param {import('./home.js').Home} home */
-  constructor(home) {
+  /** @param {import('./home.js').Home} home @param {boolean} plain of few faces */
+  constructor(home, plain) {
     this.home = home;
+    this.plain = plain;
     this.group = new THREE.Group();
     /** @type {number[]} */
     this.lights = [];
@@ -22,14 +23,14 @@ export class Bulbs {
     this.group.clear();
     this.mesh?.dispose();
     this.lights = lights.flatMap((/** @type {any} */ light, /** @type {number} */ i) => (light.sun || !light.model ? [] : [i]));
-    this.mesh = new THREE.InstancedMesh(new THREE.SphereGeometry(0.09, 10, 7), new THREE.MeshBasicMaterial(), Math.max(1, this.lights.length));
+    this.mesh = new THREE.InstancedMesh(new THREE.SphereGeometry(0.09, ...(this.plain ? [6, 4] : [12, 8])), new THREE.MeshBasicMaterial(), Math.max(1, this.lights.length));
     this.mesh.frustumCulled = false;
     this.group.add(this.mesh);
   }
 
   /**
    * @param {(light: any) => number[]} placeOf
-   * @param {(storey: number) => boolean} shows
+   * @param {(storey: number, lit: boolean) => boolean} shows
    * @param {boolean} dark
    */
   show(placeOf, shows, dark) {
@@ -37,7 +38,7 @@ export class Bulbs {
     const links = [];
     for (const light of this.lights) {
       const lamp = this.home.scene.lights[light], at = placeOf(lamp), level = this.home.levels.get(light) ?? 0;
-      if (!shows(this.home.storeyAt(at[2]))) continue;
+      if (!shows(this.home.storeyAt(at[2], 0.05), level > 0.003)) continue;
       const size = level > 0.003 ? 1 + 0.5 * Math.sqrt(level) : 0.8, i = links.push(lamp.link) - 1;
       this.mesh.setMatrixAt(i, matrix.makeScale(size, size, size).setPosition(at[0], at[1], at[2]));
       this.mesh.setColorAt(i, color.set(level > 0.003 ? 0xffd45e : dark ? 0x46525e : 0xb7bfc7));
@@ -177,7 +178,7 @@ export class Scans {
 
 /**
  * The places that a lidar hit.
- * @param {import('./home.js').Home} home @param {string} name as it was wanted @param {ArrayBuffer} content
+ * @param {import('./home.js').Home} home @param {string} name as the page subscribed it @param {ArrayBuffer} content
  * @returns {number[][] | null} x y z each; null where there is no such sensor
  */
 export function scanPoints(home, name, content) {

@@ -1,5 +1,9 @@
 /** How the building looks: its colors, and how much effort the drawing takes. */
+import * as THREE from '../vendor/three/three.module.min.js';
 import { rotate } from './fields.js';
+import { poseMatrix } from './shapes.js';
+
+const BESIDE = 0.25; // m
 
 /** @type {Record<string, number[]>} */
 const FLOORS = { kitchen: [0.86, 0.80, 0.70], bathroom: [0.70, 0.80, 0.84], bedroom: [0.80, 0.68, 0.56], living: [0.78, 0.64, 0.50],
@@ -20,6 +24,20 @@ export function paint(home, cls, color, link, shape) {
   if (cls === 'floor' && room) return FLOORS[room.use] ?? FLOORS.other;
   if (cls === 'ground') return [1, 1, 1];
   return color;
+}
+
+/**
+ * Whether a side of a box is in no room: a face of a wall or leaf, an edge of a floor.
+ * @param {import('./home.js').Home} home
+ * @param {any} part of the shapes
+ */
+export function isOuter(home, part) {
+  const box = poseMatrix(home.pose(part.link), new THREE.Matrix4()).multiply(part.local), side = new THREE.Vector3();
+  const [width, depth, height] = part.size, axes = height < Math.min(width, depth) ? [0, 1] : [width < depth ? 0 : 1];
+  return axes.some((axis) => [1, -1].some((way) => {
+    side.set(0, 0, 0).setComponent(axis, way * (0.5 + BESIDE / part.size[axis])).applyMatrix4(box);
+    return !home.roomAt(side.x, side.y, side.z);
+  }));
 }
 
 /** Whether the processor draws: then without shadows and smooth edges, unless ?quality=high. */

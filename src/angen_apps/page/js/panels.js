@@ -68,7 +68,7 @@ export class Panels {
       by(`tab-${panel.id}`).tabIndex = panel === this.current ? 0 : -1;
     }
     by('panel').setAttribute('aria-labelledby', `tab-${id}`);
-    this.home.connection.want('costs', id === 'costs' ? ['cost'] : []);
+    this.home.connection.subscribe('costs', id === 'costs' ? ['cost'] : []);
     if (id !== 'robot') this.robot.leave();
     this.rebuild();
     by('panel').scrollTop = 0;

@@ -51,7 +51,7 @@ export class RobotPanel {
     this.stick.addEventListener('pointerdown', (/** @type {PointerEvent} */ e) => { this.stick.setPointerCapture(e.pointerId); this.drag(e); });
     this.stick.addEventListener('pointermove', (/** @type {PointerEvent} */ e) => { if (this.stick.hasPointerCapture(e.pointerId)) this.drag(e); });
     for (const end of ['pointerup', 'pointercancel']) this.stick.addEventListener(end, () => this.steer(0, 0));
-    this.want();
+    this.subscribe();
     return [el('div', { class: 'tools' }, choose, this.cameras.length && !home.status.replay ? shown : null,
       !home.status.replay && el('button', { type: 'button', onclick: () => this.goal(robot) }, 'Set goal …')),
     thingRow(home, robot, () => this.page.show(robot)), this.picture, this.map.show(robot, this.lidar ? `scan:${this.lidar.name}` : ''),
@@ -59,17 +59,17 @@ export class RobotPanel {
       this.stick, el('p', { class: 'soft', style: 'text-align: center' }, 'Drag the stick, or hold W A S D.')])];
   }
 
-  want() {
+  subscribe() {
     const topics = [];
     if (this.active && this.camera && this.cameras?.length) topics.push(`picture:${this.cameras[0].name}`);
     if (this.active && this.lidar) topics.push(`scan:${this.lidar.name}`);
-    this.home.connection.want('robot', topics);
+    this.home.connection.subscribe('robot', topics);
   }
 
   leave() {
     this.active = false;
     this.steer(0, 0);
-    this.home.connection?.want('robot', []);
+    this.home.connection?.subscribe('robot', []);
   }
 
   update() {

@@ -63,8 +63,8 @@ function meshGeometry(mesh, cell) {
 function geometryOf(type, cls, plain) {
   const few = plain || cls === 'sensor';
   if (type === '0') return cls === 'wall' ? wallGeometry() : new THREE.BoxGeometry(1, 1, 1);
-  if (type === '1') return few ? new THREE.SphereGeometry(0.5, 8, 6) : new THREE.SphereGeometry(0.5, 20, 14);
-  return new THREE.CylinderGeometry(0.5, 0.5, 1, few ? 10 : 24).rotateX(Math.PI / 2);
+  if (type === '1') return few ? new THREE.SphereGeometry(0.5, 7, 4) : new THREE.SphereGeometry(0.5, 20, 14);
+  return new THREE.CylinderGeometry(0.5, 0.5, 1, few ? 8 : 24).rotateX(Math.PI / 2);
 }
 
 /** A box whose upper face is darker, as the section of a wall in a drawing. */
@@ -78,7 +78,7 @@ function wallGeometry() {
 
 /**
  * @typedef {{mesh: any, slot: number, color: any, link: number, local: any, type: number, cls: string, storey: number | null,
- *   size: number[], extent: number}} Part
+ *   size: number[], extent: number, moves: boolean, isOuter?: boolean}} Part
  */
 
 export class Shapes {
@@ -132,7 +132,7 @@ export class Shapes {
       const local = poseMatrix(shape.pose, new THREE.Matrix4()).clone().scale(size.fromArray(scale));
       const [r, g, b] = paint(cls, shape.color, link, shape);
       const part = { mesh: batch, slot: -1, color: new THREE.Color().setRGB(r, g, b, THREE.SRGBColorSpace), link: shape.link, local,
-        type: shape.type, cls, storey: storeyOf(link.group), size: scale, extent: type > '2' ? 1 : Math.max(...scale) };
+        type: shape.type, cls, storey: storeyOf(link.group), size: scale, extent: type > '2' ? 1 : Math.max(...scale), moves: link.moves };
       this.parts[shape.link].push(part);
       if (cls !== 'ground' && part.extent < 60) this.bounds.expandByPoint(place.fromArray(link.pose));
     }

@@ -1,21 +1,26 @@
 /** The home in 3D: drawn again only when something changed. */
 import * as THREE from '../vendor/three/three.module.min.js';
-import { OrbitControls } from '../vendor/three/OrbitControls.js';
 import { Sky } from './daylight.js';
 import { by } from './dom.js';
 import { Glows } from './glow.js';
 import { Labels } from './labels.js';
 import { Bulbs, Fields, Scans } from './overlays.js';
-import { isPlain, paint } from './paint.js';
+import { isOuter, isPlain, paint } from './paint.js';
 import { People } from './people.js';
+import { RoomLights } from './roomlights.js';
 import { CUT, Shapes, poseMatrix } from './shapes.js';
+import { Sharpness } from './sharpness.js';
+import { Viewpoint } from './viewpoint.js';
+
+const matrix = new THREE.Matrix4();
 
 const EASE = 12; // 1/s, with which shown poses follow those that were sent
 const PLAIN_PERIOD = 80; // ms between frames where the processor draws
 const SHARE = 1.3; // of the time that a frame took, until the next one: buttons need some too
 const PLAIN_PIXELS = 4.5e5;
-const TOWER = 3; // floors: of more, those below the top one show no small things while all are shown
-const SMALL = 0.3; // m
+const TOWER = 3; // floors: of more, those below the top one are closed while all are shown
+const LEAF = 1.2; // m: what moves in their walls is higher
+const SLAB = 0.3, THING = 0.05; // m below its floor's elevation, where a part still is on it
 
 export class View3d {
   /** @param {import('./home.js').Home} home @param {(hit: any) => void} onPick */
@@ -27,6 +32,8 @@ export class View3d {
     this.withFields = false;
     this.dark = false;
     this.dirty = true;
+    this.relabel = false;
+    this.isTower = false;
     this.frames = 0;
     this.drawnAt = 0;
     this.pause = PLAIN_PERIOD; // ms
@@ -39,18 +46,13 @@ export class View3d {
     this.renderer.shadowMap.autoUpdate = false;
     this.element.append(this.renderer.domElement);
     this.scene = new THREE.Scene();
-    this.camera = new THREE.PerspectiveCamera(38, 1, 0.1, 600);
-    this.camera.up.set(0, 0, 1);
-    this.controls = new OrbitControls(this.camera, this.renderer.domElement);
-    this.controls.maxPolarAngle = 1.5;
-    this.controls.zoomToCursor = true;
-    this.controls.addEventListener('start', () => { this.goal = null; });
-    this.controls.addEventListener('change', () => { this.dirty = true; });
-    this.controls.listenToKeyEvents(this.element);
+    this.viewpoint = new Viewpoint(this.element, this.renderer.domElement, () => { this.dirty = true; });
+    this.sharpness = new Sharpness();
     this.sky = new Sky();
     this.scene.add(this.sky.group);
     this.glows = new Glows();
-    this.bulbs = new Bulbs(home);
+    this.lights = new RoomLights(home, this.glows);
+    this.bulbs = new Bulbs(home, this.plain);
     this.fields = new Fields(home);
     this.scans = new Scans(home);
     this.scene.add(this.glows.group, this.bulbs.group, this.fields.group, this.scans.group);
@@ -105,12 +107,11 @@ export class View3d {
     }
     this.moving.clear();
     this.drawn.clear();
-    this.findLux();
     this.isTower = home.storeys.length > TOWER;
     this.top = home.storeys[home.storeys.length - 1]?.number ?? 0;
     this.shapes = new Shapes(home.scene, this.people.build(), (cls, color, link, shape) => paint(home, cls, color, link, shape), this.plain);
     this.scene.add(this.shapes.group);
-    this.glows.build(home.rooms);
+    this.lights.build();
     this.bulbs.build();
     this.fields.build();
     this.shapes.clearWalls(this.walls === 'clear');
@@ -122,16 +123,38 @@ export class View3d {
 
   // --- what is shown where
 
-  /** @param {any} part @param {number} z of its middle @returns {number | null} */
+  /**
+   * @param {any} part @param {number} z of its middle
+   * @returns {number | null} the height at which it is cut; null: whole, NaN: hidden
+   */
   shown(part, z) {
-    if (part.cls === 'ceiling' && this.walls !== 'full') return NaN;
     if (part.cls === 'ground') return null;
-    const storey = part.storey ?? this.home.storeyAt(z);
-    if (this.storey !== null ? storey !== this.storey : this.isTower && storey !== this.top && (part.extent < SMALL || part.type > 2)) return NaN;
-    const cutting = this.walls === 'cut' && (part.cls === 'wall' || part.cls === 'window');
-    if (!cutting) return this.walls === 'full' || part.cls !== 'ceiling' ? null : NaN;
+    if (part.cls === 'ceiling' && this.walls !== 'full') return NaN;
+    const storey = this.storeyOf(part, z), closed = this.isClosed(storey);
+    if (this.storey !== null && storey !== this.storey) return NaN;
+    if (closed) return this.isFacade(part) ? null : NaN;
+    if (this.walls !== 'cut' || (part.cls !== 'wall' && part.cls !== 'window')) return null;
     const base = this.home.storeys.find((s) => s.number === storey)?.elevation;
     return (base ?? Math.floor((z + 0.3) / 4) * 4) + CUT;
+  }
+
+  /** @param {any} part @param {number} z of its middle @returns {number} as the home counts floors, if it does */
+  storeyOf(part, z) {
+    if (!this.home.storeys.length) return part.storey ?? 0;
+    if (part.cls === 'ceiling') return this.home.storeyAt(z - 0.6, SLAB);
+    return this.home.storeyAt(z, part.cls === 'floor' ? SLAB : THING);
+  }
+
+  /** @param {any} part @returns {boolean} whether it is seen where a floor is closed */
+  isFacade(part) {
+    if (part.cls === 'window') return part.mesh.material.transparent;
+    if (part.cls !== 'wall' && part.cls !== 'floor' && !(part.moves && part.extent > LEAF)) return false;
+    return (part.isOuter ??= isOuter(this.home, part));
+  }
+
+  /** @param {number} storey @returns {boolean} whether its inside is covered by the floors above */
+  isClosed(storey) {
+    return this.storey === null && this.isTower && storey !== this.top;
   }
 
   placeAll() {
@@ -154,57 +177,31 @@ export class View3d {
   }
 
   show() {
-    this.glows.show((storey) => this.showsStorey(storey));
-    this.bulbs.show((light) => this.lightPlace(light), (storey) => this.showsStorey(storey), this.dark);
+    this.showBulbs();
     this.fields.show(this.withFields, (storey) => this.showsStorey(storey));
     this.shadowsAt = 0;
     this.dirty = true;
   }
 
-  /** @param {any} light @returns {number[]} */
-  lightPlace(light) {
-    const own = new THREE.Vector3().fromArray(light.pose);
-    return (light.link < 0 ? own : own.applyMatrix4(poseMatrix(this.home.pose(light.link), matrix))).toArray();
+  showBulbs() {
+    this.glows.show((storey) => this.showsStorey(storey));
+    this.bulbs.show((light) => this.lights.place(light), (storey, lit) => this.showsStorey(storey) && (lit || !this.isClosed(storey)), this.dark);
+    this.dirty = true;
   }
 
   relight() {
     if (!this.shapes) return;
-    const { home } = this;
-    /** @type {Map<string, any[]>} */
-    const rooms = new Map();
-    home.scene.lights.forEach((/** @type {any} */ light, /** @type {number} */ i) => {
-      if (light.sun) return;
-      const at = this.lightPlace(light), room = home.roomAt(at[0], at[1], at[2]);
-      const most = Math.max(...light.color.slice(0, 3), 0.01), color = light.color.slice(0, 3).map((/** @type {number} */ c) => c / most);
-      if (room) rooms.set(room.name, [...(rooms.get(room.name) ?? []), { at, color, level: home.levels.get(i) ?? 0 }]);
-    });
-    for (const room of home.rooms) this.glows.light(room.name, rooms.get(room.name) ?? [], this.lux(room), this.dark);
-    this.show();
-  }
-
-  /** The first luminosity sensor of each room. */
-  findLux() {
-    /** @type {Map<string, import('./home.js').Entity>} */
-    this.luxOf = new Map();
-    for (const e of this.home.entities) {
-      const room = e.kind === 'luminosity' ? this.home.roomsOf(e)[0] : null;
-      if (room && !this.luxOf.has(room.name)) this.luxOf.set(room.name, e);
-    }
-    this.luxField = Math.max(0, this.home.fields('luminosity').findIndex((field) => field.name === 'illuminance'));
-  }
-
-  /** @param {any} room @returns {number | null} */
-  lux(room) {
-    const sensor = this.luxOf?.get(room.name);
-    return (sensor && this.home.row(sensor)?.values[this.luxField ?? 0]) ?? null;
+    this.lights.light(this.dark);
+    this.showBulbs();
   }
 
   /** @param {any[]} rows */
   onRows(rows) {
     if (!this.shapes) return;
-    if (rows.some((row) => row.kind === 'luminosity' || row.kind === 'lamp')) this.relight();
+    if (this.lights.follow(rows, this.dark)) this.dirty = true;
     const sensors = rows.some((row) => this.home.kinds[row.kind]?.role === 'sensor');
     if (sensors && this.fields.show(this.withFields, (storey) => this.showsStorey(storey))) this.dirty = true;
+    this.relabel = true;
     for (const row of rows) {
       if (row.kind !== 'person') continue;
       const person = this.home.entities.find((e) => e.kind === 'person' && e.name === row.name);
@@ -233,9 +230,33 @@ export class View3d {
   frame() {
     requestAnimationFrame(() => this.frame());
     const now = performance.now(), dt = Math.min(0.1, (now - this.last) / 1000);
-    if (this.drawnAt === this.last) this.pause = Math.max(PLAIN_PERIOD, SHARE * (now - this.last));
+    if (this.drawnAt === this.last) this.pace(now - this.last);
     this.last = now;
     if (this.hidden || !this.shapes) return;
+    this.move(dt);
+    if (this.plain && this.sharpness.rest(this.dirty, now - this.drawnAt)) this.resize();
+    if (!this.dirty && this.relabel) this.labels.place(this);
+    this.relabel = false;
+    if (!this.dirty || (this.plain && now - this.drawnAt < this.pause)) return;
+    this.drawnAt = now;
+    if (now - this.shadowsAt > 400) { this.renderer.shadowMap.needsUpdate = true; this.shadowsAt = now; }
+    this.dirty = false;
+    this.renderer.render(this.scene, this.viewpoint.camera);
+    this.frames++;
+    this.labels.place(this);
+  }
+
+  /**
+   * The processor draws less often, and fewer pixels, where a frame takes long.
+   * @param {number} took ms
+   */
+  pace(took) {
+    this.pause = Math.max(PLAIN_PERIOD, SHARE * took);
+    if (this.plain && this.sharpness.took(took)) this.resize();
+  }
+
+  /** @param {number} dt s */
+  move(dt) {
     const part = 1 - Math.exp(-EASE * dt);
     for (const [link, way] of this.moving) {
       let rest = 0;
@@ -250,24 +271,16 @@ export class View3d {
     }
     if (this.people.animate(dt)) this.dirty = true;
     if (this.fields.animate(dt)) this.dirty = true;
-    this.glide(dt);
-    this.controls.update(dt);
-    if (!this.dirty || (this.plain && now - this.drawnAt < this.pause)) return;
-    this.drawnAt = now;
-    if (now - this.shadowsAt > 400) { this.renderer.shadowMap.needsUpdate = true; this.shadowsAt = now; }
-    this.dirty = false;
-    this.renderer.render(this.scene, this.camera);
-    this.frames++;
-    this.labels.place(this);
+    this.viewpoint.glide(dt);
+    this.viewpoint.controls.update(dt);
   }
 
   resize() {
     const { clientWidth: width, clientHeight: height } = this.element;
     if (!width || !height) return;
-    this.renderer.setPixelRatio(this.plain ? Math.min(1, Math.sqrt(PLAIN_PIXELS / (width * height))) : Math.min(2, devicePixelRatio));
+    this.renderer.setPixelRatio(this.plain ? this.sharpness.share() * Math.min(1, Math.sqrt(PLAIN_PIXELS / (width * height))) : Math.min(2, devicePixelRatio));
     this.renderer.setSize(width, height);
-    this.camera.aspect = width / height;
-    this.camera.updateProjectionMatrix();
+    this.viewpoint.resize(width, height);
     this.dirty = true;
   }
 
@@ -291,57 +304,13 @@ export class View3d {
   look(above = false) {
     if (!this.shapes) return;
     this.framed = this.home.rooms.length > 0; // until then what is seen may change
-    const box = this.box(), middle = box.getCenter(new THREE.Vector3()), size = box.getSize(new THREE.Vector3());
-    const way = above ? new THREE.Vector3(0, -0.02, 1) : new THREE.Vector3(-0.5, -0.92, this.storey === null && this.home.storeys.length > 1 ? 0.72 : 1.05);
-    way.normalize();
-    const radius = 0.5 * Math.hypot(size.x, size.y, size.z), distance = this.distance(box, middle, way);
-    this.goal = { at: middle.clone().addScaledVector(way, distance), target: middle };
-    if (!this.looked || matchMedia('(prefers-reduced-motion: reduce)').matches) { this.glide(100); this.looked = true; }
-    this.sky.cover(middle, radius);
+    const box = this.box(), many = this.storey === null && this.home.storeys.length > 1;
+    this.viewpoint.look(box, above ? new THREE.Vector3(0, -0.02, 1) : new THREE.Vector3(-0.5, -0.92, many ? 0.72 : 1.05));
+    this.sky.cover(box.getCenter(new THREE.Vector3()), 0.5 * box.getSize(new THREE.Vector3()).length());
     this.shadowsAt = 0;
-    this.dirty = true;
-  }
-
-  /**
-   * From where a box fills the view.
-   * @param {any} box
-   * @param {any} middle
-   * @param {any} way from the middle to the camera, of length 1
-   */
-  distance(box, middle, way) {
-    const tall = Math.tan((this.camera.fov * Math.PI) / 360), wide = tall * this.camera.aspect;
-    const right = new THREE.Vector3(-way.y, way.x, 0).normalize(), up = new THREE.Vector3().crossVectors(way, right), corner = new THREE.Vector3();
-    let most = 1;
-    for (let i = 0; i < 8; i++) {
-      corner.set(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z).sub(middle);
-      most = Math.max(most, corner.dot(way) + Math.max(Math.abs(corner.dot(right)) / wide, Math.abs(corner.dot(up)) / tall));
-    }
-    return 1.06 * most;
-  }
-
-  /** @param {number} dt */
-  glide(dt) {
-    if (!this.goal) return;
-    const part = 1 - Math.exp(-7 * dt);
-    this.camera.position.lerp(this.goal.at, part);
-    this.controls.target.lerp(this.goal.target, part);
-    this.dirty = true;
-    if (this.camera.position.distanceTo(this.goal.at) < 0.02) this.goal = null;
   }
 
   // --- picking
-
-  /**
-   * Where something is on the screen, in pixels of the page.
-   * @param {number[]} at
-   * @returns {number[]}
-   */
-  screen(at) {
-    const box = this.element.getBoundingClientRect();
-    this.camera.updateMatrixWorld();
-    const point = new THREE.Vector3().fromArray(at).project(this.camera);
-    return [box.left + ((point.x + 1) / 2) * box.width, box.top + ((1 - point.y) / 2) * box.height];
-  }
 
   /** @param {number} x @param {number} y in pixels of the page */
   pick(x, y) {
@@ -352,9 +321,7 @@ export class View3d {
   /** @param {number} x @param {number} y @returns {{model: string, link: number, cls: string, point: number[]} | null} */
   hit(x, y) {
     if (!this.shapes) return null;
-    const box = this.element.getBoundingClientRect();
-    this.camera.updateMatrixWorld();
-    this.raycaster.setFromCamera(new THREE.Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2), this.camera);
+    this.viewpoint.aim(this.raycaster, x, y);
     const hits = this.raycaster.intersectObjects([...this.shapes.meshes, this.bulbs.mesh, ...this.people.seen()], true);
     for (const { object, instanceId, point } of hits) {
       const { cls = 'thing', links, parts, link = links?.[instanceId] ?? parts?.[instanceId]?.link } = object.userData;
@@ -408,5 +375,3 @@ export class View3d {
     this.dirty = true;
   }
 }
-
-const matrix = new THREE.Matrix4();

@@ -87,12 +87,12 @@ class Day(Played):
 
     def _write_world(self, given: Path | None) -> None:
         path = self._folder / 'home.world'
-        wanted = self._settings['world']
-        if not wanted:
+        expected = self._settings['world']
+        if not expected:
             apartment(path)
-        elif given is None or sha256(given) != wanted:
+        elif given is None or sha256(given) != expected:
             raise Failure(f'{self._data}: is of a world of your own; give the same file by --world')
-        site = Site(given if wanted and given else path, self._settings['seed'],
+        site = Site(given if expected and given else path, self._settings['seed'],
                     not self._settings['own_sensors'], self._settings['light'])
         for resident in self._layout['residents']:
             first = next(r for r in self._truth() if r['resident'] == resident['name'])

@@ -31,7 +31,7 @@ class Feed:
     def __init__(self) -> None:
         self.store: Store = Store()
         self._orders = Orders(self.store)
-        self._wanted: set[str] | None = None
+        self._requested: set[str] | None = None
         self._idle_since: float | None = None
         self._subscribers: dict[str, Any] = {}
         self._lock = threading.Lock()  # of the subscribers
@@ -39,8 +39,8 @@ class Feed:
         self._listed = -1  # the scene of the last survey
         self.store.put('status', {'node': False, 'replay': False})
 
-    def want(self, topics: set[str] | None) -> None:
-        self._wanted = topics
+    def request(self, topics: set[str] | None) -> None:
+        self._requested = topics
 
     async def order(self, order: dict[str, Any]) -> dict[str, Any]:
         answer: dict[str, Any] = await in_thread(self._orders.execute, order)
@@ -52,18 +52,19 @@ class Feed:
     async def serve(self) -> None:
         loop = asyncio.get_running_loop()
         while True:
-            if self._wanted is not None:
+            if self._requested is not None:
                 self._idle_since = None
-                await in_thread(self._follow, set(self._wanted))
+                await in_thread(self._follow, set(self._requested))
             elif self._subscribers:
                 self._idle_since = self._idle_since or loop.time()
                 if loop.time() - self._idle_since > LINGER:
                     await in_thread(self._unsubscribe_all)
-            await asyncio.sleep(WATCH if self._wanted is not None and self._subscribers else 0.1)
+            await asyncio.sleep(WATCH if self._requested is not None and self._subscribers
+                                else 0.1)
 
     # --- the master and the node
 
-    def _follow(self, wanted: set[str]) -> None:
+    def _follow(self, requested: set[str]) -> None:
         """Subscribes the requested topics of the present node."""
         master = master_process()
         if master != self._master:  # topics of a master that ended are lost
@@ -72,10 +73,10 @@ class Feed:
         if master and not self._subscribers:
             self._subscribe_usual()
         for topic in [name for name in self._subscribers if ':' in name or name == COST]:
-            if topic not in wanted:
+            if topic not in requested:
                 self._drop(topic)
-        for topic in wanted - self._subscribers.keys():
-            self._subscribe_wanted(topic)
+        for topic in requested - self._subscribers.keys():
+            self._subscribe_requested(topic)
         scene_topic = self._subscribers.get('scene')
         alive = scene_topic is not None and scene_topic.get_num_connections() > 0
         before = self.store.part('status') or {}
@@ -129,7 +130,7 @@ class Feed:
         self._subscribe('events', '/angen/events', Event, self._on_event)
         self._subscribe('home', '/angen/home', HomeMessage, self._on_home)
 
-    def _subscribe_wanted(self, topic: str) -> None:
+    def _subscribe_requested(self, topic: str) -> None:
         from sensor_msgs.msg import Image, LaserScan
         if topic == COST:
             from angen_msgs.msg import Cost

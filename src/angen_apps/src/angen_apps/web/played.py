@@ -56,7 +56,7 @@ class Played(Feed):
         """A thread of its own reads; nothing is to do for browsers."""
         await asyncio.Event().wait()
 
-    def want(self, topics: set[str] | None) -> None:
+    def request(self, topics: set[str] | None) -> None:
         pass
 
     async def order(self, order: dict[str, Any]) -> dict[str, Any]:

@@ -30,9 +30,9 @@ class Source(Protocol):
     store: Store
 
     async def serve(self) -> None:
-        """Fills the store while `want` says that there are browsers; until cancelled."""
+        """Fills the store while `request` says that there are browsers; until cancelled."""
 
-    def want(self, topics: set[str] | None) -> None:
+    def request(self, topics: set[str] | None) -> None:
         """Topics beyond the usual ones that some browser shows; None: there is no browser."""
 
     async def order(self, order: dict[str, Any]) -> dict[str, Any]:
@@ -47,7 +47,7 @@ class Browser:
 
     def __init__(self, socket: web.WebSocketResponse) -> None:
         self.socket = socket
-        self.wanted: set[str] = set()
+        self.requested: set[str] = set()
         self.pending = 0  # orders without an answer
         self.news = asyncio.Event()
         self.news.set()
@@ -63,7 +63,7 @@ class Browser:
         while not self.socket.closed:
             await self.news.wait()
             self.news.clear()
-            update = store.since(seen, self.wanted, () if COST in self.wanted else (COST,))
+            update = store.since(seen, self.requested, () if COST in self.requested else (COST,))
             seen = update.version
             if update.more:
                 self.news.set()
@@ -128,9 +128,9 @@ class Server:
         for browser in self._browsers:
             browser.news.set()
 
-    def _rewant(self) -> None:
-        topics = {topic for browser in self._browsers for topic in browser.wanted}
-        self._source.want(topics if self._browsers else None)
+    def _request(self) -> None:
+        topics = {topic for browser in self._browsers for topic in browser.requested}
+        self._source.request(topics if self._browsers else None)
 
     async def _index(self, _: web.Request) -> web.StreamResponse:
         return web.FileResponse(self._page / 'index.html')
@@ -157,14 +157,14 @@ class Server:
         await socket.prepare(request)
         browser = Browser(socket)
         self._browsers.add(browser)
-        self._rewant()
+        self._request()
         feeder = asyncio.ensure_future(self._feed(browser))
         try:
             await self._listen(browser)
         finally:
             feeder.cancel()
             self._browsers.discard(browser)
-            self._rewant()
+            self._request()
         return socket
 
     async def _feed(self, browser: Browser) -> None:
@@ -188,9 +188,9 @@ class Server:
             elif not budget.take():
                 browser.answer({'id': order.get('id'), 'ok': False,
                                 'text': f'more than {RATE:g} orders per second'})
-            elif order.get('do') == 'want' and isinstance(topics := order.get('topics'), list):
-                browser.wanted = wanted(topics)
-                self._rewant()
+            elif order.get('do') == 'subscribe' and isinstance(topics := order.get('topics'), list):
+                browser.requested = requested(topics)
+                self._request()
             elif browser.pending >= MOST_PENDING:
                 browser.answer({'id': order.get('id'), 'ok': False,
                                 'text': 'the simulator has not answered earlier orders yet'})
@@ -212,7 +212,7 @@ class Server:
         browser.answer({'id': order.get('id'), **answer})
 
 
-def wanted(topics: list[Any]) -> set[str]:
+def requested(topics: list[Any]) -> set[str]:
     """At most eight names."""
     return {topic for topic in topics[:8] if isinstance(topic, str) and len(topic) < 300}
 

@@ -145,7 +145,7 @@ class Store:
         self.changed()
 
     def put_named(self, kind: int, name: str, content: bytes) -> None:
-        """A picture or a scan, for the browsers that want it."""
+        """A picture or a scan, for the browsers that show it."""
         label = name.encode()
         blob = HEAD.pack(kind, len(label)) + label + bytes(-len(label) % 4) + content
         with self._lock:
@@ -171,8 +171,8 @@ class Store:
         with self._lock:
             return self._parts.get(name, (0, None))[1]
 
-    def since(self, seen: int, wanted: Iterable[str] = (), hidden: Iterable[str] = ()) -> Update:
-        """What changed after version `seen`: parts but the hidden ones, and wanted pictures."""
+    def since(self, seen: int, named: Iterable[str] = (), hidden: Iterable[str] = ()) -> Update:
+        """What changed after version `seen`: parts but the hidden ones, named pictures, scans."""
         with self._lock:
             update = Update(self._version)
             update.parts = {name: value for name, (version, value) in self._parts.items()
@@ -187,7 +187,7 @@ class Store:
             if self._scene is not None and self._revision == self._scene['revision']:
                 update.blobs += self._poses.since(seen, POSES, self._scene_number)
                 update.blobs += self._levels.since(seen, LEVELS, self._scene_number)
-            for name in wanted:
+            for name in named:
                 version, blob = self._named.get(name, (0, b''))
                 if version > seen:
                     update.blobs.append(blob)

@@ -76,7 +76,7 @@ class Timeline(Store):
             self._log(['e', event[0], event])
         self.changed()
 
-    def since(self, seen: int, wanted: Iterable[str] = (), hidden: Iterable[str] = ()) -> Update:
+    def since(self, seen: int, named: Iterable[str] = (), hidden: Iterable[str] = ()) -> Update:
         with self._lock:
             update = Update(self._version)
             first = bisect.bisect_right(self._entry_versions, seen)
