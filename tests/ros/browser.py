@@ -74,7 +74,8 @@ class Page:
 
     def first_view(self) -> None:
         """Returns when the whole home is drawn, and the camera rests."""
-        self.until('return angen.view.framed && !angen.view.viewpoint.goal && angen.view.frames > 0')
+        self.until('return angen.view.framed && !angen.view.viewpoint.goal '
+                   '&& angen.view.frames > 0')
 
     def click(self, x: float, y: float) -> None:
         """At a place of the window, as a mouse does."""

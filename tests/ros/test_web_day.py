@@ -19,7 +19,14 @@ TRUTH = '''start,end,resident,activity,cause,phase,room,thing,posture,x,y,note
 110.000,200.000,anna,wash,free,does,bathroom0,bathroom_washbasin0,stand,4.900,7.000,
 200.000,86400.000,anna,work,scheduled,away,,,stand,nan,nan,
 '''
-TRACK = 'time,resident,x,y\n101.0,anna,2.500,8.450\n102.0,anna,2.500,7.450\n'
+TRACK = 'time,resident,x,y,storey\n101.0,anna,2.500,8.450,0\n102.0,anna,2.500,7.450,0\n'
+LOADS = '''time,kind,device,watts
+0.000,lamp,bathroom0,0.000
+150.000,lamp,bathroom0,10.000
+160.000,appliance,livingroom_tv0,73.200
+170.000,appliance,livingroom_tv0,0.500
+190.000,lamp,bathroom0,0.000
+'''
 EVENTS = '''time,sensor,kind,room,value,resident,activity,cause
 2026-03-21 00:01:41.000000,D001,door,bathroom0,OPEN,anna,wash,hand
 2026-03-21 00:01:45.000000,D001,door,bathroom0,CLOSE,anna,wash,hand
@@ -34,7 +41,7 @@ SENSORS = [{'id': 'D001', 'kind': 'door', 'name': 'bathroom0_contact', 'room': '
 def day(tmp_path: Path) -> Path:
     folder = tmp_path / 'out'
     folder.mkdir()
-    for name, text in (('truth', TRUTH), ('track', TRACK), ('events', EVENTS)):
+    for name, text in (('truth', TRUTH), ('track', TRACK), ('events', EVENTS), ('loads', LOADS)):
         with gzip.open(folder / f'{name}.csv.gz', 'wt', encoding='utf-8') as file:
             file.write(text)
     (folder / 'layout.json').write_text(json.dumps({
@@ -95,6 +102,14 @@ def test_a_day_is_played(server: Server) -> None:
         ('lying · sleep', 0.0), ('walking · wash', 100.0), ('standing · wash', 110.0),
         ('away · work', 200.0)]
     assert [row[2] for row in rows if row[1] == 'bathroom0_temperature'][-1] == '19.5 °C'
+    light = scene['light_ids'][next(i for i, one in enumerate(scene['lights'])
+                                    if one['model'] == 'bathroom_lamp0')]
+    assert [(e[1], e[3]) for e in entries if e[0] == 'l' and light in e[2]] == [
+        (0.0, [0.0]), (150.0, [1.0]), (190.0, [0.0])]
+    assert [row[2] for row in rows if row[:2] == ['lamp', 'bathroom0']][1:] == [
+        'OFF 0 W', 'ON 10 W', 'OFF 0 W']
+    assert [row[2] for row in rows if row[:2] == ['appliance', 'livingroom_tv0']][-2:] == [
+        'ON 73.2 W', 'OFF 0.5 W']  # on standby
     assert found['line']['ribbon'] == [['anna', [
         [0.0, 100.0, 'sleep'], [100.0, 110.0, 'wash'], [110.0, 200.0, 'wash'],
         [200.0, 86400.0, 'work']]]]
@@ -108,6 +123,14 @@ def test_a_link_opens_at_its_time(server: Server, tmp_path: Path) -> None:
         page.until('return window.angen?.player.loaded === 86400')
         page.until('return angen.home.rows.get("person/anna")?.text.endsWith("· wash")')
         assert page.run('return angen.player.time') >= 105
+        lit = 'return angen.plan.items.get("room/bathroom0").classList.contains("lit")'
+        assert not page.run(lit)
+        page.run('angen.player.seek(155)')
+        assert page.until(lit)
+        page.run('angen.player.playing = false; angen.player.seek(150.5); angen.player.next()')
+        assert page.run('return angen.player.time') == 160  # of the next event
+        page.run('angen.player.seek(195)')
+        page.until(lit.replace('return ', 'return !'))
         assert page.errors() == []
     finally:
         page.close()

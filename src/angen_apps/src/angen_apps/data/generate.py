@@ -28,6 +28,7 @@ from angen_tools.common.files import check_folder, make_folder, write_csv, write
 from angen_tools.common.progress import Progress
 
 MANIFEST, HOME = 'manifest.json', 'home.json'
+LOADS = 'loads.csv.gz'  # W of each lamp and appliance from a time on
 AGAIN = 5  # times that the pool is made again after its processes died
 MIXED = ('worker', 'retired', 'student', 'night_shift_worker', 'elder_with_dementia')
 
@@ -159,9 +160,9 @@ def finished(job: Job) -> dict[str, Any] | None:
 
 
 def write_truth(folder: Path, data: run.Data) -> list[Path]:
-    """truth.csv.gz, missed.csv, faults.csv, layout.json and track.csv.gz."""
+    """truth.csv.gz, missed.csv, faults.csv, layout.json, track.csv.gz and loads.csv.gz."""
     paths = [folder / 'truth.csv.gz', folder / 'missed.csv', folder / 'faults.csv',
-             folder / 'layout.json', folder / 'track.csv.gz']
+             folder / 'layout.json', folder / 'track.csv.gz', folder / LOADS]
     with zipped(paths[0]) as file:
         writer = csv.writer(file, lineterminator='\n')
         writer.writerow(truth.HEAD)
@@ -187,6 +188,12 @@ def write_truth(folder: Path, data: run.Data) -> list[Path]:
         file.write('time,resident,x,y,storey\n')
         file.writelines(f'{t:.3f},{who},{x:.3f},{y:.3f},{storey}\n'
                         for t, who, x, y, storey in data.track)
+    with zipped(paths[5]) as file:
+        file.write('time,kind,device,watts\n')
+        file.writelines(f'{time:.3f},{device.replace("/", ",", 1)},{watts:.3f}\n'
+                        for time, device, watts in sorted(
+                            (time, device, watts) for device, line in data.power.items()
+                            for time, watts in line))
     write_text(paths[3], json.dumps(_rounded(layout), indent=1) + '\n')
     return paths
 

@@ -10,7 +10,7 @@ from typing import Any, Iterator, NamedTuple
 
 import numpy as np
 
-from angen_apps.data.generate import HOME, sha256
+from angen_apps.data.generate import HOME, LOADS, sha256
 from angen_apps.data.site import Site, apartment
 from angen_apps.data.validate import homes, rows
 from angen_apps.residents.figures import walker
@@ -22,6 +22,7 @@ from angen_tools.common.files import write_text
 from angen_tools.common.wait import wait
 
 DAY = 86400.0  # s
+STANDBY = 0.05  # of the most W of an appliance: with less it is off
 RATE = 20.0  # simulated s per s, while leaves are measured
 LIMIT = 120.0  # s of wall time, for the node to serve what is read of it
 POSTURES = {'stand': 'standing', 'sit': 'sitting', 'lie': 'lying'}
@@ -42,10 +43,16 @@ class Moment(NamedTuple):
     yaw: float | None = None
     text: str = ''
     speed: float = 0.0
+    floor: float | None = None  # m of height
 
 
-def moment_of(row: dict[str, str], things: dict[str, Any]) -> Moment:
+def moment_of(row: dict[str, str], things: dict[str, Any], floors: dict[str, float]) -> Moment:
     """The start of an interval of the truth."""
+    found = _moment(row, things)
+    return found._replace(floor=floors.get(row['room']))
+
+
+def _moment(row: dict[str, str], things: dict[str, Any]) -> Moment:
     start, x, y = float(row['start']), float(row['x']), float(row['y'])
     doing = row['activity'].replace('_', ' ')
     if row['phase'] == 'away':
@@ -101,6 +108,8 @@ class Day(Played):
                 site.world.spawn(walker(resident['name'], resident['speed'], 'person'),
                                  resident['name'], [*room.center, room.floor, 0.0, 0.0, 0.0])
         self._sources = {name: (kind, model) for kind, name, model, _ in site.world.entities()}
+        self._floors = {room.name: room.floor for room in site.home.rooms}
+        self._elevations = {storey.number: storey.elevation for storey in site.home.storeys}
         write_text(path, site.world.save())
 
     def _truth(self) -> Iterator[dict[str, str]]:
@@ -159,11 +168,16 @@ class Day(Played):
         for i, link in enumerate(scene['links']):
             if link['moves']:
                 self._links[link['model']].append(i)
+        models = {e['name']: e['model'] for e in self.store.part('entities')
+                  if e['kind'] == 'lamp'}
+        self._lights = {name: [i for i, light in enumerate(scene['lights'])
+                               if light['model'] == model] for name, model in models.items()}
         self._closed, self._opened = closed, opened
         for link, pose in closed.items():
             self._place(0.0, link, pose)
         self._play_residents()
         self._play_events()
+        self._play_loads()
         ribbon = [[name, [[float(r['start']), float(r['end']), r['activity']]
                           for r in self._truth() if r['resident'] == name]]
                   for name in self._people]
@@ -178,19 +192,21 @@ class Day(Played):
         things = {thing['name']: thing for thing in self.store.part('home')['things']}
         moments: dict[str, list[Moment]] = defaultdict(list)
         for row in self._truth():
-            moments[row['resident']].append(moment_of(row, things))
+            moments[row['resident']].append(moment_of(row, things, self._floors))
             self.store.add_event([float(row['start']), 'resident', row['resident'], row['phase'],
                                   ' '.join(filter(None, (row['activity'], row['room'])))])
         for step in rows(self._data / 'track.csv.gz'):
             moments[step['resident']].append(
-                Moment(float(step['time']), 1, float(step['x']), float(step['y'])))
+                Moment(float(step['time']), 1, float(step['x']), float(step['y']),
+                       floor=self._elevations.get(int(step.get('storey') or 0))))
         for name in self._people:
             self._walk(name, sorted(moments[name], key=lambda m: (m.time, m.rank)))
 
     def _walk(self, name: str, moments: list[Moment]) -> None:
         """Poses and texts of a resident; who walks faces ahead."""
         link = self._links[name][0]
-        height = float(self._closed[link][2])
+        floor = next((m.floor for m in moments if m.floor is not None), 0.0)
+        above = float(self._closed[link][2]) - floor  # of the body's origin
         at, yaw = (0.0, 0.0), 0.0
         for m in moments:
             if math.isnan(m.x):  # away
@@ -199,8 +215,8 @@ class Day(Played):
                 yaw = m.yaw
             elif math.dist((m.x, m.y), at) > 0.02:
                 yaw = math.atan2(m.y - at[1], m.x - at[0])
-            at = (m.x, m.y)
-            self._place(m.time, link, (m.x, m.y, height, 0, 0, math.sin(yaw / 2),
+            at, floor = (m.x, m.y), floor if m.floor is None else m.floor
+            self._place(m.time, link, (m.x, m.y, floor + above, 0, 0, math.sin(yaw / 2),
                                        math.cos(yaw / 2)))
             if m.text:
                 self.store.put_rows([('person', name, m.text, False, m.time,
@@ -243,6 +259,32 @@ class Day(Played):
                 self._place(time, link, poses[link])
         self.store.put_rows([(leaf['kind'], leaf['name'], 'OPEN' if is_open else 'CLOSED', False,
                               time, [])], False)
+
+    def _play_loads(self) -> None:
+        """Lamps and appliances as they were switched; the most of a day is full light."""
+        path = self._data / LOADS
+        if not path.is_file():
+            return  # data of an earlier version
+        loads = [(float(row['time']), row['kind'], row['device'], float(row['watts']))
+                 for row in rows(path)]
+        most: dict[str, float] = defaultdict(float)
+        for _, kind, name, watts in loads:
+            most[f'{kind}/{name}'] = max(most[f'{kind}/{name}'], watts)
+        for time, kind, name, watts in loads:
+            share = watts / most[f'{kind}/{name}'] if watts else 0.0
+            word = 'ON' if share > STANDBY else 'OFF'
+            if kind == 'lamp':
+                self._shine(time, name, share)
+            self.store.put_rows([(kind, name, f'{word} {watts:g} W', False, time,
+                                  self._values(kind, 'power', watts))], False)
+            if time > 0.0:
+                self.store.add_event([time, kind, name, word.lower(), f'{watts:g} W'])
+
+    def _shine(self, time: float, lamp: str, share: float) -> None:
+        lights = np.array(self._lights.get(lamp, []), np.uint32)
+        none = np.zeros(0, np.uint32)
+        self.store.put_changes(self._revision, none, np.zeros((0, 7), np.float32), lights,
+                               np.full(len(lights), share, np.float32), time)
 
     def _values(self, kind: str, name: str, value: float) -> list[float | None]:
         """As the fields of a summary, of which one is known."""
