@@ -23,6 +23,7 @@
 #include "node/node.h"
 #include "node/other_node.h"
 #include "node/rescue.h"
+#include "node/text.h"
 #include "plugin/library.h"
 #include "record/recorder.h"
 #include "record/replay.h"
@@ -38,7 +39,8 @@ constexpr char kUsage[] =
     "                  [_fast:=false] [_topics:=sensor|kind] [_record:=FILE]\n"
     "                  [_replay:=FILE [_until:=SECONDS]] [_allow_paths:=false] [_rescue:=FILE]\n"
     "                  [_memory_limit:=4096] [_states_rate:=30] [_strict:=true|false]\n"
-    "                  [_odom_parent:=world|none] [_replace:=true]\n"
+    "                  [_odom_parent:=world|none] [_commands:='TARGET TEXT; ...']\n"
+    "                  [_replace:=true]\n"
     "       angen_node --check WORLD    only loads; exit code 1 when it cannot\n"
     "WORLD may also be the parameter ~world. Where the ROS master was restarted, the node\n"
     "saves the world in FILE and ends with exit code 75.\n";
@@ -233,6 +235,16 @@ void set_strict_by_param() {
   }
 }
 
+/// ~commands are executed before the first tick, so that runs with the same ones are equal.
+void post_commands(Simulation& simulation, bool replays) {
+  std::vector<angen::sim::Action> actions =
+      angen::node::listed_actions(param_or<std::string>("~commands", ""));
+  if (replays && !actions.empty()) {
+    throw angen::Error("~commands begin a run; a replay has those of its log");
+  }
+  for (angen::sim::Action& action : actions) simulation.post(std::move(action));
+}
+
 int save_and_end(Simulation& simulation, const std::string& path) {
   angen::node::rescue(simulation, path);
   std::fprintf(stderr,
@@ -280,6 +292,7 @@ int run(std::string path, std::unique_ptr<Simulation> simulation) {
   check_rate(settings.rate, running.snapshot()->step);
   const auto recorder = make_recorder(path, settings, running);
   settings.recorder = recorder.get();
+  post_commands(running, replay != nullptr);
   settings.paused_after = param_or("~paused", false);
   if (settings.paused_after && !replay) running.post(angen::sim::Pause{true});
   if (!ros::param::has("/use_sim_time")) ros::param::set("/use_sim_time", true);

@@ -1,6 +1,7 @@
 #include "node/text.h"
 
 #include <algorithm>
+#include <sstream>
 #include <utility>
 
 #include "core/diagnostics.h"
@@ -65,6 +66,18 @@ sim::Action any_action(const std::string& target, const std::string& text) {
   if (name.empty()) return wrong("no target");
   if (unquoted(without_typography(text)).empty()) return wrong("no text");
   return sim::ToDevice{"", name, {trimmed(text)}};
+}
+
+std::vector<sim::Action> listed_actions(const std::string& list) {
+  std::vector<sim::Action> actions;
+  std::istringstream entries(list);
+  for (std::string entry; std::getline(entries, entry, ';');) {
+    entry = trimmed(entry);
+    if (entry.empty()) continue;
+    const std::size_t blank = std::min(entry.find(' '), entry.size());
+    actions.push_back(any_action(entry.substr(0, blank), entry.substr(blank)));
+  }
+  return actions;
 }
 
 }  // namespace angen::node

@@ -49,6 +49,16 @@ TEST(AnyText, CurlyQuotesAreLeftOut) {
   EXPECT_TRUE(says(rejection(any_action("a", "\u201C\u201D")), "no text"));
 }
 
+TEST(ListedText, TargetsAndTextsInOrder) {
+  const std::vector<sim::Action> actions =
+      listed_actions(" lamp/all On;door/kitchen0  Set -1.2 ; ;");
+  ASSERT_EQ(actions.size(), 2U);
+  EXPECT_EQ(sent(actions[0]), "/lamp/all: On");
+  EXPECT_EQ(sent(actions[1]), "/door/kitchen0: Set -1.2");
+  EXPECT_TRUE(listed_actions("").empty());
+  EXPECT_TRUE(says(rejection(listed_actions("kitchen0").at(0)), "no text"));
+}
+
 TEST(DoorText, VerbsAndNames) {
   EXPECT_EQ(sent(topic_action(door(), "Open, bathroom1")), "door/bathroom1: Open");
   EXPECT_EQ(sent(topic_action(door(), "Close, all")), "door/all: Close");

@@ -6,13 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from angen_tools.entry.run import absolute, help_text, with_world
+from angen_tools.entry.run import help_text, resolved, with_world
 
 
 def test_the_rest_of_the_words_stays(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv('ANGEN_MODEL_PATH', '/mine')
     monkeypatch.setenv('GAZEBO_RESOURCE_PATH', '')
-    words = ['--screen', 'world:=/a/b.world', 'seed:=7', 'replay:=/a/bug.log', 'until:=3']
+    words = ['--screen', 'world:=/a/b.world', 'seed:=7', 'replay:=/a/bug.log', 'until:=3',
+             'commands:=lamp/all On']
     for _ in range(2):
         assert with_world(words, Path('/run/rescued.world')) == [
             '--screen', 'world:=/run/rescued.world', 'seed:=7']
@@ -29,8 +30,13 @@ def test_no_log_is_written_over(tmp_path: Path) -> None:
 
 def test_files_are_those_of_this_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    assert absolute('world:=a.world') == f'world:={tmp_path}/a.world'
-    assert absolute('seed:=1') == 'seed:=1' and absolute('--screen') == '--screen'
+    assert resolved('world:=a.world') == f'world:={tmp_path}/a.world'
+    assert resolved('seed:=1') == 'seed:=1' and resolved('--screen') == '--screen'
+
+
+@pytest.mark.parametrize('given, seconds', [('41.5', '41.5'), ('2min', '120'), ('1h30m', '5400')])
+def test_times_are_in_seconds(given: str, seconds: str) -> None:
+    assert resolved(f'until:={given}') == f'until:={seconds}'
 
 
 def test_what_to_try_fits_the_world() -> None:

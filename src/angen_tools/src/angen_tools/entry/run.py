@@ -10,9 +10,11 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, NoReturn
 
+from angen_tools.common.clock import duration
 from angen_tools.common.failure import Failure
 from angen_tools.common.watchdog import watchdog
 from angen_tools.entry.arguments import check_arguments, kinds
@@ -21,6 +23,7 @@ from angen_tools.entry.master import running_node, start_master
 from angen_tools.entry.rescue import Rescue
 
 FILES = ('world', 'record', 'replay', 'residents')  # arguments
+TIMES = ('until',)
 END_LIMIT = 4.0  # s for an orderly end
 SAVE_LIMIT = 30.0  # s that the node has to notice that its master is another, and save the world
 TURN = 0.1
@@ -127,15 +130,18 @@ def with_world(words: list[str], world: Path) -> list[str]:
             other for number in itertools.count(2)
             if not (other := log.with_name(f'{log.stem}_{number}{log.suffix}')).exists()))
         say(f"it is recorded into {given['record']} from here")
-    changed = {**given, 'world': str(world), 'replay': '', 'until': ''}
+    changed = {**given, 'world': str(world), 'replay': '', 'until': '', 'commands': ''}
     return [*(word for word in words if ':=' not in word),
             *(f'{name}:={value}' for name, value in changed.items() if value)]
 
 
-def absolute(word: str) -> str:
-    """roslaunch starts nodes in another folder."""
+def resolved(word: str) -> str:
+    """A file by its absolute path, as roslaunch starts nodes in another folder; a time in s."""
     name, _, value = word.partition(':=')
-    return f'{name}:={os.path.realpath(value)}' if name in FILES else word
+    if name in TIMES:
+        with suppress(ValueError):  # a number alone is in s already
+            value = f'{duration(value):.9g}'
+    return f'{name}:={os.path.realpath(value) if name in FILES else value}' if value else word
 
 
 def help_text(angen: Path, words: list[str]) -> str:
@@ -151,7 +157,7 @@ def run(launch: Path, words: list[str]) -> int:
     stay_local()
     uri = get_master_uri()
     require_no_other(uri)
-    words = [absolute(word) for word in words]
+    words = [resolved(word) for word in words]
     hidden = 'gui' not in kinds(launch) or {'gui:=false', 'headless:=true'} & set(words)
     if not hidden and not has_display():
         say('no display, so no rviz; the building runs all the same')
