@@ -14,6 +14,7 @@ namespace angen::devices {
 namespace {
 
 constexpr double kOpen = -1.57;          // rad, the usual open_position
+constexpr double kRounded = 0.002;       // rad that a command may exceed a limit: 90 degrees do
 constexpr double kClosedWithin = 0.01;   // rad
 constexpr double kOpenWithin = 0.02;     // rad
 constexpr double kArriveError = 0.0015;  // rad
@@ -152,12 +153,13 @@ Verdict Door::command(const Command& command, const View& view) {
   double target = opens ? open_position_ : closed_position_;
   if (command.verb == "Set") {
     target = command.number;
-    if (target < limits_.lower || target > limits_.upper) {
+    if (target < limits_.lower - kRounded || target > limits_.upper + kRounded) {
       std::ostringstream reason;
       reason << "the angle " << target << " is outside the hinge's " << range_text(limits_)
              << " rad";
       return Verdict::reject(reason.str());
     }
+    target = std::clamp(target, limits_.lower, limits_.upper);
   }
   return Verdict::accept([this, target, by_hand, position = view.joint(hinge_).position] {
     go(target, position, by_hand);

@@ -55,6 +55,17 @@ TEST(Door, OvershootsAnAngleAwayFromTheStopByLessThanFivePercent) {
   }
 }
 
+// An angle in degrees is rounded: -90 are -1.5708 rad, and the hinge ends at -1.57.
+TEST(Door, TakesAnAngleThatIsRoundedBeyondItsHinge) {
+  Bench bench;
+  Rig& door = add_door(bench);
+  EXPECT_FALSE(door.command("Set -1.58").accepted);
+  ASSERT_TRUE(door.command("Set -1.5708").accepted);
+  bench.run(6.0);
+  EXPECT_NEAR(angle(door), -1.57, 0.006);
+  EXPECT_EQ(door.mode(), "OPEN");
+}
+
 TEST(Door, ClosesWithinTwoMilliradians) {
   Bench bench;
   DoorMeasures measures;
