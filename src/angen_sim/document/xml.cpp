@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/nearest.h"
 #include "core/plain_file.h"
 #include "core/text.h"
 #include "core/typography.h"
@@ -25,6 +26,25 @@ std::size_t allowed_prefix(const std::string& text) {
     return static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r';
   });
   return static_cast<std::size_t>(bad - text.begin());
+}
+
+// The file whose name differs from a missing one's by a typing error, as what would be right.
+std::string file_like(const std::filesystem::path& missing) {
+  constexpr std::size_t kTypingError = 2;
+  constexpr int kMostFiles = 1000;
+  const std::filesystem::path folder = missing.parent_path();
+  std::error_code failed;
+  std::filesystem::directory_iterator files(folder.empty() ? "." : folder, failed);
+  std::vector<std::string> names;
+  for (int k = 0; !failed && k < kMostFiles && files != std::filesystem::end(files); ++k) {
+    names.push_back(files->path().filename().string());
+    files.increment(failed);
+  }
+  const std::string name = missing.filename().string();
+  const std::vector<std::string> nearest = nearest_names(name, names, 1);
+  const std::size_t errors = nearest.empty() || name.empty() ? 0 : edits(name, nearest[0]);
+  const bool like = errors > 0 && errors <= kTypingError;
+  return like ? "did you mean " + (folder / nearest[0]).string() + "?" : "give a file that exists";
 }
 
 // tinyxml2 makes any bytes of a reference such as &#xD800; or &#1;.
@@ -312,7 +332,7 @@ std::string read_file(const std::string& path) {
   }
   std::ifstream stream(path, std::ios::binary);
   const auto size = std::filesystem::file_size(path, failed);
-  if (!stream || failed) throw Error({path, 0}, "cannot be read; give a file that exists");
+  if (!stream || failed) throw Error({path, 0}, "cannot be read; " + file_like(path));
   if (size > kMaxFileBytes) throw Error({path, 0}, "larger than 64 MB, which no file may be");
   std::ostringstream text;
   text << stream.rdbuf();

@@ -1,5 +1,8 @@
 #include "document/xml.h"
 
+#include <filesystem>
+#include <fstream>
+
 #include "angen_sim/sdf/texts.h"
 
 namespace angen::load {
@@ -29,6 +32,24 @@ TEST(Xml, ElementsAreBounded) {
   parse_xml(in_world(many + spaces), "w.world");
   for (int i = 0; i < 300'000; ++i) many += "<x/>";
   EXPECT_NE(error_of(in_world(many + spaces)).find("more than 400000 elements"), std::string::npos);
+}
+
+TEST(Xml, AMissingFileIsNamedByOneThatIsNear) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "near";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "flat.world") << "<sdf/>";
+  const auto problem = [&](const std::string& name) -> std::string {
+    try {
+      read_file((folder / name).string());
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(problem("flat.wrld").find("did you mean " + (folder / "flat.world").string() + "?"),
+            std::string::npos);
+  EXPECT_NE(problem("house.world").find("give a file that exists"), std::string::npos);
+  EXPECT_EQ(problem("flat.world"), "");
 }
 
 // The parser would compare each attribute with all before it: 20,000 took 5 s.
