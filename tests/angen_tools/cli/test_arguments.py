@@ -13,7 +13,8 @@ from angen_tools.cli import arguments
 @pytest.mark.parametrize('parse, text, value', [
     (arguments.at_least(1), '3', 3), (arguments.counts, '0, 10,100', [0, 10, 100]),
     (arguments.window, '1', 1.0), (arguments.duration, '1e-3', 1e-3), (arguments.rate, '0', 0.0),
-    (arguments.degrees, '180', math.pi), (arguments.setting, 'a/b=c=d', ('a/b', 'c=d')),
+    (arguments.degrees, '180', math.pi),
+    (arguments.degrees, '180deg', math.pi), (arguments.setting, 'a/b=c=d', ('a/b', 'c=d')),
     (arguments.link, 'table::body', 'table::body'), (arguments.new_name, 'my table', 'my table')])
 def test_what_fits_is_its_value(parse: Callable[[str], Any], text: str, value: Any) -> None:
     assert parse(text) == value

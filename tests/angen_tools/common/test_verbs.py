@@ -15,7 +15,8 @@ from angen_tools.common.catalog import kind_of
     ('heater', '0', 'Set 0'), ('drive', '0.2 -0.1', '0.2 -0.1'), ('drive', '0.2, -0.1', '0.2 -0.1'),
     ('drive', 'stop', 'Stop'), ('person', 'go', 'Go'),
     ('person', 'goto 1.5, -2', 'GoTo 1.5 -2'), ('door', 'unlatch', 'Unlatch'),
-    ('climate', '-5', 'Outside -5')])
+    ('climate', '-5', 'Outside -5'), ('door', '-90deg', 'Set -1.57079633'),
+    ('door', 'set -45°', 'Set -0.785398163'), ('lamp', '40deg', None), ('door', '90degrees', None)])
 def test_values_become_commands(kind: str, words: str, text: str | None) -> None:
     if text is None:
         with pytest.raises(ValueError):
@@ -41,6 +42,14 @@ def test_what_is_not_a_command_says_what_is(kind: str, words: str, part: str) ->
     with pytest.raises(ValueError) as error:
         verbs.parse(kind_of(kind), words.split())
     assert part in str(error.value)
+
+
+def test_an_angle_of_more_than_a_turn_may_be_in_degrees(capsys: pytest.CaptureFixture[str]
+                                                        ) -> None:
+    assert verbs.parse(kind_of('door'), ['-90']).text == 'Set -90'
+    assert '-90 degrees are -90deg' in capsys.readouterr().err
+    verbs.parse(kind_of('door'), ['-90deg'])
+    assert not capsys.readouterr().err
 
 
 def test_the_number_of_a_verb_comes_with_it() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any, Iterator, Sequence
 
-from angen_tools.offline.day import Order
+from angen_tools.offline.day import Order, checked_orders
 from angen_apps.care.engine import Change, Engine
 from angen_apps.care.rules import Rules
 from angen_apps.care.signals import Event
@@ -41,7 +41,7 @@ class Watched:
 
     def run(self, seconds: float, orders: Sequence[Order]) -> None:
         """Simulates up to a time, with commands at theirs."""
-        waiting = [order for order in orders if order.time < seconds]
+        waiting = [order for order in checked_orders(self._world, orders) if order.time < seconds]
         with Progress('care') as progress:
             while self.time < seconds - 1e-6:
                 while waiting and waiting[0].time <= self.time:

@@ -9,10 +9,10 @@ import sys
 from typing import Any, Callable
 
 from angen_tools.common import clock
+from angen_tools.common.angle import warn_of_turns
 from angen_tools.common.verbs import number
 
 LONGEST = sys.float_info.max  # s
-MOST_TURN = 6.3  # rad
 
 
 def checked(check: Callable[[str], Any]) -> Callable[[str], Any]:
@@ -34,6 +34,16 @@ def at_least(least: int) -> Callable[[str], int]:
             value = least - 1
         if value < least:
             raise ValueError(f"'{text}' is not a whole number of at least {least}")
+        return value
+    return whole
+
+
+def between(least: int, most: int) -> Callable[[str], int]:
+    """A whole number within these."""
+    def whole(text: str) -> int:
+        value = int(text) if text.isascii() and text.isdigit() else least - 1
+        if not least <= value <= most:
+            raise ValueError(f"'{text}' is not a whole number of {least} to {most}")
         return value
     return whole
 
@@ -83,7 +93,7 @@ def rate(text: str) -> float:
 
 def degrees(text: str) -> float:
     """An angle in degrees as rad."""
-    value = number(text)
+    value = number(text.removesuffix('deg').removesuffix('°'))
     if not math.isfinite(value):
         raise ValueError(f"'{text}' is not an angle in degrees")
     return math.radians(value)
@@ -92,10 +102,8 @@ def degrees(text: str) -> float:
 def pose(text: str) -> Any:
     from angen_tools.world.sdf import parse_pose
     numbers = parse_pose(text)
-    for angle in numbers[3:]:
-        if abs(angle) > MOST_TURN:
-            print(f'angen: warning: the angle {angle:g} of the pose is in rad, more than a turn; '
-                  f'{angle:g} degrees are {angle:g}deg', file=sys.stderr)
+    for word in text.replace(',', ' ').split()[3:]:
+        warn_of_turns(word)
     return numbers
 
 

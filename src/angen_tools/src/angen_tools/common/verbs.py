@@ -5,6 +5,7 @@ import math
 from dataclasses import dataclass
 from typing import Any, Sequence
 
+from angen_tools.common.angle import in_radians, warn_of_turns
 from angen_tools.common.catalog import Plugin
 
 
@@ -35,7 +36,7 @@ def parse(kind: Plugin, words: Sequence[str]) -> Order:
         return counted
     with_number = [v for v in kind['verbs'] if v['argument']]
     if len(with_number) == 1 and len(given) == with_number[0].get('count', 1) and all(
-            math.isfinite(number(word.removesuffix('%'))) for word in given):
+            math.isfinite(number(in_radians(word.removesuffix('%')))) for word in given):
         return _with_verb(kind, with_number[0], given)
     raise ValueError(f"'{' '.join(words)}' is not a command of {article(kind['kind'])}, "
                      f'which takes {forms_in_words(kind)}')
@@ -61,7 +62,7 @@ def _with_verb(kind: Plugin, verb: dict[str, Any], rest: Sequence[str]) -> Order
     if len(rest) != count:
         numbers_of = 'one number of' if count == 1 else f'{count} numbers,'
         raise ValueError(f'{verb["name"].lower()} takes {numbers_of} {verb["argument"]}; {takes}')
-    words = [word.removesuffix(verb['unit']) if verb['unit'] == '%' else word for word in rest]
+    words = [_plain(verb['unit'], word) for word in rest]
     numbers = [number(word) for word in words]
     for given, word, value in zip(rest, words, numbers):
         whole = word.isascii() and word.isdigit()
@@ -73,6 +74,15 @@ def _with_verb(kind: Plugin, verb: dict[str, Any], rest: Sequence[str]) -> Order
         if not _bound(verb['min'], -math.inf) <= value <= _bound(verb['max'], math.inf):
             raise ValueError(f"'{given}' is out of range; {takes}")
     return Order(' '.join([verb['name'], *words]), verb, numbers[0])
+
+
+def _plain(unit: str, word: str) -> str:
+    """A number without its unit: of 40% 40, of 90deg rad. An angle may be in degrees by mistake,
+    which it warns of."""
+    if unit == 'rad':
+        warn_of_turns(word)
+        return in_radians(word)
+    return word.removesuffix(unit) if unit == '%' else word
 
 
 def _bound(value: float | None, otherwise: float) -> float:

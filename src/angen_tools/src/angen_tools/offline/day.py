@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import csv
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Sequence
 
@@ -31,8 +31,10 @@ class Order:
             world.command(self.kind, self.name, self.text)
 
 
-def check_orders(world: Any, orders: Sequence[Order]) -> None:
-    """Failure where a world has not the device of an order, or that does not take its words."""
+def checked_orders(world: Any, orders: Sequence[Order]) -> list[Order]:
+    """The orders in the words that the simulator takes; Failure where a world has not the device
+    of one, or that does not take its words."""
+    found = []
     for order in orders:
         try:
             kind = kind_of(order.kind)
@@ -40,9 +42,10 @@ def check_orders(world: Any, orders: Sequence[Order]) -> None:
             if order.name not in names:
                 raise Failure(f"no {order.kind} is named '{order.name}'; "
                               + did_you_mean(order.name, names))
-            parse(kind, order.text.split())
+            found.append(replace(order, text=parse(kind, order.text.split()).text))
         except (Failure, ValueError) as error:
             raise Failure(f'{order.where}: {error}') from None
+    return found
 
 
 def read_day(path: Path, starts: float) -> list[Order]:

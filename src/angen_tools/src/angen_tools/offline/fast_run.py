@@ -14,7 +14,7 @@ from angen_tools.common.catalog import simulator
 from angen_tools.common.files import writing
 from angen_tools.common.home import Home
 from angen_tools.common.progress import Progress
-from angen_tools.offline.day import Order, check_orders, read_day
+from angen_tools.offline.day import Order, checked_orders, read_day
 from angen_tools.offline.events import COLUMNS, row
 from angen_tools.offline.readings import Writer, check_name, reading_table
 
@@ -53,8 +53,7 @@ def run(path: str, span: float, seed: int, out: Path, day: Path | None = None,
         check_name(readings)
     with simulator() as angen:
         world = angen.World(path, seed=seed)
-    orders = read_day(day, Home.of_world(world).time_of_day) if day else []
-    check_orders(world, orders)
+    orders = checked_orders(world, read_day(day, Home.of_world(world).time_of_day) if day else [])
     log = out / 'events.csv'
     began = time.monotonic()
     with ExitStack() as open_now:

@@ -7,7 +7,9 @@ from pathlib import Path
 
 from lxml import etree
 
+from angen_tools.common.angle import radians
 from angen_tools.common.failure import Failure
+from angen_tools.common.verbs import number
 
 
 def parse_pose(text: str) -> tuple[float, ...]:
@@ -19,16 +21,10 @@ def parse_pose(text: str) -> tuple[float, ...]:
                          '"x y z roll pitch yaw" in m and rad')
     numbers = []
     for place, word in enumerate(words):
-        in_degrees = place >= 3 and word.endswith(('deg', '°'))
-        try:
-            numbers.append(float(word.removesuffix('deg').removesuffix('°') if in_degrees
-                                 else word))
-        except ValueError:
-            raise ValueError(f"the pose holds '{word}', which is not a number") from None
+        numbers.append(number(word) if place < 3 else radians(word))
         if not math.isfinite(numbers[-1]):
-            raise ValueError(f"the pose holds '{word}', which is not finite")
-        if in_degrees:
-            numbers[-1] = math.radians(numbers[-1])
+            what = 'a number' if math.isnan(numbers[-1]) else 'finite'
+            raise ValueError(f"the pose holds '{word}', which is not {what}")
     return tuple(numbers + [0.0] * (6 - len(numbers)))
 
 

@@ -5,6 +5,7 @@ from typing import Sequence
 
 from lxml import etree
 
+from angen_tools.common.angle import in_radians
 from angen_tools.common.catalog import Plugin, has_parameter, kind_of, parameters
 from angen_tools.common.failure import Failure
 from angen_tools.common.nearest import did_you_mean
@@ -91,6 +92,8 @@ def _apply(sensor: etree._Element, kind: str, settings: Sequence[Setting]) -> No
         many = 'any number of times' in known[key]['type']
         if key in written and not many:
             raise Failure(f"'{given}' is set twice")
+        if known[key]['unit'] == 'rad':
+            value = in_radians(value)
         at = sensor if key.startswith(SENSOR_KEYS) else sensor.find('plugin')
         try:
             _write(at, key, value, many and key in written)
