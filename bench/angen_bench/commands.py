@@ -52,11 +52,11 @@ def run_bench_soak(args: argparse.Namespace) -> int:
 
 def run_bench_homes(args: argparse.Namespace) -> int:
     from angen_bench import homes
-    from angen_tools.common.output import show
+    from angen_tools.common.output import as_json, show
     check_folder(args.out)
     args.out.mkdir(parents=True, exist_ok=True)
     rows = homes.measure_seeds(args.seeds, args.out) if args.seeds else homes.measure(args.out)
-    show(homes.show_table(rows))
+    show(as_json(rows) if args.json else homes.show_table(rows))
     return 0
 
 
@@ -123,4 +123,5 @@ def add_commands(commands: Any) -> None:
                        'bench homes', 'bench homes --seeds 200')
     imported.add_argument('--seeds', metavar='N', type=checked(at_least(1)), default=0,
                           help='examines this number of homes of angen world home instead')
+    add_json(imported)
     add_out(imported, 'the worlds')

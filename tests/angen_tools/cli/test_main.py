@@ -1,6 +1,7 @@
 """The words of the angen command, and how it ends; no simulator runs here."""
 from __future__ import annotations
 
+import argparse
 import socket
 import subprocess
 import sys
@@ -67,6 +68,21 @@ def test_help_has_an_example_that_parses(words: str, capsys: pytest.CaptureFixtu
         program, *given = shlex.split(example.split('>>')[0])
         assert program == 'angen' and example.strip().startswith(f'angen {words}')
         assert cli.make_parser().parse_args(given).run
+
+
+NO_RESULT = {'drive', 'web', 'completion'}  # they print nothing that a program would read
+
+
+def test_every_command_that_prints_a_result_prints_json() -> None:
+    def without(parser: argparse.ArgumentParser, name: str) -> set[str]:
+        groups = [action for action in parser._actions
+                  if isinstance(action, argparse._SubParsersAction)]
+        if groups:
+            return set().union(*(without(sub, f'{name} {word}')
+                                 for word, sub in groups[0].choices.items()))
+        return set() if '--json' in parser._option_string_actions else {name.strip()}
+
+    assert without(cli.make_parser(), '') == NO_RESULT
 
 
 def test_help_needs_neither_ros_nor_lxml() -> None:

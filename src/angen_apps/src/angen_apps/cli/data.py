@@ -37,6 +37,10 @@ def run_generate(args: argparse.Namespace) -> int:
               args.format, args.start or '', str(args.world or ''), str(args.faults or ''),
               args.light, args.own_sensors)
     entries = generate(job, args.homes, args.processes, args.scheduler)
+    if args.json:
+        from angen_tools.common.output import as_json
+        print(as_json(entries))
+        return 0
     for entry in entries[:20]:
         who = ', '.join(f'{name} ({profile})' for name, profile in entry['residents'])
         print(f'{entry["name"]}: {entry["events"]} events of {entry["sensors"]} sensors; {who}')
@@ -118,6 +122,7 @@ def add_generate(commands: Any) -> None:
                       default=os.cpu_count() or 1, help='homes at a time (one a core)')
     made.add_argument('--scheduler', metavar='ADDRESS', default='',
                       help='of a Dask cluster whose workers see the output folder')
+    add_json(made)
     add_out(made, 'the data')
 
 

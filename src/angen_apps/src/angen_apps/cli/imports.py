@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from angen_tools.cli.arguments import checked
-from angen_tools.cli.parser import command
+from angen_tools.cli.parser import add_json, command
+from angen_tools.common.output import show_done
 
 SENSORS = ('seed', 'casas', 'none')
 
@@ -24,7 +25,7 @@ def pixel(text: str) -> float:
 
 def run_import(args: argparse.Namespace) -> int:
     from angen_apps.imports.command import import_home
-    print(import_home(args.file, args.output, args))
+    show_done(import_home(args.file, args.output, args), args.json)
     return 0
 
 
@@ -49,3 +50,4 @@ def add_import(commands: Any) -> None:
                         help='a table of furniture that precedes the built-in one')
     parser.add_argument('-o', '--output', metavar='FILE', type=Path, required=True,
                         help='the world that is written')
+    add_json(parser)

@@ -25,6 +25,8 @@ def run_locate(args: argparse.Namespace) -> int:
         with Progress('locate') as progress:
             rows, site, answers = locate_for(
                 args.span, lambda done: progress.update(done / args.span))
+    elif args.json:
+        args.parser.error('--json needs --for TIME')
     else:
         from angen_apps.locate.live import watch
         watch()

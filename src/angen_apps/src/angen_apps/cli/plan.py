@@ -5,13 +5,14 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from angen_tools.cli.parser import add_allow_paths, command
+from angen_tools.cli.parser import add_allow_paths, add_json, command
+from angen_tools.common.output import show_done
 
 
 def run_plan(args: argparse.Namespace) -> int:
     from angen_apps.plan.draw import draw
     from angen_apps.plan.overlays import What
-    print(draw(args.world, args.output, What(args.sensors, args.events, args.track)))
+    show_done(draw(args.world, args.output, What(args.sensors, args.events, args.track)), args.json)
     return 0
 
 
@@ -30,3 +31,4 @@ def add_plan(commands: Any) -> None:
     parser.add_argument('-o', '--output', metavar='FILE', type=Path, required=True,
                         help='a file .svg or .png')
     add_allow_paths(parser)
+    add_json(parser)

@@ -101,7 +101,7 @@ def goal_of(words: Sequence[str], home: Home, planners: Mapping[int, Planner]) -
         at = planner.nearest(room.center, REACH) if planner else None
         if at is None or not room.contains(*at):
             raise Failure(f'the robot finds no room to stand in {name}')
-        return Waypoint(name, room.storey, at, 1)
+        return Waypoint(name, room.storey, at, 0)
     try:
         numbers = [float(word) for word in words]
     except ValueError:
@@ -112,7 +112,7 @@ def goal_of(words: Sequence[str], home: Home, planners: Mapping[int, Planner]) -
     floor = numbers[2] if len(numbers) == 3 else 0.0
     if floor not in planners:
         raise Failure(f'there is no floor {floor:g}; known are {", ".join(map(str, planners))}')
-    return Waypoint(f'{numbers[0]:g} {numbers[1]:g}', int(floor), (numbers[0], numbers[1]), 1)
+    return Waypoint(f'{numbers[0]:g} {numbers[1]:g}', int(floor), (numbers[0], numbers[1]), 0)
 
 
 def drive(client: Client, route: Route, goal: Goal, place: Surveyed, start: Start) -> Arrived:

@@ -3,12 +3,13 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 from angen_apps.imports.picture import ENDINGS, is_map, read_map, read_picture
 from angen_apps.imports.rmf import read_rmf
 from angen_apps.imports.sweethome import read_sweethome
 from angen_apps.plan.model import Plan
-from angen_apps.plan.writer import write_world
+from angen_apps.plan.writer import write_world, written
 from angen_tools.common.failure import Failure
 
 SHOWN = 20  # remarks
@@ -26,14 +27,13 @@ def read_plan(path: Path, args: argparse.Namespace) -> Plan:
     return read_sweethome(path, args.things)
 
 
-def import_home(path: Path, output: Path, args: argparse.Namespace) -> str:
-    """Writes the world; returns the text to print: counts, and remarks."""
+def import_home(path: Path, output: Path, args: argparse.Namespace) -> dict[str, Any]:
+    """Writes the world; returns the result: counts, and remarks."""
     plan = read_plan(path, args)
     counts = write_world(plan, output, args.sensors)
-    words = ', '.join(f'{number} {name if number != 1 else name[:-1]}'
-                      for name, number in counts.items() if number)
-    lines = [f'wrote {output}: {words}']
+    done = written(output, counts)
+    lines = [done['text']]
     lines += [f'remark: {remark}' for remark in plan.remarks[:SHOWN]]
     if len(plan.remarks) > SHOWN:
         lines.append(f'and {len(plan.remarks) - SHOWN} more remarks')
-    return '\n'.join(lines)
+    return {**done, 'remarks': plan.remarks, 'text': '\n'.join(lines)}

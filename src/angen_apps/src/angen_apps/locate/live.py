@@ -139,7 +139,7 @@ def answers_table(answers: list[Answer], json: bool) -> RenderableType:
     """The answers as a table, or as JSON."""
     if json:
         return as_json([{'tag': a.tag, 'room': a.room or None, 'chance': round(a.chance, 3),
-                         'at': list(a.at) if a.room else None} for a in answers])
+                         'at': [round(v, 3) for v in a.at] if a.room else None} for a in answers])
     return table(HEAD, map(_cells, answers), right=('CHANCE', 'X', 'Y', 'Z'))
 
 

@@ -57,8 +57,8 @@ def read_scene(path: Path) -> Scene:
                  {thing.name: thing for thing in home.things})
 
 
-def draw(path: Path, output: Path, what: overlays.What) -> str:
-    """Draws a world's plan as SVG or PNG, by the ending of `output`."""
+def draw(path: Path, output: Path, what: overlays.What) -> dict[str, Any]:
+    """Draws a world's plan as SVG or PNG, by the ending of `output`; returns the result."""
     kind = output.suffix.lower().lstrip('.')
     if kind not in ('svg', 'png'):
         raise Failure(f'{output}: must end in .svg or .png')
@@ -83,8 +83,11 @@ def draw(path: Path, output: Path, what: overlays.What) -> str:
         figure.subplots_adjust(0.005, 0.005, 0.995, 1 - 0.35 / (high * inch + 0.6), 0.02)
         metadata = {'Date': None} if kind == 'svg' else {'Software': None}
         save_figure(figure, output, format=kind, dpi=DPI, metadata=metadata)
-    return (f'wrote {output}: {len(storeys)} storey{"s"[:len(storeys) > 1]}, '
-            f'{len(scene.home.rooms)} rooms, {len(scene.home.doors)} doors and windows')
+    counts = {'storeys': len(storeys), 'rooms': len(scene.home.rooms),
+              'doors_and_windows': len(scene.home.doors)}
+    return {'file': str(output), **counts,
+            'text': f'wrote {output}: {len(storeys)} storey{"s"[:len(storeys) > 1]}, '
+                    f'{counts["rooms"]} rooms, {counts["doors_and_windows"]} doors and windows'}
 
 
 def extent(scene: Scene, storey: Storey) -> tuple[float, float, float, float]:

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from math import cos, pi, sin
 from pathlib import Path
-from typing import Iterable
+from typing import Any, Iterable
 
 from lxml import etree
 
@@ -39,6 +39,13 @@ def write_world(plan: Plan, path: Path, sensors: str = 'seed') -> dict[str, int]
     root, counts = world_of(plan, sensors)
     write_text(path, f'<?xml version="1.0"?>\n{sdf.text(root)}')
     return counts
+
+
+def written(path: Path, counts: dict[str, int]) -> dict[str, Any]:
+    """The result of writing a world, for angen_tools.common.output.show_done."""
+    words = ', '.join(f'{number} {name if number != 1 else name[:-1]}'
+                      for name, number in counts.items() if number)
+    return {'file': str(path), **counts, 'text': f'wrote {path}: {words}'}
 
 
 def world_of(plan: Plan, sensors: str) -> tuple[etree._Element, dict[str, int]]:

@@ -43,8 +43,9 @@ class Route:
     elevator: Lift | None
 
     def wrong(self, waypoint: Waypoint, what: str) -> Failure:
-        """Failure that names a waypoint and its line."""
-        return Failure(f'{self.path}:{waypoint.line}: waypoint {waypoint.name}: {what}')
+        """Failure that names a waypoint, and its line in a file."""
+        where = f'{self.path}:{waypoint.line}: waypoint ' if waypoint.line else ''
+        return Failure(f'{where}{waypoint.name}: {what}')
 
 
 # key: least and greatest value that it may have, and the one that it has where it is not given

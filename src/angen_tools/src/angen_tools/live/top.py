@@ -40,7 +40,8 @@ def rows(cost: Any) -> list[list[str]]:
 
 def as_dict(cost: Any) -> dict[str, Any]:
     """The same for JSON, in µs per simulated second."""
-    return {'simulated': cost.simulated, 'elapsed': cost.elapsed, 'process': cost.process,
+    return {'units': {'simulated': 's', 'elapsed': 's', 'others': 'us per simulated s'},
+            'simulated': cost.simulated, 'elapsed': cost.elapsed, 'process': cost.process,
             **{part: getattr(cost, part) for part in PARTS},
             'instances': [{'kind': i.kind, 'name': i.name, 'cost': i.cost}
                           for i in cost.instances]}
