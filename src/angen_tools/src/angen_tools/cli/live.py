@@ -2,9 +2,10 @@
 from __future__ import annotations
 
 import argparse
+import shlex
 import sys
 from pathlib import Path
-from typing import Any, Sequence
+from typing import Any, Container, Sequence
 
 from angen_tools.cli import complete
 from angen_tools.cli.arguments import checked, link, new_name, pose, setting
@@ -179,15 +180,45 @@ def add_list(commands: Any) -> None:
     add_json(lists)
 
 
-def right_order(words: Sequence[str]) -> str:
-    """The corrected command for a name before its kind, as `set kitchen0 door open`; else ''."""
+def right_order(words: Sequence[str], commands: Container[str] = ()) -> str:
+    """The corrected command for a name before its kind, as `set kitchen0 door open`, a value before
+    its name, as `set door open kitchen0` and `open door kitchen0`, a missing `set` or NAME, or a
+    model as a kind, as `spawn chair c1`; else ''. `commands` are those of angen."""
+    devices = kinds('device')
+    if words and words[0] in commands and words[0] not in ('set', 'spawn'):
+        return ''
+    if len(words) >= 3 and words[0] in devices:
+        return shlex.join(['set', *words])
+    if len(words) == 3 and words[1] in devices and _takes(devices[words[1]], words[0]):
+        return shlex.join(['set', words[1], words[2], words[0]])
     if len(words) < 3 or words[0] not in ('set', 'spawn'):
         return ''
-    known = {*kinds('device' if words[0] == 'set' else 'sensor'),
-             *(('model', 'sitter') if words[0] == 'spawn' else ())}
-    if words[1] in known or words[2] not in known:
+    known = kinds('device' if words[0] == 'set' else 'sensor')
+    first, second, *rest = words[1:]
+    if words[0] == 'set' and not rest and first in known and _takes(known[first], second):
+        return f'set {first} NAME {second}'
+    if first in known and words[0] == 'set' and len(rest) == 1:
+        swapped = _takes(known[first], second) and not _takes(known[first], rest[0])
+        return shlex.join(['set', first, rest[0], second]) if swapped else ''
+    if words[0] == 'spawn' and first not in known and _is_model(first):
+        return shlex.join(['spawn', 'model', first, second, *rest])
+    if first in (*known, 'model', 'sitter') or second not in (*known, 'model', 'sitter'):
         return ''
-    return ' '.join([words[0], words[2], words[1], *words[3:]])
+    return shlex.join([words[0], second, first, *rest])
+
+
+def _takes(kind: Plugin, word: str) -> bool:
+    try:
+        return bool(verbs.parse(kind, [word]))
+    except ValueError:
+        return False
+
+
+def _is_model(name: str) -> bool:
+    """Whether model://NAME is found: not so of model and sitter, which are kinds to spawn."""
+    from angen_tools.world.models import addresses
+    return (name not in ('model', 'sitter')
+            and f'model://{name.removeprefix("model://")}' in addresses())
 
 
 def add_set(commands: Any) -> None:

@@ -35,11 +35,12 @@ class PrintVersion(argparse.Action):
 def make_parser() -> Parser:
     """All that the command understands."""
     parser = Parser(
-        prog='angen', description='Works on the running simulator. Each command has --help.',
+        prog='angen', description='Commands of the running simulator, and of files. Each has '
+        '--help; all but drive, web and completion have --json.',
         epilog='example:\n  angen list --kind door',
         formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('--version', action=PrintVersion, nargs=0, help='prints the version')
-    commands = parser.add_subparsers(metavar='COMMAND', required=True)
+    parser.kinds = commands = parser.add_subparsers(metavar='COMMAND', required=True)
     for add in (live.add_spawn, live.add_delete, live.add_list, offline.add_plugins, live.add_set,
                 live.add_save, live.add_watch, live.add_top, live.add_drive, offline.add_checks,
                 offline.add_run, offline.add_world, pid.add_pid, offline.add_replay,
@@ -65,9 +66,12 @@ def run(arguments: Sequence[str]) -> int:
         arguments = [*arguments[1:], '--help']
     if arguments and arguments[0] == 'run' and any(':=' in word for word in arguments):
         parser.error('NAME:=VALUE is for ./angen run, which runs ROS; angen run takes --fast')
-    meant = live.right_order(arguments)
+    if len(arguments) > 1 and arguments[0] == '--json':
+        parser.error(f'--json follows the command: angen {arguments[1]} --json')
+    meant = live.right_order(arguments, parser.kinds.choices)
     if meant:
-        parser.error(f"'{arguments[1]}' is not a kind; did you mean {meant}?")
+        given = ' '.join(arguments[:4 if arguments[0] == 'set' else 3])
+        parser.error(f"'{given}' is not understood; did you mean {meant}?")
     try:
         args = parser.parse_args(straightened(arguments))
         if getattr(args, 'allow_paths', False):  # also for the processes that this one starts

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from angen_tools.cli.arguments import at_least, checked, duration, moment
+from angen_tools.cli.complete import completed_by, kind_names
 from angen_tools.cli.parser import add_allow_paths, add_json, add_out, add_seed, command
 from angen_tools.common.files import check_folder
 from angen_tools.common.output import as_json, show, show_done
@@ -18,7 +19,7 @@ MOVERS = ('person', 'robot', 'nobody')
 
 def run_plugins(args: argparse.Namespace) -> int:
     from angen_tools.offline.plugins import list_plugins
-    show(list_plugins(args.json))
+    show(list_plugins(args.names, args.json))
     return 0
 
 
@@ -86,7 +87,10 @@ def run_replay(args: argparse.Namespace) -> int:
 
 def add_plugins(commands: Any) -> None:
     plugins = command(commands, 'plugins', run_plugins,
-                      'lists the plug-ins and their parameters; needs no simulator', 'plugins')
+                      'lists the plug-ins and their parameters; needs no simulator', 'plugins',
+                      'plugins door pir')
+    completed_by(plugins.add_argument('names', metavar='KIND', nargs='*', help='only these kinds'),
+                 kind_names)
     add_json(plugins)
 
 

@@ -3,17 +3,22 @@ from __future__ import annotations
 
 import argparse
 import re
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, Callable, NoReturn
 
 from angen_tools.cli.arguments import at_least, checked
+from angen_tools.common.catalog import kinds
 from angen_tools.common.nearest import did_you_mean
 
 Run = Callable[[argparse.Namespace], int]  # executes the command; returns the exit code
-# Other words for kinds, which no likeness of letters finds.
+# Other words for kinds and commands, which no likeness of letters finds.
 MEANT = {'light': 'lamp', 'bulb': 'lamp', 'lift': 'elevator', 'oven': 'stove', 'cooker': 'stove',
          'radiator': 'heater', 'robot': 'drive', 'human': 'person', 'motion': 'pir',
-         'lux': 'luminosity', 'touch': 'contact'}
+         'lux': 'luminosity', 'touch': 'contact', 'start': 'run', 'launch': 'run',
+         'simulate': 'run', 'add': 'spawn', 'remove': 'delete', 'rm': 'delete', 'ls': 'list',
+         'show': 'watch', 'status': 'watch', 'move': 'go', 'open': 'set', 'close': 'set'}
+ALIKE = 0.75  # of an option and the one that was meant
 NEGATIVE = re.compile(r'-\.?\d.*')  # -1.57 and -90deg are values, no options
 
 
@@ -30,8 +35,19 @@ class Parser(argparse.ArgumentParser):
         """Reports words that are too many with the subcommand that they follow."""
         found, extra = super().parse_known_args(args, namespace)
         if extra:
-            self.error(f'unrecognized arguments: {" ".join(extra)}')
+            self.error(f'unrecognized arguments: {" ".join(extra)}{self._meant(extra[0])}')
         return found, extra
+
+    def _meant(self, word: str) -> str:
+        """The option that a word was meant to be, for the end of an error."""
+        option = word.partition('=')[0]
+        for action in self._actions:
+            if not action.option_strings and option == f'--{str(action.metavar).lower()}':
+                return f'; give {action.metavar} without {option}'
+        likely = get_close_matches(option, self._option_string_actions, 1, ALIKE)
+        if '--kind' in self._option_string_actions and word in kinds():
+            likely = [f'--kind {word}']
+        return f'; did you mean {likely[0]}?' if likely else ''
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         """argparse's own check, which lists every choice there is."""

@@ -23,7 +23,7 @@ def did_you_mean(name: str, known: Iterable[str], listing: str = '') -> str:
 
     The command `listing` is named where there are more.
     """
-    every = set(known)
+    every = set(map(str, known))
     if not every:
         return 'there are none'
     *first, last = nearest(name, every)

@@ -35,9 +35,9 @@ def model_source(what: str) -> str:
         known = models.addresses()
         if f'model://{what}' in known:
             return f'model://{what}'
-        if '/' not in what and not path.suffix:
+        if '/' not in what and (not path.suffix or f'model://{path.stem}' in known):
             raise Failure(f"'{what}' is neither a file nor a model; "
-                          + did_you_mean(f'model://{what}', known))
+                          + did_you_mean(f'model://{path.stem}', known))
     if path.is_dir():
         if not any((path / name).exists() for name in ('model.config', 'model.sdf')):
             raise Failure(f'{what}: holds no model.config and no model.sdf')

@@ -64,8 +64,14 @@ def check(board: Board, rule: Filter) -> None:
     names = {name for _, name in board.rows}
     for name in rule.names:
         if name not in names:
-            raise Failure(f"no sensor or device named '{name}'; "
-                          + did_you_mean(name, names, 'angen watch --once'))
+            meant = (f'did you mean --kind {name}?' if name in kinds()
+                     else did_you_mean(name, names, 'angen watch --once'))
+            raise Failure(f"no sensor or device named '{name}'; {meant}")
+    if rule.room and not any(Filter(room=rule.room).passes(row.kind, row.name, row.room)
+                             for row in board.rows.values()):
+        rooms = {row.room for row in board.rows.values() if row.room}
+        raise Failure(f"no sensor or device is in a room '{rule.room}'; "
+                      + did_you_mean(rule.room, rooms))
     known = {kind for kind, _ in board.rows} | set(kinds())
     for kind in rule.kinds:
         if kind not in known:

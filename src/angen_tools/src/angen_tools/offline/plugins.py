@@ -1,9 +1,9 @@
 """angen plugins: the catalog of plug-ins, without a simulator."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Iterator
+from typing import TYPE_CHECKING, Any, Iterator, Sequence
 
-from angen_tools.common.catalog import Plugin, plugins
+from angen_tools.common.catalog import Plugin, kind_of, plugins
 from angen_tools.common.output import as_json, table
 from angen_tools.common.verbs import described_forms
 
@@ -11,13 +11,17 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
 
-def list_plugins(json: bool) -> RenderableType:
-    """Every kind on the plug-in path: its verbs, the fields of its state or reading, parameters."""
+def list_plugins(names: Sequence[str], json: bool) -> RenderableType:
+    """The kinds of these names on the plug-in path, or all: their verbs, the fields of their state
+    or reading, parameters. Failure where a name is not known."""
     from rich.console import Group
+    for name in names:
+        kind_of(name)
+    found = [plugin for plugin in plugins() if not names or plugin['kind'] in names]
     if json:
-        return as_json(plugins())
+        return as_json(found)
     parts: list[RenderableType] = []
-    for plugin in plugins():
+    for plugin in found:
         parts += [''] if parts else []
         parts.append('  '.join(filter(None, (plugin['kind'] or '(does not load)', plugin['role'],
                                              plugin['library'], plugin['doc']))))
