@@ -1,10 +1,14 @@
 """The shipped rules on the shipped days, simulated."""
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from angen_apps.imports.sweethome import read_sweethome
+from angen_apps.plan.writer import write_world
+from angen_bench import homes
 from angen_tools.common.clock import DAY, time_of_day
 from angen_tools.offline.day import read_day
 from angen_apps.care.offline import Watched
@@ -75,3 +79,20 @@ def test_the_day_does_not_depend_on_how_it_is_cut(monkeypatch: pytest.MonkeyPatc
     until = again.time
     assert [c for c in again.changes if c.time < until - 1] == [
         c for c in wrong.changes if c.time < until - 1]
+
+
+def test_residents_live_in_an_imported_home(tmp_path: Path) -> None:
+    """Rules by use of rooms get their signals from people who live there by habits."""
+    (tmp_path / 'studio.xml').write_bytes(homes.examples()['Studio'])
+    write_world(read_sweethome(tmp_path / 'studio.xml'), tmp_path / 'studio.world', 'seed')
+    rules = replace(read_rules(ROOT / 'src/angen_apps/config/care.yaml'), starts=7.75 * 3600)
+
+    def events(residents: tuple[str, ...]) -> list[Event]:
+        watched = Watched(rules, tmp_path / 'studio.world', 1, residents)
+        watched.run(240, [])
+        return watched.events
+
+    assert not any(event.event == 'motion' for event in events(()))
+    lived = events(('retired',))
+    assert {event.source.partition('_pir')[0] for event in lived if event.event == 'motion'} \
+        >= {'bedroom', 'hall'}

@@ -4,6 +4,7 @@ from __future__ import annotations
 import sys
 from contextlib import suppress
 from pathlib import Path
+from typing import Sequence
 
 from angen_tools.offline.day import read_day
 from angen_apps.care.report import as_dict, line_of, table_of, warnings_of, write, write_events
@@ -29,15 +30,15 @@ def care_live(path: Path | None, out: Path) -> int:
     return 0
 
 
-def care_offline(path: Path | None, world: Path, seconds: float, day: Path | None, seed: int,
-                 out: Path, json: bool) -> int:
+def care_offline(path: Path | None, world: Path, seconds: float, day: Path | None,
+                 residents: Sequence[str], seed: int, out: Path, json: bool) -> int:
     """Simulates a world for a time; prints its warnings and writes its events."""
     import time
 
     from angen_apps.care.offline import Watched
     rules = read_rules(path or shipped('care.yaml'))
     began = time.monotonic()
-    watched = Watched(rules, world, seed)
+    watched = Watched(rules, world, seed, residents)
     for why in watched.rules.left_out:
         print(f'angen: {why}', file=sys.stderr)
     starts = watched.engine.starts

@@ -9,6 +9,10 @@ from angen_apps.care.engine import Change, Engine
 from angen_apps.care.rules import Rules
 from angen_apps.care.signals import Event
 from angen_apps.care.sources import at_home, check_sources
+from angen_apps.data.run import first_day, residents_of
+from angen_apps.data.site import Site
+from angen_apps.residents.household import Household
+from angen_apps.residents.resident import make
 from angen_tools.common.catalog import kinds, simulator
 from angen_tools.common.home import Home
 from angen_tools.common.progress import Progress
@@ -20,14 +24,26 @@ FIRST = 1.1   # s after which each sensor has published
 class Watched:
     """A world in this process, the engine that follows it, and all that happened."""
 
-    def __init__(self, rules: Rules, world: Path, seed: int) -> None:
-        with simulator() as angen:
-            self._world = angen.World(str(world), seed=seed)
+    def __init__(self, rules: Rules, world: Path, seed: int, residents: Sequence[str] = ()
+                 ) -> None:
+        """`residents`: profiles of the people who live there, or how many they are."""
+        site = Site(world, seed, placed=False) if residents else None
+        if site is None:
+            with simulator() as angen:
+                self._world = angen.World(str(world), seed=seed)
+        else:
+            self._world = site.world
         existing = set(_existing(self._world))
         rules = at_home(rules, Home.of_world(self._world), _rooms(self._world), existing)
         names = {key.split('/', 1)[1] for key in existing}
         check_sources(rules, existing, names | set(self._world.models))
         self.rules = rules
+        self._live = self._world.run
+        if site is not None:
+            household = Household(site.simulator, site.ground, seed, world.stem,
+                                  first_day(site.home), rules.starts or 0.0)
+            make(household, residents_of(list(residents)))
+            self._live = lambda seconds: household.run(self.time + seconds)
         self.events: list[Event] = []
         self.changes: list[Change] = []
         self._run(FIRST)
@@ -54,7 +70,7 @@ class Watched:
     def _run(self, seconds: float) -> None:
         """Simulates `seconds`; at least a tick."""
         before = self._world.tick
-        self._world.run(seconds)
+        self._live(seconds)
         if self._world.tick == before:
             self._world.step()
 

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from angen_tools.common.clock import DAY
+from angen_apps.cli.data import residents
 from angen_tools.cli.arguments import checked, duration
 from angen_tools.cli.parser import add_allow_paths, add_json, add_out, add_seed, command
 from angen_tools.common.files import check_folder
@@ -15,12 +16,13 @@ def run_care(args: argparse.Namespace) -> int:
     from angen_apps.care.command import care_live, care_offline
     check_folder(args.out)
     if args.world is None:
-        for option, given in (('for', args.span), ('day', args.day), ('json', args.json)):
+        for option, given in (('for', args.span), ('day', args.day), ('json', args.json),
+                              ('residents', args.residents)):
             if given:
                 args.parser.error(f'--{option} needs --world')
         return care_live(args.rules, args.out)
-    return care_offline(args.rules, args.world, args.span or DAY, args.day, args.seed, args.out,
-                        args.json)
+    return care_offline(args.rules, args.world, args.span or DAY, args.day,
+                        args.residents, args.seed, args.out, args.json)
 
 
 def add_care(commands: Any) -> None:
@@ -29,6 +31,7 @@ def add_care(commands: Any) -> None:
                    'warns by rules over the sensors of a home, in the running simulator; with '
                    '--world it simulates a time of its own, without ROS', 'care',
                    'care my_rules.yaml -o my_run',
+                   'care --world home.world --residents 1 --for 24h',
                    'care --world worlds/care/wrong.world --day worlds/care/wrong.csv --for 24h')
     care.set_defaults(parser=care)
     care.add_argument('rules', metavar='RULES', nargs='?', type=Path,
@@ -39,7 +42,10 @@ def add_care(commands: Any) -> None:
                       help='how much time to simulate, as 90min (24h)')
     care.add_argument('--day', metavar='FILE', type=Path,
                       help='commands to devices: a CSV file with time,target,command')
-    add_seed(care, 'of all noise')
+    care.add_argument('--residents', metavar='WHO', type=residents, default=(),
+                      help='people who live there: how many, or profiles between commas, as of '
+                      'angen generate (none)')
+    add_seed(care, 'of all noise and habits')
     add_allow_paths(care)
     add_json(care)
     add_out(care, 'care.png, warnings.csv and, with --world, events.csv')

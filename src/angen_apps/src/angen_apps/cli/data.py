@@ -30,10 +30,15 @@ def date(text: str) -> str:
         raise ValueError(f"'{text}' is not a date as 2026-03-23") from None
 
 
+def residents(text: str) -> tuple[str, ...]:
+    """How many, or profiles between commas."""
+    return tuple(word.strip() for word in text.split(',') if word.strip())
+
+
 def run_generate(args: argparse.Namespace) -> int:
     from angen_apps.data.generate import Job, generate
     job = Job(str(args.out), 'home', args.seed, args.days,
-              tuple(word.strip() for word in args.residents.split(',') if word.strip()),
+              residents(args.residents),
               args.format, args.start or '', str(args.world or ''), str(args.faults or ''),
               args.light, args.own_sensors)
     entries = generate(job, args.homes, args.processes, args.scheduler)

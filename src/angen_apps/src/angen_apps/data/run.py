@@ -59,6 +59,11 @@ def residents_of(words: list[str]) -> list[tuple[str, Profile]]:
             for i, word in enumerate(words)]
 
 
+def first_day(home: Home) -> datetime.date:
+    """The date at which a home's time begins, or else a Monday."""
+    return datetime.date.fromisoformat((home.start or '2026-03-23')[:10])
+
+
 def live(world: Path, name: str, days: int, who: list[tuple[str, Profile]], seed: int,
          start: datetime.date | None = None, placed: bool = True, light: bool = False,
          faulty: Sequence[faults.Fault] = (),
@@ -66,7 +71,7 @@ def live(world: Path, name: str, days: int, who: list[tuple[str, Profile]], seed
     """Has residents live in the home of a world's file."""
     site = Site(world, seed, placed, light)
     faults.give(site, list(faulty))
-    first = start or datetime.date.fromisoformat((site.home.start or '2026-03-23')[:10])
+    first = start or first_day(site.home)
     household = Household(site.simulator, site.ground, seed, name, first)
     make(household, who)
     recorder = Recorder(site, household)
