@@ -3,9 +3,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
 from angen_apps.imports.sweethome import read_sweethome
 from angen_apps.plan.writer import write_world
-from angen_apps.seek.command import seek
+from angen_apps.robot.rooms_route import prepare
+from angen_apps.seek.command import seek, survey
 from angen_bench import homes
 
 
@@ -16,3 +19,17 @@ def test_a_person_nearer_than_the_camera_sees_is_found(tmp_path: Path) -> None:
     write_world(read_sweethome(tmp_path / 'studio.xml'), world, 'seed')
     assert seek(None, world, 2, True, 30.0, tmp_path / 'out', False) == 0
     assert (tmp_path / 'out/search.png').stat().st_size > 10_000
+
+
+def test_the_search_is_indoors(tmp_path: Path) -> None:
+    """Beside the oblique wall of this home the free ground outside is larger than any room."""
+    name = '1BedroomApartmentWithRoundWall'
+    (tmp_path / 'home.xml').write_bytes(homes.examples()[name])
+    write_world(read_sweethome(tmp_path / 'home.xml'), tmp_path / 'home.world', 'seed')
+    route, world = prepare(None, tmp_path / 'home.world', tmp_path / 'out', False)
+    home, _ = survey(world, route, tmp_path / 'out')
+    assert len(home.at) > 20
+    rooms = home.described.rooms
+    away = np.array([min(0.0 if room.contains(x, y) else room.distance(x, y) for room in rooms)
+                     for x, y in home.at])
+    assert away.max() < 0.3

@@ -126,12 +126,13 @@ def make_map(world: Any, floor: int, doors: str = 'away', high: float = HIGH) ->
 
 
 def floors(world: Any) -> list[int]:
-    """The floors that the world describes; or 0, 1, … that are not empty, up to the first that
-    is."""
+    """The floors that the world describes without those on which nothing is, such as a roof; or
+    0, 1, … that are not empty, up to the first that is."""
     home = Home.of_world(world)
-    if home.described:
-        return [storey.number for storey in home.storeys]
     surveyor = _Surveyor(world)
+    if home.described:
+        return [storey.number for storey in home.storeys
+                if surveyor.bounds(storey.elevation) is not None]
     found: list[int] = []
     while surveyor.bounds(home.elevation(len(found))) is not None:
         found.append(len(found))

@@ -123,6 +123,20 @@ class Rooms:
         self._rooms = sorted((room for room in home.rooms if room.storey == floor),
                              key=lambda room: (round(room.bounds[1], 2), room.bounds[0]))
         self.names = [room.name for room in self._rooms] or [f'floor {floor}']
+        self._doors = [door for door in home.doors if door.kind != 'window' and '' not in door.rooms
+                       and any(room.name in door.rooms for room in self._rooms)]
+
+    def hold(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Which places (m) are in a room or in the doorway between two."""
+        if not self._rooms:
+            return np.ones(len(x), bool)
+        found = np.zeros(len(x), bool)
+        for door in self._doors:
+            found |= np.hypot(x - door.pose[0], y - door.pose[1]) < door.width / 2 + BODY
+        left = np.nonzero(~found)[0]
+        found[left] = [any(room.contains(*place) for room in self._rooms)
+                       for place in zip(x[left], y[left])]
+        return found
 
     def at(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """The numbers of the rooms that places (m) are in, or nearest to."""
@@ -131,6 +145,12 @@ class Rooms:
         away = [[0.0 if room.contains(*place) else room.distance(*place) for room in self._rooms]
                 for place in zip(x, y)]
         return np.array(away).reshape(len(x), -1).argmin(axis=1)
+
+
+def _middles(grid: GridMap, rows: np.ndarray, columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """x and y of cells, m."""
+    return (grid.origin[0] + (columns + 0.5) * grid.resolution,
+            grid.origin[1] + (rows + 0.5) * grid.resolution)
 
 
 def _largest(mask: np.ndarray) -> np.ndarray:
@@ -151,10 +171,12 @@ class _Cells:
         edges: list[list[int]] = []
         first_room = 0
         for floor, grid in walkable.items():
-            rows, columns = np.nonzero(_largest((distances(grid, BODY) >= BODY)
-                                                & (grid.cells == FREE)))
-            x, y = (grid.origin[0] + (columns + 0.5) * grid.resolution,
-                    grid.origin[1] + (rows + 0.5) * grid.resolution)
+            rows, columns = np.nonzero((distances(grid, BODY) >= BODY) & (grid.cells == FREE))
+            indoors = named[floor].hold(*_middles(grid, rows, columns))
+            mask = np.zeros(grid.cells.shape, bool)
+            mask[rows[indoors], columns[indoors]] = True
+            rows, columns = np.nonzero(_largest(mask))
+            x, y = _middles(grid, rows, columns)
             key = np.stack([np.floor(x / CELL), np.floor(y / CELL), named[floor].at(x, y)],
                            axis=1).astype(int)
             kept, which = np.unique(key, axis=0, return_inverse=True)

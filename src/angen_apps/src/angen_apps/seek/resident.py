@@ -59,7 +59,8 @@ def plan_walk(home: Home, route: Route, seed: int, seconds: float) -> Itinerary:
     chance = random.Random(f'resident {seed}')
     planners = {floor: Planner(_without_robot(home, grid), BODY)
                 for floor, grid in home.walkable.items()}
-    places = [i for i in range(len(home.at)) if _can_stay(home, i, route)]
+    places = [i for i in range(len(home.at)) if _can_stay(home, i, route)
+              and (route.elevator or home.floor[i] == home.start.floor)]
     if not places:
         raise Failure('the building has no free place for a person')
     here = _choose(home, places, chance, None, route)
