@@ -48,6 +48,8 @@ def add_import(commands: Any) -> None:
                         '(seed)')
     parser.add_argument('--things', metavar='FILE', type=Path,
                         help='a table of furniture that precedes the built-in one')
+    parser.add_argument('--meshes', action='store_true', help='furniture of a .sh3d file looks '
+                        'like its OBJ meshes; boxes stay for contacts and rays')
     parser.add_argument('-o', '--output', metavar='FILE', type=Path, required=True,
                         help='the world that is written')
     add_json(parser)

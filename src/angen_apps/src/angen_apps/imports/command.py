@@ -24,7 +24,7 @@ def read_plan(path: Path, args: argparse.Namespace) -> Plan:
         return read_picture(path, args.scale, args.doors)
     if ending in ('.yaml', '.yml'):
         return read_map(path, args.doors) if is_map(path) else read_rmf(path)
-    return read_sweethome(path, args.things)
+    return read_sweethome(path, args.things, args.meshes)
 
 
 def import_home(path: Path, output: Path, args: argparse.Namespace) -> dict[str, Any]:

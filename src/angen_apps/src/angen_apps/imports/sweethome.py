@@ -8,6 +8,7 @@ from pathlib import Path
 
 from lxml import etree
 
+from angen_apps.imports.meshes import Meshes
 from angen_apps.imports.source import Xml, home_xml, root_of
 from angen_apps.imports.things import Entry, table, what_is
 from angen_apps.plan.finish import finish
@@ -28,13 +29,15 @@ ROOM_LIMIT = 2000  # corners of a room
 LIMITS = {'wall': 5000, 'room': 1000, 'doorOrWindow': 2000, 'level': 50}
 
 
-def read_sweethome(path: Path, things: Path | None = None) -> Plan:
+def read_sweethome(path: Path, things: Path | None = None, with_meshes: bool = False) -> Plan:
     """The plan of a .sh3d file or of its Home.xml; Failure where it cannot be read."""
-    return _Home(home_xml(path), path, things).plan()
+    xml = home_xml(path)
+    return _Home(xml, path, things, Meshes(path, xml) if with_meshes else None).plan()
 
 
 class _Home:
-    def __init__(self, xml: Xml, path: Path, things: Path | None) -> None:
+    def __init__(self, xml: Xml, path: Path, things: Path | None, meshes: Meshes | None) -> None:
+        self.meshes = meshes
         self.xml, self.path = xml, path
         self.root = root_of(xml, 'home')
         self.table = table(things)
@@ -68,6 +71,11 @@ class _Home:
                 latitude = self.xml.number(compass, 'latitude', None, -pi / 2, pi / 2) * 180 / pi
         plan = Plan(slug(self.path.stem, 'home'), list(self._numbered()), north, latitude,
                     remarks=self.remarks)
+        if self.meshes is not None:
+            plan.meshes = self.meshes.files
+            if self.meshes.missing:
+                self.remarks.append(f'{self.path}: {self.meshes.missing} pieces have no OBJ mesh '
+                                    'in the file and look like boxes')
         return finish(plan)
 
     def _levels(self) -> dict[str | None, Storey]:
@@ -258,7 +266,8 @@ class _Home:
             tilt = (tilt[0], -tilt[1]) if abs(tilt[0]) > 1e-6 else (0.0, -tilt[1])
         piece = Piece(entry.thing or name, x, y, z, yaw, width, depth, height, entry.thing,
                       entry.model, entry.shape, tilt,
-                      _color(element.get('color'), (0.75, 0.72, 0.66)), source=name)
+                      _color(element.get('color'), (0.75, 0.72, 0.66)),
+                      self.meshes.take(element) if self.meshes else '', name)
         storey.pieces.append(piece)
         if element.get('staircaseCutOutShape'):
             self._cut_floor(storey, piece)

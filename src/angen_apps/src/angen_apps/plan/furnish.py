@@ -70,8 +70,34 @@ def piece_model(piece: Piece, seat_sensor: bool) -> etree._Element | None:
     else:
         model = _boxes(piece)
     model.set('name', piece.name)
+    if piece.mesh and model.find('plugin') is None:  # a device needs visuals of its own
+        _dress(model, piece)
     _add_thing(model, piece)
     return model
+
+
+def _dress(model: etree._Element, piece: Piece) -> None:
+    """A model's looks are its mesh, which is in a unit box; its collisions stay."""
+    for link in model.iterfind('link'):
+        for visual in link.findall('visual'):
+            link.remove(visual)
+    link = model.find('link')
+    at, own = (np.array(sdf.parse_pose(element.findtext('pose', '0 0 0'))[:3])
+               for element in (model, link))
+    c, s = np.cos(piece.yaw), np.sin(piece.yaw)
+    x, y, z = np.array([piece.x, piece.y, piece.z]) - at
+    height = -piece.height / 2 if any(piece.tilt) else z
+    place = np.array([x * c + y * s, y * c - x * s, height]) - own
+    add, numbers = generator('sdf').add, generator('sdf').numbers
+    visual = add(link, 'visual', name='mesh')
+    add(visual, 'pose', numbers(*(round(float(v), 5) for v in place), 0, 0, 0))
+    mesh = add(add(visual, 'geometry'), 'mesh')
+    add(mesh, 'uri', piece.mesh)
+    add(mesh, 'scale', numbers(piece.depth, piece.width, piece.height))
+    color = numbers(*(round(v, 3) for v in piece.color), 1)
+    material = add(visual, 'material')
+    for part in ('ambient', 'diffuse'):
+        add(material, part, color)
 
 
 def _scaled(template: tuple[etree._Element, np.ndarray, np.ndarray], piece: Piece,

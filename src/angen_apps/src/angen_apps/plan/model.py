@@ -106,7 +106,7 @@ class Piece:
     shape: str = 'box'  # box, cylinder, stairs, curved_stairs, tray, shell, flat
     tilt: tuple[float, float] = (0.0, 0.0)  # roll, pitch
     color: Color = (0.75, 0.72, 0.66)
-    mesh: str = ''  # file of its looks
+    mesh: str = ''  # file of its looks, in a unit box; a key of the plan's meshes
     source: str = ''
 
 
@@ -157,7 +157,7 @@ class Storey:
 
 @dataclass
 class Plan:
-    """A home. `remarks` list omissions, changes and guesses."""
+    """A home. `remarks` list omissions, changes and guesses; `meshes` are OBJ texts by name."""
 
     name: str
     storeys: list[Storey]
@@ -166,6 +166,7 @@ class Plan:
     entrance: str = ''
     lifts: list[Lift] = field(default_factory=list)
     remarks: list[str] = field(default_factory=list)
+    meshes: dict[str, str] = field(default_factory=dict)
 
     def all_rooms(self) -> list[Room]:
         return [room for storey in self.storeys for room in storey.rooms]

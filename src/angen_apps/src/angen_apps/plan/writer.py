@@ -1,6 +1,7 @@
 """Writes a plan as a world in SDF that people can read and edit."""
 from __future__ import annotations
 
+from dataclasses import replace
 from math import cos, pi, sin
 from pathlib import Path
 from typing import Any, Iterable
@@ -17,7 +18,7 @@ from angen_apps.plan.model import Lamp, Opening, Plan, Room, Storey
 from angen_apps.plan.slabs import Slabs, slabs
 from angen_apps.plan.travel import Obstacle, hang
 from angen_apps.plan.walls import Box, boxes
-from angen_tools.common.files import write_text
+from angen_tools.common.files import make_folder, write_text
 from angen_tools.world import sdf
 from angen_tools.world.placing import generator
 
@@ -35,8 +36,16 @@ SEATS = ('chair', 'sofa', 'armchair', 'bed')
 
 
 def write_world(plan: Plan, path: Path, sensors: str = 'seed') -> dict[str, int]:
-    """Writes the world; returns counts of its parts."""
+    """Writes the world, and the meshes in a folder beside it; returns counts of its parts."""
+    folder = path.with_name(f'{path.stem}_meshes')
+    for storey in plan.storeys:
+        storey.pieces = [replace(piece, mesh=f'{folder.name}/{piece.mesh}') if piece.mesh else piece
+                         for piece in storey.pieces]
     root, counts = world_of(plan, sensors)
+    if plan.meshes:
+        make_folder(folder)
+    for name, text in plan.meshes.items():
+        write_text(folder / name, text)
     write_text(path, f'<?xml version="1.0"?>\n{sdf.text(root)}')
     return counts
 
