@@ -160,6 +160,8 @@ def _draw_solid(axis: Any, scene: Scene, storey: Storey, shape: Shape) -> None:
     cut = storey.elevation + CUT
     is_building = shape.model not in scene.shapes.moving and thing is None
     if is_building and shape.link.startswith(('window_', 'door_')):
+        if not _is_on(shape.bottom, storey):
+            return
         axis.fill(*zip(*shape.corners), color='#4a7fb5', lw=0, zorder=6)  # a pane or a fixed leaf
     elif is_building and shape.bottom < cut < shape.top and shape.top > storey.elevation + TALL:
         axis.fill(*zip(*shape.corners), color=INK, lw=0, zorder=6)
