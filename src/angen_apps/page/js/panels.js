@@ -6,6 +6,7 @@ import { RobotPanel } from './robot.js';
 import { roomText } from './labels.js';
 
 const PERIOD = 200; // ms
+const MANY = 60; // rooms: more are listed by floor, those of a floor once it is opened
 
 /** @typedef {{id: string, text: string, build: () => any[], update: () => void, topics: string[]}} Panel */
 
@@ -21,6 +22,8 @@ export class Panels {
     /** @type {Map<string, any>} */
     this.lines = new Map();
     this.count = 0;
+    /** @type {Set<number>} floors whose rooms are listed */
+    this.opened = new Set();
     /** @type {any} */
     this.timer = undefined;
     this.plots = new Plots(home, () => this.open('sensors'));
@@ -92,13 +95,30 @@ export class Panels {
       for (const name of rooms.length ? rooms.map((room) => room.name) : ['']) things.set(name, [...(things.get(name) ?? []), e]);
     }
     const shown = this.page.storey === null ? home.rooms : home.rooms.filter((room) => room.storey === this.page.storey);
-    const parts = shown.map((room) => this.roomBox(room, things.get(room.name) ?? []));
+    const box = (/** @type {any} */ room) => this.roomBox(room, things.get(room.name) ?? []);
+    const parts = shown.length > MANY ? this.floors(shown, box) : shown.map(box);
     const rest = (things.get('') ?? []).filter((e) => home.kinds[e.kind].verbs.length || home.isMover(e));
     if (rest.length && (this.page.storey === null || !shown.length)) {
       parts.push(el('section', { class: 'room' }, el('header', {}, el('b', {}, shown.length ? 'Elsewhere' : 'Devices')), ...rest.map((e) => thingRow(home, e, () => this.page.show(e)))));
     }
     if (!parts.length) parts.push(el('p', { class: 'soft' }, home.status.node || home.status.replay ? 'This world has no devices.' : 'Waiting for the simulator.'));
     return [...this.tools(), ...parts];
+  }
+
+  /** @param {any[]} rooms @param {(room: any) => any} box */
+  floors(rooms, box) {
+    return [...this.home.storeys].reverse().map((storey) => {
+      const own = rooms.filter((room) => room.storey === storey.number), key = storey.number;
+      const part = el('details', { class: 'floor', open: this.opened.has(key) }, el('summary', {}, el('b', {}, storey.name || `Floor ${key}`), el('span', { class: 'soft' }, ` ${own.length} rooms`)));
+      const fill = () => {
+        if (part.open) this.opened.add(key);
+        else this.opened.delete(key);
+        if (part.open && part.children.length === 1) part.append(...own.map(box));
+      };
+      part.addEventListener('toggle', fill);
+      fill();
+      return part;
+    });
   }
 
   tools() {

@@ -1,5 +1,5 @@
 /** Plays a recording: play, scrub, speed, events, and who was in which room. */
-import { by, clockText, el } from './dom.js';
+import { by, clockText, el, notice } from './dom.js';
 import { inside } from './home.js';
 
 const SPEEDS = [0.5, 1, 2, 5, 20, 100, 1000];
@@ -112,7 +112,8 @@ export class Player {
       const url = new URL(location.href);
       url.searchParams.set('t', this.time.toFixed(1));
       history.replaceState(null, '', url);
-      navigator.clipboard?.writeText(url.href);
+      const copied = () => notice('The address of this moment is copied.'), shown = () => notice('The address above opens at this moment.');
+      (navigator.clipboard?.writeText(url.href) ?? Promise.reject()).then(copied, shown);
     } }, 'Link');
     this.bar = el('div', { id: 'player', role: 'group', 'aria-label': 'Recording' }, this.play, el('button', { type: 'button', title: 'To the next event', onclick: () => this.next() }, 'Next event'),
       speed, el('div', { class: 'line' }, this.ribbon, this.slider), this.label, share);
