@@ -183,6 +183,22 @@ const spaced = (name) => words(name.replace(/([a-z])([A-Z])/g, '$1 $2').toLowerC
  */
 const shortState = (text, on) => `${text.split(' ')[0].toLowerCase()}${on ? / \d+ %/.exec(text)?.[0] ?? '' : ''}`;
 
+/** @param {import('./home.js').Home} home @param {any} e */
+function title(home, e) {
+  const kind = home.isRobot(e) ? 'Robot' : words(e.kind);
+  return e.name === e.kind ? kind : `${kind} ${e.name}`;
+}
+
+/**
+ * What a person does, how fast a robot is: where they are is seen.
+ * @param {import('./home.js').Home} home @param {any} e @param {string} text
+ */
+function motion(home, e, text) {
+  if (!home.isRobot(e)) return text.split('  ')[0].toLowerCase();
+  const speed = home.row(e)?.values[home.fields(e.kind).findIndex((field) => field.unit === 'm/s')];
+  return typeof speed === 'number' ? `${Math.abs(speed).toFixed(2)} m/s` : text;
+}
+
 /**
  * A line of a list: name, state, and a switch where the kind has two opposite verbs.
  * @param {import('./home.js').Home} home
@@ -196,10 +212,10 @@ export function thingRow(home, e, open) {
   const pair = [['On', 'Off'], ['Open', 'Close']].find(([a, b]) => verbs.includes(a) && verbs.includes(b));
   const toggle = pair && !home.status.replay ? el('button', { type: 'button' }) : null;
   const row = el('div', { class: 'thing' }, el('span', { class: 'glyph', 'aria-hidden': 'true' }, glyph(e.kind)),
-    el('button', { class: 'name', type: 'button', title: e.name, onclick: open }, `${words(e.kind)} ${e.name}`), state, toggle);
+    el('button', { class: 'name', type: 'button', title: e.name, onclick: open }, title(home, e)), state, toggle);
   row.refresh = () => {
     const now = home.row(e), text = now?.text ?? '', on = pair && new RegExp(`^${pair[0]}`, 'i').test(text);
-    const shown = pair ? shortState(text, Boolean(on)) : text;
+    const shown = pair ? shortState(text, Boolean(on)) : home.isMover(e) ? motion(home, e, text) : text;
     if (state.textContent !== shown) { state.textContent = shown; state.title = text; }
     row.classList.toggle('on', Boolean(on));
     row.classList.toggle('alarm', Boolean(now?.alarm));

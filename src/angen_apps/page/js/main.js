@@ -37,6 +37,7 @@ class Page {
     this.setTheme(localStorage.getItem('theme') ?? (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'));
     this.setView(this.view && !matchMedia('(max-width: 820px)').matches ? '3d' : 'plan');
     if (matchMedia('(max-width: 820px)').matches) by('side').classList.add('low');
+    this.welcome();
     this.home.begin();
   }
 
@@ -154,6 +155,15 @@ class Page {
   }
 
   // --- choosing
+
+  /** What one can do, until one has done it. */
+  welcome() {
+    const narrow = matchMedia('(max-width: 820px)').matches;
+    by('welcome').textContent = narrow ? 'Tap a lamp, door, person or room' : 'Click a lamp, door, person or room · drag turns the view';
+    by('welcome').hidden = localStorage.getItem('welcome') === 'seen';
+    const seen = () => { by('welcome').hidden = true; localStorage.setItem('welcome', 'seen'); };
+    by('stage').addEventListener('pointerdown', seen, { once: true });
+  }
 
   /** @param {any} hit */
   pick(hit) {

@@ -153,10 +153,13 @@ export class Scans {
     this.material = new THREE.PointsMaterial({ color: 0xe8590c, size: 4, sizeAttenuation: false });
   }
 
-  /** @param {{name: string, content: ArrayBuffer}} scan @returns {boolean} whether it is one of a sensor in the scene */
-  put({ name, content }) {
+  /**
+   * @param {{name: string, content: ArrayBuffer}} scan @param {(storey: number) => boolean} shows
+   * @returns {boolean} whether it is one of a sensor that is shown
+   */
+  put({ name, content }, shows) {
     const points = scanPoints(this.home, name, content);
-    if (!points) return false;
+    if (!points || (points.length && !shows(this.home.storeyAt(points[0][2])))) return false;
     let cloud = this.clouds.get(name);
     if (!cloud) {
       this.clouds.set(name, cloud = new THREE.Points(new THREE.BufferGeometry(), this.material));

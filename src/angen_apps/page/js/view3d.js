@@ -20,6 +20,7 @@ const SHARE = 1.3; // of the time that a frame took, until the next one: buttons
 const PLAIN_PIXELS = 4.5e5;
 const TOWER = 3; // floors: of more, those below the top one are closed while all are shown
 const LEAF = 1.2; // m: what moves in their walls is higher
+const TALL = 3, LID = 2.5, PLATE = 1; // m: what goes through floors; above a floor, what lies over it like a roof
 const SLAB = 0.3, THING = 0.05; // m below its floor's elevation, where a part still is on it
 
 export class View3d {
@@ -34,6 +35,7 @@ export class View3d {
     this.dirty = true;
     this.relabel = false;
     this.isTower = false;
+    this.top = 0;
     this.frames = 0;
     this.drawnAt = 0;
     this.pause = PLAIN_PERIOD; // ms
@@ -80,7 +82,9 @@ export class View3d {
     home.on('poses', (links) => this.follow(links));
     home.on('levels', () => this.relight());
     home.on('stats', () => this.shine());
-    home.on('scan', (scan) => { if (!this.hidden && this.shapes && this.scans.put(scan)) this.dirty = true; });
+    home.on('scan', (scan) => {
+      if (this.withFields && !this.hidden && this.shapes && this.scans.put(scan, (storey) => this.showsStorey(storey))) this.dirty = true;
+    });
     this.renderer.domElement.addEventListener('webglcontextrestored', () => this.build());
     home.on('rows', ({ changed }) => this.onRows(changed));
     new ResizeObserver(() => this.resize()).observe(this.element);
@@ -133,9 +137,16 @@ export class View3d {
     const storey = this.storeyOf(part, z), closed = this.isClosed(storey);
     if (this.storey !== null && storey !== this.storey) return NaN;
     if (closed) return this.isFacade(part) ? null : NaN;
-    if (this.walls !== 'cut' || (part.cls !== 'wall' && part.cls !== 'window')) return null;
-    const base = this.home.storeys.find((s) => s.number === storey)?.elevation;
-    return (base ?? Math.floor((z + 0.3) / 4) * 4) + CUT;
+    if (this.walls !== 'cut') return null;
+    const [width, depth, height] = part.size;
+    if (part.cls === 'wall' || part.cls === 'window') return this.floorOf(storey, z) + CUT;
+    if (height > TALL) return this.floorOf(this.storey ?? this.top, z) + CUT; // such as the rails of an elevator
+    return Math.min(width, depth) > PLATE && z > this.floorOf(storey, z) + LID ? NaN : null;
+  }
+
+  /** @param {number} storey @param {number} z in it @returns {number} the height of its floor */
+  floorOf(storey, z) {
+    return this.home.storeys.find((s) => s.number === storey)?.elevation ?? Math.floor((z + 0.3) / 4) * 4;
   }
 
   /** @param {any} part @param {number} z of its middle @returns {number} as the home counts floors, if it does */
@@ -336,6 +347,7 @@ export class View3d {
   /** @param {number | null} storey */
   setStorey(storey) {
     this.storey = storey;
+    this.scans.clear();
     this.placeAll();
     this.look();
   }
@@ -350,6 +362,7 @@ export class View3d {
   /** @param {boolean} shown */
   setFields(shown) {
     this.withFields = shown;
+    if (!shown) this.scans.clear();
     if (this.shapes) this.show();
   }
 

@@ -1,0 +1,216 @@
+"""The tools of the page of angen web in a real browser, on the built-in building."""
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import Iterator
+
+import pytest
+from angen_msgs.msg import Stats
+from browser import LIMIT, Page, Server
+from geometry_msgs.msg import PoseStamped, Twist
+from harness import Angen, Inbox, Master, end, publisher_of, until
+from selenium.webdriver.common.action_chains import ActionChains
+from std_msgs.msg import String
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope='module')
+def home(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFactory
+         ) -> Iterator[Angen]:
+    """The building that ./angen run starts: two floors, a robot, a person."""
+    log = tmp_path_factory.mktemp('home') / 'log'
+    node = Angen(master, master.node(ROOT / 'worlds/angen.world', log), log)
+    yield node
+    end(node.process)
+
+
+@pytest.fixture(scope='module')
+def page(home: Angen, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
+    server = Server(home.master, tmp_path_factory.mktemp('web'))
+    opened = Page(tmp_path_factory.mktemp('browser'), 1100, 800)
+    try:
+        opened.driver.execute_cdp_cmd('Browser.setDownloadBehavior', {
+            'behavior': 'allow', 'downloadPath': str(tmp_path_factory.getbasetemp())})
+        opened.open(server.url)
+        opened.first_view()
+        yield opened
+        assert opened.errors() == []
+    finally:
+        opened.close()
+        assert server.end() == 0, server.log()
+
+
+def test_a_field_flashes_where_the_person_walks(home: Angen, page: Page) -> None:
+    page.until('''return [...angen.view.fields.flashes.keys()].some((key) => key.startsWith("pir/"))
+        && angen.view.fields.group.children[0].geometry.index.count > 0''')
+    page.until('''return [...angen.view.people.all.values()].some(
+        ({figure}) => figure.speed > 0.3 && Math.abs(figure.thighs[0].rotation.y) > 0.05)''')
+
+
+def test_fields_show_beams_and_what_the_lidar_measures(home: Angen, page: Page) -> None:
+    firing = page.run('return angen.view.fields.state.replaceAll("0", "").length')
+    page.press('#layers button', 'Sensor fields')
+    page.until('return angen.view.fields.state.replaceAll("0", "").length > arguments[0] + 20',
+               firing)
+    beam = page.run('return angen.view.fields.all.find((f) => f.kind === "switch")?.count')
+    assert beam >= 3  # a triangle at least
+    points = page.until('''const cloud = [...angen.view.scans.clouds.values()][0];
+        return cloud?.geometry.getAttribute("position").count''')
+    assert points > 20
+    page.press('#layers button', 'Sensor fields')
+    page.until('return angen.view.scans.clouds.size === 0')
+
+
+def test_cards_have_the_verbs_of_their_kinds(page: Page) -> None:
+    missing = page.run('''const wrong = [], seen = new Set();
+        for (const e of angen.home.entities) {
+            const verbs = angen.home.kinds[e.kind]?.verbs ?? [];
+            if (seen.has(e.kind) || !verbs.length) continue;
+            seen.add(e.kind);
+            angen.show(e);
+            const text = document.querySelector("#card").textContent.toLowerCase();
+            for (const verb of verbs) {
+                const shown = verb.argument === "floor" ? "floor 0" :
+                    verb.name.replace(/([a-z])([A-Z])/g, "$1 $2").toLowerCase();
+                if (!text.includes(shown)) wrong.push(`${e.kind} ${verb.name}`);
+            }
+        }
+        angen.card.close();
+        return [seen.size, wrong]''')
+    assert missing[0] >= 8 and missing[1] == [], missing
+
+
+def test_a_person_is_sent_where_one_clicks(home: Angen, page: Page) -> None:
+    page.run('angen.setStorey(0); angen.view.look(true)')
+    page.first_view()
+    page.run('angen.show(angen.home.entities.find((e) => e.kind === "person"))')
+    page.press('#card [data-verb="Stop"]')
+    page.press('#card [data-verb="GoTo"]')
+    at = page.run('return angen.view.viewpoint.screen([7.0, 3.0, 0.02])')
+    page.click(*at)
+    page.until('return document.querySelector("#hint").hidden')
+    page.until('''const e = angen.home.entities.find((e) => e.kind === "person");
+        const p = angen.home.place(e); return Math.hypot(p[0] - 7.0, p[1] - 3.0) < 1.0''')
+    page.run('angen.card.close(); angen.setStorey(null)')
+
+
+def test_the_robot_is_driven_by_keys_and_by_the_stick(home: Angen, page: Page) -> None:
+    page.press('#tab-robot')
+    with Inbox('/turtlebot/cmd_vel', Twist) as orders:
+        keys = ActionChains(page.driver, duration=0)
+        keys.key_down('w').pause(0.3).key_up('w').perform()
+        orders.wait(lambda twist: twist.linear.x > 0.3, 'an order by a key', LIMIT)
+        orders.wait(lambda twist: not twist.linear.x, 'a stop', LIMIT)
+        stick = page.driver.find_element('css selector', '.stick')
+        page.run('arguments[0].scrollIntoView({block: "center"})', stick)
+        drag = ActionChains(page.driver, duration=50)
+        drag.move_to_element(stick).click_and_hold().move_by_offset(60, 0).pause(0.3)
+        drag.release().perform()
+        orders.wait(lambda twist: twist.angular.z < -1.0, 'an order by the stick', LIMIT)
+    page.until('return angen.panels.robot.timer === undefined')
+
+
+def test_a_goal_is_dragged_on_the_robots_map(home: Angen, page: Page) -> None:
+    page.press('#tab-robot')
+    page.until('return angen.panels.robot.map.scan.length > 20')  # its lidar's
+
+    def drag() -> None:
+        canvas = page.driver.find_element('css selector', '.map')
+        page.run('arguments[0].scrollIntoView({block: "center"})', canvas)
+        actions = ActionChains(page.driver, duration=50)
+        actions.move_to_element_with_offset(canvas, 60, 0).click_and_hold()
+        actions.move_by_offset(0, -50).release().perform()
+
+    drag()
+    page.until('''return [...document.querySelectorAll(".notice.bad")].some(
+        (e) => e.textContent.includes("no program subscribes"))''')
+    with Inbox('/move_base_simple/goal', PoseStamped) as goals:
+        until(lambda: (drag(), time.sleep(0.5), goals.messages)[-1], 'a goal', LIMIT)
+        goal = goals.messages[-1].pose
+    assert goal.orientation.z == pytest.approx(0.707, abs=0.1)  # to the north, as it was dragged
+    page.until('return angen.panels.robot.map.goal !== null')
+
+
+def test_the_robots_camera_is_shown(page: Page) -> None:
+    page.press('#tab-robot')
+    page.press('#panel button', 'Camera')
+    width = page.until('''const image = document.querySelector("img.picture");
+        return image?.complete && image.naturalWidth''')
+    assert width >= 160
+    page.press('#panel button', 'Camera')
+
+
+def test_plots_of_several_sensors_pause_and_zoom(page: Page) -> None:
+    page.press('#tab-sensors')
+    for kind, name in (('luminosity', 'kitchen_lux0'), ('temperature', 'kitchen_temperature0')):
+        page.run('angen.panels.plots.add(...arguments)', kind, name)
+    names = page.run('return angen.panels.plots.shown.map((one) => one.key)')
+    if len(names) < 2:
+        names = page.run('''for (const row of angen.home.rows.values())
+            if (angen.panels.plots.shown.length < 3) angen.panels.plots.add(row.kind, row.name);
+            return angen.panels.plots.shown.map((one) => one.key)''')
+    assert len(set(names)) >= 2
+    page.until('return angen.panels.plots.shown.every((one) => one.plot.data[0].length > 1)')
+    last = 'return angen.panels.plots.shown[0].plot.data[0].at(-1)'
+    page.press('#panel button', 'Pause plots')
+    seen = page.run(last)
+    now = page.run('return angen.home.stats.time')
+    page.until('return angen.home.stats.time > arguments[0] + 1', now)
+    assert page.run(last) == seen
+    page.press('#panel button', 'Pause plots')
+    page.until(f'{last} > arguments[0]', seen)
+    over = page.driver.find_element('css selector', '.plot .u-over')
+    page.run('arguments[0].scrollIntoView({block: "center"})', over)
+    whole = page.run('const s = angen.panels.plots.shown[0].plot.scales.x; return s.max - s.min')
+    drag = ActionChains(page.driver, duration=50)
+    drag.move_to_element_with_offset(over, -40, 0).click_and_hold().move_by_offset(60, 0)
+    drag.release().perform()
+    page.until('const s = angen.panels.plots.shown[0].plot.scales.x; '
+               'return s.max - s.min < 0.7 * arguments[0]', whole)
+
+
+def test_costs_are_listed(page: Page) -> None:
+    page.press('#tab-costs')
+    page.until('''const text = document.querySelector("#panel").textContent;
+        return /Physics/.test(text) && /µs|ms/.test(text)
+            && document.querySelectorAll("#panel .bar").length > 5''')
+
+
+def test_events_are_filtered(home: Angen, page: Page) -> None:
+    page.press('#tab-events')
+    publisher_of('/angen/command', String).publish('lamp/kitchen0 Off')
+    page.until('return document.querySelectorAll("#panel .events li").length > 3')
+    page.run('''const input = document.querySelector("#panel input");
+        input.value = "pir"; input.dispatchEvent(new Event("input"))''')
+    assert page.until('''const all = [...document.querySelectorAll("#panel .events li")];
+        return all.length > 0 && all.every((e) => e.textContent.includes("pir"))''')
+
+
+def test_the_clock_steps_changes_its_rate_and_resets(home: Angen, page: Page) -> None:
+    assert 'seed 1' in page.text('#clock') and '× real time' in page.text('#clock')
+    with Inbox('/angen/stats', Stats) as stats:
+        page.press('#play')
+        stats.wait(lambda message: message.paused, 'a pause', LIMIT)
+        before = stats.messages[-1].sim_time.to_sec()
+        page.press('#clock button', '+1 s')
+        stats.wait(lambda message: message.sim_time.to_sec() == pytest.approx(before + 1.0),
+                   'a second more', LIMIT)
+        page.run('''const rate = document.querySelector("#rate");
+            rate.value = "0"; rate.dispatchEvent(new Event("change"))''')
+        page.press('#play')
+        stats.wait(lambda message: message.real_time_factor > 1.5, 'a faster clock', LIMIT)
+        late = stats.messages[-1].sim_time.to_sec()
+        page.press('#clock button', 'Reset')
+        stats.wait(lambda message: message.sim_time.to_sec() < late, 'a reset', LIMIT)
+
+
+def test_the_changed_world_is_saved(page: Page, tmp_path_factory: pytest.TempPathFactory) -> None:
+    page.press('#tab-sensors')
+    page.run('''[...document.querySelectorAll("#panel button")].find(
+        (e) => e.textContent === "Save world").click()''')  # the list may be made anew meanwhile
+    folder = tmp_path_factory.getbasetemp()
+    saved = until(lambda: next((path for path in folder.glob('saved*.world')
+                                if path.stat().st_size), None), 'a saved world', LIMIT)
+    assert '</sdf>' in saved.read_text() and 'turtlebot' in saved.read_text()
