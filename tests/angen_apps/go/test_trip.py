@@ -9,7 +9,7 @@ from typing import Any, Callable
 import numpy as np
 import pytest
 
-from angen_apps.go.trip import TRIES, Trip
+from angen_apps.go.trip import TRIES, Goal, Trip
 from angen_apps.maps.gridmap import FREE, OCCUPIED, GridMap
 from angen_apps.robot.interface import CYCLE, DoorState, Event, LiftState
 from angen_apps.robot.pilot import Pose
@@ -95,13 +95,14 @@ def hall(width: float) -> GridMap:
     return GridMap(cells, (0.0, 0.0), 0.05, 0)
 
 
-def drive(width: float, person: Person, believed: Pose | None = None
+def drive(width: float, person: Person, believed: Pose | None = None, goal: Goal | None = None
           ) -> tuple[MappedRobot, Callable[[], Waypoint], list[str]]:
     grid, start = hall(width), Pose(0.7, width / 2, 0.0)
     robot, notes = MappedRobot(grid, start, person), []  # type: ignore[var-annotated]
     survey: Any = SimpleNamespace(maps={0: grid}, landmarks={0: grid}, doors={0: []})
     at: Any = SimpleNamespace(pose=believed or start, floor=0, mount=Pose(0, 0, 0))
-    trip = Trip(robot, ROUTE, survey, at, lambda _: Waypoint('end', 0, (5.0, width / 2), 1),
+    end = Waypoint('end', 0, (5.0, width / 2), 1)
+    trip = Trip(robot, ROUTE, survey, at, goal or (lambda _: end),
                 lambda _floor, _planner: None, notes.append, lambda *_: None)
     return robot, trip.run, notes
 
@@ -112,6 +113,19 @@ def test_it_drives_around_somebody_who_stays() -> None:
     assert math.dist((robot.pose.x, robot.pose.y), (5.0, 1.2)) < 0.1
     assert not robot.touched
     assert len(notes) == 1 and 'something is in its way at 2.8, 1.' in notes[0]
+
+
+def test_it_stops_beside_somebody_who_stands_in_the_middle_of_a_room() -> None:
+    def middle(planners: Any) -> Waypoint:
+        at = planners[0].nearest((4.0, 1.2), 2.0)
+        if at is None:
+            raise Failure('full')
+        return Waypoint('room', 0, at, 0)
+
+    robot, run, notes = drive(2.4, Person(4.0, 1.2), goal=middle)
+    run()
+    assert 0.4 < math.dist((robot.pose.x, robot.pose.y), (4.0, 1.2)) < 1.0
+    assert not robot.touched and len(notes) <= 3
 
 
 def test_it_waits_for_somebody_who_leaves() -> None:

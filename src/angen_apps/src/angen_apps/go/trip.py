@@ -22,6 +22,7 @@ WAIT = 5.0  # s before a further try
 AROUND = 3.0  # m around the robot: things that it sees there are in the way
 YIELDS, ROOM = 1.5, 0.5  # m that it drives out of the way at most; farther from things it sees
 ASIDE = 0.6  # m from the robot to the next place that is free
+BESIDE_THINGS = 0.4  # m: about the width of a person
 MISSED = 0.15  # m from the goal
 
 Goal = Callable[[Mapping[int, Planner]], Waypoint]
@@ -83,12 +84,21 @@ class Trip:
         if free is None:
             raise Failure(f'the robot finds no free floor around {at[0]:.2f}, {at[1]:.2f}')
         doors[floor] = [door for door in doors[floor] if not self._holds_open(door, free)]
-        goal = self._goal(planners)
+        goal = self._goal_beside(planners, floor) if planners[floor] is not self._planners[floor] \
+            else self._goal(planners)
         route = replace(self._route, elevator=self._lift(floor, planners[floor]),
                         waypoints=[goal])
         actions = Router(route, planners, doors).actions(free, floor)
         self._driver.route = route
         return goal, actions
+
+    def _goal_beside(self, planners: dict[int, Planner], floor: int) -> Waypoint:
+        """The goal with room to things that the robot sees: it saw one side of a person only."""
+        wide = Planner(planners[floor].grid, self._route.clearance + BESIDE_THINGS)
+        try:
+            return self._goal({**planners, floor: wide})
+        except Failure:  # there is no such place
+            return self._goal(planners)
 
     def _holds_open(self, door: Door, at: Point) -> bool:
         """Whether the robot is in the swing of a door that is open: it drives on through it."""
