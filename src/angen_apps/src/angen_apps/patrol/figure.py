@@ -90,7 +90,8 @@ def mark(axes: Any, row: Row, entity: Entity, track: np.ndarray, color: str) -> 
         ahead = ahead / np.linalg.norm(ahead)
     else:
         ahead = np.array([0.0, 0.5])
-    text = f'{row.delay:.1f} s' if row.delay is not None else 'never'
+    text = (f'{row.delay:.1f} s' if row.delay is not None
+            else 'only a door' if row.other else 'never')
     if row.detection is not None:
         at = track[min(int(np.searchsorted(track[:, 0], row.detection)), len(track) - 1), 1:3]
         axes.plot(*at, 'o', color=color, markersize=4.5, markeredgecolor='white', zorder=11,
