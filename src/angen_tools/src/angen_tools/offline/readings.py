@@ -95,8 +95,8 @@ def check_name(path: Path) -> None:
     if path.suffix == '.parquet':
         try:
             import pyarrow.parquet  # noqa: F401
-        except ImportError:
-            raise Failure(f'{path}: Parquet needs pyarrow, which is not installed; pip has it; or '
+        except ImportError as error:
+            raise Failure(f"{path}: Parquet needs pyarrow ({error}); pip install 'pyarrow<20', or "
                           'give a name that ends in .csv.gz') from None
     elif not path.name.endswith(('.csv', '.csv.gz')):
         raise Failure(f'{path}: the name of a table of readings ends in .csv, .csv.gz or .parquet')

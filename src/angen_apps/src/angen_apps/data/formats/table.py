@@ -36,9 +36,9 @@ def pyarrow() -> Any:
     try:
         import pyarrow
         import pyarrow.parquet
-    except ImportError:
-        raise Failure('parquet needs pyarrow, which Debian 12 lacks; install it with '
-                      '`pip install pyarrow`, or leave parquet out of --format') from None
+    except ImportError as error:
+        raise Failure(f"parquet needs pyarrow ({error}); install it with `pip install "
+                      "'pyarrow<20'`, or leave parquet out of --format") from None
     return pyarrow
 
 
