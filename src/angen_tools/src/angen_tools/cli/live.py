@@ -90,7 +90,8 @@ def run_drive(args: argparse.Namespace) -> int:
 def add_spawn(commands: Any) -> None:
     spawn = command(commands, 'spawn', run_spawn, 'adds a sensor or a model to the world',
                     'spawn pir p1 --pose "1 1 1.2 0 0 0"',
-                    'spawn model model://chair chair1 --pose "2 2 0"')
+                    'spawn model chair chair1',
+                    'spawn model my_shelf/model.sdf shelf --pose "2 2 0"')
     choices = spawn.add_subparsers(dest='kind', metavar='KIND', required=True)
     for _, kind in sorted(kinds('sensor').items()):
         add_sensor(choices, kind)

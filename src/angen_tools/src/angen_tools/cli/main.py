@@ -37,7 +37,8 @@ def make_parser() -> Parser:
     parser = Parser(
         prog='angen', description='Commands of the running simulator, and of files. Each has '
         '--help; all but drive, web and completion have --json.',
-        epilog='example:\n  angen list --kind door',
+        epilog='example:\n  angen list --kind door\n  angen check worlds/angen.world\n'
+        '  angen help set door',
         formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('--version', action=PrintVersion, nargs=0, help='prints the version')
     parser.kinds = commands = parser.add_subparsers(metavar='COMMAND', required=True)

@@ -147,7 +147,7 @@ def add_run(commands: Any) -> None:
     """angen run --fast."""
     run = command(commands, 'run', run_fast,
                   'runs a world without ROS, leaping over time in which nothing happens, and '
-                  'writes its events to a CSV file; for ROS: ./angen run NAME:=VALUE ...',
+                  'writes its events to a CSV file; for ROS: ./angen run NAME:=VALUE …',
                   'run --fast worlds/angen.world --for 1h',
                   'run --fast worlds/care/ordinary.world --for 24h --day '
                   'worlds/care/ordinary.csv')

@@ -65,7 +65,8 @@ def command(commands: Any, name: str, run: Run, summary: str, *examples: str, mo
             ) -> Parser:
     """Adds a subcommand whose help ends with examples, and `more`."""
     parser: Parser = commands.add_parser(
-        name, help=summary, description=summary[0].upper() + summary[1:] + '.',
+        name, help=summary, description=summary[0].upper() + summary[1:] + '.' * (
+            not summary.endswith(('.', '…'))),
         epilog='example:\n' + '\n'.join(f'  angen {example}' for example in examples)
         + f'\n\n{more}' * bool(more),
         formatter_class=argparse.RawDescriptionHelpFormatter)

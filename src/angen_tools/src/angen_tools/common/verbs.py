@@ -128,7 +128,9 @@ def described_forms(kind: Plugin) -> list[tuple[str, str]]:
             found.append((word, verb['doc']))
             continue
         word = f'[{word}]' if len(numbered) == 1 else word
-        found.append((f'{word} {verb["argument"].upper()}', f'{verb["doc"]}; {argument(verb)}'))
+        or_degrees = ', or degrees as 90deg' if verb['unit'] == 'rad' else ''
+        found.append((f'{word} {verb["argument"].upper()}',
+                      f'{verb["doc"]}; {argument(verb)}{or_degrees}'))
     if kind['values']:
         found.append((' '.join(unit.upper() for unit in kind['values']), 'numbers alone'))
     return found
