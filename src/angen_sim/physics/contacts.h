@@ -59,8 +59,6 @@ class Contacts {
 
   /// m/s, at which deep contacts separate.
   double fastest() const { return fastest_; }
-  /// m beyond the layer: a deeper contact would push faster.
-  double deep() const { return fastest_ * step_ / erp_; }
 
   /// Reads the forces of the step and takes the contact joints away.
   void finish();

@@ -10,8 +10,6 @@ namespace {
 
 using Type = desc::Joint::Type;
 
-// Stops give a fifth of what went past them back in each step: a door comes to rest at its stop.
-constexpr double kStopErp = 0.2;
 constexpr double kStopCfm = 1e-9;
 constexpr double kStiffest = 0.25;  // (rad/step)^2, of a spring that is taken explicitly
 
@@ -155,6 +153,11 @@ bool turns(const Joint& joint) {
 }
 
 }  // namespace
+
+void set_stop_erp(const Joint& joint, double erp) {
+  set_param(joint, dParamStopERP, erp);
+  if (joint.axes.size() > 1) set_param(joint, dParamStopERP + dParamGroup2 - dParamGroup1, erp);
+}
 
 void measure_joint(Joint& joint) {
   joint.anchor_in_first = joint.first->zero.inverse() * joint.anchor;

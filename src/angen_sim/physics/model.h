@@ -174,6 +174,7 @@ struct Body {
   double overlap = 0.0;          // m, of its deepest rigid contact, beyond the layer
   bool overlaps = false;         // since it was deep in something, until it is out
   bool parts = false;            // its island has such a body
+  double pushed = 0.0;           // m/s, of its points, out of overlaps in the last step
   std::vector<PairKey> resting;  // contacts kept since it fell asleep
   std::vector<LinkId> links;
   std::vector<Geom*> geoms;

@@ -5,12 +5,15 @@
 #include <map>
 
 #include "physics/islands.h"
+#include "physics/joints.h"
 
 namespace angen::physics {
 
 namespace {
 
-constexpr double kOut = 2e-4;  // m beyond the layer: less is no overlap
+// m beyond the layer: where parting begins, and where it ends.
+constexpr double kIn = 5e-5;
+constexpr double kOut = 1e-5;
 
 // m from its center of mass to the farthest point of its geoms' boxes.
 double radius_of(const Body& body) {
@@ -21,6 +24,16 @@ double radius_of(const Body& body) {
     radius = std::max(radius, low.cwiseMax(high).norm());
   }
   return radius;
+}
+
+// Joints, too, correct their positions only in the first step.
+void set_correction(const std::vector<Body*>& bodies, bool on) {
+  dWorldSetERP(dBodyGetWorld(bodies.front()->ode.get()), on ? kJointErp : 0.0);
+  for (const Body* body : bodies) {
+    for (const Joint* joint : body->joints) {
+      if (joint->first == body) set_stop_erp(*joint, on ? kStopErp : 0.0);
+    }
+  }
 }
 
 Quat turned(const Quat& rotation, const Vec3& angle) {
@@ -35,7 +48,8 @@ bool mark_parting(const std::vector<Body*>& awake, const Contacts& contacts) {
   bool any = false;
   for (Body* body : awake) {
     body->parts = false;
-    body->overlaps = body->overlap > (body->overlaps ? kOut : contacts.deep());
+    body->pushed = 0.0;
+    body->overlaps = body->overlap > (body->overlaps ? kOut : kIn);
     any = any || body->overlaps;
   }
   if (!any) return false;
@@ -67,7 +81,9 @@ void part(const std::vector<Body*>& awake, const std::vector<BodyState>& start, 
     restore(*awake[i], start[i]);
   }
   contacts.make_joints_without_push();
+  set_correction(bodies, false);
   solve(bodies);
+  set_correction(bodies, true);
   for (const Body* body : awake) dBodyEnable(body->ode.get());
   std::map<const Mechanism*, double> fastest;  // m/s, of its points, by the push
   for (Pushed& each : pushed) {
@@ -79,6 +95,7 @@ void part(const std::vector<Body*>& awake, const std::vector<BodyState>& start, 
   for (const Pushed& each : pushed) {
     const double most = fastest[each.body->mechanism];
     const double share = most > contacts.fastest() ? contacts.fastest() / most : 1.0;
+    each.body->pushed = share * most;
     const Vec3 velocity = each.body->velocity() + share * each.velocity;
     const Vec3 spin = each.body->spin() + share * each.spin;
     if (!velocity.allFinite() || !spin.allFinite()) continue;

@@ -18,8 +18,8 @@ constexpr int kJitter = 10;         // idle steps that a fast one undoes, where 
 
 int idle_steps(const Body& body, int count) {
   const bool slow = body.velocity().squaredNorm() < kSlow * kSlow &&
-                    body.spin().squaredNorm() < kSlowTurn * kSlowTurn;
-  if (!body.may_sleep || body.parts) return 0;
+                    body.spin().squaredNorm() < kSlowTurn * kSlowTurn && body.pushed < kSlow;
+  if (!body.may_sleep) return 0;
   if (slow) return body.idle_steps + count;
   // The iterated solution of a pile at rest is wrong for a step now and then.
   return body.iterated ? std::max(0, body.idle_steps - kJitter) : 0;

@@ -20,11 +20,6 @@ namespace {
 // Least CFM of joints: a brake under 1 kN creeps 1 um/s, and equations stay solvable.
 constexpr double kSoftestJoint = 1e-9;
 
-// Bodies move straight on in a step, and so part at a joint about which they turn. All of that is
-// corrected in the next step. A later correction, of a velocity that has turned meanwhile,
-// costs energy: with 0.2 a double pendulum loses some percent a minute.
-constexpr double kJointErp = 1.0;
-
 double bounded(double value, const Limit& limit) {
   return std::clamp(value, -limit.most, limit.most);
 }

@@ -76,6 +76,67 @@ TEST(Parting, APanelAcrossTheCornerOfATableIsNotThrown) {
   EXPECT_LT(watch.excess, 2.0);
 }
 
+/// A panel of 50 kg, tilted by `tilt` (rad), between a static box below its lower edge and one
+/// whose edge is `inward` (m) from there above it; both overlap it by `deep` (m). Its largest
+/// speed.
+double fastest_wedged(double tilt, double inward, double deep) {
+  TestWorld world({}, Vec3::Zero());
+  const Quat turned = from_rpy(0.0, -tilt, 0.0);
+  const Vec3 edge = turned * Vec3(-0.45, 0.0, -0.015);
+  const Vec3 at(0.0, 0.0, -edge.z() - deep);
+  const Vec3 pinched = at + turned * Vec3(-0.45 + inward, 0.0, 0.015);
+  world.add(static_box("below", {3.0, 3.0, 0.4}, {0.0, 0.0, -0.2}));
+  world.add(static_box("above", {0.4, 3.0, 0.4}, pinched + Vec3(-0.2, 0.0, 0.2 - deep)));
+  const LinkId panel = world.only_link(world.add(
+      model_of("panel", {box_link("link", 50.0, {0.9, 0.5, 0.03}, {}, 0.1)}, {at, turned})));
+  double fastest = 0.0;
+  for (int tick = 0; tick < 200; ++tick) {
+    world.run(kStep);
+    fastest = std::max(fastest, world.link(panel).linear_velocity.norm());
+  }
+  return fastest;
+}
+
+// Contacts that almost face each other drive a wedge out as much faster as its angle is small.
+TEST(Parting, AWedgedPanelIsNotThrownByShallowOverlaps) {
+  for (const double deep : {0.0011, 0.002, 0.003, 0.004, 0.005, 0.01}) {
+    double fastest = 0.0;
+    for (int i = 0; i < 60; ++i) {
+      fastest =
+          std::max(fastest, fastest_wedged(0.01 + 0.005 * (i % 20), 0.02 * (1 + i / 20), deep));
+    }
+    printf("panel wedged between two boxes, %.1f mm deep: %.2f m/s\n", 1000.0 * deep, fastest);
+    EXPECT_LT(fastest, 0.2);
+  }
+}
+
+// The hinge and its stop, too, give back without a throw what a box between leaf and wall bends.
+TEST(Parting, ABoxJammedAtALeafStays) {
+  Rng rng(10, 11, 12);
+  double fastest = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    TestWorld world({}, Vec3::Zero());
+    const ModelId door = world.add(door_model("door"));  // its stop holds it from +y
+    world.add(static_box("wall", {2.0, 0.1, 2.2}, {0.4, -0.17, 1.0}));
+    const Vec3 at(0.1 + 0.65 * rng.uniform(), -0.07, 0.3 + 1.4 * rng.uniform());
+    const Quat turned = from_rpy(0.3 * rng.uniform(), 0.3 * rng.uniform(), 0.6 * rng.uniform());
+    const desc::Link box = box_link("link", 2.0, {0.11, 0.11, 0.11});
+    const LinkId link = world.only_link(world.add(model_of("box", {box}, {at, turned})));
+    const LinkId leaf = world.links(door)[1];
+    for (int tick = 0; tick < 500; ++tick) {
+      world.run(kStep);
+      for (const LinkId each : {link, leaf}) {
+        const LinkState state = world.link(each);
+        const double speed = state.linear_velocity.norm();
+        fastest = std::max(fastest, speed);
+      }
+    }
+    EXPECT_LT(std::abs(world.joint(world.joints(door)[1]).position), 0.3);
+  }
+  printf("box jammed between a leaf and a wall: %.3f m/s\n", fastest);
+  EXPECT_LT(fastest, 0.05);
+}
+
 // The push out of an overlap is no force: without gravity nothing gets energy.
 TEST(Parting, WithoutGravityOverlappingBodiesGetNoSpeed) {
   Rng rng(1, 2, 3);
