@@ -55,7 +55,8 @@ def run_bench_homes(args: argparse.Namespace) -> int:
     from angen_tools.common.output import as_json, show
     check_folder(args.out)
     args.out.mkdir(parents=True, exist_ok=True)
-    rows = homes.measure_seeds(args.seeds, args.out) if args.seeds else homes.measure(args.out)
+    rows = homes.measure_seeds(args.seeds, args.out) if args.seeds \
+        else homes.measure(args.out, args.plans)
     show(as_json(rows) if args.json else homes.show_table(rows))
     return 0
 
@@ -119,8 +120,12 @@ def add_commands(commands: Any) -> None:
     add_json(soak)
     add_out(soak, 'soak.csv, soak_core.csv')
     imported = command(kinds, 'homes', run_bench_homes, 'imports the nine homes of Debian\'s '
-                       'sweethome3d and examines them: counts, areas, doors, rays, rooms reached',
-                       'bench homes', 'bench homes --seeds 200')
+                       'sweethome3d and two scans, and examines them: counts, areas, doors, rays, '
+                       'rooms reached',
+                       'bench homes', 'bench homes hotel.building.yaml',
+                       'bench homes --seeds 200')
+    imported.add_argument('plans', metavar='PLAN', nargs='*', type=Path, help='examines this '
+                          'building.yaml of Open-RMF or map.yaml of map_server, too')
     imported.add_argument('--seeds', metavar='N', type=checked(at_least(1)), default=0,
                           help='examines this number of homes of angen world home instead')
     add_json(imported)

@@ -7,11 +7,12 @@ from collections import deque
 from dataclasses import dataclass
 from math import cos, sin
 from pathlib import Path
-from typing import Any, Mapping
+from typing import Any, Mapping, Sequence
 
 import numpy as np
 from lxml import etree
 
+from angen_bench import plans
 from angen_bench.free_map import CELL, free_map
 from angen_bench.walks import walk
 from angen_apps.imports.sweethome import read_sweethome
@@ -197,36 +198,54 @@ def moved(world: Any, seconds: float) -> tuple[str, float]:
     return world.links[worst], float(away[worst])
 
 
-def measure(folder: Path) -> list[dict[str, Any]]:
-    """A row for each of the nine homes."""
-    import angen
-
+def measure(folder: Path, files: Sequence[Path] = ()) -> list[dict[str, Any]]:
+    """A row for each of the nine homes, for two scans and for each file of the user."""
     rows = []
     for name, xml in examples().items():
-        imported = import_example(name, xml, folder)
-        said, made = in_file(xml), in_world(imported)
-        world = angen.World(str(imported.path))
-        home = world.home
-        areas = sorted(room['area'] for room in home['rooms'])
-        errors = [abs(a - b) for a, b in zip(sorted(areas_in_file(xml)), areas)]
-        link, away = moved(world, 60.0)
-        shut = through(world, imported.plan)
-        states = open_all(world)
-        opened = sum(mode == 'OPEN' for mode, _, _ in states.values())
-        free = through(world, imported.plan)
-        joined, found = reached(imported.path, home)
-        walked, stopped = walk(imported.path, home)
-        print('\n'.join(f'{name}: {what}' for what in stopped))
-        rows.append({
-            'home': name, 'in file': '/'.join(map(str, said.values())),
-            'in world': '/'.join(map(str, made.values())), 'equal': said == made,
-            'area': max(errors, default=0.0), 'opened': f'{opened}/{len(states)}',
-            'fixed': sum(len(o.leaves) for o in imported.plan.all_openings()) - len(states),
-            'shut stops rays': sum(not v for v in shut.values()),
-            'open lets rays': sum(free.values()), 'reached': f'{len(found & joined)}/{len(joined)}',
-            'walked': f'{walked}/{walked + len(stopped)}',
-            'moved': away, 'import': imported.seconds, 'factor': speed(imported.path, home)})
+        path = folder / f'{name}.xml'
+        with writing(path, binary=True) as file:
+            file.write(xml)
+        rows.append(examine(plans.Case(name, path, in_file(xml), areas_in_file(xml), True),
+                            folder))
+    for case in [*plans.scans(folder), *map(plans.given, files)]:
+        rows.append(examine(case, folder))
     return rows
+
+
+def examine(case: plans.Case, folder: Path) -> dict[str, Any]:
+    """Imports a plan and tries the world."""
+    import angen
+
+    begin = time.process_time()
+    plan = case.read()
+    path = folder / f'{case.name.replace(" ", "_")}.world'
+    imported = Imported(case.name, plan, path, write_world(plan, path, 'seed'),
+                        time.process_time() - begin)
+    made = in_world(imported) if case.is_home else plans.in_plan(case, plan, imported.counts)
+    world = angen.World(str(path))
+    home = world.home
+    errors = [abs(a - b) for a, b in zip(sorted(case.areas or []),
+                                         sorted(room['area'] for room in home['rooms']))]
+    link, away = moved(world, 60.0)
+    shut = through(world, plan)
+    states = open_all(world)
+    opened = sum(mode == 'OPEN' for mode, _, _ in states.values())
+    free = through(world, plan)
+    joined, found = reached(path, home)
+    walked = 'not tried'
+    if case.is_home:
+        passed, stopped = walk(path, home)
+        print('\n'.join(f'{case.name}: {what}' for what in stopped))
+        walked = f'{passed}/{passed + len(stopped)}'
+    return {
+        'plan': case.name, 'in file': '/'.join(map(str, case.said.values())) or 'unknown',
+        'in world': '/'.join(map(str, made.values())), 'equal': case.said == made,
+        'area m2': max(errors) if errors else 'unknown', 'opened': f'{opened}/{len(states)}',
+        'fixed': sum(len(o.leaves) for o in plan.all_openings()) - len(states),
+        'shut stops rays': sum(not v for v in shut.values()),
+        'open lets rays': sum(free.values()), 'reached': f'{len(found & joined)}/{len(joined)}',
+        'walked': walked, 'moved m': away, 'import s': imported.seconds,
+        'factor': speed(path, home)}
 
 
 def speed(path: Path, home: Mapping[str, Any]) -> float:

@@ -13,6 +13,7 @@ from angen_apps.imports.picture import read_map, read_picture
 from angen_apps.plan.model import Plan
 from angen_apps.plan.polygons import area
 from angen_apps.plan.writer import write_world
+from angen_bench import plans
 from angen_tools.cli import main as cli
 
 SCALE = 0.025  # m a pixel
@@ -203,3 +204,13 @@ def test_a_picture_needs_a_scale_and_walls(tmp_path: Path, capsys: pytest.Captur
     path.write_bytes(path.read_bytes()[:40])
     assert cli.run(['import', str(path), '--scale', '0.05', '-o', str(out)]) == 1
     assert len(capsys.readouterr().err.splitlines()) == 1 and not out.exists()
+
+
+def test_a_scan_of_a_home_by_seed_has_its_rooms_and_doors(tmp_path: Path) -> None:
+    """Doors beside corners leave stubs of wall that are shorter than a wall has to be."""
+    for case in plans.scans(tmp_path):
+        plan = case.read()
+        made = sorted(area(room.polygon) for room in plan.all_rooms())
+        assert made == pytest.approx(sorted(case.areas or []), rel=0.05), case.name
+        doors = [opening for opening in plan.all_openings() if opening.kind == 'door']
+        assert len(doors) == case.said['door'], case.name

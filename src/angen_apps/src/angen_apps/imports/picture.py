@@ -21,6 +21,7 @@ from angen_tools.common.yaml_file import YamlFile
 HEIGHT = 2.5  # m
 DOOR_TOP = 2.1  # m
 NARROW, WIDE = 0.7, 1.1  # m: gaps that are doors
+LEAST_STUB = 0.08  # m across of a shorter piece of wall, as between a corner and a door
 THICKEST = 0.45  # m of a wall across
 LEAST_WALL = 0.25  # m of a wall along: shorter dark spots are text and dirt
 FURNITURE = 0.4, 3.0  # m of the longer side: smaller things are text and pillars
@@ -32,6 +33,9 @@ FINE = 0.035  # m a pixel: thin walls have several pixels across
 PIXELS = 20_000_000
 WALLS = 20_000
 MODES = ('trinary', 'scale', 'raw')  # of map_server; walls are the same in the first two
+SEAM = 1e-4  # m that walls overlap, so that no seam is between them
+JOINT = 2  # pixels between walls that meet
+Box = tuple[int, int, int, int]  # west, south, east, north
 Island = tuple[slice, slice]  # rows and columns
 ENDINGS = ('.png', '.pgm', '.jpg', '.jpeg')
 
@@ -158,7 +162,8 @@ def _storey(path: Path, dark: np.ndarray, known: np.ndarray, scale: float, with_
         raise Failure(f'{path}: has more than {WALLS} walls; it is not a floor plan')
     storey = Storey(0, 'Ground floor', 0.0, HEIGHT)
     for west, south, east, north in boxes:
-        storey.walls.append(_wall(west * scale, south * scale, east * scale, north * scale))
+        storey.walls.append(_wall(west * scale - SEAM, south * scale - SEAM, east * scale + SEAM,
+                                  north * scale + SEAM))
     gaps = _doors(storey.walls)
     storey.openings = gaps if with_doors else [
         replace(gap, kind='opening', leaves=()) for gap in gaps]
@@ -249,9 +254,9 @@ def cleaned_walls(dark: np.ndarray, scale: float) -> np.ndarray:
     return np.asarray(kept[labels])
 
 
-def straight_walls(dark: np.ndarray, scale: float) -> list[tuple[int, int, int, int]]:
-    """Boxes (west, south, east, north) in pixels: runs along x and y, their edges straightened."""
-    found = []
+def straight_walls(dark: np.ndarray, scale: float) -> list[Box]:
+    """In pixels: runs along x and y, their edges straightened."""
+    found: list[Box] = []
     left = dark.copy()
     least = max(2, round(LEAST_WALL / scale))
     for upright in (False, True):
@@ -266,9 +271,30 @@ def straight_walls(dark: np.ndarray, scale: float) -> list[tuple[int, int, int, 
                              else (west, south, west + wide, south + high))
         cells &= ~runs
     for row, column, high, wide in rectangles(left):
-        if max(high, wide) >= least:
+        if max(high, wide) >= least or min(high, wide) * scale >= LEAST_STUB:
             found.append((column, row, column + wide, row + high))
+    return _joined(found, dark.shape)
+
+
+def _joined(boxes: list[Box], shape: tuple[int, ...]) -> list[Box]:
+    """The boxes, longer by a pixel or two where another one begins so near to an end."""
+    walls = np.zeros(shape, bool)
+    for west, south, east, north in boxes:
+        walls[south:north, west:east] = True
+    found = []
+    for west, south, east, north in boxes:
+        wide, high = east - west, north - south
+        left, right = _nearby(walls[south:north], west, east) if 2 * wide >= high else (0, 0)
+        below, above = _nearby(walls[:, west:east].T, south, north) if 2 * high >= wide else (0, 0)
+        found.append((west - left, south - below, east + right, north + above))
     return found
+
+
+def _nearby(lines: np.ndarray, low: int, high: int) -> tuple[int, int]:
+    """How many pixels before `low` and after `high` the next wall is; 0 where it is not near."""
+    before, after = lines[:, :low][:, ::-1][:, :JOINT + 1], lines[:, high:high + JOINT + 1]
+    return (int(before.any(axis=0).argmax()) if before.any() else 0,
+            int(after.any(axis=0).argmax()) if after.any() else 0)
 
 
 def _slices(labels: np.ndarray, count: int) -> list[tuple[slice, slice]]:
