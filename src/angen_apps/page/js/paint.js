@@ -4,7 +4,7 @@ import { rotate } from './fields.js';
 import { poseMatrix } from './shapes.js';
 
 const SENSOR = [0.06, 0.55, 0.50];
-const BESIDE = 0.25; // m
+const BESIDE = 0.25, OVER = 0.4; // m: beside a wall; over a slab, in the room that has it
 
 /** @type {Record<string, number[]>} */
 const FLOORS = { kitchen: [0.86, 0.80, 0.70], bathroom: [0.70, 0.80, 0.84], bedroom: [0.80, 0.68, 0.56], living: [0.78, 0.64, 0.50],
@@ -20,7 +20,7 @@ const FLOORS = { kitchen: [0.86, 0.80, 0.70], bathroom: [0.70, 0.80, 0.84], bedr
  */
 export function paint(home, cls, color, link, shape) {
   const way = rotate(link.pose.slice(3), shape.pose);
-  const room = cls === 'floor' ? home.roomAt(link.pose[0] + way[0], link.pose[1] + way[1], link.pose[2] + way[2]) : null;
+  const room = cls === 'floor' ? home.roomAt(link.pose[0] + way[0], link.pose[1] + way[1], link.pose[2] + way[2] + OVER) : null;
   if (cls === 'wall') return [0.95, 0.94, 0.92];
   if (cls === 'floor' && room) return FLOORS[room.use] ?? FLOORS.other;
   if (cls === 'ground') return [1, 1, 1];
@@ -38,7 +38,7 @@ export function isOuter(home, part) {
   const [width, depth, height] = part.size, axes = height < Math.min(width, depth) ? [0, 1] : [width < depth ? 0 : 1];
   return axes.some((axis) => [1, -1].some((way) => {
     side.set(0, 0, 0).setComponent(axis, way * (0.5 + BESIDE / part.size[axis])).applyMatrix4(box);
-    return !home.roomAt(side.x, side.y, side.z);
+    return !home.roomAt(side.x, side.y, side.z + (part.cls === 'floor' ? OVER : 0));
   }));
 }
 

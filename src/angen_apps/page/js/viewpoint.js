@@ -4,6 +4,7 @@ import { OrbitControls } from '../vendor/three/OrbitControls.js';
 
 const GLIDE = 7; // 1/s
 const MARGIN = 0.9; // of the view: buttons are at its edges
+const BUTTONS = 20; // px by which the home is higher: most of them are below
 
 export class Viewpoint {
   /** @param {any} element that has the focus @param {any} canvas @param {() => void} changed */
@@ -66,7 +67,7 @@ export class Viewpoint {
   /** @param {number} width @param {number} height px */
   resize(width, height) {
     this.camera.aspect = width / height;
-    this.camera.updateProjectionMatrix();
+    this.camera.setViewOffset(width, height, 0, BUTTONS, width, height);
   }
 
   /**
