@@ -55,3 +55,17 @@ def test_distances_are_those_to_the_nearest_edge_that_is_not_free() -> None:
             nearest = min(math.hypot(max(abs(row - y) - 0.5, 0), max(abs(column - x) - 0.5, 0))
                           for y, x in blocked)
             assert found[row, column] == pytest.approx(min(0.05 * nearest, reach), abs=1e-12)
+
+
+def test_both_leaves_of_a_double_door_are_opened() -> None:
+    left = Door('left', (0.0, 0.0), 0.0, math.pi / 2, 0.6)
+    right = Door('right', (1.22, 0.0), math.pi, math.pi / 2, 0.6)
+    single = Door('beside', (2.5, 0.0), 0.0, math.pi / 2, 0.9)
+    way = [(0.5, 0.1 * i - 1.5) for i in range(31)]  # through the left one alone
+    found = passages(way, [left, right, single], 0.3)
+    assert [passage.door.name for passage in found] == ['left', 'right']
+    assert len({(passage.before, passage.after) for passage in found}) == 1
+    for passage in found:
+        for leaf in (left, right):
+            assert leaf.room_for(way[passage.before]) >= 0.3
+            assert leaf.room_for(way[passage.after]) >= 0.3

@@ -13,6 +13,7 @@ from angen_apps.maps.gridmap import FREE, GridMap
 
 Point = tuple[float, float]
 NEAR_COST = 4.0  # how much more a cell beside an obstacle costs than one in the open
+BETWEEN_LEAVES = 0.15  # m between the edges of a double door
 OPEN = 0.25  # m beyond the robot's radius where the open begins
 
 
@@ -179,6 +180,10 @@ class Door:
             return max(math.hypot(*away) - self.width, 0.0)
         return min(_to_segment(point, self.hinge, self.tip(a)) for a in (low, high))
 
+    def is_other_leaf(self, door: Door) -> bool:
+        """Whether this leaf and another door's close one doorway."""
+        return self != door and math.dist(self.tip(self.shut), door.tip(door.shut)) < BETWEEN_LEAVES
+
     def crosses(self, a: Point, b: Point) -> bool:
         """Whether a step from a to b crosses the shut leaf."""
         return _cross(a, b, self.hinge, self.tip(self.shut))
@@ -210,19 +215,25 @@ class NoRoom(ValueError):
 
 
 def passages(way: list[Point], doors: list[Door], room: float) -> list[Passage]:
-    """The doors on a way, in order, with places `room` (m) clear of their leaves.
+    """The doors on a way, in order, with places `room` (m) clear of their leaves; of a double door
+    both leaves, as one alone leaves the robot little room.
 
     NoRoom names a door in whose swing the way begins or ends.
     """
-    found = []
+    found: list[Passage] = []
     for i in range(len(way) - 1):
         for door in doors:
             if not door.crosses(way[i], way[i + 1]):
                 continue
-            before = next((j for j in range(i, -1, -1) if door.room_for(way[j]) >= room), None)
-            after = next((j for j in range(i + 1, len(way)) if door.room_for(way[j]) >= room),
-                         None)
+            leaves = [door, *(other for other in doors if other.is_other_leaf(door))]
+
+            def is_clear(point: Point) -> bool:
+                return min(leaf.room_for(point) for leaf in leaves) >= room
+
+            before = next((j for j in range(i, -1, -1) if is_clear(way[j])), None)
+            after = next((j for j in range(i + 1, len(way)) if is_clear(way[j])), None)
             if before is None or after is None:
                 raise NoRoom(f'within the swing of door {door.name}')
-            found.append(Passage(door, before, after))
+            found += [Passage(leaf, before, after) for leaf in leaves
+                      if Passage(leaf, before, after) not in found]
     return found

@@ -17,6 +17,7 @@ from angen_apps.robot.route_file import Route
 from angen_apps.robot.views import sensor_element, view_of
 from angen_tools.common.failure import Failure
 from angen_tools.common.home import Home as DescribedHome
+from angen_tools.common.home import Room
 from angen_tools.world import sdf
 
 CELL = 0.5  # m
@@ -133,18 +134,37 @@ class Rooms:
         found = np.zeros(len(x), bool)
         for door in self._doors:
             found |= np.hypot(x - door.pose[0], y - door.pose[1]) < door.width / 2 + BODY
-        left = np.nonzero(~found)[0]
-        found[left] = [any(room.contains(*place) for room in self._rooms)
-                       for place in zip(x[left], y[left])]
+        for room in self._rooms:
+            found |= _contains(room, x, y)
         return found
 
     def at(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """The numbers of the rooms that places (m) are in, or nearest to."""
         if not self._rooms:
             return np.zeros(len(x), int)
-        away = [[0.0 if room.contains(*place) else room.distance(*place) for room in self._rooms]
-                for place in zip(x, y)]
-        return np.array(away).reshape(len(x), -1).argmin(axis=1)
+        away = [np.where(_contains(room, x, y), 0.0, _distance(room, x, y)) for room in self._rooms]
+        return np.array(away).argmin(axis=0)
+
+
+def _contains(room: Room, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """As room.contains, of many places."""
+    found = np.zeros(len(x), bool)
+    with np.errstate(divide='ignore', invalid='ignore'):
+        for polygon in (room.polygon, *room.holes):  # in a hole an odd number more
+            for (ax, ay), (bx, by) in zip(polygon, polygon[1:] + polygon[:1]):
+                found ^= ((ay > y) != (by > y)) & (x < ax + (y - ay) / (by - ay) * (bx - ax))
+    return found
+
+
+def _distance(room: Room, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """As room.distance, of many places."""
+    nearest = np.full(len(x), np.inf)
+    for polygon in (room.polygon, *room.holes):
+        for (ax, ay), (bx, by) in zip(polygon, polygon[1:] + polygon[:1]):
+            dx, dy = bx - ax, by - ay
+            share = np.clip(((x - ax) * dx + (y - ay) * dy) / ((dx * dx + dy * dy) or 1.0), 0, 1)
+            nearest = np.minimum(nearest, np.hypot(x - ax - share * dx, y - ay - share * dy))
+    return nearest
 
 
 def _middles(grid: GridMap, rows: np.ndarray, columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
