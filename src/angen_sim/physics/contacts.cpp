@@ -27,6 +27,20 @@ constexpr double kUp = 0.9;                    // of a unit normal: on a floor
 constexpr double kPush =
     50.0;  // m/s^2, at which a soft contact lifts a body that is deep in the floor
 
+// A person's chest and pelvis: ISO/TS 15066:2016, table A.3, effective spring constant.
+constexpr double kSideYield = 1.0 / 25e3;  // m/N
+constexpr double kSide = 0.5;              // |z| of the normal at a person's side, at most
+constexpr double kRebound = 0.1;           // m/s, at which a person parts from what it has hit
+
+bool slides(const Joint* joint) { return joint->type == desc::Joint::Type::kPrismatic; }
+
+// Whether a sliding leaf is at the person's side.
+bool is_squeezed(const Geom& person, const Geom& leaf, const Vec3& normal) {
+  const std::vector<Joint*>& joints = leaf.body->joints;
+  return person.body->upright && leaf.body->dynamic() && std::abs(normal.z()) < kSide &&
+         std::any_of(joints.begin(), joints.end(), slides);
+}
+
 bool joined(const Body& a, const Body& b) {
   const Body& moving = a.dynamic() ? a : b;
   const Body& other = a.dynamic() ? b : a;
@@ -252,17 +266,20 @@ void Contacts::make_joint(const Pair& pair, std::size_t index, bool pushes) {
   s.soft_cfm = std::max(cfm_ / share.stiffness, share.least_cfm);
   set_friction(contact, pair, share);
   double fastest = fastest_;
-  const double parts_at = std::min(a.fastest, b.fastest);
+  const Vec3 normal = ode::vec(contact.geom.normal);
+  const bool squeezes = is_squeezed(a, b, normal) || is_squeezed(b, a, normal);
+  const double parts_at = std::min({a.fastest, b.fastest, squeezes ? kRebound : dInfinity});
   const double bounce = std::min(a.restitution, b.restitution);
   if (bounce > 0.0) {
     s.mode |= dContactBounce;
     s.bounce = bounce;
     s.bounce_vel = kBounceSpeed;
   }
-  const bool is_soft = a.stiffness || b.stiffness;
+  const bool is_soft = a.stiffness || b.stiffness || squeezes;
   if (is_soft) {
     const double yield =
-        ((a.stiffness ? 1.0 / *a.stiffness : 0.0) + (b.stiffness ? 1.0 / *b.stiffness : 0.0)) /
+        ((squeezes ? kSideYield * static_cast<double>(pair.count) : 0.0) +
+         (a.stiffness ? 1.0 / *a.stiffness : 0.0) + (b.stiffness ? 1.0 / *b.stiffness : 0.0)) /
         share.stiffness;
     const double damping = share.stiffness * (a.damping.value_or(0.0) + b.damping.value_or(0.0));
     s.soft_erp = step_ / (step_ + damping * yield);

@@ -254,6 +254,41 @@ TEST(Elevator, ItsLeavesDoNotHurtAPersonInTheDoor) {
   }
 }
 
+// ISO/TS 15066: a chest yields by 1 m per 25 kN. Whoever walks into a leaf is stopped by v sqrt(k
+// m).
+TEST(Elevator, AWalkingPersonIsStoppedByALeafAsByASpring) {
+  for (const Vec3& way : {Vec3(0.0, 1.0, 0.0), Vec3(0.0, -1.0, 0.0), Vec3(1.0, 0.0, 0.0)}) {
+    Bench bench;
+    bench.add(ground(-0.1));
+    Rig& rig = add_elevator(bench);
+    bench.add(box("sill", {0.0, -2.0, -0.05}, {2.0, 2.5, 0.1}));
+    ASSERT_GT(bench.run_until(4.0, [&] { return standing_open(rig, 0); }), 0.0);
+    bench.run(1.5);
+    rig.command("Floor1");
+    // Into the middle of a closing leaf from outside or inside, or into its edge.
+    const bool edge = way.x() > 0.0;
+    const Vec3 at = edge ? Vec3(-0.05, -0.77, 0.001) : Vec3(0.35, -0.77, 0.001) - 0.6 * way;
+    const physics::ModelId id = bench.add(person(at));
+    const physics::LinkId body = bench.world.links(id)[0];
+    double worst = 0.0, farthest = 0.0, back = 0.0;
+    bench.run(2.0, [&] {
+      bench.world.drive(body, way, 0.0, 150.0);
+      for (const char* leaf : {"elevator::cabin_door", "elevator::landing_door"}) {
+        worst = std::max(worst, bench.contact_force("person", leaf).norm());
+      }
+      const physics::LinkState state = bench.world.link(body);
+      farthest = std::max(farthest, way.dot(state.pose.position - at));
+      back = std::max(back, -way.dot(state.linear_velocity));
+    });
+    printf("a person walks into a leaf: %.0f N, %.3f m, back at %.2f m/s\n", worst, farthest, back);
+    const double spring = std::sqrt(25e3 * 70.0);  // N, at 1 m/s
+    EXPECT_GT(worst, 0.3 * spring) << way.transpose();
+    EXPECT_LT(worst, 1.15 * spring) << way.transpose();
+    EXPECT_LT(farthest, 0.5) << "it does not walk through the leaf";
+    EXPECT_LT(back, 0.2) << "it does not bounce";
+  }
+}
+
 TEST(Elevator, HeldItIsBlockedAndGoesOnWhenFreed) {
   Bench bench;
   Rig& rig = add_elevator(bench);
