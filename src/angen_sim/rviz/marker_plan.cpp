@@ -57,17 +57,19 @@ DrawnModel draw_model(const sim::Structure& structure, std::uint32_t first_link,
   for (std::uint32_t l = 0; l < model.links.size(); ++l) {
     const std::string group = marker_group(structure, first_link + l);
     const float alpha = strongest_alpha(group);
-    std::vector<Drawing> drawings;
+    DrawnLink link;
+    link.walks = model.links[l].upright;
     for (const desc::Visual& visual : model.links[l].visuals) {
       for (Drawing& drawing : draw(visual)) {
         drawing.marker.header.frame_id = "world";
         drawing.marker.ns = group;
         drawing.marker.id = next_id++;
         drawing.marker.color.a = std::min(drawing.marker.color.a, alpha);
-        drawings.push_back(std::move(drawing));
+        const int limb = link.walks ? sim::limb_of(visual.name) : sim::kNoLimb;
+        link.drawings.push_back({std::move(drawing), limb});
       }
     }
-    drawn.links.push_back(std::move(drawings));
+    drawn.links.push_back(std::move(link));
   }
   return drawn;
 }

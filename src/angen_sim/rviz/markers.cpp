@@ -25,14 +25,14 @@ void Markers::draw_models(const sim::Structure& structure, const Changes& change
     const auto first = static_cast<std::uint32_t>(links_.size());
     models_[m] =
         before != Numbers::kNone ? std::move(old[before]) : draw_model(structure, first, next_id_);
-    for (const std::vector<Drawing>& link : models_[m].links) {
+    for (DrawnLink& link : models_[m].links) {
       links_.push_back(&link);
       if (before == Numbers::kNone) mark(static_cast<std::uint32_t>(links_.size() - 1));
     }
   }
   for (const DrawnModel& removed : old) {  // those that stay have been moved out
-    for (const std::vector<Drawing>& link : removed.links) {
-      for (const Drawing& drawing : link) gone_.markers.push_back(drawing.marker);
+    for (const DrawnLink& link : removed.links) {
+      for (const Drawing& drawing : link.drawings) gone_.markers.push_back(drawing.marker);
     }
   }
 }
@@ -81,16 +81,28 @@ Markers::Array Markers::collect(const sim::Snapshot& snapshot, bool all) {
   } else {
     for (const std::uint32_t link : changed_) put_link(snapshot, link, array);
   }
-  for (const std::uint32_t link : changed_) marked_[link] = false;
-  changed_.clear();
+  for (const std::uint32_t link : std::exchange(changed_, {})) {
+    marked_[link] = false;
+    if (links_[link]->gait.swings()) mark(link);  // until the limbs of who stops hang down
+  }
   overlays_.append(snapshot, all, array);
   return array;
 }
 
-void Markers::put_link(const sim::Snapshot& snapshot, std::uint32_t link, Array& array) const {
-  for (const Drawing& drawing : *links_[link]) {
+void Markers::put_link(const sim::Snapshot& snapshot, std::uint32_t link, Array& array) {
+  DrawnLink& drawn = *links_[link];
+  const Pose& at = snapshot.link_poses[link];
+  if (drawn.walks && snapshot.time != drawn.time) {
+    const double way = (at.position - drawn.at.position).head<2>().norm();
+    const double past = to_seconds(snapshot.time - drawn.time);
+    drawn.gait.advance(at, drawn.time < 0 || past <= 0.0 ? 0.0 : way / past);
+    drawn.at = at;
+    drawn.time = snapshot.time;
+  }
+  for (const LinkDrawing& drawing : drawn.drawings) {
+    const Pose body = drawing.limb < 0 ? at : at * drawn.gait.limb(drawing.limb);
     array.markers.push_back(drawing.marker);
-    array.markers.back().pose = to_ros(snapshot.link_poses[link] * drawing.offset);
+    array.markers.back().pose = to_ros(body * drawing.offset);
   }
 }
 

@@ -28,14 +28,14 @@ class Markers {
   void on_structure(const sim::Snapshot& snapshot);
   void draw_models(const sim::Structure& structure, const Changes& changes);
   void mark(std::uint32_t link);
-  void put_link(const sim::Snapshot& snapshot, std::uint32_t link, Array& array) const;
+  void put_link(const sim::Snapshot& snapshot, std::uint32_t link, Array& array);
   Array collect(const sim::Snapshot& snapshot, bool all);
 
   LazyPublisher publisher_;
   std::shared_ptr<const sim::Structure> structure_;  // that all this is about
   std::int32_t next_id_ = 0;
-  std::vector<DrawnModel> models_;                  // as Structure::models
-  std::vector<const std::vector<Drawing>*> links_;  // as Structure::links
+  std::vector<DrawnModel> models_;  // as Structure::models
+  std::vector<DrawnLink*> links_;   // as Structure::links
   Overlays overlays_;
   Array gone_;                          // to be published as deleted
   std::vector<std::uint32_t> changed_;  // links, each once

@@ -4,6 +4,7 @@ namespace angen::load {
 
 /// The body of an <actor>, and the plug-in that walks it. describe_actor() adds the actor's own
 /// mass, temperatures and waypoints. The moments are those of a solid cylinder of a person's size.
+/// Limbs swing, by their names (sim/gait.h).
 constexpr char kPerson[] = R"(
 <model name="person">
   <link name="body">
@@ -22,24 +23,79 @@ constexpr char kPerson[] = R"(
       <!-- the person's motor moves it, not its soles -->
       <surface><friction><ode><mu>0</mu><mu2>0</mu2></ode></friction></surface>
     </collision>
-    <visual name="legs">
-      <pose>0 0 0.43 0 0 0</pose>
-      <geometry><cylinder><radius>0.16</radius><length>0.86</length></cylinder></geometry>
+    <visual name="thigh_left">
+      <pose>0 0.09 0.685 0 0 0</pose>
+      <geometry><capsule><radius>0.08</radius><length>0.43</length></capsule></geometry>
       <material><diffuse>0.22 0.22 0.26 1</diffuse></material>
     </visual>
-    <visual name="torso">
-      <pose>0 0 1.12 0 0 0</pose>
-      <geometry><capsule><radius>0.22</radius><length>0.26</length></capsule></geometry>
+    <visual name="shank_left">
+      <pose>0 0.09 0.28 0 0 0</pose>
+      <geometry><capsule><radius>0.058</radius><length>0.38</length></capsule></geometry>
+      <material><diffuse>0.22 0.22 0.26 1</diffuse></material>
+    </visual>
+    <visual name="foot_left">
+      <pose>0.05 0.09 0.035 0 0 0</pose>
+      <geometry><box><size>0.25 0.09 0.07</size></box></geometry>
+      <material><diffuse>0.12 0.12 0.13 1</diffuse></material>
+    </visual>
+    <visual name="upper_arm_left">
+      <pose>0 0.22 1.27 0 0 0</pose>
+      <geometry><capsule><radius>0.05</radius><length>0.3</length></capsule></geometry>
       <material><diffuse>0.20 0.36 0.60 1</diffuse></material>
     </visual>
-    <visual name="head">
-      <pose>0 0 1.62 0 0 0</pose>
-      <geometry><sphere><radius>0.13</radius></sphere></geometry>
+    <visual name="forearm_left">
+      <pose>0 0.22 0.99 0 0 0</pose>
+      <geometry><capsule><radius>0.042</radius><length>0.26</length></capsule></geometry>
       <material><diffuse>0.85 0.65 0.53 1</diffuse></material>
     </visual>
-    <visual name="face">
-      <pose>0.14 0 1.62 0 0 0</pose>
-      <geometry><box><size>0.06 0.04 0.04</size></box></geometry>
+    <visual name="thigh_right">
+      <pose>0 -0.09 0.685 0 0 0</pose>
+      <geometry><capsule><radius>0.08</radius><length>0.43</length></capsule></geometry>
+      <material><diffuse>0.22 0.22 0.26 1</diffuse></material>
+    </visual>
+    <visual name="shank_right">
+      <pose>0 -0.09 0.28 0 0 0</pose>
+      <geometry><capsule><radius>0.058</radius><length>0.38</length></capsule></geometry>
+      <material><diffuse>0.22 0.22 0.26 1</diffuse></material>
+    </visual>
+    <visual name="foot_right">
+      <pose>0.05 -0.09 0.035 0 0 0</pose>
+      <geometry><box><size>0.25 0.09 0.07</size></box></geometry>
+      <material><diffuse>0.12 0.12 0.13 1</diffuse></material>
+    </visual>
+    <visual name="upper_arm_right">
+      <pose>0 -0.22 1.27 0 0 0</pose>
+      <geometry><capsule><radius>0.05</radius><length>0.3</length></capsule></geometry>
+      <material><diffuse>0.20 0.36 0.60 1</diffuse></material>
+    </visual>
+    <visual name="forearm_right">
+      <pose>0 -0.22 0.99 0 0 0</pose>
+      <geometry><capsule><radius>0.042</radius><length>0.26</length></capsule></geometry>
+      <material><diffuse>0.85 0.65 0.53 1</diffuse></material>
+    </visual>
+    <visual name="trunk">
+      <pose>0 0 1.15 0 0 0</pose>
+      <geometry><capsule><radius>0.17</radius><length>0.36</length></capsule></geometry>
+      <material><diffuse>0.20 0.36 0.60 1</diffuse></material>
+    </visual>
+    <visual name="neck">
+      <pose>0 0 1.5 0 0 0</pose>
+      <geometry><cylinder><radius>0.055</radius><length>0.12</length></cylinder></geometry>
+      <material><diffuse>0.85 0.65 0.53 1</diffuse></material>
+    </visual>
+    <visual name="head">
+      <pose>0 0 1.635 0 0 0</pose>
+      <geometry><sphere><radius>0.115</radius></sphere></geometry>
+      <material><diffuse>0.85 0.65 0.53 1</diffuse></material>
+    </visual>
+    <visual name="hair">
+      <pose>-0.02 0 1.645 0 0 0</pose>
+      <geometry><sphere><radius>0.113</radius></sphere></geometry>
+      <material><diffuse>0.25 0.18 0.14 1</diffuse></material>
+    </visual>
+    <visual name="nose">
+      <pose>0.115 0 1.625 0 0 0</pose>
+      <geometry><sphere><radius>0.02</radius></sphere></geometry>
       <material><diffuse>0.85 0.65 0.53 1</diffuse></material>
     </visual>
   </link>

@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "desc/own_lamp.h"
 #include "light/photometry.h"
@@ -37,9 +38,9 @@ std::vector<std::vector<std::uint32_t>> joints_by_child(const desc::Model& model
   return joints;
 }
 
-// Glass and the like, which lets more than half of the light through, is not
-// seen.
-render::Body visible(const desc::Link& link, const Pose& pose, bool moves) {
+// Glass and the like, which lets more than half of the light through, is not seen. Limbs of people
+// are bodies of their own.
+render::Body visible(const desc::Link& link, const Pose& pose, bool moves, int limb = kNoLimb) {
   render::Body body;
   body.pose = pose;
   body.moves = moves;
@@ -47,6 +48,7 @@ render::Body visible(const desc::Link& link, const Pose& pose, bool moves) {
   for (const desc::Visual& visual : link.visuals) {
     const desc::Material& material = visual.material;
     if (material.diffuse.w() < 0.5F) continue;
+    if (link.upright && limb_of(visual.name) != limb) continue;
     body.surfaces.push_back({visual.shape, visual.pose, material.diffuse.head<3>(),
                              body.holds_lamp ? Eigen::Vector3f(0.0F, 0.0F, 0.0F)
                                              : Eigen::Vector3f(material.emissive.head<3>()),
@@ -67,6 +69,7 @@ Parts Engines::add(const desc::Model& model) {
   Parts parts;
   parts.body = physics.add(model);
   parts.is_static = model.is_static;
+  parts.walks = !model.links.empty() && model.links.front().upright;
   parts.links = physics.links(parts.body);
   parts.joints = physics.joints(parts.body);
   const auto anchored = links_joined_to_world(model);
@@ -92,6 +95,7 @@ Parts Engines::add(const desc::Model& model) {
     }
     first_visual += static_cast<int>(link.visuals.size());
     parts.bodies.push_back(visuals.add(visible(link, pose, !model.is_static)));
+    if (link.upright && i == 0) add_limbs(link, parts.links[i], pose);
     for (const desc::Light& light : link.lights) {
       Parts::Lamp lamp = add_light(light, pose * light.pose);
       lamp.link = i;
@@ -101,6 +105,24 @@ Parts Engines::add(const desc::Model& model) {
   }
   parts.first_shape.push_back(static_cast<std::uint32_t>(parts.shapes.size()));
   return parts;
+}
+
+void Engines::add_limbs(const desc::Link& link, physics::LinkId id, const Pose& pose) {
+  Walker& walker = walkers_[id.index];
+  walker = {};
+  for (int limb = 0; limb < kLimbs; ++limb) {
+    walker.limbs.push_back(visuals.add(visible(link, pose, true, limb)));
+  }
+}
+
+void Engines::place_limbs() {
+  for (auto& [link, walker] : walkers_) {
+    if (std::exchange(walker.placed, true)) continue;
+    for (int limb = 0; limb < kLimbs; ++limb) {
+      visuals.move(walker.limbs[static_cast<std::size_t>(limb)],
+                   walker.pose * walker.gait.limb(limb));
+    }
+  }
 }
 
 void Engines::remove(const Parts& parts) {
@@ -119,6 +141,11 @@ void Engines::remove(const Parts& parts) {
     rays.remove(shape.id);
   }
   for (const render::BodyId body : parts.bodies) visuals.remove(body);
+  if (parts.walks) {
+    const auto walker = walkers_.find(parts.links.front().index);
+    for (const render::BodyId limb : walker->second.limbs) visuals.remove(limb);
+    walkers_.erase(walker);
+  }
   for (const Parts::Lamp& lamp : parts.lamps) light.remove(lamp.id);
   physics.remove(parts.body);
 }
@@ -196,6 +223,12 @@ void Engines::follow(const Parts& parts, std::uint32_t link) {
   const Pose pose = physics.pose(parts.links[link]);
   const Resting::Body body = parts.loose[link];
   visuals.move(parts.bodies[link], pose);
+  if (parts.walks && link == 0) {
+    Walker& walker = walkers_[parts.links[link].index];
+    walker.gait.advance(pose, physics.link(parts.links[link]).linear_velocity.head<2>().norm());
+    walker.pose = pose;
+    walker.placed = false;
+  }
   if (body != Resting::kNone) {
     if (loose.move(body, pose)) set_standing(body, false);
     if (loose.rests(body)) return;  // it trembles by less than matters

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "desc/world.h"
@@ -8,6 +9,7 @@
 #include "physics/world.h"
 #include "rays/scene.h"
 #include "render/scene.h"
+#include "sim/gait.h"
 #include "sim/mover_index.h"
 #include "sim/resting.h"
 #include "sim/state_changes.h"
@@ -32,6 +34,7 @@ struct Parts {
   };
   physics::ModelId body;
   bool is_static = false;
+  bool walks = false;                                    // its first link is a person
   std::vector<physics::LinkId> links;                    // as desc::Model::links
   std::vector<physics::JointId> joints;                  // as desc::Model::joints
   std::vector<Shape> shapes;                             // in the order of links
@@ -62,6 +65,8 @@ class Engines {
 
   /// Finds light between surfaces, a part in each tick.
   void advance_light(Nanoseconds now);
+  /// To be called before an image: where the limbs of people have swung.
+  void place_limbs();
   bool light_busy() const { return light.busy() || (light.active() && light_lags()); }
 
   physics::World physics;
@@ -82,11 +87,21 @@ class Engines {
   MoverIndex::Moment standing_changed() const { return standing_changed_; }
 
  private:
+  /// The limbs of a person, which cameras see swing.
+  struct Walker {
+    std::vector<render::BodyId> limbs;  // by their numbers
+    Gait gait;
+    Pose pose;
+    bool placed = true;
+  };
+
+  void add_limbs(const desc::Link& link, physics::LinkId id, const Pose& pose);
   void show(const Parts& parts, const Parts::Shape& shape);
   void note_standing(const Parts& parts, const Parts::Shape& shape);
   void set_standing(Resting::Body body, bool standing);
   bool light_lags() const { return standing_changed_ >= light_followed_; }
 
+  std::unordered_map<std::uint32_t, Walker> walkers_;  // by LinkId
   MoverIndex::Moment changed_ = 0;
   MoverIndex::Moment standing_changed_ = 0;
   MoverIndex::Moment light_followed_ = 0;  // advance_light() knows all changes before

@@ -167,11 +167,13 @@ std::vector<std::uint8_t> InstanceView::colors(const render::PinholeCamera& lens
   // Pictures use only light that is known already: subscriptions of a camera must not
   // change the readings of other sensors.
   if (engines_.light.active()) ambience.reflected = engines_.light.reflected();
+  engines_.place_limbs();
   return engines_.visuals.colors(lens, pose, engines_.light.lit(), ambience);
 }
 
 std::vector<float> InstanceView::depths(const render::PinholeCamera& lens, const Pose& pose) const {
   queried_.other = true;
+  engines_.place_limbs();
   return engines_.visuals.depths(lens, pose);
 }
 

@@ -1,0 +1,87 @@
+#include "sim/gait.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace angen::sim {
+
+namespace {
+
+constexpr double kStride = 1.4;     // m of two steps
+constexpr double kStands = 0.02;    // m/s
+constexpr double kFull = 1.2;       // m/s, from which the limbs swing most
+constexpr double kWidest = 0.5;     // rad, of a thigh to each side
+constexpr double kArm = 0.8;        // of a thigh's swing
+constexpr double kKnee = 1.2;       // of a thigh's swing, of a leg that swings ahead
+constexpr double kElbow = 0.5;      // of that, always
+constexpr double kElsewhere = 0.5;  // m at once: it was placed there
+
+struct Limb {
+  const char* name;
+  int parent;  // another limb, or kNoLimb
+  double side;
+  double height;  // m of its joint above the floor
+};
+
+constexpr std::array<Limb, kLimbs> kLimb{{{"thigh_left", -1, 1.0, 0.90},
+                                          {"thigh_right", -1, -1.0, 0.90},
+                                          {"shank_left", 0, 1.0, 0.47},
+                                          {"shank_right", 1, -1.0, 0.47},
+                                          {"upper_arm_left", -1, 1.0, 1.42},
+                                          {"upper_arm_right", -1, -1.0, 1.42},
+                                          {"forearm_left", 4, 1.0, 1.12},
+                                          {"forearm_right", 5, -1.0, 1.12}}};
+constexpr int kShank = 2;  // the first of each pair
+constexpr int kUpperArm = 4;
+constexpr int kForearm = 6;
+
+/// A turn about the y axis at a height.
+Pose turned(double height, double angle) {
+  const Quat turn(Eigen::AngleAxisd(angle, Vec3::UnitY()));
+  const Vec3 joint(0.0, 0.0, height);
+  return {joint - turn * joint, turn};
+}
+
+}  // namespace
+
+int limb_of(const std::string& visual) {
+  const std::size_t end = visual.rfind('_');
+  if (end == std::string::npos) return kNoLimb;
+  const std::string part = visual.substr(0, end);
+  const std::string name = (part == "foot"   ? "shank"
+                            : part == "hand" ? "forearm"
+                                             : part) +
+                           visual.substr(end);
+  const auto* found =
+      std::find_if(kLimb.begin(), kLimb.end(), [&](const Limb& limb) { return limb.name == name; });
+  return found == kLimb.end() ? kNoLimb : static_cast<int>(found - kLimb.begin());
+}
+
+void Gait::advance(const Pose& pose, double speed) {
+  const double way = (pose.position - at_).head<2>().norm();
+  at_ = pose.position;
+  if (speed < kStands) {
+    phase_ = swing_ = 0.0;
+    return;
+  }
+  if (way < kElsewhere) phase_ = std::fmod(phase_ + 2.0 * M_PI * way / kStride, 2.0 * M_PI);
+  swing_ = kWidest * std::min(speed / kFull, 1.0);
+}
+
+Pose Gait::limb(int number) const {
+  const Limb& limb = kLimb.at(static_cast<std::size_t>(number));
+  const double ahead = limb.side * std::sin(phase_);  // -1 to 1
+  double angle = -swing_ * ahead;                     // ahead is a turn below 0 about y
+  if (number >= kForearm) {
+    angle = -kElbow * swing_;
+  } else if (number >= kUpperArm) {
+    angle = kArm * swing_ * ahead;
+  } else if (number >= kShank) {
+    angle = kKnee * swing_ * std::max(0.0, limb.side * std::cos(phase_));
+  }
+  const Pose own = turned(limb.height, angle);
+  return limb.parent < 0 ? own : this->limb(limb.parent) * own;
+}
+
+}  // namespace angen::sim

@@ -1,0 +1,80 @@
+// The limbs of a person who walks swing against each other, and hang down when it stands.
+#include "sim/gait.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "angen_sim/sim/room.h"
+
+namespace angen::sim {
+namespace {
+
+const Vec3 kFoot(0.0, 0.09, 0.05);
+constexpr int kThigh = 0;
+constexpr int kShank = 2;
+constexpr int kUpperArm = 4;
+
+Pose at(double x) { return {{x, 0.0, 0.0}, Quat::Identity()}; }
+
+TEST(Gait, EachLimbOfAnActorIsOneOfItsVisuals) {
+  Simulation simulation(
+      load::world_from_text("<sdf version='1.6'><world name='w'><actor name='ann'/></world></sdf>",
+                            "text", {}),
+      1, std::make_shared<Catalog>());
+  std::set<int> found;
+  for (const auto& model : simulation.snapshot()->structure->models) {
+    for (const desc::Visual& visual : model->links.front().visuals) {
+      found.insert(limb_of(visual.name));
+    }
+  }
+  EXPECT_EQ(found.size(), kLimbs + 1U);
+  EXPECT_EQ(limb_of("foot_left"), limb_of("shank_left"));
+  EXPECT_EQ(limb_of("trunk"), kNoLimb);
+  EXPECT_EQ(limb_of("tail_left"), kNoLimb);
+}
+
+TEST(Gait, LegsSwingAgainstEachOtherAndArmsAgainstLegs) {
+  Gait gait;
+  double least = 0.0;
+  double most = 0.0;
+  for (double x = 0.0; x < 3.0; x += 0.01) {
+    gait.advance(at(x), 1.0);
+    const double left = (gait.limb(kShank) * kFoot).x();
+    const double right = (gait.limb(kShank + 1) * Vec3(kFoot.x(), -kFoot.y(), kFoot.z())).x();
+    const double arm = (gait.limb(kUpperArm) * Vec3(0.0, 0.22, 1.1)).x();
+    const double leg = (gait.limb(kThigh) * Vec3(0.0, 0.09, 0.5)).x();
+    EXPECT_LE(arm * leg, 1e-12);
+    EXPECT_GT((gait.limb(kShank) * kFoot).z(), 0.04);
+    least = std::min(least, left - right);
+    most = std::max(most, left - right);
+  }
+  EXPECT_LT(least, -0.5);
+  EXPECT_GT(most, 0.5);
+}
+
+TEST(Gait, TwoStepsAreAStride) {
+  Gait gait;
+  gait.advance(at(0.0), 1.0);
+  for (int i = 1; i <= 35; ++i) gait.advance(at(0.01 * i), 1.0);  // a fourth
+  const double ahead = (gait.limb(kThigh) * Vec3(0.0, 0.09, 0.5)).x();
+  for (int i = 36; i <= 105; ++i) gait.advance(at(0.01 * i), 1.0);  // and half of one
+  EXPECT_GT(ahead, 0.15);
+  EXPECT_NEAR((gait.limb(kThigh) * Vec3(0.0, 0.09, 0.5)).x(), -ahead, 1e-9);
+}
+
+TEST(Gait, WhoStandsOrIsPlacedElsewhereTakesNoStep) {
+  Gait gait;
+  gait.advance(at(0.0), 1.0);
+  gait.advance(at(0.3), 1.0);
+  const Pose limb = gait.limb(kThigh);
+  gait.advance(at(5.0), 1.0);
+  EXPECT_EQ(gait.limb(kThigh), limb);
+  EXPECT_TRUE(gait.swings());
+  gait.advance(at(5.0), 0.0);
+  EXPECT_FALSE(gait.swings());
+  for (int number = 0; number < kLimbs; ++number) EXPECT_EQ(gait.limb(number), Pose{});
+}
+
+}  // namespace
+}  // namespace angen::sim
