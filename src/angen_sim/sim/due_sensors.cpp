@@ -14,6 +14,13 @@ bool light_unchanged(const Engines& engines, const SensorInstance& sensor) {
   return !sensor.light->region.changed_since(sensor.light->sampled);
 }
 
+/// Whether the temperature of a surface has changed that its rays may meet.
+bool heat_changed(const Engines& engines, const SensorInstance& sensor) {
+  const MoverIndex::Moment seen = sensor.seen;
+  if (sensor.near == nullptr) return engines.surfaces.changed_since(seen);
+  return engines.surfaces.changed_since(seen, sensor.near->box);
+}
+
 /// Whether its queries besides rays would have the same answers.
 bool queries_unchanged(const Engines& engines, const LiveModel& live,
                        const SensorInstance& sensor) {
@@ -22,7 +29,7 @@ bool queries_unchanged(const Engines& engines, const LiveModel& live,
   if (queried.other && moved) return false;
   const bool model_changed = live.changed >= sensor.seen;
   if (queried.model && model_changed) return false;
-  if (queried.heat && engines.surfaces.changed_since(sensor.seen)) return false;
+  if (queried.heat && heat_changed(engines, sensor)) return false;
   if (queried.devices && engines.states.changed_since(queried.fields, sensor.seen)) return false;
   if (queried.light && !light_unchanged(engines, sensor)) return false;
   if (queried.contacts && contacts_revision(engines, sensor) != sensor.contacts_seen) return false;

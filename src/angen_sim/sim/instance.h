@@ -65,7 +65,8 @@ struct WatchedLight {
 /// The region of rays that a sensor has named in place of all shapes.
 struct WatchedRays {
   MoverIndex::WatchRegion region;
-  std::uint64_t revision;  // grows when something in it changes
+  Eigen::AlignedBox3d box;  // the region's
+  std::uint64_t revision;   // grows when something in it changes
 };
 
 /// Which parts of the world an instance queried besides rays, the time and its own pose.

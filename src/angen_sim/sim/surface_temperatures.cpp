@@ -14,7 +14,7 @@ constexpr double kArrived = 1e-3;  // K from its limit: from then on it is there
 void SurfaceTemperatures::set(rays::ShapeId shape, double temperature, double limit,
                               double time_constant, Nanoseconds now, Moment moment) {
   remove(shape);
-  changed_ = moment;
+  note_changed(shape, moment);
   if (!(time_constant > 0.0) || std::abs(temperature - limit) < kArrived) {
     rays_.warm(shape, limit);
     return;
@@ -27,6 +27,31 @@ void SurfaceTemperatures::remove(rays::ShapeId shape) {
   changing_.erase(std::remove_if(changing_.begin(), changing_.end(),
                                  [&](const Changing& each) { return each.shape == shape; }),
                   changing_.end());
+  changes_.erase(std::remove_if(changes_.begin(), changes_.end(),
+                                [&](const Change& each) { return each.shape == shape; }),
+                 changes_.end());
+}
+
+void SurfaceTemperatures::note_changed(rays::ShapeId shape, Moment moment) {
+  changed_ = moment;
+  const auto known = std::find_if(changes_.begin(), changes_.end(),
+                                  [&](const Change& each) { return each.shape == shape; });
+  if (known == changes_.end()) {
+    changes_.push_back({shape, moment});
+  } else {
+    known->moment = moment;
+  }
+}
+
+bool SurfaceTemperatures::changed_since(Moment since, const Eigen::AlignedBox3d& within) const {
+  if (!changed_since(since)) return false;
+  const auto inside = [&](rays::ShapeId shape) { return rays_.bounds(shape).intersects(within); };
+  const auto changes = [&](const Changing& each) { return inside(each.shape); };
+  const auto changed = [&](const Change& each) {
+    return each.moment >= since && inside(each.shape);
+  };
+  return std::any_of(changing_.begin(), changing_.end(), changes) ||
+         std::any_of(changes_.begin(), changes_.end(), changed);
 }
 
 void SurfaceTemperatures::advance(Nanoseconds now, Moment moment) {
@@ -39,7 +64,7 @@ void SurfaceTemperatures::advance(Nanoseconds now, Moment moment) {
     }
     rays_.warm(each.shape, each.limit);
     each.time_constant = 0.0;
-    changed_ = moment;
+    note_changed(each.shape, moment);
   }
   changing_.erase(std::remove_if(changing_.begin(), changing_.end(),
                                  [](const Changing& each) { return each.time_constant == 0.0; }),

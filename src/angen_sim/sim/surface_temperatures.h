@@ -26,6 +26,8 @@ class SurfaceTemperatures {
 
   /// Whether one changes now, or was set or has come to its limit at `since` or later.
   bool changed_since(Moment since) const { return !changing_.empty() || changed_ >= since; }
+  /// The same of those that are in a box (m, world).
+  bool changed_since(Moment since, const Eigen::AlignedBox3d& within) const;
 
  private:
   struct Changing {
@@ -36,8 +38,16 @@ class SurfaceTemperatures {
     Nanoseconds since;
   };
 
+  struct Change {
+    rays::ShapeId shape;
+    Moment moment;
+  };
+
+  void note_changed(rays::ShapeId shape, Moment moment);
+
   rays::Scene& rays_;
   std::vector<Changing> changing_;
+  std::vector<Change> changes_;  // the last of each
   Moment changed_ = 0;
 };
 

@@ -123,9 +123,10 @@ void InstanceView::watch(const std::function<std::vector<rays::Ray>()>& make) co
   reach.min().array() -= kBetweenRays;
   reach.max().array() += kBetweenRays;
   if (near == nullptr) {
-    near.reset(new WatchedRays{{engines_.movers, reach}, 0});
+    near.reset(new WatchedRays{{engines_.movers, reach}, reach, 0});
   } else {
     near->region.resize(reach);
+    near->box = reach;
   }
   ++near->revision;
 }

@@ -46,6 +46,20 @@ TEST_F(Warmth, WhatItIsDependsOnTheTimeAloneNotOnWhenItWasEvaluated) {
   EXPECT_EQ(temperature(1), often);
 }
 
+TEST_F(Warmth, ChangesElsewhereAreNone) {
+  const Eigen::AlignedBox3d here(Vec3(-1.0, -1.0, -1.0), Vec3(1.0, 1.0, 1.0));
+  const Eigen::AlignedBox3d elsewhere(Vec3(5.0, 5.0, 5.0), Vec3(6.0, 6.0, 6.0));
+  surfaces.set(plate, 300.0, 310.0, 2.0, 0, 3);
+  EXPECT_TRUE(surfaces.changed_since(1000, here));
+  EXPECT_FALSE(surfaces.changed_since(0, elsewhere));
+  surfaces.advance(60 * kSecond, 5);
+  EXPECT_TRUE(surfaces.changed_since(5, here));
+  EXPECT_FALSE(surfaces.changed_since(6, here));
+  EXPECT_FALSE(surfaces.changed_since(0, elsewhere));
+  surfaces.remove(plate);
+  EXPECT_FALSE(surfaces.changed_since(0, here));  // its going is a change of the scene
+}
+
 TEST_F(Warmth, RestsAtItsLimitAndSaysWhenThatWas) {
   surfaces.set(plate, 300.0, 310.0, 2.0, 0, 1);
   surfaces.advance(18 * kSecond, 7);  // 1.2 mK left
