@@ -1,4 +1,5 @@
-"""Bodies of residents as SDF: an actor who walks, or a figure of a few parts who sits or lies."""
+"""Bodies of residents as SDF: an actor who walks, or a figure who sits or lies: boxes for contacts
+and rays, and a jointed person of capsules to look at."""
 from __future__ import annotations
 
 from typing import Sequence
@@ -7,23 +8,19 @@ SKIN, CLOTHES = 307.0, 299.0  # K, as those of an actor
 MASS = 70.0  # kg
 COLORS = ('0.20 0.36 0.60', '0.55 0.25 0.22', '0.24 0.45 0.30', '0.50 0.42 0.20', '0.42 0.28 0.52')
 FLESH, TROUSERS = '0.85 0.65 0.53', '0.22 0.22 0.26'
+HAIR, SHOES = '0.25 0.18 0.14', '0.12 0.12 0.13'
 
 # name: shape and its size, x y z of its middle, pitch; z from the seat or bed, x ahead
 Part = tuple[str, str, tuple[float, ...], tuple[float, float, float], float]
-SITTING: tuple[Part, ...] = (
+SITTING: tuple[Part, ...] = (  # the arms are in the width of the trunk
     ('thighs', 'box', (0.54, 0.34, 0.14), (0.15, 0.0, 0.07), 0.0),
-    ('trunk', 'box', (0.22, 0.34, 0.48), (-0.02, 0.0, 0.38), 0.0),
-    ('arm_left', 'box', (0.10, 0.08, 0.40), (-0.03, 0.21, 0.40), 0.0),
-    ('arm_right', 'box', (0.10, 0.08, 0.40), (-0.03, -0.21, 0.40), 0.0),
+    ('trunk', 'box', (0.20, 0.48, 0.48), (-0.02, 0.0, 0.38), 0.0),
     ('head', 'sphere', (0.11,), (-0.02, 0.0, 0.75), 0.0),
-    ('shank_left', 'box', (0.10, 0.11, 0.38), (0.37, 0.1, -0.19), 0.0),
-    ('shank_right', 'box', (0.10, 0.11, 0.38), (0.37, -0.1, -0.19), 0.0),
+    ('shanks', 'box', (0.10, 0.31, 0.38), (0.37, 0.0, -0.19), 0.0),
 )
 LYING: tuple[Part, ...] = (  # the head is at +x
     ('legs', 'box', (0.82, 0.30, 0.14), (-0.44, 0.0, 0.07), 0.0),
-    ('trunk', 'box', (0.54, 0.36, 0.20), (0.24, 0.0, 0.10), 0.0),
-    ('arm_left', 'box', (0.50, 0.08, 0.10), (0.22, 0.22, 0.05), 0.0),
-    ('arm_right', 'box', (0.50, 0.08, 0.10), (0.22, -0.22, 0.05), 0.0),
+    ('trunk', 'box', (0.54, 0.48, 0.18), (0.24, 0.0, 0.09), 0.0),
     ('head', 'sphere', (0.11,), (0.64, 0.0, 0.20), 0.0),
 )
 CAT: tuple[Part, ...] = (
@@ -31,7 +28,29 @@ CAT: tuple[Part, ...] = (
     ('head', 'sphere', (0.06,), (0.20, 0.0, 0.27), 0.0),
     ('legs', 'box', (0.26, 0.10, 0.12), (0.0, 0.0, 0.06), 0.0),
 )
-NAKED = ('head', 'arm_left', 'arm_right')  # area of skin, that of head and hands
+LEVEL = 1.571  # rad, of a capsule along x
+
+# What is seen of them, as of an actor: capsules have radius and length without their ends. `_s` is
+# on both sides. The first has the temperature of the boxes without a part of their name.
+Look = tuple[str, str, str, tuple[float, ...], tuple[float, float, float], float]
+LOOKS: dict[str, tuple[Look, ...]] = {
+    'sit': (('thigh_s', TROUSERS, 'capsule', (0.075, 0.40), (0.18, 0.09, 0.08), LEVEL),
+            ('shank_s', TROUSERS, 'capsule', (0.055, 0.36), (0.40, 0.09, -0.13), -0.04),
+            ('foot_s', SHOES, 'box', (0.25, 0.09, 0.07), (0.45, 0.09, -0.36), 0.0),
+            ('trunk', '', 'capsule', (0.16, 0.30), (-0.03, 0.0, 0.33), 0.0),
+            ('upper_arm_s', '', 'capsule', (0.048, 0.27), (0.015, 0.215, 0.40), -0.31),
+            ('forearm_s', FLESH, 'capsule', (0.04, 0.25), (0.18, 0.20, 0.21), 1.966),
+            ('neck', FLESH, 'capsule', (0.05, 0.08), (-0.02, 0.0, 0.65), 0.0),
+            ('head', FLESH, 'sphere', (0.11,), (-0.02, 0.0, 0.77), 0.0),
+            ('hair', HAIR, 'sphere', (0.109,), (-0.04, 0.0, 0.78), 0.0)),
+    'lie': (('thigh_s', TROUSERS, 'capsule', (0.075, 0.42), (-0.21, 0.09, 0.09), LEVEL),
+            ('shank_s', TROUSERS, 'capsule', (0.055, 0.38), (-0.62, 0.09, 0.07), LEVEL),
+            ('foot_s', FLESH, 'box', (0.08, 0.08, 0.22), (-0.85, 0.09, 0.12), 0.0),
+            ('trunk', '', 'capsule', (0.14, 0.32), (0.26, 0.0, 0.12), LEVEL),
+            ('upper_arm_s', '', 'capsule', (0.048, 0.27), (0.32, 0.21, 0.07), LEVEL),
+            ('forearm_s', FLESH, 'capsule', (0.04, 0.25), (0.05, 0.22, 0.06), LEVEL),
+            ('head', FLESH, 'sphere', (0.11,), (0.64, 0.0, 0.16), 0.0),
+            ('hair', HAIR, 'sphere', (0.109,), (0.66, 0.0, 0.15), 0.0))}
 
 
 def walker(name: str, speed: float, body: str) -> str:
@@ -40,7 +59,7 @@ def walker(name: str, speed: float, body: str) -> str:
               f'<speed>{speed:g}</speed></plugin>')
     if body == 'person':
         return _sdf(f'<actor name="{name}">{plugin}</actor>')
-    parts = ''.join(_part(part, '0.45 0.35 0.25', CLOTHES, solid=False) for part in CAT)
+    parts = ''.join(_visual(part[0], '0.45 0.35 0.25', CLOTHES, _shape(*part[1:])) for part in CAT)
     return _sdf(f'<model name="{name}"><link name="body">{_inertial(4.0, 0.2)}'
                 '<collision name="trunk"><pose>0 0 0.15 0 0 0</pose><geometry><capsule>'
                 '<radius>0.12</radius><length>0.06</length></capsule></geometry><surface><friction>'
@@ -51,11 +70,13 @@ def walker(name: str, speed: float, body: str) -> str:
 def figure(name: str, posture: str, number: int) -> str:
     """The figure that sits or lies; the resident's `number` chooses the color of the clothes."""
     shirt = COLORS[number % len(COLORS)]
-    parts = ''
-    for part in SITTING if posture == 'sit' else LYING:
-        naked = part[0] in NAKED
-        color = FLESH if naked else shirt if part[0] == 'trunk' else TROUSERS
-        parts += _part(part, color, SKIN if part[0] == 'head' else CLOTHES)
+    parts = ''.join(f'<collision name="{part[0]}">{_shape(*part[1:])}</collision>'
+                    for part in (SITTING if posture == 'sit' else LYING))
+    for look, color, kind, size, (x, y, z), pitch in LOOKS[posture]:
+        warm = SKIN if look == 'head' else CLOTHES
+        for side, word in ((1, 'left'), (-1, 'right')) if look.endswith('_s') else ((1, ''),):
+            parts += _visual(look.removesuffix('s') + word if word else look, color or shirt, warm,
+                             _shape(kind, size, (x, side * y, z), pitch))
     middle = 0.28 if posture == 'sit' else 0.1
     return _sdf(f'<model name="{name}"><link name="body">{_inertial(MASS, middle)}{parts}</link>'
                 '</model>')
@@ -71,16 +92,18 @@ def _inertial(mass: float, middle: float) -> str:
             f'<ixx>{moment:g}</ixx><iyy>{moment:g}</iyy><izz>{moment:g}</izz></inertia></inertial>')
 
 
-def _part(part: Part, color: str, warm: float, solid: bool = True) -> str:
-    name, kind, size, at, pitch = part
-    inner = (f'<size>{_numbers(size)}</size>' if kind == 'box' else f'<radius>{size[0]:g}</radius>')
-    shape = (f'<pose>{_numbers(at)} 0 {pitch:g} 0</pose><geometry><{kind}>{inner}</{kind}>'
-             '</geometry>')
-    heat = ('<plugin name="gz::sim::systems::Thermal" filename="gz-sim-thermal-system">'
-            f'<temperature>{warm:g}</temperature></plugin>')
-    return ((f'<collision name="{name}">{shape}</collision>' if solid else '')
-            + f'<visual name="{name}">{shape}<material><diffuse>{color} 1</diffuse></material>'
-            f'{heat}</visual>')
+def _shape(kind: str, size: Sequence[float], at: tuple[float, float, float], pitch: float) -> str:
+    inner = {'box': f'<size>{_numbers(size)}</size>',
+             'sphere': f'<radius>{size[0]:g}</radius>',
+             'capsule': f'<radius>{size[0]:g}</radius><length>{size[-1]:g}</length>'}[kind]
+    return (f'<pose>{_numbers(at)} 0 {pitch:g} 0</pose><geometry><{kind}>{inner}</{kind}>'
+            '</geometry>')
+
+
+def _visual(name: str, color: str, warm: float, shape: str) -> str:
+    return (f'<visual name="{name}">{shape}<material><diffuse>{color} 1</diffuse></material>'
+            '<plugin name="gz::sim::systems::Thermal" filename="gz-sim-thermal-system">'
+            f'<temperature>{warm:g}</temperature></plugin></visual>')
 
 
 def _numbers(values: Sequence[float]) -> str:

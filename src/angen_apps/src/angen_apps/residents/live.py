@@ -122,7 +122,7 @@ class Live:
         from gazebo_msgs.srv import SetModelState
         body = self.body(name)
         self._call('/gazebo/set_model_state', SetModelState, model_state=ModelState(
-            model_name=name, pose=_pose(body.x, body.y, body.z + ABOVE, body.yaw + turn)))
+            model_name=name, pose=_pose(body.x, body.y, body.z, body.yaw + turn)))
 
     def body(self, name: str) -> Body:
         from gazebo_msgs.srv import GetModelState

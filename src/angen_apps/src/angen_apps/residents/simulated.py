@@ -68,7 +68,7 @@ class Simulated:
     def fidget(self, name: str, turn: float) -> None:
         pose, _, _ = self.world.motion(name)
         x, y, z = (float(value) for value in pose[:3])
-        self.world.set_state(name, [x, y, z + ABOVE, 0.0, 0.0, yaw_of(*pose[3:]) + turn],
+        self.world.set_state(name, [x, y, z, 0.0, 0.0, yaw_of(*pose[3:]) + turn],
                              [0.0, 0.0, 0.0], [0.0, 0.0, 0.0])
 
     def body(self, name: str) -> Body:
