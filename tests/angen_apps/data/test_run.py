@@ -2,6 +2,7 @@
 import datetime
 import gzip
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -59,6 +60,7 @@ def test_who_comes_home_walks_in_and_is_detected(lived, tmp_path):
     assert opened and opened[0].resident == 'anna' and opened[0].cause == 'hand'
     seen = {e.sensor for e in lived.events if e.value == 'ON' and e.cause == 'motion'}
     assert len(seen) >= 3
+    assert not [e for e in lived.events if e.cause == 'noise']
     FORMATS['csv'](tmp_path, lived)
     FORMATS['casas'](tmp_path, lived)
     write_truth(tmp_path, lived)
@@ -86,6 +88,19 @@ def test_validate_finds_walls_and_seats(lived, tmp_path):
     with gzip.open(track, 'wt') as file:
         file.write('\n'.join(lines) + '\n')
     assert len(validate(tmp_path).wrong['nobody crossed a wall']) == 1
+
+
+def test_validate_finds_activities_elsewhere_and_ways_that_are_given_up(lived, tmp_path):
+    does = next(i for i in lived.truth if i.phase == 'does')
+    cooks = replace(does, activity='cook', room='bathroom0', thing='')
+    lost = replace(does, note='gave up the way')
+    FORMATS['csv'](tmp_path, lived)
+    write_truth(tmp_path, replace(lived, truth=[*lived.truth, cooks, lost, lost]))
+    wrong = validate(tmp_path).wrong
+    assert [line.partition(': ')[2] for line in wrong['an activity is in a room for it']] \
+        == ['cook in bathroom0']
+    assert [line.partition(',')[0] for line in wrong['few ways are given up']] \
+        == [f'anna: 2 of {sum(i.phase == "goes" for i in lived.truth)}']
 
 
 def test_a_home_without_a_bed_is_refused(home, tmp_path):

@@ -25,11 +25,13 @@ LEAST = 1.0  # s: the resident must move there this long
 STRIDE = 0.3  # s between two places of a track
 FALSE = 'false alarm'  # detail of its events
 NOISE = ('', '', 'noise')  # whose it is
+START = ('', '', 'start')
+FIRST = 0.01  # s, in which sensors report the state in which they start
 HOLD = 2.5  # s before and after, within which an event counts
 
 
 class Event(NamedTuple):
-    """One of a sensor. `cause`: motion, seat, hand, air, light, or noise."""
+    """One of a sensor. `cause`: motion, seat, hand, air, light, start, or noise."""
 
     time: float
     sensor: str
@@ -150,6 +152,8 @@ class Recorder:
 
     def _cause(self, time: float, sensor: Sensor) -> tuple[str, str, str]:
         """Resident, activity and cause of a sensor's detection."""
+        if time < FIRST:
+            return START
         residents = [r for r in self.household.residents if not r.away
                      and r.storey == self._storeys[sensor.id]]
         if sensor.kind in ('door', 'power'):
@@ -161,10 +165,10 @@ class Recorder:
             if sensor.kind == 'item':
                 if away < NEAR:
                     return resident.name, resident.item.activity, 'seat'
-            elif time - resident.moved < RECENT and (away < 2.0 or resident.room == sensor.room):
+            elif _moves(resident, time) and (away < 2.0 or resident.room == sensor.room):
                 return resident.name, resident.item.activity, 'motion'
         for away, _, resident in near:  # seen through a doorway
-            if sensor.kind == 'area' and time - resident.moved < RECENT:
+            if sensor.kind == 'area' and _moves(resident, time):
                 return resident.name, resident.item.activity, 'motion'
         return '', '', 'noise'
 
@@ -233,3 +237,8 @@ class Recorder:
                     self._air[sensor.id] = step
                     self._add(self.household.now, sensor, f'{step:.1f}', ('', '', 'air'))
             yield self.household.now + AIR
+
+
+def _moves(resident: Any, time: float) -> bool:
+    """Whether a resident walks, or has moved a moment before."""
+    return bool(resident.walks or time - resident.moved < RECENT)

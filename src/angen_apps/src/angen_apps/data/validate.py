@@ -11,6 +11,8 @@ from pathlib import Path
 from typing import Any, Iterator
 
 from angen_apps.data.recorder import VALUES
+from angen_apps.residents.activities import Step, activities
+from angen_apps.residents.places import ENTRANCE, OUTSIDE
 from angen_apps.residents.ground import in_polygon
 from angen_tools.common.failure import Failure
 
@@ -19,6 +21,8 @@ FASTER = 1.35  # times the speed of a profile that a person may reach
 SLACK = 0.25  # m beside an opening, in a wall
 SITS = (3.0, 1.0)  # s after the begin and before the end of sitting, when the seat is pressed
 SHOWN = 3  # findings of a kind that are listed
+GIVEN_UP = 0.02  # of a resident's places that it may not reach
+CAUSES = ('air', 'light', 'start', 'noise')  # of events that no resident has caused
 
 
 @dataclass
@@ -74,6 +78,8 @@ def validate(folder: Path) -> Findings:
     _times(findings, layout, truth)
     _walls(findings, layout, folder)
     _rooms(findings, layout, truth)
+    _uses(findings, layout, truth)
+    _given_up(findings, layout, truth)
     _causes(findings, events)
     if not faulty:
         _alternate(findings, events)
@@ -142,9 +148,43 @@ def _rooms(findings: Findings, layout: Any, truth: list[dict[str, str]]) -> None
                          f'{row["thing"]} in {row["room"]}')
 
 
+def _uses(findings: Findings, layout: Any, truth: list[dict[str, str]]) -> None:
+    """Who does something is in a room where it is done, if the home has one."""
+    rooms = {name: set().union(*(_rooms_for(step, layout) for step in activity.steps))
+             for name, activity in activities().items()
+             if not any({OUTSIDE, ENTRANCE} & set(step.at) for step in activity.steps)}
+    for row in truth:
+        wanted = rooms.get(row['activity'])
+        if row['phase'] == 'does' and row['room'] and wanted and not row['note']:
+            findings.say('an activity is in a room for it', row['room'] in wanted,
+                         f'{row["resident"]} at {row["start"]}: {row["activity"]} in {row["room"]}')
+
+
+def _rooms_for(step: Step, layout: Any) -> set[str]:
+    """The rooms with a thing of a step, or of its use."""
+    use = {room['name']: room['use'] for room in layout['rooms']}
+    found = {name for name, of in use.items() if step.room == of}
+    for what in step.at:
+        wanted, _, kind = what.rpartition(' ')
+        found |= {thing['room'] for thing in layout['things'] if thing['type'] == kind
+                  and (not wanted or use.get(thing['room']) == wanted)}
+    return found
+
+
+def _given_up(findings: Findings, layout: Any, truth: list[dict[str, str]]) -> None:
+    """Residents reach nearly all places that they go to."""
+    for resident in layout['residents']:
+        own = [row for row in truth if row['resident'] == resident['name']]
+        ways = sum(row['phase'] == 'goes' for row in own)
+        lost = [row for row in own if 'gave up' in row['note']]
+        findings.say('few ways are given up', len(lost) <= max(1, GIVEN_UP * ways),
+                     f'{resident["name"]}: {len(lost)} of {ways}, first at '
+                     + (f'{lost[0]["start"]} for {lost[0]["activity"]}' if lost else ''))
+
+
 def _causes(findings: Findings, events: list[dict[str, str]]) -> None:
     for row in events:
-        caused = row['cause'] in ('air', 'light', 'noise') or bool(row['resident'])
+        caused = row['cause'] in CAUSES or bool(row['resident'])
         findings.say('each event has a cause or is noise', caused,
                      f'{row["time"]} {row["sensor"]} {row["value"]}')
 

@@ -67,6 +67,14 @@ class Places:
         return [Spot(point, room.storey, z, room.name)
                 for point in self.ground.spots(room.name, count, numbers)]
 
+    def beside(self, spots: list[Spot], numbers: Random) -> Spot:
+        """A place on the open floor of the room of these, where others have all of them."""
+        if not spots:
+            return self.anywhere()
+        first = spots[0]
+        points = self.ground.spots(first.room, 1, numbers) if first.room in self._rooms else []
+        return Spot(points[0], first.storey, first.z, first.room) if points else self.anywhere()
+
     def anywhere(self) -> Spot:
         """A place in the largest room, where nothing else serves."""
         room = max((r for r in self.home.rooms if r.storey in self.ground.planners

@@ -17,7 +17,7 @@ from angen_tools.common.failure import Failure
 DARK = 50.0  # lx: with less, lamps are switched on
 LATE = 20.0  # s: an activity that would be shorter is left out
 FIDGETS = {'sit': 150.0, 'lie': 1500.0}  # s on average between two movements
-SHUFFLES = 25.0  # s on average between two steps of a standing resident
+SHUFFLES = 45.0  # s on average between two steps of a standing resident
 ROAMS = (15.0, 45.0)  # s at a place
 OPEN_FOR = 20.0  # s that a fridge is open, at most
 QUEUE, PATIENCE = 10.0, 900.0  # s between two tries at a room, and until it is given up
@@ -123,7 +123,7 @@ class Resident(Mover):
             return
         if spot is None:
             self.diary.note(f'no place for {activity.name}')
-            spot = self.household.places.anywhere()
+            spot = self.household.places.beside(self._tasks[activity.name][index], self._habits)
         yield from self._reach(spot, activity.name)
         if not self.arrived:
             self.diary.note('gave up the way')
