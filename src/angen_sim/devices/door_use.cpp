@@ -10,6 +10,8 @@ namespace angen::devices {
 namespace {
 
 constexpr double kNeeded = 0.62;                  // m, free width for a person
+constexpr double kAlone = 0.8;                    // m, a leaf this wide suffices
+constexpr double kBetweenLeaves = 0.15;           // m, between the edges of a double door
 constexpr double kStoreyWithin = 1.0;             // m, from a person's feet to the foot of a door
 constexpr double kReach = 1.1;                    // m from a person's middle to a handle
 constexpr double kAtSpot = 0.07;                  // m
@@ -27,6 +29,7 @@ constexpr int kRestDoublings = 7;
 
 // deg from the shut leaf to where it stands to pull it, the best first
 constexpr double kSpots[] = {45.0, 35.0, 55.0, 25.0, 65.0, 15.0};
+constexpr double kDoubleSpots[] = {60.0, 70.0, 80.0};  // of a double door
 
 double cross_of(const Surroundings::Vec2& a, const Surroundings::Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -41,6 +44,22 @@ std::optional<double> meeting(const Surroundings::Vec2& a, const Surroundings::V
   const double second = cross_of(c - a, b - a) / turned;
   if (first < 0.0 || first > 1.0 || second < 0.0 || second > 1.0) return std::nullopt;
   return first;
+}
+
+/// Whether two shut leaves close one doorway from both sides, and open to the same side.
+bool are_partners(const DoorSeen& one, const DoorSeen& other) {
+  return (one.edge() - other.edge()).norm() < kBetweenLeaves && one.along.dot(other.along) < -0.9 &&
+         one.into.dot(other.into) > 0.9;
+}
+
+void find_partner(DoorSeen& door, const std::vector<DoorSeen>& doors) {
+  if (door.width >= kAlone) return;
+  for (const DoorSeen& other : doors) {
+    if (!are_partners(door, other)) continue;
+    door.partner = other.name;
+    door.partner_mode = other.mode;
+    return;
+  }
 }
 
 }  // namespace
@@ -65,6 +84,7 @@ std::vector<DoorSeen> doors_seen(const View& view, double z) {
     door.gap = device.state.get<double>("gap");
     doors.push_back(std::move(door));
   }
+  for (DoorSeen& door : doors) find_partner(door, doors);
   return doors;
 }
 
@@ -112,16 +132,33 @@ bool DoorUse::refresh(const View& view, double z) {
 // leaves it room.
 DoorUse::Vec2 DoorUse::free_spot(const View& view, const Vec3& feet) const {
   if (side_ < 0.0) return handle() - kBeforeHandle * door_.into;
-  const auto at = [&](double degrees) -> Vec2 {
-    const double angle = degrees * M_PI / 180.0;
-    const Vec2 away = std::cos(angle) * door_.along + std::sin(angle) * door_.into;
-    return door_.hinge + (door_.width + kOutOfSwing) * away;
-  };
-  for (const double degrees : kSpots) {
-    const Vec2 place = at(degrees);
+  const std::vector<Vec2> places = spots();
+  for (const Vec2& place : places) {
     if (FloorMap(view, feet, place, FloorMap::Extent::kStraight).is_free(place)) return place;
   }
-  return at(kSpots[0]);
+  return places.front();
+}
+
+std::vector<DoorUse::Vec2> DoorUse::spots() const {
+  const auto at = [&](const Vec2& hinge, const Vec2& along, double degrees) -> Vec2 {
+    const double angle = degrees * M_PI / 180.0;
+    const Vec2 away = std::cos(angle) * along + std::sin(angle) * door_.into;
+    return hinge + (door_.width + kOutOfSwing) * away;
+  };
+  std::vector<Vec2> places;
+  if (door_.partner.empty()) {
+    for (const double degrees : kSpots) places.push_back(at(door_.hinge, door_.along, degrees));
+    return places;
+  }
+  // Before the middle of a double door, or farther aside, out of the way of both leaves.
+  const double away = std::sqrt(kOutOfSwing * (2.0 * door_.width + kOutOfSwing));
+  places.push_back(door_.edge() + away * door_.into);
+  const Vec2 other = door_.hinge + 2.0 * door_.width * door_.along;
+  for (const double degrees : kDoubleSpots) {
+    places.push_back(at(door_.hinge, door_.along, degrees));
+    places.push_back(at(other, -door_.along, degrees));
+  }
+  return places;
 }
 
 DoorUse::Advice DoorUse::update(const View& view, const Vec3& feet, const Vec2& to, bool looks,
@@ -176,6 +213,7 @@ DoorUse::Advice DoorUse::approach(const Vec2& at, Nanoseconds now, Outputs& outp
     }
     outputs.event("opens", door_.name);
     outputs.command("door", door_.name, "OpenByHand");
+    if (!door_.partner.empty()) outputs.command("door", door_.partner, "OpenByHand");
     enter(Phase::kOpening, now);
     return {Advice::Step::kStand, handle()};
   }
@@ -185,13 +223,12 @@ DoorUse::Advice DoorUse::approach(const Vec2& at, Nanoseconds now, Outputs& outp
 
 DoorUse::Advice DoorUse::wait_until_open(Nanoseconds now) {
   const Nanoseconds time = now - since_;
-  const bool moves = door_.mode == "OPENING";
-  if (door_.is_passable() && (!moves || time > kLongest)) {
+  if (door_.is_passable() && (!moves() || time > kLongest)) {
     failures_ = 0;
     enter(Phase::kPassing, now);
     return {};
   }
-  if (time > kLongest || (time > kStarts && !moves)) return fail(now);
+  if (time > kLongest || (time > kStarts && !moves())) return fail(now);
   return {Advice::Step::kStand, handle()};
 }
 
@@ -217,6 +254,7 @@ DoorUse::Advice DoorUse::pass(const Vec2& at, Nanoseconds now, Outputs& outputs)
   }
   outputs.event("closes", door_.name);
   outputs.command("door", door_.name, "CloseByHand");
+  if (!door_.partner.empty()) outputs.command("door", door_.partner, "CloseByHand");
   enter(Phase::kClosing, now);
   return {Advice::Step::kStand, handle()};
 }

@@ -20,6 +20,8 @@ struct DoorSeen {
   Vec2 into = Vec2::UnitY();   // unit, towards the side that the leaf opens to
   double width = 0.0;          // m
   double gap = 0.0;            // m, free width
+  std::string partner;         // the other leaf of a double door, where one alone is narrow
+  std::string partner_mode;
 
   Vec2 edge() const { return hinge + width * along; }
   /// Whether a person fits through.
@@ -33,7 +35,8 @@ std::optional<DoorSeen> door_on_way(const std::vector<DoorSeen>& doors,
                                     const Surroundings::Vec2& at, const Surroundings::Vec2& to);
 
 /// Takes a person through shut doors: it goes to the handle, opens the door by hand, out of the
-/// leaf's way, walks through, and may close it.
+/// leaf's way, walks through, and may close it. Of a double door it opens both leaves where one
+/// leaves too little room.
 class DoorUse {
  public:
   using Vec2 = Surroundings::Vec2;
@@ -62,9 +65,12 @@ class DoorUse {
   Advice wait_until_open(Nanoseconds now);
   Advice fail(Nanoseconds now);
   Advice pass(const Vec2& at, Nanoseconds now, Outputs& outputs);
+  bool moves() const { return door_.mode == "OPENING" || door_.partner_mode == "OPENING"; }
   Vec2 handle() const { return door_.hinge + (door_.width - 0.07) * door_.along; }
   /// Where it stands to open the door.
   Vec2 free_spot(const View& view, const Vec3& feet) const;
+  /// The places from which it can pull, the best first.
+  std::vector<Vec2> spots() const;
   bool refresh(const View& view, double z);
   void enter(Phase phase, Nanoseconds now);
 
