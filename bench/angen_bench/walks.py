@@ -66,6 +66,7 @@ def spots(floor: Floor, door: Mapping[str, Any]) -> tuple[Spot, Spot] | None:
 
 def walk(path: Path, home: Mapping[str, Any]) -> tuple[int, list[str]]:
     """The number of doors that a person passed both ways, and the problems with the others."""
+    named = {door['name']: door for door in home['doors']}
     floors = {room['floor']: Floor.of(path, room['floor']) for room in home['rooms']}
     rooms = {room['name']: room for room in home['rooms']}
     text = path.read_text()
@@ -75,6 +76,7 @@ def walk(path: Path, home: Mapping[str, Any]) -> tuple[int, list[str]]:
         beside = [rooms[name] for name in door['rooms'] if name]
         if door['kind'] == 'window' or not beside or door['width'] < LEAST_WIDTH:
             continue
+        door = _doorway(door, named)
         found = spots(floors[beside[0]['floor']], door)
         if found is None:
             what = 'a person does not fit between ' + ', '.join(_beside(path, door))
@@ -88,6 +90,19 @@ def walk(path: Path, home: Mapping[str, Any]) -> tuple[int, list[str]]:
         else:
             done += 1
     return done, wrong
+
+
+def _doorway(door: Mapping[str, Any], named: Mapping[str, Mapping[str, Any]]) -> Mapping[str, Any]:
+    """A door, or both leaves of a double door as one: a person opens both."""
+    side = re.search('(left|right)([0-9]*)$', door['name'])
+    if side is None:
+        return door
+    other = named.get(door['name'][:side.start()] + {'left': 'right', 'right': 'left'}[side[1]]
+                      + side[2])
+    if other is None or hypot(*(a - b for a, b in zip(door['pose'][:2], other['pose'][:2]))) > 2.0:
+        return door
+    middle = [(a + b) / 2 for a, b in zip(door['pose'][:2], other['pose'][:2])]
+    return {**door, 'pose': [*middle, *door['pose'][2:]], 'width': door['width'] + other['width']}
 
 
 def _beside(path: Path, door: Mapping[str, Any]) -> list[str]:
@@ -139,8 +154,7 @@ def _through(world: Any, door: Mapping[str, Any], goal: Spot) -> str:
     x, y, _, yaw = door['pose']
     local = [((px - x) * cos(yaw) + (py - y) * sin(yaw), (py - y) * cos(yaw) - (px - x) * sin(yaw))
              for px, py in seen]
-    # one passes a double door by any of its leaves
-    half = door['width'] * (1.5 if re.search('_(left|right)[0-9]*$', door['name']) else 0.5)
+    half = door['width'] / 2
     for (u0, v0), (u1, v1) in zip(local, local[1:]):
         if v0 * v1 <= 0 and v0 != v1 and abs(u0 + (u1 - u0) * v0 / (v0 - v1)) < half:
             return ''
