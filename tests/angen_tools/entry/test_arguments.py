@@ -35,7 +35,8 @@ def test_right_words_pass() -> None:
     (str(ROOT / 'worlds/empty.world'), ['did you mean world:=']),
     ('nothing', ['not NAME:=VALUE']),
     ('gui:=', ['has no value']),
-    ('world:=none.world', ['no such file']),
+    ('world:=none.world', ['no such file; one that is there']),
+    (f'world:={ROOT}/worlds/angen.wrld', [f'did you mean world:={ROOT}/worlds/angen.world?']),
 ])
 def test_a_wrong_word_is_named_with_what_is_near(word: str, parts: list[str]) -> None:
     with pytest.raises(Failure) as failed:

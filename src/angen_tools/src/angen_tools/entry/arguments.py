@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 import os
 import sys
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Callable
 from xml.etree import ElementTree
@@ -11,6 +12,7 @@ from xml.etree import ElementTree
 from angen_tools.common.failure import Failure
 from angen_tools.common.nearest import nearest
 
+ALIKE = 0.8  # of the names of a missing file and the one that was meant
 BOOLEANS = ('true', 'false')
 INPUTS = {'world': 'one that is there is world:=worlds/empty.world',
           'replay': 'give a log that record:= wrote'}
@@ -57,7 +59,15 @@ def _check(word: str, known: dict[str, str]) -> None:
     if problem:
         raise Failure(f'{word}: {problem}')
     if name in INPUTS and not Path(value).is_file():
-        raise Failure(f'{word}: no such file; {INPUTS[name]}')
+        raise Failure(f'{word}: no such file; ' + (_like(name, Path(value)) or INPUTS[name]))
+
+
+def _like(name: str, missing: Path) -> str:
+    """The file beside a missing one whose name differs by a typing error."""
+    folder = missing.parent
+    names = [path.name for path in folder.iterdir()] if folder.is_dir() else []
+    likely = get_close_matches(missing.name, names, 1, ALIKE)
+    return f'did you mean {name}:={folder / likely[0]}?' if likely else ''
 
 
 def _boolean(value: str) -> str:
