@@ -3,7 +3,7 @@ import * as THREE from '../vendor/three/three.module.min.js';
 import { rotate } from './fields.js';
 import { poseMatrix } from './shapes.js';
 
-const SENSOR = [0.06, 0.55, 0.50];
+const SENSOR = [0.06, 0.55, 0.50], SMALL = 0.3; // m
 const BESIDE = 0.25, OVER = 0.4; // m: beside a wall; over a slab, in the room that has it
 
 /** @type {Record<string, number[]>} */
@@ -24,7 +24,7 @@ export function paint(home, cls, color, link, shape) {
   if (cls === 'wall') return [0.95, 0.94, 0.92];
   if (cls === 'floor' && room) return FLOORS[room.use] ?? FLOORS.other;
   if (cls === 'ground') return [1, 1, 1];
-  if (cls === 'sensor') return SENSOR; // what hangs in the air over a low wall is known by it
+  if (cls === 'sensor' && Math.max(...shape.size) < SMALL) return SENSOR; // what hangs in the air over a low wall is known by it
   return color;
 }
 
