@@ -2,7 +2,9 @@
 from __future__ import annotations
 
 import csv
+import gzip
 import math
+import re
 from collections import Counter
 from dataclasses import dataclass, field
 from math import cos, hypot, pi, sin
@@ -16,6 +18,8 @@ from angen_tools.common.failure import Failure
 from angen_tools.common.home import Storey
 
 ROWS = 5_000_000
+COLUMN = re.compile('^(x|y|z)_m$')  # as tasks write them
+WHO = ('name', 'person', 'who', 'resident')  # columns that name what moved
 SIGHT = 0.15  # m above a PIR's cone's lower edge where it meets the floor, at least
 STEP = pi / 90  # between the rays of a field of view
 COLORS = {'pir': '#c0392b', 'camera': '#8e44ad', 'lidar': '#16a085', 'luminosity': '#d68910',
@@ -34,7 +38,7 @@ class What:
 
 @dataclass
 class Data:
-    """Counts by sensor, and the tracks by name: rows of x, y, z."""
+    """Counts by sensor, and the tracks by name: rows of x, y, z, storey (z, storey: or NaN)."""
 
     counts: Counter[str] = field(default_factory=Counter)
     tracks: dict[str, np.ndarray] = field(default_factory=dict)
@@ -51,11 +55,11 @@ def read(what: What, entities: Iterable[Any]) -> Data:
         if data.counts and not names & set(data.counts):
             raise Failure(f'{what.events}:2: names no sensor or device of this world')
     if what.track:
-        found: dict[str, list[tuple[float, float, float]]] = {}
+        found: dict[str, list[tuple[float, ...]]] = {}
         for line, row in _rows(what.track, ('x', 'y')):
-            who = row.get('name') or row.get('person') or row.get('who') or 'track'
+            who = next((row[key] for key in WHO if row.get(key)), 'track')
             try:
-                point = float(row['x']), float(row['y']), float(row.get('z') or 'nan')
+                point = tuple(float(row.get(key) or 'nan') for key in ('x', 'y', 'z', 'storey'))
             except ValueError:
                 raise Failure(f'{what.track}:{line}: x and y must be numbers') from None
             if not (math.isfinite(point[0]) and math.isfinite(point[1])):
@@ -67,9 +71,11 @@ def read(what: What, entities: Iterable[Any]) -> Data:
 
 def _rows(path: Path, needed: tuple[str, ...]) -> Iterable[tuple[int, dict[str, str]]]:
     try:
-        with path.open(newline='', encoding='utf-8') as file:
+        with (gzip.open(path, 'rt', newline='', encoding='utf-8') if path.suffix == '.gz'
+              else path.open(newline='', encoding='utf-8')) as file:
             reader = csv.DictReader(file)
-            missing = [key for key in needed if key not in (reader.fieldnames or [])]
+            reader.fieldnames = [COLUMN.sub(r'\1', name) for name in reader.fieldnames or []]
+            missing = [key for key in needed if key not in reader.fieldnames]
             if missing:
                 raise Failure(f'{path}:1: has no column {missing[0]}; it needs '
                               f'{", ".join(needed)}')
@@ -77,7 +83,7 @@ def _rows(path: Path, needed: tuple[str, ...]) -> Iterable[tuple[int, dict[str, 
                 if line > ROWS:
                     raise Failure(f'{path}:{line}: has more than {ROWS} rows')
                 yield line, {key: value or '' for key, value in row.items() if key}
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
+    except (OSError, EOFError, UnicodeDecodeError, csv.Error) as error:
         raise Failure(f'{path}: cannot be read: {getattr(error, "strerror", error)}') from None
 
 
@@ -96,6 +102,7 @@ def draw(axis: Any, scene: Any, storey: Storey, data: Data, what: What) -> None:
         z = points[:, 2]
         mine = np.isnan(z) | ((z > storey.elevation - 0.3)
                               & (z < storey.elevation + storey.height - 0.3))
+        mine &= np.isnan(points[:, 3]) | (points[:, 3] == storey.number)
         x, y = np.where(mine, points[:, 0], np.nan), np.where(mine, points[:, 1], np.nan)
         axis.plot(x, y, color=TRACKS[i % len(TRACKS)], lw=1.0, alpha=0.7, zorder=8, label=name)
     if data.tracks:
