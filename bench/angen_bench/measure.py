@@ -125,17 +125,18 @@ class Meter:
                 raise Failure('the node no longer publishes /angen/stats')
             time.sleep(0.01)
 
-    def window(self, warm_up: float, length: float) -> tuple[Sample, Sample]:
+    def window(self, warm_up: float, length: float, simulated: float = 0.0
+               ) -> tuple[Sample, Sample]:
         """Two samples `length` s of wall time apart or a little more.
 
-        The first comes when `warm_up` s have passed, of wall time and of simulated time: only then
-        has each lamp shone on each sensor, and only then is all furniture at rest, whose light is
-        computed once.
+        The first comes when `warm_up` s have passed, of wall time and of simulated time, and
+        simulated time is at least `simulated` s: only then has each lamp shone on each sensor, and
+        only then is all furniture at rest, whose light is computed once.
         """
         first = self.sample(0.0)
         begun = first.sim
         first = self.sample(first.wall + warm_up)
-        while first.sim < begun + warm_up:
+        while first.sim < max(begun + warm_up, simulated):
             first = self.sample(first.wall)
         return first, self.sample(first.wall + length)
 
