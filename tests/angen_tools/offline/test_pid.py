@@ -12,10 +12,10 @@ def test_all_follow_their_closed_forms(kind, tmp_path, capsys):
     assert run(['pid', kind, '--json', '-o', str(tmp_path)]) == 0
     p, pi, full, own = json.loads(capsys.readouterr().out)
     assert all(one['deviation'] < 0.01 for one in (p, pi, full))
-    assert p['settles'] is None and pi['settles'] is None, 'P alone and P + I swing'
+    assert p['settles_s'] is None and pi['settles_s'] is None, 'P alone and P + I swing'
     assert pi['overshoot'] > p['overshoot'] > 0.7
-    assert full['settles'] < 12.0 and full['overshoot'] > 0.2
-    assert own['settles'] < full['settles'] and own['overshoot'] < 0.001
+    assert full['settles_s'] < 12.0 and full['overshoot'] > 0.2
+    assert own['settles_s'] < full['settles_s'] and own['overshoot'] < 0.001
     assert (tmp_path / f'pid_{kind}.png').stat().st_size > 10_000
 
 

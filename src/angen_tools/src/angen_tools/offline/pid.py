@@ -160,7 +160,7 @@ def list_answers(found: list[Answer], json: bool) -> RenderableType:
     """The traces' figures as a table."""
     if json:
         return as_json([{'controller': one.controller, 'overshoot': one.overshoot,
-                         'settles': one.settles if math.isfinite(one.settles) else None,
+                         'settles_s': one.settles if math.isfinite(one.settles) else None,
                          'deviation': one.deviation, 'right': one.right} for one in found])
     return table(HEAD, [_row(one) for one in found], right=HEAD[1:])
 
