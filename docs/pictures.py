@@ -28,6 +28,7 @@ PICTURES = {
     'thesis': Made('python3 docs/thesis_figures.py'),
     'plots': Made('python3 docs/plots.py'),
     'rviz': Made("xvfb-run -a -s '-screen 0 1500x1060x24' python3 docs/rviz_picture.py"),
+    'residents': Made("xvfb-run -a -s '-screen 0 1500x1060x24' python3 docs/residents_picture.py"),
     'care': Made('angen care --world worlds/care/wrong.world --day worlds/care/wrong.csv -o OUT',
                  {'care.png': 'care.png'}),
     'task': Made('angen task patrol --out OUT', {'floor_0.png': 'patrol_floor_0.png',
