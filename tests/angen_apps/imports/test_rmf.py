@@ -8,8 +8,11 @@ import angen
 import pytest
 
 from angen_apps.imports.rmf import read_rmf
+from angen_apps.maps.gridmap import load_world
 from angen_apps.plan.polygons import area
 from angen_apps.plan.writer import world_of, write_world
+from angen_apps.robot.building import Survey, entities_of
+from angen_apps.robot.planner import passages
 from angen_bench import homes
 from angen_tools.common.failure import Failure
 
@@ -157,3 +160,18 @@ def test_leaves_slide_where_their_wall_is_askew_and_turn_beside_its_end(tmp_path
     states = homes.open_all(angen.World(str(tmp_path / 'askew.world')))
     assert {name for _, name in states} == {'slider_left', 'slider_right', 'turner'}
     assert {mode for mode, _, _ in states.values()} == {'OPEN'}
+
+
+def test_a_robot_knows_the_doors_that_slide(tmp_path: Path) -> None:
+    path = tmp_path / 'small.world'
+    write_world(read_rmf(building(tmp_path)), path, 'none')
+    shut = load_world(str(path))
+    survey = Survey(load_world(str(path)), shut, entities_of(shut), {0})
+    doors = {door.name: door for door in survey.doors[0]}
+    slider = doors['L1_slider']
+    assert slider.width == pytest.approx(1.0, abs=0.15)
+    assert slider.crosses((4.5, -2.0), (5.5, -2.0))
+    assert not slider.crosses((4.5, -1.2), (5.5, -1.2))
+    assert slider.room_for((4.5, -2.0)) == pytest.approx(0.5, abs=0.1)
+    found = passages([(3 + 0.1 * i, -2.0) for i in range(41)], list(doors.values()), 0.3)
+    assert [passage.door.name for passage in found] == ['L1_slider']

@@ -10,7 +10,8 @@ from lxml import etree
 
 from angen_apps.maps.gridmap import GridMap, floors, make_map
 from angen_apps.maps.rays import Caster
-from angen_apps.robot.doors import find_door, find_hinge, find_top, opened_alone, pose_of
+from angen_apps.robot.doors import (find_door, find_hinge, find_top, opened_alone, pose_of,
+                                    sliding_door)
 from angen_apps.robot.pilot import Pose
 from angen_apps.robot.planner import Door
 from angen_apps.robot.route_file import Route
@@ -86,8 +87,8 @@ class Survey:
             self.landmarks[floor] = replace(self.shut[floor], cells=both)
         self.doors: dict[int, list[Door]] = {floor: [] for floor in self.maps}
         self.by_joint: dict[str, Door] = {}  # MODEL::JOINT
-        storeys = {door.name: self.home.storey_at(door.pose[2]) for door in self.home.doors
-                   if door.kind == 'door'}
+        described = {door.name: door for door in self.home.doors if door.kind == 'door'}
+        storeys = {name: self.home.storey_at(door.pose[2]) for name, door in described.items()}
         doors = [entity for entity in entities if entity.kind == 'door']
         for entity in doors:
             alone = sum(other.model == entity.model for other in doors) == 1
@@ -99,6 +100,8 @@ class Survey:
                      else opened_alone(shut, entity.model, entity.name))
             hinge = find_hinge(before.links, after.links)
             door = hinge and find_door(entity.name, hinge, self.shut[floor], self.maps[floor])
+            if hinge is None and entity.name in described:
+                door = sliding_door(entity.name, described[entity.name], before.links, after.links)
             if door:
                 door = replace(door, top=find_top(Caster(shut), door, self.maps[floor].height))
                 self.doors[floor].append(door)

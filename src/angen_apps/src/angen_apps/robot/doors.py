@@ -10,12 +10,14 @@ import numpy as np
 from angen_apps.maps.gridmap import OCCUPIED, SETTLE, GridMap
 from angen_apps.robot.planner import Door, Point
 from angen_tools.common.geometry import yaw
+from angen_tools.common.home import Door as Described
 
 REACH = 2.0  # m: no leaf is wider
 NEAR = 0.12  # m to either side of a leaf's line: its thickness, and cells
 GAP = 0.15  # m along a leaf where it ends
 HEIGHTS = np.arange(0.1, 3.5, 0.02)  # m above the floor where a leaf's top is searched
 ASIDE = 0.3  # m from a leaf, where rays across it start
+SLIDES = 0.2  # m that a leaf slides, at least
 LOOK = 0.5  # s of simulated time between two looks at a door that turns
 
 
@@ -77,6 +79,21 @@ def find_hinge(shut: list[tuple[float, float, float]],
     x, y = np.linalg.solve(np.eye(2) - rotation,
                            np.array(after[:2]) - rotation @ np.array(before[:2]))
     return Hinge((float(x), float(y)), turn)
+
+
+def sliding_door(name: str, described: Described, shut: list[tuple[float, float, float]],
+                 opened: list[tuple[float, float, float]]) -> Door | None:
+    """The door whose leaf slides along the wall: it turns by nothing, about its end that is
+    farthest from the edge that shuts. None where no link has moved so."""
+    x, y = max(((b[0] - a[0], b[1] - a[1]) for a, b in zip(shut, opened)),
+               key=lambda way: math.hypot(*way))
+    if math.hypot(x, y) < SLIDES:
+        return None
+    middle, half = described.pose, described.width / 2
+    along = math.copysign(1.0, x * math.cos(middle[3]) + y * math.sin(middle[3]))
+    angle = middle[3] + (math.pi if along > 0 else 0.0)
+    end = (middle[0] - half * math.cos(angle), middle[1] - half * math.sin(angle))
+    return Door(name, end, angle, angle, described.width)
 
 
 def find_door(name: str, hinge: Hinge, shut: GridMap, opened: GridMap) -> Door | None:
