@@ -52,10 +52,21 @@ class Parser(argparse.ArgumentParser):
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         """argparse's own check, which lists every choice there is."""
         if action.choices is not None and value not in action.choices:
-            meant = MEANT.get(str(value), '')
+            word = str(value)
+            one = word.removesuffix('s')
+            meant = MEANT.get(word, MEANT.get(one, one if one in kinds() else word))
             question = (f'did you mean {meant}?' if meant in action.choices
-                        else did_you_mean(str(value), action.choices))
+                        else self._other_role(meant) or did_you_mean(word, action.choices))
             raise argparse.ArgumentError(action, f"'{value}' is not known; {question}")
+
+    def _other_role(self, kind: str) -> str:
+        """What to do with a device that is spawned, or a sensor that is set."""
+        if self.prog == 'angen spawn' and kind in kinds('device'):
+            models = [entry['model'] for entry in kinds()[kind]['models']] or ['MODEL']
+            return f'a {kind} comes with its model: angen spawn model {models[0]} NAME'
+        if self.prog == 'angen set' and kind in kinds('sensor'):
+            return f'a {kind} is a sensor, which takes no commands; angen watch shows it'
+        return ''
 
     def error(self, message: str) -> NoReturn:
         self.exit(2, f'{self.prog}: {message}; see {self.prog} --help\n')
