@@ -137,13 +137,14 @@ struct JointAxis {
 };
 
 struct Joint {
-  enum class Type { kFixed, kRevolute, kPrismatic, kBall, kUniversal };
+  enum class Type { kFixed, kRevolute, kPrismatic, kBall, kUniversal, kScrew };
   std::string name;
   Type type = Type::kFixed;
   std::string parent;           // link name, or "world"
   std::string child;            // link name
   Vec3 anchor = Vec3::Zero();   // in the model's frame
   std::vector<JointAxis> axes;  // 0, 1 or 2
+  double lead = 0.0;            // m/rad along the axis of a screw; positive: right-handed
   Source source;
 };
 

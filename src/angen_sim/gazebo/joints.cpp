@@ -30,6 +30,7 @@ std::uint8_t type_of(const desc::Joint& joint) {
     case desc::Joint::Type::kUniversal:
       return Answer::UNIVERSAL;
     case desc::Joint::Type::kRevolute:
+    case desc::Joint::Type::kScrew:  // for which the message has no number
       break;
   }
   const bool limited = !joint.axes.empty() &&

@@ -193,6 +193,7 @@ class Builder {
     joint->name = from.name;
     joint->type = from.type;
     joint->anchor = from.anchor;
+    joint->lead = from.lead;
     check_axes(from);
     Body* child = body_of_[link_index(from.child, from)];
     Body* parent = body_of_[link_index(from.parent, from)];
@@ -244,10 +245,8 @@ class Builder {
   void check_axes(const desc::Joint& joint) const {
     using Type = desc::Joint::Type;
     const std::string what = "joint \"" + model_.name + "::" + joint.name + "\" ";
-    const std::size_t wanted = joint.type == Type::kUniversal ? 2
-                               : joint.type == Type::kRevolute || joint.type == Type::kPrismatic
-                                   ? 1
-                                   : 0;
+    const bool none = joint.type == Type::kFixed || joint.type == Type::kBall;
+    const std::size_t wanted = joint.type == Type::kUniversal ? 2 : none ? 0 : 1;
     if (joint.axes.size() < wanted) {
       throw Error(joint.source, what + "has " + std::to_string(joint.axes.size()) +
                                     " axes, it needs " + std::to_string(wanted));

@@ -58,6 +58,7 @@ void take_out(Mechanism& mechanism) {
   for (Joint* joint : mechanism.joints) {
     joint->main.reset();
     joint->motor.reset();
+    joint->thread.reset();
   }
   for (Body* body : mechanism.bodies) {
     if (body->drive) {

@@ -11,6 +11,9 @@ namespace {
 using Type = desc::Joint::Type;
 
 constexpr double kStopCfm = 1e-9;
+constexpr double kNarrowest = 0.01;  // m, radius of a thread
+constexpr double kWidest = 1.0;
+constexpr double kFar = 0.5;        // m, that a thread gives back in a step at most
 constexpr double kStiffest = 0.25;  // (rad/step)^2, of a spring that is taken explicitly
 
 dBodyID ode_of(const Body* body) { return body->ode.get(); }
@@ -23,6 +26,8 @@ void set_param(const Joint& joint, int parameter, double value) {
       return dJointSetSliderParam(joint.main.get(), parameter, value);
     case Type::kUniversal:
       return dJointSetUniversalParam(joint.main.get(), parameter, value);
+    case Type::kScrew:  // of its way: ODE's angles end at half a turn
+      return dJointSetPistonParam(joint.main.get(), parameter, value);
     default:
       return;
   }
@@ -40,6 +45,11 @@ void set_motor_param(const Joint& joint, int parameter, double value) {
 }
 
 void set_range(const Joint& joint, double lower, double upper, int group) {
+  if (joint.type == Type::kScrew) {
+    lower *= joint.lead;
+    upper *= joint.lead;
+    if (lower > upper) std::swap(lower, upper);
+  }
   set_param(joint, dParamLoStop + group, lower);
   set_param(joint, dParamHiStop + group, upper);
   // Once more: ODE may have rejected a stop beyond the other one's old value.
@@ -61,18 +71,22 @@ ode::JointHandle make_main(dWorldID world, Type type) {
       return ode::JointHandle(dJointCreateSlider(world, nullptr));
     case Type::kBall:
       return ode::JointHandle(dJointCreateBall(world, nullptr));
+    case Type::kScrew:
+      return ode::JointHandle(dJointCreatePiston(world, nullptr));
     default:
       return ode::JointHandle(dJointCreateUniversal(world, nullptr));
   }
 }
 
-// The side of the joint that has the smaller inertia about, or mass along, its axis.
+// The side of the joint that has the smaller inertia about, or mass along, its axis; a screw has
+// both.
 double least_inertia(const Joint& joint, const Vec3& axis) {
   const auto of_body = [&](const Body& body, bool pivots) {
     if (joint.type == Type::kPrismatic) return body.mass;
     const Vec3 turned = body.zero.rotation.conjugate() * axis;
     const Vec3 arm = axis.cross(joint.anchor - body.zero.position);
-    return turned.dot(body.moment * turned) + (pivots ? body.mass * arm.squaredNorm() : 0.0);
+    return turned.dot(body.moment * turned) + body.mass * joint.lead * joint.lead +
+           (pivots ? body.mass * arm.squaredNorm() : 0.0);
   };
   if (!joint.second->dynamic()) return of_body(*joint.first, true);
   const double one = of_body(*joint.first, false);
@@ -121,6 +135,7 @@ Vec3 apart_from(dJointID universal, const Vec3& next) {
 
 double read_angle(const Joint& joint) {
   if (joint.type == Type::kRevolute) return dJointGetHingeAngle(joint.main.get());
+  if (joint.type == Type::kScrew) return dJointGetPistonAngle(joint.main.get());
   return joint.flipped ? dJointGetUniversalAngle1(joint.main.get())
                        : dJointGetUniversalAngle2(joint.main.get());
 }
@@ -149,14 +164,17 @@ void push_freely(const Joint& joint, double force) {
 }
 
 bool turns(const Joint& joint) {
-  return joint.type == Type::kRevolute || joint.type == Type::kUniversal;
+  return joint.type != Type::kPrismatic && joint.type != Type::kBall;
 }
 
 }  // namespace
 
-void set_stop_erp(const Joint& joint, double erp) {
+void correct_positions(const Joint& joint, bool on) {
+  const double erp = on ? kStopErp : 0.0;
   set_param(joint, dParamStopERP, erp);
   if (joint.axes.size() > 1) set_param(joint, dParamStopERP + dParamGroup2 - dParamGroup1, erp);
+  if (joint.thread == nullptr) return;
+  dJointSetDBallParam(joint.thread.get(), dParamERP, on ? kJointErp : 0.0);
 }
 
 void measure_joint(Joint& joint) {
@@ -170,7 +188,12 @@ void create_joint(dWorldID world, Joint& joint) {
   joint.main = make_main(world, joint.type);
   dJointAttach(joint.main.get(), ode_of(joint.first), ode_of(joint.second));
   dJointSetFeedback(joint.main.get(), &joint.main_feedback);
-  if (joint.type == Type::kRevolute) {
+  if (joint.type == Type::kScrew) {
+    joint.thread.reset(dJointCreateDBall(world, nullptr));
+    dJointAttach(joint.thread.get(), ode_of(joint.first), ode_of(joint.second));
+    dJointSetFeedback(joint.thread.get(), &joint.thread_feedback);
+  }
+  if (joint.type == Type::kRevolute || joint.type == Type::kScrew) {
     joint.motor.reset(dJointCreateAMotor(world, nullptr));
     dJointSetAMotorNumAxes(joint.motor.get(), 2);
   } else if (joint.type == Type::kPrismatic) {
@@ -209,9 +232,11 @@ void anchor_joint(const Joint& joint, const Pose& model) {
     return;
   }
   dJointID motor = joint.motor.get();
-  if (joint.type == Type::kRevolute) {
-    dJointSetHingeAnchor(main, anchor.x(), anchor.y(), anchor.z());
-    dJointSetHingeAxis(main, axis.x(), axis.y(), axis.z());
+  if (turns(joint)) {
+    const bool hinge = joint.type == Type::kRevolute;
+    (hinge ? dJointSetHingeAnchor : dJointSetPistonAnchor)(main, anchor.x(), anchor.y(),
+                                                           anchor.z());
+    (hinge ? dJointSetHingeAxis : dJointSetPistonAxis)(main, axis.x(), axis.y(), axis.z());
     for (int row = 0; row < 2; ++row) {
       dJointSetAMotorAxis(motor, row, 1, axis.x(), axis.y(), axis.z());
     }
@@ -228,7 +253,8 @@ void reset_joint(Joint& joint) {
   joint.turns = 0;
   joint.position = 0.0;
   if (joint.first == nullptr || joint.type == Type::kBall) return;
-  count_turns(joint, joint.type == Type::kRevolute ? joint.axes[0].initial : 0.0);
+  const bool turns_on = joint.type == Type::kRevolute || joint.type == Type::kScrew;
+  count_turns(joint, turns_on ? joint.axes[0].initial : 0.0);
 }
 
 void count_turns(Joint& joint, double position) {
@@ -253,7 +279,7 @@ Pose joint_step(const Joint& joint, double by) {
   }
   const Vec3 anchor = joint.first->at * joint.anchor_in_first;
   moved.rotation = Eigen::AngleAxisd(by, axis);
-  moved.position = anchor - moved.rotation * anchor;
+  moved.position = anchor - moved.rotation * anchor + joint.lead * by * axis;
   return moved;
 }
 
@@ -297,6 +323,25 @@ void apply_latch(const Joint& joint) {
   apply_motor(joint);
 }
 
+// A thread is a slant in which the first body slides, at some distance from the axis: one row of a
+// force that holds both ways. The others of the screw's forces are those of its piston.
+void aim_thread(const Joint& joint) {
+  const Body& second = *joint.second;
+  const Vec3 axis = world_axis(joint);
+  const Vec3 middle = joint.first->at * joint.anchor_in_first;
+  const Vec3 start = second.at * (second.zero.inverse() * joint.anchor);
+  const double radius = std::clamp(std::abs(joint.lead), kNarrowest, kWidest);
+  const Vec3 outward = axis.unitOrthogonal();
+  const double norm = std::hypot(radius, joint.lead);
+  const Vec3 normal = (radius * axis - joint.lead * axis.cross(outward)) / norm;
+  const double ahead = axis.dot(middle - start) - joint.lead * joint.position;  // m
+  const Vec3 at = middle + radius * outward;
+  const Vec3 other = at - normal;
+  dJointSetDBallAnchor1(joint.thread.get(), at.x(), at.y(), at.z());
+  dJointSetDBallAnchor2(joint.thread.get(), other.x(), other.y(), other.z());
+  dJointSetDBallDistance(joint.thread.get(), 1.0 - std::clamp(radius / norm * ahead, -kFar, kFar));
+}
+
 double ode_position(const Joint& joint) {
   return turns(joint) ? read_angle(joint) : dJointGetSliderPosition(joint.main.get());
 }
@@ -316,7 +361,8 @@ void update_joint(Joint& joint, double h) {
     joint.position = angle + 2.0 * M_PI * joint.turns;
     const Vec3 arm = -(at.rotation * joint.anchor_in_first);
     const Vec3 torque = ode::vec(main.t1) + arm.cross(ode::vec(main.f1)) + ode::vec(motor.t1);
-    joint.effort = axis.dot(torque) + joint.spring_effort;
+    const double at_stop = joint.lead * axis.dot(ode::vec(main.f1));  // of a screw
+    joint.effort = axis.dot(torque) + at_stop + joint.spring_effort;
   } else {
     joint.position = dJointGetSliderPosition(joint.main.get());
     joint.effort = axis.dot(ode::vec(main.f1) + ode::vec(motor.f1)) + joint.spring_effort;
@@ -329,8 +375,9 @@ Wrench joint_wrench(const Joint& joint) {
   const dJointFeedback& main = joint.main_feedback;
   const dJointFeedback& motor = joint.motor_feedback;
   Wrench on_first;  // ODE's torques are about its center
-  on_first.force = ode::vec(main.f1) + ode::vec(motor.f1);
-  on_first.torque = ode::vec(main.t1) + ode::vec(motor.t1);
+  const dJointFeedback& thread = joint.thread_feedback;
+  on_first.force = ode::vec(main.f1) + ode::vec(motor.f1) + ode::vec(thread.f1);
+  on_first.torque = ode::vec(main.t1) + ode::vec(motor.t1) + ode::vec(thread.t1);
   if (joint.type != Type::kBall) {
     const Vec3 along = (joint.spring_effort + joint.pushed) * world_axis(joint);
     (joint.type == Type::kPrismatic ? on_first.force : on_first.torque) += along;
@@ -381,9 +428,10 @@ Pose joint_displacement(const Joint& joint) {
   Pose moved;
   if (joint.type == Type::kPrismatic) {
     moved.position = axis.initial * axis.in_model;
-  } else if (joint.type == Type::kRevolute) {
+  } else if (joint.type == Type::kRevolute || joint.type == Type::kScrew) {
     moved.rotation = Eigen::AngleAxisd(axis.initial, axis.in_model);
-    moved.position = joint.anchor - moved.rotation * joint.anchor;
+    moved.position =
+        joint.anchor - moved.rotation * joint.anchor + joint.lead * axis.initial * axis.in_model;
   }
   return moved;
 }

@@ -39,14 +39,17 @@ Bounds effort_bounds(const Joint& joint, double velocity);
 /// Sets motor, or dry friction where there is none, of a joint that ODE has.
 void apply_motor(const Joint& joint);
 
-/// Sets the share of what went past the stops that they give back in a step.
-void set_stop_erp(const Joint& joint, double erp);
+/// Whether its stops, and the thread of a screw, correct positions.
+void correct_positions(const Joint& joint, bool on);
 
 /// Sets stops and motor of a latched joint that ODE has, or gives it its own again.
 void apply_latch(const Joint& joint);
 /// Breaks a latch whose force, averaged over 0.1 s, is too much; peaks count as ten times what
 /// breaks it at most. A broken one catches the joint at its position once that force has ended.
 void watch_latch(Joint& joint, double h);
+
+/// Gives the thread of a screw the direction and the error of its next step.
+void aim_thread(const Joint& joint);
 
 /// The position that ODE measures, rad in [-pi, pi] or m.
 double ode_position(const Joint& joint);

@@ -104,10 +104,13 @@ struct Joint {
   bool flipped = false;
   Vec3 anchor = Vec3::Zero();  // in the model's frame, all joints at 0
   std::vector<Axis> axes;
-  ode::JointHandle main;   // the constraint with its stops; null as its bodies'
-  ode::JointHandle motor;  // first row: motor, brake or dry friction; second row: damping
+  double lead = 0.0;        // m/rad, of a screw
+  ode::JointHandle main;    // the constraint with its stops; null as its bodies'
+  ode::JointHandle motor;   // first row: motor, brake or dry friction; second row: damping
+  ode::JointHandle thread;  // of a screw: couples its way and its angle
   dJointFeedback main_feedback{};
   dJointFeedback motor_feedback{};
+  dJointFeedback thread_feedback{};
   Vec3 axis_in_body = Vec3::UnitZ();  // the first body's; a universal joint's parent's
   Vec3 anchor_in_first = Vec3::Zero();
   double motor_velocity = 0.0;

@@ -31,7 +31,7 @@ void set_correction(const std::vector<Body*>& bodies, bool on) {
   dWorldSetERP(dBodyGetWorld(bodies.front()->ode.get()), on ? kJointErp : 0.0);
   for (const Body* body : bodies) {
     for (const Joint* joint : body->joints) {
-      if (joint->first == body) set_stop_erp(*joint, on ? kStopErp : 0.0);
+      if (joint->first == body) correct_positions(*joint, on);
     }
   }
 }

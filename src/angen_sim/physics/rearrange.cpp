@@ -75,7 +75,8 @@ class Arrangement {
 
   double goal_of(const Joint& joint, double position) const {
     using Type = desc::Joint::Type;
-    if (joint.type != Type::kRevolute && joint.type != Type::kPrismatic) {
+    const bool none = joint.type == Type::kFixed || joint.type == Type::kBall;
+    if (none || joint.type == Type::kUniversal) {
       throw Error("joint \"" + model_.name + "::" + joint.name +
                   "\" has not one axis; its position cannot be set");
     }

@@ -95,6 +95,7 @@ void World::Impl::set_up_joints(double step) {
     if (body->drive) aim_drive(*body, step);
     for (Joint* joint : body->joints) {
       if (joint->first != body || joint->axes.empty()) continue;
+      if (joint->thread != nullptr) aim_thread(*joint);
       if (joint->axes[0].stiffness > 0.0) apply_spring(*joint, step);
       if (joint->motor_force > 0.0 && joint->axes[0].safety) apply_motor(*joint);
     }

@@ -23,9 +23,9 @@ bool has_link(const Element& model) {
 
 namespace {
 
-const std::set<std::string> kJoints = {"fixed",     "revolute", "continuous",
-                                       "prismatic", "ball",     "universal"};
-const std::set<std::string> kOthersJoints = {"gearbox", "screw"};  // of Gazebo, not of ours
+const std::set<std::string> kJoints = {"fixed", "revolute",  "continuous", "prismatic",
+                                       "ball",  "universal", "screw"};
+const std::set<std::string> kOthersJoints = {"gearbox"};  // of Gazebo, not of ours
 const std::set<std::string> kLights = {"point", "spot", "directional"};
 
 std::string listed(const std::set<std::string>& names) {
@@ -122,7 +122,7 @@ void check_axes(Element& joint, Session& session) {
   for (const char* name : {"axis", "axis2"}) {
     const Element* axis = joint.child(name);
     const bool needed = std::string(name) == "axis"
-                            ? turns || type == "prismatic" || type == "universal"
+                            ? turns || type == "prismatic" || type == "universal" || type == "screw"
                             : type == "universal";
     if (axis == nullptr && needed) {
       throw Error(joint.source, tag_of(joint) + " is " + type + " and has no <" + name +

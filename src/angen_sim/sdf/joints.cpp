@@ -15,13 +15,15 @@ namespace angen::load {
 
 namespace {
 
-constexpr double kFree = 1e16;  // SDF's "no limit"
+constexpr double kFree = 1e16;        // SDF's "no limit"
+constexpr double kLeastPitch = 1e-3;  // rad/m; a thread with less does not turn
 
 desc::Joint::Type type_of(const std::string& type) {
   if (type == "revolute" || type == "continuous") return desc::Joint::Type::kRevolute;
   if (type == "prismatic") return desc::Joint::Type::kPrismatic;
   if (type == "ball") return desc::Joint::Type::kBall;
   if (type == "universal") return desc::Joint::Type::kUniversal;
+  if (type == "screw") return desc::Joint::Type::kScrew;
   return desc::Joint::Type::kFixed;
 }
 
@@ -107,6 +109,16 @@ desc::JointAxis axis_of(const Reader& element, const Element& joint, const std::
   return axis;
 }
 
+// SDF's thread_pitch is in rad/m, and positive for a left-handed thread, as Gazebo has it.
+double lead_of(const Reader& reader, const Element& joint) {
+  const double pitch = reader.number("thread_pitch", 1.0, Range::any(kFinite));
+  if (std::abs(pitch) >= kLeastPitch) return -1.0 / pitch;
+  throw Error(reader.child("thread_pitch")->source,
+              "the <thread_pitch> of " + tag_of(joint) + " is " + number_text(pitch) +
+                  " rad/m; it must be at least " + number_text(kLeastPitch) + " or at most -" +
+                  number_text(kLeastPitch));
+}
+
 bool is_hinge(const desc::Joint& joint) { return joint.type == desc::Joint::Type::kRevolute; }
 
 // Hinges about one line, as a door has an upper and a lower one.
@@ -158,6 +170,7 @@ desc::Joint joint_of(const Element& element, const std::string& scope, Frames& f
     return joint;
   }
   joint.axes.push_back(axis_of(reader.block("axis"), element, scope, frames, session));
+  if (joint.type == desc::Joint::Type::kScrew) joint.lead = lead_of(reader, element);
   if (joint.type == desc::Joint::Type::kUniversal) {
     joint.axes.push_back(axis_of(reader.block("axis2"), element, scope, frames, session));
   }

@@ -130,8 +130,8 @@ void serialize(A& a, angen::desc::JointAxis& v) {
 
 template <class A>
 void serialize(A& a, angen::desc::Joint& v) {
-  auto& [name, type, parent, child, anchor, axes, source] = v;
-  a(name, type, parent, child, anchor, axes, source);
+  auto& [name, type, parent, child, anchor, axes, lead, source] = v;
+  a(name, type, parent, child, anchor, axes, lead, source);
 }
 
 template <class A>

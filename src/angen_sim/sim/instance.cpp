@@ -29,6 +29,8 @@ const char* type_name(desc::Joint::Type type) {
       return "ball";
     case desc::Joint::Type::kUniversal:
       return "universal";
+    case desc::Joint::Type::kScrew:
+      return "screw";
   }
   return "";
 }

@@ -43,9 +43,9 @@ std::vector<const desc::Link*> moving_with(const desc::Model& model, const std::
   return links;
 }
 
-// Inertia that a joint moves: kg m^2 about a revolute joint's axis, kg along a prismatic one's.
+// Inertia that a joint moves: kg m^2 about the axis of one that turns, kg along a prismatic one's.
 double inertia(const desc::Model& model, const desc::Joint& joint) {
-  const bool turns = joint.type == desc::Joint::Type::kRevolute;
+  const bool turns = joint.type != desc::Joint::Type::kPrismatic;
   const Vec3& axis = joint.axes.front().xyz;
   double sum = 0.0;
   for (const desc::Link* link : moving_with(model, joint.child)) {
@@ -54,7 +54,7 @@ double inertia(const desc::Model& model, const desc::Joint& joint) {
     const Vec3 turned = center.rotation.conjugate() * axis;
     const Vec3 arm = axis.cross(center.position - joint.anchor);
     const double moment = turned.dot(inertial.moment * turned) + inertial.mass * arm.squaredNorm();
-    sum += turns ? moment : inertial.mass;
+    sum += turns ? moment + inertial.mass * joint.lead * joint.lead : inertial.mass;
   }
   return sum;
 }

@@ -178,6 +178,19 @@ TEST(Joint, EveryType) {
   expect_near(universal.axes[1].xyz, {0.0, 1.0, 0.0});
 }
 
+// As in Gazebo Classic: z = -angle / thread_pitch.
+TEST(Joint, AScrewHasTheLeadOfItsThreadPitch) {
+  const std::string axis = "<axis><xyz>1 0 0</xyz></axis>";
+  const desc::Joint screw =
+      read_model(joint("screw", axis + "<thread_pitch>-3141.59265</thread_pitch>")).joints[0];
+  EXPECT_EQ(screw.type, desc::Joint::Type::kScrew);
+  EXPECT_NEAR(2.0 * M_PI * screw.lead, 0.002, 1e-9) << "M16: 2 mm a turn, right-handed";
+  EXPECT_DOUBLE_EQ(read_model(joint("screw", axis), "1.5").joints[0].lead, -1.0);
+  EXPECT_NE(error_of(in_model(joint("screw", axis + "\n<thread_pitch>0</thread_pitch>")))
+                .find("w.world:2: the <thread_pitch> of "),
+            std::string::npos);
+}
+
 TEST(Joint, ParentMayBeTheWorld) {
   const desc::Model m = read_model(
       "<link name='a'/><joint name='j' "
