@@ -6,7 +6,7 @@ from typing import Sequence
 
 SKIN, CLOTHES = 307.0, 299.0  # K, as those of an actor
 MASS = 70.0  # kg
-COLORS = ('0.20 0.36 0.60', '0.55 0.25 0.22', '0.24 0.45 0.30', '0.50 0.42 0.20', '0.42 0.28 0.52')
+SHIRT = '0.20 0.36 0.60'  # as an actor's
 FLESH, TROUSERS = '0.85 0.65 0.53', '0.22 0.22 0.26'
 HAIR, SHOES = '0.25 0.18 0.14', '0.12 0.12 0.13'
 
@@ -67,15 +67,14 @@ def walker(name: str, speed: float, body: str) -> str:
                 f'{parts}</link>{plugin}</model>')
 
 
-def figure(name: str, posture: str, number: int) -> str:
-    """The figure that sits or lies; the resident's `number` chooses the color of the clothes."""
-    shirt = COLORS[number % len(COLORS)]
+def figure(name: str, posture: str) -> str:
+    """The figure that sits or lies, in the clothes of an actor."""
     parts = ''.join(f'<collision name="{part[0]}">{_shape(*part[1:])}</collision>'
                     for part in (SITTING if posture == 'sit' else LYING))
     for look, color, kind, size, (x, y, z), pitch in LOOKS[posture]:
         warm = SKIN if look == 'head' else CLOTHES
         for side, word in ((1, 'left'), (-1, 'right')) if look.endswith('_s') else ((1, ''),):
-            parts += _visual(look.removesuffix('s') + word if word else look, color or shirt, warm,
+            parts += _visual(look.removesuffix('s') + word if word else look, color or SHIRT, warm,
                              _shape(kind, size, (x, side * y, z), pitch))
     middle = 0.28 if posture == 'sit' else 0.1
     return _sdf(f'<model name="{name}"><link name="body">{_inertial(MASS, middle)}{parts}</link>'

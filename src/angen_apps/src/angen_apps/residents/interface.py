@@ -44,7 +44,7 @@ class Simulator(Protocol):
                ) -> None:
         """Places a standing resident there, whatever its posture was."""
 
-    def settle(self, name: str, place: Place, number: int) -> None:
+    def settle(self, name: str, place: Place) -> None:
         """Makes a resident sit or lie at a place."""
 
     def vanish(self, name: str) -> None:

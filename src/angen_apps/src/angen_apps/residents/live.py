@@ -101,9 +101,9 @@ class Live:
                ) -> None:
         self._put(name, walker(name, speed, body), x, y, z, yaw)
 
-    def settle(self, name: str, place: Place, number: int) -> None:
+    def settle(self, name: str, place: Place) -> None:
         x, y, z, yaw = place.pose
-        self._put(name, figure(name, place.posture, number), x, y, z + ABOVE, yaw)
+        self._put(name, figure(name, place.posture), x, y, z + ABOVE, yaw)
 
     def _put(self, name: str, sdf: str, x: float, y: float, z: float, yaw: float) -> None:
         from angen_msgs.srv import Spawn

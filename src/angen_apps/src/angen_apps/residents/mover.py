@@ -71,7 +71,7 @@ class Mover:
         """Sits down or lies down."""
         if spot.place is None or self.profile.body != 'person':
             return
-        self.simulator.settle(self.name, spot.place, self.number)
+        self.simulator.settle(self.name, spot.place)
         self.posture, self.spot = spot.place.posture, spot
         self.moved = self.now
         self.look()

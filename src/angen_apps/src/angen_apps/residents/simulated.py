@@ -50,9 +50,9 @@ class Simulated:
                ) -> None:
         self._put(name, walker(name, speed, body), (x, y, z, 0.0, 0.0, yaw))
 
-    def settle(self, name: str, place: Place, number: int) -> None:
+    def settle(self, name: str, place: Place) -> None:
         x, y, z, yaw = place.pose
-        self._put(name, figure(name, place.posture, number), (x, y, z + ABOVE, 0.0, 0.0, yaw))
+        self._put(name, figure(name, place.posture), (x, y, z + ABOVE, 0.0, 0.0, yaw))
 
     def _put(self, name: str, sdf: str, pose: tuple[float, ...]) -> None:
         self.vanish(name)
