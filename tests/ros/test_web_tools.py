@@ -88,11 +88,20 @@ def test_a_person_is_sent_where_one_clicks(home: Angen, page: Page) -> None:
     page.run('angen.show(angen.home.entities.find((e) => e.kind === "person"))')
     page.press('#card [data-verb="Stop"]')
     page.press('#card [data-verb="GoTo"]')
-    at = page.run('return angen.view.viewpoint.screen([7.0, 3.0, 0.02])')
+    page.run('''const send = angen.home.order.bind(angen.home);
+        angen.home.order = async (order) => {
+            const answer = await send(order);
+            angen.sent = [order.text, answer.ok];
+            return answer;
+        };''')
+    at = page.run('return angen.view.viewpoint.screen([1.5, 4.5, 0.02])')
     page.click(*at)
     page.until('return document.querySelector("#hint").hidden')
-    page.until('''const e = angen.home.entities.find((e) => e.kind === "person");
-        const p = angen.home.place(e); return Math.hypot(p[0] - 7.0, p[1] - 3.0) < 1.0''')
+    words, accepted = page.until('return angen.sent')
+    verb, x, y = words.split()
+    assert verb == 'GoTo' and accepted
+    assert (float(x), float(y)) == pytest.approx((1.5, 4.5), abs=0.3)
+    page.until('return angen.home.rows.get("person/person").text.startsWith("WALKING")')
     page.run('angen.card.close(); angen.setStorey(null)')
 
 
