@@ -165,6 +165,21 @@ def test_what_kill_9_leaves_is_replayed(own_master: Master, tmp_path: Path) -> N
                      done.stderr)
 
 
+def test_commands_of_a_launch_are_executed_before_time_begins(own_master: Master, tmp_path: Path
+                                                              ) -> None:
+    world, log = tmp_path / "small.world", tmp_path / "session.log"
+    world.write_text(WORLD)
+    node = own_master.node(world, tmp_path / "node", record=log,
+                           commands="lamp/kitchen0 Dim 40; door/bathroom0 Open")
+    try:
+        assert "40 %" in Cli(own_master).does("watch", "--once", "kitchen0")
+    finally:
+        assert end(node) == 0
+    actions = [line for line in lines(log) if line.get("do") == "command"]
+    assert [(line["tick"], line["name"], line["text"]) for line in actions] == [
+        (0, "lamp/kitchen0", "Dim 40"), (0, "door/bathroom0", "Open")]
+
+
 def test_a_log_that_is_damaged_or_missing_is_one_line(own_master: Master, recorded: Path,
                                                       tmp_path: Path) -> None:
     cli = Cli(own_master)
