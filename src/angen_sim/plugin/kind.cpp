@@ -161,6 +161,14 @@ Kind& Kind::alarm(std::string yes, std::string no) {
   return shown_as(std::move(yes), std::move(no));
 }
 
+Kind& Kind::events(std::string begin, std::string end, bool in_alarm) {
+  Field& flag = fields.back();
+  flag.begin_event = std::move(begin);
+  flag.end_event = std::move(end);
+  flag.in_alarm = in_alarm;
+  return *this;
+}
+
 Kind& Kind::add(std::string field, Field::Type type, std::string unit, std::string field_doc) {
   Field added;
   added.name = std::move(field);

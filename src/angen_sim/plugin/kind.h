@@ -34,6 +34,9 @@ struct Field {
   std::string names;        // of numbers in a summary: the field of texts that names each of them
   bool as_percent = false;  // a summary shows a share of 1 as a percentage
   bool alarm = false;       // a flag that is yes while the sensor detects its target
+  std::string begin_event;  // of a flag: the event of its change to `in_alarm`; empty: none
+  std::string end_event;    // and of its change back
+  bool in_alarm = true;     // the flag's value while the sensor detects something
   std::string with;         // "model range_difference": the parameter's value that it exists with
 };
 
@@ -120,6 +123,9 @@ class Kind {
   Kind& shown_as(std::string yes, std::string no);
   /// Shows a flag that is an alarm: red in rviz while it is yes.
   Kind& alarm(std::string yes, std::string no);
+  /// The events of a sensor when the flag that was added last changes to `in_alarm`, and back. A
+  /// false alarm, which is a fault of the sensor, is such a change.
+  Kind& events(std::string begin, std::string end, bool in_alarm = true);
 
  private:
   Kind& add(std::string name, Field::Type type, std::string unit, std::string doc);

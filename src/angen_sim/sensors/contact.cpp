@@ -141,6 +141,7 @@ ANGEN_REGISTER_SENSOR(
         .example("spawn contact c1 --on kitchen_chair0_a::body --set collision=seat_collision")
         .flag("pressed", "something touches it, after the debounce")
         .alarm("touched", "free")
+        .events("pressed", "released")
         .texts("collision1", "of each contact, the watched collision")
         .texts("collision2", "and the one that touches it")
         .shown()

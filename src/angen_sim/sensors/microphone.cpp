@@ -216,6 +216,7 @@ ANGEN_REGISTER_SENSOR(Microphone,
                           .number("level", "dB", "sound pressure level over 20 µPa, not weighted")
                           .shown(1)
                           .flag("loud", "whether it is above the threshold")
-                          .alarm("LOUD", ""))
+                          .alarm("LOUD", "")
+                          .events("loud", "quiet"))
 
 }  // namespace angen::sensors

@@ -135,6 +135,7 @@ ANGEN_REGISTER_SENSOR(OpticalSwitch,
                           .ray_color("0 0 1 1")
                           .flag("closed", "a ray is blocked")
                           .alarm("closed", "open")
+                          .events("closed", "opened")
                           .flag("changed",
                                 "a range differs from the last sample's by more than "
                                 "the threshold")

@@ -94,6 +94,7 @@ ANGEN_REGISTER_SENSOR(PressureMat,
                           .example("spawn pressure m1 --pose \"1 2 0\" --set threshold=20")
                           .flag("pressed", "whether the load is above the threshold")
                           .alarm("PRESSED", "free")
+                          .events("pressed", "released")
                           .number("load", "kg", "on it, as a scale shows it")
                           .shown(1)
                           .number("threshold", "kg", "as its parameter"))

@@ -75,6 +75,7 @@ ANGEN_REGISTER_SENSOR(
                        "magnet_link=door --set magnet=\"0.93 -0.015 2.078\"")
               .flag("closed", "whether the magnet is near")
               .shown_as("closed", "open")
+              .events("opened", "closed", false)
               .number("distance", "m", "to the magnet")
               .shown(4)
               .number("operate_distance", "m", "as its parameter")

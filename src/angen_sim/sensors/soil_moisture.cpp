@@ -54,6 +54,7 @@ ANGEN_REGISTER_SENSOR(SoilMoisture,
                           .number("moisture", "%", "of the soil's volume; NaN outside of a pot")
                           .shown(1)
                           .flag("dry", "whether it is below dry_below")
-                          .alarm("DRY", ""))
+                          .alarm("DRY", "")
+                          .events("dry", "wet"))
 
 }  // namespace angen::sensors

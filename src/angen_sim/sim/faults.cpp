@@ -17,28 +17,12 @@ constexpr double kShortest = 1.25;  // s that a false alarm lasts
 constexpr double kLongest = 6.0;
 constexpr Nanoseconds kEcho = kSecond / 20;  // between a message and its duplicate
 
-/// The field of a reading that is an alarm, and the events of its changes.
-struct Alarm {
-  const char* kind;
-  const char* flag;
-  bool when;  // the flag's value in an alarm
-  const char* begins;
-  const char* ends;
-};
-constexpr Alarm kAlarms[] = {
-    {"pir", "motion", true, "motion", "still"},
-    {"contact", "pressed", true, "pressed", "released"},
-    {"pressure", "pressed", true, "pressed", "released"},
-    {"reed", "closed", false, "opened", "closed"},
-    {"switch", "closed", true, "closed", "opened"},
-    {"microphone", "loud", true, "loud", "quiet"},
-    {"soil_moisture", "dry", true, "dry", "wet"},
-};
-
-const Alarm* alarm_of(const std::string& kind) {
-  const auto* at = std::find_if(std::begin(kAlarms), std::end(kAlarms),
-                                [&](const Alarm& alarm) { return kind == alarm.kind; });
-  return at == std::end(kAlarms) ? nullptr : at;
+/// The flag that a false alarm of the sensor changes; null: it has none.
+const Field* alarm_of(const SensorEntry& entry) {
+  const std::vector<Field>& fields = entry.plugin->kind().fields;
+  const auto at = std::find_if(fields.begin(), fields.end(),
+                               [](const Field& field) { return !field.begin_event.empty(); });
+  return at == fields.end() ? nullptr : &*at;
 }
 
 std::string key_of(const SensorEntry& entry) { return entry.kind + "/" + entry.name; }
@@ -63,9 +47,11 @@ std::string told(const std::vector<Event>& events, bool is_news) {
 }  // namespace
 
 /// How many it has been given: a sensor that raises no alarms has no false ones.
-std::size_t Faults::add(const std::string& key, const std::vector<Fault>& faults, Nanoseconds now) {
+std::size_t Faults::add(const SensorEntry& entry, const std::vector<Fault>& faults,
+                        Nanoseconds now) {
   std::size_t given = 0;
-  const bool alarms = alarm_of(key.substr(0, key.find('/'))) != nullptr;
+  const std::string key = key_of(entry);
+  const bool alarms = alarm_of(entry) != nullptr;
   for (const Fault& fault : faults) {
     if (fault.kind == Fault::Kind::kFalseAlarm && !alarms) continue;
     Channel& channel = channels_[key];
@@ -88,7 +74,7 @@ void Faults::follow(std::shared_ptr<const Structure> structure, Nanoseconds now)
     if (entry.faults.empty() && channels_.empty()) continue;
     const std::string key = key_of(entry);
     here.insert(key);
-    if (!entry.faults.empty() && known_.insert(key).second) add(key, entry.faults, now);
+    if (!entry.faults.empty() && known_.insert(key).second) add(entry, entry.faults, now);
     const auto channel = channels_.find(key);
     if (channel != channels_.end()) channel->second.index = i;
   }
@@ -105,23 +91,23 @@ void Faults::give(const std::string& pattern, const std::string& text, Nanosecon
   const bool off = trimmed(text) == "Off" || trimmed(text) == "off";
   const std::vector<Fault> faults = off ? std::vector<Fault>{} : parse_faults(text);
   if (!off && faults.empty()) throw Error("no fault; write one as dropout share=0.1, or Off");
-  std::vector<std::string> found;
+  std::vector<const SensorEntry*> found;
   for (const SensorEntry& entry : structure_->sensors) {
     const std::string key = key_of(entry);
     if (fnmatch(pattern.c_str(), entry.name.c_str(), 0) == 0 ||
         fnmatch(pattern.c_str(), key.c_str(), 0) == 0) {
-      found.push_back(key);
+      found.push_back(&entry);
     }
   }
   if (found.empty()) {
     throw Error("no sensor is named '" + printable(pattern) + "'; `angen list` lists all");
   }
   std::size_t given = 0;
-  for (const std::string& key : found) {
+  for (const SensorEntry* entry : found) {
     if (off) {
-      channels_.erase(key);
+      channels_.erase(key_of(*entry));
     } else {
-      given += add(key, faults, now);
+      given += add(*entry, faults, now);
     }
   }
   if (off) return;
@@ -240,7 +226,7 @@ bool Faults::passes(Active& active, Channel& channel, Message& message, const Sn
   const Nanoseconds age = now.time - active.since - fault.from;
   const bool inside = age >= 0 && age < fault.lasts;
   Rng rng(seed_, active.key, now.tick);
-  const bool flagged = alarm_of(structure_->sensors[channel.index].kind) != nullptr;
+  const bool flagged = alarm_of(structure_->sensors[channel.index]) != nullptr;
   const std::string what = told(message.events, message.sent && !flagged);
   const auto say = [&](const std::string& done) {
     if (!what.empty()) note(channel, active, now.time, what + " " + done);
@@ -290,11 +276,11 @@ bool Faults::passes(Active& active, Channel& channel, Message& message, const Sn
     }
     case Fault::Kind::kFalseAlarm: {
       if (active.alarm_end == 0) return true;
-      const Alarm& kind = *alarm_of(structure_->sensors[channel.index].kind);
+      const Field& flag = *alarm_of(structure_->sensors[channel.index]);
       message.events.clear();
       if (message.reading) {
         auto forced = std::make_shared<Reading>(*message.reading);
-        forced->set(kind.flag, kind.when);
+        forced->set(flag.name.c_str(), flag.in_alarm);
         message.reading = forced;
       }
       return true;
@@ -316,20 +302,20 @@ void Faults::draw_alarm(Active& active, Nanoseconds now) const {
 void Faults::alarm(Active& active, Channel& channel, const Snapshot& now,
                    std::vector<Message>& found) {
   const SensorEntry& entry = structure_->sensors[channel.index];
-  const Alarm* kind = alarm_of(entry.kind);
-  if (active.fault.kind != Fault::Kind::kFalseAlarm || kind == nullptr || !channel.clean) return;
-  const bool is_on = channel.clean->get(kind->flag, !kind->when) == kind->when;
-  const auto tell = [&](const char* event, bool value) {
+  const Field* flag = alarm_of(entry);
+  if (active.fault.kind != Fault::Kind::kFalseAlarm || flag == nullptr || !channel.clean) return;
+  const bool is_on = channel.clean->get(flag->name, !flag->in_alarm) == flag->in_alarm;
+  const auto tell = [&](const std::string& event, bool value) {
     auto reading = std::make_shared<Reading>(*channel.clean);
     reading->stamp = now.time;
-    reading->set(kind->flag, value);
+    reading->set(flag->name.c_str(), value);
     reading->event = event;
     found.push_back(
         {reading, now.time, true, {{now.time, entry.name, entry.kind, event, "false alarm"}}});
   };
   if (active.alarm_end > 0 && now.time >= active.alarm_end) {
     active.alarm_end = 0;
-    if (!is_on) tell(kind->ends, !kind->when);
+    if (!is_on) tell(flag->end_event, !flag->in_alarm);
   }
   if (active.alarm_end > 0 || now.time < active.alarm) return;
   Rng rng(seed_, ~active.key, active.alarms++);
@@ -339,8 +325,8 @@ void Faults::alarm(Active& active, Channel& channel, const Snapshot& now,
   active.alarm_end = now.time + static_cast<Nanoseconds>(lasts * kSecond);
   active.alarm = std::max(active.alarm, active.alarm_end + kSecond);
   note(channel, active, now.time,
-       std::string(kind->begins) + " for " + in_seconds(active.alarm_end - now.time));
-  tell(kind->begins, kind->when);
+       flag->begin_event + " for " + in_seconds(active.alarm_end - now.time));
+  tell(flag->begin_event, flag->in_alarm);
 }
 
 void Faults::deliver(Channel& channel, Message message, Snapshot& made) {

@@ -70,7 +70,7 @@ class Faults {
     int given = 0;  // faults, for their keys
   };
 
-  std::size_t add(const std::string& key, const std::vector<Fault>& faults, Nanoseconds now);
+  std::size_t add(const SensorEntry& entry, const std::vector<Fault>& faults, Nanoseconds now);
   std::vector<Message> messages(Channel& channel, Message message, const Snapshot& now);
   bool passes(Active& active, Channel& channel, Message& message, const Snapshot& now,
               Nanoseconds& delay, bool& twice);

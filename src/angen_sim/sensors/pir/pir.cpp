@@ -34,6 +34,7 @@ class PirPlugin : public Plugin {
         .ray_color("0 0 1 0.45")
         .flag("motion", "whether it detects motion")
         .alarm("MOTION", "still")
+        .events("motion", "still")
         .flag("departure", "of one that nods: something has left since the last nod, no motion now")
         .with("model", kRanges)
         .number("difference", "m", "greatest, of a range from the one a sample before")
