@@ -2,10 +2,8 @@
 
 #include <dlfcn.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <iterator>
 #include <sstream>
 
 namespace angen {
@@ -33,13 +31,6 @@ std::vector<std::string> entries_of(const char* variable) {
     if (!entry.empty()) entries.push_back(entry);
   }
   return entries;
-}
-
-bool made_for_gazebo(const std::string& library) {
-  constexpr const char* kPrefixes[] = {"libgazebo_ros_", "libhector_gazebo_", "libroboticsgroup_",
-                                       "libridgeback_ros_", "librobotnik_"};
-  return std::any_of(std::begin(kPrefixes), std::end(kPrefixes),
-                     [&](const char* prefix) { return library.rfind(prefix, 0) == 0; });
 }
 
 std::vector<fs::path> plugin_path() {

@@ -11,10 +11,6 @@ namespace angen {
 /// folder of Angen's own libraries.
 std::vector<std::filesystem::path> plugin_path();
 
-/// Whether a library is one that robots made for Gazebo name, by its file name; ours of that name
-/// has their parameters.
-bool made_for_gazebo(const std::string& library);
-
 /// The entries of an environment variable such as PATH.
 std::vector<std::string> entries_of(const char* variable);
 

@@ -29,7 +29,7 @@ inline double brightness(const Light& light) {
 /// The plug-in that makes a lamp called `name` of a light.
 inline Plugin own_lamp(const Light& light, const std::string& name, double level) {
   const bool directional = light.type == Light::Type::kDirectional;
-  Plugin plugin{"lamp", "libros_plugin.so", {}, light.source};
+  Plugin plugin{"lamp", "libros_plugin.so", {}, light.source, false};
   plugin.element.name = "plugin";
   plugin.element.source = light.source;
   plugin.element.attributes = {{"name", plugin.name}, {"filename", plugin.filename}};

@@ -153,6 +153,7 @@ struct Plugin {
   std::string filename;
   Element element;
   Source source;
+  bool is_repeatable = false;  // a model may have several of this library, each of its own name
 };
 
 struct Model {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include "core/plugin_path.h"
 #include "core/text.h"
@@ -43,6 +44,13 @@ std::optional<bool> marked_strict(const Element& element) {
 bool marked_guessed(const Element& element) {
   const std::string* text = element.attribute(kStrict);
   return text != nullptr && *text == kGuessed;
+}
+
+bool made_for_gazebo(const std::string& library) {
+  constexpr const char* kPrefixes[] = {"libgazebo_ros_", "libhector_gazebo_", "libroboticsgroup_",
+                                       "libridgeback_ros_", "librobotnik_"};
+  return std::any_of(std::begin(kPrefixes), std::end(kPrefixes),
+                     [&](const char* prefix) { return library.rfind(prefix, 0) == 0; });
 }
 
 bool holds_own_plugin(const Element& element) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "core/element.h"
 
@@ -16,6 +17,10 @@ constexpr char kGuessed[] = "guessed";
 /// another word.
 std::optional<bool> marked_strict(const Element& element);
 bool marked_guessed(const Element& element);
+
+/// Whether a library is one that robots made for Gazebo name, by its file name; ours of that name
+/// has their parameters.
+bool made_for_gazebo(const std::string& library);
 
 /// True if a <plugin> below `element` is a kind of Angen's: its library is given by a path, or has
 /// a catalog file on the plug-in path and is none that robots made for Gazebo name.

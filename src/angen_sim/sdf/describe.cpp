@@ -4,6 +4,7 @@
 
 #include "core/limits.h"
 #include "core/text.h"
+#include "document/tolerance.h"
 #include "document/values.h"
 #include "document/xml.h"
 #include "sdf/check.h"
@@ -251,7 +252,7 @@ void check_blocks(const Reader& sensor, Session& session) {
 desc::Plugin plugin_of(const Element& element) {
   const std::string file = *element.attribute("filename");
   const std::string name = name_of(element);
-  return {name.empty() ? file : name, file, element, element.source};
+  return {name.empty() ? file : name, file, element, element.source, made_for_gazebo(file)};
 }
 
 desc::Sensor sensor_of(const Element& element, const Pose& pose, Session& session) {

@@ -136,8 +136,8 @@ void serialize(A& a, angen::desc::Joint& v) {
 
 template <class A>
 void serialize(A& a, angen::desc::Plugin& v) {
-  auto& [name, filename, element, source] = v;
-  a(name, filename, element, source);
+  auto& [name, filename, element, source, is_repeatable] = v;
+  a(name, filename, element, source, is_repeatable);
 }
 
 template <class A>

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "core/names.h"
-#include "core/plugin_path.h"
 #include "desc/own_lamp.h"
 #include "sim/wiring.h"
 #include "sim/with_source.h"
@@ -14,14 +13,12 @@ namespace angen::sim {
 
 namespace {
 
-// Whether the model has a plug-in of that library; of several that Gazebo's robots name, each is
-// one of its own.
+// Whether the model has that plug-in, after the first `from`.
 bool has_own(const desc::Model& model, const desc::Plugin& plugin, std::size_t from = 0) {
-  const bool any_number = made_for_gazebo(plugin.filename);
   return std::any_of(model.plugins.begin() + static_cast<std::ptrdiff_t>(from), model.plugins.end(),
                      [&](const desc::Plugin& other) {
                        return other.filename == plugin.filename &&
-                              (!any_number || other.name == plugin.name);
+                              (!plugin.is_repeatable || other.name == plugin.name);
                      });
 }
 
