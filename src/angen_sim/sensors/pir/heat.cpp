@@ -164,7 +164,7 @@ std::vector<rays::Ray> Heat::all_rays(const Pose& pose) const {
     for (int column = 0; column <= columns; ++column) {
       const double azimuth = window.right + (window.left - window.right) * column / columns;
       rays.push_back(
-          {pose.position, pose.rotation * direction_to(azimuth, elevation), 0.0, range_});
+          {pose.position, pose.rotation * direction_to(azimuth, elevation), kHousing, range_});
     }
   }
   return rays;
