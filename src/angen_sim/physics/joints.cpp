@@ -11,9 +11,6 @@ namespace {
 using Type = desc::Joint::Type;
 
 constexpr double kStopCfm = 1e-9;
-constexpr double kNarrowest = 0.01;  // m, radius of a thread
-constexpr double kWidest = 1.0;
-constexpr double kFar = 0.5;        // m, that a thread gives back in a step at most
 constexpr double kStiffest = 0.25;  // (rad/step)^2, of a spring that is taken explicitly
 
 dBodyID ode_of(const Body* body) { return body->ode.get(); }
@@ -145,8 +142,6 @@ const Body& axis_body(const Joint& joint) {
   return joint.type == Type::kUniversal && !joint.flipped ? *joint.second : *joint.first;
 }
 
-Vec3 world_axis(const Joint& joint) { return axis_body(joint).at.rotation * joint.axis_in_body; }
-
 void push_freely(const Joint& joint, double force) {
   const Vec3 push = force * world_axis(joint);
   dBodyID first = joint.first->ode.get();
@@ -168,6 +163,8 @@ bool turns(const Joint& joint) {
 }
 
 }  // namespace
+
+Vec3 world_axis(const Joint& joint) { return axis_body(joint).at.rotation * joint.axis_in_body; }
 
 void correct_positions(const Joint& joint, bool on) {
   const double erp = on ? kStopErp : 0.0;
@@ -283,28 +280,6 @@ Pose joint_step(const Joint& joint, double by) {
   return moved;
 }
 
-Bounds velocity_bounds(const Joint& joint) {
-  const Axis& axis = joint.axes[0];
-  const double most = axis.velocity >= 0.0 ? axis.velocity : dInfinity;
-  if (!axis.safety || axis.safety->k_position == 0.0) return {-most, most};
-  const desc::JointSafety& safety = *axis.safety;
-  const double k = safety.k_position;
-  return {std::clamp(-k * (joint.position - safety.soft_lower), -most, most),
-          std::clamp(-k * (joint.position - safety.soft_upper), -most, most)};
-}
-
-Bounds effort_bounds(const Joint& joint, double velocity) {
-  const Axis& axis = joint.axes[0];
-  const double most = axis.effort >= 0.0 ? axis.effort : dInfinity;
-  const Bounds speeds = velocity_bounds(joint);
-  if (axis.safety && axis.safety->k_velocity > 0.0) {
-    const double k = axis.safety->k_velocity;
-    return {std::clamp(-k * (velocity - speeds.low), -most, most),
-            std::clamp(-k * (velocity - speeds.high), -most, most)};
-  }
-  return {velocity < speeds.low ? 0.0 : -most, velocity > speeds.high ? 0.0 : most};
-}
-
 void apply_motor(const Joint& joint) {
   const bool on = joint.motor_force > 0.0;
   const Bounds speeds = on ? velocity_bounds(joint) : Bounds{};
@@ -321,25 +296,6 @@ void apply_latch(const Joint& joint) {
   const bool stuck = joint.latched && !joint.latch_broken;
   set_range(joint, stuck ? joint.latch_at : axis.lower, stuck ? joint.latch_at : axis.upper, 0);
   apply_motor(joint);
-}
-
-// A thread is a slant in which the first body slides, at some distance from the axis: one row of a
-// force that holds both ways. The others of the screw's forces are those of its piston.
-void aim_thread(const Joint& joint) {
-  const Body& second = *joint.second;
-  const Vec3 axis = world_axis(joint);
-  const Vec3 middle = joint.first->at * joint.anchor_in_first;
-  const Vec3 start = second.at * (second.zero.inverse() * joint.anchor);
-  const double radius = std::clamp(std::abs(joint.lead), kNarrowest, kWidest);
-  const Vec3 outward = axis.unitOrthogonal();
-  const double norm = std::hypot(radius, joint.lead);
-  const Vec3 normal = (radius * axis - joint.lead * axis.cross(outward)) / norm;
-  const double ahead = axis.dot(middle - start) - joint.lead * joint.position;  // m
-  const Vec3 at = middle + radius * outward;
-  const Vec3 other = at - normal;
-  dJointSetDBallAnchor1(joint.thread.get(), at.x(), at.y(), at.z());
-  dJointSetDBallAnchor2(joint.thread.get(), other.x(), other.y(), other.z());
-  dJointSetDBallDistance(joint.thread.get(), 1.0 - std::clamp(radius / norm * ahead, -kFar, kFar));
 }
 
 double ode_position(const Joint& joint) {

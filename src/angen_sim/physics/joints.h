@@ -48,6 +48,9 @@ void apply_latch(const Joint& joint);
 /// breaks it at most. A broken one catches the joint at its position once that force has ended.
 void watch_latch(Joint& joint, double h);
 
+/// The first axis in the world.
+Vec3 world_axis(const Joint& joint);
+
 /// Gives the thread of a screw the direction and the error of its next step.
 void aim_thread(const Joint& joint);
 
