@@ -22,6 +22,7 @@ from angen_apps.plan.writer import write_world
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import writing
 from angen_tools.common.output import table
+from angen_tools.common.progress import Progress
 
 JAR = Path('/usr/share/sweethome3d/sweethome3d.jar')
 FOLDER = 'com/eteks/sweethome3d/io/resources/examples/'
@@ -200,15 +201,18 @@ def moved(world: Any, seconds: float) -> tuple[str, float]:
 
 def measure(folder: Path, files: Sequence[Path] = ()) -> list[dict[str, Any]]:
     """A row for each of the nine homes, for two scans and for each file of the user."""
-    rows = []
+    cases = []
     for name, xml in examples().items():
         path = folder / f'{name}.xml'
         with writing(path, binary=True) as file:
             file.write(xml)
-        rows.append(examine(plans.Case(name, path, in_file(xml), areas_in_file(xml), True),
-                            folder))
-    for case in [*plans.scans(folder), *map(plans.given, files)]:
-        rows.append(examine(case, folder))
+        cases.append(plans.Case(name, path, in_file(xml), areas_in_file(xml), True))
+    cases += [*plans.scans(folder), *map(plans.given, files)]
+    rows = []
+    with Progress('homes', 0.0) as progress:
+        for i, case in enumerate(cases):
+            progress.update(i / len(cases), case.name)
+            rows.append(examine(case, folder))
     return rows
 
 
@@ -301,8 +305,11 @@ def examine_plan(plan: Plan, path: Path, rooms: int) -> list[str]:
 def measure_seeds(count: int, folder: Path) -> list[dict[str, Any]]:
     """A row for each of these seeds that has an error, and one for all."""
     rows = []
-    for seed in range(count):
-        wrong = examine_seed(seed, folder)
-        if wrong:
-            rows.append({'seed': seed, 'wrong': '; '.join(wrong)})
+    with Progress('homes', 0.05) as progress:
+        for seed in range(count):
+            progress.update(seed / count, f'seed {seed}')
+            wrong = examine_seed(seed, folder)
+            if wrong:
+                rows.append({'seed': seed, 'wrong': '; '.join(wrong)})
+                progress.note(f'seed {seed}: {"; ".join(wrong)}')
     return [*rows, {'seed': 'all', 'wrong': f'{len(rows)} of {count}'}]
