@@ -49,10 +49,7 @@ int limb_of(const std::string& visual) {
   const std::size_t end = visual.rfind('_');
   if (end == std::string::npos) return kNoLimb;
   const std::string part = visual.substr(0, end);
-  const std::string name = (part == "foot"   ? "shank"
-                            : part == "hand" ? "forearm"
-                                             : part) +
-                           visual.substr(end);
+  const std::string name = (part == "foot" ? "shank" : part) + visual.substr(end);
   const auto* found =
       std::find_if(kLimb.begin(), kLimb.end(), [&](const Limb& limb) { return limb.name == name; });
   return found == kLimb.end() ? kNoLimb : static_cast<int>(found - kLimb.begin());
