@@ -15,7 +15,6 @@ from lxml import etree
 from angen_bench import plans
 from angen_bench.free_map import CELL, free_map
 from angen_bench.walks import walk
-from angen_apps.imports.sweethome import read_sweethome
 from angen_apps.plan.travel import LEAST_TURN
 from angen_apps.plan.model import Plan
 from angen_apps.plan.writer import write_world
@@ -50,15 +49,21 @@ class Imported:
     seconds: float
 
 
-def import_example(name: str, xml: bytes, folder: Path) -> Imported:
-    """Writes NAME.xml and NAME.world into a folder."""
-    source, path = folder / f'{name}.xml', folder / f'{name}.world'
-    with writing(source, binary=True) as file:
+def example_case(name: str, xml: bytes, folder: Path) -> plans.Case:
+    """Writes NAME.xml into a folder."""
+    path = folder / f'{name}.xml'
+    with writing(path, binary=True) as file:
         file.write(xml)
+    return plans.Case(name, path, in_file(xml), areas_in_file(xml), True)
+
+
+def import_case(case: plans.Case, folder: Path) -> Imported:
+    """Writes NAME.world into a folder."""
+    path = folder / f'{case.name.replace(" ", "_")}.world'
     begin = time.process_time()
-    plan = read_sweethome(source)
+    plan = case.read()
     counts = write_world(plan, path, 'seed')
-    return Imported(name, plan, path, counts, time.process_time() - begin)
+    return Imported(case.name, plan, path, counts, time.process_time() - begin)
 
 
 def in_file(xml: bytes) -> dict[str, int]:
@@ -201,13 +206,8 @@ def moved(world: Any, seconds: float) -> tuple[str, float]:
 
 def measure(folder: Path, files: Sequence[Path] = ()) -> list[dict[str, Any]]:
     """A row for each of the nine homes, for two scans and for each file of the user."""
-    cases = []
-    for name, xml in examples().items():
-        path = folder / f'{name}.xml'
-        with writing(path, binary=True) as file:
-            file.write(xml)
-        cases.append(plans.Case(name, path, in_file(xml), areas_in_file(xml), True))
-    cases += [*plans.scans(folder), *map(plans.given, files)]
+    cases = [*(example_case(name, xml, folder) for name, xml in examples().items()),
+             *plans.scans(folder), *map(plans.given, files)]
     rows = []
     with Progress('homes', 0.0) as progress:
         for i, case in enumerate(cases):
@@ -220,11 +220,8 @@ def examine(case: plans.Case, folder: Path) -> dict[str, Any]:
     """Imports a plan and tries the world."""
     import angen
 
-    begin = time.process_time()
-    plan = case.read()
-    path = folder / f'{case.name.replace(" ", "_")}.world'
-    imported = Imported(case.name, plan, path, write_world(plan, path, 'seed'),
-                        time.process_time() - begin)
+    imported = import_case(case, folder)
+    plan, path = imported.plan, imported.path
     made = in_world(imported) if case.is_home else plans.in_plan(case, plan, imported.counts)
     world = angen.World(str(path))
     home = world.home

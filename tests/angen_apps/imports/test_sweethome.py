@@ -30,7 +30,8 @@ def xml() -> dict[str, bytes]:
 def imported(xml: dict[str, bytes], tmp_path_factory: pytest.TempPathFactory
              ) -> dict[str, homes.Imported]:
     folder = tmp_path_factory.mktemp('homes')
-    return {name: homes.import_example(name, data, folder) for name, data in xml.items()}
+    return {name: homes.import_case(homes.example_case(name, data, folder), folder)
+            for name, data in xml.items()}
 
 
 @pytest.fixture(scope='module')
