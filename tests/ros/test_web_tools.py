@@ -138,7 +138,7 @@ def test_a_goal_is_dragged_on_the_robots_map(home: Angen, page: Page) -> None:
         until(lambda: (drag(), time.sleep(0.5), goals.messages)[-1], 'a goal', LIMIT)
         goal = goals.messages[-1].pose
     assert goal.orientation.z == pytest.approx(0.707, abs=0.1)  # to the north, as it was dragged
-    page.until('return angen.panels.robot.map.goal !== null')
+    page.until('return angen.goal.pose !== null')
 
 
 def test_the_robots_camera_is_shown(page: Page) -> None:

@@ -1,6 +1,7 @@
 /** The page: what is chosen, the clock, the keys. */
 import { by, clockText, el, notice } from './dom.js';
 import { Card } from './card.js';
+import { Goal } from './goal.js';
 import { Home } from './home.js';
 import { Panels } from './panels.js';
 import { Plan } from './plan.js';
@@ -23,6 +24,7 @@ class Page {
     } catch {
       this.view = null; // no WebGL: the plan has everything
     }
+    this.goal = new Goal(this.home, this);
     this.card = new Card(this.home, this);
     this.panels = new Panels(this.home, this);
     this.buildBar();
@@ -256,7 +258,7 @@ class Page {
   help() {
     const rows = [['Click', 'a door, lamp, person, sensor or floor: what it is and does'], ['Drag', 'turns the view; with the right button or two fingers it moves'], ['Wheel', 'zooms'],
       ['Space', 'pauses'], ['.', 'one second on, while paused'], ['0 – 9, *', 'a floor, all floors'], ['H, P', 'the whole home, from above'], ['V', '3D or plan'], ['F', 'sensor fields'],
-      ['T', 'light or dark'], ['W A S D', 'drive the robot, in its tab'], ['Esc', 'closes']];
+      ['T', 'light or dark'], ['W A S D', 'drive the robot, in its tab'], ['Drag the robot', 'its goal'], ['Esc', 'closes']];
     by('dialog').replaceChildren(el('h2', {}, 'Keys'), el('dl', {}, ...rows.flatMap(([key, text]) => [el('dt', {}, el('kbd', {}, key)), el('dd', {}, text)])),
       el('form', { method: 'dialog' }, el('button', { class: 'main' }, 'Close')));
     by('dialog').showModal();

@@ -15,6 +15,7 @@ export class Plan {
     this.hidden = true;
     this.withFields = false;
     this.stale = true;
+    this.goal = /** @type {number[] | null} */ (null);
     this.element = by('plan');
     /** @type {Map<string, any>} */
     this.items = new Map();
@@ -81,6 +82,7 @@ export class Plan {
     for (const e of home.entities) this.addItem(e, number, text);
     this.root.append(this.scan);
     this.element.replaceChildren(this.root);
+    this.showGoal(this.goal);
     this.update();
   }
 
@@ -201,9 +203,23 @@ export class Plan {
 
   /** @param {MouseEvent} e */
   click(e) {
-    const at = new DOMPoint(e.clientX, e.clientY).matrixTransform(this.root.getScreenCTM().inverse());
+    this.onPick({ point: this.ground(e.clientX, e.clientY), cls: 'floor' });
+  }
+
+  /** @param {number} x @param {number} y px @returns {number[]} the place of the floor there */
+  ground(x, y) {
+    const at = new DOMPoint(x, y).matrixTransform(this.root.getScreenCTM().inverse());
     const storey = this.home.storeys.find((s) => s.number === this.number());
-    this.onPick({ point: [at.x, -at.y, storey?.elevation ?? 0], cls: 'floor' });
+    return [at.x, -at.y, storey?.elevation ?? 0];
+  }
+
+  /** @param {number[] | null} pose x y z yaw */
+  showGoal(pose) {
+    this.goal = pose;
+    this.arrow?.remove();
+    if (!pose || !this.root || this.home.storeyAt(pose[2]) !== this.number()) return;
+    this.arrow = svg('path', { class: 'goal', d: 'M0.75 0L0.35 -0.32V-0.1H-0.1V0.1H0.35V0.32Z', transform: `translate(${pose[0]} ${-pose[1]}) rotate(${(-pose[3] * 180) / Math.PI})` });
+    this.root.append(this.arrow);
   }
 }
 

@@ -19,7 +19,7 @@ export class RobotPanel {
     /** @type {Set<string>} */
     this.keys = new Set();
     this.camera = false;
-    this.map = new RobotMap(home, (x, y, yaw) => this.setGoal(x, y, yaw));
+    this.map = new RobotMap(home, page.goal);
     home.on('picture', ({ name, content }) => this.onPicture(name, content));
     addEventListener('keydown', (e) => this.key(e, true));
     addEventListener('keyup', (e) => this.key(e, false));
@@ -53,9 +53,9 @@ export class RobotPanel {
     for (const end of ['pointerup', 'pointercancel']) this.stick.addEventListener(end, () => this.steer(0, 0));
     this.subscribe();
     return [el('div', { class: 'tools' }, choose, this.cameras.length && !home.status.replay ? shown : null,
-      !home.status.replay && el('button', { type: 'button', onclick: () => this.goal(robot) }, 'Set goal …')),
+      !home.status.replay && el('button', { type: 'button', onclick: () => this.page.goal.begin(robot) }, 'Set goal …')),
     thingRow(home, robot, () => this.page.show(robot)), this.picture, this.map.show(robot, this.lidar ? `scan:${this.lidar.name}` : ''),
-    ...(home.status.replay ? [] : [el('p', { class: 'soft', style: 'text-align: center' }, 'Drag on the map: a goal and its direction.'),
+    ...(home.status.replay ? [] : [el('p', { class: 'soft', style: 'text-align: center' }, 'Drag on the map: a goal and its heading. Or drag the robot itself in the home.'),
       this.stick, el('p', { class: 'soft', style: 'text-align: center' }, 'Drag the stick, or hold W A S D.')])];
   }
 
@@ -82,22 +82,6 @@ export class RobotPanel {
     const before = this.picture.src;
     this.picture.src = URL.createObjectURL(new Blob([content], { type: 'image/jpeg' }));
     if (before) URL.revokeObjectURL(before);
-  }
-
-  /** @param {any} robot */
-  goal(robot) {
-    this.page.choosePoint(`Choose the goal of ${robot.name}`, (/** @type {number[]} */ p) => {
-      this.map.goal = [p[0], p[1], 0];
-      this.setGoal(p[0], p[1], 0);
-    });
-  }
-
-  /** @param {number} x @param {number} y @param {number} yaw */
-  async setGoal(x, y, yaw) {
-    const answer = await this.home.order({ do: 'goal', x, y, yaw });
-    if (answer.ok) this.page.say(answer.text);
-    else this.map.goal = null;
-    this.map.later();
   }
 
   /** @param {KeyboardEvent} e @param {boolean} down */

@@ -1,29 +1,25 @@
 /** The robot's map: the floor that it is on, its lidar's scan, and a goal that one drags. */
 import { el } from './dom.js';
+import { TURNS } from './goal.js';
 import { scanPoints } from './overlays.js';
 
 const SPAN = 9; // m that the map shows across
-const TURNS = 0.3; // m: a longer drag gives the direction too
 
 export class RobotMap {
-  /**
-   * @param {import('./home.js').Home} home
-   * @param {(x: number, y: number, yaw: number) => void} onGoal
-   */
-  constructor(home, onGoal) {
+  /** @param {import('./home.js').Home} home @param {import('./goal.js').Goal} goal */
+  constructor(home, goal) {
     this.home = home;
-    this.onGoal = onGoal;
+    this.goal = goal;
     this.span = SPAN;
     /** @type {any} */
     this.robot = null;
     /** @type {number[][]} */
     this.scan = [];
-    /** @type {number[] | null} x y yaw */
-    this.goal = null;
     /** @type {any} */
     this.waiting = undefined;
     this.canvas = el('canvas', { class: 'map', role: 'img', 'aria-label': 'Map around the robot, with its scan. Drag to set a goal: place and direction.' });
     home.on('poses', () => this.later());
+    goal.listeners.push(() => this.later());
     home.on('scan', ({ name, content }) => {
       if (name !== this.topic) return;
       this.scan = scanPoints(home, name, content) ?? [];
@@ -33,16 +29,14 @@ export class RobotMap {
     canvas.addEventListener('pointerdown', (/** @type {PointerEvent} */ e) => {
       if (home.status.replay) return;
       canvas.setPointerCapture(e.pointerId);
-      this.goal = [...this.at(e), 0];
-      this.later();
+      goal.put([...this.at(e), home.place(this.robot)[2], 0]);
     });
     canvas.addEventListener('pointermove', (/** @type {PointerEvent} */ e) => {
-      if (!this.goal || !canvas.hasPointerCapture(e.pointerId)) return;
-      const [x, y] = this.at(e), [dx, dy] = [x - this.goal[0], y - this.goal[1]];
-      if (Math.hypot(dx, dy) > TURNS) this.goal[2] = Math.atan2(dy, dx);
-      this.later();
+      if (!goal.pose || !canvas.hasPointerCapture(e.pointerId)) return;
+      const [x, y, z] = goal.pose, to = this.at(e), [dx, dy] = [to[0] - x, to[1] - y];
+      if (Math.hypot(dx, dy) > TURNS) goal.put([x, y, z, Math.atan2(dy, dx)]);
     });
-    canvas.addEventListener('pointerup', () => { if (this.goal) this.onGoal(this.goal[0], this.goal[1], this.goal[2]); });
+    canvas.addEventListener('pointerup', () => goal.send());
     canvas.addEventListener('wheel', (/** @type {WheelEvent} */ e) => {
       e.preventDefault();
       this.span = Math.min(40, Math.max(3, this.span * Math.exp(0.001 * e.deltaY)));
@@ -52,7 +46,7 @@ export class RobotMap {
 
   /** @param {any} robot @param {string} topic of its scan */
   show(robot, topic) {
-    if (robot !== this.robot) { this.goal = null; this.scan = []; }
+    if (robot !== this.robot) { this.scan = []; }
     this.robot = robot;
     this.topic = topic;
     this.later();
@@ -104,7 +98,8 @@ export class RobotMap {
     for (const [x, y] of this.scan) context.fillRect(x - 0.025, y - 0.025, 0.05, 0.05);
     const yaw = Math.atan2(2 * (pose[6] * pose[5] + pose[3] * pose[4]), 1 - 2 * (pose[4] ** 2 + pose[5] ** 2));
     arrow(context, pose[0], pose[1], yaw, 0.2, '#7c3aed');
-    if (this.goal) arrow(context, this.goal[0], this.goal[1], this.goal[2], 0.26, ink('--accent'));
+    const at = this.goal.pose;
+    if (at) arrow(context, at[0], at[1], at[3], 0.26, ink('--accent'));
   }
 }
 

@@ -91,4 +91,20 @@ export class Viewpoint {
     this.camera.updateMatrixWorld();
     raycaster.setFromCamera(new THREE.Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2), this.camera);
   }
+
+  /**
+   * @param {number} x @param {number} y px @param {number} z m
+   * @returns {number[] | null} where what is seen at a place of the page has this height
+   */
+  ground(x, y, z) {
+    const raycaster = new THREE.Raycaster();
+    this.aim(raycaster, x, y);
+    return raycaster.ray.intersectPlane(new THREE.Plane(new THREE.Vector3(0, 0, 1), -z), new THREE.Vector3())?.toArray() ?? null;
+  }
+
+  /** @returns {number} the yaw of the way to the right on the screen, as a multiple of 90 degrees */
+  quarter() {
+    const right = new THREE.Vector3().setFromMatrixColumn(this.camera.matrixWorld, 0);
+    return Math.round(Math.atan2(right.y, right.x) / (Math.PI / 2)) * (Math.PI / 2);
+  }
 }
