@@ -49,7 +49,7 @@ def morning(home: Path) -> Data:
     truth = [i for resident in household.residents for i in resident.diary.closed]
     return Data(datetime.datetime(2026, 3, 23), 1, 3, [(n, p.name) for n, p in who], site.home,
                 site.sensors, sorted(left.events, key=lambda e: (e.time, e.sensor)), truth,
-                left.missed, left.power, left.track, left.faults)
+                left.missed, left.power, left.track, left.faults, recorder.cabins.slides)
 
 
 def test_who_comes_home_walks_in_and_is_detected(lived, tmp_path):

@@ -29,6 +29,7 @@ from angen_tools.common.progress import Progress
 
 MANIFEST, HOME = 'manifest.json', 'home.json'
 LOADS = 'loads.csv.gz'  # W of each lamp and appliance from a time on
+CABINS = 'cabins.csv.gz'  # places of the links of elevators from a time on
 AGAIN = 5  # times that the pool is made again after its processes died
 MIXED = ('worker', 'retired', 'student', 'night_shift_worker', 'elder_with_dementia')
 
@@ -160,7 +161,8 @@ def finished(job: Job) -> dict[str, Any] | None:
 
 
 def write_truth(folder: Path, data: run.Data) -> list[Path]:
-    """truth.csv.gz, missed.csv, faults.csv, layout.json, track.csv.gz and loads.csv.gz."""
+    """truth.csv.gz, missed.csv, faults.csv, layout.json, track.csv.gz, loads.csv.gz, and
+    cabins.csv.gz where there are elevators."""
     paths = [folder / 'truth.csv.gz', folder / 'missed.csv', folder / 'faults.csv',
              folder / 'layout.json', folder / 'track.csv.gz', folder / LOADS]
     with zipped(paths[0]) as file:
@@ -194,6 +196,12 @@ def write_truth(folder: Path, data: run.Data) -> list[Path]:
                         for time, device, watts in sorted(
                             (time, device, watts) for device, line in data.power.items()
                             for time, watts in line))
+    if data.slides:
+        paths.append(folder / CABINS)
+        with zipped(paths[-1]) as file:
+            file.write('time,model,link,x,y,z\n')
+            file.writelines(f'{t:.3f},{model},{link},{x:.4f},{y:.4f},{z:.4f}\n'
+                            for t, model, link, x, y, z in data.slides)
     write_text(paths[3], json.dumps(_rounded(layout), indent=1) + '\n')
     return paths
 

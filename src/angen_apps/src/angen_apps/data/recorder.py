@@ -7,6 +7,7 @@ from typing import Any, Iterator, NamedTuple
 
 import numpy as np
 
+from angen_apps.data.cabins import Cabins
 from angen_apps.data.faults import Happened
 from angen_apps.data.site import Sensor, Site
 from angen_apps.residents.household import Household
@@ -85,6 +86,7 @@ class Recorder:
         self._air: dict[str, float] = {}
         self._loads = [(kind, name) for kind, name, _, _ in site.world.entities()
                        if kind in ('lamp', 'stove', 'appliance', 'heater')]
+        self.cabins = Cabins(site.world)
         self._acted = -1
         self._over: dict[tuple[int, str], tuple[float, float]] = {}  # a cell: first and last time
         self._cells = [s for s in site.sensors if s.kind == 'motion' and s.name.startswith('cell')]
@@ -111,9 +113,12 @@ class Recorder:
         for time, source, kind, event, detail in self.site.world.events():
             if kind == 'fault':
                 self._note_fault(float(time), source, event, detail)
+            elif kind == 'elevator':
+                self.cabins.event(float(time), source)
             sensor = self._by_name.get((kind, source))
             if sensor is not None:
                 self._note(float(time), sensor, event, detail == FALSE)
+        self.cabins.look()
         self._note_power()
 
     def _note_fault(self, time: float, source: str, fault: str, detail: str) -> None:

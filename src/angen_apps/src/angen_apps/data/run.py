@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Callable, Sequence
 
 from angen_apps.data import faults
+from angen_apps.data.cabins import Slide
 from angen_apps.data.recorder import Event, Missed, Recorder, Step
 from angen_apps.data.site import Sensor, Site
 from angen_apps.residents.household import Household
@@ -37,6 +38,7 @@ class Data:
     power: dict[str, list[tuple[float, float]]]
     track: list[Step]
     faults: list[faults.Happened]
+    slides: list[Slide]
 
     def intervals(self, resident: str) -> list[Interval]:
         return [interval for interval in self.truth if interval.resident == resident]
@@ -89,4 +91,4 @@ def live(world: Path, name: str, days: int, who: list[tuple[str, Profile]], seed
     return Data(datetime.datetime.combine(first, datetime.time()), days, seed,
                 [(resident, profile.name) for resident, profile in who], site.home, site.sensors,
                 events, truth, left.missed, left.power, sorted(left.track),
-                sorted(left.faults))
+                sorted(left.faults), recorder.cabins.slides)

@@ -10,7 +10,7 @@ from typing import Any, Iterator, NamedTuple
 
 import numpy as np
 
-from angen_apps.data.generate import HOME, LOADS, sha256
+from angen_apps.data.generate import CABINS, HOME, LOADS, sha256
 from angen_apps.data.site import Site, apartment
 from angen_apps.data.validate import homes, rows
 from angen_apps.residents.figures import walker
@@ -178,6 +178,7 @@ class Day(Played):
         self._play_residents()
         self._play_events()
         self._play_loads()
+        self._play_cabins()
         ribbon = [[name, [[float(r['start']), float(r['end']), r['activity']]
                           for r in self._truth() if r['resident'] == name]]
                   for name in self._people]
@@ -279,6 +280,20 @@ class Day(Played):
                                   self._values(kind, 'power', watts))], False)
             if time > 0.0:
                 self.store.add_event([time, kind, name, word.lower(), f'{watts:g} W'])
+
+    def _play_cabins(self) -> None:
+        path = self._data / CABINS
+        if not path.is_file():
+            return  # no elevator, or data of an earlier version
+        links = self.store.scene['links'] if self.store.scene else []
+        found = {(link['model'], link['name']): i for i, link in enumerate(links)}
+        for row in rows(path):
+            link = found.get((row['model'], row['link']))
+            if link is None:
+                continue
+            pose = [float(row[axis]) for axis in 'xyz']
+            self._place(float(row['time']), link, [*pose, *self._closed.get(
+                link, links[link]['pose'])[3:]])
 
     def _shine(self, time: float, lamp: str, share: float) -> None:
         lights = np.array(self._lights.get(lamp, []), np.uint32)
