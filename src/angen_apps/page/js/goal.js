@@ -103,7 +103,8 @@ export class Goal {
     this.robot = robot;
     const [x, y, z, , , qz, qw] = Array.from(this.home.place(robot));
     this.put([x, y, this.floorAt([x, y, z + 0.1]), 2 * Math.atan2(qz, qw)]);
-    by('hint').textContent = `Goal of ${robot.name}: press on the floor and drag, for its place and heading. Or by keys: arrows move it, with Shift they turn it, Enter sends it. Esc ends`;
+    const keys = matchMedia('(max-width: 820px)').matches ? '' : '. Keys: arrows move it, with Shift they turn it, Enter sends it, Esc ends';
+    by('hint').textContent = `Goal of ${robot.name}: press on the floor and drag${keys}`;
     by('hint').hidden = false;
   }
 
