@@ -7,7 +7,7 @@ namespace angen::load {
 namespace {
 
 // A right triangle in the file's own x-y plane, with its third corner one unit up z.
-std::string collada(const std::string& up, const std::string& meter) {
+std::string triangle_collada(const std::string& up, const std::string& meter) {
   return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' "
          "version='1.4.1'><asset><unit name='u' meter='" +
          meter + "'/><up_axis>" + up +
@@ -34,7 +34,7 @@ Eigen::Vector3f corner(const TriangleMesh& mesh, int index) {
 TEST(Mesh, ColladaZUpStaysAsItIs) {
   const Folder folder;
   const auto mesh =
-      read_mesh({folder.write("z.dae", collada("Z_UP", "1")), Vec3::Ones()}, {}).triangles;
+      read_mesh({folder.write("z.dae", triangle_collada("Z_UP", "1")), Vec3::Ones()}, {}).triangles;
   EXPECT_LT((corner(*mesh, 2) - Eigen::Vector3f(0, 2, 3)).norm(), 1e-5);
 }
 
@@ -43,7 +43,8 @@ TEST(Mesh, ColladaUpAxisTurnsNothing) {
   const Folder folder;
   for (const std::string up : {"X_UP", "Y_UP", ""}) {
     const auto mesh =
-        read_mesh({folder.write(up + "u.dae", collada(up, "1")), Vec3::Ones()}, {}).triangles;
+        read_mesh({folder.write(up + "u.dae", triangle_collada(up, "1")), Vec3::Ones()}, {})
+            .triangles;
     EXPECT_LT((corner(*mesh, 2) - Eigen::Vector3f(0, 2, 3)).norm(), 1e-5) << up;
   }
 }
@@ -51,13 +52,14 @@ TEST(Mesh, ColladaUpAxisTurnsNothing) {
 TEST(Mesh, ColladaUnitIsApplied) {
   const Folder folder;
   const auto mesh =
-      read_mesh({folder.write("i.dae", collada("Z_UP", "0.01")), Vec3::Ones()}, {}).triangles;
+      read_mesh({folder.write("i.dae", triangle_collada("Z_UP", "0.01")), Vec3::Ones()}, {})
+          .triangles;
   EXPECT_LT((corner(*mesh, 2) - Eigen::Vector3f(0, 0.02F, 0.03F)).norm(), 1e-6);
 }
 
 TEST(Mesh, ColladaMayHaveBlanksBeforeAColor) {
   const Folder folder;
-  std::string text = collada("Z_UP", "1");
+  std::string text = triangle_collada("Z_UP", "1");
   const auto insert = [&text](const std::string& before, const std::string& what) {
     text.insert(text.find(before), what);
   };

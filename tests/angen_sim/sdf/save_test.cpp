@@ -102,20 +102,20 @@ void expect_same(const desc::World& a, const desc::World& b) {
   for (std::size_t i = 0; i < a.models.size(); ++i) expect_same(a.models[i], b.models[i]);
 }
 
-const char* const kDoor =
+const char* const kSavedDoor =
     "<model name='d'><link name='a'/><link name='b'><pose>0 0 0 0 0 0.5</pose></link>"
     "<joint name='hinge' type='revolute'><parent>a</parent><child>b</child><axis><xyz>1 0 0</xyz>"
     "<limit><lower>-1.57</lower><upper>0.001</upper></limit></axis></joint></model>";
 
 TEST(Save, RoundTripKeepsTheWorld) {
   const Folder folder;
-  folder.model("door", sdf(kDoor, "1.4"));
+  folder.model("door", sdf(kSavedDoor, "1.4"));
   folder.model("sun", sdf("<light name='sun' type='directional'/>"));
   const std::string text = in_world(
       "<physics type='ode'><max_step_size>0.002</max_step_size></physics><gravity>0 0 -5</gravity>"
       "<include><uri>model://sun</uri></include><light name='own' type='point'/>"
       "<plugin name='p' filename='libp.so'><k>a &lt; b</k></plugin>" +
-          std::string(kDoor) +
+          std::string(kSavedDoor) +
           "<include><uri>model://door</uri><name>d2</name><pose>1 2 3 0.1 0.2 0.3</pose></include>"
           "<actor name='person'><script><trajectory id='0' type='walk'><waypoint><time>0</time>"
           "<pose>1 0 0 0 0 0</pose></waypoint></trajectory></script></actor>",
@@ -127,7 +127,7 @@ TEST(Save, RoundTripKeepsTheWorld) {
 }
 
 TEST(Save, KeepsWhereThingsAreNow) {
-  const desc::World first = read(in_world(kDoor));
+  const desc::World first = read(in_world(kSavedDoor));
   std::vector<ModelState> states = states_of(first);
   states[0].pose = {{4.0, 5.0, 6.0}, from_rpy(0.1, -0.2, 3.0)};
   states[0].joint_positions = {{"hinge", {-0.75}}};
@@ -137,7 +137,7 @@ TEST(Save, KeepsWhereThingsAreNow) {
 }
 
 TEST(Save, JointPressedIntoItsStopIsSavedAtIt) {
-  const desc::World first = read(in_world(kDoor));
+  const desc::World first = read(in_world(kSavedDoor));
   std::vector<ModelState> states = states_of(first);
   states[0].joint_positions = {{"hinge", {0.02}}};
   const desc::World second = read(save(first, states));
@@ -146,11 +146,11 @@ TEST(Save, JointPressedIntoItsStopIsSavedAtIt) {
 
 TEST(Save, DeletedAndSpawnedModels) {
   const Folder folder;
-  const std::string file = folder.write("x/door.sdf", sdf(kDoor, "1.4"));
+  const std::string file = folder.write("x/door.sdf", sdf(kSavedDoor, "1.4"));
   const desc::World first = read(in_world("<model name='m'><link name='l'/></model>"));
   const Pose pose{{0.0, 0.0, 8.0}, Quat::Identity()};
   const desc::Model by_path = model(file, "by_path", pose, {});
-  const desc::Model by_text = model(sdf(kDoor, "1.4"), "by_text", pose, {});
+  const desc::Model by_text = model(sdf(kSavedDoor, "1.4"), "by_text", pose, {});
   const desc::World second =
       read(save(first, {{&by_path, pose, {}, {}}, {&by_text, pose, {}, {}}}), anywhere());
   ASSERT_EQ(second.models.size(), 2U);

@@ -26,17 +26,17 @@ const std::string kWorld = R"(<sdf version='1.5'><world name='home'>
   <state world_name='home'><model name='b'><pose>5 6 7 0 0 0</pose></model></state>
 </world></sdf>)";
 
-struct Folder {
-  Folder() {
+struct PlateFolder {
+  PlateFolder() {
     fs::remove_all(path);
     fs::create_directories(path);
     write("plate.stl", kStl);
     write("plate.sdf", kPlate);
     write("home.world", kWorld);
   }
-  ~Folder() { fs::remove_all(path); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
+  ~PlateFolder() { fs::remove_all(path); }
+  PlateFolder(const PlateFolder&) = delete;
+  PlateFolder& operator=(const PlateFolder&) = delete;
 
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(path / name) << text;
@@ -54,7 +54,7 @@ SearchPaths naming(const std::string& file) {
 }
 
 TEST(Standalone, TheTextOfAWorldLoadsAsTheWorldDoes) {
-  const Folder folder;
+  const PlateFolder folder;
   const std::string text = world_text(folder.at("home.world"));
   EXPECT_EQ(text.find("<include"), std::string::npos) << text;
   const desc::World from_file = world(folder.at("home.world"));
@@ -78,7 +78,7 @@ TEST(Standalone, TheTextOfAWorldLoadsAsTheWorldDoes) {
 }
 
 TEST(Standalone, TellsWhichFilesATextNeeds) {
-  const Folder folder;
+  const PlateFolder folder;
   const std::string text = world_text(folder.at("home.world"));
   const std::vector<UsedFile> files = files_of(text, {});
   ASSERT_EQ(files.size(), 1U);
@@ -92,7 +92,7 @@ TEST(Standalone, TellsWhichFilesATextNeeds) {
 }
 
 TEST(Standalone, AModelIsTheSameInAWorldAroundIt) {
-  const Folder folder;
+  const PlateFolder folder;
   const Pose pose{{0.1, 0.2, 0.3}, from_rpy(0.1, 0.2, 1.0 / 3.0)};
   const desc::Model model = load::model(folder.at("plate.sdf"), "mine", pose, {});
   const desc::World around =
