@@ -13,6 +13,9 @@ from aiohttp import ClientSession, WSMsgType
 from browser import LIMIT, Page, Server
 from harness import Cli, Master
 
+from angen_apps.data.generate import sha256
+from angen_apps.data.site import apartment
+
 TRUTH = '''start,end,resident,activity,cause,phase,room,thing,posture,x,y,note
 0.000,100.000,anna,sleep,scheduled,does,bedroom0,bedroom_bed0,lie,1.990,8.450,
 100.000,110.000,anna,wash,free,goes,bedroom0,,stand,1.990,8.450,
@@ -114,6 +117,29 @@ def test_a_day_is_played(server: Server) -> None:
         [0.0, 100.0, 'sleep'], [100.0, 110.0, 'wash'], [110.0, 200.0, 'wash'],
         [200.0, 86400.0, 'work']]]]
     assert found['home']['start'] == '2026-03-21T00:00:00'
+
+
+def test_the_cabin_of_an_elevator_rides(master: Master, tmp_path: Path, day: Path) -> None:
+    world = tmp_path / 'lift.world'
+    apartment(world)
+    world.write_text(world.read_text().replace('</world>', '''<include>
+        <uri>model://elevator</uri><name>lift</name><pose>30 0 0 0 0 0</pose></include></world>'''))
+    settings = json.loads((day / 'home.json').read_text())
+    settings['settings']['world'] = sha256(world)
+    (day / 'home.json').write_text(json.dumps(settings))
+    with gzip.open(day / 'cabins.csv.gz', 'wt', encoding='utf-8') as file:
+        file.write('time,model,link,x,y,z\n0.000,lift,cabin,30.0,0.0,0.0\n'
+                   '50.500,lift,cabin,30.0,0.0,1.5\n51.000,lift,cabin,30.0,0.0,2.0\n')
+    server = Server(master, tmp_path, '--replay', str(day), '--world', str(world))
+    try:
+        found, entries = asyncio.run(played(server.port))
+    finally:
+        assert server.end() == 0, server.log()
+    scene = found['scene']
+    cabin = next(number for number, link in zip(scene['ids'], scene['links'])
+                 if (link['model'], link['name']) == ('lift', 'cabin'))
+    rides = [(e[1], e[3][2]) for e in entries if e[0] == 'p' and cabin in e[2] and e[1] > 0.0]
+    assert rides == [(50.5, 1.5), (51.0, 2.0)]
 
 
 def test_a_link_opens_at_its_time(server: Server, tmp_path: Path) -> None:
