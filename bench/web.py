@@ -1,9 +1,8 @@
 """Measures the cost and the speed of the page of angen web: docs/web.md, Figures.
 
-    python3 bench/web.py [--world FILE --door NAME] [--seconds 20] [--browser [--ahead]]
+    python3 bench/web.py [--world FILE --door NAME] [--seconds 20] [--browser]
 
-in ./angen shell. CPU times say more than times on a busy machine; the load is printed. --ahead runs
-the browser before all other programs, as root: its times are then those of an idle machine.
+in ./angen shell. CPU times say more than times on a busy machine; the load is printed.
 """
 from __future__ import annotations
 
@@ -43,13 +42,6 @@ def children(pid: int) -> list[int]:
         found += [one for child in (task / 'children').read_text().split()
                   for one in children(int(child))]
     return found
-
-
-def put_ahead(programs: list[int]) -> None:
-    """Gives all threads of processes real-time priority."""
-    for pid in programs:
-        for task in Path(f'/proc/{pid}/task').iterdir():
-            os.sched_setscheduler(int(task.name), os.SCHED_RR, os.sched_param(1))
 
 
 class Sockets:
@@ -122,13 +114,11 @@ def moves(message: Any, leaves: set[int]) -> bool:
     return kind == POSES and bool(leaves & set(struct.unpack_from(f'<{count}I', message.data, 12)))
 
 
-def show(url: str, folder: Path, seconds: float, ahead: bool) -> None:
+def show(url: str, folder: Path, seconds: float) -> None:
     """First view and frames in a browser without a GPU."""
     page = Page(folder, 1440, 900)
     try:
         programs = children(page.driver.service.process.pid)
-        if ahead:
-            put_ahead(programs)
         before, began = sum(map(cpu, programs)), time.monotonic()
         page.open(url)
         page.until('return angen.view.frames > 0 && angen.view.framed')
@@ -136,8 +126,6 @@ def show(url: str, folder: Path, seconds: float, ahead: bool) -> None:
         used = sum(cpu(pid) for pid in programs if Path(f'/proc/{pid}').exists()) - before
         print(f'first view: {shown:.1f} s, {used:.1f} s of CPU time of the browser')
         programs = children(page.driver.service.process.pid)
-        if ahead:
-            put_ahead(programs)
         gpu = next(pid for pid in programs if b'gpu-process' in
                    Path(f'/proc/{pid}/cmdline').read_bytes())
         page.run('setInterval(() => { angen.view.dirty = true; }, 10)')
@@ -158,7 +146,6 @@ def main() -> None:
     parser.add_argument('--seconds', type=float, default=20.0)
     parser.add_argument('--pages', type=int, nargs='*', default=[0, 1, 0, 20])
     parser.add_argument('--browser', action='store_true')
-    parser.add_argument('--ahead', action='store_true')
     args = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -180,7 +167,7 @@ def main() -> None:
             print(f'click to moving door: median {statistics.median(times):.0f} ms, '
                   f'longest {max(times):.0f} ms')
             if args.browser:
-                show(server.url, folder, args.seconds, args.ahead)
+                show(server.url, folder, args.seconds)
             print('load', os.getloadavg())
         finally:
             server.end()
