@@ -107,16 +107,16 @@ def test_a_person_is_sent_where_one_clicks(home: Angen, page: Page) -> None:
 def test_the_robot_is_driven_by_keys_and_by_the_stick(home: Angen, page: Page) -> None:
     page.press('#tab-robot')
     with Inbox('/turtlebot/cmd_vel', Twist) as orders:
-        keys = ActionChains(page.driver, duration=0)
-        keys.key_down('w').pause(0.3).key_up('w').perform()
+        ActionChains(page.driver, duration=0).key_down('w').perform()
         orders.wait(lambda twist: twist.linear.x > 0.3, 'an order by a key', LIMIT)
+        ActionChains(page.driver, duration=0).key_up('w').perform()
         orders.wait(lambda twist: not twist.linear.x, 'a stop', LIMIT)
         stick = page.driver.find_element('css selector', '.stick')
         page.run('arguments[0].scrollIntoView({block: "center"})', stick)
         drag = ActionChains(page.driver, duration=50)
-        drag.move_to_element(stick).click_and_hold().move_by_offset(60, 0).pause(0.3)
-        drag.release().perform()
+        drag.move_to_element(stick).click_and_hold().move_by_offset(60, 0).perform()
         orders.wait(lambda twist: twist.angular.z < -1.0, 'an order by the stick', LIMIT)
+        ActionChains(page.driver, duration=0).release().perform()
     page.until('return angen.panels.robot.timer === undefined')
 
 
