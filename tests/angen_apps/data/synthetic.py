@@ -35,4 +35,4 @@ def data(residents: int = 1) -> Data:
         who.append(('bert', 'retired'))
         truth = sorted([*truth, doing(0, 86400, 'bert', 'read')], key=lambda i: i.start)
     return Data(datetime.datetime(2026, 3, 23), 1, 7, who, Home(), SENSORS, events, truth, [],
-                {'lamp/kitchen': [(0.0, 0.0), (10.5, 60.0), (20.0, 0.0)]}, [], [])
+                {'lamp/kitchen': [(0.0, 0.0), (10.5, 60.0), (20.0, 0.0)]}, [], [], [])
