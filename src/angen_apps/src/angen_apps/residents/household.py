@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import datetime
 import heapq
+import itertools
 from typing import Any, Callable, Iterator
 
 from angen_apps.residents.agenda import Day
@@ -33,6 +34,7 @@ class Household:
         self.count = 0  # of commands to devices
         self.heard: Callable[[], None] = lambda: None  # after each part of time
         self._queue: list[tuple[float, int, Process]] = []
+        self._orders = itertools.count()  # of processes that are due at one time
         self.devices = simulator.devices()
         self._lux: dict[str, str] = {}
         self.lamps: dict[str, list[str]] = {}
@@ -57,16 +59,16 @@ class Household:
 
     def add(self, process: Process) -> None:
         """Begins a process."""
-        heapq.heappush(self._queue, (self.now, len(self._queue), process))
+        heapq.heappush(self._queue, (self.now, next(self._orders), process))
 
     def run(self, until: float) -> None:
         """Lets residents live until a simulated time."""
         while self._queue and self._queue[0][0] < until:
-            due, order, process = self._queue[0]
+            due = self._queue[0][0]
             if due > self.now + 1e-9:
                 self.simulator.run(due - self.now)
-                self.heard()
-            heapq.heappop(self._queue)
+                self.heard()  # which may add a process
+            _, order, process = heapq.heappop(self._queue)
             wakes = next(process, None)
             if wakes is not None:
                 heapq.heappush(self._queue, (max(wakes, self.now + 1e-3), order, process))
