@@ -7,8 +7,9 @@ from typing import Iterator
 
 import pytest
 from angen_msgs.msg import Stats
+from angen_msgs.srv import Delete, Spawn
 from browser import LIMIT, Page, Server
-from geometry_msgs.msg import PoseStamped, Twist
+from geometry_msgs.msg import Point, Pose, PoseStamped, Twist
 from harness import Angen, Inbox, Master, end, publisher_of, until
 from selenium.webdriver.common.action_chains import ActionChains
 from std_msgs.msg import String
@@ -80,6 +81,19 @@ def test_cards_have_the_verbs_of_their_kinds(page: Page) -> None:
         angen.card.close();
         return [seen.size, wrong]''')
     assert missing[0] >= 8 and missing[1] == [], missing
+
+
+def test_a_switch_knows_its_state_by_the_words_of_the_kind(home: Angen, page: Page) -> None:
+    answer = home.call('/angen/spawn', Spawn, name='beacon', xml='model://radio_beacon',
+                       pose=Pose(position=Point(3.5, 4.5, 1.0)))
+    assert answer.success, answer.message
+    toggle = '''return [...document.querySelectorAll("#panel .thing, #card .thing")].find(
+        (e) => e.textContent.includes("beacon_transmitter"))?.lastChild'''
+    page.press('#tab-rooms')
+    for word in ('Off', 'On'):  # it sends at first
+        button = page.until(f'{toggle}?.textContent === "{word}" && ({toggle[7:]})')
+        page.run('arguments[0].click()', button)
+    home.call('/angen/delete', Delete, name='beacon')
 
 
 def test_a_person_is_sent_where_one_clicks(home: Angen, page: Page) -> None:

@@ -214,10 +214,10 @@ export function thingRow(home, e, open) {
   const row = el('div', { class: 'thing' }, el('span', { class: 'glyph', 'aria-hidden': 'true' }, glyph(e.kind)),
     el('button', { class: 'name', type: 'button', title: e.name, onclick: open }, title(home, e)), state, toggle);
   row.refresh = () => {
-    const now = home.row(e), text = now?.text ?? '', on = pair && new RegExp(`^${pair[0]}`, 'i').test(text);
-    const shown = pair ? shortState(text, Boolean(on)) : home.isMover(e) ? motion(home, e, text) : text;
+    const now = home.row(e), text = now?.text ?? '', on = Boolean(pair) && home.isOn(now);
+    const shown = pair ? shortState(text, on) : home.isMover(e) ? motion(home, e, text) : text;
     if (state.textContent !== shown) { state.textContent = shown; state.title = text; }
-    row.classList.toggle('on', Boolean(on));
+    row.classList.toggle('on', on);
     row.classList.toggle('alarm', Boolean(now?.alarm));
     if (toggle && pair) toggle.textContent = on ? pair[1] : pair[0];
   };

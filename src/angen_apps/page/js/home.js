@@ -245,6 +245,15 @@ export class Home {
     return values.length === 2 && values[0] === 'm/s' && values[1] === 'rad/s';
   }
 
+  /**
+   * Whether a device is on or open, by the words of its kind.
+   * @param {Row | null | undefined} row
+   */
+  isOn(row) {
+    const text = row?.text.toLowerCase() ?? '', word = this.kinds[row?.kind ?? '']?.fields.find((/** @type {any} */ f) => f.words?.length)?.words[0] ?? 'on';
+    return [word, 'open'].some((on) => text.startsWith(on));
+  }
+
   /** @param {string} model @returns {number[]} */
   linksOf(model) {
     if (!this.scene) return [];

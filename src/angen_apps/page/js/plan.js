@@ -147,11 +147,11 @@ export class Plan {
         const leaf = item.querySelector('.leaf');
         for (const [name, value] of Object.entries({ x1: door.ends[0], y1: -door.ends[1], x2: door.ends[2], y2: -door.ends[3] })) leaf.setAttribute(name, value);
       }
-      item.classList.toggle('on', isOn(row));
+      item.classList.toggle('on', home.isOn(row));
       item.classList.toggle('alarm', Boolean(row?.alarm));
       item.setAttribute('aria-label', `${e.kind} ${e.name}: ${row?.text ?? ''}`);
     }
-    const lit = new Set(home.entities.filter((e) => e.kind === 'lamp' && isOn(home.row(e))).map((e) => home.roomsOf(e)[0]?.name));
+    const lit = new Set(home.entities.filter((e) => e.kind === 'lamp' && home.isOn(home.row(e))).map((e) => home.roomsOf(e)[0]?.name));
     for (const room of home.rooms) this.items.get(`room/${room.name}`)?.classList.toggle('lit', lit.has(room.name));
     this.showFields(number);
   }
@@ -221,12 +221,4 @@ export class Plan {
     this.arrow = svg('path', { class: 'goal', d: 'M0.75 0L0.35 -0.32V-0.1H-0.1V0.1H0.35V0.32Z', transform: `translate(${pose[0]} ${-pose[1]}) rotate(${(-pose[3] * 180) / Math.PI})` });
     this.root.append(this.arrow);
   }
-}
-
-/**
- * Whether a device is on: by the field of that name, or by its words.
- * @param {any} row
- */
-export function isOn(row) {
-  return /^(on\b|open\b|opening\b)/i.test(row?.text ?? '');
 }
