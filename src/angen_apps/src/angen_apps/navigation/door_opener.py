@@ -96,7 +96,4 @@ class DoorOpener:
 
 def main() -> None:
     """The node door_opener."""
-    try:
-        DoorOpener().spin()
-    except rospy.ROSInterruptException:
-        pass
+    DoorOpener().spin()

@@ -129,7 +129,4 @@ class Node:
 
 def main() -> None:
     """The node rmf."""
-    try:
-        Node().spin()
-    except rospy.ROSInterruptException:
-        pass
+    Node().spin()

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import signal
+import sys
 from importlib import import_module
 
 
@@ -11,3 +12,14 @@ def run_main(module: str) -> None:
     if signal.getsignal(signal.SIGINT) != signal.SIG_IGN:  # as in the background
         signal.signal(signal.SIGINT, signal.SIG_DFL)
     import_module(module).main()
+
+
+def run_node(module: str) -> None:
+    """run_main() of a node. What fails once rospy has shut down is the end of the node: a signal
+    ends the calls that it is in, and closes its topics."""
+    try:
+        run_main(module)
+    except Exception:
+        rospy = sys.modules.get('rospy')
+        if rospy is None or not rospy.is_shutdown():
+            raise
