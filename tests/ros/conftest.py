@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import Iterator
 
 import pytest
-from harness import WORLD, Angen, Cli, Master, end, unregister_publishers
+from browser import Page, Server
+from harness import ROOT, WORLD, Angen, Cli, Master, end, unregister_publishers
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -56,3 +57,30 @@ def angen(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFac
 @pytest.fixture
 def cli(angen: Angen) -> Cli:
     return Cli(angen.master)
+
+
+@pytest.fixture(scope="module")
+def home(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFactory
+         ) -> Iterator[Angen]:
+    """The building that ./angen run starts: two floors, a robot, a person."""
+    log = tmp_path_factory.mktemp("home") / "log"
+    node = Angen(master, master.node(ROOT / "worlds/angen.world", log), log)
+    yield node
+    end(node.process)
+
+
+@pytest.fixture(scope="module")
+def page(home: Angen, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
+    """angen web beside that building in a browser, which downloads to the folder of the tests."""
+    server = Server(home.master, tmp_path_factory.mktemp("web"))
+    opened = Page(tmp_path_factory.mktemp("browser"), 1100, 800)
+    try:
+        opened.driver.execute_cdp_cmd("Browser.setDownloadBehavior", {
+            "behavior": "allow", "downloadPath": str(tmp_path_factory.getbasetemp())})
+        opened.open(server.url)
+        opened.first_view()
+        yield opened
+        assert opened.errors() == []
+    finally:
+        opened.close()
+        assert server.end() == 0, server.log()

@@ -2,43 +2,19 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Iterator
 
 import pytest
-from browser import LIMIT, Page, Server
+from browser import LIMIT, Page
 from geometry_msgs.msg import PoseStamped
-from harness import Angen, Inbox, Master, end, until
+from harness import Angen, Inbox, until
 from selenium.webdriver.common.action_chains import ActionChains
 
-ROOT = Path(__file__).resolve().parents[2]
 
-
-@pytest.fixture(scope='module')
-def home(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFactory
-         ) -> Iterator[Angen]:
-    """The building that ./angen run starts: two floors, a robot, a person."""
-    log = tmp_path_factory.mktemp('home') / 'log'
-    node = Angen(master, master.node(ROOT / 'worlds/angen.world', log), log)
-    yield node
-    end(node.process)
-
-
-@pytest.fixture(scope='module')
-def page(home: Angen, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
-    server = Server(home.master, tmp_path_factory.mktemp('web'))
-    opened = Page(tmp_path_factory.mktemp('browser'), 1100, 800)
-    try:
-        opened.driver.execute_cdp_cmd('Browser.setDownloadBehavior', {
-            'behavior': 'allow', 'downloadPath': str(tmp_path_factory.getbasetemp())})
-        opened.open(server.url)
-        opened.run('angen.setStorey(0)')
-        opened.first_view()
-        yield opened
-        assert opened.errors() == []
-    finally:
-        opened.close()
-        assert server.end() == 0, server.log()
+@pytest.fixture(scope='module', autouse=True)
+def lower_floor(page: Page) -> None:
+    page.run('angen.setStorey(0)')
+    page.first_view()
 
 
 @pytest.fixture(scope='module')

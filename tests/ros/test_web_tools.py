@@ -2,45 +2,15 @@
 from __future__ import annotations
 
 import time
-from pathlib import Path
-from typing import Iterator
 
 import pytest
 from angen_msgs.msg import Stats
 from angen_msgs.srv import Delete, Spawn
-from browser import LIMIT, Page, Server
+from browser import LIMIT, Page
 from geometry_msgs.msg import Point, Pose, PoseStamped, Twist
-from harness import Angen, Inbox, Master, end, publisher_of, until
+from harness import Angen, Inbox, publisher_of, until
 from selenium.webdriver.common.action_chains import ActionChains
 from std_msgs.msg import String
-
-ROOT = Path(__file__).resolve().parents[2]
-
-
-@pytest.fixture(scope='module')
-def home(master: Master, rospy_node: None, tmp_path_factory: pytest.TempPathFactory
-         ) -> Iterator[Angen]:
-    """The building that ./angen run starts: two floors, a robot, a person."""
-    log = tmp_path_factory.mktemp('home') / 'log'
-    node = Angen(master, master.node(ROOT / 'worlds/angen.world', log), log)
-    yield node
-    end(node.process)
-
-
-@pytest.fixture(scope='module')
-def page(home: Angen, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
-    server = Server(home.master, tmp_path_factory.mktemp('web'))
-    opened = Page(tmp_path_factory.mktemp('browser'), 1100, 800)
-    try:
-        opened.driver.execute_cdp_cmd('Browser.setDownloadBehavior', {
-            'behavior': 'allow', 'downloadPath': str(tmp_path_factory.getbasetemp())})
-        opened.open(server.url)
-        opened.first_view()
-        yield opened
-        assert opened.errors() == []
-    finally:
-        opened.close()
-        assert server.end() == 0, server.log()
 
 
 def test_a_field_flashes_where_the_person_walks(home: Angen, page: Page) -> None:
