@@ -126,6 +126,14 @@ class Master:
         return {name: kind for name, kind in self.api.getTopicTypes("/test")[2]
                 if name in published}
 
+    def _pid_of(self, node: str) -> int | None:
+        """The process of a node; None where one that was killed is still registered."""
+        try:
+            api: Any = xmlrpc.client.ServerProxy(self.api.lookupNode("/test", node)[2])
+            return int(api.getPid("/test")[2])
+        except OSError:
+            return None
+
     def node(self, world: Path, log: Path, **params: object) -> subprocess.Popen[str]:
         """Start the node, with no parameter that an earlier one had, and wait until it serves."""
         self.api.deleteParam("/test", "/angen")
@@ -136,7 +144,8 @@ class Master:
 
         def serves() -> bool:
             assert process.poll() is None, log.read_text()
-            return "/angen/ready" in self.topics()
+            publishers = dict(self.api.getSystemState("/test")[2][0]).get("/angen/ready", [])
+            return any(self._pid_of(name) == process.pid for name in publishers)
 
         until(serves, "the node serves")
         return process
