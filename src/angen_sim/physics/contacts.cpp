@@ -30,15 +30,20 @@ constexpr double kPush =
 // A person's chest and pelvis: ISO/TS 15066:2016, table A.3, effective spring constant.
 constexpr double kSideYield = 1.0 / 25e3;  // m/N
 constexpr double kSide = 0.5;              // |z| of the normal at a person's side, at most
-constexpr double kRebound = 0.1;           // m/s, at which a person parts from what it has hit
+// m/s, at which a person parts from what it has hit: DART's threshold of bouncing, by default.
+constexpr double kRebound = 0.1;
 
-bool slides(const Joint* joint) { return joint->type == desc::Joint::Type::kPrismatic; }
+bool holds_to_world(const Joint* joint) {
+  return !joint->first->dynamic() || !joint->second->dynamic();
+}
 
-// Whether a sliding leaf is at the person's side.
+// Whether what joints hold to the world, such as a leaf, is at the person's side. A latched one is
+// as rigid as the wall.
 bool is_squeezed(const Geom& person, const Geom& leaf, const Vec3& normal) {
-  const std::vector<Joint*>& joints = leaf.body->joints;
-  return person.body->upright && leaf.body->dynamic() && std::abs(normal.z()) < kSide &&
-         std::any_of(joints.begin(), joints.end(), slides);
+  if (!person.body->upright || !leaf.body->dynamic() || std::abs(normal.z()) >= kSide) return false;
+  const std::vector<Joint*>& joints = leaf.body->mechanism->joints;
+  return std::any_of(joints.begin(), joints.end(), holds_to_world) &&
+         std::none_of(joints.begin(), joints.end(), [](const Joint* j) { return j->latched; });
 }
 
 bool joined(const Body& a, const Body& b) {
