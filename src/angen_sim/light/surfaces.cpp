@@ -14,8 +14,11 @@ constexpr double kPart = 0.1;       // m, side of the parts of a divided cell
 constexpr int kSitesPerSide = 4;    // of a cell
 constexpr std::size_t kSites = std::size_t{kSitesPerSide} * kSitesPerSide;
 constexpr int kFineSitesPerSide = 2;
-constexpr double kSiteLift = 0.01;  // m off the surface, for visibility between its sites
-constexpr double kOff = 1e-3;       // m: a closer shape covers a surface
+constexpr double kSiteLift = 0.02;  // m: leaves stand a gap of some mm above sills
+// Of their spacing: the distance of neighbors, which are none diagonally, so that no gap joins
+// sides.
+constexpr double kNeighbor = 1.38;
+constexpr double kOff = 1e-3;  // m: a closer shape covers a surface
 constexpr std::uint32_t kDivided = kNoPatch - 1;
 
 bool rounded(Shape::Type type) {
@@ -61,6 +64,12 @@ Surfaces::Lattice Surfaces::lattice(std::uint32_t shape, int face) const {
   return out;
 }
 
+/// m, sides of a cell or of its part.
+Eigen::Array2d Surfaces::step_of(const Key& key) const {
+  const Lattice cells = lattice(static_cast<std::uint32_t>(key[0]), key[1]);
+  return key[5] != 0 ? Eigen::Array2d(cells.step / cells.parts) : cells.step;
+}
+
 std::uint32_t Surfaces::at(std::uint32_t shape, const Vec3& point, const Vec3& normal) {
   const rays::Placement placement = scene_.placement(shape);
   const Eigen::Matrix3d back = placement.pose.rotation.toRotationMatrix().transpose();
@@ -89,38 +98,82 @@ std::uint32_t Surfaces::at(std::uint32_t shape, const Vec3& point, const Vec3& n
   key[3] = static_cast<int>(all.x());
   key[4] = static_cast<int>(all.y());
   key[5] = 1;
-  return make(key);
+  patch = make(key);
+  return patch == kDivided ? side_at(key, {point, normal}) : patch;
 }
 
 std::uint32_t Surfaces::make(const Key& key) {
-  const auto [found, fresh] = known_.try_emplace(key, kNoPatch);
-  if (!fresh) return found->second;
-  keys_[static_cast<std::uint32_t>(key[0])].push_back(key);
+  const auto known = known_.find(key);
+  if (known != known_.end()) return known->second;
   const bool fine = key[5] == 1;
   int covered = 0;
-  Patch patch{key, HashKey{}(key), sites(key, fine ? kFineSitesPerSide : kSitesPerSide, covered),
-              serials_ + 1};
-  if (!fine && (patch.sites.empty() || covered > kSitesPerSide || parted(patch.sites) ||
-                faced(patch.sites))) {
-    return found->second = kDivided;
-  }
-  if (patch.sites.empty()) return kNoPatch;
-  ++serials_;
+  std::vector<Site> found = sites(key, fine ? kFineSitesPerSide : kSitesPerSide, covered);
+  const bool divided = fine ? make_sides(key)
+                            : found.empty() || covered > kSitesPerSide ||
+                                  sides(key, found).size() > 1 || faced(found);
+  return add(key, divided ? std::vector<Site>() : std::move(found), divided);
+}
+
+/// A key without sites has no patch.
+std::uint32_t Surfaces::add(const Key& key, std::vector<Site> sites, bool divided) {
+  keys_[static_cast<std::uint32_t>(key[0])].push_back(key);
+  std::uint32_t& number = known_[key];
+  number = divided ? kDivided : kNoPatch;
+  if (sites.empty()) return number;
+  Patch patch{key, HashKey{}(key), std::move(sites), ++serials_};
   if (free_.empty()) {
-    found->second = static_cast<std::uint32_t>(patches_.size());
+    number = static_cast<std::uint32_t>(patches_.size());
     patches_.push_back(std::move(patch));
   } else {
-    found->second = free_.back();
+    number = free_.back();
     free_.pop_back();
-    patches_[found->second] = std::move(patch);
+    patches_[number] = std::move(patch);
   }
-  return found->second;
+  return number;
+}
+
+/// Makes the sides of a part of a cell, if a shape stands across it.
+bool Surfaces::make_sides(const Key& key) {
+  int covered = 0;
+  std::vector<std::vector<Site>> all = sides(key, sites(key, kSitesPerSide, covered));
+  if (all.size() < 2) return false;
+  Key side = key;
+  for (std::vector<Site>& own : all) {
+    ++side[5];
+    add(side, std::move(own), false);
+  }
+  return true;
+}
+
+/// The side of the nearest site that sees the point, or of the nearest.
+std::uint32_t Surfaces::side_at(const Key& key, const Site& point) const {
+  struct Candidate {
+    double distance2;
+    std::uint32_t patch;
+    const Site* site;
+  };
+  std::vector<Candidate> all;
+  Key side = key;
+  for (;;) {
+    ++side[5];
+    const auto found = known_.find(side);
+    if (found == known_.end()) break;
+    for (const Site& site : patches_[found->second].sites) {
+      all.push_back({(site.position - point.position).squaredNorm(), found->second, &site});
+    }
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
+    return a.distance2 < b.distance2;
+  });
+  const auto seen = std::find_if(all.begin(), all.end(),
+                                 [&](const Candidate& to) { return !hidden(point, *to.site); });
+  return (seen == all.end() ? all.front() : *seen).patch;
 }
 
 /// Also counts the sites that a shape covers.
 std::vector<Site> Surfaces::sites(const Key& key, int per_side, int& covered) const {
   const Lattice cells = lattice(static_cast<std::uint32_t>(key[0]), key[1]);
-  const Eigen::Array2d step = key[5] == 1 ? Eigen::Array2d(cells.step / cells.parts) : cells.step;
+  const Eigen::Array2d step = step_of(key);
   std::array<Site, kSites> found;
   std::size_t count = 0;
   for (int i = 0; i < per_side * per_side; ++i) {
@@ -169,30 +222,33 @@ bool Surfaces::site(const Lattice& cells, const Key& key, double u, double v, Si
   return dominant(local) == axis;
 }
 
-/// Whether the sites form groups that do not see each other along the surface.
-bool Surfaces::parted(const std::vector<Site>& sites) const {
-  std::vector<std::size_t> reached{0};
+/// Groups of sites; each sees a neighbor in its group along the surface.
+std::vector<std::vector<Site>> Surfaces::sides(const Key& key,
+                                               const std::vector<Site>& sites) const {
+  const double spacing = step_of(key).maxCoeff() / kSitesPerSide;
+  const double near2 = std::pow(kNeighbor * spacing, 2);
+  std::vector<std::vector<Site>> all;
   std::vector<bool> seen(sites.size(), false);
-  seen[0] = true;
-  double spacing2 = 0.0;
-  for (const Site& site : sites) {
-    spacing2 = std::max(spacing2, (site.position - sites[0].position).squaredNorm());
-  }
-  // Neighbors are a third of the cell's side apart; twice that bridges a covered one.
-  const double near2 = 0.3 * spacing2;
-  for (std::size_t next = 0; next < reached.size(); ++next) {
-    const Site& from = sites[reached[next]];
-    for (std::size_t i = 0; i < sites.size(); ++i) {
-      if (seen[i] || (sites[i].position - from.position).squaredNorm() > near2) continue;
-      if (scene_.blocked(from.position + kSiteLift * from.normal,
-                         sites[i].position + kSiteLift * sites[i].normal, 1e-4, kStanding)) {
-        continue;
+  for (std::size_t first = 0; first < sites.size(); ++first) {
+    if (seen[first]) continue;
+    seen[first] = true;
+    std::vector<Site>& reached = all.emplace_back(1, sites[first]);
+    for (std::size_t next = 0; next < reached.size(); ++next) {
+      const Site from = reached[next];
+      for (std::size_t i = 0; i < sites.size(); ++i) {
+        if (seen[i] || (sites[i].position - from.position).squaredNorm() > near2) continue;
+        if (hidden(from, sites[i])) continue;
+        seen[i] = true;
+        reached.push_back(sites[i]);
       }
-      seen[i] = true;
-      reached.push_back(i);
     }
   }
-  return reached.size() != sites.size();
+  return all;
+}
+
+bool Surfaces::hidden(const Site& from, const Site& to) const {
+  return scene_.blocked(from.position + kSiteLift * from.normal,
+                        to.position + kSiteLift * to.normal, 1e-4, kStanding);
 }
 
 /// Whether a shape is close in front of any site: light varies strongly along such gaps.

@@ -23,9 +23,10 @@ struct Site {
 };
 
 /// A piece of one side of a shape's surface of about 0.4 m (0.1 m if a shape covers a part of it or
-/// is close in front of it), with one illuminance.
+/// is close in front of it), with one illuminance. A shape that stands across such a part, as a
+/// leaf on a door's sill, separates it into sides.
 struct Patch {
-  std::array<std::int32_t, 6> key;  // shape, face, depth, u, v, level
+  std::array<std::int32_t, 6> key;  // shape, face, depth, u, v; 0, 1 for a part, 2, 3, … for a side
   std::uint64_t hash = 0;
   std::vector<Site> sites;
   std::uint64_t serial = 0;  // unique over all patches ever made
@@ -71,10 +72,15 @@ class Surfaces {
   };
 
   Lattice lattice(std::uint32_t shape, int face) const;
+  Eigen::Array2d step_of(const Key& key) const;
   std::uint32_t make(const Key& key);
+  std::uint32_t add(const Key& key, std::vector<Site> sites, bool divided);
+  bool make_sides(const Key& key);
+  std::uint32_t side_at(const Key& key, const Site& point) const;
   std::vector<Site> sites(const Key& key, int per_side, int& covered) const;
   bool site(const Lattice& lattice, const Key& key, double u, double v, Site& out) const;
-  bool parted(const std::vector<Site>& sites) const;
+  std::vector<std::vector<Site>> sides(const Key& key, const std::vector<Site>& sites) const;
+  bool hidden(const Site& from, const Site& to) const;
   bool faced(const std::vector<Site>& sites) const;
   template <class Matches>
   void forget_if(std::uint32_t shape, std::vector<std::uint32_t>& removed, Matches&& matches);
