@@ -42,9 +42,9 @@ def show_address(url: str, with_code: bool) -> None:
     print(f'angen web: {url}', flush=True)
     if with_code:
         import qrcode
-        code = qrcode.QRCode(border=1)
+        code = qrcode.QRCode()
         code.add_data(url)
-        code.print_ascii(out=sys.stdout, invert=sys.stdout.isatty())
+        code.print_ascii(out=sys.stdout, tty=sys.stdout.isatty(), invert=True)
         sys.stdout.flush()
 
 
