@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from angen_apps.go.command import goal_of
+from angen_apps.go.command import goal_of, without
 from angen_apps.maps.gridmap import GridMap
 from angen_apps.robot.planner import Planner
 from angen_apps.robot.rooms_route import lift_of
@@ -65,3 +65,18 @@ def test_it_waits_before_the_doors_of_the_elevator_on_its_own_floor() -> None:
 def test_an_elevator_that_the_robot_cannot_enter_is_none() -> None:
     cells = np.full((80, 120), WALL, np.int8)
     assert lift_of(HOME, Planner(GridMap(cells, (-5.0, 3.0), 0.05, 0), 0.22), 0) is None
+
+
+def test_maps_leave_out_plug_ins_that_only_the_node_has() -> None:
+    left = without("""<sdf version="1.6" xmlns:angen="angen"><world name="w">
+      <angen:room name="hall0"/>
+      <include><uri>file:///tape.sdf</uri><name>tape1</name></include>
+      <include><uri>model://chair</uri><name>chair1</name></include>
+      <model name="walls"><link name="link"><collision name="c"/>
+        <sensor name="s"><plugin filename="libtape.so"/></sensor></link></model>
+      <model name="pir0"><link name="link"><sensor name="s"/></link></model></world></sdf>""",
+                   {'tape1', 'walls'})
+    assert 'tape' not in left and 'xmlns:angen="angen"' in left
+    for kept in ('<angen:room name="hall0"', 'chair1', '<collision name="c"', 'name="walls"'):
+        assert kept in left
+    assert left.count('<sensor') == 1

@@ -6,7 +6,9 @@ import os
 import tempfile
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Mapping, Sequence
+from typing import Collection, Mapping, Sequence
+
+from lxml import etree
 
 from angen_apps.go.live_robot import LIMIT, LiveRobot
 from angen_apps.go.trip import Goal, Trip
@@ -16,6 +18,7 @@ from angen_apps.robot.planner import Planner
 from angen_apps.robot.route import Ride, Turn
 from angen_apps.robot.rooms_route import lift_of
 from angen_apps.robot.route_file import NUMBERS, Route, Waypoint
+from angen_tools.common.catalog import kinds
 from angen_tools.common.failure import Failure
 from angen_tools.common.files import write_text
 from angen_tools.common.home import Home
@@ -65,7 +68,7 @@ def go(words: Sequence[str], robot: str, json: bool) -> int:
                       f'{arrived.error_m:.2f} m from {arrived.goal}, and believes to be there')
     print(as_json(asdict(arrived)) if json else
           f'{route.robot} is in {arrived.goal}: {arrived.distance_m:.1f} m in '
-          f'{arrived.time_s:.1f} s, {arrived.doors} doors, {arrived.rides} rides, '
+          f'{arrived.time_s:.1f} s, doors: {arrived.doors}, rides: {arrived.rides}, '
           f'{100 * arrived.error_m:.0f} cm from {arrived.goal_x_m:.2f}, {arrived.goal_y_m:.2f}'
           + (f'; {arrived.tries} tries' if arrived.tries > 1 else ''))
     return 0
@@ -77,7 +80,9 @@ class Surveyed:
     def __init__(self, client: Client, path: Path) -> None:
         import rospy
         from angen_msgs.srv import Save
-        write_text(path, client.call('/angen/save', Save).xml)
+        foreign = {entity.model for entity in client.entities()
+                   if entity.topic and entity.kind not in kinds()}
+        write_text(path, without(client.call('/angen/save', Save).xml, foreign))
         source = rospy.get_param('/angen/world', '')
         paths = [str(Path(source).parent / 'models'), os.environ.get('ANGEN_MODEL_PATH', '')]
         os.environ['ANGEN_MODEL_PATH'] = ':'.join(filter(None, paths))
@@ -89,6 +94,17 @@ class Surveyed:
                 if entity.kind == 'drive':
                     one.delete(entity.model)
         self.survey = Survey(world, shut, self.entities, None)
+
+
+def without(xml: str, models: Collection[str]) -> str:
+    """A world without the sensors and devices of some models, whose plug-ins only its node has."""
+    world = etree.fromstring(xml.encode())
+    for model in list(world.iter('model', 'include')):
+        if (model.get('name') or model.findtext('name')) in models:
+            parts = [model] if model.tag == 'include' else list(model.iter('sensor', 'plugin'))
+            for part in parts:
+                part.getparent().remove(part)
+    return etree.tostring(world, encoding='unicode')
 
 
 def goal_of(words: Sequence[str], home: Home, planners: Mapping[int, Planner]) -> Waypoint:
