@@ -117,6 +117,24 @@ void count_all(const XMLElement& element, Nodes& nodes) {
   }
 }
 
+// Whether the contents of an <image> name a file or hold data, comments left out.
+bool has_file(std::string inside) {
+  for (std::size_t at; (at = inside.find("<!--")) != std::string::npos;) {
+    const std::size_t end = inside.find("-->", at);
+    inside.erase(at, end == std::string::npos ? end : end + 3 - at);
+  }
+  return inside.find("<init_from") != std::string::npos ||
+         inside.find("<data") != std::string::npos;
+}
+
+std::string id_in(const std::string& opening) {
+  const std::size_t at = opening.find(" id=");
+  if (at == std::string::npos || at + 5 >= opening.size()) return "unnamed";
+  const std::size_t end = opening.find(opening[at + 4], at + 5);
+  const std::string id = end == std::string::npos ? "" : opening.substr(at + 5, end - at - 5);
+  return id.empty() ? "unnamed" : id;
+}
+
 }  // namespace
 
 void check_collada(const std::string& text) {
@@ -133,6 +151,29 @@ void check_collada(const std::string& text) {
   Nodes nodes(text.size());
   nodes.collect(*document.RootElement());
   count_all(*document.RootElement(), nodes);
+}
+
+void name_images(std::string& text) {
+  std::string named;
+  std::size_t from = 0;
+  for (std::size_t at = 0; (at = text.find("<image", at)) != std::string::npos;) {
+    const std::size_t end = text.find('>', at);
+    if (end == std::string::npos) break;
+    const bool is_image = std::string(" \t\r\n/>").find(text[at + 6]) != std::string::npos;
+    const bool is_empty = text[end - 1] == '/';
+    const std::size_t stop = is_empty ? end - 1 : end;
+    const std::size_t close = is_empty ? end + 1 : text.find("</image>", end);
+    if (close == std::string::npos) break;
+    const std::string opening = text.substr(at, stop - at);
+    const std::string inside = is_empty ? "" : text.substr(end + 1, close - end - 1);
+    at = close;
+    if (!is_image || has_file(inside)) continue;
+    named.append(text, from, stop - from);
+    named += "><init_from>" + id_in(opening) + "</init_from>" + (is_empty ? "</image>" : inside);
+    from = close;
+  }
+  if (from == 0) return;
+  text = named.append(text, from, std::string::npos);
 }
 
 void trim_colors(std::string& text) {

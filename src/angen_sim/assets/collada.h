@@ -14,6 +14,10 @@ struct Refused : std::runtime_error {
 /// wrong count of elements: assimp would expand them until memory ends.
 void check_collada(const std::string& text);
 
+/// Gives images without a file their id as its name: assimp would reject the whole mesh, and a
+/// texture that is not found is a warning.
+void name_images(std::string& text);
+
 /// Removes blanks before the numbers of colors, where assimp accepts none.
 void trim_colors(std::string& text);
 

@@ -37,6 +37,8 @@ using angen::load::Mesh;
 using angen::load::MeshRequest;
 using angen::load::Refused;
 
+constexpr const char* kUnnamed = "$ColladaAutoName$";  // assimp's, followed by a number
+
 void limit_this_process() {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   const auto limit = [](auto resource, rlim_t soft, rlim_t hard) {
@@ -115,21 +117,24 @@ class Expander {
   Expander(const aiScene& scene, const aiScene* unjoined, const std::string& submesh, Mesh& to)
       : scene_(scene), unjoined_(unjoined), submesh_(submesh), to_(to) {}
 
-  void add(const aiNode& node, const aiMatrix4x4& parent) {
+  /// `around`: the name of the node around it, which a node without one shares.
+  void add(const aiNode& node, const aiMatrix4x4& parent, const std::string& around = "") {
     const aiMatrix4x4 place = parent * node.mTransformation;
+    const std::string given = node.mName.C_Str();
+    const std::string& name = given.rfind(kUnnamed, 0) == 0 ? around : given;
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
       const unsigned number = node.mMeshes[i];
-      if (is_requested(node, *scene_.mMeshes[number])) add(number, place);
+      if (is_requested(name, *scene_.mMeshes[number])) add(number, place);
     }
-    for (unsigned i = 0; i < node.mNumChildren; ++i) add(*node.mChildren[i], place);
+    for (unsigned i = 0; i < node.mNumChildren; ++i) add(*node.mChildren[i], place, name);
   }
   const std::set<std::string>& names() const { return names_; }
 
  private:
-  bool is_requested(const aiNode& node, const aiMesh& mesh) {
+  bool is_requested(const std::string& name, const aiMesh& mesh) {
     if (submesh_.empty()) return true;
-    names_.insert(node.mName.C_Str());
-    return node.mName.C_Str() == submesh_ || mesh.mName.C_Str() == submesh_;
+    names_.insert(name);
+    return name == submesh_ || mesh.mName.C_Str() == submesh_;
   }
 
   void add(unsigned number, const aiMatrix4x4& place) {
@@ -191,6 +196,8 @@ void prepare(Assimp::Importer& importer, const MeshRequest& request, unsigned ke
   }
   // As Gazebo does: MeshLab, for one, writes Y_UP whatever the file has.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  // Submeshes are known by the names of nodes, also as in Gazebo, and not by their ids.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const unsigned removed = aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
@@ -244,6 +251,7 @@ Mesh mesh_of(MeshRequest request) {
   if (request.extension == "dae") {
     angen::load::check_collada(request.bytes);
     angen::load::trim_colors(request.bytes);
+    angen::load::name_images(request.bytes);
   }
   Assimp::Importer importer, second;
   prepare(importer, request, 0);

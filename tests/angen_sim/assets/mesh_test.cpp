@@ -23,6 +23,15 @@ std::string triangle_collada(const std::string& up, const std::string& meter) {
          "</library_visual_scenes><scene><instance_visual_scene url='#s'/></scene></COLLADA>";
 }
 
+// Gives the triangle the material 'm'.
+void bind_material(std::string& text) {
+  text.insert(text.find(" count='1'><input"), " material='M'");
+  text.replace(text.find("<instance_geometry url='#g'/>"), 29,
+               "<instance_geometry url='#g'><bind_material><technique_common>"
+               "<instance_material symbol='M' target='#m'/></technique_common></bind_material>"
+               "</instance_geometry>");
+}
+
 const char* const kStl =
     "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 2 3\nendloop\n"
     "endfacet\nendsolid s\n";
@@ -60,22 +69,52 @@ TEST(Mesh, ColladaUnitIsApplied) {
 TEST(Mesh, ColladaMayHaveBlanksBeforeAColor) {
   const Folder folder;
   std::string text = triangle_collada("Z_UP", "1");
-  const auto insert = [&text](const std::string& before, const std::string& what) {
-    text.insert(text.find(before), what);
-  };
-  insert("<library_geometries>",
-         "<library_effects><effect id='e'><profile_COMMON><technique sid='t'><lambert><diffuse>"
-         "<color sid='d'>\r\n \t0.25 0.5 0.75 1</color></diffuse></lambert></technique>"
-         "</profile_COMMON></effect></library_effects><library_materials><material id='m'>"
-         "<instance_effect url='#e'/></material></library_materials>");
-  insert(" count='1'><input", " material='M'");
-  text.replace(text.find("<instance_geometry url='#g'/>"), 29,
-               "<instance_geometry url='#g'><bind_material><technique_common>"
-               "<instance_material symbol='M' target='#m'/></technique_common></bind_material>"
-               "</instance_geometry>");
+  text.insert(
+      text.find("<library_geometries>"),
+      "<library_effects><effect id='e'><profile_COMMON><technique sid='t'><lambert><diffuse>"
+      "<color sid='d'>\r\n \t0.25 0.5 0.75 1</color></diffuse></lambert></technique>"
+      "</profile_COMMON></effect></library_effects><library_materials><material id='m'>"
+      "<instance_effect url='#e'/></material></library_materials>");
+  bind_material(text);
   const ReadMesh mesh = read_mesh({folder.write("c.dae", text), Vec3::Ones()}, {});
   EXPECT_LT((corner(*mesh.triangles, 2) - Eigen::Vector3f(0, 2, 3)).norm(), 1e-5);
   EXPECT_EQ(mesh.look->parts.at(0).color, Eigen::Vector4f(0.25F, 0.5F, 0.75F, 1.0F));
+}
+
+// As in Gazebo, where such a part has no texture.
+TEST(Mesh, ColladaMayHaveAnImageWithoutAFile) {
+  const Folder folder;
+  for (const std::string image :
+       {"<image id='tray_png'><!--<init_from>tray.png</init_from>--></image>",
+        "<image name='tray' id='tray_png'/>"}) {
+    std::string text = triangle_collada("Z_UP", "1");
+    text.insert(text.find("<library_geometries>"),
+                "<library_images>" + image +
+                    "</library_images><library_effects><effect id='e'><profile_COMMON>"
+                    "<newparam sid='f'><surface type='2D'><init_from>tray_png</init_from></surface>"
+                    "</newparam><newparam sid='r'><sampler2D><source>f</source></sampler2D>"
+                    "</newparam><technique sid='t'><lambert><diffuse><texture texture='r' "
+                    "texcoord='u'/></diffuse></lambert></technique></profile_COMMON></effect>"
+                    "</library_effects><library_materials><material id='m'><instance_effect "
+                    "url='#e'/></material></library_materials>");
+    bind_material(text);
+    const ReadMesh mesh = read_mesh({folder.write("i.dae", text), Vec3::Ones()}, {});
+    EXPECT_LT((corner(*mesh.triangles, 2) - Eigen::Vector3f(0, 2, 3)).norm(), 1e-5) << image;
+  }
+}
+
+// As Gazebo names submeshes: by the node's name, or by that of a node around it.
+TEST(Mesh, ColladaSubmeshesHaveTheNamesOfNodes) {
+  const Folder folder;
+  for (const std::string opening :
+       {"<node id='node-part' name='part'>", "<node id='n' name='part'><node id='inner'>"}) {
+    std::string text = triangle_collada("Z_UP", "1");
+    text.replace(text.find("<node id='n'>"), 13, opening);
+    if (opening.find("inner") != std::string::npos) text.insert(text.find("</node>"), "</node>");
+    const std::string file = folder.write("part.dae", text);
+    EXPECT_EQ(read_mesh({file, Vec3::Ones(), "part"}, {}).triangles->triangles.size(), 1U);
+    EXPECT_THROW(read_mesh({file, Vec3::Ones(), "other"}, {}), Error);
+  }
 }
 
 TEST(Mesh, StlIsScaled) {
