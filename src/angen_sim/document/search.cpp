@@ -88,6 +88,16 @@ std::optional<std::string> find_in_packages(const Address& address, Session& ses
   return existing(fs::path(*folder) / rest, session.sources);
 }
 
+// model://NAME/… in a document of a folder NAME, which may lie outside of the model path.
+std::optional<std::string> find_in_own_model(const Address& address, const std::string& from,
+                                             Session& session) {
+  const std::size_t slash = address.path.find('/');
+  if (address.scheme != "model" || slash == std::string::npos) return std::nullopt;
+  const fs::path folder = folder_of(from, session.sources);
+  if (folder.filename() != address.path.substr(0, slash)) return std::nullopt;
+  return existing(folder / address.path.substr(slash + 1), session.sources);
+}
+
 void check_allowed(const std::string& file, const std::string& what, const Source& at,
                    Session& session) {
   if (session.allowed.holds(file, at.file)) return;
@@ -139,7 +149,8 @@ std::optional<std::string> find_uri(const std::string& uri, const std::string& f
   for (const std::string& folder : folders_for(address, from, session)) {
     if (auto found = existing(fs::path(folder) / address.path, session.sources)) return found;
   }
-  return find_in_packages(address, session);
+  if (auto found = find_in_packages(address, session)) return found;
+  return find_in_own_model(address, from, session);
 }
 
 std::string searched_places(const std::string& uri, const std::string& from, Session& session) {
@@ -262,13 +273,10 @@ void make_uris_absolute(Element& element, Session& session) {
       continue;
     }
     const Address address = split(child.text);
-    const bool relative = !address.path.empty() && address.path[0] != '/';
-    if (!relative || (!address.scheme.empty() && address.scheme != "file")) continue;
-    const std::string folder = folder_of(child.source.file, session.sources);
-    if (folder.empty()) continue;
-    const auto beside = existing(fs::path(folder) / address.path, session.sources);
-    if (!beside || find_uri(child.text, "", session)) continue;
-    if (session.allowed.holds(*beside, child.source.file)) child.text = "file://" + *beside;
+    if (address.path.empty() || address.path[0] == '/') continue;
+    const auto found = find_uri(child.text, child.source.file, session);
+    if (!found || find_uri(child.text, "", session)) continue;
+    if (session.allowed.holds(*found, child.source.file)) child.text = "file://" + *found;
   }
 }
 

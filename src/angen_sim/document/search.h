@@ -11,7 +11,8 @@
 namespace angen::load {
 
 /// The file or folder that `uri` names, absolute. `from` is the document that holds it: its folder
-/// is searched last for file:// and for addresses without a scheme.
+/// is searched last for file:// and for addresses without a scheme, and for model://NAME/… where it
+/// is called NAME.
 std::optional<std::string> find_uri(const std::string& uri, const std::string& from,
                                     Session& session);
 

@@ -66,6 +66,16 @@ TEST_F(Allowed, WhatLiesBesideTheFile) {
   EXPECT_EQ(complaint("a", "meshes/../meshes/s.stl"), "");
 }
 
+TEST_F(Allowed, TheModelsOwnFilesByItsAddress) {
+  folder_.write("home/a/meshes/s.stl", kStl);
+  EXPECT_EQ(complaint("a", "model://a/meshes/s.stl"), "");
+  EXPECT_NE(complaint("b", "model://a/meshes/s.stl").find("is not found"), std::string::npos);
+  expect_refused(complaint("a", "model://a/../../secret/s.stl"), home() + "/a/model.sdf:2: mesh '");
+  complaint("a", "model://a/meshes/s.stl");
+  const desc::Model read = model(home() + "/a/model.sdf", "m", {}, {});
+  EXPECT_NE(read.expanded_xml.find("file://" + home() + "/a/meshes/s.stl"), std::string::npos);
+}
+
 TEST_F(Allowed, NothingElseByDotsOrAFullPath) {
   const std::string place = home() + "/a/model.sdf:2: mesh '";
   for (const std::string& uri :

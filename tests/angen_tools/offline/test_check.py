@@ -64,6 +64,17 @@ def test_check_of_a_model_as_file_as_folder_and_by_its_address(tmp_path: Path) -
     assert '1 device (door bathroom0)' in done.stdout
 
 
+def test_check_of_a_model_that_names_its_own_files(tmp_path: Path) -> None:
+    folder = tmp_path / 'crate'
+    folder.mkdir()
+    (folder / 'crate.obj').write_text('v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n')
+    (folder / 'model.sdf').write_text(
+        '<sdf version="1.6"><model name="crate"><link name="l"><visual name="v"><geometry><mesh>'
+        '<uri>model://crate/crate.obj</uri></mesh></geometry></visual></link></model></sdf>')
+    done = angen('check', str(folder / 'model.sdf'))
+    assert (done.returncode, done.stderr) == (0, '')
+
+
 def test_check_of_a_urdf() -> None:
     done = angen('check', str(SNIPPETS / 'robot.urdf'))
     assert (done.returncode, done.stderr) == (0, '')
