@@ -71,6 +71,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
   std::vector<rays::WarmShape> warm;
   std::uint64_t revision = 0;
   std::uint64_t surface = 0;
+  std::uint64_t set = 0;
   std::map<std::string, std::vector<ContactPair>> touching;           // by collision name
   std::map<std::string, std::vector<ContactPair>> touched;            // lately, and not now
   Eigen::Vector3f albedo = Eigen::Vector3f::Constant(0.5F);           // of all shapes
@@ -152,6 +153,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
   const std::vector<rays::WarmShape>& warm_shapes() const override { return warm; }
   std::uint64_t scene_revision() const override { return revision; }
   std::uint64_t surface_revision() const override { return surface; }
+  std::uint64_t surfaces_set() const override { return set; }
   using View::crossings;
   std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to,
                                         rays::Mobilities) const override {

@@ -123,6 +123,8 @@ class View {
   }
   /// Grows while temperatures of warm_shapes() change.
   virtual std::uint64_t surface_revision() const = 0;
+  /// Grows when one of them begins to change, or changes at once.
+  virtual std::uint64_t surfaces_set() const = 0;
   /// The shapes of these mobilities on the segment between two points (world, m), in the order in
   /// which it enters them.
   virtual std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to,

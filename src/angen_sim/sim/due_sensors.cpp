@@ -1,5 +1,7 @@
 #include "sim/due_sensors.h"
 
+#include <utility>
+
 namespace angen::sim {
 
 namespace {
@@ -21,6 +23,12 @@ bool heat_changed(const Engines& engines, const SensorInstance& sensor) {
   return engines.surfaces.changed_since(seen, sensor.near->box);
 }
 
+/// Whether the temperature of such a surface has begun to change.
+bool heat_set(const Engines& engines, const SensorInstance& sensor) {
+  return sensor.near == nullptr ? heat_changed(engines, sensor)
+                                : engines.surfaces.set_since(sensor.seen, sensor.near->box);
+}
+
 /// Whether its queries besides rays would have the same answers.
 bool queries_unchanged(const Engines& engines, const LiveModel& live,
                        const SensorInstance& sensor) {
@@ -30,6 +38,7 @@ bool queries_unchanged(const Engines& engines, const LiveModel& live,
   const bool model_changed = live.changed >= sensor.seen;
   if (queried.model && model_changed) return false;
   if (queried.heat && heat_changed(engines, sensor)) return false;
+  if (queried.heat_set && heat_set(engines, sensor)) return false;
   if (queried.devices && engines.states.changed_since(queried.fields, sensor.seen)) return false;
   if (queried.light && !light_unchanged(engines, sensor)) return false;
   if (queried.contacts && contacts_revision(engines, sensor) != sensor.contacts_seen) return false;
@@ -134,9 +143,12 @@ bool DueSensors::needs_no_sample(SensorInstance& sensor, InstanceView::Clock clo
   if (activity.steady()) return true;
   if (activity.state() == SensorActivity::State::kActive || !sensor.published.reading) return false;
   if (!activity.lazy()) {
-    if (!activity.settled(sensor.noisy != nullptr ? sensor.noisy->memory() : 0)) return false;
-    sensor.forecast.no_event_probability =
-        sensor.noisy != nullptr ? sensor.noisy->no_event_probability() : 1.0;
+    const NoisySensor* noisy = sensor.noisy;
+    if (!activity.settled(noisy != nullptr ? noisy->memory() : 0)) return false;
+    NoiseForecast& forecast = sensor.forecast;
+    forecast.no_event_probability = noisy != nullptr ? noisy->no_event_probability() : 1.0;
+    const Nanoseconds event = noisy != nullptr ? noisy->next_event() : kForever;
+    if (std::exchange(forecast.next_event, event) != event) forecast.possible_event_at = 0;
   }
   return has_no_event(sensor, clock);
 }

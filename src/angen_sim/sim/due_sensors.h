@@ -55,9 +55,10 @@ class DueSensors {
   void activate(const Engines& engines, SensorScheduler::Group& group, InstanceView::Clock clock);
   void activate_changed(const Engines& engines, const SensorScheduler::Group& group);
   void activate_for_events(SensorScheduler::Group& group, InstanceView::Clock clock);
-  /// Whether the noise of a sample lets the sensor's lazy reading replace it.
+  /// Whether the sensor's lazy reading can replace a sample: no event is due, nor by its noise.
   bool has_no_event(const SensorInstance& sensor, InstanceView::Clock clock) const {
     const double probability = sensor.forecast.no_event_probability;
+    if (clock.time >= sensor.forecast.next_event) return false;
     return probability >= 1.0 ||
            Rng(seed_, sensor.key, clock.time / clock.step).uniform() < probability;
   }

@@ -77,20 +77,22 @@ struct Queried {
   bool other = false;
   StateChanges::Fields fields = 0;  // by which it queried devices
   bool heat = false;                // temperatures of surfaces
+  bool heat_set = false;            // only when they begin to change
   bool model = false;               // links and joints of its own model
 
   /// Whether it is more than its model that answers.
-  bool others() const { return contacts || light || devices || other || heat; }
+  bool others() const { return contacts || light || devices || other || heat || heat_set; }
   bool any() const { return others() || model; }
   Queried operator|(const Queried& o) const {
-    return {contacts || o.contacts, light || o.light, devices || o.devices, other || o.other,
-            fields | o.fields,      heat || o.heat,   model || o.model};
+    return {contacts || o.contacts, light || o.light, devices || o.devices,   other || o.other,
+            fields | o.fields,      heat || o.heat,   heat_set || o.heat_set, model || o.model};
   }
 };
 
 /// Forecast of a lazy sensor's noise.
 struct NoiseForecast {
   double no_event_probability = 0.0;  // see NoisySensor
+  Nanoseconds next_event = kForever;  // as well
   Nanoseconds no_event_until = 0;     // no sample up to then may have an event
   Nanoseconds possible_event_at = 0;  // the next one that may; known when later than now
 };
@@ -103,8 +105,8 @@ struct SensorInstance : SensorInfo {
   std::unique_ptr<WatchedRays> near;               // null where all shapes matter
   MoverIndex::Moment seen = 0;                     // its last sample has all changes before
   SensorActivity activity;
-  Queried queried{false, false, false, true, 0, false, false};  // for its reading
-  bool link_moves = true;                                       // false where its link is static
+  Queried queried{false, false, false, true, 0, false, false, false};  // for its reading
+  bool link_moves = true;  // false where its link is static
 
   std::unique_ptr<Sensor> sensor;
   NoisySensor* noisy = nullptr;                // `sensor`, where it applies its noise itself

@@ -12,13 +12,18 @@ constexpr Nanoseconds kForecast = 10 * kSecond;  // noise is known at most this 
 
 }  // namespace
 
-/// The first sample at or before `until` whose noise may cause an event; else kForever.
+/// The first sample at or before `until` that may have an event; else kForever.
 Nanoseconds DueSensors::next_possible_event(SensorInstance& sensor, InstanceView::Clock clock,
                                             Nanoseconds until) const {
   NoiseForecast& forecast = sensor.forecast;
   if (forecast.possible_event_at > clock.time) return forecast.possible_event_at;
   const Schedule& schedule = sensor.schedule;
-  Nanoseconds due = schedule.next(std::max(clock.time, forecast.no_event_until));
+  Nanoseconds after = std::max(clock.time, forecast.no_event_until);
+  if (forecast.no_event_probability >= 1.0) {
+    if (forecast.next_event > until) return kForever;
+    after = std::max(after, forecast.next_event - schedule.sample - clock.step);
+  }
+  Nanoseconds due = schedule.next(after);
   for (Nanoseconds at = schedule.tick_of(due); at <= until;
        at = schedule.tick_of(due += schedule.sample)) {
     if (has_no_event(sensor, {at, clock.step})) continue;
@@ -32,7 +37,11 @@ Nanoseconds DueSensors::next_possible_event(SensorInstance& sensor, InstanceView
 /// The sample up to which the noise of a lazy sensor need not be checked again.
 Nanoseconds DueSensors::next_check(SensorInstance& sensor, InstanceView::Clock clock) const {
   const Nanoseconds until = (clock.time / kForecast + 1) * kForecast;
-  if (sensor.forecast.no_event_probability >= 1.0) return kForever;
+  if (sensor.forecast.no_event_probability >= 1.0) {
+    return sensor.forecast.next_event == kForever
+               ? kForever
+               : next_possible_event(sensor, clock, kForever - 1);
+  }
   return std::min(next_possible_event(sensor, clock, until), until);
 }
 

@@ -14,7 +14,8 @@ constexpr double kArrived = 1e-3;  // K from its limit: from then on it is there
 void SurfaceTemperatures::set(rays::ShapeId shape, double temperature, double limit,
                               double time_constant, Nanoseconds now, Moment moment) {
   remove(shape);
-  note_changed(shape, moment);
+  note_changed(shape, moment).set = set_ = moment;
+  ++times_set_;
   if (!(time_constant > 0.0) || std::abs(temperature - limit) < kArrived) {
     rays_.warm(shape, limit);
     return;
@@ -32,15 +33,13 @@ void SurfaceTemperatures::remove(rays::ShapeId shape) {
                  changes_.end());
 }
 
-void SurfaceTemperatures::note_changed(rays::ShapeId shape, Moment moment) {
+SurfaceTemperatures::Change& SurfaceTemperatures::note_changed(rays::ShapeId shape, Moment moment) {
   changed_ = moment;
-  const auto known = std::find_if(changes_.begin(), changes_.end(),
-                                  [&](const Change& each) { return each.shape == shape; });
-  if (known == changes_.end()) {
-    changes_.push_back({shape, moment});
-  } else {
-    known->moment = moment;
-  }
+  auto known = std::find_if(changes_.begin(), changes_.end(),
+                            [&](const Change& each) { return each.shape == shape; });
+  if (known == changes_.end()) known = changes_.insert(known, {shape, moment, 0});
+  known->moment = moment;
+  return *known;
 }
 
 bool SurfaceTemperatures::changed_since(Moment since, const Eigen::AlignedBox3d& within) const {
@@ -52,6 +51,12 @@ bool SurfaceTemperatures::changed_since(Moment since, const Eigen::AlignedBox3d&
   };
   return std::any_of(changing_.begin(), changing_.end(), changes) ||
          std::any_of(changes_.begin(), changes_.end(), changed);
+}
+
+bool SurfaceTemperatures::set_since(Moment since, const Eigen::AlignedBox3d& within) const {
+  return set_ >= since && std::any_of(changes_.begin(), changes_.end(), [&](const Change& each) {
+           return each.set >= since && rays_.bounds(each.shape).intersects(within);
+         });
 }
 
 void SurfaceTemperatures::advance(Nanoseconds now, Moment moment) {

@@ -28,6 +28,10 @@ class SurfaceTemperatures {
   bool changed_since(Moment since) const { return !changing_.empty() || changed_ >= since; }
   /// The same of those that are in a box (m, world).
   bool changed_since(Moment since, const Eigen::AlignedBox3d& within) const;
+  /// Whether one of those in a box was set at `since` or later.
+  bool set_since(Moment since, const Eigen::AlignedBox3d& within) const;
+  /// How often one was set.
+  std::uint64_t times_set() const { return times_set_; }
 
  private:
   struct Changing {
@@ -41,14 +45,17 @@ class SurfaceTemperatures {
   struct Change {
     rays::ShapeId shape;
     Moment moment;
+    Moment set;  // the last time that it was set
   };
 
-  void note_changed(rays::ShapeId shape, Moment moment);
+  Change& note_changed(rays::ShapeId shape, Moment moment);
 
   rays::Scene& rays_;
   std::vector<Changing> changing_;
   std::vector<Change> changes_;  // the last of each
   Moment changed_ = 0;
+  Moment set_ = 0;  // the last of all
+  std::uint64_t times_set_ = 0;
 };
 
 }  // namespace angen::sim

@@ -149,6 +149,11 @@ std::uint64_t InstanceView::surface_revision() const {
   return engines_.rays.warm_revision();
 }
 
+std::uint64_t InstanceView::surfaces_set() const {
+  queried_.heat_set = true;
+  return engines_.surfaces.times_set();
+}
+
 std::vector<rays::Crossing> InstanceView::crossings(const Vec3& from, const Vec3& to,
                                                     rays::Mobilities among) const {
   queried_.other = true;

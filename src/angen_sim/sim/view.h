@@ -52,6 +52,7 @@ class InstanceView : public View {
   std::uint64_t scene_revision() const override;
   void watch(const std::function<std::vector<rays::Ray>()>& make) const override;
   std::uint64_t surface_revision() const override;
+  std::uint64_t surfaces_set() const override;
   using View::crossings;
   std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to,
                                         rays::Mobilities among) const override;

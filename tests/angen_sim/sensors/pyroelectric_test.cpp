@@ -21,6 +21,7 @@ double measured_gain(double frequency) {
     const double temperature = 310.0 + 0.5 * std::sin(2.0 * M_PI * frequency * i / 100.0);
     bench.world.warm = {{id.index, temperature, bench.scene.warm_shapes()[0].box}};
     ++bench.moves;
+    ++bench.world.set;
     const Reading reading = bench.sample(kSample);
     if (i < samples / 2) continue;
     flux_high = std::max(flux_high, reading.get<double>("flux"));

@@ -54,6 +54,7 @@ class Forgetful : public View {
   const std::vector<rays::WarmShape>& warm_shapes() const override { return view_.warm_shapes(); }
   std::uint64_t scene_revision() const override { return view_.scene_revision(); }
   std::uint64_t surface_revision() const override { return view_.surface_revision(); }
+  std::uint64_t surfaces_set() const override { return view_.surfaces_set(); }
   std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to,
                                         rays::Mobilities among) const override {
     return view_.crossings(from, to, among);

@@ -1,7 +1,9 @@
 #include "sensors/pir/pyroelectric.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "sensors/fan.h"
 
@@ -11,6 +13,8 @@ namespace {
 
 constexpr Range kAngles{-M_PI, M_PI};
 constexpr double kSamplesPerCutoff = 2.0;
+constexpr double kMostNoise = 9.0;      // standard deviations: Rng::gaussian() makes at most 8.6
+constexpr int kLongestDecay = 1 << 12;  // samples ahead
 constexpr Trigger::Times kTimes{kSecond * 5 / 4, kSecond * 5 / 2, 60 * kSecond, true};
 
 Window window_of(const std::vector<double>& row, std::size_t first, const char* key,
@@ -80,49 +84,104 @@ void Pyroelectric::configure(Params& params, Wiring&) {
                                       "of lens and window, of all heat radiation", {1e-6, 1.0});
   const double rate =
       params.number("sample_rate", 100.0, "Hz", "how often it samples", {20.0, 1000.0});
-  period_ = from_seconds(1.0 / rate);
-  heat_ = Heat(std::move(lens), rays_.max, facet * passes, period_);
+  at_.period = from_seconds(1.0 / rate);
+  heat_ = Heat(std::move(lens), rays_.max, facet * passes, at_.period);
   const BandPass::Corners corners = read_corners(params);
   if (rate <= kSamplesPerCutoff * corners.high) {
     throw params.error("sample_rate", "<sample_rate> must be more than twice <high_cutoff>");
   }
   const double responsivity =
       params.number("responsivity", 3300.0, "V/W", "of the elements, at 1 Hz", kPositive);
-  band_ = BandPass(corners, responsivity, to_seconds(period_));
-  noise_ = params.number("noise_stddev", 3e-6, "V", "while it is awake", kNotNegative);
-  threshold_ =
+  at_.signal.band = BandPass(corners, responsivity, to_seconds(at_.period));
+  at_.noise = params.number("noise_stddev", 3e-6, "V", "while it is awake", kNotNegative);
+  at_.threshold =
       params.number("signal_threshold", 3e-4, "V", "motion beyond plus or minus this", kPositive);
-  rest_ = params.number("rest_threshold", 1e-6, "V", "a filter nearer than this to rest is at rest",
-                        kPositive);
+  at_.signal.rest = params.number("rest_threshold", 1e-6, "V",
+                                  "a filter nearer than this to rest is at rest", kPositive);
   times_ = read_times(params, kTimes);
   false_alarm_rate_ = params.number("false_alarm_rate", 0.0, "1/h", "without any cause", {0, 3600});
 }
 
+void PirSignal::settle(double constant) {
+  band.settle(constant);
+  flux = constant;
+  volts = 0.0;
+  asleep = true;
+}
+
+void PirSignal::step(double next) {
+  if (asleep && next == flux) return;
+  volts = band.step(next);
+  asleep = next == flux && band.settled(next, rest);
+  flux = next;
+  if (asleep) settle(next);
+}
+
+void PirSignal::hold(std::int64_t count) {
+  for (std::int64_t i = 0; i < count && !asleep; ++i) step(flux);
+}
+
+bool PirSignal::decays_below(double limit) const {
+  PirSignal ahead = *this;
+  for (int i = 0; i < kLongestDecay && !ahead.asleep; ++i) {
+    ahead.step(flux);
+    if (std::abs(ahead.volts) >= limit) return false;
+  }
+  return ahead.asleep;
+}
+
+void Pyroelectric::Decay::advance(Nanoseconds to) {
+  signal.hold((to - time + period / 2) / period);
+  time = to;
+}
+
+double Pyroelectric::Decay::with_noise(Rng& rng) const {
+  return signal.asleep ? 0.0 : signal.volts + noise * rng.gaussian();
+}
+
+void Pyroelectric::Decay::write(double signal_now, Reading& reading) const {
+  reading.set("motion", motion);
+  reading.set("signal", signal_now);
+  reading.set("signal_threshold", threshold);
+  reading.set("flux", flux);
+}
+
+void Pyroelectric::Decay::read(Nanoseconds to, const Draws& draws, Reading& reading) const {
+  Decay then = *this;
+  then.advance(to);
+  Rng rng = draws(0);
+  then.write(then.with_noise(rng), reading);
+}
+
 void Pyroelectric::aim(const View& view, RayBatch& rays) {
-  if (view.time() < last_time_) heat_.forget();  // the clock was set back
+  if (view.time() < at_.time) heat_.forget();  // the clock was set back
   heat_.aim(view, rays);
 }
 
 void Pyroelectric::read(const View& view, Hits hits, Rng& rng, Reading& reading) {
-  const double flux = heat_.flux(hits);
-  if (last_time_ < 0 || view.time() < last_time_) {
+  at_.flux = heat_.flux(hits);
+  const double flux = at_.flux - heat_.drift();
+  if (at_.time < 0 || view.time() < at_.time) {
     trigger_ = Trigger(times_, view.time());
-    band_.settle(flux - heat_.drift());
-    asleep_ = true;
-    flux_ = flux - heat_.drift();
+    at_.signal.settle(flux);
   }
-  last_time_ = view.time();
-  const double signal = filter(flux - heat_.drift(), rng);
-  const bool was_on = trigger_.on();
+  at_.time = view.time();
+  // A drift that takes the voltage from rest by less than its noise is as good as none.
+  const bool same = flux == at_.signal.flux;
+  const bool slow = same || (!heat_.moved() && at_.signal.band.lag(flux - at_.signal.flux) <=
+                                                   std::max(at_.signal.rest, at_.noise));
+  at_.signal.step(flux);
+  const double signal = at_.with_noise(rng);
   const bool alarm = false_alarm(rng);
-  const bool motion = trigger_.step(view.time(), std::abs(signal) > threshold_ || alarm);
-  reading.set("motion", motion);
-  reading.set("signal", signal);
-  reading.set("signal_threshold", threshold_);
-  reading.set("flux", flux);
-  if (motion == was_on) return;
+  const bool was_on = std::exchange(
+      at_.motion, trigger_.step(view.time(), std::abs(signal) > at_.threshold || alarm));
+  quiet_ =
+      slow && ((quiet_ && same) || at_.signal.decays_below(at_.threshold - kMostNoise * at_.noise));
+  if (quiet_) heat_.rest_in_drift();
+  at_.write(signal, reading);
+  if (at_.motion == was_on) return;
   reading.urgent = true;
-  reading.event = motion ? "motion" : "still";
+  reading.event = at_.motion ? "motion" : "still";
   std::ostringstream detail;
   if (alarm) {
     detail << "false alarm";
@@ -132,24 +191,17 @@ void Pyroelectric::read(const View& view, Hits hits, Rng& rng, Reading& reading)
   reading.event_detail = detail.str();
 }
 
-bool Pyroelectric::steady() const {
-  return asleep_ && !heat_.pending() && !trigger_.on() && false_alarm_rate_ == 0.0;
+bool Pyroelectric::steady() const { return quiet_ && !heat_.pending() && false_alarm_rate_ == 0.0; }
+
+std::shared_ptr<const LazyReading> Pyroelectric::lazy_reading() const {
+  return std::make_shared<Decay>(at_);
 }
 
-// Volts for this sample. A constant flux lets the filter come to rest.
-double Pyroelectric::filter(double flux, Rng& rng) {
-  if (asleep_ && flux == flux_) return 0.0;
-  const double signal = band_.step(flux);
-  asleep_ = flux == flux_ && band_.settled(flux, rest_);
-  flux_ = flux;
-  if (!asleep_) return signal + noise_ * rng.gaussian();
-  band_.settle(flux);
-  return 0.0;
-}
+void Pyroelectric::resume(Nanoseconds time, const Draws&) { at_.advance(time); }
 
 bool Pyroelectric::false_alarm(Rng& rng) const {
   if (false_alarm_rate_ == 0.0) return false;
-  return rng.uniform() < false_alarm_rate_ / 3600.0 * to_seconds(period_);
+  return rng.uniform() < false_alarm_rate_ / 3600.0 * to_seconds(at_.period);
 }
 
 }  // namespace angen::sensors

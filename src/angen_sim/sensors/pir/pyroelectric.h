@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <optional>
+
 #include "plugin/plugin.h"
 #include "sensors/pir/band_pass.h"
 #include "sensors/pir/heat.h"
@@ -7,34 +11,69 @@
 
 namespace angen::sensors {
 
+/// The filtered voltage of a detector's elements. It is asleep once a constant flux has let the
+/// filter come to rest.
+struct PirSignal {
+  BandPass band;
+  double rest = 0.0;   // V: a filter nearer than this to rest is at rest
+  double flux = 0.0;   // W, of the last sample, without drift
+  double volts = 0.0;  // of that sample, without noise
+  bool asleep = false;
+
+  /// As if this flux had always been there.
+  void settle(double constant);
+  /// Takes the next sample's flux.
+  void step(double next);
+  /// As `count` samples of the same flux.
+  void hold(std::int64_t count);
+  /// Whether the same flux keeps the voltage below ±limit (V) until it is asleep.
+  bool decays_below(double limit) const;
+};
+
 /// A motion detector as they are built: the heat of two elements behind a Fresnel lens, filtered,
-/// compared with a threshold. Asleep while nothing warm moves in its view.
-class Pyroelectric : public Sensor {
+/// compared with a threshold. Its samples are computed when they are read while nothing warm moves
+/// in its view.
+class Pyroelectric : public Sensor, public NoisySensor {
  public:
   void configure(Params& params, Wiring& wiring) override;
   std::optional<RayGeometry> rays() const override { return rays_; }
-  Nanoseconds sample_period() const override { return period_; }
+  Nanoseconds sample_period() const override { return at_.period; }
   void aim(const View& view, RayBatch& rays) override;
   void read(const View& view, Hits hits, Rng& rng, Reading& reading) override;
   bool steady() const override;
+  bool varies() const override { return !at_.signal.asleep || at_.motion; }
+  double no_event_probability() const override { return 1.0; }
+  Nanoseconds next_event() const override { return trigger_.off_at(); }
+  int memory() const override { return 0; }
+  std::shared_ptr<const LazyReading> lazy_reading() const override;
+  void resume(Nanoseconds time, const Draws& draws) override;
 
  private:
-  double filter(double flux, Rng& rng);
+  /// Its state after a sample, and with that its readings as long as the flux stays.
+  struct Decay : LazyReading {
+    PirSignal signal;
+    double flux = 0.0;       // W, with drift
+    double noise = 0.0;      // V, while it is awake
+    double threshold = 0.0;  // V
+    bool motion = false;
+    Nanoseconds time = -1;  // of the sample
+    Nanoseconds period = kSecond / 100;
+
+    void advance(Nanoseconds to);
+    double with_noise(Rng& rng) const;
+    void write(double signal_now, Reading& reading) const;
+    void read(Nanoseconds to, const Draws& draws, Reading& reading) const override;
+  };
+
   bool false_alarm(Rng& rng) const;
 
   Heat heat_;
   RayGeometry rays_;  // for rviz
-  BandPass band_;
+  Decay at_;
   Trigger::Times times_;
   Trigger trigger_;
-  Nanoseconds period_ = kSecond / 100;
-  double noise_ = 0.0;             // V
-  double threshold_ = 0.0;         // V
-  double rest_ = 0.0;              // V
   double false_alarm_rate_ = 0.0;  // 1/h
-  Nanoseconds last_time_ = -1;
-  double flux_ = 0.0;  // W, of the last sample, without drift
-  bool asleep_ = false;
+  bool quiet_ = false;             // no further sample fires while the flux stays
 };
 
 }  // namespace angen::sensors
