@@ -332,8 +332,9 @@ void Contacts::read_forces(const Pair& pair) {
   }
 }
 
-bool Contacts::only_stand() const {
+bool Contacts::upright_only_stand() const {
   return std::all_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
+    if (!pair.first->body->upright && !pair.second->body->upright) return true;
     if (pair.first->body->dynamic() && pair.second->body->dynamic()) return false;
     const auto first = points_.begin() + static_cast<std::ptrdiff_t>(pair.begin);
     return std::all_of(first, first + static_cast<std::ptrdiff_t>(pair.count),

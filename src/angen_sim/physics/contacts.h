@@ -31,8 +31,8 @@ class Contacts {
   /// s, of the steps from now on.
   void set_step(double step) { step_ = step; }
 
-  /// Whether all contacts of the last step were those of bodies on top of static shapes.
-  bool only_stand() const;
+  /// Whether upright bodies touched nothing in the last step but static shapes below them.
+  bool upright_only_stand() const;
 
   /// Forgets the pairs of the last step.
   void start();

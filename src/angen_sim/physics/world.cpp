@@ -19,6 +19,7 @@ namespace {
 
 // Least CFM of joints: a brake under 1 kN creeps 1 um/s, and equations stay solvable.
 constexpr double kSoftestJoint = 1e-9;
+constexpr double kCalmTime = 0.05;  // s
 
 double bounded(double value, const Limit& limit) {
   return std::clamp(value, -limit.most, limit.most);
@@ -279,10 +280,12 @@ void World::place(ModelId id, const Pose& pose) {
 
 void World::step(std::int64_t tick, std::int64_t count) { impl_->take_step(tick, count); }
 
-bool World::walks_only() const {
-  const auto walks = [](const Body* body) { return body->upright && body->joints.empty(); };
-  return std::all_of(impl_->awake.begin(), impl_->awake.end(), walks) &&
-         impl_->contacts.only_stand();
+bool World::allows_long_steps() const {
+  const auto is_calm = [&](const Body* body) {
+    return body->joints.empty() && (body->upright || body->idle_steps * impl_->h >= kCalmTime);
+  };
+  return std::all_of(impl_->awake.begin(), impl_->awake.end(), is_calm) &&
+         impl_->contacts.upright_only_stand();
 }
 
 const std::vector<Stopped>& World::stopped() const { return impl_->stopped; }

@@ -122,11 +122,12 @@ class World {
   /// Collides and integrates one step of settings.step. `tick` keys the random numbers that the
   /// solver needs.
   void step(std::int64_t tick) { step(tick, 1); }
-  /// Collides and integrates one step that is `count` times as long; for walks_only().
+  /// Collides and integrates one step that is `count` times as long; see allows_long_steps().
   void step(std::int64_t tick, std::int64_t count);
 
-  /// Whether all awake bodies are upright, as people are, and touch only the ground below them.
-  bool walks_only() const;
+  /// Whether each awake body is upright, as people are, and touches only the ground below it, or is
+  /// loose and has been at rest for 0.05 s.
+  bool allows_long_steps() const;
 
   /// Links that the last step stopped: they stay at their poses before the step, like static
   /// bodies, until their model is placed again.

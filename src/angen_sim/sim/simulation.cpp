@@ -101,7 +101,7 @@ struct Simulation::Impl {
   std::int64_t next_end(Nanoseconds until, bool long_steps) {
     const std::int64_t here = next.tick;
     const Engines& engines = building.engines();
-    if (!long_steps || engines.physics.awake_count() == 0 || !engines.physics.walks_only()) {
+    if (!long_steps || engines.physics.awake_count() == 0 || !engines.physics.allows_long_steps()) {
       return here + 1;
     }
     std::int64_t end = std::min((next.time / kLongStep + 1) * kLongStep, until) / next.step;

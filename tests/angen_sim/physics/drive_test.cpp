@@ -35,7 +35,7 @@ TEST(Drive, LongStepsWalkAsFarAsShortOnes) {
     world->add(floor_model());
     const LinkId body = world->only_link(world->add(person_model("person", {0, 0, 0.001})));
     world->run(0.1);
-    ASSERT_TRUE(world->walks_only());
+    ASSERT_TRUE(world->allows_long_steps());
     for (const double speed : {1.0, -0.5, 0.0}) {
       world->drive(body, {speed, 0.3 * speed, 0}, 0.0, 150.0);
       for (int i = 0; i < 50; ++i) {
@@ -57,9 +57,26 @@ TEST(Drive, WhoTouchesAWallOrAThingDoesMoreThanWalk) {
   const LinkId body = world.only_link(world.add(person_model("person", {0, 0, 0.001})));
   world.drive(body, {1.0, 0, 0}, 0.0, 150.0);
   world.run(0.5);
-  EXPECT_TRUE(world.walks_only());
+  EXPECT_TRUE(world.allows_long_steps());
   world.run(1.5);
-  EXPECT_FALSE(world.walks_only());
+  EXPECT_FALSE(world.allows_long_steps());
+}
+
+TEST(Drive, WhatCameToRestAllowsLongSteps) {
+  TestWorld world;
+  world.add(floor_model());
+  world.only_link(world.add(person_model("person", {0, 0, 0.001})));
+  const LinkId box =
+      world.only_link(world.add(box_model("box", 20.0, {0.4, 0.4, 0.4}, {2, 0, 0.2})));
+  world.run(0.1);
+  EXPECT_TRUE(world.awake(box));
+  EXPECT_TRUE(world.allows_long_steps());
+  const Vec3 at = world.link(box).pose.position;
+  for (int i = 0; i < 10; ++i) world.step(100 + 20 * i, 20);
+  EXPECT_LT((world.link(box).pose.position - at).norm(), 1e-4);
+  world.push(box, {2000, 0, 0}, Vec3::Zero(), at);
+  world.run(0.01);
+  EXPECT_FALSE(world.allows_long_steps());
 }
 
 TEST(Drive, ForceIsLimitedInEachDirection) {
