@@ -21,6 +21,7 @@ OPENS_IN = 12.0  # s
 LIFT_WAIT = 90.0  # s for an elevator, or for somebody else in it
 ASIDE = 0.55  # m between the middles of two people
 NEARER = 0.05  # m
+BACK = 0.25  # m: a step back
 SLOWS = 0.4  # s, in which it walks the rest of its way
 
 Process = Iterator[float]
@@ -285,3 +286,14 @@ class Mover:
         yield self.now + 2.0 + attempt
         self.halt()
         self.look()
+
+    def _step_back(self, x: float, y: float, side: float) -> None:
+        """Steps away from a point, or where there is no room to one side: 1 left, -1 right."""
+        yaw = math.atan2(self.at[1] - y, self.at[0] - x)
+        for turn in (0.0, 0.8 * side, 1.6 * side, -0.8 * side, -1.6 * side):
+            point = (self.at[0] + BACK * math.cos(yaw + turn),
+                     self.at[1] + BACK * math.sin(yaw + turn))
+            if self.ground.planners[self.storey].is_free(point):
+                self.household.do(self.name, 'person', self.name,
+                                  f'GoTo {point[0]:.3f} {point[1]:.3f}')
+                return

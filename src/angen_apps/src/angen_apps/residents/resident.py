@@ -1,6 +1,7 @@
 """A resident, who follows the agenda and uses the home by habit."""
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, Generator, Iterator
 
 from angen_apps.residents.activities import Activity, Step, activities
@@ -20,6 +21,8 @@ FIDGETS = {'sit': 150.0, 'lie': 1500.0}  # s on average between two movements
 SHUFFLES = 45.0  # s on average between two steps of a standing resident
 ROAMS = (15.0, 45.0)  # s at a place
 OPEN_FOR = 20.0  # s that a fridge is open, at most
+LOOKS = 10  # at a leaf that opens, 1 s apart
+WIDER = 0.05  # rad
 QUEUE, PATIENCE = 10.0, 900.0  # s between two tries at a room, and until it is given up
 OUT_BETWEEN = 900.0  # s: a visitor with less to wait stays
 
@@ -138,6 +141,7 @@ class Resident(Mover):
         self._lamps(activity)
         used = self._use(step, spot)
         if used and step.opens:
+            yield from self._make_way(*used[0][:2], spot)
             yield from self._stay(min(end, self.now + OPEN_FOR), step, 0)
             self._unuse(used)
             used = None
@@ -293,6 +297,26 @@ class Resident(Mover):
         elif step.runs == 'tv':
             return self._watch()
         return None
+
+    def _make_way(self, kind: str, name: str, spot: Spot) -> Process:
+        """Steps back from a leaf that has met the resident, until it is open."""
+        thing = next((t for t in self.ground.home.things if t.name == spot.thing), None)
+        side, wide = 1.0, 0.0
+        for _ in range(LOOKS):
+            yield self.now + 1.0
+            leaf = self.simulator.state(kind, name)
+            if leaf.get('mode') == 'OPEN':
+                return
+            if leaf.get('mode') != 'BLOCKED' or thing is None:
+                continue
+            if abs(leaf['position']) < wide + WIDER:  # the last step did not help
+                side = -side
+            wide = abs(leaf['position'])
+            self._step_back(*thing.pose[:2], side)
+            self.spot = replace(spot, stand=self.at)
+            yield self.now + 1.0
+            self.halt()
+            self.look()
 
     def _watch(self) -> list[tuple[str, str, str]] | None:
         sets = [t for t in self.ground.home.things if t.type == 'tv']
