@@ -151,33 +151,6 @@ TEST(Leaping, ASurfaceThatWarmsIsSeenAsAtEachTick) {
   race.run(40.0);
 }
 
-TEST(Leaping, ASlowDriftOfHeatIsLeaptOver) {
-  const std::string box = "<geometry><box><size>0.02 0.4 0.4</size></box></geometry>";
-  const std::string pir =
-      "<model>pyroelectric</model><warm_up>0</warm_up><noise_stddev>3e-6</noise_stddev>";
-  Race race("<sdf version='1.6'><world name='w'>" +
-            body("it", "<box><size>0.05 0.05 0.05</size></box>", "0 0 2.2 0 0 0", true,
-                 ray_sensor("heat", kPir, 10, 0.0, pir)) +
-            "<model name='plate'><static>true</static><pose>2 0.2 1 0 0 0</pose><link name='l'>"
-            "<collision name='c'>" +
-            box + "</collision><visual name='v'>" + box +
-            "</visual></link><plugin name='w' filename='libwarm_surface.so'><time_constant>60"
-            "</time_constant></plugin></model></world></sdf>");
-  race.run(5.0);
-  const auto signal = [&] { return race.leaps->snapshot()->reading(0)->get<double>("signal"); };
-  race.command("warm_surface", "plate", "Temperature 330");
-  race.run(1.0);
-  EXPECT_NE(signal(), 0.0);
-  race.run(400.0);  // its slope decays to exp(-6.7)
-  race.landings = 0;
-  race.run(100.0);
-  EXPECT_LT(race.landings, 1000U);  // it samples 10,000 times
-  EXPECT_EQ(signal(), 0.0);
-  race.command("warm_surface", "plate", "Temperature 300");
-  race.run(1.0);
-  EXPECT_NE(signal(), 0.0);
-}
-
 TEST(Leaping, ASignalThatDecaysIsLeaptOver) {
   const std::string pir =
       "<model>pyroelectric</model><warm_up>0</warm_up><hold_time>4</hold_time>"

@@ -1,6 +1,5 @@
 #include "sensors/pir/band_pass.h"
 
-#include <algorithm>
 #include <cmath>
 #include <complex>
 
@@ -33,8 +32,6 @@ BandPass::BandPass(const Corners& corners, double responsivity, double period)
                 high_pass(0.5 / (M_PI * corners.electrical_time), period),
                 high_pass(corners.low, period), low_pass(corners.high, period)},
       scale_(1.0),
-      slowest_(
-          std::max({corners.thermal_time, corners.electrical_time, 0.5 / (M_PI * corners.low)})),
       period_(period) {
   scale_ = responsivity / gain(1.0);
 }
@@ -63,9 +60,6 @@ bool BandPass::settled(double flux, double volts) const {
   }
   return true;
 }
-
-// A section follows a ramp by its time constant later.
-double BandPass::lag(double change) const { return scale_ * std::abs(change) / period_ * slowest_; }
 
 double BandPass::gain(double frequency) const {
   const std::complex<double> delay = std::polar(1.0, -2.0 * M_PI * frequency * period_);

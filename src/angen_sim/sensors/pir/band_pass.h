@@ -27,9 +27,6 @@ class BandPass {
   /// Whether nothing in it is further from that than `volts`.
   bool settled(double flux, double volts) const;
 
-  /// How far a flux that changes by that much each sample (W) keeps it from rest, in V.
-  double lag(double change) const;
-
   /// |volts / watts| of a sine of `frequency` in Hz.
   double gain(double frequency) const;
 
@@ -50,7 +47,6 @@ class BandPass {
 
   std::array<Section, 4> sections_;
   double scale_ = 0.0;
-  double slowest_ = 0.0;  // s, the longest of its time constants
   double period_ = 0.01;
 };
 

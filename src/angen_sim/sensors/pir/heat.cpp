@@ -81,10 +81,10 @@ void Heat::aim(const View& view, RayBatch& rays) {
   const bool still = view.scene_revision() == revision_ && pose == pose_;
   const std::uint64_t set = view.surfaces_set();
   was_set_ = std::exchange(surfaces_set_, set) != set;
-  if (still && drifts_ && !was_set_) return;
+  if (still && rests_ && !was_set_) return;
   const bool as_warm = view.surface_revision() == surface_revision_;
   if (still && as_warm) return;
-  if (std::exchange(drifts_, false)) follow_drift(view);
+  rests_ = false;
   if (still) {
     follow_air(view);
     if (reheat(view)) return;
@@ -105,18 +105,6 @@ void Heat::aim(const View& view, RayBatch& rays) {
     surfaces_.push_back({shape.shape, shape.temperature});
     aim_at(shape, pose, view, rays);
   }
-}
-
-// Of surfaces that it saw last, as far as they still exist.
-void Heat::follow_drift(const View& view) {
-  for (Surface& surface : surfaces_) {
-    for (const rays::WarmShape& shape : view.warm_shapes()) {
-      if (shape.shape == surface.shape) surface.temperature = shape.temperature;
-    }
-  }
-  const double before = flux_;
-  sum_up();
-  drift_ += flux_ - before;
 }
 
 // While only temperatures change, hits stay the same. False where a surface radiates

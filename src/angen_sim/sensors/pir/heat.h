@@ -24,16 +24,12 @@ class Heat {
   /// Flux on the positive element less that on the negative one, in W.
   double flux(Hits hits);
 
-  /// The part of its changes, in W, that is too slow for a detector to pass: the air around caused
-  /// it, or surfaces did after rest_in_drift().
+  /// The part of its changes that the air around caused, in W: too slow for a detector to pass.
   double drift() const { return drift_; }
 
-  /// Surfaces change their temperatures slowly: this is drift until something moves or one of them
-  /// is set. How fast one that was set at the last aim() changes is not yet known.
-  void rest_in_drift() { drifts_ = !was_set_; }
-
-  /// Whether something had moved at the last aim(), so that it requested rays.
-  bool moved() const { return sampled_; }
+  /// The flux does not change now: nothing is sampled until something moves or a surface is set to
+  /// another temperature. How fast one that was set at the last aim() changes is not yet known.
+  void rest() { rests_ = !was_set_; }
 
   /// Whether it has yet to sample moved surfaces.
   bool pending() const { return pending_; }
@@ -73,7 +69,6 @@ class Heat {
   void take_visible(std::size_t first, const View& view, RayBatch& rays);
   bool waits(Nanoseconds now) const;
   bool reheat(const View& view);
-  void follow_drift(const View& view);
   void follow_air(const View& view);
   void sum_up();
 
@@ -100,7 +95,7 @@ class Heat {
   double flux_ = 0.0;
   double air_ = 0.0;  // K
   double drift_ = 0.0;
-  bool drifts_ = false;
+  bool rests_ = false;
   std::uint64_t surfaces_set_ = UINT64_MAX;  // at the last aim()
   bool was_set_ = false;                     // one of them, since the aim() before
   Nanoseconds felt_at_ = -1;                 // that air, in whole seconds

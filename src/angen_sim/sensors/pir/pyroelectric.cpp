@@ -1,6 +1,5 @@
 #include "sensors/pir/pyroelectric.h"
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -166,18 +165,14 @@ void Pyroelectric::read(const View& view, Hits hits, Rng& rng, Reading& reading)
     at_.signal.settle(flux);
   }
   at_.time = view.time();
-  // A drift that takes the voltage from rest by less than its noise is as good as none.
   const bool same = flux == at_.signal.flux;
-  const bool slow = same || (!heat_.moved() && at_.signal.band.lag(flux - at_.signal.flux) <=
-                                                   std::max(at_.signal.rest, at_.noise));
   at_.signal.step(flux);
   const double signal = at_.with_noise(rng);
   const bool alarm = false_alarm(rng);
   const bool was_on = std::exchange(
       at_.motion, trigger_.step(view.time(), std::abs(signal) > at_.threshold || alarm));
-  quiet_ =
-      slow && ((quiet_ && same) || at_.signal.decays_below(at_.threshold - kMostNoise * at_.noise));
-  if (quiet_) heat_.rest_in_drift();
+  quiet_ = same && (quiet_ || at_.signal.decays_below(at_.threshold - kMostNoise * at_.noise));
+  if (quiet_) heat_.rest();
   at_.write(signal, reading);
   if (at_.motion == was_on) return;
   reading.urgent = true;
