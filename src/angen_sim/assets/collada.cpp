@@ -118,13 +118,15 @@ void count_all(const XMLElement& element, Nodes& nodes) {
 }
 
 // Whether the contents of an <image> name a file or hold data, comments left out.
-bool has_file(std::string inside) {
-  for (std::size_t at; (at = inside.find("<!--")) != std::string::npos;) {
-    const std::size_t end = inside.find("-->", at);
-    inside.erase(at, end == std::string::npos ? end : end + 3 - at);
+bool has_file(const std::string& inside) {
+  for (std::size_t at = 0; (at = inside.find('<', at)) != std::string::npos; ++at) {
+    const auto starts = [&](const std::string& what) {
+      return inside.compare(at, what.size(), what) == 0;
+    };
+    if (starts("<init_from") || starts("<data")) return true;
+    if (starts("<!--") && (at = inside.find("-->", at)) == std::string::npos) return false;
   }
-  return inside.find("<init_from") != std::string::npos ||
-         inside.find("<data") != std::string::npos;
+  return false;
 }
 
 std::string id_in(const std::string& opening) {
