@@ -14,6 +14,7 @@ from angen_apps.residents.places import OUTSIDE, Spot
 from angen_apps.residents.profiles import DAY, Profile
 from angen_apps.residents.truth import Diary, Interval
 from angen_tools.common.failure import Failure
+from angen_tools.common.home import Thing
 
 DARK = 50.0  # lx: with less, lamps are switched on
 LATE = 20.0  # s: an activity that would be shorter is left out
@@ -22,7 +23,7 @@ SHUFFLES = 45.0  # s on average between two steps of a standing resident
 ROAMS = (15.0, 45.0)  # s at a place
 OPEN_FOR = 20.0  # s that a fridge is open, at most
 LOOKS = 10  # at a leaf that opens, 1 s apart
-WIDER = 0.05  # rad
+WIDER = 0.05  # rad that a leaf opens after a step out of its way, at least
 QUEUE, PATIENCE = 10.0, 900.0  # s between two tries at a room, and until it is given up
 OUT_BETWEEN = 900.0  # s: a visitor with less to wait stays
 
@@ -281,7 +282,7 @@ class Resident(Mover):
         if self.profile.body != 'person':
             return None
         household = self.household
-        thing = next((t for t in self.ground.home.things if t.name == spot.thing), None)
+        thing = self._thing(spot)
         if step.opens == 'entrance':
             entrance = self.ground.entrance()
             if entrance and household.do(self.name, 'door', entrance.name, 'OpenByHand'):
@@ -298,9 +299,12 @@ class Resident(Mover):
             return self._watch()
         return None
 
+    def _thing(self, spot: Spot) -> Thing | None:
+        return next((t for t in self.ground.home.things if t.name == spot.thing), None)
+
     def _make_way(self, kind: str, name: str, spot: Spot) -> Process:
         """Steps back from a leaf that has met the resident, until it is open."""
-        thing = next((t for t in self.ground.home.things if t.name == spot.thing), None)
+        thing = self._thing(spot)
         side, wide = 1.0, 0.0
         for _ in range(LOOKS):
             yield self.now + 1.0
