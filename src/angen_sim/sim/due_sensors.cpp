@@ -1,7 +1,5 @@
 #include "sim/due_sensors.h"
 
-#include <utility>
-
 namespace angen::sim {
 
 namespace {
@@ -25,8 +23,8 @@ bool heat_changed(const Engines& engines, const SensorInstance& sensor) {
 
 /// Whether the temperature of such a surface has begun to change.
 bool heat_set(const Engines& engines, const SensorInstance& sensor) {
-  return sensor.near == nullptr ? heat_changed(engines, sensor)
-                                : engines.surfaces.set_since(sensor.seen, sensor.near->box);
+  if (sensor.near == nullptr) return engines.surfaces.set_since(sensor.seen);
+  return engines.surfaces.set_since(sensor.seen, sensor.near->box);
 }
 
 /// Whether its queries besides rays would have the same answers.
@@ -146,9 +144,10 @@ bool DueSensors::needs_no_sample(SensorInstance& sensor, InstanceView::Clock clo
     const NoisySensor* noisy = sensor.noisy;
     if (!activity.settled(noisy != nullptr ? noisy->memory() : 0)) return false;
     NoiseForecast& forecast = sensor.forecast;
-    forecast.no_event_probability = noisy != nullptr ? noisy->no_event_probability() : 1.0;
     const Nanoseconds event = noisy != nullptr ? noisy->next_event() : kForever;
-    if (std::exchange(forecast.next_event, event) != event) forecast.possible_event_at = 0;
+    if (event != forecast.next_event) forecast = {};
+    forecast.next_event = event;
+    forecast.no_event_probability = noisy != nullptr ? noisy->no_event_probability() : 1.0;
   }
   return has_no_event(sensor, clock);
 }

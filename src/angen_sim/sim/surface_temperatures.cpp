@@ -54,7 +54,7 @@ bool SurfaceTemperatures::changed_since(Moment since, const Eigen::AlignedBox3d&
 }
 
 bool SurfaceTemperatures::set_since(Moment since, const Eigen::AlignedBox3d& within) const {
-  return set_ >= since && std::any_of(changes_.begin(), changes_.end(), [&](const Change& each) {
+  return set_since(since) && std::any_of(changes_.begin(), changes_.end(), [&](const Change& each) {
            return each.set >= since && rays_.bounds(each.shape).intersects(within);
          });
 }

@@ -28,7 +28,9 @@ class SurfaceTemperatures {
   bool changed_since(Moment since) const { return !changing_.empty() || changed_ >= since; }
   /// The same of those that are in a box (m, world).
   bool changed_since(Moment since, const Eigen::AlignedBox3d& within) const;
-  /// Whether one of those in a box was set at `since` or later.
+  /// Whether one was set at `since` or later.
+  bool set_since(Moment since) const { return set_ >= since; }
+  /// The same of those that are in a box.
   bool set_since(Moment since, const Eigen::AlignedBox3d& within) const;
   /// How often one was set.
   std::uint64_t times_set() const { return times_set_; }
