@@ -73,16 +73,17 @@ class Sensor {
   /// other random effects.
   virtual void read(const View& view, Hits hits, Rng& rng, Reading& reading) = 0;
   /// Called after read(): whether further readings would have the same values (before noise), no
-  /// event and not be urgent, as long as its pose and all that it queried stay as they are.
+  /// event and not be urgent, as long as its pose and all that it queried stay as they are. Those
+  /// of a NoisySensor may differ as its lazy reading has them, until its next event.
   virtual bool steady() const { return false; }
 };
 
 /// The random numbers of a sample, (0), and of those before it: (1) of the previous one.
 using Draws = std::function<Rng(int samples_ago)>;
 
-/// Makes the readings of a steady sensor whose readings differ by noise only. Snapshots hold it in
-/// place of readings that have not been read yet. Any thread may call it, also after the sensor was
-/// deleted, so it depends on neither.
+/// Makes the readings of a steady sensor that differ by noise, or by time in a known way. Snapshots
+/// hold it in place of readings that have not been read yet. Any thread may call it, also after the
+/// sensor was deleted, so it depends on neither.
 class LazyReading {
  public:
   virtual ~LazyReading() = default;

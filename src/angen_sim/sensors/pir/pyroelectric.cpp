@@ -13,7 +13,7 @@ namespace {
 constexpr Range kAngles{-M_PI, M_PI};
 constexpr double kSamplesPerCutoff = 2.0;
 constexpr double kMostNoise = 9.0;      // standard deviations: Rng::gaussian() makes at most 8.6
-constexpr int kLongestDecay = 1 << 12;  // samples ahead
+constexpr int kLongestDecay = 1 << 12;  // samples that are computed ahead
 constexpr Trigger::Times kTimes{kSecond * 5 / 4, kSecond * 5 / 2, 60 * kSecond, true};
 
 Window window_of(const std::vector<double>& row, std::size_t first, const char* key,
@@ -83,20 +83,20 @@ void Pyroelectric::configure(Params& params, Wiring&) {
                                       "of lens and window, of all heat radiation", {1e-6, 1.0});
   const double rate =
       params.number("sample_rate", 100.0, "Hz", "how often it samples", {20.0, 1000.0});
-  at_.period = from_seconds(1.0 / rate);
-  heat_ = Heat(std::move(lens), rays_.max, facet * passes, at_.period);
+  state_.period = from_seconds(1.0 / rate);
+  heat_ = Heat(std::move(lens), rays_.max, facet * passes, state_.period);
   const BandPass::Corners corners = read_corners(params);
   if (rate <= kSamplesPerCutoff * corners.high) {
     throw params.error("sample_rate", "<sample_rate> must be more than twice <high_cutoff>");
   }
   const double responsivity =
       params.number("responsivity", 3300.0, "V/W", "of the elements, at 1 Hz", kPositive);
-  at_.signal.band = BandPass(corners, responsivity, to_seconds(at_.period));
-  at_.noise = params.number("noise_stddev", 3e-6, "V", "while it is awake", kNotNegative);
-  at_.threshold =
+  state_.signal.band = BandPass(corners, responsivity, to_seconds(state_.period));
+  state_.noise = params.number("noise_stddev", 3e-6, "V", "while it is awake", kNotNegative);
+  state_.threshold =
       params.number("signal_threshold", 3e-4, "V", "motion beyond plus or minus this", kPositive);
-  at_.signal.rest = params.number("rest_threshold", 1e-6, "V",
-                                  "a filter nearer than this to rest is at rest", kPositive);
+  state_.signal.rest = params.number("rest_threshold", 1e-6, "V",
+                                     "a filter nearer than this to rest is at rest", kPositive);
   times_ = read_times(params, kTimes);
   false_alarm_rate_ = params.number("false_alarm_rate", 0.0, "1/h", "without any cause", {0, 3600});
 }
@@ -153,30 +153,31 @@ void Pyroelectric::Decay::read(Nanoseconds to, const Draws& draws, Reading& read
 }
 
 void Pyroelectric::aim(const View& view, RayBatch& rays) {
-  if (view.time() < at_.time) heat_.forget();  // the clock was set back
+  if (view.time() < state_.time) heat_.forget();  // the clock was set back
   heat_.aim(view, rays);
 }
 
 void Pyroelectric::read(const View& view, Hits hits, Rng& rng, Reading& reading) {
-  at_.flux = heat_.flux(hits);
-  const double flux = at_.flux - heat_.drift();
-  if (at_.time < 0 || view.time() < at_.time) {
+  state_.flux = heat_.flux(hits);
+  const double flux = state_.flux - heat_.drift();
+  if (state_.time < 0 || view.time() < state_.time) {
     trigger_ = Trigger(times_, view.time());
-    at_.signal.settle(flux);
+    state_.signal.settle(flux);
   }
-  at_.time = view.time();
-  const bool same = flux == at_.signal.flux;
-  at_.signal.step(flux);
-  const double signal = at_.with_noise(rng);
+  state_.time = view.time();
+  const bool same = flux == state_.signal.flux;
+  state_.signal.step(flux);
+  const double signal = state_.with_noise(rng);
   const bool alarm = false_alarm(rng);
   const bool was_on = std::exchange(
-      at_.motion, trigger_.step(view.time(), std::abs(signal) > at_.threshold || alarm));
-  quiet_ = same && (quiet_ || at_.signal.decays_below(at_.threshold - kMostNoise * at_.noise));
+      state_.motion, trigger_.step(view.time(), std::abs(signal) > state_.threshold || alarm));
+  quiet_ =
+      same && (quiet_ || state_.signal.decays_below(state_.threshold - kMostNoise * state_.noise));
   if (quiet_) heat_.rest();
-  at_.write(signal, reading);
-  if (at_.motion == was_on) return;
+  state_.write(signal, reading);
+  if (state_.motion == was_on) return;
   reading.urgent = true;
-  reading.event = at_.motion ? "motion" : "still";
+  reading.event = state_.motion ? "motion" : "still";
   std::ostringstream detail;
   if (alarm) {
     detail << "false alarm";
@@ -189,14 +190,14 @@ void Pyroelectric::read(const View& view, Hits hits, Rng& rng, Reading& reading)
 bool Pyroelectric::steady() const { return quiet_ && !heat_.pending() && false_alarm_rate_ == 0.0; }
 
 std::shared_ptr<const LazyReading> Pyroelectric::lazy_reading() const {
-  return std::make_shared<Decay>(at_);
+  return std::make_shared<Decay>(state_);
 }
 
-void Pyroelectric::resume(Nanoseconds time, const Draws&) { at_.advance(time); }
+void Pyroelectric::resume(Nanoseconds time, const Draws&) { state_.advance(time); }
 
 bool Pyroelectric::false_alarm(Rng& rng) const {
   if (false_alarm_rate_ == 0.0) return false;
-  return rng.uniform() < false_alarm_rate_ / 3600.0 * to_seconds(at_.period);
+  return rng.uniform() < false_alarm_rate_ / 3600.0 * to_seconds(state_.period);
 }
 
 }  // namespace angen::sensors

@@ -37,11 +37,11 @@ class Pyroelectric : public Sensor, public NoisySensor {
  public:
   void configure(Params& params, Wiring& wiring) override;
   std::optional<RayGeometry> rays() const override { return rays_; }
-  Nanoseconds sample_period() const override { return at_.period; }
+  Nanoseconds sample_period() const override { return state_.period; }
   void aim(const View& view, RayBatch& rays) override;
   void read(const View& view, Hits hits, Rng& rng, Reading& reading) override;
   bool steady() const override;
-  bool varies() const override { return !at_.signal.asleep || at_.motion; }
+  bool varies() const override { return !state_.signal.asleep || state_.motion; }
   double no_event_probability() const override { return 1.0; }
   Nanoseconds next_event() const override { return trigger_.off_at(); }
   int memory() const override { return 0; }
@@ -69,7 +69,7 @@ class Pyroelectric : public Sensor, public NoisySensor {
 
   Heat heat_;
   RayGeometry rays_;  // for rviz
-  Decay at_;
+  Decay state_;
   Trigger::Times times_;
   Trigger trigger_;
   double false_alarm_rate_ = 0.0;  // 1/h
