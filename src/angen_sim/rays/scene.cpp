@@ -272,21 +272,29 @@ namespace {
 
 constexpr double kPast = 1e-7;  // m beyond a surface, more than the error of its range
 
-/// Appends the parts of the infinite line from `origin` that are inside one shape.
-void add_insides(const Scene& scene, std::uint32_t shape, const Vec3& origin, const Vec3& direction,
-                 std::vector<Crossing>& found) {
+/// The surfaces of one shape that are on a line ahead of its origin.
+std::vector<Hit> surfaces_on(const Scene& scene, std::uint32_t shape, const Vec3& origin,
+                             const Vec3& direction) {
   std::vector<Hit> surfaces;
   Ray ray{origin, direction};
   for (Hit hit = scene.cast_at(shape, ray); hit.hit(); hit = scene.cast_at(shape, ray)) {
     surfaces.push_back(hit);
     ray.min = hit.range + kPast;
   }
+  return surfaces;
+}
+
+/// Appends the parts of the infinite line from `origin` that are inside one shape.
+void add_insides(const Scene& scene, std::uint32_t shape, const Vec3& origin, const Vec3& direction,
+                 std::vector<Crossing>& found) {
+  const std::vector<Hit> surfaces = surfaces_on(scene, shape, origin, direction);
   if (scene.placement(shape).type == Shape::Type::kPlane) {
     for (const Hit& hit : surfaces) found.push_back({hit.range, hit.range, shape, hit.normal});
     return;
   }
   std::size_t next = 0;
-  if (surfaces.size() % 2 == 1) {  // the line starts inside
+  // Odd, where the line starts inside; or where it touches the shape, and starts outside.
+  if (surfaces.size() % 2 == 1 && surfaces_on(scene, shape, origin, -direction).size() % 2 == 1) {
     found.push_back({0.0, surfaces[0].range, shape, surfaces[0].normal});
     next = 1;
   }

@@ -67,5 +67,18 @@ TEST(Solid, ACrossingEndsWhereItsSegmentDoes) {
   EXPECT_TRUE(scene.crossings(Vec3(0, 0, 0), Vec3(0, 0, 0)).empty());
 }
 
+TEST(Solid, ALineThatTouchesAShapeIsNotInsideIt) {
+  Scene scene;
+  const ShapeId post = add(scene, round(Shape::Type::kCylinder, 0.5, 2.0), at(3, 0, 0));
+  scene.commit();
+  for (const double height : {0.0, 0.5}) {
+    EXPECT_TRUE(scene.crossings(Vec3(0, 0.5, height), Vec3(8, 0.5, height)).empty()) << height;
+  }
+  const std::vector<Crossing> inside = scene.crossings(Vec3(3, 0.25, 0), Vec3(8, 0.25, 0));
+  ASSERT_EQ(inside.size(), 1U);
+  EXPECT_EQ(inside[0].shape, post.index);
+  EXPECT_EQ(inside[0].enter, 0.0);
+}
+
 }  // namespace
 }  // namespace angen::rays::testing
