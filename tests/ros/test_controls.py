@@ -7,9 +7,12 @@ from typing import Iterator
 
 import pytest
 import rospy
-from angen_msgs.msg import DoorState, LampState
-from angen_msgs.srv import Delete, Spawn
-from geometry_msgs.msg import Point, Pose
+from angen_apps.controls.offers import SEND
+from angen_msgs.msg import DoorState, Home as HomeMessage, LampState
+from angen_msgs.srv import Delete, List, SendCommand, Spawn
+from geometry_msgs.msg import Point, Pose, PoseStamped, Twist
+from gazebo_msgs.msg import ModelState
+from gazebo_msgs.srv import SetModelState
 from harness import Angen, Inbox, end, until
 from visualization_msgs.msg import (InteractiveMarker, InteractiveMarkerControl,
                                     InteractiveMarkerFeedback,
@@ -20,12 +23,12 @@ TOPIC = '/angen_controls'
 
 
 @pytest.fixture(scope='module')
-def markers(angen: Angen, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Inbox]:
+def markers(home: Angen, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Inbox]:
     """The messages that rviz gets first."""
     log = tmp_path_factory.mktemp('controls') / 'log'
     with log.open('w') as out:
         process = subprocess.Popen(['/usr/bin/python3', '-u', str(SCRIPT)], text=True, stdout=out,
-                                   env=angen.master.environment, stderr=out)
+                                   env=home.master.environment, stderr=out)
     try:
         with Inbox(f'{TOPIC}/update_full', InteractiveMarkerInit) as inbox:
             inbox.wait(lambda message: len(message.markers) >= 2, 'markers')
@@ -49,10 +52,12 @@ def press(name: str, event: int, entry: int = 0) -> None:
         menu_entry_id=entry))
 
 
-def test_a_click_opens_a_door_and_another_closes_it(markers: Inbox) -> None:
+def test_a_click_opens_a_door_and_another_closes_it(home: Angen, markers: Inbox) -> None:
     shown = marker(markers, 'door/bathroom0')
     assert shown.controls[0].interaction_mode == InteractiveMarkerControl.BUTTON
-    assert abs(shown.pose.position.x) < 1.0 and abs(shown.pose.position.y) < 0.2
+    door = next(door for door in home.wait('/angen/home', HomeMessage).doors
+                if door.name == 'bathroom0')
+    assert shown.pose == door.pose
     with Inbox('/angen/door/bathroom0', DoorState) as states:
         press('door/bathroom0', InteractiveMarkerFeedback.BUTTON_CLICK)
         states.wait(lambda state: state.mode == DoorState.OPEN, 'an open door')
@@ -60,19 +65,56 @@ def test_a_click_opens_a_door_and_another_closes_it(markers: Inbox) -> None:
         states.wait(lambda state: state.mode == DoorState.CLOSING, 'a closing door')
 
 
+def choose(inbox: Inbox, name: str, title: str) -> None:
+    """An entry of a menu."""
+    entry = next(one for one in marker(inbox, name).menu_entries if one.title == title)
+    press(name, InteractiveMarkerFeedback.MENU_SELECT, entry.id)
+
+
 def test_the_menu_dims_a_lamp(markers: Inbox) -> None:
-    entry = next(one for one in marker(markers, 'lamp/kitchen0').menu_entries
-                 if one.title == 'Dim 75 %')
     with Inbox('/angen/lamp/kitchen0', LampState) as states:
-        press('lamp/kitchen0', InteractiveMarkerFeedback.MENU_SELECT, entry.id)
+        choose(markers, 'lamp/kitchen0', 'Dim 75 %')
         states.wait(lambda state: state.level == 75.0, 'a dimmed lamp')
 
 
-def test_markers_come_and_go_with_models(angen: Angen, markers: Inbox) -> None:
+def sendable(shown: InteractiveMarker) -> set[str]:
+    """The rooms of a mover's menu."""
+    under = next((one.id for one in shown.menu_entries if one.title == SEND), None)
+    return {one.title for one in shown.menu_entries if one.parent_id == under}
+
+
+def rooms(home: Angen, storey: int) -> set[str]:
+    return {room.name for room in home.wait('/angen/home', HomeMessage).rooms
+            if room.storey == storey}
+
+
+def test_the_menu_sends_a_person_to_a_room(home: Angen, markers: Inbox) -> None:
+    lower = rooms(home, 0)
+    until(lambda: sendable(marker(markers, 'person/person')) == lower, 'the rooms of floor 0')
+    choose(markers, 'person/person', 'bathroom0')
+    until(lambda: home.call('/angen/list', List, kind='person').entities[0].room == 'bathroom0',
+          'the person is there', 60.0)
+
+
+def test_the_menu_sends_a_robot_by_navigation(markers: Inbox) -> None:
+    with Inbox('/move_base_simple/goal', PoseStamped) as goals:
+        choose(markers, 'drive/turtlebot', 'bathroom0')
+        goals.wait(lambda goal: goal.header.frame_id == 'map', 'a goal')
+
+
+def test_the_menu_follows_a_robot_to_another_floor(home: Angen, markers: Inbox) -> None:
+    upper = rooms(home, 1)
+    state = ModelState('turtlebot', Pose(position=Point(5.3, 2.0, 4.001)), Twist(), 'world')
+    home.call('/gazebo/set_model_state', SetModelState, model_state=state)
+    home.call('/angen/command', SendCommand, target='elevator/all', text='Floor1')
+    until(lambda: sendable(marker(markers, 'drive/turtlebot')) == upper, 'the rooms of floor 1')
+
+
+def test_markers_come_and_go_with_models(home: Angen, markers: Inbox) -> None:
     with Inbox(f'{TOPIC}/update', InteractiveMarkerUpdate) as updates:
-        answer = angen.call('/angen/spawn', Spawn, name='hall_lamp0', xml='model://ceiling_lamp',
-                            pose=Pose(position=Point(3, 3, 2.5)))
+        answer = home.call('/angen/spawn', Spawn, name='attic_lamp0', xml='model://ceiling_lamp',
+                           pose=Pose(position=Point(3, 3, 2.5)))
         assert answer.success, answer.message
-        updates.wait(lambda m: any(one.name == 'lamp/hall0' for one in m.markers), 'its marker')
-        angen.call('/angen/delete', Delete, name='hall_lamp0')
-        updates.wait(lambda m: 'lamp/hall0' in m.erases, 'its end')
+        updates.wait(lambda m: any(one.name == 'lamp/attic0' for one in m.markers), 'its marker')
+        home.call('/angen/delete', Delete, name='attic_lamp0')
+        updates.wait(lambda m: 'lamp/attic0' in m.erases, 'its end')

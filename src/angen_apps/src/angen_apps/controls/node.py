@@ -1,6 +1,7 @@
 """The node of interactive markers: a click switches a device, its menu has all that its kind does.
 
-It follows spawns and deletions only; the state of a device is read when it is clicked.
+It follows spawns, deletions and rides of elevators only; the state of a device is read when it is
+clicked.
 """
 from __future__ import annotations
 
@@ -8,15 +9,19 @@ from typing import Any
 
 import roslib.message
 import rospy
-from angen_msgs.msg import Event, Home, Scene
+from angen_msgs.msg import Event, Home as HomeMessage, Scene
 from angen_msgs.srv import List, SendCommand
-from geometry_msgs.msg import Pose
+from geometry_msgs.msg import Pose, PoseStamped
 from interactive_markers.interactive_marker_server import InteractiveMarkerServer
 from interactive_markers.menu_handler import MenuHandler
 from visualization_msgs.msg import InteractiveMarker, InteractiveMarkerControl, Marker
 
 from angen_apps.controls.offers import Offer, offers, pair, toggled
+from angen_apps.controls.places import places
+from angen_apps.navigation.goal import TOPIC, publish_goal
 from angen_tools.common.catalog import kinds
+from angen_tools.common.failure import Failure
+from angen_tools.common.home import Home
 from angen_tools.live.states import states_by_name
 
 SERVER = 'angen_controls'
@@ -27,7 +32,8 @@ SCENE_LIMIT = 10.0  # s that the scene takes to come
 STATE_LIMIT = 1.0  # s that a latched state takes to come
 COLORS = {'lamp': (1.0, 0.8, 0.2), 'door': (0.06, 0.46, 0.43)}
 OTHER = (0.3, 0.5, 0.9)
-QUIET = 0.3  # s without spawns, after which the markers are made again
+CHANGES = ('spawned', 'deleted', 'reset', 'arrived')  # the last: an elevator, perhaps with a mover
+QUIET = 0.3  # s without such an event, after which the markers are made again
 
 
 class Controls:
@@ -35,19 +41,22 @@ class Controls:
 
     def __init__(self) -> None:
         self._server = InteractiveMarkerServer(SERVER)
-        self._menus: list[MenuHandler] = []  # whose callbacks live with them
+        self._menus: dict[str, MenuHandler] = {}  # whose callbacks live with them
+        self._made: dict[str, tuple[InteractiveMarker, list[Offer]]] = {}
         self._shown: dict[str, Any] = {}
         self._frames: dict[str, str] = {}
         self._doors: dict[str, Any] = {}
+        self._home = Home()
+        self._goal = rospy.Publisher(TOPIC, PoseStamped, queue_size=1)
         self._list = rospy.ServiceProxy('/angen/list', List)
         self._command = rospy.ServiceProxy('/angen/command', SendCommand)
         self._list.wait_for_service()
         rospy.Subscriber('/angen/events', Event, self._on_event)
-        rospy.Subscriber('/angen/home', Home, self._on_home)
+        rospy.Subscriber('/angen/home', HomeMessage, self._on_home)
         self._is_stale = True
 
     def spin(self) -> None:
-        """Makes the markers again after models were spawned or deleted."""
+        """Makes the markers again after models were spawned or deleted, or rode to a floor."""
         while not rospy.is_shutdown():
             if self._is_stale:
                 self._is_stale = False
@@ -58,26 +67,34 @@ class Controls:
             rospy.rostime.wallsleep(QUIET)
 
     def _on_event(self, event: Any) -> None:
-        self._is_stale = self._is_stale or event.event in ('spawned', 'deleted')
+        self._is_stale = self._is_stale or event.event in CHANGES
 
     def _on_home(self, home: Any) -> None:
         self._doors = {f'{door.kind}/{door.name}': door.pose for door in home.doors}
+        self._home = Home.of_message(home)
         self._is_stale = True
 
     def make(self) -> None:
         """A marker for each device that takes commands."""
         entities = {f'{e.kind}/{e.name}': e for e in self._list('').entities}
         self._frames = self._moving_frames()
-        offering = {key: e for key, e in entities.items()
-                    if e.kind in kinds('device') and offers(kinds()[e.kind], self._floors(e))}
-        for key in self._shown.keys() - offering.keys():
+        offered = {key: self._offers(e) for key, e in entities.items() if e.kind in kinds('device')}
+        self._shown = {key: entities[key] for key, found in offered.items() if found}
+        for key in self._made.keys() - self._shown.keys():
             self._server.erase(key)
-        self._menus.clear()
-        for key, entity in offering.items():
-            self._server.insert(self._marker(key, entity), self._on_click)
-            self._menu(entity).apply(self._server, key)
-        self._shown = offering
+            del self._made[key], self._menus[key]
+        for key, entity in self._shown.items():
+            made = self._marker(key, entity), offered[key]
+            if self._made.get(key) != made:  # rviz closes the menu of one that comes again
+                self._made[key] = made
+                self._server.insert(made[0], self._on_click)
+                self._menus[key] = self._menu(entity, made[1])
+                self._menus[key].apply(self._server, key)
         self._server.applyChanges()
+
+    def _offers(self, entity: Any) -> list[Offer]:
+        return offers(kinds()[entity.kind], self._floors(entity),
+                      places(self._home, entity.pose.position.z))
 
     def _moving_frames(self) -> dict[str, str]:
         """The frame of each model's first link that moves: a marker in it follows the model."""
@@ -122,12 +139,14 @@ class Controls:
         marker.controls.append(control)
         return marker
 
-    def _menu(self, entity: Any) -> MenuHandler:
+    def _menu(self, entity: Any, offered: list[Offer]) -> MenuHandler:
         menu = MenuHandler()
-        self._menus.append(menu)
-        title = menu.insert(f'{entity.kind} {entity.name}')
-        for offer in offers(kinds()[entity.kind], self._floors(entity)):
-            menu.insert(offer.label, parent=title if offer.inner else None,
+        menu.insert(f'{entity.kind} {entity.name}')
+        lines: dict[str, Any] = {'': None}  # that have a submenu
+        for offer in offered:
+            if offer.under not in lines:
+                lines[offer.under] = menu.insert(offer.under)
+            menu.insert(offer.label, parent=lines[offer.under],
                         callback=lambda _, offer=offer: self._send(entity, offer))
         return menu
 
@@ -141,7 +160,7 @@ class Controls:
                           entity.name)
             return
         verb = toggled(verbs, self._state(entity))
-        self._send(entity, Offer(verb, verb, False))
+        self._send(entity, Offer(verb, verb))
 
     def _state(self, entity: Any) -> Any:
         """The state of a device as it is now, or None."""
@@ -160,9 +179,12 @@ class Controls:
 
     def _send(self, entity: Any, offer: Offer) -> None:
         try:
+            if offer.goal is not None:
+                publish_goal(self._goal, *offer.goal)
+                return
             answer = self._command(f'{entity.kind}/{entity.name}', offer.text)
-        except rospy.ServiceException as error:
-            rospy.logwarn('%s: %s', offer.text, error)
+        except (rospy.ServiceException, Failure) as error:
+            rospy.logwarn('%s: %s', offer.text or offer.label, error)
             return
         if not answer.success:
             rospy.logwarn('%s', answer.message)

@@ -5,6 +5,7 @@ import math
 import threading
 from typing import Any, Callable
 
+from angen_apps.navigation.goal import TOPIC, is_robot, publish_goal
 from angen_apps.web.store import Store
 from angen_tools.common.catalog import kinds
 from angen_tools.common.failure import Failure
@@ -15,7 +16,6 @@ MOST_STEPS = 10_000_000
 MOST_RATE = 1000.0
 HOLD = 0.7  # s after the last order, and a robot stops
 LIMIT = 15.0  # s that a service may take
-SPEEDS = ['m/s', 'rad/s']  # the values of a robot that cmd_vel drives
 PAUSE, UNPAUSE = '/gazebo/pause_physics', '/gazebo/unpause_physics'
 
 
@@ -124,7 +124,7 @@ class Orders:
 
     def _robot(self, order: dict[str, Any]) -> str:
         name = text(order, 'name')
-        robots = {kind['kind'] for kind in kinds('device').values() if kind['values'] == SPEEDS}
+        robots = {kind['kind'] for kind in kinds('device').values() if is_robot(kind)}
         if not any(e['kind'] in robots and e['name'] == name
                    for e in self._store.part('entities') or []):
             raise Failure(f"no robot is named '{name}'")
@@ -132,17 +132,9 @@ class Orders:
 
     def _goal(self, order: dict[str, Any]) -> dict[str, Any]:
         from geometry_msgs.msg import PoseStamped
-        goal = PoseStamped()
-        goal.header.frame_id = 'map'
-        goal.pose.position.x = number(order, 'x', -1e6, 1e6)
-        goal.pose.position.y = number(order, 'y', -1e6, 1e6)
-        yaw = number(order, 'yaw', -math.tau, math.tau)
-        goal.pose.orientation.z, goal.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
-        publisher = self._publisher('/move_base_simple/goal', PoseStamped)
-        if publisher.get_num_connections() == 0:
-            raise Failure('no program subscribes to /move_base_simple/goal; navigation is started '
-                          'as docs/navigation.md says')
-        publisher.publish(goal)
+        place = [number(order, 'x', -1e6, 1e6), number(order, 'y', -1e6, 1e6),
+                 number(order, 'yaw', -math.tau, math.tau)]
+        publish_goal(self._publisher(TOPIC, PoseStamped), *place)
         return {'text': 'the goal is published'}
 
     def _publisher(self, topic: str, kind: type) -> Any:

@@ -1,0 +1,29 @@
+"""Goals of navigation (docs/navigation.md), as rviz's tool 2D Nav Goal publishes them."""
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from angen_tools.common.catalog import Plugin
+from angen_tools.common.failure import Failure
+
+TOPIC = '/move_base_simple/goal'
+SPEEDS = ['m/s', 'rad/s']  # the values of a robot that cmd_vel drives
+
+
+def is_robot(kind: Plugin) -> bool:
+    """Whether devices of a kind drive, so that navigation sends them."""
+    return bool(kind['values'] == SPEEDS)
+
+
+def publish_goal(publisher: Any, x: float, y: float, yaw: float) -> None:
+    """By a publisher of TOPIC; Failure where no program subscribes."""
+    from geometry_msgs.msg import PoseStamped
+    if publisher.get_num_connections() == 0:
+        raise Failure(f'no program subscribes to {TOPIC}; navigation is started as '
+                      'docs/navigation.md says')
+    goal = PoseStamped()
+    goal.header.frame_id = 'map'
+    goal.pose.position.x, goal.pose.position.y = x, y
+    goal.pose.orientation.z, goal.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
+    publisher.publish(goal)
