@@ -161,6 +161,8 @@ def test_a_lit_lamp_lights_the_room_around_it(angen: Angen) -> None:
         dim = max(c.a for c in until(lambda: lit(inbox), "light in the room")[0].colors)
         angen.send("/gazebo/Light_controller", String("On, kitchen0"))
         until(lambda: max(c.a for c in lit(inbox)[0].colors) > 1.5 * dim, "more light")
+        groups = {group for group, _ in keyed(list(inbox.messages))}
+        assert groups >= {"lit rooms south 0", "lit rooms west 0"}  # on outermost walls
         angen.send("/gazebo/Light_controller", String("Off, kitchen0"))
         until(lambda: not lit(inbox), "no light")
         assert angen.call("/angen/delete", Delete, name="house").success

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "ros/convert.h"
 #include "rviz/marker_shapes.h"
@@ -19,17 +18,18 @@ constexpr double kReflected = 0.25;  // share that walls and ceiling reflect, ev
 constexpr double kFloorAlpha = 0.75;
 constexpr double kWallAlphaLit = 0.3;
 
-/// A rectangle that is lit: a corner, its edges, and the direction that it faces.
-struct LitFace {
-  Vec3 corner;
-  Vec3 u;
-  Vec3 v;
-  Vec3 normal;
-  double alpha;  // under endless light
-};
+/// 0..1, saturating as film does.
+double brightness(const LitFace& face, const Vec3& point, const Vec3& lamp, double level) {
+  const Vec3 way = lamp - point;
+  const double distance = std::max(way.norm(), 0.1);
+  const double direct = std::max(0.0, way.dot(face.normal)) / std::pow(distance, 3);
+  const double light = level * (kDirect * direct + kReflected);
+  return light / (light + 1.0);
+}
 
-// The floor, as the rectangle around it, and then each wall.
-std::vector<LitFace> faces_of(const Room& room) {
+}  // namespace
+
+std::vector<LitFace> lit_faces(const Room& room) {
   Eigen::AlignedBox2d around;
   for (const Point2& corner : room.outline) around.extend(corner);
   const Point2 low = around.min() + Point2::Constant(kSkin);
@@ -54,24 +54,14 @@ std::vector<LitFace> faces_of(const Room& room) {
   return faces;
 }
 
-/// 0..1, saturating as film does.
-double brightness(const LitFace& face, const Vec3& point, const Vec3& lamp, double level) {
-  const Vec3 way = lamp - point;
-  const double distance = std::max(way.norm(), 0.1);
-  const double direct = std::max(0.0, way.dot(face.normal)) / std::pow(distance, 3);
-  const double light = level * (kDirect * direct + kReflected);
-  return light / (light + 1.0);
-}
-
-}  // namespace
-
-Marker draw_glow(const Room& room, const Vec3& point, const desc::Light& light, double level) {
+Marker draw_glow(const Room& room, const std::vector<LitFace>& faces, const Vec3& point,
+                 const desc::Light& light, double level) {
   Marker marker;
   marker.type = Marker::TRIANGLE_LIST;
   marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
   marker.color = color(1.0F, 1.0F, 1.0F, 1.0F);
   const Eigen::Vector3f c = light.diffuse / std::max(light.diffuse.maxCoeff(), 1e-3F);
-  for (const LitFace& face : faces_of(room)) {
+  for (const LitFace& face : faces) {
     const auto put = [&](int i, int j) {
       const Vec3 at = face.corner + face.u * i / kCells + face.v * j / kCells;
       const auto alpha = static_cast<float>(face.alpha * brightness(face, at, point, level));

@@ -9,7 +9,6 @@
 #include "plugin/summary.h"
 #include "ros/convert.h"
 #include "ros/ros_kind.h"
-#include "rviz/glow.h"
 
 namespace angen::node {
 namespace {
@@ -101,6 +100,19 @@ Pose described_pose(const sim::Structure& structure, const sim::LightEntry& ligh
   return described_pose(structure, light.link) * light.light.pose;
 }
 
+/// The lit faces of a room: those on the outermost walls by " south", …, all others by "".
+std::map<std::string, std::vector<LitFace>> faces_by_side(const sim::Structure& structure,
+                                                          const Room& room) {
+  std::map<std::string, std::vector<LitFace>> found;
+  for (const LitFace& face : lit_faces(room)) {
+    Eigen::AlignedBox3d box(face.corner);
+    box.extend(face.corner + face.u + face.v);
+    const std::string side = outer_side(structure, box);
+    found[side.empty() ? "" : " " + side].push_back(face);
+  }
+  return found;
+}
+
 bool apart(const std::vector<double>& a, const std::vector<double>& b) {
   if (a.size() != b.size()) return true;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -135,13 +147,18 @@ void Overlays::add_glow(const sim::Structure& structure, std::uint32_t light) {
   if (entry.light.type == desc::Light::Type::kDirectional) return;
   if (entry.link != UINT32_MAX && structure.links[entry.link].moves) return;
   const Vec3 place = described_pose(structure, entry).position;
-  if (home_->get().room_at(place) == nullptr) return;
+  const Room* room = home_->get().room_at(place);
+  if (room == nullptr) return;
   Overlay overlay;
   overlay.of = Of::kLight;
   overlay.index = light;
   overlay.offset.position = place;
-  overlay.storey = storey_suffix(structure, entry.model, place.z());
-  put(glows_, entry.name, std::move(overlay));
+  const std::string storey = storey_suffix(structure, entry.model, place.z());
+  for (auto& [side, faces] : faces_by_side(structure, *room)) {
+    overlay.storey = side + storey;
+    overlay.faces = std::move(faces);
+    put(glows_, entry.name + side, overlay);
+  }
 }
 
 void Overlays::add_sensor(const sim::Structure& structure, std::uint32_t sensor) {
@@ -316,7 +333,8 @@ bool Overlays::glow(const sim::Snapshot& snapshot, Overlay& lamp) {
   const Room* room = home_->get().room_at(lamp.offset.position);
   const desc::Light& light = snapshot.structure->lights[lamp.index].light;
   if (level > 0.0) {
-    show(lamp, draw_glow(*room, lamp.offset.position, light, level), "lit rooms" + lamp.storey);
+    show(lamp, draw_glow(*room, lamp.faces, lamp.offset.position, light, level),
+         "lit rooms" + lamp.storey);
   } else {
     show(lamp, {}, "");
   }

@@ -9,6 +9,7 @@
 
 #include "ros/changes.h"
 #include "ros/readings.h"
+#include "rviz/glow.h"
 #include "rviz/marker_shapes.h"
 #include "rviz/rooms.h"
 #include "sim/snapshot.h"
@@ -35,7 +36,7 @@ class Overlays {
   enum class Of { kNothing, kLight, kSensor, kDevice };
   struct Overlay {
     visualization_msgs::Marker marker;  // as appended last; without a namespace: not shown
-    std::string storey;                 // " 0", or empty; see storey_suffix
+    std::string storey;                 // " 0", or empty; see storey_suffix; " south 0" of a wall
     std::uint32_t index = UINT32_MAX;   // in Structure::lights, ::sensors or ::devices
     Of of = Of::kNothing;
     std::uint32_t link = UINT32_MAX;  // in Structure::links; none: it is still
@@ -43,6 +44,7 @@ class Overlays {
     Pose pose;                            // as appended last
     bool drawn = false;                   // it was appended
     double level = -1.0;                  // of a lamp, as appended last
+    std::vector<LitFace> faces;           // of its room
     std::shared_ptr<const Reading> last;  // compared last
     Nanoseconds stamp = 0;                // of the reading computed for it then
     std::vector<double> ranges;           // m, as appended last

@@ -68,4 +68,16 @@ std::string outer_side(const sim::Structure& structure, const desc::Model& windo
   return "";
 }
 
+std::string outer_side(const sim::Structure& structure, const Extent& surface) {
+  for (const std::shared_ptr<const desc::Model>& building : structure.models) {
+    if (!is_building(*building)) continue;
+    const Extent all = box_around(*building);
+    const Pose to_building = building->pose.inverse();
+    Extent local(to_building * surface.min());
+    local.extend(to_building * surface.max());
+    if (all.contains(local.center())) return side_of(all, local);
+  }
+  return "";
+}
+
 }  // namespace angen::node

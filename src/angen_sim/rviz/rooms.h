@@ -21,4 +21,7 @@ std::string outer_side(const desc::Model& building, const desc::Link& link);
 /// The same of a model in the wall of the building around it, such as a window.
 std::string outer_side(const sim::Structure& structure, const desc::Model& window);
 
+/// The same of a surface within that box (world).
+std::string outer_side(const sim::Structure& structure, const Eigen::AlignedBox3d& surface);
+
 }  // namespace angen::node

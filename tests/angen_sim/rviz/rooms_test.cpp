@@ -124,17 +124,29 @@ TEST(Glow, GrowsWithTheLampsLevelOnFloorAndWalls) {
   Room room = corner_room(0.0);
   room.outline = {{0, 0}, {4, 0}, {4, 3}, {0, 3}};
   const Vec3 lamp(2.0, 1.5, 2.2);
-  const auto dim = strongest(draw_glow(room, lamp, {}, 0.1), -2.2);
-  const auto full = strongest(draw_glow(room, lamp, {}, 1.0), -2.2);
+  const auto dim = strongest(draw_glow(room, lit_faces(room), lamp, {}, 0.1), -2.2);
+  const auto full = strongest(draw_glow(room, lit_faces(room), lamp, {}, 1.0), -2.2);
   EXPECT_GT(dim.first, 0.0F);
   EXPECT_GT(full.first, 2 * dim.first);
   EXPECT_GT(full.second, 2 * dim.second);
 }
 
+TEST(Groups, OfASurfaceHaveTheSideOfTheOutermostWallThatItIsOn) {
+  const sim::Structure structure = structure_of({house(4.0)});
+  const auto side = [&](const Vec3& low, const Vec3& high) {
+    return outer_side(structure, Eigen::AlignedBox3d(low, high));
+  };
+  EXPECT_EQ(side({0.1, 0.07, 4.0}, {3.9, 0.07, 6.8}), "south");
+  EXPECT_EQ(side({0.1, 2.93, 4.0}, {3.9, 2.93, 6.8}), "north");
+  EXPECT_EQ(side({3.93, 0.1, 4.0}, {3.93, 2.9, 6.8}), "");  // of an inner wall
+  EXPECT_EQ(side({0.1, 0.1, 4.02}, {3.9, 2.9, 4.02}), "");  // the floor
+  EXPECT_EQ(side({0.1, 0.07, 0.0}, {3.9, 0.07, 2.8}), "");  // below the building
+}
+
 TEST(Glow, LiesInTheRoom) {
   const Room room = corner_room(4.0);
   const Vec3 lamp(1.0, 1.0, 6.2);
-  const visualization_msgs::Marker glow = draw_glow(room, lamp, {}, 1.0);
+  const visualization_msgs::Marker glow = draw_glow(room, lit_faces(room), lamp, {}, 1.0);
   ASSERT_EQ(glow.points.size(), glow.colors.size());
   double area = 0.0;  // of the floor that is lit
   for (std::size_t i = 0; i < glow.points.size(); i += 3) {

@@ -27,7 +27,7 @@ from angen_tools.live.states import states_by_name
 SERVER = 'angen_controls'
 HANDLE = 0.16  # m, diameter of a button
 HAND = 1.05  # m over the foot of a door, where its button is
-OVER = {'person': 2.1, 'drive': 0.7}  # m over a mover's origin
+OVER = {'person': 2.2, 'drive': 0.9}  # m over a mover's origin: over its label
 SCENE_LIMIT = 10.0  # s that the scene takes to come
 STATE_LIMIT = 1.0  # s that a latched state takes to come
 COLORS = {'lamp': (1.0, 0.8, 0.2), 'door': (0.06, 0.46, 0.43)}
