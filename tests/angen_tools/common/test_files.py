@@ -5,6 +5,7 @@ import ast
 import os
 import random
 import resource
+import signal
 import subprocess
 import sys
 from contextlib import contextmanager
@@ -15,7 +16,7 @@ import pytest
 
 from angen_tools.common import files
 from angen_tools.common.failure import Failure
-from angen_tools.common.files import check_folder, write_csv, write_text, writing
+from angen_tools.common.files import check_folder, later_signals, write_csv, write_text, writing
 
 ROOT = Path(__file__).resolve().parents[3]
 SOURCES = ('src/angen_tools/src', 'src/angen_apps/src', 'bench/angen_bench')
@@ -159,6 +160,18 @@ def test_a_kill_at_any_moment_leaves_a_whole_file(tmp_path: Path) -> None:
     assert interrupted > 5 and path.exists()
     write_text(path, 'the next one')
     assert names(tmp_path) == ['a.txt'] and path.read_text() == 'the next one'
+
+
+def test_ctrl_c_waits_for_the_end_of_a_write() -> None:
+    done = []
+    with pytest.raises(KeyboardInterrupt):
+        with later_signals():
+            signal.raise_signal(signal.SIGINT)
+            done.append('written')
+        done.append('not reached')
+    assert done == ['written']
+    with pytest.raises(KeyboardInterrupt):
+        signal.raise_signal(signal.SIGINT)
 
 
 def writes(path: Path) -> Iterator[str]:

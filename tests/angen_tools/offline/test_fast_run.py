@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 import time
+import zlib
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ import angen
 import pandas
 import pytest
 
-from angen_tools.offline import events
+from angen_tools.offline import events, fast_run
 
 ROOT = Path(__file__).resolve().parents[3]
 SCRIPT = ROOT / 'src/angen_tools/scripts/angen'
@@ -215,6 +216,33 @@ def test_ctrl_c_says_what_it_kept(world: Path, tmp_path: Path) -> None:
         f'what happened until then is in {tmp_path}/events.csv and {readings}')
     rows = table(readings)
     assert rows and set(rows[0]) == {'time', 'kind', 'name', 'field', 'value', 'unit', 'text'}
+
+
+@pytest.mark.parametrize('write', [0, 1])
+def test_ctrl_c_within_a_write_damages_no_file(write: int, world: Path, tmp_path: Path,
+                                               monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(gzip, 'zlib', Interrupting(write))
+    readings = tmp_path / 'r.csv.gz'
+    with pytest.raises(KeyboardInterrupt):
+        fast_run.run(str(world), 60.0, 1, tmp_path, readings=readings)
+    monkeypatch.undo()
+    assert bool(table(readings)) == bool(write)
+
+
+class Interrupting:
+    """The module zlib, of which one sum over written data is interrupted by Ctrl-C."""
+
+    def __init__(self, write: int) -> None:
+        self._left = write
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(zlib, name)
+
+    def crc32(self, data: bytes, *before: int) -> int:
+        self._left -= bool(data)
+        if data and self._left == -1:
+            signal.raise_signal(signal.SIGINT)
+        return zlib.crc32(data, *before)
 
 
 def test_a_table_needs_a_known_ending(world: Path, tmp_path: Path) -> None:

@@ -7,6 +7,7 @@ import csv
 import errno
 import fcntl
 import os
+import signal
 import time
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -99,6 +100,22 @@ def _cut(part: Path) -> None:
         size = file.seek(0, os.SEEK_END)
         begin = file.seek(max(0, size - LONGEST))
         file.truncate(begin + file.read().rfind(b'\n') + 1)
+
+
+@contextmanager
+def later_signals() -> Iterator[None]:
+    """Ctrl-C, SIGTERM and SIGHUP wait for the end of this block, in which a stopped write would
+    leave a compressed file damaged."""
+    came: list[int] = []
+    before = {number: signal.signal(number, lambda came_now, _: came.append(came_now))
+              for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+        for one in came[:1]:
+            signal.raise_signal(one)
 
 
 def make_folder(path: Path) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import IO, Any, Sequence
 
 from angen_tools.common.catalog import simulator
-from angen_tools.common.files import writing
+from angen_tools.common.files import later_signals, writing
 from angen_tools.common.home import Home
 from angen_tools.common.progress import Progress
 from angen_tools.offline.day import Order, checked_orders, read_day
@@ -102,10 +102,14 @@ class _Run:
             if self._world.tick == before and self._world.time + seconds < self._span:
                 self._world.step()  # an order's time is within a tick
         finally:
-            events = self._world.events()
-            self._writer.writerows(row(*event) for event in events)
-            self._file.flush()
-            self.events += len(events)
-            if self._table:
-                self.rows += self._table.write(self._world)
+            with later_signals():
+                self._write()
         return bool(self._world.tick > before)
+
+    def _write(self) -> None:
+        events = self._world.events()
+        self._writer.writerows(row(*event) for event in events)
+        self._file.flush()
+        self.events += len(events)
+        if self._table:
+            self.rows += self._table.write(self._world)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import IO, Any, Iterator, Protocol
 
 from angen_tools.common.failure import Failure
-from angen_tools.common.files import writing
+from angen_tools.common.files import later_signals, writing
 from angen_tools.offline.events import seconds
 
 COLUMNS = ('time', 'kind', 'name', 'field', 'value', 'unit', 'text')
@@ -115,6 +115,8 @@ def reading_table(path: Path) -> Iterator[Writer]:
                 table.close()
         elif path.suffix == '.gz':
             with gzip.GzipFile('', 'wb', LEVEL, file, mtime=0) as packed:
-                yield CsvWriter(packed)  # type: ignore[arg-type]
+                with later_signals():
+                    lines = CsvWriter(packed)  # type: ignore[arg-type]
+                yield lines
         else:
             yield CsvWriter(file)
