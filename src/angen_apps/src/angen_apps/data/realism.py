@@ -51,7 +51,7 @@ def read(path: Path) -> Stream:
     times, sensors, values, labels = [], [], [], []
     first = None
     try:
-        lines = path.read_text(encoding='utf-8', errors='replace').splitlines()
+        lines = path.read_text(encoding='utf-8-sig', errors='replace').splitlines()
     except OSError as error:
         raise Failure(f'{path}: cannot be read: {error.strerror}') from None
     for number, line in enumerate(lines, 1):

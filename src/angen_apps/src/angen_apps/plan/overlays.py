@@ -16,6 +16,7 @@ from lxml import etree
 
 from angen_tools.common.failure import Failure
 from angen_tools.common.home import Storey
+from angen_tools.common.text_file import separator_hint
 
 ROWS = 5_000_000
 COLUMN = re.compile('^(x|y|z)_m$')  # as tasks write them
@@ -71,19 +72,21 @@ def read(what: What, entities: Iterable[Any]) -> Data:
 
 def _rows(path: Path, needed: tuple[str, ...]) -> Iterable[tuple[int, dict[str, str]]]:
     try:
-        with (gzip.open(path, 'rt', newline='', encoding='utf-8') if path.suffix == '.gz'
-              else path.open(newline='', encoding='utf-8')) as file:
+        with (gzip.open(path, 'rt', newline='', encoding='utf-8-sig') if path.suffix == '.gz'
+              else path.open(newline='', encoding='utf-8-sig')) as file:
             reader = csv.DictReader(file)
             reader.fieldnames = [COLUMN.sub(r'\1', name) for name in reader.fieldnames or []]
             missing = [key for key in needed if key not in reader.fieldnames]
             if missing:
                 raise Failure(f'{path}:1: has no column {missing[0]}; it needs '
-                              f'{", ".join(needed)}')
+                              f'{", ".join(needed)}{separator_hint(",".join(reader.fieldnames))}')
             for line, row in enumerate(reader, 2):
                 if line > ROWS:
                     raise Failure(f'{path}:{line}: has more than {ROWS} rows')
                 yield line, {key: value or '' for key, value in row.items() if key}
-    except (OSError, EOFError, UnicodeDecodeError, csv.Error) as error:
+    except UnicodeDecodeError:
+        raise Failure(f'{path}: a byte that is not UTF-8; save the file as UTF-8') from None
+    except (OSError, EOFError, csv.Error) as error:
         raise Failure(f'{path}: cannot be read: {getattr(error, "strerror", error)}') from None
 
 

@@ -9,6 +9,7 @@ import yaml
 
 from angen_tools.common.failure import Failure
 from angen_tools.common.nearest import did_you_mean
+from angen_tools.common.text_file import read_text
 
 DEEPEST = 100  # levels of lists in lists: the composer of libyaml calls itself for each
 
@@ -18,10 +19,7 @@ class YamlFile:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        try:
-            text = path.read_text(encoding='utf-8')
-        except (OSError, UnicodeDecodeError) as error:
-            raise Failure(f'{path}: cannot be read: {getattr(error, "strerror", error)}') from None
+        text = read_text(path)
         try:
             deepest = _deeper_than(text, DEEPEST)
             self.root = None if deepest else yaml.compose(text, yaml.CSafeLoader)

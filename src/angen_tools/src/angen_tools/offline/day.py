@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import csv
+import io
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Sequence
@@ -10,6 +11,7 @@ from angen_tools.common.catalog import kind_of, simulator
 from angen_tools.common.clock import DAY, time_of_day
 from angen_tools.common.failure import Failure
 from angen_tools.common.nearest import did_you_mean
+from angen_tools.common.text_file import read_text, separator_hint
 from angen_tools.common.verbs import parse
 
 COLUMNS = ['time', 'target', 'command']
@@ -51,16 +53,14 @@ def checked_orders(world: Any, orders: Sequence[Order]) -> list[Order]:
 def read_day(path: Path, starts: float) -> list[Order]:
     """The commands of a file in the order of their times, the first after the start of the day."""
     orders = []
-    try:
-        with path.open(newline='', encoding='utf-8') as file:
-            lines = csv.reader(file, skipinitialspace=True)
-            if next(lines, None) != COLUMNS:
-                raise Failure(f'{path}:1: the first line must be {",".join(COLUMNS)}')
-            for line in lines:
-                if line and not line[0].startswith('#'):
-                    orders.append(_order(line, starts, f'{path}:{lines.line_num}'))
-    except (OSError, UnicodeDecodeError) as error:
-        raise Failure(f'{path}: cannot be read: {getattr(error, "strerror", error)}') from None
+    lines = csv.reader(io.StringIO(read_text(path), newline=''), skipinitialspace=True)
+    head: list[str] = next(lines, [])
+    if head != COLUMNS:
+        raise Failure(f'{path}:1: the first line must be {",".join(COLUMNS)}'
+                      + separator_hint(','.join(head)))
+    for line in lines:
+        if line and not line[0].startswith('#'):
+            orders.append(_order(line, starts, f'{path}:{lines.line_num}'))
     return sorted(orders, key=lambda order: order.time)
 
 
