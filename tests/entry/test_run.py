@@ -132,7 +132,7 @@ def test_a_wrong_argument_is_named_and_nothing_starts(environment, word, part):
     result = subprocess.run([ROOT / 'angen', 'run', word],
                             capture_output=True, text=True, env=environment, timeout=120)
     line, = result.stderr.splitlines()
-    assert result.returncode == 1 and line.startswith(f'angen: {word}: ') and part in line
+    assert result.returncode == 2 and line.startswith(f'angen: {word}: ') and part in line
 
 
 @pytest.mark.parametrize('word, part', [('wrld:=x', 'did you mean world:=?'),

@@ -35,6 +35,10 @@ def test_right_words_pass() -> None:
     (str(ROOT / 'worlds/empty.world'), ['did you mean world:=']),
     ('nothing', ['not NAME:=VALUE']),
     ('gui:=', ['has no value']),
+    ('rate:=-1', ['must be at least 0']),
+    ('rate:=1,5', ['not a number; a decimal has a point: 1.5']),
+    ('seed:=99999999999999999999', ['must be at most 2147483647']),
+    (f'world:={ROOT}/worlds', ['is a folder; give a file']),
     ('world:=none.world', ['no such file; one that is there']),
     (f'world:={ROOT}/worlds/angen.wrld', [f'did you mean world:={ROOT}/worlds/angen.world?']),
 ])

@@ -10,7 +10,7 @@ from typing import Any, NoReturn, Sequence
 
 from angen_tools.cli import applications, live, offline, pid
 from angen_tools.cli.parser import Parser, command
-from angen_tools.common.failure import Failure
+from angen_tools.common.failure import Failure, code_of
 from angen_tools.common.typography import straightened
 
 STOPPED = 130  # a shell's exit code of a command that Ctrl-C ended
@@ -82,7 +82,7 @@ def run(arguments: Sequence[str]) -> int:
         return code
     except Failure as failure:
         print(f'angen: {failure}', file=sys.stderr)
-        return 1
+        return code_of(failure)
     except KeyboardInterrupt:
         return STOPPED
     except BrokenPipeError:

@@ -9,10 +9,13 @@ from pathlib import Path
 from typing import Callable
 from xml.etree import ElementTree
 
-from angen_tools.common.failure import Failure
+from angen_tools.common.failure import Failure, WrongWords, code_of
 from angen_tools.common.nearest import nearest
+from angen_tools.common.verbs import comma_hint
 
 ALIKE = 0.8  # of the names of a missing file and the one that was meant
+LEAST = {'rate': 0, 'states_rate': 0, 'seed': 0}
+LARGEST = 2**31 - 1  # of a whole number as a parameter of ROS
 BOOLEANS = ('true', 'false')
 INPUTS = {'world': 'one that is there is world:=worlds/empty.world',
           'replay': 'give a log that record:= wrote'}
@@ -48,16 +51,21 @@ def _check(word: str, known: dict[str, str]) -> None:
         name, separator, value = word.partition('=')
         file = f'world:={word}' if os.path.exists(word) else ''
         meant = f'{name}:={value}' if separator else file
-        raise Failure(f'{word}: not NAME:=VALUE' + (f'; did you mean {meant}?' if meant else ''))
+        raise WrongWords(f'{word}: not NAME:=VALUE'
+                         + (f'; did you mean {meant}?' if meant else ''))
     if name not in known:
         likely = nearest(name, known)[0]
-        raise Failure(f'{word}: not an argument; did you mean {likely}:=? known are '
-                      + ' '.join(f'{other}:=' for other in known))
+        raise WrongWords(f'{word}: not an argument; did you mean {likely}:=? known are '
+                         + ' '.join(f'{other}:=' for other in known))
     if not value:
-        raise Failure(f'{word}: has no value')
+        raise WrongWords(f'{word}: has no value')
     problem = CHECKS[known[name]](value)
     if problem:
-        raise Failure(f'{word}: {problem}')
+        raise WrongWords(f'{word}: {problem}')
+    if name in LEAST and float(value) < LEAST[name]:
+        raise WrongWords(f'{word}: must be at least {LEAST[name]}')
+    if name in INPUTS and Path(value).is_dir():
+        raise Failure(f'{word}: is a folder; give a file')
     if name in INPUTS and not Path(value).is_file():
         raise Failure(f'{word}: no such file; ' + (_like(name, Path(value)) or INPUTS[name]))
 
@@ -79,9 +87,12 @@ def _boolean(value: str) -> str:
 def _number(convert: Callable[[str], float], what: str) -> Callable[[str], str]:
     def check(value: str) -> str:
         try:
-            return '' if math.isfinite(convert(value)) else f'not {what}'
+            found = convert(value)
         except (ValueError, OverflowError):
-            return f'not {what}'
+            return f'not {what}{comma_hint(value)}'
+        if isinstance(found, int) and found > LARGEST:
+            return f'must be at most {LARGEST}'
+        return '' if math.isfinite(found) else f'not {what}'
     return check
 
 
@@ -117,11 +128,12 @@ def require_packages(names: str, page: str) -> None:
 
 
 def main() -> None:
-    """LAUNCH WORD...: exit code 1 and a line on stderr where a word is wrong."""
+    """LAUNCH WORD...: a line on stderr where a word is wrong; exit code 2, or 1 without a file."""
     try:
         check_arguments(Path(sys.argv[1]), sys.argv[2:])
     except Failure as failure:
-        sys.exit(f'angen: {failure}')
+        print(f'angen: {failure}', file=sys.stderr)
+        sys.exit(code_of(failure))
 
 
 if __name__ == '__main__':

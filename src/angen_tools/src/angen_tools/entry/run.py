@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from angen_tools.common.clock import duration
-from angen_tools.common.failure import Failure
+from angen_tools.common.failure import Failure, code_of
 from angen_tools.common.watchdog import watchdog
 from angen_tools.entry.arguments import check_arguments, kinds
 from angen_tools.entry.machine import has_display, stay_local
@@ -187,7 +187,7 @@ def main() -> None:
         sys.exit(run(Path(sys.argv[1]), sys.argv[2:]))
     except Failure as failure:
         say(str(failure))
-        sys.exit(1)
+        sys.exit(code_of(failure))
 
 
 if __name__ == '__main__':
