@@ -2,15 +2,16 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from angen_apps.go.command import goal_of, without
+from angen_apps.go.command import goal_of, loaded, without
 from angen_apps.maps.gridmap import GridMap
 from angen_apps.robot.planner import Planner
 from angen_apps.robot.rooms_route import lift_of
-from angen_tools.common.failure import Failure
+from angen_tools.common.failure import Failure, WrongWords
 from angen_tools.common.home import Elevator, Home, Landing, Room
 
 WALL, TABLE = 100, (slice(35, 46), slice(15, 26))  # a table in the middle of the room
@@ -45,7 +46,7 @@ def test_a_place_is_as_given(planners: dict[int, Planner]) -> None:
 
 
 @pytest.mark.parametrize('words, part', [
-    (['kitchen'], "did you mean kitchen0 or hall0?"), (['1'], 'neither a room nor X Y'),
+    (['kitchen'], 'did you mean kitchen0?'), (['1'], 'neither a room nor X Y'),
     (['1', '2', '7'], 'there is no floor 7; known are 0'), (['1', 'nan'], 'neither a room')])
 def test_a_wrong_goal_is_named(words: list[str], part: str, planners: dict[int, Planner]) -> None:
     with pytest.raises(Failure) as caught:
@@ -65,6 +66,22 @@ def test_it_waits_before_the_doors_of_the_elevator_on_its_own_floor() -> None:
 def test_an_elevator_that_the_robot_cannot_enter_is_none() -> None:
     cells = np.full((80, 120), WALL, np.int8)
     assert lift_of(HOME, Planner(GridMap(cells, (-5.0, 3.0), 0.05, 0), 0.22), 0) is None
+
+
+def test_a_plug_in_of_the_world_that_only_the_node_has_is_left_out(tmp_path: Path) -> None:
+    door = '<plugin name="doors" filename="libdoor_world_plugin.so"/>'
+    xml = '<sdf version="1.6"><world name="w">%s' + door + '<model name="a"><link name="b"/>' \
+        '%s</model><include><uri>model://bath_door0</uri></include></world></sdf>'
+    foreign = [f'<plugin name="{name}" filename="lib{name}.so"/>' for name in ('mine', 'yours')]
+    world = loaded(tmp_path / 'now.world', xml % tuple(foreign))
+    assert world.devices('door') == ['bathroom0']
+    with pytest.raises(Failure, match='<pose>'):
+        loaded(tmp_path / 'now.world', xml % ('<model name="c"><pose>x</pose></model>', ''))
+
+
+def test_too_many_words() -> None:
+    with pytest.raises(WrongWords, match=r'has 4 words; give ROOM or X Y \[FLOOR\]'):
+        goal_of(['1', '2', '3', '4'], HOME, {})
 
 
 def test_maps_leave_out_plug_ins_that_only_the_node_has() -> None:

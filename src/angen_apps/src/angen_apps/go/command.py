@@ -3,10 +3,11 @@ from __future__ import annotations
 
 import math
 import os
+import re
 import tempfile
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Collection, Mapping, Sequence
+from typing import Any, Collection, Mapping, Sequence
 
 from lxml import etree
 
@@ -19,16 +20,18 @@ from angen_apps.robot.route import Ride, Turn
 from angen_apps.robot.rooms_route import lift_of
 from angen_apps.robot.route_file import NUMBERS, Route, Waypoint
 from angen_tools.common.catalog import kinds
-from angen_tools.common.failure import Failure
+from angen_tools.common.failure import Failure, WrongWords
 from angen_tools.common.files import write_text
 from angen_tools.common.home import Home
 from angen_tools.common.nearest import did_you_mean
 from angen_tools.common.output import as_json
 from angen_tools.common.progress import Progress
+from angen_tools.common.verbs import comma_hint
 from angen_tools.live.client import Client
 
 
 ASTRAY = 0.5  # m: a robot farther from its goal has not arrived
+MISSING_LIBRARY = re.compile(r'plug-in library (\S+) is not found')
 REACH = 2.0  # m from the middle of a room to the nearest free place for the robot
 
 
@@ -69,7 +72,8 @@ def go(words: Sequence[str], robot: str, json: bool) -> int:
     print(as_json(asdict(arrived)) if json else
           f'{route.robot} is in {arrived.goal}: {arrived.distance_m:.1f} m in '
           f'{arrived.time_s:.1f} s, doors: {arrived.doors}, rides: {arrived.rides}, '
-          f'{100 * arrived.error_m:.0f} cm from {arrived.goal_x_m:.2f}, {arrived.goal_y_m:.2f}'
+          f'{100 * arrived.error_m:.0f} cm from x '
+          f'{arrived.goal_x_m:.2f}, y {arrived.goal_y_m:.2f} m'
           + (f'; {arrived.tries} tries' if arrived.tries > 1 else ''))
     return 0
 
@@ -82,11 +86,11 @@ class Surveyed:
         from angen_msgs.srv import Save
         foreign = {entity.model for entity in client.entities()
                    if entity.topic and entity.kind not in kinds()}
-        write_text(path, without(client.call('/angen/save', Save).xml, foreign))
+        saved = without(client.call('/angen/save', Save).xml, foreign)
         source = rospy.get_param('/angen/world', '')
         paths = [str(Path(source).parent / 'models'), os.environ.get('ANGEN_MODEL_PATH', '')]
         os.environ['ANGEN_MODEL_PATH'] = ':'.join(filter(None, paths))
-        world, shut = load_world(str(path)), load_world(str(path))
+        world, shut = loaded(path, saved), load_world(str(path))
         self.home = Home.of_world(world)
         self.entities = [entity_of(message, self.home) for message in client.entities()]
         for one in (world, shut):
@@ -94,6 +98,25 @@ class Surveyed:
                 if entity.kind == 'drive':
                     one.delete(entity.model)
         self.survey = Survey(world, shut, self.entities, None)
+
+
+def loaded(path: Path, xml: str) -> Any:
+    """Writes a world that this process can load, without the plug-ins whose libraries only its
+    node finds; returns it loaded."""
+    while True:
+        write_text(path, xml)
+        try:
+            return load_world(str(path))
+        except Failure as failure:
+            found = MISSING_LIBRARY.search(str(failure))
+            world = etree.fromstring(xml.encode())
+            missing = [part for part in world.iter('plugin')
+                       if found and part.get('filename') == found[1]]
+            if not missing:
+                raise
+            for part in missing:
+                part.getparent().remove(part)
+            xml = etree.tostring(world, encoding='unicode')
 
 
 def without(xml: str, models: Collection[str]) -> str:
@@ -111,6 +134,8 @@ def goal_of(words: Sequence[str], home: Home, planners: Mapping[int, Planner]) -
     """The goal that the words of the command name: of a room the free place nearest to its
     middle."""
     name = ' '.join(words)
+    if len(words) > 3:
+        raise WrongWords(f"'{name}' has {len(words)} words; give ROOM or X Y [FLOOR]")
     room = next((room for room in home.rooms if room.name == name), None)
     if room is not None:
         planner = planners.get(room.storey)
@@ -124,7 +149,8 @@ def goal_of(words: Sequence[str], home: Home, planners: Mapping[int, Planner]) -
         numbers = []
     if len(numbers) not in (2, 3) or not all(map(math.isfinite, numbers)):
         raise Failure(f"'{name}' is neither a room nor X Y [FLOOR]; "
-                      + did_you_mean(name, [room.name for room in home.rooms], 'angen home'))
+                      + did_you_mean(name, [room.name for room in home.rooms], 'angen home')
+                      + comma_hint(name))
     floor = numbers[2] if len(numbers) == 3 else 0.0
     if floor not in planners:
         raise Failure(f'there is no floor {floor:g}; known are {", ".join(map(str, planners))}')

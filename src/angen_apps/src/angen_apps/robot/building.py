@@ -18,6 +18,7 @@ from angen_apps.robot.route_file import Route
 from angen_tools.common.failure import Failure
 from angen_tools.common.geometry import rotation_of, yaw
 from angen_tools.common.home import Home
+from angen_tools.common.nearest import did_you_mean
 
 
 @dataclass(frozen=True)
@@ -126,7 +127,7 @@ def find_start(route: Route, entities: list[Entity], offset: tuple[float, float,
     """A route's robot, which believes that it starts `offset` beside the truth; Failure where the
     world lacks it, its lidar or its elevator."""
     robots = [entity.name for entity in entities if entity.kind == 'drive']
-    otherwise = (f"a route's robot can be {', '.join(robots)}" if robots else
+    otherwise = (did_you_mean(route.robot, robots, 'angen list --kind drive') if robots else
                  'include model://turtlebot in it under that name')
     robot = _one(entities, 'drive', route.robot,
                  f'the world has no robot {route.robot}; {otherwise}')
