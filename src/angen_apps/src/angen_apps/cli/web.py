@@ -20,6 +20,8 @@ def port(text: str) -> int:
 
 def run_web(args: argparse.Namespace) -> int:
     from angen_apps.web.command import web_live, web_recording
+    if args.world is not None and args.replay is None:
+        args.parser.error('--world needs --replay; the world of a run is that of ./angen run')
     if args.replay is not None:
         web_recording(args.replay, args.world, args.host, args.port)
     else:
@@ -33,6 +35,7 @@ def add_web(commands: Any) -> None:
                   'serves a page that shows the running building, to watch and control it in a '
                   'browser', 'web', 'web --port 9000', 'web --host 0.0.0.0',
                   'web --replay bug.log', 'web --replay out')
+    web.set_defaults(parser=web)
     web.add_argument('--replay', metavar='FILE', type=Path,
                      help='plays a run that record:= of ./angen run has recorded, or a home of '
                      'angen generate, with a time line')

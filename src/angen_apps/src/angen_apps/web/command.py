@@ -66,8 +66,23 @@ async def _serve(source: Source, host: str, port: int) -> None:
         try:
             await work
         except OSError as error:
-            raise Failure(f'{host}:{port} cannot be served: {error.strerror}; choose another with '
-                          '--port, or port:= of ./angen run') from None
+            raise not_served(host, port, error) from None
+
+
+def require_free(host: str, port: int) -> None:
+    """Failure where this machine cannot serve an address: before a wait for a master."""
+    try:
+        kind, _, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
+        with socket.socket(kind, socket.SOCK_STREAM) as probe:
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            probe.bind(address)
+    except OSError as error:
+        raise not_served(host, port, error) from None
+
+
+def not_served(host: str, port: int, error: OSError) -> Failure:
+    return Failure(f'{host}:{port} cannot be served: {error.strerror}; choose another with '
+                   '--port, or port:= of ./angen run')
 
 
 def serve(source: Source, host: str, port: int) -> None:
@@ -81,6 +96,7 @@ def serve(source: Source, host: str, port: int) -> None:
 
 def web_recording(path: Path, world: Path | None, host: str, port: int) -> None:
     """A recorded run, or a folder of angen generate."""
+    require_free(host, port)
     if path.is_dir():
         from angen_apps.web.day import Day
         played: Any = Day(path, world)
@@ -95,5 +111,6 @@ def web_live(host: str, port: int) -> None:
     """A running node, or the one that will run."""
     from angen_apps.web.feed import Feed
     from angen_apps.web.node import start_node
+    require_free(host, port)
     start_node()
     serve(Feed(), host, port)
