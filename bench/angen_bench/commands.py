@@ -81,7 +81,7 @@ def add_commands(commands: Any) -> None:
     sensors.add_argument('--counts', metavar='N,N,…', type=checked(counts),
                          help='of sensors (0,1,10,50,100,200,500), with desired of flats '
                          '(1,2,3,10)')
-    sensors.add_argument('--repeats', metavar='N', type=checked(at_least(1)), default=3,
+    sensors.add_argument('--repeats', metavar='N', type=checked(at_least(1, 1000)), default=3,
                          help='of each count; figures are medians (3)')
     sensors.add_argument('--window', metavar='S', type=checked(window), default=5.0,
                          help='how long to measure, in s (5)')
@@ -114,7 +114,7 @@ def add_commands(commands: Any) -> None:
     soak = command(kinds, 'soak', run_bench_soak, 'spawns and deletes all kinds again and again in '
                    'a node of its own; ends with 1 where memory grows, or descriptors, threads or '
                    'registrations stay', 'bench soak --cycles 1000', 'bench soak --core')
-    soak.add_argument('--cycles', metavar='N', type=checked(at_least(1)), default=100_000,
+    soak.add_argument('--cycles', metavar='N', type=checked(at_least(1, 10**9)), default=100_000,
                       help='how often something is spawned and deleted (100000)')
     soak.add_argument('--core', action='store_true', help='the simulator alone, without ROS')
     add_json(soak)

@@ -69,5 +69,15 @@ def test_wrong_days(code: int, part: str, mistake: str, tmp_path: Path,
     assert part in line and found == code and f'{day}:2: ' in line
 
 
+@mistakes('files')
+def test_wrong_files(code: int, part: str, mistake: str, tmp_path: Path,
+                     capsys: pytest.CaptureFixture[str]) -> None:
+    # latin-1: what is typed has no other letters, and bytes in it are no UTF-8
+    text, words = mistake.split(' | ')
+    (tmp_path / 'file.csv').write_bytes(text.encode('latin-1'))
+    found, line = answer(shlex.split(words.replace('FILE', str(tmp_path / 'file.csv'))), capsys)
+    assert part in line and found == code and f'{tmp_path / "file.csv"}:' in line
+
+
 def test_there_are_a_hundred() -> None:
     assert sum(map(len, MISTAKES.values())) >= 100

@@ -11,7 +11,7 @@ from angen_tools.common.catalog import kind_of
     ('door', 'Open', 'Open'), ('door', 'close', 'Close'), ('door', '-1.2', 'Set -1.2'),
     ('door', 'SET -1.2', 'Set -1.2'), ('elevator', '01', 'Floor 01'),
     ('elevator', 'floor1', 'Floor 1'), ('elevator', 'Floor 1', 'Floor 1'), ('lamp', 'on', 'On'),
-    ('lamp', '40%', 'Dim 40'), ('lamp', 'dim 40', 'Dim 40'), ('lamp', '40 %', None),
+    ('lamp', '40%', 'Dim 40'), ('lamp', 'dim 40', 'Dim 40'), ('lamp', '40 %', 'Dim 40'),
     ('heater', '0', 'Set 0'), ('drive', '0.2 -0.1', '0.2 -0.1'), ('drive', '0.2, -0.1', '0.2 -0.1'),
     ('drive', 'stop', 'Stop'), ('person', 'go', 'Go'),
     ('person', 'goto 1.5, -2', 'GoTo 1.5 -2'), ('door', 'unlatch', 'Unlatch'),
@@ -37,6 +37,7 @@ def test_values_become_commands(kind: str, words: str, text: str | None) -> None
     ('elevator', '1.5', 'not a number of floor'), ('elevator', '-1', 'not a number of floor'),
     ('drive', '0.2', 'a number of m/s and a number of rad/s'), ('drive', '1 2 3', 'stop'),
     ('drive', 'nan 1', 'stop'), ('person', 'goto 1', 'goto takes 2 numbers, x y'),
+    ('door', '1,5', 'radians; a decimal has a point: 1.5'),
     ('person', 'goto 1 x', "'x' is not a number of x y"), ('lamp', '1e999', '0 to 100')])
 def test_what_is_not_a_command_says_what_is(kind: str, words: str, part: str) -> None:
     with pytest.raises(ValueError) as error:

@@ -10,6 +10,7 @@ from angen_tools.cli.arguments import at_least, checked
 from angen_tools.cli.parser import add_json, add_out, add_seed, command
 
 NAMES = ('casas', 'casas-columns', 'aras', 'kasteren', 'openshs', 'csv', 'parquet', 'xes', 'power')
+YEARS = 1900, 2900  # of the first day
 
 
 def formats(text: str) -> tuple[str, ...]:
@@ -25,9 +26,12 @@ def formats(text: str) -> tuple[str, ...]:
 def date(text: str) -> str:
     import datetime
     try:
-        return datetime.date.fromisoformat(text).isoformat()
+        found = datetime.date.fromisoformat(text)
     except ValueError:
         raise ValueError(f"'{text}' is not a date as 2026-03-23") from None
+    if not YEARS[0] <= found.year <= YEARS[1]:
+        raise ValueError(f"'{text}' is not in the years {YEARS[0]} to {YEARS[1]}")
+    return found.isoformat()
 
 
 def residents(text: str) -> tuple[str, ...]:
@@ -106,7 +110,7 @@ def add_generate(commands: Any) -> None:
                    'has residents live in homes and writes labeled data of their sensors; needs '
                    'no simulator', 'generate --days 2 --residents 2 --seed 7 --format casas',
                    'generate --homes 20 --days 30 --residents 3 --format casas,csv -o homes')
-    made.add_argument('--days', metavar='N', type=checked(at_least(1)), default=1,
+    made.add_argument('--days', metavar='N', type=checked(at_least(1, 36525)), default=1,
                       help='days of each home (1)')
     made.add_argument('--residents', metavar='WHO', default='2',
                       help='how many, or profiles between commas: names or YAML files (2)')
@@ -121,9 +125,9 @@ def add_generate(commands: Any) -> None:
                       help="uses the world's sensors and adds none")
     made.add_argument('--light', action='store_true', help='adds a light sensor to each room; slow')
     made.add_argument('--faults', metavar='FILE', type=Path, help='a YAML file of faults')
-    made.add_argument('--homes', metavar='N', type=checked(at_least(1)), default=1,
+    made.add_argument('--homes', metavar='N', type=checked(at_least(1, 100_000)), default=1,
                       help='homes, each in a folder of its own (1)')
-    made.add_argument('--processes', metavar='N', type=checked(at_least(1)),
+    made.add_argument('--processes', metavar='N', type=checked(at_least(1, 1000)),
                       default=os.cpu_count() or 1, help='homes at a time (one a core)')
     made.add_argument('--scheduler', metavar='ADDRESS', default='',
                       help='of a Dask cluster whose workers see the output folder')

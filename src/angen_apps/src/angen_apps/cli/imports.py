@@ -8,6 +8,7 @@ from typing import Any
 from angen_tools.cli.arguments import checked
 from angen_tools.cli.parser import add_json, command
 from angen_tools.common.output import show_done
+from angen_tools.common.verbs import comma_hint
 
 SENSORS = ('seed', 'casas', 'none')
 
@@ -19,7 +20,8 @@ def pixel(text: str) -> float:
     except ValueError:
         value = 0.0
     if not 0.0005 <= value <= 1.0:
-        raise ValueError(f"'{text}' is not a valid width of a pixel; give 0.0005 to 1 m")
+        raise ValueError(f"'{text}' is not a valid width of a pixel; give 0.0005 to 1 m"
+                         + comma_hint(text))
     return value
 
 

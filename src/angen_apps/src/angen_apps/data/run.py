@@ -15,10 +15,12 @@ from angen_apps.residents.household import Household
 from angen_apps.residents.profiles import DAY, Profile, read
 from angen_apps.residents.resident import make
 from angen_apps.residents.truth import Interval
+from angen_tools.common.failure import Failure
 from angen_tools.common.home import Home
 
 NAMES = ('anna', 'bert', 'clara', 'dora', 'emil', 'fritz', 'greta', 'hans')
 USUAL = ('worker', 'retired', 'student', 'child')
+MOST = 100  # residents of a home
 SLICE = 900.0  # s between two reports of progress
 
 
@@ -55,7 +57,9 @@ class Data:
 
 def residents_of(words: list[str]) -> list[tuple[str, Profile]]:
     """Names and profiles: of a number the usual ones, or those that are listed."""
-    if len(words) == 1 and words[0].isdigit():
+    if len(words) == 1 and words[0].isdecimal():
+        if int(words[0]) > MOST:
+            raise Failure(f'{words[0]} residents are too many; give at most {MOST}')
         words = [USUAL[i % len(USUAL)] for i in range(int(words[0]))]
     return [(NAMES[i % len(NAMES)] + ('' if i < len(NAMES) else str(i)), read(word))
             for i, word in enumerate(words)]

@@ -18,6 +18,9 @@ SHOWN = 20  # remarks
 def read_plan(path: Path, args: argparse.Namespace) -> Plan:
     """The plan of a file, by its ending."""
     ending = path.suffix.lower()
+    for option, given in (('--things', args.things), ('--meshes', args.meshes)):
+        if given and ending in (*ENDINGS, '.yaml', '.yml'):
+            raise Failure(f'{path}: has no furniture of Sweet Home 3D, which {option} is for')
     if ending in ENDINGS:
         if args.scale is None:
             raise Failure(f'{path}: is a picture; give --scale METERS_A_PIXEL, such as 0.05')

@@ -98,7 +98,7 @@ def _darkness(path: Path, smooth: bool = False) -> np.ndarray:
     """The pixels from 0 (white) to 1 (black); row 0 is the lowest."""
     import io
 
-    from PIL import Image
+    from PIL import Image, UnidentifiedImageError
     data = read_bytes(path)
     try:
         with Image.open(io.BytesIO(data)) as picture:
@@ -116,7 +116,8 @@ def _darkness(path: Path, smooth: bool = False) -> np.ndarray:
     except Failure:
         raise
     except Exception as error:  # Pillow raises many kinds for damaged pictures
-        raise Failure(f'{path}: is not a picture that can be read: {error}') from None
+        why = '' if isinstance(error, UnidentifiedImageError) else f': {error}'  # names no file
+        raise Failure(f'{path}: is not a picture that can be read{why}') from None
     dark = 1 - gray / 255
     if smooth:  # a median of 3 x 3, twice, takes the noise of a scan away
         dark = median_filter(median_filter(dark, 3), 3)

@@ -5,14 +5,14 @@ from __future__ import annotations
 
 import argparse
 import math
-import sys
 from typing import Any, Callable
 
 from angen_tools.common import clock
 from angen_tools.common.angle import warn_of_turns
-from angen_tools.common.verbs import number
+from angen_tools.common.verbs import comma_hint, number
 
-LONGEST = sys.float_info.max  # s
+LONGEST = 100 * 365.25 * clock.DAY  # s: a longer time is a typing error, as 1e99
+MOST = 1_000_000  # a greater number of things is, too
 
 
 def checked(check: Callable[[str], Any]) -> Callable[[str], Any]:
@@ -25,8 +25,8 @@ def checked(check: Callable[[str], Any]) -> Callable[[str], Any]:
     return run
 
 
-def at_least(least: int) -> Callable[[str], int]:
-    """A whole number that is not below `least`."""
+def at_least(least: int, most: int = MOST) -> Callable[[str], int]:
+    """A whole number that is not below `least`, nor more than a world or a processor can take."""
     def whole(text: str) -> int:
         try:
             value = int(text)
@@ -34,6 +34,8 @@ def at_least(least: int) -> Callable[[str], int]:
             value = least - 1
         if value < least:
             raise ValueError(f"'{text}' is not a whole number of at least {least}")
+        if value > most:
+            raise ValueError(f"'{text}' is too large; give at most {most}")
         return value
     return whole
 
@@ -50,14 +52,16 @@ def between(least: int, most: int) -> Callable[[str], int]:
 
 def counts(text: str) -> list[int]:
     """Whole numbers between commas."""
-    return [at_least(0)(word.strip()) for word in text.split(',')]
+    return [at_least(0, 10_000)(word.strip()) for word in text.split(',')]
 
 
 def _within(text: str, low: float, high: float, otherwise: str,
             read: Callable[[str], float] = number) -> float:
     value = read(text)
+    if value > high == LONGEST:
+        raise ValueError(f"'{text}' is more than 100 years; give a shorter time")
     if not low <= value <= high:
-        raise ValueError(f"'{text}' is not a valid {otherwise}")
+        raise ValueError(f"'{text}' is not a valid {otherwise}{comma_hint(text)}")
     return value
 
 

@@ -183,8 +183,9 @@ def add_list(commands: Any) -> None:
 
 def right_order(words: Sequence[str], commands: Container[str] = ()) -> str:
     """The corrected command for a name before its kind, as `set kitchen0 door open`, a value before
-    its name, as `set door open kitchen0` and `open door kitchen0`, a missing `set` or NAME, or a
-    model as a kind, as `spawn chair c1`; else ''. `commands` are those of angen."""
+    its name, as `set door open kitchen0` and `open door kitchen0`, a missing `set` or NAME, a
+    model as a kind, as `spawn chair c1`, or a misspelled one without NAME; else ''. `commands` are
+    those of angen."""
     devices = kinds('device')
     if words and words[0] in commands and words[0] not in ('set', 'spawn'):
         return ''
@@ -194,6 +195,8 @@ def right_order(words: Sequence[str], commands: Container[str] = ()) -> str:
         return shlex.join(['set', words[1], words[2], words[0]])
     if len(words) < 3 or words[0] not in ('set', 'spawn'):
         return ''
+    if list(words[:2]) == ['spawn', 'model'] and len(words) == 3:
+        return _spelled(words[2])
     known = kinds('device' if words[0] == 'set' else 'sensor')
     first, second, *rest = words[1:]
     if words[0] == 'set' and not rest and first in known and _takes(known[first], second):
@@ -206,6 +209,18 @@ def right_order(words: Sequence[str], commands: Container[str] = ()) -> str:
     if first in (*known, 'model', 'sitter') or second not in (*known, 'model', 'sitter'):
         return ''
     return shlex.join([words[0], second, first, *rest])
+
+
+def _spelled(model: str) -> str:
+    """The command for a model that there is not, whose NAME is missing; else ''."""
+    from angen_tools.common.nearest import nearest
+    from angen_tools.world.models import addresses
+    known = addresses()
+    address = f'model://{model.removeprefix("model://")}'
+    if model.startswith('-') or '/' in model.removeprefix('model://') or address in known \
+            or Path(model).exists() or not known:
+        return ''
+    return f'spawn model {nearest(address, known)[0]} NAME'
 
 
 def _takes(kind: Plugin, word: str) -> bool:

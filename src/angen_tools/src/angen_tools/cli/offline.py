@@ -123,7 +123,7 @@ def add_world(commands: Any) -> None:
     world.kinds = kinds = world.add_subparsers(dest='what', metavar='WHAT', required=True)
     flat = command(kinds, 'apartment', run_world, 'writes flats, one above the other, with sensors',
                    'world apartment --floors 2 --pir 50 --switch 12 -o out.world')
-    flat.add_argument('--floors', metavar='N', type=checked(at_least(1)), default=2,
+    flat.add_argument('--floors', metavar='N', type=checked(at_least(1, 1000)), default=2,
                       help='how many flats (2)')
     for kind in KINDS:
         flat.add_argument(f'--{kind}', metavar='N', type=checked(at_least(0)), default=0,

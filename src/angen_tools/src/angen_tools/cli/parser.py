@@ -9,7 +9,7 @@ from typing import Any, Callable, NoReturn
 
 from angen_tools.cli.arguments import at_least, checked
 from angen_tools.common.catalog import kinds
-from angen_tools.common.nearest import did_you_mean
+from angen_tools.common.nearest import asked, did_you_mean, nearest
 
 Run = Callable[[argparse.Namespace], int]  # executes the command; returns the exit code
 # Other words for kinds and commands, which no likeness of letters finds.
@@ -18,7 +18,10 @@ MEANT = {'light': 'lamp', 'bulb': 'lamp', 'lift': 'elevator', 'oven': 'stove', '
          'lux': 'luminosity', 'touch': 'contact', 'start': 'run', 'launch': 'run',
          'simulate': 'run', 'add': 'spawn', 'remove': 'delete', 'rm': 'delete', 'ls': 'list',
          'show': 'watch', 'status': 'watch', 'move': 'go', 'open': 'set', 'close': 'set'}
+# Commands of ./angen, which angen itself has not.
+ENTRY = ('demo', 'shell', 'build', 'test', 'fuzz', 'coverage', 'tidy', 'docs')
 ALIKE = 0.75  # of an option and the one that was meant
+SEED = 2**53 - 1  # the largest: JSON has no larger whole numbers
 NEGATIVE = re.compile(r'-\.?\d.*')  # -1.57 and -90deg are values, no options
 
 
@@ -56,7 +59,8 @@ class Parser(argparse.ArgumentParser):
             one = word.removesuffix('s')
             meant = MEANT.get(word, MEANT.get(one, one if one in kinds() else word))
             question = (f'did you mean {meant}?' if meant in action.choices
-                        else self._other_role(meant) or did_you_mean(word, action.choices))
+                        else self._other_role(meant) or self._elsewhere(word, action)
+                        or did_you_mean(word, action.choices))
             raise argparse.ArgumentError(action, f"'{value}' is not known; {question}")
 
     def _other_role(self, kind: str) -> str:
@@ -67,6 +71,18 @@ class Parser(argparse.ArgumentParser):
         if self.prog == 'angen set' and kind in kinds('sensor'):
             return f'a {kind} is a sensor, which takes no commands; angen watch shows it'
         return ''
+
+    def _elsewhere(self, word: str, action: argparse.Action) -> str:
+        """The command that was meant: one of ./angen, too, or the one that a word follows, as seek
+        follows task."""
+        if self.prog != 'angen' or not isinstance(action.choices, dict):
+            return ''
+        outer = [f'{name} {word}' for name, inner in action.choices.items()
+                 for part in inner._actions if not part.option_strings
+                 and word in (part.choices or ())]
+        near = [f'./angen {name}' if name in ENTRY else name
+                for name in nearest(word, [*action.choices, *ENTRY])]
+        return asked(outer or near)
 
     def error(self, message: str) -> NoReturn:
         self.exit(2, f'{self.prog}: {message}; see {self.prog} --help\n')
@@ -92,7 +108,7 @@ def add_json(parser: Parser) -> None:
 
 def add_seed(parser: Parser, text: str, default: int = 1) -> None:
     """The option of every command whose result depends on random numbers."""
-    parser.add_argument('--seed', metavar='S', type=checked(at_least(0)), default=default,
+    parser.add_argument('--seed', metavar='S', type=checked(at_least(0, SEED)), default=default,
                         help=f'{text} ({default})')
 
 

@@ -2,11 +2,15 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 from typing import Any, Sequence
 
 from angen_tools.common.angle import in_radians, warn_of_turns
 from angen_tools.common.catalog import Plugin
+
+
+DECIMAL_COMMA = re.compile(r'(?<![\d.,])\d+,\d+(?![\d.,])')
 
 
 @dataclass(frozen=True)
@@ -24,7 +28,7 @@ def parse(kind: Plugin, words: Sequence[str]) -> Order:
     A verb in upper or lower case; its number after it, or alone where one verb takes a number; or
     the numbers of a kind that takes numbers alone.
     """
-    given = ' '.join(words).replace(',', ' ').split()
+    given = ' '.join(words).replace(',', ' ').replace(' %', '%').split()
     verb = next((v for v in kind['verbs'] if given and v['name'].lower() == given[0].lower()), None)
     if verb is not None:
         return _with_verb(kind, verb, given[1:])
@@ -39,7 +43,7 @@ def parse(kind: Plugin, words: Sequence[str]) -> Order:
             math.isfinite(number(in_radians(word.removesuffix('%')))) for word in given):
         return _with_verb(kind, with_number[0], given)
     raise ValueError(f"'{' '.join(words)}' is not a command of {article(kind['kind'])}, "
-                     f'which takes {forms_in_words(kind)}')
+                     f'which takes {forms_in_words(kind)}{comma_hint(" ".join(words))}')
 
 
 def _counted(kind: Plugin, given: Sequence[str]) -> Order | None:
@@ -95,6 +99,12 @@ def number(word: str) -> float:
         return float(word)
     except ValueError:
         return math.nan
+
+
+def comma_hint(text: str) -> str:
+    """For the end of an error about numbers, of which one may have a decimal comma; else ''."""
+    found = DECIMAL_COMMA.search(text)
+    return f'; a decimal has a point: {found[0].replace(",", ".")}' if found else ''
 
 
 def argument(verb: dict[str, Any]) -> str:

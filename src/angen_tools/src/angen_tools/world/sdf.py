@@ -9,7 +9,7 @@ from lxml import etree
 
 from angen_tools.common.angle import radians
 from angen_tools.common.failure import Failure
-from angen_tools.common.verbs import number
+from angen_tools.common.verbs import comma_hint, number
 
 
 def parse_pose(text: str) -> tuple[float, ...]:
@@ -18,7 +18,7 @@ def parse_pose(text: str) -> tuple[float, ...]:
     words = text.replace(',', ' ').split()
     if len(words) not in (3, 6):
         raise ValueError(f"the pose '{text}' has {len(words)} numbers; give \"x y z\" or "
-                         '"x y z roll pitch yaw" in m and rad')
+                         f'"x y z roll pitch yaw" in m and rad{comma_hint(text)}')
     numbers = []
     for place, word in enumerate(words):
         numbers.append(number(word) if place < 3 else radians(word))
