@@ -15,6 +15,8 @@ from angen_tools.world import models
 
 MISSPELLED = re.compile(r' is not known; did you mean <\w+>\?$')
 NOT_INCLUDED = re.compile(r'(.*: )an <include> has no <(\w+)>')
+NOT_FOUND = re.compile(r"model '(model://[^']+)' is not found")
+OUR_OWN = re.compile(r': <angen:\w+> in <\w+>$')
 INCLUDE = ('uri', 'name', 'pose', 'static', 'plugin')
 SHOWN = 8  # names of a model's devices and sensors
 
@@ -38,10 +40,13 @@ def check(path: str) -> Checked:
             return _checked_world(angen.World(path), path)
         return _checked_model(angen, path)
     except angen.Error as error:
-        wrong = str(error).splitlines()
-        if path.startswith('model://') and models.find(path) is None:
-            wrong[-1] += f'; {did_you_mean(path, models.addresses())}'
-        return Checked(wrong=wrong)
+        return Checked(wrong=[line + _meant(line) for line in str(error).splitlines()])
+
+
+def _meant(error: str) -> str:
+    """For the end of an error about a model:// address that is not found."""
+    found = NOT_FOUND.search(error)
+    return f'; {did_you_mean(found[1], models.addresses())}' if found else ''
 
 
 def holds_world(path: str) -> bool:
@@ -84,7 +89,10 @@ def _right(path: str, found: str, world: Any, around: Collection[str] = ()) -> C
     wrong = [meant for line in world.warnings if (meant := misspelled(line))]
     warnings = [line for line in world.warnings if not misspelled(line)]
     state = f'loads with {_counted(len(warnings), "warning")}' if warnings else 'nothing is wrong'
-    ignored = [line for line in world.ignored if line not in around]
+    found_here = [line for line in world.ignored if line not in around]
+    ignored = [line for line in found_here if not OUR_OWN.search(line)]
+    wrong += [f'{line} is not known; docs/home.md lists the elements of angen'
+              for line in found_here if line not in ignored]
     return Checked(wrong=wrong, warnings=warnings, ignored=ignored,
                    found=f'{path}: {state}; {found}')
 
