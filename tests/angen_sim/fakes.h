@@ -70,7 +70,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
   double ambient = 295.15;  // K
   std::vector<rays::WarmShape> warm;
   std::uint64_t revision = 0;
-  std::uint64_t surface = 0;
+  std::map<std::uint32_t, Warming> courses;  // by shape; none: constant
   std::uint64_t set = 0;
   std::map<std::string, std::vector<ContactPair>> touching;           // by collision name
   std::map<std::string, std::vector<ContactPair>> touched;            // lately, and not now
@@ -87,11 +87,6 @@ class FakeWorld : public View, public Wiring, public Outputs {
     Vec3 torque;
   };
   std::vector<Push> pushes;
-  struct Warming {
-    int surface;
-    double now, limit, time_constant;
-  };
-  std::vector<Warming> warmings;
   std::vector<std::string> commands;  // "KIND NAME TEXT", to other devices
   std::vector<std::pair<std::string, std::string>> events;
 
@@ -137,12 +132,14 @@ class FakeWorld : public View, public Wiring, public Outputs {
     return found;
   }
   const Home& home() const override { return described; }
-  void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override {
+  using View::cast;
+  void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits,
+            rays::Mobilities among) const override {
     hits.assign(rays.size(), {});
-    if (scene != nullptr) scene->cast(rays, hits);
+    if (scene != nullptr) scene->cast(rays.data(), hits.data(), rays.size(), among);
   }
-  bool meets(std::uint32_t shape, const rays::Ray& ray) const override {
-    return scene == nullptr || scene->cast_at(shape, ray).hit();
+  rays::Hit cast_at(std::uint32_t shape, const rays::Ray& ray) const override {
+    return scene == nullptr ? rays::Hit{0.0, shape} : scene->cast_at(shape, ray);
   }
   light::Sample illuminance(light::Probe& probe, const Pose& pose) const override {
     return light_at ? light_at(probe, pose) : light::Sample{};
@@ -152,7 +149,11 @@ class FakeWorld : public View, public Wiring, public Outputs {
   double ambient_temperature() const override { return ambient; }
   const std::vector<rays::WarmShape>& warm_shapes() const override { return warm; }
   std::uint64_t scene_revision() const override { return revision; }
-  std::uint64_t surface_revision() const override { return surface; }
+  Warming warming(const rays::WarmShape& shape) const override {
+    const auto found = courses.find(shape.shape);
+    return found != courses.end() ? found->second
+                                  : Warming{shape.temperature, shape.temperature, 0.0, 0};
+  }
   std::uint64_t surfaces_set() const override { return set; }
   using View::crossings;
   std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to,
@@ -160,6 +161,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
     return crossings_at ? crossings_at(from, to) : std::vector<rays::Crossing>{};
   }
   Eigen::AlignedBox3d static_bounds() const override { return {}; }
+  std::uint64_t static_revision() const override { return revision; }
   std::vector<std::uint8_t> colors(const render::PinholeCamera& lens,
                                    const Pose& pose) const override {
     return colors_at ? colors_at(lens, pose) : std::vector<std::uint8_t>{};
@@ -234,9 +236,7 @@ class FakeWorld : public View, public Wiring, public Outputs {
   void light(LightRef ref, double level, double luminous_flux) override {
     lights.at(ref.index).second = {level, luminous_flux};
   }
-  void temperature(SurfaceRef ref, double warm, double limit, double time_constant) override {
-    warmings.push_back({ref.index, warm, limit, time_constant});
-  }
+  void temperature(SurfaceRef, double, double, double) override {}
   void command(const std::string& kind, const std::string& name, const std::string& text) override {
     commands.push_back(kind + " " + name + " " + text);
   }

@@ -101,8 +101,8 @@ class NoisySensor {
   /// If the first uniform() of a sample's random numbers is below this, the sample has no event
   /// and is not urgent while the sensor is steady.
   virtual double no_event_probability() const = 0;
-  /// The sample at or after this time has an event, whatever its random numbers are, while the
-  /// sensor is steady.
+  /// The sample at or after this time may have an event, whatever its random numbers are, while
+  /// the sensor is steady; none before has one for another reason than these.
   virtual Nanoseconds next_event() const { return kForever; }
   /// On how many earlier samples a reading depends.
   virtual int memory() const = 0;

@@ -13,6 +13,7 @@
 #include "core/home.h"
 #include "core/pose.h"
 #include "core/time.h"
+#include "core/warming.h"
 #include "light/probe.h"
 #include "plugin/reading.h"
 #include "rays/scene.h"
@@ -100,10 +101,14 @@ class View {
   }
   /// The home that the world describes. It is valid until the next update or sample.
   virtual const Home& home() const = 0;
-  /// Nearest hits: hits[i] answers rays[i].
-  virtual void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const = 0;
-  /// Whether a ray hits this shape, as if there were no others.
-  virtual bool meets(std::uint32_t shape, const rays::Ray& ray) const = 0;
+  /// Nearest hits on shapes of these mobilities: hits[i] answers rays[i].
+  virtual void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits,
+                    rays::Mobilities among) const = 0;
+  void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const {
+    cast(rays, hits, rays::kAll);
+  }
+  /// The nearest hit on this shape, as if there were no others.
+  virtual rays::Hit cast_at(std::uint32_t shape, const rays::Ray& ray) const = 0;
   /// The albedo, r g b, 0 to 1, of a shape that a ray hit.
   virtual Eigen::Vector3f reflectance(std::uint32_t shape) const = 0;
   /// Light at a place; see light::Lighting::measure. The first query in a world finds the light of
@@ -121,8 +126,8 @@ class View {
   virtual void watch(const std::function<std::vector<rays::Ray>()>& make) const {
     static_cast<void>(make);
   }
-  /// Grows while temperatures of warm_shapes() change.
-  virtual std::uint64_t surface_revision() const = 0;
+  /// How the temperature of one of them changes from now on, until surfaces_set() grows.
+  virtual Warming warming(const rays::WarmShape& shape) const = 0;
   /// Grows when one of them begins to change, or changes at once.
   virtual std::uint64_t surfaces_set() const = 0;
   /// The shapes of these mobilities on the segment between two points (world, m), in the order in
@@ -134,6 +139,8 @@ class View {
   }
   /// Box (m, world) around all static shapes except planes.
   virtual Eigen::AlignedBox3d static_bounds() const = 0;
+  /// Grows when static shapes come, go or are placed elsewhere.
+  virtual std::uint64_t static_revision() const = 0;
   /// The image of a camera at `pose` (world, x ahead, z up): height x width x 3 bytes, sRGB.
   virtual std::vector<std::uint8_t> colors(const render::PinholeCamera& lens,
                                            const Pose& pose) const = 0;

@@ -56,7 +56,7 @@ struct Scene::Impl {
   Layer moving{false};
   std::map<const TriangleMesh*, std::weak_ptr<const MeshTree>> meshes;
   std::uint64_t revision = 0;
-  std::uint64_t warm_revision = 0;
+  std::uint64_t static_revision = 0;
   bool warm_dirty = false;
   std::vector<std::uint32_t> changes;  // indices of changed standing shapes, the latest last
   std::uint64_t forgotten = 1;         // mark of the first entry in `changes`
@@ -211,11 +211,12 @@ void Scene::remove(ShapeId shape) {
 void Scene::commit() {
   const bool moved = impl_->fixed.changed() || impl_->moving.changed();
   if (!moved && !impl_->warm_dirty) return;
-  if (std::exchange(impl_->warm_dirty, false)) ++impl_->warm_revision;
+  impl_->warm_dirty = false;
   if (!moved) {
     impl_->bound_warm_shapes();
     return;
   }
+  if (impl_->fixed.changed()) ++impl_->static_revision;
   impl_->fixed.commit();
   impl_->moving.commit();
   impl_->bound_warm_shapes();
@@ -388,6 +389,6 @@ std::vector<std::uint32_t> Scene::standing_changes(std::uint64_t& mark) const {
 }
 
 std::uint64_t Scene::revision() const { return impl_->revision; }
-std::uint64_t Scene::warm_revision() const { return impl_->warm_revision; }
+std::uint64_t Scene::static_revision() const { return impl_->static_revision; }
 
 }  // namespace angen::rays

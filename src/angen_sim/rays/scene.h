@@ -121,8 +121,6 @@ class Scene {
   Eigen::Vector3f reflectance(std::uint32_t shape_index) const;
   /// In the order in which they were first warmed, as of the last commit().
   const std::vector<WarmShape>& warm_shapes() const;
-  /// Counts commits that changed temperatures of warm_shapes().
-  std::uint64_t warm_revision() const;
 
   Mobility mobility(std::uint32_t shape_index) const;
   Placement placement(std::uint32_t shape_index) const;
@@ -137,6 +135,8 @@ class Scene {
 
   /// Counts commits that changed something: equal revisions mean equal answers.
   std::uint64_t revision() const;
+  /// The same of static shapes alone.
+  std::uint64_t static_revision() const;
 
  private:
   struct Impl;

@@ -5,23 +5,17 @@
 
 namespace angen::sim {
 
-namespace {
-
-constexpr double kArrived = 1e-3;  // K from its limit: from then on it is there
-
-}  // namespace
-
 void SurfaceTemperatures::set(rays::ShapeId shape, double temperature, double limit,
                               double time_constant, Nanoseconds now, Moment moment) {
   remove(shape);
   note_changed(shape, moment).set = set_ = moment;
   ++times_set_;
-  if (!(time_constant > 0.0) || std::abs(temperature - limit) < kArrived) {
+  if (!(time_constant > 0.0) || std::abs(temperature - limit) < Warming::kArrived) {
     rays_.warm(shape, limit);
     return;
   }
   rays_.warm(shape, temperature);
-  changing_.push_back({shape, temperature, limit, time_constant, now});
+  changing_.push_back({shape, {temperature, limit, time_constant, now}});
 }
 
 void SurfaceTemperatures::remove(rays::ShapeId shape) {
@@ -61,19 +55,21 @@ bool SurfaceTemperatures::set_since(Moment since, const Eigen::AlignedBox3d& wit
 
 void SurfaceTemperatures::advance(Nanoseconds now, Moment moment) {
   for (Changing& each : changing_) {
-    const double left =
-        (each.start - each.limit) * std::exp(-to_seconds(now - each.since) / each.time_constant);
-    if (std::abs(left) >= kArrived) {
-      rays_.warm(each.shape, each.limit + left);
-      continue;
-    }
-    rays_.warm(each.shape, each.limit);
-    each.time_constant = 0.0;
-    note_changed(each.shape, moment);
+    const double temperature = each.course.at(now);
+    rays_.warm(each.shape, temperature);
+    each.arrived = temperature == each.course.limit;
+    if (each.arrived) note_changed(each.shape, moment);
   }
   changing_.erase(std::remove_if(changing_.begin(), changing_.end(),
-                                 [](const Changing& each) { return each.time_constant == 0.0; }),
+                                 [](const Changing& each) { return each.arrived; }),
                   changing_.end());
+}
+
+Warming SurfaceTemperatures::warming(const rays::WarmShape& shape) const {
+  for (const Changing& each : changing_) {
+    if (each.shape.index == shape.shape) return each.course;
+  }
+  return {shape.temperature, shape.temperature, 0.0, 0};
 }
 
 }  // namespace angen::sim

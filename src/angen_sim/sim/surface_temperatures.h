@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/time.h"
+#include "core/warming.h"
 #include "rays/scene.h"
 #include "sim/mover_index.h"
 
@@ -21,6 +22,9 @@ class SurfaceTemperatures {
            Nanoseconds now, Moment moment);
   void remove(rays::ShapeId shape);
 
+  /// How the temperature of one of Scene::warm_shapes() changes until it is set again.
+  Warming warming(const rays::WarmShape& shape) const;
+
   /// Gives the surfaces that change their temperatures at `now`.
   void advance(Nanoseconds now, Moment moment);
 
@@ -38,10 +42,8 @@ class SurfaceTemperatures {
  private:
   struct Changing {
     rays::ShapeId shape;
-    double start;  // K
-    double limit;
-    double time_constant;  // s
-    Nanoseconds since;
+    Warming course;
+    bool arrived = false;
   };
 
   struct Change {

@@ -69,10 +69,12 @@ const Home& InstanceView::home() const {
   return building_.home();
 }
 
-void InstanceView::cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const {
+void InstanceView::cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits,
+                        rays::Mobilities among) const {
   queried_.other = queried_.other || !watches();
   engines_.rays.commit();
-  engines_.rays.cast(rays, hits);
+  hits.resize(rays.size());
+  engines_.rays.cast(rays.data(), hits.data(), rays.size(), among);
 }
 
 light::Sample InstanceView::illuminance(light::Probe& probe, const Pose& pose) const {
@@ -142,11 +144,8 @@ std::uint64_t InstanceView::scene_revision() const {
   return engines_.rays.revision();
 }
 
-std::uint64_t InstanceView::surface_revision() const {
-  queried_.heat = true;
-  engines_.surfaces.advance(clock_.time, engines_.movers.now());
-  engines_.rays.commit();
-  return engines_.rays.warm_revision();
+Warming InstanceView::warming(const rays::WarmShape& shape) const {
+  return engines_.surfaces.warming(shape);
 }
 
 std::uint64_t InstanceView::surfaces_set() const {
@@ -164,6 +163,11 @@ std::vector<rays::Crossing> InstanceView::crossings(const Vec3& from, const Vec3
 Eigen::AlignedBox3d InstanceView::static_bounds() const {
   queried_.other = true;
   return engines_.rays.static_bounds();
+}
+
+std::uint64_t InstanceView::static_revision() const {
+  queried_.other = queried_.other || !watches();
+  return engines_.rays.static_revision();
 }
 
 std::vector<std::uint8_t> InstanceView::colors(const render::PinholeCamera& lens,

@@ -37,9 +37,11 @@ void Bench::move_shapes() {
   rays_.commit();
 }
 
-void Bench::cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) {
+void Bench::cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits,
+                 rays::Mobilities among) {
   move_shapes();
-  rays_.cast(rays, hits);
+  hits.resize(rays.size());
+  rays_.cast(rays.data(), hits.data(), rays.size(), among);
 }
 
 std::vector<rays::Crossing> Bench::crossings(const Vec3& from, const Vec3& to,

@@ -31,7 +31,8 @@ class Bench {
 
   /// Makes rays meet a model.
   void show(const desc::Model& model, physics::ModelId id);
-  void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits);
+  void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits,
+            rays::Mobilities among);
   std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to, rays::Mobilities among);
 
   void tick();
@@ -94,8 +95,9 @@ class Rig : public FakeWorld {
   JointView joint(JointRef joint) const override;
   JointWrench wrench(JointRef joint) const override;
   LinkView link(LinkRef link) const override;
-  void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override {
-    bench_.cast(rays, hits);
+  void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits,
+            rays::Mobilities among) const override {
+    bench_.cast(rays, hits, among);
   }
   using View::crossings;
   std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to,

@@ -58,6 +58,41 @@ TEST(Pyroelectric, SleepsWithoutRaysOrNoiseOnceAllIsStill) {
   for (int i = 0; i < 100; ++i) EXPECT_EQ(bench.sample(kSample).get<double>("signal", -1.0), 0.0);
 }
 
+TEST(Pyroelectric, ComputesWhatItWouldSampleWhileASurfaceWarms) {
+  const Element plugin = pyroelectric({kWidePair, {"signal_threshold", "1e-5"}});
+  Bench bench(kPir, plugin);
+  Bench other(kPir, plugin);  // its surface is set anew before each sample
+  const Warming course{300.0, 340.0, 5.0, 0};
+  const auto id = add_warm(bench, sphere(0.1), at(3, -1), 300.0);
+  add_warm(other, sphere(0.1), at(3, -1), 300.0);
+  bench.world.courses[id.index] = course;
+  other.own_warmth = true;
+  other.scene.commit();
+  std::shared_ptr<const LazyReading> lazy;
+  Nanoseconds quiet_until = 0;
+  for (Nanoseconds now = 0; now < 100 * kSecond; now += kSample) {
+    other.world.warm = {{id.index, course.at(now), other.scene.warm_shapes()[0].box}};
+    ++other.world.set;
+    const Reading sampled = other.sample(kSample);
+    const Reading known = bench.sample(kSample);
+    const auto& noisy = dynamic_cast<const NoisySensor&>(bench.sensor());
+    for (const char* field : {"signal", "flux"}) {
+      ASSERT_EQ(known.get<double>(field), sampled.get<double>(field)) << field << " at " << now;
+      if (!lazy || now % (37 * kSample) != 0) continue;
+      Reading computed;
+      lazy->read(
+          now, [](int) { return Rng(1, 1, 1); }, computed);
+      ASSERT_EQ(computed.get<double>(field), known.get<double>(field)) << field << " at " << now;
+    }
+    ASSERT_TRUE(now >= quiet_until || known.event.empty()) << now;
+    if (!bench.sensor().steady()) continue;
+    quiet_until = noisy.next_event();
+    if (!known.get<bool>("motion") && !lazy) lazy = noisy.lazy_reading();
+  }
+  EXPECT_NE(lazy, nullptr);
+  EXPECT_EQ(quiet_until, INT64_MAX);  // the surface is as warm as it will be
+}
+
 TEST(Pyroelectric, NoiseIsThatOfTheSdfAndOfTheSeed) {
   const auto signals = [](std::uint64_t seed) {
     Bench bench(kPir, pyroelectric({kWidePair, {"noise_stddev", "5e-6"}}));

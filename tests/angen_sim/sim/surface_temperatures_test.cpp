@@ -68,10 +68,20 @@ TEST_F(Warmth, RestsAtItsLimitAndSaysWhenThatWas) {
   EXPECT_EQ(temperature(), 310.0);
   EXPECT_TRUE(surfaces.changed_since(8));
   EXPECT_FALSE(surfaces.changed_since(9));
-  const std::uint64_t revision = scene.warm_revision();
-  surfaces.advance(20 * kSecond, 9);
+  EXPECT_EQ(surfaces.warming(scene.warm_shapes().at(0)).time_constant, 0.0);
+}
+
+TEST_F(Warmth, SaysHowItGoesOn) {
+  surfaces.set(plate, 300.0, 310.0, 100.0, kSecond, 1);
+  surfaces.advance(11 * kSecond, 2);
   scene.commit();
-  EXPECT_EQ(scene.warm_revision(), revision);
+  const Warming course = surfaces.warming(scene.warm_shapes().at(0));
+  EXPECT_EQ(course.limit, 310.0);
+  EXPECT_NEAR(course.at(101 * kSecond), 310.0 - 10.0 * std::exp(-1.0), 1e-12);
+  for (const Nanoseconds at : {20 * kSecond, 500 * kSecond, 2000 * kSecond}) {
+    surfaces.advance(at, 3);
+    EXPECT_EQ(temperature(), course.at(at));
+  }
 }
 
 TEST_F(Warmth, WithoutATimeConstantItIsThereAtOnce) {

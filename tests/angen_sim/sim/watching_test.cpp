@@ -34,11 +34,13 @@ class Forgetful : public View {
     return view_.devices(field, within);
   }
   const Home& home() const override { return view_.home(); }
-  void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits) const override {
-    view_.cast(rays, hits);
+  using View::cast;
+  void cast(const std::vector<rays::Ray>& rays, std::vector<rays::Hit>& hits,
+            rays::Mobilities among) const override {
+    view_.cast(rays, hits, among);
   }
-  bool meets(std::uint32_t shape, const rays::Ray& ray) const override {
-    return view_.meets(shape, ray);
+  rays::Hit cast_at(std::uint32_t shape, const rays::Ray& ray) const override {
+    return view_.cast_at(shape, ray);
   }
   Eigen::Vector3f reflectance(std::uint32_t shape) const override {
     return view_.reflectance(shape);
@@ -53,13 +55,14 @@ class Forgetful : public View {
   double ambient_temperature() const override { return view_.ambient_temperature(); }
   const std::vector<rays::WarmShape>& warm_shapes() const override { return view_.warm_shapes(); }
   std::uint64_t scene_revision() const override { return view_.scene_revision(); }
-  std::uint64_t surface_revision() const override { return view_.surface_revision(); }
+  Warming warming(const rays::WarmShape& shape) const override { return view_.warming(shape); }
   std::uint64_t surfaces_set() const override { return view_.surfaces_set(); }
   std::vector<rays::Crossing> crossings(const Vec3& from, const Vec3& to,
                                         rays::Mobilities among) const override {
     return view_.crossings(from, to, among);
   }
   Eigen::AlignedBox3d static_bounds() const override { return view_.static_bounds(); }
+  std::uint64_t static_revision() const override { return view_.static_revision(); }
   std::vector<std::uint8_t> colors(const render::PinholeCamera& lens,
                                    const Pose& pose) const override {
     return view_.colors(lens, pose);

@@ -26,6 +26,8 @@ constexpr std::size_t kFewProbed = 24;               // of fewer rays all are ca
 constexpr Nanoseconds kHiddenPeriod = kSecond / 20;  // while all surfaces are hidden
 constexpr std::size_t kMostScans = 64;
 
+double fourth_power(double x) { return x * x * x * x; }
+
 double azimuth_of(const Vec3& p) { return std::atan2(p.y(), p.x()); }
 
 /// A window about the x axis of `pose` that holds the box; `whole` where it surrounds the detector.
@@ -74,84 +76,97 @@ Heat::Heat(FresnelLens lens, double range, double opening, Nanoseconds period)
       opening_(opening),
       period_(period) {}
 
+double HeatSources::flux(Nanoseconds time) const {
+  double sum = 0.0;
+  for (const Source& source : all) {
+    sum += (fourth_power(source.course.at(time)) - air_fourth) * source.factor;
+  }
+  return kStefanBoltzmann / M_PI * sum;
+}
+
+bool HeatSources::operator==(const HeatSources& o) const {
+  return air_fourth == o.air_fourth &&
+         std::equal(all.begin(), all.end(), o.all.begin(), o.all.end(),
+                    [](const Source& a, const Source& b) {
+                      return a.factor == b.factor && a.course == b.course;
+                    });
+}
+
+bool HeatSources::constant(Nanoseconds time) const {
+  return std::all_of(all.begin(), all.end(), [&](const Source& source) {
+    return source.factor == 0.0 || source.course.at(time) == source.course.limit;
+  });
+}
+
 void Heat::aim(const View& view, RayBatch& rays) {
   const Pose pose = view.pose();
   view.watch([&] { return all_rays(pose); });
   sampled_ = false;
   const bool still = view.scene_revision() == revision_ && pose == pose_;
   const std::uint64_t set = view.surfaces_set();
-  was_set_ = std::exchange(surfaces_set_, set) != set;
-  if (still && rests_ && !was_set_) return;
-  const bool as_warm = view.surface_revision() == surface_revision_;
-  if (still && as_warm) return;
+  const bool was_set = std::exchange(surfaces_set_, set) != set;
+  if (still && rests_ && !was_set) return;
   rests_ = false;
   if (still) {
-    follow_air(view);
-    if (reheat(view)) return;
+    const bool has_other_air = follow_air(view);
+    if (!(was_set || has_other_air) || reheat(view)) return;
   }
   pending_ = waits(view.time());
   if (pending_) return;
   follow_air(view);
   sampled_ = true;
   revision_ = view.scene_revision();
-  surface_revision_ = view.surface_revision();
   if (!(pose == pose_)) scans_.clear();
   pose_ = pose;
-  surfaces_.clear();
+  shapes_.clear();
+  radiating_.all.clear();
   samples_.clear();
   near_ = false;
   for (const rays::WarmShape& shape : view.warm_shapes()) {
-    if (shape.temperature == air_) continue;
-    surfaces_.push_back({shape.shape, shape.temperature});
+    if (!radiates(shape, view)) continue;
+    shapes_.push_back(shape.shape);
+    radiating_.all.push_back({0.0, view.warming(shape)});
     aim_at(shape, pose, view, rays);
   }
+}
+
+bool Heat::radiates(const rays::WarmShape& shape, const View& view) const {
+  return shape.temperature != air_ || view.warming(shape).limit != air_;
 }
 
 // While only temperatures change, hits stay the same. False where a surface radiates
 // that did not when it was sampled.
 bool Heat::reheat(const View& view) {
   std::size_t next = 0;
-  for (const rays::WarmShape& shape : view.warm_shapes()) {  // surfaces_ has some, in this order
-    if (next < surfaces_.size() && surfaces_[next].shape == shape.shape) {
-      surfaces_[next++].temperature = shape.temperature;
-    } else if (shape.temperature != air_) {
+  for (const rays::WarmShape& shape : view.warm_shapes()) {  // shapes_ has some, in this order
+    if (next < shapes_.size() && shapes_[next] == shape.shape) {
+      radiating_.all[next++].course = view.warming(shape);
+    } else if (radiates(shape, view)) {
       return false;
     }
   }
-  surface_revision_ = view.surface_revision();
-  sum_up();
+  publish_sources();
   return true;
 }
 
-/// W/(m^2 sr) that a surface of that temperature (K) sends out more than the air.
-double Heat::radiance(double temperature) {
-  if (temperature != warm_) {
-    warm_ = temperature;
-    warm_fourth_ = std::pow(temperature, 4);
-  }
-  return kStefanBoltzmann / M_PI * (warm_fourth_ - air_fourth_);
+void Heat::publish_sources() {
+  if (!(*sources_ == radiating_)) sources_ = std::make_shared<HeatSources>(radiating_);
 }
 
-void Heat::sum_up() {
-  flux_ = 0.0;
-  for (const Surface& surface : surfaces_) {
-    flux_ += radiance(surface.temperature) * surface.factor;
-  }
-}
-
-// Follows the air of its room, or the world's if the room has no climate.
-void Heat::follow_air(const View& view) {
+// Follows the air of its room, or the world's if the room has no climate. Whether it has changed.
+bool Heat::follow_air(const View& view) {
   const Nanoseconds now = view.time() / kSecond;
-  if (now == felt_at_) return;
+  if (now == felt_at_) return false;
   felt_at_ = now;
   const double here = air_at(view, view.pose().position).temperature + kZeroCelsius;
   const double air = std::isnan(here) ? view.ambient_temperature() : here;
-  if (std::abs(air - air_) < kSameAir) return;
-  const double before = flux_;
+  if (std::abs(air - air_) < kSameAir) return false;
+  const double before = radiating_.flux(view.time());
   air_ = air;
-  air_fourth_ = std::pow(air, 4);
-  sum_up();
-  drift_ += flux_ - before;
+  radiating_.air_fourth = fourth_power(air);
+  drift_ += radiating_.flux(view.time()) - before;
+  publish_sources();
+  return true;
 }
 
 // Surfaces behind something are sampled less often, whenever they were sampled before.
@@ -197,8 +212,10 @@ void Heat::aim_at(const rays::WarmShape& shape, const Pose& pose, const View& vi
   const auto [at, is_new] = scans_.try_emplace(shape.shape);
   Scan& found = at->second;
   if (is_new || found.box.min() != shape.box.min() || found.box.max() != shape.box.max() ||
-      found.rotation != shape.rotation) {
+      found.rotation != shape.rotation || found.static_revision != view.static_revision()) {
     scan_all(shape, pose, view, found);
+  } else if (!found.is_cleared) {  // it rests, or it would have another box
+    clear_blocked(view, found);
   }
   near_ = near_ || found.near;
   for (std::size_t part = 0; part < found.parts.size(); ++part) {
@@ -207,14 +224,14 @@ void Heat::aim_at(const rays::WarmShape& shape, const Pose& pose, const View& vi
     const std::size_t first = samples_.size();
     for (std::size_t i = found.parts[part]; i < end; ++i) {
       rays.push_back(found.rays[i]);
-      samples_.push_back({surfaces_.size() - 1, found.factors[i]});
+      samples_.push_back({shapes_.size() - 1, found.factors[i]});
     }
     take_visible(first, view, rays);
   }
 }
 
 void Heat::scan_all(const rays::WarmShape& shape, const Pose& pose, const View& view, Scan& found) {
-  found = {shape.box, shape.rotation, false, {}, {}, {}};
+  found = {shape.box, shape.rotation, false, {}, {}, {}, false, view.static_revision()};
   const Window around = window_of(shape.box, pose, lens_.window());
   for (const double turn : {0.0, kTurn, -kTurn}) {
     const Window seen = common(lens_.window(), around, turn);
@@ -223,6 +240,26 @@ void Heat::scan_all(const rays::WarmShape& shape, const Pose& pose, const View& 
     found.parts.push_back(found.rays.size());
     scan(seen, pose, view, found);
   }
+}
+
+// Removes the rays to a resting shape that static shapes block: others are cast again whenever
+// something moves.
+void Heat::clear_blocked(const View& view, Scan& found) {
+  found.is_cleared = true;
+  view.cast(found.rays, probed_, rays::only(rays::Mobility::kStatic));
+  std::size_t kept = 0;
+  std::size_t next_part = 0;
+  for (std::size_t i = 0; i < found.rays.size(); ++i) {
+    while (next_part < found.parts.size() && found.parts[next_part] == i) {
+      found.parts[next_part++] = kept;
+    }
+    const rays::Hit own = view.cast_at(shapes_.back(), found.rays[i]);
+    if (!own.hit() || probed_[i].range < own.range) continue;
+    found.rays[kept] = found.rays[i];
+    found.factors[kept++] = found.factors[i];
+  }
+  found.rays.resize(kept);
+  found.factors.resize(kept);
 }
 
 // A grid of rays that moves with the shape, so that its outline makes no noise.
@@ -243,7 +280,7 @@ void Heat::scan(const Window& seen, const Pose& pose, const View& view, Scan& fo
       return rays::Ray{pose.position, (rotation * way).normalized(), kHousing, range_};
     };
     const auto misses = [&](int column) {
-      return !view.meets(surfaces_.back().shape, ray_to(column));
+      return !view.cast_at(shapes_.back(), ray_to(column)).hit();
     };
     int first = 0;
     while (first < columns && misses(first)) ++first;
@@ -268,24 +305,26 @@ void Heat::take_visible(std::size_t first, const View& view, RayBatch& rays) {
   probes_.clear();
   for (std::size_t i = 0; i < count; i += kEach) probes_.push_back(rays[begin + i]);
   view.cast(probes_, probed_);
-  Surface& surface = surfaces_.back();
-  const auto seen = std::count_if(probed_.begin(), probed_.end(),
-                                  [&](const rays::Hit& hit) { return hit.shape == surface.shape; });
+  const auto seen = std::count_if(probed_.begin(), probed_.end(), [&](const rays::Hit& hit) {
+    return hit.shape == shapes_.back();
+  });
   if (seen != 0 && seen != static_cast<std::ptrdiff_t>(probes_.size())) return;
   for (std::size_t i = first; seen != 0 && i < samples_.size(); ++i) {
-    surface.factor += samples_[i].factor;
+    radiating_.all.back().factor += samples_[i].factor;
   }
   samples_.resize(first);
   rays.resize(begin);
 }
 
-double Heat::flux(Hits hits) {
-  if (!sampled_) return flux_;
-  for (std::size_t i = 0; i < samples_.size(); ++i) {
-    Surface& surface = surfaces_[samples_[i].surface];
-    if (hits[i].shape == surface.shape) surface.factor += samples_[i].factor;
+double Heat::flux(Hits hits, Nanoseconds now) {
+  if (sampled_) {
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      const std::size_t surface = samples_[i].surface;
+      if (hits[i].shape == shapes_[surface]) radiating_.all[surface].factor += samples_[i].factor;
+    }
+    publish_sources();
   }
-  sum_up();
+  flux_ = radiating_.flux(now);
   return flux_;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -8,6 +9,23 @@
 #include "sensors/pir/fresnel_lens.h"
 
 namespace angen::sensors {
+
+/// The flux on a detector's elements from surfaces that stay where they are, while their
+/// temperatures change in a known way.
+struct HeatSources {
+  struct Source {
+    double factor;  // m^2 sr: W on the elements' difference for a radiance of 1
+    Warming course;
+  };
+  std::vector<Source> all;
+  double air_fourth = 0.0;  // K^4, of the air's temperature
+
+  /// Flux on the positive element less that on the negative one, in W.
+  double flux(Nanoseconds time) const;
+  bool operator==(const HeatSources& o) const;
+  /// Whether the flux no longer changes.
+  bool constant(Nanoseconds time) const;
+};
 
 /// Heat radiation on a detector's elements, from surfaces that are warmer or colder than the air
 /// around the detector.
@@ -21,15 +39,19 @@ class Heat {
   /// Requests rays towards every such surface; none where nothing moved since the last time.
   void aim(const View& view, RayBatch& rays);
 
-  /// Flux on the positive element less that on the negative one, in W.
-  double flux(Hits hits);
+  /// Flux on the positive element less that on the negative one, in W, now.
+  double flux(Hits hits, Nanoseconds now);
+
+  /// What it comes from, until something moves or a surface is set to another temperature. The
+  /// object is replaced when it changes.
+  const std::shared_ptr<const HeatSources>& sources() const { return sources_; }
 
   /// The part of its changes that the air around caused, in W: too slow for a detector to pass.
   double drift() const { return drift_; }
 
-  /// The flux does not change now: nothing is sampled until something moves or a surface is set to
-  /// another temperature. How fast one that was set at the last aim() changes is not yet known.
-  void rest() { rests_ = !was_set_; }
+  /// Nothing is sampled and the air is not followed until something moves or a surface is set to
+  /// another temperature.
+  void rest() { rests_ = true; }
 
   /// Whether it has yet to sample moved surfaces.
   bool pending() const { return pending_; }
@@ -40,14 +62,8 @@ class Heat {
  private:
   /// The solid angle of one ray.
   struct Sample {
-    std::size_t surface;  // in surfaces_
+    std::size_t surface;  // in shapes_
     double factor;        // m^2 sr, of the elements' difference, where the ray hits the surface
-  };
-  /// A surface that radiates more or less than the air.
-  struct Surface {
-    std::uint32_t shape;
-    double temperature;   // K
-    double factor = 0.0;  // m^2 sr: W on the elements' difference for a radiance of 1
   };
 
   /// The rays to a shape that stays where it is, and what each counts.
@@ -58,19 +74,22 @@ class Heat {
     std::vector<rays::Ray> rays;
     std::vector<double> factors;     // as in Sample
     std::vector<std::size_t> parts;  // where each window begins
+    bool is_cleared = false;         // of the rays that static shapes block
+    std::uint64_t static_revision = 0;
   };
 
-  double radiance(double temperature);
   std::vector<rays::Ray> all_rays(const Pose& pose) const;
   bool sees(const Eigen::AlignedBox3d& box, const Pose& pose) const;
   void aim_at(const rays::WarmShape& shape, const Pose& pose, const View& view, RayBatch& rays);
   void scan_all(const rays::WarmShape& shape, const Pose& pose, const View& view, Scan& found);
   void scan(const Window& seen, const Pose& pose, const View& view, Scan& found);
+  void clear_blocked(const View& view, Scan& found);
   void take_visible(std::size_t first, const View& view, RayBatch& rays);
   bool waits(Nanoseconds now) const;
+  bool radiates(const rays::WarmShape& shape, const View& view) const;
   bool reheat(const View& view);
-  void follow_air(const View& view);
-  void sum_up();
+  bool follow_air(const View& view);
+  void publish_sources();
 
   FresnelLens lens_;
   double cell_width_ = 0.0;   // rad, of the solid angle of a ray
@@ -78,16 +97,14 @@ class Heat {
   double range_ = 0.0;
   double opening_ = 0.0;
   Nanoseconds period_ = 0;
-  std::vector<Surface> surfaces_;
+  std::vector<std::uint32_t> shapes_;  // that radiate more or less than the air …
+  HeatSources radiating_;              // … and how they do
+  std::shared_ptr<const HeatSources> sources_ = std::make_shared<HeatSources>();  // a copy of that
   std::vector<Sample> samples_;
   std::uint64_t revision_ = UINT64_MAX;
-  std::uint64_t surface_revision_ = UINT64_MAX;
   Pose pose_;
   bool near_ = false;                              // whether a surface is where the lens looks
   std::unordered_map<std::uint32_t, Scan> scans_;  // by shape, from pose_
-  double warm_ = 0.0;                              // K, whose fourth power is known
-  double warm_fourth_ = 0.0;
-  double air_fourth_ = 0.0;  // K^4
   std::vector<rays::Ray> probes_;
   std::vector<rays::Hit> probed_;
   bool sampled_ = false;  // whether aim() has requested rays
@@ -97,7 +114,6 @@ class Heat {
   double drift_ = 0.0;
   bool rests_ = false;
   std::uint64_t surfaces_set_ = UINT64_MAX;  // at the last aim()
-  bool was_set_ = false;                     // one of them, since the aim() before
   Nanoseconds felt_at_ = -1;                 // that air, in whole seconds
 };
 

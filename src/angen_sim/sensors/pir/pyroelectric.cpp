@@ -116,22 +116,25 @@ void PirSignal::step(double next) {
   if (asleep) settle(next);
 }
 
-void PirSignal::hold(std::int64_t count) {
-  for (std::int64_t i = 0; i < count && !asleep; ++i) step(flux);
-}
-
-bool PirSignal::decays_below(double limit) const {
-  PirSignal ahead = *this;
-  for (int i = 0; i < kLongestDecay && !ahead.asleep; ++i) {
-    ahead.step(flux);
-    if (std::abs(ahead.volts) >= limit) return false;
-  }
-  return ahead.asleep;
-}
-
 void Pyroelectric::Decay::advance(Nanoseconds to) {
-  signal.hold((to - time + period / 2) / period);
+  const std::int64_t count = (to - time + period / 2) / period;
+  bool constant = false;
+  for (std::int64_t i = 1; i <= count && !(constant && signal.asleep); ++i) {
+    const Nanoseconds at = time + i * period;
+    signal.step(constant ? signal.flux : filtered_flux(at));
+    constant = constant || sources->constant(at);
+  }
   time = to;
+}
+
+Nanoseconds Pyroelectric::Decay::quiet_until(double limit) const {
+  Decay ahead = *this;
+  for (int i = 0; i < kLongestDecay; ++i) {
+    ahead.advance(ahead.time + period);
+    if (std::abs(ahead.signal.volts) >= limit) break;
+    if (ahead.signal.asleep && sources->constant(ahead.time)) return kForever;
+  }
+  return ahead.time;
 }
 
 double Pyroelectric::Decay::with_noise(Rng& rng) const {
@@ -142,7 +145,7 @@ void Pyroelectric::Decay::write(double signal_now, Reading& reading) const {
   reading.set("motion", motion);
   reading.set("signal", signal_now);
   reading.set("signal_threshold", threshold);
-  reading.set("flux", flux);
+  reading.set("flux", sources->flux(time));
 }
 
 void Pyroelectric::Decay::read(Nanoseconds to, const Draws& draws, Reading& reading) const {
@@ -158,22 +161,28 @@ void Pyroelectric::aim(const View& view, RayBatch& rays) {
 }
 
 void Pyroelectric::read(const View& view, Hits hits, Rng& rng, Reading& reading) {
-  state_.flux = heat_.flux(hits);
-  const double flux = state_.flux - heat_.drift();
-  if (state_.time < 0 || view.time() < state_.time) {
+  const double flux = heat_.flux(hits, view.time()) - heat_.drift();
+  const bool first = state_.time < 0 || view.time() < state_.time;
+  if (first) {
     trigger_ = Trigger(times_, view.time());
     state_.signal.settle(flux);
   }
+  const bool as_expected = first || flux == state_.filtered_flux(view.time());
+  const bool has_same_sources = state_.sources == heat_.sources();
   state_.time = view.time();
-  const bool same = flux == state_.signal.flux;
+  state_.sources = heat_.sources();
+  state_.drift = heat_.drift();
   state_.signal.step(flux);
   const double signal = state_.with_noise(rng);
   const bool alarm = false_alarm(rng);
   const bool was_on = std::exchange(
       state_.motion, trigger_.step(view.time(), std::abs(signal) > state_.threshold || alarm));
-  quiet_ =
-      same && (quiet_ || state_.signal.decays_below(state_.threshold - kMostNoise * state_.noise));
-  if (quiet_) heat_.rest();
+  if (!as_expected) {
+    quiet_until_ = view.time();
+  } else if (!has_same_sources || quiet_until_ <= view.time()) {
+    quiet_until_ = state_.quiet_until(state_.threshold - kMostNoise * state_.noise);
+  }
+  if (quiet_until_ > view.time()) heat_.rest();
   state_.write(signal, reading);
   if (state_.motion == was_on) return;
   reading.urgent = true;
@@ -187,7 +196,9 @@ void Pyroelectric::read(const View& view, Hits hits, Rng& rng, Reading& reading)
   reading.event_detail = detail.str();
 }
 
-bool Pyroelectric::steady() const { return quiet_ && !heat_.pending() && false_alarm_rate_ == 0.0; }
+bool Pyroelectric::steady() const {
+  return quiet_until_ > state_.time && !heat_.pending() && false_alarm_rate_ == 0.0;
+}
 
 std::shared_ptr<const LazyReading> Pyroelectric::lazy_reading() const {
   return std::make_shared<Decay>(state_);

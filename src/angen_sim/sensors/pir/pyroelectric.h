@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -24,10 +25,6 @@ struct PirSignal {
   void settle(double constant);
   /// Takes the next sample's flux.
   void step(double next);
-  /// As `count` samples of the same flux.
-  void hold(std::int64_t count);
-  /// Whether the same flux keeps the voltage below ±limit (V) until it is asleep.
-  bool decays_below(double limit) const;
 };
 
 /// A motion detector as they are built: the heat of two elements behind a Fresnel lens, filtered,
@@ -43,23 +40,27 @@ class Pyroelectric : public Sensor, public NoisySensor {
   bool steady() const override;
   bool varies() const override { return !state_.signal.asleep || state_.motion; }
   double no_event_probability() const override { return 1.0; }
-  Nanoseconds next_event() const override { return trigger_.off_at(); }
+  Nanoseconds next_event() const override { return std::min(trigger_.off_at(), quiet_until_); }
   int memory() const override { return 0; }
   std::shared_ptr<const LazyReading> lazy_reading() const override;
   void resume(Nanoseconds time, const Draws& draws) override;
 
  private:
-  /// Its state after a sample, and with that its readings as long as the flux stays.
+  /// Its state after a sample, and with that its readings until something moves.
   struct Decay : LazyReading {
     PirSignal signal;
-    double flux = 0.0;       // W, with drift
+    std::shared_ptr<const HeatSources> sources = std::make_shared<HeatSources>();
+    double drift = 0.0;      // W, of their flux: not seen by the filter
     double noise = 0.0;      // V, while it is awake
     double threshold = 0.0;  // V
     bool motion = false;
     Nanoseconds time = -1;  // of the sample
     Nanoseconds period = kSecond / 100;
 
+    double filtered_flux(Nanoseconds at) const { return sources->flux(at) - drift; }
     void advance(Nanoseconds to);
+    /// When the voltage may next be beyond ±limit (V).
+    Nanoseconds quiet_until(double limit) const;
     double with_noise(Rng& rng) const;
     void write(double signal_now, Reading& reading) const;
     void read(Nanoseconds to, const Draws& draws, Reading& reading) const override;
@@ -73,7 +74,7 @@ class Pyroelectric : public Sensor, public NoisySensor {
   Trigger::Times times_;
   Trigger trigger_;
   double false_alarm_rate_ = 0.0;  // 1/h
-  bool quiet_ = false;             // no further sample fires while the flux stays
+  Nanoseconds quiet_until_ = -1;   // no sample before fires unless something moves
 };
 
 }  // namespace angen::sensors
