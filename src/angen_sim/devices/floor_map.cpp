@@ -15,11 +15,22 @@ constexpr double kScanHeights[] = {0.15, 0.5, 1.2};  // m, as a person sees
 constexpr double kDetour = 20.0;                     // m around both places
 constexpr double kBorder = 1.0;                      // m around the static shapes
 constexpr double kMaxMapCells = 4e6;
-constexpr double kRoomyMap = 0.5;   // m: nearer to something costs more …
-constexpr double kTightMap = 3.0;   // … per meter nearer than that
-constexpr double kInside = 0.3;     // m from the surface: deeper places need no distances
-constexpr double kStep = 0.2;       // m up or down that a floor may be
-constexpr double kStartAway = 1.0;  // m, at most, from a place without room to a free one
+constexpr double kTightMap = 3.0;    // … per meter nearer than that
+constexpr double kInside = 0.3;      // m from the surface: deeper places need no distances
+constexpr double kStep = 0.2;        // m up or down that a floor may be
+constexpr double kFloorStep = 0.01;  // m
+constexpr double kStartAway = 1.0;   // m, at most, from a place without room to a free one
+
+// A person stands within some mm of it.
+double floor_of(const Vec3& feet) { return kFloorStep * std::round(feet.z() / kFloorStep); }
+
+// Around both places.
+Eigen::AlignedBox2d ends_of(const Vec3& feet, const Eigen::Vector2d& to) {
+  Eigen::AlignedBox2d ends(feet.head<2>().eval());
+  ends.extend(to);
+  const Eigen::Vector2d border = Eigen::Vector2d::Constant(kBorder);
+  return {ends.min() - border, ends.max() + border};
+}
 
 double cross2(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -28,21 +39,11 @@ double cross2(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 }  // namespace
 
 FloorMap::FloorMap(const View& view, const Vec3& feet, const Vec2& to, Extent extent) {
-  const Vec2 from = feet.head<2>();
-  floor_ = feet.z();
-  Eigen::AlignedBox2d ends(from);
-  ends.extend(to);
-  Eigen::AlignedBox2d box(ends.min() - Vec2::Constant(kDetour),
-                          ends.max() + Vec2::Constant(kDetour));
-  const Eigen::AlignedBox3d all = view.static_bounds();
-  Eigen::AlignedBox2d standing;
-  if (!all.isEmpty()) {
-    standing = {Vec2(all.min().head<2>()) - Vec2::Constant(kBorder),
-                Vec2(all.max().head<2>()) + Vec2::Constant(kBorder)};
-  }
-  box = box.intersection(standing);
-  ends = {ends.min() - Vec2::Constant(kBorder), ends.max() + Vec2::Constant(kBorder)};
-  box = box.isEmpty() ? ends : box.merged(ends);
+  const Eigen::AlignedBox2d ends = ends_of(feet, to);
+  floor_ = floor_of(feet);
+  revision_ = view.static_revision();
+  area_ = area(view, ends);
+  Eigen::AlignedBox2d box = area_;
   if (box.volume() > kMaxMapCells * kCell * kCell) return;
   corner_ = box.min();
   if (extent == Extent::kStraight) {  // some of the same cells
@@ -50,6 +51,7 @@ FloorMap::FloorMap(const View& view, const Vec3& feet, const Vec2& to, Extent ex
     const Vec2 skipped = ((part.min() - corner_) / kCell).array().floor();
     box = {corner_ + kCell * skipped, part.max()};
     corner_ = box.min();
+    reach_ = static_cast<int>(kClearance / kCell) + 1;  // no way is searched
   }
   columns_ = static_cast<int>(std::ceil(box.sizes().x() / kCell)) + 1;
   rows_ = static_cast<int>(std::ceil(box.sizes().y() / kCell)) + 1;
@@ -57,8 +59,25 @@ FloorMap::FloorMap(const View& view, const Vec3& feet, const Vec2& to, Extent ex
   toll_.assign(squares_.size(), 0.0F);
   known_.assign(squares_.size(), 0);
   for (const double height : kScanHeights) {
-    for (const int axis : {0, 1}) scan_lines(view, feet.z() + height, axis);
+    for (const int axis : {0, 1}) scan_lines(view, floor_ + height, axis);
   }
+}
+
+Eigen::AlignedBox2d FloorMap::area(const View& view, const Eigen::AlignedBox2d& ends) {
+  const Vec2 detour = Vec2::Constant(kDetour - kBorder);
+  const Eigen::AlignedBox2d box(ends.min() - detour, ends.max() + detour);
+  const Eigen::AlignedBox3d all = view.static_bounds();
+  if (all.isEmpty()) return ends;
+  const Eigen::AlignedBox2d standing(Vec2(all.min().head<2>()) - Vec2::Constant(kBorder),
+                                     Vec2(all.max().head<2>()) + Vec2::Constant(kBorder));
+  const Eigen::AlignedBox2d both = box.intersection(standing);
+  return both.isEmpty() ? ends : both.merged(ends);
+}
+
+bool FloorMap::serves(const View& view, const Vec3& feet, const Vec2& to) const {
+  if (revision_ != view.static_revision() || floor_ != floor_of(feet)) return false;
+  const Eigen::AlignedBox2d other = area(view, ends_of(feet, to));
+  return other.min() == area_.min() && other.max() == area_.max();
 }
 
 // Lines along both axes, so that none of two is along a thin wall.
@@ -95,12 +114,11 @@ void FloorMap::add_points(const std::vector<Vec2>& points) {
 }
 
 void FloorMap::add_point(const Vec2& point) {
-  const int reach = static_cast<int>(kRoomyMap / kCell) + 1;
   const int middle_x = column(point.x());
   const int middle_y = row(point.y());
-  const int first = std::max(0, middle_x - reach);
-  const int last = std::min(columns_ - 1, middle_x + reach);
-  for (int y = std::max(0, middle_y - reach); y <= std::min(rows_ - 1, middle_y + reach); ++y) {
+  const int first = std::max(0, middle_x - reach_);
+  const int last = std::min(columns_ - 1, middle_x + reach_);
+  for (int y = std::max(0, middle_y - reach_); y <= std::min(rows_ - 1, middle_y + reach_); ++y) {
     const double away = corner_.y() + kCell * y - point.y();
     const double start = corner_.x() - point.x();
     double* row = squares_.data() + static_cast<std::size_t>(y) * columns_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -17,11 +18,17 @@ class FloorMap {
   static constexpr double kCell = 0.05;       // m
   static constexpr double kClearance = 0.25;  // m, half a person's width
 
+  static constexpr double kRoomyMap = 0.5;  // m: nearer to something costs more
+
   enum class Extent { kStorey, kStraight };
 
   /// Around both places, for a person whose feet are at `feet` (world, m): all of the storey, or
   /// only what is_clear() between them needs.
   FloorMap(const View& view, const Vec3& feet, const Vec2& to, Extent extent = Extent::kStorey);
+
+  /// Whether a map of the storey around other places would be the same, without additions.
+  bool serves(const View& view, const Vec3& feet, const Vec2& to) const;
+  std::size_t cells() const { return squares_.size(); }
 
   /// Obstacles that were seen, m.
   void add_points(const std::vector<Vec2>& points);
@@ -41,6 +48,7 @@ class FloorMap {
  private:
   struct Search;
 
+  static Eigen::AlignedBox2d area(const View& view, const Eigen::AlignedBox2d& ends);
   void scan_lines(const View& view, double z, int axis);
   void add_span(const Vec2& enter, const Vec2& leave);
   void add_point(const Vec2& point);
@@ -55,13 +63,16 @@ class FloorMap {
   float gap(int cell) const;
   bool can_stand(const View& view, int cell);
 
+  std::uint64_t revision_ = 0;  // of the static shapes
+  Eigen::AlignedBox2d area_;    // m, of the storey
   Vec2 corner_ = Vec2::Zero();  // m, of the first cell
   double floor_ = 0.0;          // m
   int columns_ = 0;
   int rows_ = 0;
-  std::vector<double> squares_;  // m^2, of each cell's gap
-  std::vector<float> toll_;      // m, added to a way through the cell
-  std::vector<char> known_;      // whether its floor was looked at
+  int reach_ = static_cast<int>(kRoomyMap / kCell) + 1;  // cells, of distances to an obstacle
+  std::vector<double> squares_;                          // m^2, of each cell's gap
+  std::vector<float> toll_;                              // m, added to a way through the cell
+  std::vector<char> known_;                              // whether its floor was looked at
 };
 
 }  // namespace angen::devices

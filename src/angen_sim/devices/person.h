@@ -52,6 +52,7 @@ class Person : public Device {
   void walk(const Path::Place& place, const View& view, bool renew, Outputs& outputs);
   void go(const View& view, bool renew, Outputs& outputs);
   bool plan(const View& view, const LinkView& body, bool with_seen);
+  FloorMap map_of_storey(const View& view, const Vec3& feet);
   double way_left(const Vec2& at) const;
   void give_up(Outputs& outputs);
   bool uses_door(const LinkView& body, const View& view, const Vec2& to, bool looks, bool renew,
@@ -121,11 +122,12 @@ class Person : public Device {
     bool planned = false;
     bool unreachable = false;  // it has given up
   };
-  std::optional<Order> order_;  // in place of its path
-  std::optional<Route> route_;  // to its goal; none: straight
-  std::vector<Vec2> seen_;      // of obstacles that have held it on the way there
-  std::optional<Vec2> target_;  // on that
-  Nanoseconds came_clock_ = 0;  // on its path: its maximum
+  std::optional<Order> order_;      // in place of its path
+  std::optional<Route> route_;      // to its goal; none: straight
+  std::optional<FloorMap> storey_;  // the last one
+  std::vector<Vec2> seen_;          // of obstacles that have held it on the way there
+  std::optional<Vec2> target_;      // on that
+  Nanoseconds came_clock_ = 0;      // on its path: its maximum
   double came_left_ = std::numeric_limits<double>::infinity();  // m of the way, its minimum
   double late_ = 0.0;   // s, of its speed in longer steps: on average it is that old
   double speed_ = 1.0;  // m/s, on an order

@@ -26,6 +26,7 @@ constexpr Nanoseconds kGivesUp = 15 * kSecond;    // without progress towards wh
 constexpr Nanoseconds kStagnates = 10 * kSecond;  // without, and it is held although it moves
 constexpr Nanoseconds kFirstBlind = 10 * kSecond;
 constexpr Nanoseconds kBackStep = kSecond / 20;
+constexpr std::size_t kMaxKeptCells = 500'000;  // 6.5 MB
 constexpr int kMaxBackSteps = 200;
 constexpr int kMaxDoublings = 8;
 
@@ -44,7 +45,7 @@ bool Person::plan(const View& view, const LinkView& body, bool with_seen) {
       FloorMap(view, feet, order_->to, FloorMap::Extent::kStraight).is_clear(at, order_->to)) {
     return true;
   }
-  FloorMap map(view, feet, order_->to);
+  FloorMap map = map_of_storey(view, feet);
   if (with_seen) map.add_points(seen_);
   for (const DoorSeen& door : doors) {
     if (door.is_passable()) continue;
@@ -54,6 +55,14 @@ bool Person::plan(const View& view, const LinkView& body, bool with_seen) {
   if (!way) return !with_seen && Surroundings::is_walkable(view, body.pose.position, order_->to);
   route_.emplace(std::move(map), std::move(*way));
   return true;
+}
+
+// Most orders are for places on the same storey of a home, whose static shapes stay.
+FloorMap Person::map_of_storey(const View& view, const Vec3& feet) {
+  if (storey_ && storey_->serves(view, feet, order_->to)) return *storey_;
+  FloorMap map(view, feet, order_->to);
+  if (map.cells() <= kMaxKeptCells) storey_ = map;
+  return map;
 }
 
 void Person::go(const View& view, bool renew, Outputs& outputs) {
