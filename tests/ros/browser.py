@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from harness import SLOWNESS, Master, end, free_port, until
+from selenium.common.exceptions import StaleElementReferenceException
 from selenium.webdriver import Chrome
 from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
@@ -88,9 +89,19 @@ class Page:
         """The first element of a selector, with that text."""
         script = '''return [...document.querySelectorAll(arguments[0])].find(
             (e) => !e.disabled && (!arguments[1] || e.textContent.trim() === arguments[1]))'''
-        element = self.until(script, selector, text)
-        self.run('arguments[0].scrollIntoView({block: "center"})', element)
-        element.click()
+
+        def pressed() -> bool:
+            element = self.run(script, selector, text)
+            if element is None:
+                return False
+            try:
+                self.run('arguments[0].scrollIntoView({block: "center"})', element)
+                element.click()
+            except StaleElementReferenceException:  # a panel was drawn again
+                return False
+            return True
+
+        until(pressed, f'{selector} {text} is pressed', LIMIT)
 
     def text(self, selector: str) -> str:
         return str(self.run('return document.querySelector(arguments[0])?.textContent ?? ""',
