@@ -72,6 +72,7 @@ def test_a_goal_is_dragged_on_the_floor_in_3d(page: Page, goals: Inbox, above: b
     assert goal == near(1.5, 4.5, math.pi / 2)
     assert seen(page) == pytest.approx(camera, abs=1e-6)  # the view does not turn with it
     assert page.run('return document.querySelector("#hint").hidden')
+    assert page.run('return document.querySelector("#welcome").hidden')  # one has done something
     shown = page.run('''return angen.view.scene.children.filter((e) => e.visible).some((e) =>
         Math.hypot(e.position.x - arguments[0], e.position.y - arguments[1]) < 0.01
         && Math.abs(e.rotation.z - arguments[2]) < 0.01)''', *goal)

@@ -164,7 +164,7 @@ class Page {
     by('welcome').textContent = narrow ? 'Tap a lamp, door, person or room' : 'Click a lamp, door, person or room · drag turns the view';
     by('welcome').hidden = localStorage.getItem('welcome') === 'seen';
     const seen = () => { by('welcome').hidden = true; localStorage.setItem('welcome', 'seen'); };
-    by('stage').addEventListener('pointerdown', seen, { once: true });
+    by('stage').addEventListener('pointerdown', seen, { once: true, capture: true }); // also one that sets a goal
   }
 
   /** @param {any} hit */
