@@ -29,6 +29,7 @@ PICTURES = {
     'plots': Made('python3 docs/plots.py'),
     'rviz': Made("xvfb-run -a -s '-screen 0 1500x1060x24' python3 docs/rviz_picture.py"),
     'residents': Made("xvfb-run -a -s '-screen 0 1500x1060x24' python3 docs/residents_picture.py"),
+    'web': Made('python3 docs/web_pictures.py'),
     'care': Made('angen care --world worlds/care/wrong.world --day worlds/care/wrong.csv -o OUT',
                  {'care.png': 'care.png'}),
     'task': Made('angen task patrol --out OUT', {'floor_0.png': 'patrol_floor_0.png',

@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""Draws the pictures of docs/web.md that show the page in chromium.
+
+    ./angen shell
+    python3 docs/web_pictures.py [NAME ...]
+
+NAME is live, replay or tower; without one it draws all.
+"""
+from __future__ import annotations
+
+import subprocess
+import sys
+import tempfile
+import time
+from contextlib import contextmanager
+from io import BytesIO
+from pathlib import Path
+from typing import Any, Iterator
+
+import rospy
+from geometry_msgs.msg import PoseStamped
+from PIL import Image
+
+from angen_tools.common.wait import wait
+from angen_tools.live.sandbox import Sandbox
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / 'tests/ros'))
+
+from browser import Page, free_port  # noqa: E402
+from selenium.webdriver.common.action_chains import ActionChains  # noqa: E402
+
+WIDTH, HEIGHT = 1280, 800
+PHONE = 390, 844
+LIT = ('kitchen0', 'livingroom0', 'bedroom0')
+PLACE, AHEAD = (7.6, 3.2, 0.0), (8.6, 3.2, 0.0)  # of the goal, and where the drag ends
+LIMIT = 180.0  # s; the processor draws
+REST = 5.0  # s until what has changed is drawn
+PLAIN = '''if (!angen.view) return;
+    angen.view.plain = arguments[0]; angen.view.resize(); angen.view.dirty = true;'''
+HAPPENS = 20.0  # s of the day's plot
+
+
+@contextmanager
+def page_of(sandbox: Sandbox, size: tuple[int, int], *words: str) -> Iterator[Page]:
+    """The page that angen web serves, open."""
+    port = free_port()
+    sandbox.start(['angen', 'web', '--port', str(port), *words], 'web')
+    log = sandbox.folder / 'web.log'
+    wait(lambda: f':{port}/' in log.read_text(), 'angen web does not serve', LIMIT)
+    with tempfile.TemporaryDirectory() as folder:
+        page = Page(Path(folder), *size)
+        try:
+            page.driver.execute_cdp_cmd('Emulation.setDeviceMetricsOverride', {
+                'width': size[0], 'height': size[1], 'deviceScaleFactor': 1, 'mobile': False})
+            page.open(f'http://127.0.0.1:{port}/')
+            page.run('document.querySelector("#welcome").hidden = true')
+            yield page
+        finally:
+            page.close()
+
+
+def save(page: Page, name: str) -> None:
+    """A picture of the page at rest, with all pixels."""
+    order(page, do='pause')
+    time.sleep(REST)
+    page.run(PLAIN, False)
+    time.sleep(REST)
+    shown = Image.open(BytesIO(page.driver.get_screenshot_as_png())).convert('RGB')
+    path = ROOT / f'docs/images/{name}.png'
+    shown.save(path, optimize=True)
+    page.run(PLAIN, True)
+    order(page, do='resume')
+    print(path, flush=True)
+
+
+def order(page: Page, **what: Any) -> None:
+    page.driver.execute_async_script('angen.home.order(arguments[0]).then(arguments[1])', what)
+
+
+def show(page: Page, kind: str, name: str) -> None:
+    """The card of a device."""
+    page.run('''angen.show(angen.home.entities.find(
+        (e) => e.kind === arguments[0] && e.name === arguments[1]))''', kind, name)
+
+
+def drag_goal(page: Page) -> None:
+    """Sets the robot's goal, as a mouse does."""
+    page.press('#tab-robot')
+    page.press('#panel button', 'Set goal …')
+    begin, end = (page.run('return angen.view.viewpoint.screen(arguments[0])', at)
+                  for at in (PLACE, AHEAD))
+    actions = ActionChains(page.driver, duration=200)
+    pointer = actions.w3c_actions.pointer_action
+    pointer.move_to_location(*map(round, begin))
+    pointer.pointer_down()
+    pointer.move_to_location(*map(round, end))
+    pointer.pointer_up()
+    actions.perform()
+    page.until('return document.querySelector("#hint").hidden')
+
+
+def live(sandbox: Sandbox) -> None:
+    """The lower floor with a goal; both floors in the dark, with a plot; the plan on a phone."""
+    sandbox.node(ROOT / 'worlds/angen.world', 1.0)
+    rospy.init_node('pictures')
+    rospy.Subscriber('/move_base_simple/goal', PoseStamped, lambda _: None)
+    with page_of(sandbox, (WIDTH, HEIGHT)) as page:
+        page.run('angen.setTheme("light"); angen.setStorey(0)')
+        for lamp in LIT:
+            order(page, do='command', target=f'lamp/{lamp}', text='On')
+        page.first_view()
+        drag_goal(page)
+        page.press('#tab-rooms')
+        show(page, 'lamp', 'kitchen0')
+        save(page, 'web')
+        page.run('angen.card.close(); angen.goal.put(null); angen.setTheme("dark");'
+                 'angen.setStorey(null)')
+        page.press('#tab-sensors')
+        order(page, do='command', target='lamp/kitchen0', text='Off')
+        page.run('angen.panels.plots.add("luminosity", "kitchen_lux0")')
+        time.sleep(HAPPENS / 2)
+        for lamp in ('kitchen0', 'kitchen1', 'entrance1', 'workroom1'):
+            order(page, do='command', target=f'lamp/{lamp}', text='On')
+        time.sleep(HAPPENS / 2)
+        save(page, 'web_dark')
+    with page_of(sandbox, PHONE) as page:
+        page.run('angen.setTheme("light"); angen.setStorey(0)')
+        show(page, 'lamp', 'kitchen0')
+        save(page, 'web_phone')
+
+
+def replay(sandbox: Sandbox) -> None:
+    """A generated day."""
+    day = sandbox.folder / 'day'
+    subprocess.run(['angen', 'generate', '--days', '1', '--residents', 'retired', '--seed', '7',
+                    '-o', str(day)], check=True, stdout=subprocess.DEVNULL)
+    with page_of(sandbox, (WIDTH, HEIGHT), '--replay', str(day)) as page:
+        page.run('angen.setTheme("light")')
+        page.until('return angen.player.loaded >= 86400')
+        page.run('angen.player.playing = false; angen.player.seek(9.6361 * 3600)')
+        page.first_view()
+        save(page, 'web_replay')
+
+
+def tower(sandbox: Sandbox) -> None:
+    """Ten floors."""
+    world = sandbox.folder / 'tower.world'
+    subprocess.run(['angen', 'world', 'home', '--storeys', '10', '--apartments', '5', '--rooms',
+                    '5', '--sensors', 'seed', '-o', str(world)], check=True,
+                   stdout=subprocess.DEVNULL)
+    sandbox.node(world, 1.0)
+    with page_of(sandbox, (WIDTH, HEIGHT)) as page:
+        page.run('angen.setTheme("light")')
+        page.first_view()
+        save(page, 'web_tower')
+
+
+def main(names: list[str]) -> None:
+    for make in (live, replay, tower):
+        if not names or make.__name__ in names:
+            with tempfile.TemporaryDirectory() as folder, Sandbox(Path(folder)) as sandbox:
+                make(sandbox)
+
+
+if __name__ == '__main__':
+    main(sys.argv[1:])
