@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
@@ -35,13 +36,18 @@ std::vector<std::string> entries_of(const char* variable) {
 
 std::vector<fs::path> plugin_path() {
   std::vector<fs::path> folders;
+  const auto add = [&](const fs::path& folder) {
+    if (std::find(folders.begin(), folders.end(), folder) == folders.end()) {
+      folders.push_back(folder);
+    }
+  };
   for (const char* variable : {"ANGEN_PLUGIN_PATH", "GAZEBO_PLUGIN_PATH"}) {
-    for (const std::string& entry : entries_of(variable)) folders.emplace_back(entry);
+    for (const std::string& entry : entries_of(variable)) add(entry);
   }
   for (const std::string& workspace : entries_of("CMAKE_PREFIX_PATH")) {
-    folders.push_back(fs::path(workspace) / "lib");
+    add(fs::path(workspace) / "lib");
   }
-  folders.push_back(own_folder());
+  add(own_folder());
   return folders;
 }
 

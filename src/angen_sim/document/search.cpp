@@ -1,5 +1,6 @@
 #include "document/search.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <filesystem>
@@ -159,8 +160,9 @@ std::string searched_places(const std::string& uri, const std::string& from, Ses
     return address.path;
   }
   std::vector<std::string> places = folders_for(address, from, session);
-  const std::vector<std::string>& roots = session.paths.packages;
-  places.insert(places.end(), roots.begin(), roots.end());
+  for (const std::string& root : session.paths.packages) {
+    if (std::find(places.begin(), places.end(), root) == places.end()) places.push_back(root);
+  }
   if (!places.empty()) return join_names(places);
   return address.scheme == "model" ? "nowhere (ANGEN_MODEL_PATH is empty)"
                                    : "nowhere (GAZEBO_RESOURCE_PATH is empty)";

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/allow_paths.h"
+#include "core/nearest.h"
 #include "core/plain_file.h"
 #include "core/plugin_path.h"
 #include "core/text.h"
@@ -116,6 +117,23 @@ bool is_on_search_path(const fs::path& file) {
   });
 }
 
+// The library on the search path whose name differs by a typing error; "" = none.
+std::string meant_library(const std::string& filename) {
+  constexpr std::size_t kTypingError = 2;  // edits
+  std::vector<std::string> known;
+  for (const fs::path& folder : plugin_path()) {
+    std::error_code missing;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, missing)) {
+      const fs::path& file = entry.path();
+      if (file.extension() != ".so" && !is_script(file)) continue;
+      if (edits(filename, file.filename().string()) > kTypingError) continue;
+      if (is_plain_file(file) && registers(file)) known.push_back(file.filename().string());
+    }
+  }
+  const std::vector<std::string> nearest = nearest_names(filename, known, 1);
+  return nearest.empty() ? "" : nearest.front();
+}
+
 // The file to load for `filename`, by its path or from the search path.
 fs::path locate(const std::string& filename, bool any_path) {
   if (filename.find('/') != std::string::npos) {
@@ -141,8 +159,11 @@ fs::path locate(const std::string& filename, bool any_path) {
     if (unsuitable.empty()) unsuitable = candidate;
   }
   if (!unsuitable.empty()) holds_none(unsuitable);
-  throw Error("plug-in library " + printable(filename, 300) + " is not found; searched " +
-              join_names(searched) + " (set ANGEN_PLUGIN_PATH for more)");
+  const std::string meant = meant_library(filename);
+  throw Error("plug-in library " + printable(filename, 300) + " is not found; " +
+              (meant.empty()
+                   ? "searched " + join_names(searched) + " (set ANGEN_PLUGIN_PATH for more)"
+                   : "did you mean " + meant + "?"));
 }
 
 // The library's plug-ins, which live as long as the process, and so does their code: devices and

@@ -194,6 +194,18 @@ TEST_F(Library, NotFoundListsWhereItLooked) {
       << text;
 }
 
+TEST_F(Library, AnEmptyFolderOnThePathTwiceIsSearchedOnce) {
+  setenv("ANGEN_PLUGIN_PATH", "/one:/one", 1);
+  setenv("GAZEBO_PLUGIN_PATH", "/one", 1);
+  EXPECT_EQ(complaint("libnowhere.so").find("searched /one, /"),
+            std::string("plug-in library libnowhere.so is not found; ").size());
+}
+
+TEST_F(Library, SuggestsTheOneThatWasMeant) {
+  EXPECT_EQ(complaint("libreed_contcat.so"),
+            "plug-in library libreed_contcat.so is not found; did you mean libreed_contact.so?");
+}
+
 TEST_F(Library, WithoutAnAngenPluginSaysSo) {
   EXPECT_NE(complaint("libempty.so").find("no Angen plug-in in"), std::string::npos);
 }

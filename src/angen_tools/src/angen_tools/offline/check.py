@@ -13,7 +13,8 @@ from angen_tools.common.catalog import angen_module
 from angen_tools.common.nearest import did_you_mean
 from angen_tools.world import models
 
-MISSPELLED = re.compile(r' is not known; did you mean <\w+>\?$')
+MISSPELLED = re.compile(r' is not known; did you mean <\w+>\?$'
+                        r'|plug-in library .* is not found; did you mean \S+\?')
 NOT_INCLUDED = re.compile(r'(.*: )an <include> has no <(\w+)>')
 NOT_FOUND = re.compile(r"model '(model://[^']+)' is not found")
 OUR_OWN = re.compile(r': <angen:\w+> in <\w+>$')
