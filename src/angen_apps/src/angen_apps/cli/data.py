@@ -36,15 +36,20 @@ def date(text: str) -> str:
 
 def residents(text: str) -> tuple[str, ...]:
     """How many, or profiles between commas."""
-    return tuple(word.strip() for word in text.split(',') if word.strip())
+    words = tuple(word.strip() for word in text.split(','))
+    for word in words:
+        if not word:
+            raise ValueError('a name is missing; give a number, or profiles between commas')
+        if not word.isdecimal() and word.lstrip('+-').replace('.', '', 1).isdecimal():
+            raise ValueError(f"'{word}' is not a number of residents")
+    return words
 
 
 def run_generate(args: argparse.Namespace) -> int:
     from angen_apps.data.generate import Job, generate
-    job = Job(str(args.out), 'home', args.seed, args.days,
-              residents(args.residents),
-              args.format, args.start or '', str(args.world or ''), str(args.faults or ''),
-              args.light, args.own_sensors)
+    job = Job(str(args.out), 'home', args.seed, args.days, args.residents, args.format,
+              args.start or '', str(args.world or ''), str(args.faults or ''), args.light,
+              args.own_sensors)
     entries = generate(job, args.homes, args.processes, args.scheduler)
     if args.json:
         from angen_tools.common.output import as_json
@@ -112,7 +117,7 @@ def add_generate(commands: Any) -> None:
                    'generate --homes 20 --days 30 --residents 3 --format casas,csv -o homes')
     made.add_argument('--days', metavar='N', type=checked(at_least(1, 36525)), default=1,
                       help='days of each home (1)')
-    made.add_argument('--residents', metavar='WHO', default='2',
+    made.add_argument('--residents', metavar='WHO', type=checked(residents), default=('2',),
                       help='how many, or profiles between commas: names or YAML files (2)')
     add_seed(made, 'of everything')
     made.add_argument('--format', metavar='LIST', type=checked(formats), default=('casas',),

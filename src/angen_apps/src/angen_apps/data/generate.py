@@ -248,7 +248,10 @@ def generate(job: Job, homes: int, processes: int, scheduler: str = '') -> list[
 
 def _left(share: float, begun: float) -> str:
     seconds = (time.monotonic() - begun) * (1 - share) / max(share, 1e-6)
-    return f'{seconds / 60:.0f} min left' if seconds > 90 else f'{seconds:.0f} s left'
+    for unit, size in (('h', 3600), ('min', 60)):
+        if seconds > 1.5 * size:
+            return f'{seconds / size:.0f} {unit} left'
+    return f'{seconds:.0f} s left'
 
 
 def _on_processes(todo: list[Job], processes: int) -> Iterator[dict[str, Any]]:
