@@ -18,12 +18,12 @@ def run_locate(args: argparse.Namespace) -> int:
         if args.span is None:
             args.parser.error('--world needs --for TIME')
         from angen_apps.locate.offline import run
-        rows, site, answers = run(str(args.world), args.span or 0.0, args.seed)
+        rows, answers = run(str(args.world), args.span or 0.0, args.seed)
     elif args.span is not None:
         from angen_apps.locate.live import locate_for
         from angen_tools.common.progress import Progress
         with Progress('locate') as progress:
-            rows, site, answers = locate_for(
+            rows, answers = locate_for(
                 args.span, lambda done: progress.update(done / args.span))
     elif args.json:
         args.parser.error('--json needs --for TIME')
@@ -31,19 +31,22 @@ def run_locate(args: argparse.Namespace) -> int:
         from angen_apps.locate.live import watch
         watch()
         return 0
-    _print(args, rows, site, answers)
+    _print(args, rows, answers)
     return 0
 
 
-def _print(args: argparse.Namespace, rows: Any, site: Any, answers: Any) -> None:
-    from angen_apps.locate import score
+def _print(args: argparse.Namespace, rows: Any, answers: Any) -> None:
+    from angen_apps.locate import figure, score
     from angen_apps.locate.live import answers_table
+    from angen_apps.plan.draw import read_running, read_scene
     from angen_tools.common.output import table
     show(answers_table(answers, args.json))
     if args.json or not rows:
         return
     score.write_csv(args.out / 'locate.csv', rows)
-    score.draw(args.out / 'locate.png', rows, site)
+    scene = (read_scene(args.world) if args.world is not None
+             else read_running(args.out / 'locate.world'))
+    figure.draw(args.out / 'locate.png', rows, scene)
     show('')
     show(table(score.HEAD, score.table_rows(rows), right=score.HEAD[1:]))
     show(f'see {args.out}/locate.csv, locate.png')

@@ -114,7 +114,7 @@ def _cells(answer: Answer) -> list[str]:
 
 
 def locate_for(seconds: float, report: Callable[[float], None]
-               ) -> tuple[list[Row], Site, list[Answer]]:
+               ) -> tuple[list[Row], list[Answer]]:
     """Locates for `seconds` of simulated time; answers beside the truth, about once a second."""
     locator = Locator(Client())
     carriers = locator.carriers()
@@ -132,7 +132,7 @@ def locate_for(seconds: float, report: Callable[[float], None]
             rows += compare(compared, locator.belief.answers(), locator.truth(carriers),
                             locator.site)
             report(compared - start)
-    return rows, locator.site, locator.belief.answers()
+    return rows, locator.belief.answers()
 
 
 def answers_table(answers: list[Answer], json: bool) -> RenderableType:

@@ -30,7 +30,7 @@ def _thing(kind: str, name: str, pose: Any) -> Thing:
 
 
 def run(path: str, seconds: float, seed: int, drive: Callable[[Any], None] | None = None
-        ) -> tuple[list[Row], Site, list[Answer]]:
+        ) -> tuple[list[Row], list[Answer]]:
     """Locates in a world file for `seconds` of simulated time; calls `drive` ten times a second.
 
     Failure where the world does not load, has no rooms or no reader.
@@ -54,7 +54,7 @@ def run(path: str, seconds: float, seed: int, drive: Callable[[Any], None] | Non
             truth = {tag: _place(world, model) for tag, model in carriers.items()}
             rows += compare(world.time, belief.answers(), truth, site)
             progress.update(world.time / seconds)
-    return rows, site, belief.answers()
+    return rows, belief.answers()
 
 
 def _take(world: Any, evidence: Evidence) -> None:

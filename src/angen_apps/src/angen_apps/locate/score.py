@@ -81,27 +81,3 @@ def write_csv(path: Path, rows: Iterable[Row]) -> None:
                 *(f'{v:.3f}' for v in answer.at), row.true_room,
                 *(f'{v:.3f}' for v in row.true_at), f'{row.error:.3f}']
     files.write_csv(path, COLUMNS, map(cells, rows))
-
-
-def draw(path: Path, rows: Sequence[Row], site: Site) -> None:
-    """Rooms over time, true and estimated, a part for each tag."""
-    tags = sorted({row.answer.tag for row in rows})
-    seen = {row.true_room for row in rows} | {row.answer.room for row in rows}
-    names = ['unknown'] + [room.name for room in site.rooms if room.name in seen]
-    level = {name: i for i, name in enumerate(names)} | {'': 0}
-    figure, axes = files.pyplot().subplots(len(tags), 1, squeeze=False, sharex=True,
-                                           figsize=(9, 1.2 + 0.22 * len(names) * len(tags)))
-    for axis, tag in zip(axes[:, 0], tags):
-        own = [row for row in rows if row.answer.tag == tag]
-        times = [row.time for row in own]
-        axis.step(times, [level[row.true_room] for row in own], where='post', color='0.7',
-                  linewidth=5, label='truth')
-        axis.step(times, [level[row.answer.room] for row in own], where='post',
-                  color='tab:blue', linewidth=1.3, label='located')
-        axis.set_yticks(range(len(names)), names, fontsize=8)
-        axis.set_title(tag, fontsize=10)
-        axis.grid(alpha=0.3)
-    axes[0, 0].legend(loc='upper right', fontsize=8)
-    axes[-1, 0].set_xlabel('s')
-    figure.tight_layout()
-    files.save_figure(figure, path, dpi=110)

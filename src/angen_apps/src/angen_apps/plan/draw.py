@@ -4,7 +4,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from math import cos, pi, sin
 from pathlib import Path
-from typing import Any
+from typing import Any, Sequence
 
 import numpy as np
 
@@ -42,6 +42,15 @@ class Scene:
         return [storey for storey in self.home.storeys
                 if any(room.storey == storey.number for room in self.home.rooms)]
 
+    def pose_of(self, name: str) -> tuple[float, float, float] | None:
+        """x y z of a device, a sensor, a thing or a model of that name."""
+        if name in self.things:
+            return self.things[name].pose[:3]
+        for _, entity, model, (x, y, z, *_) in self.entities:
+            if name in (entity, model):
+                return float(x), float(y), float(z)
+        return None
+
 
 def read_scene(path: Path) -> Scene:
     """Loads a world; Failure where it cannot be loaded or has no room."""
@@ -57,6 +66,13 @@ def read_scene(path: Path) -> Scene:
                  {thing.name: thing for thing in home.things})
 
 
+def read_running(copy: Path) -> Scene:
+    """The world of the running simulator, of which it writes a copy."""
+    from angen_tools.live.spawn import save
+    save(copy)
+    return read_scene(copy)
+
+
 def draw(path: Path, output: Path, what: overlays.What) -> dict[str, Any]:
     """Draws a world's plan as SVG or PNG, by the ending of `output`; returns the result."""
     kind = output.suffix.lower().lstrip('.')
@@ -64,30 +80,38 @@ def draw(path: Path, output: Path, what: overlays.What) -> dict[str, Any]:
         raise Failure(f'{output}: must end in .svg or .png')
     scene = read_scene(path)
     data = overlays.read(what, scene.entities)
-    plt = pyplot()
-    storeys = scene.drawn()
+    with pyplot().rc_context({'svg.hashsalt': 'angen', 'svg.fonttype': 'none', 'font.size': 8}):
+        figure, axes = sheet(scene, scene.drawn())
+        for axis, storey in axes:
+            overlays.draw(axis, scene, storey, data, what)
+        metadata = {'Date': None} if kind == 'svg' else {'Software': None}
+        save_figure(figure, output, format=kind, dpi=DPI, metadata=metadata)
+    counts = {'storeys': len(axes), 'rooms': len(scene.home.rooms),
+              'doors_and_windows': len(scene.home.doors)}
+    return {'file': str(output), **counts,
+            'text': f'wrote {output}: {len(axes)} storey{"s"[:len(axes) > 1]}, '
+                    f'{counts["rooms"]} rooms, {counts["doors_and_windows"]} doors and windows'}
+
+
+def sheet(scene: Scene, storeys: Sequence[Storey], below: float = 0.0
+          ) -> tuple[Any, list[tuple[Any, Storey]]]:
+    """A figure of storeys side by side, and the axes of each. At the foot of the figure `below`
+    inches are left for a tool's own."""
     extents = [extent(scene, storey) for storey in storeys]
     widths = [e[1] - e[0] for e in extents]
     high = max(e[3] - e[2] for e in extents)
     inch = min(INCH, WIDEST / sum(widths))
-    with plt.rc_context({'svg.hashsalt': 'angen', 'svg.fonttype': 'none', 'font.size': 8}):
-        figure, axes = plt.subplots(1, len(storeys), squeeze=False, width_ratios=widths, figsize=(
-            sum(widths) * inch, high * inch + 0.6))
-        for axis, storey, each in zip(axes[0], storeys, extents):
-            middle = (each[2] + each[3]) / 2
-            draw_storey(axis, scene, storey, inch)
-            axis.set_ylim(middle - high / 2, middle + high / 2)
-            overlays.draw(axis, scene, storey, data, what)
-            axis.set_title(storey.name, fontsize=9)
-        _scale_and_north(axes[0][0], scene.home.north)
-        figure.subplots_adjust(0.005, 0.005, 0.995, 1 - 0.35 / (high * inch + 0.6), 0.02)
-        metadata = {'Date': None} if kind == 'svg' else {'Software': None}
-        save_figure(figure, output, format=kind, dpi=DPI, metadata=metadata)
-    counts = {'storeys': len(storeys), 'rooms': len(scene.home.rooms),
-              'doors_and_windows': len(scene.home.doors)}
-    return {'file': str(output), **counts,
-            'text': f'wrote {output}: {len(storeys)} storey{"s"[:len(storeys) > 1]}, '
-                    f'{counts["rooms"]} rooms, {counts["doors_and_windows"]} doors and windows'}
+    tall = high * inch + 0.6 + below
+    figure, axes = pyplot().subplots(1, len(storeys), squeeze=False, width_ratios=widths,
+                                     figsize=(sum(widths) * inch, tall))
+    for axis, storey, each in zip(axes[0], storeys, extents):
+        middle = (each[2] + each[3]) / 2
+        draw_storey(axis, scene, storey, inch)
+        axis.set_ylim(middle - high / 2, middle + high / 2)
+        axis.set_title(storey.name, fontsize=9)
+    _scale_and_north(axes[0][0], scene.home.north)
+    figure.subplots_adjust(0.005, 0.005 + below / tall, 0.995, 1 - 0.35 / tall, 0.02)
+    return figure, list(zip(axes[0], storeys))
 
 
 def extent(scene: Scene, storey: Storey) -> tuple[float, float, float, float]:
@@ -115,7 +139,7 @@ def draw_storey(axis: Any, scene: Scene, storey: Storey, inch: float | None) -> 
         axis.fill(*zip(*room.polygon), color=TINTS.get(room.use, '#f6f6f6'), lw=0, zorder=1)
     if scene.shapes.unread:
         _draw_section(axis, scene, storey)
-    swings = [s for s in scene.shapes.swings if _is_on(s.bottom, storey)]
+    swings = [s for s in scene.shapes.swings if is_on(s.bottom, storey)]
     leaves = {swing.model for swing in swings}
     for shape in scene.shapes.solids:
         if shape.model not in leaves and len(shape.corners) > 2:
@@ -123,7 +147,7 @@ def draw_storey(axis: Any, scene: Scene, storey: Storey, inch: float | None) -> 
     for thing in scene.home.things:
         _draw_thing(axis, scene, storey, thing)
     for door in scene.home.doors:
-        if door.kind == 'window' and _is_on(door.pose[2], storey):
+        if door.kind == 'window' and is_on(door.pose[2], storey):
             _draw_window(axis, door)
     for swing in swings:
         _draw_swing(axis, swing)
@@ -150,7 +174,8 @@ def _draw_section(axis: Any, scene: Scene, storey: Storey) -> None:
     axis.set_ylim(*limits[1])
 
 
-def _is_on(z: float, storey: Storey) -> bool:
+def is_on(z: float, storey: Storey) -> bool:
+    """Whether a height belongs to a storey, and not to its ceiling."""
     return storey.elevation - 0.3 <= z < storey.elevation + storey.height - 0.3
 
 
@@ -160,7 +185,7 @@ def _draw_solid(axis: Any, scene: Scene, storey: Storey, shape: Shape) -> None:
     cut = storey.elevation + CUT
     is_building = shape.model not in scene.shapes.moving and thing is None
     if is_building and shape.link.startswith(('window_', 'door_')):
-        if not _is_on(shape.bottom, storey):
+        if not is_on(shape.bottom, storey):
             return
         axis.fill(*zip(*shape.corners), color='#4a7fb5', lw=0, zorder=6)  # a pane or a fixed leaf
     elif is_building and shape.bottom < cut < shape.top and shape.top > storey.elevation + TALL:
