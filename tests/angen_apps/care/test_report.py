@@ -41,7 +41,6 @@ def test_files_hold_every_warning(home: Home, tmp_path: Path) -> None:
     warning, = rows(tmp_path / 'warnings.csv')
     assert (warning['rule'], warning['raised'], warning['degree'], warning['acknowledged'],
             warning['ended']) == ('open', '690.000', '0.500', '3600.000', '7200.000')
-    assert (tmp_path / 'care.png').read_bytes().startswith(b'\x89PNG')
     write_events([Event(600.0, 'entrance0', 'door', 'opened'),
                   Event(7200.0, 'entrance0', 'door', 'closed')], home.changes, tmp_path)
     assert [(row['time'], row['source'], row['kind'], row['event'])

@@ -7,26 +7,34 @@ from pathlib import Path
 from typing import Sequence
 
 from angen_tools.offline.day import read_day
+from angen_apps.care.engine import Engine
 from angen_apps.care.report import as_dict, line_of, table_of, warnings_of, write, write_events
 from angen_apps.care.rules_file import read_rules
 from angen_apps.shipped import shipped
+from angen_tools.common.failure import Failure
+from angen_tools.common.files import make_folder
 from angen_tools.common.output import as_json, show
 
 
 def care_live(path: Path | None, out: Path) -> int:
     """Follows the running simulator until Ctrl-C, and writes what happened then."""
     from angen_apps.care.live import Live
+    from angen_tools.live.spawn import save
     rules = read_rules(path or shipped('care.yaml'))
     live = Live(rules, lambda change, starts: print(line_of(change, starts), flush=True))
     for why in live.left_out:
         print(f'angen: {why}', file=sys.stderr)
     print(f'angen: {len(rules.rules) - len(live.left_out)} rules of {rules.path}; warnings are on '
           '/angen/warnings; Ctrl-C ends', file=sys.stderr)
+    copy = out / 'care.world'
+    make_folder(out)
+    save(copy)  # when the simulator has ended it is too late
     with suppress(KeyboardInterrupt):
         while True:
             live.follow()
     write(live.engine, out)
-    print(f'\nangen: wrote {out}/warnings.csv and care.png', file=sys.stderr)
+    print(f'\nangen: wrote {out}/warnings.csv', file=sys.stderr)
+    _draw(live.engine, copy, out / 'care.png')
     return 0
 
 
@@ -47,6 +55,7 @@ def care_offline(path: Path | None, world: Path, seconds: float, day: Path | Non
     wall = time.monotonic() - began
     write(watched.engine, out)
     write_events(watched.events, watched.changes, out)
+    _draw(watched.engine, world, out / 'care.png')
     warnings = warnings_of(watched.engine)
     if json:
         print(as_json([as_dict(warning) for warning in warnings]))
@@ -57,3 +66,13 @@ def care_offline(path: Path | None, world: Path, seconds: float, day: Path | Non
           f'{len(watched.events)} events in {watched.time:g} s, simulated in {wall:.1f} s; see '
           f'{out}/care.png, warnings.csv, events.csv')
     return 0
+
+
+def _draw(engine: Engine, world: Path, path: Path) -> None:
+    """Draws the warnings on the plan of a world, or says why there is none."""
+    from angen_apps.care.figure import draw
+    from angen_apps.plan.draw import read_scene
+    try:
+        draw(engine, read_scene(world), path)
+    except Failure as why:
+        print(f'angen: {path} is not drawn: {why}', file=sys.stderr)

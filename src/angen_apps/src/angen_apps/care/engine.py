@@ -8,6 +8,7 @@ from typing import Collection, Iterable, Mapping
 from angen_tools.common.clock import DAY, show_duration, show_time
 from angen_apps.care.rules import Condition, Rule, Rules
 from angen_apps.care.signals import Event, LiveSignal
+from angen_apps.care.sources import place_of
 
 STEP = 1.0      # s of simulated time between two looks at the clock
 ROUNDING = 1e-6  # s, more than that of a time
@@ -74,6 +75,7 @@ class Engine:
         self.active: dict[str, CareWarning] = {}
         self.past: list[CareWarning] = []
         self.curves = {rule.name: Curve() for rule in rules.rules}
+        self.places = {rule.name: place_of(rule, rules, existing) for rule in rules.rules}
         self._steps = 0
         self._corners: list[float] = []  # a heap of times
         self._expect(self.signals)

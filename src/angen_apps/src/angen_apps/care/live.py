@@ -89,7 +89,7 @@ class Live:
         check_sources(self._rules, summaries, {entity.name for entity in entities})
         self._start = found[0].header.stamp.to_sec()
         self.engine = Engine(self._rules, summaries, summaries, self._start)
-        self._publisher = WarningPublisher(self._client, self._rules, summaries, entities)
+        self._publisher = WarningPublisher(self._client, self.engine, entities)
         self._publisher.publish(self.engine, [])
         for mail in kept:
             self._take(*mail)

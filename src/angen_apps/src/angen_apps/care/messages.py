@@ -2,12 +2,10 @@
 from __future__ import annotations
 
 from textwrap import fill
-from typing import Any, Collection, Sequence
+from typing import Any, Sequence
 
 from angen_apps.care.engine import ACKNOWLEDGED, ENDED, RAISED, CareWarning, Change, Engine
 from angen_apps.care.report import event_of
-from angen_apps.care.rules import Rule, Rules
-from angen_apps.care.sources import first_source
 from angen_tools.live.client import Client
 
 WARNINGS, ACTIVE = '/angen/warnings', '/angen/warnings/active'
@@ -20,16 +18,14 @@ LINE = 18  # letters
 class WarningPublisher:
     """Publishes changes of warnings."""
 
-    def __init__(self, client: Client, rules: Rules, existing: Collection[str],
-                 entities: Sequence[Any]) -> None:
+    def __init__(self, client: Client, engine: Engine, entities: Sequence[Any]) -> None:
         import rospy
         from angen_msgs.msg import CareWarning as Message
         from angen_msgs.msg import CareWarningArray, Event
         from visualization_msgs.msg import MarkerArray
         client.join()
         places = {entity.name: entity.pose.position for entity in reversed(entities)}
-        self._places = {rule.name: places.get(_place(rule, rules, existing))
-                        for rule in rules.rules}
+        self._places = {rule: places.get(name) for rule, name in engine.places.items()}
         self._one = rospy.Publisher(WARNINGS, Message, queue_size=100)
         self._all = rospy.Publisher(ACTIVE, CareWarningArray, queue_size=10, latch=True)
         self._markers = rospy.Publisher(MARKERS, MarkerArray, queue_size=10, latch=True)
@@ -103,14 +99,6 @@ def _marker(number: int, kind: int, place: Any, color: Sequence[float], alpha: f
     marker.color.r, marker.color.g, marker.color.b = color
     marker.color.a = alpha
     return marker
-
-
-def _place(rule: Rule, rules: Rules, existing: Collection[str]) -> str:
-    """The name of the model where a rule's warnings are shown."""
-    if rule.at:
-        return rule.at
-    signal = next((condition.signal for condition in rule.when if condition.signal), '')
-    return first_source(rules.signals[signal], existing) if signal else ''
 
 
 def _time(seconds: float) -> Any:

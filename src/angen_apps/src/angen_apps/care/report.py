@@ -1,4 +1,4 @@
-"""What care leaves: lines for people, warnings.csv, events.csv, care.png."""
+"""What care leaves: lines for people, warnings.csv, events.csv."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -57,14 +57,12 @@ def table_of(warnings: Sequence[CareWarning], starts: float) -> Table:
 
 
 def write(engine: Engine, out: Path) -> None:
-    """Writes warnings.csv and care.png into a folder; times in s, blank where there is none."""
-    from angen_apps.care.figure import draw
+    """Writes warnings.csv into a folder; times in s, blank where there is none."""
     warnings = warnings_of(engine)
     heads = ('rule', 'raised', 'degree', 'acknowledged', 'ended', 'reason', 'detail')
     rows = [['' if value is None else f'{value:.3f}' if isinstance(value, float) else value
              for value in as_dict(warning).values()] for warning in warnings]
     write_csv(out / 'warnings.csv', heads, rows)
-    draw(engine, warnings, out / 'care.png')
 
 
 def write_events(events: Iterable[Event], changes: Iterable[Change], out: Path) -> None:

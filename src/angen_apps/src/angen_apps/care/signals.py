@@ -37,7 +37,6 @@ class LiveSignal:
                       for part in self._shown(source, summaries.get(source, ''))}
         self.on = bool(self._held)
         self.since = now
-        self.periods: list[tuple[float, float]] = []  # in which it was true, s; those that ended
 
     def _shown(self, source: str, summary: str) -> set[tuple[str, str]]:
         kind = source.split('/')[0]
@@ -62,14 +61,8 @@ class LiveSignal:
         on = bool(self._held)
         if on == self.on:
             return False
-        if not on:
-            self.periods.append((self.since, event.time))
         self.on, self.since = on, event.time
         return True
-
-    def all_periods(self, now: float) -> list[tuple[float, float]]:
-        """The periods in which it was true, up to now."""
-        return [*self.periods, (self.since, now)] if self.on else list(self.periods)
 
     def _observe_own(self, event: Event) -> None:
         state = STATES[event.kind][self.signal.state]

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Collection, Iterable, Mapping
 
 from angen_tools.common.clock import time_of_day
-from angen_apps.care.rules import Rules, Signal
+from angen_apps.care.rules import Rule, Rules, Signal
 from angen_tools.common.failure import Failure
 from angen_tools.common.home import Home
 from angen_tools.common.nearest import did_you_mean
@@ -111,6 +111,9 @@ def _suggest(pattern: str, existing: Collection[str]) -> str:
     return did_you_mean(pattern.replace('*', ''), same or existing, LISTED)
 
 
-def first_source(signal: Signal, existing: Collection[str]) -> str:
-    """The NAME of the first thing that a signal means."""
-    return min(chosen(signal.of[:1], existing)).split('/', 1)[1]
+def place_of(rule: Rule, rules: Rules, existing: Collection[str]) -> str:
+    """The name of the model, sensor or device where a rule's warnings are shown; '' nowhere."""
+    if rule.at:
+        return rule.at
+    signal = next((rules.signals[part.signal] for part in rule.when if part.signal), None)
+    return min(chosen(signal.of[:1], existing)).split('/', 1)[1] if signal else ''
