@@ -10,7 +10,7 @@ from angen_tools.cli.parser import add_json, command
 
 def run_situations(args: argparse.Namespace) -> int:
     from angen_apps.situations.command import run
-    return 0 if run(args.only, args.json, args.page) else 1
+    return 0 if run(args.only, args.json, args.page, args.plan) else 1
 
 
 def add_situations(commands: Any) -> None:
@@ -23,4 +23,6 @@ def add_situations(commands: Any) -> None:
                          help='those with these words in their group or scene')
     battery.add_argument('--page', metavar='FILE', type=Path,
                          help='also writes the table into this page, between its marks')
+    battery.add_argument('--plan', metavar='FILE', type=Path,
+                         help='also draws the plan of each into a PNG file')
     add_json(battery)

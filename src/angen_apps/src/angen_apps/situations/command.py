@@ -6,7 +6,7 @@ from typing import Any
 
 import yaml
 
-from angen_apps.situations import report
+from angen_apps.situations import figure, report
 from angen_apps.situations.stage import AIR, ROOM, Outcome, Row, play
 from angen_tools.common.failure import Failure
 from angen_tools.common.output import as_json, show
@@ -43,9 +43,10 @@ def _row(group: str, entry: dict[str, Any]) -> Row:
                entry.get('depth', ROOM[0]), entry.get('half', ROOM[1]))
 
 
-def run(only: str = '', json: bool = False, page: Path | None = None) -> bool:
-    """Plays the rows and prints the table, or writes it into a page. True: each came out as it was
-    expected."""
+def run(only: str = '', json: bool = False, page: Path | None = None, plan: Path | None = None
+        ) -> bool:
+    """Plays the rows and prints the table, or writes it into a page, and draws a plan of each.
+    True: each came out as it was expected."""
     chosen = rows(only)
     results: list[list[Outcome]] = []
     with Progress('situations') as progress:
@@ -54,6 +55,8 @@ def run(only: str = '', json: bool = False, page: Path | None = None) -> bool:
             progress.update(len(results) / len(chosen), row.scene)
     if page is not None:
         report.write_into(page, results, sources())
+    if plan is not None:
+        figure.draw(results, plan)
     if json:
         print(as_json([report.as_dict(outcome) for row in results for outcome in row]))
     else:

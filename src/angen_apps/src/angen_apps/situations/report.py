@@ -18,7 +18,8 @@ MARKED = re.compile(r'(<!-- situations -->\n).*?(<!-- end -->)', re.DOTALL)
 FAILED = 'red'
 
 
-def _signal(outcome: Outcome) -> str:
+def signal_of(outcome: Outcome) -> str:
+    """Its greatest signal, with the unit of its model."""
     if outcome.model == 'pyroelectric':
         return f'{1e6 * outcome.signal:.0f} µV'
     return f'{outcome.signal:.2f} m'
@@ -38,7 +39,7 @@ def as_table(results: Results) -> Table:
     outcomes = [outcome for row in results for outcome in row]
     made = table(('', 'model', 'group', 'scene', 'expected', 'got', 'signal'),
                  [('pass' if each.passed else 'FAIL', each.model, each.row.group, each.row.scene,
-                   each.row.expected(each.model), each.got, _signal(each)) for each in outcomes],
+                   each.row.expected(each.model), each.got, signal_of(each)) for each in outcomes],
                  right=('signal',))
     for line, each in zip(made.rows, outcomes):
         line.style = None if each.passed else FAILED
@@ -93,4 +94,4 @@ def _cell(outcome: Outcome) -> str:
     got = outcome.got if outcome.passed else f'**FAIL: {outcome.got}**'
     expected = outcome.row.expected(outcome.model)
     other = '' if expected == outcome.row.expect or outcome.passed else f', expected {expected}'
-    return f'{got}{other}, {_signal(outcome)}'
+    return f'{got}{other}, {signal_of(outcome)}'

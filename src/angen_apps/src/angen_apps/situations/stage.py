@@ -61,6 +61,12 @@ class Outcome:
 
 def play(row: Row, model: str) -> Outcome:
     """One run of a row's situation."""
+    world, parts = furnished(row, model)
+    return _watch(world, row, model, parts)
+
+
+def furnished(row: Row, model: str) -> tuple[Any, list[Part]]:
+    """The room of a row with its cast in place and the detector, and the cast."""
     parts = parts_of(row)
     world = world_of(row, parts)
     world.run(ARRIVES)
@@ -68,7 +74,7 @@ def play(row: Row, model: str) -> Outcome:
     x, y, z, *angles = MOUNTS[row.mount]
     height = tested.height if row.mount == 'wall' else z
     world.spawn(tested.xml, 'detector', [x, y, height, *angles])
-    return _watch(world, row, model, parts)
+    return world, parts
 
 
 def parts_of(row: Row) -> list[Part]:
