@@ -15,8 +15,9 @@ from angen_tools.common.home import Home
 def test_a_home_by_seed_gets_a_waypoint_in_each_room_a_robot_and_a_person(tmp_path: Path) -> None:
     path = tmp_path / 'home.world'
     write_world(apartment(1, 1, 3), path, 'none')
-    route, world = prepare(None, path, tmp_path / 'out')
+    route, world, survey = prepare(None, path, tmp_path / 'out')
     home = Home.of_world(angen.World(str(path)))
+    assert survey is not None and list(survey.maps) == [0]
     assert sorted(w.name for w in route.waypoints) == sorted(room.name for room in home.rooms)
     for waypoint in route.waypoints:
         room = home.room_at(*waypoint.at, 0.5)

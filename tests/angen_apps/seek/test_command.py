@@ -24,8 +24,8 @@ def search(world: Path, route: Route, home: str, seed: int, ambient: bool, *_: A
                                            'hall0', 3.0, 0, 0.1))
 
 
-def survey(*_: Any) -> tuple[str, None]:
-    return 'home', None
+def survey(*_: Any) -> tuple[str, None, Path]:
+    return 'home', None, Path('a.world')
 
 
 @pytest.fixture
@@ -43,7 +43,6 @@ def ends() -> Iterator[None]:
 
 def test_many_seeds_end_every_time(ends: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
                                    capsys: pytest.CaptureFixture[str]) -> None:
-    monkeypatch.setattr(command, 'prepare', lambda *_: (None, tmp_path / 'a.world'))
     monkeypatch.setattr(command, 'survey', survey)
     monkeypatch.setattr(command.run, 'search', search)
     monkeypatch.setattr(command, 'draw_times', lambda *_: None)

@@ -7,7 +7,6 @@ import numpy as np
 
 from angen_apps.imports.sweethome import read_sweethome
 from angen_apps.plan.writer import write_world
-from angen_apps.robot.rooms_route import prepare
 from angen_apps.seek.command import seek, survey
 from angen_bench import homes
 
@@ -26,8 +25,7 @@ def test_the_search_is_indoors(tmp_path: Path) -> None:
     name = '1BedroomApartmentWithRoundWall'
     (tmp_path / 'home.xml').write_bytes(homes.examples()[name])
     write_world(read_sweethome(tmp_path / 'home.xml'), tmp_path / 'home.world', 'seed')
-    route, world = prepare(None, tmp_path / 'home.world', tmp_path / 'out', False)
-    home, _ = survey(world, route, tmp_path / 'out')
+    home, _, _ = survey(None, tmp_path / 'home.world', tmp_path / 'out')
     assert len(home.at) > 20
     rooms = home.described.rooms
     away = np.array([min(0.0 if room.contains(x, y) else room.distance(x, y) for room in rooms)

@@ -13,7 +13,7 @@ from typing import Any, Iterator
 from angen_apps.data.recorder import VALUES
 from angen_apps.residents.activities import Step, activities
 from angen_apps.residents.places import ENTRANCE, OUTSIDE
-from angen_apps.residents.ground import in_polygon
+from angen_apps.plan.polygons import contains
 from angen_tools.common.failure import Failure
 
 DAY = 86400.0
@@ -126,7 +126,7 @@ def _walls(findings: Findings, layout: Any, folder: Path) -> None:
 def _room(layout: Any, x: float, y: float, storey: int) -> str:
     return next((str(room['name']) for room in layout['rooms']
                  if room['storey'] == storey
-                 and in_polygon(x, y, room['polygon'])), '')  # type: ignore[arg-type]
+                 and contains(room['polygon'], x, y)), '')
 
 
 def _in_opening(door: Any, at: tuple[float, float]) -> bool:

@@ -44,7 +44,7 @@ def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, 
            json: bool) -> int:
     """Drives a route and writes the report; 0, or 1 where the robot touched something or the
     elevator was not level. Failure where the route cannot be driven."""
-    route, world = prepare(route_file, world, out / 'logs')
+    route, world, survey = prepare(route_file, world, out / 'logs')
     began = time.monotonic()
     own_world = out.absolute() / 'patrol.world'
     scene.write_world(world, route.robot, seed, own_world)
@@ -54,7 +54,7 @@ def patrol(route_file: Path | None, world: Path | None, seed: int, rate: float, 
         home = Home.of_world(load_world(str(own_world)))
         entities = [entity_of(message, home) for message in lockstep.entities()]
         place, actions = scene.make_scene(route, str(own_world), entities,
-                                          scene.start_offset(seed))
+                                          scene.start_offset(seed), survey)
         lockstep.spawn(BUMPER, *bumper(own_world, route.robot))
         clock = Clock(rate)
         robot = RosRobot(route, place, lockstep)

@@ -53,21 +53,25 @@ class Scene:
 
 
 def make_scene(route: Route, path: str, entities: list[Entity],
-               offset: tuple[float, float, float]) -> tuple[Scene, list[Action]]:
-    """The scene and all actions; Failure names a waypoint that cannot be reached.
+               offset: tuple[float, float, float], survey: Survey | None = None
+               ) -> tuple[Scene, list[Action]]:
+    """The scene and all actions; Failure names a waypoint that cannot be reached. Surveys the
+    building if need be.
 
     The robot believes that it starts at its place in the original world, `offset` beside the truth.
     """
     start = find_start(route, entities, offset)
-    world, shut = load_world(path), load_world(path)
+    world = load_world(path)
     body = outline(world, np.array([*start.robot.place, start.robot.flat.yaw]))
-    survey = Survey(world, shut, entities, {start.floor} | {p.floor for p in route.waypoints})
-    rooms = {e.name: (e.kind == 'switch' and door_beside(e, survey.doors.get(e.floor, [])))
+    used = {start.floor} | {p.floor for p in route.waypoints}
+    survey = survey or Survey(world, load_world(path), entities, used)
+    maps = {floor: grid for floor, grid in survey.maps.items() if floor in used}
+    doors = {floor: survey.doors[floor] for floor in maps}
+    rooms = {e.name: (e.kind == 'switch' and door_beside(e, doors.get(e.floor, [])))
              or e.room or e.name for e in entities}
-    beams = beam_angles(shut, survey.by_joint, [e for e in entities if e.kind == 'switch'],
-                        rooms)
-    scene = Scene(start, survey.maps, survey.landmarks, survey.doors, beams, body, world, rooms,
+    switches = [e for e in entities if e.kind == 'switch']
+    beams = beam_angles(survey.shut_world, survey.by_joint, switches, rooms)
+    scene = Scene(start, maps, survey.landmarks, doors, beams, body, survey.world, rooms,
                   survey.home)
-    planners = {number: Planner(grid, route.clearance) for number, grid in survey.maps.items()}
-    return scene, Router(route, planners, survey.doors).actions((start.pose.x, start.pose.y),
-                                                                start.floor)
+    planners = {number: Planner(grid, route.clearance) for number, grid in maps.items()}
+    return scene, Router(route, planners, doors).actions((start.pose.x, start.pose.y), start.floor)

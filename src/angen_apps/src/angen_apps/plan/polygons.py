@@ -7,6 +7,7 @@ from typing import Iterable, Sequence
 import numpy as np
 
 from angen_apps.plan.model import Point
+from angen_tools.common.home import Room
 
 NEAR = 0.002  # m between corners that are one
 
@@ -52,6 +53,14 @@ def inside(polygon: Sequence[Point], x: np.ndarray, y: np.ndarray) -> np.ndarray
             continue
         crosses = ((y0 > y) != (y1 > y)) & (x < (x1 - x0) * (y - y0) / (y1 - y0) + x0)
         found ^= crosses
+    return found
+
+
+def in_room(room: Room, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """As room.contains, of many places."""
+    found = inside(room.polygon, x, y)
+    for hole in room.holes:
+        found &= ~inside(hole, x, y)
     return found
 
 

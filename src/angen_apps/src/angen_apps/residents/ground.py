@@ -10,6 +10,7 @@ from scipy.ndimage import label
 
 from angen_apps.maps.gridmap import FREE, OCCUPIED, RESOLUTION, GridMap
 from angen_apps.maps.rays import Caster
+from angen_apps.plan.polygons import in_room, inside
 from angen_apps.robot.planner import Planner, Point
 from angen_tools.common.catalog import angen_module
 from angen_tools.common.home import Door, Home, Place
@@ -131,7 +132,7 @@ class Ground:
         rows, columns = np.nonzero(free)
         px, py = self._middles(planner.grid, rows, columns)
         away = np.hypot(px - x, py - y)
-        away[~in_polygon(px, py, room.polygon)] = np.inf
+        away[~inside(room.polygon, px, py)] = np.inf
         best = int(away.argmin()) if len(away) else -1
         if best < 0 or away[best] > reach:
             return None
@@ -143,12 +144,12 @@ class Ground:
         planner = self.planners[found.storey]
         rows, columns = np.nonzero(self.free[found.storey])
         x, y = self._middles(planner.grid, rows, columns)
-        inside = in_polygon(x, y, found.polygon)
+        within = inside(found.polygon, x, y)
         away = np.full(len(x), np.inf)
         for door in self.home.doors:
             away = np.minimum(away, np.hypot(x - door.pose[0], y - door.pose[1]))
         for least in (SWING - 0.2, 0.6, 0.0):
-            cells = np.nonzero(inside & (away >= least))[0]
+            cells = np.nonzero(within & (away >= least))[0]
             if len(cells):
                 chosen = [cells[numbers.randrange(len(cells))] for _ in range(count)]
                 return [(float(x[i]), float(y[i])) for i in chosen]
@@ -248,7 +249,7 @@ class Ground:
         """The rooms that the largest connected part has a place in."""
         free = self._largest(planner)
         return {room.name for room in self.home.rooms if room.storey == planner.grid.floor
-                and (free & in_polygon(x, y, room.polygon)).any()}
+                and (free & inside(room.polygon, x, y)).any()}
 
     def _largest(self, planner: Planner) -> np.ndarray:
         """The largest connected part (rows, columns) of the free cells."""
@@ -265,18 +266,16 @@ class Ground:
                        RESOLUTION, storey)
         row, column = np.indices(grid.cells.shape)
         x, y = (part.ravel() for part in self._middles(grid, row, column))
-        inside = np.zeros(len(x), bool)
+        within = np.zeros(len(x), bool)
         for room in rooms:
-            inside |= in_polygon(x, y, room.polygon)
-            for hole in room.holes:
-                inside &= ~in_polygon(x, y, hole)
+            within |= in_room(room, x, y)
         floor = self.elevation(storey)
         for door in self.home.doors:
             if door.kind != 'window' and self.storey_at(door.pose[2]) == storey:
                 outside = door.name == self.home.entrance
-                inside |= _opening(x, y, door, PORCH + 0.2 if outside else DEEP)
+                within |= _opening(x, y, door, PORCH + 0.2 if outside else DEEP)
         free = np.zeros(len(x), bool)
-        free[inside] = self._clear(x[inside], y[inside], floor)
+        free[within] = self._clear(x[within], y[within], floor)
         grid.cells[free.reshape(grid.cells.shape) & ~self._surfaces(grid, floor)] = FREE
         return grid
 
@@ -333,15 +332,6 @@ def _open_all(world: Any, home: Home) -> None:
     while doors and world.time < end:
         world.run(0.5)
         doors = [door for door in doors if world.device('door', door)['mode'] != 'OPEN']
-
-
-def in_polygon(x: np.ndarray, y: np.ndarray, corners: Sequence[Sequence[float]]) -> np.ndarray:
-    """Which points lie inside a polygon."""
-    inside = np.zeros(np.shape(x), bool)
-    for (x0, y0), (x1, y1) in zip(corners, [*corners[1:], corners[0]]):
-        if y0 != y1:
-            inside ^= ((y0 > y) != (y1 > y)) & (x < (x1 - x0) * (y - y0) / (y1 - y0) + x0)
-    return inside
 
 
 def _opening(x: np.ndarray, y: np.ndarray, door: Door, deep: float) -> np.ndarray:

@@ -71,11 +71,13 @@ def entities_of(world: Any) -> list[Entity]:
 class Survey:
     """A world's geometry: its floors' maps with doors open and shut, and its doors.
 
-    `world` and `shut` are two worlds of the same file; it changes both.
+    `world` and `shut` are two worlds of the same file; it changes both: they lose robots and
+    people, and their doors are open and shut.
     """
 
     def __init__(self, world: Any, shut: Any, entities: list[Entity], only: set[int] | None
                  ) -> None:
+        self.world, self.shut_world = world, shut
         self.home = Home.of_world(world)
         self.maps: dict[int, GridMap] = {}
         self.landmarks: dict[int, GridMap] = {}

@@ -11,6 +11,7 @@ import numpy as np
 from lxml import etree
 
 from angen_apps.maps.gridmap import load_world
+from angen_apps.plan.polygons import in_room
 from angen_apps.robot.building import Entity, Survey, entities_of
 from angen_apps.robot.planner import Planner, Point, distances
 from angen_apps.robot.route_file import Lift, Route, Waypoint, default_route, read_route
@@ -27,10 +28,11 @@ OUTSIDE = ('outdoor',)
 
 
 def prepare(route_file: Path | None, world: Path | None, out: Path, visits: bool = True
-            ) -> tuple[Route, Path]:
+            ) -> tuple[Route, Path, Survey | None]:
     """The route and the world of a task, or the default ones. Makes the folder `out`, and lets the
     world include the models beside it. In another world the default route visits its rooms, and
-    the robot and the person that are missing are added; without `visits` only that."""
+    the robot and the person that are missing are added; without `visits` only that. The survey is
+    that of the world where this took one."""
     route = read_route(route_file or default_route())
     other = route_file is None and world is not None and world.resolve() != building().resolve()
     world = (world or building()).absolute()
@@ -38,8 +40,8 @@ def prepare(route_file: Path | None, world: Path | None, out: Path, visits: bool
     paths = [str(world.parent / 'models'), os.environ.get('ANGEN_MODEL_PATH', '')]
     os.environ['ANGEN_MODEL_PATH'] = ':'.join(path for path in paths if path)
     if other and (visits or not has_all(world, route)):
-        route, world = by_rooms(route, world, out / 'home.world')
-    return route, world
+        return by_rooms(route, world, out / 'home.world')
+    return route, world, None
 
 
 def has_all(world: Path, route: Route) -> bool:
@@ -48,7 +50,7 @@ def has_all(world: Path, route: Route) -> bool:
     return bool(robots) and sdf.read(world).find('.//actor') is not None
 
 
-def by_rooms(route: Route, world: Path, to: Path) -> tuple[Route, Path]:
+def by_rooms(route: Route, world: Path, to: Path) -> tuple[Route, Path, Survey]:
     """The route with a waypoint in each room that the robot reaches, and the world; with a robot
     at the main entrance and a person in the last room in `to`, where the world has none."""
     shut = load_world(str(world))
@@ -62,7 +64,7 @@ def by_rooms(route: Route, world: Path, to: Path) -> tuple[Route, Path]:
         raise Failure(f'{world}: the robot reaches no room from {start[0]:.2f}, {start[1]:.2f}')
     made = replace(route, waypoints=waypoints, elevator=lift if any(
         waypoint.floor != floor for waypoint in waypoints) else None)
-    return made, _peopled(made, survey, entities, (start, floor, heading), world, to)
+    return made, _peopled(made, survey, entities, (start, floor, heading), world, to), survey
 
 
 def _start(route: Route, survey: Survey, planners: dict[int, Planner], entities: list[Entity],
@@ -135,9 +137,9 @@ def _visits(route: Route, survey: Survey, planners: dict[int, Planner], start: P
         else:
             origin = lift.cabin if lift and planners[number].is_free(lift.cabin) else None
         reached = []
-        costs = planners[number].costs(origin) if origin else None
+        places = _Places(planners[number], origin)
         for room in rooms:
-            place = _place(room, survey, planners[number], costs, number, route)
+            place = places.of(room, survey, number, route)
             if place is None:
                 print(f'angen: the robot does not reach {room.name}', file=sys.stderr)
             else:
@@ -146,19 +148,26 @@ def _visits(route: Route, survey: Survey, planners: dict[int, Planner], start: P
     return found
 
 
-def _place(room: Room, survey: Survey, planner: Planner, costs: np.ndarray | None, floor: int,
-           route: Route) -> tuple[float, Point] | None:
-    """The cost of the way to the most central place of a room, and the place."""
-    if costs is None:
+class _Places:
+    """The places of a floor that the robot reaches, the most central first."""
+
+    def __init__(self, planner: Planner, origin: Point | None) -> None:
+        costs = planner.costs(origin) if origin else np.full(planner.passable.shape, np.inf)
+        rows, columns = np.nonzero(planner.passable & np.isfinite(costs))
+        clear = distances(planner.grid, CENTRAL)
+        order = np.lexsort((costs[rows, columns], -clear[rows, columns]))
+        self._costs = costs[rows, columns][order]
+        self._at = np.array([planner.grid.point(row, column) for row, column in
+                             zip(rows[order].tolist(), columns[order].tolist())]).reshape(-1, 2)
+
+    def of(self, room: Room, survey: Survey, floor: int, route: Route
+           ) -> tuple[float, Point] | None:
+        """The cost of the way to the first one in a room, and the place."""
+        for i in np.nonzero(in_room(room, *self._at.T))[0]:
+            point = (float(self._at[i, 0]), float(self._at[i, 1]))
+            if _keeps_off(point, survey, floor, route):
+                return float(self._costs[i]), point
         return None
-    clear = distances(planner.grid, CENTRAL)
-    rows, columns = np.nonzero(planner.passable & np.isfinite(costs))
-    order = np.lexsort((costs[rows, columns], -clear[rows, columns]))
-    for i in order:
-        point = planner.grid.point(int(rows[i]), int(columns[i]))
-        if room.contains(*point) and _keeps_off(point, survey, floor, route):
-            return float(costs[rows[i], columns[i]]), point
-    return None
 
 
 def _peopled(route: Route, survey: Survey, entities: list[Entity],

@@ -30,9 +30,8 @@ HOME_SHARE = 0.05  # of the progress: the survey
 def seek(route_file: Path | None, world: Path | None, seed: int, ambient: bool, limit: float,
          out: Path, json: bool) -> int:
     """Searches once; 0, or 1 where it found no person or the robot touched something."""
-    route, world = prepare(route_file, world, out, False)
     with Progress('seek', 0.1) as progress:
-        home, route = survey(world, route, out)
+        home, route, world = survey(route_file, world, out)
         progress.update(HOME_SHARE, 'the building is surveyed')
 
         def note(now: float, text: str) -> None:
@@ -57,10 +56,9 @@ def seek_seeds(route_file: Path | None, world: Path | None, seeds: range, limit:
                json: bool) -> int:
     """Searches with each seed, with and without ambient sensors, on all cores; a table and a
     figure. 0, or 1 where one found no person or touched something."""
-    route, world = prepare(route_file, world, out, False)
     # By processes that end: this one, which they are made from, has no world and no threads.
     with multiprocessing.get_context('fork').Pool(1, _begin, (os.getpid(),)) as pool:
-        home, route = pool.apply(survey, (world, route, out))
+        home, route, world = pool.apply(survey, (route_file, world, out))
     jobs = [(world, route, home, seed, ambient, limit, out) for seed in seeds
             for ambient in (False, True)]
     found: list[Figures] = []
@@ -105,14 +103,15 @@ def _begin(parent: int) -> None:
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
 
 
-def survey(world: Path, route: Route, out: Path) -> tuple[Home, Route]:
-    """The robot's knowledge of the building of a world's file, and its route there."""
+def survey(route_file: Path | None, world: Path | None, out: Path) -> tuple[Home, Route, Path]:
+    """The robot's knowledge of the building of a world's file, its route there, and the world."""
+    route, world, known = prepare(route_file, world, out, False)
     empty = out / 'survey.world'
     try:
         run.write_world(world, route, None, 0, 0.0, empty)
         entities = entities_of(load_world(str(empty)))
         route = served(route, entities)
-        return make_home(route, empty, entities, (0.0, 0.0, 0.0)), route
+        return make_home(route, empty, entities, (0.0, 0.0, 0.0), known), route, world
     finally:
         empty.unlink(missing_ok=True)
 

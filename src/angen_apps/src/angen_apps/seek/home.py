@@ -11,8 +11,9 @@ from scipy.ndimage import label
 
 from angen_apps.maps.gridmap import FREE, GridMap, load_world, make_map
 from angen_apps.maps.rays import Caster
+from angen_apps.plan.polygons import in_room
 from angen_apps.robot.building import Entity, Start, Survey, find_start
-from angen_apps.robot.planner import Door, Planner, distances
+from angen_apps.robot.planner import Door, Planner, Point, distances
 from angen_apps.robot.route_file import Route
 from angen_apps.robot.views import sensor_element, view_of
 from angen_tools.common.failure import Failure
@@ -90,22 +91,24 @@ class Home:
 
 
 def make_home(route: Route, path: Path, entities: list[Entity],
-              offset: tuple[float, float, float]) -> Home:
-    """Surveys the building of a world's file, in which the robot is alone."""
+              offset: tuple[float, float, float], survey: Survey | None = None) -> Home:
+    """The building of a world's file, in which the robot is alone; surveys it if need be."""
     start = find_start(route, entities, offset)
-    world, shut = load_world(str(path)), load_world(str(path))
-    survey = Survey(world, shut, entities, None)
-    walkable = {floor: make_map(world, floor, 'open', TALL) for floor in survey.maps}
+    if survey is None:
+        survey = Survey(load_world(str(path)), load_world(str(path)), entities, None)
+    walkable = {floor: make_map(survey.world, floor, 'open', TALL) for floor in survey.maps}
     named = {floor: Rooms(survey.home, floor) for floor in walkable}
-    cells = _Cells(walkable, named, survey.doors)
+    planners = {floor: Planner(grid, route.clearance) for floor, grid in survey.maps.items()}
+    starts = {floor: route.elevator.landing for floor in planners} if route.elevator else {}
+    starts[start.floor] = (start.pose.x, start.pose.y)
+    cells = _Cells(walkable, named, survey.doors, planners, starts)
     if not len(cells.at):
         raise Failure('there is no floor on which a person could walk')
-    free = _Sight(world, shut)
+    free = _Sight(survey.world, survey.shut_world)
     targets = np.array([[[x, y, walkable[floor].height + h] for h in PERSON_HEIGHTS]
                         for (x, y), floor in zip(cells.at, cells.floor)])
     described = sdf.read(path)
     pirs = [free.pir(entity, described, targets) for entity in entities if entity.kind == 'pir']
-    planners = {floor: Planner(grid, route.clearance) for floor, grid in survey.maps.items()}
     viewpoints = find_viewpoints(cells.at, cells.floor, planners, survey.doors, route)
     views = np.array([free.around(cells.at, cells.floor, k, walkable) for k in viewpoints])
     by_lift = np.zeros(len(cells.at), bool)
@@ -135,25 +138,15 @@ class Rooms:
         for door in self._doors:
             found |= np.hypot(x - door.pose[0], y - door.pose[1]) < door.width / 2 + BODY
         for room in self._rooms:
-            found |= _contains(room, x, y)
+            found |= in_room(room, x, y)
         return found
 
     def at(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """The numbers of the rooms that places (m) are in, or nearest to."""
         if not self._rooms:
             return np.zeros(len(x), int)
-        away = [np.where(_contains(room, x, y), 0.0, _distance(room, x, y)) for room in self._rooms]
+        away = [np.where(in_room(room, x, y), 0.0, _distance(room, x, y)) for room in self._rooms]
         return np.array(away).argmin(axis=0)
-
-
-def _contains(room: Room, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """As room.contains, of many places."""
-    found = np.zeros(len(x), bool)
-    with np.errstate(divide='ignore', invalid='ignore'):
-        for polygon in (room.polygon, *room.holes):  # in a hole an odd number more
-            for (ax, ay), (bx, by) in zip(polygon, polygon[1:] + polygon[:1]):
-                found ^= ((ay > y) != (by > y)) & (x < ax + (y - ay) / (by - ay) * (bx - ax))
-    return found
 
 
 def _distance(room: Room, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -173,17 +166,40 @@ def _middles(grid: GridMap, rows: np.ndarray, columns: np.ndarray) -> tuple[np.n
             grid.origin[1] + (rows + 0.5) * grid.resolution)
 
 
-def _largest(mask: np.ndarray) -> np.ndarray:
-    """The largest connected part of a mask: the rest is niches that are out of reach."""
+def _reached(planner: Planner, at: Point | None, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Which places (m) the robot can be at, coming from `at`."""
+    start = at and planner.nearest(at, CELL)
+    if not start:
+        return np.zeros(len(x), bool)
+    parts = np.pad(label(planner.passable, np.ones((3, 3)))[0], 1)  # around the map it is nowhere
+    rows, columns = (np.clip(np.floor((place - low) / planner.grid.resolution).astype(int) + 1, 0,
+                             size - 1)
+                     for place, low, size in zip((y, x), planner.grid.origin[::-1], parts.shape))
+    row, column = planner.grid.cell(*start)
+    return np.asarray(parts[rows, columns] == parts[row + 1, column + 1])
+
+
+def _largest(mask: np.ndarray, reached: np.ndarray) -> np.ndarray:
+    """The largest connected part of a mask that has one of these cells, if any has one: the rest
+    is niches and rooms that are out of reach."""
     parts, count = label(mask, np.ones((3, 3)))
-    return np.asarray(parts == 1 + np.bincount(parts.ravel())[1:].argmax()) if count else mask
+    if not count:
+        return mask
+    sizes = np.bincount(parts.ravel())
+    sizes[0] = 0
+    known = np.intersect1d(parts[reached], np.nonzero(sizes)[0])
+    if len(known):
+        sizes[np.setdiff1d(np.arange(len(sizes)), known)] = 0
+    return np.asarray(parts == sizes.argmax())
 
 
 class _Cells:
     """Cuts the walkable floor into cells."""
 
     def __init__(self, walkable: dict[int, GridMap], named: dict[int, Rooms],
-                 doors: dict[int, list[Door]]) -> None:
+                 doors: dict[int, list[Door]], planners: dict[int, Planner],
+                 starts: dict[int, Point]) -> None:
+        """`starts`: where the robot comes to a floor."""
         self.names = [name for rooms in named.values() for name in rooms.names]
         at: list[tuple[float, float]] = []
         floors: list[int] = []
@@ -192,10 +208,12 @@ class _Cells:
         first_room = 0
         for floor, grid in walkable.items():
             rows, columns = np.nonzero((distances(grid, BODY) >= BODY) & (grid.cells == FREE))
-            indoors = named[floor].hold(*_middles(grid, rows, columns))
-            mask = np.zeros(grid.cells.shape, bool)
-            mask[rows[indoors], columns[indoors]] = True
-            rows, columns = np.nonzero(_largest(mask))
+            x, y = _middles(grid, rows, columns)
+            masks = np.zeros((2, *grid.cells.shape), bool)
+            for mask, which in zip(masks, (named[floor].hold(x, y), _reached(
+                    planners[floor], starts.get(floor), x, y))):
+                mask[rows[which], columns[which]] = True
+            rows, columns = np.nonzero(_largest(*masks))
             x, y = _middles(grid, rows, columns)
             key = np.stack([np.floor(x / CELL), np.floor(y / CELL), named[floor].at(x, y)],
                            axis=1).astype(int)
@@ -261,16 +279,18 @@ def find_viewpoints(at: np.ndarray, floor: np.ndarray, planners: dict[int, Plann
                     doors: dict[int, list[Door]], route: Route) -> np.ndarray:
     """Cells APART m from each other that are free for the robot and where no leaf swings."""
     found: list[int] = []
+    near: dict[int, np.ndarray] = {number: np.zeros((0, 2)) for number in planners}
     for i, (place, number) in enumerate(zip(at, floor)):
         point = (float(place[0]), float(place[1]))
         if number not in planners or not planners[number].is_free(point):
             continue
-        if any(door.room_for(point) < route.door_room for door in doors[number]):
+        if (np.hypot(*(near[number] - place).T) < APART).any():
             continue
         if route.elevator and np.hypot(*np.subtract(place, route.elevator.cabin)) < 1.2:
             continue
-        if all(floor[k] != number or np.hypot(*(at[k] - place)) >= APART for k in found):
+        if all(door.room_for(point) >= route.door_room for door in doors[number]):
             found.append(i)
+            near[number] = np.vstack([near[number], place])
     return np.array(found, int)
 
 
