@@ -67,7 +67,8 @@ struct HomeDoor {
   std::string rooms[2];  // on the left (+y) and on the right of its pose; "" = outside
   double width = 0.0;
   double height = 0.0;
-  FloorPose pose;  // of the middle of the opening at its foot, x along the shut leaf
+  FloorPose pose;       // of the middle of the opening at its foot, x along the shut leaf
+  std::string partner;  // the other leaf of a double door; "" = none
 };
 const char* name_of(HomeDoor::Kind kind);
 

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kNeeded = 0.62;                  // m, free width for a person
 constexpr double kAlone = 0.8;                    // m, a leaf this wide suffices
-constexpr double kBetweenLeaves = 0.15;           // m, between the edges of a double door
 constexpr double kStoreyWithin = 1.0;             // m, from a person's feet to the foot of a door
 constexpr double kReach = 1.1;                    // m from a person's middle to a handle
 constexpr double kAtSpot = 0.07;                  // m
@@ -46,19 +45,17 @@ std::optional<double> meeting(const Surroundings::Vec2& a, const Surroundings::V
   return first;
 }
 
-/// Whether two shut leaves close one doorway from both sides, and open to the same side.
-bool are_partners(const DoorSeen& one, const DoorSeen& other) {
-  return (one.edge() - other.edge()).norm() < kBetweenLeaves && one.along.dot(other.along) < -0.9 &&
-         one.into.dot(other.into) > 0.9;
-}
-
-void find_partner(DoorSeen& door, const std::vector<DoorSeen>& doors) {
+/// The other leaf of a double door, where one alone is narrow and both open to the same side.
+void find_partner(const Home& home, const std::vector<DoorSeen>& doors, DoorSeen& door) {
   if (door.width >= kAlone) return;
+  std::string partner;
+  for (const HomeDoor& each : home.doors) {
+    if (each.name == door.name && each.kind == HomeDoor::Kind::kDoor) partner = each.partner;
+  }
   for (const DoorSeen& other : doors) {
-    if (!are_partners(door, other)) continue;
+    if (other.name != partner || door.into.dot(other.into) < 0.9) continue;
     door.partner = other.name;
     door.partner_mode = other.mode;
-    return;
   }
 }
 
@@ -84,7 +81,6 @@ std::vector<DoorSeen> doors_seen(const View& view, double z) {
     door.gap = device.state.get<double>("gap");
     doors.push_back(std::move(door));
   }
-  for (DoorSeen& door : doors) find_partner(door, doors);
   return doors;
 }
 
@@ -109,10 +105,12 @@ void DoorUse::enter(Phase phase, Nanoseconds now) {
 
 void DoorUse::look(const View& view, const Vec3& feet, const Vec2& to) {
   const Vec2 at = feet.head<2>();
-  const std::optional<DoorSeen> next = door_on_way(doors_seen(view, feet.z()), at, to);
+  const std::vector<DoorSeen> doors = doors_seen(view, feet.z());
+  std::optional<DoorSeen> next = door_on_way(doors, at, to);
   const bool near = next && std::abs(next->into.dot(at - next->hinge)) < kSeesDoor;
   if (!near) return;
   if (phase_ == Phase::kPassing && next->name == door_.name) return;
+  find_partner(view.home(), doors, *next);
   door_ = *next;
   side_ = door_.into.dot(at - door_.hinge) > 0.0 ? 1.0 : -1.0;
   spot_ = free_spot(view, feet);
@@ -120,9 +118,11 @@ void DoorUse::look(const View& view, const Vec3& feet, const Vec2& to) {
 }
 
 bool DoorUse::refresh(const View& view, double z) {
-  for (DoorSeen& door : doors_seen(view, z)) {
+  const std::vector<DoorSeen> doors = doors_seen(view, z);
+  for (const DoorSeen& door : doors) {
     if (door.name != door_.name) continue;
-    door_ = std::move(door);
+    door_ = door;
+    find_partner(view.home(), doors, door_);
     return true;
   }
   return false;

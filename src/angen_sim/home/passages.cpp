@@ -15,6 +15,7 @@ constexpr double kFarSide = 0.6;     // m: beyond the thickest wall
 constexpr double kSameSide = 0.35;   // m: a leaf is at most that far from the edge of its room
 constexpr double kSideStep = 0.05;   // m
 constexpr double kOnFloor = 0.1;     // m: the gap under a leaf
+constexpr double kBetween = 0.15;    // m between the edges of two leaves of a double door
 constexpr double kAtStop = 0.5;      // m between a stop and its storey's floor
 constexpr double kFarLanding = 3.0;  // m from the middle of a cabin to a room that it serves
 constexpr double kWaits = 0.9;       // m inside of the landing's edge
@@ -101,7 +102,14 @@ void add(HomeDoor door, Home& home) {
   home.doors.push_back(std::move(door));
 }
 
-std::optional<HomeDoor> door_of(const HomeSurvey& survey, const HomeSurvey::Leaf& leaf) {
+Vec3 along(const HomeDoor& door) { return {std::cos(door.pose.yaw), std::sin(door.pose.yaw), 0.0}; }
+
+struct Leaf {
+  HomeDoor door;
+  bool slides = false;  // otherwise the x of its pose leads from its hinge to its edge
+};
+
+std::optional<Leaf> leaf_of(const HomeSurvey& survey, const HomeSurvey::Leaf& leaf) {
   const HomeSurvey::Standing& standing = survey.models[leaf.model];
   const desc::Joint* joint = joint_named(*standing.model, leaf.joint);
   if (joint == nullptr) return std::nullopt;
@@ -123,22 +131,47 @@ std::optional<HomeDoor> door_of(const HomeSurvey& survey, const HomeSurvey::Leaf
   door.height = bounds.sizes().z();
   door.pose.position = {box->pose.position.x(), box->pose.position.y(), bounds.min().z()};
   door.pose.yaw = std::atan2(way.y(), way.x());
-  return door;
+  return Leaf{std::move(door), joint->type == desc::Joint::Type::kPrismatic};
 }
 
 // Two leaves of one name are one door.
-void add_leaf(HomeDoor door, std::vector<HomeDoor>& doors) {
-  for (HomeDoor& other : doors) {
+void add_leaf(Leaf leaf, std::vector<Leaf>& leaves) {
+  const HomeDoor& door = leaf.door;
+  for (Leaf& each : leaves) {
+    HomeDoor& other = each.door;
     if (other.kind != door.kind || other.name != door.name) continue;
-    const Vec3 along(std::cos(other.pose.yaw), std::sin(other.pose.yaw), 0.0);
-    const double away = along.dot(door.pose.position - other.pose.position);
+    const double away = along(other).dot(door.pose.position - other.pose.position);
     const double low = std::min(-other.width / 2, away - door.width / 2);
     const double high = std::max(other.width / 2, away + door.width / 2);
-    other.pose.position += along * (low + high) / 2;
+    other.pose.position += along(other) * (low + high) / 2;
     other.width = high - low;
     return;
   }
-  doors.push_back(std::move(door));
+  leaves.push_back(std::move(leaf));
+}
+
+// m between the edges with which two shut leaves in one line meet; far for others.
+double between(const Leaf& one, const Leaf& other) {
+  constexpr double kFar = 1e9;
+  const Vec3 apart = other.door.pose.position - one.door.pose.position;
+  const double same = along(one.door).dot(along(other.door));
+  const double ahead = along(one.door).dot(apart);
+  if (std::abs(same) < 0.9 || (apart - ahead * along(one.door)).norm() > kBetween) return kFar;
+  const bool meet = one.slides || other.slides || (same < 0.0 && ahead > 0.0);
+  return meet ? std::abs(std::abs(ahead) - (one.door.width + other.door.width) / 2) : kFar;
+}
+
+void pair_leaves(std::vector<Leaf>& leaves) {
+  for (Leaf& leaf : leaves) {
+    double least = kBetween;
+    for (const Leaf& other : leaves) {
+      if (&other == &leaf || other.door.kind != leaf.door.kind) continue;
+      const double gap = between(leaf, other);
+      if (gap >= least) continue;
+      least = gap;
+      leaf.door.partner = other.door.name;
+    }
+  }
 }
 
 std::optional<Landing> landing_at(const Home& home, const Pose& cabin, double z) {
@@ -210,11 +243,12 @@ std::string with_storey(std::string name, const std::string& number) {
 }
 
 void add_passages(const HomeSurvey& survey, Home& home) {
-  std::vector<HomeDoor> doors;
-  for (const HomeSurvey::Leaf& leaf : survey.leaves) {
-    if (auto door = door_of(survey, leaf)) add_leaf(*std::move(door), doors);
+  std::vector<Leaf> leaves;
+  for (const HomeSurvey::Leaf& each : survey.leaves) {
+    if (auto leaf = leaf_of(survey, each)) add_leaf(*std::move(leaf), leaves);
   }
-  for (HomeDoor& door : doors) add(std::move(door), home);
+  pair_leaves(leaves);
+  for (Leaf& leaf : leaves) add(std::move(leaf.door), home);
   add_openings(survey.parts, Pose{}, home);
   for (const HomeSurvey::Standing& standing : survey.models) {
     add_openings(standing.model->home, standing.pose, home);

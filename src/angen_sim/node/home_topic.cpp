@@ -78,6 +78,7 @@ angen_msgs::HomeDoor to_part(const HomeDoor& door) {
   out.width = door.width;
   out.height = door.height;
   out.pose = to_ros(door.pose);
+  out.partner = door.partner;
   return out;
 }
 

@@ -76,6 +76,7 @@ pyb::dict dict_of(const HomeDoor& door) {
   dict["width"] = door.width;
   dict["height"] = door.height;
   dict["pose"] = numbers(door.pose);
+  dict["partner"] = door.partner;
   return dict;
 }
 

@@ -95,7 +95,8 @@ class Thing:
 
 @dataclass(frozen=True)
 class Door:
-    """A door, window or opening; `rooms` on its left and right, '' outside."""
+    """A door, window or opening; `rooms` on its left and right, '' outside. `partner` is the other
+    leaf of a double door."""
 
     name: str
     kind: str
@@ -103,6 +104,7 @@ class Door:
     width: float
     height: float
     pose: FloorPose
+    partner: str = ''
 
     def other(self, room: str) -> str:
         """The room on its other side."""
@@ -151,7 +153,7 @@ class Home:
                    [Place(place['posture'], _four(place['pose'])) for place in t['places']])
              for t in home['things']],
             [Door(d['name'], d['kind'], (d['rooms'][0], d['rooms'][1]), d['width'], d['height'],
-                  _four(d['pose'])) for d in home['doors']],
+                  _four(d['pose']), d.get('partner', '')) for d in home['doors']],
             [Elevator(e['name'], _seven(e['pose']),
                       [Landing(at['storey'], at['room'], _four(at['pose']))
                        for at in e['landings']]) for e in home['elevators']])
@@ -172,8 +174,8 @@ class Home:
                   r.floor, r.ceiling, r.area, r.guessed) for r in message.rooms],
             [Thing(t.name, t.type, t.room, _pose(t.pose),
                    [Place(p.posture, _flat(p.pose)) for p in t.places]) for t in message.things],
-            [Door(d.name, d.kind, (d.rooms[0], d.rooms[1]), d.width, d.height, _flat(d.pose))
-             for d in message.doors],
+            [Door(d.name, d.kind, (d.rooms[0], d.rooms[1]), d.width, d.height, _flat(d.pose),
+                  d.partner) for d in message.doors],
             [Elevator(e.name, _pose(e.pose), [Landing(at.storey, at.room, _flat(at.pose))
                                               for at in e.landings]) for e in message.elevators])
 
